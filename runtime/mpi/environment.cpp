@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/mpi/environment.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace spindrift::runtime {
+
+MpiEnvironment::MpiEnvironment(int& argc, char**& argv) {
+  int provided = MPI_THREAD_SINGLE;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &provided);
+  if (provided < MPI_THREAD_MULTIPLE) {
+    MPI_Finalize();
+    throw std::runtime_error("MPI offers thread level " + std::to_string(provided) + ", Spindrift needs MPI_THREAD_MULTIPLE (" +
+                             std::to_string(MPI_THREAD_MULTIPLE) + "): use an MPI library built with thread support");
+  }
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+}
+
+MpiEnvironment::~MpiEnvironment() { MPI_Finalize(); }
+
+}  // namespace spindrift::runtime
