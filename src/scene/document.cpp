@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/scene/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/scene/layers.hpp"
+#include "src/scene/printed.hpp"
+#include "src/scene/reader.hpp"
+
+namespace spindrift::scene {
+
+Document::Document(Value root, std::vector<Source> sources, std::vector<Problem> problems)
+    : root_(std::move(root)), sources_(std::move(sources)), problems_(std::move(problems)) {}
+
+bool Document::announce(const SectionBase& section) {
+  if (std::find(known_.begin(), known_.end(), &section) == known_.end()) known_.push_back(&section);
+  return root_.find(section.name()) != nullptr;
+}
+
+void Document::read_into(const SectionBase& section, void* options) {
+  announce(section);
+  const Value* table = root_.find(section.name());
+  if (Reader(*this).section(section, table, section.name(), options)) echo_ += rendered(section, section.name(), options, table);
+}
+
+std::vector<std::string> Document::names(const SectionBase& section) {
+  announce(section);
+  std::vector<std::string> names;
+  const Value* all = root_.find(section.name());
+  if (!all) return names;
+  const std::string form = fmt::format("[{}.NAME]", section.name());
+  if (!all->is_table()) {
+    add(all, section.name(), all->is_list_of_tables() ? "" : all->written(), "must be sections " + form);
+    return names;
+  }
+  for (const Value& one : all->children) {
+    const std::string key = section.name() + "." + toml_key(one.key);
+    if (!one.is_table()) add(&one, key, one.is_list_of_tables() ? "" : one.written(), "must stand in a section " + form);
+    else if (toml_key(one.key) != one.key) add(&one, key, "", "a name has letters, digits, '_' and '-' only");  // names go into columns and file names
+    else names.push_back(one.key);
+  }
+  return names;
+}
+
+void Document::read_named_into(const SectionBase& section, const std::string& name, void* options) {
+  const Value* table = root_.find(section.name())->find(name);
+  const std::string heading = section.name() + "." + name;
+  if (Reader(*this).section(section, table, heading, options)) echo_ += rendered(section, heading, options, table);
+}
+
+void Document::read_any(const SectionBase& section) {
+  if (!section.is_named()) return read_into(section, section.default_options().get());
+  for (const std::string& name : names(section)) read_named_into(section, name, section.default_options().get());
+}
+
+std::pair<const Value*, bool> Document::locate(std::string_view key) const {
+  const auto steps = parse_key(key);
+  const Value* at = &root_;
+  if (!steps) return {nullptr, false};
+  for (const KeyStep& step : *steps) {
+    const Value* next = at->find(step.name);
+    if (!next) return {at == &root_ ? nullptr : at, false};
+    at = next;
+    for (const std::size_t index : step.indices) {
+      if (at->kind != Value::Kind::array || index >= at->children.size()) return {at, false};
+      at = &at->children[index];
+    }
+  }
+  return {at, true};
+}
+
+void Document::problem(std::string_view key, std::string message) {
+  const auto [at, found] = locate(key);
+  const bool shown = found && !at->is_table() && !at->is_list_of_tables();
+  add(at, std::string(key), shown ? at->written() : "", std::move(message));
+}
+
+void Document::add(const Value* at, std::string key, std::string value, std::string message) {
+  const Where where = at ? at->where : Where{};
+  problems_.push_back({sources_[std::size_t(where.source)].name, where.line, std::move(key), std::move(value), std::move(message)});
+}
+
+void Document::finish() {
+  std::vector<std::string> known;
+  for (const SectionBase* section : known_) known.push_back(section->name());
+  for (const Value& top : root_.children) {
+    if (std::find(known.begin(), known.end(), top.key) != known.end()) continue;
+    const std::string near = nearest(top.key, known);
+    const std::string hint = near.empty() ? fmt::format("a scene has: {}", joined(known, ", ")) : fmt::format("did you mean [{}]?", near);
+    if (top.is_table() || top.is_list_of_tables()) add(&top, toml_key(top.key), "", "unknown section; " + hint);
+    else add(&top, toml_key(top.key), top.written(), "unknown key outside any section; " + hint);
+  }
+  if (problems_.empty()) return;
+  const auto order = [&](const Problem& p) {
+    const auto at = std::find_if(sources_.begin(), sources_.end(), [&](const Source& s) { return s.name == p.source; });
+    return std::pair(at - sources_.begin(), p.line);
+  };
+  std::stable_sort(problems_.begin(), problems_.end(), [&](const Problem& a, const Problem& b) { return order(a) < order(b); });
+  throw SceneError(problems_);
+}
+
+std::string Document::echo() const { return "# The scene as run, every default spelled out.\n" + echo_; }
+
+namespace {
+Document compose(Layers layers, const std::vector<std::string>& overrides) {
+  add_overrides(layers, overrides);
+  return Document(std::move(layers.root), std::move(layers.sources), std::move(layers.problems));
+}
+}  // namespace
+
+Document load(const std::string& path, const std::vector<std::string>& overrides) {
+  Layers layers;
+  add_file(layers, path);
+  return compose(std::move(layers), overrides);
+}
+
+Document parse(std::string_view text, const std::string& name, const std::string& directory, const std::vector<std::string>& overrides) {
+  Layers layers;
+  add_text(layers, text, name, directory);
+  return compose(std::move(layers), overrides);
+}
+
+}  // namespace spindrift::scene

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/scene/toml_reader.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "src/scene/error.hpp"
+
+namespace spindrift::scene {
+
+namespace {
+
+constexpr std::size_t largest_scene = 4u << 20;  // bytes; series and tables belong in files of their own
+
+int line_of(std::string_view text, std::size_t offset) {
+  return 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(offset), '\n'));
+}
+
+/// Offset of the first byte that is not part of well-formed UTF-8 (Unicode 15, table 3-7), or npos.
+/// toml++ 3.3.0 has undefined behaviour on some such bytes (44 ef bb bb), so they must not reach it.
+std::size_t first_bad_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) { return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u; };
+    const auto tail = [&](std::size_t k, unsigned low = 0x80, unsigned high = 0xbf) { return byte(k) >= low && byte(k) <= high; };
+    const unsigned b = byte(0);
+    if (b < 0x80) i += 1;
+    else if (b >= 0xc2 && b <= 0xdf && tail(1)) i += 2;
+    else if (b >= 0xe0 && b <= 0xef && tail(1, b == 0xe0 ? 0xa0 : 0x80, b == 0xed ? 0x9f : 0xbf) && tail(2)) i += 3;
+    else if (b >= 0xf0 && b <= 0xf4 && tail(1, b == 0xf0 ? 0x90 : 0x80, b == 0xf4 ? 0x8f : 0xbf) && tail(2) && tail(3)) i += 4;
+    else return i;
+  }
+  return std::string_view::npos;
+}
+
+[[noreturn]] void fail(const std::string& name, int line, std::string message) {
+  throw SceneError({Problem{name, line, "", "", std::move(message)}});
+}
+
+Value convert(const toml::node& node, int source);
+
+Value convert_table(const toml::table& table, int source) {
+  Value value;
+  std::vector<std::pair<toml::source_position, Value>> entries;
+  for (const auto& [key, child] : table) {
+    Value entry = convert(child, source);
+    entry.key = std::string(key.str());
+    entry.where = {source, int(key.source().begin.line)};
+    entries.emplace_back(key.source().begin, std::move(entry));
+  }
+  std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (auto& [position, entry] : entries) value.children.push_back(std::move(entry));
+  return value;
+}
+
+Value convert(const toml::node& node, int source) {
+  Value value;
+  if (const toml::table* table = node.as_table()) value = convert_table(*table, source);
+  value.where = {source, int(node.source().begin.line)};
+  if (const auto* array = node.as_array()) {
+    value.kind = Value::Kind::array;
+    for (const toml::node& child : *array) value.children.push_back(convert(child, source));
+  } else if (const auto* flag = node.as_boolean()) {
+    value.kind = Value::Kind::flag, value.flag = flag->get();
+  } else if (const auto* integer = node.as_integer()) {
+    value.kind = Value::Kind::integer, value.integer = integer->get();
+  } else if (const auto* number = node.as_floating_point()) {
+    value.kind = Value::Kind::number, value.number = number->get();
+  } else if (const auto* text = node.as_string()) {
+    value.kind = Value::Kind::text, value.text = text->get();
+  } else if (!node.is_table()) {
+    std::ostringstream written;
+    node.visit([&](const auto& leaf) { written << leaf; });
+    value.kind = Value::Kind::date, value.text = written.str();
+  }
+  return value;
+}
+
+}  // namespace
+
+Value read_toml(std::string_view text, int source, const std::string& name) {
+  if (text.size() > largest_scene)
+    fail(name, 0, fmt::format("has {} bytes; a scene has at most {} (put long tables into files of their own)", text.size(), largest_scene));
+  if (const std::size_t bad = first_bad_utf8(text); bad != std::string_view::npos)
+    fail(name, line_of(text, bad),
+         fmt::format("is not UTF-8 text (byte {:#04x} at offset {}); save the file as UTF-8", static_cast<unsigned char>(text[bad]), bad));
+  try {
+    return convert_table(toml::parse(text, std::string_view(name)), source);
+  } catch (const toml::parse_error& error) {
+    fail(name, int(error.source().begin.line), fmt::format("is not TOML: {}", error.description()));
+  }
+}
+
+}  // namespace spindrift::scene
