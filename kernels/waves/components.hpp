@@ -1,0 +1,90 @@
+// A sea as a sum of harmonics, and its kinematics at a point: elevation, velocity, acceleration, dynamic pressure.
+// Each harmonic, with psi = k (x cos b + y sin b) - omega t + phase and z up from still water, is
+//   eta = a cos psi,  horizontal u = U C(z) cos psi,  vertical w = U S(z) sin psi,  p = rho (omega/k) U C(z) cos psi,
+//   C = cosh k(z+h) / sinh kh,  S = sinh k(z+h) / sinh kh
+// (Airy: U = a omega; docs/theory/waves.md, sections 1 and 2). A second-order Stokes wave is two such harmonics (stokes.hpp), a sea
+// state some hundred (spectra.hpp). Sums run over fixed groups of eight lanes, so their order does not depend on the processor.
+// Called by src/sea/wave_field; tested in tests/kernels/waves.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "kernels/base/lane_math.hpp"
+
+namespace spindrift::waves {
+
+/// One harmonic of the sea.
+struct Component {
+  double wave_number = 0.0;          ///< k [rad/m]
+  double angular_frequency = 0.0;    ///< omega [rad/s]
+  double amplitude = 0.0;            ///< a, of the elevation [m]
+  double speed_amplitude = 0.0;      ///< U, of the horizontal velocity is U C(z) [m/s]
+  double phase = 0.0;                ///< [rad]
+  double direction = 0.0;            ///< b, towards which it travels, from the x axis [rad]
+};
+
+/// Eight harmonics side by side; unused lanes have amplitude zero.
+struct ComponentGroup {
+  Lanes kx{}, ky{}, k{}, omega{}, phase{}, amplitude{}, speed{}, cos_b{}, sin_b{};
+  Lanes bottom{};                    ///< exp(-2 k h), 0 in deep water
+};
+
+inline void set_lane(ComponentGroup& g, int lane, const Component& c, double depth) {
+  g.k[lane] = c.wave_number, g.omega[lane] = c.angular_frequency, g.phase[lane] = c.phase;
+  g.cos_b[lane] = std::cos(c.direction), g.sin_b[lane] = std::sin(c.direction);
+  g.kx[lane] = c.wave_number * g.cos_b[lane], g.ky[lane] = c.wave_number * g.sin_b[lane];
+  g.amplitude[lane] = c.amplitude;
+  g.bottom[lane] = std::exp(-2.0 * c.wave_number * depth);
+  g.speed[lane] = c.speed_amplitude / (1.0 - g.bottom[lane]);  // C = (e^kz + e^-2kh e^-kz) / (1 - e^-2kh): no overflow
+}
+
+struct Surface {
+  double elevation = 0.0, slope_x = 0.0, slope_y = 0.0;        ///< [m], [-], [-]
+};
+struct Kinematics {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< [m/s]
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();      ///< local, d/dt at a fixed point [m/s2]
+  double pressure_over_density = 0.0;                          ///< linear dynamic pressure / rho [m2/s2]
+};
+
+inline Surface surface(std::span<const ComponentGroup> sea, double t, double x, double y) {
+  Lanes eta{}, sx{}, sy{};
+  for (const ComponentGroup& g : sea) {
+    Lanes sine, cosine;
+    for (int i = 0; i < lanes; ++i) sine[i] = g.kx[i] * x + g.ky[i] * y - g.omega[i] * t + g.phase[i];
+    lane_sincos(sine, sine, cosine);
+    for (int i = 0; i < lanes; ++i) {
+      eta[i] += g.amplitude[i] * cosine[i];
+      sx[i] -= g.amplitude[i] * g.kx[i] * sine[i];
+      sy[i] -= g.amplitude[i] * g.ky[i] * sine[i];
+    }
+  }
+  return {lane_sum(eta), lane_sum(sx), lane_sum(sy)};
+}
+
+/// At the height z [m] where the profiles C and S are evaluated: the caller has applied its stretching rule.
+inline Kinematics kinematics(std::span<const ComponentGroup> sea, double t, double x, double y, double z) {
+  Lanes vx{}, vy{}, vz{}, ax{}, ay{}, az{}, pressure{};
+  for (const ComponentGroup& g : sea) {
+    Lanes sine, cosine, up, down;
+    for (int i = 0; i < lanes; ++i) sine[i] = g.kx[i] * x + g.ky[i] * y - g.omega[i] * t + g.phase[i];
+    lane_sincos(sine, sine, cosine);
+    for (int i = 0; i < lanes; ++i) up[i] = std::clamp(g.k[i] * z, -600.0, 600.0);
+    lane_exp(up, up);
+    for (int i = 0; i < lanes; ++i) down[i] = g.bottom[i] / up[i];
+    for (int i = 0; i < lanes; ++i) {
+      const double horizontal = g.speed[i] * (up[i] + down[i]), vertical = g.speed[i] * (up[i] - down[i]);
+      const double u = horizontal * cosine[i], du = g.omega[i] * horizontal * sine[i];
+      vx[i] += u * g.cos_b[i], vy[i] += u * g.sin_b[i], vz[i] += vertical * sine[i];
+      ax[i] += du * g.cos_b[i], ay[i] += du * g.sin_b[i], az[i] -= g.omega[i] * vertical * cosine[i];
+      pressure[i] += g.k[i] > 0.0 ? g.omega[i] / g.k[i] * u : 0.0;
+    }
+  }
+  return {{lane_sum(vx), lane_sum(vy), lane_sum(vz)}, {lane_sum(ax), lane_sum(ay), lane_sum(az)}, lane_sum(pressure)};
+}
+
+}  // namespace spindrift::waves

@@ -1,0 +1,201 @@
+// Water loads at engineering fidelity: see engineering_sea.hpp. The order of the terms follows docs/theory/sea_engineering.md.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/engineering_sea.hpp"
+
+#include <algorithm>
+
+#include "kernels/waves/morison.hpp"
+
+namespace spindrift::sea {
+namespace {
+
+Coefficients coefficients_of(const std::string& cylinder, const SeaOptions& options) {
+  Coefficients c{options.drag_coefficient, options.added_mass_coefficient, options.axial_drag_coefficient,
+                 options.axial_added_mass_coefficient};
+  for (const CoefficientsOptions& own : options.coefficients) {
+    if (own.cylinder != cylinder) continue;
+    c.drag = own.drag_coefficient.value_or(c.drag);
+    c.added_mass = own.added_mass_coefficient.value_or(c.added_mass);
+    c.axial_drag = own.axial_drag_coefficient.value_or(c.axial_drag);
+    c.axial_added_mass = own.axial_added_mass_coefficient.value_or(c.axial_added_mass);
+  }
+  return c;
+}
+
+std::vector<Strip> strips_of(const SeaBody& body, const SeaOptions& options) {
+  std::vector<Strip> strips;
+  for (std::size_t i = 0; i < body.cylinders.size(); ++i) {
+    const Cylinder& shape = body.cylinders[i].shape;
+    std::vector<Cylinder> others;
+    for (std::size_t j = 0; j < body.cylinders.size(); ++j)
+      if (j != i) others.push_back(body.cylinders[j].shape);
+    const double touching = 1e-6 * shape.length();
+    // The hydrostatic rung needs the exact volume only: one strip.
+    const double longest = options.model == "morison" ? options.strip_length_m : shape.length();
+    append_strips(shape, coefficients_of(body.cylinders[i].name, options), exposed_area(shape.start, shape.start_radius, others, touching),
+                  exposed_area(shape.end, shape.end_radius, others, touching), longest, strips);
+  }
+  return strips;
+}
+
+/// Earth-frame state of the body that every strip needs.
+struct Frame {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d position, velocity, omega;
+  explicit Frame(const Motion& m)
+      : rotation(m.attitude.toRotationMatrix()), position(m.position), velocity(m.velocity), omega(rotation * m.omega) {}
+  Eigen::Vector3d velocity_at(const Eigen::Vector3d& arm) const { return velocity + omega.cross(arm); }
+  /// Acceleration of a body point apart from the terms in the unknown accelerations.
+  Eigen::Vector3d centripetal_at(const Eigen::Vector3d& arm) const { return omega.cross(omega.cross(arm)); }
+};
+
+void add_at(Wrench& w, const Eigen::Vector3d& force, const Eigen::Vector3d& arm) {
+  w.force += force;
+  w.moment += arm.cross(force);
+}
+
+/// The water at a point, current included; still water costs nothing.
+struct Water {
+  const WaveField& waves;
+  const Eigen::Vector3d& current;
+  const Frame& body;
+  const waves::WaterPlane& surface;          ///< about the centre of mass
+  double t;
+  waves::Kinematics at(const Eigen::Vector3d& arm) const {
+    if (waves.still()) return {current, Eigen::Vector3d::Zero(), 0.0};
+    const Eigen::Vector3d point = body.position + arm;
+    const double level = point.z() - surface.height(arm) / surface.normal.z();
+    waves::Kinematics k = waves.kinematics(t, point, level);
+    k.velocity += current;
+    return k;
+  }
+};
+
+void add_morison(const WettedStrip& strip, const Coefficients& c, double density, const Frame& body, const Water& water,
+                 SeaLoads& loads, Matrix6* mass) {
+  const Eigen::Matrix3d along = strip.axis * strip.axis.transpose(), across = Eigen::Matrix3d::Identity() - along;
+  for (const Station& s : strip.stations) {
+    if (s.volume <= 0.0) continue;
+    const waves::Kinematics k = water.at(s.arm);
+    const double projected = 2.0 * s.volume / (pi * s.radius), added = c.added_mass * density * s.volume;
+    add_at(loads.drag, waves::drag_across(density, c.drag, projected, k.velocity - body.velocity_at(s.arm), strip.axis), s.arm);
+    const Eigen::Vector3d relative = k.acceleration - body.centripetal_at(s.arm);
+    add_at(loads.inertia, density * s.volume * k.acceleration + added * waves::across(relative, strip.axis), s.arm);
+    if (mass) waves::add_point_inertia(added * across, s.arm, *mass);
+  }
+  for (const End& e : strip.ends) {
+    if (e.exposed_area <= 0.0) continue;
+    const waves::Kinematics k = water.at(e.arm);
+    const double disc = pi * e.radius * e.radius;
+    const double added = waves::added_mass_end(density, c.axial_added_mass, e.radius) * e.exposed_area / disc;
+    add_at(loads.drag, waves::drag_end(density, c.axial_drag, e.exposed_area, k.velocity - body.velocity_at(e.arm), strip.axis), e.arm);
+    add_at(loads.inertia, added * along * (k.acceleration - body.centripetal_at(e.arm)), e.arm);
+    if (mass) waves::add_point_inertia(added * along, e.arm, *mass);
+  }
+}
+
+}  // namespace
+
+EngineeringSea::EngineeringSea(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
+                               const std::vector<SeaBody>& bodies)
+    : environment_(environment), current_(options.current_m_s), morison_(options.model == "morison") {
+  if (morison_) waves_ = WaveField(waves, environment);
+  for (const SeaBody& body : bodies) {
+    BodyStrips own{options.model == "none" ? std::vector<Strip>{} : strips_of(body, options), {}};
+    for (const DampingOptions& damping : options.damping) {
+      if (damping.body != body.name) continue;
+      const Eigen::Vector3d point = damping.point_m.value_or(body.initial.position);
+      own.damping.push_back({body.initial.attitude.conjugate() * (point - body.initial.position), damping.force_N_s_m,
+                             damping.moment_N_m_s});
+    }
+    bodies_.push_back(std::move(own));
+  }
+}
+
+SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motion& motion, Matrix6* mass) const {
+  SeaLoads loads;
+  for (Wrench* w : {&loads.buoyancy, &loads.inertia, &loads.drag, &loads.damping}) w->point = motion.position;
+  const Frame body(motion);
+  waves::Wetted wet;
+  for (const Strip& strip : own.strips) {
+    const Eigen::Vector3d start = body.rotation * strip.shape.start, end = body.rotation * strip.shape.end;
+    waves::WaterPlane surface{Eigen::Vector3d::UnitZ(), -motion.position.z()};
+    if (!waves_.still()) {
+      const Eigen::Vector3d middle = 0.5 * (start + end);
+      const waves::Surface s = waves_.surface(t, motion.position.x() + middle.x(), motion.position.y() + middle.y());
+      surface = waves::tangent_plane(middle.x(), middle.y(), s.elevation - motion.position.z(), s.slope_x, s.slope_y);
+    }
+    if (!morison_) {
+      const waves::Wetted part = wetted_part(strip.shape, start, end, surface);
+      wet.volume += part.volume;
+      wet.first_moment += part.first_moment;
+      continue;
+    }
+    const WettedStrip part = wetted_strip(strip, start, end, surface);
+    wet.volume += part.wetted.volume;
+    wet.first_moment += part.wetted.first_moment;
+    if (part.wetted.volume > 0.0)
+      add_morison(part, strip.coefficients, environment_.water_density, body, {waves_, current_, body, surface, t}, loads, mass);
+  }
+  const double weight = environment_.water_density * environment_.gravity;
+  loads.buoyancy.force.z() = weight * wet.volume;
+  loads.buoyancy.moment = weight * wet.first_moment.cross(Eigen::Vector3d::UnitZ());
+  for (const Damping& d : own.damping) {
+    const Eigen::Vector3d velocity = body.rotation.transpose() * body.velocity_at(body.rotation * d.arm);
+    add_at(loads.damping, body.rotation * -d.force.cwiseProduct(velocity), body.rotation * d.arm);
+    loads.damping.moment -= body.rotation * d.moment.cwiseProduct(motion.omega);
+  }
+  return loads;
+}
+
+void EngineeringSea::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
+  add(t, bodies, wrenches, {});
+}
+
+void EngineeringSea::add_added_mass(double t, std::span<const Motion> bodies, std::span<Matrix6> masses) const {
+  if (morison_) add(t, bodies, {}, masses);
+}
+
+void EngineeringSea::add(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, std::span<Matrix6> masses) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].strips.empty() && bodies_[i].damping.empty()) continue;
+    const SeaLoads loads = body_loads(t, bodies_[i], bodies[i], masses.empty() ? nullptr : &masses[i]);
+    if (wrenches.empty()) continue;
+    for (const Wrench* w : {&loads.buoyancy, &loads.inertia, &loads.drag, &loads.damping}) wrenches[i] += *w;
+  }
+}
+
+void EngineeringSea::loads_by_part(double t, std::span<const Motion> bodies, std::span<SeaLoads> loads) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) loads[i] = body_loads(t, bodies_[i], bodies[i], nullptr);
+}
+
+std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves, const std::vector<SeaBody>& bodies) {
+  std::vector<OptionProblem> problems;
+  const auto listed = [](const std::string& list, const std::string& name) { return list.empty() ? name : list + ", " + name; };
+  std::string cylinders, names;
+  for (const SeaBody& body : bodies) {
+    names = listed(names, body.name);
+    for (const NamedCylinder& c : body.cylinders) cylinders = listed(cylinders, c.name);
+  }
+  const auto has_cylinder = [](const SeaBody& body, const std::string& name) {
+    return std::any_of(body.cylinders.begin(), body.cylinders.end(), [&](const NamedCylinder& c) { return c.name == name; });
+  };
+  if (options.model != "none" && cylinders.empty())
+    problems.push_back({"sea.model", "is '" + options.model + "', but no body has [[bodies.NAME.cylinders]] for the water to act on"});
+  if (options.model == "hydrostatic" && waves.model != "none")
+    problems.push_back({"waves.model", "is '" + waves.model + "', but sea.model 'hydrostatic' knows still water only; use 'morison'"});
+  for (std::size_t i = 0; i < options.coefficients.size(); ++i) {
+    const std::string& name = options.coefficients[i].cylinder;
+    if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return has_cylinder(b, name); }))
+      problems.push_back({"sea.coefficients[" + std::to_string(i + 1) + "].cylinder",
+                          "names '" + name + "', which no body has; known: " + cylinders});
+  }
+  for (std::size_t i = 0; i < options.damping.size(); ++i) {
+    const std::string& name = options.damping[i].body;
+    if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return b.name == name; }))
+      problems.push_back({"sea.damping[" + std::to_string(i + 1) + "].body", "names '" + name + "', which is not in [bodies]; known: " + names});
+  }
+  return problems;
+}
+
+}  // namespace spindrift::sea

@@ -1,0 +1,83 @@
+// Water loads on floating bodies at engineering fidelity: rungs `hydrostatic` (exact buoyancy in still water, linear damping) and
+// `morison` (waves and current; Froude-Krylov, added mass and drag by strips). Equations and what is left out:
+// docs/theory/sea_engineering.md. Built by the coupling from checked options; called in every evaluation of the right-hand side,
+// without allocation. Tested in tests/src/sea.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernels/rigid/motion.hpp"
+#include "kernels/rigid/shapes.hpp"
+#include "kernels/rigid/wrench.hpp"
+#include "src/sea/options.hpp"
+#include "src/sea/strips.hpp"
+#include "src/sea/wave_field.hpp"
+
+namespace spindrift::sea {
+
+struct NamedCylinder {
+  std::string name;
+  Cylinder shape;                    ///< body axes from the centre of mass
+};
+
+/// A body as the sea sees it; in the order of the motions. A body without cylinders costs nothing.
+struct SeaBody {
+  std::string name;
+  Motion initial;                    ///< as the scene states it: turns initial earth coordinates into body axes
+  std::vector<NamedCylinder> cylinders;
+};
+
+/// Loads on one body by physical part, each about its centre of mass, earth axes.
+struct SeaLoads {
+  Wrench buoyancy;                   ///< rho g V, up to the local surface
+  Wrench inertia;                    ///< Froude-Krylov and wave part of the added mass
+  Wrench drag;                       ///< transverse and of the ends
+  Wrench damping;                    ///< linear, [[sea.damping]]
+};
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+class EngineeringSea {
+ public:
+  /// Options that passed sea_problems and wave_problems.
+  EngineeringSea(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
+                 const std::vector<SeaBody>& bodies);
+
+  /// Adds the sea's load to one wrench per body, each about its body's centre of mass.
+  void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+  /// Adds the water's inertia, [force; moment] over [acceleration; angular acceleration] of the centre of mass, earth axes.
+  void add_added_mass(double t, std::span<const Motion> bodies, std::span<Matrix6> masses) const;
+  /// Both at once, which shares the wetted geometry.
+  void add(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, std::span<Matrix6> masses) const;
+  /// The same loads by part, for output; overwritten, not added.
+  void loads_by_part(double t, std::span<const Motion> bodies, std::span<SeaLoads> loads) const;
+
+  double elevation(double x, double y, double t) const { return waves_.still() ? 0.0 : waves_.elevation(t, x, y); }
+  const WaveField& waves() const { return waves_; }
+  bool has_added_mass() const { return morison_; }
+
+ private:
+  struct Damping {
+    Eigen::Vector3d arm, force, moment;          ///< body axes
+  };
+  struct BodyStrips {
+    std::vector<Strip> strips;
+    std::vector<Damping> damping;
+  };
+  SeaLoads body_loads(double t, const BodyStrips& body, const Motion& motion, Matrix6* mass) const;
+
+  SeaEnvironment environment_;
+  Eigen::Vector3d current_;
+  bool morison_;
+  WaveField waves_;
+  std::vector<BodyStrips> bodies_;
+};
+
+/// Names that do not exist, options without effect: one sentence each with its key; empty when nothing is wrong.
+std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves, const std::vector<SeaBody>& bodies);
+
+}  // namespace spindrift::sea

@@ -1,0 +1,77 @@
+// Cylinders cut into strips: see strips.hpp.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/strips.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/waves/wetted_cylinder.hpp"
+#include "kernels/waves/wetted_frustum.hpp"
+
+namespace spindrift::sea {
+namespace {
+
+/// Share of a disc that is under water; height of its centre over the surface, lean: sine of its angle to the surface.
+double wet_share(double height, double lean, double radius) {
+  return waves::segment_moments(waves::rim_point(-height, lean * radius)).area / pi;
+}
+
+}  // namespace
+
+void append_strips(const Cylinder& cylinder, const Coefficients& coefficients, double start_exposed_area, double end_exposed_area,
+                   double longest, std::vector<Strip>& strips) {
+  const int count = std::max(1, int(std::ceil(cylinder.length() / longest * (1.0 - 1e-12))));
+  for (int i = 0; i < count; ++i) {
+    const double from = double(i) / count, to = double(i + 1) / count;
+    strips.push_back({{cylinder.at(from), cylinder.at(to), cylinder.radius(from), cylinder.radius(to)},
+                      coefficients,
+                      i == 0 ? start_exposed_area : 0.0,
+                      i + 1 == count ? end_exposed_area : 0.0});
+  }
+}
+
+double exposed_area(const Eigen::Vector3d& centre, double radius, const std::vector<Cylinder>& others, double tolerance) {
+  double area = pi * radius * radius;
+  for (const Cylinder& other : others) {
+    if ((other.start - centre).norm() <= tolerance) area -= pi * other.start_radius * other.start_radius;
+    if ((other.end - centre).norm() <= tolerance) area -= pi * other.end_radius * other.end_radius;
+  }
+  return std::max(0.0, area);
+}
+
+waves::Wetted wetted_part(const Cylinder& shape, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
+                          const waves::WaterPlane& surface) {
+  if (shape.tapered()) return waves::wetted_frustum(start, end, shape.start_radius, shape.end_radius, surface);
+  return waves::wetted_cylinder(start, end, shape.start_radius, surface);
+}
+
+WettedStrip wetted_strip(const Strip& strip, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
+                         const waves::WaterPlane& surface) {
+  WettedStrip out;
+  out.axis = (end - start).normalized();
+  out.wetted = wetted_part(strip.shape, start, end, surface);
+  const double rise = surface.normal.dot(out.axis), lean = (surface.normal - rise * out.axis).norm();
+  const double start_radius = strip.shape.start_radius, end_radius = strip.shape.end_radius;
+  const double start_height = surface.height(start), end_height = surface.height(end);
+  out.ends[0] = {start, strip.start_exposed_area * wet_share(start_height, lean, start_radius), start_radius};
+  out.ends[1] = {end, strip.end_exposed_area * wet_share(end_height, lean, end_radius), end_radius};
+
+  // Fractions of the strip between which a cross-section is at least partly wet: its lowest point is linear along the axis.
+  const double start_low = start_height - lean * start_radius, end_low = end_height - lean * end_radius;
+  const double crossing = start_low != end_low ? std::clamp(start_low / (start_low - end_low), 0.0, 1.0) : 0.0;
+  const double from = start_low >= 0.0 ? crossing : 0.0, to = end_low >= 0.0 ? crossing : 1.0;
+  // Two Gauss points share the exact volume in proportion to their wet cross-sections.
+  double sum = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    constexpr std::array<double, 2> gauss = {0.21132486540518711775, 0.78867513459481288225};
+    const double fraction = from + gauss[std::size_t(i)] * (to - from), radius = strip.shape.radius(fraction);
+    const double height = start_height + fraction * (end_height - start_height);
+    Station& station = out.stations[std::size_t(i)];
+    station = {start + fraction * (end - start), radius * radius * wet_share(height, lean, radius), radius};
+    sum += station.volume;
+  }
+  for (Station& station : out.stations) station.volume *= sum > 0.0 ? out.wetted.volume / sum : 0.0;
+  return out;
+}
+
+}  // namespace spindrift::sea

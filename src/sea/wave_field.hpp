@@ -1,0 +1,45 @@
+// The undisturbed sea: elevation, slope and water kinematics anywhere under it, for every [waves] model.
+// Owns the harmonics of kernels/waves/components.hpp; applies the ramp and the stretching rule (docs/theory/waves.md, section 4).
+// Used by EngineeringSea and, for output, by the coupling; tested in tests/src/sea/wave_field_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "kernels/waves/components.hpp"
+#include "kernels/waves/dispersion.hpp"
+#include "src/sea/options.hpp"
+
+namespace spindrift::sea {
+
+class WaveField {
+ public:
+  WaveField() = default;                                            ///< still water
+  WaveField(const WavesOptions& options, const SeaEnvironment& environment);
+
+  bool still() const { return groups_.empty(); }
+  /// Level and slope of the surface at earth x, y [m].
+  waves::Surface surface(double t, double x, double y) const;
+  double elevation(double t, double x, double y) const { return surface(t, x, y).elevation; }
+  /// Water motion at an earth point that lies under the surface, whose level there is `elevation` [m].
+  waves::Kinematics kinematics(double t, const Eigen::Vector3d& point, double elevation) const;
+
+  const std::vector<waves::Component>& components() const { return components_; }
+
+ private:
+  enum class Stretching { wheeler, vertical, extrapolated };
+  double ramp(double t) const;
+
+  std::vector<waves::Component> components_;
+  std::vector<waves::ComponentGroup> groups_;
+  double depth_ = 0.0, ramp_end_ = 0.0;
+  Stretching stretching_ = Stretching::wheeler;
+};
+
+/// What is wrong with a wave of these options in this water, one sentence each with its key; empty when nothing is.
+struct OptionProblem {
+  std::string key, what;
+};
+std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaEnvironment& environment);
+
+}  // namespace spindrift::sea
