@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/mpi/communicator.hpp"
+
+namespace spindrift::runtime {
+
+Communicator::Communicator(MPI_Comm of) {
+  if (of == MPI_COMM_SELF) {
+    comm_ = MPI_COMM_SELF;
+    return;
+  }
+  MPI_Comm_dup(of, &comm_);
+  MPI_Comm_rank(comm_, &rank_);
+  MPI_Comm_size(comm_, &size_);
+}
+
+Communicator::~Communicator() {
+  if (comm_ == MPI_COMM_NULL || comm_ == MPI_COMM_SELF) return;
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (!finalized) MPI_Comm_free(&comm_);
+}
+
+}  // namespace spindrift::runtime
