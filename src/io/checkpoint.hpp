@@ -1,0 +1,104 @@
+// Checkpoints: one HDF5 file of named arrays (double, 64-bit integer, byte) and values, whole or not there, verified before it is trusted.
+// The arrays are global: their layout in the file knows no ranks, so that a run goes on with any number of them.
+// Written by the coupling at window ends, read by it at a restart. Tested in tests/src/io/checkpoint_test.cpp and tests/faults.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace spindrift::io {
+
+/// This rank's values of a global array from index `offset` on.
+template <class T>
+struct Slice {
+  std::int64_t offset;
+  std::span<T> values;
+};
+
+/// All members are collective: every rank calls them in the same order with the same names. They throw on all ranks alike.
+class CheckpointWriter {
+ public:
+  /// Writes beside `path`; nothing is there until commit().
+  CheckpointWriter(MPI_Comm comm, std::filesystem::path path);
+  ~CheckpointWriter();
+  CheckpointWriter(const CheckpointWriter&) = delete;
+  CheckpointWriter& operator=(const CheckpointWriter&) = delete;
+
+  /// An array of `total` values of which each rank gives its slices (blocks, say); together they are the whole, each value once.
+  /// T: double, std::int64_t or std::byte. A name may be a path: "sea/position".
+  template <class T>
+  void write(const std::string& name, std::int64_t total, std::span<const Slice<const T>> slices);
+  /// An array that is the same on every rank; rank 0's is written.
+  template <class T>
+  void write(const std::string& name, std::span<const T> values);
+
+  void set(const std::string& name, double value);
+  void set(const std::string& name, std::int64_t value);
+  void set(const std::string& name, const std::string& value);
+
+  /// To disk, then renamed to its place.
+  void commit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A checkpoint whose every checksum was right when it was opened. What the file has not is an InputError (another scene wrote it).
+class CheckpointReader {
+ public:
+  /// Collective; reads all of it once. Throws MachineFailure where it is truncated, damaged, incomplete or of an unknown version.
+  CheckpointReader(MPI_Comm comm, const std::filesystem::path& path);
+  CheckpointReader(CheckpointReader&&) noexcept;
+  ~CheckpointReader();
+
+  const std::filesystem::path& path() const;
+  bool has(const std::string& name) const;
+  std::int64_t size(const std::string& name) const;
+
+  /// This rank's slices, any part of the array. Not collective.
+  template <class T>
+  void read(const std::string& name, std::span<const Slice<T>> slices) const;
+  /// The whole array, on the calling rank.
+  template <class T>
+  std::vector<T> read(const std::string& name) const;
+
+  double number(const std::string& name) const;
+  std::int64_t integer(const std::string& name) const;
+  std::string text(const std::string& name) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The checkpoints of a run: a folder of files named by tick, of which the last few are kept.
+class CheckpointSeries {
+ public:
+  CheckpointSeries(MPI_Comm comm, std::filesystem::path folder, int keep);
+
+  /// Collective. Has `fill` write a checkpoint of this tick of simulated time, commits it, then removes those beyond `keep`.
+  void save(std::int64_t tick, const std::function<void(CheckpointWriter&)>& fill);
+
+  /// Collective. The newest that verifies; one that does not is renamed to *.damaged with a warning. Empty where none is left.
+  std::optional<CheckpointReader> newest();
+
+  std::filesystem::path path(std::int64_t tick) const;
+
+ private:
+  MPI_Comm comm_;
+  std::filesystem::path folder_;
+  int keep_;
+};
+
+}  // namespace spindrift::io

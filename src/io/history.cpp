@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/io/history.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "src/io/machine_failure.hpp"
+
+namespace spindrift::io {
+
+namespace {
+
+constexpr std::size_t buffer_bytes = 1 << 16;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Shortest text that reads back as the same double; sign and payload of a nan are dropped so that equal runs give equal bytes.
+void append_number(std::string& out, double value) {
+  if (std::isnan(value)) {
+    out += "nan";
+    return;
+  }
+  char text[32];
+  out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+std::string header_of(const std::vector<Column>& columns) {
+  std::string header;
+  for (const Column& column : columns) header += (header.empty() ? "" : ",") + column.name;
+  return header;
+}
+
+/// Names the first column that differs, for a restart with another scene.
+std::string difference(const std::string& found, const std::string& expected) {
+  const auto split = std::mismatch(found.begin(), found.end(), expected.begin(), expected.end());
+  const auto name_at = [](const std::string& header, std::size_t at) {
+    if (at >= header.size()) return std::string("no further column");
+    const std::size_t comma = header.rfind(',', at), from = comma == std::string::npos ? 0 : comma + (comma < at ? 1 : 0);
+    const std::size_t begin = header[from] == ',' ? from + 1 : from;
+    return header.substr(begin, header.find(',', begin) - begin);
+  };
+  const auto at = static_cast<std::size_t>(split.first - found.begin());
+  return "it has '" + name_at(found, at) + "' where this run has '" + name_at(expected, at) + "'";
+}
+
+}  // namespace
+
+History::History() { add({"time_s", "s", "Simulated time at the end of the window."}); }
+
+History::~History() {
+  try {
+    drain();
+  } catch (const MachineFailure&) {
+  }
+}
+
+std::size_t History::add(Column column) {
+  if (file_.is_open()) throw std::logic_error("history column " + column.name + " declared after the file was opened");
+  if (column.name.empty() || column.name.find_first_of(", \t\r\n\"") != std::string::npos)
+    throw std::logic_error("history column '" + column.name + "': a name has no comma, quote or white space");
+  for (const Column& other : columns_)
+    if (other.name == column.name) throw std::logic_error("history column " + column.name + " declared twice");
+  columns_.push_back(std::move(column));
+  values_.push_back(nan);
+  return columns_.size() - 1;
+}
+
+void History::open(const std::filesystem::path& path) {
+  file_ = OutputFile(path, OutputFile::Start::empty);
+  buffer_ = header_of(columns_) + "\n";
+  buffer_.reserve(buffer_bytes + columns_.size() * 26);
+  bytes_ = rows_ = 0;
+  drain();
+}
+
+double History::resume(const std::filesystem::path& path, double time_s) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw_errno("cannot read", path, errno);
+  std::string line;
+  std::getline(in, line);
+  const std::string header = header_of(columns_);
+  if (in.eof() || line != header)
+    throw InputError(path.string() + " was written with other columns: " + difference(line, header) +
+                     "; restart with the scene of the first run, or start anew");
+  long long kept_bytes = static_cast<long long>(line.size()) + 1;
+  // A window's end is the same sum of ticks in both runs; the margin only forgives the last digit of other arithmetic.
+  const double last_kept = time_s + 1e-12 * std::max(1.0, std::abs(time_s));
+  double last = nan;
+  rows_ = 0;
+  while (std::getline(in, line) && !in.eof()) {  // at the end of file: a line without its newline, half written
+    double time = nan;
+    std::from_chars(line.data(), line.data() + line.size(), time);
+    if (!(time <= last_kept)) break;
+    kept_bytes += static_cast<long long>(line.size()) + 1;
+    last = time;
+    ++rows_;
+  }
+  in.close();
+  buffer_.clear();
+  buffer_.reserve(buffer_bytes + columns_.size() * 26);
+  file_ = OutputFile(path, OutputFile::Start::end);
+  file_.cut(kept_bytes);
+  bytes_ = kept_bytes;
+  drained_ = std::chrono::steady_clock::now();
+  return last;
+}
+
+std::span<double> History::row(double time_s) {
+  std::fill(values_.begin(), values_.end(), nan);
+  values_[0] = time_s;
+  return values_;
+}
+
+void History::write() {
+  ++rows_;
+  if (!file_.is_open()) return;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    if (i != 0) buffer_ += ',';
+    append_number(buffer_, values_[i]);
+  }
+  buffer_ += '\n';
+  if (buffer_.size() >= buffer_bytes || std::chrono::steady_clock::now() - drained_ > flush_interval) drain();
+}
+
+void History::flush() {
+  if (!file_.is_open()) return;
+  drain();
+  file_.sync();
+}
+
+void History::drain() {
+  drained_ = std::chrono::steady_clock::now();
+  if (!file_.is_open() || buffer_.empty()) return;
+  try {
+    file_.write(buffer_);
+  } catch (const MachineFailure&) {
+    // Leave a file that ends with a whole row; what is buffered stays, for a disk that is given room.
+    file_.cut(bytes_);
+    throw;
+  }
+  bytes_ += static_cast<long long>(buffer_.size());
+  buffer_.clear();
+}
+
+}  // namespace spindrift::io

@@ -1,0 +1,69 @@
+// history.csv: named columns, one row per coupling window, every number with the digits that give the same double back.
+// Columns are declared by whoever has the values; rows are written by the coupling. Statistics of a finished file: history_statistics.hpp.
+// Tested in tests/src/io/history_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/io/atomic_file.hpp"
+
+namespace spindrift::io {
+
+/// What a column holds. The name carries the unit too (`platform.x_m`), as docs/user/outputs.md lists them.
+struct Column {
+  std::string name, unit, meaning;
+};
+
+/// The table of a run. All ranks may declare and set; only the one that opens it writes a file, on the others rows go nowhere.
+/// The first column, `time_s`, is there from the start.
+///
+///     const std::size_t x = history.add({"platform.x_m", "m", "Surge from the scene's initial reference."});
+///     history.open(directory.history());                 // or history.resume(directory.history(), restart_time)
+///     history.row(t)[x] = ...;  history.write();         // once per window; what is not set is nan
+///     history.flush();                                   // before a checkpoint is written, and at the end
+class History {
+ public:
+  History();
+  ~History();  ///< Writes what is buffered; failures are silent here: call flush() at the end of a run.
+  History(const History&) = delete;
+  History& operator=(const History&) = delete;
+
+  /// Declares a column and gives its index in row(). Before open(); names are unique, without comma, quote or white space.
+  std::size_t add(Column column);
+  const std::vector<Column>& columns() const { return columns_; }
+
+  /// Starts a new file.
+  void open(const std::filesystem::path& path);
+
+  /// Goes on with the file of an interrupted run: removes the rows after `time_s` and a half-written last line.
+  /// Throws InputError where the file's columns are not those declared. Returns the time of the last row kept (nan: none).
+  double resume(const std::filesystem::path& path, double time_s);
+
+  /// Begins the row of time `time_s` [s] and gives its values to fill, all nan but the first.
+  std::span<double> row(double time_s);
+  /// Appends the row begun. Forces it out where the buffer is full or `flush_interval` has passed.
+  void write();
+  /// Everything written so far, on disk. Throws MachineFailure; the file then still ends with a whole row.
+  void flush();
+
+  long long rows() const { return rows_; }  ///< written or kept by this object
+  std::chrono::duration<double> flush_interval{2.0};
+
+ private:
+  void drain();
+
+  std::vector<Column> columns_;
+  std::vector<double> values_;
+  std::string buffer_;
+  OutputFile file_;
+  long long bytes_ = 0, rows_ = 0;
+  std::chrono::steady_clock::time_point drained_;
+};
+
+}  // namespace spindrift::io

@@ -1,0 +1,57 @@
+// summary.json: what a run did in figures that programs read (report, perf, users' scripts): state at the end, statistics of every column,
+// steps, iterations, seconds and core-seconds by part, efficiencies, build and machine. Schema: docs/user/outputs.md.
+// Written by src/app at the end of every run, also of one that failed. Tested in tests/src/io/summary_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/io/history.hpp"
+#include "src/io/history_statistics.hpp"
+
+namespace spindrift::io {
+
+/// Time spent in one part of the program: `bodies`, `moorings`, `io` ...; what a scene lacks has no entry.
+struct PartTime {
+  std::string name;
+  double seconds;       ///< wall time of the longest rank
+  double core_seconds;  ///< summed over all threads of all ranks
+  std::int64_t calls;
+};
+
+/// A line of the efficiency table, as the executor measured it (definitions of the POP project): load balance, transfer, ...
+struct Efficiency {
+  std::string name;
+  double value;  ///< 0 ... 1
+  std::string meaning;
+};
+
+struct Summary {
+  std::string title, scene;  ///< scene: the path given on the command line
+  int exit_code = 0;         ///< 0 done, 2 bad input, 3 numerical failure, 4 machine failure, 5 stopped on request
+  std::string exit_reason;   ///< one sentence
+  std::vector<std::string> numerical_trouble;  ///< one sentence each: what, where, when
+  std::int64_t warnings = 0;
+
+  double start_time_s = 0, end_time_s = 0, window_s = 0;  ///< simulated; start: of this process, after a restart
+  int restarts = 0;
+  std::vector<std::pair<std::string, std::int64_t>> counts;  ///< windows, steps, coupling_iterations, ... in the order shown
+  double wall_seconds = 0;
+  std::vector<PartTime> parts;
+  std::vector<Efficiency> efficiency;
+
+  int ranks = 1, threads = 1;  ///< threads per rank
+  std::vector<Column> columns;
+};
+
+/// Simulated seconds per wall second.
+double real_time_factor(const Summary& summary);
+
+/// Rank 0. With build_info(), the host's name and processor; numbers that are not finite become null.
+void write_summary(const std::filesystem::path& path, const Summary& summary, const HistoryStatistics& statistics);
+
+}  // namespace spindrift::io
