@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/scene/columns.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "src/scene/error.hpp"
+
+namespace spindrift::scene {
+
+namespace {
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+  return first == std::string_view::npos ? std::string_view() : text.substr(first, last - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (std::size_t from = 0; from <= line.size();) {
+    const std::size_t comma = std::min(line.find(',', from), line.size());
+    cells.push_back(trim(line.substr(from, comma - from)));
+    from = comma + 1;
+  }
+  return cells;
+}
+
+[[noreturn]] void fail_at(const std::string& file, int line, const std::string& value, const std::string& message) {
+  throw SceneError({Problem{.source = file, .line = line, .key = "", .value = value, .message = message}});
+}
+
+}  // namespace
+
+Columns read_columns(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) fail_at(path, 0, "", "cannot be read");
+  Columns table;
+  table.file_ = path;
+  std::string text;
+  for (int line = 1; std::getline(in, text); ++line) {
+    const std::string_view content = trim(std::string_view(text).substr(0, text.find('#')));
+    if (content.empty()) continue;
+    const auto cells = split(content);
+    if (table.names_.empty()) {
+      table.names_.assign(cells.begin(), cells.end());
+      table.values_.resize(cells.size());
+      continue;
+    }
+    if (cells.size() != table.names_.size())
+      fail_at(path, line, "",
+              fmt::format("has {} values where the header names {} columns ({})", cells.size(), table.names_.size(),
+                          fmt::join(table.names_, ", ")));
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      double value = 0.0;
+      const auto [end, error] = std::from_chars(cells[c].data(), cells[c].data() + cells[c].size(), value);
+      if (error != std::errc() || end != cells[c].data() + cells[c].size() || !std::isfinite(value))
+        fail_at(path, line, fmt::format("\"{}\"", cells[c]), fmt::format("must be a finite number (column {})", table.names_[c]));
+      table.values_[c].push_back(value);
+    }
+    table.lines_.push_back(line);
+  }
+  if (table.names_.empty()) fail_at(path, 0, "", "holds no table: a header line of column names, then rows of numbers");
+  return table;
+}
+
+bool Columns::has(std::string_view name) const { return std::find(names_.begin(), names_.end(), name) != names_.end(); }
+
+std::span<const double> Columns::operator[](std::string_view name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) fail(-1, fmt::format("needs a column \"{}\"; has {}", name, fmt::join(names_, ", ")));
+  return values_[found - names_.begin()];
+}
+
+void Columns::require_increasing(std::string_view name, const std::string& why) const {
+  const auto x = (*this)[name];
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (!(x[i] > x[i - 1]))
+      fail(int(i), fmt::format("{} = {} must be above {} of the row before ({})", name, x[i], x[i - 1], why));
+}
+
+void Columns::require_rows(std::size_t count) const {
+  if (rows() < count) fail(-1, fmt::format("needs at least {} rows of numbers, has {}", count, rows()));
+}
+
+void Columns::allow_only(const std::vector<std::string>& names) const {
+  for (const std::string& name : names_)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      fail(-1, fmt::format("has a column \"{}\" that means nothing here; known: {}", name, fmt::join(names, ", ")));
+}
+
+void Columns::fail(int row, const std::string& message) const { fail_at(file_, row < 0 ? 0 : lines_[row], "", message); }
+
+}  // namespace spindrift::scene

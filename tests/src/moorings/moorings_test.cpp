@@ -1,0 +1,147 @@
+// Laws of src/moorings/moorings.hpp: lines load the bodies they are tied to, and only those.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/moorings/moorings.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "kernels/base/constants.hpp"
+
+using namespace spindrift;
+using namespace spindrift::moorings;
+using Eigen::Vector3d;
+
+namespace {
+
+const std::vector<std::string> names{"platform", "buoy"};
+
+std::vector<Motion> start() {
+  Motion platform, buoy;
+  platform.position = {0, 0, -4};
+  buoy.position = {-80, 10, -1};
+  buoy.attitude = Eigen::AngleAxisd(0.4, Vector3d(1, 2, 3).normalized());  // points are carried whatever the initial attitude
+  return {platform, buoy};
+}
+
+std::vector<Wrench> loads(const Moorings& m, const std::vector<Motion>& motions) {
+  std::vector<Wrench> w(motions.size());
+  for (std::size_t i = 0; i < w.size(); ++i) w[i].point = motions[i].position;
+  m.add_loads(0.0, motions, w);
+  return w;
+}
+
+LineOptions paper_line(double azimuth) {
+  // Leble & Barakos (2016), Table 3: fairleads on a circle of 46.7 m at z = -7, anchors at z = -20.6 where the lines of
+  // 116.73 m are relaxed, 162.635 m out (0.035 m less, by rounding the radius to 0.1 m, is 0.12 MN in each line).
+  const Vector3d out(std::cos(azimuth), std::sin(azimuth), 0);
+  LineOptions line;
+  line.body = "platform";
+  line.fairlead_m = 46.7 * out - Vector3d(0, 0, 7.0), line.anchor_m = 162.635 * out - Vector3d(0, 0, 20.6);
+  line.rest_length_m = 116.73, line.axial_stiffness_N = 4e8, line.damping_N_s_m = 4e4;
+  return line;
+}
+
+Moorings paper_lines() {
+  Moorings m(names, start());
+  for (int i : {0, 1, 2}) m.add("line_" + std::to_string(i + 1), paper_line(120 * i * radians_per_degree));
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("the paper's lines under its mean displacement carry the thrust of 1500 kN", "[moorings][fast]") {
+  // Surge 0.215 m of the point z = -4.1 m, heave -0.603 m, pitch 5.2 deg (Leble & Barakos 2016, figs. 14, 16; centre taken at z =
+  // -4).
+  const Moorings m = paper_lines();
+  auto motions = start();
+  const double pitch = 5.2 * radians_per_degree;
+  motions[0].attitude = Eigen::AngleAxisd(pitch, Vector3d::UnitY());
+  motions[0].position = Vector3d(0.215, 0, -4.1 - 0.603) - motions[0].attitude * Vector3d(0, 0, -0.1);
+  const auto w = loads(m, motions);
+  CHECK(-w[0].force.x() == Approx(1.5e6).epsilon(0.03));
+  CHECK(w[0].force.y() == Approx(0.0).margin(1.0));
+  CHECK(w[1].force == Vector3d::Zero());
+  CHECK(m.tension(0, motions).fairlead == Approx(-0.77e6).epsilon(0.05));  // the downwind line pushes, the two upwind pull
+  CHECK(m.tension(1, motions).fairlead == Approx(0.74e6).epsilon(0.05));
+}
+
+TEST_CASE("a rigid shift of everything changes no load", "[moorings][fast]") {
+  Moorings m(names, start());
+  LineOptions line = paper_line(2.0);
+  line.anchor_body = "buoy";
+  line.anchor_m = {-79, 12, 0.5};
+  line.model = GENERATE("spring_damper", "catenary");
+  line.weight_N_m = 800.0, line.bed_contact = false, line.rest_length_m = 60.0;
+  m.add("tether", line);
+  auto motions = start();
+  motions[0].velocity = {1, 2, 3};
+  const auto before = loads(m, motions);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.8, Vector3d::UnitZ()));  // about the vertical: weight keeps its direction
+  auto moved = motions;
+  for (Motion& b : moved)
+    b.position = turn * b.position + Vector3d(5, -7, 2), b.attitude = turn * b.attitude, b.velocity = turn * b.velocity;
+  const auto after = loads(m, moved);
+  for (int i : {0, 1}) {
+    CHECK((after[i].force - turn * before[i].force).norm() < 1e-6);
+    CHECK((after[i].moment - turn * before[i].moment).norm() < 1e-4);
+  }
+  CHECK(before[1].force.norm() > 1e3);
+}
+
+TEST_CASE("a line between two bodies neither pushes nor turns the pair", "[moorings][fast]") {
+  Moorings m(names, start());
+  LineOptions line = paper_line(2.0);
+  line.anchor_body = "buoy";
+  line.anchor_m = {-79, 12, 0.5};
+  m.add("tether", line);
+  auto motions = start();
+  motions[1].omega = {0.3, -0.2, 0.1};
+  const auto w = loads(m, motions);
+  CHECK((w[0].force + w[1].force).norm() < 1e-9 * w[0].force.norm());
+  const Vector3d origin = Vector3d::Zero();
+  CHECK((w[0].about(origin).moment + w[1].about(origin).moment).norm() < 1e-9 * w[0].about(origin).moment.norm());
+}
+
+TEST_CASE("lines of all models take no energy from a body that moves in a circle, dampers take some", "[moorings][fast]") {
+  const std::string table = (std::filesystem::temp_directory_path() / "spindrift_moorings_test.csv").string();
+  std::ofstream(table) << "distance_m,tension_N\n100,0\n112,2e5\n118,9e5\n125,4e6\n";
+  const auto work = [&](LineOptions line) {
+    Moorings m(names, start());
+    m.add("line", line);
+    double sum = 0.0, largest = 0.0;
+    constexpr int steps = 4000;
+    for (int i = 0; i < steps; ++i) {
+      const double phase = 2 * pi * i / steps;
+      auto motions = start();
+      motions[0].position += Vector3d(2 * std::cos(phase), std::sin(phase), 3 * std::sin(phase));
+      motions[0].velocity = Vector3d(-2 * std::sin(phase), std::cos(phase), 3 * std::cos(phase));
+      const double power = loads(m, motions)[0].force.dot(motions[0].velocity);
+      sum += power * 2 * pi / steps, largest = std::max(largest, std::abs(power));
+    }
+    return sum / largest;
+  };
+  LineOptions line = paper_line(2.0);
+  CHECK(work(line) < -1e-3);
+  line.damping_N_s_m = 0.0;
+  CHECK(std::abs(work(line)) < 1e-10);
+  line.model = "table", line.table = table;
+  CHECK(std::abs(work(line)) < 1e-6);  // the table's cubics are smooth to first derivative only
+  line = paper_line(2.0);
+  line.model = "catenary", line.weight_N_m = 2e3;
+  CHECK(std::abs(work(line)) < 1e-5);  // passes slack, touching and taut
+}
+
+TEST_CASE("tensions are those of the force that the body feels", "[moorings][fast]") {
+  const Moorings m = paper_lines();
+  auto motions = start();
+  motions[0].position.x() += 1.0;
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    const LineOptions line = paper_line(120 * double(i) * radians_per_degree);
+    const Vector3d chord = (line.anchor_m - line.fairlead_m - Vector3d(1, 0, 0)).normalized();
+    sum += m.tension(i, motions).fairlead * chord;
+  }
+  CHECK((sum - loads(m, motions)[0].force).norm() < 1e-6);
+  CHECK(m.name(2) == "line_3");
+}

@@ -1,0 +1,82 @@
+// [moorings.NAME]: what is read, and what is refused with which words.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/moorings/options.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "src/moorings/table_file.hpp"
+#include "src/scene/document.hpp"
+
+using namespace spindrift;
+using namespace spindrift::moorings;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::vector<std::string> bodies{"platform", "buoy"};
+const std::string ends = "body = 'platform'\nfairlead_m = [-46.7, 0, -7]\nanchor_m = [-162.6, 0, -20.6]\n";
+const std::string spring = ends + "rest_length_m = 116.73\n";
+const std::string catenary = ends + "model = 'catenary'\nrest_length_m = 130\nweight_N_m = 1e3\naxial_stiffness_N = 4e8\n";
+
+LineOptions read(const std::string& keys) {
+  scene::Document doc = scene::parse("[moorings.line_1]\n" + keys, "test.toml", std::filesystem::temp_directory_path());
+  const auto lines = doc.read_named(line_section());
+  check_lines(doc, lines, bodies);
+  doc.finish();
+  return lines.at(0).options;
+}
+
+}  // namespace
+
+TEST_CASE("the declaration of a mooring line is sound in itself", "[moorings][fast]") { CHECK(line_section().faults().empty()); }
+
+TEST_CASE("stiffness is given as EA or per metre, and the scene says which", "[moorings][fast]") {
+  CHECK(read(spring + "axial_stiffness_N = 4e8\n").axial_stiffness_N == 4e8);
+  CHECK(read(spring + "stiffness_N_m = 3.4e6\ndamping_N_s_m = 4e4\ntension_only = true\n").stiffness_N_m == 3.4e6);
+  CHECK_THROWS_WITH(read(spring), Contains("axial_stiffness_N") && Contains("stiffness_N_m"));
+  CHECK_THROWS_WITH(read(spring + "axial_stiffness_N = 4e8\nstiffness_N_m = 3.4e6\n"),
+                    Contains("axial_stiffness_N") && Contains("stiffness_N_m"));
+  CHECK_THROWS_WITH(read(spring + "stiffness = 3.4e6\n"), Contains("stiffness_N_m"));
+}
+
+TEST_CASE("a malformed mooring line is refused with what is wrong", "[moorings][fast]") {
+  struct Case {
+    std::string keys, message;
+  };
+  const auto c = GENERATE(
+      Case{"body = 'platfrom'\nfairlead_m = [0, 0, 0]\nanchor_m = [1, 0, 0]\nrest_length_m = 1\nstiffness_N_m = 1\n",
+           "names body \"platfrom\", which is not in [bodies]; known: platform, buoy"},
+      Case{"body = 'earth'\nfairlead_m = [0, 0, 0]\nanchor_m = [1, 0, 0]\nrest_length_m = 1\nstiffness_N_m = 1\n",
+           "fairlead must be on a body"},
+      Case{spring + "stiffness_N_m = 1\nanchor_body = 'seabed'\n", "names body \"seabed\""},
+      Case{spring + "stiffness_N_m = 1\nanchor_body = 'platform'\n", "ties two different things"},
+      Case{"body = 'platform'\nfairlead_m = [1, 2, 3]\nanchor_m = [1, 2, 3]\nrest_length_m = 1\nstiffness_N_m = 1\n",
+           "no direction"},
+      Case{ends + "rest_length_m = -1\nstiffness_N_m = 1\n", "rest_length_m"},
+      Case{ends + "stiffness_N_m = 1\n", "rest_length_m"}, Case{spring + "stiffness_N_m = 1\nweight_N_m = 100\n", "weight_N_m"},
+      Case{catenary + "stiffness_N_m = 1\n", "stiffness_N_m"}, Case{catenary + "tension_only = true\n", "tension_only"},
+      Case{catenary + "anchor_body = 'buoy'\n", "must be false for a line between two bodies"},
+      Case{catenary + "bed_contact = false\nbed_friction = 0.5\n", "bed_friction"},
+      Case{catenary + "bed_friction = -0.5\n", "bed_friction"}, Case{ends + "model = 'table'\n", "table"},
+      Case{ends + "model = 'table'\ntable = 'nowhere.csv'\n", "nowhere.csv"}, Case{ends + "model = 'lumped'\n", "catenary"});
+  CHECK_THROWS_WITH(read(c.keys), Contains(c.message));
+}
+
+TEST_CASE("a catenary between two bodies is legal where it does not ask for a bed", "[moorings][fast]") {
+  CHECK_FALSE(read(catenary + "anchor_body = 'buoy'\nbed_contact = false\n").bed_contact);
+}
+
+TEST_CASE("a table must be one that a line can follow", "[moorings][fast]") {
+  const auto with = [](const std::string& text) {
+    std::ofstream(std::filesystem::temp_directory_path() / "spindrift_line_test.csv") << text;
+    return read(ends + "model = 'table'\ntable = 'spindrift_line_test.csv'\n").table;
+  };
+  CHECK(read_line_table(with("distance_m,tension_N\n100,0\n110,1e5\n")).tension[1] == 1e5);
+  CHECK_THROWS_WITH(with("distance_m,tension_N\n100,0\n"), Contains("at least 2 rows"));
+  CHECK_THROWS_WITH(with("distance_m,tension_N\n100,0\n100,1\n"), Contains(".csv:3") && Contains("must be above 100"));
+  CHECK_THROWS_WITH(with("distance_m,tension_N\n100,5\n110,4\n"), Contains("unstable"));
+  CHECK_THROWS_WITH(with("distance_m,tension_N\n-1,5\n110,6\n"), Contains("must not be negative"));
+  CHECK_THROWS_WITH(with("distance_m,force_N\n100,5\n110,6\n"), Contains("force_N"));
+}
