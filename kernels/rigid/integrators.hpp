@@ -1,0 +1,87 @@
+// One step of the integrators a scene may choose, for x' = X(x, u), u' = A(t, x, u) with X(0, u) = u: coordinates that start each
+// step at zero (the charts of the bodies' step). Pure: the result depends on the arguments alone.
+// rk4: classical Runge-Kutta. explicit_euler: forward Euler (both: Leble & Barakos 2016, section 2.2). symplectic: the kick-drift-kick
+// (velocity Verlet, leapfrog) form, Leimkuhler, Reich & Skeel (1996); forces that depend on velocity see the predicted
+// u + h u' at the second kick, which keeps second order for them (with the half-step velocity it would be first order).
+// Used by src/bodies/system.cpp; orders and stability limits tested in tests/kernels/rigid and tests/src/bodies.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace spindrift {
+
+enum class Integrator { rk4, explicit_euler, symplectic };
+inline constexpr std::array<std::string_view, 3> integrator_names{"rk4", "explicit_euler", "symplectic"};
+inline constexpr std::string_view name(Integrator i) { return integrator_names[std::size_t(i)]; }
+inline constexpr std::optional<Integrator> integrator_named(std::string_view name) {
+  for (std::size_t i = 0; i < integrator_names.size(); ++i)
+    if (integrator_names[i] == name) return Integrator(i);
+  return std::nullopt;
+}
+
+/// Vectors that a step needs; resized once, so that steps do not allocate.
+struct IntegratorWork {
+  Eigen::VectorXd x, u, x_sum, u_sum, x_rate, u_rate;
+  void resize(Eigen::Index n) {
+    for (auto* v : {&x, &u, &x_sum, &u_sum, &x_rate, &u_rate}) v->resize(n);
+  }
+};
+
+/// Advances u (and x, from zero) by h. rates(t, x, u, x_rate, u_rate) -> bool returns false when it cannot evaluate;
+/// the step then stops at once and returns false. On success w.x and `u` hold the new values.
+template <class Rates>
+bool step_rk4(Rates&& rates, double t, double h, Eigen::VectorXd& u, IntegratorWork& w) {
+  w.x.setZero();
+  w.u = u;
+  if (!rates(t, w.x, w.u, w.x_rate, w.u_rate)) return false;
+  w.x_sum = w.x_rate;
+  w.u_sum = w.u_rate;
+  constexpr double node[3] = {0.5, 0.5, 1.0}, weight[3] = {2.0, 2.0, 1.0};
+  for (int stage = 0; stage < 3; ++stage) {
+    w.x = (node[stage] * h) * w.x_rate;
+    w.u = u + (node[stage] * h) * w.u_rate;
+    if (!rates(t + node[stage] * h, w.x, w.u, w.x_rate, w.u_rate)) return false;
+    w.x_sum += weight[stage] * w.x_rate;
+    w.u_sum += weight[stage] * w.u_rate;
+  }
+  w.x = (h / 6.0) * w.x_sum;
+  u += (h / 6.0) * w.u_sum;
+  return true;
+}
+
+template <class Rates>
+bool step_explicit_euler(Rates&& rates, double t, double h, Eigen::VectorXd& u, IntegratorWork& w) {
+  w.x.setZero();
+  if (!rates(t, w.x, u, w.x_rate, w.u_rate)) return false;
+  w.x = h * w.x_rate;
+  u += h * w.u_rate;
+  return true;
+}
+
+template <class Rates>
+bool step_symplectic(Rates&& rates, double t, double h, Eigen::VectorXd& u, IntegratorWork& w) {
+  w.x.setZero();
+  if (!rates(t, w.x, u, w.x_rate, w.u_rate)) return false;
+  w.u_sum = u + (0.5 * h) * w.u_rate;  // first kick
+  w.x = h * w.u_sum;                   // drift
+  w.u = u + h * w.u_rate;              // velocity predicted for the end of the step
+  if (!rates(t + h, w.x, w.u, w.x_rate, w.u_rate)) return false;
+  u = w.u_sum + (0.5 * h) * w.u_rate;  // second kick
+  return true;
+}
+
+template <class Rates>
+bool step(Integrator integrator, Rates&& rates, double t, double h, Eigen::VectorXd& u, IntegratorWork& w) {
+  switch (integrator) {
+    case Integrator::explicit_euler: return step_explicit_euler(rates, t, h, u, w);
+    case Integrator::symplectic: return step_symplectic(rates, t, h, u, w);
+    case Integrator::rk4: break;
+  }
+  return step_rk4(rates, t, h, u, w);
+}
+
+}  // namespace spindrift

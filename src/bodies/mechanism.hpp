@@ -1,0 +1,113 @@
+// The kinematics of bodies under joints: constraints of the whole system, the chart of configurations near a state, position solution
+// by Newton-Raphson, velocities, and the velocity-dependent part of the accelerations. Knows no mass and no load.
+// Chart: body b sits at r = r0 + L x_b[0..2], q = q0 exp(x_b[3..5]); the independent components of x are the coordinates, the others
+// follow from the constraints (coordinate partitioning). All lengths inside are in units of L, a power of two near the largest joint
+// arm, so that rows and columns of the Jacobian compare; scaling by it is exact.
+// Used by system.cpp alone; tested through tests/src/bodies. Theory: docs/theory/bodies.md, "Positions" and "Velocities".
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/bodies/system.hpp"
+
+namespace spindrift::bodies {
+
+class Mechanism {
+ public:
+  Mechanism(std::span<const Body> bodies, std::span<const Joint> joints);
+
+  int bodies() const { return int(pose_.size()); }
+  int coordinates() const { return 6 * bodies(); }
+  int rows() const { return rows_; }
+  int freedoms() const { return int(independent_.size()); }
+  double length() const { return length_; }
+  const std::vector<int>& independent() const { return independent_; }
+
+  /// Centres the chart on a state and factorises; chooses a new partition when `choose` or when the old one has degraded (then
+  /// state.independent and state.active change).
+  StepReport open(BodiesState& state, double t, bool choose);
+  /// Positions at independent coordinates x (chart); Newton-Raphson on the dependent ones.
+  StepReport solve_positions(double t, const Eigen::VectorXd& x);
+  /// Velocities from the independent ones at the positions last solved. `held`: drivers stand still.
+  void solve_velocities(const Eigen::VectorXd& u, bool held = false);
+  /// Independent components of d(coordinates)/dt.
+  void chart_rate(Eigen::VectorXd& x_rate) const;
+  /// Motions in SI units.
+  void motions(std::vector<Motion>& out) const;
+  /// Angles of the joints that turn, continued from those in `angles`.
+  void turn_joints(std::vector<double>& angles) const;
+
+  /// All velocities = tangent * independent ones + drift, in chart units; accelerations = tangent * independent ones + bias.
+  const Eigen::MatrixXd& tangent() const { return tangent_; }
+  const Eigen::VectorXd& velocity() const { return u_; }
+  const Eigen::VectorXd& open_velocity() const { return u_open_; }  ///< independent velocities at the centre
+  const Eigen::VectorXd& bias() const { return bias_; }
+  const std::vector<Pose>& poses() const { return pose_; }
+  int newton_iterations() const { return newton_iterations_; }
+
+  /// Largest residual of all rows, redundant ones included, at the positions last solved; over L.
+  double residual(int* joint = nullptr);
+  /// Largest |C u - nu| of all rows at the velocities last solved.
+  double velocity_residual(int* joint = nullptr);
+  /// Generalised constraint forces on all coordinates of each joint's body j, from the out-of-balance of the dependent coordinates.
+  void reactions(const Eigen::VectorXd& out_of_balance, std::vector<Wrench>& on_j);
+  /// Names of the joints whose rows combine into the redundant row r, r's own first.
+  std::vector<int> joints_behind(int row) const;
+  int joint_of_row(int row) const { return row_joint_[std::size_t(row)]; }
+
+ private:
+  const Pose& pose(int body) const { return body == earth ? earth_pose_ : pose_[std::size_t(body)]; }
+  const Drive& drive(const Constraint& c) const { return c.driver < 0 ? no_drive_ : drive_[std::size_t(c.driver)]; }
+  void set_drives(double t);
+  void place_bodies();
+  void evaluate_residual();
+  void evaluate_jacobian();
+  void chart_jacobian();
+  void factorise();
+  void index_partition(const BodiesState& state);
+  void solve_tangent();
+  double worst(const Eigen::VectorXd& values, bool active_only, int* joint) const;
+
+  double length_ = 1.0;
+  int rows_ = 0;
+  std::vector<Constraint> constraints_;
+  std::vector<int> row_joint_;
+  struct Turning {
+    int joint, i, j;
+    JointFrame on_i, on_j;
+  };
+  std::vector<Turning> turning_;
+  struct Driver {
+    PrescribedMotion motion;
+    double unit;  // 1 for angles, 1/L for distances
+  };
+  std::vector<Driver> drivers_;
+  std::vector<Drive> drive_;
+  const Drive no_drive_{};
+  const Pose earth_pose_{};
+  Eigen::VectorXd weight_;
+
+  // chart
+  double t_open_ = 0.0;
+  std::vector<Motion> origin_;
+  std::vector<int> independent_, dependent_, active_;
+  Eigen::MatrixXd open_tangent_;      // dependent rows at the centre
+  Eigen::VectorXd open_drift_, open_bias_;
+
+  // positions, velocities, factors last solved
+  std::vector<Pose> pose_;
+  std::vector<Eigen::Quaterniond> attitude_;
+  Eigen::VectorXd x_, u_, u_open_;
+  Eigen::MatrixXd jacobian_, dependent_block_, right_, solution_;
+  Eigen::VectorXd residual_, side_, gathered_, solved_, bias_, drift_;
+  Eigen::MatrixXd tangent_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  int newton_iterations_ = 0;
+};
+
+}  // namespace spindrift::bodies

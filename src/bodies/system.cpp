@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/bodies/system.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "src/bodies/mechanism.hpp"
+
+namespace spindrift::bodies {
+
+namespace {
+
+constexpr double consistency_tolerance = 1e-9;  // residual over L (or velocity) that a redundant row may show
+
+/// Support of each body: the other body of the first revolute or cylindrical joint it has (itself when it has none).
+std::vector<int> supports(std::span<const Body> bodies, std::span<const Joint> joints) {
+  std::vector<int> support(bodies.size());
+  for (int b = 0; b < int(bodies.size()); ++b) {
+    support[std::size_t(b)] = b;
+    for (const Joint& joint : joints)
+      if (turns(joint.type) && (joint.i == b || joint.j == b)) {
+        support[std::size_t(b)] = joint.i == b ? joint.j : joint.i;
+        break;
+      }
+  }
+  return support;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+}  // namespace
+
+struct System::Work {
+  Work(std::vector<Body> b, std::vector<Joint> j, std::vector<LoadSource> l, Integrator i)
+      : bodies(std::move(b)), joints(std::move(j)), loads(std::move(l)), integrator(i), mechanism(bodies, joints),
+        support(supports(bodies, joints)), motions(bodies.size()), wrenches(bodies.size()), added(bodies.size()),
+        mass(bodies.size()) {
+    force.setZero(mechanism.coordinates());
+    inertial.setZero(mechanism.coordinates());
+    for (const LoadSource& source : loads) has_added_mass |= bool(source.added_mass);
+    evaluation.acceleration.resize(bodies.size());
+    evaluation.angular_acceleration.resize(bodies.size());
+    evaluation.by_source.assign(loads.size(), std::vector<Wrench>(bodies.size()));
+    evaluation.joint_reactions.resize(joints.size());
+  }
+
+  void gather_loads(double t);
+  void gather_mass(double t);
+  void gather_forces(bool at_rest);
+  void condense();
+  bool accelerations(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u);
+  bool fail(StepReport::Trouble trouble, int body);
+  bool positions(double t, const Eigen::VectorXd& x);
+  void size_for_freedoms();
+  StepReport open(BodiesState& state, double t, bool choose);
+  bool close(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u);
+
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<LoadSource> loads;
+  Integrator integrator;
+  Mechanism mechanism;
+  std::vector<int> support;
+  bool has_added_mass = false;
+
+  StepReport report;
+  std::vector<Motion> motions;
+  std::vector<Wrench> wrenches;
+  std::vector<Matrix6> added;   // earth axes, SI
+  std::vector<Matrix6> mass;    // chart units: [m L2, I] + added mass turned into (earth translation, body rotation)
+  Eigen::VectorXd force, inertial;
+  Eigen::MatrixXd mass_tangent, condensed;
+  Eigen::VectorXd condensed_force, acceleration, x, u;
+  Eigen::LLT<Eigen::MatrixXd> cholesky;
+  IntegratorWork integration;
+  BodiesState opened;
+  Evaluation evaluation;
+};
+
+bool System::Work::fail(StepReport::Trouble trouble, int body) {
+  report.trouble = trouble;
+  report.body = body;
+  return false;
+}
+
+void System::Work::size_for_freedoms() {
+  const int n = mechanism.freedoms();
+  mass_tangent.resize(mechanism.coordinates(), n);
+  condensed.resize(n, n);
+  for (auto* v : {&condensed_force, &acceleration, &x, &u}) v->resize(n);
+  integration.resize(n);
+}
+
+StepReport System::Work::open(BodiesState& state, double t, bool choose) {
+  report = mechanism.open(state, t, choose);
+  if (mass_tangent.cols() != mechanism.freedoms() || condensed.cols() != mechanism.freedoms()) size_for_freedoms();
+  return report;
+}
+
+bool System::Work::positions(double t, const Eigen::VectorXd& x) {
+  const StepReport r = mechanism.solve_positions(t, x);
+  if (r.ok()) return true;
+  report.trouble = r.trouble;
+  report.joint = r.joint;
+  report.value = r.value;
+  return false;
+}
+
+void System::Work::gather_loads(double t) {
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    wrenches[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), motions[b].position};
+  for (const LoadSource& source : loads)
+    if (source.loads) source.loads(t, motions, wrenches);
+}
+
+/// Mass matrices in chart units; added mass joins the body's own, angular velocities being in body axes.
+void System::Work::gather_mass(double t) {
+  const double l = mechanism.length();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    mass[b].setZero();
+    mass[b].topLeftCorner<3, 3>().diagonal().setConstant(bodies[b].mass * l * l);
+    mass[b].bottomRightCorner<3, 3>() = bodies[b].inertia;
+  }
+  if (!has_added_mass) return;
+  for (Matrix6& a : added) a.setZero();
+  for (const LoadSource& source : loads)
+    if (source.added_mass) source.added_mass(t, motions, added);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Eigen::Matrix3d& axes = mechanism.poses()[b].axes;
+    mass[b].topLeftCorner<3, 3>() += l * l * added[b].topLeftCorner<3, 3>();
+    mass[b].topRightCorner<3, 3>() += l * added[b].topRightCorner<3, 3>() * axes;
+    mass[b].bottomLeftCorner<3, 3>() += l * axes.transpose() * added[b].bottomLeftCorner<3, 3>();
+    mass[b].bottomRightCorner<3, 3>() += axes.transpose() * added[b].bottomRightCorner<3, 3>() * axes;
+  }
+}
+
+/// Generalised forces on all coordinates, gyroscopic moments included.
+void System::Work::gather_forces(bool at_rest) {
+  const double l = mechanism.length();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Pose& pose = mechanism.poses()[b];
+    auto f = force.segment<6>(Eigen::Index(6 * b));
+    f.head<3>() = l * wrenches[b].force;
+    f.tail<3>() = pose.axes.transpose() * wrenches[b].moment;
+    if (at_rest) continue;
+    const Eigen::Vector3d omega = motions[b].omega;
+    if (bodies[b].gyroscopic) {
+      f.tail<3>() -= omega.cross(bodies[b].inertia * omega);
+    } else if (support[b] >= 0) {  // M = I (alpha - omega_support x omega): the spin does not feel its axis turning
+      const Eigen::Vector3d turning = pose.axes.transpose() * mechanism.poses()[std::size_t(support[b])].spin;
+      f.tail<3>() += bodies[b].inertia * turning.cross(omega);
+    }
+  }
+}
+
+/// condensed = B^T M B with the tangent B of the mechanism.
+void System::Work::condense() {
+  const Eigen::MatrixXd& tangent = mechanism.tangent();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto k = Eigen::Index(6 * b);
+    mass_tangent.middleRows<6>(k).noalias() = mass[b] * tangent.middleRows<6>(k);
+  }
+  condensed.noalias() = tangent.transpose() * mass_tangent;
+}
+
+/// Accelerations of the independent coordinates: B^T M B a = B^T (F - M bias).
+bool System::Work::accelerations(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u) {
+  if (!positions(t, x)) return false;
+  mechanism.solve_velocities(u);
+  mechanism.motions(motions);
+  gather_loads(t);
+  gather_mass(t);
+  gather_forces(false);
+  condense();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto k = Eigen::Index(6 * b);
+    inertial.segment<6>(k).noalias() = mass[b] * mechanism.bias().segment<6>(k);
+  }
+  force -= inertial;
+  condensed_force.noalias() = mechanism.tangent().transpose() * force;
+  if (mechanism.freedoms() == 0) return true;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (!force.segment<6>(Eigen::Index(6 * b)).allFinite()) return fail(StepReport::Trouble::not_finite, int(b));
+  cholesky.compute(condensed);
+  if (cholesky.info() != Eigen::Success) return fail(StepReport::Trouble::mass, -1);
+  acceleration = condensed_force;
+  cholesky.solveInPlace(acceleration);
+  if (!acceleration.allFinite()) return fail(StepReport::Trouble::not_finite, -1);
+  return true;
+}
+
+bool System::Work::close(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u) {
+  if (!x.allFinite() || !u.allFinite()) return fail(StepReport::Trouble::not_finite, -1);
+  if (!positions(t, x)) return false;
+  mechanism.solve_velocities(u);
+  mechanism.motions(motions);
+  int joint = -1;
+  const double worst = mechanism.residual(&joint);
+  if (!(worst <= consistency_tolerance)) {
+    report.trouble = StepReport::Trouble::inconsistent;
+    report.joint = joint;
+    report.value = worst;
+    return false;
+  }
+  return true;
+}
+
+System::System(std::vector<Body> bodies, std::vector<Joint> joints, std::vector<LoadSource> loads, Integrator integrator)
+    : w_(std::make_unique<Work>(std::move(bodies), std::move(joints), std::move(loads), integrator)) {}
+System::~System() = default;
+System::System(System&&) noexcept = default;
+
+std::span<const Body> System::bodies() const { return w_->bodies; }
+std::span<const Joint> System::joints() const { return w_->joints; }
+std::span<const LoadSource> System::loads() const { return w_->loads; }
+Integrator System::integrator() const { return w_->integrator; }
+double System::reference_length() const { return w_->mechanism.length(); }
+
+Assembly System::assemble(double t_s) {
+  BodiesState start;
+  for (const Body& body : w_->bodies) {
+    start.motions.push_back(body.initial);
+    start.motions.back().attitude.normalize();
+  }
+  start.joint_angles.assign(w_->joints.size(), 0.0);
+  start.independent.assign(std::size_t(w_->mechanism.coordinates()), 1);
+  start.active.assign(std::size_t(w_->mechanism.rows()), 0);
+  return assemble_from(start, t_s);
+}
+
+Assembly System::assemble_from(const BodiesState& near, double t_s) {
+  Assembly assembly;
+  assembly.state = near;
+  BodiesState& state = assembly.state;
+  Mechanism& mechanism = w_->mechanism;
+  const auto contradict = [&](const std::string& how, int joint, double value) {
+    assembly.contradiction = how + " joint '" + w_->joints[std::size_t(joint)].name + "'";
+    for (int row = 0; row < mechanism.rows(); ++row) {
+      if (state.active[std::size_t(row)] || mechanism.joint_of_row(row) != joint) continue;
+      for (int other : mechanism.joints_behind(row))
+        if (other != joint && assembly.contradiction.find("'" + w_->joints[std::size_t(other)].name + "'") == std::string::npos)
+          assembly.contradiction += ", '" + w_->joints[std::size_t(other)].name + "'";
+    }
+    assembly.contradiction += " (residual " + number(value) + ")";
+  };
+  // A driver may ask for a place away from the initial one: solve, centre the chart there, choose the partition again.
+  for (int pass = 0; pass < 2; ++pass) {
+    w_->open(state, t_s, true);
+    const Eigen::VectorXd u = mechanism.open_velocity(), x = Eigen::VectorXd::Zero(mechanism.freedoms());
+    const StepReport solved = mechanism.solve_positions(t_s, x);
+    if (!solved.ok()) {
+      contradict("the position equations have no solution near the initial one;", std::max(solved.joint, 0), solved.value);
+      return assembly;
+    }
+    mechanism.solve_velocities(u);
+    mechanism.motions(state.motions);
+    mechanism.turn_joints(state.joint_angles);
+  }
+  int joint = -1;
+  double worst = mechanism.residual(&joint);
+  if (worst > consistency_tolerance) {
+    contradict("these joints ask for positions that contradict each other:", joint, worst);
+    return assembly;
+  }
+  worst = mechanism.velocity_residual(&joint);
+  if (worst > consistency_tolerance * (1.0 + mechanism.velocity().cwiseAbs().maxCoeff())) {
+    contradict("these joints ask for velocities that contradict each other:", joint, worst);
+    return assembly;
+  }
+  assembly.degrees_of_freedom = mechanism.freedoms();
+  std::vector<int> repeated(w_->joints.size(), 0);
+  std::vector<std::string> others(w_->joints.size());
+  for (int row = 0; row < mechanism.rows(); ++row) {
+    if (state.active[std::size_t(row)]) continue;
+    const std::vector<int> behind = mechanism.joints_behind(row);
+    ++repeated[std::size_t(behind[0])];
+    std::string& list = others[std::size_t(behind[0])];
+    for (std::size_t k = 1; k < behind.size(); ++k) {
+      const std::string quoted = "'" + w_->joints[std::size_t(behind[k])].name + "'";
+      if (list.find(quoted) == std::string::npos) list += (list.empty() ? "" : ", ") + quoted;
+    }
+  }
+  for (std::size_t k = 0; k < repeated.size(); ++k)
+    if (repeated[k])
+      assembly.redundant.push_back("joint '" + w_->joints[k].name + "' repeats " + std::to_string(repeated[k]) +
+                                   (repeated[k] == 1 ? " condition" : " conditions") + " that follow from " +
+                                   (others[k].empty() ? "its own" : others[k]));
+  return assembly;
+}
+
+StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks) {
+  Work& w = *w_;
+  const double t = double(state.tick) * tick_s, h = double(ticks) * tick_s;
+  const double t_end = double(state.tick + ticks) * tick_s;
+  w.opened = state;
+  if (!w.open(w.opened, t, false).ok()) return w.report;
+  w.u = w.mechanism.open_velocity();
+  const auto rates = [&w](double time, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
+                          Eigen::VectorXd& u_rate) {
+    if (!w.accelerations(time, x, u)) return false;
+    w.mechanism.chart_rate(x_rate);
+    u_rate = w.acceleration;
+    return true;
+  };
+  const bool done = step(w.integrator, rates, t, h, w.u, w.integration) && w.close(t_end, w.integration.x, w.u);
+  w.report.newton_iterations = w.mechanism.newton_iterations();
+  if (!done) return w.report;
+  w.mechanism.motions(w.opened.motions);
+  w.mechanism.turn_joints(w.opened.joint_angles);
+  w.opened.tick = state.tick + ticks;
+  std::swap(state, w.opened);
+  return w.report;
+}
+
+const Evaluation& System::evaluate(const BodiesState& state, double t_s) {
+  Work& w = *w_;
+  Evaluation& e = w.evaluation;
+  w.opened = state;
+  e.report = w.open(w.opened, t_s, false);
+  if (!e.report.ok()) return e;
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(w.mechanism.freedoms());
+  w.accelerations(t_s, zero, w.mechanism.open_velocity());
+  e.report = w.report;
+  if (!e.report.ok()) return e;
+  const Eigen::VectorXd all = w.mechanism.tangent() * w.acceleration + w.mechanism.bias();
+  for (std::size_t b = 0; b < w.bodies.size(); ++b) {
+    const auto k = Eigen::Index(6 * b);
+    e.acceleration[b] = w.mechanism.length() * all.segment<3>(k);
+    e.angular_acceleration[b] = w.mechanism.poses()[b].axes * all.segment<3>(k + 3);
+    // M bias was taken off the forces above: out of balance = M a - F over all coordinates
+    w.inertial.segment<6>(k).noalias() = w.mass[b] * (all.segment<6>(k) - w.mechanism.bias().segment<6>(k));
+  }
+  w.mechanism.reactions(w.inertial - w.force, e.joint_reactions);
+  for (std::size_t s = 0; s < w.loads.size(); ++s) {
+    std::vector<Wrench>& of = e.by_source[s];
+    for (std::size_t b = 0; b < of.size(); ++b) of[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), w.motions[b].position};
+    if (w.loads[s].loads) w.loads[s].loads(t_s, w.motions, of);
+    if (!w.loads[s].added_mass) continue;
+    for (Matrix6& a : w.added) a.setZero();
+    w.loads[s].added_mass(t_s, w.motions, w.added);
+    for (std::size_t b = 0; b < of.size(); ++b) {
+      Eigen::Matrix<double, 6, 1> motion;
+      motion << e.acceleration[b], e.angular_acceleration[b];
+      const Eigen::Matrix<double, 6, 1> reaction = w.added[b] * motion;
+      of[b].force -= reaction.head<3>();
+      of[b].moment -= reaction.tail<3>();
+    }
+  }
+  return e;
+}
+
+double System::constraint_residual(const BodiesState& state, double t_s) {
+  w_->opened = state;
+  w_->open(w_->opened, t_s, false);
+  return w_->mechanism.residual();
+}
+
+double System::kinetic_energy(const BodiesState& state) const {
+  double energy = 0.0;
+  for (std::size_t b = 0; b < w_->bodies.size(); ++b) {
+    const Motion& m = state.motions[b];
+    energy += 0.5 * (w_->bodies[b].mass * m.velocity.squaredNorm() + m.omega.dot(w_->bodies[b].inertia * m.omega));
+  }
+  return energy;
+}
+
+std::string System::describe(const StepReport& r) const {
+  using Trouble = StepReport::Trouble;
+  const std::string joint = r.joint >= 0 ? "joint '" + w_->joints[std::size_t(r.joint)].name + "'" : "the bodies";
+  const std::string body = r.body >= 0 ? "body '" + w_->bodies[std::size_t(r.body)].name + "'" : "the bodies";
+  switch (r.trouble) {
+    case Trouble::none: return "no trouble";
+    case Trouble::newton:
+      return joint + ": the position equations did not converge (residual " + number(r.value) +
+             " of the reference length); try a smaller step";
+    case Trouble::singular:
+      return joint + ": the mechanism is in a singular position (pivot ratio " + number(r.value) +
+             "), where its motion is not determined; a different step or initial position avoids it";
+    case Trouble::inconsistent:
+      return joint + ": a condition that followed from the other joints at the start no longer does (residual " + number(r.value) +
+             " of the reference length); the start was a singular position or the joints contradict each other";
+    case Trouble::not_finite: return body + ": a load or motion is not a finite number; the step is probably beyond its stability limit";
+    case Trouble::mass: return "mass plus added mass is not positive definite";
+  }
+  return "";
+}
+
+NumericalFailure System::failure(const StepReport& r, const BodiesState& state, double tick_s) const {
+  const double t = double(state.tick) * tick_s;
+  const std::string place = r.joint >= 0  ? w_->joints[std::size_t(r.joint)].name
+                            : r.body >= 0 ? w_->bodies[std::size_t(r.body)].name
+                                          : "bodies";
+  return NumericalFailure("t = " + number(t) + " s, tick " + std::to_string(state.tick) + ": " + describe(r), place, long(state.tick), t,
+                          r.value);
+}
+
+StepReport System::open_chart(const BodiesState& state, double t_s) {
+  w_->opened = state;
+  return w_->open(w_->opened, t_s, false);
+}
+int System::freedoms() const { return w_->mechanism.freedoms(); }
+const Eigen::VectorXd& System::chart_velocity() const { return w_->mechanism.open_velocity(); }
+const StepReport& System::chart_report() const { return w_->report; }
+
+bool System::rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate, Eigen::VectorXd& u_rate) {
+  if (!w_->accelerations(t_s, x, u)) return false;
+  w_->mechanism.chart_rate(x_rate);
+  u_rate = w_->acceleration;
+  return true;
+}
+
+bool System::forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass) {
+  if (!w_->positions(t_s, x)) return false;
+  w_->mechanism.solve_velocities(Eigen::VectorXd::Zero(freedoms()), true);
+  w_->mechanism.motions(w_->motions);
+  w_->gather_loads(t_s);
+  w_->gather_mass(t_s);
+  w_->gather_forces(true);
+  w_->condense();
+  force.noalias() = w_->mechanism.tangent().transpose() * w_->force;
+  mass = w_->condensed;
+  return force.allFinite() || w_->fail(StepReport::Trouble::not_finite, -1);
+}
+
+bool System::close_chart(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, BodiesState& state) {
+  if (!w_->close(t_s, x, u)) return false;
+  state = w_->opened;
+  w_->mechanism.motions(state.motions);
+  w_->mechanism.turn_joints(state.joint_angles);
+  return true;
+}
+
+Eigen::MatrixXd System::motion_of_freedoms() const {
+  Eigen::MatrixXd motion = w_->mechanism.tangent();
+  for (Eigen::Index b = 0; b < motion.rows() / 6; ++b) motion.middleRows<3>(6 * b) *= w_->mechanism.length();
+  return motion;
+}
+
+LoadSource gravity_source(std::span<const Body> bodies, double gravity_m_s2, const Eigen::Vector3d& down) {
+  std::vector<Eigen::Vector3d> weight;
+  for (const Body& body : bodies) weight.push_back(body.mass * gravity_m_s2 * down.normalized());
+  return {"gravity",
+          [weight](double, std::span<const Motion>, std::span<Wrench> wrenches) {
+            for (std::size_t b = 0; b < wrenches.size(); ++b) wrenches[b].force += weight[b];
+          },
+          {}};
+}
+
+}  // namespace spindrift::bodies

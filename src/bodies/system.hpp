@@ -1,0 +1,114 @@
+// A system of rigid bodies under constraints and loads, advanced in time: coordinate partitioning (Nikravesh 1988; Wehage & Haug
+// 1982) with Newton-Raphson position solution, analytic Jacobian, added mass on the left-hand side. Theory: docs/theory/bodies.md.
+// Composed by src/coupling; statics.hpp and linearise.hpp work on its chart; tested in tests/src/bodies and tests/verification.
+//
+//   System system(bodies, joints, {gravity_source(bodies, 9.81), sea, moorings}, Integrator::rk4);
+//   Assembly start = system.assemble();            // start.contradiction, start.redundant: report to the user
+//   BodiesState state = start.state;
+//   StepReport r = system.advance(state, tick_s, ticks);   // t = state.tick * tick_s; state unchanged when !r.ok()
+//   if (!r.ok()) throw system.failure(r, state, tick_s);
+//   const Evaluation& now = system.evaluate(state, t);     // accelerations and wrenches by source, for output
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernels/base/failure.hpp"
+#include "kernels/rigid/integrators.hpp"
+#include "src/bodies/model.hpp"
+#include "src/bodies/state.hpp"
+
+namespace spindrift::bodies {
+
+/// How a step ended. Numbers only, so that reporting costs nothing; System::describe puts it in words.
+struct StepReport {
+  enum class Trouble {
+    none,
+    newton,        ///< the position equations did not converge
+    singular,      ///< the constraints lost rank: the mechanism is in a singular position
+    inconsistent,  ///< a constraint found redundant at the start is no longer satisfied
+    not_finite,    ///< a position, velocity or acceleration is not a finite number
+    mass,          ///< mass plus added mass is not positive definite
+  };
+  Trouble trouble = Trouble::none;
+  int joint = -1, body = -1;   ///< where, -1 when neither
+  double value = 0.0;          ///< residual over the reference length, or pivot
+  int newton_iterations = 0;   ///< in the whole step
+  bool repartitioned = false;  ///< a new independent set was chosen at the start of the step
+  bool ok() const { return trouble == Trouble::none; }
+};
+
+/// The state at the start: positions and velocities corrected so that every constraint and driver holds.
+struct Assembly {
+  BodiesState state;
+  int degrees_of_freedom = 0;
+  std::vector<std::string> redundant;  ///< one sentence for each joint with rows that follow from others
+  std::string contradiction;           ///< not empty: the joints cannot hold together; names them
+};
+
+/// Accelerations and loads of one state.
+struct Evaluation {
+  StepReport report;
+  std::vector<Eigen::Vector3d> acceleration;          ///< of centres of mass, earth axes [m/s2]
+  std::vector<Eigen::Vector3d> angular_acceleration;  ///< earth axes [rad/s2]
+  std::vector<std::vector<Wrench>> by_source;         ///< [source][body] about centres of mass; -A a of added mass included
+  std::vector<Wrench> joint_reactions;                ///< [joint] on its body j, about the joint's point, driver included
+};
+
+class System {
+ public:
+  System(std::vector<Body> bodies, std::vector<Joint> joints, std::vector<LoadSource> loads, Integrator integrator = Integrator::rk4);
+  ~System();
+  System(System&&) noexcept;
+
+  std::span<const Body> bodies() const;
+  std::span<const Joint> joints() const;
+  std::span<const LoadSource> loads() const;
+  Integrator integrator() const;
+  double reference_length() const;  ///< [m] largest arm of a joint, rounded to a power of two; 1 without joints
+
+  /// Consistent state at time `t_s` from the bodies' initial motions (tick 0).
+  Assembly assemble(double t_s = 0.0);
+  /// Consistent state with the given motions; `tick` and turns are kept from `near`.
+  Assembly assemble_from(const BodiesState& near, double t_s);
+
+  /// One step of `ticks` ticks with the chosen integrator. On trouble the state is left as it was. Does not allocate unless the
+  /// independent set is chosen anew.
+  StepReport advance(BodiesState& state, double tick_s, std::int64_t ticks);
+
+  /// Accelerations and loads by source; the reference is valid until the next call.
+  const Evaluation& evaluate(const BodiesState& state, double t_s);
+
+  /// Largest residual of all constraints over the reference length.
+  double constraint_residual(const BodiesState& state, double t_s);
+  /// Kinetic energy [J], added mass not included.
+  double kinetic_energy(const BodiesState& state) const;
+
+  std::string describe(const StepReport& report) const;
+  NumericalFailure failure(const StepReport& report, const BodiesState& state, double tick_s) const;
+
+  // The chart: coordinates of the configurations near a state, x in R^n with x = 0 at the state, one for each independent velocity u.
+  // Translations in units of reference_length(). For statics and linearisation.
+  StepReport open_chart(const BodiesState& state, double t_s);
+  int freedoms() const;
+  const Eigen::VectorXd& chart_velocity() const;  ///< u of the state
+  /// dx/dt and du/dt at chart point (x, u).
+  bool rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate, Eigen::VectorXd& u_rate);
+  /// Generalised forces at x with everything at rest, and the mass matrix (added mass included), both in chart coordinates.
+  bool forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass);
+  /// The state at chart point (x, u); false when the position equations fail (then chart_report()).
+  bool close_chart(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, BodiesState& state);
+  /// Velocities of all bodies per unit of each independent one: 6 rows per body (earth velocity [m/s]; body-axes spin), n columns.
+  Eigen::MatrixXd motion_of_freedoms() const;
+  const StepReport& chart_report() const;
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> w_;
+};
+
+}  // namespace spindrift::bodies
