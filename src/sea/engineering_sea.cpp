@@ -74,7 +74,7 @@ struct Water {
 void add_morison(const WettedStrip& strip, const Coefficients& c, double density, const Frame& body, const Water& water,
                  SeaLoads& loads, Matrix6* mass) {
   const Eigen::Matrix3d along = strip.axis * strip.axis.transpose(), across = Eigen::Matrix3d::Identity() - along;
-  for (const Station& s : strip.stations) {
+  for (const Station& s : std::span(strip.stations).first(strip.count)) {
     if (s.volume <= 0.0) continue;
     const waves::Kinematics k = water.at(s.arm);
     const double projected = 2.0 * s.volume / (pi * s.radius), added = c.added_mass * density * s.volume;
@@ -187,13 +187,13 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
   for (std::size_t i = 0; i < options.coefficients.size(); ++i) {
     const std::string& name = options.coefficients[i].cylinder;
     if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return has_cylinder(b, name); }))
-      problems.push_back({"sea.coefficients[" + std::to_string(i + 1) + "].cylinder",
+      problems.push_back({"sea.coefficients[" + std::to_string(i) + "].cylinder",
                           "names '" + name + "', which no body has; known: " + cylinders});
   }
   for (std::size_t i = 0; i < options.damping.size(); ++i) {
     const std::string& name = options.damping[i].body;
     if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return b.name == name; }))
-      problems.push_back({"sea.damping[" + std::to_string(i + 1) + "].body", "names '" + name + "', which is not in [bodies]; known: " + names});
+      problems.push_back({"sea.damping[" + std::to_string(i) + "].body", "names '" + name + "', which is not in [bodies]; known: " + names});
   }
   return problems;
 }

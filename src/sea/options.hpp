@@ -1,5 +1,5 @@
 // What a scene may say about waves and about the engineering rungs of the sea: [waves], [sea], [[sea.coefficients]], [[sea.damping]].
-// Keys are the members' names. Read by the coupling, which builds an EngineeringSea from them; tested in tests/src/sea.
+// Read by the coupling, which builds an EngineeringSea from them; tested in tests/src/sea.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "src/scene/section.hpp"
+
 namespace spindrift::sea {
 
 /// [waves]
@@ -16,14 +18,14 @@ struct WavesOptions {
   std::string model = "none";                    ///< none, airy, stokes2, jonswap, pierson_moskowitz
   double height_m = 0.0;                         ///< crest to trough; of a sea state, the significant height
   double period_s = 0.0;                         ///< of a sea state, the peak period
-  double direction_deg = 0.0;                    ///< towards which the waves travel, from x to y
-  double phase_deg = 0.0;                        ///< of a regular wave at the origin at t = 0; 0: a crest
+  double direction = 0.0;                        ///< towards which the waves travel, from x to y [rad]
+  double phase = 0.0;                            ///< of a regular wave at the origin at t = 0; 0: a crest [rad]
   double ramp_s = 0.0;                           ///< the waves grow from nothing over this time
   std::string stretching = "wheeler";            ///< wheeler, vertical, extrapolated (stokes2 is always extrapolated)
   std::int64_t seed = 1;                         ///< of the random phases
   int components = 200;                          ///< harmonics of a sea state
   std::string spacing = "equal_energy";          ///< equal_energy, equal_frequency
-  std::optional<double> peak_enhancement;        ///< gamma of JONSWAP; DNV-RP-C205 from height and period where absent
+  std::optional<double> peak_enhancement;        ///< gamma of JONSWAP; from height and period where absent (DNV-RP-C205)
 };
 
 /// [[sea.coefficients]]: what one cylinder has instead of the values of [sea].
@@ -52,6 +54,9 @@ struct SeaOptions {
   std::vector<CoefficientsOptions> coefficients;
   std::vector<DampingOptions> damping;
 };
+
+const scene::Section<WavesOptions>& waves_section();
+const scene::Section<SeaOptions>& sea_section();
 
 /// What [environment] and the still-water level mean for the sea.
 struct SeaEnvironment {

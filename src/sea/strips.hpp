@@ -42,7 +42,8 @@ struct End {
 struct WettedStrip {
   Eigen::Vector3d axis;
   waves::Wetted wetted;              ///< first moment about the centre of mass
-  std::array<Station, 2> stations;   ///< their volumes add to the wetted volume
+  std::array<Station, 4> stations;   ///< the first `count`; their volumes add to the wetted volume
+  std::size_t count = 0;
   std::array<End, 2> ends;
 };
 

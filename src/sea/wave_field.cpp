@@ -18,8 +18,8 @@ std::vector<waves::Component> regular_wave(const WavesOptions& options, const Se
                               .angular_frequency = omega,
                               .amplitude = amplitude,
                               .speed_amplitude = amplitude * omega,
-                              .phase = options.phase_deg * radians_per_degree,
-                              .direction = options.direction_deg * radians_per_degree};
+                              .phase = options.phase,
+                              .direction = options.direction};
   if (options.model == "airy") return {airy};
   return {airy, waves::stokes_second(airy, environment.water_depth)};
 }
@@ -31,7 +31,7 @@ std::vector<waves::Component> irregular_sea(const WavesOptions& options, const S
   std::vector<waves::Component> components(std::size_t(options.components));
   if (options.spacing == "equal_energy") waves::equal_energy(sea, components);
   else waves::equal_frequency(sea, components);
-  waves::finish_realisation(sea, std::uint64_t(options.seed), options.direction_deg * radians_per_degree, environment.water_depth,
+  waves::finish_realisation(sea, std::uint64_t(options.seed), options.direction, environment.water_depth,
                             environment.gravity, components);
   return components;
 }
@@ -58,7 +58,7 @@ WaveField::WaveField(const WavesOptions& options, const SeaEnvironment& environm
 }
 
 double WaveField::ramp(double t) const {
-  if (t >= ramp_end_) return 1.0;
+  if (ramp_end_ == 0.0 || t >= ramp_end_) return 1.0;
   return t <= 0.0 ? 0.0 : 0.5 * (1.0 - std::cos(pi * t / ramp_end_));
 }
 

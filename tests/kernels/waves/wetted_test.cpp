@@ -139,7 +139,7 @@ TEST_CASE("the wetted part of a frustum agrees with brute-force quadrature at an
     const Attitude a = random_attitude(random, true);
     worst = std::max(worst, error(a, frustum(a), slices(a)));
   }
-  CHECK(worst < 1e-7);
+  CHECK(worst < 1e-10);
   worst = 0.0;
   for (int i = 0; i < 4000; ++i) {
     const Attitude a = random_attitude(random, false);

@@ -1,0 +1,127 @@
+// The undisturbed sea of a scene: models, stretching, ramp, refusals.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/wave_field.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "kernels/waves/stokes.hpp"
+
+using namespace spindrift;
+using namespace spindrift::sea;
+
+namespace {
+
+const SeaEnvironment tank{1025.0, 20.6, 9.81};
+
+WavesOptions regular(const char* model) {
+  WavesOptions options;
+  options.model = model;
+  options.height_m = 1.88;
+  options.period_s = 8.8;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a wave travels in its direction from a crest at the origin", "[sea][fast]") {
+  WavesOptions options = regular("airy");
+  options.direction = 0.5 * pi;
+  const WaveField sea(options, tank);
+  CHECK(sea.elevation(0.0, 0.0, 0.0) == Approx(0.94));
+  CHECK(sea.elevation(8.8, 17.0, 0.0) == Approx(0.94));
+  const double c = waves::wave_properties(8.8, 20.6, 9.81).phase_speed;
+  CHECK(sea.elevation(2.0, 5.0, 2.0 * c) == Approx(0.94));
+  CHECK(sea.surface(1.0, 0.0, 3.0).slope_x == Approx(0.0).margin(1e-15));
+}
+
+TEST_CASE("the surface slope is the derivative of the elevation", "[sea][fast]") {
+  WavesOptions options = regular("jonswap");
+  options.direction = 0.7;
+  const WaveField sea(options, tank);
+  const double d = 1e-4, t = 31.0, x = 12.0, y = -4.0;
+  const waves::Surface s = sea.surface(t, x, y);
+  CHECK(s.slope_x == Approx((sea.elevation(t, x + d, y) - sea.elevation(t, x - d, y)) / (2 * d)).epsilon(1e-6));
+  CHECK(s.slope_y == Approx((sea.elevation(t, x, y + d) - sea.elevation(t, x, y - d)) / (2 * d)).epsilon(1e-6));
+}
+
+TEST_CASE("an irregular sea is the plain sum of its harmonics", "[sea][fast]") {
+  WavesOptions options = regular("jonswap");
+  options.components = 101;                                   // a part-filled group of lanes
+  options.stretching = "extrapolated";
+  options.direction = -0.4;
+  const WaveField sea(options, tank);
+  const double t = 100.0, x = 7.0, y = 3.0, z = -4.0;
+  double eta = 0.0;
+  Eigen::Vector3d u(0, 0, 0), a(0, 0, 0);
+  for (const waves::Component& c : sea.components()) {
+    const double k = c.wave_number, w = c.angular_frequency, bx = std::cos(c.direction), by = std::sin(c.direction);
+    const double psi = k * (x * bx + y * by) - w * t + c.phase;
+    const double C = std::cosh(k * (z + 20.6)) / std::sinh(k * 20.6), S = std::sinh(k * (z + 20.6)) / std::sinh(k * 20.6);
+    const double h = c.amplitude * w * C * std::cos(psi), dh = c.amplitude * w * w * C * std::sin(psi);
+    eta += c.amplitude * std::cos(psi);
+    u += Eigen::Vector3d(h * bx, h * by, c.amplitude * w * S * std::sin(psi));
+    a += Eigen::Vector3d(dh * bx, dh * by, -c.amplitude * w * w * S * std::cos(psi));
+  }
+  const waves::Kinematics k = sea.kinematics(t, {x, y, z}, sea.elevation(t, x, y));
+  CHECK(sea.components().size() == 101);
+  CHECK(sea.elevation(t, x, y) == Approx(eta).epsilon(1e-12));
+  CHECK((k.velocity - u).norm() < 1e-13);
+  CHECK((k.acceleration - a).norm() < 1e-13);
+}
+
+TEST_CASE("stretching brings linear kinematics to the surface by the rule that is named", "[sea][fast]") {
+  WavesOptions options = regular("airy");
+  const auto at = [&](const char* rule, double z) {
+    options.stretching = rule;
+    const WaveField sea(options, tank);
+    return sea.kinematics(0.0, {0, 0, z}, 0.94).velocity.x();
+  };
+  const double level = at("extrapolated", 0.0), crest = at("extrapolated", 0.94), bottom = at("extrapolated", -20.6);
+  CHECK(at("wheeler", 0.94) == Approx(level));
+  CHECK(at("wheeler", -20.6) == Approx(bottom));
+  CHECK(at("wheeler", -5.0) < at("extrapolated", -5.0));
+  CHECK(at("vertical", 0.94) == Approx(level));
+  CHECK(at("vertical", -5.0) == Approx(at("extrapolated", -5.0)));
+  CHECK(crest > level);
+  // Above the surface and below the bottom there is no water: the nearest is taken.
+  CHECK(at("extrapolated", 3.0) == Approx(crest));
+  CHECK(at("extrapolated", -25.0) == Approx(bottom));
+  // With Wheeler's rule the total pressure at the surface is zero to first order at the surface itself: p = rho g eta there.
+  options.stretching = "wheeler";
+  CHECK(WaveField(options, tank).kinematics(0.0, {0, 0, 0.94}, 0.94).pressure_over_density == Approx(9.81 * 0.94));
+}
+
+TEST_CASE("waves grow smoothly from nothing over the ramp", "[sea][fast]") {
+  WavesOptions options = regular("stokes2");
+  options.ramp_s = 10.0;
+  const WaveField sea(options, tank);
+  options.ramp_s = 0.0;
+  const WaveField full(options, tank);
+  CHECK(sea.elevation(0.0, 0, 0) == 0.0);
+  CHECK(sea.elevation(-1.0, 0, 0) == 0.0);
+  CHECK(sea.elevation(5.0, 0, 0) == Approx(0.5 * full.elevation(5.0, 0, 0)));
+  CHECK(sea.kinematics(5.0, {0, 0, -3}, 0).acceleration.x() == Approx(0.5 * full.kinematics(5.0, {0, 0, -3}, 0).acceleration.x()));
+  CHECK(sea.elevation(10.0, 0, 0) == full.elevation(10.0, 0, 0));
+  CHECK(full.elevation(0.0, 0, 0) > 0.94);                     // Stokes crest
+}
+
+TEST_CASE("no waves are still water", "[sea][fast]") {
+  CHECK(WaveField().still());
+  CHECK(WaveField(WavesOptions{}, tank).still());
+}
+
+TEST_CASE("a wave that would break, and a Stokes wave outside its theory, are refused by name", "[sea][fast]") {
+  CHECK(wave_problems(WavesOptions{}, tank).empty());
+  CHECK(wave_problems(regular("stokes2"), tank).empty());
+  WavesOptions steep = regular("airy");
+  steep.height_m = 15.0;
+  REQUIRE(wave_problems(steep, tank).size() == 1);
+  CHECK(wave_problems(steep, tank)[0].key == "waves.height_m");
+  CHECK(wave_problems(steep, tank)[0].what.find("breaks above") != std::string::npos);
+  WavesOptions shallow = regular("stokes2");
+  shallow.period_s = 25.0;
+  shallow.height_m = 6.0;
+  REQUIRE(wave_problems(shallow, tank).size() == 1);
+  CHECK(wave_problems(shallow, tank)[0].key == "waves.model");
+}
