@@ -26,6 +26,16 @@ inline double interpolate_linear(std::span<const double> x, std::span<const doub
   return (1.0 - s) * y[i] + s * y[i + 1];
 }
 
+/// Bilinear on a grid z[iy * x.size() + ix]; outside, the edge values hold. One row (y of size 1) is linear in x.
+inline double interpolate_bilinear(std::span<const double> x, std::span<const double> y, std::span<const double> z, double at_x,
+                                   double at_y) {
+  const auto row = [&](std::size_t iy) { return interpolate_linear(x, z.subspan(iy * x.size(), x.size()), at_x); };
+  if (y.size() == 1) return row(0);
+  const std::size_t i = interval(y, at_y);
+  const double s = std::clamp((at_y - y[i]) / (y[i + 1] - y[i]), 0.0, 1.0);
+  return (1.0 - s) * row(i) + s * row(i + 1);
+}
+
 /// Node slopes of the monotone cubic. Zero at a local extremum, so that each interval stays between its two values.
 inline void monotone_slopes(std::span<const double> x, std::span<const double> y, std::span<double> slope) {
   const std::size_t n = x.size();

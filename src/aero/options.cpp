@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "src/aero/prescribed.hpp"
+#include "src/aero/thrust_curve.hpp"
+#include "src/scene/document.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+const std::vector<std::string> prescribed{"prescribed"}, curves{"thrust_curve"}, tabulated{"prescribed", "thrust_curve"};
+
+void check_aero(const AeroOptions& o, const scene::Report& report) {
+  const bool series = !o.thrust_cosine_N.empty() || !o.thrust_sine_N.empty() || !o.torque_cosine_N_m.empty() ||
+                      !o.torque_sine_N_m.empty() || o.torque_N_m != 0.0;
+  if (!o.table.empty() && series) report("table", "takes the place of torque_N_m and of all harmonics: give the table or those");
+  if (!o.curve.empty() && o.torque_coefficient != 0.0)
+    report("torque_coefficient", "has no effect beside a curve, which has its own");
+}
+
+void check_axis(const RotorOptions& o, const scene::Report& report) {
+  if (o.axis.norm() == 0.0) report("axis", "must not be zero");
+}
+
+}  // namespace
+
+const scene::Section<AeroOptions>& aero_section() {
+  static const auto section =
+      scene::Section<AeroOptions>("aero", "The rotor's aerodynamics.")
+          .choice("model", &AeroOptions::model,
+                  {{"none", "no load"},
+                   {"prescribed", "thrust and torque constant, in harmonics of azimuth, or from a table in time"},
+                   {"thrust_curve", "thrust and torque from the wind that the hub meets"}},
+                  "Rung of the ladder.")
+          .number("thrust_N", &AeroOptions::thrust_N, "N", "Thrust, or its mean over a turn.")
+          .only_if("model", prescribed)
+          .numbers("thrust_cosine_N", &AeroOptions::thrust_cosine_N, "N",
+                   "Cosine coefficients of thrust in azimuth, harmonics 1, 2, ...")
+          .only_if("model", prescribed)
+          .numbers("thrust_sine_N", &AeroOptions::thrust_sine_N, "N",
+                   "Sine coefficients of thrust in azimuth, harmonics 1, 2, ...")
+          .only_if("model", prescribed)
+          .number("torque_N_m", &AeroOptions::torque_N_m, "N m", "Torque, or its mean over a turn.")
+          .only_if("model", prescribed)
+          .numbers("torque_cosine_N_m", &AeroOptions::torque_cosine_N_m, "N m", "Cosine coefficients of torque in azimuth.")
+          .only_if("model", prescribed)
+          .numbers("torque_sine_N_m", &AeroOptions::torque_sine_N_m, "N m", "Sine coefficients of torque in azimuth.")
+          .only_if("model", prescribed)
+          .integer("harmonic_step", &AeroOptions::harmonic_step, "-",
+                   "Harmonic k goes with k times this many azimuths: 3 for three equal blades passing a tower.",
+                   scene::between(1, 100))
+          .only_if("model", prescribed)
+          .path("table", &AeroOptions::table,
+                "CSV file with columns time_s, thrust_N and, if any, torque_N_m. Before the first and after the last row their "
+                "values hold.")
+          .only_if("model", prescribed)
+          .number("thrust_coefficient", &AeroOptions::thrust_coefficient, "-",
+                  "C_T of the analytic law, on disc area and relative wind.", scene::between(0.0, 10.0))
+          .only_if("model", curves)
+          .number("torque_coefficient", &AeroOptions::torque_coefficient, "-",
+                  "C_Q of the analytic law (power coefficient over tip-speed ratio).", scene::between(0.0, 10.0))
+          .only_if("model", curves)
+          .path("curve", &AeroOptions::curve,
+                "CSV file: wind_m_s with thrust_N or ct and, if any, torque_N_m, cq, or power_W or cp with speed_rpm; or "
+                "tip_speed_ratio, if any blade_pitch_deg, with ct and, if any, cp or cq. Beyond its edges the coefficients hold.")
+          .only_if("model", curves)
+          .choice("interpolation", &AeroOptions::interpolation,
+                  {{"linear", "straight lines between rows"},
+                   {"cubic", "monotone cubics, smooth and without overshoot; tables over two variables stay bilinear"}},
+                  "Between the rows of a table or curve.")
+          .only_if("model", tabulated)
+          .one_of({"thrust_N", "table"})
+          .one_of({"thrust_coefficient", "curve"})
+          .check(check_aero);
+  return section;
+}
+
+const scene::Section<RotorOptions>& rotor_section() {
+  const std::vector<std::string> no_joint{""};
+  static const auto section =
+      scene::Section<RotorOptions>("rotor", "The rotor: what carries it, how it turns, how large it is.")
+          .text("body", &RotorOptions::body, "Body that takes the rotor's load.")
+          .text("joint", &RotorOptions::joint, "Joint that is the bearing: its point is the hub, its axis the rotor's, downwind.")
+          .vector("hub_m", &RotorOptions::hub_m, "m", "Hub, initial earth coordinates.")
+          .only_if("joint", no_joint)
+          .vector("axis", &RotorOptions::axis, "-", "Rotor axis, downwind, initial earth frame; any length.")
+          .only_if("joint", no_joint)
+          .rpm("speed_rpm", &RotorOptions::speed, "Constant rotor speed where no body turns.", scene::between(-1e4, 1e4))
+          .only_if("joint", no_joint)
+          .degrees("azimuth_deg", &RotorOptions::azimuth, "Azimuth of blade 1 at the start; zero is up.",
+                   scene::between(-360.0, 360.0))
+          .degrees("blade_pitch_deg", &RotorOptions::blade_pitch, "Blade pitch, positive nose into the wind (towards feather).",
+                   scene::between(-180.0, 180.0))
+          .number("diameter_m", &RotorOptions::diameter_m, "m", "Rotor diameter.", scene::positive())
+          .check(check_axis);
+  return section;
+}
+
+const scene::Section<WindOptions>& wind_section() {
+  static const auto section = scene::Section<WindOptions>("wind", "The undisturbed wind: uniform and steady.")
+                                  .number("speed_m_s", &WindOptions::speed_m_s, "m/s", "Wind speed.", scene::between(0.0, 200.0))
+                                  .degrees("direction_deg", &WindOptions::direction,
+                                           "Where it blows to: 0 along +x, positive towards +y.", scene::between(-360.0, 360.0));
+  return section;
+}
+
+void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptions& rotor, std::span<const std::string> bodies,
+                 std::span<const std::string> joints) {
+  const auto among = [](std::span<const std::string> names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (aero.model == "none" && rotor.body.empty()) return;
+  if (rotor.body.empty())
+    doc.problem("rotor.body", "must name the body that takes the load of [aero]");
+  else if (!among(bodies, rotor.body))
+    doc.problem("rotor.body",
+                fmt::format("names body \"{}\", which is not in [bodies]; known: {}", rotor.body, fmt::join(bodies, ", ")));
+  if (!rotor.joint.empty() && !among(joints, rotor.joint))
+    doc.problem("rotor.joint",
+                fmt::format("names joint \"{}\", which is not in [joints]; known: {}", rotor.joint, fmt::join(joints, ", ")));
+  if (aero.model == "thrust_curve" && !rotor.diameter_m) {
+    doc.problem("rotor.diameter_m", "must be given: aero.model \"thrust_curve\" needs the disc area");
+    return;
+  }
+  const auto try_file = [&](const std::string& key, const std::string& path, auto read) {
+    if (!path.empty()) try {
+        read();
+      } catch (const scene::SceneError& e) { doc.problem(key, e.what()); }
+  };
+  try_file("aero.table", aero.table, [&] { Prescribed model(aero); });
+  try_file("aero.curve", aero.curve, [&] { ThrustCurve model(aero, rotor, 1.0); });
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,60 @@
+// Options of the rotor and its air at engineering fidelity: [aero], [rotor], [wind], and the rules between them.
+// Declared in options.cpp; read by src/app; tested in tests/src/aero/options_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace spindrift::scene {
+template <class Options>
+class Section;
+class Document;
+}  // namespace spindrift::scene
+
+namespace spindrift::aero {
+
+struct AeroOptions {
+  std::string model = "none";
+  // prescribed
+  std::optional<double> thrust_N;
+  std::vector<double> thrust_cosine_N, thrust_sine_N;
+  double torque_N_m = 0.0;
+  std::vector<double> torque_cosine_N_m, torque_sine_N_m;
+  int harmonic_step = 1;  ///< harmonic k turns with k * harmonic_step azimuths
+  std::string table;      ///< path: load against time
+  // thrust_curve
+  std::optional<double> thrust_coefficient;
+  double torque_coefficient = 0.0;
+  std::string curve;  ///< path: load against wind, or coefficients against tip-speed ratio
+  std::string interpolation = "linear";
+};
+
+struct RotorOptions {
+  std::string body;                                 ///< takes the load
+  std::string joint;                                ///< the bearing: gives hub, axis and rotation; empty: the next three
+  Eigen::Vector3d hub_m = Eigen::Vector3d::Zero();  ///< initial earth coordinates
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  double speed = 0.0;        ///< [rad/s]
+  double azimuth = 0.0;      ///< at the start [rad]
+  double blade_pitch = 0.0;  ///< [rad], positive nose into the wind
+  std::optional<double> diameter_m;
+};
+
+struct WindOptions {
+  double speed_m_s = 0.0;
+  double direction = 0.0;  ///< where it blows to, from +x towards +y [rad]
+};
+
+const scene::Section<AeroOptions>& aero_section();
+const scene::Section<RotorOptions>& rotor_section();
+const scene::Section<WindOptions>& wind_section();
+
+/// Rules between sections: the body and joint exist, the rotor has what its model needs, data files are readable.
+void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptions& rotor, std::span<const std::string> bodies,
+                 std::span<const std::string> joints);
+
+}  // namespace spindrift::aero

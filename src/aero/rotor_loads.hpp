@@ -1,0 +1,66 @@
+// The rotor at engineering fidelity: where it is, how it turns, and the thrust and torque of its model on its body.
+// Thrust acts at the hub along the rotor axis, torque about it; both follow the attitude of the rotor's body. Signs:
+// docs/user/conventions.md. Equations: docs/theory/rotor_engineering.md.
+// Built and called by src/coupling; tested in tests/src/aero/rotor_loads_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <variant>
+
+#include "kernels/rigid/motion.hpp"
+#include "kernels/rigid/wrench.hpp"
+#include "src/aero/options.hpp"
+#include "src/aero/prescribed.hpp"
+#include "src/aero/thrust_curve.hpp"
+
+namespace spindrift::aero {
+
+/// How the rotor sits in the scene at the start: from its bearing, or from [rotor] itself where it names no joint.
+struct RotorPlacement {
+  static constexpr int earth = -1;
+  int body = 0;                ///< index of the body that takes the load
+  std::optional<int> support;  ///< what it turns against (a body or `earth`); without one it turns by [rotor] speed_rpm
+  Eigen::Vector3d hub = Eigen::Vector3d::Zero();    ///< earth coordinates [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< downwind, earth frame; normalised on use
+};
+
+/// What the rotor does now.
+struct RotorState {
+  double azimuth = 0.0;                     ///< of blade 1 from its upright position, in [0, 2 pi) [rad]
+  double speed = 0.0;                       ///< [rad/s]
+  Eigen::Vector3d hub, axis, hub_velocity;  ///< earth frame [m], [-], [m/s]
+  double relative_wind = 0.0;               ///< along the axis, seen from the hub [m/s]
+};
+
+struct RotorLoad {
+  double thrust = 0.0;  ///< [N]
+  double torque = 0.0;  ///< [N m]
+  double power = 0.0;   ///< torque times rotor speed [W]
+};
+
+class RotorLoads {
+ public:
+  /// `start`: initial motions of all bodies, in the order of every later call. Data files have been checked (check_rotor); throws
+  /// scene::SceneError where one cannot be read.
+  RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density_kg_m3,
+             const RotorPlacement& placement, std::span<const Motion> start);
+
+  /// Adds the load, times `ramp`, to the rotor body's wrench.
+  void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp = 1.0) const;
+
+  RotorState state(double t, std::span<const Motion> bodies) const;
+  RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const;
+
+ private:
+  RotorPlacement placement_;
+  Eigen::Vector3d hub_, axis_;     ///< axes of the rotor's body, from its centre of mass
+  Eigen::Vector3d support_axis_;   ///< axes of the support
+  Eigen::Quaterniond start_turn_;  ///< attitude of the body seen from the support at the start
+  double start_azimuth_, speed_, blade_pitch_;
+  Eigen::Vector3d wind_;
+  std::variant<std::monostate, Prescribed, ThrustCurve> model_;
+};
+
+}  // namespace spindrift::aero

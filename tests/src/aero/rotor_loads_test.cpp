@@ -1,0 +1,149 @@
+// Laws of src/aero/rotor_loads.hpp: where the rotor is, how it turns, and where its load goes.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/rotor_loads.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "kernels/base/constants.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Platform (0) and rotor (1) of the paper's turbine; the rotor's centre of mass 2 m upwind of the hub, its axes not the earth's.
+std::vector<Motion> start() {
+  Motion platform, rotor;
+  platform.position = {0, 0, -4};
+  platform.attitude = Eigen::AngleAxisd(0.2, Vector3d(0, 1, 1).normalized());
+  rotor.position = {-2, 0, 119};
+  rotor.attitude = Eigen::AngleAxisd(1.1, Vector3d(1, -2, 0.5).normalized());
+  return {platform, rotor};
+}
+
+/// The pair after the platform has pitched about the origin and the rotor has turned in its bearing.
+std::vector<Motion> moved(double pitch, double azimuth, double speed, double pitch_rate) {
+  auto bodies = start();
+  const Quaterniond tilt(Eigen::AngleAxisd(pitch, Vector3d::UnitY())), spin(Eigen::AngleAxisd(azimuth, Vector3d::UnitX()));
+  for (Motion& b : bodies) b.position = tilt * b.position;
+  bodies[0].attitude = tilt * bodies[0].attitude;
+  bodies[1].attitude = tilt * spin * bodies[1].attitude;
+  const Vector3d rate = pitch_rate * Vector3d::UnitY(), rotor_rate = rate + speed * (tilt * Vector3d::UnitX());
+  bodies[0].omega = bodies[0].attitude.conjugate() * rate;
+  bodies[1].omega = bodies[1].attitude.conjugate() * rotor_rate;
+  for (Motion& b : bodies) b.velocity = rate.cross(b.position);
+  return bodies;
+}
+
+const RotorPlacement bearing{.body = 1, .support = 0, .hub = {0, 0, 119}, .axis = {2, 0, 0}};
+
+std::vector<Wrench> loads(const RotorLoads& rotor, double t, const std::vector<Motion>& bodies, double ramp = 1.0) {
+  std::vector<Wrench> w(bodies.size());
+  for (std::size_t i = 0; i < w.size(); ++i) w[i].point = bodies[i].position;
+  rotor.add_loads(t, bodies, w, ramp);
+  return w;
+}
+
+AeroOptions constant_thrust() {
+  AeroOptions o;
+  o.model = "prescribed", o.thrust_N = 1.5e6, o.torque_N_m = 1e7;
+  return o;
+}
+
+AeroOptions analytic_law() {
+  AeroOptions o;
+  o.model = "thrust_curve", o.thrust_coefficient = 0.8;
+  return o;
+}
+
+RotorOptions turbine() {
+  RotorOptions o;
+  o.body = "rotor", o.joint = "bearing", o.diameter_m = 178.33;
+  return o;
+}
+
+}  // namespace
+
+TEST_CASE("thrust acts at the hub along the axis and follows the tilt of the tower", "[aero][fast]") {
+  const RotorLoads rotor(constant_thrust(), turbine(), {}, 1.225, bearing, start());
+  const double pitch = GENERATE(0.0, 0.09, -0.5), azimuth = GENERATE(0.0, 2.5);
+  const auto bodies = moved(pitch, azimuth, 0.9, 0.01);
+  const auto w = loads(rotor, 3.0, bodies);
+  const Vector3d axis(std::cos(pitch), 0, -std::sin(pitch));
+  CHECK((w[1].force - 1.5e6 * axis).norm() < 1e-6);
+  CHECK((w[1].moment - 1e7 * axis).norm() < 1e-4);  // the hub is on the rotor's axis: thrust has no arm about its centre
+  CHECK(w[0].force == Vector3d::Zero());
+  CHECK(w[1].about(Vector3d::Zero()).moment.y() == Approx(119 * 1.5e6));
+}
+
+TEST_CASE("azimuth and speed are those of the bearing, whatever the platform does", "[aero][fast]") {
+  RotorOptions options = turbine();
+  options.azimuth = 0.25;
+  const RotorLoads rotor(constant_thrust(), options, {}, 1.225, bearing, start());
+  const double azimuth = GENERATE(0.0, 1.0, 3.5, 6.0, -1.0, 40.0);
+  const RotorState now = rotor.state(7.0, moved(0.3, azimuth, 0.9, 0.2));
+  CHECK(std::remainder(now.azimuth - (azimuth + 0.25), 2 * pi) == Approx(0.0).margin(1e-12));
+  CHECK(now.azimuth >= 0.0);
+  CHECK(now.azimuth < 2 * pi);
+  CHECK(now.speed == Approx(0.9));
+  CHECK((now.hub_velocity - Vector3d(0, 0.2, 0).cross(now.hub)).norm() < 1e-12);
+}
+
+TEST_CASE("a rotor without a body of its own turns by its given speed", "[aero][fast]") {
+  RotorOptions options = turbine();
+  options.joint = "", options.speed = 0.9, options.azimuth = 1.0;
+  AeroOptions aero = constant_thrust();
+  aero.thrust_cosine_N = {1e5};
+  const RotorLoads rotor(aero, options, {}, 1.225, {.body = 0, .support = std::nullopt, .hub = {0, 0, 119}}, start());
+  const auto w = loads(rotor, 10.0, start());
+  CHECK(w[0].force.x() == Approx(1.5e6 + 1e5 * std::cos(10.0)));  // azimuth 1 + 0.9 * 10
+  CHECK(w[1].force == Vector3d::Zero());
+  CHECK(rotor.load(0.0, rotor.state(0.0, start())).power == Approx(0.9e7));
+}
+
+TEST_CASE("a hub that moves downwind feels less wind and less thrust: damping of pitch by dT/dU", "[aero][fast]") {
+  const WindOptions wind{.speed_m_s = 11.0};
+  const RotorLoads rotor(analytic_law(), turbine(), wind, 1.225, bearing, start());
+  const double still = loads(rotor, 0.0, moved(0.0, 0.0, 0.9, 0.0))[1].force.x();
+  const double rate = 1e-4, forward = loads(rotor, 0.0, moved(0.0, 0.0, 0.9, rate))[1].force.x();
+  const double area = pi / 4 * 178.33 * 178.33;
+  CHECK(still == Approx(0.5 * 1.225 * area * 0.8 * 121.0));
+  CHECK((forward - still) / (119 * rate) == Approx(-1.225 * area * 0.8 * 11.0).epsilon(1e-3));
+}
+
+TEST_CASE("wind across the axis makes no thrust, wind from behind makes it negative", "[aero][fast]") {
+  WindOptions wind{.speed_m_s = 11.0, .direction = GENERATE(0.0, 0.4, 0.5 * pi, pi)};
+  const RotorLoads rotor(analytic_law(), turbine(), wind, 1.225, bearing, start());
+  const double along = 11.0 * std::cos(wind.direction);
+  CHECK(rotor.state(0.0, start()).relative_wind == Approx(along).margin(1e-12));
+  const double expected = 0.5 * 1.225 * pi / 4 * 178.33 * 178.33 * 0.8 * along * std::abs(along);
+  CHECK(loads(rotor, 0.0, start())[1].force.x() == Approx(expected).margin(1e-6));
+}
+
+TEST_CASE("a ramp scales load and power, and no model means no load", "[aero][fast]") {
+  const RotorLoads rotor(constant_thrust(), turbine(), {}, 1.225, bearing, start());
+  const auto bodies = moved(0.1, 0.5, 0.9, 0.0);
+  CHECK((loads(rotor, 0.0, bodies, 0.25)[1].force - 0.25 * loads(rotor, 0.0, bodies)[1].force).norm() < 1e-9);
+  const RotorLoad load = rotor.load(0.0, rotor.state(0.0, bodies), 0.25);
+  CHECK(load.thrust == Approx(0.25 * 1.5e6));
+  CHECK(load.power == Approx(0.25 * 1e7 * 0.9));
+  const RotorLoads idle({}, turbine(), {}, 1.225, bearing, start());
+  CHECK(loads(idle, 0.0, bodies)[1].force == Vector3d::Zero());
+}
+
+TEST_CASE("the load is the same in every frame of reference that a turned scene stands for", "[aero][fast]") {
+  const WindOptions wind{.speed_m_s = 11.0, .direction = 0.3};
+  const RotorLoads rotor(analytic_law(), turbine(), wind, 1.225, bearing, start());
+  const auto before = moved(0.1, 0.5, 0.9, 0.02);
+  const Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d::UnitZ()));
+  auto after = before;
+  for (Motion& b : after) b.position = turn * b.position, b.velocity = turn * b.velocity, b.attitude = turn * b.attitude;
+  WindOptions turned = wind;
+  turned.direction += 0.7;
+  const RotorLoads same(analytic_law(), turbine(), turned, 1.225, bearing, start());
+  const auto w = loads(rotor, 0.0, before), v = loads(same, 0.0, after);
+  CHECK((v[1].force - turn * w[1].force).norm() < 1e-6);
+  CHECK((v[1].moment - turn * w[1].moment).norm() < 1e-4);
+}
