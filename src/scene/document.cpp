@@ -82,7 +82,15 @@ void Document::add(const Value* at, std::string key, std::string value, std::str
   problems_.push_back({sources_[std::size_t(where.source)].name, where.line, std::move(key), std::move(value), std::move(message)});
 }
 
+std::string Document::home_of(std::string_view key) const {
+  for (const SectionBase* section : known_)
+    if (section->find(key)) return fmt::format(" ({} is a key of [{}{}])", key, section->name(), section->is_named() ? ".NAME" : "");
+  return "";
+}
+
 void Document::finish() {
+  for (const auto& [problem, key] : strays_) problems_[problem].message += home_of(key);
+  strays_.clear();
   std::vector<std::string> known;
   for (const SectionBase* section : known_) known.push_back(section->name());
   for (const Value& top : root_.children) {
@@ -90,7 +98,7 @@ void Document::finish() {
     const std::string near = nearest(top.key, known);
     const std::string hint = near.empty() ? fmt::format("a scene has: {}", joined(known, ", ")) : fmt::format("did you mean [{}]?", near);
     if (top.is_table() || top.is_list_of_tables()) add(&top, toml_key(top.key), "", "unknown section; " + hint);
-    else add(&top, toml_key(top.key), top.written(), "unknown key outside any section; " + hint);
+    else add(&top, toml_key(top.key), top.written(), "unknown key outside any section; " + hint + home_of(top.key));
   }
   if (problems_.empty()) return;
   const auto order = [&](const Problem& p) {

@@ -79,11 +79,13 @@ class Document {
   std::vector<std::string> names(const SectionBase& section);
   std::pair<const Value*, bool> locate(std::string_view key) const;  ///< the deepest value on the way; is it the key itself?
   void add(const Value* at, std::string key, std::string value, std::string message);
+  std::string home_of(std::string_view key) const;  ///< " (a key of [time])" where a section read so far has it
 
   Value root_;
   std::vector<Source> sources_;
   std::vector<Problem> problems_;
   std::vector<const SectionBase*> known_;  ///< sections read, in order
+  std::vector<std::pair<std::size_t, std::string>> strays_;  ///< problems about unknown keys, to be told where they belong
   std::string echo_;                       ///< of the sections read, in order
 };
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "src/scene/printed.hpp"
-#include "src/scene/value.hpp"
 
 namespace spindrift::scene {
 
@@ -79,8 +79,8 @@ double to_key_unit(double x, double scale) {
     std::snprintf(text, sizeof text, "%.*g", digits, quotient);
     if (const double candidate = std::strtod(text, nullptr); candidate * scale == x) return candidate;
   }
-  for (double up = quotient, down = quotient; const int step : {1, 2, 3}) {
-    (void)step;
+  double up = quotient, down = quotient;
+  for (int ulps = 1; ulps <= 3; ++ulps) {
     up = std::nextafter(up, HUGE_VAL), down = std::nextafter(down, -HUGE_VAL);
     if (up * scale == x) return up;
     if (down * scale == x) return down;
@@ -119,16 +119,14 @@ std::string plain_value(const Parameter& p, const void* options) {
   return printed(p, options);
 }
 
+bool holds(const SectionBase& section, const Condition& c, const void* options) {
+  const Parameter* on = section.find(c.key);
+  return on && has_effect(section, *on, options) &&
+         std::find(c.values.begin(), c.values.end(), plain_value(*on, options)) != c.values.end();
+}
+
 bool has_effect(const SectionBase& section, const Parameter& p, const void* options) {
-  for (const Condition& c : p.conditions) {
-    const Parameter* on = section.find(c.key);
-    if (!on || !has_effect(section, *on, options)) return false;
-    const std::string value = plain_value(*on, options);
-    bool met = false;
-    for (const std::string& wanted : c.values) met = met || wanted == value;
-    if (!met) return false;
-  }
-  return true;
+  return std::all_of(p.conditions.begin(), p.conditions.end(), [&](const Condition& c) { return holds(section, c, options); });
 }
 
 std::string rendered(const SectionBase& section, const std::string& heading, const void* options, const Value* given) {

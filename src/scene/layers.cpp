@@ -232,34 +232,34 @@ void add_overrides(Layers& layers, const std::vector<std::string>& overrides) {
   layers.sources.push_back({"command line", fs::current_path().string()});
   for (const std::string& text : overrides) {
     const std::size_t equals = text.find('=');
-    const std::string key = text.substr(0, equals);
-    const auto complain = [&](std::string value, std::string message) {
-      layers.problems.push_back({"command line", 0, key, std::move(value), std::move(message)});
-    };
-    if (equals == std::string::npos) {
-      complain("", "an override is KEY=VALUE");
-      continue;
-    }
+    std::string key = text.substr(0, equals);
+    while (key.ends_with(' ')) key.pop_back();
     const auto steps = parse_key(key);
-    if (!steps) {
-      complain(text.substr(equals + 1), "is not a key; write SECTION.KEY=VALUE, bodies.NAME.KEY=VALUE, ...");
+    const auto complain = [&](std::string about, std::string value, std::string message) {
+      layers.problems.push_back({"command line", 0, std::move(about), std::move(value), std::move(message)});
+    };
+    if (equals == std::string::npos || !steps) {
+      complain(text, "", "is no override; write SECTION.KEY=VALUE or bodies.NAME.KEY=VALUE");
       continue;
     }
     std::string why_not;
-    std::optional<Value> value = override_value(std::string_view(text).substr(equals + 1), source, why_not);
+    const std::string_view written = std::string_view(text).substr(equals + 1);
+    std::optional<Value> value = override_value(written, source, why_not);
     if (!value) {
-      complain(text.substr(equals + 1), why_not);
+      complain(key, std::string(written), why_not);
       continue;
     }
     if (key == "base") {
-      complain(value->written(), "base files are named in scene files only");
+      complain(key, value->written(), "base files are named in scene files only");
     } else if (key == "without") {
       Value root;
       value->key = key;
       root.children.push_back(std::move(*value));
       for (const Value& gone : FileReader(layers).take_texts(root, key)) FileReader::remove(layers, layers.root, gone);
-    } else if (const std::string problem = set_value(layers.root, *steps, *value); !problem.empty()) {
-      complain(value->written(), problem);
+    } else {
+      Value changed = layers.root;
+      if (const std::string problem = set_value(changed, *steps, *value); problem.empty()) layers.root = std::move(changed);
+      else complain(key, value->written(), problem);
     }
   }
 }

@@ -213,6 +213,7 @@ void Reader::unknown_keys(const SectionBase& section, const Value& table, const 
     const std::string hint = near.empty() ? fmt::format("{} has: {}", section_label(name), joined(known, ", "))
                                           : fmt::format("did you mean '{}'?", near);
     wrong(child, name + "." + toml_key(child.key), "unknown key; " + hint);
+    if (near.empty()) document_.strays_.emplace_back(document_.problems_.size() - 1, child.key);
   }
 }
 
@@ -224,9 +225,7 @@ void Reader::conditions(const SectionBase& section, const Value* table, const st
     for (const Condition& c : p.conditions) {
       const Parameter* on = section.find(c.key);
       doubtful = doubtful || !on || bad.count(c.key) > 0;
-      Parameter alone = p;
-      alone.conditions = {c};
-      if (!unmet && !has_effect(section, alone, options)) unmet = &c;
+      if (!unmet && !holds(section, c, options)) unmet = &c;
     }
     if (doubtful) continue;
     if (value && unmet) {
@@ -234,7 +233,7 @@ void Reader::conditions(const SectionBase& section, const Value* table, const st
       wrong(*value, name + "." + p.key,
             fmt::format("has no effect here: only where {}, and {} is {}{}", words(*unmet), unmet->key, plain_value(on, options), aside(p)));
     } else if (!value && !unmet && p.required) {
-      missing(table, name + "." + p.key, fmt::format("is missing: must be given{}{}", in_unit(p), aside(p)));
+      missing(table, name + "." + p.key, "is missing and has no default" + aside(p));
     }
   }
 }

@@ -74,6 +74,7 @@ std::vector<std::string> SectionBase::faults() const {
     for (const Condition& c : p.conditions) {
       const Parameter* on = find(c.key);
       if (!on || (on->kind != Kind::choice && on->kind != Kind::text && on->kind != Kind::flag)) fault(p, "depends on " + c.key + ", which is no choice, text or flag");
+      else if (on >= &p) fault(p, "must be declared after " + c.key + ", which it depends on");
       else if (on->kind == Kind::choice)
         for (const std::string& value : c.values)
           if (std::none_of(on->choices.begin(), on->choices.end(), [&](const Choice& x) { return x.name == value; }))

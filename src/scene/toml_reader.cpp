@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "src/scene/error.hpp"
+#include "src/scene/text_check.hpp"
 
 namespace spindrift::scene {
 
@@ -17,22 +18,6 @@ constexpr std::size_t largest_scene = 4u << 20;  // bytes; series and tables bel
 
 int line_of(std::string_view text, std::size_t offset) {
   return 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(offset), '\n'));
-}
-
-/// Offset of the first byte that is not part of well-formed UTF-8 (Unicode 15, table 3-7), or npos.
-/// toml++ 3.3.0 has undefined behaviour on some such bytes (44 ef bb bb), so they must not reach it.
-std::size_t first_bad_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = [&](std::size_t k) { return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u; };
-    const auto tail = [&](std::size_t k, unsigned low = 0x80, unsigned high = 0xbf) { return byte(k) >= low && byte(k) <= high; };
-    const unsigned b = byte(0);
-    if (b < 0x80) i += 1;
-    else if (b >= 0xc2 && b <= 0xdf && tail(1)) i += 2;
-    else if (b >= 0xe0 && b <= 0xef && tail(1, b == 0xe0 ? 0xa0 : 0x80, b == 0xed ? 0x9f : 0xbf) && tail(2)) i += 3;
-    else if (b >= 0xf0 && b <= 0xf4 && tail(1, b == 0xf0 ? 0x90 : 0x80, b == 0xf4 ? 0x8f : 0xbf) && tail(2) && tail(3)) i += 4;
-    else return i;
-  }
-  return std::string_view::npos;
 }
 
 [[noreturn]] void fail(const std::string& name, int line, std::string message) {
@@ -83,9 +68,7 @@ Value convert(const toml::node& node, int source) {
 Value read_toml(std::string_view text, int source, const std::string& name) {
   if (text.size() > largest_scene)
     fail(name, 0, fmt::format("has {} bytes; a scene has at most {} (put long tables into files of their own)", text.size(), largest_scene));
-  if (const std::size_t bad = first_bad_utf8(text); bad != std::string_view::npos)
-    fail(name, line_of(text, bad),
-         fmt::format("is not UTF-8 text (byte {:#04x} at offset {}); save the file as UTF-8", static_cast<unsigned char>(text[bad]), bad));
+  if (const auto bad = refuse(text)) fail(name, line_of(text, bad->offset), bad->why);
   try {
     return convert_table(toml::parse(text, std::string_view(name)), source);
   } catch (const toml::parse_error& error) {

@@ -70,7 +70,10 @@ std::string Value::found() const {
 
 std::string joined(const std::vector<std::string>& words, std::string_view between) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : std::string(between)) + word;
+  for (const std::string& word : words) {
+    if (&word != &words.front()) text += between;
+    text += word;
+  }
   return text;
 }
 
@@ -93,6 +96,10 @@ std::string toml_number(double x) {
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, x).ptr;
   std::string text(buffer, end);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  if (const std::size_t e = text.find('e'); e != std::string::npos) {  // 4e8 rather than 4e+08
+    std::size_t digits = e + 1 + (text[e + 1] == '-');
+    while (text[digits] == '+' || (text[digits] == '0' && digits + 1 < text.size())) text.erase(digits, 1);
+  }
   return text;
 }
 
