@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "src/scene/layers.hpp"
 #include "src/scene/printed.hpp"
@@ -37,9 +38,12 @@ std::vector<std::string> Document::names(const SectionBase& section) {
   }
   for (const Value& one : all->children) {
     const std::string key = section.name() + "." + toml_key(one.key);
-    if (!one.is_table()) add(&one, key, one.is_list_of_tables() ? "" : one.written(), "must stand in a section " + form);
-    else if (toml_key(one.key) != one.key) add(&one, key, "", "a name has letters, digits, '_' and '-' only");  // names go into columns and file names
-    else names.push_back(one.key);
+    if (!one.is_table())
+      add(&one, key, one.is_list_of_tables() ? "" : one.written(), "must stand in a section " + form);
+    else if (toml_key(one.key) != one.key)
+      add(&one, key, "", "a name has letters, digits, '_' and '-' only");  // names go into columns and file names
+    else
+      names.push_back(one.key);
   }
   return names;
 }
@@ -79,12 +83,14 @@ void Document::problem(std::string_view key, std::string message) {
 
 void Document::add(const Value* at, std::string key, std::string value, std::string message) {
   const Where where = at ? at->where : Where{};
-  problems_.push_back({sources_[std::size_t(where.source)].name, where.line, std::move(key), std::move(value), std::move(message)});
+  problems_.push_back(
+      {sources_[std::size_t(where.source)].name, where.line, std::move(key), std::move(value), std::move(message)});
 }
 
 std::string Document::home_of(std::string_view key) const {
   for (const SectionBase* section : known_)
-    if (section->find(key)) return fmt::format(" ({} is a key of [{}{}])", key, section->name(), section->is_named() ? ".NAME" : "");
+    if (section->find(key))
+      return fmt::format(" ({} is a key of [{}{}])", key, section->name(), section->is_named() ? ".NAME" : "");
   return "";
 }
 
@@ -96,9 +102,12 @@ void Document::finish() {
   for (const Value& top : root_.children) {
     if (std::find(known.begin(), known.end(), top.key) != known.end()) continue;
     const std::string near = nearest(top.key, known);
-    const std::string hint = near.empty() ? fmt::format("a scene has: {}", joined(known, ", ")) : fmt::format("did you mean [{}]?", near);
-    if (top.is_table() || top.is_list_of_tables()) add(&top, toml_key(top.key), "", "unknown section; " + hint);
-    else add(&top, toml_key(top.key), top.written(), "unknown key outside any section; " + hint + home_of(top.key));
+    const std::string hint =
+        near.empty() ? fmt::format("a scene has: {}", joined(known, ", ")) : fmt::format("did you mean [{}]?", near);
+    if (top.is_table() || top.is_list_of_tables())
+      add(&top, toml_key(top.key), "", "unknown section; " + hint);
+    else
+      add(&top, toml_key(top.key), top.written(), "unknown key outside any section; " + hint + home_of(top.key));
   }
   if (problems_.empty()) return;
   const auto order = [&](const Problem& p) {
@@ -112,22 +121,25 @@ void Document::finish() {
 std::string Document::echo() const { return "# The scene as run, every default spelled out.\n" + echo_; }
 
 namespace {
-Document compose(Layers layers, const std::vector<std::string>& overrides) {
-  add_overrides(layers, overrides);
+Document compose(Layers layers, const std::vector<std::string>& overrides, const Source& overrider) {
+  add_overrides(layers, overrides, overrider);
   return Document(std::move(layers.root), std::move(layers.sources), std::move(layers.problems));
 }
 }  // namespace
 
-Document load(const std::string& path, const std::vector<std::string>& overrides) {
+Source command_line() { return {"command line", std::filesystem::current_path().string()}; }
+
+Document load(const std::string& path, const std::vector<std::string>& overrides, const Source& overrider) {
   Layers layers;
   add_file(layers, path);
-  return compose(std::move(layers), overrides);
+  return compose(std::move(layers), overrides, overrider);
 }
 
-Document parse(std::string_view text, const std::string& name, const std::string& directory, const std::vector<std::string>& overrides) {
+Document parse(std::string_view text, const std::string& name, const std::string& directory,
+               const std::vector<std::string>& overrides, const Source& overrider) {
   Layers layers;
   add_text(layers, text, name, directory);
-  return compose(std::move(layers), overrides);
+  return compose(std::move(layers), overrides, overrider);
 }
 
 }  // namespace spindrift::scene

@@ -21,7 +21,8 @@
 
 namespace spindrift::scene {
 
-template <class Options> struct Named {
+template <class Options>
+struct Named {
   std::string name;
   Options options;
 };
@@ -37,18 +38,21 @@ class Document {
   Document(Value root, std::vector<Source> sources, std::vector<Problem> problems);
 
   /// The options of a section, defaults where the scene gives nothing. Problems are kept for finish().
-  template <class Options> Options read(const Section<Options>& section) {
+  template <class Options>
+  Options read(const Section<Options>& section) {
     Options options;
     read_into(section, &options);
     return options;
   }
   /// The same for a section that means something by being there: nothing where the scene does not name it.
-  template <class Options> std::optional<Options> read_if_given(const Section<Options>& section) {
+  template <class Options>
+  std::optional<Options> read_if_given(const Section<Options>& section) {
     if (!announce(section)) return std::nullopt;
     return read(section);
   }
   /// All [section.NAME], in file order.
-  template <class Options> std::vector<Named<Options>> read_named(const Section<Options>& section) {
+  template <class Options>
+  std::vector<Named<Options>> read_named(const Section<Options>& section) {
     std::vector<Named<Options>> all;
     for (const std::string& name : names(section)) {
       all.push_back({name, Options()});
@@ -70,6 +74,8 @@ class Document {
   std::string echo() const;
   /// Name of the scene file, as given.
   const std::string& source() const { return sources_.front().name; }
+  /// Absolute directory of the scene file.
+  const std::string& directory() const { return sources_.front().directory; }
 
  private:
   friend class Reader;
@@ -84,16 +90,18 @@ class Document {
   Value root_;
   std::vector<Source> sources_;
   std::vector<Problem> problems_;
-  std::vector<const SectionBase*> known_;  ///< sections read, in order
+  std::vector<const SectionBase*> known_;                    ///< sections read, in order
   std::vector<std::pair<std::size_t, std::string>> strays_;  ///< problems about unknown keys, to be told where they belong
-  std::string echo_;                       ///< of the sections read, in order
+  std::string echo_;                                         ///< of the sections read, in order
 };
+
+Source command_line();  ///< paths start at the working directory
 
 /// Reads a scene file, the files it is based on, and `overrides` ("a.b=c"). Throws SceneError where the text cannot be
 /// read at all (no such file, not TOML, a cycle of bases); everything else waits for Document::finish.
-Document load(const std::string& path, const std::vector<std::string>& overrides = {});
+Document load(const std::string& path, const std::vector<std::string>& overrides = {}, const Source& overrider = command_line());
 /// The same from memory: `name` is shown in messages, relative paths and bases start at `directory`.
 Document parse(std::string_view text, const std::string& name, const std::string& directory,
-               const std::vector<std::string>& overrides = {});
+               const std::vector<std::string>& overrides = {}, const Source& overrider = command_line());
 
 }  // namespace spindrift::scene

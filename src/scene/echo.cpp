@@ -15,7 +15,8 @@ namespace {
 /// Accessors take a pointer to mutable options because the reader fills through them; printing only looks.
 void* looked_at(const void* options) { return const_cast<void*>(options); }
 
-template <class Range, class Print> std::string bracketed(const Range& range, Print print) {
+template <class Range, class Print>
+std::string bracketed(const Range& range, Print print) {
   std::string text = "[";
   for (const auto& x : range) text += (text.size() > 1 ? ", " : "") + print(x);
   return text + "]";
@@ -50,7 +51,8 @@ void render(std::string& out, const SectionBase& section, const std::string& hea
   for (const Parameter& p : section.parameters()) {
     if (p.kind == Kind::table || (p.kind == Kind::tables && p.member.size(options) > 0)) continue;
     if (!has_effect(section, p, options) || (alternative(p) && !is_given(p))) continue;
-    if (const std::string value = printed(p, options); !value.empty()) out += fmt::format("{} = {}  # {}\n", p.key, value, comment(p));
+    if (const std::string value = printed(p, options); !value.empty())
+      out += fmt::format("{} = {}  # {}\n", p.key, value, comment(p));
   }
   for (const Parameter& p : section.parameters()) {
     if (!p.nested || !has_effect(section, p, options) || (p.optional && !p.member.has(options))) continue;
@@ -109,13 +111,15 @@ std::string printed(const Parameter& p, const void* options) {
   if (auto* x = std::get_if<std::string*>(&slot)) return p.kind == Kind::path && (*x)->empty() ? "" : toml_quoted(**x);
   if (auto* x = std::get_if<std::span<double>>(&slot)) return p.kind == Kind::symmetric ? symmetric(*x) : numbers(*x, p.scale);
   if (auto* x = std::get_if<std::vector<double>*>(&slot)) return numbers(**x, p.scale);
-  if (auto* x = std::get_if<std::vector<std::string>*>(&slot)) return bracketed(**x, [](const std::string& s) { return toml_quoted(s); });
+  if (auto* x = std::get_if<std::vector<std::string>*>(&slot))
+    return bracketed(**x, [&](const std::string& s) { return p.kind == Kind::values ? s : toml_quoted(s); });
   return "";
 }
 
 std::string plain_value(const Parameter& p, const void* options) {
   if (p.kind == Kind::choice && p.member.size(options) < p.choices.size()) return p.choices[p.member.size(options)].name;
-  if (p.kind == Kind::text && !(p.optional && !p.member.has(options))) return *std::get<std::string*>(p.member.slot(looked_at(options)));
+  if (p.kind == Kind::text && !(p.optional && !p.member.has(options)))
+    return *std::get<std::string*>(p.member.slot(looked_at(options)));
   return printed(p, options);
 }
 

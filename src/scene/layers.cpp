@@ -102,7 +102,8 @@ class FileReader {
     Value* at = &root;
     bool gone = false;
     if (steps) {
-      for (std::size_t i = 0; at && i + 1 < steps->size(); ++i) at = (*steps)[i].indices.empty() ? at->find((*steps)[i].name) : nullptr;
+      for (std::size_t i = 0; at && i + 1 < steps->size(); ++i)
+        at = (*steps)[i].indices.empty() ? at->find((*steps)[i].name) : nullptr;
       gone = at && steps->back().indices.empty() && at->is_table() && at->erase(steps->back().name);
     }
     if (!gone)
@@ -131,17 +132,16 @@ std::optional<Value> override_value(std::string_view text, int source, std::stri
   if (first == std::string_view::npos) return why_not = "has no value; write KEY=VALUE", std::nullopt;
   std::string why_not_toml;
   try {
-    Value root = read_toml("value = " + std::string(text), source, "command line");
+    Value root = read_toml("value = " + std::string(text), source, "");
     if (root.children.size() == 1 && root.children[0].key == "value" && !text.starts_with('.')) {
       mark(root, source);
       return std::move(root.children[0]);
     }
     why_not_toml = "is more than one value";
-  } catch (const SceneError& error) {
-    why_not_toml = error.problems().front().message;
-  }
+  } catch (const SceneError& error) { why_not_toml = error.problems().front().message; }
   const char c = text[first];
-  const bool word = std::isalpha(static_cast<unsigned char>(c)) || c == '_' || c == '/' || (c == '.' && text.size() > 1 && !std::isdigit(static_cast<unsigned char>(text[1])));
+  const bool word = std::isalpha(static_cast<unsigned char>(c)) || c == '_' || c == '/' ||
+                    (c == '.' && text.size() > 1 && !std::isdigit(static_cast<unsigned char>(text[1])));
   if (!word || text.find('\n') != std::string_view::npos)
     return why_not = why_not_toml + " (texts may go without quotes if they begin with a letter)", std::nullopt;
   Value value;
@@ -169,7 +169,8 @@ std::string set_value(Value& root, const std::vector<KeyStep>& steps, Value valu
     }
     at = next;
   }
-  if (at->is_table() && value.is_table()) overlay(*at, std::move(value));
+  if (at->is_table() && value.is_table())
+    overlay(*at, std::move(value));
   else {
     value.key = at->key;
     *at = std::move(value);
@@ -215,8 +216,10 @@ void overlay(Value& under, Value over) {
   }
   under.where = over.where;
   for (Value& child : over.children) {
-    if (Value* same = under.find(child.key)) overlay(*same, std::move(child));
-    else under.children.push_back(std::move(child));
+    if (Value* same = under.find(child.key))
+      overlay(*same, std::move(child));
+    else
+      under.children.push_back(std::move(child));
   }
 }
 
@@ -226,17 +229,17 @@ void add_text(Layers& layers, std::string_view text, const std::string& name, co
   overlay(layers.root, FileReader(layers).text(text, name, directory));
 }
 
-void add_overrides(Layers& layers, const std::vector<std::string>& overrides) {
+void add_overrides(Layers& layers, const std::vector<std::string>& overrides, const Source& from) {
   if (overrides.empty()) return;
   const int source = int(layers.sources.size());
-  layers.sources.push_back({"command line", fs::current_path().string()});
+  layers.sources.push_back(from);
   for (const std::string& text : overrides) {
     const std::size_t equals = text.find('=');
     std::string key = text.substr(0, equals);
     while (key.ends_with(' ')) key.pop_back();
     const auto steps = parse_key(key);
     const auto complain = [&](std::string about, std::string value, std::string message) {
-      layers.problems.push_back({"command line", 0, std::move(about), std::move(value), std::move(message)});
+      layers.problems.push_back({from.name, 0, std::move(about), std::move(value), std::move(message)});
     };
     if (equals == std::string::npos || !steps) {
       complain(text, "", "is no override; write SECTION.KEY=VALUE or bodies.NAME.KEY=VALUE");
@@ -258,8 +261,10 @@ void add_overrides(Layers& layers, const std::vector<std::string>& overrides) {
       for (const Value& gone : FileReader(layers).take_texts(root, key)) FileReader::remove(layers, layers.root, gone);
     } else {
       Value changed = layers.root;
-      if (const std::string problem = set_value(changed, *steps, *value); problem.empty()) layers.root = std::move(changed);
-      else complain(key, value->written(), problem);
+      if (const std::string problem = set_value(changed, *steps, *value); problem.empty())
+        layers.root = std::move(changed);
+      else
+        complain(key, value->written(), problem);
     }
   }
 }

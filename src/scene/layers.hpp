@@ -1,6 +1,6 @@
 // How scenes compose: base files under the file that names them, overrides of the command line on top.
-// The rules are those of docs/user/scenes.md. Called by src/scene/document.cpp and study.cpp; tested in tests/src/scene/layers_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// The rules are those of docs/user/scenes.md. Called by src/scene/document.cpp and study.cpp; tested in
+// tests/src/scene/layers_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -36,7 +36,7 @@ struct Layers {
 void add_file(Layers& layers, const std::string& path);
 /// The same from memory.
 void add_text(Layers& layers, std::string_view text, const std::string& name, const std::string& directory);
-/// Applies "a.b=c" overrides in their order.
-void add_overrides(Layers& layers, const std::vector<std::string>& overrides);
+/// Applies "a.b=c" overrides in their order, as from `source`.
+void add_overrides(Layers& layers, const std::vector<std::string>& overrides, const Source& source);
 
 }  // namespace spindrift::scene

@@ -29,6 +29,7 @@ enum class Kind {
   symmetric,  ///< Eigen::Matrix3d: three diagonal numbers, or three rows
   numbers,    ///< std::vector<double>
   texts,      ///< std::vector<std::string>
+  values,     ///< std::vector<std::string> of values of any type, each as TOML writes it
   rows,       ///< std::vector of fixed numbers: [[0.0, 1.0], [2.0, 5.0]]
   table,      ///< nested options: [sea.grid]
   tables,     ///< std::vector of nested options: [[bodies.platform.cylinders]]
@@ -45,8 +46,8 @@ struct Condition {
 };
 
 /// The place in an options struct that a value goes to.
-using Slot = std::variant<std::monostate, double*, int*, std::int64_t*, bool*, std::string*, std::span<double>, std::vector<double>*,
-                          std::vector<std::string>*>;
+using Slot = std::variant<std::monostate, double*, int*, std::int64_t*, bool*, std::string*, std::span<double>,
+                          std::vector<double>*, std::vector<std::string>*>;
 
 /// Access to one member of an options struct behind a void pointer. What a kind does not need is empty.
 struct Member {
@@ -59,11 +60,11 @@ struct Member {
 };
 
 struct Parameter {
-  std::string key;   ///< within its section; names its unit: "window_s"
+  std::string key;  ///< within its section; names its unit: "window_s"
   Kind kind = Kind::number;
-  std::string unit;  ///< "-" for dimensionless numbers, empty where a unit makes no sense
-  std::string help;  ///< one sentence
-  Range range;       ///< of each number, in the key's unit
+  std::string unit;    ///< "-" for dimensionless numbers, empty where a unit makes no sense
+  std::string help;    ///< one sentence
+  Range range;         ///< of each number, in the key's unit
   double scale = 1.0;  ///< member = value in the file * scale (degrees and rpm are SI in the options)
   std::size_t min_size = 0, max_size = std::numeric_limits<std::size_t>::max();  ///< of lists
   bool required = false;

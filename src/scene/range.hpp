@@ -18,8 +18,8 @@ struct Range {
   constexpr Range up_to(double limit) const { return {low, limit, low_open, false}; }
   constexpr Range below(double limit) const { return {low, limit, low_open, true}; }
 
-  bool bounded() const;             ///< false where any finite number will do
-  bool contains(double x) const;    ///< x finite and inside
+  bool bounded() const;                                 ///< false where any finite number will do
+  bool contains(double x) const;                        ///< x finite and inside
   std::string describe(const std::string& unit) const;  ///< "> 0 and <= 1000 s"; "a finite number" where unbounded
 };
 

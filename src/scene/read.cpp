@@ -17,7 +17,8 @@ namespace {
 std::string aside(const Parameter& p) {
   std::string text = p.help;
   while (!text.empty() && text.back() == '.') text.pop_back();
-  const bool sentence_case = text.size() > 1 && std::isupper(static_cast<unsigned char>(text[0])) && !std::isupper(static_cast<unsigned char>(text[1]));
+  const bool sentence_case =
+      text.size() > 1 && std::isupper(static_cast<unsigned char>(text[0])) && !std::isupper(static_cast<unsigned char>(text[1]));
   if (sentence_case) text[0] = char(std::tolower(static_cast<unsigned char>(text[0])));
   return text.empty() ? "" : " (" + text + ")";
 }
@@ -42,8 +43,10 @@ void round_default(const Parameter& p, void* options) {
   const Slot slot = p.member.slot(options);
   const auto round = [&](double& x) { x = to_key_unit(x, p.scale) * p.scale; };
   if (auto* x = std::get_if<double*>(&slot)) round(**x);
-  if (auto* x = std::get_if<std::span<double>>(&slot)) for (double& one : *x) round(one);
-  if (auto* x = std::get_if<std::vector<double>*>(&slot)) for (double& one : **x) round(one);
+  if (auto* x = std::get_if<std::span<double>>(&slot))
+    for (double& one : *x) round(one);
+  if (auto* x = std::get_if<std::vector<double>*>(&slot))
+    for (double& one : **x) round(one);
 }
 
 }  // namespace
@@ -58,9 +61,12 @@ bool Reader::section(const SectionBase& section, const Value* table, const std::
   for (const Parameter& p : section.parameters()) {
     const std::size_t so_far = document_.problems_.size();
     const std::string key = name + "." + p.key;
-    if (const Value* value = table ? table->find(p.key) : nullptr) parameter(p, *value, key, options);
-    else if (p.kind == Kind::table && !p.optional) this->section(*p.nested, nullptr, key, p.member.element(options, 0));
-    else round_default(p, options);
+    if (const Value* value = table ? table->find(p.key) : nullptr)
+      parameter(p, *value, key, options);
+    else if (p.kind == Kind::table && !p.optional)
+      this->section(*p.nested, nullptr, key, p.member.element(options, 0));
+    else
+      round_default(p, options);
     if (document_.problems_.size() != so_far) bad.insert(p.key);
   }
   if (table) unknown_keys(section, *table, name);
@@ -76,29 +82,42 @@ void Reader::parameter(const Parameter& p, const Value& value, const std::string
       section(*p.nested, &value, key, p.member.element(options, 0));
       return;
     case Kind::rows:
-    case Kind::tables: list(p, value, key, options); return;
-    case Kind::choice: choice(p, value, key, options); return;
-    default: leaf(p, value, key, p.member.slot(options));
+    case Kind::tables:
+      list(p, value, key, options);
+      return;
+    case Kind::choice:
+      choice(p, value, key, options);
+      return;
+    default:
+      leaf(p, value, key, p.member.slot(options));
   }
 }
 
 void Reader::leaf(const Parameter& p, const Value& value, const std::string& key, const Slot& slot) {
-  const auto must_be = [&](const char* what) { wrong(value, key, fmt::format("must be {}, not {}{}", what, value.found(), aside(p))); };
+  const auto must_be = [&](const char* what) {
+    wrong(value, key, fmt::format("must be {}, not {}{}", what, value.found(), aside(p)));
+  };
   if (auto* x = std::get_if<double*>(&slot)) {
     number(p, value, key, **x);
   } else if (std::holds_alternative<int*>(slot) || std::holds_alternative<std::int64_t*>(slot)) {
     integer(p, value, key, slot);
   } else if (auto* x = std::get_if<bool*>(&slot)) {
-    if (value.kind == Value::Kind::flag) **x = value.flag;
-    else must_be("true or false");
+    if (value.kind == Value::Kind::flag)
+      **x = value.flag;
+    else
+      must_be("true or false");
   } else if (auto* x = std::get_if<std::string*>(&slot)) {
-    if (p.kind == Kind::path) path(p, value, key, **x);
-    else if (value.kind == Value::Kind::text) **x = value.text;
-    else must_be("a text in quotes");
+    if (p.kind == Kind::path)
+      path(p, value, key, **x);
+    else if (value.kind == Value::Kind::text)
+      **x = value.text;
+    else
+      must_be("a text in quotes");
   } else if (auto* x = std::get_if<std::span<double>>(&slot)) {
     if (p.kind == Kind::symmetric) return symmetric(p, value, key, *x);
     if (value.kind != Value::Kind::array || value.children.size() != x->size())
-      return wrong(value, key, fmt::format("must be a list of {} numbers{}, not {}{}", x->size(), in_unit(p), value.found(), aside(p)));
+      return wrong(value, key,
+                   fmt::format("must be a list of {} numbers{}, not {}{}", x->size(), in_unit(p), value.found(), aside(p)));
     for (std::size_t i = 0; i < x->size(); ++i) number(p, value.children[i], fmt::format("{}[{}]", key, i), (*x)[i]);
   } else if (auto* x = std::get_if<std::vector<double>*>(&slot)) {
     if (!is_list(p, value, key)) return;
@@ -109,9 +128,14 @@ void Reader::leaf(const Parameter& p, const Value& value, const std::string& key
     (*x)->assign(value.children.size(), "");
     for (std::size_t i = 0; i < (*x)->size(); ++i) {
       const std::string entry = fmt::format("{}[{}]", key, i);
-      if (p.kind == Kind::path) path(p, value.children[i], entry, (**x)[i]);
-      else if (value.children[i].kind == Value::Kind::text) (**x)[i] = value.children[i].text;
-      else wrong(value.children[i], entry, fmt::format("must be a text in quotes, not {}{}", value.children[i].found(), aside(p)));
+      if (p.kind == Kind::values)
+        (**x)[i] = value.children[i].toml();
+      else if (p.kind == Kind::path)
+        path(p, value.children[i], entry, (**x)[i]);
+      else if (value.children[i].kind == Value::Kind::text)
+        (**x)[i] = value.children[i].text;
+      else
+        wrong(value.children[i], entry, fmt::format("must be a text in quotes, not {}{}", value.children[i].found(), aside(p)));
     }
   }
 }
@@ -119,7 +143,11 @@ void Reader::leaf(const Parameter& p, const Value& value, const std::string& key
 bool Reader::is_list(const Parameter& p, const Value& value, const std::string& key) {
   if (value.kind != Value::Kind::array) {
     const bool texts = p.kind == Kind::texts || p.kind == Kind::path;
-    const std::string what = p.kind == Kind::tables ? "tables, [[" + key + "]]" : texts ? "texts" : p.kind == Kind::rows ? "rows" : "numbers" + in_unit(p);
+    const std::string what = p.kind == Kind::tables   ? "tables, [[" + key + "]]"
+                             : texts                  ? "texts"
+                             : p.kind == Kind::values ? "values"
+                             : p.kind == Kind::rows   ? "rows"
+                                                      : "numbers" + in_unit(p);
     return wrong(value, key, fmt::format("must be a list of {}, not {}{}", what, value.found(), aside(p))), false;
   }
   const std::size_t n = value.children.size();
@@ -133,8 +161,10 @@ void Reader::list(const Parameter& p, const Value& value, const std::string& key
   for (std::size_t i = 0; i < value.children.size(); ++i) {
     const Value& child = value.children[i];
     const std::string entry = fmt::format("{}[{}]", key, i);
-    if (p.kind == Kind::rows) leaf(p, child, entry, p.member.row(options, i));
-    else section(*p.nested, &child, entry, p.member.element(options, i));
+    if (p.kind == Kind::rows)
+      leaf(p, child, entry, p.member.row(options, i));
+    else
+      section(*p.nested, &child, entry, p.member.element(options, i));
   }
 }
 
@@ -151,11 +181,15 @@ void Reader::integer(const Parameter& p, const Value& value, const std::string& 
   if (value.kind != Value::Kind::integer)
     return wrong(value, key, fmt::format("must be an integer, not {}{}", value.found(), aside(p)));
   auto* small = std::get_if<int*>(&slot);
-  const bool fits = !small || (value.integer >= std::numeric_limits<int>::min() && value.integer <= std::numeric_limits<int>::max());
+  const bool fits =
+      !small || (value.integer >= std::numeric_limits<int>::min() && value.integer <= std::numeric_limits<int>::max());
   if (!p.range.contains(double(value.integer)) || !fits)
-    return wrong(value, key, fmt::format("must be {}{}", fits ? p.range.describe(p.unit) : "an integer of at most 31 bits", aside(p)));
-  if (small) **small = int(value.integer);
-  else *std::get<std::int64_t*>(slot) = value.integer;
+    return wrong(value, key,
+                 fmt::format("must be {}{}", fits ? p.range.describe(p.unit) : "an integer of at most 31 bits", aside(p)));
+  if (small)
+    **small = int(value.integer);
+  else
+    *std::get<std::int64_t*>(slot) = value.integer;
 }
 
 void Reader::choice(const Parameter& p, const Value& value, const std::string& key, void* options) {
@@ -175,7 +209,8 @@ void Reader::path(const Parameter& p, const Value& value, const std::string& key
   const fs::path path = (fs::path(document_.sources_[std::size_t(value.where.source)].directory) / value.text).lexically_normal();
   std::error_code error;
   if (!fs::exists(path, error)) return wrong(value, key, fmt::format("no such file: {}{}", path.string(), aside(p)));
-  if (fs::is_directory(path, error)) return wrong(value, key, fmt::format("is a directory, not a file: {}{}", path.string(), aside(p)));
+  if (fs::is_directory(path, error))
+    return wrong(value, key, fmt::format("is a directory, not a file: {}{}", path.string(), aside(p)));
   if (!std::ifstream(path)) return wrong(value, key, fmt::format("cannot be read: {}{}", path.string(), aside(p)));
   out = path.string();
 }
@@ -185,7 +220,9 @@ void Reader::symmetric(const Parameter& p, const Value& value, const std::string
   const bool list = value.kind == Value::Kind::array && rows.size() == 3;
   const bool matrix = list && rows[0].kind == Value::Kind::array;
   if (!list)
-    return wrong(value, key, fmt::format("must be three diagonal numbers or three rows of three{}, not {}{}", in_unit(p), value.found(), aside(p)));
+    return wrong(
+        value, key,
+        fmt::format("must be three diagonal numbers or three rows of three{}, not {}{}", in_unit(p), value.found(), aside(p)));
   for (double& x : out) x = 0.0;
   if (!matrix) {
     for (std::size_t i = 0; i < 3; ++i) number(p, rows[i], fmt::format("{}[{}]", key, i), out[4 * i]);
@@ -194,7 +231,8 @@ void Reader::symmetric(const Parameter& p, const Value& value, const std::string
   bool well = true;
   for (std::size_t i = 0; i < 3; ++i) {
     if (rows[i].kind != Value::Kind::array || rows[i].children.size() != 3)
-      return wrong(rows[i], fmt::format("{}[{}]", key, i), fmt::format("must be a row of 3 numbers, not {}{}", rows[i].found(), aside(p)));
+      return wrong(rows[i], fmt::format("{}[{}]", key, i),
+                   fmt::format("must be a row of 3 numbers, not {}{}", rows[i].found(), aside(p)));
     for (std::size_t j = 0; j < 3; ++j)
       well = number(p, rows[i].children[j], fmt::format("{}[{}][{}]", key, i, j), out[3 * i + j]) && well;
   }
@@ -217,7 +255,8 @@ void Reader::unknown_keys(const SectionBase& section, const Value& table, const 
   }
 }
 
-void Reader::conditions(const SectionBase& section, const Value* table, const std::string& name, const void* options, const Names& bad) {
+void Reader::conditions(const SectionBase& section, const Value* table, const std::string& name, const void* options,
+                        const Names& bad) {
   for (const Parameter& p : section.parameters()) {
     const Value* value = table ? table->find(p.key) : nullptr;
     const Condition* unmet = nullptr;
@@ -231,7 +270,8 @@ void Reader::conditions(const SectionBase& section, const Value* table, const st
     if (value && unmet) {
       const Parameter& on = *section.find(unmet->key);
       wrong(*value, name + "." + p.key,
-            fmt::format("has no effect here: only where {}, and {} is {}{}", words(*unmet), unmet->key, plain_value(on, options), aside(p)));
+            fmt::format("has no effect here: only where {}, and {} is {}{}", words(*unmet), unmet->key, plain_value(on, options),
+                        aside(p)));
     } else if (!value && !unmet && p.required) {
       missing(table, name + "." + p.key, "is missing and has no default" + aside(p));
     }
@@ -249,7 +289,8 @@ void Reader::alternatives(const SectionBase& section, const Value* table, const 
       if (const Value* value = table ? table->find(key) : nullptr) given.push_back(value);
     }
     if (given.size() > 1)
-      wrong(*given[1], name + "." + given[1]->key, fmt::format("cannot stand beside {}; give one of: {}", given[0]->key, joined(allowed, ", ")));
+      wrong(*given[1], name + "." + given[1]->key,
+            fmt::format("cannot stand beside {}; give one of: {}", given[0]->key, joined(allowed, ", ")));
     if (given.empty() && !group.at_most && !allowed.empty())
       missing(table, name, fmt::format("give exactly one of: {}", joined(allowed, ", ")));
   }
@@ -260,8 +301,10 @@ void Reader::rules(const SectionBase& section, const Value* table, const std::st
     check(options, [&](std::string_view key, std::string message) {
       const Value* value = table && !key.empty() ? table->find(key) : nullptr;
       const std::string full = key.empty() ? name : name + "." + std::string(key);
-      if (value) wrong(*value, full, std::move(message));
-      else missing(table, full, std::move(message));
+      if (value)
+        wrong(*value, full, std::move(message));
+      else
+        missing(table, full, std::move(message));
     });
 }
 
@@ -269,6 +312,8 @@ void Reader::wrong(const Value& at, const std::string& key, std::string message)
   document_.add(&at, key, at.is_table() || at.is_list_of_tables() ? "" : at.written(), std::move(message));
 }
 
-void Reader::missing(const Value* table, const std::string& key, std::string message) { document_.add(table, key, "", std::move(message)); }
+void Reader::missing(const Value* table, const std::string& key, std::string message) {
+  document_.add(table, key, "", std::move(message));
+}
 
 }  // namespace spindrift::scene

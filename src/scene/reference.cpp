@@ -34,22 +34,37 @@ std::vector<Entry> entries(std::span<const SectionBase* const> sections) {
 
 std::string type_of(const Parameter& p, const void* options) {
   switch (p.kind) {
-    case Kind::number: return "number";
-    case Kind::integer: return "integer";
-    case Kind::flag: return "true or false";
-    case Kind::text: return "text";
-    case Kind::choice: return "choice";
-    case Kind::path: return "file";
+    case Kind::number:
+      return "number";
+    case Kind::integer:
+      return "integer";
+    case Kind::flag:
+      return "true or false";
+    case Kind::text:
+      return "text";
+    case Kind::choice:
+      return "choice";
+    case Kind::path:
+      return "file";
     case Kind::vector: {
-      const auto defaults = p.optional ? std::size_t(0) : std::get<std::span<double>>(p.member.slot(const_cast<void*>(options))).size();
+      const auto defaults =
+          p.optional ? std::size_t(0) : std::get<std::span<double>>(p.member.slot(const_cast<void*>(options))).size();
       return defaults ? fmt::format("{} numbers", defaults) : "numbers";
     }
-    case Kind::symmetric: return "3 diagonal numbers or 3x3";
-    case Kind::numbers: return "list of numbers";
-    case Kind::texts: return "list of texts";
-    case Kind::rows: return "list of rows of numbers";
-    case Kind::table: return "section";
-    case Kind::tables: return "list of sections";
+    case Kind::symmetric:
+      return "3 diagonal numbers or 3x3";
+    case Kind::numbers:
+      return "list of numbers";
+    case Kind::texts:
+      return "list of texts";
+    case Kind::values:
+      return "list of values";
+    case Kind::rows:
+      return "list of rows of numbers";
+    case Kind::table:
+      return "section";
+    case Kind::tables:
+      return "list of sections";
   }
   return "";
 }
@@ -66,7 +81,8 @@ std::vector<std::string> limits(const Parameter& p) {
   if (p.range.bounded()) all.push_back(p.range.describe(""));
   const bool unlimited = p.max_size == std::numeric_limits<std::size_t>::max();
   if (p.min_size > 0 || !unlimited)
-    all.push_back(unlimited ? fmt::format("at least {} entries", p.min_size) : fmt::format("{} to {} entries", p.min_size, p.max_size));
+    all.push_back(unlimited ? fmt::format("at least {} entries", p.min_size)
+                            : fmt::format("{} to {} entries", p.min_size, p.max_size));
   for (const Condition& c : p.conditions) all.push_back(fmt::format("only if {} is {}", c.key, joined(c.values, " or ")));
   return all;
 }
@@ -107,8 +123,10 @@ void plain(std::string& out, const Entry& entry) {
 }  // namespace
 
 std::string reference_markdown(std::span<const SectionBase* const> sections) {
-  std::string out = "# Scene reference\n\nEvery key of a scene; written by `spindrift reference --markdown`, not by hand. How scenes are composed: "
-                    "`docs/user/scenes.md`.\n";
+  std::string out =
+      "# Scene reference\n\nEvery key of a scene; written by `spindrift reference --markdown`, not by hand. How scenes are "
+      "composed: "
+      "`docs/user/scenes.md`.\n";
   for (const Entry& entry : entries(sections)) {
     const auto options = entry.section->default_options();
     out += fmt::format("\n## `{}`\n\n{}\n\n", entry.brackets, entry.help);
@@ -119,8 +137,8 @@ std::string reference_markdown(std::span<const SectionBase* const> sections) {
       for (const Choice& c : p.choices) meaning += fmt::format("<br>{}: {}", in_code(toml_quoted(c.name)), c.help);
       const std::string by_default = default_of(p, options.get());
       const bool word = by_default == "none" || by_default == "required";
-      out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", in_code(p.key), type_of(p, options.get()), p.unit, word ? by_default : cell(in_code(by_default)),
-                         cell(joined(limits(p), "; ")), cell(meaning));
+      out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", in_code(p.key), type_of(p, options.get()), p.unit,
+                         word ? by_default : cell(in_code(by_default)), cell(joined(limits(p), "; ")), cell(meaning));
     }
   }
   return out;
@@ -134,7 +152,8 @@ std::string reference_text(std::span<const SectionBase* const> sections, std::st
   for (const Entry& entry : entries(sections)) {
     const std::string& name = entry.section->name();
     known.push_back(name);
-    if (topic.empty() || topic == name || topic == entry.heading || (entry.heading.starts_with(topic) && entry.heading[topic.size()] == '.')) {
+    if (topic.empty() || topic == name || topic == entry.heading ||
+        (entry.heading.starts_with(topic) && entry.heading[topic.size()] == '.')) {
       plain(out, entry);
       continue;
     }
@@ -148,7 +167,8 @@ std::string reference_text(std::span<const SectionBase* const> sections, std::st
   }
   if (!out.empty()) return out;
   const std::string near = nearest(topic, known);
-  throw SceneError({Problem{"command line", 0, std::string(topic), "", "no such section or key" + (near.empty() ? std::string() : "; did you mean '" + near + "'?")}});
+  throw SceneError({Problem{"command line", 0, std::string(topic), "",
+                            "no such section or key" + (near.empty() ? std::string() : "; did you mean '" + near + "'?")}});
 }
 
 }  // namespace spindrift::scene

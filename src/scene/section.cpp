@@ -27,8 +27,10 @@ std::string unit_suffix(const std::string& unit) {
   if (unit.empty() || unit == "-") return "";
   std::string suffix = "_";
   for (const char c : unit)
-    if (std::isalnum(static_cast<unsigned char>(c))) suffix += c;
-    else if (c == ' ' || c == '/') suffix += '_';
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      suffix += c;
+    else if (c == ' ' || c == '/')
+      suffix += '_';
   return suffix;
 }
 
@@ -73,8 +75,10 @@ std::vector<std::string> SectionBase::faults() const {
       if (c.help.empty()) fault(p, "has no words for the choice " + c.name);
     for (const Condition& c : p.conditions) {
       const Parameter* on = find(c.key);
-      if (!on || (on->kind != Kind::choice && on->kind != Kind::text && on->kind != Kind::flag)) fault(p, "depends on " + c.key + ", which is no choice, text or flag");
-      else if (on >= &p) fault(p, "must be declared after " + c.key + ", which it depends on");
+      if (!on || (on->kind != Kind::choice && on->kind != Kind::text && on->kind != Kind::flag))
+        fault(p, "depends on " + c.key + ", which is no choice, text or flag");
+      else if (on >= &p)
+        fault(p, "must be declared after " + c.key + ", which it depends on");
       else if (on->kind == Kind::choice)
         for (const std::string& value : c.values)
           if (std::none_of(on->choices.begin(), on->choices.end(), [&](const Choice& x) { return x.name == value; }))

@@ -27,7 +27,7 @@ class SectionBase {
  public:
   const std::string& name() const { return name_; }  ///< "time", "bodies"; of a nested section: its word in the reference
   const std::string& help() const { return help_; }
-  bool is_named() const { return named_; }           ///< [bodies.NAME] rather than [time]
+  bool is_named() const { return named_; }  ///< [bodies.NAME] rather than [time]
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const Parameter* find(std::string_view key) const;
 
@@ -59,21 +59,36 @@ class SectionBase {
 
 namespace detail {
 
-template <class T> struct Inside { using type = T; static constexpr bool is_optional = false; };
-template <class T> struct Inside<std::optional<T>> { using type = T; static constexpr bool is_optional = true; };
+template <class T>
+struct Inside {
+  using type = T;
+  static constexpr bool is_optional = false;
+};
+template <class T>
+struct Inside<std::optional<T>> {
+  using type = T;
+  static constexpr bool is_optional = true;
+};
 
 /// Fixed numbers: an Eigen vector or matrix of doubles, or a std::array; recognised without their headers.
-template <class T> constexpr std::size_t fixed_size() {
-  if constexpr (requires { T::SizeAtCompileTime; }) return std::size_t(T::SizeAtCompileTime);
-  else return std::tuple_size_v<T>;
+template <class T>
+constexpr std::size_t fixed_size() {
+  if constexpr (requires { T::SizeAtCompileTime; })
+    return std::size_t(T::SizeAtCompileTime);
+  else
+    return std::tuple_size_v<T>;
 }
 
-template <class T> Slot slot_of(T& x) {
-  if constexpr (std::is_constructible_v<Slot, T*>) return &x;
-  else return std::span<double>(x.data(), fixed_size<T>());
+template <class T>
+Slot slot_of(T& x) {
+  if constexpr (std::is_constructible_v<Slot, T*>)
+    return &x;
+  else
+    return std::span<double>(x.data(), fixed_size<T>());
 }
 
-template <class Options, class M> Member access(M Options::*member) {
+template <class Options, class M>
+Member access(M Options::*member) {
   Member result;
   if constexpr (Inside<M>::is_optional) {
     result.has = [member](const void* o) { return (static_cast<const Options*>(o)->*member).has_value(); };
@@ -87,7 +102,8 @@ template <class Options, class M> Member access(M Options::*member) {
   return result;
 }
 
-template <class Options, class M> void add_list_access(Member& result, std::vector<M> Options::*member) {
+template <class Options, class M>
+void add_list_access(Member& result, std::vector<M> Options::*member) {
   result.size = [member](const void* o) { return (static_cast<const Options*>(o)->*member).size(); };
   result.resize = [member](void* o, std::size_t n) { (static_cast<Options*>(o)->*member).assign(n, M()); };
 }
@@ -96,54 +112,74 @@ template <class Options, class M> void add_list_access(Member& result, std::vect
 
 /// The declaration of one section, filling an Options struct. Methods name a kind and return *this for the next;
 /// modifiers (required, only_if, size) speak of the parameter declared last.
-template <class Options> class Section : public SectionBase {
+template <class Options>
+class Section : public SectionBase {
  public:
   Section(std::string name, std::string help)
       : SectionBase(std::move(name), std::move(help), [] { return std::make_shared<Options>(); }) {}
 
   /// [name.NAME], any number of them, read by Document::read_named.
-  Section& named() { named_ = true; return *this; }
+  Section& named() {
+    named_ = true;
+    return *this;
+  }
 
   // Kinds. M is the type named or a std::optional of it, unless the comment says otherwise.
-  template <class M> Section& number(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
+  template <class M>
+  Section& number(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
     return add(Kind::number, std::move(key), m, std::move(unit), std::move(help), range);
   }
   /// Degrees in the file, radians in the options.
-  template <class M> Section& degrees(std::string key, M Options::*m, std::string help, Range range = any()) {
+  template <class M>
+  Section& degrees(std::string key, M Options::*m, std::string help, Range range = any()) {
     return scaled(number_like<M>(), std::move(key), m, "deg", std::move(help), range, radians_per_degree);
   }
   /// Revolutions per minute in the file, rad/s in the options.
-  template <class M> Section& rpm(std::string key, M Options::*m, std::string help, Range range = any()) {
+  template <class M>
+  Section& rpm(std::string key, M Options::*m, std::string help, Range range = any()) {
     return scaled(number_like<M>(), std::move(key), m, "rpm", std::move(help), range, rad_s_per_rpm);
   }
-  template <class M> Section& integer(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
+  template <class M>
+  Section& integer(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
     return add(Kind::integer, std::move(key), m, std::move(unit), std::move(help), range);
   }
-  template <class M> Section& flag(std::string key, M Options::*m, std::string help) {
+  template <class M>
+  Section& flag(std::string key, M Options::*m, std::string help) {
     return add(Kind::flag, std::move(key), m, "", std::move(help), any());
   }
-  template <class M> Section& text(std::string key, M Options::*m, std::string help) {
+  template <class M>
+  Section& text(std::string key, M Options::*m, std::string help) {
     return add(Kind::text, std::move(key), m, "", std::move(help), any());
   }
   /// An existing file (std::string, or std::vector<std::string> for a list of them).
-  template <class M> Section& path(std::string key, M Options::*m, std::string help) {
+  template <class M>
+  Section& path(std::string key, M Options::*m, std::string help) {
     return add(Kind::path, std::move(key), m, "", std::move(help), any());
   }
   /// Eigen::Vector3d, std::array<double, N>.
-  template <class M> Section& vector(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
+  template <class M>
+  Section& vector(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
     return add(Kind::vector, std::move(key), m, std::move(unit), std::move(help), range);
   }
   /// Eigen::Matrix3d, symmetric: [a, b, c] is its diagonal, or three rows of three.
-  template <class M> Section& symmetric(std::string key, M Options::*m, std::string unit, std::string help) {
+  template <class M>
+  Section& symmetric(std::string key, M Options::*m, std::string unit, std::string help) {
     return add(Kind::symmetric, std::move(key), m, std::move(unit), std::move(help), any());
   }
   /// std::vector<double>.
-  template <class M> Section& numbers(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
+  template <class M>
+  Section& numbers(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
     return add(Kind::numbers, std::move(key), m, std::move(unit), std::move(help), range);
   }
   /// std::vector<std::string>.
-  template <class M> Section& texts(std::string key, M Options::*m, std::string help) {
+  template <class M>
+  Section& texts(std::string key, M Options::*m, std::string help) {
     return add(Kind::texts, std::move(key), m, "", std::move(help), any());
+  }
+  /// std::vector<std::string>, each the TOML text of a value of any type: what an override is given.
+  template <class M>
+  Section& values(std::string key, M Options::*m, std::string help) {
+    return add(Kind::values, std::move(key), m, "", std::move(help), any());
   }
   /// std::vector<std::array<double, N>> or of Eigen vectors: a list of rows of N numbers.
   template <class Row>
@@ -164,14 +200,15 @@ template <class Options> class Section : public SectionBase {
     return add_choice(std::move(key), m, std::move(values), std::move(choices), std::move(help));
   }
   /// One of a list of names, each standing for a value of an enum: {"rk4", Integrator::rk4, "classical ..."}.
-  template <class E> struct Case {
+  template <class E>
+  struct Case {
     std::string name;
     E value;
     std::string help;
   };
   template <class E>
-    requires std::is_enum_v<E>
-  Section& choice(std::string key, E Options::*m, std::vector<std::type_identity_t<Case<E>>> cases, std::string help) {
+  requires std::is_enum_v<E> Section& choice(std::string key, E Options::*m, std::vector<std::type_identity_t<Case<E>>> cases,
+                                             std::string help) {
     std::vector<E> values;
     std::vector<Choice> choices;
     for (Case<E>& c : cases) values.push_back(c.value), choices.push_back({c.name, c.help});
@@ -196,7 +233,8 @@ template <class Options> class Section : public SectionBase {
     return *this;
   }
   /// A list of nested options: [[bodies.platform.cylinders]]. The nested section must outlive this one (both static).
-  template <class T> Section& tables(std::string key, std::vector<T> Options::*m, const Section<T>& nested, std::string help) {
+  template <class T>
+  Section& tables(std::string key, std::vector<T> Options::*m, const Section<T>& nested, std::string help) {
     Parameter& p = push(Kind::tables, std::move(key), "", std::move(help), any());
     p.nested = &nested;
     detail::add_list_access(p.member, m);
@@ -205,7 +243,10 @@ template <class Options> class Section : public SectionBase {
   }
 
   // Modifiers of the parameter declared last.
-  Section& required() { last().required = true; return *this; }
+  Section& required() {
+    last().required = true;
+    return *this;
+  }
   /// It has an effect only where `key` of the same section (a choice, text or flag: "true") is one of `values`;
   /// given elsewhere it is an error, and required there only. Several conditions must all hold.
   Section& only_if(std::string key, std::vector<std::string> values) {
@@ -220,27 +261,39 @@ template <class Options> class Section : public SectionBase {
 
   // Rules of the section as a whole.
   /// Exactly one of these keys is given (of those that have an effect).
-  Section& one_of(std::vector<std::string> keys) { exclusives_.push_back({std::move(keys), false}); return *this; }
-  Section& at_most_one_of(std::vector<std::string> keys) { exclusives_.push_back({std::move(keys), true}); return *this; }
+  Section& one_of(std::vector<std::string> keys) {
+    exclusives_.push_back({std::move(keys), false});
+    return *this;
+  }
+  Section& at_most_one_of(std::vector<std::string> keys) {
+    exclusives_.push_back({std::move(keys), true});
+    return *this;
+  }
   /// A rule between keys of this section: check(options, report), called when every key is well by itself.
-  template <class F> Section& check(F rule) {
+  template <class F>
+  Section& check(F rule) {
     checks_.push_back([rule](const void* o, const Report& report) { rule(*static_cast<const Options*>(o), report); });
     return *this;
   }
 
  private:
-  template <class M> static constexpr Kind number_like() {
+  template <class M>
+  static constexpr Kind number_like() {
     using T = typename detail::Inside<M>::type;
-    if constexpr (std::is_same_v<T, double>) return Kind::number;
-    else if constexpr (std::is_same_v<T, std::vector<double>>) return Kind::numbers;
-    else return Kind::vector;
+    if constexpr (std::is_same_v<T, double>)
+      return Kind::number;
+    else if constexpr (std::is_same_v<T, std::vector<double>>)
+      return Kind::numbers;
+    else
+      return Kind::vector;
   }
   Parameter& push(Kind kind, std::string key, std::string unit, std::string help, Range range) {
-    parameters_.push_back(Parameter{.key = std::move(key), .kind = kind, .unit = std::move(unit), .help = std::move(help),
-                                    .range = range});
+    parameters_.push_back(
+        Parameter{.key = std::move(key), .kind = kind, .unit = std::move(unit), .help = std::move(help), .range = range});
     return parameters_.back();
   }
-  template <class M> Section& add(Kind kind, std::string key, M Options::*m, std::string unit, std::string help, Range range) {
+  template <class M>
+  Section& add(Kind kind, std::string key, M Options::*m, std::string unit, std::string help, Range range) {
     return scaled(kind, std::move(key), m, std::move(unit), std::move(help), range, 1.0);
   }
   template <class M>

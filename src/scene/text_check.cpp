@@ -17,11 +17,16 @@ std::size_t first_bad_utf8(std::string_view text) {
     const auto byte = [&](std::size_t k) { return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u; };
     const auto tail = [&](std::size_t k, unsigned low = 0x80, unsigned high = 0xbf) { return byte(k) >= low && byte(k) <= high; };
     const unsigned b = byte(0);
-    if (b < 0x80) i += 1;
-    else if (b >= 0xc2 && b <= 0xdf && tail(1)) i += 2;
-    else if (b >= 0xe0 && b <= 0xef && tail(1, b == 0xe0 ? 0xa0 : 0x80, b == 0xed ? 0x9f : 0xbf) && tail(2)) i += 3;
-    else if (b >= 0xf0 && b <= 0xf4 && tail(1, b == 0xf0 ? 0x90 : 0x80, b == 0xf4 ? 0x8f : 0xbf) && tail(2) && tail(3)) i += 4;
-    else return i;
+    if (b < 0x80)
+      i += 1;
+    else if (b >= 0xc2 && b <= 0xdf && tail(1))
+      i += 2;
+    else if (b >= 0xe0 && b <= 0xef && tail(1, b == 0xe0 ? 0xa0 : 0x80, b == 0xed ? 0x9f : 0xbf) && tail(2))
+      i += 3;
+    else if (b >= 0xf0 && b <= 0xf4 && tail(1, b == 0xf0 ? 0x90 : 0x80, b == 0xf4 ? 0x8f : 0xbf) && tail(2) && tail(3))
+      i += 4;
+    else
+      return i;
   }
   return std::string_view::npos;
 }
@@ -37,16 +42,20 @@ class Scan {
     if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;  // the byte order mark
     while (at_ < text_.size() && !refusal_) {
       const char c = text_[at_];
-      if (c == '"' || c == '\'') string(c);
-      else if (c == '#') at_ = std::min(text_.find('\n', at_), text_.size()), dots_ = 0;
-      else outside(c);
+      if (c == '"' || c == '\'')
+        string(c);
+      else if (c == '#')
+        at_ = std::min(text_.find('\n', at_), text_.size()), dots_ = 0;
+      else
+        outside(c);
     }
     return refusal_;
   }
 
  private:
   void outside(char c) {
-    if (!is_ascii(c)) return refuse("has a character beyond ASCII outside quotes and comments; put texts and such keys into quotes");
+    if (!is_ascii(c))
+      return refuse("has a character beyond ASCII outside quotes and comments; put texts and such keys into quotes");
     if (c == '.') {
       if (++dots_ > deepest) return refuse(fmt::format("has a key of more than {} parts", deepest));
     } else if (c == '[' || c == '{') {

@@ -1,7 +1,7 @@
-// Text that must not reach toml++ 3.3.0: not UTF-8, characters that run into its undefined behaviour (its issue 190: 44 ef bb bb),
-// nesting that would exhaust the stack it recurses on. All of it is either no TOML or no sensible scene.
-// Called by src/scene/toml_reader.cpp; tested in tests/src/scene/document_test.cpp and by the fuzz target.
-// SPDX-License-Identifier: Apache-2.0
+// Text that must not reach toml++ 3.3.0: not UTF-8, characters that run into its undefined behaviour (its issue 190: 44 ef bb
+// bb), nesting that would exhaust the stack it recurses on. All of it is either no TOML or no sensible scene. Called by
+// src/scene/toml_reader.cpp; tested in tests/src/scene/document_test.cpp and by the fuzz target. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <cstddef>

@@ -67,7 +67,9 @@ Value convert(const toml::node& node, int source) {
 
 Value read_toml(std::string_view text, int source, const std::string& name) {
   if (text.size() > largest_scene)
-    fail(name, 0, fmt::format("has {} bytes; a scene has at most {} (put long tables into files of their own)", text.size(), largest_scene));
+    fail(name, 0,
+         fmt::format("has {} bytes; a scene has at most {} (put long tables into files of their own)", text.size(),
+                     largest_scene));
   if (const auto bad = refuse(text)) fail(name, line_of(text, bad->offset), bad->why);
   try {
     return convert_table(toml::parse(text, std::string_view(name)), source);

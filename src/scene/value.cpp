@@ -27,26 +27,50 @@ bool Value::erase(std::string_view name) {
   return std::erase_if(children, [&](const Value& v) { return v.key == name; }) > 0;
 }
 
+namespace {
+/// TOML text, given up soon after `enough` characters.
+void write(std::string& out, const Value& value, std::size_t enough) {
+  switch (value.kind) {
+    case Value::Kind::flag:
+      out += value.flag ? "true" : "false";
+      return;
+    case Value::Kind::integer:
+      out += std::to_string(value.integer);
+      return;
+    case Value::Kind::number:
+      out += toml_number(value.number);
+      return;
+    case Value::Kind::text:
+      out += toml_quoted(value.text);
+      return;
+    case Value::Kind::date:
+      out += value.text;
+      return;
+    case Value::Kind::array:
+    case Value::Kind::table:
+      break;
+  }
+  out += value.is_table() ? '{' : '[';
+  for (const Value& child : value.children) {
+    if (out.size() > enough) return;
+    if (&child != &value.children.front()) out += ", ";
+    if (value.is_table()) out += toml_key(child.key) + " = ";
+    write(out, child, enough);
+  }
+  out += value.is_table() ? '}' : ']';
+}
+}  // namespace
+
+std::string Value::toml() const {
+  std::string text;
+  write(text, *this, std::string::npos);
+  return text;
+}
+
 std::string Value::written() const {
   constexpr std::size_t longest = 60;
   std::string text;
-  switch (kind) {
-    case Kind::flag: return flag ? "true" : "false";
-    case Kind::integer: return std::to_string(integer);
-    case Kind::number: return toml_number(number);
-    case Kind::text: text = toml_quoted(this->text); break;
-    case Kind::date: return this->text;
-    case Kind::array:
-    case Kind::table:
-      text += is_table() ? '{' : '[';
-      for (const Value& child : children) {
-        if (text.size() > longest) break;
-        if (text.size() > 1) text += ", ";
-        if (is_table()) text += toml_key(child.key) + " = ";
-        text += child.written();
-      }
-      text += is_table() ? '}' : ']';
-  }
+  write(text, *this, longest);
   if (text.size() > longest) {
     std::size_t cut = longest - 4;
     while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) --cut;  // not inside a UTF-8 character
@@ -57,13 +81,20 @@ std::string Value::written() const {
 
 std::string Value::found() const {
   switch (kind) {
-    case Kind::flag: return "true or false";
-    case Kind::integer: return "an integer";
-    case Kind::number: return "a number with a decimal point";
-    case Kind::text: return "a text";
-    case Kind::date: return "a date or time";
-    case Kind::array: return fmt::format("a list of {}", children.size());
-    case Kind::table: return "a table";
+    case Kind::flag:
+      return "true or false";
+    case Kind::integer:
+      return "an integer";
+    case Kind::number:
+      return "a number with a decimal point";
+    case Kind::text:
+      return "a text";
+    case Kind::date:
+      return "a date or time";
+    case Kind::array:
+      return fmt::format("a list of {}", children.size());
+    case Kind::table:
+      return "a table";
   }
   return "";
 }
@@ -80,11 +111,16 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
 std::string toml_quoted(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\', quoted += c;
-    else if (c == '\n') quoted += "\\n";
-    else if (c == '\t') quoted += "\\t";
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
-    else quoted += c;
+    if (c == '"' || c == '\\')
+      quoted += '\\', quoted += c;
+    else if (c == '\n')
+      quoted += "\\n";
+    else if (c == '\t')
+      quoted += "\\t";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+    else
+      quoted += c;
   }
   return quoted + '"';
 }
@@ -135,7 +171,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
     // The commonest slip: the unit forgotten, `end` for `end_s`.
-    const bool unit_forgotten = word.size() > 1 && candidate.size() > word.size() && candidate.starts_with(word) && candidate[word.size()] == '_';
+    const bool unit_forgotten =
+        word.size() > 1 && candidate.size() > word.size() && candidate.starts_with(word) && candidate[word.size()] == '_';
     const std::size_t distance = unit_forgotten ? 1 : edit_distance(word, candidate);
     if (distance < best_distance) best = candidate, best_distance = distance;
   }

@@ -25,7 +25,7 @@ struct Value {
   bool flag = false;
   std::int64_t integer = 0;
   double number = 0.0;
-  std::string text = {};        ///< text and dates
+  std::string text = {};             ///< text and dates
   std::vector<Value> children = {};  ///< of arrays and tables, in file order
 
   bool is_table() const { return kind == Kind::table; }
@@ -34,7 +34,8 @@ struct Value {
   Value* find(std::string_view name);
   bool erase(std::string_view name);
 
-  std::string written() const;  ///< as TOML would write it on one line, shortened to some 60 characters
+  std::string toml() const;     ///< as TOML writes it on one line
+  std::string written() const;  ///< the same for messages, shortened to some 60 characters
   std::string found() const;    ///< "a text", "an integer", "a list of 3"
 };
 

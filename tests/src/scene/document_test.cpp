@@ -38,14 +38,16 @@ TEST_CASE("a value out of range is told with its line, value, range and meaning"
   CHECK(problems(good + "most_steps = 3000000000") ==
         Lines{"s.toml:3: time.most_steps = 3000000000: must be an integer of at most 31 bits (most steps in a window)"});
   CHECK(problems(good + "[bodies.a]\nmass_kg = 1\ncentre_m = [0.0, -2e4, 0.0]") ==
-        Lines{"s.toml:5: bodies.a.centre_m[1] = -20000.0: must be >= -10000 and <= 10000 m (centre of mass at the start, earth frame)"});
+        Lines{"s.toml:5: bodies.a.centre_m[1] = -20000.0: must be >= -10000 and <= 10000 m (centre of mass at the start, earth "
+              "frame)"});
 }
 
 TEST_CASE("an integer is a number, a number is no integer, a text is neither", "[scene][fast]") {
   CHECK(problems("[time]\nend_s = 3") == Lines{});
   CHECK(problems(good + "most_steps = 3.0") ==
         Lines{"s.toml:3: time.most_steps = 3.0: must be an integer, not a number with a decimal point (most steps in a window)"});
-  CHECK(problems("[time]\nend_s = \"long\"") == Lines{"s.toml:2: time.end_s = \"long\": must be a number in s, not a text (end of the run)"});
+  CHECK(problems("[time]\nend_s = \"long\"") ==
+        Lines{"s.toml:2: time.end_s = \"long\": must be a number in s, not a text (end of the run)"});
   CHECK(problems("[time]\nend_s = 2020-01-02T03:04:05Z") ==
         Lines{"s.toml:2: time.end_s = 2020-01-02T03:04:05Z: must be a number in s, not a date or time (end of the run)"});
   CHECK(problems(good + "[bodies.a]\nmass_kg = 1\ngyroscopic = 0") ==
@@ -54,13 +56,15 @@ TEST_CASE("an integer is a number, a number is no integer, a text is neither", "
 
 TEST_CASE("an unknown key is told its nearest neighbour, or where it belongs", "[scene][fast]") {
   CHECK(problems("[time]\nend = 3") == Lines{"s.toml:1: time.end_s: is missing and has no default (end of the run)",
-                                            "s.toml:2: time.end = 3: unknown key; did you mean 'end_s'?"});
-  CHECK(problems(good + "integartor = \"rk4\"") == Lines{"s.toml:3: time.integartor = \"rk4\": unknown key; did you mean 'integrator'?"});
-  CHECK(problems(good + "mass_kg = 3") == Lines{"s.toml:3: time.mass_kg = 3: unknown key; [time] has: end_s, window_s, integrator, "
-                                               "most_steps, seed (mass_kg is a key of [bodies.NAME])"});
+                                             "s.toml:2: time.end = 3: unknown key; did you mean 'end_s'?"});
+  CHECK(problems(good + "integartor = \"rk4\"") ==
+        Lines{"s.toml:3: time.integartor = \"rk4\": unknown key; did you mean 'integrator'?"});
+  CHECK(problems(good + "mass_kg = 3") ==
+        Lines{"s.toml:3: time.mass_kg = 3: unknown key; [time] has: end_s, window_s, integrator, "
+              "most_steps, seed (mass_kg is a key of [bodies.NAME])"});
   CHECK(problems(good + "[boddies.a]\nmass_kg = 3") == Lines{"s.toml:3: boddies: unknown section; did you mean [bodies]?"});
   CHECK(problems("end_s = 1\n" + good) == Lines{"s.toml:1: end_s = 1: unknown key outside any section; a scene has: time, sea, "
-                                               "bodies, moorings (end_s is a key of [time])"});
+                                                "bodies, moorings (end_s is a key of [time])"});
 }
 
 TEST_CASE("a value that has no effect is an error that says why", "[scene][fast]") {
@@ -74,27 +78,31 @@ TEST_CASE("of alternatives exactly one is given", "[scene][fast]") {
   const std::string line = good + "[moorings.l]\nbody = \"b\"\n";
   CHECK(problems(line) == Lines{"s.toml:3: moorings.l: give exactly one of: stiffness_N_m, axial_stiffness_N"});
   CHECK(problems(line + "stiffness_N_m = 1.0\naxial_stiffness_N = 1.0") ==
-        Lines{"s.toml:6: moorings.l.axial_stiffness_N = 1.0: cannot stand beside stiffness_N_m; give one of: stiffness_N_m, axial_stiffness_N"});
+        Lines{"s.toml:6: moorings.l.axial_stiffness_N = 1.0: cannot stand beside stiffness_N_m; give one of: stiffness_N_m, "
+              "axial_stiffness_N"});
 }
 
 TEST_CASE("lists have sizes, matrices are symmetric, choices are named", "[scene][fast]") {
   CHECK(problems(good + "[sea]\nprobes_m = [1, 2, 3, 4, 5]") ==
         Lines{"s.toml:4: sea.probes_m = [1, 2, 3, 4, 5]: must have 0 to 4 entries, not 5 (places of wave gauges along x)"});
-  CHECK(problems(good + "[bodies.a]\nmass_kg = 1\ncentre_m = [0.0, 1.0]") ==
-        Lines{"s.toml:5: bodies.a.centre_m = [0.0, 1.0]: must be a list of 3 numbers in m, not a list of 2 (centre of mass at the "
-              "start, earth frame)"});
-  CHECK(problems(good + "[bodies.a]\nmass_kg = 1\ninertia_kg_m2 = [[1, 0, 0], [1, 1, 0], [0, 0, 1]]") ==
-        Lines{"s.toml:5: bodies.a.inertia_kg_m2 = [[1, 0, 0], [1, 1, 0], [0, 0, 1]]: must be symmetric; entries [0][1] and [1][0] "
-              "differ (inertia about the centre of mass, body axes)"});
-  CHECK(problems(good + "integrator = \"rk5\"") ==
-        Lines{"s.toml:3: time.integrator = \"rk5\": must be one of \"rk4\", \"euler\"; did you mean \"rk4\"? (time integration of the bodies)"});
+  CHECK(
+      problems(good + "[bodies.a]\nmass_kg = 1\ncentre_m = [0.0, 1.0]") ==
+      Lines{"s.toml:5: bodies.a.centre_m = [0.0, 1.0]: must be a list of 3 numbers in m, not a list of 2 (centre of mass at the "
+            "start, earth frame)"});
+  CHECK(
+      problems(good + "[bodies.a]\nmass_kg = 1\ninertia_kg_m2 = [[1, 0, 0], [1, 1, 0], [0, 0, 1]]") ==
+      Lines{"s.toml:5: bodies.a.inertia_kg_m2 = [[1, 0, 0], [1, 1, 0], [0, 0, 1]]: must be symmetric; entries [0][1] and [1][0] "
+            "differ (inertia about the centre of mass, body axes)"});
+  CHECK(problems(good + "integrator = \"rk5\"") == Lines{"s.toml:3: time.integrator = \"rk5\": must be one of \"rk4\", "
+                                                         "\"euler\"; did you mean \"rk4\"? (time integration of the bodies)"});
   CHECK(problems(good + "[sea]\nprofile_m = []") ==
         Lines{"s.toml:4: sea.profile_m = []: must have at least 1 entries, not 0 (sea bed as pairs x, z)"});
 }
 
 TEST_CASE("sections have the shape of their declaration", "[scene][fast]") {
   CHECK(problems("time = 3") == Lines{"s.toml:1: time = 3: must be a section, [time], not an integer"});
-  CHECK(problems(good + "[bodies]\nmass_kg = 3.0") == Lines{"s.toml:4: bodies.mass_kg = 3.0: must stand in a section [bodies.NAME]"});
+  CHECK(problems(good + "[bodies]\nmass_kg = 3.0") ==
+        Lines{"s.toml:4: bodies.mass_kg = 3.0: must stand in a section [bodies.NAME]"});
   CHECK(problems(good + "[bodies.\"a b\"]\nmass_kg = 3.0") ==
         Lines{"s.toml:3: bodies.\"a b\": a name has letters, digits, '_' and '-' only"});
   CHECK(problems(good + "[bodies.a]\nmass_kg = 1\ncylinders = [{diameter_m = 1.0}, {diameter_m = -1}]") ==
@@ -125,8 +133,9 @@ TEST_CASE("a module's own problem is shown at the key, or at the nearest table a
   doc.problem("bodies.a.cylinders[0].diameter_m", "is wide");
   doc.problem("bodies.a.cylinders[0].name", "is missing");
   doc.problem("joints.x", "is missing");
-  REQUIRE_THROWS_WITH(doc.finish(), "3 problems in the scene:\n  s.toml: joints.x: is missing\n  s.toml:5: bodies.a.cylinders[0].name: is "
-                                    "missing\n  s.toml:6: bodies.a.cylinders[0].diameter_m = 1.0: is wide");
+  REQUIRE_THROWS_WITH(doc.finish(),
+                      "3 problems in the scene:\n  s.toml: joints.x: is missing\n  s.toml:5: bodies.a.cylinders[0].name: is "
+                      "missing\n  s.toml:6: bodies.a.cylinders[0].diameter_m = 1.0: is wide");
 }
 
 TEST_CASE("text that is no TOML, or made to break its reader, is refused", "[scene][fast]") {
@@ -137,13 +146,15 @@ TEST_CASE("text that is no TOML, or made to break its reader, is refused", "[sce
     return lines[0];
   };
   CHECK_THAT(only("[time\nend_s = 1"), Contains("s.toml:1: is not TOML"));
-  CHECK(only("D\xef\xbb\xbf") == "s.toml:1: has a character beyond ASCII outside quotes and comments; put texts and such keys into quotes");
+  CHECK(only("D\xef\xbb\xbf") ==
+        "s.toml:1: has a character beyond ASCII outside quotes and comments; put texts and such keys into quotes");
   CHECK_THAT(only("D\xef\xbb\xbb"), Contains("s.toml:1: has a character beyond ASCII"));  // undefined behaviour in toml++ 3.3.0
-  CHECK_THAT(only("s = \"\"\"\\\n\xc2\xa7\"\"\"\n"), Contains("s.toml:1: has a character beyond ASCII right after a line-ending backslash"));
+  CHECK_THAT(only("s = \"\"\"\\\n\xc2\xa7\"\"\"\n"),
+             Contains("s.toml:1: has a character beyond ASCII right after a line-ending backslash"));
   CHECK(only(std::string_view("D\xef\xbb", 3)) == "s.toml:1: is not UTF-8 text (byte 0xef at offset 1); save the file as UTF-8");
   CHECK_THAT(only("a = 1\nb = \"\xff\""), Contains("s.toml:2: is not UTF-8 text (byte 0xff"));
-  CHECK_THAT(only("x = \"\xed\xa0\x80\""), Contains("is not UTF-8"));          // a surrogate
-  CHECK_THAT(only("x = \"\xc0\xaf\""), Contains("is not UTF-8"));              // overlong
+  CHECK_THAT(only("x = \"\xed\xa0\x80\""), Contains("is not UTF-8"));  // a surrogate
+  CHECK_THAT(only("x = \"\xc0\xaf\""), Contains("is not UTF-8"));      // overlong
   CHECK_THAT(only("x = " + std::string(100000, '[')), Contains("s.toml:1: nests more than 32 brackets"));
   std::string dots = "x";
   for (int i = 0; i < 100000; ++i) dots += ".x";
@@ -181,5 +192,6 @@ TEST_CASE("a path is an existing file beside the scene that names it", "[scene][
   doc.finish();
   Document gone = load(dir.file("sub/gone.toml", "[sea]\ntable = \"forces.csv\"\n"));
   gone.read(example::sea_section());
-  CHECK_THROWS_WITH(gone.finish(), Catch::Contains("gone.toml:2: sea.table = \"forces.csv\": no such file: " + dir.path() + "/sub/forces.csv"));
+  CHECK_THROWS_WITH(gone.finish(),
+                    Catch::Contains("gone.toml:2: sea.table = \"forces.csv\": no such file: " + dir.path() + "/sub/forces.csv"));
 }

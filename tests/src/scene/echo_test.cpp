@@ -66,7 +66,8 @@ TEST_CASE("the echo reads back to the same bits", "[scene][fast]") {
       doc.finish();
       return std::pair(bodies.at(0).options, doc.echo());
     };
-    const auto [options, echo] = read("[bodies.a]\nmass_kg = " + toml_number(mass) + "\npitch_deg = " + toml_number(pitch_deg) + "\n");
+    const auto [options, echo] =
+        read("[bodies.a]\nmass_kg = " + toml_number(mass) + "\npitch_deg = " + toml_number(pitch_deg) + "\n");
     const auto again = read(echo).first;
     REQUIRE(options.mass_kg == mass);
     REQUIRE(again.mass_kg == mass);

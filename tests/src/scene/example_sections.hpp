@@ -25,7 +25,8 @@ struct TimeOptions {
 inline const Section<TimeOptions>& time_section() {
   static const auto section =
       Section<TimeOptions>("time", "How long, in which steps.")
-          .number("end_s", &TimeOptions::end_s, "s", "End of the run.", positive()).required()
+          .number("end_s", &TimeOptions::end_s, "s", "End of the run.", positive())
+          .required()
           .number("window_s", &TimeOptions::window_s, "s", "Length of a coupling window.", above(0.0).up_to(1000.0))
           .choice("integrator", &TimeOptions::integrator,
                   {{"rk4", Integrator::rk4, "classical Runge-Kutta"}, {"euler", Integrator::euler, "explicit, first order"}},
@@ -67,7 +68,8 @@ inline const Section<BodyOptions>& body_section() {
   static const auto section =
       Section<BodyOptions>("bodies", "A rigid body.")
           .named()
-          .number("mass_kg", &BodyOptions::mass_kg, "kg", "Mass of the body.", positive()).required()
+          .number("mass_kg", &BodyOptions::mass_kg, "kg", "Mass of the body.", positive())
+          .required()
           .symmetric("inertia_kg_m2", &BodyOptions::inertia_kg_m2, "kg m2", "Inertia about the centre of mass, body axes.")
           .vector("centre_m", &BodyOptions::centre_m, "m", "Centre of mass at the start, earth frame.", between(-1e4, 1e4))
           .degrees("pitch_deg", &BodyOptions::pitch, "Pitch at the start.", between(-90, 90))
@@ -86,7 +88,8 @@ inline const Section<LineOptions>& line_section() {
   static const auto section =
       Section<LineOptions>("moorings", "A mooring line.")
           .named()
-          .text("body", &LineOptions::body, "Body that the fairlead is on.").required()
+          .text("body", &LineOptions::body, "Body that the fairlead is on.")
+          .required()
           .number("stiffness_N_m", &LineOptions::stiffness_N_m, "N/m", "Stiffness of the line.", positive())
           .number("axial_stiffness_N", &LineOptions::axial_stiffness_N, "N", "EA of the line.", positive())
           .one_of({"stiffness_N_m", "axial_stiffness_N"})
@@ -121,14 +124,17 @@ struct SeaOptions {
 inline const Section<SeaOptions>& sea_section() {
   static const auto section =
       Section<SeaOptions>("sea", "Hydrodynamic model of the sea.")
-          .choice("model", &SeaOptions::model, {{"none", "no water"}, {"morison", "strips"}, {"sph", "particles"}}, "Which model.")
+          .choice("model", &SeaOptions::model, {{"none", "no water"}, {"morison", "strips"}, {"sph", "particles"}},
+                  "Which model.")
           .number("drag_coefficient", &SeaOptions::drag_coefficient, "-", "Transverse drag of a member.", between(0.0, 10.0))
           .only_if("model", {"morison"})
           .vector("current_m_s", &SeaOptions::current_m_s, "m/s", "Uniform current, earth frame.")
           .only_if("model", {"morison", "sph"})
-          .numbers("probes_m", &SeaOptions::probes_m, "m", "Places of wave gauges along x.").size(0, 4)
+          .numbers("probes_m", &SeaOptions::probes_m, "m", "Places of wave gauges along x.")
+          .size(0, 4)
           .texts("bodies", &SeaOptions::bodies, "Bodies that meet the water.")
-          .rows("profile_m", &SeaOptions::profile_m, "m", "Sea bed as pairs x, z.").size(1)
+          .rows("profile_m", &SeaOptions::profile_m, "m", "Sea bed as pairs x, z.")
+          .size(1)
           .path("table", &SeaOptions::table, "Tabulated forces.")
           .table("grid", &SeaOptions::grid, grid_section(), "Numerical tank.")
           .only_if("model", {"sph"})

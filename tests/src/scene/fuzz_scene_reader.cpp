@@ -34,8 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     text.remove_prefix(end);
     try {
       (void)reference_text(example::sections(), overrides.front());
-    } catch (const SceneError&) {
-    }
+    } catch (const SceneError&) {}
   }
   std::string echo;
   try {

@@ -16,7 +16,10 @@ TEST_CASE("the reference has a row for every key", "[scene][fast]") {
   CHECK_THAT(text, Contains("## `[time]`\n\nHow long, in which steps.\n"));
   CHECK_THAT(text, Contains("| `end_s` | number | s | required | > 0 | End of the run. |\n"));
   CHECK_THAT(text, Contains("| `window_s` | number | s | `0.1` | > 0 and <= 1000 | Length of a coupling window. |\n"));
-  CHECK_THAT(text, Contains("| `integrator` | choice |  | `\"rk4\"` |  | Time integration of the bodies.<br>`\"rk4\"`: classical Runge-Kutta<br>"));
+  CHECK_THAT(
+      text,
+      Contains(
+          "| `integrator` | choice |  | `\"rk4\"` |  | Time integration of the bodies.<br>`\"rk4\"`: classical Runge-Kutta<br>"));
   CHECK_THAT(text, Contains("| `seed` | integer | - | none |  | Seed of the random phases. |\n"));
   CHECK_THAT(text, Contains("| `drag_coefficient` | number | - | `1.0` | >= 0 and <= 10; only if model is morison |"));
   CHECK_THAT(text, Contains("## `[[bodies.NAME.cylinders]]`\n\nShapes that meet the water.\n"));
@@ -30,8 +33,10 @@ TEST_CASE("the terminal's reference answers for a section, a key, or a key witho
         "[time]\n  window_s  (number; s; > 0 and <= 1000; default 0.1)\n      Length of a coupling window.\n");
   CHECK(reference_text(sections, "window_s") == reference_text(sections, "time.window_s"));
   CHECK(reference_text(sections, "bodies.mass_kg") == reference_text(sections, "bodies.NAME.mass_kg"));
-  CHECK_THAT(reference_text(sections, "bodies"), Contains("[bodies.NAME]  A rigid body.\n") && Contains("[[bodies.NAME.cylinders]]") && !Contains("[time]"));
+  CHECK_THAT(reference_text(sections, "bodies"),
+             Contains("[bodies.NAME]  A rigid body.\n") && Contains("[[bodies.NAME.cylinders]]") && !Contains("[time]"));
   CHECK(reference_text(sections, "[time]") == reference_text(sections, "time"));
   CHECK_THAT(reference_text(sections), Contains("[time]") && Contains("[sea.grid]"));
-  CHECK_THROWS_WITH(reference_text(sections, "windw_s"), "command line: windw_s: no such section or key; did you mean 'window_s'?");
+  CHECK_THROWS_WITH(reference_text(sections, "windw_s"),
+                    "command line: windw_s: no such section or key; did you mean 'window_s'?");
 }

@@ -37,7 +37,8 @@ probes_m = [1.0, 2]
 bodies = ["platform"]
 profile_m = [[0.0, -20.0], [50.0, -10.0]]
 grid.cells = 7
-)", "test.toml", "/");
+)",
+                       "test.toml", "/");
   const auto time = doc.read(example::time_section());
   CHECK(time.end_s == 150.0);
   CHECK(time.window_s == 0.1);
