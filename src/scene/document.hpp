@@ -50,6 +50,14 @@ class Document {
     if (!announce(section)) return std::nullopt;
     return read(section);
   }
+  /// The same for a section that some scenes have no use for: elsewhere giving it is a problem (`why`: "aero.model is none"),
+  /// and the echo leaves it out.
+  template <class Options>
+  Options read_where(bool has_effect, const Section<Options>& section, const std::string& why) {
+    if (has_effect) return read(section);
+    if (announce(section)) problem(section.name(), "has no effect: " + why);
+    return Options();
+  }
   /// All [section.NAME], in file order.
   template <class Options>
   std::vector<Named<Options>> read_named(const Section<Options>& section) {

@@ -138,6 +138,19 @@ TEST_CASE("a module's own problem is shown at the key, or at the nearest table a
                       "missing\n  s.toml:6: bodies.a.cylinders[0].diameter_m = 1.0: is wide");
 }
 
+TEST_CASE("a section that the scene has no use for is told so, and not echoed", "[scene][fast]") {
+  Document silent = parse(good, "s.toml", "/");
+  silent.read(example::time_section());
+  CHECK(silent.read_where(false, example::sea_section(), "there is no water").model == "none");
+  CHECK_FALSE(silent.read_if_given(example::sea_section()));
+  CHECK_NOTHROW(silent.finish());
+  CHECK_THAT(silent.echo(), !Catch::Contains("[sea]"));
+  Document doc = parse(good + "[sea]\nmodel = \"sph\"\n", "s.toml", "/");
+  doc.read(example::time_section());
+  doc.read_where(false, example::sea_section(), "there is no water");
+  CHECK_THROWS_WITH(doc.finish(), "s.toml:3: sea: has no effect: there is no water");
+}
+
 TEST_CASE("text that is no TOML, or made to break its reader, is refused", "[scene][fast]") {
   using Catch::Contains;
   const auto only = [](std::string_view text) {
