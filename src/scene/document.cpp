@@ -75,7 +75,16 @@ std::pair<const Value*, bool> Document::locate(std::string_view key) const {
   return {at, true};
 }
 
+namespace {
+/// Is `key` the same as `other`, or something inside it?
+bool within(std::string_view key, std::string_view other) {
+  return key.starts_with(other) && (key.size() == other.size() || key[other.size()] == '.' || key[other.size()] == '[');
+}
+}  // namespace
+
 void Document::problem(std::string_view key, std::string message) {
+  for (const Problem& p : problems_)
+    if (within(key, p.key) || within(p.key, key)) return;  // a consequence: the options hold a default there
   const auto [at, found] = locate(key);
   const bool shown = found && !at->is_table() && !at->is_list_of_tables();
   add(at, std::string(key), shown ? at->written() : "", std::move(message));

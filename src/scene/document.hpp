@@ -73,7 +73,8 @@ class Document {
 
   /// Is this key or section in the scene? "sea", "bodies.platform.cylinders[1].diameter_m"
   bool given(std::string_view key) const { return locate(key).second; }
-  /// A problem found by a rule between sections, shown at the key's line, or that of the nearest table around it.
+  /// A problem found by a rule between sections, shown at the key's line, or that of the nearest table around it. Dropped where
+  /// that key, or something in it or around it, has a problem already.
   void problem(std::string_view key, std::string message);
   /// Throws SceneError with every problem so far, sections that nobody read among them. Call after the last read.
   void finish();

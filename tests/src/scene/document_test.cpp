@@ -138,6 +138,18 @@ TEST_CASE("a module's own problem is shown at the key, or at the nearest table a
                       "missing\n  s.toml:6: bodies.a.cylinders[0].diameter_m = 1.0: is wide");
 }
 
+TEST_CASE("a module's problem that follows from another one is not told", "[scene][fast]") {
+  Document doc = parse(good + "[bodies.a]\nmass_kg = -1\n", "s.toml", "/");
+  doc.read(example::time_section());
+  doc.read_named(example::body_section());
+  doc.problem("bodies.a.mass_kg", "is no mass for this sea");
+  doc.problem("bodies.a", "is too light");
+  doc.problem("bodies.a.mass_kg_2", "is another key");
+  REQUIRE_THROWS_WITH(doc.finish(),
+                      "2 problems in the scene:\n  s.toml:3: bodies.a.mass_kg_2: is another key\n  s.toml:4: "
+                      "bodies.a.mass_kg = -1: must be > 0 kg (mass of the body)");
+}
+
 TEST_CASE("a section that the scene has no use for is told so, and not echoed", "[scene][fast]") {
   Document silent = parse(good, "s.toml", "/");
   silent.read(example::time_section());
