@@ -53,8 +53,4 @@ struct LoadSource {
   std::function<void(double t, std::span<const Motion>, std::span<Matrix6>)> added_mass;
 };
 
-/// Weight of every body, `gravity` m/s2 along `down` (unit vector).
-LoadSource gravity_source(std::span<const Body> bodies, double gravity_m_s2,
-                          const Eigen::Vector3d& down = -Eigen::Vector3d::UnitZ());
-
 }  // namespace spindrift::bodies

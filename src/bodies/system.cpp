@@ -415,7 +415,7 @@ bool System::rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& 
   return true;
 }
 
-bool System::forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass) {
+bool System::forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass, double* all_loads) {
   if (!w_->positions(t_s, x)) return false;
   w_->mechanism.solve_velocities(Eigen::VectorXd::Zero(freedoms()), true);
   w_->mechanism.motions(w_->motions);
@@ -425,6 +425,15 @@ bool System::forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorX
   w_->condense();
   force.noalias() = w_->mechanism.tangent().transpose() * w_->force;
   mass = w_->condensed;
+  if (all_loads) {
+    *all_loads = 0.0;
+    std::vector<Wrench> one(w_->bodies.size());
+    for (const LoadSource& source : w_->loads) {
+      for (std::size_t b = 0; b < one.size(); ++b) one[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), w_->motions[b].position};
+      if (source.loads) source.loads(t_s, w_->motions, one);
+      for (std::size_t b = 0; b < one.size(); ++b) *all_loads += one[b].force.norm() / std::sqrt(w_->bodies[b].mass);
+    }
+  }
   return force.allFinite() || w_->fail(StepReport::Trouble::not_finite, -1);
 }
 
@@ -440,16 +449,6 @@ Eigen::MatrixXd System::motion_of_freedoms() const {
   Eigen::MatrixXd motion = w_->mechanism.tangent();
   for (Eigen::Index b = 0; b < motion.rows() / 6; ++b) motion.middleRows<3>(6 * b) *= w_->mechanism.length();
   return motion;
-}
-
-LoadSource gravity_source(std::span<const Body> bodies, double gravity_m_s2, const Eigen::Vector3d& down) {
-  std::vector<Eigen::Vector3d> weight;
-  for (const Body& body : bodies) weight.push_back(body.mass * gravity_m_s2 * down.normalized());
-  return {"gravity",
-          [weight](double, std::span<const Motion>, std::span<Wrench> wrenches) {
-            for (std::size_t b = 0; b < wrenches.size(); ++b) wrenches[b].force += weight[b];
-          },
-          {}};
 }
 
 }  // namespace spindrift::bodies

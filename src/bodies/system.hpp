@@ -99,7 +99,8 @@ class System {
   /// dx/dt and du/dt at chart point (x, u).
   bool rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate, Eigen::VectorXd& u_rate);
   /// Generalised forces at x with everything at rest, and the mass matrix (added mass included), both in chart coordinates.
-  bool forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass);
+  /// all_loads: sum over sources and bodies of |force| / sqrt(mass), to measure a balance against [sqrt(kg) m/s2 over L].
+  bool forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass, double* all_loads = nullptr);
   /// The state at chart point (x, u); false when the position equations fail (then chart_report()).
   bool close_chart(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, BodiesState& state);
   /// Velocities of all bodies per unit of each independent one: 6 rows per body (earth velocity [m/s]; body-axes spin), n columns.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/bodies/loads.hpp"
 #include "src/bodies/system.hpp"
 
 namespace spindrift::bodies::examples {

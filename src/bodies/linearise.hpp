@@ -1,0 +1,44 @@
+// The loaded system linearised about a state: modes with their names, and the largest stable step of each integrator.
+// d/dt (x, u) = A (x, u) in the chart of the state, by central differences of the system's own rates: added mass, drivers, joints and
+// every source of load are in it. Theory: docs/theory/bodies.md, "Stability".
+// Used by `spindrift check` through src/coupling; tested in tests/src/bodies/linearise_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "src/bodies/system.hpp"
+
+namespace spindrift::bodies {
+
+/// One eigenvalue; of a conjugate pair the one with positive imaginary part.
+struct Mode {
+  std::complex<double> eigenvalue;  ///< [1/s]
+  std::string name;                 ///< "heave of platform": the direction with the largest share of kinetic energy
+  double period_s() const;          ///< of the damped oscillation; infinite for a real eigenvalue
+  double damping_ratio() const;
+};
+
+struct Linearisation {
+  Eigen::MatrixXd matrix;   ///< A, 2n x 2n: chart positions, then velocities
+  std::vector<Mode> modes;  ///< fastest first; free directions have eigenvalue 0
+  StepReport report;        ///< not ok(): the state could not be evaluated, no modes
+};
+
+Linearisation linearise(System& system, const BodiesState& state, double t_s);
+
+/// Largest stable step and the mode that sets it ("" where nothing limits the step).
+struct StepLimit {
+  double step_s;
+  std::string mode;
+  std::complex<double> eigenvalue;
+};
+StepLimit step_limit(Integrator integrator, const Linearisation& linearisation);
+
+/// "heave of platform" for the direction, in the chart of the last open_chart, with the largest share of kinetic energy.
+std::string direction_name(const System& system, const BodiesState& state, const Eigen::VectorXd& chart_direction);
+
+}  // namespace spindrift::bodies

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/bodies/statics.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <cmath>
+#include <cstdio>
+
+#include "src/bodies/linearise.hpp"
+
+namespace spindrift::bodies {
+
+namespace {
+
+constexpr double position_difference = 1e-6;  // of the reference length, or radians
+
+/// Forces and stiffness at the centre of an open chart, in coordinates y = G^T x with mass = G G^T: then stiffness is in 1/s2.
+struct Balance {
+  Eigen::VectorXd force;
+  Eigen::MatrixXd stiffness, cholesky;
+  double all_loads = 0.0;
+};
+
+bool evaluate(System& system, double t, Balance& b) {
+  const Eigen::Index n = system.freedoms();
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd mass, unused;
+  Eigen::VectorXd ahead, behind;
+  b.stiffness.resize(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::VectorXd step = position_difference * Eigen::VectorXd::Unit(n, k);
+    if (!system.forces_at_rest(t, step, ahead, unused) || !system.forces_at_rest(t, -step, behind, unused)) return false;
+    b.stiffness.col(k) = (behind - ahead) / (2.0 * position_difference);
+  }
+  if (!system.forces_at_rest(t, zero, b.force, mass, &b.all_loads)) return false;
+  const Eigen::LLT<Eigen::MatrixXd> llt(mass);
+  if (llt.info() != Eigen::Success) return false;
+  b.cholesky = llt.matrixL();
+  const auto lower = b.cholesky.triangularView<Eigen::Lower>();
+  lower.solveInPlace(b.force);
+  lower.solveInPlace(b.stiffness);
+  b.stiffness = lower.solve(b.stiffness.transpose()).transpose().eval();
+  return true;
+}
+
+double unbalanced(System& system, double t, const Eigen::VectorXd& x, const Balance& b, const Eigen::MatrixXd& stiff) {
+  Eigen::VectorXd force;
+  Eigen::MatrixXd mass;
+  if (!system.forces_at_rest(t, x, force, mass)) return INFINITY;
+  b.cholesky.triangularView<Eigen::Lower>().solveInPlace(force);
+  return (stiff.transpose() * force).norm();
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(System& system, const BodiesState& start, double t_s, const EquilibriumOptions& options) {
+  Equilibrium result;
+  result.state = start;
+  for (Motion& m : result.state.motions) m.velocity.setZero(), m.omega.setZero();
+  if (start.motions.empty()) return result;
+  Balance b;
+  for (;; ++result.iterations) {
+    const StepReport opened = system.open_chart(result.state, t_s);
+    if (!opened.ok() || !evaluate(system, t_s, b)) {
+      result.problem = "statics: " + system.describe(opened.ok() ? system.chart_report() : opened);
+      return result;
+    }
+    const Eigen::Index n = system.freedoms();
+    if (n == 0) break;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(b.stiffness, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const double stiffest = svd.singularValues()[0];
+    Eigen::Index rank = 0;
+    while (rank < n && svd.singularValues()[rank] > options.free_fraction * stiffest) ++rank;
+    const Eigen::MatrixXd stiff = svd.matrixU().leftCols(rank);
+
+    const auto name = [&](const Eigen::VectorXd& y) {
+      return direction_name(system, result.state, b.cholesky.transpose().triangularView<Eigen::Upper>().solve(y));
+    };
+    result.free_directions.clear();
+    for (Eigen::Index k = rank; k < n; ++k) {
+      const double load = std::abs(svd.matrixU().col(k).dot(b.force));
+      result.free_directions.push_back(name(svd.matrixV().col(k)));
+      if (load > options.load_tolerance * b.all_loads && result.iterations > 0) {
+        result.problem = "statics: no equilibrium: " + result.free_directions.back() + " has no stiffness and carries " +
+                         number(load / b.all_loads) + " of the loads";
+        return result;
+      }
+    }
+
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> symmetric(0.5 * (b.stiffness + b.stiffness.transpose()));
+    const double softest = symmetric.eigenvalues()[0];
+    const bool unstable = softest < -options.free_fraction * stiffest;
+    const Eigen::VectorXd balance = stiff.transpose() * b.force;
+    result.residual = b.all_loads > 0.0 ? balance.norm() / b.all_loads : 0.0;
+    // Newton, least norm over the stiff directions; where the stiffness is not positive, shifted until it is.
+    Eigen::VectorXd y = svd.matrixV().leftCols(rank) * balance.cwiseQuotient(svd.singularValues().head(rank));
+    const double newton_size = b.cholesky.transpose().triangularView<Eigen::Upper>().solve(y).cwiseAbs().maxCoeff();
+    if (rank == 0 || newton_size <= options.step_tolerance) {
+      result.unstable = unstable ? name(symmetric.eigenvectors().col(0)) : "";
+      for (Eigen::Index k = rank; k < n; ++k)
+        if (std::abs(svd.matrixU().col(k).dot(b.force)) > options.load_tolerance * b.all_loads)
+          result.problem = "statics: no equilibrium: " + name(svd.matrixV().col(k)) + " has no stiffness and carries a load";
+      break;
+    }
+    if (result.iterations == options.iterations) {
+      result.problem = "statics: not converged in " + std::to_string(options.iterations) + " iterations; unbalanced load " +
+                       number(result.residual) + " of all loads, last correction " + number(newton_size) + ", mostly " + name(y);
+      return result;
+    }
+    if (unstable) {
+      const Eigen::MatrixXd shifted = b.stiffness - 2.0 * softest * Eigen::MatrixXd::Identity(n, n);
+      y = shifted.partialPivLu().solve(stiff * balance);
+    }
+    Eigen::VectorXd x = b.cholesky.transpose().triangularView<Eigen::Upper>().solve(y);
+    const double size = x.cwiseAbs().maxCoeff();
+    if (size > options.step_limit) x *= options.step_limit / size;
+    if (!unstable)
+      for (int halving = 0; halving < 6 && unbalanced(system, t_s, x, b, stiff) > balance.norm(); ++halving) x *= 0.5;
+    if (!system.close_chart(t_s, x, Eigen::VectorXd::Zero(n), result.state)) {
+      result.problem = "statics: " + system.describe(system.chart_report());
+      return result;
+    }
+  }
+  // Drivers may move bodies: velocities consistent with them, everything independent at rest.
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.freedoms());
+  system.close_chart(t_s, zero, zero, result.state);
+  return result;
+}
+
+}  // namespace spindrift::bodies
