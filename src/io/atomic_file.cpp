@@ -22,9 +22,9 @@ fs::path temporary_of(const fs::path& path) {
 }
 
 OutputFile::OutputFile(fs::path path, Start start) : path_(std::move(path)) {
-  const int how = start == Start::empty ? O_TRUNC : O_APPEND;
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | how, 0666);
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (start == Start::empty ? O_TRUNC : 0), 0666);
   if (descriptor_ < 0) throw_errno("cannot open", path_, errno);
+  ::lseek(descriptor_, 0, SEEK_END);  // not O_APPEND: with it Linux appends what write_at() places
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
@@ -46,6 +46,16 @@ void OutputFile::write(std::string_view text) {
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) throw_errno("cannot write", path_, errno);
     text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void OutputFile::write_at(long long offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), offset);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw_errno("cannot write", path_, errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+    offset += written;
   }
 }
 

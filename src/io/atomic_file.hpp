@@ -3,7 +3,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,7 +26,10 @@ std::string read_file(const std::filesystem::path& path);
 /// A file descriptor closed by its owner; writes all of a text or throws MachineFailure naming `path`.
 class OutputFile {
  public:
-  enum class Start { empty, end };
+  enum class Start {
+    empty,  ///< a new file, or an old one emptied
+    end     ///< what is there stays
+  };
   OutputFile() = default;
   OutputFile(std::filesystem::path path, Start start);
   OutputFile(OutputFile&& other) noexcept;
@@ -34,6 +39,8 @@ class OutputFile {
   bool is_open() const { return descriptor_ >= 0; }
   const std::filesystem::path& path() const { return path_; }
   void write(std::string_view text);
+  /// Elsewhere in the file; several processes may write different places of one file.
+  void write_at(long long offset, std::span<const std::byte> bytes);
   void sync();
   /// Cuts the file to `bytes` and goes on writing there.
   void cut(long long bytes);

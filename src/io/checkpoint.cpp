@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "src/io/atomic_file.hpp"
 #include "src/io/checksum.hpp"
 #include "src/io/collective.hpp"
-#include "src/io/hdf5.hpp"
 #include "src/io/machine_failure.hpp"
+#include "src/io/shared_hdf5.hpp"
 
 namespace spindrift::io {
 
@@ -36,84 +35,64 @@ std::uint64_t summed(MPI_Comm comm, std::uint64_t part) {
 }  // namespace
 
 struct CheckpointWriter::Impl {
-  MPI_Comm comm;
-  fs::path path, temporary;
-  hdf5::File file;
+  hdf5::SharedFile file;
   std::string manifest;
+
+  template <class Value>
+  void set(const std::string& name, hid_t type, const Value* value) {
+    file.on_root([&](hid_t id) { hdf5::set_attribute(id, name.c_str(), type, value); });
+  }
 };
 
-CheckpointWriter::CheckpointWriter(MPI_Comm comm, fs::path path)
-    : impl_(std::make_unique<Impl>(Impl{comm, path, temporary_of(path), {}, {}})) {
-  on_root(comm, [&] {
-    std::error_code error;
-    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-    if (error) throw MachineFailure("cannot create " + path.parent_path().string() + ": " + error.message());
-  });
-  together(comm, [&] { impl_->file = hdf5::create(comm, impl_->temporary); });
+CheckpointWriter::CheckpointWriter(MPI_Comm comm, fs::path path) : impl_(new Impl{{comm, std::move(path)}, {}}) {
   set("format", std::string(format_name));
   set("format_version", format_version);
 }
 
-CheckpointWriter::~CheckpointWriter() {
-  if (impl_->file.get() < 0) return;  // committed
-  impl_->file = hdf5::File();         // swapped: closed at the end of this statement's temporary
-  std::error_code ignored;
-  if (rank_of(impl_->comm) == 0) fs::remove(impl_->temporary, ignored);
-}
+CheckpointWriter::~CheckpointWriter() = default;
 
 template <class T>
 void CheckpointWriter::write(const std::string& name, std::int64_t total, std::span<const Slice<const T>> slices) {
+  const MPI_Comm comm = impl_->file.comm();
   std::uint64_t sum = 0;
   std::int64_t count = 0;
-  std::vector<hdf5::Piece> pieces;
   for (const auto& slice : slices) {
-    const auto size = static_cast<std::int64_t>(slice.values.size());
-    count += size;
-    if (size > 0) pieces.push_back({slice.offset, size, const_cast<T*>(slice.values.data())});
+    count += static_cast<std::int64_t>(slice.values.size());
     sum += checksum<T>(slice.offset, slice.values);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, impl_->comm);
+  MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, comm);
   if (count != total)
     throw std::logic_error("checkpoint array " + name + ": slices hold " + std::to_string(count) + " of " + std::to_string(total));
-  sum = summed(impl_->comm, sum);
+  sum = summed(comm, sum);
 
-  hdf5::Dataset dataset;
-  together(impl_->comm, [&] {
-    const auto extent = static_cast<hsize_t>(total);
-    const hdf5::Space space(H5Screate_simple(1, &extent, nullptr));
-    const hdf5::Properties parents(H5Pcreate(H5P_LINK_CREATE));
-    H5Pset_create_intermediate_group(parents.get(), 1);
-    dataset = hdf5::Dataset(hdf5::checked(H5Dcreate2(impl_->file.get(), name.c_str(), type_of<T>(), space.get(), parents.get(),
-                                                     H5P_DEFAULT, H5P_DEFAULT), "checkpoint array " + name));
-    hdf5::set_attribute(dataset.get(), "checksum", H5T_NATIVE_UINT64, &sum);
+  const hdf5::SharedFile::Array array{name, type_of<T>(), {static_cast<hsize_t>(total)}, [&](hid_t dataset) {
+                                        hdf5::set_attribute(dataset, "checksum", H5T_NATIVE_UINT64, &sum);
+                                      }};
+  const std::int64_t place = impl_->file.add({&array, 1})[0];
+  together(comm, [&] {
+    for (const auto& slice : slices)
+      impl_->file.write(place + slice.offset * static_cast<std::int64_t>(sizeof(T)), std::as_bytes(slice.values));
   });
-  together(impl_->comm,
-           [&] { hdf5::write_pieces(impl_->comm, dataset.get(), type_of<T>(), pieces, impl_->temporary.string()); });
   impl_->manifest += name + "\n";
 }
 
 template <class T>
 void CheckpointWriter::write(const std::string& name, std::span<const T> values) {
   const Slice<const T> all{0, values};
-  const std::size_t mine = rank_of(impl_->comm) == 0 ? 1 : 0;
+  const std::size_t mine = rank_of(impl_->file.comm()) == 0 ? 1 : 0;
   write<T>(name, static_cast<std::int64_t>(values.size()), std::span<const Slice<const T>>(&all, mine));
 }
 
-void CheckpointWriter::set(const std::string& name, double value) {
-  together(impl_->comm, [&] { hdf5::set_attribute(impl_->file.get(), name.c_str(), H5T_NATIVE_DOUBLE, &value); });
-}
-void CheckpointWriter::set(const std::string& name, std::int64_t value) {
-  together(impl_->comm, [&] { hdf5::set_attribute(impl_->file.get(), name.c_str(), H5T_NATIVE_INT64, &value); });
-}
+void CheckpointWriter::set(const std::string& name, double value) { impl_->set(name, H5T_NATIVE_DOUBLE, &value); }
+void CheckpointWriter::set(const std::string& name, std::int64_t value) { impl_->set(name, H5T_NATIVE_INT64, &value); }
 void CheckpointWriter::set(const std::string& name, const std::string& value) {
-  together(impl_->comm, [&] { hdf5::set_attribute(impl_->file.get(), name.c_str(), value); });
+  impl_->file.on_root([&](hid_t id) { hdf5::set_attribute(id, name.c_str(), value); });
 }
 
 void CheckpointWriter::commit() {
   const std::string names = impl_->manifest;
   write<std::byte>(manifest_name, std::as_bytes(std::span(names)));
-  together(impl_->comm, [&] { hdf5::finish(std::move(impl_->file), impl_->temporary); });
-  on_root(impl_->comm, [&] { commit_file(impl_->temporary, impl_->path); });
+  impl_->file.commit();
 }
 
 struct CheckpointReader::Impl {
@@ -160,7 +139,7 @@ void CheckpointReader::Impl::verify(const std::string& name) const {
     std::vector<T> values;
     for (std::int64_t from = total / ranks * rank + std::min(total % ranks, rank); from < end; from += at_once) {
       values.resize(static_cast<std::size_t>(std::min(at_once, end - from)));
-      hdf5::read_piece(data.get(), type_of<T>(), {from, static_cast<std::int64_t>(values.size()), values.data()}, path.string());
+      hdf5::read(data.get(), type_of<T>(), from, static_cast<std::int64_t>(values.size()), values.data(), path.string());
       sum += checksum<T>(from, values);
     }
   });
@@ -180,8 +159,7 @@ void CheckpointReader::Impl::verify_all() const {
   verify<std::byte>(manifest_name);
   const hdf5::Dataset manifest = dataset(manifest_name);
   std::string names(static_cast<std::size_t>(size_of_dataset(manifest)), '\0');
-  if (!names.empty())
-    hdf5::read_piece(manifest.get(), H5T_NATIVE_UINT8, {0, static_cast<std::int64_t>(names.size()), names.data()}, path.string());
+  hdf5::read(manifest.get(), H5T_NATIVE_UINT8, 0, static_cast<std::int64_t>(names.size()), names.data(), path.string());
   for (std::size_t begin = 0, end; (end = names.find('\n', begin)) != std::string::npos; begin = end + 1) {
     const std::string name = names.substr(begin, end - begin);
     const hdf5::Dataset data = dataset(name);
@@ -198,9 +176,7 @@ void CheckpointReader::Impl::verify_all() const {
 
 CheckpointReader::CheckpointReader(MPI_Comm comm, const fs::path& path)
     : impl_(std::make_unique<Impl>(Impl{comm, path, {}})) {
-  // One rank looks first: that a file is cut short it finds without the others having opened anything.
-  on_root(comm, [&] { hdf5::open(MPI_COMM_SELF, path); });
-  together(comm, [&] { impl_->file = hdf5::open(comm, path); });
+  together(comm, [&] { impl_->file = hdf5::open(path); });
   try {
     impl_->verify_all();
   } catch (const InputError& error) {  // a listed array that is not there: damage, not another scene
@@ -230,11 +206,10 @@ void CheckpointReader::read(const std::string& name, std::span<const Slice<T>> s
   const std::int64_t total = size_of_dataset(data);
   for (const auto& slice : slices) {
     const auto count = static_cast<std::int64_t>(slice.values.size());
-    if (count == 0) continue;
     if (slice.offset < 0 || slice.offset + count > total)
       throw InputError(impl_->path.string() + ": array " + name + " has " + std::to_string(total) + " values, this run asks for " +
                        std::to_string(slice.offset + count) + "; restart with the scene of the first run");
-    hdf5::read_piece(data.get(), type_of<T>(), {slice.offset, count, slice.values.data()}, impl_->path.string());
+    hdf5::read(data.get(), type_of<T>(), slice.offset, count, slice.values.data(), impl_->path.string());
   }
 }
 

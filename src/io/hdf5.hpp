@@ -1,17 +1,14 @@
 // Owners of HDF5 ids and its error messages as exceptions. Only for the .cpp files of this folder that write or read HDF5.
-// The library is not thread-safe and its calls on a file are collective: one HDF5 task at a time in a process, in the same order on all ranks.
+// The library is not thread-safe: one call at a time in a process.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <hdf5.h>
-#include <mpi.h>
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace spindrift::io::hdf5 {
 
@@ -49,25 +46,18 @@ std::string last_error();
 /// `result` where it is not negative, else throws MachineFailure("WHAT: library's message").
 hid_t checked(hid_t result, const std::string& what);
 
-/// Collective. By MPI where there is more than one rank. Metadata in the newest format that HDF5 1.10 writes, because that is checksummed.
-File create(MPI_Comm comm, const std::filesystem::path& path);
-/// Collective, for reading.
-File open(MPI_Comm comm, const std::filesystem::path& path);
-/// To disk, then closed. Where either fails the id is given up so that no destructor tries again. Collective; throws on the failing rank only.
+/// Metadata in the newest format that HDF5 1.10 writes, because that is checksummed.
+File create(const std::filesystem::path& path);
+/// For reading.
+File open(const std::filesystem::path& path);
+/// To disk, then closed; where that fails the file is abandoned.
 void finish(File file, const std::filesystem::path& path);
+/// Closes a file that is not wanted any more, also one on a disk that takes nothing: HDF5 1.10 keeps the id of a file that it cannot flush
+/// and ends in a segmentation fault at MPI_Finalize. So its last writes go to memory instead.
+void abandon(File file) noexcept;
 
-/// A run of elements of a dataset seen as one long row, and where they are in memory.
-struct Piece {
-  std::int64_t offset, count;
-  void* data;  ///< only read where written from
-};
-
-/// Collective over `comm`: every rank writes its pieces (none is fine), in as many rounds as the rank with the most needs.
-/// `extents` is the shape of the dataset; pieces of a dataset of more than one dimension are whole multiples of its last ones.
-void write_pieces(MPI_Comm comm, hid_t dataset, hid_t memory_type, std::span<const Piece> pieces, const std::string& what);
-
-/// Not collective.
-void read_piece(hid_t dataset, hid_t memory_type, const Piece& piece, const std::string& what);
+/// Reads `count` values of a one-dimensional dataset from index `offset` on.
+void read(hid_t dataset, hid_t memory_type, std::int64_t offset, std::int64_t count, void* values, const std::string& what);
 
 void set_attribute(hid_t object, const char* name, hid_t type, const void* value);
 void set_attribute(hid_t object, const char* name, const std::string& text);

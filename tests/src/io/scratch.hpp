@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mpi.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -11,23 +12,39 @@ namespace spindrift::test {
 
 class Scratch {
  public:
-  /// One folder per process; ranks of an MPI test share `name` and let rank 0 make it (shared = true: no process number in the name).
-  explicit Scratch(const std::string& name, bool shared = false)
-      : path_(std::filesystem::path(SPINDRIFT_BINARY_DIR) / "test_scratch" / (name + (shared ? "" : "_" + std::to_string(::getpid())))),
-        shared_(shared) {
-    if (!shared_) std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+  explicit Scratch(const std::string& name, MPI_Comm comm = MPI_COMM_SELF) : comm_(comm) {
+    int number = ::getpid();
+    MPI_Bcast(&number, 1, MPI_INT, 0, comm_);  // the ranks of a test share the folder of rank 0
+    path_ = std::filesystem::path(SPINDRIFT_BINARY_DIR) / "test_scratch" / (name + "_" + std::to_string(number));
+    on_root([this] {
+      std::filesystem::remove_all(path_);
+      std::filesystem::create_directories(path_);
+    });
   }
   ~Scratch() {
-    std::error_code ignored;
-    if (!shared_) std::filesystem::remove_all(path_, ignored);
+    on_root([this] {
+      std::error_code ignored;
+      std::filesystem::remove_all(path_, ignored);
+    });
   }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  template <class Work>
+  void on_root(Work work) {
+    int rank = 0;
+    MPI_Comm_rank(comm_, &rank);
+    MPI_Barrier(comm_);
+    if (rank == 0) work();
+    MPI_Barrier(comm_);
+  }
+
+  MPI_Comm comm_;
   std::filesystem::path path_;
-  bool shared_;
 };
 
 }  // namespace spindrift::test

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/io/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "src/io/collective.hpp"
+#include "src/io/shared_hdf5.hpp"
+#include "src/io/xdmf_series.hpp"
+
+namespace spindrift::io {
+
+namespace fs = std::filesystem;
+using hdf5::SharedFile;
+
+namespace {
+
+/// What grids and particles share: the folder, the series, and the naming of files.
+struct Series {
+  MPI_Comm comm;
+  fs::path folder;
+  std::string name;
+  std::vector<Field> fields;
+  std::optional<XdmfSeries> xdmf{};  // rank 0
+
+  void open(double resume_s) {
+    on_root(comm, [&] {
+      fs::create_directories(folder);
+      xdmf.emplace(folder / (name + ".xdmf"), name, resume_s);
+    });
+  }
+  std::string file(std::int64_t tick) const { return fmt::format("{}_{:018}.h5", name, tick); }
+  void append(double time_s, const std::string& grid) {
+    on_root(comm, [&] { xdmf->append(time_s, grid); });
+  }
+};
+
+std::string item(const std::string& dimensions, const char* type, int bytes, const std::string& file, const std::string& path) {
+  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:/{}</DataItem>", dimensions, type,
+                     bytes, file, path);
+}
+
+std::string attribute(const Field& field, const std::string& dimensions, const char* centre, const std::string& file,
+                      const std::string& path) {
+  const char* type = field.components == 1 ? "Scalar" : field.components == 3 ? "Vector" : field.components == 6 ? "Tensor6" : "Tensor";
+  const std::string shape = field.components == 1 ? dimensions : fmt::format("{} {}", dimensions, field.components);
+  return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", field.name, type, centre,
+                     item(shape, "Float", 4, file, path));
+}
+
+std::vector<hsize_t> with_components(std::vector<hsize_t> extents, int components) {
+  if (components > 1) extents.push_back(static_cast<hsize_t>(components));
+  return extents;
+}
+
+SharedFile::Array field_array(const std::string& path, const std::vector<hsize_t>& extents, const Field& field) {
+  return {path, H5T_NATIVE_FLOAT, with_components(extents, field.components),
+          [unit = field.unit](hid_t dataset) { hdf5::set_attribute(dataset, "unit", unit); }};
+}
+
+void write_single(SharedFile& file, std::int64_t place, std::span<const double> values, std::vector<float>& buffer) {
+  buffer.assign(values.begin(), values.end());
+  file.write(place, std::as_bytes(std::span(buffer)));
+}
+
+void require_size(std::size_t found, std::size_t expected, const std::string& what) {
+  if (found != expected) throw std::logic_error(fmt::format("field output of {}: {} values, expected {}", what, found, expected));
+}
+
+void set_time(SharedFile& file, double time_s) {
+  file.on_root([&](hid_t id) { hdf5::set_attribute(id, "time_s", H5T_NATIVE_DOUBLE, &time_s); });
+}
+
+}  // namespace
+
+struct GridFields::Impl {
+  Series series;
+  std::vector<GridBlock> blocks;
+  bool moves;
+  std::string points_file{};  // that has the points of the next output
+
+  static std::size_t cells(const GridBlock& b) { return static_cast<std::size_t>(b.ni) * b.nj * b.nk; }
+  static std::size_t corners(const GridBlock& b) { return static_cast<std::size_t>(b.ni + 1) * (b.nj + 1) * (b.nk + 1); }
+
+  /// Points first where they are written, then the fields, block by block.
+  std::vector<SharedFile::Array> arrays(bool with_points) const {
+    std::vector<SharedFile::Array> list;
+    for (const GridBlock& b : blocks) {
+      const auto extent = [](int n) { return static_cast<hsize_t>(n); };
+      if (with_points) list.push_back({b.name + "/points", H5T_NATIVE_DOUBLE, {extent(b.nk + 1), extent(b.nj + 1), extent(b.ni + 1), 3}, {}});
+      for (const Field& field : series.fields)
+        list.push_back(field_array(b.name + "/" + field.name, {extent(b.nk), extent(b.nj), extent(b.ni)}, field));
+    }
+    return list;
+  }
+
+  std::string grid(double time_s, const std::string& file) const {
+    std::string text = fmt::format("<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{}\"/>\n",
+                                   series.name, time_s);
+    for (const GridBlock& b : blocks) {
+      const std::string corners = fmt::format("{} {} {}", b.nk + 1, b.nj + 1, b.ni + 1), cells = fmt::format("{} {} {}", b.nk, b.nj, b.ni);
+      text += fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\"><Topology TopologyType=\"3DSMesh\" Dimensions=\"{}\"/>\n", b.name, corners);
+      text += "<Geometry GeometryType=\"XYZ\">" + item(corners + " 3", "Float", 8, points_file, b.name + "/points") + "</Geometry>\n";
+      for (const Field& field : series.fields) text += attribute(field, cells, "Cell", file, b.name + "/" + field.name);
+      text += "</Grid>\n";
+    }
+    return text + "</Grid>\n";
+  }
+};
+
+GridFields::GridFields(MPI_Comm comm, fs::path folder, std::string name, std::vector<GridBlock> blocks, std::vector<Field> fields, bool moves,
+                       double resume_s)
+    : impl_(new Impl{{comm, std::move(folder), std::move(name), std::move(fields)}, std::move(blocks), moves}) {
+  impl_->series.open(resume_s);
+}
+GridFields::~GridFields() = default;
+
+void GridFields::write(std::int64_t tick, double time_s, std::span<const Values> mine) {
+  Series& series = impl_->series;
+  const std::string name = series.file(tick);
+  const bool with_points = impl_->moves || impl_->points_file.empty();
+  if (with_points) impl_->points_file = name;
+  SharedFile file(series.comm, series.folder / name);
+  set_time(file, time_s);
+  const std::vector<std::int64_t> places = file.add(impl_->arrays(with_points));
+  const std::size_t per_block = series.fields.size() + (with_points ? 1 : 0);
+  together(series.comm, [&] {
+    std::vector<float> buffer;
+    for (const Values& values : mine) {
+      const GridBlock& block = impl_->blocks.at(static_cast<std::size_t>(values.block));
+      std::size_t at = per_block * static_cast<std::size_t>(values.block);
+      if (with_points) {
+        require_size(values.points.size(), 3 * Impl::corners(block), block.name + "/points");
+        file.write(places[at++], std::as_bytes(values.points));
+      }
+      require_size(values.fields.size(), series.fields.size(), block.name + " (number of fields)");
+      for (std::size_t f = 0; f < series.fields.size(); ++f, ++at) {
+        const auto expected = Impl::cells(block) * static_cast<std::size_t>(series.fields[f].components);
+        require_size(values.fields[f].size(), expected, block.name + "/" + series.fields[f].name);
+        write_single(file, places[at], values.fields[f], buffer);
+      }
+    }
+  });
+  file.commit();
+  series.append(time_s, impl_->grid(time_s, name));
+}
+
+struct ParticleFields::Impl {
+  Series series;
+
+  std::string grid(double time_s, const std::string& file, std::int64_t count) const {
+    const std::string n = std::to_string(count);
+    std::string text = fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n", series.name, time_s);
+    text += fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n", n);
+    text += "<Geometry GeometryType=\"XYZ\">" + item(n + " 3", "Float", 8, file, "position") + "</Geometry>\n";
+    text += "<Attribute Name=\"id\" AttributeType=\"Scalar\" Center=\"Node\">" + item(n, "Int", 8, file, "id") + "</Attribute>\n";
+    for (const Field& field : series.fields) text += attribute(field, n, "Node", file, field.name);
+    return text + "</Grid>\n";
+  }
+};
+
+ParticleFields::ParticleFields(MPI_Comm comm, fs::path folder, std::string name, std::vector<Field> fields, double resume_s)
+    : impl_(new Impl{{comm, std::move(folder), std::move(name), std::move(fields)}}) {
+  impl_->series.open(resume_s);
+}
+ParticleFields::~ParticleFields() = default;
+
+void ParticleFields::write(std::int64_t tick, double time_s, std::span<const std::int64_t> ids, std::span<const double> positions,
+                           std::span<const std::span<const double>> fields) {
+  Series& series = impl_->series;
+  const auto mine = static_cast<std::int64_t>(ids.size());
+  std::int64_t before = 0, total = 0;
+  MPI_Exscan(&mine, &before, 1, MPI_INT64_T, MPI_SUM, series.comm);
+  if (rank_of(series.comm) == 0) before = 0;  // MPI leaves it undefined there
+  MPI_Allreduce(&mine, &total, 1, MPI_INT64_T, MPI_SUM, series.comm);
+
+  const std::string name = series.file(tick);
+  SharedFile file(series.comm, series.folder / name);
+  set_time(file, time_s);
+  const auto extent = static_cast<hsize_t>(total);
+  std::vector<SharedFile::Array> arrays = {{"position", H5T_NATIVE_DOUBLE, {extent, 3}, {}}, {"id", H5T_NATIVE_INT64, {extent}, {}}};
+  for (const Field& field : series.fields) arrays.push_back(field_array(field.name, {extent}, field));
+  const std::vector<std::int64_t> places = file.add(arrays);
+  together(series.comm, [&] {
+    require_size(positions.size(), 3 * ids.size(), series.name + " positions");
+    require_size(fields.size(), series.fields.size(), series.name + " (number of fields)");
+    file.write(places[0] + before * 3 * 8, std::as_bytes(positions));
+    file.write(places[1] + before * 8, std::as_bytes(ids));
+    std::vector<float> buffer;
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      const int components = series.fields[f].components;
+      require_size(fields[f].size(), ids.size() * static_cast<std::size_t>(components), series.name + "/" + series.fields[f].name);
+      write_single(file, places[2 + f] + before * components * 4, fields[f], buffer);
+    }
+  });
+  file.commit();
+  // A grid without a single point stops ParaView's reader; the file is there all the same.
+  if (total > 0) series.append(time_s, impl_->grid(time_s, name, total));
+}
+
+}  // namespace spindrift::io
