@@ -1,0 +1,49 @@
+// Tait equation of state with gamma 7: p = B [(rho/rho0)^7 - 1], B = rho0 c0^2 / 7. Monaghan (1994), J. Comput. Phys. 110, eq. 3.
+// Written in the deviation d = rho - rho0, because floats then keep seven digits of the pressure and not of the density.
+// Called by src/sea/sph (pack, initial state); tested in tests/kernels/sph/eos_tait_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+namespace spindrift::sph {
+
+struct EosTait {
+  double rho0 = 1000.0;  ///< density at zero pressure [kg/m3]
+  double c0 = 20.0;      ///< speed of sound at rho0 [m/s]
+  static constexpr double gamma = 7.0;
+
+  double stiffness() const { return rho0 * c0 * c0 / gamma; }
+
+  /// Pressure [Pa] of a density deviation [kg/m3]: (1 + e)^7 - 1 expanded, so that no digit cancels for small e.
+  template <class Real>
+  Real pressure(Real deviation) const {
+    const Real e = deviation * Real(1.0 / rho0);
+    const Real series =
+        Real(7) + e * (Real(21) + e * (Real(35) + e * (Real(35) + e * (Real(21) + e * (Real(7) + e)))));
+    return Real(stiffness()) * (e * series);
+  }
+  /// Inverse: deviation [kg/m3] that gives the pressure [Pa]; below -B there is none.
+  double deviation(double pressure) const { return rho0 * std::expm1(std::log1p(pressure / stiffness()) / gamma); }
+  /// Deviation at a depth [m] under the surface of water at rest, dp/dz = -rho g of the compressible fluid itself.
+  double hydrostatic_deviation(double depth, double gravity) const {
+    // With s = rho/rho0 the balance reads c0^2 s^5 ds = g dz: s^6 = 1 + 6 g depth / c0^2.
+    return rho0 * std::expm1(std::log1p((gamma - 1.0) * gravity * depth / (c0 * c0)) / (gamma - 1.0));
+  }
+  double sound_speed(double deviation) const {
+    const double s = 1.0 + deviation / rho0;
+    return c0 * s * s * s;
+  }
+};
+
+/// An equation of state p(d) of the density deviation d with its inverse.
+template <class E>
+concept EquationOfState = requires(const E eos, double d) {
+  { eos.pressure(d) } -> std::same_as<double>;
+  { eos.deviation(d) } -> std::same_as<double>;
+  { eos.sound_speed(d) } -> std::same_as<double>;
+};
+static_assert(EquationOfState<EosTait>);
+
+}  // namespace spindrift::sph

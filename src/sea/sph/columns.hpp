@@ -1,0 +1,115 @@
+// The groups of a scene: vertical columns on a regular horizontal grid, at least one support wide, so that a particle meets only its own
+// column and the eight (in 2-D: two) round it. Depends on the scene alone, never on ranks, threads or the state.
+// Called by ordering.cpp and sweep_pairs.hpp; tested in tests/src/sea/sph/ordering_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace spindrift::sph {
+
+/// The box that particles may be in, earth frame [m]; horizontal axes may be periodic, the vertical (last) one is not.
+template <int dim>
+struct Domain {
+  std::array<double, dim> low, high;
+  std::array<bool, dim> periodic{};
+
+  bool contains(const std::array<double, dim>& x) const {
+    for (int k = 0; k < dim; ++k)
+      if (!(x[k] >= low[k] && x[k] < high[k]) && !periodic[k]) return false;  // also catches NaN
+    return true;
+  }
+};
+
+/// A neighbouring column, and what to add to the positions in it to see them beside the first one (periodic sides) [m].
+template <int dim>
+struct Neighbour {
+  int group = -1;
+  std::array<double, dim> shift{};
+};
+
+template <int dim>
+class Columns {
+ public:
+  Columns() = default;
+  /// reach: support plus what particles may drift between two sorts; `width`: wanted edge of a column, at least reach [m].
+  Columns(const Domain<dim>& domain, double reach, double width) : domain_(domain) {
+    for (int k = 0; k < dim - 1; ++k) {
+      const double length = domain.high[k] - domain.low[k];
+      count_[k] = std::max(1, int(length / std::max(width, reach)));
+      edge_[k] = length / count_[k];
+      if (domain.periodic[k] && count_[k] < 3)
+        throw std::invalid_argument("sph: a periodic side needs at least three supports of width");
+    }
+  }
+
+  int groups() const { return dim == 2 ? count_[0] : count_[0] * count_[1]; }
+  /// Column of a position inside the domain.
+  int group(const std::array<double, dim>& x) const {
+    int index = 0;
+    for (int k = 0; k < dim - 1; ++k) {
+      int cell = int(std::floor((x[k] - domain_.low[k]) / edge_[k]));
+      cell = domain_.periodic[k] ? ((cell % count_[k]) + count_[k]) % count_[k] : std::clamp(cell, 0, count_[k] - 1);
+      index = index * count_[k] + cell;
+    }
+    return index;
+  }
+  const Domain<dim>& domain() const { return domain_; }
+  double edge(int axis) const { return edge_[axis]; }
+
+  /// The neighbours whose pairs with `group` are this group's to compute: half of the ring, so that each pair of columns occurs once.
+  template <class Visit>
+  void for_forward(int group, Visit&& visit) const {
+    if constexpr (dim == 2) {
+      visit_cell({group + 1}, visit);
+    } else {
+      const int a = group / count_[1], b = group % count_[1];
+      visit_cell({a, b + 1}, visit);
+      for (int step = -1; step <= 1; ++step) visit_cell({a + 1, b + step}, visit);
+    }
+  }
+
+  /// Groups of one colour write to disjoint groups when each updates itself and its forward neighbours, so they may run at once;
+  /// colours run in order, hence every sum has one order of terms whatever the threads do.
+  int colours() const { return dim == 2 ? axis_colours(0, 2) : axis_colours(0, 2) * axis_colours(1, 3); }
+  int colour(int group) const {
+    if constexpr (dim == 2) return axis_colour(0, group, 2);
+    else return axis_colour(0, group / count_[1], 2) * axis_colours(1, 3) + axis_colour(1, group % count_[1], 3);
+  }
+
+ private:
+  // A periodic ring whose length is no multiple of the period gives its last cells colours of their own.
+  int axis_colours(int axis, int period) const {
+    return period + (domain_.periodic[axis] ? count_[axis] % period : 0);
+  }
+  int axis_colour(int axis, int cell, int period) const {
+    const int rest = domain_.periodic[axis] ? count_[axis] % period : 0;
+    return cell >= count_[axis] - rest ? period + cell - (count_[axis] - rest) : cell % period;
+  }
+
+  template <class Visit>
+  void visit_cell(std::array<int, dim - 1> cell, Visit&& visit) const {
+    Neighbour<dim> neighbour;
+    int index = 0;
+    for (int k = 0; k < dim - 1; ++k) {
+      if (cell[k] < 0 || cell[k] >= count_[k]) {
+        if (!domain_.periodic[k]) return;
+        const int turn = cell[k] < 0 ? -1 : 1;
+        cell[k] -= turn * count_[k];
+        neighbour.shift[k] = turn * (domain_.high[k] - domain_.low[k]);
+      }
+      index = index * count_[k] + cell[k];
+    }
+    neighbour.group = index;
+    visit(neighbour);
+  }
+
+  Domain<dim> domain_;
+  std::array<int, dim> count_{};
+  std::array<double, dim> edge_{};
+};
+
+}  // namespace spindrift::sph

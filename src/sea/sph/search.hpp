@@ -1,0 +1,110 @@
+// Which clusters a cluster, and then a single particle, can reach: tests on bounding boxes, sixteen at a time, made anew in every sweep.
+// Boxes follow the particles, so nothing is kept between sweeps and the order of particles may be old; a pair that slips in beyond
+// the support contributes exactly zero (the kernel is cut), so results do not depend on the tests.
+// Called by sweep_pairs.hpp; tested in tests/src/sea/sph/sweep_test.cpp against all pairs.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "kernels/base/wide.hpp"
+#include "src/sea/sph/store.hpp"
+
+namespace spindrift::sph {
+
+/// Writes first + lane to `to` for every lane with value < bound among the first `valid`; returns how many. Writes up to 16 numbers.
+inline int append_where_below(std::uint32_t* to, Wide<float, 16> value, float bound, std::uint32_t first, int valid) {
+#ifdef __AVX512F__
+  const __mmask16 lanes = valid >= 16 ? __mmask16(0xffff) : __mmask16((1u << valid) - 1u);
+  const __mmask16 below = _mm512_mask_cmp_ps_mask(lanes, value.v, _mm512_set1_ps(bound), _CMP_LT_OQ);
+  const __m512i places = _mm512_add_epi32(_mm512_set1_epi32(int(first)),
+                                          _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0));
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(below, places));  // compressing to memory directly is microcoded on some processors
+  return __builtin_popcount(below);
+#else
+  int count = 0;
+  for (int lane = 0; lane < 16 && lane < valid; ++lane) {
+    to[count] = first + std::uint32_t(lane);
+    count += value[lane] < bound;
+  }
+  return count;
+#endif
+}
+
+/// Squared gap between 16 boxes and one box (a point when its corners coincide); from the corner of the domain [m].
+template <int dim>
+Wide<float, 16> gap2(const std::array<const float*, dim>& low, const std::array<const float*, dim>& high,
+                      const std::array<float, dim>& box_low, const std::array<float, dim>& box_high) {
+  using V = Wide<float, 16>;
+  V total(0.0f);
+  for (int k = 0; k < dim; ++k) {
+    const V gap = max(max(V::load(low[k]) - V(box_high[k]), V(box_low[k]) - V::load(high[k])), V(0.0f));
+    total += gap * gap;
+  }
+  return total;
+}
+
+/// The clusters near one cluster, copied together: boxes as that cluster sees them, and shifts between the anchors. One per thread.
+template <int dim, class Real>
+class Candidates {
+ public:
+  void reserve(std::size_t clusters) {
+    const std::size_t room = clusters + 2 * cluster_size;
+    if (room <= cluster_.size()) return;
+    cluster_.resize(room), chosen_.resize(room);
+    for (int k = 0; k < dim; ++k) low_[k].resize(room), high_[k].resize(room), shift_[k].resize(room);
+  }
+  void clear() { count_ = 0; }
+  int size() const { return count_; }
+
+  /// Adds the clusters [first, end) of a group that come within `reach` of cluster `mine`; `shift` from periodic sides.
+  void add(const Store<dim, Real>& store, std::uint32_t mine, std::uint32_t first, std::uint32_t end,
+           const std::array<double, dim>& shift, float reach) {
+    std::array<float, dim> box_low, box_high;
+    for (int k = 0; k < dim; ++k) box_low[k] = store.low[k][mine] - float(shift[k]), box_high[k] = store.high[k][mine] - float(shift[k]);
+    const int before = count_;
+    for (std::uint32_t from = first; from < end; from += 16) {
+      std::array<const float*, dim> low, high;
+      for (int k = 0; k < dim; ++k) low[k] = &store.low[k][from], high[k] = &store.high[k][from];
+      count_ += append_where_below(&cluster_[count_], gap2<dim>(low, high, box_low, box_high), reach * reach, from, int(end - from));
+    }
+    for (int n = before; n < count_; ++n) {
+      const std::uint32_t other = cluster_[n];
+      for (int k = 0; k < dim; ++k) {
+        low_[k][n] = store.low[k][other] + float(shift[k]);
+        high_[k][n] = store.high[k][other] + float(shift[k]);
+        // Particle i sees that cluster's offsets when this is added to its own: anchor_i - (anchor_j + shift).
+        shift_[k][n] = Real(store.anchor[k][mine] - store.anchor[k][other] - shift[k]);
+      }
+    }
+  }
+  /// Chooses those within `reach` of a point; returns how many.
+  int choose(const std::array<float, dim>& point, float reach) {
+    int count = 0;
+    for (int from = 0; from < count_; from += 16) {
+      std::array<const float*, dim> low, high;
+      for (int k = 0; k < dim; ++k) low[k] = &low_[k][from], high[k] = &high_[k][from];
+      count += append_where_below(&chosen_[count], gap2<dim>(low, high, point, point), reach * reach, std::uint32_t(from), count_ - from);
+    }
+    return count;
+  }
+  /// Plain pointers for the inner loop.
+  struct View {
+    const std::uint32_t *chosen, *cluster;
+    std::array<const Real*, dim> shift;
+  };
+  View view() const {
+    View v{chosen_.data(), cluster_.data(), {}};
+    for (int k = 0; k < dim; ++k) v.shift[k] = shift_[k].data();
+    return v;
+  }
+
+ private:
+  int count_ = 0;
+  Array<std::uint32_t> cluster_, chosen_;
+  std::array<Array<float>, dim> low_, high_;
+  std::array<Array<Real>, dim> shift_;
+};
+
+}  // namespace spindrift::sph

@@ -1,0 +1,73 @@
+// The particles of a sea: who owns which arrays. One entry ("slot") per lane of a cluster; empty lanes carry no_particle.
+// The state at the last full step is in double; what pair sweeps read is `pack`, in Real, relative to the anchor of the cluster,
+// and holds the state at n or at n + 1/2, so that the predictor needs no second copy of the state.
+// Called by ordering.cpp (which alone changes the order), pack.hpp, sweep_pairs.hpp and sea_sph.hpp; tested in tests/src/sea/sph.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "src/sea/sph/columns.hpp"
+#include "src/sea/sph/layout.hpp"
+
+namespace spindrift::sph {
+
+/// Planes of `pack` per cluster: position relative to the anchor, velocity, density deviation, p/rho^2.
+template <int dim>
+inline constexpr int pack_planes = 2 * dim + 2;
+/// Planes of `sums` per cluster: acceleration, density rate (both per unit mass of a partner until scaled).
+template <int dim>
+inline constexpr int sum_planes = dim + 1;
+
+/// A particle that left the domain: counted and located, never dropped silently.
+template <int dim>
+struct LostParticle {
+  std::uint32_t id;
+  std::array<double, dim> position, velocity;
+};
+
+template <int dim, class Real>
+struct Store {
+  // per slot
+  std::array<Array<double>, dim> x, v;  ///< [m], [m/s], earth frame; in 2-D x and z
+  Array<double> deviation;              ///< rho - rho0 [kg/m3]
+  Array<std::uint32_t> id;
+  // per cluster
+  Array<Real> pack, sums;
+  Array<std::uint16_t> owner;              ///< 0 water, 1 + n the solid n
+  std::array<Array<double>, dim> anchor;   ///< multiples of a power of two, so that differences are exact in Real [m]
+  std::array<Array<float>, dim> low, high; ///< bounding box of the packed particles, from the corner of the domain [m]
+  // per group
+  std::vector<Group> groups;
+  std::vector<LostParticle<dim>> lost;
+  std::array<double, dim> corner{};     ///< lowest corner of the domain, where boxes are measured from [m]
+
+  /// Anchor of a cluster from the corner of the domain [m].
+  float frame(int axis, std::size_t cluster) const { return float(anchor[axis][cluster] - corner[axis]); }
+  std::size_t slots() const { return id.size(); }
+  std::size_t clusters() const { return owner.size(); }
+  Real* pack_of(std::size_t cluster) { return pack.data() + cluster * pack_planes<dim> * cluster_size; }
+  const Real* pack_of(std::size_t cluster) const { return pack.data() + cluster * pack_planes<dim> * cluster_size; }
+  Real* sums_of(std::size_t cluster) { return sums.data() + cluster * sum_planes<dim> * cluster_size; }
+  const Real* sums_of(std::size_t cluster) const { return sums.data() + cluster * sum_planes<dim> * cluster_size; }
+
+  std::size_t bytes() const {
+    std::size_t total = deviation.capacity() * 8 + id.capacity() * 4 + (pack.capacity() + sums.capacity()) * sizeof(Real) +
+                        owner.capacity() * 2 + groups.capacity() * sizeof(Group);
+    for (int k = 0; k < dim; ++k)
+      total += (x[k].capacity() + v[k].capacity() + anchor[k].capacity()) * 8 + (low[k].capacity() + high[k].capacity()) * 4;
+    return total;
+  }
+};
+
+/// One particle as scenes make them, before they are in a store.
+template <int dim>
+struct Seed {
+  std::array<double, dim> position, velocity{};
+  double deviation = 0.0;       ///< rho - rho0 [kg/m3]
+  std::uint16_t owner = 0;      ///< 0 water, 1 + n the solid n
+};
+
+}  // namespace spindrift::sph

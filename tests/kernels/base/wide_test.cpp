@@ -1,0 +1,44 @@
+// Laws of kernels/base/wide.hpp: lane arithmetic is the arithmetic of one number.
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/base/wide.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+using namespace spindrift;
+
+TEMPLATE_TEST_CASE("lanes compute what one number computes", "[wide][fast]", float, double) {
+  using V = Wide<TestType, 8>;
+  TestType a[8], b[8];
+  for (int n = 0; n < 8; ++n) a[n] = TestType(0.3 * n - 2.0), b[n] = TestType(5.0 / (n + 1));
+  const V va = V::load(a), vb = V::load(b);
+  for (int n = 0; n < 8; ++n) {
+    CHECK((va + vb)[n] == a[n] + b[n]);
+    CHECK((va - vb)[n] == a[n] - b[n]);
+    CHECK((va * vb)[n] == a[n] * b[n]);
+    CHECK((va / vb)[n] == a[n] / b[n]);
+    CHECK((-va)[n] == -a[n]);
+    CHECK(min(va, vb)[n] == std::min(a[n], b[n]));
+    CHECK(max(va, vb)[n] == std::max(a[n], b[n]));
+    CHECK(sqrt(vb)[n] == std::sqrt(b[n]));
+  }
+  CHECK(V(TestType(-0.0))[3] == TestType(0));
+  CHECK(std::signbit(V(TestType(-0.0))[3]));
+}
+
+TEMPLATE_TEST_CASE("reciprocals of lanes are right within three units in the last place", "[wide][fast]", float, double) {
+  using V = NativeWide<TestType>;
+  const TestType unit = std::numeric_limits<TestType>::epsilon();
+  for (double x = 1e-12; x < 1e12; x *= 1.37) {
+    const TestType exact = TestType(1) / TestType(x), root = TestType(1 / std::sqrt(double(TestType(x))));
+    CHECK(std::abs(reciprocal(V(x))[1] - exact) <= 3 * unit * exact);
+    CHECK(std::abs(inverse_sqrt(V(x))[1] - root) <= 3 * unit * root);
+  }
+}
+
+TEST_CASE("the sum of lanes adds halves", "[wide][fast]") {
+  float a[16];
+  for (int n = 0; n < 16; ++n) a[n] = float(n * n);
+  CHECK(sum(Wide<float, 16>::load(a)) == 1240.0f);
+  CHECK(sum(Wide<double, 4>(2.5)) == 10.0);
+}

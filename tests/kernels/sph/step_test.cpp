@@ -1,0 +1,80 @@
+// Orders of the SPH time steps on an oscillator, and the limits on the step.
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+
+#include <vector>
+
+#include "kernels/sph/step_symplectic.hpp"
+#include "kernels/sph/step_verlet.hpp"
+#include "kernels/sph/time_step.hpp"
+
+using namespace spindrift::sph;
+
+namespace {
+
+double symplectic_error(int steps) {
+  const double dt = 2.0 / steps;
+  double x = 1.0, v = 0.0;
+  for (int n = 0; n < steps; ++n) {
+    const double x_half = StepSymplectic::half(x, v, dt), v_new = StepSymplectic::velocity(v, -x_half, dt);
+    x = StepSymplectic::position(x, v, v_new, dt);
+    v = v_new;
+  }
+  return std::hypot(x - std::cos(2.0), v + std::sin(2.0));
+}
+
+double verlet_error(int steps) {
+  const double dt = 2.0 / steps;
+  double x = 1.0, v = 0.0, v_before = std::sin(dt);  // v(-dt)
+  for (int n = 0; n < steps; ++n) {
+    const double a = -x, v_new = StepVerlet::leap(v_before, a, dt);
+    x = StepVerlet::position(x, v, a, dt);
+    v_before = v, v = v_new;
+  }
+  return std::hypot(x - std::cos(2.0), v + std::sin(2.0));
+}
+
+}  // namespace
+
+TEST_CASE("the symplectic and the Verlet step are of second order", "[sph][fast][order]") {
+  CHECK(std::log2(symplectic_error(100) / symplectic_error(200)) == Approx(2.0).margin(0.1));
+  CHECK(std::log2(verlet_error(100) / verlet_error(200)) == Approx(2.0).margin(0.1));
+}
+
+TEST_CASE("the symplectic density step is that of exponential growth to second order", "[sph][fast][order]") {
+  const auto error = [](int steps) {  // d rho/dt = rate * rho
+    const double dt = 1.0 / steps, rho0 = 1000.0, rate = 0.3;
+    double d = 0.0;
+    for (int n = 0; n < steps; ++n) {
+      const double d_half = StepSymplectic::half(d, rate * (rho0 + d), dt);
+      d = StepSymplectic::deviation(d, d_half, rate * (rho0 + d_half), dt, rho0);
+    }
+    return std::abs(d - rho0 * std::expm1(rate));
+  };
+  CHECK(std::log2(error(20) / error(40)) == Approx(2.0).margin(0.1));
+}
+
+TEST_CASE("the symplectic step is bounded just inside its limit omega dt = 2 and grows just outside", "[sph][fast]") {
+  const auto farthest = [](double dt) {
+    double x = 1.0, v = 0.0, far = 0.0;
+    for (int n = 0; n < 2000; ++n) {
+      const double v_new = StepSymplectic::velocity(v, -StepSymplectic::half(x, v, dt), dt);
+      x = StepSymplectic::position(x, v, v_new, dt);
+      v = v_new;
+      far = std::max(far, std::abs(x));
+    }
+    return far;
+  };
+  CHECK(farthest(0.99 * 2.0) < 20.0);
+  CHECK(farthest(1.01 * 2.0) > 1e6);
+}
+
+TEST_CASE("step limits are those of sound, force and viscosity", "[sph][fast]") {
+  const StepLimits limits = step_limits(0.2, 0.01, 34.0, 1.0, 100.0, 1e-3);
+  CHECK(limits.acoustic == Approx(0.2 * 0.01 / 35.0));
+  CHECK(limits.force == Approx(0.2 * 0.01));
+  CHECK(limits.viscous == Approx(0.125 * 1e-4 / 1e-3));
+  CHECK(limits.smallest() == limits.acoustic);
+  CHECK(step_limits(0.2, 0.01, 34.0, 1.0, 0.0, 0.0).force > 1e300);
+  CHECK(step_limits(0.2, 0.01, 34.0, 1e150, 1e150, 0.0).smallest() < 1e-70);
+}
