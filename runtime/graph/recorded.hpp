@@ -2,8 +2,8 @@
 // constant while replaying. Used by runtime/graph and runtime/executor. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "runtime/graph/graph.hpp"
@@ -22,6 +22,8 @@ struct Graph::Recorded {
   std::vector<std::function<bool()>> predicates;  ///< until
   std::vector<Limits> limits;                     ///< loop
   std::vector<std::uint32_t> until_of;            ///< by index of `limits`: the until node or no_node
+
+  std::vector<std::uint64_t> message_bytes;  ///< by node: sent or received so far
 
   std::vector<float> place_of;  ///< by datum
   std::vector<std::pair<std::uint32_t, std::uint32_t>> orders;

@@ -25,11 +25,12 @@ class Communicator {
   MPI_Comm get() const { return comm_; }
   int rank() const { return rank_; }
   int size() const { return size_; }
+  int ranks_on_node() const { return ranks_on_node_; }
 
  private:
-  void take_size(const Communicator& other) { rank_ = other.rank_, size_ = other.size_; }
+  void take_size(const Communicator& other) { rank_ = other.rank_, size_ = other.size_, ranks_on_node_ = other.ranks_on_node_; }
   MPI_Comm comm_ = MPI_COMM_NULL;
-  int rank_ = 0, size_ = 1;
+  int rank_ = 0, size_ = 1, ranks_on_node_ = 1;
 };
 
 }  // namespace spindrift::runtime

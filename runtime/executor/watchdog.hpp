@@ -1,0 +1,35 @@
+// A thread that looks on: when nothing has completed for too long it writes down what every unfinished node waits for, and if no
+// task is inside its work either, ends the run. A task that just takes long is named but left alone.
+// Used by Executor; tested in tests/runtime/failure_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "runtime/executor/worker.hpp"
+
+namespace spindrift::runtime {
+
+class Watchdog {
+ public:
+  explicit Watchdog(Team& team);
+  ~Watchdog();
+  void run_starts();
+  void run_ends();
+
+ private:
+  void watch();
+  Team& team_;
+  std::mutex lock_;
+  std::condition_variable changed_;
+  bool running_ = false, leaving_ = false;
+  std::thread thread_;
+};
+
+/// State of every node that is not done with the iteration its loop is in: what it waits for. At most `lines` lines.
+std::string dump(const Team& team, int lines = 200);
+
+}  // namespace spindrift::runtime
