@@ -48,11 +48,11 @@ struct alignas(64) Loop {
   std::uint32_t until = no_node;
   std::uint32_t end = no_node;                  ///< join that completes an iteration
   std::uint32_t first_gate = 0, last_gate = 0;  ///< in Program::gates; `until`, if any, is the last
-  /// Iteration from which sinks tell the joins: the last one, or where there is an `until` the one before its first answer. `until`
-  /// waits for the joins of the iteration before: it opens a step only when every node has counted again for that step.
+  /// Iteration from which sinks tell the joins: the last one, or where there is an `until` the one before its first answer.
+  /// `until` waits for the joins of the iteration before: it opens a step only when every node has counted again for that step.
   std::uint32_t told_from = 0;
-  bool stop = false;  ///< `until` said so
-  std::uint64_t entries = 0, iterations = 0;    ///< so far
+  bool stop = false;                          ///< `until` said so
+  std::uint64_t entries = 0, iterations = 0;  ///< so far
 };
 
 /// Iterations of an entry whose gates are opened in advance, if `limit` of them are certain.

@@ -10,7 +10,10 @@ namespace spindrift::runtime {
 namespace {
 
 constexpr std::int64_t poll_interval_ns = 10'000;  // 5 to 20 us hide an 8 MB exchange completely
-constexpr std::int64_t spin_ns = 30'000;           // about what a wake-up costs
+// A thread that makes progress is left its tasks for so long: else threads of a fine stencil steal each other's every second task
+// (85-250 core-ns a task instead of 60-70). One that completes nothing (a long task, or no processor) is helped at once.
+constexpr std::int64_t steal_after_ns = 1'000;
+constexpr std::int64_t spin_ns = 30'000;  // about what a wake-up costs
 constexpr std::int64_t spin_for_messages_ns = 1'000'000;
 
 Activity activity_of(NodeKind kind) {
@@ -79,6 +82,7 @@ Worker::Worker(Team& team, int id)
       random_state_((team.options.random_schedule.value_or(0) + 1) * 0x9e3779b97f4a7c15u +
                     std::uint64_t(id) * 0xbf58476d1ce4e5b9u) {
   completions_.reserve(team.messages.count());
+  seen_.resize(std::size_t(team.options.threads));
 }
 
 // ---- tokens
@@ -118,12 +122,14 @@ void Worker::schedule(std::uint32_t slot) {
   int home = s.home == no_home ? id_ : int(s.home), level = s.level;
   if (keeps_next_) {
     if (home == id_ && !nested_) {
-      if (next_ == no_node) {
+      if (next_ == no_node && queue.top() < 0) {  // else it is not its turn: see docs/developer/runtime.md on depth first
         next_ = slot;
         return;
       }
-      if (slots_[next_].level < level) std::swap(next_, slot);
-      level = slots_[slot].level;
+      if (next_ != no_node && slots_[next_].level < level) {
+        std::swap(next_, slot);
+        level = slots_[slot].level;
+      }
     }
   } else {
     home = int(random() % std::uint32_t(team_.workers.size()));
@@ -315,14 +321,17 @@ std::uint32_t Worker::take() {
   return top < 0 ? no_node : queue.pop(top);
 }
 
-std::uint32_t Worker::steal() {
+std::uint32_t Worker::steal(std::int64_t now, bool from_anyone) {
   const int n = int(team_.workers.size());
   for (int tries = 1; tries < n; ++tries) {
     victim_ = victim_ + 1 == n ? 0 : victim_ + 1;
     if (victim_ == id_) victim_ = victim_ + 1 == n ? 0 : victim_ + 1;
-    ReadyQueue& queue_of_other = team_.workers[std::size_t(victim_)]->queue;
-    if (const int top = queue_of_other.top(); top >= 0)
-      if (const std::uint32_t slot = queue_of_other.pop(top); slot != ReadyQueue::none) {
+    Worker& other = *team_.workers[std::size_t(victim_)];
+    Seen& seen = seen_[std::size_t(victim_)];
+    if (const auto its_beats = other.beats.load(std::memory_order_relaxed); its_beats != seen.beats) seen = {its_beats, now};
+    if (!from_anyone && now - seen.since_ns < steal_after_ns) continue;
+    if (const int top = other.queue.top(); top >= 0)
+      if (const std::uint32_t slot = other.queue.pop(top); slot != ReadyQueue::none) {
         ++times.steals;
         return slot;
       }
@@ -337,7 +346,8 @@ std::uint32_t Worker::wait() {
   std::int64_t now = begin;
   while (!team_.ended.load(std::memory_order_acquire)) {
     if (team_.messages.need_polling()) poll(false);
-    if ((found = take()) != no_node || (found = steal()) != no_node) break;
+    if ((found = take()) != no_node) break;
+    if ((found = steal(now, now - begin >= steal_after_ns)) != no_node) break;
     back_off(now - begin);
     now = Clock::now_ns();
   }

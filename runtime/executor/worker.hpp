@@ -74,7 +74,7 @@ class alignas(64) Worker {
   void complete_message(const Messages::Completion& completion);
 
   std::uint32_t take();
-  std::uint32_t steal();
+  std::uint32_t steal(std::int64_t now, bool from_anyone);
   std::uint32_t wait();
   void back_off(std::int64_t waited_ns);
   Context context(const Slot& slot) const;
@@ -88,7 +88,12 @@ class alignas(64) Worker {
   const int id_;
   const bool keeps_next_;         ///< not in a random schedule
   bool nested_ = false;           ///< polling inside a task
-  std::uint32_t next_ = no_node;  ///< made ready by the task just done: its data are in this core's cache
+  std::uint32_t next_ = no_node;  ///< ready and first in turn, without the way through the queue
+  struct Seen {
+    std::uint64_t beats = 0;
+    std::int64_t since_ns = 0;
+  };
+  std::vector<Seen> seen_;  ///< by other thread: its beats when last looked at, and since when they are so
   int victim_;
   std::uint64_t random_state_;
   std::vector<Messages::Completion> completions_;

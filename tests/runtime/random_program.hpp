@@ -1,7 +1,6 @@
-// A random algorithm on a few numbers, with nested loops, that can be run in order or recorded as a graph: the graph must give the
-// same numbers however it is scheduled. Each statement mixes what it reads into what it writes, so that any change of order shows.
-// Used by tests/runtime/executor_test.cpp and tests/runtime/failure_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// A random algorithm on a few numbers, with nested loops, that can be run in order or recorded as a graph: the graph must give
+// the same numbers however it is scheduled. Each statement mixes what it reads into what it writes, so that any change of order
+// shows. Used by tests/runtime/executor_test.cpp and tests/runtime/failure_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

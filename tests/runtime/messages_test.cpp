@@ -1,0 +1,178 @@
+// Messages and reductions as tasks, on two and four ranks: the numbers of one rank, without holding a thread.
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <thread>
+
+#include "runtime/executor/executor.hpp"
+
+using namespace spindrift::runtime;
+
+namespace {
+
+int rank_of(MPI_Comm comm) {
+  int rank;
+  MPI_Comm_rank(comm, &rank);
+  return rank;
+}
+int size_of(MPI_Comm comm) {
+  int size;
+  MPI_Comm_size(comm, &size);
+  return size;
+}
+
+/// A chain of blocks dealt out to ranks, relaxed in place with the sum of all blocks fed back: messages both ways and a reduction
+/// in every step. Gives the values of all blocks.
+std::vector<double> relaxed_chain(MPI_Comm comm, int threads, std::uint32_t steps) {
+  constexpr int blocks = 24;
+  const int rank = rank_of(comm), ranks = size_of(comm);
+  const auto owner = [&](int b) { return b * ranks / blocks; };
+  std::vector<double> u(blocks), v(blocks), partial;
+  std::vector<std::int64_t> mine;
+  for (int b = 0; b < blocks; ++b) {
+    u[std::size_t(b)] = std::sin(1.0 + b) * std::pow(10.0, b % 7);
+    if (owner(b) == rank) mine.push_back(b);
+  }
+  partial.resize(mine.size());
+  double sum = 0;
+
+  Graph g(comm);
+  const auto du = g.data(blocks), dv = g.data(blocks), dpartial = g.data(mine.size());
+  const Datum dsum = g.datum();
+  g.repeat("chain", steps, [&] {
+    for (int b = 0; b < blocks; ++b)
+      for (const int other : {b - 1, b + 1}) {
+        if (other < 0 || other >= blocks || owner(other) == owner(b)) continue;
+        const auto s = std::size_t(b);
+        if (owner(b) == rank)
+          g.send("chain/send/" + std::to_string(b), {reads(du[s])}, {owner(other), b, buffer_of(std::span(&u[s], 1))});
+        if (owner(other) == rank)
+          g.receive("chain/receive/" + std::to_string(b), {writes(du[s])}, {owner(b), b, buffer_of(std::span(&u[s], 1))});
+      }
+    for (const std::int64_t b : mine) {
+      const auto s = std::size_t(b), before = s == 0 ? s : s - 1, after = s + 1 == blocks ? s : s + 1;
+      g.task("chain/relax/" + std::to_string(b), {reads(du[before]), reads(du[s]), reads(du[after]), reads(dsum), writes(dv[s])},
+             [&u, &v, &sum, s, before, after] { v[s] = 0.3 * u[before] + 0.4 * u[s] + 0.29 * u[after] + 1e-5 * sum; });
+    }
+    for (std::size_t n = 0; n < mine.size(); ++n) {
+      const auto s = std::size_t(mine[n]);
+      g.task("chain/move/" + std::to_string(s), {reads(dv[s]), writes(du[s]), writes(dpartial[n])},
+             [&u, &v, &partial, s, n] { u[s] = partial[n] = v[s]; });
+    }
+    g.reduce("chain/sum", {reads(dpartial), writes(dsum)}, {.parts = mine, .partials = partial, .result = {&sum, 1}});
+  });
+  Executor(std::move(g), {.threads = threads}).run(2);
+
+  for (int b = 0; b < blocks; ++b) MPI_Bcast(&u[std::size_t(b)], 1, MPI_DOUBLE, owner(b), comm);
+  u.push_back(sum);
+  return u;
+}
+
+/// The first `n` ranks; MPI_COMM_NULL on the others.
+MPI_Comm first_ranks(int n) {
+  MPI_Comm comm;
+  MPI_Comm_split(MPI_COMM_WORLD, rank_of(MPI_COMM_WORLD) < n ? 0 : MPI_UNDEFINED, 0, &comm);
+  return comm;
+}
+
+void same_bits_on(int ranks) {
+  const auto expected = relaxed_chain(MPI_COMM_SELF, 1, 30);
+  for (int n = 1; n <= ranks; ++n)
+    for (const int threads : {1, 2, 4, 8}) {
+      if (threads > 2 && n != ranks) continue;  // ranks x threads on the two cores of a small machine
+      MPI_Comm comm = first_ranks(n);
+      if (comm == MPI_COMM_NULL) continue;
+      INFO(n << " ranks, " << threads << " threads");
+      CHECK(relaxed_chain(comm, threads, 30) == expected);
+      MPI_Comm_free(&comm);
+    }
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+}  // namespace
+
+TEST_CASE("a chain with messages and sums has the same bits on 1 and 2 ranks with 1 to 8 threads", "[runtime][mpi2]") {
+  same_bits_on(2);
+}
+
+TEST_CASE("a chain with messages and sums has the same bits on 1 to 4 ranks with 1 to 8 threads", "[runtime][mpi4]") {
+  same_bits_on(4);
+}
+
+TEST_CASE("a long task that polls lets a large message pass meanwhile", "[runtime][mpi2]") {
+  const int other = 1 - rank_of(MPI_COMM_WORLD);
+  std::vector<double> out(1 << 20, other), in(1 << 20, -1);  // 8 MB: not sent before the receiver takes part
+  Graph g(MPI_COMM_WORLD);
+  const Datum dout = g.datum(), din = g.datum(), dlong = g.datum();
+  bool came = false, came_during_task = false;
+  g.send("exchange/send", {reads(dout)}, {other, 1, buffer_of(std::span(out))});
+  g.receive("exchange/receive", {writes(din)},
+            {other, 1, buffer_of(std::span(in)), [&](std::size_t bytes) { came = bytes == 8u << 20; }});
+  g.task("long", {writes(dlong)}, [&] {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!came && std::chrono::steady_clock::now() < end) poll_messages();
+    came_during_task = came;
+  });
+  Executor executor(std::move(g), {.threads = 1});
+  executor.run();
+  CHECK(came_during_task);
+  CHECK(in == std::vector<double>(1 << 20, 1 - other));
+  CHECK(executor.bytes(1) == 8u << 20);
+}
+
+TEST_CASE("collective calls run in the order of recording on every rank, whatever the schedule", "[runtime][mpi2]") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    int sums[3] = {0, 0, 0};
+    Graph g(MPI_COMM_WORLD);
+    const auto d = g.data(3);
+    for (std::size_t n = 0; n < 3; ++n)
+      g.collective("library/" + std::to_string(n), {writes(d[n])}, [&sums, n](MPI_Comm comm) {
+        const int mine = int(n) + 1;
+        MPI_Allreduce(&mine, &sums[n], 1, MPI_INT, MPI_SUM, comm);
+      });
+    Executor(std::move(g), {.threads = 2, .random_schedule = seed + 100 * std::uint64_t(rank_of(MPI_COMM_WORLD))}).run(3);
+    CHECK(sums[0] == 2);
+    CHECK(sums[1] == 4);
+    CHECK(sums[2] == 6);
+  }
+}
+
+TEST_CASE("a message may change its size from step to step", "[runtime][mpi2]") {
+  const int rank = rank_of(MPI_COMM_WORLD);
+  std::vector<double> particles(100);
+  std::vector<std::size_t> sizes;
+  std::size_t n = 0;
+  Graph g(MPI_COMM_WORLD);
+  const Datum d = g.datum();
+  if (rank == 0) {
+    g.task("count", {updates(d)}, [&] { ++n; });
+    g.send("send", {reads(d)}, {1, 5, [&] { return std::as_writable_bytes(std::span(particles).first(n)); }});
+  } else {
+    g.receive("receive", {writes(d)},
+              {0, 5, buffer_of(std::span(particles)), [&](std::size_t bytes) { sizes.push_back(bytes / 8); }});
+  }
+  Executor(std::move(g), {.threads = 2}).run(5);
+  if (rank == 1) CHECK(sizes == std::vector<std::size_t>{1, 2, 3, 4, 5});
+}
+
+TEST_CASE("a reduction is ordered by global index, not by the order of recording", "[runtime][fast]") {
+  const std::vector<double> values = {1e16, 1.0, -1e16, 1.0};
+  const auto reduced = [&](std::vector<std::int64_t> parts, Reduction::Operation operation) {
+    std::vector<double> partials;
+    for (const auto p : parts) partials.push_back(values[std::size_t(p)]);
+    double result = 0;
+    Graph g;
+    const Datum d = g.datum();
+    g.reduce("sum", {writes(d)}, {operation, parts, partials, {&result, 1}});
+    Executor(std::move(g), {.threads = 1}).run();
+    return result;
+  };
+  using enum Reduction::Operation;
+  CHECK(reduced({0, 1, 2, 3}, sum) == 1.0);
+  CHECK(reduced({3, 2, 1, 0}, sum) == 1.0);
+  CHECK(reduced({1, 3, 0, 2}, sum) == 1.0);
+  CHECK(reduced({1, 3, 0, 2}, min) == -1e16);
+  CHECK(reduced({1, 3, 0, 2}, max) == 1e16);
+}
