@@ -102,6 +102,11 @@ TaskCost Executor::cost(std::uint32_t node) const {
   const Slot& slot = state_->team.program.slots.at(node);
   return {slot.cost_ns, slot.step};
 }
+double Executor::mean_iterations(std::uint32_t node) const {
+  const Program& program = state_->team.program;
+  const Loop& loop = program.loops.at(program.slots.at(node).payload);
+  return loop.entries == 0 ? 0.0 : double(loop.iterations) / double(loop.entries);
+}
 std::uint64_t Executor::bytes(std::uint32_t node) const { return state_->team.graph.recorded().message_bytes.at(node); }
 
 }  // namespace spindrift::runtime

@@ -85,8 +85,7 @@ Worker::Worker(Team& team, int id)
   seen_.resize(std::size_t(team.options.threads));
 }
 
-// ---- tokens
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- tokens ----
 
 inline void Worker::token(std::uint32_t slot, std::uint32_t step) {
   Slot& s = slots_[slot];
@@ -144,16 +143,18 @@ void Worker::complete(std::uint32_t slot) {
   Slot& s = slots_[slot];
   const std::uint32_t step = s.step;
   s.step = step + 1;
+  bool tells = false;  // decided first: once its successors have their tokens, the loop may be at its end on other threads
+  if (s.join != no_node) {
+    const Loop& loop = program_.loops[s.loop];
+    tells = step - loop.base >= loop.told_from;
+  }
   beats.store(beats.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   const std::uint32_t* const successors = program_.successors.data();
   for (std::uint32_t n = s.first, last = s.last; n != last; ++n) token(successors[n] >> 1, step + (successors[n] & 1));
-  if (s.join == no_node) return;
-  const Loop& loop = program_.loops[s.loop];
-  if (step - loop.base >= loop.told_from) token(s.join, step);
+  if (tells) token(s.join, step);
 }
 
-// ---- loops
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- loops ----
 
 void Worker::enter(std::uint32_t index, std::uint32_t limit) {
   Loop& loop = program_.loops[index];
@@ -195,8 +196,7 @@ void Worker::ask(std::uint32_t slot) {
   complete(slot);
 }
 
-// ---- nodes
-// -----------------------------------------------------------------------------------------------------------------------
+// ---- nodes ----
 
 Context Worker::context(const Slot& slot) const {
   const Loop& loop = program_.loops[slot.loop];
@@ -245,9 +245,8 @@ void Worker::fire(std::uint32_t slot) {
       return;
     case Action::until:
       return ask(slot);
-    case Action::loop: {
+    case Action::loop:
       return enter(s.payload, program_.loops[s.payload].min);
-    }
     case Action::reduce_here:
       if (run(slot, [&](const Context&) { graph.reductions[s.payload]->finish(); })) complete(slot);
       return;
@@ -257,8 +256,7 @@ void Worker::fire(std::uint32_t slot) {
   }
 }
 
-// ---- messages
-// --------------------------------------------------------------------------------------------------------------------
+// ---- messages ----
 
 inline void Worker::poll_if_due(std::int64_t now, bool nested) {
   if (!team_.messages.need_polling() || now - team_.last_poll_ns.load(std::memory_order_relaxed) < poll_interval_ns) return;
@@ -270,7 +268,9 @@ void Worker::poll(bool nested) {
   completions_.clear();
   try {
     if (!team_.messages.poll(completions_)) return;
-  } catch (const TaskError& e) { return team_.fail({e.rank(), false, e.label(), e.what()}); }
+  } catch (const Messages::Failure& failure) {
+    return team_.fail({team_.graph.recorded().comm.rank(), false, team_.graph.nodes()[failure.node].label, failure.what});
+  }
   const std::int64_t end = Clock::now_ns();
   team_.last_poll_ns.store(end, std::memory_order_relaxed);
   nested_ = nested;
@@ -300,8 +300,7 @@ void Worker::complete_message(const Messages::Completion& completion) {
   complete(completion.node);
 }
 
-// ---- finding work
-// ----------------------------------------------------------------------------------------------------------------
+// ---- finding work ----
 
 std::uint32_t Worker::random() {
   random_state_ ^= random_state_ << 13;

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "runtime/graph/errors.hpp"
 #include "runtime/trace/clock.hpp"
 
 namespace spindrift::runtime {
@@ -106,7 +105,7 @@ bool Messages::poll(std::vector<Completion>& done) {
       try {
         start(node, now);
       } catch (const std::exception& e) {  // the buffer's owner threw, or it is too large
-        throw TaskError(graph_.nodes[node].label, graph_.comm.rank(), e.what());
+        throw Failure{node, e.what()};
       }
     }
   }

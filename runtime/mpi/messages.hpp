@@ -29,6 +29,12 @@ class Messages {
     std::int64_t posted_ns;
   };
 
+  /// Thrown by poll where a buffer could not be had.
+  struct Failure {
+    std::uint32_t node;
+    std::string what;
+  };
+
   explicit Messages(Graph::Recorded& graph);
   ~Messages();
   Messages(const Messages&) = delete;

@@ -1,0 +1,48 @@
+// Cost-to-go, and that a more urgent loop's tasks run first.
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/executor/priority.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "runtime/executor/executor.hpp"
+
+using namespace spindrift::runtime;
+
+TEST_CASE("cost-to-go is the longest chain of measured costs, through loops by their iterations", "[runtime][fast]") {
+  Graph g;
+  const Datum x = g.datum(), y = g.datum();
+  const auto a = g.task("a", {writes(x)}, [] {});
+  std::uint32_t b = 0, c = 0;
+  const auto loop = g.repeat("loop", 5, [&] {
+    b = g.task("loop/b", {updates(x)}, [] {});
+    c = g.task("loop/c", {reads(x), writes(y)}, [] {});
+  });
+  const auto d = g.task("d", {reads(y)}, [] {});
+  Program program(g);
+  const auto measured = [&](std::uint32_t node, std::int64_t ns, std::uint32_t runs) {
+    program.slots[node].cost_ns = ns * runs, program.slots[node].step = runs;
+  };
+  measured(a, 10, 1), measured(b, 20, 5), measured(c, 7, 5), measured(d, 100, 1);
+  const auto to_go = cost_to_go(program, g);
+  CHECK(to_go[d] == 100);
+  CHECK(to_go[loop] == 5 * 27 + 100);
+  CHECK(to_go[a] == 10 + 5 * 27 + 100);
+  CHECK(to_go[c] == 7 + 2 * 27 + 100);  // half of the four iterations that follow
+  CHECK(to_go[b] == 20 + to_go[c]);
+}
+
+TEST_CASE("ready tasks run by urgency, then by cost-to-go", "[runtime][fast]") {
+  std::vector<char> ran;
+  Graph g;
+  const auto x = g.data(6);
+  const auto note = [&](char c) { return [&ran, c] { ran.push_back(c); }; };
+  g.task("start", {writes(x)}, [] {});
+  g.task("short", {updates(x[0])}, note('s'));
+  g.task("long/1", {updates(x[1])}, note('l'));
+  g.task("long/2", {updates(x[1])}, note('l'));
+  g.task("long/3", {updates(x[1])}, note('l'));
+  g.loop("urgent", {.min = 1, .max = 1, .urgency = 1}, [&] { g.task("urgent/t", {updates(x[2])}, note('u')); });
+  Executor(std::move(g), {.threads = 1}).run();
+  REQUIRE(ran.size() == 5);
+  CHECK(std::string(ran.begin(), ran.begin() + 3) == "ull");  // the last of the long ones goes as far as the short one
+}
