@@ -1,6 +1,6 @@
-// Root of an increasing function of a positive unknown: Newton steps kept inside a bracket.
-// The safeguard is the usual one (Dahlquist & Bjoerck 1974, section 6.2): halve the bracket whenever Newton leaves it or stalls.
-// Used by kernels/mooring/line_catenary.hpp; tested in tests/kernels/base/root_test.cpp.
+// Roots in one unknown. Of an increasing function of a positive unknown: Newton steps kept inside a bracket, halved whenever
+// Newton leaves it or stalls (Dahlquist & Bjoerck 1974, section 6.2). Of any function between two signs: Chandrupatla (1997).
+// Used by kernels/mooring/line_catenary.hpp and kernels/rotor/blade_element.hpp; tested in tests/kernels/base/root_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -51,6 +51,30 @@ Root increasing_root(F&& f, double guess, double relative_tolerance = 4 * std::n
     x = next;
   }
   return {x, max_evaluations, false};
+}
+
+/// Solves f(x) = 0 between `a` and `b`, where f has the values fa and fb of opposite sign: bisection or inverse quadratic
+/// interpolation, whichever is safe. Chandrupatla (1997), Adv. Eng. Software 28, 145. Stops within `tolerance` of a sign change.
+template <class F>
+Root bracketed_root(F&& f, double a, double fa, double b, double fb, double tolerance) {
+  constexpr int max_evaluations = 100;
+  double c = a, fc = fa, t = 0.5;  // c: the end that was left last; next point a + t (b - a)
+  for (int n = 1; n <= max_evaluations; ++n) {
+    const double x = a + t * (b - a), fx = f(x);
+    if ((fx > 0.0) == (fa > 0.0))
+      c = a, fc = fa;
+    else
+      c = b, fc = fb, b = a, fb = fa;
+    a = x, fa = fx;
+    const double best = std::abs(fa) < std::abs(fb) ? a : b, limit = tolerance / std::abs(b - a);
+    if (fa == 0.0 || limit > 0.5) return {best, n, true};
+    const double xi = (a - b) / (c - b), phi = (fa - fb) / (fc - fb);
+    t = 0.5;
+    if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
+      t = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb);
+    t = std::clamp(t, limit, 1.0 - limit);
+  }
+  return {a, max_evaluations, false};
 }
 
 }  // namespace spindrift

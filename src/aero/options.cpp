@@ -8,6 +8,7 @@
 
 #include "src/aero/prescribed.hpp"
 #include "src/aero/thrust_curve.hpp"
+#include "src/aero/turbine.hpp"
 #include "src/scene/document.hpp"
 
 namespace spindrift::aero {
@@ -36,7 +37,8 @@ const scene::Section<AeroOptions>& aero_section() {
           .choice("model", &AeroOptions::model,
                   {{"none", "no load"},
                    {"prescribed", "thrust and torque constant, in harmonics of azimuth, or from a table in time"},
-                   {"thrust_curve", "thrust and torque from the wind that the hub meets"}},
+                   {"thrust_curve", "thrust and torque from the wind that the hub meets"},
+                   {"bem", "blade element momentum on the section tables of rotor.turbine, in quasi-steady balance"}},
                   "Rung of the ladder.")
           .number("thrust_N", &AeroOptions::thrust_N, "N", "Thrust, or its mean over a turn.")
           .only_if("model", prescribed)
@@ -75,6 +77,11 @@ const scene::Section<AeroOptions>& aero_section() {
                    {"cubic", "monotone cubics, smooth and without overshoot; tables over two variables stay bilinear"}},
                   "Between the rows of a table or curve.")
           .only_if("model", tabulated)
+          .choice("induction", &AeroOptions::induction,
+                  {{"madsen", "polynomial in thrust coefficient, as in HAWC2"},
+                   {"buhl", "momentum theory, Buhl's parabola beyond 0.4"}},
+                  "Induction from local loading.")
+          .only_if("model", {"bem"})
           .one_of({"thrust_N", "table"})
           .one_of({"thrust_coefficient", "curve"})
           .check(check_aero);
@@ -98,6 +105,7 @@ const scene::Section<RotorOptions>& rotor_section() {
           .degrees("blade_pitch_deg", &RotorOptions::blade_pitch, "Blade pitch, positive nose into the wind (towards feather).",
                    scene::between(-180.0, 180.0))
           .number("diameter_m", &RotorOptions::diameter_m, "m", "Rotor diameter.", scene::positive())
+          .path("turbine", &RotorOptions::turbine, "Turbine file: blades as section tables (inputs/turbines).")
           .check(check_axis);
   return section;
 }
@@ -133,6 +141,9 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
         read();
       } catch (const scene::SceneError& e) { doc.problem(key, e.what()); }
   };
+  if (aero.model == "bem" && rotor.turbine.empty())
+    doc.problem("rotor.turbine", "must name a turbine file: aero.model \"bem\" needs the blades");
+  try_file("rotor.turbine", rotor.turbine, [&] { read_turbine(rotor.turbine); });
   try_file("aero.table", aero.table, [&] { Prescribed model(aero); });
   try_file("aero.curve", aero.curve, [&] { ThrustCurve model(aero, rotor, 1.0); });
 }

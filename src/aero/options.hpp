@@ -31,6 +31,8 @@ struct AeroOptions {
   double torque_coefficient = 0.0;
   std::string curve;  ///< path: load against wind, or coefficients against tip-speed ratio
   std::string interpolation = "linear";
+  // bem
+  std::string induction = "madsen";
 };
 
 struct RotorOptions {
@@ -42,6 +44,7 @@ struct RotorOptions {
   double azimuth = 0.0;      ///< at the start [rad]
   double blade_pitch = 0.0;  ///< [rad], positive nose into the wind
   std::optional<double> diameter_m;
+  std::string turbine;  ///< path: blades as data
 };
 
 struct WindOptions {

@@ -10,12 +10,6 @@ namespace spindrift::aero {
 
 namespace {
 
-/// Attitude of a body seen from its support.
-Eigen::Quaterniond turn(const Motion& body, const std::optional<int>& support, std::span<const Motion> bodies) {
-  if (!support || *support == RotorPlacement::earth) return body.attitude;
-  return bodies[*support].attitude.conjugate() * body.attitude;
-}
-
 double whole_turns_off(double angle) {
   const double rest = std::fmod(angle, 2 * pi);
   return rest < 0.0 ? rest + 2 * pi : rest;
@@ -34,45 +28,68 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
   const Eigen::Vector3d axis = placement.axis.normalized();
   hub_ = body.attitude.conjugate() * (placement.hub - body.position);
   axis_ = body.attitude.conjugate() * axis;
-  const bool moving_support = placement.support && *placement.support != RotorPlacement::earth;
-  support_axis_ = moving_support ? Eigen::Vector3d(start[*placement.support].attitude.conjugate() * axis) : axis;
-  start_turn_ = turn(body, placement.support, start);
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ() - axis.z() * axis;
+  if (up.norm() < 1e-6)
+    up = Eigen::Vector3d::UnitX() - axis.x() * axis;  // a vertical axis has no upright blade: downwind instead
+  const Eigen::Quaterniond support = support_attitude(start).conjugate();
+  support_axis_ = support * axis;
+  support_up_ = support * up.normalized();
+  start_turn_ = support * body.attitude;
   if (aero.model == "prescribed") model_ = Prescribed(aero);
   if (aero.model == "thrust_curve") model_ = ThrustCurve(aero, rotor, air_density);
+  if (aero.model == "bem") model_ = BladeElementMomentum(read_turbine(rotor.turbine), aero.induction, air_density);
+}
+
+Eigen::Quaterniond RotorLoads::support_attitude(std::span<const Motion> bodies) const {
+  if (!placement_.support) return bodies[placement_.body].attitude;
+  return *placement_.support == RotorPlacement::earth ? Eigen::Quaterniond::Identity() : bodies[*placement_.support].attitude;
 }
 
 RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
   const Motion& body = bodies[placement_.body];
+  const Eigen::Quaterniond support = support_attitude(bodies);
   RotorState now;
   now.hub = body.point(hub_);
   now.hub_velocity = body.point_velocity(hub_);
   now.axis = body.attitude * axis_;
+  now.up = support * support_up_;
+  now.omega = body.omega_earth();
   now.relative_wind = (wind_ - now.hub_velocity).dot(now.axis);
   if (!placement_.support) {
     now.azimuth = whole_turns_off(start_azimuth_ + speed_ * t);
     now.speed = speed_;
+    now.omega += speed_ * now.axis;
     return now;
   }
-  const Eigen::Quaterniond since = turn(body, placement_.support, bodies) * start_turn_.conjugate();
+  const Eigen::Quaterniond since = support.conjugate() * body.attitude * start_turn_.conjugate();
   now.azimuth = whole_turns_off(start_azimuth_ + 2.0 * std::atan2(since.vec().dot(support_axis_), since.w()));
-  Eigen::Vector3d spin = body.omega_earth();
-  if (*placement_.support != RotorPlacement::earth) spin -= bodies[*placement_.support].omega_earth();
-  now.speed = spin.dot(now.axis);
+  now.speed = now.omega.dot(now.axis);
+  if (*placement_.support != RotorPlacement::earth) now.speed -= bodies[*placement_.support].omega_earth().dot(now.axis);
   return now;
 }
 
 RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
-  AxialLoad load;
-  if (const auto* prescribed = std::get_if<Prescribed>(&model_)) load = (*prescribed)(t, now.azimuth);
-  if (const auto* curve = std::get_if<ThrustCurve>(&model_)) load = (*curve)(now.relative_wind, now.speed, blade_pitch_);
-  return {ramp * load.thrust, ramp * load.torque, ramp * load.torque * now.speed};
+  RotorLoad load;
+  if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) {
+    const DiscLoad disc = (*bem)(wind_, {now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_});
+    load.force = ramp * disc.force, load.moment = ramp * disc.moment;
+    load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis);
+  } else {
+    AxialLoad axial;
+    if (const auto* prescribed = std::get_if<Prescribed>(&model_)) axial = (*prescribed)(t, now.azimuth);
+    if (const auto* curve = std::get_if<ThrustCurve>(&model_)) axial = (*curve)(now.relative_wind, now.speed, blade_pitch_);
+    load.thrust = ramp * axial.thrust, load.torque = ramp * axial.torque;
+    load.force = load.thrust * now.axis, load.moment = load.torque * now.axis;
+  }
+  load.power = load.torque * now.speed;
+  return load;
 }
 
 void RotorLoads::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp) const {
   const RotorState now = state(t, bodies);
   const RotorLoad load = this->load(t, now, ramp);
-  wrenches[placement_.body].add_force(load.thrust * now.axis, now.hub);
-  wrenches[placement_.body].add_moment(load.torque * now.axis);
+  wrenches[placement_.body].add_force(load.force, now.hub);
+  wrenches[placement_.body].add_moment(load.moment);
 }
 
 }  // namespace spindrift::aero

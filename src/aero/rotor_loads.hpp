@@ -1,7 +1,7 @@
 // The rotor at engineering fidelity: where it is, how it turns, and the thrust and torque of its model on its body.
-// Thrust acts at the hub along the rotor axis, torque about it; both follow the attitude of the rotor's body. Signs:
-// docs/user/conventions.md. Equations: docs/theory/rotor_engineering.md.
-// Built and called by src/coupling; tested in tests/src/aero/rotor_loads_test.cpp.
+// Thrust acts at the hub along the rotor axis, torque about it; both follow the attitude of the rotor's body. Blade element
+// momentum adds the forces and moments across the axis. Signs: docs/user/conventions.md. Equations:
+// docs/theory/rotor_engineering.md. Built and called by src/coupling; tested in tests/src/aero/rotor_loads_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,6 +11,7 @@
 
 #include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/wrench.hpp"
+#include "src/aero/bem.hpp"
 #include "src/aero/options.hpp"
 #include "src/aero/prescribed.hpp"
 #include "src/aero/thrust_curve.hpp"
@@ -28,16 +29,19 @@ struct RotorPlacement {
 
 /// What the rotor does now.
 struct RotorState {
-  double azimuth = 0.0;                     ///< of blade 1 from its upright position, in [0, 2 pi) [rad]
-  double speed = 0.0;                       ///< [rad/s]
-  Eigen::Vector3d hub, axis, hub_velocity;  ///< earth frame [m], [-], [m/s]
-  double relative_wind = 0.0;               ///< along the axis, seen from the hub [m/s]
+  double azimuth = 0.0;               ///< of blade 1 from its upright position, in [0, 2 pi) [rad]
+  double speed = 0.0;                 ///< [rad/s]
+  Eigen::Vector3d hub, hub_velocity;  ///< earth frame [m], [m/s]
+  Eigen::Vector3d axis, up;           ///< unit, earth frame; blade 1 is along `up` at azimuth zero
+  Eigen::Vector3d omega;              ///< of the blades, earth frame [rad/s]
+  double relative_wind = 0.0;         ///< along the axis, seen from the hub [m/s]
 };
 
 struct RotorLoad {
-  double thrust = 0.0;  ///< [N]
-  double torque = 0.0;  ///< [N m]
-  double power = 0.0;   ///< torque times rotor speed [W]
+  double thrust = 0.0;                                                                ///< [N]
+  double torque = 0.0;                                                                ///< [N m]
+  double power = 0.0;                                                                 ///< torque times rotor speed [W]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< all of it, about the hub, earth frame
 };
 
 class RotorLoads {
@@ -54,13 +58,16 @@ class RotorLoads {
   RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const;
 
  private:
+  /// Attitude of what carries azimuth zero.
+  Eigen::Quaterniond support_attitude(std::span<const Motion> bodies) const;
+
   RotorPlacement placement_;
-  Eigen::Vector3d hub_, axis_;     ///< axes of the rotor's body, from its centre of mass
-  Eigen::Vector3d support_axis_;   ///< axes of the support
-  Eigen::Quaterniond start_turn_;  ///< attitude of the body seen from the support at the start
+  Eigen::Vector3d hub_, axis_;                 ///< axes of the rotor's body, from its centre of mass
+  Eigen::Vector3d support_axis_, support_up_;  ///< axes of what carries azimuth zero: the support, the earth, or the body itself
+  Eigen::Quaterniond start_turn_;              ///< attitude of the body seen from the support at the start
   double start_azimuth_, speed_, blade_pitch_;
   Eigen::Vector3d wind_;
-  std::variant<std::monostate, Prescribed, ThrustCurve> model_;
+  std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
 };
 
 }  // namespace spindrift::aero

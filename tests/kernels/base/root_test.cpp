@@ -26,6 +26,15 @@ TEST_CASE("a function without a root is reported, not looped over", "[base][fast
   CHECK_FALSE(none.converged);
 }
 
+TEST_CASE("a sign change is closed in on, smooth, flat or jumping", "[base][fast]") {
+  const auto find = [](auto f, double a, double b) { return bracketed_root(f, a, f(a), b, f(b), 1e-12); };
+  CHECK(find([](double x) { return std::cos(x) - x; }, 0.0, 1.0).x == Approx(0.7390851332151607).epsilon(1e-11));
+  CHECK(find([](double x) { return std::cos(x) - x; }, 0.0, 1.0).evaluations < 12);
+  CHECK(find([](double x) { return std::pow(x - 0.3, 9); }, -1.0, 2.0).x == Approx(0.3).margin(1e-2));
+  CHECK(find([](double x) { return x < 0.7 ? -1.0 : 2.0; }, 0.0, 1.0).x == Approx(0.7).epsilon(1e-11));
+  CHECK(find([](double x) { return 1.0 / x - 1e6; }, 1e-9, 1.0).x == Approx(1e-6).epsilon(1e-5));
+}
+
 TEST_CASE("linear interpolation passes the nodes and holds its end values", "[base][fast]") {
   const std::array x{0.0, 1.0, 4.0}, y{2.0, 3.0, -3.0};
   for (std::size_t i = 0; i < 3; ++i) CHECK(interpolate_linear(x, y, x[i]) == y[i]);

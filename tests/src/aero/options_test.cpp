@@ -62,6 +62,8 @@ TEST_CASE("a rotor that its model cannot use is refused with what is wrong", "[a
       Case{rotor + "[aero]\nmodel = 'thrust_curve'\n", "thrust_coefficient"}, Case{rotor + "[aero]\nthrust_N = 1\n", "thrust_N"},
       Case{rotor + "[aero]\nmodel = 'thrust_curve'\ncurve = '" + table + "'\n", "time_s"},
       Case{"[rotor]\nbody = 'rotor'\n[aero]\nmodel = 'thrust_curve'\nthrust_coefficient = 0.8\n", "needs the disc area"},
+      Case{rotor + "[aero]\nmodel = 'bem'\n", "needs the blades"}, Case{rotor + "[aero]\ninduction = 'buhl'\n", "induction"},
+      Case{rotor + "turbine = '" + table + "'\n[aero]\nmodel = 'bem'\n", "spindrift_aero_options.csv"},
       Case{"[rotor]\nbody = 'rotor'\naxis = [0, 0, 0]\n", "must not be zero"}, Case{"[wind]\nspeed_m_s = -1\n", "speed_m_s"},
       Case{rotor + "[aero]\nmodel = 'prescribed'\nthrust_N = 1\nharmonic_step = 0\n", "harmonic_step"});
   CHECK_THROWS_WITH(read(c.text), Contains(c.message));

@@ -147,3 +147,29 @@ TEST_CASE("the load is the same in every frame of reference that a turned scene 
   CHECK((v[1].force - turn * w[1].force).norm() < 1e-6);
   CHECK((v[1].moment - turn * w[1].moment).norm() < 1e-4);
 }
+
+TEST_CASE("the same scene with bem in place of a curve: the rotor in its bearing is the rotor by itself", "[aero][fast]") {
+  AeroOptions aero;
+  aero.model = "bem";
+  RotorOptions options = turbine();
+  options.turbine = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml";
+  options.blade_pitch = 0.02, options.azimuth = 0.3;
+  const WindOptions wind{.speed_m_s = 11.0, .direction = 0.1};
+  const RotorLoads rotor(aero, options, wind, 1.225, bearing, start());
+  const double speed = 0.925, pitch_rate = 0.02;
+  const auto bodies = moved(0.09, 0.7, speed, pitch_rate);
+  const Vector3d axis(std::cos(0.09), 0, -std::sin(0.09)), up(std::sin(0.09), 0, std::cos(0.09));
+  const BladeElementMomentum alone(read_turbine(options.turbine), "madsen", 1.225);
+  const Vector3d hub = 119 * up, rate(0, pitch_rate, 0);
+  const DiscLoad disc =
+      alone(11.0 * Vector3d(std::cos(0.1), std::sin(0.1), 0), {rate.cross(hub), rate + speed * axis, axis, up, 1.0, 0.02});
+  const auto w = loads(rotor, 0.0, bodies);
+  CHECK((w[1].force - disc.force).norm() < 1e-6 * disc.force.norm());
+  CHECK((w[1].about(hub).moment - disc.moment).norm() < 1e-6 * disc.moment.norm());
+  const RotorLoad load = rotor.load(0.0, rotor.state(0.0, bodies));
+  CHECK(load.power == Approx(disc.moment.dot(axis) * speed));
+  // Without a body of its own the rotor spins by rotor.speed_rpm, with the same load.
+  options.joint = "", options.speed = speed, options.azimuth = 1.0;
+  const RotorLoads fixed(aero, options, wind, 1.225, {.body = 0, .support = std::nullopt, .hub = {0, 0, 119}}, start());
+  CHECK((loads(fixed, 0.0, bodies)[0].force - disc.force).norm() < 1e-6 * disc.force.norm());
+}

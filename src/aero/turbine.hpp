@@ -1,0 +1,58 @@
+// A rotor's blades as data: sections along the span and their polars, from a turbine file (inputs/turbines).
+// Read by turbine.cpp; used by bem.cpp; tested in tests/src/aero/turbine_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace spindrift::scene {
+template <class Options>
+class Section;
+}
+
+namespace spindrift::aero {
+
+struct PolarOptions {
+  double thickness_pct = 0.0;
+  std::string file;  ///< path
+};
+
+/// [turbine] of a turbine file.
+struct TurbineOptions {
+  int blades = 3;
+  double hub_radius_m = 0.0;
+  double precone = 0.0;  ///< [rad], positive: blades lean upwind
+  std::string planform;  ///< path
+  std::vector<PolarOptions> polars;
+};
+
+const scene::Section<TurbineOptions>& turbine_section();
+
+/// Lift and drag against angle of attack, over the whole circle.
+struct Polar {
+  double thickness = 0.0;      ///< over chord [-]
+  std::vector<double> attack;  ///< increasing from -pi to pi [rad]
+  std::vector<double> lift, drag;
+};
+
+/// Sections from root to tip on the undeformed blade.
+struct Planform {
+  std::vector<double> span;       ///< distance from the rotor axis along the coned blade axis [m]
+  std::vector<double> chord;      ///< [m]
+  std::vector<double> twist;      ///< nose into the wind positive [rad]
+  std::vector<double> thickness;  ///< over chord [-]
+  std::vector<double> prebend;    ///< offset of the centre line across the blade axis, downwind positive [m]
+};
+
+struct Turbine {
+  int blades = 3;
+  double hub_radius = 0.0, precone = 0.0;  ///< [m], [rad]
+  Planform planform;
+  std::vector<Polar> polars;  ///< by increasing thickness
+};
+
+/// Throws scene::SceneError with all that is wrong with the file and the data files that it names.
+Turbine read_turbine(const std::string& path);
+
+}  // namespace spindrift::aero

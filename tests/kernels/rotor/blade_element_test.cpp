@@ -1,0 +1,130 @@
+// Laws of kernels/rotor/blade_element.hpp: the balance it claims, mirrors, limits, and every kind of wind.
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/rotor/blade_element.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace spindrift;
+
+namespace {
+
+/// A section that stalls: thin-aerofoil lift to 12 degrees, flat-plate force beyond.
+SectionForce section(double attack) {
+  const double a = std::remainder(attack, 2 * pi), stall = 12 * radians_per_degree;
+  if (std::abs(a) <= stall) return {2 * pi * std::sin(a), 0.01 + 0.1 * a * a};
+  const double lift = 2.0 * std::sin(a) * std::cos(a), drag = 0.02 + 1.8 * std::sin(a) * std::sin(a);
+  return {lift, drag};
+}
+
+constexpr Annulus ring{.radius = 60.0, .hub_radius = 2.8, .tip_radius = 89.0, .blades = 3, .chord = 3.9, .setting = 0.02};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("blade and momentum theory give the same force on the annulus", "[rotor][fast]", InductionMadsen,
+                   InductionBuhl) {
+  const double vx = GENERATE(3.0, 8.0, 11.0, 16.0), vy = GENERATE(30.0, 55.0, 70.0);
+  const ElementState s = solve_element(ring, vx, vy, TestType(), section);
+  REQUIRE(s.balanced);
+  const double a = s.axial_induction, loss = loss_factor(ring, std::sin(s.inflow)), solidity = 3 * 3.9 / (2 * pi * 60.0);
+  CHECK(s.speed * std::sin(s.inflow) == Approx(vx * (1 - a)));
+  CHECK(s.speed * std::cos(s.inflow) == Approx(vy * (1 + s.tangential_induction)));
+  const double ct = solidity * s.speed * s.speed * s.normal / (vx * vx);  // of the annulus, on the undisturbed wind
+  if (std::is_same_v<TestType, InductionBuhl>) {
+    const double momentum =
+        a <= 0.4 ? 4 * a * loss * (1 - a) : 8.0 / 9 + (4 * loss - 40.0 / 9) * a + (50.0 / 9 - 4 * loss) * a * a;
+    CHECK(ct == Approx(momentum).epsilon(1e-8));
+  } else {
+    const double c = ct / loss;
+    CHECK(a == Approx(c > 0 ? ((0.0883 * c + 0.0586) * c + 0.246) * c : 0.5 * (1 - std::sqrt(1 - c))).epsilon(1e-8));
+  }
+  const double torque = solidity * s.speed * s.speed * s.tangential;
+  CHECK(torque == Approx(4 * loss * s.tangential_induction * (1 - a) * vx * vy).epsilon(1e-7).margin(1e-9));
+}
+
+TEST_CASE("the two inductions agree with momentum theory at light loading and differ beyond", "[rotor][fast]") {
+  const double loss = GENERATE(0.5, 1.0), k = GENERATE(-0.5, 0.01, 0.1, 0.3);
+  CHECK(InductionBuhl().slowdown(k, loss) == Approx(1 + k));
+  CHECK(InductionMadsen().slowdown(k, loss) == Approx(1 + k).epsilon(0.006));
+  CHECK(InductionBuhl().slowdown(2.0 / 3 + 1e-9, loss) == Approx(5.0 / 3).epsilon(1e-6));  // a = 0.4: the two branches meet
+  double last = 0.0;
+  for (double high = 1e-3; high < 1e9; high *= 2) {
+    const double madsen = InductionMadsen().slowdown(high, loss);
+    CHECK(madsen > last);  // more load, more induction, and never a standstill
+    last = madsen;
+    CHECK(std::isfinite(InductionBuhl().slowdown(high, loss)));
+  }
+}
+
+TEST_CASE("Prandtl's factor is one far from the ends, zero at them, and both ends count", "[rotor][fast]") {
+  Annulus s = ring;
+  CHECK(loss_factor(s, 0.01) == Approx(1.0));
+  s.radius = 88.999;
+  CHECK(loss_factor(s, 0.1) < 0.05);
+  s.radius = 2.801;
+  CHECK(loss_factor(s, 0.5) < 0.05);
+  s.radius = 80.0;
+  CHECK(loss_factor(s, 0.1) == Approx(2 / pi * std::acos(std::exp(-1.5 * 9.0 / (80.0 * 0.1)))));
+}
+
+TEST_CASE("an empty section disturbs nothing", "[rotor][fast]") {
+  const ElementState s = solve_element(ring, 11.0, 60.0, InductionMadsen(), [](double) { return SectionForce{0.0, 0.0}; });
+  CHECK(s.axial_induction == Approx(0.0).margin(1e-12));
+  CHECK(s.speed == Approx(std::hypot(11.0, 60.0)));
+}
+
+TEST_CASE("a symmetric blade in wind from behind is its mirror", "[rotor][fast]") {
+  Annulus s = ring;
+  const double vy = GENERATE(20.0, 60.0, -40.0), vx = GENERATE(5.0, 12.0);
+  const ElementState front = solve_element(s, vx, vy, InductionBuhl(), section);
+  s.setting = -s.setting;
+  const ElementState back = solve_element(s, -vx, vy, InductionBuhl(), section);
+  CHECK(back.normal == Approx(-front.normal));
+  CHECK(back.tangential == Approx(front.tangential));
+  CHECK(back.speed == Approx(front.speed));
+}
+
+TEST_CASE("no wind, wind from anywhere, standstill and feather give bounded forces", "[rotor][fast]") {
+  std::mt19937 random(3);
+  const auto pick = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  int unbalanced = 0;
+  for (int n = 0; n < 20000; ++n) {
+    Annulus s{.radius = pick(3.0, 88.9),
+              .hub_radius = 2.8,
+              .tip_radius = 89.0,
+              .blades = 1 + n % 4,
+              .chord = pick(0.1, 6.0),
+              .setting = pick(-pi, pi)};
+    const double vx = n % 7 == 0 ? 0.0 : pick(-60.0, 60.0), vy = n % 5 == 0 ? 0.0 : pick(-100.0, 100.0);
+    const ElementState e =
+        n % 2 ? solve_element(s, vx, vy, InductionMadsen(), section) : solve_element(s, vx, vy, InductionBuhl(), section);
+    REQUIRE(std::isfinite(e.speed));
+    REQUIRE(std::abs(e.normal) < 4.0);
+    REQUIRE(e.speed <= 1.01 * std::hypot(vx, vy));  // a wake with many times the wind's speed would be a false balance
+    unbalanced += !e.balanced && (vx != 0.0 || vy != 0.0);
+  }
+  CHECK(unbalanced == 0);
+  CHECK(solve_element(ring, 0.0, 0.0, InductionMadsen(), section).speed == 0.0);
+}
+
+TEST_CASE("a blade that drives still air draws it along", "[rotor][fast]") {
+  Annulus s = ring;
+  s.setting = -0.1;  // nose out of the plane: thrust downwind on the blade, so air is sent upwind
+  const ElementState e = solve_element(s, 0.0, 60.0, InductionMadsen(), section);
+  REQUIRE(e.balanced);
+  CHECK(e.inflow < 0.0);
+  CHECK(e.normal > 0.0);
+  const double near = solve_element(s, 1e-6, 60.0, InductionMadsen(), section).normal;
+  CHECK(near == Approx(e.normal).epsilon(1e-4));
+}
+
+TEST_CASE("a skewed wake takes from the downwind side what it leaves to the upwind side", "[rotor][fast]") {
+  const ElementState level = solve_element(ring, 11.0, 60.0, InductionMadsen(), section);
+  const double skew = 30 * radians_per_degree,
+               expected = 15 * pi / 64 * std::tan(0.5 * (0.6 * level.axial_induction + 1) * skew) * 0.67;
+  const double down = skewed(ring, level, 11.0, 60.0, skew, 0.67, section).axial_induction;
+  const double up = skewed(ring, level, 11.0, 60.0, skew, -0.67, section).axial_induction;
+  CHECK(down == Approx(level.axial_induction * (1 + expected)));
+  CHECK(up == Approx(level.axial_induction * (1 - expected)));
+  CHECK(skewed(ring, level, 11.0, 60.0, 0.0, 0.67, section).normal == Approx(level.normal));
+}

@@ -1,0 +1,175 @@
+// Blade element momentum on the DTU 10-MW rotor: published thrust and power, spanwise loads, and the motion of the hub.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/bem.hpp"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "src/scene/error.hpp"
+#include "tests/src/aero/data_file.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using Catch::Matchers::Contains;
+using Eigen::Vector3d;
+
+namespace {
+
+const Turbine& dtu() {
+  static const Turbine turbine = read_turbine(SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml");
+  return turbine;
+}
+
+DiscMotion spinning(double rpm, double pitch_deg = 0.0, double tilt = 0.0, double azimuth = 0.0) {
+  const Vector3d axis(std::cos(tilt), 0, -std::sin(tilt)), up(std::sin(tilt), 0, std::cos(tilt));
+  return {Vector3d::Zero(), rpm * rad_s_per_rpm * axis, axis, up, azimuth, pitch_deg * radians_per_degree};
+}
+
+struct Operation {
+  double thrust, power;  // [kN], [kW], mean over a turn
+};
+Operation run(const BladeElementMomentum& bem, double wind, double rpm, double pitch_deg = 0.0, double tilt = 0.0) {
+  Operation mean{};
+  for (int i = 0; i < 8; ++i) {  // of a third of a turn
+    const DiscMotion rotor = spinning(rpm, pitch_deg, tilt, 2 * pi / 3 * i / 8);
+    const DiscLoad load = bem({wind, 0, 0}, rotor);
+    CHECK(load.unbalanced == 0);
+    mean.thrust += load.force.dot(rotor.axis) / 8e3, mean.power += load.moment.dot(rotor.omega) / 8e3;
+  }
+  return mean;
+}
+
+}  // namespace
+
+TEST_CASE("the DTU 10-MW rotor at 11 m/s has the 2013 report's thrust and power, and dT/dU of 162.5 kN per m/s", "[aero][fast]") {
+  // Bak et al. (2013), DTU Wind Energy Report-I-0092, tip-speed ratio 7.5: 1507.4 kN, 9698 kW at 11 m/s; 797.3 kN, 3731 kW at 8
+  // m/s. Slopes: a textbook steady BEM with Madsen's polynomial on the same tables, cone but no prebend.
+  const BladeElementMomentum bem(dtu(), "madsen", 1.225);
+  const Operation at11 = run(bem, 11.0, 8.836), at8 = run(bem, 8.0, 6.4257);
+  CHECK(at11.thrust == Approx(1507.0).epsilon(0.01));
+  CHECK(at11.power == Approx(9700.0).epsilon(0.02));
+  CHECK(at8.thrust == Approx(797.3).epsilon(0.01));
+  CHECK(at8.power == Approx(3731.0).epsilon(0.02));
+  const Operation more = run(bem, 11.1, 8.836), less = run(bem, 10.9, 8.836);
+  CHECK((more.thrust - less.thrust) / 0.2 == Approx(162.5).epsilon(0.03));
+  CHECK((more.power - less.power) / 0.2 / (8.836 * rad_s_per_rpm) == Approx(2771.0).epsilon(0.03));
+}
+
+TEST_CASE("thrust and power follow the rigid HAWCStab2 table of the DTU 10-MW turbine", "[aero][fast]") {
+  // DTU gitlab hawc-reference-models/dtu-10-mw v9.2a, dtu_10mw_rigid.opt (tip-speed ratio 8; tilt 5, cone 2.5 degrees, prebend):
+  // wind m/s, pitch deg, rpm, kW, kN.
+  struct Row {
+    double wind, pitch, rpm, power, thrust;
+  };
+  const auto row = GENERATE(
+      Row{5, 2.7265, 6.0, 765.03, 312.40}, Row{6, 1.9023, 6.0, 1496.39, 447.99}, Row{7, 0.7141, 6.013, 2462.55, 603.41},
+      Row{8, 0.7170, 6.872, 3675.89, 788.02}, Row{10, 0.7201, 8.59, 7179.46, 1231.05}, Row{11, 0.7123, 9.449, 9555.74, 1490.28},
+      Row{12, 4.5688, 9.6, 10636.53, 1249.77}, Row{13, 7.1987, 9.6, 10638.33, 1073.60}, Row{15, 10.8192, 9.6, 10639.24, 886.91},
+      Row{18, 14.9977, 9.6, 10637.07, 735.37}, Row{20, 17.4089, 9.6, 10636.43, 671.85});
+  const auto induction = GENERATE("madsen", "buhl");
+  const Operation got = run(BladeElementMomentum(dtu(), induction, 1.225), row.wind, row.rpm, row.pitch, 5 * radians_per_degree);
+  const double within = row.wind <= 13 ? 0.03 : 0.05;
+  INFO(induction << " at " << row.wind << " m/s");
+  CHECK(got.thrust == Approx(row.thrust).epsilon(within));
+  CHECK(got.power == Approx(row.power).epsilon(within));
+}
+
+TEST_CASE("spanwise loads agree with an independent computation on the same tables", "[aero][fast]") {
+  // Steady BEM with Prandtl loss and Madsen's polynomial, cone 2.5 degrees, no prebend, 11 m/s, 8.8362 rpm: radius m, N/m.
+  Turbine straight = dtu();
+  std::fill(straight.planform.prebend.begin(), straight.planform.prebend.end(), 0.0);
+  const BladeElementMomentum bem(straight, "madsen", 1.225);
+  struct Row {
+    double radius, normal, tangential;
+  };
+  const auto row =
+      GENERATE(Row{25.111, 3437.8, 943.33}, Row{42.384, 5729, 1009.1}, Row{59.658, 8358.5, 1009}, Row{76.931, 10089, 933.55});
+  std::size_t i = 0;
+  while (bem.radius(i + 1) < row.radius) ++i;
+  const double s = (row.radius - bem.radius(i)) / (bem.radius(i + 1) - bem.radius(i)), omega = 8.8362 * rad_s_per_rpm;
+  double normal = 0.0, tangential = 0.0;
+  for (const auto& [element, weight] : {std::pair{i, 1.0 - s}, std::pair{i + 1, s}}) {
+    const ElementState e = bem.solve(element, 11.0 * std::cos(2.5 * radians_per_degree), omega * bem.radius(element), 0.0);
+    const double pressure = 0.5 * 1.225 * e.speed * e.speed * bem.chord(element);
+    normal += weight * pressure * e.normal, tangential += weight * pressure * e.tangential;
+  }
+  CHECK(normal == Approx(row.normal).epsilon(0.01));
+  CHECK(tangential == Approx(row.tangential).epsilon(0.01));
+}
+
+TEST_CASE("a hub that moves downwind is a rotor in less wind; a pitching one is damped", "[aero][fast]") {
+  const BladeElementMomentum bem(dtu(), "madsen", 1.225);
+  DiscMotion rotor = spinning(8.836);
+  rotor.hub_velocity = {1.0, 0, 0};
+  CHECK(bem({11.0, 0, 0}, rotor).force.x() == Approx(bem({10.0, 0, 0}, spinning(8.836)).force.x()));
+  DiscMotion pitching = spinning(8.836);
+  pitching.omega += Vector3d(0, 0.02, 0);
+  double still = 0.0, moving = 0.0;  // over a third of a turn: three blades repeat
+  for (int i = 0; i < 8; ++i) {
+    pitching.azimuth = 2 * pi / 3 * i / 8;
+    moving += bem({11.0, 0, 0}, pitching).moment.y() / 8;
+    still += bem({11.0, 0, 0}, spinning(8.836, 0.0, 0.0, pitching.azimuth)).moment.y() / 8;
+  }
+  CHECK(std::abs(still) < 1e-3 * 9e6);
+  CHECK(moving < -1e5);
+}
+
+TEST_CASE("turning the scene about the vertical turns the load; a third of a turn changes nothing", "[aero][fast]") {
+  const BladeElementMomentum bem(dtu(), "madsen", 1.225);
+  const Vector3d wind(10, 3, 0);
+  DiscMotion rotor = spinning(8.836, 1.0, 0.09, 0.4);
+  rotor.hub_velocity = {0.5, -0.2, 0.1};
+  const DiscLoad load = bem(wind, rotor);
+  DiscMotion third = rotor;
+  third.azimuth += 2 * pi / 3;
+  CHECK((bem(wind, third).force - load.force).norm() < 1e-6 * load.force.norm());
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d::UnitZ()));
+  const DiscMotion turned{turn * rotor.hub_velocity, turn * rotor.omega, turn * rotor.axis,
+                          turn * rotor.up,           rotor.azimuth,      rotor.blade_pitch};
+  const DiscLoad other = bem(turn * wind, turned);
+  CHECK((other.force - turn * load.force).norm() < 1e-6 * load.force.norm());
+  CHECK((other.moment - turn * load.moment).norm() < 1e-6 * load.moment.norm());
+}
+
+TEST_CASE("wind that comes askew yaws the rotor into it and costs power", "[aero][fast]") {
+  const BladeElementMomentum bem(dtu(), "madsen", 1.225);
+  const double yaw = 30 * radians_per_degree;
+  Vector3d force = Vector3d::Zero(), moment = force;
+  for (int i = 0; i < 8; ++i) {
+    const DiscLoad load = bem({11 * std::cos(yaw), 11 * std::sin(yaw), 0}, spinning(8.836, 0.0, 0.0, 2 * pi / 3 * i / 8));
+    force += load.force / 8, moment += load.moment / 8;
+  }
+  const double ratio = moment.x() * 8.836 * rad_s_per_rpm / 1e3 / run(bem, 11.0, 8.836).power;
+  CHECK(ratio < 0.85);
+  CHECK(ratio > 0.5);       // cos^3 of 30 degrees is 0.65
+  CHECK(moment.z() > 0.0);  // the side that lies upwind carries more: the axis turns towards the wind's direction
+}
+
+TEST_CASE("a parked rotor in a storm, one in still air and one with the wind behind it have finite loads", "[aero][fast]") {
+  const BladeElementMomentum bem(dtu(), GENERATE("madsen", "buhl"), 1.225);
+  struct Case {
+    double wind, rpm, pitch;
+  };
+  const auto c = GENERATE(Case{50, 0, 90}, Case{50, 0, 0}, Case{0, 8.8, 0}, Case{-11, 8.8, 0}, Case{11, -8.8, 0}, Case{0, 0, 0},
+                          Case{25, 0.1, 82});
+  const DiscLoad load = bem({c.wind, 0, 0}, spinning(c.rpm, c.pitch));
+  CHECK(std::isfinite(load.force.norm()));
+  CHECK(load.force.norm() < 2.5e7);
+  if (c.wind != 0.0) CHECK(load.force.x() * c.wind > 0.0);
+}
+
+TEST_CASE("a turbine file that is not a rotor is refused with what is wrong", "[aero][fast]") {
+  const std::string planform =
+      data_file("planform.csv", "span_m,chord_m,twist_deg,thickness_pct,prebend_m\n2,5,14,100,0\n80,1,0,24,-1\n");
+  const std::string polar = data_file("polar.csv", "alpha_deg,cl,cd\n-180,0,0.1\n0,0,0.01\n180,0,0.1\n");
+  const auto with = [&](const std::string& hub, const std::string& plan, const std::string& polars) {
+    return read_turbine(data_file("turbine.toml", "[turbine]\nhub_radius_m = " + hub + "\nplanform = '" + plan + "'\n" + polars));
+  };
+  const std::string one = "polars = [{thickness_pct = 24, file = '" + polar + "'}]\n";
+  CHECK(with("2.0", planform, one).planform.chord[1] == 1.0);
+  CHECK_THROWS_WITH(with("3.0", planform, one), Contains("hub_radius_m"));
+  CHECK_THROWS_WITH(with("2.0", planform, ""), Contains("at least one entry"));
+  CHECK_THROWS_WITH(with("2.0", "nowhere.csv", one), Contains("nowhere.csv"));
+  const std::string half = data_file("half.csv", "alpha_deg,cl,cd\n-90,0,0.1\n90,0,0.1\n");
+  CHECK_THROWS_WITH(with("2.0", planform, "polars = [{thickness_pct = 24, file = '" + half + "'}]\n"), Contains("-180 to 180"));
+}
