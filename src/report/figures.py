@@ -1,0 +1,242 @@
+"""Figures of a report: matplotlib drawings as inline SVG whose colours follow the page, or as PNG where the SVG would be large.
+Called by page.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+import base64
+import io
+import re
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
+
+import quantities
+
+SVG_LIMIT_BYTES = 300_000
+BINS = 700  # of the min-max envelope that stands for a long series
+# Mid-tones that read on white and on near-black; the page's style sheet refines them for each.
+PALETTE = ["#2f7fc1", "#d9772b", "#2f9e6e", "#b5569e", "#8a7a2c", "#4aa5b8", "#c2504d", "#7a7f87"]
+INK, GRID = "#808386", "#9a9da1"
+DASHES = ["-", (0, (4, 1.6)), (0, (1.2, 1.2)), (0, (5, 1.5, 1.2, 1.5))]
+
+plt.rcParams.update({
+    "svg.fonttype": "none", "text.parse_math": False, "font.family": "sans-serif", "font.size": 9, "axes.titlesize": 9, "axes.labelsize": 9,
+    "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "legend.fontsize": 8.5, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.edgecolor": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "text.color": INK, "grid.color": GRID,
+    "grid.linewidth": 0.4, "grid.alpha": 0.35, "axes.grid": True, "axes.linewidth": 0.6, "lines.linewidth": 1.1, "axes.axisbelow": True,
+    "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.major.size": 3, "ytick.major.size": 3, "path.simplify": True,
+    "path.simplify_threshold": 0.12, "figure.facecolor": "none", "axes.facecolor": "none", "legend.frameon": False,
+    "axes.formatter.useoffset": False, "axes.formatter.limits": (-4, 6),
+})
+
+
+def envelope(time, values):
+    """A long series as the least and greatest of each of BINS stretches, in their order in time: no peak is lost."""
+    n = len(values)
+    if n <= 4 * BINS:
+        return time, values
+    per_bin = n // BINS
+    body = values[: per_bin * BINS].reshape(BINS, per_bin)
+    starts = np.arange(BINS) * per_bin
+    low = starts + np.argmin(np.where(np.isfinite(body), body, np.inf), axis=1)
+    high = starts + np.argmax(np.where(np.isfinite(body), body, -np.inf), axis=1)
+    tail = np.arange(per_bin * BINS, n)
+    if len(tail):
+        finite = np.where(np.isfinite(values[tail]), values[tail], np.nan)
+        tail = tail[[np.nanargmin(finite), np.nanargmax(finite)]] if np.isfinite(finite).any() else tail[:1]
+    kept = np.sort(np.concatenate([low, high, tail, [0, n - 1]]))
+    return time[kept], values[kept]
+
+
+def unwrapped_breaks(time, values):
+    """An angle that runs through 360 degrees drops to 0 without a line across the figure."""
+    jumps = np.flatnonzero(np.abs(np.diff(values)) > 180.0) + 1
+    return np.insert(time, jumps, time[jumps]), np.insert(values, jumps, np.nan)
+
+
+def is_nothing(values):
+    """Zero throughout, or not a number at all."""
+    finite = values[np.isfinite(values)]
+    return len(finite) == 0 or not np.any(finite)
+
+
+def constant(runs, column):
+    """The one value that the column has at all times in all runs, else None."""
+    found = [run.column(column) for run in runs if column in run.columns]
+    values = np.concatenate(found)
+    if any(len(v) < 2 for v in found) or not np.isfinite(values).all() or np.ptp(values) > 1e-9 * np.abs(values).max():
+        return None
+    return float(values[0])
+
+
+def as_html(figure, label):
+    """The figure as inline SVG in the page's colours and type, or as PNG where that is too large."""
+    out = io.StringIO()
+    plt.rcParams["svg.hashsalt"] = label  # ids differ between the figures of a page, and not between runs of this program
+    figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    svg = out.getvalue()
+    svg = svg[svg.index("<svg"):]
+    svg = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>", "", svg, flags=re.S)
+    svg = re.sub(r">\s+<", "><", svg)
+    svg = re.sub(r"\s*xmlns(:xlink)?=\"[^\"]*\"", "", svg)
+    svg = svg.replace("xlink:href", "href")
+    used = set(re.findall(r"#([\w-]+)", svg))
+    svg = re.sub(r'\s+id="([^"]*)"', lambda found: found[0] if found[1] in used else "", svg)  # the others repeat from figure to figure
+    svg = re.sub(r"(<svg[^>]*?) height=\"[^\"]*\"", r"\1", svg, count=1)
+    svg = re.sub(r"(<svg[^>]*?) width=\"[^\"]*\"", r"\1", svg, count=1)
+    # A tenth of a point is less than a pixel. In attributes only: text holds the numbers of the axes.
+    svg = re.sub(r'="[^"]*\d\.\d\d[^"]*"', lambda found: re.sub(r"(\d\.\d)\d+", r"\1", found[0]), svg)
+    svg = re.sub(r"font: (?:bold )?([\d.]+)px [^;\"]*", r"font-size: \1px", svg)
+    svg = svg.replace(INK, "currentColor").replace(GRID, "var(--grid)")
+    for i, colour in enumerate(PALETTE):
+        svg = svg.replace(colour, f"var(--c{i})")
+    if len(svg.encode()) <= SVG_LIMIT_BYTES:
+        plt.close(figure)
+        return svg.replace("<svg", f'<svg role="img" aria-label="{label}"', 1)
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png", dpi=170)
+    plt.close(figure)
+    return f'<img alt="{label}" src="data:image/png;base64,{base64.b64encode(picture.getvalue()).decode()}">'
+
+
+def _panel_lines(runs, lines):
+    """(legend, run index, line index, time, values) of what there is to draw."""
+    for r, run in enumerate(runs):
+        for i, (legend, column) in enumerate(lines):
+            if column in run.columns and not is_nothing(run.column(column)):
+                yield legend, r, i, run.time, run.column(column)
+
+
+def _style(lines, run, line):
+    """One run: a colour per line. Several: a colour per run where a panel has one line, else a dash per run."""
+    if len(lines) == 1:
+        return {"color": PALETTE[run % len(PALETTE)]}
+    return {"color": PALETTE[line % len(PALETTE)], "linestyle": DASHES[run % len(DASHES)]}
+
+
+def _limits(axis, drawn):
+    """Not to blow up round-off: a series that hardly moves is shown flat."""
+    finite = np.concatenate([v[np.isfinite(v)] for v in drawn]) if drawn else np.empty(0)
+    if len(finite) == 0:
+        return
+    low, high = finite.min(), finite.max()
+    if high - low < 1e-6 * max(abs(low), abs(high)):
+        middle, half = 0.5 * (low + high), 0.5 * max(abs(low), abs(high), 1e-12) * 0.1
+        axis.set_ylim(middle - half, middle + half)
+
+
+class Drawing:
+    """A figure (None where nothing is left to draw), its legend {text: index of colour}, what is zero and what is constant throughout."""
+
+    def __init__(self):
+        self.figure, self.legend, self.zero, self.constant = None, {}, [], []
+
+
+def series(runs, group):
+    """A group over time."""
+    drawing, panels = Drawing(), []
+    for label, lines in group.panels:
+        if not any(column in run.columns for run in runs for _, column in lines):
+            continue
+        if not any(True for _ in _panel_lines(runs, lines)):
+            drawing.zero.append(label)
+        elif len(lines) == 1 and (value := constant(runs, lines[0][1])) is not None:
+            unit, factor = quantities.scaled(quantities.unit_of(lines[0][1], runs[0].described), abs(value))
+            drawing.constant.append(f"{label} {factor * value:.6g}" + (f" {unit}" if unit != label else ""))
+        else:
+            panels.append((label, lines))
+    if panels:
+        drawing.figure, drawing.legend = _draw(runs, panels)
+    return drawing
+
+
+def _draw(runs, panels):
+    several = max(len(lines) for _, lines in panels) > 1
+    height = 1.2 * len(panels) + (1.0 if len(panels) == 1 else 0.4)
+    figure, axes = plt.subplots(len(panels), 1, sharex=True, squeeze=False, figsize=(5.4, height), layout="constrained")
+    legend_entries = {}
+    for axis, (label, lines) in zip(axes[:, 0], panels):
+        drawn = list(_panel_lines(runs, lines))
+        finite = [np.abs(v[np.isfinite(v)]).max(initial=0.0) for *_, v in drawn]
+        unit, factor = quantities.scaled(quantities.unit_of(lines[0][1], runs[0].described), max(finite))
+        for legend, r, i, time, values in drawn:
+            if quantities.quantity_of(lines[i][1]) == "azimuth":
+                time, values = unwrapped_breaks(time, values)
+            x, y = envelope(time, values * factor)
+            marker = {"marker": "o", "markersize": 3} if len(x) == 1 else {}
+            axis.plot(x, y, **_style(lines, r, i), **marker)
+            if several:
+                legend_entries[legend] = i % len(PALETTE)
+        _limits(axis, [v * factor for *_, v in drawn])
+        axis.set_ylabel(f"{label} [{unit}]" if unit and label != unit else label)
+        axis.yaxis.set_major_locator(MaxNLocator(4))
+        axis.margins(x=0.0)
+    axes[-1, 0].set_xlabel("time [s]")
+    figure.align_ylabels()
+    return figure, dict(sorted(legend_entries.items(), key=lambda entry: entry[1]))
+
+
+def density(time, values):
+    """One-sided power spectral density after Welch: halves overlapped, Hann window, mean removed. (Hz, unit²/Hz), or None if too short."""
+    keep = np.isfinite(time) & np.isfinite(values)
+    time, values = time[keep], values[keep]
+    if len(values) < 64 or time[-1] <= time[0]:
+        return None
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    if np.ptp(np.diff(time)) > 1e-6 * step:
+        even = time[0] + step * np.arange(len(time))
+        time, values = even, np.interp(even, time, values)
+    length = len(values) // 2 * 2 // 3 * 2  # three segments, half overlapped
+    window = np.hanning(length)
+    total = np.zeros(length // 2 + 1)
+    starts = [0, (len(values) - length) // 2, len(values) - length]
+    for start in starts:
+        piece = values[start: start + length]
+        total += np.abs(np.fft.rfft((piece - piece.mean()) * window)) ** 2
+    frequency = np.fft.rfftfreq(length, step)
+    return frequency[1:], (2.0 * step / (window ** 2).sum() / len(starts) * total)[1:]
+
+
+def spectra(runs, panels):
+    """Spectra of motions; None where there is nothing that moves for long enough."""
+    ready = []
+    for label, column in panels:
+        lines = []
+        for r, run in enumerate(runs):
+            if column not in run.columns or is_nothing(run.column(column)):
+                continue
+            tail = slice(len(run.time) // 4, None)  # without the start's transient
+            found = density(run.time[tail], run.column(column)[tail])
+            if found is not None and found[1].max() > 1e-20:
+                lines.append((r, *found))
+        if lines:
+            ready.append((label, column, lines))
+    if not ready:
+        return None
+    figure, axes = plt.subplots(len(ready), 1, squeeze=False, sharex=True, figsize=(5.4, 1.3 * len(ready) + (0.9 if len(ready) == 1 else 0.4)),
+                                layout="constrained")
+    top = max(_band(f, s) for *_, lines in ready for _, f, s in lines)
+    for axis, (label, column, lines) in zip(axes.flat, ready):
+        for r, frequency, power in lines:
+            axis.semilogy(*envelope(frequency, power), color=PALETTE[r % len(PALETTE)])
+        peak = max(power[frequency <= top].max(initial=1e-300) for _, frequency, power in lines)
+        axis.set_xlim(0.0, top)
+        axis.set_ylim(peak * 1e-6, peak * 5.0)
+        axis.set_ylabel(f"{label} [{quantities.unit_of(column)}²/Hz]")
+        axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
+        axis.yaxis.set_minor_locator(NullLocator())
+    axes[-1, 0].set_xlabel("frequency [Hz]")
+    figure.align_ylabels()
+    return figure
+
+
+def power_of_ten(value):
+    """'10⁻³' as plain text: names with dollar signs rule out matplotlib's own mathematics."""
+    return "10" + str(round(np.log10(value))).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def _band(frequency, power):
+    """Frequency up to which a figure is worth drawing: thrice that below which 99 % of the variance lies."""
+    below = np.cumsum(power)
+    return min(frequency[-1], max(3.0 * frequency[np.searchsorted(below, 0.99 * below[-1])], 20.0 * frequency[0]))

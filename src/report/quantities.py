@@ -1,0 +1,124 @@
+"""What the columns of history.csv mean: units from names, groups for figures, words for captions (docs/user/outputs.md lists the names).
+Called by figures.py, page.py and picture.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+import re
+
+UNITS = {"m_s2": "m/s²", "rad_s2": "rad/s²", "deg_s2": "deg/s²", "m_s": "m/s", "rad_s": "rad/s", "deg_s": "deg/s", "N_m": "N m", "N": "N",
+         "W": "W", "deg": "deg", "rad": "rad", "rpm": "rpm", "m": "m", "s": "s", "Pa": "Pa", "kg": "kg", "J": "J"}
+AXES = {"x": "surge", "y": "sway", "z": "heave", "roll": "roll", "pitch": "pitch", "yaw": "yaw"}
+
+
+def unit_of(name, described=None):
+    """Of a column: as declared in summary.json, else from the end of its name."""
+    declared = (described or {}).get(name, {}).get("unit")
+    if declared and declared != "-":
+        return declared.replace("m/s2", "m/s²").replace("s2", "s²")
+    last = name.rsplit(".", 1)[-1]
+    for suffix, unit in UNITS.items():
+        if last == suffix or last.endswith("_" + suffix):
+            return unit
+    return ""
+
+
+def quantity_of(name):
+    """The column's last part without its unit: 'x' of platform.x_m."""
+    last = name.rsplit(".", 1)[-1]
+    for suffix in UNITS:
+        if last.endswith("_" + suffix):
+            return last[: -len(suffix) - 1]
+    return last
+
+
+def spoken(name):
+    """'platform surge' for platform.x_m."""
+    prefix, quantity = name.rpartition(".")[0], quantity_of(name)
+    return f"{prefix} {AXES.get(quantity, quantity).replace('_', ' ')}".strip()
+
+
+def scaled(unit, largest):
+    """Unit with a prefix, and the factor, so that figures read without powers of ten: (kN, 1e-3)."""
+    if unit not in ("N", "N m", "W", "Pa", "J"):
+        return unit, 1.0
+    for prefix, factor in (("G", 1e-9), ("M", 1e-6), ("k", 1e-3)):
+        if largest * factor >= 1.0:
+            return prefix + unit, factor
+    return unit, 1.0
+
+
+class Group:
+    """One figure: panels, each a label and the columns drawn in it (legend entry, column)."""
+
+    def __init__(self, key, title, caption, panels, fold=False):
+        self.key, self.title, self.caption, self.panels, self.fold = key, title, caption, panels, fold
+
+    def columns(self):
+        return [column for _, lines in self.panels for _, column in lines]
+
+
+def _triple(names, prefix, quantities, labels=None):
+    """Panels of those of prefix.quantity_unit that there are, one line each."""
+    panels = []
+    for quantity in quantities:
+        for name in names:
+            if name.rpartition(".")[0] == prefix and quantity_of(name) == quantity:
+                panels.append(((labels or {}).get(quantity, quantity), [("", name)]))
+    return panels
+
+
+def bodies_of(names):
+    return list(dict.fromkeys(n.rpartition(".")[0] for n in names if re.search(r"\.(x|y|z)_m$|\.(roll|pitch|yaw)_deg$", n)))
+
+
+def groups(names):
+    """All figures that the columns give, in the order of the page. Every column but the time is in exactly one."""
+    found = []
+    bodies = bodies_of(names)
+
+    def add(key, title, caption, panels, fold=False):
+        if panels:
+            found.append(Group(key, title, caption, panels, fold))
+
+    for body in bodies:
+        fold = body != bodies[0]
+        add("motion", f"{body}: position", "Displacement from the scene's initial reference, earth frame (x downwind, z up).",
+            _triple(names, body, ("x", "y", "z"), AXES), fold)
+        add("motion", f"{body}: attitude", "Yaw-pitch-roll angles from the scene's initial reference; positive pitch lowers the downwind side.",
+            _triple(names, body, ("roll", "pitch", "yaw"), AXES), fold)
+    for body in bodies:
+        fold = body != bodies[0]
+        add("rates", f"{body}: velocity", "Velocity of the reference point, earth frame.", _triple(names, body, ("vx", "vy", "vz")), fold)
+        add("rates", f"{body}: acceleration", "Acceleration of the reference point, earth frame.", _triple(names, body, ("ax", "ay", "az")), fold)
+
+    sources = {}
+    for name in names:
+        match = re.fullmatch(r"(.+)\.([^.]+)\.([fm])([xyz])_(N|N_m)", name)
+        if match and (match[3] == "f") == (match[5] == "N"):
+            sources.setdefault((match[1], match[3]), {}).setdefault(match[3] + match[4], []).append((match[2], name))
+    for letter, key, title, caption in (("f", "forces", "forces by source", "Force on the body from each source of load, earth frame."),
+                                        ("m", "moments", "moments by source", "Moment about the body's centre of mass from each source of load, earth frame.")):
+        for (body, kind), panels in sources.items():
+            if kind == letter:
+                add(key, f"{body}: {title}", caption, [(q, panels[q]) for q in sorted(panels)], bool(bodies) and body != bodies[0])
+
+    rotors = list(dict.fromkeys(n.rpartition(".")[0] for n in names if n.endswith(".thrust_N")))
+    for rotor in rotors:
+        add("rotor", f"{rotor}: loads and speed", "Thrust along the shaft, torque and power of the rotor, its azimuth and speed.",
+            _triple(names, rotor, ("thrust", "torque", "power", "azimuth", "rpm")))
+
+    tensions = [(n.rpartition(".")[0], n) for n in names if n.endswith(".tension_N")]
+    add("moorings", "Mooring tensions", "Tension of each line at its fairlead.", [("tension", tensions)] if tensions else [])
+
+    used = {"time_s"} | {column for group in found for column in group.columns()}
+    rest = {}
+    for name in names:
+        if name not in used:
+            rest.setdefault((name.rpartition(".")[0], unit_of(name)), []).append((quantity_of(name), name))
+    for (prefix, unit), lines in rest.items():
+        add("other", f"{prefix or 'run'}: " + ", ".join(q for q, _ in lines), "", [(unit or "value", lines)], True)
+    return found
+
+
+def key_columns(names):
+    """Columns of the key figures: motions of the first body, rotor loads, tensions."""
+    bodies = bodies_of(names)
+    chosen = [c for b in bodies[:1] for c in (p[1][0][1] for p in _triple(names, b, ("x", "y", "z", "roll", "pitch", "yaw")))]
+    return chosen + [n for n in names if n.endswith((".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".tension_N"))]

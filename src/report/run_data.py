@@ -1,0 +1,117 @@
+"""One run directory, read: scene, history, summary, log, trace. What is missing or broken is said in `notes`, never an error.
+Called by spindrift_report.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+import json
+import pathlib
+import tomllib
+import warnings
+
+import numpy as np
+
+CHUNK_BYTES = 64 << 20
+TRACE_LIMIT_BYTES = 200 << 20
+
+
+class RunData:
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.notes = []
+        self.name = self.folder.resolve().name
+        self.scene_text = self._text("scene.toml")
+        self.scene = self._scene()
+        self.summary = self._json("summary.json")
+        self.columns, self.values = self._history()  # names; array[column, row]
+        self.log = self._text("log.txt").splitlines()
+        self.trace = self._trace()
+        self.described = {c.get("name"): c for c in self.summary.get("columns", []) if isinstance(c, dict)}
+
+    @property
+    def title(self):
+        return str(self.summary.get("title") or self.name)
+
+    @property
+    def time(self):
+        return self.values[0] if len(self.columns) else np.empty(0)
+
+    def column(self, name):
+        return self.values[self.columns.index(name)]
+
+    def _text(self, name):
+        try:
+            return (self.folder / name).read_text(encoding="utf-8", errors="replace")
+        except FileNotFoundError:
+            return ""
+        except OSError as error:
+            self.notes.append(f"{name} cannot be read: {error.strerror}")
+            return ""
+
+    def _json(self, name):
+        text = self._text(name)
+        if not text:
+            self.notes.append(f"{name} is missing: the run did not come to an orderly end, or goes on")
+            return {}
+        try:
+            found = json.loads(text)
+            return found if isinstance(found, dict) else {}
+        except ValueError as error:
+            self.notes.append(f"{name} is not valid JSON: {error}")
+            return {}
+
+    def _scene(self):
+        try:
+            return tomllib.loads(self.scene_text)
+        except tomllib.TOMLDecodeError as error:
+            self.notes.append(f"scene.toml cannot be read: {error}")
+            return {}
+
+    def _history(self):
+        path = self.folder / "history.csv"
+        if not path.exists():
+            self.notes.append("history.csv is missing: there is nothing to plot")
+            return [], np.empty((0, 0))
+        with open(path, "rb") as file:
+            names = file.readline().decode("utf-8", errors="replace").strip().split(",")
+            blocks, rest = [], b""
+            while chunk := file.read(CHUNK_BYTES):
+                text, newline, rest = (rest + chunk).rpartition(b"\n")  # a half-written last line stays behind
+                if newline:
+                    blocks.append(self._rows(text, len(names)))
+        rows = np.concatenate(blocks) if blocks else np.empty((0, len(names)))
+        return (names, rows.T) if names != [""] else ([], np.empty((0, 0)))
+
+    def _rows(self, text, width):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # it stops at what is no number; counted below
+            values = np.fromstring(text.replace(b"\n", b","), sep=",")
+        if len(values) == width * (text.count(b"\n") + 1):
+            return values.reshape(-1, width)
+        rows = []
+        for line in text.split(b"\n"):
+            try:
+                row = [float(field) for field in line.split(b",")]
+            except ValueError:
+                row = []
+            if len(row) == width:
+                rows.append(row)
+        self.notes.append(f"history.csv: {text.count(10) + 1 - len(rows)} of its lines are damaged and left out")
+        return np.array(rows).reshape(-1, width)
+
+    def _trace(self):
+        """Seconds by task label (its first two parts), of the complete events of trace.json."""
+        path = self.folder / "trace.json"
+        if not path.exists():
+            return {}
+        if path.stat().st_size > TRACE_LIMIT_BYTES:
+            self.notes.append("trace.json is too large to be summed up here; open it in the Perfetto viewer")
+            return {}
+        try:
+            found = json.loads(self._text("trace.json"))
+            events = found.get("traceEvents", []) if isinstance(found, dict) else found
+            seconds = {}
+            for event in events:
+                if event.get("ph") == "X":
+                    label = "/".join(str(event.get("name", "")).split("/")[:2])
+                    seconds[label] = seconds.get(label, 0.0) + 1e-6 * float(event.get("dur", 0.0))
+            return seconds
+        except (ValueError, AttributeError, TypeError) as error:
+            self.notes.append(f"trace.json cannot be read: {error}")
+            return {}

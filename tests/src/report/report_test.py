@@ -1,0 +1,260 @@
+"""The report's page on synthetic run directories: sections that the data have and no others, nothing from a network, nothing that breaks it.
+Run by ctest with the distribution's Python. SPDX-License-Identifier: Apache-2.0"""
+import html.parser
+import pathlib
+import re
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[2] / "src/report")]
+sys.dont_write_bytecode = True
+
+import figures
+import page
+import picture
+import quantities
+import synthetic_run
+from run_data import RunData
+
+VOID = {"meta", "br", "img", "link", "hr", "input"}
+ALL = ["model", "key-figures", "motion", "rates", "spectra", "forces", "moments", "rotor", "moorings", "other", "time-spent", "efficiency",
+       "scene", "log"]
+
+
+class Parsed(html.parser.HTMLParser):
+    """Checks that every element is closed in order; keeps sections, attributes and text."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.sections, self.attributes, self.tags, self.text = [], [], [], [], ""
+        self.feed(text)
+        self.close()
+        assert not self.open, f"not closed: {self.open}"
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.attributes += [(tag, *a) for a in attrs]
+        if tag == "section":
+            self.sections.append(dict(attrs)["id"])
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.tags.append(tag)
+        self.attributes += [(tag, *a) for a in attrs]
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open[-1] == tag, f"</{tag}> closes {self.open[-3:]}"
+        self.open.pop()
+
+    def handle_data(self, data):
+        if "style" not in self.open:
+            self.text += data
+
+
+class ReportTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def page(self, *names, **settings):
+        """The page of one synthetic run (or of those named), parsed and checked for what holds for every page."""
+        if not names:
+            names = ["run"]
+            synthetic_run.write(self.folder / "run", **settings)
+        text = page.build([RunData(self.folder / name) for name in names])
+        parsed = Parsed(text)
+        self.assertNotRegex(text, r"https?:|@import|url\(\s*['\"]?(?!#)[a-z]")  # nothing from a network
+        for tag, key, value in parsed.attributes:
+            if key in ("src", "href", "xlink:href"):
+                self.assertRegex(value, r"^(#|data:)", f"{tag} {key}")
+            self.assertFalse(key.startswith("on"), key)
+        self.assertNotIn("script", parsed.tags)
+        ids = [value for _, key, value in parsed.attributes if key == "id"]
+        self.assertEqual(len(ids), len(set(ids)), "ids are unique")
+        for _, key, value in parsed.attributes:
+            if key in ("href", "clip-path"):
+                target = re.fullmatch(r"(?:url\()?#(.*?)\)?", value)
+                if target:
+                    self.assertIn(target[1], ids)
+        return text, parsed
+
+    def test_a_full_run_has_every_section_in_order(self):
+        text, parsed = self.page(trace=synthetic_run.TRACE)
+        self.assertEqual(parsed.sections, ALL)
+        self.assertIn("reached the end at 150 s", text)
+        self.assertIn("sea/force", text)
+        self.assertIn("load balance", text)
+        self.assertIn('<span class="warning">2026-11-21 02:50:00.010 warning', text)
+        self.assertIn("torque 10 MN m, power 9.2 MW, rpm 8.8", parsed.text)  # constant: said, not drawn
+        self.assertIn("Zero throughout: sway", parsed.text)
+        self.assertLess(len(text), 600_000)
+
+    def test_what_a_run_lacks_has_no_section(self):
+        t = 0.1 * np.arange(200)
+        table = {"time_s": t, "ball.z_m": np.sin(t)}
+        _, parsed = self.page(table=table, scene="", log="", parts=[], efficiency=[], counts={})
+        self.assertEqual(parsed.sections, ["key-figures", "motion", "spectra"])
+        _, parsed = self.page(table={"time_s": t, "line.tension_N": 5 + t}, scene="", log="", parts=[], efficiency=[], counts={})
+        self.assertEqual(parsed.sections, ["key-figures", "moorings"])
+
+    def test_key_figures_are_right(self):
+        t = np.linspace(0, 10, 101)
+        _, parsed = self.page(table={"time_s": t, "a.x_m": t ** 2, "rotor.thrust_N": 1e6 + 0 * t}, ranges={"r": {"from_s": 8, "to_s": 10}})
+        row = re.search(r"a surge a\.x_m\s*m(.*?)rotor", parsed.text.replace("\n", ""))[1]
+        exact = (1000 - 512) / 3 / 2
+        self.assertIn(f"100.0{exact:.2f}0100.0", row)  # final, mean over 8 ... 10 s, least, greatest
+        self.assertIn("rotor thrust rotor.thrust_NMN1.0001.0001.0001.000", parsed.text)
+
+    def test_numerical_trouble_comes_first(self):
+        table = synthetic_run.columns(0.1 * np.arange(300))
+        table["platform.z_m"][100:103] = [np.nan, np.inf, np.nan]
+        text, parsed = self.page(table=table, exit_code=3, exit_reason="pitch beyond 85 deg", numerical_trouble=["aero block 12: pressure < 0"])
+        for words in ("Numerical failure", "pitch beyond 85 deg", "aero block 12: pressure < 0",
+                      "platform.z_m: 3 of 300 values are not finite, the first at t = 10.00 s"):
+            self.assertIn(words, parsed.text)
+            self.assertLess(text.index(page.escape(words)), text.index("<section"))
+        self.assertIn('class="status bad"', text)
+
+    def test_incomplete_runs(self):
+        rows = {"header only": 0, "one row": 1, "two rows": 2}
+        for name, count in rows.items():
+            with self.subTest(name):
+                _, parsed = self.page(rows=count)
+                self.assertEqual("motion" in parsed.sections, count > 0)
+        with self.subTest("no summary"):
+            _, parsed = self.page(with_summary=False) if not (self.folder / "run/summary.json").unlink() else None
+            self.assertIn("still running", parsed.text)
+        with self.subTest("nothing at all"):
+            (self.folder / "none").mkdir()
+            _, parsed = self.page("none")
+            self.assertEqual(parsed.sections, [])
+        with self.subTest("empty files"):
+            for name in ("history.csv", "summary.json", "scene.toml", "log.txt", "trace.json"):
+                (self.folder / "none" / name).write_text("")
+            self.page("none")
+        with self.subTest("broken files"):
+            for name in ("summary.json", "scene.toml", "trace.json"):
+                (self.folder / "none" / name).write_bytes(b"{\xff <b>[")
+            (self.folder / "none/history.csv").write_text("time_s,a.x_m\n0,1\n1,oops\n2,3,4\n3,5\n4,")
+            _, parsed = self.page("none")
+            self.assertIn("2 of its lines are damaged", parsed.text)
+            self.assertEqual(RunData(self.folder / "none").values.tolist(), [[0, 3], [1, 5]])
+        with self.subTest("summary of another shape"):
+            (self.folder / "none/summary.json").write_text('{"parts": [1], "efficiency": ["x"], "columns": [3], "ranges": {"a": 1}}')
+            self.page("none")
+
+    def test_columns_of_nan_only(self):
+        t = 0.1 * np.arange(100)
+        text, parsed = self.page(table={"time_s": t, "a.x_m": np.nan * t, "a.z_m": t}, scene="", log="")
+        self.assertIn("no value at any time: a.x_m", parsed.text)
+
+    def test_text_is_escaped_and_unicode_kept(self):
+        evil = "</title><script>alert('x')</script>\" onload=\"x & Wellengang fünf 海"
+        t = 0.1 * np.arange(100)
+        table = {"time_s": t, "<script>b.x_m": np.sin(t), "$a$.tension_N": t, "a'\"&.tension_N": t, "<i>.strange_N": t}
+        text, parsed = self.page(table=table, title=evil, exit_reason=evil, log=f"1 2 warning {evil}\n{evil}",
+                                 scene=f'[time]  # {evil}\nend_s = 1.0  # {evil}\n[bodies."<script>"]\nmass_kg = 1.0', scene_path=evil,
+                                 numerical_trouble=[evil], parts=[{"name": evil, "core_seconds": 1.0}],
+                                 efficiency=[{"name": evil, "value": 0.5, "meaning": evil}], counts={evil: 3},
+                                 build={"version": evil}, machine={"host": evil}, trace={"traceEvents": [{"ph": "X", "name": evil, "dur": 1}]})
+        self.assertNotIn("<script", text)
+        self.assertIn("Wellengang fünf 海", text)
+        self.assertIn("alert('x')", parsed.text)  # there, as text
+
+    def test_a_million_rows_in_seconds(self):
+        t = 0.01 * np.arange(1_000_000)
+        folder = self.folder / "run"
+        synthetic_run.write(folder, rows=2)
+        spike = np.sin(t)
+        spike[777_777] = 9.0
+        names = ["time_s", "a.x_m", "a.pitch_deg", "rotor.azimuth_deg", "l.tension_N"]
+        block = np.column_stack([t, spike, np.cos(3 * t), (50 * t) % 360, 1e5 + 1e3 * np.random.default_rng(1).normal(size=len(t))])
+        with open(folder / "history.csv", "wb") as file:
+            file.write((",".join(names) + "\n").encode())
+            file.write("\n".join(map(",".join, block.round(4).astype("U12"))).encode() + b"\n")
+        start = time.process_time()
+        text, parsed = self.page("run")
+        self.assertLess(time.process_time() - start, 20.0)
+        self.assertLess(len(text), 3_000_000)
+        self.assertRegex(parsed.text, "a surge a.x_mm[^a]*−1.0009.000a pitch")  # the peak of one row
+
+    def test_comparison_lays_runs_over_each_other(self):
+        synthetic_run.write(self.folder / "a")
+        table = synthetic_run.columns(0.2 * np.arange(600))
+        table["platform.pitch_deg"] *= 1.1
+        synthetic_run.write(self.folder / "b", table=table, scene=synthetic_run.SCENE.replace("1.5e6", "1.65e6"))
+        text, parsed = self.page("a", "b")
+        self.assertEqual(parsed.sections, ["differences", "key-figures"] + ALL[2:10])
+        self.assertRegex(parsed.text, r"aero\.thrust_N\s*1500000\.0\s*1650000\.0")
+        self.assertIn("(+10.", parsed.text)
+        synthetic_run.write(self.folder / "deep/a", rows=0)
+        self.page("a", "deep/a")  # equal names, and one without rows
+
+    def test_tick_labels_tell_values_apart(self):
+        text, _ = self.page(table={"time_s": np.linspace(0, 1, 300), "a.x_m": 1.5 + 0.04 * np.sin(np.linspace(0, 9, 300))}, scene="", log="")
+        labels = re.findall(r"<text[^>]*>(1\.\d+)</text>", text)
+        self.assertGreaterEqual(len(labels), 3)
+        self.assertEqual(len(labels), len(set(labels)))
+
+    def test_large_drawings_become_pictures(self):
+        figures.SVG_LIMIT_BYTES, kept = 2000, figures.SVG_LIMIT_BYTES
+        try:
+            text, parsed = self.page(table={"time_s": np.arange(99.0), "a.x_m": np.sin(np.arange(99.0))}, scene="", log="")
+        finally:
+            figures.SVG_LIMIT_BYTES = kept
+        self.assertIn("data:image/png;base64,", text)
+
+    def test_picture(self):
+        synthetic_run.write(self.folder / "run")
+        picture.draw(RunData(self.folder / "run"), self.folder / "p.png")
+        self.assertEqual((self.folder / "p.png").read_bytes()[:4], b"\x89PNG")
+        synthetic_run.write(self.folder / "empty", rows=0)
+        with self.assertRaisesRegex(ValueError, "nothing to draw"):
+            picture.draw(RunData(self.folder / "empty"), self.folder / "q.png")
+
+
+class PartsTest(unittest.TestCase):
+    def test_every_column_is_in_exactly_one_figure(self):
+        names = list(synthetic_run.columns(np.arange(3.0))) + ["odd", "a.b.c_kg", "platform.sea.fx_N_m", "x_m"]
+        used = [c for group in quantities.groups(names) for c in group.columns()]
+        self.assertEqual(sorted(used), sorted(names[1:]))
+
+    def test_units(self):
+        for name, unit in {"a.x_m": "m", "a.vx_m_s": "m/s", "a.ax_m_s2": "m/s²", "a.sea.mx_N_m": "N m", "rotor.rpm": "rpm", "odd": "",
+                           "a.fx_N": "N", "rotor.power_W": "W"}.items():
+            self.assertEqual(quantities.unit_of(name), unit, name)
+        self.assertEqual(quantities.scaled("N", 1.5e6), ("MN", 1e-6))
+        self.assertEqual(quantities.scaled("m", 1.5e6), ("m", 1.0))
+
+    def test_the_envelope_keeps_every_extreme_and_the_order(self):
+        values = np.random.default_rng(3).normal(size=100_003)
+        values[[5, 99_999]] = [50.0, -50.0]
+        x, y = figures.envelope(np.arange(100_003.0), values)
+        self.assertLess(len(x), 1500)
+        self.assertEqual((y.max(), y.min()), (50.0, -50.0))
+        self.assertTrue((np.diff(x) >= 0).all())
+        self.assertEqual((x[0], x[-1]), (0, 100_002))
+        figures.envelope(np.arange(100_003.0), np.nan * values)
+
+    def test_a_spectrum_has_its_peak_at_the_frequency_and_the_variance_as_area(self):
+        t = 0.05 * np.arange(6000)
+        frequency, power = figures.density(t, 3.0 + 2.0 * np.sin(2 * np.pi * 0.31 * t))
+        self.assertAlmostEqual(frequency[power.argmax()], 0.31, delta=0.01)
+        self.assertAlmostEqual(power.sum() * frequency[0], 2.0, delta=0.02)
+        self.assertIsNone(figures.density(t[:50], t[:50]))
+
+    def test_azimuth_breaks_where_it_wraps(self):
+        t, a = figures.unwrapped_breaks(np.arange(4.0), np.array([350.0, 359, 5, 10]))
+        self.assertEqual(len(t), 5)
+        self.assertTrue(np.isnan(a[2]))
+
+
+if __name__ == "__main__":
+    unittest.main()
