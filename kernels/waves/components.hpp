@@ -9,7 +9,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -31,6 +30,7 @@ struct Component {
 struct ComponentGroup {
   Lanes kx{}, ky{}, k{}, omega{}, phase{}, amplitude{}, speed{}, cos_b{}, sin_b{};
   Lanes bottom{};                    ///< exp(-2 k h), 0 in deep water
+  Lanes phase_speed{};               ///< omega / k
 };
 
 inline void set_lane(ComponentGroup& g, int lane, const Component& c, double depth) {
@@ -39,6 +39,7 @@ inline void set_lane(ComponentGroup& g, int lane, const Component& c, double dep
   g.kx[lane] = c.wave_number * g.cos_b[lane], g.ky[lane] = c.wave_number * g.sin_b[lane];
   g.amplitude[lane] = c.amplitude;
   g.bottom[lane] = std::exp(-2.0 * c.wave_number * depth);
+  g.phase_speed[lane] = c.angular_frequency / c.wave_number;
   g.speed[lane] = c.speed_amplitude / (1.0 - g.bottom[lane]);  // C = (e^kz + e^-2kh e^-kz) / (1 - e^-2kh): no overflow
 }
 
@@ -55,13 +56,10 @@ inline Surface surface(std::span<const ComponentGroup> sea, double t, double x, 
   Lanes eta{}, sx{}, sy{};
   for (const ComponentGroup& g : sea) {
     Lanes sine, cosine;
-    for (int i = 0; i < lanes; ++i) sine[i] = g.kx[i] * x + g.ky[i] * y - g.omega[i] * t + g.phase[i];
-    lane_sincos(sine, sine, cosine);
-    for (int i = 0; i < lanes; ++i) {
-      eta[i] += g.amplitude[i] * cosine[i];
-      sx[i] -= g.amplitude[i] * g.kx[i] * sine[i];
-      sy[i] -= g.amplitude[i] * g.ky[i] * sine[i];
-    }
+    lane_sincos(g.kx * x + g.ky * y - g.omega * t + g.phase, sine, cosine);
+    eta += g.amplitude * cosine;
+    sx -= g.amplitude * g.kx * sine;
+    sy -= g.amplitude * g.ky * sine;
   }
   return {lane_sum(eta), lane_sum(sx), lane_sum(sy)};
 }
@@ -70,19 +68,15 @@ inline Surface surface(std::span<const ComponentGroup> sea, double t, double x, 
 inline Kinematics kinematics(std::span<const ComponentGroup> sea, double t, double x, double y, double z) {
   Lanes vx{}, vy{}, vz{}, ax{}, ay{}, az{}, pressure{};
   for (const ComponentGroup& g : sea) {
-    Lanes sine, cosine, up, down;
-    for (int i = 0; i < lanes; ++i) sine[i] = g.kx[i] * x + g.ky[i] * y - g.omega[i] * t + g.phase[i];
-    lane_sincos(sine, sine, cosine);
-    for (int i = 0; i < lanes; ++i) up[i] = std::clamp(g.k[i] * z, -600.0, 600.0);
-    lane_exp(up, up);
-    for (int i = 0; i < lanes; ++i) down[i] = g.bottom[i] / up[i];
-    for (int i = 0; i < lanes; ++i) {
-      const double horizontal = g.speed[i] * (up[i] + down[i]), vertical = g.speed[i] * (up[i] - down[i]);
-      const double u = horizontal * cosine[i], du = g.omega[i] * horizontal * sine[i];
-      vx[i] += u * g.cos_b[i], vy[i] += u * g.sin_b[i], vz[i] += vertical * sine[i];
-      ax[i] += du * g.cos_b[i], ay[i] += du * g.sin_b[i], az[i] -= g.omega[i] * vertical * cosine[i];
-      pressure[i] += g.k[i] > 0.0 ? g.omega[i] / g.k[i] * u : 0.0;
-    }
+    Lanes sine, cosine, up;
+    lane_sincos(g.kx * x + g.ky * y - g.omega * t + g.phase, sine, cosine);
+    lane_exp(g.k * z, up);
+    const Lanes down = g.bottom / up;
+    const Lanes horizontal = g.speed * (up + down), vertical = g.speed * (up - down);
+    const Lanes u = horizontal * cosine, du = g.omega * horizontal * sine;
+    vx += u * g.cos_b, vy += u * g.sin_b, vz += vertical * sine;
+    ax += du * g.cos_b, ay += du * g.sin_b, az -= g.omega * vertical * cosine;
+    pressure += g.phase_speed * u;
   }
   return {{lane_sum(vx), lane_sum(vy), lane_sum(vz)}, {lane_sum(ax), lane_sum(ay), lane_sum(az)}, lane_sum(pressure)};
 }
