@@ -26,7 +26,7 @@ inline constexpr double round_shift = 6755399441055744.0;
 /// For |x| < 1e6 [rad]; either result may be x itself.
 inline void lane_sincos(const Lanes& x, Lanes& sine, Lanes& cosine) {
   const Lanes shifted = x * 0.63661977236758134308 + round_shift, n = shifted - round_shift;   // quarter turns
-  const auto quarter = std::bit_cast<IntegerLanes>(shifted);
+  const auto quarter = reinterpret_cast<IntegerLanes>(shifted);   // of vector types: the same bits
   Lanes r = x - n * 1.57079632673412561417e+00;            // pi/2 in three parts of 33, 33 and 53 bits
   r -= n * 6.07710050630396597660e-11;
   r -= n * 2.02226624879595063154e-21;
@@ -59,8 +59,8 @@ inline void lane_exp(const Lanes& x, Lanes& result) {
   for (const double coefficient : {1.0 / 39916800.0, 1.0 / 3628800.0, 1.0 / 362880.0, 1.0 / 40320.0, 1.0 / 5040.0, 1.0 / 720.0,
                                    1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0})
     p = p * r + coefficient;
-  const IntegerLanes exponent = std::bit_cast<IntegerLanes>(shifted) - std::bit_cast<std::int64_t>(round_shift);
-  result = p * std::bit_cast<Lanes>((exponent + 1023) << 52);
+  const IntegerLanes exponent = reinterpret_cast<IntegerLanes>(shifted) - std::bit_cast<std::int64_t>(round_shift);
+  result = p * reinterpret_cast<Lanes>((exponent + 1023) << 52);
 }
 
 }  // namespace spindrift

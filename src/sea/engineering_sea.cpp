@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/engineering_sea.hpp"
 
-#include <algorithm>
 
 #include "kernels/waves/morison.hpp"
 
@@ -167,35 +166,6 @@ void EngineeringSea::add(double t, std::span<const Motion> bodies, std::span<Wre
 
 void EngineeringSea::loads_by_part(double t, std::span<const Motion> bodies, std::span<SeaLoads> loads) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) loads[i] = body_loads(t, bodies_[i], bodies[i], nullptr);
-}
-
-std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves, const std::vector<SeaBody>& bodies) {
-  std::vector<OptionProblem> problems;
-  const auto listed = [](const std::string& list, const std::string& name) { return list.empty() ? name : list + ", " + name; };
-  std::string cylinders, names;
-  for (const SeaBody& body : bodies) {
-    names = listed(names, body.name);
-    for (const NamedCylinder& c : body.cylinders) cylinders = listed(cylinders, c.name);
-  }
-  const auto has_cylinder = [](const SeaBody& body, const std::string& name) {
-    return std::any_of(body.cylinders.begin(), body.cylinders.end(), [&](const NamedCylinder& c) { return c.name == name; });
-  };
-  if (options.model != "none" && cylinders.empty())
-    problems.push_back({"sea.model", "is '" + options.model + "', but no body has [[bodies.NAME.cylinders]] for the water to act on"});
-  if (options.model == "hydrostatic" && waves.model != "none")
-    problems.push_back({"waves.model", "is '" + waves.model + "', but sea.model 'hydrostatic' knows still water only; use 'morison'"});
-  for (std::size_t i = 0; i < options.coefficients.size(); ++i) {
-    const std::string& name = options.coefficients[i].cylinder;
-    if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return has_cylinder(b, name); }))
-      problems.push_back({"sea.coefficients[" + std::to_string(i) + "].cylinder",
-                          "names '" + name + "', which no body has; known: " + cylinders});
-  }
-  for (std::size_t i = 0; i < options.damping.size(); ++i) {
-    const std::string& name = options.damping[i].body;
-    if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return b.name == name; }))
-      problems.push_back({"sea.damping[" + std::to_string(i) + "].body", "names '" + name + "', which is not in [bodies]; known: " + names});
-  }
-  return problems;
 }
 
 }  // namespace spindrift::sea

@@ -43,7 +43,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 class EngineeringSea {
  public:
-  /// Options that passed sea_problems and wave_problems.
+  /// Options in which the checks below find nothing.
   EngineeringSea(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
                  const std::vector<SeaBody>& bodies);
 
@@ -77,7 +77,11 @@ class EngineeringSea {
   std::vector<BodyStrips> bodies_;
 };
 
-/// Names that do not exist, options without effect: one sentence each with its key; empty when nothing is wrong.
+// What is wrong with a scene's sea beyond what one section sees: one sentence each with its key; empty when nothing is.
+// wave_problems (wave_field.hpp) is the third of these.
+/// Names that do not exist, options without effect.
 std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves, const std::vector<SeaBody>& bodies);
+/// Cylinders without length, or below the sea bed at the start. Only for a sea that is not `none`.
+std::vector<OptionProblem> shape_problems(const SeaEnvironment& environment, const std::vector<SeaBody>& bodies);
 
 }  // namespace spindrift::sea

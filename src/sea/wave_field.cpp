@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "kernels/waves/realisation.hpp"
 #include "kernels/waves/stokes.hpp"
@@ -34,12 +33,6 @@ std::vector<waves::Component> irregular_sea(const WavesOptions& options, const S
   waves::finish_realisation(sea, std::uint64_t(options.seed), options.direction, environment.water_depth,
                             environment.gravity, components);
   return components;
-}
-
-std::string text(const char* format, double a, double b) {
-  char line[240];
-  std::snprintf(line, sizeof line, format, a, b);
-  return line;
 }
 
 }  // namespace
@@ -77,28 +70,6 @@ waves::Kinematics WaveField::kinematics(double t, const Eigen::Vector3d& point, 
   const double r = ramp(t);
   k.velocity *= r, k.acceleration *= r, k.pressure_over_density *= r;
   return k;
-}
-
-std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaEnvironment& environment) {
-  if (options.model == "none") return {};
-  std::vector<OptionProblem> problems;
-  if (options.height_m <= 0.0) problems.push_back({"waves.height_m", "must be given and positive"});
-  if (options.period_s <= 0.0) problems.push_back({"waves.period_s", "must be given and positive"});
-  if (!problems.empty()) return problems;
-  const auto wave = waves::wave_properties(options.period_s, environment.water_depth, environment.gravity);
-  // Highest wave before it breaks, after Miche (1944), for regular waves; half of it for the significant height of a sea.
-  const bool regular = options.model == "airy" || options.model == "stokes2";
-  const double breaking = 0.142 * wave.length * std::tanh(wave.relative_depth), most = regular ? breaking : 0.5 * breaking;
-  if (options.height_m > most)
-    problems.push_back({"waves.height_m", text("is %.4g m, but a wave of this period breaks above %.4g m in this depth (Miche 1944; "
-                                               "a sea state: half of that)", options.height_m, most)});
-  if (options.model == "stokes2") {
-    const double ratio = waves::stokes_ratio(options.height_m, wave.wave_number, environment.water_depth);
-    if (ratio > 0.25)
-      problems.push_back({"waves.model", text("stokes2 fails for this wave: its second harmonic is %.3g of the first (limit %.3g, a "
-                                              "second crest in the trough); use a lower or shorter wave", ratio, 0.25)});
-  }
-  return problems;
 }
 
 }  // namespace spindrift::sea

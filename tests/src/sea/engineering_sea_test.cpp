@@ -191,6 +191,8 @@ TEST_CASE("a joint between members is no end, and coefficients may differ by mem
   // A wider member below leaves a ring open: 4^2 - 3^2 of 4^2 of the disc.
   body.cylinders[0].shape.start_radius = body.cylinders[0].shape.end_radius = 4.0;
   options.coefficients.clear();
+  CHECK(added_mass(EngineeringSea(options, {}, tank, {body}), at(0, 0, 0))(2, 2) ==
+        Approx(0.64 * 1025.0 * 2.0 / 3.0 * pi * 64.0 * (1.0 + 7.0 / 16.0)));
   options.axial_added_mass_coefficient = 0.0;
   Motion sinking = at(0, 0, 0);
   sinking.velocity = {0, 0, -1};
@@ -336,6 +338,7 @@ TEST_CASE("names that do not exist and options without effect are told", "[sea][
   SeaOptions options = model("hydrostatic");
   WavesOptions waves;
   CHECK(sea_problems(options, waves, bodies).empty());
+  CHECK(sea_problems(model("none"), waves, {}).empty());
   waves.model = "airy";
   options.coefficients.push_back({"flaot_1", 1.0, {}, {}, {}});
   options.damping.push_back({"plattform", {}, {}, {}});
@@ -346,6 +349,19 @@ TEST_CASE("names that do not exist and options without effect are told", "[sea][
   CHECK(problems[1].what.find("known: float_1, float_2, float_3") != std::string::npos);
   CHECK(problems[2].key == "sea.damping[0].body");
   CHECK(sea_problems(model("morison"), {}, {SeaBody{"rotor", {}, {}}}).size() == 1);
+}
+
+TEST_CASE("a cylinder below the sea bed or without length is told", "[sea][fast]") {
+  const SeaEnvironment deep{1025.0, 40.0, 9.81};
+  SeaBody floating = platform(14.0);
+  CHECK(shape_problems(tank, {floating}).empty());
+  floating.initial.position.z() = -8.0;                       // keel at -22 m in 20.6 m of water
+  REQUIRE(shape_problems(tank, {floating}).size() == 3);
+  CHECK(shape_problems(tank, {floating})[2].key == "bodies.platform.cylinders[2]");
+  CHECK(shape_problems(deep, {floating}).empty());
+  floating.cylinders[1].shape.end = floating.cylinders[1].shape.start;
+  REQUIRE(shape_problems(deep, {floating}).size() == 1);
+  CHECK(shape_problems(deep, {floating})[0].what.find("no length") != std::string::npos);
 }
 
 TEST_CASE("the sections of the scene are well declared", "[sea][fast]") {

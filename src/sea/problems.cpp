@@ -1,0 +1,103 @@
+// What is wrong with the sea of a scene, beyond what each section sees by itself: declared in engineering_sea.hpp and wave_field.hpp.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "kernels/waves/stokes.hpp"
+#include "src/sea/engineering_sea.hpp"
+
+namespace spindrift::sea {
+namespace {
+
+std::string text(const char* format, double a, double b) {
+  char line[240];
+  std::snprintf(line, sizeof line, format, a, b);
+  return line;
+}
+
+std::string listed(const std::string& list, const std::string& name) { return list.empty() ? name : list + ", " + name; }
+
+bool has_cylinder(const SeaBody& body, const std::string& name) {
+  return std::any_of(body.cylinders.begin(), body.cylinders.end(), [&](const NamedCylinder& c) { return c.name == name; });
+}
+
+/// Height of the lowest point of an end disc [m].
+double lowest(const Motion& motion, const Eigen::Vector3d& centre, const Cylinder& shape, double radius) {
+  const double up = (motion.attitude * shape.axis()).z();
+  return motion.point(centre).z() - radius * std::sqrt(std::max(0.0, 1.0 - up * up));
+}
+
+void check_shapes(const SeaBody& body, double depth, std::vector<OptionProblem>& problems) {
+  for (std::size_t i = 0; i < body.cylinders.size(); ++i) {
+    const Cylinder& shape = body.cylinders[i].shape;
+    const std::string key = "bodies." + body.name + ".cylinders[" + std::to_string(i) + "]";
+    if (!(shape.length() > 0.0)) {
+      problems.push_back({key, "has no length: its start and end are the same point"});
+      continue;
+    }
+    const double low = std::min(lowest(body.initial, shape.start, shape, shape.start_radius),
+                                lowest(body.initial, shape.end, shape, shape.end_radius));
+    if (low >= -depth) continue;
+    problems.push_back({key, text("reaches down to z = %.4g m, below the sea bed at z = %.4g m", low, -depth)});
+  }
+}
+
+}  // namespace
+
+std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves, const std::vector<SeaBody>& bodies) {
+  if (options.model == "none") return {};
+  std::vector<OptionProblem> problems;
+  std::string cylinders, names;
+  for (const SeaBody& body : bodies) {
+    names = listed(names, body.name);
+    for (const NamedCylinder& c : body.cylinders) cylinders = listed(cylinders, c.name);
+  }
+  if (cylinders.empty())
+    problems.push_back({"sea.model", "is '" + options.model + "', but no body has [[bodies.NAME.cylinders]] for the water to act on"});
+  if (options.model == "hydrostatic" && waves.model != "none")
+    problems.push_back({"waves.model", "is '" + waves.model + "', but sea.model 'hydrostatic' knows still water only; use 'morison'"});
+  for (std::size_t i = 0; i < options.coefficients.size(); ++i) {
+    const std::string& name = options.coefficients[i].cylinder;
+    if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return has_cylinder(b, name); }))
+      problems.push_back({"sea.coefficients[" + std::to_string(i) + "].cylinder",
+                          "names '" + name + "', which no body has; known: " + cylinders});
+  }
+  for (std::size_t i = 0; i < options.damping.size(); ++i) {
+    const std::string& name = options.damping[i].body;
+    if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return b.name == name; }))
+      problems.push_back({"sea.damping[" + std::to_string(i) + "].body",
+                          "names '" + name + "', which is not in [bodies]; known: " + names});
+  }
+  return problems;
+}
+
+std::vector<OptionProblem> shape_problems(const SeaEnvironment& environment, const std::vector<SeaBody>& bodies) {
+  std::vector<OptionProblem> problems;
+  for (const SeaBody& body : bodies) check_shapes(body, environment.water_depth, problems);
+  return problems;
+}
+
+std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaEnvironment& environment) {
+  if (options.model == "none") return {};
+  std::vector<OptionProblem> problems;
+  if (options.height_m <= 0.0) problems.push_back({"waves.height_m", "must be given and positive"});
+  if (options.period_s <= 0.0) problems.push_back({"waves.period_s", "must be given and positive"});
+  if (!problems.empty()) return problems;
+  const auto wave = waves::wave_properties(options.period_s, environment.water_depth, environment.gravity);
+  // Highest wave before it breaks, after Miche (1944), for regular waves; half of it for the significant height of a sea.
+  const bool regular = options.model == "airy" || options.model == "stokes2";
+  const double breaking = 0.142 * wave.length * std::tanh(wave.relative_depth), most = regular ? breaking : 0.5 * breaking;
+  if (options.height_m > most)
+    problems.push_back({"waves.height_m", text("is %.4g m, but a wave of this period breaks above %.4g m in this depth (Miche 1944; "
+                                               "a sea state: half of that)", options.height_m, most)});
+  if (options.model == "stokes2") {
+    const double ratio = waves::stokes_ratio(options.height_m, wave.wave_number, environment.water_depth);
+    if (ratio > 0.25)
+      problems.push_back({"waves.model", text("stokes2 fails for this wave: its second harmonic is %.3g of the first (limit %.3g, a "
+                                              "second crest in the trough); use a lower or shorter wave", ratio, 0.25)});
+  }
+  return problems;
+}
+
+}  // namespace spindrift::sea
