@@ -130,6 +130,18 @@ TEST_CASE("a checkpoint that lost an array is passed over", "[io][faults][fast]"
   check_falls_back(series);
 }
 
+TEST_CASE("a list of arrays that lost a name is noticed", "[io][faults][fast]") {
+  const test::Scratch folder("faults");
+  io::CheckpointSeries series(MPI_COMM_SELF, folder.path(), 3);
+  save(series, 1);
+  std::string content = io::read_file(series.path(1));
+  const std::size_t at = content.find("bodies/motion\nsea/id\n");
+  REQUIRE(at != std::string::npos);
+  content[at + std::string("bodies/motion\nsea/id").size()] = ' ';  // the last name does not end any more
+  io::write_atomically(series.path(1), content);
+  CHECK_THROWS_WITH(io::CheckpointReader(MPI_COMM_SELF, series.path(1)), Contains("manifest"));
+}
+
 TEST_CASE("a file that is no checkpoint, or of a later format, is refused by name", "[io][faults][fast]") {
   const test::Scratch folder("faults");
   io::write_atomically(folder / "text.h5", "not HDF5 at all");
