@@ -151,11 +151,13 @@ std::map<std::string, double, std::less<>> busy_times(std::span<const RankTrace>
   return busy;
 }
 
-/// First beginning to last end [ns] of what was recorded and kept; what lies between two runs of the graph is in it.
-std::int64_t recorded_span(const Occurrences& occurrences) {
+/// First beginning to last end [ns] of the records that are complete; what lies between two runs of the graph is in it.
+std::int64_t recorded_span(std::span<const RankTrace> traces) {
   std::int64_t first = RankTrace::always, last = 0;
-  for (const Occurrence& o : occurrences.all)
-    if (o.record != nullptr) first = std::min(first, o.begin), last = std::max(last, o.end);
+  const std::int64_t until = complete_until(traces);
+  for (const RankTrace& trace : traces)
+    for (const Record& record : trace.records)
+      if (record.end_ns <= until) first = std::min(first, record.begin_ns), last = std::max(last, record.end_ns);
   return std::max<std::int64_t>(0, last - first);
 }
 
@@ -168,7 +170,7 @@ Efficiency efficiency_of(std::span<const RankTrace> traces) {
   std::ranges::stable_sort(e.modules, [](const auto& a, const auto& b) { return a.busy_s > b.busy_s; });
 
   const Occurrences occurrences = occurrences_of(traces);
-  const std::int64_t span = recorded_span(occurrences);
+  const std::int64_t span = recorded_span(traces);
   if (span == 0 || e.elapsed_s == 0.0) return e;
   e.recorded = std::min(1.0, seconds(span) / e.elapsed_s);
 
