@@ -291,6 +291,8 @@ void Worker::complete_message(const Messages::Completion& completion) {
     if (kind == NodeKind::receive && graph.messages[s.payload].received) graph.messages[s.payload].received(completion.bytes);
   } catch (const std::exception& e) {
     return team_.fail({graph.comm.rank(), false, graph.nodes[completion.node].label, e.what()});
+  } catch (...) {
+    return team_.fail({graph.comm.rank(), false, graph.nodes[completion.node].label, "an exception of unknown type"});
   }
   const std::int64_t end = Clock::now_ns();
   s.cost_ns += end - completion.posted_ns;

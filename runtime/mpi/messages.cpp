@@ -106,7 +106,7 @@ bool Messages::poll(std::vector<Completion>& done) {
         start(node, now);
       } catch (const std::exception& e) {  // the buffer's owner threw, or it is too large
         throw Failure{node, e.what()};
-      }
+      } catch (...) { throw Failure{node, "an exception of unknown type"}; }
     }
   }
   if (active_ > 0) {

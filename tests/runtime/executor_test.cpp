@@ -139,3 +139,27 @@ TEST_CASE("worker threads flush denormal numbers to zero only if asked", "[runti
   volatile double x = std::numeric_limits<double>::min();
   CHECK(x / 2 > 0);  // the caller's own mode is as it was
 }
+
+TEST_CASE("a thread that is late in one entry of a loop does not disturb the next", "[runtime][fast]") {
+  // More threads than processors: some are put to sleep between the tokens they give. Each inner task checks its own order.
+  constexpr std::uint32_t outer = 3000, inner = 3;
+  std::vector<std::uint32_t> ran(6, 0);
+  bool in_order = true;
+  Graph graph;
+  const auto x = graph.data(ran.size());
+  const Datum all = graph.datum();
+  graph.repeat("outer", outer, [&] {
+    graph.repeat("inner", inner, [&] {
+      for (std::size_t i = 0; i < ran.size(); ++i)
+        graph.task("inner/" + std::to_string(i), {updates(x[i])}, [&ran, i] { ++ran[i]; });
+    });
+    graph.task("check", {reads(x), updates(all)}, [&, n = 0u]() mutable {
+      ++n;
+      for (const std::uint32_t r : ran) in_order = in_order && r == n * inner;
+    });
+  });
+  Executor executor(std::move(graph), {.threads = 8, .watchdog_s = 20});
+  executor.run(1);
+  CHECK(in_order);
+  CHECK(ran == std::vector<std::uint32_t>(ran.size(), outer * inner));
+}

@@ -45,7 +45,20 @@ TEST_CASE("a predicate or a message's buffer may throw as well", "[runtime][fast
   Graph h;
   h.send("h/send", {}, {0, 1, []() -> std::span<std::byte> { throw std::runtime_error("no memory"); }});
   Executor sender(std::move(h), {.threads = 1});
-  CHECK_THROWS_WITH(sender.run(), Contains("task h/send on rank 0: no memory"));
+  CHECK_THROWS_WITH(sender.run(), "task h/send on rank 0: no memory");
+  Graph k;
+  k.send("k/send", {}, {0, 1, []() -> std::span<std::byte> { throw 3; }});
+  Executor thrower(std::move(k), {.threads = 1});
+  CHECK_THROWS_WITH(thrower.run(), "task k/send on rank 0: an exception of unknown type");
+}
+
+TEST_CASE("what is told of a message's size may throw anything", "[runtime][fast]") {
+  double out = 1, in = 0;
+  Graph g;
+  g.send("m/send", {}, {0, 1, buffer_of(std::span(&out, 1))});
+  g.receive("m/receive", {}, {0, 1, buffer_of(std::span(&in, 1)), [](std::size_t) { throw 3; }});
+  Executor executor(std::move(g), {.threads = 2});
+  CHECK_THROWS_WITH(executor.run(), "task m/receive on rank 0: an exception of unknown type");
 }
 
 TEST_CASE("a hang is dumped with what waits for what, and ends the run", "[runtime][fast]") {
