@@ -1,6 +1,7 @@
-// Wide<T, n>: n numbers side by side in vector registers (its lanes) with the arithmetic of one number, so that a kernel templated on Real
-// serves a test (Real = double) and a sweep (Real = Wide<float, 16>) with one source. Selections are select(), min(), max().
-// Built on the compilers' vector extension; AVX-512 instructions where the portable form compiles badly (min, max, reciprocals).
+// Wide<T, n>: n numbers side by side in vector registers (its lanes) with the arithmetic of one number, so that a kernel
+// templated on Real serves a test (Real = double) and a sweep (Real = Wide<float, 16>) with one source. Selections are min() and
+// max(). Built on the compilers' vector extension; AVX-512 instructions where the portable form compiles badly (min, max,
+// reciprocals).
 // Called by src/sea/sph sweeps; tested in tests/kernels/base/wide_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -30,8 +31,8 @@ struct Wide {
   Wide() = default;
   Wide(Vector vector) : v(vector) {}
   template <class S>
-    requires std::is_arithmetic_v<S>
-  Wide(S scalar) : v(T(scalar) - Vector{}) {}  // minus zero is the identity that compilers drop; plus zero is not
+  requires std::is_arithmetic_v<S> Wide(S scalar)
+      : v(T(scalar) - Vector{}) {}  // minus zero is the identity that compilers drop; plus zero is not
 
   static Wide load(const T* from) { return Wide(Vector(*reinterpret_cast<const Unaligned*>(from))); }
   void store(T* to) const { *reinterpret_cast<Unaligned*>(to) = v; }
@@ -70,8 +71,8 @@ Wide<T, n> sqrt(Wide<T, n> a) {
   return root;
 }
 
-/// 1/a of a positive number, and 1/sqrt(a): correctly rounded operations for one number; for 16 floats an estimate of 14 bits and a
-/// Newton step, within 2 units in the last place, at a third of the cost of the divider (perf/sea, docs/developer/sea.md).
+/// 1/a of a positive number, and 1/sqrt(a): correctly rounded operations for one number; for 16 floats an estimate of 14 bits and
+/// a Newton step, within 2 units in the last place, at a third of the cost of the divider (perf/sea, docs/developer/sea.md).
 template <class Real>
 Real reciprocal(Real a) {
 #ifdef __AVX512F__
@@ -103,15 +104,20 @@ SPINDRIFT_INLINE T sum(Wide<T, n> a) {
     return [&]<int... lane>(std::integer_sequence<int, lane...>) {
       return sum(Wide<T, n / 2>(__builtin_shufflevector(a.v, a.v, lane...)) +
                  Wide<T, n / 2>(__builtin_shufflevector(a.v, a.v, (lane + n / 2)...)));
-    }(std::make_integer_sequence<int, n / 2>{});
+    }
+    (std::make_integer_sequence<int, n / 2>{});
   }
 }
 
 /// The scalar type under Real: float of Wide<float, 16>, double of double.
 template <class Real>
-struct ScalarOf { using type = Real; };
+struct ScalarOf {
+  using type = Real;
+};
 template <class T, int n>
-struct ScalarOf<Wide<T, n>> { using type = T; };
+struct ScalarOf<Wide<T, n>> {
+  using type = T;
+};
 template <class Real>
 using scalar_of = typename ScalarOf<Real>::type;
 

@@ -10,6 +10,8 @@ namespace spindrift::sph {
 
 /// Density rate per unit mass of the partner [1/(m3 s)], for i and for j.
 template <class Real, int dim>
-SPINDRIFT_INLINE Real continuity(const Pair<Real, dim>& pair) { return pair.v_dot_x * pair.slope; }
+SPINDRIFT_INLINE Real continuity(const Pair<Real, dim>& pair) {
+  return pair.v_dot_x * pair.slope;
+}
 
 }  // namespace spindrift::sph

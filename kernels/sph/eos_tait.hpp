@@ -20,8 +20,7 @@ struct EosTait {
   template <class Real>
   Real pressure(Real deviation) const {
     const Real e = deviation * Real(1.0 / rho0);
-    const Real series =
-        Real(7) + e * (Real(21) + e * (Real(35) + e * (Real(35) + e * (Real(21) + e * (Real(7) + e)))));
+    const Real series = Real(7) + e * (Real(21) + e * (Real(35) + e * (Real(35) + e * (Real(21) + e * (Real(7) + e)))));
     return Real(stiffness()) * (e * series);
   }
   /// Inverse: deviation [kg/m3] that gives the pressure [Pa]; below -B there is none.

@@ -1,5 +1,6 @@
 // What a smoothing kernel is, so that one may stand for another.
-// Called by every sweep of src/sea/sph through its pair laws; the laws every kernel obeys are tested in tests/kernels/sph/kernel_test.cpp.
+// Called by every sweep of src/sea/sph through its pair laws; the laws every kernel obeys are tested in
+// tests/kernels/sph/kernel_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,8 +9,8 @@
 
 namespace spindrift::sph {
 
-/// W(r) with unit integral over R^dim and compact support; both functions take r^2 > 0 [m2] and return exactly zero beyond the support:
-/// value = W [1/m^dim], slope = W'(r)/r [1/m^(dim+2)], so that grad W = slope * x.
+/// W(r) with unit integral over R^dim and compact support; both functions take r^2 > 0 [m2] and return exactly zero beyond the
+/// support: value = W [1/m^dim], slope = W'(r)/r [1/m^(dim+2)], so that grad W = slope * x.
 template <class K, class Real = double>
 concept SmoothingKernel = requires(const K kernel, Real r2) {
   { kernel.value(r2) } -> std::same_as<Real>;

@@ -1,6 +1,7 @@
-// Cubic spline kernel of support 2h: W = (a/4) [(2-q)^3 - 4 (1-q)^3], each bracket cut at zero; a = 10/(7 pi h^2) in 2-D, 1/(pi h^3) in 3-D.
-// Monaghan & Lattanzio (1985), Astron. Astrophys. 149, 135. The kernel of Leble & Barakos (2016), section 2.2.
-// Written with cut powers, so that lanes need no branch. Called by the pair laws of src/sea/sph; tested in tests/kernels/sph/kernel_test.cpp.
+// Cubic spline kernel of support 2h: W = (a/4) [(2-q)^3 - 4 (1-q)^3], each bracket cut at zero; a = 10/(7 pi h^2) in 2-D, 1/(pi
+// h^3) in 3-D. Monaghan & Lattanzio (1985), Astron. Astrophys. 149, 135. The kernel of Leble & Barakos (2016), section 2.2.
+// Written with cut powers, so that lanes need no branch.
+// Called by the pair laws of src/sea/sph; tested in tests/kernels/sph/kernel_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

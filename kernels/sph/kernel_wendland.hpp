@@ -1,5 +1,6 @@
 // Wendland C2 kernel of support 2h: W = a (1 - q/2)^4 (1 + 2q), q = r/h; a = 7/(4 pi h^2) in 2-D, 21/(16 pi h^3) in 3-D.
-// Wendland (1995), Adv. Comput. Math. 4, 389; in this form Dehnen & Aly (2012), MNRAS 425, 1068. Its slope is -5 a (1 - q/2)^3 / h^2.
+// Wendland (1995), Adv. Comput. Math. 4, 389; in this form Dehnen & Aly (2012), MNRAS 425, 1068. Its slope is -5 a (1 - q/2)^3 /
+// h^2.
 // Called by the pair laws of src/sea/sph; tested in tests/kernels/sph/kernel_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

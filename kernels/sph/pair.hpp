@@ -1,5 +1,6 @@
 // The geometry of a pair of particles, which every term of the equations shares: separation, relative velocity, kernel slope.
-// Convention of Monaghan (1992), Annu. Rev. Astron. Astrophys. 30: x_ij = x_i - x_j, v_ij = v_i - v_j, grad_i W_ij = slope * x_ij.
+// Convention of Monaghan (1992), Annu. Rev. Astron. Astrophys. 30: x_ij = x_i - x_j, v_ij = v_i - v_j, grad_i W_ij = slope *
+// x_ij.
 // Called by the pair laws of src/sea/sph; tested in tests/kernels/sph/pair_terms_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -55,6 +56,8 @@ SPINDRIFT_INLINE Pair<Real, dim> make_pair(const Kernel& kernel, const Vec<Real,
 
 /// 0.01 h^2 of Monaghan (1992), which keeps 1/r^2 finite where particles meet.
 template <class Scalar>
-constexpr Scalar softening(Scalar h) { return Scalar(0.01) * h * h; }
+constexpr Scalar softening(Scalar h) {
+  return Scalar(0.01) * h * h;
+}
 
 }  // namespace spindrift::sph

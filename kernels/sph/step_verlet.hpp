@@ -10,11 +10,17 @@ namespace spindrift::sph {
 
 struct StepVerlet {
   template <class Real>
-  static Real leap(Real value_before, Real rate, Real dt) { return value_before + Real(2) * dt * rate; }
+  static Real leap(Real value_before, Real rate, Real dt) {
+    return value_before + Real(2) * dt * rate;
+  }
   template <class Real>
-  static Real join(Real value, Real rate, Real dt) { return value + dt * rate; }
+  static Real join(Real value, Real rate, Real dt) {
+    return value + dt * rate;
+  }
   template <class Real>
-  static Real position(Real x, Real v, Real acceleration, Real dt) { return x + dt * (v + Real(0.5) * dt * acceleration); }
+  static Real position(Real x, Real v, Real acceleration, Real dt) {
+    return x + dt * (v + Real(0.5) * dt * acceleration);
+  }
 };
 
 }  // namespace spindrift::sph

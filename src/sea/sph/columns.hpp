@@ -1,5 +1,5 @@
-// The groups of a scene: vertical columns on a regular horizontal grid, at least one support wide, so that a particle meets only its own
-// column and the eight (in 2-D: two) round it. Depends on the scene alone, never on ranks, threads or the state.
+// The groups of a scene: vertical columns on a regular horizontal grid, at least one support wide, so that a particle meets only
+// its own column and the eight (in 2-D: two) round it. Depends on the scene alone, never on ranks, threads or the state.
 // Called by ordering.cpp and sweep_pairs.hpp; tested in tests/src/sea/sph/ordering_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -60,7 +60,8 @@ class Columns {
   const Domain<dim>& domain() const { return domain_; }
   double edge(int axis) const { return edge_[axis]; }
 
-  /// The neighbours whose pairs with `group` are this group's to compute: half of the ring, so that each pair of columns occurs once.
+  /// The neighbours whose pairs with `group` are this group's to compute: half of the ring, so that each pair of columns occurs
+  /// once.
   template <class Visit>
   void for_forward(int group, Visit&& visit) const {
     if constexpr (dim == 2) {
@@ -76,15 +77,15 @@ class Columns {
   /// colours run in order, hence every sum has one order of terms whatever the threads do.
   int colours() const { return dim == 2 ? axis_colours(0, 2) : axis_colours(0, 2) * axis_colours(1, 3); }
   int colour(int group) const {
-    if constexpr (dim == 2) return axis_colour(0, group, 2);
-    else return axis_colour(0, group / count_[1], 2) * axis_colours(1, 3) + axis_colour(1, group % count_[1], 3);
+    if constexpr (dim == 2)
+      return axis_colour(0, group, 2);
+    else
+      return axis_colour(0, group / count_[1], 2) * axis_colours(1, 3) + axis_colour(1, group % count_[1], 3);
   }
 
  private:
   // A periodic ring whose length is no multiple of the period gives its last cells colours of their own.
-  int axis_colours(int axis, int period) const {
-    return period + (domain_.periodic[axis] ? count_[axis] % period : 0);
-  }
+  int axis_colours(int axis, int period) const { return period + (domain_.periodic[axis] ? count_[axis] % period : 0); }
   int axis_colour(int axis, int cell, int period) const {
     const int rest = domain_.periodic[axis] ? count_[axis] % period : 0;
     return cell >= count_[axis] - rest ? period + cell - (count_[axis] - rest) : cell % period;

@@ -1,5 +1,5 @@
-// Particles on a lattice: blocks of water with hydrostatic density, and tanks of wall particles. Whole cells, so that scenes have round counts.
-// Called by scenes of tests, perf/sea and later the scene options; tested in tests/src/sea/sph/lattice_test.cpp.
+// Particles on a lattice: blocks of water with hydrostatic density, and tanks of wall particles. Whole cells, so that scenes have
+// round counts. Called by scenes of tests, perf/sea and later the scene options; tested in tests/src/sea/sph/lattice_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,8 +34,9 @@ std::array<double, dim> lattice_point(const std::array<double, dim>& origin, dou
 
 /// Water on the points [low, high) of a lattice, with the density of rest under a surface at the height `surface` [m].
 template <int dim>
-void add_water(std::vector<Seed<dim>>& seeds, const std::array<double, dim>& origin, double spacing, const std::array<int, dim>& low,
-               const std::array<int, dim>& high, const EosTait& eos, double gravity, double surface) {
+void add_water(std::vector<Seed<dim>>& seeds, const std::array<double, dim>& origin, double spacing,
+               const std::array<int, dim>& low, const std::array<int, dim>& high, const EosTait& eos, double gravity,
+               double surface) {
   for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
     Seed<dim> seed{.position = lattice_point<dim>(origin, spacing, index)};
     seed.deviation = eos.hydrostatic_deviation(std::max(0.0, surface - seed.position[dim - 1]), gravity);
@@ -43,11 +44,12 @@ void add_water(std::vector<Seed<dim>>& seeds, const std::array<double, dim>& ori
   });
 }
 
-/// Walls round the points [low, high): `layers` of particles outside them, below and on all sides up to the last axis' high[dim - 1];
-/// open at the top. Their density is that of rest where they stand beside water.
+/// Walls round the points [low, high): `layers` of particles outside them, below and on all sides up to the last axis' high[dim -
+/// 1]; open at the top. Their density is that of rest where they stand beside water.
 template <int dim>
-void add_tank(std::vector<Seed<dim>>& seeds, const std::array<double, dim>& origin, double spacing, const std::array<int, dim>& low,
-              const std::array<int, dim>& high, int layers, const EosTait& eos, double gravity, double surface, std::uint16_t owner = 1) {
+void add_tank(std::vector<Seed<dim>>& seeds, const std::array<double, dim>& origin, double spacing,
+              const std::array<int, dim>& low, const std::array<int, dim>& high, int layers, const EosTait& eos, double gravity,
+              double surface, std::uint16_t owner = 1) {
   std::array<int, dim> outer_low = low, outer_high = high;
   for (int k = 0; k < dim; ++k) outer_low[k] -= layers, outer_high[k] += k < dim - 1 ? layers : 0;
   for_lattice<dim>(outer_low, outer_high, [&](const std::array<int, dim>& index) {

@@ -89,9 +89,11 @@ Plan<dim> plan(Store<dim, Real>& store, const Columns<dim>& columns) {
 
 template <class T>
 void reorder(Array<T>& values, const Array<std::uint32_t>& source, T empty) {
+  if (values.empty()) return;
   Array<T> sorted(source.size());
 #pragma omp parallel for schedule(static)
-  for (std::size_t slot = 0; slot < source.size(); ++slot) sorted[slot] = source[slot] == no_particle ? empty : values[source[slot]];
+  for (std::size_t slot = 0; slot < source.size(); ++slot)
+    sorted[slot] = source[slot] == no_particle ? empty : values[source[slot]];
   values.swap(sorted);
 }
 
@@ -112,7 +114,8 @@ void place_anchors(Store<dim, Real>& store, double step) {
 
 template <int dim, class Real>
 void sort(Store<dim, Real>& store, const Columns<dim>& columns, double anchor_step) {
-  // The planes hold nothing between sweeps: giving them back first makes room for the plan, so that a sort never sets the memory needed.
+  // The planes hold nothing between sweeps: giving them back first makes room for the plan, so that a sort never sets the memory
+  // needed.
   store.pack = {}, store.sums = {};
   Array<std::uint32_t> source;
   {
@@ -139,8 +142,9 @@ void sort(Store<dim, Real>& store, const Columns<dim>& columns, double anchor_st
       slot += clusters_of(n) * cluster_size;
     }
   }
-  for (int k = 0; k < dim; ++k) reorder(store.x[k], source, 0.0), reorder(store.v[k], source, 0.0);
-  reorder(store.deviation, source, 0.0);
+  for (int k = 0; k < dim; ++k)
+    reorder(store.x[k], source, 0.0), reorder(store.v[k], source, 0.0), reorder(store.v_before[k], source, 0.0);
+  reorder(store.deviation, source, 0.0), reorder(store.deviation_before, source, 0.0);
   reorder(store.id, source, no_particle);
   store.corner = columns.domain().low;
   place_anchors(store, anchor_step);
@@ -169,14 +173,15 @@ void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Colum
     const std::size_t clusters = (store.id.size() + cluster_size - 1) / cluster_size;
     store.id.resize(clusters * cluster_size, no_particle);
     store.deviation.resize(clusters * cluster_size, 0.0);
-    for (int k = 0; k < dim; ++k) store.x[k].resize(clusters * cluster_size, 0.0), store.v[k].resize(clusters * cluster_size, 0.0);
+    for (int k = 0; k < dim; ++k)
+      store.x[k].resize(clusters * cluster_size, 0.0), store.v[k].resize(clusters * cluster_size, 0.0);
     store.owner.resize(clusters, owner);
   }
   sort(store, columns, anchor_step);
 }
 
-#define SPINDRIFT_SPH_INSTANTIATE(dim, Real)                                                                       \
-  template void sort<dim, Real>(Store<dim, Real>&, const Columns<dim>&, double);                                   \
+#define SPINDRIFT_SPH_INSTANTIATE(dim, Real)                                     \
+  template void sort<dim, Real>(Store<dim, Real>&, const Columns<dim>&, double); \
   template void fill<dim, Real>(Store<dim, Real>&, std::span<const Seed<dim>>, const Columns<dim>&, double);
 SPINDRIFT_SPH_INSTANTIATE(2, float)
 SPINDRIFT_SPH_INSTANTIATE(2, double)

@@ -1,6 +1,6 @@
-// Sorting particles into groups and clusters. Inside a group each owner's particles are halved along their longest extent until 16 are left:
-// compact clusters in bulk, in sheets of wall particles and in splashes alike, and only the last one has empty lanes.
-// The result depends on positions and identities alone (ties by identity, 16 sorted by identity), not on the order before.
+// Sorting particles into groups and clusters. Inside a group each owner's particles are halved along their longest extent until
+// 16 are left: compact clusters in bulk, in sheets of wall particles and in splashes alike, and only the last one has empty
+// lanes. The result depends on positions and identities alone (ties by identity, 16 sorted by identity), not on the order before.
 // Called by SeaSph when the drift since the last sort exceeds its margin; tested in tests/src/sea/sph/ordering_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,19 +1,15 @@
-// The step over groups (see sea_sph.hpp) and the choice of schemes, made once per scene.
+// The step over groups: see sea_sph.hpp.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/sea_sph.hpp"
 
 #include <omp.h>
 
 #include <chrono>
-#include <stdexcept>
-#include <variant>
+#include <string>
 
-#include "kernels/sph/density_diffusion_fourtakas.hpp"
-#include "kernels/sph/density_diffusion_molteni.hpp"
-#include "kernels/sph/kernel_cubic.hpp"
-#include "kernels/sph/kernel_wendland.hpp"
+#include "kernels/base/failure.hpp"
+#include "src/sea/sph/schemes.hpp"
 #include "src/sea/sph/step.hpp"
-#include "src/sea/sph/sweep_pairs.hpp"
 
 namespace spindrift::sph {
 namespace {
@@ -29,38 +25,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-template <int dim, class Real>
-using Sweep = std::function<void(int, Meetings<dim, Real>&)>;
-
-template <class Kernel, class Diffusion, int dim, class Real>
-Sweep<dim, Real> sweep_of(Store<dim, Real>& store, const Columns<dim>& columns, const Parameters& p, Diffusion diffusion) {
-  const Kernel kernel(p.h());
-  const auto viscosity = [&](double alpha) { return ViscosityArtificial<Real>{Real(alpha), Real(p.eos.c0), Real(p.h())}; };
-  const LawMotion<Kernel, Diffusion, Real> water{kernel, viscosity(p.alpha), diffusion, Real(p.eos.rho0)};
-  // Diffusion acts between water and water only: the density of a wall particle is a boundary condition.
-  const LawMotion<Kernel, DensityDiffusionNone, Real> solid{kernel, viscosity(p.alpha_solid), {}, Real(p.eos.rho0)};
-  const double length = columns.domain().high[dim - 1] - columns.domain().low[dim - 1] + columns.domain().high[0] - columns.domain().low[0];
-  const float reach = float(p.reach() + 4e-7 * length);  // boxes are floats from the corner of the domain
-  return [&store, &columns, reach, water, solid](int group, Meetings<dim, Real>& meets) {
-    sweep_pairs(store, columns, group, reach, meets, water, solid);
-  };
-}
-
-template <class Kernel, int dim, class Real>
-Sweep<dim, Real> choose_diffusion(Store<dim, Real>& store, const Columns<dim>& columns, const Parameters& p) {
-  const Real delta = Real(p.delta), c0 = Real(p.eos.c0), h = Real(p.h());
-  const Real slope = Real(p.eos.rho0 * p.gravity / (p.eos.c0 * p.eos.c0));
-  switch (p.diffusion) {
-    case DiffusionChoice::molteni: return sweep_of<Kernel>(store, columns, p, DensityDiffusionMolteni<Real>{delta, c0, h});
-    case DiffusionChoice::fourtakas: return sweep_of<Kernel>(store, columns, p, DensityDiffusionFourtakas<Real>{delta, c0, h, slope});
-    default: return sweep_of<Kernel>(store, columns, p, DensityDiffusionNone{});
-  }
-}
-
-template <int dim, class Real>
-Sweep<dim, Real> choose_sweep(Store<dim, Real>& store, const Columns<dim>& columns, const Parameters& p) {
-  return p.kernel == KernelChoice::cubic ? choose_diffusion<KernelCubic<dim, Real>>(store, columns, p)
-                                         : choose_diffusion<KernelWendland<dim, Real>>(store, columns, p);
+template <int dim>
+std::string place_of(const std::array<double, dim>& x) {
+  std::string text = "(";
+  for (int k = 0; k < dim; ++k) text += (k > 0 ? ", " : "") + std::to_string(x[k]);
+  return text + ") m";
 }
 
 }  // namespace
@@ -71,66 +40,138 @@ SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domai
   const double reach = p_.reach() + 2.0 * p_.drift();
   columns_ = Columns<dim>(domain, reach, p_.column_over_reach * reach);
   fill(store_, seeds, columns_, p_.anchor_step());
-  sweep_ = choose_sweep(store_, columns_, p_);
+  if (p_.step == StepChoice::verlet) store_.v_before = store_.v, store_.deviation_before = store_.deviation;
+  const Schemes<dim, Real> schemes(store_, columns_, p_);
+  rates_ = schemes.rates(), filter_ = schemes.filter(), shifting_ = schemes.shifting();
   colours_.resize(columns_.colours());
   for (int group = 0; group < columns_.groups(); ++group) colours_[columns_.colour(group)].push_back(group);
   scratch_.resize(omp_get_max_threads());
 }
 
 template <int dim, class Real>
+template <class Body>
+void SeaSph<dim, Real>::for_groups(double& seconds, Body&& body) {
+  const Stopwatch watch(seconds);
+#pragma omp parallel for schedule(dynamic, 4)
+  for (int group = 0; group < columns_.groups(); ++group) body(group);
+}
+
+template <int dim, class Real>
 void SeaSph<dim, Real>::sort_if_drifted() {
-  if (drift_ <= p_.drift()) return;
+  if (std::max(drift_, solid_drift_) <= p_.drift()) return;
   const Stopwatch watch(work_.sort_s);
   sort(store_, columns_, p_.anchor_step());
-  drift_ = 0.0;
+  drift_ = solid_drift_ = 0.0;
   ++work_.sorts;
+  if (store_.lost.size() > p_.lost_at_most) {
+    const LostParticle<dim>& last = store_.lost.back();
+    throw NumericalFailure("sea: " + std::to_string(store_.lost.size()) + " particles left the domain (allowed " +
+                               std::to_string(p_.lost_at_most) + "), the last one, " + std::to_string(last.id) + ", at " +
+                               place_of<dim>(last.position) + "; widen the domain or check the walls",
+                           "sea", work_.steps, time_, double(p_.lost_at_most));
+  }
 }
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::pack_all(double half_dt) {
-  const Stopwatch watch(work_.pack_s);
-#pragma omp parallel for schedule(dynamic, 4)
-  for (int group = 0; group < columns_.groups(); ++group) pack(store_, p_, group, half_dt);
+  for_groups(work_.pack_s, [&](int group) { pack(store_, p_, group, half_dt); });
 }
 
 template <int dim, class Real>
-void SeaSph<dim, Real>::sweep_all() {
+void SeaSph<dim, Real>::run(const Sweep& sweep, Array<Real>& sums) {
   const Stopwatch watch(work_.pair_s);
-  for (Meetings<dim, Real>& scratch : scratch_) scratch.reserve(store_.clusters() / 4 + 4096);
-#pragma omp parallel
+  std::size_t longest = 0;
+  for (const Group& group : store_.groups) longest = std::max<std::size_t>(longest, group.end - group.fluid);
+  for (Meetings<dim, Real>& scratch : scratch_) scratch.reserve(9 * longest);
+#pragma omp parallel num_threads(int(scratch_.size()))
   for (const std::vector<int>& colour : colours_) {
 #pragma omp for schedule(dynamic, 1)
-    for (std::size_t n = 0; n < colour.size(); ++n) sweep_(colour[n], scratch_[omp_get_thread_num()]);
+    for (std::size_t n = 0; n < colour.size(); ++n) sweep(sums.data(), colour[n], scratch_[omp_get_thread_num()]);
   }
-  ++work_.evaluations;
 }
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::evaluate() {
   sort_if_drifted();
   pack_all(0.0);
-  sweep_all();
+  run(rates_, store_.sums);
+  ++work_.evaluations;
+}
+
+template <int dim, class Real>
+double SeaSph<dim, Real>::begin_step(double dt_max) {
+  evaluate();
+  Extremes most;
+  for (int group = 0; group < columns_.groups(); ++group) most.merge(extremes(store_, p_, group));
+  const double speed = std::sqrt(most.speed2), acceleration = std::sqrt(most.acceleration2);
+  const double limit = step_limits(p_.cfl, p_.h(), p_.eos.c0, speed, acceleration, 0.0).smallest();
+  constexpr double smallest_share = 1e-4;  // of the step of water at rest: speeds of 1e4 c0 are no flow
+  if (!(limit > smallest_share * p_.cfl * p_.h() / p_.eos.c0))
+    throw NumericalFailure("sea: the step fell to " + std::to_string(limit) + " s (largest speed " + std::to_string(speed) +
+                               " m/s, acceleration " + std::to_string(acceleration) +
+                               " m/s2); try a smaller sea.cfl or more viscosity",
+                           "sea", work_.steps, time_, limit);
+  dt_ = std::min(limit, dt_max);
+  // Over the step a particle goes at most (|v| + dt |a|) dt; the half step's acceleration may be larger, hence the factor two.
+  drift_ += dt_ * (speed + 2.0 * dt_ * acceleration);
+  return dt_;
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::half_step() {
+  if (p_.step == StepChoice::verlet) return;
+  pack_all(0.5 * dt_);
+  run(rates_, store_.sums);
+  ++work_.evaluations;
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::end_step() {
+  const bool join = work_.steps % p_.verlet_join_every == 0;
+  for_groups(work_.correct_s, [&](int group) {
+    if (p_.step == StepChoice::verlet)
+      correct_verlet(store_, p_, group, dt_, join);
+    else
+      correct_symplectic(store_, p_, group, dt_);
+  });
+  time_ += dt_;
+  ++work_.steps;
+  filter_if_due();
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::filter_if_due() {
+  const auto gather = [&](const Sweep& sweep, int planes) {
+    sort_if_drifted();
+    pack_all(0.0);
+    extra_sums_.assign(store_.slots() * planes, Real(0));
+    run(sweep, extra_sums_);
+  };
+  if (filter_ && work_.steps % p_.filter_every == 0) {
+    gather(filter_, p_.filter == FilterChoice::mls ? FilterMls<dim>::planes : FilterShepard::planes);
+    for_groups(work_.correct_s, [&](int group) {
+      p_.filter == FilterChoice::mls ? apply_mls(store_, extra_sums_, group) : apply_shepard(store_, extra_sums_, group);
+    });
+  }
+  if (shifting_) {
+    gather(shifting_, Shifting<dim>::planes);
+    std::vector<double> longest(columns_.groups());
+    for_groups(work_.correct_s, [&](int group) { longest[group] = apply_shifting(store_, extra_sums_, p_, group, dt_); });
+    drift_ += *std::max_element(longest.begin(), longest.end());
+  }
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::place_body(std::uint16_t owner, const Motion& motion) {
+  for (const Solid& solid : solids_)
+    if (solid.owner == owner) solid_drift_ += place(store_, solid, motion);
 }
 
 template <int dim, class Real>
 double SeaSph<dim, Real>::step(double dt_max) {
-  evaluate();
-  Extremes most;
-  for (int group = 0; group < columns_.groups(); ++group) most.merge(extremes(store_, p_, group));
-  const double limit =
-      step_limits(p_.cfl, p_.h(), p_.eos.c0, std::sqrt(most.speed2), std::sqrt(most.acceleration2), 0.0).smallest();
-  const double dt = std::min(limit, dt_max);
-  pack_all(0.5 * dt);
-  sweep_all();
-  {
-    const Stopwatch watch(work_.correct_s);
-#pragma omp parallel for schedule(dynamic, 4)
-    for (int group = 0; group < columns_.groups(); ++group) correct_symplectic(store_, p_, group, dt);
-  }
-  // Over the step a particle goes at most (|v| + dt |a|) dt; the half step's acceleration may be larger, hence the factor two.
-  drift_ += dt * (std::sqrt(most.speed2) + 2.0 * dt * std::sqrt(most.acceleration2));
-  time_ += dt;
-  ++work_.steps;
+  const double dt = begin_step(dt_max);
+  half_step();
+  end_step();
   return dt;
 }
 

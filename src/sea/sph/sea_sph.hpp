@@ -1,5 +1,5 @@
-// A sea of particles in one process: state, sorting, and the step over groups. A thin driver: each sweep is a function of one group.
-// Method: docs/theory/sph.md. Called by tests and perf/sea, later by the sea module's tasks; tested in tests/src/sea/sph.
+// A sea of particles in one process: state, sorting, and the step over groups. A thin driver: each sweep is a function of one
+// group. Method: docs/theory/sph.md. Called by tests and perf/sea, later by the sea module's tasks; tested in tests/src/sea/sph.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,6 +10,7 @@
 #include "kernels/sph/time_step.hpp"
 #include "src/sea/sph/ordering.hpp"
 #include "src/sea/sph/parameters.hpp"
+#include "src/sea/sph/solids.hpp"
 #include "src/sea/sph/sweep_pairs.hpp"
 
 namespace spindrift::sph {
@@ -24,13 +25,29 @@ template <int dim, class Real = float>
 class SeaSph {
  public:
   SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds);
+  SeaSph(const SeaSph&) = delete;  // its sweeps refer to its store
+  SeaSph& operator=(const SeaSph&) = delete;
 
-  /// One step no longer than dt_max [s]; returns its length.
+  /// One step no longer than dt_max [s]; returns its length. Solids stay; with moving ones use the three parts.
   double step(double dt_max);
-  /// Steps of equal right to the limits until exactly `duration` [s] later.
+  /// Steps up to exactly `duration` [s] later.
   void advance(double duration);
-  /// Rates of the state at n, left in store().sums: what step() starts with.
+
+  // A step in three parts, between which moving solids are placed: at n + 1/2 before half_step, at n + 1 after it and before
+  // end_step. Loads are those of the last evaluation: n after begin_step, n + 1/2 after half_step. With Verlet's step half_step
+  // does nothing.
+  double begin_step(double dt_max);
+  void half_step();
+  void end_step();
+
+  /// Rates of the state at n, left in store().sums: what begin_step starts with.
   void evaluate();
+
+  /// Declares that the particles of `owner` are a body that is now in `motion`.
+  void add_body(std::uint16_t owner, const Motion& motion) { solids_.push_back(solid_from(store_, owner, motion)); }
+  void place_body(std::uint16_t owner, const Motion& motion);
+  /// Force of the water on the particles of an owner (a body or a wall), about a point.
+  Wrench load_on(std::uint16_t owner, const Eigen::Vector3d& about) const { return load(store_, owner, p_.mass(dim), about); }
 
   const Parameters& parameters() const { return p_; }
   const Columns<dim>& columns() const { return columns_; }
@@ -41,18 +58,26 @@ class SeaSph {
   std::size_t particles() const { return particles_; }
 
  private:
+  using Sweep = std::function<void(Real* sums, int group, Meetings<dim, Real>&)>;
+
   void sort_if_drifted();
   void pack_all(double half_dt);
-  void sweep_all();
+  void run(const Sweep& sweep, Array<Real>& sums);
+  template <class Body>
+  void for_groups(double& seconds, Body&& body);
+  void filter_if_due();
 
   Parameters p_;
   Columns<dim> columns_;
   Store<dim, Real> store_;
-  std::function<void(int, Meetings<dim, Real>&)> sweep_;   // the pair sweep of one group, with the scene's schemes
-  std::vector<std::vector<int>> colours_;                    // groups of each colour
-  std::vector<Meetings<dim, Real>> scratch_;               // one per thread
-  std::size_t particles_ = 0, candidates_at_most_ = 0;
-  double time_ = 0.0, drift_ = 0.0, fastest_ = 0.0;
+  std::vector<Solid> solids_;
+  Sweep rates_, filter_, shifting_;           // pair sweeps of one group with the scene's schemes; empty where there is none
+  Array<Real> extra_sums_;                    // of filters and shifting
+  std::vector<std::vector<int>> colours_;     // groups of each colour
+  std::vector<Meetings<dim, Real>> scratch_;  // one per thread
+  std::size_t particles_ = 0;
+  double time_ = 0.0, dt_ = 0.0;
+  double drift_ = 0.0, solid_drift_ = 0.0;  // bounds on the way since the last sort [m]
   Work work_;
 };
 

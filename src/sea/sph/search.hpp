@@ -1,6 +1,6 @@
-// Which clusters a cluster, and then a single particle, can reach: tests on bounding boxes, sixteen at a time, made anew in every sweep.
-// Boxes follow the particles, so nothing is kept between sweeps and the order of particles may be old; a pair that slips in beyond
-// the support contributes exactly zero (the kernel is cut), so results do not depend on the tests.
+// Which clusters a cluster, and then a single particle, can reach: tests on bounding boxes, sixteen at a time, made anew in
+// every sweep. Boxes follow the particles, so nothing is kept between sweeps and the order of particles may be old; a pair that
+// slips in beyond the support contributes exactly zero (the kernel is cut), so results do not depend on the tests.
 // Called by sweep_pairs.hpp; tested in tests/src/sea/sph/sweep_test.cpp against all pairs.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -13,14 +13,16 @@
 
 namespace spindrift::sph {
 
-/// Writes first + lane to `to` for every lane with value < bound among the first `valid`; returns how many. Writes up to 16 numbers.
+/// Writes first + lane to `to` for every lane with value < bound among the first `valid`; returns how many. Writes up to 16
+/// numbers.
 inline int append_where_below(std::uint32_t* to, Wide<float, 16> value, float bound, std::uint32_t first, int valid) {
 #ifdef __AVX512F__
   const __mmask16 lanes = valid >= 16 ? __mmask16(0xffff) : __mmask16((1u << valid) - 1u);
   const __mmask16 below = _mm512_mask_cmp_ps_mask(lanes, value.v, _mm512_set1_ps(bound), _CMP_LT_OQ);
-  const __m512i places = _mm512_add_epi32(_mm512_set1_epi32(int(first)),
-                                          _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0));
-  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(below, places));  // compressing to memory directly is microcoded on some processors
+  const __m512i places =
+      _mm512_add_epi32(_mm512_set1_epi32(int(first)), _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0));
+  _mm512_storeu_si512(
+      to, _mm512_maskz_compress_epi32(below, places));  // compressing to memory directly is microcoded on some processors
   return __builtin_popcount(below);
 #else
   int count = 0;
@@ -35,7 +37,7 @@ inline int append_where_below(std::uint32_t* to, Wide<float, 16> value, float bo
 /// Squared gap between 16 boxes and one box (a point when its corners coincide); from the corner of the domain [m].
 template <int dim>
 Wide<float, 16> gap2(const std::array<const float*, dim>& low, const std::array<const float*, dim>& high,
-                      const std::array<float, dim>& box_low, const std::array<float, dim>& box_high) {
+                     const std::array<float, dim>& box_low, const std::array<float, dim>& box_high) {
   using V = Wide<float, 16>;
   V total(0.0f);
   for (int k = 0; k < dim; ++k) {
@@ -45,7 +47,8 @@ Wide<float, 16> gap2(const std::array<const float*, dim>& low, const std::array<
   return total;
 }
 
-/// The clusters near one cluster, copied together: boxes as that cluster sees them, and shifts between the anchors. One per thread.
+/// The clusters near one cluster, copied together: boxes as that cluster sees them, and shifts between the anchors. One per
+/// thread.
 template <int dim, class Real>
 class Candidates {
  public:
@@ -62,12 +65,14 @@ class Candidates {
   void add(const Store<dim, Real>& store, std::uint32_t mine, std::uint32_t first, std::uint32_t end,
            const std::array<double, dim>& shift, float reach) {
     std::array<float, dim> box_low, box_high;
-    for (int k = 0; k < dim; ++k) box_low[k] = store.low[k][mine] - float(shift[k]), box_high[k] = store.high[k][mine] - float(shift[k]);
+    for (int k = 0; k < dim; ++k)
+      box_low[k] = store.low[k][mine] - float(shift[k]), box_high[k] = store.high[k][mine] - float(shift[k]);
     const int before = count_;
     for (std::uint32_t from = first; from < end; from += 16) {
       std::array<const float*, dim> low, high;
       for (int k = 0; k < dim; ++k) low[k] = &store.low[k][from], high[k] = &store.high[k][from];
-      count_ += append_where_below(&cluster_[count_], gap2<dim>(low, high, box_low, box_high), reach * reach, from, int(end - from));
+      count_ +=
+          append_where_below(&cluster_[count_], gap2<dim>(low, high, box_low, box_high), reach * reach, from, int(end - from));
     }
     for (int n = before; n < count_; ++n) {
       const std::uint32_t other = cluster_[n];
@@ -85,7 +90,8 @@ class Candidates {
     for (int from = 0; from < count_; from += 16) {
       std::array<const float*, dim> low, high;
       for (int k = 0; k < dim; ++k) low[k] = &low_[k][from], high[k] = &high_[k][from];
-      count += append_where_below(&chosen_[count], gap2<dim>(low, high, point, point), reach * reach, std::uint32_t(from), count_ - from);
+      count += append_where_below(&chosen_[count], gap2<dim>(low, high, point, point), reach * reach, std::uint32_t(from),
+                                  count_ - from);
     }
     return count;
   }

@@ -1,11 +1,12 @@
 // The sweeps of one step that touch each particle of a group once: packing the state for the pair sweep, limits, corrector.
-// Called by sea_sph.cpp, group by group (later as tasks); tested in tests/src/sea/sph/step_test.cpp.
+// Called by sea_sph.cpp, group by group (later as tasks); tested in tests/src/sea/sph/motion_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/sph/boundary_dynamic.hpp"
 #include "kernels/sph/step_symplectic.hpp"
 #include "kernels/sph/step_verlet.hpp"
 #include "src/sea/sph/parameters.hpp"
@@ -19,13 +20,14 @@ struct Rates {
   double mass, gravity;
   explicit Rates(const Parameters& p) : mass(p.mass(dim)), gravity(p.gravity) {}
   template <class Real>
-  double acceleration(int axis, Real sum) const { return mass * double(sum) - (axis == dim - 1 ? gravity : 0.0); }
+  double acceleration(int axis, Real sum) const {
+    return mass * double(sum) - (axis == dim - 1 ? gravity : 0.0);
+  }
   template <class Real>
-  double density(Real sum) const { return mass * double(sum); }
+  double density(Real sum) const {
+    return mass * double(sum);
+  }
 };
-
-/// Walls do not pull: their density stays at or above rho0 (Dominguez et al. 2022, section 2.2).
-inline double wall_deviation(double d) { return std::max(d, 0.0); }
 
 /// Writes the planes that pair sweeps read, the bounding box of each cluster, and clears the sums.
 /// half_dt > 0 advances the state at n by the sums at n (predictor); solids keep the place that was given to them.
@@ -64,7 +66,7 @@ void pack(Store<dim, Real>& store, const Parameters& p, int group, double half_d
     for (int lane = 0; lane < cluster_size; ++lane) {
       const double rate = dt > 0.0 ? rates.density(sums[dim * cluster_size + lane]) : 0.0;
       double d = StepSymplectic::half(deviation[lane], rate, dt);
-      if (!water) d = wall_deviation(d);
+      if (!water) d = boundary_dynamic(d);
       const double rho = p.eos.rho0 + d;
       planes[2 * dim * cluster_size + lane] = Real(d);
       planes[(2 * dim + 1) * cluster_size + lane] = Real(p.eos.pressure(d) / (rho * rho));
@@ -125,7 +127,32 @@ void correct_symplectic(Store<dim, Real>& store, const Parameters& p, int group,
     for (int lane = 0; lane < cluster_size; ++lane) {
       const double d = StepSymplectic::deviation(deviation[lane], double(planes[2 * dim * cluster_size + lane]),
                                                  rates.density(sums[dim * cluster_size + lane]), dt, p.eos.rho0);
-      deviation[lane] = water ? d : wall_deviation(d);
+      deviation[lane] = water ? d : boundary_dynamic(d);
+    }
+  }
+}
+
+/// Full step from the sums at n. `join`: the step that ties the odd and even chains together.
+template <int dim, class Real>
+void correct_verlet(Store<dim, Real>& store, const Parameters& p, int group, double dt, bool join) {
+  const Rates<dim> rates(p);
+  const Group& range = store.groups[group];
+  const auto advance = [&](double& value, double& before, double rate) {
+    const double next = join ? StepVerlet::join(value, rate, dt) : StepVerlet::leap(before, rate, dt);
+    before = value, value = next;
+  };
+  for (std::uint32_t cluster = range.fluid; cluster < range.end; ++cluster) {
+    const bool water = cluster < range.solid;
+    const Real* sums = store.sums_of(cluster);
+    for (int lane = 0; lane < cluster_size; ++lane) {
+      const std::size_t slot = std::size_t(cluster) * cluster_size + lane;
+      for (int k = 0; k < dim && water; ++k) {
+        const double a = rates.acceleration(k, sums[k * cluster_size + lane]);
+        store.x[k][slot] = StepVerlet::position(store.x[k][slot], store.v[k][slot], a, dt);
+        advance(store.v[k][slot], store.v_before[k][slot], a);
+      }
+      advance(store.deviation[slot], store.deviation_before[slot], rates.density(sums[dim * cluster_size + lane]));
+      if (!water) store.deviation[slot] = boundary_dynamic(store.deviation[slot]);
     }
   }
 }

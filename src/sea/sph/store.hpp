@@ -1,7 +1,7 @@
 // The particles of a sea: who owns which arrays. One entry ("slot") per lane of a cluster; empty lanes carry no_particle.
 // The state at the last full step is in double; what pair sweeps read is `pack`, in Real, relative to the anchor of the cluster,
 // and holds the state at n or at n + 1/2, so that the predictor needs no second copy of the state.
-// Called by ordering.cpp (which alone changes the order), pack.hpp, sweep_pairs.hpp and sea_sph.hpp; tested in tests/src/sea/sph.
+// Called by ordering.cpp (which alone changes the order), step.hpp, sweep_pairs.hpp and sea_sph.hpp; tested in tests/src/sea/sph.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,15 +34,17 @@ struct Store {
   std::array<Array<double>, dim> x, v;  ///< [m], [m/s], earth frame; in 2-D x and z
   Array<double> deviation;              ///< rho - rho0 [kg/m3]
   Array<std::uint32_t> id;
+  std::array<Array<double>, dim> v_before;  ///< one step earlier; empty unless the step is Verlet's
+  Array<double> deviation_before;
   // per cluster
   Array<Real> pack, sums;
-  Array<std::uint16_t> owner;              ///< 0 water, 1 + n the solid n
-  std::array<Array<double>, dim> anchor;   ///< multiples of a power of two, so that differences are exact in Real [m]
-  std::array<Array<float>, dim> low, high; ///< bounding box of the packed particles, from the corner of the domain [m]
+  Array<std::uint16_t> owner;               ///< 0 water, 1 + n the solid n
+  std::array<Array<double>, dim> anchor;    ///< multiples of a power of two, so that differences are exact in Real [m]
+  std::array<Array<float>, dim> low, high;  ///< bounding box of the packed particles, from the corner of the domain [m]
   // per group
   std::vector<Group> groups;
   std::vector<LostParticle<dim>> lost;
-  std::array<double, dim> corner{};     ///< lowest corner of the domain, where boxes are measured from [m]
+  std::array<double, dim> corner{};  ///< lowest corner of the domain, where boxes are measured from [m]
 
   /// Anchor of a cluster from the corner of the domain [m].
   float frame(int axis, std::size_t cluster) const { return float(anchor[axis][cluster] - corner[axis]); }
@@ -56,8 +58,10 @@ struct Store {
   std::size_t bytes() const {
     std::size_t total = deviation.capacity() * 8 + id.capacity() * 4 + (pack.capacity() + sums.capacity()) * sizeof(Real) +
                         owner.capacity() * 2 + groups.capacity() * sizeof(Group);
+    total += deviation_before.capacity() * 8;
     for (int k = 0; k < dim; ++k)
-      total += (x[k].capacity() + v[k].capacity() + anchor[k].capacity()) * 8 + (low[k].capacity() + high[k].capacity()) * 4;
+      total += (x[k].capacity() + v[k].capacity() + v_before[k].capacity() + anchor[k].capacity()) * 8 +
+               (low[k].capacity() + high[k].capacity()) * 4;
     return total;
   }
 };
@@ -66,8 +70,8 @@ struct Store {
 template <int dim>
 struct Seed {
   std::array<double, dim> position, velocity{};
-  double deviation = 0.0;       ///< rho - rho0 [kg/m3]
-  std::uint16_t owner = 0;      ///< 0 water, 1 + n the solid n
+  double deviation = 0.0;   ///< rho - rho0 [kg/m3]
+  std::uint16_t owner = 0;  ///< 0 water, 1 + n the solid n
 };
 
 }  // namespace spindrift::sph

@@ -1,7 +1,7 @@
-// The pair sweep: every pair of particles within reach once, both partners updated ("symmetric"), one particle against 16 lanes at a time.
-// A group writes to itself and its forward neighbours; groups of one colour (columns.hpp) may run at once. No locks; the order of the terms of
-// every sum is fixed by the scene and the sorting. Layouts tried and their speeds: docs/developer/sea.md.
-// Called by sea_sph.hpp; tested in tests/src/sea/sph/sweep_test.cpp against all pairs.
+// The pair sweep: every pair of particles within reach once, both partners updated ("symmetric"), one particle against 16 lanes
+// at a time. A group writes to itself and its forward neighbours; groups of one colour (columns.hpp) may run at once. No locks;
+// the order of the terms of every sum is fixed by the scene and the sorting. Layouts tried and their speeds:
+// docs/developer/sea.md. Called by sea_sph.hpp; tested in tests/src/sea/sph/sweep_test.cpp against all pairs.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -33,46 +33,44 @@ SPINDRIFT_INLINE PairState<V, dim> spread_state(const Real* planes, int lane) {
   s.p_rho2 = V(planes[(2 * dim + 1) * cluster_size + lane]);
   return s;
 }
-template <int dim, class V, class Real = scalar_of<V>>
-SPINDRIFT_INLINE PairSums<V, dim> load_sums(const Real* planes, int lane) {
-  PairSums<V, dim> s;
-  for (int k = 0; k < dim; ++k) s.acceleration[k] = V::load(planes + k * cluster_size + lane);
-  s.density_rate = V::load(planes + dim * cluster_size + lane);
-  return s;
+template <int planes, class V, class Real = scalar_of<V>>
+SPINDRIFT_INLINE Vec<V, planes> load_sums(const Real* from, int lane) {
+  Vec<V, planes> sums;
+  for (int n = 0; n < planes; ++n) sums[n] = V::load(from + n * cluster_size + lane);
+  return sums;
 }
-template <int dim, class V, class Real = scalar_of<V>>
-SPINDRIFT_INLINE void store_sums(const PairSums<V, dim>& s, Real* planes, int lane) {
-  for (int k = 0; k < dim; ++k) s.acceleration[k].store(planes + k * cluster_size + lane);
-  s.density_rate.store(planes + dim * cluster_size + lane);
+template <int planes, class V, class Real = scalar_of<V>>
+SPINDRIFT_INLINE void store_sums(const Vec<V, planes>& sums, Real* to, int lane) {
+  for (int n = 0; n < planes; ++n) sums[n].store(to + n * cluster_size + lane);
 }
 
 /// One particle, spread over all lanes, against one cluster; `both`: its partners are updated too.
 template <bool both, class Law, class V, int dim, class Real = scalar_of<V>>
-SPINDRIFT_INLINE void particle_against_cluster(PairSums<V, dim>& to_i, const PairState<V, dim>& i, const Real* state, Real* sums,
-                                               const Law& law) {
+SPINDRIFT_INLINE void particle_against_cluster(Vec<V, Law::sum_planes>& to_i, const PairState<V, dim>& i, const Real* state,
+                                               Real* sums, const Law& law) {
   for (int lane = 0; lane < cluster_size; lane += V::size) {
-    PairSums<V, dim> to_j = load_sums<dim, V>(sums, lane);
+    Vec<V, Law::sum_planes> to_j = load_sums<Law::sum_planes, V>(sums, lane);
     law(i, load_state<dim, V>(state, lane), to_i, to_j);
-    if constexpr (both) store_sums<dim, V>(to_j, sums, lane);
+    if constexpr (both) store_sums<Law::sum_planes, V>(to_j, sums, lane);
   }
 }
 
 /// One particle against the first `count` chosen candidates.
 template <class Law, class V, int dim, class Real>
-SPINDRIFT_INLINE void particle_against_chosen(PairSums<V, dim>& to_i, const PairState<V, dim>& i, Store<dim, Real>& store,
+SPINDRIFT_INLINE void particle_against_chosen(Vec<V, Law::sum_planes>& to_i, const PairState<V, dim>& i,
+                                              const Store<dim, Real>& store, Real* all_sums,
                                               const Candidates<dim, Real>& candidates, int count, const Law& shared_law) {
   const Law law = shared_law;  // a copy that no store can alias, so that its constants stay in registers
   const typename Candidates<dim, Real>::View near = candidates.view();
   const Real* const pack = store.pack.data();
-  Real* const all_sums = store.sums.data();
-  PairSums<V, dim> received = to_i;
+  Vec<V, Law::sum_planes> received = to_i;
   for (int n = 0; n < count; ++n) {
     const std::uint32_t candidate = near.chosen[n];
     const std::size_t other = near.cluster[candidate];
     PairState<V, dim> seen = i;
     for (int k = 0; k < dim; ++k) seen.x[k] += V(near.shift[k][candidate]);
     particle_against_cluster<true>(received, seen, pack + other * (pack_planes<dim> * cluster_size),
-                                   all_sums + other * (sum_planes<dim> * cluster_size), law);
+                                   all_sums + other * (Law::sum_planes * cluster_size), law);
   }
   to_i = received;
 }
@@ -87,11 +85,13 @@ struct Meetings {
 
 /// The pairs of cluster `mine` with all that it meets. Pairs inside a cluster of water are computed from both ends, one-sided.
 template <bool is_water, class LawWater, class LawSolid, int dim, class Real>
-void sweep_cluster(Store<dim, Real>& store, std::uint32_t mine, Meetings<dim, Real>& meets, float reach, const LawWater& water,
-                   const LawSolid& solid) {
+void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t mine, Meetings<dim, Real>& meets, float reach,
+                   const LawWater& water, const LawSolid& solid) {
   using V = NativeWide<Real>;
   const Real* state = store.pack_of(mine);
-  Real* sums = store.sums_of(mine);
+  constexpr int planes = LawWater::sum_planes;
+  static_assert(planes == LawSolid::sum_planes);
+  Real* sums = all_sums + std::size_t(mine) * (planes * cluster_size);
   std::array<float, dim> corner;
   for (int k = 0; k < dim; ++k) corner[k] = store.frame(k, mine);
   for (int lane = 0; lane < cluster_size; ++lane) {
@@ -99,24 +99,24 @@ void sweep_cluster(Store<dim, Real>& store, std::uint32_t mine, Meetings<dim, Re
     std::array<float, dim> point;
     for (int k = 0; k < dim; ++k) point[k] = corner[k] + float(state[k * cluster_size + lane]);
     const PairState<V, dim> i = spread_state<dim, V>(state, lane);
-    PairSums<V, dim> to_i{};
+    Vec<V, planes> to_i{};
     if constexpr (is_water) {
       particle_against_cluster<false>(to_i, i, state, sums, water);
-      particle_against_chosen(to_i, i, store, meets.water, meets.water.choose(point, reach), water);
-      if (meets.solid.size() > 0) particle_against_chosen(to_i, i, store, meets.solid, meets.solid.choose(point, reach), solid);
+      particle_against_chosen(to_i, i, store, all_sums, meets.water, meets.water.choose(point, reach), water);
+      if (meets.solid.size() > 0)
+        particle_against_chosen(to_i, i, store, all_sums, meets.solid, meets.solid.choose(point, reach), solid);
     } else {
-      particle_against_chosen(to_i, i, store, meets.water, meets.water.choose(point, reach), solid);
+      particle_against_chosen(to_i, i, store, all_sums, meets.water, meets.water.choose(point, reach), solid);
     }
-    for (int k = 0; k < dim; ++k) sums[k * cluster_size + lane] += sum(to_i.acceleration[k]);
-    sums[dim * cluster_size + lane] += sum(to_i.density_rate);
+    for (int n = 0; n < planes; ++n) sums[n * cluster_size + lane] += sum(to_i[n]);
   }
 }
 
-/// The pairs of one group: water with water by the law `water`, water with walls and bodies by `solid`. Solids do not meet each other.
-/// reach: support plus the rounding of boxes [m].
+/// The pairs of one group: water with water by the law `water`, water with walls and bodies by `solid`. Solids do not meet each
+/// other. all_sums: Law::sum_planes planes per cluster, cleared before. reach: support plus the rounding of boxes [m].
 template <class LawWater, class LawSolid, int dim, class Real>
-void sweep_pairs(Store<dim, Real>& store, const Columns<dim>& columns, int group, float reach, Meetings<dim, Real>& meets,
-                 const LawWater& water, const LawSolid& solid) {
+void sweep_pairs(const Store<dim, Real>& store, Real* all_sums, const Columns<dim>& columns, int group, float reach,
+                 Meetings<dim, Real>& meets, const LawWater& water, const LawSolid& solid) {
   const Group& own = store.groups[group];
   const std::array<double, dim> here{};
   for (std::uint32_t mine = own.fluid; mine < own.solid; ++mine) {
@@ -128,7 +128,7 @@ void sweep_pairs(Store<dim, Real>& store, const Columns<dim>& columns, int group
       meets.water.add(store, mine, other.fluid, other.solid, near.shift, reach);
       meets.solid.add(store, mine, other.solid, other.end, near.shift, reach);
     });
-    sweep_cluster<true>(store, mine, meets, reach, water, solid);
+    sweep_cluster<true>(store, all_sums, mine, meets, reach, water, solid);
   }
   for (std::uint32_t mine = own.solid; mine < own.end; ++mine) {
     meets.clear();
@@ -136,7 +136,7 @@ void sweep_pairs(Store<dim, Real>& store, const Columns<dim>& columns, int group
       const Group& other = store.groups[near.group];
       meets.water.add(store, mine, other.fluid, other.solid, near.shift, reach);
     });
-    if (meets.water.size() > 0) sweep_cluster<false>(store, mine, meets, reach, water, solid);
+    if (meets.water.size() > 0) sweep_cluster<false>(store, all_sums, mine, meets, reach, water, solid);
   }
 }
 

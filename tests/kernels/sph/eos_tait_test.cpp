@@ -17,7 +17,8 @@ TEST_CASE("the Tait pressure is B((rho/rho0)^7 - 1), also for a density one part
 
 TEST_CASE("the inverse of the Tait equation gives back the density deviation", "[sph][fast]") {
   const EosTait eos{1000.0, 34.0};
-  for (double d : {-100.0, -1e-6, 0.0, 1e-8, 3.0, 150.0}) CHECK(eos.deviation(eos.pressure(d)) == Approx(d).epsilon(1e-10).margin(1e-15));
+  for (double d : {-100.0, -1e-6, 0.0, 1e-8, 3.0, 150.0})
+    CHECK(eos.deviation(eos.pressure(d)) == Approx(d).epsilon(1e-10).margin(1e-15));
 }
 
 TEST_CASE("the sound speed of the Tait equation is sqrt(dp/drho)", "[sph][fast]") {
@@ -30,7 +31,8 @@ TEST_CASE("the sound speed of the Tait equation is sqrt(dp/drho)", "[sph][fast]"
 TEST_CASE("hydrostatic density balances the weight of the compressible column", "[sph][fast]") {
   const EosTait eos{1000.0, 20.0};
   const double depth = GENERATE(0.1, 2.0, 15.0), g = 9.81, e = 1e-4;
-  const double slope = (eos.pressure(eos.hydrostatic_deviation(depth + e, g)) - eos.pressure(eos.hydrostatic_deviation(depth - e, g))) / (2.0 * e);
+  const double slope =
+      (eos.pressure(eos.hydrostatic_deviation(depth + e, g)) - eos.pressure(eos.hydrostatic_deviation(depth - e, g))) / (2.0 * e);
   CHECK(slope == Approx((eos.rho0 + eos.hydrostatic_deviation(depth, g)) * g).epsilon(1e-7));
   CHECK(eos.hydrostatic_deviation(0.0, g) == 0.0);
 }

@@ -1,4 +1,5 @@
-// Laws every smoothing kernel obeys: unit integral, slope is the derivative, compact support, consistency of order two on a lattice.
+// Laws every smoothing kernel obeys: unit integral, slope is the derivative, compact support, consistency of order two on a
+// lattice.
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/sph/kernel.hpp"
 
@@ -51,7 +52,8 @@ TEMPLATE_TEST_CASE("lanes and one number agree on a kernel", "[sph][fast]", (Ker
   }
 }
 
-TEMPLATE_TEST_CASE("on a lattice a kernel interpolates a quadratic with error of second order in h", "[sph][fast][order]", KERNELS) {
+TEMPLATE_TEST_CASE("on a lattice a kernel interpolates a quadratic with error of second order in h", "[sph][fast][order]",
+                   KERNELS) {
   // sum V W (x - x')^2 is the second moment, proportional to h^2; with constant h/d it falls by four when d is halved.
   const auto moment = [](double d) {
     const TestType kernel(2.0 * d);

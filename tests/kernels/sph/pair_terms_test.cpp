@@ -59,7 +59,8 @@ TEST_CASE("density diffusion levels densities; Fourtakas' form leaves still wate
   CHECK(molteni(pair, 2.0, 2.0, inverse) == 0.0);
   const double hydrostatic_difference = -1000.0 * g / (c0 * c0) * (xi[2] - xj[2]);
   CHECK(fourtakas(pair, 1.0 + hydrostatic_difference, 1.0, inverse) == Approx(0.0).margin(1e-15));
-  CHECK(fourtakas(pair, 1.0 + 2.0 * hydrostatic_difference, 1.0, inverse) == Approx(molteni(pair, 1.0 + hydrostatic_difference, 1.0, inverse)));
+  CHECK(fourtakas(pair, 1.0 + 2.0 * hydrostatic_difference, 1.0, inverse) ==
+        Approx(molteni(pair, 1.0 + hydrostatic_difference, 1.0, inverse)));
   // Molteni & Colagrossi (2009): delta h c0 * 2 (rho_j - rho_i) / r^2 * (-r W') * m / rho per unit m.
   const double r2 = pair.r2;
   CHECK(molteni(pair, 1.0, 2.0, inverse) == Approx(0.1 * 0.1 * c0 * 2.0 / (r2 + 1e-4) * -(r2 * pair.slope) / 1000.0));

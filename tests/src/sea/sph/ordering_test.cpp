@@ -1,4 +1,5 @@
-// Laws of the sorting: nobody lost, full clusters, groups that hold what is in them, colours that do not meet, order from state alone.
+// Laws of the sorting: nobody lost, full clusters, groups that hold what is in them, colours that do not meet, order from state
+// alone.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/ordering.hpp"
 

@@ -12,7 +12,8 @@ namespace spindrift::sph {
 
 /// A block of water with disorder, random velocities and densities, over a sheet of wall particles; low corner at `corner`.
 template <int dim>
-std::vector<Seed<dim>> disordered_block(double d, std::array<int, dim> cells, std::array<double, dim> corner, bool wall, unsigned seed = 7) {
+std::vector<Seed<dim>> disordered_block(double d, std::array<int, dim> cells, std::array<double, dim> corner, bool wall,
+                                        unsigned seed = 7) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::vector<Seed<dim>> seeds;
@@ -28,8 +29,10 @@ std::vector<Seed<dim>> disordered_block(double d, std::array<int, dim> cells, st
     seeds.push_back(seed);
     more = false;
     for (int k = 0; k < dim && !more; ++k) {
-      if (++at[k] < cells[k]) more = true;
-      else at[k] = 0;
+      if (++at[k] < cells[k])
+        more = true;
+      else
+        at[k] = 0;
     }
   }
   return seeds;

@@ -36,15 +36,16 @@ auto all_pairs(const std::vector<Seed<Kernel::dimensions>>& seeds, const Paramet
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (seeds[i].owner != 0 && seeds[j].owner != 0) continue;
-      PairSums<double, dim> to_i{}, to_j{};
+      Vec<double, dim + 1> to_i{}, to_j{};
       PairState<double, dim> si = state(seeds[i]);
       const PairState<double, dim> sj = state(seeds[j]);
       for (int k = 0; k < dim; ++k)
         if (period[k] > 0.0) si.x[k] -= period[k] * std::round((si.x[k] - sj.x[k]) / period[k]);
-      if (seeds[i].owner == 0 && seeds[j].owner == 0) water(si, sj, to_i, to_j);
-      else solid(si, sj, to_i, to_j);
-      for (int k = 0; k < dim; ++k) sums[i][k] += to_i.acceleration[k], sums[j][k] += to_j.acceleration[k];
-      sums[i][dim] += to_i.density_rate, sums[j][dim] += to_j.density_rate;
+      if (seeds[i].owner == 0 && seeds[j].owner == 0)
+        water(si, sj, to_i, to_j);
+      else
+        solid(si, sj, to_i, to_j);
+      for (int k = 0; k <= dim; ++k) sums[i][k] += to_i[k], sums[j][k] += to_j[k];
     }
   }
   return sums;
@@ -83,8 +84,10 @@ auto sweep_sums(const Parameters& p, const Domain<dim>& domain, const std::vecto
 
 template <int dim>
 constexpr std::array<int, dim> block_cells() {
-  if constexpr (dim == 2) return {31, 23};
-  else return {11, 9, 10};
+  if constexpr (dim == 2)
+    return {31, 23};
+  else
+    return {11, 9, 10};
 }
 
 template <int dim, class Real, class Kernel, class Diffusion>
@@ -148,7 +151,8 @@ TEST_CASE("float accelerations are the same 10 km away", "[sph][fast]") {
 
 TEST_CASE("float accelerations do not lose digits at the far end of a long tank", "[sph][fast]") {
   const auto p = parameters_for<2>(KernelChoice::wendland, DiffusionChoice::none);
-  const auto seeds = disordered_block<2>(p.spacing, {31, 23}, {5000.0, 0}, true);  // 50 000 spacings from the corner of the domain
+  const auto seeds =
+      disordered_block<2>(p.spacing, {31, 23}, {5000.0, 0}, true);  // 50 000 spacings from the corner of the domain
   const auto expected = all_pairs<KernelWendland<2>>(seeds, p, DensityDiffusionNone{});
   CHECK(worst_difference(sweep_sums<2, float>(p, Domain<2>{{-1, -1}, {5010, 10}}, seeds), expected) < 1e-5);
 }
@@ -162,7 +166,8 @@ TEST_CASE("any number of threads gives the same bits", "[sph][fast]") {
     SeaSph<3, float> sea(p, domain_around<3>({0, 0, 0}, 4.0), seeds);
     for (int step = 0; step < 5; ++step) sea.step(1.0);
     return by_identity(sea.store(), seeds.size(), [&](std::size_t slot) {
-      return std::array<double, 4>{sea.store().x[0][slot], sea.store().v[1][slot], sea.store().v[2][slot], sea.store().deviation[slot]};
+      return std::array<double, 4>{sea.store().x[0][slot], sea.store().v[1][slot], sea.store().v[2][slot],
+                                   sea.store().deviation[slot]};
     });
   };
   const auto one = run(1);

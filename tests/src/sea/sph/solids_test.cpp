@@ -1,0 +1,121 @@
+// Bodies of particles: placing, loads, and water pushing them as it should.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/sph/solids.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <omp.h>
+
+#include "src/sea/sph/lattice.hpp"
+#include "src/sea/sph/sea_sph.hpp"
+#include "src/sea/sph/shapes.hpp"
+#include "tests/src/sea/sph/scenes.hpp"
+
+using namespace spindrift;
+using namespace spindrift::sph;
+
+namespace {
+
+template <int dim>
+void add_body(std::vector<Seed<dim>>& seeds, const Points& points, const Motion& motion, std::uint16_t owner) {
+  for (const auto& point : points) seeds.push_back({.position = from_earth<dim>(motion.point(point)), .owner = owner});
+}
+
+}  // namespace
+
+TEST_CASE("a body's particles follow its motion and come back exactly", "[sph][fast]") {
+  Parameters p;
+  p.spacing = 0.1;
+  auto seeds = disordered_block<3>(p.spacing, {8, 8, 6}, {0, 0, 0}, false);
+  Motion start;
+  start.position = {0.4, 0.4, 0.9};
+  start.attitude = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 0).normalized());
+  add_body(seeds, points_in_box({0.4, 0.3, 0.2}, p.spacing), start, 1);
+  SeaSph<3> sea(p, Domain<3>{{-2, -2, -2}, {3, 3, 3}}, seeds);
+  sea.add_body(1, start);
+  Motion moved = start;
+  moved.position += Eigen::Vector3d(0.5, -0.2, 0.3);
+  moved.attitude = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()) * start.attitude;
+  moved.velocity = {1, 2, 3}, moved.omega = {0.1, -0.5, 0.2};
+  sea.place_body(1, moved);
+  sea.evaluate();  // sorts: the body went more than the drift
+  CHECK(sea.work().sorts == 1);
+  double worst = 0.0;
+  for (std::size_t slot = 0; slot < sea.store().slots(); ++slot) {
+    if (sea.store().id[slot] == no_particle || sea.store().owner[slot / cluster_size] != 1) continue;
+    const auto& from = seeds[sea.store().id[slot]].position;
+    const Eigen::Vector3d local = start.attitude.conjugate() * (to_earth<3>(from) - start.position);
+    const Eigen::Vector3d x = moved.point(local), v = moved.point_velocity(local);
+    for (int k = 0; k < 3; ++k)
+      worst = std::max({worst, std::abs(x[k] - sea.store().x[k][slot]), std::abs(v[k] - sea.store().v[k][slot])});
+  }
+  CHECK(worst < 1e-14);
+}
+
+TEST_CASE("the load on a body is the opposite of its push on the water, the same for any number of threads", "[sph][fast]") {
+  Parameters p;
+  p.spacing = 0.1, p.gravity = 0.0;
+  auto seeds = disordered_block<3>(p.spacing, {9, 9, 9}, {0, 0, 0}, false);
+  Motion body;
+  body.position = {0.45, 0.45, 1.05};
+  add_body(seeds, points_in_sphere(0.25, p.spacing), body, 1);
+  const int threads = omp_get_max_threads();
+  const auto run = [&](int n) {
+    omp_set_num_threads(n);
+    SeaSph<3, double> sea(p, Domain<3>{{-2, -2, -2}, {3, 3, 3}}, seeds);
+    sea.evaluate();
+    const Wrench w = sea.load_on(1, Eigen::Vector3d::Zero());
+    Eigen::Vector3d push = Eigen::Vector3d::Zero(), twist = Eigen::Vector3d::Zero();
+    for (std::size_t slot = 0; slot < sea.store().slots(); ++slot) {
+      if (sea.store().id[slot] == no_particle || sea.store().owner[slot / cluster_size] != 0) continue;
+      const auto s = sums_at(sea.store(), slot);
+      const Eigen::Vector3d f = std::pow(p.mass(3), 2) * Eigen::Vector3d(s[0], s[1], s[2]);
+      push += f, twist += Eigen::Vector3d(sea.store().x[0][slot], sea.store().x[1][slot], sea.store().x[2][slot]).cross(f);
+    }
+    CHECK(w.force.norm() > 1.0);
+    CHECK((w.force + push).norm() < 1e-11 * w.force.norm());
+    CHECK((w.moment + twist).norm() < 1e-11 * w.force.norm());
+    return w.force;
+  };
+  const Eigen::Vector3d one = run(1);
+  CHECK(run(3) == one);
+  omp_set_num_threads(threads);
+}
+
+TEST_CASE("a solid without particles, or in two runs of them, is refused", "[sph][fast]") {
+  Parameters p;
+  p.spacing = 0.1;
+  auto seeds = disordered_block<2>(p.spacing, {8, 8}, {0, 0}, true);
+  std::vector<Seed<2>> twice = seeds;
+  twice.insert(twice.end(), seeds.begin(), seeds.end());
+  SeaSph<2> sea(p, Domain<2>{{-2, -2}, {3, 3}}, seeds), other(p, Domain<2>{{-2, -2}, {3, 3}}, twice);
+  CHECK_THROWS(sea.add_body(2, Motion{}));
+  CHECK_THROWS(other.add_body(1, Motion{}));
+}
+
+TEST_CASE("a particle that leaves the domain stops the run with its place named", "[sph][fast]") {
+  Parameters p;
+  p.spacing = 0.1, p.gravity = 0.0;
+  auto seeds = disordered_block<2>(p.spacing, {8, 8}, {0, 0}, false);
+  seeds[7].velocity = {20.0, -20.0};  // a corner of the block
+  {
+    SeaSph<2> sea(p, Domain<2>{{-1, -1}, {2, 2}}, seeds);
+    CHECK_THROWS_WITH(sea.advance(0.5), Catch::Contains("left the domain") && Catch::Contains(", 7, at ("));
+  }
+  p.lost_at_most = 64;
+  SeaSph<2> sea(p, Domain<2>{{-1, -1}, {2, 2}}, seeds);
+  sea.advance(0.1);
+  CHECK(sea.store().lost.size() >= 1);
+  std::size_t left = 0;
+  for (auto id : sea.store().id) left += id != no_particle;
+  CHECK(left + sea.store().lost.size() == seeds.size());
+}
+
+TEST_CASE("a state that is not a number stops the run", "[sph][fast]") {
+  Parameters p;
+  p.spacing = 0.1;
+  auto seeds = disordered_block<2>(p.spacing, {8, 8}, {0, 0}, false);
+  seeds[5].velocity[0] = std::numeric_limits<double>::quiet_NaN();
+  SeaSph<2> sea(p, Domain<2>{{-1, -1}, {2, 2}}, seeds);
+  CHECK_THROWS_WITH(sea.step(1.0), Catch::Contains("the step fell to"));
+}

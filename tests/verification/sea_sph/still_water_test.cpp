@@ -1,0 +1,55 @@
+// Water at rest in a tank of dynamic walls: pressure rho g depth, no drift, the bottom carries the weight. The pressure is high
+// by about g H / c0^2, since the lattice the water starts on takes no account of its compression: 0.9 % of rho g H at c0 = 10
+// sqrt(g H), 0.35 % at 20, whatever the spacing.
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+
+#include "tests/verification/sea_sph/tank.hpp"
+
+using namespace spindrift::sph;
+
+namespace {
+
+struct Rest {
+  double pressure_rms, mean_height, fastest;  ///< share of rho g H, [m], [m/s]
+};
+Rest rest_of(const SeaSph<2>& sea, const Tank& tank) {
+  Rest rest{};
+  int count = 0;
+  for_water_of(sea, [&](std::size_t slot) {
+    const double z = sea.store().x[1][slot], scale = tank.p.eos.rho0 * tank.p.gravity * tank.depth;
+    const double error =
+        (tank.p.eos.pressure(sea.store().deviation[slot]) - tank.p.eos.rho0 * tank.p.gravity * (tank.surface() - z)) / scale;
+    rest.pressure_rms += error * error, rest.mean_height += z, ++count;
+    rest.fastest = std::max(rest.fastest, std::hypot(sea.store().v[0][slot], sea.store().v[1][slot]));
+  });
+  rest.pressure_rms = std::sqrt(rest.pressure_rms / count), rest.mean_height /= count;
+  return rest;
+}
+
+void check_rest(const Tank& tank, double duration, long steps_at_least, double tolerance) {
+  std::vector<Seed<2>> seeds;
+  tank.add_water_to(seeds);
+  tank.add_walls_to(seeds, tank.columns, tank.rows + 6);
+  SeaSph<2> sea(tank.p, {{-1, -1}, {2, 2}}, seeds);
+  const double height = rest_of(sea, tank).mean_height;
+  while (sea.time() < duration || sea.work().steps < steps_at_least) sea.advance(0.5);
+  const Rest rest = rest_of(sea, tank);
+  CHECK(rest.pressure_rms < tolerance);
+  CHECK(std::abs(rest.mean_height - height) < 0.02 * tank.p.spacing);
+  CHECK(rest.fastest < 0.01 * std::sqrt(tank.p.gravity * tank.depth));
+  const double weight = tank.p.eos.rho0 * tank.p.gravity * tank.columns * tank.rows * tank.p.spacing * tank.p.spacing;
+  CHECK(-sea.load_on(1, {0, 0, 0}).force[2] == Approx(weight).epsilon(0.01));
+  CHECK(sea.store().lost.empty());
+}
+
+}  // namespace
+
+TEST_CASE("still water keeps its hydrostatic pressure within 1 % and does not creep", "[verification][sea][fast]") {
+  check_rest(Tank(0.05, 1.0, 0.5, 20.0), 1.5, 0, 0.01);
+}
+
+TEST_CASE("still water stays still over 1e5 steps", "[verification][sea][nightly]") {
+  check_rest(Tank(0.025, 1.0, 0.5, 20.0), 2.0, 100000, 0.01);
+  check_rest(Tank(0.025, 1.0, 0.5, 10.0), 4.0, 0, 0.015);
+}

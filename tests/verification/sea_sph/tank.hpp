@@ -1,0 +1,41 @@
+// A 2-D tank of water at rest, which the verification scenes start from.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "src/sea/sph/lattice.hpp"
+#include "src/sea/sph/sea_sph.hpp"
+
+namespace spindrift::sph {
+
+/// Water of depth H has its surface half a spacing above its top row and its bottom half a spacing under its lowest one.
+struct Tank {
+  Parameters p;
+  double depth;
+  int columns, rows;
+  static constexpr int wall_layers = 3;
+
+  Tank(double spacing, double length, double water_depth, double c0_over_wave_speed = 10.0)
+      : depth(water_depth), columns(int(std::lround(length / spacing))), rows(int(std::lround(water_depth / spacing))) {
+    p.spacing = spacing, p.h_over_d = 1.5, p.diffusion = DiffusionChoice::fourtakas;
+    p.eos = {1000.0, c0_over_wave_speed * std::sqrt(p.gravity * water_depth)};
+  }
+  double surface() const { return (rows - 0.5) * p.spacing; }
+  double bottom() const { return -0.5 * p.spacing; }
+
+  void add_water_to(std::vector<Seed<2>>& seeds) const {
+    add_water<2>(seeds, {0, 0}, p.spacing, {0, 0}, {columns, rows}, p.eos, p.gravity, surface());
+  }
+  void add_walls_to(std::vector<Seed<2>>& seeds, int length, int height) const {
+    add_tank<2>(seeds, {0, 0}, p.spacing, {0, 0}, {length, height}, wall_layers, p.eos, p.gravity, surface());
+  }
+};
+
+template <class Sea, class Visit>
+void for_water_of(const Sea& sea, Visit&& visit) {
+  for (std::size_t slot = 0; slot < sea.store().slots(); ++slot)
+    if (sea.store().id[slot] != no_particle && sea.store().owner[slot / cluster_size] == 0) visit(slot);
+}
+
+}  // namespace spindrift::sph
