@@ -14,10 +14,10 @@ namespace spindrift {
 
 /// A body as constraints see it. Lengths in any one unit (the bodies' system uses its own reference length).
 struct Pose {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();            ///< body axes to earth axes
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< centre of mass, earth
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< earth
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();                ///< angular velocity, EARTH axes
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< body axes to earth axes
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< centre of mass, earth
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< earth
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();      ///< angular velocity, EARTH axes
 };
 
 /// One constraint between bodies i and j. `earth` is the fixed frame.
@@ -31,11 +31,11 @@ struct Constraint {
   };
   Kind kind = Kind::point;
   int i = earth, j = earth;
-  Eigen::Vector3d point_i = Eigen::Vector3d::Zero(), point_j = Eigen::Vector3d::Zero();          ///< body axes, from the centre of mass
+  Eigen::Vector3d point_i = Eigen::Vector3d::Zero(), point_j = Eigen::Vector3d::Zero();  ///< body axes, from the centre of mass
   Eigen::Vector3d direction_i = Eigen::Vector3d::UnitX(), direction_j = Eigen::Vector3d::UnitX();  ///< body axes, unit
-  Eigen::Vector3d axis_i = Eigen::Vector3d::UnitX();             ///< axis of a driven angle, body axes, perpendicular to direction_i
-  int driver = -1;                                               ///< index of its prescribed motion, -1 for none
-  int joint = -1;                                                ///< whose it is, for messages
+  Eigen::Vector3d axis_i = Eigen::Vector3d::UnitX();  ///< axis of a driven angle, body axes, perpendicular to direction_i
+  int driver = -1;                                    ///< index of its prescribed motion, -1 for none
+  int joint = -1;                                     ///< whose it is, for messages
 
   int rows() const { return kind == Kind::point ? 3 : 1; }
 };
@@ -47,7 +47,8 @@ struct ConstraintRows {
 
 namespace detail {
 
-/// Direction on body i that a driven angle makes perpendicular to direction j: direction_i turned by the prescribed angle + 90 deg.
+/// Direction on body i that a driven angle makes perpendicular to direction j: direction_i turned by the prescribed angle + 90
+/// deg.
 inline Eigen::Vector3d driven_direction(const Constraint& c, const Drive& drive) {
   return std::cos(drive.value) * c.axis_i.cross(c.direction_i) - std::sin(drive.value) * c.direction_i;
 }

@@ -1,8 +1,8 @@
 // One step of the integrators a scene may choose, for x' = X(x, u), u' = A(t, x, u) with X(0, u) = u: coordinates that start each
 // step at zero (the charts of the bodies' step). Pure: the result depends on the arguments alone.
-// rk4: classical Runge-Kutta. explicit_euler: forward Euler (both: Leble & Barakos 2016, section 2.2). symplectic: the kick-drift-kick
-// (velocity Verlet, leapfrog) form, Leimkuhler, Reich & Skeel (1996); forces that depend on velocity see the predicted
-// u + h u' at the second kick, which keeps second order for them (with the half-step velocity it would be first order).
+// rk4: classical Runge-Kutta. explicit_euler: forward Euler (both: Leble & Barakos 2016, section 2.2). symplectic: the
+// kick-drift-kick (velocity Verlet, leapfrog) form, Leimkuhler, Reich & Skeel (1996); forces that depend on velocity see the
+// predicted u + h u' at the second kick, which keeps second order for them (with the half-step velocity it would be first order).
 // Used by src/bodies/system.cpp; orders and stability limits tested in tests/kernels/rigid and tests/src/bodies.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -77,9 +77,12 @@ bool step_symplectic(Rates&& rates, double t, double h, Eigen::VectorXd& u, Inte
 template <class Rates>
 bool step(Integrator integrator, Rates&& rates, double t, double h, Eigen::VectorXd& u, IntegratorWork& w) {
   switch (integrator) {
-    case Integrator::explicit_euler: return step_explicit_euler(rates, t, h, u, w);
-    case Integrator::symplectic: return step_symplectic(rates, t, h, u, w);
-    case Integrator::rk4: break;
+    case Integrator::explicit_euler:
+      return step_explicit_euler(rates, t, h, u, w);
+    case Integrator::symplectic:
+      return step_symplectic(rates, t, h, u, w);
+    case Integrator::rk4:
+      break;
   }
   return step_rk4(rates, t, h, u, w);
 }

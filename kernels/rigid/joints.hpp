@@ -1,7 +1,6 @@
 // Joints as lists of primitive constraints, and the angle a joint has turned.
-// Rows: spherical 3, universal 4, cylindrical 4, revolute 5, translational 5, fixed 6; a driver adds one (Nikravesh 1988, chapter 7).
-// Used by src/bodies/system.cpp; tested in tests/kernels/rigid/joints_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Rows: spherical 3, universal 4, cylindrical 4, revolute 5, translational 5, fixed 6; a driver adds one (Nikravesh 1988, chapter
+// 7). Used by src/bodies/system.cpp; tested in tests/kernels/rigid/joints_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +17,7 @@ namespace spindrift {
 
 enum class JointType { fixed, revolute, spherical, universal, translational, cylindrical };
 inline constexpr std::array<std::string_view, 6> joint_type_names{"fixed",     "revolute",      "spherical",
-                                                                   "universal", "translational", "cylindrical"};
+                                                                  "universal", "translational", "cylindrical"};
 inline constexpr std::optional<JointType> joint_type_named(std::string_view name) {
   for (std::size_t i = 0; i < joint_type_names.size(); ++i)
     if (joint_type_names[i] == name) return JointType(i);
@@ -41,7 +40,8 @@ inline Eigen::Vector3d perpendicular_to(const Eigen::Vector3d& axis) {
 }
 
 /// The frame on a body in the given pose of a joint at `point` with `axis` and `second` (perpendicular unit vectors), earth axes.
-inline JointFrame joint_frame(const Pose& pose, const Eigen::Vector3d& point, const Eigen::Vector3d& axis, const Eigen::Vector3d& second) {
+inline JointFrame joint_frame(const Pose& pose, const Eigen::Vector3d& point, const Eigen::Vector3d& axis,
+                              const Eigen::Vector3d& second) {
   const Eigen::Matrix3d to_body = pose.axes.transpose();
   return {to_body * (point - pose.position), to_body * axis, to_body * second, to_body * axis.cross(second)};
 }

@@ -54,7 +54,7 @@ class CubicTable {
 struct PrescribedMotion {
   double start = 0.0, rate = 0.0;
   double amplitude = 0.0, omega = 0.0, phase = 0.0;
-  CubicTable table;
+  CubicTable table{};
 
   Drive at(double t) const {
     const double angle = omega * t + phase;

@@ -29,8 +29,8 @@ inline double amplification(Integrator integrator, std::complex<double> z) {
 }
 
 /// Largest step [s] that keeps the mode lambda [1/s] from growing; 0 where no step does, infinity where every step does.
-/// A real eigenvalue under `symplectic` is taken as one of a critically damped pair, its worst partner: the limit is then at most a
-/// factor of two on the safe side.
+/// A real eigenvalue under `symplectic` is taken as one of a critically damped pair, its worst partner: the limit is then at most
+/// a factor of two on the safe side.
 inline double stability_limit(Integrator integrator, std::complex<double> lambda) {
   const double size = std::abs(lambda);
   if (size == 0.0) return std::numeric_limits<double>::infinity();
@@ -39,7 +39,8 @@ inline double stability_limit(Integrator integrator, std::complex<double> lambda
   if (!(-lambda.real() > undamped_ratio * size)) lambda = {0.0, size};
   const std::complex<double> direction = lambda / size;
   if (integrator == Integrator::explicit_euler) return lambda.real() < 0.0 ? -2.0 * direction.real() / size : 0.0;
-  constexpr double grows = 1.0 + 1e-9, scan = 1e-3;  // no crossing before |z| = scan: both schemes contain a disc-like region there
+  constexpr double grows = 1.0 + 1e-9,
+                   scan = 1e-3;  // no crossing before |z| = scan: both schemes contain a disc-like region there
   double low = scan;
   while (amplification(integrator, (low + scan) * direction) <= grows) low += scan;
   double high = low + scan;

@@ -35,7 +35,8 @@ std::string direction_name(const System& system, const BodiesState& state, const
     const Body& body = system.bodies()[b];
     const Eigen::Quaterniond& q = state.motions[b].attitude;
     const Eigen::Matrix3d axes = q.toRotationMatrix(), inertia = axes * body.inertia * axes.transpose();
-    const Eigen::Vector3d linear = velocity.segment<3>(Eigen::Index(6 * b)), spin = axes * velocity.segment<3>(Eigen::Index(6 * b + 3));
+    const Eigen::Vector3d linear = velocity.segment<3>(Eigen::Index(6 * b)),
+                          spin = axes * velocity.segment<3>(Eigen::Index(6 * b + 3));
     for (int k = 0; k < 6; ++k) {
       const double energy = k < 3 ? body.mass * linear[k] * linear[k] : inertia(k - 3, k - 3) * spin[k - 3] * spin[k - 3];
       if (energy > most * (1.0 + 1e-9)) {

@@ -12,12 +12,12 @@ namespace spindrift::bodies {
 
 namespace {
 
-constexpr double newton_goal = 1e-15;        // residual over L (and over 1 + distance from the origin) at which Newton stops at once
-constexpr double newton_tolerance = 1e-13;   // residual it must reach
+constexpr double newton_goal = 1e-15;  // residual over L (and over 1 + distance from the origin) at which Newton stops at once
+constexpr double newton_tolerance = 1e-13;  // residual it must reach
 constexpr int newton_limit = 30;
-constexpr double slow_contraction = 0.1;     // a factor that contracts less than this is computed anew
-constexpr double degraded_tangent = 6.0;     // dependent per independent velocity beyond which the partition is chosen anew
-constexpr double lost_tangent = 1e8;         // beyond which it cannot be used
+constexpr double slow_contraction = 0.1;  // a factor that contracts less than this is computed anew
+constexpr double degraded_tangent = 6.0;  // dependent per independent velocity beyond which the partition is chosen anew
+constexpr double lost_tangent = 1e8;      // beyond which it cannot be used
 
 Pose scaled_pose(const Motion& m, double length) {
   return {m.attitude.toRotationMatrix(), m.position / length, m.velocity / length, m.attitude * m.omega};
@@ -52,9 +52,12 @@ Mechanism::Mechanism(std::span<const Body> bodies, std::span<const Joint> joints
     };
     const int rotation = driver(joint.rotation, 1.0), translation = driver(joint.translation, 1.0 / length_);
     const Eigen::Vector3d axis = joint.axis.normalized(), point = joint.point / length_;
+    const Eigen::Vector3d given =
+        joint.second_axis - joint.second_axis.dot(axis) * axis;  // the arms of a cross are perpendicular
     const Eigen::Vector3d second =
-        joint.type == JointType::universal ? Eigen::Vector3d(joint.second_axis.normalized()) : perpendicular_to(axis);
-    const JointFrame on_i = joint_frame(pose(joint.i), point, axis, second), on_j = joint_frame(pose(joint.j), point, axis, second);
+        joint.type == JointType::universal ? Eigen::Vector3d(given.normalized()) : perpendicular_to(axis);
+    const JointFrame on_i = joint_frame(pose(joint.i), point, axis, second),
+                     on_j = joint_frame(pose(joint.j), point, axis, second);
     append_joint(joint.type, joint.i, joint.j, on_i, on_j, rotation, translation, int(k), constraints_);
     if (turns(joint.type)) turning_.push_back({int(k), joint.i, joint.j, on_i, on_j});
   }
@@ -160,8 +163,7 @@ void Mechanism::solve_tangent() {
   factorise();
   const Eigen::Index free = freedoms();
   for (std::size_t r = 0; r < active_.size(); ++r)
-    for (Eigen::Index c = 0; c < free; ++c)
-      right_(Eigen::Index(r), c) = -jacobian_(active_[r], independent_[std::size_t(c)]);
+    for (Eigen::Index c = 0; c < free; ++c) right_(Eigen::Index(r), c) = -jacobian_(active_[r], independent_[std::size_t(c)]);
   int row = 0;
   for (const Constraint& c : constraints_) {
     const Eigen::Vector3d nu = velocity_side(c, pose(c.i), pose(c.j), drive(c));
@@ -234,8 +236,8 @@ StepReport Mechanism::solve_positions(double t, const Eigen::VectorXd& x) {
   StepReport report;
   set_drives(t);
   for (int c = 0; c < freedoms(); ++c) x_[independent_[std::size_t(c)]] = x[c];
-  // Taylor series of the dependent coordinates about the centre: exact to second order along the motion, so that Newton stays on the
-  // branch the mechanism is on, also where branches are near (past a singular position).
+  // Taylor series of the dependent coordinates about the centre: exact to second order along the motion, so that Newton stays on
+  // the branch the mechanism is on, also where branches are near (past a singular position).
   const double elapsed = t - t_open_;
   solved_.noalias() = open_tangent_ * x;
   for (std::size_t r = 0; r < dependent_.size(); ++r) {

@@ -1,10 +1,9 @@
-// The kinematics of bodies under joints: constraints of the whole system, the chart of configurations near a state, position solution
-// by Newton-Raphson, velocities, and the velocity-dependent part of the accelerations. Knows no mass and no load.
-// Chart: body b sits at r = r0 + L x_b[0..2], q = q0 exp(x_b[3..5]); the independent components of x are the coordinates, the others
-// follow from the constraints (coordinate partitioning). All lengths inside are in units of L, a power of two near the largest joint
-// arm, so that rows and columns of the Jacobian compare; scaling by it is exact.
-// Used by system.cpp alone; tested through tests/src/bodies. Theory: docs/theory/bodies.md, "Positions" and "Velocities".
-// SPDX-License-Identifier: Apache-2.0
+// The kinematics of bodies under joints: constraints of the whole system, the chart of configurations near a state, position
+// solution by Newton-Raphson, velocities, and the velocity-dependent part of the accelerations. Knows no mass and no load. Chart:
+// body b sits at r = r0 + L x_b[0..2], q = q0 exp(x_b[3..5]); the independent components of x are the coordinates, the others
+// follow from the constraints (coordinate partitioning). All lengths inside are in units of L, a power of two near the largest
+// joint arm, so that rows and columns of the Jacobian compare; scaling by it is exact. Used by system.cpp alone; tested through
+// tests/src/bodies. Theory: docs/theory/bodies.md, "Positions" and "Velocities". SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -54,7 +53,8 @@ class Mechanism {
   double residual(int* joint = nullptr);
   /// Largest |C u - nu| of all rows at the velocities last solved.
   double velocity_residual(int* joint = nullptr);
-  /// Generalised constraint forces on all coordinates of each joint's body j, from the out-of-balance of the dependent coordinates.
+  /// Generalised constraint forces on all coordinates of each joint's body j, from the out-of-balance of the dependent
+  /// coordinates.
   void reactions(const Eigen::VectorXd& out_of_balance, std::vector<Wrench>& on_j);
   /// Names of the joints whose rows combine into the redundant row r, r's own first.
   std::vector<int> joints_behind(int row) const;
@@ -96,7 +96,7 @@ class Mechanism {
   double t_open_ = 0.0;
   std::vector<Motion> origin_;
   std::vector<int> independent_, dependent_, active_;
-  Eigen::MatrixXd open_tangent_;      // dependent rows at the centre
+  Eigen::MatrixXd open_tangent_;  // dependent rows at the centre
   Eigen::VectorXd open_drift_, open_bias_;
 
   // positions, velocities, factors last solved

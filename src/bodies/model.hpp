@@ -1,6 +1,5 @@
-// What the bodies module is given: bodies, joints with their drivers, and sources of load. Plain values; the scene's options become
-// these in options.cpp, tests write them down directly.
-// Used by system.hpp and by whoever composes loads (src/coupling).
+// What the bodies module is given: bodies, joints with their drivers, and sources of load. Plain values; the scene's options
+// become these in options.cpp, tests write them down directly. Used by system.hpp and by whoever composes loads (src/coupling).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,10 +22,10 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// A rigid body. Inertia about the centre of mass in body axes; body axes are earth axes when initial.attitude is the identity.
 struct Body {
   std::string name;
-  double mass = 1.0;                                         ///< [kg]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();     ///< [kg m2]
-  /// False leaves out the gyroscopic moment: omega x (I omega) and, where the body spins on a revolute or cylindrical joint, the
-  /// part of its angular acceleration that is spin times the turning of its support. See docs/theory/bodies.md.
+  double mass = 1.0;                                      ///< [kg]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();  ///< [kg m2]
+  /// False leaves out the gyroscopic moment: omega x (I omega) and, where the body spins on a revolute or cylindrical joint with
+  /// a heavier body, the part of its angular acceleration that is spin times the turning of that support (docs/theory/bodies.md).
   bool gyroscopic = true;
   Motion initial;
 };
@@ -37,16 +36,17 @@ struct Joint {
   std::string name;
   JointType type = JointType::revolute;
   int i = earth, j = earth;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();           ///< [m]
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
-  Eigen::Vector3d second_axis = Eigen::Vector3d::Zero();     ///< universal: axis of the cross on body j; zero elsewhere
-  std::optional<PrescribedMotion> rotation, translation;     ///< drivers [rad], [m]
+  Eigen::Vector3d second_axis = Eigen::Vector3d::Zero();  ///< universal: axis of the cross on body j, made perpendicular to axis
+  std::optional<PrescribedMotion> rotation, translation;  ///< drivers [rad], [m]
 };
 
 /// Loads on the bodies from one cause, kept apart in the output. `loads` ADDS to wrenches about each body's centre of mass (their
 /// points are set); called in every right-hand-side evaluation, so it must not allocate. `added_mass`, where not empty, adds each
 /// body's 6x6 matrix about its centre of mass, rows and columns [force; moment], earth axes: it goes on the left-hand side, so
-/// `loads` must not contain -A a. What is neglected then: terms quadratic in the body's velocity from the change of A with attitude.
+/// `loads` must not contain -A a. What is neglected then: terms quadratic in the body's velocity from the change of A with
+/// attitude.
 struct LoadSource {
   std::string name;
   std::function<void(double t, std::span<const Motion>, std::span<Wrench>)> loads;

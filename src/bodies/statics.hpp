@@ -1,9 +1,8 @@
 // Static equilibrium of the loaded system: every body at rest, drivers held at their value of the given time.
-// Newton on the independent coordinates with a stiffness by central differences, in mass-weighted coordinates: singular directions
-// (no stiffness, no load: yaw without moorings) are found by rank and left where they are; where the stiffness is not positive the
-// step is regularised and follows the force instead. Theory: docs/theory/bodies.md, "Statics".
-// Used by src/coupling for [start] equilibrium; tested in tests/src/bodies/statics_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Newton on the independent coordinates with a stiffness by central differences, in mass-weighted coordinates: singular
+// directions (no stiffness, no load: yaw without moorings) are found by rank and left where they are; where the stiffness is not
+// positive the step is regularised and follows the force instead. Theory: docs/theory/bodies.md, "Statics". Used by src/coupling
+// for [start] equilibrium; tested in tests/src/bodies/statics_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -22,7 +21,7 @@ struct EquilibriumOptions {
 };
 
 struct Equilibrium {
-  BodiesState state;                         ///< at rest apart from drivers; the last iterate where there is a problem
+  BodiesState state;  ///< at rest apart from drivers; the last iterate where there is a problem
   int iterations = 0;
   double residual = 0.0;                     ///< unbalanced load over all loads
   std::vector<std::string> free_directions;  ///< "yaw of platform": neither stiffness nor load; left as they were

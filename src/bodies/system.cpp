@@ -14,16 +14,19 @@ namespace {
 
 constexpr double consistency_tolerance = 1e-9;  // residual over L (or velocity) that a redundant row may show
 
-/// Support of each body: the other body of the first revolute or cylindrical joint it has (itself when it has none).
+/// Support of each body: what carries it in its first revolute or cylindrical joint with the earth or a heavier body; the body
+/// itself where it has none.
 std::vector<int> supports(std::span<const Body> bodies, std::span<const Joint> joints) {
   std::vector<int> support(bodies.size());
   for (int b = 0; b < int(bodies.size()); ++b) {
     support[std::size_t(b)] = b;
-    for (const Joint& joint : joints)
-      if (turns(joint.type) && (joint.i == b || joint.j == b)) {
-        support[std::size_t(b)] = joint.i == b ? joint.j : joint.i;
-        break;
-      }
+    for (const Joint& joint : joints) {
+      if (!turns(joint.type) || (joint.i != b && joint.j != b)) continue;
+      const int other = joint.i == b ? joint.j : joint.i;
+      if (other != earth && bodies[std::size_t(other)].mass <= bodies[std::size_t(b)].mass) continue;
+      support[std::size_t(b)] = other;
+      break;
+    }
   }
   return support;
 }
@@ -38,11 +41,19 @@ std::string number(double value) {
 
 struct System::Work {
   Work(std::vector<Body> b, std::vector<Joint> j, std::vector<LoadSource> l, Integrator i)
-      : bodies(std::move(b)), joints(std::move(j)), loads(std::move(l)), integrator(i), mechanism(bodies, joints),
-        support(supports(bodies, joints)), motions(bodies.size()), wrenches(bodies.size()), added(bodies.size()),
+      : bodies(std::move(b)),
+        joints(std::move(j)),
+        loads(std::move(l)),
+        integrator(i),
+        mechanism(bodies, joints),
+        support(supports(bodies, joints)),
+        motions(bodies.size()),
+        wrenches(bodies.size()),
+        added(bodies.size()),
         mass(bodies.size()) {
     force.setZero(mechanism.coordinates());
     inertial.setZero(mechanism.coordinates());
+    mass_tangent.resize(mechanism.coordinates(), 0);
     for (const LoadSource& source : loads) has_added_mass |= bool(source.added_mass);
     evaluation.acceleration.resize(bodies.size());
     evaluation.angular_acceleration.resize(bodies.size());
@@ -72,8 +83,8 @@ struct System::Work {
   StepReport report;
   std::vector<Motion> motions;
   std::vector<Wrench> wrenches;
-  std::vector<Matrix6> added;   // earth axes, SI
-  std::vector<Matrix6> mass;    // chart units: [m L2, I] + added mass turned into (earth translation, body rotation)
+  std::vector<Matrix6> added;  // earth axes, SI
+  std::vector<Matrix6> mass;   // chart units: [m L2, I] + added mass turned into (earth translation, body rotation)
   Eigen::VectorXd force, inertial;
   Eigen::MatrixXd mass_tangent, condensed;
   Eigen::VectorXd condensed_force, acceleration, x, u;
@@ -99,7 +110,7 @@ void System::Work::size_for_freedoms() {
 
 StepReport System::Work::open(BodiesState& state, double t, bool choose) {
   report = mechanism.open(state, t, choose);
-  if (mass_tangent.cols() != mechanism.freedoms() || condensed.cols() != mechanism.freedoms()) size_for_freedoms();
+  if (mass_tangent.cols() != mechanism.freedoms()) size_for_freedoms();
   return report;
 }
 
@@ -375,7 +386,8 @@ std::string System::describe(const StepReport& r) const {
   const std::string joint = r.joint >= 0 ? "joint '" + w_->joints[std::size_t(r.joint)].name + "'" : "the bodies";
   const std::string body = r.body >= 0 ? "body '" + w_->bodies[std::size_t(r.body)].name + "'" : "the bodies";
   switch (r.trouble) {
-    case Trouble::none: return "no trouble";
+    case Trouble::none:
+      return "no trouble";
     case Trouble::newton:
       return joint + ": the position equations did not converge (residual " + number(r.value) +
              " of the reference length); try a smaller step";
@@ -383,10 +395,12 @@ std::string System::describe(const StepReport& r) const {
       return joint + ": the mechanism is in a singular position (pivot ratio " + number(r.value) +
              "), where its motion is not determined; a different step or initial position avoids it";
     case Trouble::inconsistent:
-      return joint + ": a condition that followed from the other joints at the start no longer does (residual " + number(r.value) +
-             " of the reference length); the start was a singular position or the joints contradict each other";
-    case Trouble::not_finite: return body + ": a load or motion is not a finite number; the step is probably beyond its stability limit";
-    case Trouble::mass: return "mass plus added mass is not positive definite";
+      return joint + ": a condition that followed from the other joints at the start no longer does (residual " +
+             number(r.value) + " of the reference length); the start was a singular position or the joints contradict each other";
+    case Trouble::not_finite:
+      return body + ": a load or motion is not a finite number; the step is probably beyond its stability limit";
+    case Trouble::mass:
+      return "mass plus added mass is not positive definite";
   }
   return "";
 }
@@ -396,8 +410,8 @@ NumericalFailure System::failure(const StepReport& r, const BodiesState& state, 
   const std::string place = r.joint >= 0  ? w_->joints[std::size_t(r.joint)].name
                             : r.body >= 0 ? w_->bodies[std::size_t(r.body)].name
                                           : "bodies";
-  return NumericalFailure("t = " + number(t) + " s, tick " + std::to_string(state.tick) + ": " + describe(r), place, long(state.tick), t,
-                          r.value);
+  return NumericalFailure("t = " + number(t) + " s, tick " + std::to_string(state.tick) + ": " + describe(r), place,
+                          long(state.tick), t, r.value);
 }
 
 StepReport System::open_chart(const BodiesState& state, double t_s) {
@@ -408,14 +422,16 @@ int System::freedoms() const { return w_->mechanism.freedoms(); }
 const Eigen::VectorXd& System::chart_velocity() const { return w_->mechanism.open_velocity(); }
 const StepReport& System::chart_report() const { return w_->report; }
 
-bool System::rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate, Eigen::VectorXd& u_rate) {
+bool System::rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
+                   Eigen::VectorXd& u_rate) {
   if (!w_->accelerations(t_s, x, u)) return false;
   w_->mechanism.chart_rate(x_rate);
   u_rate = w_->acceleration;
   return true;
 }
 
-bool System::forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass, double* all_loads) {
+bool System::forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass,
+                            double* all_loads) {
   if (!w_->positions(t_s, x)) return false;
   w_->mechanism.solve_velocities(Eigen::VectorXd::Zero(freedoms()), true);
   w_->mechanism.motions(w_->motions);
@@ -429,7 +445,8 @@ bool System::forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorX
     *all_loads = 0.0;
     std::vector<Wrench> one(w_->bodies.size());
     for (const LoadSource& source : w_->loads) {
-      for (std::size_t b = 0; b < one.size(); ++b) one[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), w_->motions[b].position};
+      for (std::size_t b = 0; b < one.size(); ++b)
+        one[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), w_->motions[b].position};
       if (source.loads) source.loads(t_s, w_->motions, one);
       for (std::size_t b = 0; b < one.size(); ++b) *all_loads += one[b].force.norm() / std::sqrt(w_->bodies[b].mass);
     }

@@ -1,6 +1,7 @@
 // A system of rigid bodies under constraints and loads, advanced in time: coordinate partitioning (Nikravesh 1988; Wehage & Haug
-// 1982) with Newton-Raphson position solution, analytic Jacobian, added mass on the left-hand side. Theory: docs/theory/bodies.md.
-// Composed by src/coupling; statics.hpp and linearise.hpp work on its chart; tested in tests/src/bodies and tests/verification.
+// 1982) with Newton-Raphson position solution, analytic Jacobian, added mass on the left-hand side. Theory:
+// docs/theory/bodies.md. Composed by src/coupling; statics.hpp and linearise.hpp work on its chart; tested in tests/src/bodies
+// and tests/verification.
 //
 //   System system(bodies, joints, {gravity_source(bodies, 9.81), sea, moorings}, Integrator::rk4);
 //   Assembly start = system.assemble();            // start.contradiction, start.redundant: report to the user
@@ -61,7 +62,8 @@ struct Evaluation {
 
 class System {
  public:
-  System(std::vector<Body> bodies, std::vector<Joint> joints, std::vector<LoadSource> loads, Integrator integrator = Integrator::rk4);
+  System(std::vector<Body> bodies, std::vector<Joint> joints, std::vector<LoadSource> loads,
+         Integrator integrator = Integrator::rk4);
   ~System();
   System(System&&) noexcept;
 
@@ -91,8 +93,8 @@ class System {
   std::string describe(const StepReport& report) const;
   NumericalFailure failure(const StepReport& report, const BodiesState& state, double tick_s) const;
 
-  // The chart: coordinates of the configurations near a state, x in R^n with x = 0 at the state, one for each independent velocity u.
-  // Translations in units of reference_length(). For statics and linearisation.
+  // The chart: coordinates of the configurations near a state, x in R^n with x = 0 at the state, one for each independent
+  // velocity u. Translations in units of reference_length(). For statics and linearisation.
   StepReport open_chart(const BodiesState& state, double t_s);
   int freedoms() const;
   const Eigen::VectorXd& chart_velocity() const;  ///< u of the state
@@ -100,10 +102,12 @@ class System {
   bool rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate, Eigen::VectorXd& u_rate);
   /// Generalised forces at x with everything at rest, and the mass matrix (added mass included), both in chart coordinates.
   /// all_loads: sum over sources and bodies of |force| / sqrt(mass), to measure a balance against [sqrt(kg) m/s2 over L].
-  bool forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass, double* all_loads = nullptr);
+  bool forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass,
+                      double* all_loads = nullptr);
   /// The state at chart point (x, u); false when the position equations fail (then chart_report()).
   bool close_chart(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, BodiesState& state);
-  /// Velocities of all bodies per unit of each independent one: 6 rows per body (earth velocity [m/s]; body-axes spin), n columns.
+  /// Velocities of all bodies per unit of each independent one: 6 rows per body (earth velocity [m/s]; body-axes spin), n
+  /// columns.
   Eigen::MatrixXd motion_of_freedoms() const;
   const StepReport& chart_report() const;
 

@@ -3,8 +3,8 @@
 // Univ. Bari, problem "andrews"; Schiehlen 1990; Hairer & Wanner 1996, chapter VII.7). N four-bar windows: IFToMM library of
 // computational benchmark problems, A02 (after Bayo & Avello 1994), checked against its one degree of freedom.
 // SPDX-License-Identifier: Apache-2.0
-#include <catch2/catch.hpp>
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/src/bodies/examples.hpp"
@@ -23,16 +23,18 @@ Body link(std::string name, double mass, double inertia, const Vector3d& centre,
   return b;
 }
 
-Joint pin(std::string name, int i, int j, const Vector3d& at) { return joint(std::move(name), JointType::revolute, i, j, at, {0, 0, 1}); }
+Joint pin(std::string name, int i, int j, const Vector3d& at) {
+  return joint(std::move(name), JointType::revolute, i, j, at, {0, 0, 1});
+}
 
 struct Andrews {
   static constexpr double beta = -0.0617138900142764496358948458001, theta = 0.0, gamma = 0.455279819163070380255912382449,
                           phi = 0.222668390165885884674473185609, delta = 0.487364979543842550225598953530, omega = -phi,
                           epsilon = 1.23054744454982119249735015568;
   static constexpr std::array<double, 7> start{beta, theta, gamma, phi, delta, omega, epsilon};
-  static constexpr std::array<double, 7> end{15.81077119629904,   -15.75637105984298,  0.04082224013073101, -0.5347301163226948,
-                                             0.5244099658805304,  0.5347301163226948,  1.048080741042263};
-  static constexpr std::array<double, 7> end_rate{1139.920302151208, -1424.379294994111, 11.03291221937134, 19.29337464421385,
+  static constexpr std::array<double, 7> end{15.81077119629904,  -15.75637105984298, 0.04082224013073101, -0.5347301163226948,
+                                             0.5244099658805304, 0.5347301163226948, 1.048080741042263};
+  static constexpr std::array<double, 7> end_rate{1139.920302151208,  -1424.379294994111, 11.03291221937134, 19.29337464421385,
                                                   0.5735699284790808, -19.29337464421385, 0.3231791658026955};
 
   static System system() {
@@ -40,7 +42,8 @@ struct Andrews {
     const double d = .028, da = .0115, e = .02, ea = .01421, rr = .007, ra = .00092, sa = .01874, sb = .01043, sc = .018,
                  sd = .02, ta = .02308, tb = .00916, u = .04, ua = .01228, ub = .00449, zf = .02, zt = .04, fa = .01421;
     const double down = -0.5 * pi;  // (sin x, -cos x) is the direction x - 90 deg
-    const Vector3d f = along(rr, beta), ee = f - along(d, beta + theta), h = a + along(zt, delta), g = a + along(u, epsilon + down);
+    const Vector3d f = along(rr, beta), ee = f - along(d, beta + theta), h = a + along(zt, delta),
+                   g = a + along(u, epsilon + down);
     const Vector3d spring_on_k3 = b + along(sd, gamma) + along(sc, gamma + down);
     std::vector<Body> k{link("K1", .04325, 2.194e-6, along(ra, beta), beta),
                         link("K2", .00365, 4.410e-7, f - along(da, beta + theta), beta + theta),
@@ -56,11 +59,12 @@ struct Andrews {
                         w[2].add_force(-4530.0 * (pull.norm() - .07785) / pull.norm() * pull, at);
                       },
                       {}};
-    return System(k,
-                  {// the first seven turn by beta, theta, gamma, phi, delta, omega, epsilon
-                   pin("O", earth, 0, o), pin("F", 0, 1, f), pin("B", earth, 2, b), pin("H", 4, 3, h), pin("A5", earth, 4, a),
-                   pin("G", 6, 5, g), pin("A7", earth, 6, a), pin("E2-3", 1, 2, ee), pin("E3-4", 2, 3, ee), pin("E4-6", 3, 5, ee)},
-                  {spring, point_load_source("motor", {{.body = 0, .moment = {0, 0, .033}}})});
+    return System(
+        k,
+        {// the first seven turn by beta, theta, gamma, phi, delta, omega, epsilon
+         pin("O", earth, 0, o), pin("F", 0, 1, f), pin("B", earth, 2, b), pin("H", 4, 3, h), pin("A5", earth, 4, a),
+         pin("G", 6, 5, g), pin("A7", earth, 6, a), pin("E2-3", 1, 2, ee), pin("E3-4", 2, 3, ee), pin("E4-6", 3, 5, ee)},
+        {spring, point_load_source("motor", {{.body = 0, .moment = {0, 0, .033}}})});
   }
 };
 
@@ -94,7 +98,8 @@ double four_bar_angle(int n, double end) {
   const long steps = std::lround(end / 1e-5);
   const double h = end / double(steps);
   for (long k = 0; k < steps; ++k) {
-    const double a1 = rate(x), a2 = rate(x + h / 2 * v), a3 = rate(x + h / 2 * v + h * h / 4 * a1), a4 = rate(x + h * v + h * h / 2 * a2);
+    const double a1 = rate(x), a2 = rate(x + h / 2 * v), a3 = rate(x + h / 2 * v + h * h / 4 * a1),
+                 a4 = rate(x + h * v + h * h / 2 * a2);
     x += h * v + h * h / 6 * (a1 + a2 + a3);
     v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
   }

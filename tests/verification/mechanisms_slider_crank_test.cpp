@@ -1,10 +1,10 @@
-// Slider-crank mechanisms. 2-D: compressor of Haug (1989), as in Leble & Barakos (2016), section 2.3, eq. 1 and Table 2; reference
-// series in data/slider_crank_haug.csv (one degree of freedom, DOP853 at 1e-13, split at the dead centres).
-// 3-D: crank, ball joint, rod, universal joint, slider, after the spatial slider-crank of Haug (1989), section 12.4, with inertias of our
+// Slider-crank mechanisms. 2-D: compressor of Haug (1989), as in Leble & Barakos (2016), section 2.3, eq. 1 and Table 2;
+// reference series in data/slider_crank_haug.csv (one degree of freedom, DOP853 at 1e-13, split at the dead centres). 3-D: crank,
+// ball joint, rod, universal joint, slider, after the spatial slider-crank of Haug (1989), section 12.4, with inertias of our
 // choice, against the quadrature of its one degree of freedom.
 // SPDX-License-Identifier: Apache-2.0
-#include <catch2/catch.hpp>
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
 #include <fstream>
@@ -72,9 +72,11 @@ TEST_CASE("the slider-crank compressor follows the reference to 1e-6 with a conv
   CHECK(assembly.degrees_of_freedom == 1);
   BodiesState state = assembly.state;
   CHECK(state.motions[crank].omega.z() == 30.0);  // at the dead centre the crank is the independent coordinate
-  // The force switches (dead centres, valve) fall inside steps, so RK4 converges as the square of the step here: 5e-7 at 2.5e-5 s.
+  // The force switches (dead centres, valve) fall inside steps, so RK4 converges as the square of the step here: 5e-7 at 2.5e-5
+  // s.
   const double step = 1.25e-5;
-  for (const Row& row : {Row{0.5, 15.01356241, 27.28268429, 0, 0}, Row{1.0, 26.96741016, 23.32115262, 0, 0}, Row{2.0, 51.10894108, 19.28848899, 0, 0}}) {
+  for (const Row& row : {Row{0.5, 15.01356241, 27.28268429, 0, 0}, Row{1.0, 26.96741016, 23.32115262, 0, 0},
+                         Row{2.0, 51.10894108, 19.28848899, 0, 0}}) {
     run(system, state, step, std::lround(row.t / step) - state.tick);
     INFO("t = " << row.t);
     CHECK(pi + state.joint_angles[0] == Approx(row.phi).margin(1e-6));
@@ -111,11 +113,14 @@ struct Spatial {
   static inline const Vector3d pivot{0.0, 0.1, 0.12};
   static inline const Vector3d crank_inertia{1e-4, 2e-5, 9e-5}, rod_inertia{4e-4, 4e-3, 3e-3}, slider_inertia{1e-4, 1e-4, 1e-4};
 
-  template <class T> using Vec = Eigen::Matrix<T, 3, 1>;
-  template <class T> struct Place {
+  template <class T>
+  using Vec = Eigen::Matrix<T, 3, 1>;
+  template <class T>
+  struct Place {
     Vec<T> pin, slider, rod_axes[3];
   };
-  template <class T> static Place<T> at(T angle) {
+  template <class T>
+  static Place<T> at(T angle) {
     using std::cos, std::sin, std::sqrt;
     Place<T> p;
     p.pin = pivot.cast<T>() + Vec<T>(T(0), T(crank_length) * cos(angle), T(crank_length) * sin(angle));
@@ -200,9 +205,9 @@ TEST_CASE("the spatial slider-crank agrees with the quadrature of its one degree
     const double now = angle + state.joint_angles[0];
     h.push_back(step);
     error.push_back(std::abs(Spatial::time(angle, now, energy) - 3.0) * Spatial::rate(now, energy));
-CHECK(state.motions[crank].omega.x() == Approx(Spatial::rate(now, energy)).margin(3e-6));
+    CHECK(state.motions[crank].omega.x() == Approx(Spatial::rate(now, energy)).margin(3e-6));
     CHECK(now - angle > 40.0);  // more than seven turns
   }
-  CHECK(error.back() < 1e-8);                         // measured: 2.6e-6, 8.8e-8, 3.1e-9 rad
+  CHECK(error.back() < 1e-8);                                  // measured: 2.6e-6, 8.8e-8, 3.1e-9 rad
   CHECK(observed_order(h, error) == Approx(4.8).margin(0.5));  // RK4 shows 4 or better; here the next term still leads
 }

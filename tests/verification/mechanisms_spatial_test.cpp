@@ -1,6 +1,6 @@
-// Spatial mechanisms of the IFToMM library of computational benchmark problems (Gonzalez, Dopico, Lugris & Cuadrado 2006, Multibody
-// System Dynamics 16): A04 Bricard (over-constrained, one redundant condition) and A05 stiff flyball governor.
-// Bricard: energy, and the same motion without the redundant condition. Governor: its four degrees of freedom written down directly.
+// Spatial mechanisms of the IFToMM library of computational benchmark problems (Gonzalez, Dopico, Lugris & Cuadrado 2006,
+// Multibody System Dynamics 16): A04 Bricard (over-constrained, one redundant condition) and A05 stiff flyball governor. Bricard:
+// energy, and the same motion without the redundant condition. Governor: its four degrees of freedom written down directly.
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <catch2/catch.hpp>
@@ -35,28 +35,31 @@ System bricard(JointType last) {
 
 double energy(const System& system, const BodiesState& state, const Vector3d& up) {
   double sum = system.kinetic_energy(state);
-  for (std::size_t b = 0; b < state.motions.size(); ++b) sum += 9.81 * system.bodies()[b].mass * up.dot(state.motions[b].position);
+  for (std::size_t b = 0; b < state.motions.size(); ++b)
+    sum += 9.81 * system.bodies()[b].mass * up.dot(state.motions[b].position);
   return sum;
 }
 
-/// Governor: shaft along z with two arms hinged on its axis at the top, a ball at each arm's end, springs with dampers from the arms'
-/// middles to a slider on the shaft.
+/// Governor: shaft along z with two arms hinged on its axis at the top, a ball at each arm's end, springs with dampers from the
+/// arms' middles to a slider on the shaft.
 struct Governor {
   static constexpr double arm = 1.0, arm_mass = 0.3, ball = 5.0, stiffness = 8e5, damping = 4e4, rest = 0.5, spin = 2 * pi;
   static constexpr double shaft_mass = 0.3, slider_mass = 3.0, start_angle = pi / 6, g = 9.81;
   static constexpr double shaft_inertia = 5e-6, slider_inertia = 5e-3, along_arm = 5e-6;
   static constexpr double mass() { return arm_mass + ball; }
-  static constexpr double centre() { return (arm_mass * 0.5 + ball * arm) / mass(); }  // from the hinge
+  static constexpr double centre() { return (arm_mass * 0.5 + ball * arm) / mass(); }       // from the hinge
   static constexpr double across() { return arm_mass * arm * arm / 3 + ball * arm * arm; }  // about the hinge
   static double slider_start() { return -2 * 0.5 * arm * std::cos(start_angle); }
 
   static System system(Integrator integrator) {
     const double about_centre = across() - mass() * centre() * centre();
-    std::vector<Body> bodies{body("shaft", shaft_mass, {0.025, 0.025, shaft_inertia}, {0, 0, -0.5}),
-                             body("slider", slider_mass, {slider_inertia, slider_inertia, slider_inertia}, {0, 0, slider_start()})};
+    std::vector<Body> bodies{
+        body("shaft", shaft_mass, {0.025, 0.025, shaft_inertia}, {0, 0, -0.5}),
+        body("slider", slider_mass, {slider_inertia, slider_inertia, slider_inertia}, {0, 0, slider_start()})};
     for (double side : {1.0, -1.0}) {
       const Vector3d outwards(side * std::sin(start_angle), 0, -std::cos(start_angle));
-      bodies.push_back(body(side > 0 ? "right arm" : "left arm", mass(), {about_centre, about_centre, along_arm}, centre() * outwards));
+      bodies.push_back(
+          body(side > 0 ? "right arm" : "left arm", mass(), {about_centre, about_centre, along_arm}, centre() * outwards));
       bodies.back().initial.attitude = Eigen::Quaterniond::FromTwoVectors(-Vector3d::UnitZ(), outwards);
     }
     for (Body& b : bodies) {
@@ -66,7 +69,8 @@ struct Governor {
     const Vector3d top(0, 0, 0), z = Vector3d::UnitZ(), y = Vector3d::UnitY();
     std::vector<Joint> joints{joint("bearing", JointType::revolute, earth, 0, top, z),
                               joint("guide", JointType::translational, 0, 1, bodies[1].initial.position, z),
-                              joint("right hinge", JointType::revolute, 0, 2, top, y), joint("left hinge", JointType::revolute, 0, 3, top, y)};
+                              joint("right hinge", JointType::revolute, 0, 2, top, y),
+                              joint("left hinge", JointType::revolute, 0, 3, top, y)};
     LoadSource springs{"springs",
                        [](double, std::span<const Motion> m, std::span<Wrench> w) {
                          const LineSpringDamper spring{rest, stiffness, damping, false};
@@ -96,7 +100,8 @@ struct Governor {
     const double dx = a * sine, dz = q[1] + a * cosine, length = std::hypot(dx, dz);
     const double by_angle = -q[1] * a * sine / length, by_slider = dz / length;
     const double tension = stiffness * (length - rest) + damping * (by_angle * q[2] + by_slider * q[3]);
-    const double arms = 2 * (across() - along_arm) * sine * cosine * rate * rate - 2 * mass() * g * centre() * sine - 2 * tension * by_angle;
+    const double arms =
+        2 * (across() - along_arm) * sine * cosine * rate * rate - 2 * mass() * g * centre() * sine - 2 * tension * by_angle;
     return {q[2], q[3], arms / (2 * across()), -2 * tension * by_slider / slider_mass - g};
   }
   static State reference(double end, double step) {
@@ -116,7 +121,8 @@ struct Governor {
 
 }  // namespace
 
-TEST_CASE("Bricard's mechanism moves although its joints count to no freedom, and the joint to blame is named", "[bodies][fast]") {
+TEST_CASE("Bricard's mechanism moves although its joints count to no freedom, and the joint to blame is named",
+          "[bodies][fast]") {
   std::array<Vector3d, 2> tip;
   for (const JointType last : {JointType::revolute, JointType::cylindrical}) {
     System system = bricard(last);

@@ -22,7 +22,8 @@ inline Body body(std::string name, double mass, const Vector3d& inertia, const V
   return b;
 }
 
-/// A slender uniform rod from a to b (its long axis is body x when attitude turns x into it); inertia across m L2 / 12, along small.
+/// A slender uniform rod from a to b (its long axis is body x when attitude turns x into it); inertia across m L2 / 12, along
+/// small.
 inline Body rod(std::string name, double mass, const Vector3d& a, const Vector3d& b, double along = 1e-4) {
   const double length = (b - a).norm(), across = mass * length * length / 12.0;
   Body rod = body(std::move(name), mass, {along * across, across, across}, 0.5 * (a + b));
@@ -30,7 +31,8 @@ inline Body rod(std::string name, double mass, const Vector3d& a, const Vector3d
   return rod;
 }
 
-inline Joint joint(std::string name, JointType type, int i, int j, const Vector3d& point, const Vector3d& axis = Vector3d::UnitX()) {
+inline Joint joint(std::string name, JointType type, int i, int j, const Vector3d& point,
+                   const Vector3d& axis = Vector3d::UnitX()) {
   Joint result;
   result.name = std::move(name);
   result.type = type;
@@ -45,9 +47,7 @@ inline Joint joint(std::string name, JointType type, int i, int j, const Vector3
 inline void run(System& system, BodiesState& state, double step_s, long steps) {
   for (long n = 0; n < steps; ++n) {
     const StepReport report = system.advance(state, step_s, 1);
-    if (!report.ok()) {
-      FAIL("step " << n << ": " << system.describe(report));
-    }
+    if (!report.ok()) { FAIL("step " << n << ": " << system.describe(report)); }
   }
 }
 

@@ -1,0 +1,170 @@
+// Joints, drivers, redundancy and contradiction as the system meets them: src/bodies/system.hpp.
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "kernels/rigid/rotation.hpp"
+#include "tests/src/bodies/examples.hpp"
+
+using namespace spindrift;
+using namespace spindrift::bodies;
+using namespace spindrift::bodies::examples;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
+
+Body box(std::string name, const Vector3d& at) { return body(std::move(name), 3.0, {1, 2, 2.5}, at); }
+
+}  // namespace
+
+TEST_CASE("each joint leaves its freedoms, between bodies and to the earth", "[bodies][fast]") {
+  const auto [type, freedoms] = GENERATE(table<JointType, int>({{JointType::fixed, 0},
+                                                                {JointType::revolute, 1},
+                                                                {JointType::spherical, 3},
+                                                                {JointType::universal, 2},
+                                                                {JointType::translational, 1},
+                                                                {JointType::cylindrical, 2}}));
+  Joint to_earth = joint("a", type, earth, 0, {0.5, 0.1, 0}, Vector3d(1, 2, 3)),
+        between = joint("b", type, 0, 1, {1, 1, 1}, Vector3d(-1, 0, 2));
+  to_earth.second_axis = Vector3d(3, 0, -1);
+  between.second_axis = Vector3d(2, 5, 1);
+  System system({box("first", {0, 0, 0}), box("second", {2, 1, 0})}, {to_earth, between}, {});
+  const Assembly assembly = system.assemble();
+  CHECK(assembly.contradiction == "");
+  CHECK(assembly.redundant.empty());
+  CHECK(assembly.degrees_of_freedom == 2 * freedoms);
+}
+
+TEST_CASE("a spinning chain of every kind of joint keeps its constraints and its energy", "[bodies][fast]") {
+  const auto type = GENERATE(JointType::revolute, JointType::spherical, JointType::universal, JointType::cylindrical);
+  std::vector<Body> bodies{box("first", {0.5, 0, 0}), box("second", {1.5, 0.2, 0})};
+  bodies[0].initial.omega = {0.5, 1.0, 2.0};
+  bodies[1].initial.omega = {-1.0, 0.3, 0.8};
+  Joint ball = joint("ball", JointType::spherical, earth, 0, {0, 0, 0}),
+        other = joint("other", type, 0, 1, {1, 0.1, 0}, Vector3d(1, 1, 0));
+  other.second_axis = Vector3d(1, -1, 0.5);
+  System system(bodies, {ball, other}, {gravity_source(bodies, 9.81)});
+  BodiesState state = start(system);
+  const auto energy = [&] {
+    return system.kinetic_energy(state) + 3.0 * 9.81 * (state.motions[0].position.z() + state.motions[1].position.z());
+  };
+  const double before = energy();
+  run(system, state, 5e-4, 4000);
+  CHECK(energy() == Approx(before).margin(1e-7));
+  CHECK(system.constraint_residual(state, 2.0) < 1e-12);
+}
+
+TEST_CASE("a driver turns its joint at its rate over many turns, whatever it carries", "[bodies][fast]") {
+  std::vector<Body> bodies{box("stand", {0, 0, 0}), box("rotor", {0.3, 0, 1})};
+  Joint bearing = joint("bearing", JointType::revolute, 0, 1, {0, 0, 1}, x);
+  bearing.rotation = PrescribedMotion{.rate = 5.0};
+  System system(bodies, {joint("foot", JointType::spherical, earth, 0, {0, 0, -1}), bearing}, {gravity_source(bodies, 9.81)});
+  BodiesState state = start(system);
+  CHECK(state.motions[0].omega.norm() == 0.0);  // assembly starts the rotor, not its stand
+  CHECK(state.motions[1].omega.x() == Approx(5.0));
+  run(system, state, 1e-3, 10000);
+  CHECK(state.joint_angles[1] == Approx(50.0).margin(1e-9));
+  CHECK(system.constraint_residual(state, 10.0) < 1e-12);
+}
+
+TEST_CASE("a prescribed slide moves its body along the axis and reports the force it takes", "[bodies][fast]") {
+  const std::vector<Body> bodies{box("sledge", {0, 0, 0})};
+  Joint rail = joint("rail", JointType::translational, earth, 0, {0, 0, 0}, x);
+  rail.translation = PrescribedMotion{.amplitude = 0.5, .omega = 2.0};
+  System system(bodies, {rail}, {gravity_source(bodies, 9.81)});
+  BodiesState state = start(system);
+  run(system, state, 1e-2, 130);
+  CHECK(state.motions[0].position.x() == Approx(0.5 * std::sin(2.6)).margin(1e-12));
+  CHECK(state.motions[0].velocity.x() == Approx(std::cos(2.6)).margin(1e-12));
+  const Evaluation& now = system.evaluate(state, 1.3);
+  CHECK(now.acceleration[0].x() == Approx(-2.0 * std::sin(2.6)).margin(1e-11));
+  CHECK(now.joint_reactions[0].force.x() == Approx(3.0 * -2.0 * std::sin(2.6)).margin(1e-10));
+  CHECK(now.joint_reactions[0].force.z() == Approx(3.0 * 9.81).margin(1e-10));  // the rail carries the weight
+  CHECK(now.by_source[0][0].force.z() == Approx(-3.0 * 9.81));
+}
+
+TEST_CASE("the reaction of a cantilever is its weight and its moment about the clamp", "[bodies][fast]") {
+  const std::vector<Body> bodies{box("arm", {2, 0, 0})};
+  System system(bodies, {joint("clamp", JointType::fixed, earth, 0, {0, 0, 0})}, {gravity_source(bodies, 10.0)});
+  const Wrench reaction = system.evaluate(start(system), 0.0).joint_reactions[0];
+  CHECK((reaction.force - Vector3d(0, 0, 30)).norm() < 1e-12);
+  CHECK((reaction.about({0, 0, 0}).moment - Vector3d(0, -60, 0)).norm() < 1e-12);  // holds the arm up against a weight at x = 2
+}
+
+TEST_CASE("redundant joints are handled and named", "[bodies][fast]") {
+  const std::vector<Body> bodies{box("door", {0.5, 0, 0})};
+  System system(bodies,
+                {joint("upper hinge", JointType::revolute, earth, 0, {0, 0, 1}, z),
+                 joint("lower hinge", JointType::revolute, earth, 0, {0, 0, -1}, z)},
+                {point_load_source("push", {{.body = 0, .moment = {0, 0, 4.5}}})});
+  const Assembly assembly = system.assemble();
+  REQUIRE(assembly.contradiction == "");
+  CHECK(assembly.degrees_of_freedom == 1);
+  std::string all;
+  for (const std::string& line : assembly.redundant) all += line;
+  CHECK_THAT(all, Contains("hinge") && Contains("repeats") && Contains("follow from"));
+  BodiesState state = assembly.state;
+  run(system, state, 1e-2, 100);
+  CHECK(state.joint_angles[0] == Approx(0.5 * 4.5 / (2.5 + 3.0 * 0.25)).epsilon(1e-8));
+}
+
+TEST_CASE("contradictory joints are refused by name", "[bodies][fast]") {
+  const std::vector<Body> bodies{box("door", {0.5, 0, 0})};
+  Joint hinge = joint("hinge", JointType::revolute, earth, 0, {0, 0, 0}, z),
+        motor = joint("motor", JointType::revolute, earth, 0, {0, 0, 0}, z);
+  hinge.rotation = PrescribedMotion{.rate = 1.0};
+  SECTION("two drivers of different rates on one axis") {
+    motor.rotation = PrescribedMotion{.rate = 2.0};
+    CHECK_THAT(System(bodies, {hinge, motor}, {}).assemble().contradiction,
+               Contains("velocities") && Contains("'hinge'") && Contains("'motor'"));
+  }
+  SECTION("two drivers that start at different angles") {
+    motor.rotation = PrescribedMotion{.start = 0.5, .rate = 1.0};
+    CHECK_THAT(System(bodies, {hinge, motor}, {}).assemble().contradiction, Contains("'hinge'") && Contains("'motor'"));
+  }
+  SECTION("a driver on a body that is clamped") {
+    CHECK_THAT(System(bodies, {hinge, joint("clamp", JointType::fixed, earth, 0, {0, 0, 0})}, {}).assemble().contradiction,
+               Contains("'clamp'") || Contains("'hinge'"));
+  }
+  SECTION("the same rates agree") {
+    motor.rotation = PrescribedMotion{.rate = 1.0};
+    CHECK(System(bodies, {hinge, motor}, {}).assemble().contradiction == "");
+  }
+}
+
+TEST_CASE("hinges that agree at the start but not in motion stop the run and name themselves", "[bodies][fast]") {
+  // Two drivers with equal angle and rate at t = 0 and different accelerations: nothing to see in the assembly.
+  std::vector<Body> bodies{box("door", {0.5, 0, 0})};
+  Joint hinge = joint("hinge", JointType::revolute, earth, 0, {0, 0, 0}, z), motor = hinge;
+  motor.name = "motor";
+  hinge.rotation = PrescribedMotion{.rate = 1.0};
+  motor.rotation = PrescribedMotion{.amplitude = 0.5, .omega = 2.0};
+  System system(bodies, {hinge, motor}, {});
+  BodiesState state = start(system);
+  StepReport report;
+  int steps = 0;
+  while ((report = system.advance(state, 1e-2, 1)).ok() && steps < 1000) ++steps;
+  REQUIRE(steps < 1000);
+  CHECK(report.trouble == StepReport::Trouble::inconsistent);
+  CHECK_THAT(system.describe(report), Contains("'hinge'") || Contains("'motor'"));
+  const NumericalFailure failure = system.failure(report, state, 1e-2);
+  CHECK(failure.step == state.tick);
+  CHECK(failure.place.size() > 0);
+}
+
+TEST_CASE("bodies of very different mass in one chain", "[bodies][fast]") {
+  const double ratio = GENERATE(1e-6, 1e-3, 1e3, 1e6);
+  std::vector<Body> bodies{rod("upper", 1.0, {0, 0, 0}, {1, 0, 0}), rod("lower", ratio, {1, 0, 0}, {2, 0, 0})};
+  System system(
+      bodies,
+      {joint("top", JointType::revolute, earth, 0, {0, 0, 0}, y), joint("middle", JointType::revolute, 0, 1, {1, 0, 0}, y)},
+      {gravity_source(bodies, 9.81)});
+  BodiesState state = start(system);
+  run(system, state, 1e-3, 3000);
+  const double energy =
+      system.kinetic_energy(state) + 9.81 * (state.motions[0].position.z() + ratio * state.motions[1].position.z());
+  CHECK(std::abs(energy) < 1e-5 * (1.0 + ratio));
+  CHECK(system.constraint_residual(state, 3.0) < 1e-12);
+}
