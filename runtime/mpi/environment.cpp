@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/mpi/environment.hpp"
 
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -14,10 +15,15 @@ MpiEnvironment::MpiEnvironment(int& argc, char**& argv) {
     throw std::runtime_error("MPI offers thread level " + std::to_string(provided) + ", Spindrift needs MPI_THREAD_MULTIPLE (" +
                              std::to_string(MPI_THREAD_MULTIPLE) + "): use an MPI library built with thread support");
   }
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  MPI_Comm_rank(MPI_COMM_WORLD, &world_.rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &world_.size);
 }
 
 MpiEnvironment::~MpiEnvironment() { MPI_Finalize(); }
+
+void MpiEnvironment::abort(int code) const {
+  MPI_Abort(MPI_COMM_WORLD, code);
+  std::abort();
+}
 
 }  // namespace spindrift::runtime

@@ -6,6 +6,12 @@
 
 namespace spindrift::runtime {
 
+/// The ranks of a run, as handed to whoever needs them.
+struct World {
+  MPI_Comm comm = MPI_COMM_WORLD;
+  int rank = 0, size = 1;
+};
+
 /// Initialises MPI with MPI_THREAD_MULTIPLE and finalises it. Throws std::runtime_error where the library gives less,
 /// naming what it gave. One per process.
 class MpiEnvironment {
@@ -15,11 +21,14 @@ class MpiEnvironment {
   MpiEnvironment(const MpiEnvironment&) = delete;
   MpiEnvironment& operator=(const MpiEnvironment&) = delete;
 
-  int rank() const { return rank_; }
-  int size() const { return size_; }
+  const World& world() const { return world_; }
+  /// Ends all ranks at once with this exit code.
+  [[noreturn]] void abort(int code) const;
+  int rank() const { return world_.rank; }
+  int size() const { return world_.size; }
 
  private:
-  int rank_ = 0, size_ = 1;
+  World world_;
 };
 
 }  // namespace spindrift::runtime

@@ -58,6 +58,10 @@ const scene::Section<AeroOptions>& aero_section() {
                    "Harmonic k goes with k times this many azimuths: 3 for three equal blades passing a tower.",
                    scene::between(1, 100))
           .only_if("model", prescribed)
+          .choice("thrust_frame", &AeroOptions::thrust_frame,
+                  {{"rotor", "along the rotor axis as it tilts and yaws"}, {"earth", "along the rotor axis of the start"}},
+                  "Direction of the thrust; torque stays about the axis.")
+          .only_if("model", prescribed)
           .path("table", &AeroOptions::table,
                 "CSV file with columns time_s, thrust_N and, if any, torque_N_m. Before the first and after the last row their "
                 "values hold.")

@@ -26,6 +26,7 @@ struct AeroOptions {
   std::vector<double> torque_cosine_N_m, torque_sine_N_m;
   int harmonic_step = 1;  ///< harmonic k turns with k * harmonic_step azimuths
   std::string table;      ///< path: load against time
+  std::string thrust_frame = "rotor";
   // thrust_curve
   std::optional<double> thrust_coefficient;
   double torque_coefficient = 0.0;

@@ -35,6 +35,7 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
   support_axis_ = support * axis;
   support_up_ = support * up.normalized();
   start_turn_ = support * body.attitude;
+  if (aero.thrust_frame == "earth") thrust_direction_ = axis;
   if (aero.model == "prescribed") model_ = Prescribed(aero);
   if (aero.model == "thrust_curve") model_ = ThrustCurve(aero, rotor, air_density);
   if (aero.model == "bem") model_ = BladeElementMomentum(read_turbine(rotor.turbine), aero.induction, air_density);
@@ -79,7 +80,7 @@ RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
     if (const auto* prescribed = std::get_if<Prescribed>(&model_)) axial = (*prescribed)(t, now.azimuth);
     if (const auto* curve = std::get_if<ThrustCurve>(&model_)) axial = (*curve)(now.relative_wind, now.speed, blade_pitch_);
     load.thrust = ramp * axial.thrust, load.torque = ramp * axial.torque;
-    load.force = load.thrust * now.axis, load.moment = load.torque * now.axis;
+    load.force = load.thrust * thrust_direction_.value_or(now.axis), load.moment = load.torque * now.axis;
   }
   load.power = load.torque * now.speed;
   return load;

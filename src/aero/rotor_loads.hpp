@@ -65,6 +65,7 @@ class RotorLoads {
   Eigen::Vector3d hub_, axis_;                 ///< axes of the rotor's body, from its centre of mass
   Eigen::Vector3d support_axis_, support_up_;  ///< axes of what carries azimuth zero: the support, the earth, or the body itself
   Eigen::Quaterniond start_turn_;              ///< attitude of the body seen from the support at the start
+  std::optional<Eigen::Vector3d> thrust_direction_;  ///< earth frame, where the thrust does not follow the axis
   double start_azimuth_, speed_, blade_pitch_;
   Eigen::Vector3d wind_;
   std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;

@@ -1,0 +1,120 @@
+// spindrift check: validates a scene and says what will be modelled, at what cost and at which limits. Runs nothing.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "src/app/commands.hpp"
+#include "src/coupling/machine.hpp"
+#include "src/coupling/recorder.hpp"
+#include "src/coupling/start.hpp"
+#include "src/scene/document.hpp"
+
+namespace spindrift::app {
+
+namespace {
+
+using coupling::Machine;
+
+void print_models(const Machine& machine) {
+  const coupling::Scenario& s = machine.scenario();
+  fmt::print("\nWhat will be modelled\n");
+  fmt::print("  {:<10}{}\n", "bodies", coupling::describe_bodies(s));
+  fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
+  fmt::print("  {:<10}{}\n", "sea", coupling::describe_sea(s));
+  fmt::print("  {:<10}{}\n", "moorings", coupling::describe_moorings(s));
+}
+
+/// Seconds of one step, the fastest of a few (the others were disturbed).
+double seconds_per_step(Machine& machine, bodies::BodiesState state) {
+  double fastest = std::numeric_limits<double>::infinity();
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto begin = std::chrono::steady_clock::now();
+    if (!machine.system().advance(state, machine.timeline().tick_s(), 1).ok()) break;
+    fastest = std::min(fastest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  return fastest;
+}
+
+void print_cost(Machine& machine, const coupling::Start& start) {
+  const coupling::Timeline& t = machine.timeline();
+  const double steps = double(t.windows()) * double(t.steps_per_window());
+  const double seconds = steps * seconds_per_step(machine, start.state);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  fmt::print("\nSize and cost\n");
+  fmt::print("  {:<22}{} windows of {} s, {} step{} each ({})\n", "time", t.windows(), t.window_s(), t.steps_per_window(),
+             t.steps_per_window() == 1 ? "" : "s", name(machine.system().integrator()));
+  fmt::print("  {:<22}{:.3g} ({:.3g} s on one core, {:.0f} times real time), from steps measured now\n", "predicted core-hours",
+             seconds / 3600.0, seconds, t.windows() * t.window_s() / seconds);
+  fmt::print("  {:<22}{:.0f} MB\n", "memory", double(usage.ru_maxrss) / 1024.0);
+}
+
+void print_equilibrium(Machine& machine, const bodies::BodiesState& state) {
+  const auto bodies = machine.system().bodies();
+  fmt::print("\nStatic equilibrium under the full loads of t = 0 (displacements of the reference points)\n");
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const coupling::ReferenceMotion m = coupling::reference_motion(state.motions[b], bodies[b].initial, machine.reference_point(b),
+                                                                   Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    const Eigen::Vector3d degrees = m.angles / radians_per_degree;
+    fmt::print("  {:<16}x {:+.3f}  y {:+.3f}  z {:+.3f} m   roll {:+.3f}  pitch {:+.3f}  yaw {:+.3f} deg\n", bodies[b].name,
+               m.displacement.x(), m.displacement.y(), m.displacement.z(), degrees.x(), degrees.y(), degrees.z());
+  }
+  if (machine.moorings())
+    for (std::size_t line = 0; line < machine.moorings()->size(); ++line)
+      fmt::print("  {:<16}{:+.4g} kN\n", machine.moorings()->name(line),
+                 1e-3 * machine.moorings()->tension(line, state.motions).fairlead);
+}
+
+void print_modes(const Machine& machine, const bodies::Linearisation& linearisation) {
+  fmt::print("\nModes about the start\n");
+  for (const bodies::Mode& mode : linearisation.modes)
+    if (std::abs(mode.eigenvalue.imag()) > 1e-6)
+      fmt::print("  {:<34}period {:8.3f} s ({:.4f} Hz)   damping {:.2f} % of critical\n", mode.name, mode.period_s(),
+                 1.0 / mode.period_s(), 100.0 * mode.damping_ratio());
+    else
+      fmt::print("  {:<34}rate {:+.3g} 1/s\n", mode.name, mode.eigenvalue.real());
+  fmt::print("\nLargest stable step (the scene asks for {} s with {})\n", machine.timeline().tick_s(),
+             name(machine.scenario().time.integrator));
+  for (const Integrator integrator : {Integrator::rk4, Integrator::symplectic, Integrator::explicit_euler}) {
+    const bodies::StepLimit limit = step_limit(integrator, linearisation);
+    if (std::isinf(limit.step_s))
+      fmt::print("  {:<16}any\n", name(integrator));
+    else if (limit.step_s == 0.0)
+      fmt::print("  {:<16}none: {} is undamped\n", name(integrator), limit.mode);
+    else
+      fmt::print("  {:<16}{:.4g} s, set by {}\n", name(integrator), limit.step_s, limit.mode);
+  }
+}
+
+}  // namespace
+
+int check(const SceneArguments& arguments, const runtime::World& world) {
+  scene::Document document = scene::load(arguments.scene, arguments.overrides);
+  Machine machine(coupling::read_scenario(document));
+  const coupling::Start start = make_start(machine);
+  const coupling::Stability stability = coupling::stability(machine, start.state);
+  if (world.rank == 0) {
+    fmt::print("{}: valid\n", arguments.scene);
+    print_models(machine);
+    for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
+    print_modes(machine, stability.linearisation);
+  }
+  require_stable(machine, stability);
+  if (world.rank != 0) return done;
+  machine.use_full_loads(true);
+  const bodies::Equilibrium equilibrium =
+      start.equilibrium ? *start.equilibrium : find_equilibrium(machine.system(), start.state, 0.0);
+  machine.use_full_loads(false);
+  if (equilibrium.problem.empty())
+    print_equilibrium(machine, equilibrium.state);
+  else
+    fmt::print("\nStatic equilibrium: none found ({})\n", equilibrium.problem);
+  print_cost(machine, start);
+  return done;
+}
+
+}  // namespace spindrift::app

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/app/commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+namespace spindrift::app {
+
+namespace {
+
+void add_scene(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("scene", arguments.scene, "Scene file (TOML)")->required();
+  command.add_option("--set", arguments.overrides, "Override a key of the scene: --set time.end_s=60")->allow_extra_args(false);
+}
+
+}  // namespace
+
+void add_commands(CLI::App& cli, Command& chosen) {
+  {
+    auto arguments = std::make_shared<RunArguments>();
+    CLI::App* command = cli.add_subcommand("run", "Run a scene into a run directory, with a report");
+    add_scene(*command, *arguments);
+    command->add_option("--out", arguments->out, "Run directory (default: runs/SCENE_DATE_TIME)");
+    command->add_option("--until", arguments->until_s, "Stop at this simulated time [s], to be continued by --restart")
+        ->check(CLI::NonNegativeNumber);
+    command->add_flag("--restart", arguments->restart, "Go on from the newest checkpoint in the run directory")->needs("--out");
+    command->add_flag("--overwrite", arguments->overwrite, "Replace the run in the run directory");
+    command->add_flag("--trace", arguments->trace, "Write trace.json (open with Perfetto or chrome://tracing)");
+    command->add_flag("--quiet", arguments->quiet, "Warnings and errors only");
+    command->add_flag("--no-report", arguments->no_report, "Leave report.html for later: spindrift report DIR");
+    command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return run(*arguments, world); }; });
+  }
+  {
+    auto arguments = std::make_shared<SceneArguments>();
+    CLI::App* command = cli.add_subcommand("check", "Validate a scene, say what will be modelled and at which limits; runs nothing");
+    add_scene(*command, *arguments);
+    command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return check(*arguments, world); }; });
+  }
+  {
+    auto arguments = std::make_shared<StudyArguments>();
+    CLI::App* command = cli.add_subcommand("study", "Run the variants of a study; error against cost, the front, the cheapest that will do");
+    command->add_option("study", arguments->file, "Study file (TOML)")->required();
+    command->add_option("--set", arguments->overrides, "Override a key of the study file")->allow_extra_args(false);
+    command->add_option("--out", arguments->out, "Folder of the runs (default: runs/STUDY)");
+    command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return study(*arguments, world); }; });
+  }
+  {
+    auto topic = std::make_shared<std::string>();
+    auto markdown = std::make_shared<bool>(false);
+    CLI::App* command = cli.add_subcommand("reference", "Every scene key with type, unit, default, range and a sentence");
+    command->add_option("topic", *topic, "A section or a key");
+    command->add_flag("--markdown", *markdown, "As inputs/REFERENCE.md");
+    command->callback([=, &chosen] { chosen = [=](const auto& world) { return reference(*topic, *markdown, world); }; });
+  }
+  {
+    auto arguments = std::make_shared<ReportArguments>();
+    CLI::App* command = cli.add_subcommand("report", "(Re)make report.html of a run directory; of several, compare them");
+    command->add_option("directory", arguments->directories, "Run directory")->required();
+    command->add_option("--png", arguments->png, "Also a picture of the first run");
+    command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return report(*arguments, world); }; });
+  }
+}
+
+}  // namespace spindrift::app

@@ -1,0 +1,54 @@
+// The commands of the program; what each does is in its own file of this folder.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/mpi/environment.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace spindrift::app {
+
+/// Exit codes, also written into summary.json since mpirun may change them.
+enum ExitCode : int { done = 0, bad_input = 2, numerical_failure = 3, machine_failure = 4, stopped = 5 };
+
+using Command = std::function<int(const runtime::World&)>;
+
+/// Declares every command with its arguments; parsing sets `chosen`.
+void add_commands(CLI::App& cli, Command& chosen);
+
+struct SceneArguments {
+  std::string scene;
+  std::vector<std::string> overrides;  ///< "a.b=c"
+};
+
+struct RunArguments : SceneArguments {
+  std::string out;                     ///< empty: a name from scene and time
+  double until_s = -1.0;               ///< < 0: the scene's end
+  bool restart = false, overwrite = false, trace = false, quiet = false, no_report = false;
+};
+
+struct ReportArguments {
+  std::vector<std::string> directories;
+  std::string png;  ///< empty: no picture
+};
+
+struct StudyArguments {
+  std::string file;
+  std::vector<std::string> overrides;  ///< of the study file
+  std::string out;                     ///< empty: runs/STUDY
+};
+
+int run(const RunArguments& arguments, const runtime::World& world);
+int check(const SceneArguments& arguments, const runtime::World& world);
+/// All of the reference, or what `topic` names (a section or a key); as Markdown for inputs/REFERENCE.md.
+int reference(const std::string& topic, bool markdown, const runtime::World& world);
+int study(const StudyArguments& arguments, const runtime::World& world);
+int report(const ReportArguments& arguments, const runtime::World& world);
+
+}  // namespace spindrift::app

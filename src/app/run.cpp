@@ -1,0 +1,100 @@
+// spindrift run: reads the scene, runs it into a run directory, writes summary and report.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/run.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "src/app/scene_run.hpp"
+#include "src/io/build_info.hpp"
+#include "src/io/history_statistics.hpp"
+#include "src/io/log.hpp"
+#include "src/report/report.hpp"
+#include "src/scene/document.hpp"
+
+namespace spindrift::app {
+
+namespace {
+
+io::RunDirectory open_directory(const RunArguments& arguments, MPI_Comm world) {
+  const std::filesystem::path path =
+      arguments.out.empty() ? io::RunDirectory::default_path(world, arguments.scene) : std::filesystem::path(arguments.out);
+  const io::Existing existing = arguments.restart     ? io::Existing::resume
+                                : arguments.overwrite ? io::Existing::overwrite
+                                                      : io::Existing::refuse;
+  return io::RunDirectory(world, path, existing);
+}
+
+/// Over which the summary gives means: the scene's range, and each third of the run.
+std::vector<io::TimeRange> mean_ranges(const coupling::Scenario& scenario, double end_s) {
+  const double length = scenario.output.means_over_s > 0.0 ? std::min(scenario.output.means_over_s, end_s) : end_s / 3.0;
+  return {{fmt::format("last_{:g}_s", length), end_s - length, end_s}, {"whole_run", 0.0, end_s}};
+}
+
+void print_summary(const io::Summary& summary, const io::RunDirectory& directory) {
+  spdlog::info("{}: {:g} s simulated in {:.3g} s, {:.0f} times real time", summary.exit_reason,
+               summary.end_time_s - summary.start_time_s, summary.wall_seconds, io::real_time_factor(summary));
+  for (const io::PartTime& part : summary.parts)
+    spdlog::info("  {:<12}{:9.4f} s  {:5.1f} %", part.name, part.seconds, 100.0 * part.seconds / summary.wall_seconds);
+  spdlog::info("results in {}", directory.path().string());
+}
+
+}  // namespace
+
+ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  scene::Document document = scene::load(path, overrides);
+  ReadyScene ready;
+  ready.machine = std::make_unique<coupling::Machine>(coupling::read_scenario(document));
+  ready.start = make_start(*ready.machine);
+  require_stable(*ready.machine, stability(*ready.machine, ready.start.state));
+  ready.echo = document.echo();
+  return ready;
+}
+
+SceneRun run_scene(const RunArguments& arguments, const runtime::World& world) {
+  io::start_log(world.rank, arguments.quiet);
+  const ReadyScene scene = read_scene(arguments.scene, arguments.overrides);
+  const io::RunDirectory directory = open_directory(arguments, world.comm);
+  io::log_to_file(world.rank, directory.log());
+  directory.write_scene(world.comm, scene.echo);
+  const io::BuildInfo& build = io::build_info();
+  spdlog::info("spindrift {} ({}), {} rank{}: {}", build.version, build.commit, world.size, world.size == 1 ? "" : "s", arguments.scene);
+  for (const std::string& note : scene.start.notes) spdlog::info("{}", note);
+
+  coupling::RunSettings settings{.restart = arguments.restart, .trace = arguments.trace, .quiet = arguments.quiet};
+  if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
+  io::Summary summary = coupling::run(*scene.machine, scene.start, directory, world, settings);
+  const std::string& title = scene.machine->scenario().output.title;
+  summary.title = title.empty() ? std::filesystem::path(arguments.scene).stem().string() : title;
+  summary.scene = arguments.scene;
+  if (world.rank == 0) {
+    for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
+    summary.warnings = io::warnings_logged();
+    write_summary(directory.summary(), summary,
+                  io::history_statistics(directory.history(), mean_ranges(scene.machine->scenario(), summary.end_time_s)));
+    print_summary(summary, directory);
+  }
+  return {std::move(summary), directory.path()};
+}
+
+int run(const RunArguments& arguments, const runtime::World& world) {
+  const SceneRun run = run_scene(arguments, world);
+  if (world.rank == 0 && !arguments.no_report) {
+    if (const std::optional<std::string> why = report::write({.directories = {run.directory}}))
+      spdlog::warn("no report: {}", *why);
+    else
+      spdlog::info("report: {}", (run.directory / "report.html").string());
+  }
+  return run.summary.exit_code;
+}
+
+int report(const ReportArguments& arguments, const runtime::World& world) {
+  if (world.rank != 0) return done;
+  report::Request request{.directories = {arguments.directories.begin(), arguments.directories.end()}};
+  if (!arguments.png.empty()) request.png = arguments.png;
+  const std::optional<std::string> why = report::write(request);
+  if (why) spdlog::error("no report: {}", *why);
+  return why ? machine_failure : done;
+}
+
+}  // namespace spindrift::app

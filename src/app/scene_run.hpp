@@ -1,0 +1,31 @@
+// Reading and running one scene, for the commands `run` and `study`.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/app/commands.hpp"
+#include "src/coupling/machine.hpp"
+#include "src/coupling/start.hpp"
+#include "src/io/summary.hpp"
+
+namespace spindrift::app {
+
+/// A scene ready to run: every check has passed, stability of the step among them.
+struct ReadyScene {
+  std::string echo;  ///< the scene with every default
+  std::unique_ptr<coupling::Machine> machine;
+  coupling::Start start;
+};
+ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides);
+
+struct SceneRun {
+  io::Summary summary;
+  std::filesystem::path directory;
+};
+/// Runs into the run directory and writes everything but the report. Collective.
+SceneRun run_scene(const RunArguments& arguments, const runtime::MpiEnvironment& mpi);
+
+}  // namespace spindrift::app

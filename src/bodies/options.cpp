@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/bodies/options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "kernels/rigid/rotation.hpp"
+#include "src/scene/columns.hpp"
+#include "src/scene/document.hpp"
+
+namespace spindrift::bodies {
+
+namespace {
+
+using scene::between;
+using scene::not_negative;
+using scene::positive;
+using scene::Section;
+
+const Section<CylinderOptions>& cylinder_section() {
+  static const auto section =
+      Section<CylinderOptions>("cylinders", "A circular cylinder, or a cone frustum, of the body's wetted shape.")
+          .text("name", &CylinderOptions::name, "Name, for coefficients and messages.")
+          .required()
+          .vector("start_m", &CylinderOptions::start_m, "m", "Centre of one end, initial earth coordinates.")
+          .required()
+          .vector("end_m", &CylinderOptions::end_m, "m", "Centre of the other end, initial earth coordinates.")
+          .required()
+          .number("diameter_m", &CylinderOptions::diameter_m, "m", "Diameter, of a frustum at its start.", positive())
+          .required()
+          .number("end_diameter_m", &CylinderOptions::end_diameter_m, "m", "Diameter at the end, where it differs.", not_negative())
+          .check([](const CylinderOptions& o, const scene::Report& report) {
+            if (o.start_m == o.end_m) report("end_m", "is where start_m is: the cylinder has no length");
+          });
+  return section;
+}
+
+const Section<ForceOptions>& force_section() {
+  static const auto section =
+      Section<ForceOptions>("forces", "A constant force and moment on the body.")
+          .vector("point_m", &ForceOptions::point_m, "m", "Where the force acts, initial earth coordinates; it moves with the body.")
+          .required()
+          .vector("force_N", &ForceOptions::force_N, "N", "Force.")
+          .vector("moment_N_m", &ForceOptions::moment_N_m, "N m", "Moment.")
+          .flag("follows_body", &ForceOptions::follows_body, "Force and moment turn with the body instead of keeping earth axes.");
+  return section;
+}
+
+void check_inertia(const BodyOptions& o, const scene::Report& report) {
+  const Eigen::Vector3d d = o.inertia_kg_m2.diagonal();
+  const Eigen::Matrix3d& i = o.inertia_kg_m2;
+  if (d.minCoeff() <= 0.0 || i(0, 0) * i(1, 1) - i(0, 1) * i(0, 1) <= 0.0 || i.determinant() <= 0.0)
+    return report("inertia_kg_m2", "must be positive definite");
+  if (2.0 * d.maxCoeff() > d.sum() * (1.0 + 1e-9))
+    report("inertia_kg_m2", fmt::format("no mass can have it: the largest diagonal term, {}, exceeds the sum of the other two", d.maxCoeff()));
+}
+
+template <class Rate, class Amplitude>
+Section<DriverOptions> driver(const char* name, const char* help, Rate rate, Amplitude amplitude, const char* table_help) {
+  Section<DriverOptions> section(name, help);
+  rate(section);
+  amplitude(section);
+  section.number("period_s", &DriverOptions::period_s, "s", "Period of the harmonic part.", positive())
+      .degrees("phase_deg", &DriverOptions::phase, "Phase of the harmonic part, amplitude x sin(2 pi t / period + phase).")
+      .path("table", &DriverOptions::table, table_help)
+      .check([](const DriverOptions& o, const scene::Report& report) {
+        if (o.amplitude != 0.0 && o.period_s <= 0.0) report("period_s", "is needed by the amplitude");
+        if (o.amplitude == 0.0 && o.period_s > 0.0) report("period_s", "has no effect without an amplitude");
+      });
+  return section;
+}
+
+const Section<DriverOptions>& rotation_section() {
+  using S = Section<DriverOptions>;
+  static const S section = driver(
+      "rotation", "Prescribed angle of the second body about the axis: the sum of what is given.",
+      [](S& s) { s.rpm("speed_rpm", &DriverOptions::rate, "Constant rate."); },
+      [](S& s) { s.degrees("amplitude_deg", &DriverOptions::amplitude, "Amplitude of the harmonic part."); },
+      "CSV file with columns time_s, angle_deg, joined by a natural cubic spline.");
+  return section;
+}
+
+const Section<DriverOptions>& translation_section() {
+  using S = Section<DriverOptions>;
+  static const S section = driver(
+      "translation", "Prescribed distance of the second body along the axis: the sum of what is given.",
+      [](S& s) { s.number("speed_m_s", &DriverOptions::rate, "m/s", "Constant rate."); },
+      [](S& s) { s.number("amplitude_m", &DriverOptions::amplitude, "m", "Amplitude of the harmonic part."); },
+      "CSV file with columns time_s, distance_m, joined by a natural cubic spline.");
+  return section;
+}
+
+void check_joint(const JointOptions& o, const scene::Report& report) {
+  if (o.bodies.size() == 2 && o.bodies[0] == o.bodies[1]) report("bodies", "a joint ties two different bodies");
+  if (o.type != JointType::spherical && o.type != JointType::fixed && o.axis.norm() == 0.0)
+    report("axis", fmt::format("is needed by a {} joint, and not zero", joint_type_names[std::size_t(o.type)]));
+  if (o.type == JointType::universal && o.axis.cross(o.second_axis).norm() <= 1e-9 * o.axis.norm() * o.second_axis.norm())
+    report("second_axis", "must not be zero or parallel to axis");
+  if (o.rotation && !turns(o.type)) report("rotation", "only a revolute or cylindrical joint can be driven in rotation");
+  if (o.translation && !slides(o.type)) report("translation", "only a translational or cylindrical joint can be driven in translation");
+}
+
+PrescribedMotion make_driver(const DriverOptions& o, const char* column, double unit) {
+  PrescribedMotion motion{.rate = o.rate, .amplitude = o.amplitude, .phase = o.phase};
+  if (o.period_s > 0.0) motion.omega = 2.0 * pi / o.period_s;
+  if (o.table.empty()) return motion;
+  const scene::Columns table = scene::read_columns(o.table);
+  table.allow_only({"time_s", column});
+  table.require_rows(2);
+  table.require_increasing("time_s", "time");
+  std::vector<double> values(table[column].begin(), table[column].end());
+  for (double& v : values) v *= unit;
+  motion.table = CubicTable(table["time_s"], values);
+  return motion;
+}
+
+PrescribedMotion make_rotation(const DriverOptions& o) { return make_driver(o, "angle_deg", radians_per_degree); }
+PrescribedMotion make_translation(const DriverOptions& o) { return make_driver(o, "distance_m", 1.0); }
+
+int index_of(const NamedBodies& bodies, const std::string& name) {
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].name == name) return int(b);
+  return earth;
+}
+
+}  // namespace
+
+const Section<BodyOptions>& body_section() {
+  static const auto section =
+      Section<BodyOptions>("bodies", "A rigid body: mass, where it is, its shape and how it starts.")
+          .named()
+          .number("mass_kg", &BodyOptions::mass_kg, "kg", "Mass.", positive())
+          .required()
+          .symmetric("inertia_kg_m2", &BodyOptions::inertia_kg_m2, "kg m2",
+                     "Inertia about the centre of mass, axes parallel to the earth's at the start: [Ixx, Iyy, Izz] or three rows.")
+          .required()
+          .vector("centre_m", &BodyOptions::centre_m, "m", "Centre of mass, initial earth coordinates.")
+          .required()
+          .vector("reference_m", &BodyOptions::reference_m, "m",
+                  "Point of the body whose motion is written, initial earth coordinates; the centre of mass where absent.")
+          .flag("gyroscopic", &BodyOptions::gyroscopic, "Gyroscopic moments of the body; without them its spin loads nothing.")
+          .vector("displacement_m", &BodyOptions::displacement_m, "m",
+                  "The body starts away from where the scene describes it by this much, as for a decay test.")
+          .degrees("rotation_deg", &BodyOptions::rotation,
+                   "The body starts turned by roll, pitch, yaw about its reference point (yaw first, then pitch, then roll).")
+          .vector("velocity_m_s", &BodyOptions::velocity_m_s, "m/s", "Velocity of the centre of mass at the start.")
+          .vector("omega_rad_s", &BodyOptions::omega_rad_s, "rad/s", "Angular velocity at the start, earth axes.")
+          .tables("cylinders", &BodyOptions::cylinders, cylinder_section(), "Shape that meets the water.")
+          .tables("forces", &BodyOptions::forces, force_section(), "Constant forces and moments.")
+          .check(check_inertia);
+  return section;
+}
+
+const Section<JointOptions>& joint_section() {
+  static const auto section =
+      Section<JointOptions>("joints", "An ideal joint between two bodies, or a body and the earth, with its drivers.")
+          .named()
+          .choice("type", &JointOptions::type,
+                  {{"fixed", JointType::fixed, "no relative motion"},
+                   {"revolute", JointType::revolute, "turns about the axis"},
+                   {"spherical", JointType::spherical, "turns about the point"},
+                   {"universal", JointType::universal, "turns about the axis of the first body and the second axis of the second"},
+                   {"translational", JointType::translational, "slides along the axis"},
+                   {"cylindrical", JointType::cylindrical, "slides along the axis and turns about it"}},
+                  "Kind of the joint.")
+          .texts("bodies", &JointOptions::bodies, "First and second body; \"earth\" is the fixed frame.")
+          .required()
+          .size(2, 2)
+          .vector("point_m", &JointOptions::point_m, "m", "Point of the joint, initial earth coordinates.")
+          .required()
+          .vector("axis", &JointOptions::axis, "-", "Direction of the axis; its length does not matter.")
+          .only_if("type", {"revolute", "universal", "translational", "cylindrical"})
+          .required()
+          .vector("second_axis", &JointOptions::second_axis, "-", "Axis of the cross on the second body.")
+          .only_if("type", {"universal"})
+          .required()
+          .table("rotation", &JointOptions::rotation, rotation_section(), "Driver in rotation.")
+          .table("translation", &JointOptions::translation, translation_section(), "Driver in translation.")
+          .check(check_joint);
+  return section;
+}
+
+void check_bodies(scene::Document& document, const NamedBodies& bodies, const NamedJoints& joints) {
+  if (bodies.empty()) document.problem("bodies", "the scene has no body: give at least one [bodies.NAME]");
+  std::vector<std::string> names;
+  std::set<std::string> cylinders;
+  for (const auto& [name, body] : bodies) {
+    names.push_back(name);
+    if (name == "earth") document.problem("bodies.earth", "\"earth\" is the name of the fixed frame: choose another");
+    for (std::size_t c = 0; c < body.cylinders.size(); ++c)
+      if (!cylinders.insert(body.cylinders[c].name).second)
+        document.problem(fmt::format("bodies.{}.cylinders[{}].name", name, c), "another cylinder of the scene has this name");
+  }
+  for (const auto& [name, joint] : joints) {
+    for (const std::string& body : joint.bodies)
+      if (body != "earth" && std::find(names.begin(), names.end(), body) == names.end())
+        document.problem("joints." + name + ".bodies",
+                         fmt::format("names body \"{}\", which is not in [bodies]; known: {}, earth", body, fmt::join(names, ", ")));
+    const auto check_table = [&](const std::optional<DriverOptions>& driver, const char* which, auto make) {
+      if (!driver || driver->table.empty()) return;
+      try {
+        make(*driver);
+      } catch (const scene::SceneError& e) { document.problem(fmt::format("joints.{}.{}.table", name, which), e.what()); }
+    };
+    check_table(joint.rotation, "rotation", make_rotation);
+    check_table(joint.translation, "translation", make_translation);
+  }
+}
+
+Motion described_motion(const BodyOptions& body) { return {.position = body.centre_m}; }
+
+Motion start_motion(const BodyOptions& body) {
+  Motion m;
+  m.attitude = attitude(body.rotation);
+  m.position = body.reference() + body.displacement_m + m.attitude * (body.centre_m - body.reference());
+  m.velocity = body.velocity_m_s;
+  m.omega = m.attitude.conjugate() * body.omega_rad_s;
+  return m;
+}
+
+std::vector<Body> make_bodies(const NamedBodies& bodies) {
+  std::vector<Body> result;
+  for (const auto& [name, o] : bodies)
+    result.push_back({.name = name, .mass = o.mass_kg, .inertia = o.inertia_kg_m2, .gyroscopic = o.gyroscopic,
+                      .initial = described_motion(o)});
+  return result;
+}
+
+std::vector<Joint> make_joints(const NamedJoints& joints, const NamedBodies& bodies) {
+  std::vector<Joint> result;
+  for (const auto& [name, o] : joints) {
+    Joint joint{.name = name, .type = o.type, .i = index_of(bodies, o.bodies[0]), .j = index_of(bodies, o.bodies[1]),
+                .point = o.point_m};
+    if (o.axis.norm() > 0.0) joint.axis = o.axis.normalized();
+    if (o.second_axis.norm() > 0.0) joint.second_axis = o.second_axis.normalized();
+    if (o.rotation) joint.rotation = make_rotation(*o.rotation);
+    if (o.translation) joint.translation = make_translation(*o.translation);
+    result.push_back(std::move(joint));
+  }
+  return result;
+}
+
+std::vector<PointLoad> make_point_loads(const NamedBodies& bodies) {
+  std::vector<PointLoad> result;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (const ForceOptions& f : bodies[b].options.forces)
+      result.push_back({.body = int(b), .point = f.point_m - bodies[b].options.centre_m, .force = f.force_N, .moment = f.moment_N_m,
+                        .follows_body = f.follows_body});
+  return result;
+}
+
+Cylinder make_cylinder(const CylinderOptions& c, const BodyOptions& body) {
+  return {.start = c.start_m - body.centre_m, .end = c.end_m - body.centre_m, .start_radius = 0.5 * c.diameter_m,
+          .end_radius = 0.5 * c.end_diameter_m.value_or(c.diameter_m)};
+}
+
+}  // namespace spindrift::bodies

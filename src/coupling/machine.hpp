@@ -1,0 +1,72 @@
+// The machine that a scene describes: bodies with every source of load that the scene names, and nothing else.
+// Built by src/app from a Scenario; advanced by run.cpp; tested in tests/src/coupling.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/bodies/system.hpp"
+#include "src/coupling/scenario.hpp"
+#include "src/coupling/timeline.hpp"
+#include "src/aero/rotor_loads.hpp"
+#include "src/moorings/moorings.hpp"
+#include "src/sea/engineering_sea.hpp"
+
+namespace spindrift::coupling {
+
+/// Time spent in one source of load, counted inside the right-hand side of the bodies.
+struct SourceClock {
+  std::int64_t ns = 0, calls = 0;
+};
+
+class Machine {
+ public:
+  explicit Machine(Scenario scenario);
+  Machine(const Machine&) = delete;
+  Machine& operator=(const Machine&) = delete;
+
+  const Scenario& scenario() const { return scenario_; }
+  const Timeline& timeline() const { return timeline_; }
+  bodies::System& system() { return *system_; }
+
+  const std::optional<moorings::Moorings>& moorings() const { return moorings_; }
+  const std::optional<sea::EngineeringSea>& sea() const { return sea_; }
+  const std::optional<aero::RotorLoads>& rotor() const { return rotor_; }
+
+  bool has_waves() const { return scenario_.has_waves(); }
+
+  /// Whether the source can load the body at all (what cannot is not written).
+  bool loads_body(std::size_t source, std::size_t body) const { return loaded_[source][body]; }
+  /// Of a body, in its axes from the centre of mass.
+  const Eigen::Vector3d& reference_point(std::size_t body) const { return reference_points_[body]; }
+
+  /// By source, in the order of system().loads().
+  std::span<const SourceClock> clocks() const { return clocks_; }
+  void reset_clocks() { clocks_.assign(clocks_.size(), {}); }
+
+  /// Factor on the rotor's loads at time t [s] (start.ramp_s): 0 at the start, 1 after the ramp, with a continuous rate.
+  double ramp(double t) const;
+  /// Until told otherwise loads are ramped; the statics and stability ask for their full value.
+  void use_full_loads(bool full) { full_loads_ = full; }
+
+ private:
+  void add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadSource source, std::vector<bool> on);
+
+  Scenario scenario_;
+  Timeline timeline_;
+  std::optional<moorings::Moorings> moorings_;
+  std::optional<sea::EngineeringSea> sea_;
+  std::optional<aero::RotorLoads> rotor_;
+  std::vector<Eigen::Vector3d> reference_points_;
+  std::vector<std::vector<bool>> loaded_;  ///< [source][body]
+  std::vector<SourceClock> clocks_;
+  bool full_loads_ = false;
+  std::unique_ptr<bodies::System> system_;
+};
+
+}  // namespace spindrift::coupling

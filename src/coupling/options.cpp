@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/options.hpp"
+
+#include <fmt/format.h>
+
+#include "src/coupling/timeline.hpp"
+#include "src/scene/section.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+void check_time(const TimeOptions& o, const scene::Report& report) {
+  if (!whole_ratio(o.window_s, o.step()))
+    report("step_s", fmt::format("must divide the window of {} s into whole steps (nearest: {} s)", o.window_s,
+                                 nearest_divisor(o.window_s, o.step())));
+  if (!whole_ratio(o.end_s, o.window_s))
+    report("end_s", fmt::format("must be a whole number of windows of {} s", o.window_s));
+}
+
+}  // namespace
+
+const scene::Section<TimeOptions>& time_section() {
+  using scene::above;
+  static const auto section =
+      scene::Section<TimeOptions>("time", "Length of the run and of its steps.")
+          .number("end_s", &TimeOptions::end_s, "s", "The run covers 0 to this time.", above(0.0).up_to(1e6))
+          .required()
+          .number("window_s", &TimeOptions::window_s, "s",
+                  "Coupling window: parts exchange loads and motions, and history gets a row, at its end.", above(0.0).up_to(1e3))
+          .required()
+          .number("step_s", &TimeOptions::step_s, "s",
+                  "Step of the bodies and of everything that loads them without a solver of its own; must divide the window, "
+                  "which it is where absent.",
+                  above(0.0).up_to(1e3))
+          .choice("integrator", &TimeOptions::integrator,
+                  {{"rk4", Integrator::rk4, "classical Runge-Kutta, fourth order"},
+                   {"explicit_euler", Integrator::explicit_euler, "first order; unstable for undamped modes at any step"},
+                   {"symplectic", Integrator::symplectic, "leapfrog (kick, drift, kick), second order"}},
+                  "Time integration of the bodies.")
+          .check(check_time);
+  return section;
+}
+
+const scene::Section<EnvironmentOptions>& environment_section() {
+  using scene::above, scene::between;
+  static const auto section =
+      scene::Section<EnvironmentOptions>("environment", "Gravity, water and air.")
+          .number("gravity_m_s2", &EnvironmentOptions::gravity_m_s2, "m/s2", "Gravitational acceleration, along -z.",
+                  between(0.0, 100.0))
+          .number("water_density_kg_m3", &EnvironmentOptions::water_density_kg_m3, "kg/m3", "Density of the water.",
+                  above(0.0).up_to(2e4))
+          .number("water_depth_m", &EnvironmentOptions::water_depth_m, "m", "Depth of the still water.", above(0.0).up_to(1.2e4))
+          .number("air_density_kg_m3", &EnvironmentOptions::air_density_kg_m3, "kg/m3", "Density of the air.",
+                  above(0.0).up_to(100.0));
+  return section;
+}
+
+const scene::Section<StartOptions>& start_section() {
+  static const auto section =
+      scene::Section<StartOptions>("start", "State at t = 0.")
+          .flag("equilibrium", &StartOptions::equilibrium,
+                "Start from the static equilibrium under all loads at their full value, instead of from the positions of the scene.")
+          .number("ramp_s", &StartOptions::ramp_s, "s",
+                  "Rotor loads grow smoothly from nothing over this time; 0 applies them at once.", scene::between(0.0, 1e6));
+  return section;
+}
+
+const scene::Section<OutputOptions>& output_section() {
+  static const auto section =
+      scene::Section<OutputOptions>("output", "What a run writes.")
+          .text("title", &OutputOptions::title, "Title of the report; the scene's file name where empty.")
+          .integer("history_every", &OutputOptions::history_every, "-", "Windows from one row of history.csv to the next.",
+                   scene::between(1, 1e9))
+          .number("means_over_s", &OutputOptions::means_over_s, "s",
+                  "Length of the time before the end over which summary.json gives means; 0: the last third of the run.",
+                  scene::between(0.0, 1e6));
+  return section;
+}
+
+const scene::Section<CheckpointOptions>& checkpoint_section() {
+  static const auto section =
+      scene::Section<CheckpointOptions>("checkpoint", "Saved states, from which --restart goes on bit for bit.")
+          .number("interval_s", &CheckpointOptions::interval_s, "s",
+                  "Simulated time between checkpoints; 0: only at the end, on a stop, and on numerical failure.",
+                  scene::between(0.0, 1e6))
+          .integer("keep", &CheckpointOptions::keep, "-", "How many of the last checkpoints are kept.", scene::between(1, 1000));
+  return section;
+}
+
+const scene::Section<RuntimeOptions>& runtime_section() {
+  static const auto section =
+      scene::Section<RuntimeOptions>("runtime", "How the machine's time is used.")
+          .number("wall_limit_s", &RuntimeOptions::wall_limit_s, "s",
+                  "Wall time after which the run finishes its window, writes a checkpoint and ends with exit code 5; 0: none.",
+                  scene::between(0.0, 1e9));
+  return section;
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,62 @@
+// What a scene says about time, surroundings, start, output and checkpoints: the sections that belong to the run as a whole.
+// Declared in options.cpp, read by scenario.cpp, used by run.cpp. Tested in tests/src/coupling.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "kernels/base/constants.hpp"
+#include "kernels/rigid/integrators.hpp"
+
+namespace spindrift::scene {
+template <class Options>
+class Section;
+}
+
+namespace spindrift::coupling {
+
+struct TimeOptions {
+  double end_s = 0.0;
+  double window_s = 0.0;
+  std::optional<double> step_s;  ///< the window where absent
+  Integrator integrator = Integrator::rk4;
+
+  double step() const { return step_s.value_or(window_s); }
+};
+
+struct EnvironmentOptions {
+  double gravity_m_s2 = standard_gravity;
+  double water_density_kg_m3 = 1025.0;
+  double water_depth_m = 100.0;
+  double air_density_kg_m3 = 1.225;
+};
+
+struct StartOptions {
+  bool equilibrium = false;
+  double ramp_s = 0.0;
+};
+
+struct OutputOptions {
+  std::string title;
+  int history_every = 1;
+  double means_over_s = 0.0;  ///< 0: the last third of the run
+};
+
+struct CheckpointOptions {
+  double interval_s = 0.0;  ///< 0: only at the end
+  int keep = 2;
+};
+
+struct RuntimeOptions {
+  double wall_limit_s = 0.0;  ///< 0: none
+};
+
+const scene::Section<TimeOptions>& time_section();
+const scene::Section<EnvironmentOptions>& environment_section();
+const scene::Section<StartOptions>& start_section();
+const scene::Section<OutputOptions>& output_section();
+const scene::Section<CheckpointOptions>& checkpoint_section();
+const scene::Section<RuntimeOptions>& runtime_section();
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/run.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "runtime/executor/executor.hpp"
+#include "runtime/mpi/stop_request.hpp"
+#include "runtime/trace/chrome.hpp"
+#include "runtime/trace/efficiency.hpp"
+#include "runtime/trace/trace_of.hpp"
+#include "src/coupling/recorder.hpp"
+#include "src/coupling/start.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/history.hpp"
+#include "src/io/machine_failure.hpp"
+#include "src/io/progress.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+/// The window of a scene without fluid solvers: the bodies' steps in order, then a row of history. Recorded once, replayed per window.
+struct Window {
+  bodies::BodiesState start, state;  ///< at the window's start; now
+  bodies::StepReport trouble;        ///< of the first step that failed; `state` is then the last good one
+  std::int64_t steps = 0;
+};
+
+runtime::Graph record_window(Machine& machine, Window& window) {
+  const double tick_s = machine.timeline().tick_s();
+  const auto steps = std::uint32_t(machine.timeline().steps_per_window());
+  runtime::Graph graph;
+  const runtime::Datum state = graph.datum();
+  graph.loop("bodies/steps", {.min = 1, .max = steps}, [&] {
+    graph.task("bodies/step", {runtime::updates(state)}, [&machine, &window, tick_s] {
+      window.trouble = machine.system().advance(window.state, tick_s, 1);
+      window.steps += window.trouble.ok();
+    });
+    graph.until("bodies/trouble", {runtime::reads(state)}, [&window] { return !window.trouble.ok(); });
+  });
+  return graph;
+}
+
+class Checkpoints {
+ public:
+  Checkpoints(MPI_Comm comm, const Machine& machine, const io::RunDirectory& directory)
+      : series_(comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
+
+  void save(const Window& window, std::int64_t number, int restarts) {
+    const bodies::BodiesState& state = window.trouble.ok() ? window.state : window.start;  // a restart begins at a window's start
+    std::vector<double> packed(state.packed_size());
+    state.pack(packed);
+    series_.save(state.tick, [&](io::CheckpointWriter& file) {
+      file.set("window", number);
+      file.set("steps", window.steps);
+      file.set("restarts", std::int64_t(restarts));
+      file.write<double>("bodies/state", packed);
+    });
+    saved_ = number;
+  }
+  bool is_saved(std::int64_t number) const { return saved_ == number; }
+
+  /// The window to go on from.
+  std::int64_t resume(Window& window, int& restarts) {
+    const std::optional<io::CheckpointReader> file = series_.newest();
+    if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
+    window.state.unpack(file->read<double>("bodies/state"));
+    window.steps = file->integer("steps");
+    restarts = int(file->integer("restarts")) + 1;
+    return saved_ = file->integer("window");
+  }
+
+ private:
+  io::CheckpointSeries series_;
+  std::int64_t saved_ = -1;
+};
+
+/// What a restart must find unchanged, since otherwise the run would not be the one that was interrupted.
+std::int64_t windows_until(const Timeline& timeline, const std::optional<double>& until_s) {
+  if (!until_s) return timeline.windows();
+  const auto windows = std::int64_t(std::ceil(*until_s / timeline.window_s() * (1.0 - 1e-12)));
+  return std::clamp<std::int64_t>(windows, 0, timeline.windows());
+}
+
+std::vector<io::PartTime> part_times(Machine& machine, double window_seconds, double output_seconds, std::int64_t steps) {
+  std::vector<io::PartTime> parts;
+  double loads = 0.0;
+  const auto clocks = machine.clocks();
+  for (std::size_t s = 0; s < clocks.size(); ++s) {
+    const double seconds = 1e-9 * double(clocks[s].ns);
+    parts.push_back({machine.system().loads()[s].name, seconds, seconds, clocks[s].calls});
+    loads += seconds;
+  }
+  parts.insert(parts.begin(), {"bodies", window_seconds - loads, window_seconds - loads, steps});
+  parts.push_back({"output", output_seconds, output_seconds, 0});
+  return parts;
+}
+
+/// Efficiencies into the summary and, as a table, into the log; trace.json where asked for. Collective.
+void finish_trace(const runtime::Executor& executor, const io::RunDirectory& directory, const runtime::World& world, bool write,
+                  io::Summary& summary) {
+  const std::vector<runtime::RankTrace> traces = gather_traces(trace_of(executor, world.rank), world.comm);
+  if (world.rank != 0) return;
+  const runtime::Efficiency e = efficiency_of(traces);
+  for (const auto& [name, value, meaning] : std::initializer_list<std::tuple<const char*, double, const char*>>{
+           {"parallel efficiency", e.parallel, "useful core-seconds over all core-seconds; load balance x communication"},
+           {"load balance", e.load_balance, "mean over largest useful time of a thread"},
+           {"communication efficiency", e.communication, "largest useful time of a thread over elapsed time"},
+           {"serialisation efficiency", e.serialisation, "what dependencies leave on an ideal network"},
+           {"transfer efficiency", e.transfer, "what moving data leaves"}})
+    if (std::isfinite(value)) summary.efficiency.push_back({name, value, meaning});
+  spdlog::info("{}", efficiency_table(e));
+  if (write) write_chrome_trace(traces, directory.trace().string());
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& directory, const runtime::World& world,
+                const RunSettings& settings) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Timeline& timeline = machine.timeline();
+  const CheckpointOptions& checkpoint = machine.scenario().checkpoint;
+  const runtime::StopRequest stop(machine.scenario().runtime.wall_limit_s);
+
+  io::Summary summary;
+  Window window;
+  Checkpoints checkpoints(world.comm, machine, directory);
+  io::History history;
+  Recorder recorder(machine, history);
+  std::int64_t first = 0;
+  window.state = start.state;
+  if (settings.restart) {
+    first = checkpoints.resume(window, summary.restarts);
+    spdlog::info("restart from t = {} s", timeline.window_end_s(first));
+  }
+  const bool writes = world.rank == 0;
+  if (writes && settings.restart)
+    history.resume(directory.history(), timeline.window_end_s(first));
+  else if (writes)
+    history.open(directory.history());
+  if (!settings.restart) recorder.write(window.state, 0.0);
+
+  const std::int64_t last = windows_until(timeline, settings.until_s);
+  const int every = machine.scenario().output.history_every;
+  const std::int64_t save_every =
+      checkpoint.interval_s > 0.0 ? std::max<std::int64_t>(1, std::llround(checkpoint.interval_s / timeline.window_s())) : 0;
+  runtime::Executor executor(record_window(machine, window), {.threads = 1, .records = settings.trace ? std::size_t(1) << 20 : 0});
+  io::Progress progress(timeline.window_end_s(first), timeline.window_end_s(last), io::progress_style(world.rank, settings.quiet));
+  machine.reset_clocks();
+
+  double window_seconds = 0.0;
+  std::int64_t number = first;
+  while (number < last && summary.exit_code == 0) {
+    const auto window_begin = std::chrono::steady_clock::now();
+    window.start = window.state;
+    executor.run();
+    window_seconds += seconds_since(window_begin);
+    if (!window.trouble.ok()) {
+      const NumericalFailure failure = machine.system().failure(window.trouble, window.state, timeline.tick_s());
+      summary.exit_code = 3;
+      summary.exit_reason = failure.what();
+      summary.numerical_trouble.push_back(failure.what());
+      break;
+    }
+    ++number;
+    if (number % every == 0 || number == last) recorder.write(window.state, timeline.window_end_s(number));
+    progress.update(timeline.window_end_s(number));
+    if (std::string why = stop.agreed(world.comm); !why.empty() && number < last) {
+      summary.exit_code = 5;
+      summary.exit_reason = why;
+    }
+    if (save_every > 0 && number % save_every == 0) history.flush(), checkpoints.save(window, number, summary.restarts);
+  }
+  history.flush();
+  if (!checkpoints.is_saved(number)) checkpoints.save(window, number, summary.restarts);
+
+  if (summary.exit_code == 0)
+    summary.exit_reason = last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last)) : "done";
+  summary.start_time_s = timeline.window_end_s(first);
+  summary.end_time_s = double(window.state.tick) * timeline.tick_s();
+  summary.window_s = timeline.window_s();
+  summary.counts = {{"windows", number - first}, {"steps", window.steps}};
+  summary.wall_seconds = seconds_since(begin);
+  summary.parts = part_times(machine, window_seconds, summary.wall_seconds - window_seconds, window.steps);
+  finish_trace(executor, directory, world, settings.trace, summary);
+  summary.ranks = world.size;
+  summary.threads = executor.threads();
+  summary.columns = history.columns();
+  return summary;
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/scenario.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <set>
+
+namespace spindrift::coupling {
+
+namespace {
+
+/// Sections that say how a part behaves which the scene does not have.
+void check_effect(scene::Document& document, const Scenario& s) {
+  const auto no_effect = [&](const char* section, const char* why) {
+    if (document.given(section)) document.problem(section, fmt::format("has no effect: {}", why));
+  };
+  if (!s.has_rotor()) no_effect("rotor", "aero.model is none");
+  if (s.aero.model != "thrust_curve" && s.aero.model != "bem") no_effect("wind", "aero.model does not ask for wind");
+  if (s.aero.model == "none" && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
+  if (s.sea.model != "morison") no_effect("waves", "sea.model is not morison");
+}
+
+template <class Options>
+std::vector<std::string> names(const std::vector<scene::Named<Options>>& named) {
+  std::vector<std::string> result;
+  for (const auto& entry : named) result.push_back(entry.name);
+  return result;
+}
+
+/// Names are columns of history.csv: one meaning each, and no characters that a table cannot hold.
+void check_names(scene::Document& document, const Scenario& s) {
+  std::set<std::string> seen;
+  const auto check = [&](const char* section, const std::vector<std::string>& all) {
+    for (const std::string& name : all) {
+      const std::string key = fmt::format("{}.{}", section, name);
+      if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
+        document.problem(key, "a name is made of letters, digits, _ and -");
+      else if (!seen.insert(name).second)
+        document.problem(key, fmt::format("\"{}\" is the name of another body, joint or line", name));
+    }
+  };
+  check("bodies", names(s.bodies));
+  check("joints", names(s.joints));
+  check("moorings", names(s.moorings));
+}
+
+}  // namespace
+
+std::span<const scene::SectionBase* const> all_sections() {
+  static const std::array<const scene::SectionBase*, 14> sections{
+      &time_section(),        &environment_section(), &aero::wind_section(),   &aero::aero_section(),
+      &aero::rotor_section(), &sea::sea_section(),    &sea::waves_section(),  &bodies::body_section(), &bodies::joint_section(),
+      &moorings::line_section(), &start_section(),    &runtime_section(),     &output_section(),  &checkpoint_section()};
+  return sections;
+}
+
+std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies) {
+  std::vector<sea::SeaBody> result;
+  for (const auto& [name, body] : bodies) {
+    sea::SeaBody sea_body{.name = name, .initial = described_motion(body), .cylinders = {}};
+    for (const bodies::CylinderOptions& c : body.cylinders) sea_body.cylinders.push_back({c.name, make_cylinder(c, body)});
+    result.push_back(std::move(sea_body));
+  }
+  return result;
+}
+
+Scenario read_scenario(scene::Document& document) {
+  Scenario s;
+  s.source = document.source();
+  s.time = document.read(time_section());
+  s.environment = document.read(environment_section());
+  s.wind = document.read(aero::wind_section());
+  s.aero = document.read(aero::aero_section());
+  s.rotor = document.read(aero::rotor_section());
+  s.sea = document.read(sea::sea_section());
+  s.waves = document.read(sea::waves_section());
+  s.bodies = document.read_named(bodies::body_section());
+  s.joints = document.read_named(bodies::joint_section());
+  s.moorings = document.read_named(moorings::line_section());
+  s.start = document.read(start_section());
+  s.runtime = document.read(runtime_section());
+  s.output = document.read(output_section());
+  s.checkpoint = document.read(checkpoint_section());
+
+  check_names(document, s);
+  check_effect(document, s);
+  check_bodies(document, s.bodies, s.joints);
+  const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
+  check_lines(document, s.moorings, bodies);
+  if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
+  for (const sea::OptionProblem& p : sea_problems(s.sea, s.waves, sea_bodies(s.bodies))) document.problem(p.key, p.what);
+  document.finish();
+  return s;
+}
+
+std::string describe_bodies(const Scenario& s) {
+  std::string text = fmt::format("{} ({})", s.bodies.size(), fmt::join(names(s.bodies), ", "));
+  if (!s.joints.empty()) text += fmt::format(", joints: {}", fmt::join(names(s.joints), ", "));
+  return text;
+}
+
+std::string describe_rotor(const Scenario& s) {
+  return s.has_rotor() ? fmt::format("{} on body {}", s.aero.model, s.rotor.body) : "none";
+}
+
+std::string describe_sea(const Scenario& s) {
+  if (!s.has_sea()) return "none";
+  std::size_t cylinders = 0;
+  for (const auto& body : s.bodies) cylinders += body.options.cylinders.size();
+  std::string text = fmt::format("{}, {} cylinder{}", s.sea.model, cylinders, cylinders == 1 ? "" : "s");
+  text += s.has_waves() ? fmt::format(", waves {} (H {} m, T {} s)", s.waves.model, s.waves.height_m, s.waves.period_s) : ", calm";
+  return text;
+}
+
+std::string describe_moorings(const Scenario& s) {
+  if (s.moorings.empty()) return "none";
+  std::set<std::string> models;
+  for (const auto& line : s.moorings) models.insert(line.options.model);
+  return fmt::format("{} line{} ({})", s.moorings.size(), s.moorings.size() == 1 ? "" : "s", fmt::join(models, ", "));
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,58 @@
+// A scene, read and checked: the options of every module, side by side, and the rules between them.
+// From here on nobody sees the parser. Built by read_scenario; used by Machine; tested in tests/src/coupling/scenario_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/aero/options.hpp"
+#include "src/bodies/options.hpp"
+#include "src/coupling/options.hpp"
+#include "src/moorings/options.hpp"
+#include "src/scene/document.hpp"
+#include "src/sea/engineering_sea.hpp"
+#include "src/sea/options.hpp"
+
+namespace spindrift::coupling {
+
+struct Scenario {
+  std::string source;  ///< the scene file as the user named it
+  TimeOptions time;
+  EnvironmentOptions environment;
+  StartOptions start;
+  RuntimeOptions runtime;
+  OutputOptions output;
+  CheckpointOptions checkpoint;
+  bodies::NamedBodies bodies;
+  bodies::NamedJoints joints;
+  std::vector<scene::Named<moorings::LineOptions>> moorings;
+  aero::AeroOptions aero;
+  aero::RotorOptions rotor;
+  aero::WindOptions wind;
+  sea::SeaOptions sea;
+  sea::WavesOptions waves;
+
+  bool has_rotor() const { return aero.model != "none"; }
+  bool has_sea() const { return sea.model != "none"; }
+  bool has_waves() const { return has_sea() && waves.model != "none"; }
+};
+
+/// Every section of the program, for the reader, `spindrift reference` and inputs/REFERENCE.md.
+std::span<const scene::SectionBase* const> all_sections();
+
+/// Reads and checks the whole document; throws scene::SceneError with every problem.
+Scenario read_scenario(scene::Document& document);
+
+/// The bodies as the sea sees them, in the order of the scene.
+std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies);
+
+/// What is modelled, in words: "3 lines (spring_damper)".
+std::string describe_bodies(const Scenario& scenario);
+std::string describe_rotor(const Scenario& scenario);
+std::string describe_sea(const Scenario& scenario);
+std::string describe_moorings(const Scenario& scenario);
+
+}  // namespace spindrift::coupling

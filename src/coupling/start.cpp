@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/start.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/scene/error.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+[[noreturn]] void refuse(const Machine& machine, std::string key, std::string value, std::string message) {
+  throw scene::SceneError({{machine.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
+}
+
+/// Moves the bodies from where the scene describes them to how they start, as far as their joints allow.
+void move_to_start(Machine& machine, bodies::BodiesState& state) {
+  const bodies::NamedBodies& bodies = machine.scenario().bodies;
+  bool moved = false;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const bodies::BodyOptions& o = bodies[b].options;
+    if (o.displacement_m.isZero(0.0) && o.rotation.isZero(0.0) && o.velocity_m_s.isZero(0.0) && o.omega_rad_s.isZero(0.0)) continue;
+    state.motions[b] = start_motion(o);
+    moved = true;
+  }
+  if (!moved) return;
+  const bodies::Assembly assembly = machine.system().assemble_from(state, 0.0);
+  if (!assembly.contradiction.empty()) refuse(machine, "bodies", "", "with these displacements: " + assembly.contradiction);
+  state = assembly.state;
+}
+
+/// Loads at full value while this lives.
+class FullLoads {
+ public:
+  explicit FullLoads(Machine& machine) : machine_(machine) { machine_.use_full_loads(true); }
+  ~FullLoads() { machine_.use_full_loads(false); }
+  FullLoads(const FullLoads&) = delete;
+  FullLoads& operator=(const FullLoads&) = delete;
+
+ private:
+  Machine& machine_;
+};
+
+}  // namespace
+
+Start make_start(Machine& machine) {
+  bodies::Assembly assembly = machine.system().assemble();
+  if (!assembly.contradiction.empty()) refuse(machine, "joints", "", assembly.contradiction);
+  Start start{std::move(assembly.state), assembly.degrees_of_freedom, std::move(assembly.redundant), {}};
+  move_to_start(machine, start.state);
+  if (!machine.scenario().start.equilibrium) return start;
+
+  const FullLoads full(machine);
+  start.equilibrium = find_equilibrium(machine.system(), start.state, 0.0);
+  const bodies::Equilibrium& found = *start.equilibrium;
+  if (!found.problem.empty()) refuse(machine, "start.equilibrium", "true", found.problem);
+  for (const std::string& direction : found.free_directions)
+    start.notes.push_back(fmt::format("{}: neither load nor stiffness; the equilibrium leaves it where the scene puts it", direction));
+  if (!found.unstable.empty()) start.notes.push_back(fmt::format("the equilibrium is unstable: {}", found.unstable));
+  start.state = found.state;
+  return start;
+}
+
+Stability stability(Machine& machine, const bodies::BodiesState& state) {
+  const FullLoads full(machine);
+  Stability result{linearise(machine.system(), state, 0.0), {}};
+  result.limit = step_limit(machine.system().integrator(), result.linearisation);
+  return result;
+}
+
+void require_stable(Machine& machine, const Stability& stability) {
+  const double step = machine.timeline().tick_s();
+  const bodies::StepLimit& limit = stability.limit;
+  if (!stability.linearisation.report.ok())
+    refuse(machine, "bodies", "", "the start cannot be evaluated: " + machine.system().describe(stability.linearisation.report));
+  if (step <= limit.step_s) return;
+  const std::string integrator(name(machine.system().integrator()));
+  if (limit.step_s == 0.0)
+    refuse(machine, "time.integrator", integrator,
+           fmt::format("is unstable at any step for {}, which is undamped (eigenvalue {:.3g}{:+.3g}i 1/s); use rk4 or symplectic",
+                       limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));
+  refuse(machine, "time.step_s", fmt::format("{}", step),
+         fmt::format("is above the limit of {:.4g} s that {} has for {} (eigenvalue {:.3g}{:+.3g}i 1/s)", limit.step_s, integrator,
+                     limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,36 @@
+// The state at t = 0: constraints met, and where the scene asks for it in static equilibrium. What is wrong is said by joint and body.
+// Used by run.cpp and by `spindrift check`; tested in tests/src/coupling.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/bodies/linearise.hpp"
+#include "src/bodies/statics.hpp"
+#include "src/coupling/machine.hpp"
+
+namespace spindrift::coupling {
+
+struct Start {
+  bodies::BodiesState state;
+  int degrees_of_freedom = 0;
+  std::vector<std::string> notes;                     ///< redundant constraints, free directions
+  std::optional<bodies::Equilibrium> equilibrium;     ///< where start.equilibrium asks for it
+};
+
+/// Throws scene::SceneError where joints contradict each other or no equilibrium exists.
+Start make_start(Machine& machine);
+
+/// Stability of the bodies' integrator about the state, under the full loads of time t = 0.
+struct Stability {
+  bodies::Linearisation linearisation;
+  bodies::StepLimit limit;
+};
+Stability stability(Machine& machine, const bodies::BodiesState& state);
+
+/// Throws scene::SceneError where time.step_s exceeds the limit, naming the mode.
+void require_stable(Machine& machine, const Stability& stability);
+
+}  // namespace spindrift::coupling

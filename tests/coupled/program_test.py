@@ -1,0 +1,108 @@
+"""The program as a user meets it: exit codes, messages, run directory, restart, ranks. Usage: program_test.py SPINDRIFT"""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CASE1 = ROOT / "inputs/leble_barakos/case1_engineering.toml"
+CASE2 = ROOT / "inputs/leble_barakos/case2_engineering.toml"
+
+
+def spindrift(*arguments, ranks=0):
+    launcher = [ROOT / "ci/mpirun", str(ranks)] if ranks else []
+    return subprocess.run([*launcher, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_program_")
+        self.out = pathlib.Path(self.folder.name) / "run"
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_case(self, *more, scene=CASE1, ranks=0, out=None):
+        return spindrift("run", scene, "--out", out or self.out, "--no-report", *more, ranks=ranks)
+
+    def test_a_run_leaves_everything_the_documentation_names(self):
+        done = self.run_case("--until", 2, "--trace")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("scene.toml", "history.csv", "summary.json", "log.txt", "checkpoints", "trace.json"):
+            self.assertTrue((self.out / name).exists(), name)
+        summary = json.loads((self.out / "summary.json").read_text())
+        self.assertEqual(summary["exit_code"], 0)
+        json.loads((self.out / "trace.json").read_text())
+
+    def test_the_scene_as_run_gives_the_same_run(self):
+        self.assertEqual(self.run_case("--until", 2).returncode, 0)
+        again = self.out.parent / "again"
+        done = self.run_case("--until", 2, scene=self.out / "scene.toml", out=again)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.out / "history.csv").read_bytes(), (again / "history.csv").read_bytes())
+
+    def test_ranks_do_not_change_a_bit(self):
+        self.assertEqual(self.run_case("--until", 5, scene=CASE2).returncode, 0)
+        two = self.out.parent / "two"
+        done = self.run_case("--until", 5, scene=CASE2, ranks=2, out=two)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual((self.out / "history.csv").read_bytes(), (two / "history.csv").read_bytes())
+
+    def test_bad_input_ends_with_2_and_names_key_and_remedy(self):
+        done = spindrift("check", CASE1, "--set", "time.step_s=-1.0", "--set", "aero.thurst_N=1.0")
+        self.assertEqual(done.returncode, 2)
+        message = done.stdout + done.stderr
+        self.assertIn("time.step_s", message)
+        self.assertIn("thrust_N", message)
+
+    def test_a_step_that_no_integrator_survives_is_refused(self):
+        done = spindrift("check", CASE1, "--set", "time.integrator=explicit_euler")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("platform", done.stdout + done.stderr)
+
+    def test_results_are_not_overwritten_unless_asked(self):
+        self.assertEqual(self.run_case("--until", 1).returncode, 0)
+        refused = self.run_case("--until", 1)
+        self.assertEqual(refused.returncode, 2)
+        self.assertEqual(self.run_case("--until", 1, "--overwrite").returncode, 0)
+
+    def test_a_signal_ends_the_run_with_5_and_it_goes_on_from_there(self):
+        long_run = ["--set", "time.end_s=20000.0", "--set", "output.history_every=100"]
+        process = subprocess.Popen([PROGRAM, "run", CASE1, "--out", self.out, "--no-report", *long_run],
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        deadline = time.time() + 60
+        while not (self.out / "history.csv").exists() and time.time() < deadline:
+            time.sleep(0.05)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGUSR1)
+        output, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 5, output)
+        summary = json.loads((self.out / "summary.json").read_text())
+        self.assertEqual(summary["exit_code"], 5)
+        stopped_at = summary["time"]["end_s"] if "time" in summary else summary["end_time_s"]
+        done = self.run_case("--restart", "--until", stopped_at + 10, *long_run)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_the_reference_in_the_repository_is_that_of_the_program(self):
+        text = spindrift("reference", "--markdown").stdout
+        self.assertEqual(text, (ROOT / "inputs/REFERENCE.md").read_text(), "run ci/reference and commit inputs/REFERENCE.md")
+
+    def test_every_scene_of_inputs_passes_check(self):
+        for scene in sorted((ROOT / "inputs").rglob("*.toml")):
+            if "turbines" in scene.parts or scene.name in ("platform.toml",):
+                continue
+            if scene.name.startswith("study"):
+                continue
+            done = spindrift("check", scene)
+            self.assertEqual(done.returncode, 0, f"{scene}: {done.stdout}{done.stderr}")
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OMP_NUM_THREADS", "2")
+    unittest.main(verbosity=2)

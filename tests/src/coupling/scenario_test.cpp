@@ -1,0 +1,53 @@
+// Rules between the sections of a scene: src/coupling/scenario.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/scenario.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "src/scene/error.hpp"
+#include "tests/src/coupling/scenes.hpp"
+
+using namespace spindrift;
+using namespace spindrift::coupling;
+using Catch::Contains;
+
+namespace {
+
+std::string refusal(const std::vector<std::string>& overrides, const std::string& more = "") {
+  try {
+    test::scenario(std::string(test::buoy) + more, overrides);
+  } catch (const scene::SceneError& e) { return e.what(); }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("every section of the program declares its parameters without fault", "[coupling][fast]") {
+  for (const scene::SectionBase* section : all_sections()) {
+    INFO(section->name());
+    CHECK(section->faults().empty());
+  }
+}
+
+TEST_CASE("a scene that is right is read without complaint", "[coupling][fast]") {
+  const Scenario s = test::scenario(test::buoy);
+  CHECK(s.has_sea());
+  CHECK_FALSE(s.has_rotor());
+  CHECK(s.time.step() == 0.02);
+  CHECK(s.moorings.at(0).options.stiffness_N_m == 1.0e4);
+}
+
+TEST_CASE("what has no effect or contradicts itself is refused by name", "[coupling][fast]") {
+  CHECK_THAT(refusal({"time.step_s=0.03"}), Contains("time.step_s") && Contains("whole steps"));
+  CHECK_THAT(refusal({"time.end_s=2.05"}), Contains("time.end_s") && Contains("whole number of windows"));
+  CHECK_THAT(refusal({"waves.model='airy'", "waves.height_m=1.0", "waves.period_s=8.0"}), Contains("waves"));
+  CHECK_THAT(refusal({"wind.speed_m_s=11.0"}), Contains("wind"));
+  CHECK_THAT(refusal({"start.ramp_s=5.0"}), Contains("start.ramp_s"));
+  CHECK_THAT(refusal({}, "[joints.buoy]\ntype = 'spherical'\nbodies = ['buoy', 'earth']\npoint_m = [0.0, 0.0, 0.0]\n"),
+             Contains("is the name of another body"));
+  CHECK_THAT(refusal({"moorings.chain.body='boy'"}), Contains("known: buoy"));
+}
+
+TEST_CASE("a scene without bodies says what is missing", "[coupling][fast]") {
+  CHECK_THROWS_WITH(test::scenario("[time]\nend_s = 1.0\nwindow_s = 0.1\n"), Contains("no body"));
+}
