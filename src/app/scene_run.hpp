@@ -26,6 +26,6 @@ struct SceneRun {
   std::filesystem::path directory;
 };
 /// Runs into the run directory and writes everything but the report. Collective.
-SceneRun run_scene(const RunArguments& arguments, const runtime::MpiEnvironment& mpi);
+SceneRun run_scene(const RunArguments& arguments, const runtime::World& world);
 
 }  // namespace spindrift::app

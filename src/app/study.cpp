@@ -146,7 +146,10 @@ int study(const StudyArguments& arguments, const runtime::World& world) {
   const Verdict v = verdict(study, outcomes);
   print(study, outcomes, v);
   write_json(study, outcomes, v, folder / "study.json");
-  report::make_study_report(folder);
+  if (const std::optional<std::string> why = report::write({.directories = {folder}}))
+    spdlog::warn("no report: {}", *why);
+  else
+    spdlog::info("report: {}", (folder / "study.html").string());
   const bool failed = std::any_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.exit_code != done; });
   return failed ? numerical_failure : done;
 }

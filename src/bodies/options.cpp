@@ -67,8 +67,8 @@ Section<DriverOptions> driver(const char* name, const char* help, Rate rate, Amp
       .degrees("phase_deg", &DriverOptions::phase, "Phase of the harmonic part, amplitude x sin(2 pi t / period + phase).")
       .path("table", &DriverOptions::table, table_help)
       .check([](const DriverOptions& o, const scene::Report& report) {
-        if (o.amplitude != 0.0 && o.period_s <= 0.0) report("period_s", "is needed by the amplitude");
-        if (o.amplitude == 0.0 && o.period_s > 0.0) report("period_s", "has no effect without an amplitude");
+        if (o.amplitude != 0.0 && !o.period_s) report("period_s", "is needed by the amplitude");
+        if (o.amplitude == 0.0 && o.period_s) report("period_s", "has no effect without an amplitude");
       });
   return section;
 }
@@ -105,7 +105,7 @@ void check_joint(const JointOptions& o, const scene::Report& report) {
 
 PrescribedMotion make_driver(const DriverOptions& o, const char* column, double unit) {
   PrescribedMotion motion{.rate = o.rate, .amplitude = o.amplitude, .phase = o.phase};
-  if (o.period_s > 0.0) motion.omega = 2.0 * pi / o.period_s;
+  if (o.period_s) motion.omega = 2.0 * pi / *o.period_s;
   if (o.table.empty()) return motion;
   const scene::Columns table = scene::read_columns(o.table);
   table.allow_only({"time_s", column});

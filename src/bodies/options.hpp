@@ -60,7 +60,7 @@ struct BodyOptions {
 struct DriverOptions {
   double rate = 0.0;       ///< [rad/s] or [m/s]
   double amplitude = 0.0;  ///< [rad] or [m]
-  double period_s = 0.0;
+  std::optional<double> period_s;
   double phase = 0.0;  ///< [rad]
   std::string table;   ///< path
 };

@@ -35,11 +35,18 @@ runtime::Graph record_window(Machine& machine, Window& window) {
   const auto steps = std::uint32_t(machine.timeline().steps_per_window());
   runtime::Graph graph;
   const runtime::Datum state = graph.datum();
-  graph.loop("bodies/steps", {.min = 1, .max = steps}, [&] {
+  const auto step = [&] {
     graph.task("bodies/step", {runtime::updates(state)}, [&machine, &window, tick_s] {
       window.trouble = machine.system().advance(window.state, tick_s, 1);
       window.steps += window.trouble.ok();
     });
+  };
+  if (steps == 1) {
+    step();
+    return graph;
+  }
+  graph.loop("bodies/steps", {.min = 1, .max = steps}, [&] {
+    step();
     graph.until("bodies/trouble", {runtime::reads(state)}, [&window] { return !window.trouble.ok(); });
   });
   return graph;

@@ -11,17 +11,6 @@ namespace spindrift::coupling {
 
 namespace {
 
-/// Sections that say how a part behaves which the scene does not have.
-void check_effect(scene::Document& document, const Scenario& s) {
-  const auto no_effect = [&](const char* section, const char* why) {
-    if (document.given(section)) document.problem(section, fmt::format("has no effect: {}", why));
-  };
-  if (!s.has_rotor()) no_effect("rotor", "aero.model is none");
-  if (s.aero.model != "thrust_curve" && s.aero.model != "bem") no_effect("wind", "aero.model does not ask for wind");
-  if (s.aero.model == "none" && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
-  if (s.sea.model != "morison") no_effect("waves", "sea.model is not morison");
-}
-
 template <class Options>
 std::vector<std::string> names(const std::vector<scene::Named<Options>>& named) {
   std::vector<std::string> result;
@@ -71,11 +60,12 @@ Scenario read_scenario(scene::Document& document) {
   s.source = document.source();
   s.time = document.read(time_section());
   s.environment = document.read(environment_section());
-  s.wind = document.read(aero::wind_section());
   s.aero = document.read(aero::aero_section());
-  s.rotor = document.read(aero::rotor_section());
+  s.rotor = document.read_where(s.has_rotor(), aero::rotor_section(), "aero.model is none");
+  s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem", aero::wind_section(),
+                               "aero.model = \"" + s.aero.model + "\" does not look at the wind");
   s.sea = document.read(sea::sea_section());
-  s.waves = document.read(sea::waves_section());
+  s.waves = document.read_where(s.sea.model == "morison", sea::waves_section(), "sea.model is not morison");
   s.bodies = document.read_named(bodies::body_section());
   s.joints = document.read_named(bodies::joint_section());
   s.moorings = document.read_named(moorings::line_section());
@@ -85,7 +75,7 @@ Scenario read_scenario(scene::Document& document) {
   s.checkpoint = document.read(checkpoint_section());
 
   check_names(document, s);
-  check_effect(document, s);
+  if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
   check_bodies(document, s.bodies, s.joints);
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, bodies);

@@ -3,6 +3,7 @@
 
     spindrift_report.py DIR                   DIR/report.html
     spindrift_report.py DIR DIR2 ...          DIR/comparison.html, the runs laid over each other
+    spindrift_report.py STUDY                 STUDY/study.html, of the folder of `spindrift study`
     --out FILE    write there instead         --png FILE    also a picture of the (first) run
 
 `spindrift run` and `spindrift report` call it (src/report/report.cpp). SPDX-License-Identifier: Apache-2.0"""
@@ -22,6 +23,19 @@ def arguments():
     return parser.parse_args()
 
 
+def guarded(action):
+    try:
+        action()
+    except (OSError, ValueError) as error:
+        sys.exit(f"report not written: {error}")
+
+
+def write(out, text):
+    """Whole or not at all."""
+    temporary = out.with_name(out.name + ".tmp")
+    guarded(lambda: (temporary.write_text(text(), encoding="utf-8"), os.replace(temporary, out)))
+
+
 def main():
     given = arguments()
     for folder in given.directories:
@@ -30,20 +44,18 @@ def main():
     try:
         import page
         import picture
+        import study_page
         from run_data import RunData
     except ModuleNotFoundError as missing:
         package = PACKAGES.get(missing.name, missing.name)
         sys.exit(f"Python at {sys.executable} has no module '{missing.name}': install the package {package} (ci/setup does)")
+    if (given.directories[0] / "study.json").exists():
+        return write(given.out or given.directories[0] / "study.html", lambda: study_page.build(given.directories[0]))
     runs = [RunData(folder) for folder in given.directories]
     out = given.out or given.directories[0] / ("report.html" if len(runs) == 1 else "comparison.html")
-    temporary = out.with_name(out.name + ".tmp")
-    try:
-        temporary.write_text(page.build(runs), encoding="utf-8")
-        os.replace(temporary, out)
-        if given.png:
-            picture.draw(runs[0], given.png)
-    except (OSError, ValueError) as error:
-        sys.exit(f"report not written: {error}")
+    write(out, lambda: page.build(runs))
+    if given.png:
+        guarded(lambda: picture.draw(runs[0], given.png))
 
 
 if __name__ == "__main__":
