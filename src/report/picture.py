@@ -47,8 +47,7 @@ def draw(run, path):
             axis.set_title(f"{title} [{unit}]", loc="left")
             axis.margins(x=0)
             if len(lines) > 1:
-                axis.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncol=min(4, len(lines)), fontsize=8.5, handlelength=1.2,
-                            columnspacing=1.0, borderpad=0.2)
+                axis.legend(loc="best", fontsize=8, handlelength=1.2, borderpad=0.2, labelspacing=0.2)
         for axis in axes.flat[len(panels):]:
             axis.set_visible(False)
         for axis in axes[-1]:
