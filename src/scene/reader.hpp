@@ -11,6 +11,10 @@
 
 namespace spindrift::scene {
 
+/// The parameter's sentence as an aside of a message: " (length of a coupling window)".
+std::string aside(const Parameter& p);
+
+/// What it does with sections and their rules is in read.cpp, with single values in read_values.cpp.
 class Reader {
  public:
   explicit Reader(Document& document) : document_(document) {}
