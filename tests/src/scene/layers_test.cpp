@@ -9,6 +9,7 @@
 #include "tests/src/scene/example_sections.hpp"
 #include "tests/src/scene/temporary.hpp"
 
+using namespace spindrift;
 using namespace spindrift::scene;
 
 namespace {
@@ -93,15 +94,17 @@ TEST_CASE("an override is TOML, or a bare word", "[scene][fast]") {
       "drag_coefficient = 2.0\n",
       "s.toml", "/",
       {"time.end_s=60", "time.integrator=euler", "bodies.a.centre_m=[1, 2.5, 3]", "bodies.a.cylinders[0].diameter_m = 4",
-       "bodies.a.cylinders[0].name=\"x=y\"", "without=[\"sea.drag_coefficient\"]", "sea.model = none ", "bodies.b={mass_kg=7}"});
+       "bodies.a.cylinders[0].name=\"x=y\"", "without=[\"sea.drag_coefficient\"]", "sea.model = none ", "bodies.b={mass_kg=7}", "bodies.a={pitch_deg=90}"});
   const auto time = doc.read(example::time_section());
   CHECK(time.end_s == 60.0);
   CHECK(time.integrator == example::Integrator::euler);
   const auto bodies = doc.read_named(example::body_section());
   REQUIRE(bodies.size() == 2);
   CHECK(bodies[0].options.centre_m == Eigen::Vector3d(1, 2.5, 3));
-  CHECK(bodies[0].options.cylinders[0].diameter_m == 4.0);
-  CHECK(bodies[0].options.cylinders[0].name == "x=y");
+  CHECK(bodies[0].options.cylinders.at(0).diameter_m == 4.0);
+  CHECK(bodies[0].options.cylinders.at(0).name == "x=y");
+  CHECK(bodies[0].options.mass_kg == 1.0);  // a table is laid over the one that is there
+  CHECK(bodies[0].options.pitch == Approx(pi / 2));
   CHECK(bodies[1].options.mass_kg == 7.0);
   CHECK(doc.read(example::sea_section()).model == "none");
   CHECK_NOTHROW(doc.finish());
