@@ -20,6 +20,11 @@ bool Document::announce(const SectionBase& section) {
   return root_.find(section.name()) != nullptr;
 }
 
+bool Document::is_section(const SectionBase& section) const {
+  const Value* value = root_.find(section.name());
+  return !value || value->is_table();
+}
+
 void Document::read_into(const SectionBase& section, void* options) {
   announce(section);
   const Value* table = root_.find(section.name());

@@ -54,7 +54,7 @@ class Document {
   /// and the echo leaves it out.
   template <class Options>
   Options read_where(bool has_effect, const Section<Options>& section, const std::string& why) {
-    if (has_effect) return read(section);
+    if (has_effect || !is_section(section)) return read(section);
     if (announce(section)) problem(section.name(), "has no effect: " + why);
     return Options();
   }
@@ -90,6 +90,7 @@ class Document {
   friend class Reader;
   void read_into(const SectionBase& section, void* options);
   void read_named_into(const SectionBase& section, const std::string& name, void* options);
+  bool is_section(const SectionBase& section) const;  ///< false where the scene gives its name something else
   bool announce(const SectionBase& section);  ///< notes the section as known; true where the scene names it
   std::vector<std::string> names(const SectionBase& section);
   std::pair<const Value*, bool> locate(std::string_view key) const;  ///< the deepest value on the way; is it the key itself?
