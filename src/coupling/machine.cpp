@@ -69,8 +69,7 @@ Machine::Machine(Scenario scenario)
   }
   if (s.has_sea()) {
     const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
-    sea_.emplace(s.sea, s.waves,
-                 sea::SeaEnvironment{s.environment.water_density_kg_m3, s.environment.water_depth_m, s.environment.gravity_m_s2}, wetted);
+    sea_.emplace(s.sea, s.waves, sea_environment(s.environment), wetted);
     std::vector<bool> on(names.size());
     for (std::size_t b = 0; b < names.size(); ++b) on[b] = !wetted[b].cylinders.empty();
     for (const sea::DampingOptions& damping : s.sea.damping) on[std::size_t(index_of(names, damping.body))] = true;

@@ -55,6 +55,10 @@ std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies) {
   return result;
 }
 
+sea::SeaEnvironment sea_environment(const EnvironmentOptions& environment) {
+  return {environment.water_density_kg_m3, environment.water_depth_m, environment.gravity_m_s2};
+}
+
 Scenario read_scenario(scene::Document& document) {
   Scenario s;
   s.source = document.source();
@@ -80,7 +84,13 @@ Scenario read_scenario(scene::Document& document) {
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, bodies);
   if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
-  for (const sea::OptionProblem& p : sea_problems(s.sea, s.waves, sea_bodies(s.bodies))) document.problem(p.key, p.what);
+  const auto report = [&](const std::vector<sea::OptionProblem>& problems) {
+    for (const sea::OptionProblem& p : problems) document.problem(p.key, p.what);
+  };
+  const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
+  report(sea_problems(s.sea, s.waves, wetted));
+  if (s.has_sea()) report(shape_problems(sea_environment(s.environment), wetted));
+  if (s.has_waves()) report(wave_problems(s.waves, sea_environment(s.environment)));
   document.finish();
   return s;
 }

@@ -49,6 +49,8 @@ Scenario read_scenario(scene::Document& document);
 /// The bodies as the sea sees them, in the order of the scene.
 std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies);
 
+sea::SeaEnvironment sea_environment(const EnvironmentOptions& environment);
+
 /// What is modelled, in words: "3 lines (spring_damper)".
 std::string describe_bodies(const Scenario& scenario);
 std::string describe_rotor(const Scenario& scenario);

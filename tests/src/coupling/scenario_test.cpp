@@ -48,6 +48,12 @@ TEST_CASE("what has no effect or contradicts itself is refused by name", "[coupl
   CHECK_THAT(refusal({"moorings.chain.body='boy'"}), Contains("known: buoy"));
 }
 
+TEST_CASE("waves that break and shapes below the bed are refused", "[coupling][fast]") {
+  CHECK_THAT(refusal({"sea.model='morison'", "waves.model='airy'", "waves.height_m=30.0", "waves.period_s=6.0"}), Contains("waves"));
+  CHECK_THAT(refusal({"environment.water_depth_m=1.5"}), Contains("buoy") || Contains("hull"));
+  CHECK(refusal({"sea.model='morison'", "waves.model='airy'", "waves.height_m=1.0", "waves.period_s=8.0"}).empty());
+}
+
 TEST_CASE("a scene without bodies says what is missing", "[coupling][fast]") {
   CHECK_THROWS_WITH(test::scenario("[time]\nend_s = 1.0\nwindow_s = 0.1\n"), Contains("no body"));
 }
