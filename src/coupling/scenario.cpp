@@ -18,16 +18,13 @@ std::vector<std::string> names(const std::vector<scene::Named<Options>>& named) 
   return result;
 }
 
-/// Names are columns of history.csv: one meaning each, and no characters that a table cannot hold.
+/// Names are columns of history.csv: one meaning each.
 void check_names(scene::Document& document, const Scenario& s) {
   std::set<std::string> seen;
   const auto check = [&](const char* section, const std::vector<std::string>& all) {
     for (const std::string& name : all) {
-      const std::string key = fmt::format("{}.{}", section, name);
-      if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
-        document.problem(key, "a name is made of letters, digits, _ and -");
-      else if (!seen.insert(name).second)
-        document.problem(key, fmt::format("\"{}\" is the name of another body, joint or line", name));
+      if (!seen.insert(name).second)
+        document.problem(fmt::format("{}.{}", section, name), fmt::format("\"{}\" is the name of another body, joint or line", name));
     }
   };
   check("bodies", names(s.bodies));

@@ -94,7 +94,8 @@ TEST_CASE("an override is TOML, or a bare word", "[scene][fast]") {
       "drag_coefficient = 2.0\n",
       "s.toml", "/",
       {"time.end_s=60", "time.integrator=euler", "bodies.a.centre_m=[1, 2.5, 3]", "bodies.a.cylinders[0].diameter_m = 4",
-       "bodies.a.cylinders[0].name=\"x=y\"", "without=[\"sea.drag_coefficient\"]", "sea.model = none ", "bodies.b={mass_kg=7}", "bodies.a={pitch_deg=90}"});
+       "bodies.a.cylinders[0].name=\"x=y\"", "without=[\"sea.drag_coefficient\"]", "sea.model = none ", "bodies.b={mass_kg=7}",
+       "bodies.a={pitch_deg=90}"});
   const auto time = doc.read(example::time_section());
   CHECK(time.end_s == 60.0);
   CHECK(time.integrator == example::Integrator::euler);
