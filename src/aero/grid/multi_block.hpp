@@ -1,0 +1,70 @@
+// A structured multi-block grid as geometry: blocks of nodes, how their sides meet, and which sides bound the flow.
+// What generators make, readers read and writers write; the solver cuts it into tiles (tiling.hpp) and never sees this again.
+// Used throughout src/aero; tested in tests/src/aero/grid.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spindrift::aero {
+
+/// ni x nj x nk cells between (ni+1)(nj+1)(nk+1) nodes; i fastest, then j, then k. (i, j, k) is right-handed: every cell's volume is
+/// positive.
+struct Block {
+  std::string name;
+  int ni = 0, nj = 0, nk = 0;
+  std::vector<Eigen::Vector3d> nodes;  ///< [m]
+  std::size_t node(int k, int j, int i) const { return (std::size_t(k) * (nj + 1) + j) * (ni + 1) + i; }
+  std::array<int, 3> cells() const { return {ni, nj, nk}; }
+};
+
+/// Side 2d is where index d (0: i, 1: j, 2: k) begins, 2d + 1 where it ends.
+enum class Side : std::uint8_t { i_min, i_max, j_min, j_max, k_min, k_max };
+inline int direction_of(Side side) { return int(side) / 2; }
+inline bool at_end(Side side) { return int(side) % 2 == 1; }
+
+/// A rectangle of cell faces on one side of a block: cells [low, high) in the two directions along the side, lower direction first.
+struct Window {
+  int block = 0;
+  Side side = Side::i_min;
+  std::array<int, 2> low{}, high{};
+};
+
+/// x' = rotation x + translation.
+struct RigidMap {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+};
+
+/// Two windows whose faces are the same one by one (1-to-1). Walking along index d of `from.block` is walking along index
+/// |orientation[d]| - 1 of `to.block`, backwards where negative; for the direction across, that is out of `from` and into `to`.
+/// A connection stands once, not once for each side.
+struct Connection {
+  Window from, to;
+  std::array<int, 3> orientation{1, 2, 3};
+  std::optional<RigidMap> periodic = {};  ///< carries points of `from` onto those of `to`
+};
+
+/// A window where the flow meets a boundary condition, chosen by the patch's name in the scene.
+struct Boundary {
+  Window where;
+  std::string patch;
+};
+
+/// Each face of each block's sides is in exactly one connection or boundary; in a planar grid (one cell in k, flow in the x-z plane,
+/// k along -y or y so that volumes are positive) the sides of k are in none.
+struct MultiBlockGrid {
+  std::vector<Block> blocks;
+  std::vector<Connection> connections;
+  std::vector<Boundary> boundaries;
+  bool planar = false;
+};
+
+}  // namespace spindrift::aero
