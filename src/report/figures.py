@@ -55,10 +55,10 @@ def unwrapped_breaks(time, values):
     return np.insert(time, jumps, time[jumps]), np.insert(values, jumps, np.nan)
 
 
-def is_nothing(values):
-    """Zero throughout, or not a number at all."""
-    finite = values[np.isfinite(values)]
-    return len(finite) == 0 or not np.any(finite)
+def is_nothing(run, column):
+    """Zero throughout but for round-off, or not a number at all."""
+    values = run.column(column)
+    return not np.any(np.abs(values[np.isfinite(values)]) > run.round_off(column))
 
 
 def constant(runs, column):
@@ -104,7 +104,7 @@ def _panel_lines(runs, lines):
     """(legend, run index, line index, time, values) of what there is to draw."""
     for r, run in enumerate(runs):
         for i, (legend, column) in enumerate(lines):
-            if column in run.columns and not is_nothing(run.column(column)):
+            if column in run.columns and not is_nothing(run, column):
                 yield legend, r, i, run.time, run.column(column)
 
 
@@ -204,7 +204,7 @@ def spectra(runs, panels):
     for label, column in panels:
         lines = []
         for r, run in enumerate(runs):
-            if column not in run.columns or is_nothing(run.column(column)):
+            if column not in run.columns or is_nothing(run, column):
                 continue
             tail = slice(len(run.time) // 4, None)  # without the start's transient
             found = density(run.time[tail], run.column(column)[tail])

@@ -23,7 +23,7 @@ def _panels(run):
             wanted.append(("downwind force by source", group.panels[0][1]))
     kept = []
     for title, lines in wanted:
-        lines = [(legend, c) for legend, c in lines if c in run.columns and not figures.is_nothing(run.column(c))]
+        lines = [(legend, c) for legend, c in lines if c in run.columns and not figures.is_nothing(run, c)]
         if lines and (len(lines) > 1 or figures.constant([run], lines[0][1]) is None):
             kept.append((title, lines))
     return kept[:6]

@@ -7,6 +7,8 @@ import warnings
 
 import numpy as np
 
+import quantities
+
 CHUNK_BYTES = 64 << 20
 TRACE_LIMIT_BYTES = 200 << 20
 
@@ -22,6 +24,7 @@ class RunData:
         self.columns, self.values = self._history()  # names; array[column, row]
         self.log = self._text("log.txt").splitlines()
         self.trace = self._trace()
+        self._round_off = {}  # by unit
         self.described = {c.get("name"): c for c in self.summary.get("columns", []) if isinstance(c, dict)}
 
     @property
@@ -34,6 +37,14 @@ class RunData:
 
     def column(self, name):
         return self.values[self.columns.index(name)]
+
+    def round_off(self, name):
+        """What a column must exceed to count: 1e-12 of the largest value among the columns of its unit."""
+        unit = quantities.unit_of(name, self.described)
+        if unit not in self._round_off:
+            alike = self.values[[quantities.unit_of(other, self.described) == unit for other in self.columns]]
+            self._round_off[unit] = 1e-12 * np.abs(alike[np.isfinite(alike)]).max(initial=0.0)
+        return self._round_off[unit]
 
     def _text(self, name):
         try:

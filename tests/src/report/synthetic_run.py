@@ -47,7 +47,7 @@ model = "spring_damper"
 def columns(t):
     """{name: values} of an ordinary run."""
     decay = 1 - np.exp(-t / 9.0) * np.cos(2 * np.pi * t / 14.0)
-    out = {"time_s": t, "platform.x_m": 0.215 * decay, "platform.y_m": 0 * t,
+    out = {"time_s": t, "platform.x_m": 0.215 * decay, "platform.y_m": 1e-15 * np.sin(t),
            "platform.z_m": -0.6 * (1 - np.exp(-t / 5.0) * np.cos(2 * np.pi * t / 4.7)), "platform.roll_deg": 0 * t,
            "platform.pitch_deg": 5.2 * decay + 0.05 * np.sin(2 * np.pi * 0.44 * t), "platform.yaw_deg": 0 * t}
     step = t[1] - t[0] if len(t) > 1 else 1.0
