@@ -1,7 +1,7 @@
 // Wide<T, n>: n numbers side by side in vector registers (its lanes) with the arithmetic of one number, so that a kernel
 // templated on Real serves a test (Real = double) and a sweep (Real = Wide<float, 16>) with one source. Selections are min() and
-// max(). Built on the compilers' vector extension; AVX-512 instructions where the portable form compiles badly (min, max,
-// reciprocals).
+// max(). Built on the compilers' vector extension; AVX-512 and AVX2 instructions where the portable form compiles badly (min,
+// max, reciprocals).
 // Called by src/sea/sph sweeps; tested in tests/kernels/base/wide_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-#ifdef __AVX512F__
+#if defined(__AVX512F__) || defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
@@ -54,6 +54,10 @@ Wide<T, n> max(Wide<T, n> a, Wide<T, n> b) {
   if constexpr (std::same_as<T, float> && n == 16) return _mm512_maskz_max_ps(0xffff, a.v, b.v);
   if constexpr (std::same_as<T, double> && n == 8) return _mm512_maskz_max_pd(0xff, a.v, b.v);
 #endif
+#ifdef __AVX2__
+  if constexpr (std::same_as<T, float> && n == 8) return _mm256_max_ps(a.v, b.v);
+  if constexpr (std::same_as<T, double> && n == 4) return _mm256_max_pd(a.v, b.v);
+#endif
   return a.v > b.v ? a.v : b.v;
 }
 template <class T, int n>
@@ -61,6 +65,10 @@ Wide<T, n> min(Wide<T, n> a, Wide<T, n> b) {
 #ifdef __AVX512F__
   if constexpr (std::same_as<T, float> && n == 16) return _mm512_maskz_min_ps(0xffff, a.v, b.v);
   if constexpr (std::same_as<T, double> && n == 8) return _mm512_maskz_min_pd(0xff, a.v, b.v);
+#endif
+#ifdef __AVX2__
+  if constexpr (std::same_as<T, float> && n == 8) return _mm256_min_ps(a.v, b.v);
+  if constexpr (std::same_as<T, double> && n == 4) return _mm256_min_pd(a.v, b.v);
 #endif
   return a.v < b.v ? a.v : b.v;
 }
@@ -71,13 +79,19 @@ Wide<T, n> sqrt(Wide<T, n> a) {
   return root;
 }
 
-/// 1/a of a positive number, and 1/sqrt(a): correctly rounded operations for one number; for 16 floats an estimate of 14 bits and
-/// a Newton step, within 2 units in the last place, at a third of the cost of the divider (perf/sea, docs/developer/sea.md).
+/// 1/a of a positive number, and 1/sqrt(a): correctly rounded operations for one number; for a register of floats an estimate of 12
+/// (AVX2) or 14 bits and a Newton step, within 3 units in the last place, at a third of the cost of the divider (perf/sea, docs/developer/sea.md).
 template <class Real>
 Real reciprocal(Real a) {
 #ifdef __AVX512F__
   if constexpr (std::same_as<Real, Wide<float, 16>>) {
     const Real y = Real(_mm512_maskz_rcp14_ps(0xffff, a.v));
+    return y + y * (Real(1.0f) - a * y);
+  }
+#endif
+#ifdef __AVX2__
+  if constexpr (std::same_as<Real, Wide<float, 8>>) {
+    const Real y = Real(_mm256_rcp_ps(a.v));
     return y + y * (Real(1.0f) - a * y);
   }
 #endif
@@ -89,6 +103,12 @@ Real inverse_sqrt(Real a) {
 #ifdef __AVX512F__
   if constexpr (std::same_as<Real, Wide<float, 16>>) {
     const Real y = Real(_mm512_maskz_rsqrt14_ps(0xffff, a.v));
+    return y + (Real(0.5f) * y) * (Real(1.0f) - (a * y) * y);
+  }
+#endif
+#ifdef __AVX2__
+  if constexpr (std::same_as<Real, Wide<float, 8>>) {
+    const Real y = Real(_mm256_rsqrt_ps(a.v));
     return y + (Real(0.5f) * y) * (Real(1.0f) - (a * y) * y);
   }
 #endif

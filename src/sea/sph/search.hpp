@@ -1,4 +1,4 @@
-// Which clusters a cluster, and then a single particle, can reach: tests on bounding boxes, sixteen at a time, made anew in
+// Which clusters a cluster, and then a single particle, can reach: tests on bounding boxes, a register at a time, made anew in
 // every sweep. Boxes follow the particles, so nothing is kept between sweeps and the order of particles may be old; a pair that
 // slips in beyond the support contributes exactly zero (the kernel is cut), so results do not depend on the tests.
 // Called by sweep_pairs.hpp; tested in tests/src/sea/sph/sweep_test.cpp against all pairs.
@@ -13,10 +13,24 @@
 
 namespace spindrift::sph {
 
-/// Writes first + lane to `to` for every lane with value < bound among the first `valid`; returns how many. Writes up to 16
-/// numbers.
-inline int append_where_below(std::uint32_t* to, Wide<float, 16> value, float bound, std::uint32_t first, int valid) {
-#ifdef __AVX512F__
+#if defined(__AVX2__) && !defined(__AVX512F__)
+/// For each pattern of 8 bits the places of its ones, first ones first: what AVX-512 does by compressing.
+inline constexpr auto places_of_ones = [] {
+  std::array<std::uint64_t, 256> table{};
+  for (unsigned pattern = 0; pattern < 256; ++pattern)
+    for (unsigned place = 0, count = 0; place < 8; ++place)
+      if ((pattern >> place) & 1u) table[pattern] |= std::uint64_t(place) << (8 * count++);
+  return table;
+}();
+#endif
+
+/// A register of boxes is tested at once.
+using Boxes = NativeWide<float>;
+
+/// Writes first + lane to `to` for every lane with value < bound among the first `valid`; returns how many. Writes up to a
+/// register of numbers.
+SPINDRIFT_INLINE int append_where_below(std::uint32_t* to, Boxes value, float bound, std::uint32_t first, int valid) {
+#if defined(__AVX512F__)
   const __mmask16 lanes = valid >= 16 ? __mmask16(0xffff) : __mmask16((1u << valid) - 1u);
   const __mmask16 below = _mm512_mask_cmp_ps_mask(lanes, value.v, _mm512_set1_ps(bound), _CMP_LT_OQ);
   const __m512i places =
@@ -24,9 +38,15 @@ inline int append_where_below(std::uint32_t* to, Wide<float, 16> value, float bo
   _mm512_storeu_si512(
       to, _mm512_maskz_compress_epi32(below, places));  // compressing to memory directly is microcoded on some processors
   return __builtin_popcount(below);
+#elif defined(__AVX2__)
+  const unsigned lanes = valid >= 8 ? 0xffu : (1u << valid) - 1u;
+  const unsigned below = unsigned(_mm256_movemask_ps(_mm256_cmp_ps(value.v, _mm256_set1_ps(bound), _CMP_LT_OQ))) & lanes;
+  const __m256i places = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)places_of_ones[below]));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_add_epi32(places, _mm256_set1_epi32(int(first))));
+  return __builtin_popcount(below);
 #else
   int count = 0;
-  for (int lane = 0; lane < 16 && lane < valid; ++lane) {
+  for (int lane = 0; lane < Boxes::size && lane < valid; ++lane) {
     to[count] = first + std::uint32_t(lane);
     count += value[lane] < bound;
   }
@@ -34,14 +54,14 @@ inline int append_where_below(std::uint32_t* to, Wide<float, 16> value, float bo
 #endif
 }
 
-/// Squared gap between 16 boxes and one box (a point when its corners coincide); from the corner of the domain [m].
+/// Squared gap between a register of boxes and one box (a point when its corners coincide); from the corner of the domain [m].
 template <int dim>
-Wide<float, 16> gap2(const std::array<const float*, dim>& low, const std::array<const float*, dim>& high,
-                     const std::array<float, dim>& box_low, const std::array<float, dim>& box_high) {
-  using V = Wide<float, 16>;
-  V total(0.0f);
+SPINDRIFT_INLINE Boxes gap2(const std::array<const float*, dim>& low, const std::array<const float*, dim>& high, std::uint32_t at,
+                            const std::array<float, dim>& box_low, const std::array<float, dim>& box_high) {
+  Boxes total(0.0f);
   for (int k = 0; k < dim; ++k) {
-    const V gap = max(max(V::load(low[k]) - V(box_high[k]), V(box_low[k]) - V::load(high[k])), V(0.0f));
+    const Boxes gap =
+        max(max(Boxes::load(low[k] + at) - Boxes(box_high[k]), Boxes(box_low[k]) - Boxes::load(high[k] + at)), Boxes(0.0f));
     total += gap * gap;
   }
   return total;
@@ -68,12 +88,13 @@ class Candidates {
     for (int k = 0; k < dim; ++k)
       box_low[k] = store.low[k][mine] - float(shift[k]), box_high[k] = store.high[k][mine] - float(shift[k]);
     const int before = count_;
-    for (std::uint32_t from = first; from < end; from += 16) {
-      std::array<const float*, dim> low, high;
-      for (int k = 0; k < dim; ++k) low[k] = &store.low[k][from], high[k] = &store.high[k][from];
-      count_ +=
-          append_where_below(&cluster_[count_], gap2<dim>(low, high, box_low, box_high), reach * reach, from, int(end - from));
-    }
+    std::array<const float*, dim> low, high;
+    for (int k = 0; k < dim; ++k) low[k] = store.low[k].data(), high[k] = store.high[k].data();
+    std::uint32_t* const to = cluster_.data();
+    int found = count_;
+    for (std::uint32_t from = first; from < end; from += Boxes::size)
+      found += append_where_below(to + found, gap2<dim>(low, high, from, box_low, box_high), reach * reach, from, int(end - from));
+    count_ = found;
     for (int n = before; n < count_; ++n) {
       const std::uint32_t other = cluster_[n];
       for (int k = 0; k < dim; ++k) {
@@ -86,14 +107,14 @@ class Candidates {
   }
   /// Chooses those within `reach` of a point; returns how many.
   int choose(const std::array<float, dim>& point, float reach) {
-    int count = 0;
-    for (int from = 0; from < count_; from += 16) {
-      std::array<const float*, dim> low, high;
-      for (int k = 0; k < dim; ++k) low[k] = &low_[k][from], high[k] = &high_[k][from];
-      count += append_where_below(&chosen_[count], gap2<dim>(low, high, point, point), reach * reach, std::uint32_t(from),
-                                  count_ - from);
-    }
-    return count;
+    std::array<const float*, dim> low, high;
+    for (int k = 0; k < dim; ++k) low[k] = low_[k].data(), high[k] = high_[k].data();
+    std::uint32_t* const to = chosen_.data();
+    int found = 0;
+    for (int from = 0; from < count_; from += Boxes::size)
+      found += append_where_below(to + found, gap2<dim>(low, high, std::uint32_t(from), point, point), reach * reach,
+                                  std::uint32_t(from), count_ - from);
+    return found;
   }
   /// Plain pointers for the inner loop.
   struct View {
