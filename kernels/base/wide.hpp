@@ -1,23 +1,58 @@
 // Wide<T, n>: n numbers side by side in vector registers (its lanes) with the arithmetic of one number, so that a kernel
-// templated on Real serves a test (Real = double) and a sweep (Real = Wide<float, 16>) with one source. Selections are min() and
-// max(). Built on the compilers' vector extension; AVX-512 and AVX2 instructions where the portable form compiles badly (min,
-// max, reciprocals).
-// Called by src/sea/sph sweeps; tested in tests/kernels/base/wide_test.cpp.
+// templated on Real serves a test (Real = double) and a sweep (Real = Wide<float, 16>) with one source. Selections are min(),
+// max() and select() on a comparison. Built on the compilers' vector extension; AVX-512 and AVX2 instructions where the portable form
+// compiles badly (min, max, sqrt, comparisons, reciprocals).
+// Called by src/sea/sph sweeps and by kernels/gas, kernels/turbulence; tested in tests/kernels/base/wide_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 
-#if defined(__AVX512F__) || defined(__AVX2__)
+#ifdef __AVX__
 #include <immintrin.h>
 #endif
 
 namespace spindrift {
 
-#define SPINDRIFT_INLINE [[gnu::always_inline]] inline  // for functions of many registers: a call would spill them all
+#define SPINDRIFT_INLINE __attribute__((always_inline)) inline  // for functions of many registers: a call would spill them all
+
+// A comparison's answers: bits of a mask register where the processor has those, else a vector of integers all ones or zero.
+template <class T, int n, bool in_bits>
+struct MaskOf {
+  using Integer = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+  typedef Integer Bits __attribute__((vector_size(sizeof(T) * n)));
+};
+template <class T, int n>
+struct MaskOf<T, n, true> {
+  using Bits = std::conditional_t<n == 16, std::uint16_t, std::uint8_t>;
+};
+
+/// One yes or no for each lane.
+template <class T, int n>
+struct WideMask {
+#ifdef __AVX512F__
+  static constexpr bool in_bits = sizeof(T) * n == 64;
+#else
+  static constexpr bool in_bits = false;
+#endif
+  using Bits = typename MaskOf<T, n, in_bits>::Bits;
+
+  Bits bits;
+
+  friend WideMask operator&(WideMask a, WideMask b) { return {Bits(a.bits & b.bits)}; }
+  friend WideMask operator|(WideMask a, WideMask b) { return {Bits(a.bits | b.bits)}; }
+  WideMask operator!() const { return {Bits(~bits)}; }
+  bool operator[](int lane) const {
+    if constexpr (in_bits)
+      return (bits >> lane & 1) != 0;
+    else
+      return bits[lane] != 0;
+  }
+};
 
 template <class T, int n>
 struct Wide {
@@ -42,6 +77,22 @@ struct Wide {
   friend Wide operator-(Wide a, Wide b) { return a.v - b.v; }
   friend Wide operator*(Wide a, Wide b) { return a.v * b.v; }
   friend Wide operator/(Wide a, Wide b) { return a.v / b.v; }
+  friend WideMask<T, n> operator<(Wide a, Wide b) {
+#ifdef __AVX512F__
+    if constexpr (std::same_as<T, float> && n == 16) return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)};
+    if constexpr (std::same_as<T, double> && n == 8) return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ)};
+#endif
+    if constexpr (!WideMask<T, n>::in_bits) return {a.v < b.v};
+  }
+  friend WideMask<T, n> operator<=(Wide a, Wide b) {
+#ifdef __AVX512F__
+    if constexpr (std::same_as<T, float> && n == 16) return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ)};
+    if constexpr (std::same_as<T, double> && n == 8) return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LE_OQ)};
+#endif
+    if constexpr (!WideMask<T, n>::in_bits) return {a.v <= b.v};
+  }
+  friend WideMask<T, n> operator>(Wide a, Wide b) { return b < a; }
+  friend WideMask<T, n> operator>=(Wide a, Wide b) { return b <= a; }
   Wide operator-() const { return -v; }
   Wide& operator+=(Wide b) { return v += b.v, *this; }
   Wide& operator-=(Wide b) { return v -= b.v, *this; }
@@ -72,11 +123,71 @@ Wide<T, n> min(Wide<T, n> a, Wide<T, n> b) {
 #endif
   return a.v < b.v ? a.v : b.v;
 }
+template <class T, int n, class S>
+requires std::is_arithmetic_v<S> Wide<T, n> max(Wide<T, n> a, S b) { return max(a, Wide<T, n>(b)); }
+template <class T, int n, class S>
+requires std::is_arithmetic_v<S> Wide<T, n> min(Wide<T, n> a, S b) { return min(a, Wide<T, n>(b)); }
 template <class T, int n>
 Wide<T, n> sqrt(Wide<T, n> a) {
+#ifdef __AVX512F__
+  if constexpr (std::same_as<T, float> && n == 16) return _mm512_maskz_sqrt_ps(0xffff, a.v);
+  if constexpr (std::same_as<T, double> && n == 8) return _mm512_maskz_sqrt_pd(0xff, a.v);
+#endif
+#ifdef __AVX__
+  if constexpr (std::same_as<T, float> && n == 8) return _mm256_sqrt_ps(a.v);
+  if constexpr (std::same_as<T, double> && n == 4) return _mm256_sqrt_pd(a.v);
+#endif
   Wide<T, n> root;
   for (int lane = 0; lane < n; ++lane) root.v[lane] = std::sqrt(a.v[lane]);
   return root;
+}
+template <class T, int n>
+Wide<T, n> abs(Wide<T, n> a) {
+  return max(a, -a);
+}
+
+/// Lane by lane: `yes` where the mask says so, else `no`.
+template <class T, int n>
+Wide<T, n> select(WideMask<T, n> mask, std::type_identity_t<Wide<T, n>> yes, std::type_identity_t<Wide<T, n>> no) {
+#ifdef __AVX512F__
+  if constexpr (std::same_as<T, float> && n == 16) return _mm512_mask_blend_ps(mask.bits, no.v, yes.v);
+  if constexpr (std::same_as<T, double> && n == 8) return _mm512_mask_blend_pd(mask.bits, no.v, yes.v);
+#endif
+  if constexpr (!WideMask<T, n>::in_bits) return mask.bits ? yes.v : no.v;
+}
+/// True if any lane says yes: the only way a kernel may branch, to leave out work whose result no lane selects.
+template <class T, int n>
+bool any(WideMask<T, n> mask) {
+  if constexpr (WideMask<T, n>::in_bits) {
+    return mask.bits != 0;
+  } else {
+    bool found = false;
+    for (int lane = 0; lane < n; ++lane) found = found || mask[lane];
+    return found;
+  }
+}
+
+// One number under the same names, so that kernels write them unqualified.
+template <std::floating_point T>
+T select(bool mask, T yes, std::type_identity_t<T> no) {
+  return mask ? yes : no;
+}
+inline bool any(bool mask) { return mask; }
+template <std::floating_point T>
+T max(T a, std::type_identity_t<T> b) {
+  return a > b ? a : b;
+}
+template <std::floating_point T>
+T min(T a, std::type_identity_t<T> b) {
+  return a < b ? a : b;
+}
+template <std::floating_point T>
+T sqrt(T a) {
+  return std::sqrt(a);
+}
+template <std::floating_point T>
+T abs(T a) {
+  return std::abs(a);
 }
 
 /// 1/a of a positive number, and 1/sqrt(a): correctly rounded operations for one number; for a register of floats an estimate of 12

@@ -42,3 +42,29 @@ TEST_CASE("the sum of lanes adds halves", "[wide][fast]") {
   CHECK(sum(Wide<float, 16>::load(a)) == 1240.0f);
   CHECK(sum(Wide<double, 4>(2.5)) == 10.0);
 }
+
+TEMPLATE_TEST_CASE("comparisons of lanes select lane by lane", "[wide][fast]", float, double) {
+  const auto check = []<class V>(V) {
+    using T = typename V::Scalar;
+    T a[V::size], b[V::size];
+    for (int n = 0; n < V::size; ++n) a[n] = T(n % 3), b[n] = T((n + 1) % 2);
+    const V va = V::load(a), vb = V::load(b);
+    for (int n = 0; n < V::size; ++n) {
+      CHECK((va < vb)[n] == (a[n] < b[n]));
+      CHECK((va <= vb)[n] == (a[n] <= b[n]));
+      CHECK((va > vb)[n] == (a[n] > b[n]));
+      CHECK((va >= vb)[n] == (a[n] >= b[n]));
+      CHECK(((va > 0.5) & !(vb > 0.5))[n] == (a[n] > T(0.5) && !(b[n] > T(0.5))));
+      CHECK(((va > 1.5) | (vb > 0.5))[n] == (a[n] > T(1.5) || b[n] > T(0.5)));
+      CHECK(select(va < vb, va, vb)[n] == std::min(a[n], b[n]));
+      CHECK(select(va < vb, va, 7.0)[n] == (a[n] < b[n] ? a[n] : T(7)));
+      CHECK(abs(va - vb)[n] == std::abs(a[n] - b[n]));
+      CHECK(max(va, 1.0)[n] == std::max(a[n], T(1)));
+    }
+    CHECK(any(va > 1.5));
+    CHECK_FALSE(any(va > 2.5));
+    CHECK_FALSE(any(!(va > -1.0)));
+  };
+  check(Wide<TestType, 8>());
+  check(NativeWide<TestType>());
+}
