@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/grid/store.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace spindrift::aero {
+
+namespace {
+
+Eigen::Vector3d vector_at(BoxView<const double> view, int k, int j, int i) { return {view(0, k, j, i), view(1, k, j, i), view(2, k, j, i)}; }
+void set_vector(BoxView<double> view, int k, int j, int i, const Eigen::Vector3d& v) {
+  for (int c = 0; c < 3; ++c) view(c, k, j, i) = v[c];
+}
+
+/// Face n of direction d below cell (k, j, i), its corners so that the vector points towards growing index.
+Quad face_at(BoxView<const double> x, int direction, int k, int j, int i) {
+  const auto at = [&](int dk, int dj, int di) { return vector_at(x, k + dk, j + dj, i + di); };
+  if (direction == 0) return {at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0)};
+  if (direction == 1) return {at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1)};
+  return {at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0)};
+}
+Hexahedron cell_at(BoxView<const double> x, int k, int j, int i) {
+  Hexahedron h;
+  for (int n = 0; n < 8; ++n) h.x[n] = vector_at(x, k + n / 4, j + n / 2 % 2, i + n % 2);
+  return h;
+}
+template <class Body>
+void for_box(const BoxLayout& box, Body&& body) {
+  for (int k = 0; k < box.nk; ++k)
+    for (int j = 0; j < box.nj; ++j)
+      for (int i = 0; i < box.ni; ++i) body(k, j, i);
+}
+int flow_directions(bool planar) { return planar ? 2 : 3; }
+
+}  // namespace
+
+std::size_t TileGeometry::bytes() const {
+  std::size_t sum = 0;
+  for (const auto* a : {&node_data, &volume_data, &centre_data, &wall_distance_data, &reference_node_data, &old_node_data,
+                        &old_volume_data, &older_volume_data})
+    sum += a->bytes();
+  for (const auto* family : {&face_data, &swept_data, &old_swept_data, &speed_data})
+    for (const auto& a : *family) sum += a.bytes();
+  return sum;
+}
+
+std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar, bool moving) {
+  auto geometry = std::make_unique<TileGeometry>();
+  TileGeometry& g = *geometry;
+  g.node_box = BoxLayout(tile.ni + 1, tile.nj + 1, tile.nk + 1);
+  g.cell_box = cell_layout(tile, gradient_ghosts, planar);
+  g.inner_box = cell_layout(tile, 0, planar);
+  for (int d = 0; d < 3; ++d) g.face_box[d] = BoxLayout(tile.ni + (d == 0), tile.nj + (d == 1), tile.nk + (d == 2));
+  g.node_data = AlignedArray<double>(g.node_box.size(3));
+  g.volume_data = AlignedArray<double>(g.cell_box.size(1));
+  g.centre_data = AlignedArray<double>(g.cell_box.size(3));
+  g.wall_distance_data = AlignedArray<double>(g.inner_box.size(1));
+  std::ranges::fill(g.volume_data.span(), 1.0);  // padding is divided by
+  std::ranges::fill(g.wall_distance_data.span(), std::numeric_limits<double>::infinity());
+  for (int d = 0; d < 3; ++d) g.face_data[d] = AlignedArray<double>(g.face_box[d].size(3));
+
+  // Nodes lie between cells: along a direction walked backwards, node n is above cell n - 1 of the block.
+  const Block& block = grid.blocks[tile.block];
+  const IndexMap& map = tile.to_block;
+  BoxView<double> x = g.nodes();
+  for_box(g.node_box, [&](int k, int j, int i) {
+    Index at = map({i, j, k});
+    for (int d = 0; d < 3; ++d)
+      if (map.sign(d) < 0) at[map.target(d)] += 1;
+    set_vector(x, k, j, i, block.nodes[block.node(at[2], at[1], at[0])]);
+  });
+  update_metrics(g, planar);
+  if (moving) {
+    g.reference_node_data = AlignedArray<double>(g.node_box.size(3));
+    g.old_node_data = AlignedArray<double>(g.node_box.size(3));
+    std::ranges::copy(g.node_data.span(), g.reference_node_data.data());
+    std::ranges::copy(g.node_data.span(), g.old_node_data.data());
+    for (int d = 0; d < 3; ++d)
+      for (auto* family : {&g.swept_data, &g.old_swept_data, &g.speed_data}) (*family)[d] = AlignedArray<double>(g.face_box[d].size(1));
+    g.old_volume_data = AlignedArray<double>(g.inner_box.size(1));
+    g.older_volume_data = AlignedArray<double>(g.inner_box.size(1));
+    begin_step(g);
+    begin_step(g);
+  }
+  return geometry;
+}
+
+void update_metrics(TileGeometry& g, bool planar) {
+  const BoxView<const double> x = g.nodes();
+  for (int d = 0; d < flow_directions(planar); ++d) {
+    BoxView<double> s = g.face(d);
+    for_box(g.face_box[d], [&](int k, int j, int i) { set_vector(s, k, j, i, face_vector(face_at(x, d, k, j, i))); });
+  }
+  BoxView<double> volume = g.volume(), centre = g.centre();
+  for_box(g.inner_box, [&](int k, int j, int i) {
+    const Hexahedron h = cell_at(x, k, j, i);
+    volume(0, k, j, i) = hexahedron_volume(h);
+    set_vector(centre, k, j, i, cell_centre(h));
+  });
+}
+
+void fill_boundary_geometry(TileGeometry& g, std::span<const TileBoundary> boundaries) {
+  const BoxView<const double> x = g.nodes();
+  BoxView<double> volume = g.volume(), centre = g.centre();
+  for (const TileBoundary& b : boundaries) {
+    const int d = direction_of(b.side);
+    const auto [first, second] = along(b.side);
+    const Index cells{g.inner_box.ni, g.inner_box.nj, g.inner_box.nk};
+    for (int v = b.low[1]; v < b.high[1]; ++v)
+      for (int u = b.low[0]; u < b.high[0]; ++u) {
+        Index inside{};
+        inside[first] = u, inside[second] = v, inside[d] = at_end(b.side) ? cells[d] - 1 : 0;
+        Index ghost = inside, face = inside;
+        ghost[d] += at_end(b.side) ? 1 : -1;
+        face[d] += at_end(b.side) ? 1 : 0;
+        const Quad q = face_at(x, d, face[2], face[1], face[0]);
+        const Eigen::Vector3d normal = face_vector(q).normalized();
+        const Eigen::Vector3d c = vector_at(centre, inside[2], inside[1], inside[0]);
+        const Eigen::Vector3d middle = q.a + 0.25 * ((q.b - q.a) + (q.c - q.a) + (q.d - q.a));
+        set_vector(centre, ghost[2], ghost[1], ghost[0], c + 2.0 * (middle - c).dot(normal) * normal);
+        volume(0, ghost[2], ghost[1], ghost[0]) = volume(0, inside[2], inside[1], inside[0]);
+      }
+  }
+}
+
+void begin_step(TileGeometry& g) {
+  std::ranges::copy(g.node_data.span(), g.old_node_data.data());
+  for (int d = 0; d < 3; ++d) std::swap(g.swept_data[d], g.old_swept_data[d]);
+  std::swap(g.old_volume_data, g.older_volume_data);
+  BoxView<double> old = g.old_volume();
+  const BoxView<const double> volume = g.volume();
+  for_box(g.inner_box, [&](int k, int j, int i) { old(0, k, j, i) = volume(0, k, j, i); });
+}
+
+void move_nodes(TileGeometry& g, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& position) {
+  const BoxView<const double> reference = g.reference_nodes();
+  BoxView<double> x = g.nodes();
+  for_box(g.node_box, [&](int k, int j, int i) { set_vector(x, k, j, i, position(vector_at(reference, k, j, i))); });
+}
+
+void move_rigidly(TileGeometry& g, const RigidMap& map) {
+  const BoxView<const double> reference = g.reference_nodes();
+  BoxView<double> x = g.nodes();
+  for_box(g.node_box, [&](int k, int j, int i) {
+    const Eigen::Vector3d moved = map.rotation * vector_at(reference, k, j, i) + map.translation;
+    set_vector(x, k, j, i, moved);
+  });
+}
+
+void update_sweeps(TileGeometry& g, bool planar) {
+  const BoxView<const double> now = g.nodes(), old = g.old_nodes();
+  for (int d = 0; d < flow_directions(planar); ++d) {
+    BoxView<double> swept = g.swept(d);
+    for_box(g.face_box[d], [&](int k, int j, int i) {
+      swept(0, k, j, i) = swept_volume(face_at(old, d, k, j, i), face_at(now, d, k, j, i));
+    });
+  }
+}
+
+void update_speeds(TileGeometry& g, TimeWeights weights, double dt, bool planar) {
+  for (int d = 0; d < flow_directions(planar); ++d) {
+    BoxView<double> speed = g.speed(d), swept = g.swept(d), old = g.old_swept(d);
+    for_box(g.face_box[d], [&](int k, int j, int i) {
+      speed(0, k, j, i) = swept_rate(weights, swept(0, k, j, i), old(0, k, j, i), dt);
+    });
+  }
+}
+
+GridStore::GridStore(Tiling tiling, std::vector<int> rank_of_tile, int rank)
+    : tiling_(std::move(tiling)), rank_of_tile_(std::move(rank_of_tile)), rank_(rank), plan_(link_plan(tiling_, rank_of_tile_, rank)) {
+  geometry_.resize(tiling_.size());
+  for (int t = 0; t < tiling_.size(); ++t)
+    if (owns(t)) owned_.push_back(t);
+}
+
+void GridStore::build(int tile, const MultiBlockGrid& grid, bool moving) {
+  geometry_[tile] = make_geometry(grid, tiling_.tiles[tile], tiling_.planar, moving);
+}
+
+void GridStore::build_all(const MultiBlockGrid& grid, bool moving) {
+  for (const int t : owned_) build(t, grid, moving);
+  fill_local_geometry();
+}
+
+void GridStore::fill_local_geometry() {
+  for (const int t : owned_) fill_boundary_geometry(*geometry_[t], tiling_.boundary(t));
+  for (const int l : plan_.local) {
+    const GhostLink& link = tiling_.links[l];
+    TileGeometry &from = *geometry_[link.from], &to = *geometry_[link.to];
+    copy_ghosts<double>(link, tiling_.periodic, centre_quantities, gradient_ghosts, from.centre(), to.centre());
+    copy_ghosts<double>(link, tiling_.periodic, volume_quantities, gradient_ghosts, from.volume(), to.volume());
+  }
+}
+
+std::size_t GridStore::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& g : geometry_) sum += g ? g->bytes() : 0;
+  return sum;
+}
+
+namespace {
+template <class Body>
+void for_cells(const Tiling& tiling, int tile, Body&& body) {
+  const Tile& t = tiling.tiles[tile];
+  const Index n = tiling.block_cells[t.block];
+  for (int k = 0; k < t.nk; ++k)
+    for (int j = 0; j < t.nj; ++j)
+      for (int i = 0; i < t.ni; ++i) {
+        const Index at = t.to_block({i, j, k});
+        body((std::size_t(at[2]) * n[1] + at[1]) * n[0] + at[0], k, j, i);
+      }
+}
+}  // namespace
+
+void gather_cells(const Tiling& tiling, int tile, BoxView<const double> values, int component, std::span<double> block_values) {
+  for_cells(tiling, tile, [&](std::size_t at, int k, int j, int i) { block_values[at] = values(component, k, j, i); });
+}
+void scatter_cells(const Tiling& tiling, int tile, std::span<const double> block_values, int component, BoxView<double> values) {
+  for_cells(tiling, tile, [&](std::size_t at, int k, int j, int i) { values(component, k, j, i) = block_values[at]; });
+}
+Box block_box(const Tiling& tiling, int tile) { return image(tiling.tiles[tile].to_block, tiling.tiles[tile].box()); }
+
+}  // namespace spindrift::aero

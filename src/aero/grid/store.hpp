@@ -1,0 +1,125 @@
+// The geometry of the tiles a rank owns: nodes, face vectors, volumes, centres, wall distances, and at moving grids what faces sweep.
+// Bytes per cell (8 x 16 x 64 tile; padding and ghosts counted): nodes 30, faces 78, volume 12, centres 36, wall distance 8: 164; moving
+// adds nodes 60, sweeps 78, volumes 16 (docs/theory/grid.md).
+// Called by src/aero/flow; tested in tests/src/aero/grid/store_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernels/grid/layout.hpp"
+#include "kernels/grid/metrics.hpp"
+#include "src/aero/grid/aligned.hpp"
+#include "src/aero/grid/ghost_links.hpp"
+#include "src/aero/grid/multi_block.hpp"
+#include "src/aero/grid/tiling.hpp"
+
+namespace spindrift::aero {
+
+/// Arrays of one tile. Face n of direction d lies below cell n of that direction; its vector [m2] points towards growing index.
+/// In a planar grid the faces across k are left zero: nothing flows through them.
+struct TileGeometry {
+  BoxLayout node_box;                 ///< ni+1, nj+1, nk+1
+  BoxLayout cell_box;                 ///< with gradient_ghosts
+  std::array<BoxLayout, 3> face_box;  ///< one more in the direction across
+  BoxLayout inner_box;                ///< cells without ghosts
+
+  AlignedArray<double> node_data;                  ///< 3 components [m]
+  std::array<AlignedArray<double>, 3> face_data;   ///< 3
+  AlignedArray<double> volume_data;                ///< 1 [m3]
+  AlignedArray<double> centre_data;                ///< 3 [m]
+  AlignedArray<double> wall_distance_data;         ///< 1 [m]; infinite where there is no wall
+
+  // Moving grids only (empty otherwise).
+  AlignedArray<double> reference_node_data, old_node_data;    ///< nodes as made; nodes one step ago
+  std::array<AlignedArray<double>, 3> swept_data, old_swept_data;  ///< [m3] in this step and in the one before
+  std::array<AlignedArray<double>, 3> speed_data;             ///< [m3/s] volume per time swept, see swept_rate
+  AlignedArray<double> old_volume_data, older_volume_data;    ///< [m3] interior, one and two steps ago
+
+  BoxView<double> nodes() { return {node_data.data(), node_box}; }
+  BoxView<double> volume() { return {volume_data.data(), cell_box}; }
+  BoxView<double> centre() { return {centre_data.data(), cell_box}; }
+  BoxView<double> wall_distance() { return {wall_distance_data.data(), inner_box}; }
+  BoxView<double> old_volume() { return {old_volume_data.data(), inner_box}; }
+  BoxView<double> older_volume() { return {older_volume_data.data(), inner_box}; }
+  BoxView<double> reference_nodes() { return {reference_node_data.data(), node_box}; }
+  BoxView<double> old_nodes() { return {old_node_data.data(), node_box}; }
+  BoxView<double> face(int direction) { return {face_data[direction].data(), face_box[direction]}; }
+  BoxView<double> swept(int direction) { return {swept_data[direction].data(), face_box[direction]}; }
+  BoxView<double> old_swept(int direction) { return {old_swept_data[direction].data(), face_box[direction]}; }
+  BoxView<double> speed(int direction) { return {speed_data[direction].data(), face_box[direction]}; }
+  BoxView<const double> nodes() const { return {node_data.data(), node_box}; }
+  BoxView<const double> volume() const { return {volume_data.data(), cell_box}; }
+  BoxView<const double> centre() const { return {centre_data.data(), cell_box}; }
+  BoxView<const double> wall_distance() const { return {wall_distance_data.data(), inner_box}; }
+  BoxView<const double> old_volume() const { return {old_volume_data.data(), inner_box}; }
+  BoxView<const double> older_volume() const { return {older_volume_data.data(), inner_box}; }
+  BoxView<const double> face(int direction) const { return {face_data[direction].data(), face_box[direction]}; }
+  BoxView<const double> speed(int direction) const { return {speed_data[direction].data(), face_box[direction]}; }
+  bool moving() const { return speed_data[0].size() > 0; }
+  std::size_t bytes() const;
+};
+
+/// Copies a tile's nodes out of its block and builds faces, volumes, centres. Ghosts of volume and centre are filled by
+/// fill_boundary_geometry and by the links (geometry_quantities).
+std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar, bool moving);
+
+/// Faces, volumes and centres from the nodes as they are.
+void update_metrics(TileGeometry& geometry, bool planar);
+
+/// Ghost volumes and centres beyond boundary windows: the volume of the cell inside, its centre mirrored in the face.
+void fill_boundary_geometry(TileGeometry& geometry, std::span<const TileBoundary> boundaries);
+
+/// Exchanged after each update_metrics: one layer of centre and of volume.
+inline constexpr Quantity centre_quantities[] = {Quantity::point};
+inline constexpr Quantity volume_quantities[] = {Quantity::scalar};
+
+/// A moving grid's step, each a task per tile: present becomes past; nodes move; metrics and sweeps follow; speeds for the weights.
+void begin_step(TileGeometry& geometry);
+void move_rigidly(TileGeometry& geometry, const RigidMap& from_reference);
+/// Any motion: where a node of the reference position is now.
+void move_nodes(TileGeometry& geometry, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& position);
+void update_sweeps(TileGeometry& geometry, bool planar);
+void update_speeds(TileGeometry& geometry, TimeWeights weights, double dt, bool planar);
+
+/// The tiles of one rank; a tile that lives elsewhere has no geometry.
+class GridStore {
+ public:
+  GridStore(Tiling tiling, std::vector<int> rank_of_tile, int rank);
+  const Tiling& tiling() const { return tiling_; }
+  std::span<const int> rank_of_tile() const { return rank_of_tile_; }
+  const LinkPlan& plan() const { return plan_; }
+  std::span<const int> owned() const { return owned_; }  ///< ascending
+  bool owns(int tile) const { return rank_of_tile_[tile] == rank_; }
+  TileGeometry& operator[](int tile) { return *geometry_[tile]; }
+  const TileGeometry& operator[](int tile) const { return *geometry_[tile]; }
+  /// Builds one owned tile (a task: memory is touched by the thread that calls).
+  void build(int tile, const MultiBlockGrid& grid, bool moving);
+  /// Builds all owned tiles one after the other and fills what ghosts can be filled without messages.
+  void build_all(const MultiBlockGrid& grid, bool moving = false);
+  /// Ghost centres and volumes beyond boundaries and from tiles of this rank; those of other ranks come by pack and unpack.
+  void fill_local_geometry();
+  std::size_t bytes() const;
+
+ private:
+  Tiling tiling_;
+  std::vector<int> rank_of_tile_;
+  int rank_;
+  LinkPlan plan_;
+  std::vector<int> owned_;
+  std::vector<std::unique_ptr<TileGeometry>> geometry_;
+};
+
+/// Copies a tile's interior values into the arrays of its block (i fastest, one array per component, block index order), for output:
+/// each block's array has ni*nj*nk numbers.
+void gather_cells(const Tiling& tiling, int tile, BoxView<const double> values, int component, std::span<double> block_values);
+/// The other way, for restarts.
+void scatter_cells(const Tiling& tiling, int tile, std::span<const double> block_values, int component, BoxView<double> values);
+
+/// Window of a block that a tile covers, for parallel output: cells [low, high) of the block.
+Box block_box(const Tiling& tiling, int tile);
+
+}  // namespace spindrift::aero

@@ -1,0 +1,104 @@
+// Cuts the blocks of a grid into tiles: the pieces that are tasks, live on one rank each and own their storage.
+// A tile's i is the direction across the walls (lines of strongest coupling), never cut in a boundary layer. The tiling follows from
+// the grid and the options alone, never from ranks or threads, and so does the number of each tile.
+// Called where a solver is set up; tested in tests/src/aero/grid/tiling_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/partition/block_graph.hpp"
+#include "src/aero/grid/index_map.hpp"
+#include "src/aero/grid/multi_block.hpp"
+
+namespace spindrift::aero {
+
+inline constexpr int state_ghosts = 2;     ///< layers of ghost cells of a flow state; none in k of planar grids
+inline constexpr int gradient_ghosts = 1;  ///< of cell gradients, centres, volumes
+
+struct TilingOptions {
+  int across_j = 16, across_k = 8;  ///< largest tile [cells] in the two directions along a wall
+  int planar_across = 32;           ///< the same in a planar grid
+  int normal = 64;                  ///< largest tile in i where no wall's lines pass (3-D)
+  int planar_normal = 128;          ///< the same in a planar grid
+  int max_cells = 8192;             ///< tiles with long lines get fewer of them
+};
+
+/// A box of cells of one block, seen in directions of its own: from tile to block indices by `to_block`.
+struct Tile {
+  int block = 0;
+  IndexMap to_block;
+  int ni = 0, nj = 0, nk = 0;
+  double cost = 0.0;  ///< for sharing out among ranks, in cells
+  Index cells() const { return {ni, nj, nk}; }
+  Box box() const { return {{0, 0, 0}, {ni, nj, nk}}; }
+  long count() const { return long(ni) * nj * nk; }
+};
+
+/// A rectangle of a tile's faces where a boundary condition acts: cells [low, high) in the two directions along the side.
+struct TileBoundary {
+  int tile = 0;
+  Side side = Side::i_min;
+  std::array<int, 2> low{}, high{};
+  int patch = 0;  ///< index in Tiling::patches
+};
+
+/// Ghost cells of `to` beyond a window of one of its sides, and the cells of `from` that fill them: ghost cell (i, j, k) of `to`,
+/// with an index below zero or beyond the last one, is cell donor(i, j, k) of `from`, for as many layers as `from` is deep.
+struct GhostLink {
+  int from = 0, to = 0;
+  Side side = Side::i_min;  ///< of `to`
+  std::array<int, 2> low{}, high{};
+  IndexMap donor;
+  int periodic = -1;  ///< index in Tiling::periodic of the map that carries points of `from` to `to`; -1 where they are one place
+  int faces() const { return (high[0] - low[0]) * (high[1] - low[1]); }
+};
+
+/// A contiguous range of Tiling's lists.
+struct Range {
+  int first = 0, last = 0;
+};
+
+struct Tiling {
+  std::vector<Tile> tiles;                ///< block by block; within a block k, then j, then i of the tile's directions slowest first
+  std::vector<GhostLink> links;           ///< by `to`, then side
+  std::vector<Range> links_into;          ///< per tile: of `links`
+  std::vector<std::vector<int>> links_from;  ///< per tile: indices in `links`
+  std::vector<TileBoundary> boundaries;   ///< by tile, then side
+  std::vector<Range> boundaries_of;       ///< per tile: of `boundaries`
+  std::vector<std::string> patches;       ///< names, in order of first use in the grid
+  std::vector<RigidMap> periodic;
+  std::vector<Index> block_cells;
+  bool planar = false;
+
+  int size() const { return int(tiles.size()); }
+  std::span<const GhostLink> into(int tile) const {
+    return std::span(links).subspan(links_into[tile].first, links_into[tile].last - links_into[tile].first);
+  }
+  std::span<const TileBoundary> boundary(int tile) const {
+    return std::span(boundaries).subspan(boundaries_of[tile].first, boundaries_of[tile].last - boundaries_of[tile].first);
+  }
+  /// Index of a patch by name; -1 where the grid has none.
+  int patch(std::string_view name) const;
+};
+
+/// `walls` names the patches whose normal direction becomes i. The grid must have passed check() (checks.hpp).
+Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> walls, const TilingOptions& options = {});
+
+/// Tiles and what passes between them, for runtime/partition: cost in cells, edges in ghost cells.
+runtime::BlockGraph tile_graph(const Tiling& tiling);
+
+/// What one rank copies, sends and receives, from the rank of every tile. Each list of links is in the order of Tiling::links, on
+/// the sender as on the receiver.
+struct LinkPlan {
+  struct Message {
+    int rank = 0;
+    std::vector<int> links;
+  };
+  std::vector<int> local;                ///< links whose both ends are on this rank
+  std::vector<Message> sends, receives;  ///< by rank
+};
+LinkPlan link_plan(const Tiling& tiling, std::span<const int> rank_of_tile, int rank);
+
+}  // namespace spindrift::aero
