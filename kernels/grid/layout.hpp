@@ -1,7 +1,6 @@
-// Where the number at (k, j, i) of a box of cells, faces or nodes lies in memory: structure of arrays, component-major, i fastest.
-// Rows are padded so that i = 0 of every row and component starts on a 64-byte line and a Wide load may run over the end of a row.
-// Called by src/aero (store, sweeps); tested in tests/kernels/grid/layout_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Where the number at (k, j, i) of a box of cells, faces or nodes lies in memory: structure of arrays, component-major, i
+// fastest. Rows are padded so that i = 0 of every row and component starts on a 64-byte line and a Wide load may run over the end
+// of a row. Called by src/aero (store, sweeps); tested in tests/kernels/grid/layout_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>

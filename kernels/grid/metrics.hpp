@@ -14,17 +14,20 @@ struct Quad {
   Eigen::Vector3d a, b, c, d;
 };
 
-/// Integral of the unit normal over the bilinear surface [m2]: exact, and zero in sum over a closed cell. Half the cross product of the
-/// diagonals, written with the mean edges: the diagonals of a face 1e5 times longer than high are nearly parallel and their product
-/// keeps 11 digits, that of the edges all 16.
-inline Eigen::Vector3d face_vector(const Quad& f) {
-  return 0.25 * ((f.b - f.a) + (f.c - f.d)).cross((f.d - f.a) + (f.c - f.b));
-}
+/// Integral of the unit normal over the bilinear surface [m2]: exact, and zero in sum over a closed cell. Half the cross product
+/// of the diagonals, written with the mean edges: the diagonals of a face 1e5 times longer than high are nearly parallel and
+/// their product keeps 11 digits, that of the edges all 16.
+inline Eigen::Vector3d face_vector(const Quad& f) { return 0.25 * ((f.b - f.a) + (f.c - f.d)).cross((f.d - f.a) + (f.c - f.b)); }
 
-/// What the warp of a face adds to the integral of x . n over it, beyond a . face_vector [m3]; zero for a plane face.
-inline double warp_moment(const Quad& f) {
-  const Eigen::Vector3d q = f.b - f.a, r = f.d - f.a, s = (f.a - f.b) + (f.c - f.d);
-  return -0.25 * q.dot(r.cross(s));
+/// What the warp of two opposite faces of a cell adds to the integral of x . n over both [m3]; zero where they are plane.
+/// One face of edges q, r and twist s = a - b + c - d adds -q . (r x s)/4. The difference is expanded in the edges that join the
+/// faces: of thin cells the twist of each face is lost in the rounding of its long edges, the difference of both is not.
+inline double warp_moment(const Quad& low, const Quad& high) {
+  const Eigen::Vector3d ea = high.a - low.a, eb = high.b - low.b, ec = high.c - low.c, ed = high.d - low.d;
+  const Eigen::Vector3d q0 = low.b - low.a, r0 = low.d - low.a;
+  const Eigen::Vector3d r1 = high.d - high.a, s1 = (high.a - high.b) + (high.c - high.d);
+  const Eigen::Vector3d dq = eb - ea, dr = ed - ea, ds = (ea - eb) + (ec - ed);
+  return -0.25 * (dq.dot(r1.cross(s1)) + q0.dot(dr.cross(s1) + r0.cross(ds)));
 }
 
 /// Corners of a hexahedron: x[4k + 2j + i] at (i, j, k); right-handed where the volume is positive.
@@ -39,13 +42,15 @@ inline double hexahedron_volume(const Hexahedron& h) {
   const Quad i0{x[0], x[2], x[6], x[4]}, i1{x[1], x[3], x[7], x[5]};
   const Quad j0{x[0], x[4], x[5], x[1]}, j1{x[2], x[6], x[7], x[3]};
   const Quad k0{x[0], x[1], x[3], x[2]}, k1{x[4], x[5], x[7], x[6]};
-  const double plane = (x[1] - x[0]).dot(face_vector(i1)) + (x[2] - x[0]).dot(face_vector(j1)) + (x[4] - x[0]).dot(face_vector(k1));
-  const double warp = (warp_moment(i1) - warp_moment(i0)) + (warp_moment(j1) - warp_moment(j0)) + (warp_moment(k1) - warp_moment(k0));
+  const double plane =
+      (x[1] - x[0]).dot(face_vector(i1)) + (x[2] - x[0]).dot(face_vector(j1)) + (x[4] - x[0]).dot(face_vector(k1));
+  const double warp = warp_moment(i0, i1) + warp_moment(j0, j1) + warp_moment(k0, k1);
   return (plane + warp) / 3.0;
 }
 
-/// Volume swept by a bilinear face whose corners go from `before` to `after` on straight lines at constant speed [m3], positive along
-/// its vector: exact, so that a cell's volume grows by the sum over its faces to round-off (discrete geometric conservation law).
+/// Volume swept by a bilinear face whose corners go from `before` to `after` on straight lines at constant speed [m3], positive
+/// along its vector: exact, so that a cell's volume grows by the sum over its faces to round-off (discrete geometric conservation
+/// law).
 inline double swept_volume(const Quad& before, const Quad& after) {
   return hexahedron_volume({{before.a, before.b, before.d, before.c, after.a, after.b, after.d, after.c}});
 }
@@ -68,8 +73,8 @@ constexpr TimeWeights bdf2(double ratio = 1.0) {
   return {now, -(now + older), older};
 }
 
-/// Volume per time that a face sweeps [m3/s], so that a uniform state stays uniform under these weights: `swept` in this step, `swept_old`
-/// in the step before. Divided by the face's area it is the normal speed that fluxes use.
+/// Volume per time that a face sweeps [m3/s], so that a uniform state stays uniform under these weights: `swept` in this step,
+/// `swept_old` in the step before. Divided by the face's area it is the normal speed that fluxes use.
 constexpr double swept_rate(TimeWeights w, double swept, double swept_old, double dt) {
   return (w.now * swept - w.older * swept_old) / dt;
 }

@@ -1,7 +1,6 @@
-// Filling ghost cells: copies described by GhostLink, on one rank (copy_ghosts) or through a buffer (pack on the donor's rank, unpack on
-// the receiver's). Vectors, tensors and points are carried by the map of a periodic link.
-// Called by the tasks of src/aero/flow and by store.cpp; tested in tests/src/aero/grid/ghost_links_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Filling ghost cells: copies described by GhostLink, on one rank (copy_ghosts) or through a buffer (pack on the donor's rank,
+// unpack on the receiver's). Vectors, tensors and points are carried by the map of a periodic link. Called by the tasks of
+// src/aero/flow and by store.cpp; tested in tests/src/aero/grid/ghost_links_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -19,9 +18,7 @@ enum class Quantity : unsigned char {
   point,   ///< 3: a place, moved as well as turned
   tensor   ///< 9: row by row; the gradient of a vector, t(3r + c) = d v_r / d x_c
 };
-constexpr int components_of(Quantity quantity) {
-  return quantity == Quantity::scalar ? 1 : quantity == Quantity::tensor ? 9 : 3;
-}
+constexpr int components_of(Quantity quantity) { return quantity == Quantity::scalar ? 1 : quantity == Quantity::tensor ? 9 : 3; }
 constexpr int components_of(std::span<const Quantity> quantities) {
   int sum = 0;
   for (const Quantity q : quantities) sum += components_of(q);
@@ -34,8 +31,8 @@ inline std::size_t packed_size(const GhostLink& link, int components, int layers
 }
 
 namespace detail {
-/// Calls body(offset in the receiver, offset in the donor, count, donor's stride) for each run of ghost cells, in one fixed order:
-/// the receiver's smallest strides innermost. Runs go along the receiver's row where the window lies along i.
+/// Calls body(offset in the receiver, offset in the donor, count, donor's stride) for each run of ghost cells, in one fixed
+/// order: the receiver's smallest strides innermost. Runs go along the receiver's row where the window lies along i.
 template <class Body>
 void for_ghosts(const GhostLink& link, const BoxLayout& to, const BoxLayout& from, int layers, Body&& body) {
   const int across = direction_of(link.side);
@@ -95,9 +92,10 @@ void copy_ghosts(const GhostLink& link, std::span<const RigidMap> maps, std::spa
   for (int c = 0; c < components_of(quantities); ++c) {
     T* out = to.data + c * to.layout.component;
     const T* in = from.data + c * from.layout.component;
-    detail::for_ghosts(link, to.layout, from.layout, layers, [&](auto ghost, auto donor, int count, auto to_step, auto from_step) {
-      for (int n = 0; n < count; ++n) out[ghost + n * to_step] = in[donor + n * from_step];
-    });
+    detail::for_ghosts(link, to.layout, from.layout, layers,
+                       [&](auto ghost, auto donor, int count, auto to_step, auto from_step) {
+                         for (int n = 0; n < count; ++n) out[ghost + n * to_step] = in[donor + n * from_step];
+                       });
   }
   detail::carry_ghosts(link, maps, quantities, layers, to);
 }

@@ -27,7 +27,8 @@ Box moved(Box box, const Index& by, int sign) {
 }
 
 Block copy_nodes(const Block& old, const Box& box, int number) {
-  Block block{fmt::format("{}-{}", old.name, number), box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2], {}};
+  Block block{
+      fmt::format("{}-{}", old.name, number), box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2], {}};
   block.nodes.reserve(std::size_t(block.ni + 1) * (block.nj + 1) * (block.nk + 1));
   for (int k = box.low[2]; k <= box.high[2]; ++k)
     for (int j = box.low[1]; j <= box.high[1]; ++j)
@@ -48,7 +49,8 @@ MultiBlockGrid split_at(const MultiBlockGrid& grid, std::span<const std::array<s
     for (int d = 0; d < 3; ++d) {
       ends[d].push_back(0);
       for (const int c : cuts[b][d]) {
-        if (c <= ends[d].back() || c >= cells[d]) throw std::invalid_argument(fmt::format("split: cut at {} of {} cells", c, cells[d]));
+        if (c <= ends[d].back() || c >= cells[d])
+          throw std::invalid_argument(fmt::format("split: cut at {} of {} cells", c, cells[d]));
         ends[d].push_back(c);
       }
       ends[d].push_back(cells[d]);
@@ -86,7 +88,8 @@ MultiBlockGrid split_at(const MultiBlockGrid& grid, std::span<const std::array<s
         if (shared.empty()) continue;
         const Box here = moved(image(map.inverse(), shared), step, -1);
         result.connections.push_back({window_on(p, old.from.side, moved(here, pieces[p].box.low, -1)),
-                                      window_on(q, old.to.side, moved(shared, pieces[q].box.low, -1)), old.orientation, old.periodic});
+                                      window_on(q, old.to.side, moved(shared, pieces[q].box.low, -1)), old.orientation,
+                                      old.periodic});
       }
     });
   }
@@ -103,7 +106,9 @@ MultiBlockGrid split_at(const MultiBlockGrid& grid, std::span<const std::array<s
           const Box shared = intersection(moved(last, step, 1), there);
           if (shared.empty()) continue;
           result.connections.push_back({window_on(p, Side(2 * d + 1), moved(shared, here.low, -1)),
-                                        window_on(q, Side(2 * d), moved(shared, there.low, -1)), {1, 2, 3}, {}});
+                                        window_on(q, Side(2 * d), moved(shared, there.low, -1)),
+                                        {1, 2, 3},
+                                        {}});
         }
   return result;
 }
@@ -128,7 +133,8 @@ MultiBlockGrid split(const MultiBlockGrid& grid, int parts, std::span<const std:
     for (int d = 0; d < 3; ++d) {
       const int tiles = int(ends[d].size()) + 1;
       const long after = long(pieces[0]) * pieces[1] * pieces[2] * 2;
-      if (2 * pieces[d] <= tiles && after <= parts && double(tiles) / pieces[d] > most) most = double(tiles) / pieces[d], best = d;
+      if (2 * pieces[d] <= tiles && after <= parts && double(tiles) / pieces[d] > most)
+        most = double(tiles) / pieces[d], best = d;
     }
     if (best < 0) break;
     pieces[best] *= 2;

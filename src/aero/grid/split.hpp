@@ -1,7 +1,6 @@
-// The same grid in other blocks: cut into more of them, or with a block's indices turned. For load balance by hand, for imports whose
-// blocks are few, and for tests that blocks cost and change nothing.
-// Called by tests and perf/air; tested in tests/src/aero/grid/tiling_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// The same grid in other blocks: cut into more of them, or with a block's indices turned. For load balance by hand, for imports
+// whose blocks are few, and for tests that blocks cost and change nothing. Called by tests and perf/air; tested in
+// tests/src/aero/grid/tiling_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -18,11 +17,13 @@ namespace spindrift::aero {
 /// Each block cut at the given cell indices (ascending, inside the block), per block and direction.
 MultiBlockGrid split_at(const MultiBlockGrid& grid, std::span<const std::array<std::vector<int>, 3>> cuts);
 
-/// A one-block grid cut into about `parts` blocks (never more) along the boundaries of its tiles, so that the tiles stay as they are.
-MultiBlockGrid split(const MultiBlockGrid& grid, int parts, std::span<const std::string> walls, const TilingOptions& options = {});
+/// A one-block grid cut into about `parts` blocks (never more) along the boundaries of its tiles, so that the tiles stay as they
+/// are.
+MultiBlockGrid split(const MultiBlockGrid& grid, int parts, std::span<const std::string> walls,
+                     const TilingOptions& options = {});
 
-/// Block `number` re-indexed: its new direction d walks along its old direction |axes[d]| - 1, backwards where negative. Right-handed axes
-/// only.
+/// Block `number` re-indexed: its new direction d walks along its old direction |axes[d]| - 1, backwards where negative.
+/// Right-handed axes only.
 void reorient(MultiBlockGrid& grid, int number, const Index& axes);
 
 /// The window of a side that covers a layer of cells just inside or outside of it.

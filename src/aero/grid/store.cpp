@@ -9,7 +9,9 @@ namespace spindrift::aero {
 
 namespace {
 
-Eigen::Vector3d vector_at(BoxView<const double> view, int k, int j, int i) { return {view(0, k, j, i), view(1, k, j, i), view(2, k, j, i)}; }
+Eigen::Vector3d vector_at(BoxView<const double> view, int k, int j, int i) {
+  return {view(0, k, j, i), view(1, k, j, i), view(2, k, j, i)};
+}
 void set_vector(BoxView<double> view, int k, int j, int i, const Eigen::Vector3d& v) {
   for (int c = 0; c < 3; ++c) view(c, k, j, i) = v[c];
 }
@@ -78,7 +80,8 @@ std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Ti
     std::ranges::copy(g.node_data.span(), g.reference_node_data.data());
     std::ranges::copy(g.node_data.span(), g.old_node_data.data());
     for (int d = 0; d < 3; ++d)
-      for (auto* family : {&g.swept_data, &g.old_swept_data, &g.speed_data}) (*family)[d] = AlignedArray<double>(g.face_box[d].size(1));
+      for (auto* family : {&g.swept_data, &g.old_swept_data, &g.speed_data})
+        (*family)[d] = AlignedArray<double>(g.face_box[d].size(1));
     g.old_volume_data = AlignedArray<double>(g.inner_box.size(1));
     g.older_volume_data = AlignedArray<double>(g.inner_box.size(1));
     begin_step(g);
@@ -153,23 +156,24 @@ void update_sweeps(TileGeometry& g, bool planar) {
   const BoxView<const double> now = g.nodes(), old = g.old_nodes();
   for (int d = 0; d < flow_directions(planar); ++d) {
     BoxView<double> swept = g.swept(d);
-    for_box(g.face_box[d], [&](int k, int j, int i) {
-      swept(0, k, j, i) = swept_volume(face_at(old, d, k, j, i), face_at(now, d, k, j, i));
-    });
+    for_box(g.face_box[d],
+            [&](int k, int j, int i) { swept(0, k, j, i) = swept_volume(face_at(old, d, k, j, i), face_at(now, d, k, j, i)); });
   }
 }
 
 void update_speeds(TileGeometry& g, TimeWeights weights, double dt, bool planar) {
   for (int d = 0; d < flow_directions(planar); ++d) {
     BoxView<double> speed = g.speed(d), swept = g.swept(d), old = g.old_swept(d);
-    for_box(g.face_box[d], [&](int k, int j, int i) {
-      speed(0, k, j, i) = swept_rate(weights, swept(0, k, j, i), old(0, k, j, i), dt);
-    });
+    for_box(g.face_box[d],
+            [&](int k, int j, int i) { speed(0, k, j, i) = swept_rate(weights, swept(0, k, j, i), old(0, k, j, i), dt); });
   }
 }
 
 GridStore::GridStore(Tiling tiling, std::vector<int> rank_of_tile, int rank)
-    : tiling_(std::move(tiling)), rank_of_tile_(std::move(rank_of_tile)), rank_(rank), plan_(link_plan(tiling_, rank_of_tile_, rank)) {
+    : tiling_(std::move(tiling)),
+      rank_of_tile_(std::move(rank_of_tile)),
+      rank_(rank),
+      plan_(link_plan(tiling_, rank_of_tile_, rank)) {
   geometry_.resize(tiling_.size());
   for (int t = 0; t < tiling_.size(); ++t)
     if (owns(t)) owned_.push_back(t);

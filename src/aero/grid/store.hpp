@@ -1,7 +1,7 @@
-// The geometry of the tiles a rank owns: nodes, face vectors, volumes, centres, wall distances, and at moving grids what faces sweep.
-// Bytes per cell (8 x 16 x 64 tile; padding and ghosts counted): nodes 30, faces 78, volume 12, centres 36, wall distance 8: 164; moving
-// adds nodes 60, sweeps 78, volumes 16 (docs/theory/grid.md).
-// Called by src/aero/flow; tested in tests/src/aero/grid/store_test.cpp. SPDX-License-Identifier: Apache-2.0
+// The geometry of the tiles a rank owns: nodes, face vectors, volumes, centres, wall distances, and at moving grids what faces
+// sweep. Bytes per cell (8 x 16 x 64 tile; padding and ghosts counted): nodes 30, faces 78, volume 12, centres 36, wall distance
+// 8: 164; moving adds nodes 60, sweeps 78, volumes 16 (docs/theory/grid.md). Called by src/aero/flow; tested in
+// tests/src/aero/grid/store_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -27,17 +27,17 @@ struct TileGeometry {
   std::array<BoxLayout, 3> face_box;  ///< one more in the direction across
   BoxLayout inner_box;                ///< cells without ghosts
 
-  AlignedArray<double> node_data;                  ///< 3 components [m]
-  std::array<AlignedArray<double>, 3> face_data;   ///< 3
-  AlignedArray<double> volume_data;                ///< 1 [m3]
-  AlignedArray<double> centre_data;                ///< 3 [m]
-  AlignedArray<double> wall_distance_data;         ///< 1 [m]; infinite where there is no wall
+  AlignedArray<double> node_data;                 ///< 3 components [m]
+  std::array<AlignedArray<double>, 3> face_data;  ///< 3
+  AlignedArray<double> volume_data;               ///< 1 [m3]
+  AlignedArray<double> centre_data;               ///< 3 [m]
+  AlignedArray<double> wall_distance_data;        ///< 1 [m]; infinite where there is no wall
 
   // Moving grids only (empty otherwise).
-  AlignedArray<double> reference_node_data, old_node_data;    ///< nodes as made; nodes one step ago
+  AlignedArray<double> reference_node_data, old_node_data;         ///< nodes as made; nodes one step ago
   std::array<AlignedArray<double>, 3> swept_data, old_swept_data;  ///< [m3] in this step and in the one before
-  std::array<AlignedArray<double>, 3> speed_data;             ///< [m3/s] volume per time swept, see swept_rate
-  AlignedArray<double> old_volume_data, older_volume_data;    ///< [m3] interior, one and two steps ago
+  std::array<AlignedArray<double>, 3> speed_data;                  ///< [m3/s] volume per time swept, see swept_rate
+  AlignedArray<double> old_volume_data, older_volume_data;         ///< [m3] interior, one and two steps ago
 
   BoxView<double> nodes() { return {node_data.data(), node_box}; }
   BoxView<double> volume() { return {volume_data.data(), cell_box}; }
@@ -77,7 +77,8 @@ void fill_boundary_geometry(TileGeometry& geometry, std::span<const TileBoundary
 inline constexpr Quantity centre_quantities[] = {Quantity::point};
 inline constexpr Quantity volume_quantities[] = {Quantity::scalar};
 
-/// A moving grid's step, each a task per tile: present becomes past; nodes move; metrics and sweeps follow; speeds for the weights.
+/// A moving grid's step, each a task per tile: present becomes past; nodes move; metrics and sweeps follow; speeds for the
+/// weights.
 void begin_step(TileGeometry& geometry);
 void move_rigidly(TileGeometry& geometry, const RigidMap& from_reference);
 /// Any motion: where a node of the reference position is now.
@@ -113,8 +114,8 @@ class GridStore {
   std::vector<std::unique_ptr<TileGeometry>> geometry_;
 };
 
-/// Copies a tile's interior values into the arrays of its block (i fastest, one array per component, block index order), for output:
-/// each block's array has ni*nj*nk numbers.
+/// Copies a tile's interior values into the arrays of its block (i fastest, one array per component, block index order), for
+/// output: each block's array has ni*nj*nk numbers.
 void gather_cells(const Tiling& tiling, int tile, BoxView<const double> values, int component, std::span<double> block_values);
 /// The other way, for restarts.
 void scatter_cells(const Tiling& tiling, int tile, std::span<const double> block_values, int component, BoxView<double> values);

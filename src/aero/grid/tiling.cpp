@@ -33,9 +33,9 @@ namespace {
 /// A side of a block seen from the block: through this window lies another block.
 struct Passage {
   Window window;
-  int beyond;     ///< block
-  IndexMap map;   ///< cells of this block, continued, to cells beyond
-  int periodic;   ///< map of points beyond to points here
+  int beyond;    ///< block
+  IndexMap map;  ///< cells of this block, continued, to cells beyond
+  int periodic;  ///< map of points beyond to points here
 };
 
 std::vector<std::vector<Passage>> passages(const MultiBlockGrid& grid, std::vector<RigidMap>& maps) {
@@ -64,7 +64,8 @@ std::array<double, 3> mean_log_edges(const Block& b) {
     for (int j = 0; j < b.nj; j += step_j)
       for (int i = 0; i < b.ni; i += step_i, ++count) {
         const Eigen::Vector3d& x = b.nodes[b.node(k, j, i)];
-        const Eigen::Vector3d* next[] = {&b.nodes[b.node(k, j, i + 1)], &b.nodes[b.node(k, j + 1, i)], &b.nodes[b.node(k + 1, j, i)]};
+        const Eigen::Vector3d* next[] = {&b.nodes[b.node(k, j, i + 1)], &b.nodes[b.node(k, j + 1, i)],
+                                         &b.nodes[b.node(k + 1, j, i)]};
         for (int d = 0; d < 3; ++d) sum[d] += std::log(std::max((*next[d] - x).norm(), 1e-300));
       }
   for (double& s : sum) s /= double(count);
@@ -134,7 +135,8 @@ Index tile_target(const Lines& lines, int line_cells, bool planar, const TilingO
 
 int pieces(int n, int largest) { return std::max(1, (n + largest - 1) / largest); }
 
-void cut(const Block& block, int number, const Lines& lines, bool planar, const TilingOptions& options, std::vector<Tile>& tiles) {
+void cut(const Block& block, int number, const Lines& lines, bool planar, const TilingOptions& options,
+         std::vector<Tile>& tiles) {
   const IndexMap directions{tile_axes(lines.direction, planar), {}};
   const Index cells = block.cells();
   const Index target = tile_target(lines, cells[lines.direction], planar, options);

@@ -1,7 +1,7 @@
 // Cuts the blocks of a grid into tiles: the pieces that are tasks, live on one rank each and own their storage.
-// A tile's i is the direction across the walls (lines of strongest coupling), never cut in a boundary layer. The tiling follows from
-// the grid and the options alone, never from ranks or threads, and so does the number of each tile.
-// Called where a solver is set up; tested in tests/src/aero/grid/tiling_test.cpp. SPDX-License-Identifier: Apache-2.0
+// A tile's i is the direction across the walls (lines of strongest coupling), never cut in a boundary layer. The tiling follows
+// from the grid and the options alone, never from ranks or threads, and so does the number of each tile. Called where a solver is
+// set up; tested in tests/src/aero/grid/tiling_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
@@ -61,13 +61,13 @@ struct Range {
 };
 
 struct Tiling {
-  std::vector<Tile> tiles;                ///< block by block; within a block k, then j, then i of the tile's directions slowest first
-  std::vector<GhostLink> links;           ///< by `to`, then side
-  std::vector<Range> links_into;          ///< per tile: of `links`
+  std::vector<Tile> tiles;        ///< block by block; within a block k, then j, then i of the tile's directions slowest first
+  std::vector<GhostLink> links;   ///< by `to`, then side
+  std::vector<Range> links_into;  ///< per tile: of `links`
   std::vector<std::vector<int>> links_from;  ///< per tile: indices in `links`
-  std::vector<TileBoundary> boundaries;   ///< by tile, then side
-  std::vector<Range> boundaries_of;       ///< per tile: of `boundaries`
-  std::vector<std::string> patches;       ///< names, in order of first use in the grid
+  std::vector<TileBoundary> boundaries;      ///< by tile, then side
+  std::vector<Range> boundaries_of;          ///< per tile: of `boundaries`
+  std::vector<std::string> patches;          ///< names, in order of first use in the grid
   std::vector<RigidMap> periodic;
   std::vector<Index> block_cells;
   bool planar = false;

@@ -24,8 +24,8 @@ Hexahedron random_cell(std::mt19937& random, double thin, double warp, double fa
   for (int n = 0; n < 8; ++n) {
     Vector3d x(n % 2, n / 2 % 2, n / 4);
     x += warp * Vector3d(u(random), u(random), u(random));
-    x.x() += shear_x * x.z(), x.y() += shear_y * x.z();
     x.z() *= thin;
+    x.x() += shear_x * x.z(), x.y() += shear_y * x.z();
     h.x[n] = turn * x + away;
   }
   return h;
@@ -38,7 +38,8 @@ Quad side(const Hexahedron& h, int s) {
 /// Volume of the trilinear map by Gauss points, three each way: its Jacobian is of second degree in each coordinate.
 long double gauss_volume(const Hexahedron& h) {
   using V = Eigen::Matrix<long double, 3, 1>;
-  const long double at[] = {0.5L - 0.5L * std::sqrt(0.6L), 0.5L, 0.5L + 0.5L * std::sqrt(0.6L)}, w[] = {5 / 18.0L, 8 / 18.0L, 5 / 18.0L};
+  const long double at[] = {0.5L - 0.5L * std::sqrt(0.6L), 0.5L, 0.5L + 0.5L * std::sqrt(0.6L)},
+                    w[] = {5 / 18.0L, 8 / 18.0L, 5 / 18.0L};
   long double sum = 0;
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
@@ -70,7 +71,8 @@ TEST_CASE("a sheared and turned cell of aspect ratio 1e5 keeps its volume to a f
   std::mt19937 random(2);
   double worst = 0;
   for (int n = 0; n < 1000; ++n) {
-    const Hexahedron h = random_cell(random, 1e-5, 0.0, 0.0);  // at the origin: far away the node positions are rounded, not the volume
+    const Hexahedron h =
+        random_cell(random, 1e-5, 0.0, 0.0);  // at the origin: far away the node positions are rounded, not the volume
     const long double exact = gauss_volume(h);
     worst = std::max(worst, double(std::abs((hexahedron_volume(h) - exact) / exact)));
   }

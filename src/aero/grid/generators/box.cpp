@@ -74,7 +74,8 @@ MultiBlockGrid perturbed(MultiBlockGrid box, const BoxOptions& o, double amplitu
                              x.z() + amplitude * size.z() * still * std::sin(2 * pi * s.x() + 0.7) * std::cos(2 * pi * s.z()));
     }
     const double still = one_way(0, s.x()) * one_way(1, s.y()) * one_way(2, s.z());
-    const Eigen::Vector3d wave(std::sin(2 * pi * s.y()) * std::cos(2 * pi * s.z()), std::sin(2 * pi * s.z()) * std::cos(2 * pi * s.x() + 0.7),
+    const Eigen::Vector3d wave(std::sin(2 * pi * s.y()) * std::cos(2 * pi * s.z()),
+                               std::sin(2 * pi * s.z()) * std::cos(2 * pi * s.x() + 0.7),
                                std::sin(2 * pi * s.x() + 0.3) * std::cos(2 * pi * s.y()));
     return Eigen::Vector3d(x + amplitude * still * size.cwiseProduct(wave));
   });

@@ -1,7 +1,6 @@
-// Boxes for verification: Cartesian, smoothly perturbed, sheared with thin cells, or mapped by any function; each side a patch or, in
-// pairs, periodic. Every size of a family samples the same mapping.
-// Called by tests, benchmarks and src/aero/flow's verification scenes; tested in tests/src/aero/grid/generators_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Boxes for verification: Cartesian, smoothly perturbed, sheared with thin cells, or mapped by any function; each side a patch
+// or, in pairs, periodic. Every size of a family samples the same mapping. Called by tests, benchmarks and src/aero/flow's
+// verification scenes; tested in tests/src/aero/grid/generators_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -20,7 +19,7 @@ Block mapped_block(std::string name, int ni, int nj, int nk, const Mapping& posi
 struct BoxOptions {
   int ni = 8, nj = 8, nk = 8;
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Ones();  ///< [m]
-  std::array<bool, 3> periodic{};                                                ///< in i, j, k
+  std::array<bool, 3> periodic{};                                                 ///< in i, j, k
   std::array<std::string, 6> patches{"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
 };
 
@@ -30,8 +29,8 @@ MultiBlockGrid cartesian_box(const BoxOptions& options);
 /// One cell thick: i along x, j along z, k along -y over `options.high.y - options.low.y`; options.nk is not used.
 MultiBlockGrid planar_box(const BoxOptions& options);
 
-/// The interior of a box (planar or not) displaced by waves of `amplitude` (of the box's size; up to 0.06 keeps cells positive); the sides
-/// move too where they are periodic.
+/// The interior of a box (planar or not) displaced by waves of `amplitude` (of the box's size; up to 0.06 keeps cells positive);
+/// the sides move too where they are periodic.
 MultiBlockGrid perturbed(MultiBlockGrid box, const BoxOptions& options, double amplitude);
 
 /// Cells of edges 1 x 1 x thin [m] leaning by `shear` (tangent) in both directions and turned about a skew axis; not periodic.

@@ -33,7 +33,8 @@ inline void turn_blocks(MultiBlockGrid& grid, unsigned seed) {
 /// Eight blocks (four in a planar grid) of uneven size, turned.
 inline MultiBlockGrid turned_box(const MultiBlockGrid& box, unsigned seed) {
   const Block& b = box.blocks[0];
-  const std::array<std::vector<int>, 3> cuts{{{b.ni / 2 - 1}, {b.nj / 2}, box.planar ? std::vector<int>{} : std::vector<int>{b.nk / 2 + 1}}};
+  const std::array<std::vector<int>, 3> cuts{
+      {{b.ni / 2 - 1}, {b.nj / 2}, box.planar ? std::vector<int>{} : std::vector<int>{b.nk / 2 + 1}}};
   MultiBlockGrid grid = split_at(box, std::span(&cuts, 1));
   turn_blocks(grid, seed);
   return grid;

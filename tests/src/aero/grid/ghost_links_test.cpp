@@ -92,7 +92,9 @@ TEST_CASE("ghost cells hold what lies beyond, through tiles, turned blocks and t
     const Tile& tile = tiling.tiles[l.to];
     const auto centre = std::as_const(store)[l.to].centre();
     // The box is uniform: its index directions are the same everywhere in the tile.
-    const auto c = [&](const Index& n) { return Vector3d(centre(0, n[2], n[1], n[0]), centre(1, n[2], n[1], n[0]), centre(2, n[2], n[1], n[0])); };
+    const auto c = [&](const Index& n) {
+      return Vector3d(centre(0, n[2], n[1], n[0]), centre(1, n[2], n[1], n[0]), centre(2, n[2], n[1], n[0]));
+    };
     for_ghost_cells(l, tile, [&](const Index& ghost, int) {
       const int d = direction_of(l.side);
       Index inside = ghost, next = ghost;
@@ -123,7 +125,8 @@ TEST_CASE("what comes through a buffer is what is copied, bit for bit", "[aero][
     sent.data.emplace_back(a.size());
     std::ranges::copy(a.span(), sent.data.back().data());
   }
-  for (const GhostLink& l : tiling.links) copy_ghosts<double>(l, tiling.periodic, quantities, state_ghosts, copied[l.from], copied[l.to]);
+  for (const GhostLink& l : tiling.links)
+    copy_ghosts<double>(l, tiling.periodic, quantities, state_ghosts, copied[l.from], copied[l.to]);
   for (const GhostLink& l : tiling.links) {
     std::vector<double> buffer(packed_size(l, components, state_ghosts));
     double* end = pack<double>(l, components, state_ghosts, sent[l.from], sent.layout[l.to], buffer.data());
@@ -170,7 +173,8 @@ TEST_CASE("a sector's ghosts are turned onto its other side", "[aero][grid][fast
       Index inside = g;
       inside[direction_of(l.side)] += at_end(l.side) ? -1 : 1;
       const auto c = std::as_const(store)[l.to].centre();
-      const Vector3d here(c(0, inside[2], inside[1], inside[0]), c(1, inside[2], inside[1], inside[0]), c(2, inside[2], inside[1], inside[0]));
+      const Vector3d here(c(0, inside[2], inside[1], inside[0]), c(1, inside[2], inside[1], inside[0]),
+                          c(2, inside[2], inside[1], inside[0]));
       REQUIRE((here - place).norm() < 2.1 * sector / n);
       ++through;
     });

@@ -28,10 +28,10 @@ TEST_CASE("tiles cover every cell of every block once, whatever the blocks' orie
   const BoxOptions box{.ni = 23, .nj = 37, .nk = 19};
   const MultiBlockGrid grid = turned_box(planar ? planar_box(box) : cartesian_box(box), 3);
   const std::vector<std::string> walls{"j_min"};
-  const Tiling tiling = make_tiling(grid, walls, {.across_j = 7, .across_k = 5, .planar_across = 6, .normal = 9, .planar_normal = 9});
+  const Tiling tiling =
+      make_tiling(grid, walls, {.across_j = 7, .across_k = 5, .planar_across = 6, .normal = 9, .planar_normal = 9});
   std::vector<std::vector<int>> count(grid.blocks.size());
-  for (std::size_t b = 0; b < grid.blocks.size(); ++b)
-    count[b].resize(grid.blocks[b].ni * grid.blocks[b].nj * grid.blocks[b].nk);
+  for (std::size_t b = 0; b < grid.blocks.size(); ++b) count[b].resize(grid.blocks[b].ni * grid.blocks[b].nj * grid.blocks[b].nk);
   for (int t = 0; t < tiling.size(); ++t) {
     const Tile& tile = tiling.tiles[t];
     CHECK(tile.to_block.handedness() == 1);
@@ -52,7 +52,8 @@ TEST_CASE("every face of a tile's sides has one neighbour or one boundary", "[ae
   BoxOptions box{.ni = 13, .nj = 17, .nk = 11};
   box.periodic = {false, true, false};
   const MultiBlockGrid grid = turned_box(planar ? planar_box(box) : cartesian_box(box), 5);
-  const Tiling tiling = make_tiling(grid, {}, {.across_j = 4, .across_k = 3, .planar_across = 4, .normal = 5, .planar_normal = 5});
+  const Tiling tiling =
+      make_tiling(grid, {}, {.across_j = 4, .across_k = 3, .planar_across = 4, .normal = 5, .planar_normal = 5});
   for (int t = 0; t < tiling.size(); ++t)
     for (int s = 0; s < (planar ? 4 : 6); ++s) {
       std::map<std::pair<int, int>, int> met;
@@ -119,7 +120,8 @@ TEST_CASE("one rank's messages are another's", "[aero][grid][fast]") {
     for (const auto& send : plan.sends) {
       links += send.links.size();
       const LinkPlan other = link_plan(tiling, rank_of_tile, send.rank);
-      const auto receive = std::find_if(other.receives.begin(), other.receives.end(), [&](const auto& m) { return m.rank == rank; });
+      const auto receive =
+          std::find_if(other.receives.begin(), other.receives.end(), [&](const auto& m) { return m.rank == rank; });
       REQUIRE(receive != other.receives.end());
       CHECK(receive->links == send.links);
     }
