@@ -1,0 +1,110 @@
+// k-omega SST: Menter, Kuntz & Langtry (2003), Turbulence, Heat and Mass Transfer 4, 625 (SST-2003), and the vorticity variant
+// without 2/3 rho k in the momentum that NASA's Turbulence Modeling Resource calls SST-Vm (Menter 1994, AIAA J. 32, 1598, with
+// production mu_t Omega^2 as in Menter 1992, NASA TM 103975), to which the TMR's flat-plate figures belong. Transported: k
+// [m2/s2], omega [1/s]. Called by src/aero/flow; tested in tests/kernels/turbulence/model_sst_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
+#pragma once
+
+#include "kernels/turbulence/model.hpp"
+
+namespace spindrift::turbulence {
+
+struct SstOptions {
+  std::string_view name = "sst";
+  bool vorticity = false;        ///< production by mu_t Omega^2 and the shear limiter by Omega; else by strain
+  bool carries_pressure = true;  ///< 2/3 rho k in momentum (and production, where the flow is compressed)
+  double limiter = 10.0;         ///< production at most this times the destruction of k
+  double gamma1 = 5.0 / 9.0, gamma2 = 0.44;
+  double least_cross = 1e-10;  ///< floor of the cross diffusion in F1 [kg/(m3 s2)]
+};
+inline constexpr double sst_beta_star = 0.09, sst_kappa = 0.41;
+inline constexpr SstOptions sst_2003{};
+/// gamma_i = beta_i / beta* - sigma_i kappa^2 / sqrt(beta*): the log layer is an exact solution.
+inline constexpr SstOptions sst_vm{.name = "sst_vm",
+                                   .vorticity = true,
+                                   .carries_pressure = false,
+                                   .limiter = 20.0,
+                                   .gamma1 = 0.075 / sst_beta_star - 0.5 * sst_kappa * sst_kappa / 0.3,
+                                   .gamma2 = 0.0828 / sst_beta_star - 0.856 * sst_kappa * sst_kappa / 0.3,
+                                   .least_cross = 1e-20};
+
+template <const SstOptions& options>
+struct MenterSst {
+  static constexpr int equations = 2;
+  static constexpr std::string_view name = options.name;
+  static constexpr std::array<double, 2> lowest{0.0, 0.0};
+  static constexpr double beta_star = sst_beta_star, a1 = 0.31, sigma_k1 = 0.85, sigma_k2 = 1.0, sigma_w1 = 0.5, sigma_w2 = 0.856,
+                          beta1 = 0.075, beta2 = 0.0828;
+
+  template <class Real>
+  SPINDRIFT_INLINE Closure<Real, 2> closure(const Flow<Real>& f, const Turbulence<Real, 2>& t) const {
+    const Blend<Real> b = blend(f, t);
+    const Real eddy = f.rho * b.nu_t;
+    return {eddy,
+            options.carries_pressure ? (2.0 / 3.0) * f.rho * t.q[0] : Real(0.0),
+            {f.mu + mix(b.f1, sigma_k1, sigma_k2) * eddy, f.mu + mix(b.f1, sigma_w1, sigma_w2) * eddy}};
+  }
+
+  template <class Real>
+  SPINDRIFT_INLINE Source<Real, 2> source(const Flow<Real>& f, const Turbulence<Real, 2>& t) const {
+    const Blend<Real> b = blend(f, t);
+    const Real k = t.q[0], omega = t.q[1], destruction = beta_star * f.rho * k * omega;
+    // Production per eddy viscosity, and what dilatation adds to it.
+    Real rate2 = b.rate * b.rate, dilatation(0.0);
+    if constexpr (options.carries_pressure) {
+      const Real div = f.u.x + f.v.y + f.w.z;
+      rate2 -= (2.0 / 3.0) * div * div;
+      dilatation = (2.0 / 3.0) * f.rho * k * div;
+    }
+    const Real production = min(f.rho * b.nu_t * rate2 - dilatation, options.limiter * destruction);
+    return {{production - destruction, mix(b.f1, options.gamma1, options.gamma2) * f.rho * rate2 -
+                                           mix(b.f1, beta1, beta2) * f.rho * omega * omega + (1.0 - b.f1) * b.cross}};
+  }
+
+  /// Destruction only: production and cross diffusion are explicit.
+  template <class Real>
+  SPINDRIFT_INLINE SourceJacobian<Real, 2> source_jacobian(const Flow<Real>& f, const Turbulence<Real, 2>& t) const {
+    const Blend<Real> b = blend(f, t);
+    const Real zero(0.0), by_cross = (1.0 - b.f1) * max(b.cross, 0.0) / t.q[1];
+    return {{{-beta_star * f.rho * t.q[1], zero}, {zero, -2.0 * mix(b.f1, beta1, beta2) * f.rho * t.q[1] - by_cross}}};
+  }
+
+  /// Menter (1994), eq. A12: omega = 10 x 6 nu / (beta1 d^2) with the distance d of the first centre; k = 0.
+  template <class Real>
+  SPINDRIFT_INLINE std::array<Real, 2> wall(const Real& distance, const Real& kinematic_viscosity) const {
+    return {Real(0.0), 60.0 / beta1 * kinematic_viscosity / (distance * distance)};
+  }
+  /// As CFL3D's on the TMR: k = 9e-9 c^2, omega = 1e-6 c^2 / nu, so nu_t = 0.009 nu.
+  std::array<double, 2> far_field(double kinematic_viscosity, double /*speed*/, double sound_speed) const {
+    return {9e-9 * sound_speed * sound_speed, 1e-6 * sound_speed * sound_speed / kinematic_viscosity};
+  }
+
+ private:
+  template <class Real>
+  struct Blend {
+    Real f1, nu_t, rate, cross;
+  };
+  template <class Real>
+  static SPINDRIFT_INLINE Real mix(const Real& f1, double inner, double outer) {
+    return outer + f1 * (inner - outer);
+  }
+  /// The blending function F1, eddy viscosity (limited by F2), the rate that makes turbulence, cross diffusion.
+  template <class Real>
+  static SPINDRIFT_INLINE Blend<Real> blend(const Flow<Real>& f, const Turbulence<Real, 2>& t) {
+    const Real k = max(t.q[0], 0.0), omega = t.q[1], inverse = 1.0 / (omega * f.distance), inverse_d = 1.0 / f.distance;
+    const Real large = sqrt(k + 1e-60) * inverse * (1.0 / beta_star), viscous = 500.0 * (f.mu / f.rho) * inverse * inverse_d;
+    const Real cross = 2.0 * sigma_w2 * f.rho * dot(t.gradient[0], t.gradient[1]) / omega;
+    const Real argument =
+        min(max(large, viscous), 4.0 * sigma_w2 * f.rho * k * inverse_d * inverse_d / max(cross, options.least_cross));
+    const Real a = argument * argument, argument2 = max(2.0 * large, viscous);
+    // tanh is 1 to round-off from 20 on, and the fourth power of what stands above would overflow.
+    const Real f1 = tanh(min(a, 100.0) * min(a, 100.0)), f2 = tanh(min(argument2, 10.0) * min(argument2, 10.0));
+    const Real rate = options.vorticity ? vorticity(f) : strain(f);
+    return {f1, a1 * k / max(a1 * omega, rate * f2), rate, cross};
+  }
+};
+using Sst = MenterSst<sst_2003>;
+using SstVm = MenterSst<sst_vm>;
+static_assert(TurbulenceModel<Sst> && TurbulenceModel<SstVm>);
+
+}  // namespace spindrift::turbulence

@@ -1,0 +1,69 @@
+// k-omega SST: exact balances of its inner and outer sets, limiters, values on walls and in the far field.
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/turbulence/model_sst.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace spindrift;
+using namespace spindrift::turbulence;
+
+namespace {
+const Vector<double> none{0, 0, 0};
+}
+
+TEMPLATE_TEST_CASE("the log layer balances production and destruction of k", "[turbulence][fast]", Sst, SstVm) {
+  const double u_tau = 0.5, y = 0.01, nu = 1e-8, kappa = 0.41, root = 0.3;  // sqrt(beta*)
+  const double k = u_tau * u_tau / root, omega = u_tau / (root * kappa * y);
+  const Flow<double> flow{1.2, 1.2 * nu, y, {0.0, u_tau / (kappa * y), 0.0}, none, none};
+  const Turbulence<double, 2> t{{k, omega}, {none, {0.0, -omega / y, 0.0}}};
+  const auto s = TestType{}.source(flow, t);
+  const auto c = TestType{}.closure(flow, t);
+  CHECK(c.eddy_viscosity ==
+        Approx(1.2 * kappa * u_tau * y).epsilon(0.01));  // the shear limiter is at its threshold: a1 = 0.31, not 0.3
+  CHECK(s.rate[0] == Approx(0.0).margin(0.01 * 1.2 * 0.09 * k * omega));
+  // d/dy(sigma nu_t domega/dy) = sigma kappa u_tau omega / y: with the constants of 1994 the layer is exact, those of 2003 are
+  // rounded.
+  const double diffusion = 1.2 * 0.5 * kappa * u_tau * omega / y, tolerance = std::is_same_v<TestType, SstVm> ? 1e-10 : 0.02;
+  CHECK(s.rate[1] + diffusion == Approx(0.0).margin(tolerance * 1.2 * 0.075 * omega * omega));
+  // Inner constants near the wall.
+  CHECK(c.diffusivity[0] == Approx(1.2 * nu + 0.85 * c.eddy_viscosity).epsilon(1e-6));
+}
+
+// Decay of free turbulence: k ~ t^(-beta*/beta2), so d(k)/k over d(omega)/omega is beta*/beta2.
+TEMPLATE_TEST_CASE("free turbulence decays with the outer constants", "[turbulence][fast]", Sst, SstVm) {
+  const Flow<double> flow{1.2, 1.8e-5, 1e3, none, none, none};
+  const Turbulence<double, 2> t{{0.1, 50.0}, {none, none}};
+  const auto s = TestType{}.source(flow, t);
+  CHECK(s.rate[0] == Approx(-0.09 * 1.2 * 0.1 * 50.0).epsilon(1e-12));
+  // Without cross diffusion F1 is 1 where arg1 is large; far from walls it is small.
+  CHECK(s.rate[1] == Approx(-0.0828 * 1.2 * 2500.0).epsilon(1e-3));
+}
+
+TEMPLATE_TEST_CASE("production of k is at most the limiter times its destruction", "[turbulence][fast]", Sst, SstVm) {
+  const double limiter = std::is_same_v<TestType, Sst> ? 10.0 : 20.0;
+  const Flow<double> flow{1.2, 1.8e-5, 1e3, {0.0, 3e4, 0.0}, none, none};
+  const auto s = TestType{}.source(flow, {{0.1, 50.0}, {none, none}});
+  const double destruction = 0.09 * 1.2 * 0.1 * 50.0;
+  CHECK(s.rate[0] == Approx((limiter - 1.0) * destruction).epsilon(1e-12));
+}
+
+TEST_CASE("the vorticity variant makes no turbulence in a stagnation flow, the strain variant does", "[turbulence][fast]") {
+  const Flow<double> flow{1.2, 1.8e-5, 1.0, {100.0, 0.0, 0.0}, {0.0, -100.0, 0.0}, none};
+  const Turbulence<double, 2> t{{0.1, 100.0}, {none, none}};
+  const double destruction = 0.09 * 1.2 * 0.1 * 100.0;
+  CHECK(SstVm{}.source(flow, t).rate[0] == Approx(-destruction).epsilon(1e-10));
+  CHECK(Sst{}.source(flow, t).rate[0] > 0.0);
+  CHECK(Sst{}.closure(flow, t).pressure == Approx(2.0 / 3.0 * 1.2 * 0.1));
+  CHECK(SstVm{}.closure(flow, t).pressure == 0.0);
+}
+
+TEST_CASE("SST values on walls and in the far field are Menter's and the TMR's", "[turbulence][fast]") {
+  const double nu = 1.5e-5, d = 1e-5;
+  CHECK(Sst{}.wall(d, nu)[0] == 0.0);
+  CHECK(Sst{}.wall(d, nu)[1] == Approx(10.0 * 6.0 * nu / (0.075 * d * d)));
+  const auto far = SstVm{}.far_field(nu, 50.0, 340.0);
+  CHECK(far[0] / far[1] == Approx(0.009 * nu));
+  const Flow<double> flow{1.2, 1.2 * nu, 1e3, none, none, none};
+  CHECK(SstVm{}.closure(flow, {{far[0], far[1]}, {none, none}}).eddy_viscosity / flow.mu == Approx(0.009).epsilon(1e-6));
+}
