@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/grid/wall_distance.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "kernels/grid/nearest_point.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+using Face = WallSurface::Face;
+constexpr int leaf_faces = 4;
+
+Eigen::Vector3d middle(const Face& f) { return f[0] + 0.25 * ((f[1] - f[0]) + (f[2] - f[0]) + (f[3] - f[0])); }
+
+Eigen::Vector3d nearest_on_face(const Eigen::Vector3d& p, const Face& f) {
+  const Eigen::Vector3d m = middle(f);
+  Eigen::Vector3d best = m;
+  double least = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < 4; ++n) {
+    const Eigen::Vector3d x = nearest_on_triangle(p, f[n], f[(n + 1) % 4], m);
+    const double distance = (x - p).squaredNorm();
+    if (distance < least) least = distance, best = x;
+  }
+  return best;
+}
+
+}  // namespace
+
+WallSurface::WallSurface(std::vector<Face> faces) : faces_(std::move(faces)) {
+  if (faces_.empty()) return;
+  nodes_.reserve(faces_.size());
+  nodes_.push_back({{}, {}, 0, int(faces_.size()), 0});
+  for (std::size_t n = 0; n < nodes_.size(); ++n) divide(int(n));
+}
+
+void WallSurface::divide(int number) {
+  Node node = nodes_[number];
+  const double inf = std::numeric_limits<double>::infinity();
+  node.low.setConstant(inf), node.high.setConstant(-inf);
+  Eigen::Vector3d first = node.low, last = node.high;  // box of the middles
+  for (int f = node.first; f < node.last; ++f) {
+    for (const auto& corner : faces_[f]) node.low = node.low.cwiseMin(corner), node.high = node.high.cwiseMax(corner);
+    const Eigen::Vector3d m = middle(faces_[f]);
+    first = first.cwiseMin(m), last = last.cwiseMax(m);
+  }
+  if (node.last - node.first > leaf_faces) {
+    int axis;
+    (last - first).maxCoeff(&axis);
+    const int half = (node.first + node.last) / 2;
+    std::nth_element(faces_.begin() + node.first, faces_.begin() + half, faces_.begin() + node.last,
+                     [&](const Face& a, const Face& b) { return middle(a)[axis] < middle(b)[axis]; });
+    node.left = int(nodes_.size());
+    nodes_.push_back({{}, {}, node.first, half, 0});
+    nodes_.push_back({{}, {}, half, node.last, 0});
+  }
+  nodes_[number] = node;
+}
+
+Eigen::Vector3d WallSurface::nearest(const Eigen::Vector3d& p) const {
+  Eigen::Vector3d best = faces_[0][0];
+  double least = std::numeric_limits<double>::infinity();
+  std::array<std::pair<double, int>, 128> stack;  // depth is log2(faces) + 1; both children of a level may wait
+  int waiting = 0;
+  const auto box = [&](int n) { return squared_distance_to_box(p, nodes_[n].low, nodes_[n].high); };
+  stack[waiting++] = {box(0), 0};
+  while (waiting > 0) {
+    const auto [bound, number] = stack[--waiting];
+    if (bound >= least) continue;
+    const Node& node = nodes_[number];
+    if (node.left == 0) {
+      for (int f = node.first; f < node.last; ++f) {
+        const Eigen::Vector3d x = nearest_on_face(p, faces_[f]);
+        const double distance = (x - p).squaredNorm();
+        if (distance < least) least = distance, best = x;
+      }
+      continue;
+    }
+    const double left = box(node.left), right = box(node.left + 1);
+    const bool left_first = left < right;
+    if (std::max(left, right) < least) stack[waiting++] = {std::max(left, right), left_first ? node.left + 1 : node.left};
+    if (std::min(left, right) < least) stack[waiting++] = {std::min(left, right), left_first ? node.left : node.left + 1};
+  }
+  return best;
+}
+
+WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string> patches) {
+  std::vector<Face> faces;
+  for (const Boundary& b : grid.boundaries) {
+    if (std::find(patches.begin(), patches.end(), b.patch) == patches.end()) continue;
+    const Block& block = grid.blocks[b.where.block];
+    const int d = direction_of(b.where.side);
+    const auto [u, v] = along(b.where.side);
+    Index at{};
+    at[d] = at_end(b.where.side) ? block.cells()[d] : 0;
+    const auto corner = [&](int du, int dv) {
+      Index n = at;
+      n[u] += du, n[v] += dv;
+      return block.nodes[block.node(n[2], n[1], n[0])];
+    };
+    for (at[v] = b.where.low[1]; at[v] < b.where.high[1]; ++at[v])
+      for (at[u] = b.where.low[0]; at[u] < b.where.high[0]; ++at[u])
+        faces.push_back({corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)});
+  }
+  std::vector<RigidMap> images;
+  for (const Connection& c : grid.connections) {
+    if (!c.periodic) continue;
+    const RigidMap& map = *c.periodic;
+    const RigidMap back{map.rotation.transpose(), -(map.rotation.transpose() * map.translation)};
+    for (const RigidMap& m : {map, back})  // the same map joins many windows
+      if (std::none_of(images.begin(), images.end(), [&](const RigidMap& other) {
+            return (other.rotation - m.rotation).norm() < 1e-9 &&
+                   (other.translation - m.translation).norm() < 1e-9 * (1 + m.translation.norm());
+          }))
+        images.push_back(m);
+  }
+  const std::size_t own = faces.size();
+  for (const RigidMap& m : images)
+    for (std::size_t f = 0; f < own; ++f) {
+      Face image;
+      for (int n = 0; n < 4; ++n) image[n] = m.rotation * faces[f][n] + m.translation;
+      faces.push_back(image);
+    }
+  return WallSurface(std::move(faces));
+}
+
+void fill_wall_distance(TileGeometry& g, const WallSurface& wall) {
+  BoxView<double> distance = g.wall_distance();
+  const BoxView<const double> centre = g.centre();
+  for (int k = 0; k < g.inner_box.nk; ++k)
+    for (int j = 0; j < g.inner_box.nj; ++j)
+      for (int i = 0; i < g.inner_box.ni; ++i)
+        distance(0, k, j, i) = wall.empty() ? std::numeric_limits<double>::infinity()
+                                            : wall.distance({centre(0, k, j, i), centre(1, k, j, i), centre(2, k, j, i)});
+}
+
+}  // namespace spindrift::aero
