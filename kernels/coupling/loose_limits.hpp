@@ -1,0 +1,57 @@
+// Largest ratio r = fluid's added mass / structural mass at which loose coupling is stable, at any step: the added mass acts as the load
+// y = -r a that F finds from the velocities it was given, backward Euler both. Growth per window is the largest root of the scheme's
+// characteristic polynomial, which does not know the step once stiffness and damping are small against m / dt^2.
+// Causin, Gerbeau & Nobile (2005); Foerster, Wall & Ramm (2007): extrapolation of order 0, 1, 2 gives 1, 1/3, 1/7 (derived in
+// docs/theory/coupling.md). Used by src/coupling/campbell.cpp; tested against marched windows in tests/verification/coupling.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <complex>
+
+#include "kernels/coupling/scheme.hpp"
+
+namespace spindrift::coupling {
+
+/// Modulus of the largest root of c[0] + c[1] z + ... + c[n] z^n, by the companion matrix; leading zeros are dropped.
+inline double largest_root(std::vector<double> c) {
+  while (c.size() > 1 && c.back() == 0.0) c.pop_back();
+  const auto n = Eigen::Index(c.size()) - 1;
+  if (n <= 0) return 0.0;
+  Matrix companion = Matrix::Zero(n, n);
+  for (Eigen::Index i = 0; i + 1 < n; ++i) companion(i + 1, i) = 1.0;
+  for (Eigen::Index i = 0; i < n; ++i) companion(i, n - 1) = -c[std::size_t(i)] / c[std::size_t(n)];
+  return Eigen::EigenSolver<Matrix>(companion, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+// Characteristic polynomials of the acceleration under loads of ratio r, by rising power of the growth z; stable when every root is
+// within 1. S answers a_{n+1} = the load it is given (per mass), F answers y_{n+1} = -r (given velocity_{n+1} - given velocity_n) / dt.
+
+/// css: S takes y extrapolated to the order, F the new velocity: y_n = -r a_n.
+inline std::vector<double> css_polynomial(int order, double r) {
+  switch (order) {
+    case 0: return {r, 1.0};
+    case 1: return {-r, 2.0 * r, 1.0};
+    default: return {r, -3.0 * r, 3.0 * r, 1.0};
+  }
+}
+/// cps: F is given v_n for the window n to n+1, so y_{n+1} = -r a_n; a_{n+1} = y_n.
+inline std::vector<double> cps_polynomial(double r) { return {r, 0.0, 1.0}; }
+/// cps2: F is given 2 v_n - v_{n-1}, so y_{n+1} = -r (2 a_n - a_{n-1}); a_{n+1} = 2 y_n - y_{n-1}: z^4 + r (2 z - 1)^2.
+inline std::vector<double> cps2_polynomial(double r) { return {r, -4.0 * r, 4.0 * r, 0.0, 1.0}; }
+/// css0 with positions predicted by x_n + dt (3/2 v_n - 1/2 v_{n-1}) and F differencing those: y_{n+1} is
+/// -r (5/2 a_n - 2 a_{n-1} + 1/2 a_{n-2}), and S takes it in the same window.
+inline std::vector<double> predicted_position_polynomial(double r) { return {0.5 * r, -2.0 * r, 2.5 * r, 1.0}; }
+
+/// Largest r whose polynomial has all roots within the unit circle, by bisection to round-off.
+template <class Polynomial>
+double stability_ratio(Polynomial polynomial) {
+  double low = 0.0, high = 1e3;
+  for (int k = 0; k < 100; ++k) {
+    const double middle = 0.5 * (low + high);
+    (largest_root(polynomial(middle)) <= 1.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace spindrift::coupling

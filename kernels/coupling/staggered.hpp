@@ -1,0 +1,65 @@
+// Loose coupling: one evaluation of each part per window. F takes motion x and returns loads y, S takes loads and returns motion.
+//   cps   both at once, each on what the other had at the window's start (Leble & Barakos 2016, section 2.5): order 1
+//   cps2  both at once, each on data of the other extrapolated linearly from its last two windows: order 2
+//   css   S first, on loads extrapolated to order 0, 1 or 2, then F on the new motion (Farhat & Lesoinne 2000; Piperno & Farhat 2001)
+// Limits of stability with added mass: loose_limits.hpp. Used by src/coupling/window.cpp; orders tested in tests/verification/coupling.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/coupling/extrapolation.hpp"
+
+namespace spindrift::coupling {
+
+struct Staggering {
+  bool serial = false;  ///< S first, then F on its result
+  int load_order = 0;   ///< of the loads that S sees
+  int motion_order = 0; ///< of the motion that F sees; serial: the new motion, no prediction
+
+  static Staggering cps() { return {false, 0, 0}; }
+  static Staggering cps2() { return {false, 1, 1}; }
+  static Staggering css(int order) { return {true, order, 0}; }
+};
+
+/// The staggered march. Parts, over a window [begin, end]:
+///   Vector move(load, begin, end)    S advanced under loads load(t); the motion at the end
+///   Vector load(motion, begin, end)  F advanced under motion(t); the loads at the end
+class Staggered {
+ public:
+  explicit Staggered(Staggering scheme) : scheme_(scheme), motion_(std::max(1, scheme.motion_order)), load_(scheme.load_order) {}
+
+  /// Motion and loads at the start.
+  void begin(double t, Vector motion, Vector load) { motion_.add(t, std::move(motion)), load_.add(t, std::move(load)); }
+
+  /// One window; false where a part's answer is not finite (nothing is kept then).
+  template <class Parts>
+  bool advance(Parts& parts, double begin, double end) {
+    const Vector x_start = motion_.last();
+    const auto load = [this](double t) { return load_.at(t); };
+    const Vector x = parts.move(load, begin, end);
+    if (!x.allFinite()) return false;
+    Vector y;
+    if (scheme_.serial)
+      y = parts.load(Waveform(Interpolation::linear, {begin, end}, {x_start, x}), begin, end);
+    else if (scheme_.motion_order == 0)
+      y = parts.load(Waveform::held(x_start), begin, end);
+    else
+      y = parts.load(Waveform(Interpolation::linear, {begin, end}, {x_start, motion_.at(end)}), begin, end);
+    if (!y.allFinite()) return false;
+    mismatch_ = y - load_.at(end);
+    motion_.add(end, x), load_.add(end, std::move(y));
+    return true;
+  }
+
+  /// Loads that F returned less those that S had assumed at the last window's end: what the scheme neglects, to the order it has.
+  const Vector& mismatch() const { return mismatch_; }
+  const Vector& load() const { return load_.last(); }
+  Vector load_at(double t) const { return load_.at(t); }
+  void visit(auto& v) { motion_.visit(v), load_.visit(v), v(mismatch_); }
+
+ private:
+  Staggering scheme_;
+  Extrapolation motion_, load_;
+  Vector mismatch_;
+};
+
+}  // namespace spindrift::coupling
