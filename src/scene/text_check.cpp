@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace spindrift::scene {
 
@@ -59,6 +60,8 @@ class Scan {
     if (c == '.') {
       if (++dots_ > deepest) return refuse(fmt::format("has a key of more than {} parts", deepest));
     } else if (c == '[' || c == '{') {
+      if (c == '[' && brackets_ == 0 && first_on_its_line() && !names_a_table())
+        return refuse("has a table header without a name; write it as [section] or [section.NAME]");
       dots_ = 0;
       if (++brackets_ > deepest) return refuse(fmt::format("nests more than {} brackets", deepest));
     } else if (c == ']' || c == '}') {
@@ -67,6 +70,19 @@ class Scan {
       dots_ = 0;
     }
     ++at_;
+  }
+
+  bool first_on_its_line() const {
+    const std::size_t before = text_.substr(0, at_).find_last_not_of(" \t");
+    return before == std::string_view::npos || text_[before] == '\n' || (before == 2 && text_.starts_with("\xef\xbb\xbf"));
+  }
+
+  /// toml++ takes for granted that a key begins after [ or [[ (an empty [] it sees).
+  bool names_a_table() const {
+    std::size_t next = text_.find_first_not_of(" \t", at_ + 1);
+    if (next != std::string_view::npos && text_[next] == '[') next = text_.find_first_not_of(" \t", next + 1);
+    return next == std::string_view::npos || std::isalnum(static_cast<unsigned char>(text_[next])) ||
+           std::string_view("_-\"'[]").find(text_[next]) != std::string_view::npos;
   }
 
   void string(char quote) {
