@@ -1,9 +1,8 @@
 // Wide<T, n>: n numbers side by side in vector registers (its lanes) with the arithmetic of one number, so that a kernel
 // templated on Real serves a test (Real = double) and a sweep (Real = Wide<float, 16>) with one source. Selections are min(),
-// max() and select() on a comparison. Built on the compilers' vector extension; AVX-512 and AVX2 instructions where the portable form
-// compiles badly (min, max, sqrt, comparisons, reciprocals).
-// Called by src/sea/sph sweeps and by kernels/gas, kernels/turbulence; tested in tests/kernels/base/wide_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// max() and select() on a comparison. Built on the compilers' vector extension; AVX-512 and AVX2 instructions where the portable
+// form compiles badly (min, max, sqrt, comparisons, reciprocals). Called by src/sea/sph sweeps and by kernels/gas,
+// kernels/turbulence; tested in tests/kernels/base/wide_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
@@ -19,6 +18,15 @@
 namespace spindrift {
 
 #define SPINDRIFT_INLINE __attribute__((always_inline)) inline  // for functions of many registers: a call would spill them all
+
+/// Of a vector register of the processor compiled for.
+#if defined(__AVX512F__)
+inline constexpr int register_bytes = 64;
+#elif defined(__AVX__)
+inline constexpr int register_bytes = 32;
+#else
+inline constexpr int register_bytes = 16;
+#endif
 
 // A comparison's answers: bits of a mask register where the processor has those, else a vector of integers all ones or zero.
 template <class T, int n, bool in_bits>
@@ -52,6 +60,16 @@ struct WideMask {
     else
       return bits[lane] != 0;
   }
+};
+
+template <class T, int n>
+requires(sizeof(T) * n > register_bytes) struct WideMask<T, n> {
+  WideMask<T, n / 2> low, high;
+
+  friend WideMask operator&(WideMask a, WideMask b) { return {a.low & b.low, a.high & b.high}; }
+  friend WideMask operator|(WideMask a, WideMask b) { return {a.low | b.low, a.high | b.high}; }
+  WideMask operator!() const { return {!low, !high}; }
+  bool operator[](int lane) const { return lane < n / 2 ? low[lane] : high[lane - n / 2]; }
 };
 
 template <class T, int n>
@@ -98,6 +116,53 @@ struct Wide {
   Wide& operator-=(Wide b) { return v -= b.v, *this; }
   Wide& operator*=(Wide b) { return v *= b.v, *this; }
 };
+
+/// Wider than a register: two halves. (The compiler would keep such a vector in memory and select lane by lane: MUSCL with van
+/// Albada and low-Mach Roe took 74 ns a face in Wide<double, 8> on AVX2 where NativeWide takes 23.)
+template <class T, int n>
+requires(sizeof(T) * n > register_bytes) struct Wide<T, n> {
+  using Half = Wide<T, n / 2>;
+  using Scalar = T;
+  static constexpr int size = n;
+
+  /// Lane by lane as of the compiler's vectors: v[lane] reads and writes.
+  struct Halves {
+    Half low, high;
+    struct Lane {
+      Halves& of;
+      int lane;
+      operator T() const { return lane < n / 2 ? of.low.v[lane] : of.high.v[lane - n / 2]; }
+      void operator=(T x) { lane < n / 2 ? void(of.low.v[lane] = x) : void(of.high.v[lane - n / 2] = x); }
+    };
+    Lane operator[](int lane) { return {*this, lane}; }
+    T operator[](int lane) const { return lane < n / 2 ? low[lane] : high[lane - n / 2]; }
+  };
+  Halves v;
+
+  Wide() = default;
+  Wide(Half low, Half high) : v{low, high} {}
+  template <class S>
+  requires std::is_arithmetic_v<S> Wide(S scalar) : v{Half(scalar), Half(scalar)} {}
+
+  static Wide load(const T* from) { return {Half::load(from), Half::load(from + n / 2)}; }
+  void store(T* to) const { v.low.store(to), v.high.store(to + n / 2); }
+  T operator[](int lane) const { return v[lane]; }
+
+  friend Wide operator+(Wide a, Wide b) { return {a.v.low + b.v.low, a.v.high + b.v.high}; }
+  friend Wide operator-(Wide a, Wide b) { return {a.v.low - b.v.low, a.v.high - b.v.high}; }
+  friend Wide operator*(Wide a, Wide b) { return {a.v.low * b.v.low, a.v.high * b.v.high}; }
+  friend Wide operator/(Wide a, Wide b) { return {a.v.low / b.v.low, a.v.high / b.v.high}; }
+  friend WideMask<T, n> operator<(Wide a, Wide b) { return {a.v.low < b.v.low, a.v.high < b.v.high}; }
+  friend WideMask<T, n> operator<=(Wide a, Wide b) { return {a.v.low <= b.v.low, a.v.high <= b.v.high}; }
+  friend WideMask<T, n> operator>(Wide a, Wide b) { return b < a; }
+  friend WideMask<T, n> operator>=(Wide a, Wide b) { return b <= a; }
+  Wide operator-() const { return {-v.low, -v.high}; }
+  Wide& operator+=(Wide b) { return *this = *this + b; }
+  Wide& operator-=(Wide b) { return *this = *this - b; }
+  Wide& operator*=(Wide b) { return *this = *this * b; }
+};
+template <class T, int n>
+inline constexpr bool in_halves = sizeof(T) * n > register_bytes;
 
 template <class T, int n>
 Wide<T, n> max(Wide<T, n> a, Wide<T, n> b) {
@@ -158,6 +223,9 @@ Wide<T, n> select(WideMask<T, n> mask, std::type_identity_t<Wide<T, n>> yes, std
 /// True if any lane says yes: the only way a kernel may branch, to leave out work whose result no lane selects.
 template <class T, int n>
 bool any(WideMask<T, n> mask) {
+#ifdef __AVX2__
+  if constexpr (sizeof(T) * n == 32) return !_mm256_testz_si256(__m256i(mask.bits), __m256i(mask.bits));
+#endif
   if constexpr (WideMask<T, n>::in_bits) {
     return mask.bits != 0;
   } else {
@@ -166,6 +234,22 @@ bool any(WideMask<T, n> mask) {
     return found;
   }
 }
+
+// In halves: the same of each.
+template <class T, int n>
+requires in_halves<T, n> Wide<T, n> max(Wide<T, n> a, Wide<T, n> b) { return {max(a.v.low, b.v.low), max(a.v.high, b.v.high)}; }
+template <class T, int n>
+requires in_halves<T, n> Wide<T, n> min(Wide<T, n> a, Wide<T, n> b) { return {min(a.v.low, b.v.low), min(a.v.high, b.v.high)}; }
+template <class T, int n>
+requires in_halves<T, n> Wide<T, n> sqrt(Wide<T, n> a) { return {sqrt(a.v.low), sqrt(a.v.high)}; }
+template <class T, int n>
+requires in_halves<T, n> Wide<T, n> select(WideMask<T, n> mask, std::type_identity_t<Wide<T, n>> yes,
+                                           std::type_identity_t<Wide<T, n>> no) {
+  return {select(mask.low, yes.v.low, no.v.low), select(mask.high, yes.v.high, no.v.high)};
+}
+template <class T, int n>
+requires in_halves<T, n>
+bool any(WideMask<T, n> mask) { return any(mask.low | mask.high); }
 
 // One number under the same names, so that kernels write them unqualified.
 template <std::floating_point T>
@@ -190,8 +274,9 @@ T abs(T a) {
   return std::abs(a);
 }
 
-/// 1/a of a positive number, and 1/sqrt(a): correctly rounded operations for one number; for a register of floats an estimate of 12
-/// (AVX2) or 14 bits and a Newton step, within 3 units in the last place, at a third of the cost of the divider (perf/sea, docs/developer/sea.md).
+/// 1/a of a positive number, and 1/sqrt(a): correctly rounded operations for one number; for a register of floats an estimate of
+/// 12 (AVX2) or 14 bits and a Newton step, within 3 units in the last place, at a third of the cost of the divider (perf/sea,
+/// docs/developer/sea.md).
 template <class Real>
 Real reciprocal(Real a) {
 #ifdef __AVX512F__
@@ -231,6 +316,8 @@ template <class T, int n>
 SPINDRIFT_INLINE T sum(Wide<T, n> a) {
   if constexpr (n == 2) {
     return a[0] + a[1];
+  } else if constexpr (in_halves<T, n>) {
+    return sum(a.v.low + a.v.high);
   } else {
     return [&]<int... lane>(std::integer_sequence<int, lane...>) {
       return sum(Wide<T, n / 2>(__builtin_shufflevector(a.v, a.v, lane...)) +
@@ -253,13 +340,6 @@ template <class Real>
 using scalar_of = typename ScalarOf<Real>::type;
 
 /// Wide of one vector register of the processor compiled for.
-#if defined(__AVX512F__)
-inline constexpr int register_bytes = 64;
-#elif defined(__AVX__)
-inline constexpr int register_bytes = 32;
-#else
-inline constexpr int register_bytes = 16;
-#endif
 template <class T>
 using NativeWide = Wide<T, register_bytes / int(sizeof(T))>;
 

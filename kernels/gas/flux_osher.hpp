@@ -37,16 +37,15 @@ struct Osher {
     const Real first_l = negative(ul - sign * cl), first_a = negative(u - sign * ca), contact = negative(u),
                third_b = negative(u + sign * cb), third_r = negative(ur + sign * cr);
 
-    // Velocity jumps along the normal only; a keeps the entropy and the tangential velocity of l, b those of r.
-    const auto between = [&](const Primitive<Real>& q, const Real& shift, const Real& pressure, const Real& c, const Real& from) {
-      const Real stretch = (c - from) * (c + from) / (from * from);
-      return Primitive<Real>{pressure, q.u + shift * f.nx, q.v + shift * f.ny, q.w + shift * f.nz,
-                             q.T + absolute_temperature(gas, q) * stretch};
-    };
-    const Primitive<Real> a = between(l, u - ul, p, ca, cl), b = between(r, u - ur, p, cb, cr);
-    // At most one of a and b has a weight that is not zero when the flow is subsonic: the common case costs one flux.
+    // Of a and b one has a weight, that on the contact's upwind side (O variant: the other one). Its velocity differs from l's or
+    // r's along the normal only; the entropy is the same: temperature goes with c^2.
     const Real at_a = first_a - contact, at_b = contact - third_b;
-    Conserved<Real> flux = at_a * physical_flux(gas, a, f) + at_b * physical_flux(gas, b, f);
+    const auto left = abs(at_a) > zero;
+    const Primitive<Real> side = select_state(left, l, r);
+    const Real from = select(left, cl, cr), c = select(left, ca, cb), shift = u - select(left, ul, ur);
+    const Primitive<Real> between{p, side.u + shift * f.nx, side.v + shift * f.ny, side.w + shift * f.nz,
+                                  side.T + (c - from) * (c + from) * (1.0 / (gas.gamma * gas.gas_constant))};
+    Conserved<Real> flux = (at_a + at_b) * physical_flux(gas, between, f);
     const Real at_l = one - first_l, at_r = third_r;
     if (any(value_of(at_l) + value_of(at_r) > value_of(zero)))
       flux = flux + at_l * physical_flux(gas, l, f) + at_r * physical_flux(gas, r, f);

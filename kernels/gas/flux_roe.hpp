@@ -7,11 +7,11 @@
 
 namespace spindrift::gas {
 
-/// |x| rounded off below `width` to (x^2 + width^2) / (2 width).
+/// |x| rounded off below `width` to (x^2 + width^2) / (2 width); `inverse` = 1/width.
 template <class Real>
-SPINDRIFT_INLINE Real harten_abs(const Real& x, const Real& width) {
+SPINDRIFT_INLINE Real harten_abs(const Real& x, const Real& width, const Real& inverse) {
   const Real a = abs(x);
-  return select(a < width, 0.5 * (x * x / width + width), a);
+  return select(a < width, 0.5 * (x * x * inverse + width), a);
 }
 
 /// Speeds of the three families of waves relative to the face, rounded off by `entropy_fix` times c; the contact's only where
@@ -22,8 +22,9 @@ struct WaveSpeeds {
 };
 template <class Real>
 SPINDRIFT_INLINE WaveSpeeds<Real> wave_speeds(const RoeMean<Real>& m, const Face<Real>& f, double entropy_fix) {
-  const Real un = m.un - f.speed, width = max(entropy_fix, 1e-12) * m.c;
-  return {harten_abs(un - m.c, width), abs(un), harten_abs(un + m.c, width)};
+  const double fix = entropy_fix > 1e-12 ? entropy_fix : 1e-12;
+  const Real un = m.un - f.speed, width = fix * m.c, inverse = (1.0 / fix) * m.inverse_c;
+  return {harten_abs(un - m.c, width, inverse), abs(un), harten_abs(un + m.c, width, inverse)};
 }
 
 struct Roe {
@@ -35,7 +36,8 @@ struct Roe {
                                               const Face<Real>& f) const {
     const RoeMean<Real> m = roe_mean(gas, l, r, f);
     const WaveSpeeds<Real> s = wave_speeds(m, f, entropy_fix);
-    return central_flux(gas, l, r, f) - 0.5 * wave_dissipation(gas, m, l, r, f, s.slow, s.middle, s.fast, Real(1.0));
+    return central_flux(gas, l, m.rho_l, r, m.rho_r, f) -
+           0.5 * wave_dissipation(gas, m, l, r, f, s.slow, s.middle, s.fast, Real(1.0));
   }
 };
 static_assert(FluxScheme<Roe>);

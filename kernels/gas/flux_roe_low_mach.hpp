@@ -18,7 +18,7 @@ struct RoeLowMach {
   template <class Real>
   SPINDRIFT_INLINE Real scale(const RoeMean<Real>& m, const Face<Real>& f) const {
     const Real tangential = sqrt(max(m.u * m.u + m.v * m.v + m.w * m.w - m.un * m.un, 0.0));
-    return min(max((abs(m.un - f.speed) + tangential) / m.c, mach_floor), 1.0);
+    return min(max((abs(m.un - f.speed) + tangential) * m.inverse_c, mach_floor), 1.0);
   }
 
   template <class Real>
@@ -26,7 +26,8 @@ struct RoeLowMach {
                                               const Face<Real>& f) const {
     const RoeMean<Real> m = roe_mean(gas, l, r, f);
     const WaveSpeeds<Real> s = wave_speeds(m, f, entropy_fix);
-    return central_flux(gas, l, r, f) - 0.5 * wave_dissipation(gas, m, l, r, f, s.slow, s.middle, s.fast, scale(m, f));
+    return central_flux(gas, l, m.rho_l, r, m.rho_r, f) -
+           0.5 * wave_dissipation(gas, m, l, r, f, s.slow, s.middle, s.fast, scale(m, f));
   }
 };
 static_assert(FluxScheme<RoeLowMach>);

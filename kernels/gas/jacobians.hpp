@@ -62,7 +62,7 @@ SPINDRIFT_INLINE Block5<Real> physical_jacobian(const IdealGas& gas, const Primi
 template <class Real>
 SPINDRIFT_INLINE Block5<Real> dissipation_jacobian(const IdealGas& gas, const RoeMean<Real>& m, const Face<Real>& f,
                                                    const Real& slow, const Real& middle, const Real& fast, const Real& scale) {
-  const Real inverse = 1.0 / m.c, sum = 0.5 * f.area * (fast + slow), difference = 0.5 * f.area * (fast - slow);
+  const Real inverse = m.inverse_c, sum = 0.5 * f.area * (fast + slow), difference = 0.5 * f.area * (fast - slow);
   const Real entropy_p = f.area * middle * (m.rho_p - inverse * inverse), entropy_T = f.area * middle * m.rho_T, zero(0.0);
   const Real by_un = difference * inverse * m.rho * scale, push_un = sum * m.rho * scale;
   const Row5<Real> mass{sum * inverse * inverse + entropy_p, by_un * f.nx, by_un * f.ny, by_un * f.nz, entropy_T};

@@ -97,12 +97,6 @@ SPINDRIFT_INLINE Primitive<Real> reconstruct(const Limiter& limiter, const Primi
           reconstruct(limiter, behind.T, cell.T, ahead.T, smooth.T)};
 }
 
-template <class Mask, class Real>
-SPINDRIFT_INLINE Primitive<Real> select_state(const Mask& mask, const Primitive<Real>& yes, const Primitive<Real>& no) {
-  return {select(mask, yes.p, no.p), select(mask, yes.u, no.u), select(mask, yes.v, no.v), select(mask, yes.w, no.w),
-          select(mask, yes.T, no.T)};
-}
-
 /// Face between `left` and `right`. A state whose absolute pressure or temperature would lose more than `least` of its cell's
 /// falls back to the cell's state as a whole: positive states stay positive.
 template <class Limiter, class Real>

@@ -151,6 +151,12 @@ SPINDRIFT_INLINE Primitive<Real> operator*(const std::type_identity_t<Real>& s, 
   return {s * a.p, s * a.u, s * a.v, s * a.w, s * a.T};
 }
 
+template <class Mask, class Real>
+SPINDRIFT_INLINE Primitive<Real> select_state(const Mask& mask, const Primitive<Real>& yes, const Primitive<Real>& no) {
+  return {select(mask, yes.p, no.p), select(mask, yes.u, no.u), select(mask, yes.v, no.v), select(mask, yes.w, no.w),
+          select(mask, yes.T, no.T)};
+}
+
 // Rows of component-major arrays: component c of a cell is c * stride further on. Order p u v w T and rho mx my mz E.
 template <class Real>
 SPINDRIFT_INLINE Real load_number(const scalar_of<Real>* from) {

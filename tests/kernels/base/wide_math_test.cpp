@@ -47,7 +47,7 @@ TEST_CASE("powers near one keep the digits of the difference", "[wide][fast]") {
 }
 
 TEST_CASE("lanes have the transcendental functions of one number", "[wide][fast]") {
-  using V = NativeWide<double>;
+  using V = Wide<double, 8>;
   double x[V::size];
   for (int n = 0; n < V::size; ++n) x[n] = 0.013 + 0.71 * n * n;
   const V v = V::load(x);

@@ -41,6 +41,7 @@ TEST_CASE("the sum of lanes adds halves", "[wide][fast]") {
   for (int n = 0; n < 16; ++n) a[n] = float(n * n);
   CHECK(sum(Wide<float, 16>::load(a)) == 1240.0f);
   CHECK(sum(Wide<double, 4>(2.5)) == 10.0);
+  CHECK(sum(Wide<double, 16>(2.5)) == 40.0);
 }
 
 TEMPLATE_TEST_CASE("comparisons of lanes select lane by lane", "[wide][fast]", float, double) {
@@ -67,4 +68,13 @@ TEMPLATE_TEST_CASE("comparisons of lanes select lane by lane", "[wide][fast]", f
   };
   check(Wide<TestType, 8>());
   check(NativeWide<TestType>());
+}
+
+TEST_CASE("lanes are read and written one by one, in halves too", "[wide][fast]") {
+  Wide<double, 16> w(1.0);
+  w.v[3] = 5.0;
+  w.v[12] = 7.0;
+  CHECK(double(w.v[3]) == 5.0);
+  CHECK(w[12] == 7.0);
+  CHECK(sum(w) == 26.0);
 }

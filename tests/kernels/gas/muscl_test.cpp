@@ -80,7 +80,7 @@ TEST_CASE("a state that would lose its pressure falls back to its cell and says 
   CHECK(absolute_pressure(gas, smooth.l) == Approx(1.15e5));
   CHECK(absolute_temperature(gas, smooth.r) == Approx(315.0));
 
-  using V = NativeWide<double>;  // lanes decide for themselves
+  using V = Wide<double, 8>;  // lanes decide for themselves
   double p[4][V::size];
   for (int k = 0; k < V::size; ++k)
     p[0][k] = (k % 2 ? 8e5 : 1.1e5) - gas.pressure_reference, p[1][k] = 1e5 - gas.pressure_reference,

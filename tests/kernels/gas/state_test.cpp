@@ -45,7 +45,7 @@ TEST_CASE("a density deviation of 1e-10 keeps its digits", "[gas][fast]") {
 }
 
 TEST_CASE("rows of component-major storage load and store states", "[gas][fast]") {
-  using V = NativeWide<double>;
+  using V = Wide<double, 8>;
   constexpr int n = 2 * V::size;
   double from[5 * n], to[5 * n] = {};
   for (int k = 0; k < 5 * n; ++k) from[k] = k;

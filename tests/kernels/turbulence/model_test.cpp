@@ -61,7 +61,8 @@ template <class Model>
 double size(const Point<Model>& p, int row) {
   auto flow = p.flow;
   const double q = p.t.q[row];
-  const double rate = vorticity(flow) + strain(flow) + std::abs(p.t.q[0]) / (flow.distance * flow.distance) + (row == 1 ? q : 0.0);
+  const double rate =
+      vorticity(flow) + strain(flow) + std::abs(p.t.q[0]) / (flow.distance * flow.distance) + (row == 1 ? q : 0.0);
   return flow.rho * std::abs(q) * rate;
 }
 
@@ -143,7 +144,7 @@ TEMPLATE_TEST_CASE("exact Jacobians of sources agree with finite differences, im
 }
 
 TEMPLATE_TEST_CASE("lanes have the turbulence of one point", "[turbulence][fast]", Sa, SaNeg, Sst, SstVm) {
-  using V = NativeWide<double>;
+  using V = Wide<double, 8>;
   constexpr int n = TestType::equations;
   Generator g;
   for (int sample = 0; sample < 50; ++sample) {
