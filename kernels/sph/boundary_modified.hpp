@@ -13,40 +13,60 @@ namespace spindrift::sph {
 template <int dim>
 struct BoundaryModified {
   using Matrix = Eigen::Matrix<double, dim + 1, dim + 1>;
-  using Vector = Eigen::Matrix<double, dim + 1, 1>;
 
-  /// What a ghost node gathers from the water round it: moments of the kernel, and of the density (or a velocity component).
-  struct Moments {
-    Matrix a = Matrix::Zero();
-    Vector b = Vector::Zero();
-  };
+  static constexpr int n = dim + 1, fields = dim + 1;  ///< fields: density deviation, velocity
+  /// Sums of a ghost node over the water: the matrix by rows, then a right-hand side for each field.
+  static constexpr int planes = n * (n + fields);
 
-  /// Adds one water particle: x = node - particle [m], W, its slope, volume V [m^dim], value f (density deviation, velocity).
-  static void gather(Moments& m, const Vec<double, dim>& x, double w, double slope, double volume, double f) {
-    Vector test;  // W and its gradient at the node
-    test(0) = w;
-    for (int k = 0; k < dim; ++k) test(k + 1) = slope * x[k];
-    Vector position;  // 1 and particle - node
-    position(0) = 1.0;
-    for (int k = 0; k < dim; ++k) position(k + 1) = -x[k];
-    m.a += volume * test * position.transpose();
-    m.b += volume * f * test;
+  /// Terms of one water particle: x = node - particle [m], W, its slope, volume V [m^dim], values of the fields. Lengths are in
+  /// units of h, so that the entries are of order one.
+  template <class Real>
+  SPINDRIFT_INLINE static Vec<Real, planes> pair_terms(const Vec<Real, dim>& x, Real w, Real slope, Real volume,
+                                                       const Vec<Real, fields>& values, Real h, Real inverse_h) {
+    Real test[n];  // V times W and its gradient at the node
+    test[0] = volume * w;
+    for (int k = 0; k < dim; ++k) test[k + 1] = (volume * slope * h) * x[k];
+    Vec<Real, planes> terms;
+    for (int row = 0; row < n; ++row) {
+      terms[row * n] = test[row];
+      for (int k = 0; k < dim; ++k) terms[row * n + k + 1] = -(test[row] * (x[k] * inverse_h));  // particle - node
+      for (int field = 0; field < fields; ++field) terms[n * n + field * n + row] = test[row] * values[field];
+    }
+    return terms;
   }
 
-  /// Value at the wall particle, `offset` [m] from the ghost node; `none` where the node sees no water, order zero where it sees
-  /// little.
-  static double value(const Moments& m, const Vec<double, dim>& offset, double h, double none) {
-    if (m.a(0, 0) < 1e-3) return none;  // kernel sum: 1 in bulk, 1/2 at a flat surface
-    Matrix scaled = m.a;                // columns in h, rows in 1/h: entries of order one
-    Vector right = m.b;
-    for (int k = 1; k <= dim; ++k) scaled.col(k) /= h, scaled.row(k) *= h, right(k) *= h;
-    const Eigen::FullPivLU<Matrix> factors(scaled);
+  /// What a wall particle takes from its node: whether the node sees water at all, the density deviation carried on linearly
+  /// from the node to the particle, the velocity at the node.
+  struct Seen {
+    bool water = false;
+    double deviation = 0.0;
+    Vec<double, dim> velocity{};
+  };
+  /// `offset`: wall particle - node [m]. Of order zero where too few particles determine a gradient.
+  static Seen seen(const Vec<double, planes>& sums, const Vec<double, dim>& offset, double h) {
+    Seen result;
+    constexpr double least_kernel_sum = 1e-3;  // 1 in bulk, 1/2 at a flat surface
+    if (!(sums[0] > least_kernel_sum)) return result;
+    result.water = true;
+    Matrix a;
+    Eigen::Matrix<double, n, fields> b;
+    for (int row = 0; row < n; ++row) {
+      for (int column = 0; column < n; ++column) a(row, column) = sums[row * n + column];
+      for (int field = 0; field < fields; ++field) b(row, field) = sums[n * n + field * n + row];
+    }
+    const Eigen::FullPivLU<Matrix> factors(a);
     constexpr double smallest_pivot_ratio = 1e-2;
     const auto pivots = factors.matrixLU().diagonal().cwiseAbs();
-    if (pivots.minCoeff() < smallest_pivot_ratio * pivots.maxCoeff()) return m.b(0) / m.a(0, 0);
-    const Vector field = factors.solve(right);  // value and h * gradient at the node
-    double result = field(0);
-    for (int k = 0; k < dim; ++k) result += field(k + 1) * offset[k] / h;
+    Eigen::Matrix<double, n, fields> value = b / a(0, 0);
+    if (pivots.minCoeff() >= smallest_pivot_ratio * pivots.maxCoeff())
+      value = factors.solve(b);  // value and h * gradient at the node
+    else
+      value.template bottomRows<dim>().setZero();
+    result.deviation = value(0, 0);
+    for (int k = 0; k < dim; ++k) {
+      result.deviation += value(k + 1, 0) * offset[k] / h;
+      result.velocity[k] = value(0, k + 1);
+    }
     return result;
   }
 

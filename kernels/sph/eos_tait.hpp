@@ -30,6 +30,15 @@ struct EosTait {
     // With s = rho/rho0 the balance reads c0^2 s^5 ds = g dz: s^6 = 1 + 6 g depth / c0^2.
     return rho0 * std::expm1(std::log1p((gamma - 1.0) * gravity * depth / (c0 * c0)) / (gamma - 1.0));
   }
+  /// Mass of a column of water at rest over that of rho0 filling it: the mean of s over the depth.
+  double mean_density_ratio(double depth, double gravity) const { return column_mass(depth, gravity) / (rho0 * depth); }
+  /// Mass per area [kg/m2] above a depth [m] of water at rest: p/g.
+  double column_mass(double depth, double gravity) const { return pressure(hydrostatic_deviation(depth, gravity)) / gravity; }
+  /// Depth [m] under which water at rest has that mass per area [kg/m2] above it.
+  double depth_of_mass(double mass, double gravity) const {
+    const double s = std::log1p(mass * gravity / stiffness()) / gamma;
+    return c0 * c0 / ((gamma - 1.0) * gravity) * std::expm1((gamma - 1.0) * s);
+  }
   double sound_speed(double deviation) const {
     const double s = 1.0 + deviation / rho0;
     return c0 * s * s * s;

@@ -73,6 +73,26 @@ class Columns {
     }
   }
 
+  /// All columns that a box [low, high] touches, each with the shift that puts it beside the box.
+  template <class Visit>
+  void for_overlapping(const std::array<double, dim>& low, const std::array<double, dim>& high, Visit&& visit) const {
+    std::array<int, dim - 1> first, last;
+    for (int k = 0; k < dim - 1; ++k) {
+      first[k] = int(std::floor((low[k] - domain_.low[k]) / edge_[k]));
+      last[k] = int(std::floor((high[k] - domain_.low[k]) / edge_[k]));
+      if (domain_.periodic[k])
+        last[k] = std::min(last[k], first[k] + count_[k] - 1);
+      else
+        first[k] = std::clamp(first[k], 0, count_[k] - 1), last[k] = std::clamp(last[k], 0, count_[k] - 1);
+    }
+    if constexpr (dim == 2) {
+      for (int a = first[0]; a <= last[0]; ++a) visit_cell({a}, visit);
+    } else {
+      for (int a = first[0]; a <= last[0]; ++a)
+        for (int b = first[1]; b <= last[1]; ++b) visit_cell({a, b}, visit);
+    }
+  }
+
   /// Groups of one colour write to disjoint groups when each updates itself and its forward neighbours, so they may run at once;
   /// colours run in order, hence every sum has one order of terms whatever the threads do.
   int colours() const { return dim == 2 ? axis_colours(0, 2) : axis_colours(0, 2) * axis_colours(1, 3); }

@@ -85,6 +85,25 @@ void apply_mls(Store<dim, Real>& store, const Array<Real>& sums, int group) {
   for_water<FilterMls<dim>::planes>(store, sums, group,
                                     [&](std::size_t slot, const auto& s) { store.deviation[slot] = FilterMls<dim>::value(s); });
 }
+/// Sub-particle stress tau/rho^2 of a group from the sums of LawStrain; walls have none.
+template <int dim, class Real>
+void apply_stress(Store<dim, Real>& store, const Array<Real>& sums, const Parameters& p, int group) {
+  constexpr int planes = SymmetricTensor<double, dim>::components;
+  const Group& range = store.groups[group];
+  std::fill(store.stress.begin() + std::size_t(range.solid) * (planes * cluster_size),
+            store.stress.begin() + std::size_t(range.end) * (planes * cluster_size), Real(0));
+  for (std::uint32_t cluster = range.fluid; cluster < range.solid; ++cluster) {
+    const Real* from = sums.data() + std::size_t(cluster) * (planes * cluster_size);
+    Real* to = store.stress.data() + std::size_t(cluster) * (planes * cluster_size);
+    for (int lane = 0; lane < cluster_size; ++lane) {
+      SymmetricTensor<double, dim> strain;
+      for (int n = 0; n < planes; ++n) strain.c[n] = p.mass(dim) * double(from[n * cluster_size + lane]);
+      const double rho = p.eos.rho0 + double(store.pack_of(cluster)[2 * dim * cluster_size + lane]);
+      const SymmetricTensor<double, dim> tau = ViscositySps{}.stress(strain, p.spacing);
+      for (int n = 0; n < planes; ++n) to[n * cluster_size + lane] = Real(tau.c[n] / rho);
+    }
+  }
+}
 /// Moves the water of a group; returns the longest way [m].
 template <int dim, class Real>
 double apply_shifting(Store<dim, Real>& store, const Array<Real>& sums, const Parameters& p, int group, double dt) {

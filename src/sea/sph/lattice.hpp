@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/sph/eos_tait.hpp"
+#include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/store.hpp"
 
 namespace spindrift::sph {
@@ -40,6 +41,27 @@ void add_water(std::vector<Seed<dim>>& seeds, const std::array<double, dim>& ori
   for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
     Seed<dim> seed{.position = lattice_point<dim>(origin, spacing, index)};
     seed.deviation = eos.hydrostatic_deviation(std::max(0.0, surface - seed.position[dim - 1]), gravity);
+    seeds.push_back(seed);
+  });
+}
+
+/// Water at rest on the points [low, high) of a lattice, its rows moved together as its own weight compresses it: the mass of the
+/// rows above each one is what water at rest has above that height. The bottom lies half a spacing under the lowest row, the
+/// surface half a spacing over the highest one, and the mass of a particle (Parameters::mass_factor) is taken from the depth, so
+/// that the column fills it; shallower columns of the same scene take the same mass.
+template <int dim>
+void add_water_at_rest(std::vector<Seed<dim>>& seeds, const std::array<double, dim>& origin, const Parameters& p,
+                       const std::array<int, dim>& low, const std::array<int, dim>& high) {
+  const int rows = high[dim - 1] - low[dim - 1];
+  const double bottom = origin[dim - 1] + (low[dim - 1] - 0.5) * p.spacing, mass_of_row = p.mass(1);
+  const double depth = p.gravity > 0.0 ? p.eos.depth_of_mass(rows * mass_of_row, p.gravity) : rows * p.spacing;
+  for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
+    Seed<dim> seed{.position = lattice_point<dim>(origin, p.spacing, index)};
+    if (p.gravity > 0.0) {
+      const double below_surface = p.eos.depth_of_mass((high[dim - 1] - index[dim - 1] - 0.5) * mass_of_row, p.gravity);
+      seed.position[dim - 1] = bottom + depth - below_surface;
+      seed.deviation = p.eos.hydrostatic_deviation(below_surface, p.gravity);
+    }
     seeds.push_back(seed);
   });
 }

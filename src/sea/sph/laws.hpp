@@ -9,6 +9,7 @@
 #include "kernels/sph/kernel.hpp"
 #include "kernels/sph/momentum.hpp"
 #include "kernels/sph/viscosity_artificial.hpp"
+#include "kernels/sph/viscosity_laminar_sps.hpp"
 
 namespace spindrift::sph {
 
@@ -46,5 +47,80 @@ struct LawMotion {
     to_j[dim] += rate - flow;
   }
 };
+
+/// The same with laminar viscosity on all pairs instead of the artificial one on approaching ones, and with `sub_particle` the
+/// stress of unresolved turbulence: then the sweep hands over tau/rho^2 of both partners, `stress_planes` planes per cluster.
+template <class Kernel, class Diffusion, class Scalar, bool sub_particle>
+struct LawLaminar {
+  static constexpr int dim = Kernel::dimensions;
+  static constexpr int sum_planes = dim + 1;
+  static constexpr int stress_planes = sub_particle ? SymmetricTensor<Scalar, dim>::components : 0;
+  Kernel kernel;
+  ViscosityLaminar<Scalar> viscosity;
+  Diffusion diffusion;
+  Scalar rho0;
+
+  template <class Real>
+  SPINDRIFT_INLINE void operator()(const PairState<Real, dim>& i, const PairState<Real, dim>& j, Vec<Real, sum_planes>& to_i,
+                                   Vec<Real, sum_planes>& to_j) const {
+    const Pair<Real, dim> pair = make_pair(kernel, i.x - j.x, i.v - j.v);
+    add(pair, i, j, terms(pair, i, j), to_i, to_j);
+  }
+  template <class Real>
+  SPINDRIFT_INLINE void operator()(const PairState<Real, dim>& i, const PairState<Real, dim>& j,
+                                   const SymmetricTensor<Real, dim>& tau_i, const SymmetricTensor<Real, dim>& tau_j,
+                                   Vec<Real, sum_planes>& to_i, Vec<Real, sum_planes>& to_j) const {
+    const Pair<Real, dim> pair = make_pair(kernel, i.x - j.x, i.v - j.v);
+    const SymmetricTensor<Real, dim> tau_sum{tau_i.c + tau_j.c};
+    add(pair, i, j, terms(pair, i, j) + ViscositySps::acceleration(pair, tau_sum), to_i, to_j);
+  }
+
+ private:
+  template <class Real>
+  SPINDRIFT_INLINE Real density_sum(const PairState<Real, dim>& i, const PairState<Real, dim>& j) const {
+    return (i.deviation + Real(Scalar(2) * rho0)) + j.deviation;
+  }
+  /// Acceleration of i: pressure along x_ij, viscosity along v_ij.
+  template <class Real>
+  SPINDRIFT_INLINE Vec<Real, dim> terms(const Pair<Real, dim>& pair, const PairState<Real, dim>& i,
+                                        const PairState<Real, dim>& j) const {
+    const Real pressure = momentum_symmetric(pair, i.p_rho2, j.p_rho2, Real(0)), drag = viscosity(pair, density_sum(i, j));
+    return pressure * pair.x + drag * pair.v;
+  }
+  template <class Real>
+  SPINDRIFT_INLINE void add(const Pair<Real, dim>& pair, const PairState<Real, dim>& i, const PairState<Real, dim>& j,
+                            const Vec<Real, dim>& acceleration, Vec<Real, sum_planes>& to_i, Vec<Real, sum_planes>& to_j) const {
+    const Real inverse = reciprocal(density_sum(i, j) * (pair.r2 + Real(softening(Scalar(kernel.h())))));
+    const Real rate = continuity(pair), flow = diffusion(pair, i.deviation, j.deviation, inverse);
+    for (int k = 0; k < dim; ++k) to_i[k] += acceleration[k], to_j[k] -= acceleration[k];
+    to_i[dim] += rate + flow;
+    to_j[dim] += rate - flow;
+  }
+};
+
+/// Rate of strain, for the sub-particle stress: sums of volume times the symmetric part of v_ji grad W, per unit mass.
+template <class Kernel, class Scalar>
+struct LawStrain {
+  static constexpr int dim = Kernel::dimensions, sum_planes = SymmetricTensor<Scalar, dim>::components;
+  Kernel kernel;
+  Scalar rho0;
+
+  template <class Real>
+  SPINDRIFT_INLINE void operator()(const PairState<Real, dim>& i, const PairState<Real, dim>& j, Vec<Real, sum_planes>& to_i,
+                                   Vec<Real, sum_planes>& to_j) const {
+    const SymmetricTensor<Real, dim> strain = ViscositySps::strain_terms(make_pair(kernel, i.x - j.x, i.v - j.v));
+    to_i += reciprocal(Real(rho0) + j.deviation) * strain.c;
+    to_j += reciprocal(Real(rho0) + i.deviation) * strain.c;
+  }
+};
+
+/// How many planes of stress a law reads of each partner.
+template <class Law>
+inline constexpr int stress_planes = [] {
+  if constexpr (requires { Law::stress_planes; })
+    return Law::stress_planes;
+  else
+    return 0;
+}();
 
 }  // namespace spindrift::sph

@@ -13,17 +13,27 @@ enum class KernelChoice { wendland, cubic };
 enum class DiffusionChoice { none, molteni, fourtakas };
 enum class StepChoice { symplectic, verlet };
 enum class FilterChoice { none, shepard, mls };
+/// What modified boundaries do to the velocity of their particles: leave the wall's own, or mirror the water's.
+enum class WallChoice { still, no_slip, free_slip };
+enum class ViscosityChoice { artificial, laminar, laminar_sps };
 
 struct Parameters {
   double spacing = 0.0;     ///< d [m]
   double h_over_d = 1.732;  ///< smoothing length over spacing
+  double mass_factor =
+      1.0;  ///< mass of a particle over rho0 d^dim; EosTait::mean_density_ratio where a column is to fill its depth
   KernelChoice kernel = KernelChoice::wendland;
   EosTait eos{};
+  ViscosityChoice viscosity = ViscosityChoice::artificial;
+  double nu = 1e-6;          ///< kinematic viscosity of the laminar choices, water with water [m2/s]
+  double nu_solid = 1e-6;    ///< with walls and bodies
   double alpha = 0.1;        ///< artificial viscosity, water with water
   double alpha_solid = 0.1;  ///< with walls and bodies; the paper neglects it (0)
+  WallChoice wall = WallChoice::still;
   DiffusionChoice diffusion = DiffusionChoice::none;
   double delta = 0.1;     ///< strength of the density diffusion
   double gravity = 9.81;  ///< m/s2, along the last axis downwards
+  double drive = 0.0;     ///< uniform acceleration along the first axis, for flows between walls [m/s2]
   StepChoice step = StepChoice::symplectic;
   FilterChoice filter = FilterChoice::none;
   int filter_every = 30;  ///< steps between two density filters
@@ -34,9 +44,12 @@ struct Parameters {
   double drift_over_d = 0.5;       ///< distance a particle may go between two sorts, in spacings
   double column_over_reach = 1.0;  ///< width of a column of cells over the least possible
 
+  /// Whether viscosity acts on all pairs by the laminar term and, with sub-particle stress, needs a sweep of its own.
+  bool laminar() const { return viscosity != ViscosityChoice::artificial; }
+  bool sub_particle() const { return viscosity == ViscosityChoice::laminar_sps; }
   double h() const { return h_over_d * spacing; }
   double reach() const { return 2.0 * h(); }  // both kernels end at 2 h
-  double mass(int dim) const { return eos.rho0 * std::pow(spacing, dim); }
+  double mass(int dim) const { return mass_factor * eos.rho0 * std::pow(spacing, dim); }
   double drift() const { return drift_over_d * spacing; }
   /// Anchors stand on multiples of this power of two, about a quarter of a spacing.
   double anchor_step() const { return std::exp2(std::round(std::log2(0.25 * spacing))); }

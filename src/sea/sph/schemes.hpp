@@ -10,6 +10,7 @@
 #include "kernels/sph/density_diffusion_molteni.hpp"
 #include "kernels/sph/kernel_cubic.hpp"
 #include "kernels/sph/kernel_wendland.hpp"
+#include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/filters.hpp"
 #include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/sweep_pairs.hpp"
@@ -31,18 +32,37 @@ class Schemes {
   }
 
   GroupSweep<dim, Real> rates() const {
+    if (p_.laminar()) return laminar();
     return with_kernel([this](auto kernel) {
       const Real delta = Real(p_.delta), c0 = Real(p_.eos.c0), h = Real(p_.h());
       switch (p_.diffusion) {
         case DiffusionChoice::molteni:
           return rates_of(kernel, DensityDiffusionMolteni<Real>{delta, c0, h});
         case DiffusionChoice::fourtakas:
-          return rates_of(
-              kernel, DensityDiffusionFourtakas<Real>{delta, c0, h, Real(p_.eos.rho0 * p_.gravity / (p_.eos.c0 * p_.eos.c0))});
+          return rates_of(kernel, DensityDiffusionFourtakas<Real>(p_.delta, p_.h(), p_.eos, p_.gravity));
         case DiffusionChoice::none:
           break;
       }
       return rates_of(kernel, DensityDiffusionNone{});
+    });
+  }
+  /// Rates of strain for the sub-particle stress, which `rates` then reads from the store.
+  GroupSweep<dim, Real> strain() const {
+    if (!p_.sub_particle()) return {};
+    return with_kernel([this](auto kernel) {
+      const LawStrain<decltype(kernel), Real> law{kernel, Real(p_.eos.rho0)};
+      return sweep(law, law);
+    });
+  }
+  /// Density and velocity of modified walls; to be run on every group between packing and the pair sweeps.
+  std::function<void(Store<dim, Real>&, int group, Candidates<dim, Real>&)> boundary(const Ghosts<dim>& ghosts) const {
+    if (ghosts.empty()) return {};
+    using Boundary = std::function<void(Store<dim, Real>&, int, Candidates<dim, Real>&)>;
+    return with_kernel<Boundary>([this, &ghosts](auto kernel) {
+      return [kernel, &ghosts, &columns = columns_, &p = p_, reach = reach_](Store<dim, Real>& store, int group,
+                                                                             Candidates<dim, Real>& water) {
+        apply_boundary(store, columns, ghosts, p, group, reach, 2.0 * p.drift(), kernel, water);
+      };
     });
   }
   GroupSweep<dim, Real> filter() const {
@@ -62,11 +82,12 @@ class Schemes {
   }
 
  private:
-  template <class Make>
-  GroupSweep<dim, Real> with_kernel(Make&& make) const {
+  template <class Result = GroupSweep<dim, Real>, class Make>
+  Result with_kernel(Make&& make) const {
     if (p_.kernel == KernelChoice::cubic) return make(KernelCubic<dim, Real>(p_.h()));
     return make(KernelWendland<dim, Real>(p_.h()));
   }
+  GroupSweep<dim, Real> laminar() const;  // in a file of its own: half of all the code of the sweeps
   template <class Kernel, class Diffusion>
   GroupSweep<dim, Real> rates_of(const Kernel& kernel, const Diffusion& diffusion) const {
     const auto viscosity = [&](double alpha) { return ViscosityArtificial<Real>{Real(alpha), Real(p_.eos.c0), Real(p_.h())}; };

@@ -42,7 +42,9 @@ SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domai
   fill(store_, seeds, columns_, p_.anchor_step());
   if (p_.step == StepChoice::verlet) store_.v_before = store_.v, store_.deviation_before = store_.deviation;
   const Schemes<dim, Real> schemes(store_, columns_, p_);
-  rates_ = schemes.rates(), filter_ = schemes.filter(), shifting_ = schemes.shifting();
+  ghosts_ = Ghosts<dim>(seeds);
+  boundary_ = schemes.boundary(ghosts_);
+  rates_ = schemes.rates(), strain_ = schemes.strain(), filter_ = schemes.filter(), shifting_ = schemes.shifting();
   colours_.resize(columns_.colours());
   for (int group = 0; group < columns_.groups(); ++group) colours_[columns_.colour(group)].push_back(group);
   scratch_.resize(omp_get_max_threads());
@@ -73,16 +75,39 @@ void SeaSph<dim, Real>::sort_if_drifted() {
 }
 
 template <int dim, class Real>
-void SeaSph<dim, Real>::pack_all(double half_dt) {
+void SeaSph<dim, Real>::prepare(double half_dt) {
   for_groups(work_.pack_s, [&](int group) { pack(store_, p_, group, half_dt); });
+  if (boundary_) {
+    reserve_scratch();
+    for_groups(work_.pair_s, [&](int group) { boundary_(store_, group, scratch_[omp_get_thread_num()].water); });
+  }
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::reserve_scratch() {
+  std::size_t longest = 0;
+  for (const Group& group : store_.groups) longest = std::max<std::size_t>(longest, group.end - group.fluid);
+  constexpr std::size_t columns_met = dim == 2 ? 5 : 25;  // by a ghost node; a pair sweep meets five
+  for (Meetings<dim, Real>& scratch : scratch_) scratch.reserve((boundary_ ? columns_met : 9) * longest);
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::evaluate_packed() {
+  if (strain_) {
+    constexpr int planes = SymmetricTensor<double, dim>::components;
+    extra_sums_.assign(store_.slots() * planes, Real(0));
+    store_.stress.resize(store_.slots() * planes);
+    run(strain_, extra_sums_);
+    for_groups(work_.correct_s, [&](int group) { apply_stress(store_, extra_sums_, p_, group); });
+  }
+  run(rates_, store_.sums);
+  ++work_.evaluations;
 }
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::run(const Sweep& sweep, Array<Real>& sums) {
   const Stopwatch watch(work_.pair_s);
-  std::size_t longest = 0;
-  for (const Group& group : store_.groups) longest = std::max<std::size_t>(longest, group.end - group.fluid);
-  for (Meetings<dim, Real>& scratch : scratch_) scratch.reserve(9 * longest);
+  reserve_scratch();
 #pragma omp parallel num_threads(int(scratch_.size()))
   for (const std::vector<int>& colour : colours_) {
 #pragma omp for schedule(dynamic, 1)
@@ -93,9 +118,8 @@ void SeaSph<dim, Real>::run(const Sweep& sweep, Array<Real>& sums) {
 template <int dim, class Real>
 void SeaSph<dim, Real>::evaluate() {
   sort_if_drifted();
-  pack_all(0.0);
-  run(rates_, store_.sums);
-  ++work_.evaluations;
+  prepare(0.0);
+  evaluate_packed();
 }
 
 template <int dim, class Real>
@@ -104,7 +128,8 @@ double SeaSph<dim, Real>::begin_step(double dt_max) {
   Extremes most;
   for (int group = 0; group < columns_.groups(); ++group) most.merge(extremes(store_, p_, group));
   const double speed = std::sqrt(most.speed2), acceleration = std::sqrt(most.acceleration2);
-  const double limit = step_limits(p_.cfl, p_.h(), p_.eos.c0, speed, acceleration, 0.0).smallest();
+  const double limit =
+      step_limits(p_.cfl, p_.h(), p_.eos.c0, speed, acceleration, p_.laminar() ? std::max(p_.nu, p_.nu_solid) : 0.0).smallest();
   constexpr double smallest_share = 1e-4;  // of the step of water at rest: speeds of 1e4 c0 are no flow
   if (!(limit > smallest_share * p_.cfl * p_.h() / p_.eos.c0))
     throw NumericalFailure("sea: the step fell to " + std::to_string(limit) + " s (largest speed " + std::to_string(speed) +
@@ -120,9 +145,8 @@ double SeaSph<dim, Real>::begin_step(double dt_max) {
 template <int dim, class Real>
 void SeaSph<dim, Real>::half_step() {
   if (p_.step == StepChoice::verlet) return;
-  pack_all(0.5 * dt_);
-  run(rates_, store_.sums);
-  ++work_.evaluations;
+  prepare(0.5 * dt_);
+  evaluate_packed();
 }
 
 template <int dim, class Real>
@@ -143,7 +167,7 @@ template <int dim, class Real>
 void SeaSph<dim, Real>::filter_if_due() {
   const auto gather = [&](const Sweep& sweep, int planes) {
     sort_if_drifted();
-    pack_all(0.0);
+    prepare(0.0);
     extra_sums_.assign(store_.slots() * planes, Real(0));
     run(sweep, extra_sums_);
   };
@@ -163,8 +187,11 @@ void SeaSph<dim, Real>::filter_if_due() {
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::place_body(std::uint16_t owner, const Motion& motion) {
-  for (const Solid& solid : solids_)
-    if (solid.owner == owner) solid_drift_ += place(store_, solid, motion);
+  for (std::size_t n = 0; n < solids_.size(); ++n) {
+    if (solids_[n].owner != owner) continue;
+    solid_drift_ += place(store_, columns_.domain(), solids_[n], motion);
+    if (!ghosts_.empty()) ghosts_.turn(solids_[n], motion.attitude * built_[n].conjugate());
+  }
 }
 
 template <int dim, class Real>

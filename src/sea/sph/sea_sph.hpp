@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/sph/time_step.hpp"
+#include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/ordering.hpp"
 #include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/solids.hpp"
@@ -44,7 +45,10 @@ class SeaSph {
   void evaluate();
 
   /// Declares that the particles of `owner` are a body that is now in `motion`.
-  void add_body(std::uint16_t owner, const Motion& motion) { solids_.push_back(solid_from(store_, owner, motion)); }
+  void add_body(std::uint16_t owner, const Motion& motion) {
+    solids_.push_back(solid_from(store_, owner, motion));
+    built_.push_back(motion.attitude);
+  }
   void place_body(std::uint16_t owner, const Motion& motion);
   /// Force of the water on the particles of an owner (a body or a wall), about a point.
   Wrench load_on(std::uint16_t owner, const Eigen::Vector3d& about) const { return load(store_, owner, p_.mass(dim), about); }
@@ -61,7 +65,9 @@ class SeaSph {
   using Sweep = std::function<void(Real* sums, int group, Meetings<dim, Real>&)>;
 
   void sort_if_drifted();
-  void pack_all(double half_dt);
+  void prepare(double half_dt);  // packs, sets modified walls
+  void evaluate_packed();
+  void reserve_scratch();
   void run(const Sweep& sweep, Array<Real>& sums);
   template <class Body>
   void for_groups(double& seconds, Body&& body);
@@ -71,7 +77,10 @@ class SeaSph {
   Columns<dim> columns_;
   Store<dim, Real> store_;
   std::vector<Solid> solids_;
-  Sweep rates_, filter_, shifting_;           // pair sweeps of one group with the scene's schemes; empty where there is none
+  std::vector<Eigen::Quaterniond> built_;  // attitude of each solid when it was added
+  Ghosts<dim> ghosts_;
+  std::function<void(Store<dim, Real>&, int, Candidates<dim, Real>&)> boundary_;  // empty where no wall has a ghost node
+  Sweep rates_, strain_, filter_, shifting_;  // pair sweeps of one group with the scene's schemes; empty where there is none
   Array<Real> extra_sums_;                    // of filters and shifting
   std::vector<std::vector<int>> colours_;     // groups of each colour
   std::vector<Meetings<dim, Real>> scratch_;  // one per thread

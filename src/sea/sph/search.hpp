@@ -85,8 +85,16 @@ class Candidates {
   void add(const Store<dim, Real>& store, std::uint32_t mine, std::uint32_t first, std::uint32_t end,
            const std::array<double, dim>& shift, float reach) {
     std::array<float, dim> box_low, box_high;
+    std::array<double, dim> anchor;
     for (int k = 0; k < dim; ++k)
-      box_low[k] = store.low[k][mine] - float(shift[k]), box_high[k] = store.high[k][mine] - float(shift[k]);
+      box_low[k] = store.low[k][mine], box_high[k] = store.high[k][mine], anchor[k] = store.anchor[k][mine];
+    add(store, box_low, box_high, anchor, first, end, shift, reach);
+  }
+  /// The same for any box (from the corner of the domain) whose points are told relative to `anchor`.
+  void add(const Store<dim, Real>& store, std::array<float, dim> box_low, std::array<float, dim> box_high,
+           const std::array<double, dim>& anchor, std::uint32_t first, std::uint32_t end, const std::array<double, dim>& shift,
+           float reach) {
+    for (int k = 0; k < dim; ++k) box_low[k] -= float(shift[k]), box_high[k] -= float(shift[k]);
     const int before = count_;
     std::array<const float*, dim> low, high;
     for (int k = 0; k < dim; ++k) low[k] = store.low[k].data(), high[k] = store.high[k].data();
@@ -101,7 +109,7 @@ class Candidates {
         low_[k][n] = store.low[k][other] + float(shift[k]);
         high_[k][n] = store.high[k][other] + float(shift[k]);
         // Particle i sees that cluster's offsets when this is added to its own: anchor_i - (anchor_j + shift).
-        shift_[k][n] = Real(store.anchor[k][mine] - store.anchor[k][other] - shift[k]);
+        shift_[k][n] = Real(anchor[k] - store.anchor[k][other] - shift[k]);
       }
     }
   }

@@ -63,18 +63,24 @@ Solid solid_from(const Store<dim, Real>& store, std::uint16_t owner, const Motio
   return solid;
 }
 
-/// Puts a body's particles where its motion has them; returns the longest way any of them went [m].
+/// Puts a body's particles where its motion has them, on periodic axes at the image nearest to where they were; returns the
+/// longest way any of them went [m].
 template <int dim, class Real>
-double place(Store<dim, Real>& store, const Solid& solid, const Motion& motion) {
+double place(Store<dim, Real>& store, const Domain<dim>& domain, const Solid& solid, const Motion& motion) {
   double farthest2 = 0.0;
   for (std::size_t cluster = 0; cluster < store.clusters(); ++cluster) {
     if (store.owner[cluster] != solid.owner) continue;
     for (std::size_t slot = cluster * cluster_size; slot < (cluster + 1) * cluster_size && store.id[slot] != no_particle;
          ++slot) {
       const Eigen::Vector3d& local = solid.local[store.id[slot] - solid.first_id];
-      const auto x = from_earth<dim>(motion.point(local)), v = from_earth<dim>(motion.point_velocity(local));
+      auto x = from_earth<dim>(motion.point(local));
+      const auto v = from_earth<dim>(motion.point_velocity(local));
       double way2 = 0.0;
       for (int k = 0; k < dim; ++k) {
+        if (domain.periodic[k]) {
+          const double length = domain.high[k] - domain.low[k];
+          x[k] += length * std::round((store.x[k][slot] - x[k]) / length);
+        }
         way2 += (x[k] - store.x[k][slot]) * (x[k] - store.x[k][slot]);
         store.x[k][slot] = x[k], store.v[k][slot] = v[k];
       }

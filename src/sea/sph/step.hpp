@@ -17,11 +17,11 @@ namespace spindrift::sph {
 /// Acceleration along an axis and density rate from the sums of the pair sweep.
 template <int dim>
 struct Rates {
-  double mass, gravity;
-  explicit Rates(const Parameters& p) : mass(p.mass(dim)), gravity(p.gravity) {}
+  double mass, gravity, drive;
+  explicit Rates(const Parameters& p) : mass(p.mass(dim)), gravity(p.gravity), drive(p.drive) {}
   template <class Real>
   double acceleration(int axis, Real sum) const {
-    return mass * double(sum) - (axis == dim - 1 ? gravity : 0.0);
+    return mass * double(sum) + (axis == dim - 1 ? -gravity : axis == 0 ? drive : 0.0);
   }
   template <class Real>
   double density(Real sum) const {

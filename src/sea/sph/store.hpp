@@ -38,6 +38,7 @@ struct Store {
   Array<double> deviation_before;
   // per cluster
   Array<Real> pack, sums;
+  Array<Real> stress;                       ///< tau/rho^2 of the sub-particle model; empty without it
   Array<std::uint16_t> owner;               ///< 0 water, 1 + n the solid n
   std::array<Array<double>, dim> anchor;    ///< multiples of a power of two, so that differences are exact in Real [m]
   std::array<Array<float>, dim> low, high;  ///< bounding box of the packed particles, from the corner of the domain [m]
@@ -56,8 +57,9 @@ struct Store {
   const Real* sums_of(std::size_t cluster) const { return sums.data() + cluster * sum_planes<dim> * cluster_size; }
 
   std::size_t bytes() const {
-    std::size_t total = deviation.capacity() * 8 + id.capacity() * 4 + (pack.capacity() + sums.capacity()) * sizeof(Real) +
-                        owner.capacity() * 2 + groups.capacity() * sizeof(Group);
+    std::size_t total = deviation.capacity() * 8 + id.capacity() * 4 +
+                        (pack.capacity() + sums.capacity() + stress.capacity()) * sizeof(Real) + owner.capacity() * 2 +
+                        groups.capacity() * sizeof(Group);
     total += deviation_before.capacity() * 8;
     for (int k = 0; k < dim; ++k)
       total += (x[k].capacity() + v[k].capacity() + v_before[k].capacity() + anchor[k].capacity()) * 8 +
@@ -72,6 +74,8 @@ struct Seed {
   std::array<double, dim> position, velocity{};
   double deviation = 0.0;   ///< rho - rho0 [kg/m3]
   std::uint16_t owner = 0;  ///< 0 water, 1 + n the solid n
+  /// Of a particle of a modified boundary: from it to its ghost node, its mirror image in the water; zero for a dynamic one [m].
+  std::array<double, dim> ghost{};
 };
 
 }  // namespace spindrift::sph

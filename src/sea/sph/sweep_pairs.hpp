@@ -44,32 +44,51 @@ SPINDRIFT_INLINE void store_sums(const Vec<V, planes>& sums, Real* to, int lane)
   for (int n = 0; n < planes; ++n) sums[n].store(to + n * cluster_size + lane);
 }
 
+/// The sub-particle stress of one particle in all lanes; nothing for laws without.
+struct NoStress {};
+template <class Law, class V, int dim, class Real = scalar_of<V>>
+SPINDRIFT_INLINE auto spread_stress(const Store<dim, Real>& store, std::uint32_t cluster, int lane) {
+  if constexpr (stress_planes < Law >> 0) {
+    SymmetricTensor<V, dim> tau;
+    const Real* planes = store.stress.data() + std::size_t(cluster) * (stress_planes<Law> * cluster_size);
+    for (int n = 0; n < stress_planes<Law>; ++n) tau.c[n] = V(planes[n * cluster_size + lane]);
+    return tau;
+  } else {
+    return NoStress{};
+  }
+}
+
 /// One particle, spread over all lanes, against one cluster; `both`: its partners are updated too.
-template <bool both, class Law, class V, int dim, class Real = scalar_of<V>>
-SPINDRIFT_INLINE void particle_against_cluster(Vec<V, Law::sum_planes>& to_i, const PairState<V, dim>& i, const Real* state,
-                                               Real* sums, const Law& law) {
+template <bool both, class Law, class V, class Stress, int dim, class Real = scalar_of<V>>
+SPINDRIFT_INLINE void particle_against_cluster(Vec<V, Law::sum_planes>& to_i, const PairState<V, dim>& i, const Stress& tau_i,
+                                               const Real* state, const Real* stress, Real* sums, const Law& law) {
   for (int lane = 0; lane < cluster_size; lane += V::size) {
     Vec<V, Law::sum_planes> to_j = load_sums<Law::sum_planes, V>(sums, lane);
-    law(i, load_state<dim, V>(state, lane), to_i, to_j);
+    if constexpr (stress_planes < Law >> 0)
+      law(i, load_state<dim, V>(state, lane), tau_i, SymmetricTensor<V, dim>{load_sums<stress_planes<Law>, V>(stress, lane)},
+          to_i, to_j);
+    else
+      law(i, load_state<dim, V>(state, lane), to_i, to_j);
     if constexpr (both) store_sums<Law::sum_planes, V>(to_j, sums, lane);
   }
 }
 
 /// One particle against the first `count` chosen candidates.
-template <class Law, class V, int dim, class Real>
-SPINDRIFT_INLINE void particle_against_chosen(Vec<V, Law::sum_planes>& to_i, const PairState<V, dim>& i,
+template <class Law, class V, class Stress, int dim, class Real>
+SPINDRIFT_INLINE void particle_against_chosen(Vec<V, Law::sum_planes>& to_i, const PairState<V, dim>& i, const Stress& tau_i,
                                               const Store<dim, Real>& store, Real* all_sums,
                                               const Candidates<dim, Real>& candidates, int count, const Law& shared_law) {
   const Law law = shared_law;  // a copy that no store can alias, so that its constants stay in registers
   const typename Candidates<dim, Real>::View near = candidates.view();
-  const Real* const pack = store.pack.data();
+  const Real *const pack = store.pack.data(), *const stress = store.stress.data();
   Vec<V, Law::sum_planes> received = to_i;
   for (int n = 0; n < count; ++n) {
     const std::uint32_t candidate = near.chosen[n];
     const std::size_t other = near.cluster[candidate];
     PairState<V, dim> seen = i;
     for (int k = 0; k < dim; ++k) seen.x[k] += V(near.shift[k][candidate]);
-    particle_against_cluster<true>(received, seen, pack + other * (pack_planes<dim> * cluster_size),
+    particle_against_cluster<true>(received, seen, tau_i, pack + other * (pack_planes<dim> * cluster_size),
+                                   stress + other * (stress_planes<Law> * cluster_size),
                                    all_sums + other * (Law::sum_planes * cluster_size), law);
   }
   to_i = received;
@@ -90,7 +109,8 @@ void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t 
   using V = NativeWide<Real>;
   const Real* state = store.pack_of(mine);
   constexpr int planes = LawWater::sum_planes;
-  static_assert(planes == LawSolid::sum_planes);
+  static_assert(planes == LawSolid::sum_planes && stress_planes<LawWater> == stress_planes<LawSolid>);
+  const Real* stress = store.stress.data() + std::size_t(mine) * (stress_planes<LawWater> * cluster_size);
   Real* sums = all_sums + std::size_t(mine) * (planes * cluster_size);
   std::array<float, dim> corner;
   for (int k = 0; k < dim; ++k) corner[k] = store.frame(k, mine);
@@ -99,14 +119,15 @@ void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t 
     std::array<float, dim> point;
     for (int k = 0; k < dim; ++k) point[k] = corner[k] + float(state[k * cluster_size + lane]);
     const PairState<V, dim> i = spread_state<dim, V>(state, lane);
+    const auto tau_i = spread_stress<LawWater, V>(store, mine, lane);
     Vec<V, planes> to_i{};
     if constexpr (is_water) {
-      particle_against_cluster<false>(to_i, i, state, sums, water);
-      particle_against_chosen(to_i, i, store, all_sums, meets.water, meets.water.choose(point, reach), water);
+      particle_against_cluster<false>(to_i, i, tau_i, state, stress, sums, water);
+      particle_against_chosen(to_i, i, tau_i, store, all_sums, meets.water, meets.water.choose(point, reach), water);
       if (meets.solid.size() > 0)
-        particle_against_chosen(to_i, i, store, all_sums, meets.solid, meets.solid.choose(point, reach), solid);
+        particle_against_chosen(to_i, i, tau_i, store, all_sums, meets.solid, meets.solid.choose(point, reach), solid);
     } else {
-      particle_against_chosen(to_i, i, store, all_sums, meets.water, meets.water.choose(point, reach), solid);
+      particle_against_chosen(to_i, i, tau_i, store, all_sums, meets.water, meets.water.choose(point, reach), solid);
     }
     for (int n = 0; n < planes; ++n) sums[n * cluster_size + lane] += sum(to_i[n]);
   }

@@ -20,13 +20,12 @@ struct Tank {
       : depth(water_depth), columns(int(std::lround(length / spacing))), rows(int(std::lround(water_depth / spacing))) {
     p.spacing = spacing, p.h_over_d = 1.5, p.diffusion = DiffusionChoice::fourtakas;
     p.eos = {1000.0, c0_over_wave_speed * std::sqrt(p.gravity * water_depth)};
+    p.mass_factor = p.eos.mean_density_ratio(rows * spacing, p.gravity);
   }
   double surface() const { return (rows - 0.5) * p.spacing; }
   double bottom() const { return -0.5 * p.spacing; }
 
-  void add_water_to(std::vector<Seed<2>>& seeds) const {
-    add_water<2>(seeds, {0, 0}, p.spacing, {0, 0}, {columns, rows}, p.eos, p.gravity, surface());
-  }
+  void add_water_to(std::vector<Seed<2>>& seeds) const { add_water_at_rest<2>(seeds, {0, 0}, p, {0, 0}, {columns, rows}); }
   void add_walls_to(std::vector<Seed<2>>& seeds, int length, int height) const {
     add_tank<2>(seeds, {0, 0}, p.spacing, {0, 0}, {length, height}, wall_layers, p.eos, p.gravity, surface());
   }

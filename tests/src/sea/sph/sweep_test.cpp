@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE("the sweep over clusters gives what all pairs give", "[sph][f
   check_against_all_pairs<3, TestType, KernelWendland<3>>(p3, DensityDiffusionMolteni<>{p3.delta, p3.eos.c0, p3.h()}, tolerance);
   const auto cubic = parameters_for<3>(KernelChoice::cubic, DiffusionChoice::fourtakas);
   check_against_all_pairs<3, TestType, KernelCubic<3>>(
-      cubic, DensityDiffusionFourtakas<>{cubic.delta, cubic.eos.c0, cubic.h(), 1000.0 * cubic.gravity / 900.0}, tolerance);
+      cubic, DensityDiffusionFourtakas<>(cubic.delta, cubic.h(), cubic.eos, cubic.gravity), tolerance);
 }
 
 TEST_CASE("periodic sides join both ends", "[sph][fast]") {

@@ -1,0 +1,153 @@
+// Modified dynamic boundaries as a sweep: every wall particle with a ghost node takes its density, and for no-slip or free-slip
+// its velocity, from the water round the node (kernels/sph/boundary_modified.hpp). Runs on packed state before the pair sweeps;
+// a group writes its own walls only and reads water of the columns its nodes reach, so all groups may run at once.
+// Called by sea_sph.cpp; tested in tests/src/sea/sph/boundary_test.cpp and tests/verification/sea_sph/viscous_flow_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "kernels/sph/boundary_modified.hpp"
+#include "src/sea/sph/parameters.hpp"
+#include "src/sea/sph/solids.hpp"
+#include "src/sea/sph/sweep_pairs.hpp"
+
+namespace spindrift::sph {
+
+/// Where the ghost nodes are: from each wall particle, by identity; zero where there is none [m]. Turns with its body.
+template <int dim>
+class Ghosts {
+ public:
+  Ghosts() = default;
+  explicit Ghosts(std::span<const Seed<dim>> seeds) {
+    const std::array<double, dim> none{};
+    for (std::size_t n = 0; n < seeds.size(); ++n) {
+      if (seeds[n].owner == 0 || seeds[n].ghost == none) continue;
+      if (offset_.empty()) first_ = std::uint32_t(n);
+      offset_.resize(n - first_ + 1);
+      offset_.back() = seeds[n].ghost;
+    }
+    built_ = offset_;
+  }
+  bool empty() const { return offset_.empty(); }
+  std::array<double, dim> offset(std::uint32_t id) const {
+    return id >= first_ && id - first_ < offset_.size() ? offset_[id - first_] : std::array<double, dim>{};
+  }
+  /// Turns the offsets of a body's particles from how they were built; `turn` from the attitude then to the attitude now.
+  void turn(const Solid& solid, const Eigen::Quaterniond& turn) {
+    for (std::uint32_t id = solid.first_id; id < solid.first_id + solid.local.size(); ++id)
+      if (id >= first_ && id - first_ < offset_.size())
+        offset_[id - first_] = from_earth<dim>(turn * to_earth<dim>(built_[id - first_]));
+  }
+
+ private:
+  std::uint32_t first_ = 0;
+  std::vector<std::array<double, dim>> offset_, built_;
+};
+
+/// Offset to the ghost node of a wall particle beside the box (low, high) of water: its mirror image in the faces it lies beyond.
+template <int dim>
+std::array<double, dim> mirror_in_box(const std::array<double, dim>& x, const std::array<double, dim>& low,
+                                      const std::array<double, dim>& high) {
+  std::array<double, dim> offset{};
+  for (int k = 0; k < dim; ++k) {
+    if (x[k] < low[k]) offset[k] = 2.0 * (low[k] - x[k]);
+    if (x[k] > high[k]) offset[k] = 2.0 * (high[k] - x[k]);
+  }
+  return offset;
+}
+
+/// Sums of one ghost node (in frame of the candidates' shifts) over the water chosen.
+template <class Kernel, int dim, class Real>
+Vec<double, BoundaryModified<dim>::planes> sums_at_node(const Store<dim, Real>& store, const Candidates<dim, Real>& water,
+                                                        int chosen, const Vec<Real, dim>& node, const Kernel& kernel, double mass,
+                                                        double rho0) {
+  using V = NativeWide<Real>;
+  constexpr int planes = BoundaryModified<dim>::planes;
+  const auto near = water.view();
+  Vec<V, planes> sums{};
+  for (int n = 0; n < planes; ++n) sums[n] = V(0);
+  for (int n = 0; n < chosen; ++n) {
+    const std::uint32_t candidate = near.chosen[n];
+    const Real* state = store.pack_of(near.cluster[candidate]);
+    for (int lane = 0; lane < cluster_size; lane += V::size) {
+      const PairState<V, dim> j = load_state<dim, V>(state, lane);
+      Vec<V, dim> x;
+      for (int k = 0; k < dim; ++k) x[k] = V(node[k] + near.shift[k][candidate]) - j.x[k];
+      const V r2 = max(dot(x, x), V(1e-30));
+      Vec<V, dim + 1> fields;
+      fields[0] = j.deviation;
+      for (int k = 0; k < dim; ++k) fields[k + 1] = j.v[k];
+      const V volume = V(Real(mass)) * reciprocal(V(Real(rho0)) + j.deviation);
+      sums += BoundaryModified<dim>::pair_terms(x, kernel.value(r2), kernel.slope(r2), volume, fields, V(Real(kernel.h())),
+                                                V(Real(1.0 / kernel.h())));
+    }
+  }
+  Vec<double, planes> result;
+  for (int n = 0; n < planes; ++n) result[n] = double(sum(sums[n]));
+  return result;
+}
+
+/// Sets the walls of one group. reach: support plus the rounding of boxes; old: how far particles may have gone since they were
+/// sorted into columns [m].
+template <class Kernel, int dim, class Real>
+void apply_boundary(Store<dim, Real>& store, const Columns<dim>& columns, const Ghosts<dim>& ghosts, const Parameters& p,
+                    int group, float reach, double old, const Kernel& kernel, Candidates<dim, Real>& water) {
+  const std::array<double, dim> none{};
+  for (std::uint32_t cluster = store.groups[group].solid; cluster < store.groups[group].end; ++cluster) {
+    Real* state = store.pack_of(cluster);
+    std::array<std::array<double, dim>, cluster_size> offset{};
+    std::array<double, dim> low, high, anchor;
+    low.fill(1e300), high.fill(-1e300);
+    const std::size_t first = std::size_t(cluster) * cluster_size;
+    bool any = false;
+    for (int lane = 0; lane < cluster_size && store.id[first + lane] != no_particle; ++lane) {
+      offset[lane] = ghosts.offset(store.id[first + lane]);
+      if (offset[lane] == none) continue;
+      any = true;
+      for (int k = 0; k < dim; ++k) {
+        const double at = store.anchor[k][cluster] + double(state[k * cluster_size + lane]) + offset[lane][k];
+        low[k] = std::min(low[k], at), high[k] = std::max(high[k], at);
+      }
+    }
+    if (!any) continue;
+    std::array<float, dim> box_low, box_high;
+    for (int k = 0; k < dim; ++k) {
+      anchor[k] = store.anchor[k][cluster];
+      box_low[k] = float(low[k] - store.corner[k]), box_high[k] = float(high[k] - store.corner[k]);
+      low[k] -= double(reach) + old, high[k] += double(reach) + old;
+    }
+    water.clear();
+    columns.for_overlapping(low, high, [&](const Neighbour<dim>& near) {
+      const Group& other = store.groups[near.group];
+      water.add(store, box_low, box_high, anchor, other.fluid, other.solid, near.shift, reach);
+    });
+    for (int lane = 0; lane < cluster_size && store.id[first + lane] != no_particle; ++lane) {
+      if (offset[lane] == none) continue;
+      Vec<Real, dim> node;
+      Vec<double, dim> back, wall, normal;
+      std::array<float, dim> point;
+      for (int k = 0; k < dim; ++k) {
+        node[k] = state[k * cluster_size + lane] + Real(offset[lane][k]);
+        point[k] = store.frame(k, cluster) + float(node[k]);
+        back[k] = -offset[lane][k], wall[k] = store.v[k][first + lane];
+      }
+      const int chosen = water.size() > 0 ? water.choose(point, reach) : 0;
+      const auto seen =
+          BoundaryModified<dim>::seen(sums_at_node(store, water, chosen, node, kernel, p.mass(dim), p.eos.rho0), back, p.h());
+      const double deviation = seen.deviation, rho = p.eos.rho0 + deviation;
+      store.deviation[first + lane] = deviation;
+      state[2 * dim * cluster_size + lane] = Real(deviation);
+      state[(2 * dim + 1) * cluster_size + lane] = Real(p.eos.pressure(deviation) / (rho * rho));
+      Vec<double, dim> velocity = wall;
+      if (seen.water && p.wall != WallChoice::still) {
+        const double length = std::sqrt(dot(back, back));
+        for (int k = 0; k < dim; ++k) normal[k] = -back[k] / length;
+        velocity = BoundaryModified<dim>::velocity(seen.velocity, wall, normal, p.wall == WallChoice::free_slip);
+      }
+      for (int k = 0; k < dim; ++k) state[(dim + k) * cluster_size + lane] = Real(velocity[k]);
+    }
+  }
+}
+
+}  // namespace spindrift::sph
