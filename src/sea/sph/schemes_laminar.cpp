@@ -1,6 +1,7 @@
 // The pair sweeps with laminar viscosity, with and without sub-particle stress: see schemes.hpp.
 // Called through Schemes::rates; tested in tests/src/sea/sph/viscosity_test.cpp and
 // tests/verification/sea_sph/viscous_flow_test.cpp. SPDX-License-Identifier: Apache-2.0
+#include "kernels/sph/density_diffusion_fourtakas.hpp"
 #include "src/sea/sph/schemes.hpp"
 
 namespace spindrift::sph {

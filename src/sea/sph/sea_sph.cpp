@@ -8,6 +8,7 @@
 #include <string>
 
 #include "kernels/base/failure.hpp"
+#include "src/sea/sph/filters.hpp"
 #include "src/sea/sph/schemes.hpp"
 #include "src/sea/sph/step.hpp"
 

@@ -1,0 +1,66 @@
+// The sweeps beside that of the rates: strain, modified boundaries, filters, shifting: see schemes.hpp.
+// Called through Schemes; tested in tests/src/sea/sph/filters_test.cpp, viscosity_test.cpp and boundary_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/sph/filters.hpp"
+#include "src/sea/sph/schemes.hpp"
+
+namespace spindrift::sph {
+
+template <int dim, class Real>
+GroupSweep<dim, Real> Schemes<dim, Real>::strain() const {
+  if (!p_.sub_particle()) return {};
+  return with_kernel([this](auto kernel) {
+    const LawStrain<decltype(kernel), Real> law{kernel, Real(p_.eos.rho0)};
+    return sweep(law, law);
+  });
+}
+
+template <int dim, class Real>
+GroupBoundary<dim, Real> Schemes<dim, Real>::boundary(const Ghosts<dim>& ghosts) const {
+  if (ghosts.empty()) return {};
+  return with_kernel<GroupBoundary<dim, Real>>([this, &ghosts](auto kernel) {
+    return [kernel, &ghosts, &columns = columns_, &p = p_, reach = reach_](Store<dim, Real>& store, int group,
+                                                                           Candidates<dim, Real>& water) {
+      apply_boundary(store, columns, ghosts, p, group, reach, 2.0 * p.drift(), kernel, water);
+    };
+  });
+}
+
+template <int dim, class Real>
+GroupSweep<dim, Real> Schemes<dim, Real>::filter() const {
+  if (p_.filter == FilterChoice::none) return {};
+  return with_kernel([this](auto kernel) {
+    const auto with = [&](const auto& law) { return sweep(law, law); };
+    using Kernel = decltype(kernel);
+    if (p_.filter == FilterChoice::mls) return with(LawMls<Kernel, Real>{kernel, Real(p_.eos.rho0)});
+    return with(LawShepard<Kernel, Real>{kernel, Real(p_.eos.rho0)});
+  });
+}
+
+template <int dim, class Real>
+GroupSweep<dim, Real> Schemes<dim, Real>::shifting() const {
+  if (p_.shifting == 0.0) return {};
+  return with_kernel([this](auto kernel) {
+    const LawShifting<decltype(kernel)> law{kernel};
+    return sweep(law, law);
+  });
+}
+
+template GroupSweep<2, float> Schemes<2, float>::strain() const;
+template GroupSweep<2, double> Schemes<2, double>::strain() const;
+template GroupSweep<3, float> Schemes<3, float>::strain() const;
+template GroupSweep<3, double> Schemes<3, double>::strain() const;
+template GroupBoundary<2, float> Schemes<2, float>::boundary(const Ghosts<2>&) const;
+template GroupBoundary<2, double> Schemes<2, double>::boundary(const Ghosts<2>&) const;
+template GroupBoundary<3, float> Schemes<3, float>::boundary(const Ghosts<3>&) const;
+template GroupBoundary<3, double> Schemes<3, double>::boundary(const Ghosts<3>&) const;
+template GroupSweep<2, float> Schemes<2, float>::filter() const;
+template GroupSweep<2, double> Schemes<2, double>::filter() const;
+template GroupSweep<3, float> Schemes<3, float>::filter() const;
+template GroupSweep<3, double> Schemes<3, double>::filter() const;
+template GroupSweep<2, float> Schemes<2, float>::shifting() const;
+template GroupSweep<2, double> Schemes<2, double>::shifting() const;
+template GroupSweep<3, float> Schemes<3, float>::shifting() const;
+template GroupSweep<3, double> Schemes<3, double>::shifting() const;
+
+}  // namespace spindrift::sph
