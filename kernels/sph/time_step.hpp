@@ -13,8 +13,13 @@
 namespace spindrift::sph {
 
 struct StepLimits {
-  double acoustic, force, viscous;  ///< [s]
-  double smallest() const { return std::min({acoustic, force, viscous}); }
+  double acoustic, force, viscous;                        ///< [s]
+  double body = std::numeric_limits<double>::infinity();  ///< of the lightest floating body [s]
+  double smallest() const { return std::min({acoustic, force, viscous, body}); }
+  const char* name() const {
+    const double limit = smallest();
+    return limit == body ? "light body" : limit == viscous ? "viscous" : limit == force ? "force" : "acoustic";
+  }
 };
 
 inline StepLimits step_limits(double cfl, double h, double c0, double max_speed, double max_acceleration, double viscosity_m2_s) {
@@ -27,5 +32,8 @@ inline StepLimits step_limits(double cfl, double h, double c0, double max_speed,
 inline double step_limit_body(double relative_weight, double layers, double spacing, double c0) {
   return 2.0 * std::sqrt(relative_weight * layers) * spacing / c0;
 }
+
+/// Largest stable step [s] of a mass on a spring (a mooring line, a contact): omega dt = 2.
+inline double step_limit_spring(double mass, double stiffness) { return 2.0 * std::sqrt(mass / stiffness); }
 
 }  // namespace spindrift::sph

@@ -39,6 +39,10 @@ struct Parameters {
   int filter_every = 30;  ///< steps between two density filters
   double shifting = 0.0;  ///< strength A of particle shifting, 0 for none, else 1 to 6
   double cfl = 0.2;
+  bool contact = true;             ///< of bodies with walls and with each other
+  double contact_stiffness = 1.0;  ///< of a face against a face, over the water's own; contact.hpp says how
+  double contact_damping = 0.2;    ///< share of critical for one layer of the weight of water
+  double contact_friction = 0.0;   ///< Coulomb's coefficient
   int verlet_join_every = 40;
   std::size_t lost_at_most = 0;    ///< particles that may leave the domain before the run stops
   double drift_over_d = 0.5;       ///< distance a particle may go between two sorts, in spacings

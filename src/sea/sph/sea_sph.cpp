@@ -37,7 +37,7 @@ std::string place_of(const std::array<double, dim>& x) {
 
 template <int dim, class Real>
 SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds)
-    : p_(parameters), particles_(seeds.size()) {
+    : p_(parameters), body_limit_(std::numeric_limits<double>::infinity()), particles_(seeds.size()) {
   const double reach = p_.reach() + 2.0 * p_.drift();
   columns_ = Columns<dim>(domain, reach, p_.column_over_reach * reach);
   fill(store_, seeds, columns_, p_.anchor_step());
@@ -102,6 +102,12 @@ void SeaSph<dim, Real>::evaluate_packed() {
     for_groups(work_.correct_s, [&](int group) { apply_stress(store_, extra_sums_, p_, group); });
   }
   run(rates_, store_.sums);
+  if (p_.contact && !free_.empty()) {
+    const Contact law = contact_law(p_, dim);
+    std::vector<std::vector<Touch>> touches(columns_.groups());
+    for_groups(work_.correct_s, [&](int group) { find_contacts(store_, columns_, free_, law, group, touches[group]); });
+    contacts_ = merge_contacts(touches);
+  }
   ++work_.evaluations;
 }
 
@@ -129,8 +135,9 @@ double SeaSph<dim, Real>::begin_step(double dt_max) {
   Extremes most;
   for (int group = 0; group < columns_.groups(); ++group) most.merge(extremes(store_, p_, group));
   const double speed = std::sqrt(most.speed2), acceleration = std::sqrt(most.acceleration2);
-  const double limit =
-      step_limits(p_.cfl, p_.h(), p_.eos.c0, speed, acceleration, p_.laminar() ? std::max(p_.nu, p_.nu_solid) : 0.0).smallest();
+  limits_ = step_limits(p_.cfl, p_.h(), p_.eos.c0, speed, acceleration, p_.laminar() ? std::max(p_.nu, p_.nu_solid) : 0.0);
+  limits_.body = body_limit_;
+  const double limit = limits_.smallest();
   constexpr double smallest_share = 1e-4;  // of the step of water at rest: speeds of 1e4 c0 are no flow
   if (!(limit > smallest_share * p_.cfl * p_.h() / p_.eos.c0))
     throw NumericalFailure("sea: the step fell to " + std::to_string(limit) + " s (largest speed " + std::to_string(speed) +
@@ -187,11 +194,38 @@ void SeaSph<dim, Real>::filter_if_due() {
 }
 
 template <int dim, class Real>
+void SeaSph<dim, Real>::add_body(std::uint16_t owner, const Motion& motion, double mass) {
+  solids_.push_back(solid_from(store_, owner, motion));
+  built_.push_back(motion);
+  if (mass <= 0.0) return;
+  const Solid& solid = solids_.back();
+  free_.push_back(box_of<dim>(solid, motion));
+  const double relative_weight = mass / (double(solid.local.size()) * p_.mass(dim));
+  // Half of what is stable for a body pressed from one side: it is wet all round, and turns.
+  body_limit_ = std::min(body_limit_, 0.5 * step_limit_body(relative_weight, solid.layers(p_.spacing), p_.spacing, p_.eos.c0));
+}
+
+template <int dim, class Real>
+Wrench SeaSph<dim, Real>::contact_on(std::uint16_t owner, const Eigen::Vector3d& about, int of) const {
+  Wrench total{.point = about};
+  for (const Touch& touch : contacts_) {
+    if (touch.on != owner && touch.of != owner) continue;
+    if (of >= 0 && int(touch.on == owner ? touch.of : touch.on) != of) continue;
+    Wrench wrench = touch.wrench.about(about);
+    if (touch.of == owner) wrench.force = -wrench.force, wrench.moment = -wrench.moment;
+    total += wrench;
+  }
+  return total;
+}
+
+template <int dim, class Real>
 void SeaSph<dim, Real>::place_body(std::uint16_t owner, const Motion& motion) {
   for (std::size_t n = 0; n < solids_.size(); ++n) {
     if (solids_[n].owner != owner) continue;
     solid_drift_ += place(store_, columns_.domain(), solids_[n], motion);
-    if (!ghosts_.empty()) ghosts_.turn(solids_[n], motion.attitude * built_[n].conjugate());
+    for (BodyBox<dim>& box : free_)
+      if (box.owner == owner) box = box_of<dim>(solids_[n], motion);
+    if (!ghosts_.empty()) ghosts_.turn(solids_[n], motion.attitude * built_[n].attitude.conjugate());
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "kernels/sph/time_step.hpp"
 #include "src/sea/sph/boundary.hpp"
+#include "src/sea/sph/contact.hpp"
 #include "src/sea/sph/ordering.hpp"
 #include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/solids.hpp"
@@ -44,14 +45,19 @@ class SeaSph {
   /// Rates of the state at n, left in store().sums: what begin_step starts with.
   void evaluate();
 
-  /// Declares that the particles of `owner` are a body that is now in `motion`.
-  void add_body(std::uint16_t owner, const Motion& motion) {
-    solids_.push_back(solid_from(store_, owner, motion));
-    built_.push_back(motion.attitude);
-  }
+  /// Declares that the particles of `owner` are a body that is now in `motion`. A body with a mass [kg] (per metre of width in
+  /// 2-D) is free: it bounds the step and touches walls and other bodies; one without is driven, and only touched.
+  void add_body(std::uint16_t owner, const Motion& motion, double mass = 0.0);
   void place_body(std::uint16_t owner, const Motion& motion);
   /// Force of the water on the particles of an owner (a body or a wall), about a point.
   Wrench load_on(std::uint16_t owner, const Eigen::Vector3d& about) const { return load(store_, owner, p_.mass(dim), about); }
+
+  /// Contact forces at the last evaluation, each with the two owners it acts between; none of them is in load_on.
+  const std::vector<Touch>& contacts() const { return contacts_; }
+  /// Contact force on an owner, of all others or of one, about a point.
+  Wrench contact_on(std::uint16_t owner, const Eigen::Vector3d& about, int of = -1) const;
+  /// What bounded the last step: acoustic, force, viscous or light body.
+  const StepLimits& limits() const { return limits_; }
 
   const Parameters& parameters() const { return p_; }
   const Columns<dim>& columns() const { return columns_; }
@@ -77,7 +83,11 @@ class SeaSph {
   Columns<dim> columns_;
   Store<dim, Real> store_;
   std::vector<Solid> solids_;
-  std::vector<Eigen::Quaterniond> built_;  // attitude of each solid when it was added
+  std::vector<Motion> built_;       // of each solid when it was added
+  std::vector<BodyBox<dim>> free_;  // boxes round the free bodies
+  double body_limit_;               // on the step [s]
+  StepLimits limits_{};
+  std::vector<Touch> contacts_;
   Ghosts<dim> ghosts_;
   std::function<void(Store<dim, Real>&, int, Candidates<dim, Real>&)> boundary_;  // empty where no wall has a ghost node
   Sweep rates_, strain_, filter_, shifting_;  // pair sweeps of one group with the scene's schemes; empty where there is none

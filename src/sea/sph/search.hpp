@@ -101,7 +101,8 @@ class Candidates {
     std::uint32_t* const to = cluster_.data();
     int found = count_;
     for (std::uint32_t from = first; from < end; from += Boxes::size)
-      found += append_where_below(to + found, gap2<dim>(low, high, from, box_low, box_high), reach * reach, from, int(end - from));
+      found +=
+          append_where_below(to + found, gap2<dim>(low, high, from, box_low, box_high), reach * reach, from, int(end - from));
     count_ = found;
     for (int n = before; n < count_; ++n) {
       const std::uint32_t other = cluster_[n];

@@ -1,5 +1,5 @@
 // Solids made of particles: which particles belong to a body, moving them with it, and the force of the water on it.
-// Forces come from pairs with water only: contact of bodies with walls or with each other is not modelled here.
+// These forces come from pairs with water only: contact of bodies with walls and with each other is contact.hpp's.
 // The reduction runs over clusters in their order, which the scene and the state fix: the same bits for any number of threads.
 // Called by sea_sph.cpp; tested in tests/src/sea/sph/solids_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
@@ -37,6 +37,20 @@ struct Solid {
   std::uint16_t owner = 0;
   std::uint32_t first_id = 0;
   std::vector<Eigen::Vector3d> local;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = Eigen::Vector3d::Constant(-1e300);  ///< box of `local`
+
+  /// Particles across it where it is thinnest: those it has over those it shows along the axis that shows most.
+  double layers(double spacing) const {
+    const Eigen::Vector3d extent = (high - low).array() + spacing;
+    double volume = 0.0, largest_face = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      if (high[k] == low[k]) continue;  // the axis that a 2-D scene lacks
+      const double face = (extent / spacing).prod() / (extent[k] / spacing);
+      largest_face = std::max(largest_face, face);
+    }
+    volume = double(local.size());
+    return std::max(1.0, largest_face > 0.0 ? volume / largest_face : 1.0);
+  }
 };
 
 /// Reads a body's particles where they are now, under its motion now.
@@ -58,7 +72,9 @@ Solid solid_from(const Store<dim, Real>& store, std::uint16_t owner, const Motio
   visit([&](std::size_t slot) {
     std::array<double, dim> x;
     for (int k = 0; k < dim; ++k) x[k] = store.x[k][slot];
-    solid.local[store.id[slot] - solid.first_id] = motion.attitude.conjugate() * (to_earth<dim>(x) - motion.position);
+    const Eigen::Vector3d local = motion.attitude.conjugate() * (to_earth<dim>(x) - motion.position);
+    solid.local[store.id[slot] - solid.first_id] = local;
+    solid.low = solid.low.cwiseMin(local), solid.high = solid.high.cwiseMax(local);
   });
   return solid;
 }

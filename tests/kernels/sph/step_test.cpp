@@ -75,6 +75,14 @@ TEST_CASE("step limits are those of sound, force and viscosity", "[sph][fast]") 
   CHECK(limits.force == Approx(0.2 * 0.01));
   CHECK(limits.viscous == Approx(0.125 * 1e-4 / 1e-3));
   CHECK(limits.smallest() == limits.acoustic);
+  CHECK(std::string(limits.name()) == "acoustic");
+  StepLimits light = limits;
+  light.body = step_limit_body(0.01, 1.0, 0.01, 34.0);  // a sheet of cork: omega = c0/(d sqrt(w n))
+  CHECK(light.body == Approx(2.0 * 0.1 * 0.01 / 34.0));
+  light.body *= 0.1;
+  CHECK(std::string(light.name()) == "light body");
+  CHECK(light.smallest() == light.body);
+  CHECK(step_limit_spring(4.0, 100.0) == Approx(0.4));
   CHECK(step_limits(0.2, 0.01, 34.0, 1.0, 0.0, 0.0).force > 1e300);
   CHECK(step_limits(0.2, 0.01, 34.0, 1e150, 1e150, 0.0).smallest() < 1e-70);
 }
