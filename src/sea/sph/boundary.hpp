@@ -1,7 +1,7 @@
 // Modified dynamic boundaries as a sweep: every wall particle with a ghost node takes its density, and for no-slip or free-slip
 // its velocity, from the water round the node (kernels/sph/boundary_modified.hpp). Runs on packed state before the pair sweeps;
 // a group writes its own walls only and reads water of the columns its nodes reach, so all groups may run at once.
-// Called by sea_sph.cpp; tested in tests/src/sea/sph/boundary_test.cpp and tests/verification/sea_sph/viscous_flow_test.cpp.
+// Called by tasks.cpp; tested in tests/src/sea/sph/boundary_test.cpp and tests/verification/sea_sph/viscous_flow_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,7 +2,7 @@
 // closer than a spacing (kernels/sph/contact.hpp). A group finds the pairs inside itself and with its forward neighbours, in the
 // order of clusters and lanes, so sums over groups in order are the same bits for any number of threads. Clusters are looked at
 // only where the box round a body reaches them: a body afloat far from walls costs one test per cluster of wall. Called by
-// sea_sph.cpp; tested in tests/src/sea/sph/contact_test.cpp. SPDX-License-Identifier: Apache-2.0
+// tasks.cpp; tested in tests/src/sea/sph/contact_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/sph/contact.hpp"
@@ -40,12 +40,26 @@ inline Contact contact_law(const Parameters& p, int dim) {
   return {p.spacing, p.mass(dim), p.eos.c0, p.contact_stiffness, p.contact_damping, p.contact_friction};
 }
 
-/// Appends the contacts that a group has to compute. Positions are those of the planes, velocities those of the solids.
+/// Appends the contacts that a group has to compute. Positions are those of the planes, which all ranks beside have; velocities
+/// those of the bodies' motions; whatever is no body rests.
 template <int dim, class Real>
-void find_contacts(const Store<dim, Real>& store, const Columns<dim>& columns, const std::vector<BodyBox<dim>>& bodies,
+void find_contacts(const Store<dim, Real>& store, const Columns<dim>& columns, const std::vector<Solid>& solids,
+                   const std::vector<BodyBox<dim>>& bodies,
                    const Contact& law, int group, std::vector<Touch>& touches) {
   const auto is_body = [&](std::uint16_t owner) {
     return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) { return body.owner == owner; });
+  };
+  const auto velocity = [&](std::uint16_t owner, const Vec<double, dim>& at) {
+    Vec<double, dim> v{};
+    for (const Solid& solid : solids) {
+      if (solid.owner != owner) continue;
+      std::array<double, dim> x;
+      for (int k = 0; k < dim; ++k) x[k] = at[k];
+      const Motion& m = solid.motion;
+      const auto u = from_earth<dim>(m.velocity + m.omega_earth().cross(to_earth<dim>(x) - m.position));
+      for (int k = 0; k < dim; ++k) v[k] = u[k];
+    }
+    return v;
   };
   const auto reached = [&](std::uint32_t cluster) {  // by the box of another body
     for (const BodyBox<dim>& body : bodies) {
@@ -85,8 +99,11 @@ void find_contacts(const Store<dim, Real>& store, const Columns<dim>& columns, c
           const double offset_i = store.pack_of(i)[k * cluster_size + a], offset_j = store.pack_of(j)[k * cluster_size + b];
           x[k] = (store.anchor[k][i] - store.anchor[k][j] - shift[k]) + (offset_i - offset_j);
           at[k] = store.anchor[k][i] + offset_i - 0.5 * x[k];
-          v[k] = store.v[k][i * cluster_size + a] - store.v[k][j * cluster_size + b];
         }
+        if (dot(x, x) >= law.spacing * law.spacing) continue;
+        Vec<double, dim> beside = at;  // where the other one sees it
+        for (int k = 0; k < dim; ++k) beside[k] -= shift[k];
+        v = velocity(store.owner[i], at) - velocity(store.owner[j], beside);
         const Vec<double, dim> force = law.force(x, v);
         if (dot(force, force) > 0.0) add(i, j, at, force);
       }
@@ -112,20 +129,6 @@ void find_contacts(const Store<dim, Real>& store, const Columns<dim>& columns, c
     if (other.solid == other.end) return;
     meet_all(other, reached_in(other), near.shift, false);
   });
-}
-
-/// One list from those of the groups, in their order.
-inline std::vector<Touch> merge_contacts(const std::vector<std::vector<Touch>>& by_group) {
-  std::vector<Touch> all;
-  for (const auto& touches : by_group)
-    for (const Touch& touch : touches) {
-      auto known = std::find_if(all.begin(), all.end(), [&](const Touch& t) { return t.on == touch.on && t.of == touch.of; });
-      if (known == all.end())
-        all.push_back(touch);
-      else
-        known->wrench += touch.wrench;
-    }
-  return all;
 }
 
 }  // namespace spindrift::sph

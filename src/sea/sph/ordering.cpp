@@ -6,24 +6,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/mpi/exchange.hpp"
+
 namespace spindrift::sph {
 namespace {
 
-template <int dim>
-struct Item {
-  std::array<double, dim> x;
-  std::uint32_t id, slot;
-};
+constexpr std::uint32_t lost_key = no_particle - 1;
+
+template <class T>
+void reorder_by(Array<T>& values, const Array<std::uint32_t>& source, T empty) {
+  Array<T> sorted(source.size());
+  for (std::size_t slot = 0; slot < source.size(); ++slot)
+    sorted[slot] = source[slot] == no_particle ? empty : values[source[slot]];
+  values.swap(sorted);
+}
+
+}  // namespace
 
 /// Halves until clusters are left; sizes are multiples of cluster_size but for the last.
-template <int dim>
-void halve(std::span<Item<dim>> items) {
+template <int dim, class Real>
+void Sorting<dim, Real>::halve(std::span<Item> items) {
   if (items.size() <= cluster_size) {
     std::sort(items.begin(), items.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
     return;
   }
   std::array<double, dim> low = items[0].x, high = items[0].x;
-  for (const Item<dim>& item : items)
+  for (const Item& item : items)
     for (int k = 0; k < dim; ++k) low[k] = std::min(low[k], item.x[k]), high[k] = std::max(high[k], item.x[k]);
   int axis = 0;
   for (int k = 1; k < dim; ++k)
@@ -37,152 +45,269 @@ void halve(std::span<Item<dim>> items) {
   halve(items.subspan(left));
 }
 
-/// Where each particle goes: particles of (group, owner) stand together in `items`, `first` bounds them.
-template <int dim>
-struct Plan {
-  std::vector<Item<dim>> items;
-  std::vector<std::size_t> first;  ///< of each (group, owner), and the end
-  int owners = 1;
-};
+/// The arrays that move with a particle, in a fixed order.
+template <int dim, class Real>
+std::vector<Array<double>*> Sorting<dim, Real>::state() {
+  std::vector<Array<double>*> arrays;
+  for (int k = 0; k < dim; ++k) arrays.push_back(&store_.x[k]);
+  for (int k = 0; k < dim; ++k) arrays.push_back(&store_.v[k]);
+  arrays.push_back(&store_.deviation);
+  if (arrays_ > 2 * dim + 2) {
+    for (int k = 0; k < dim; ++k) arrays.push_back(&store_.v_before[k]);
+    arrays.push_back(&store_.deviation_before);
+  }
+  return arrays;
+}
 
 template <int dim, class Real>
-Plan<dim> plan(Store<dim, Real>& store, const Columns<dim>& columns) {
-  Plan<dim> result;
-  for (std::uint16_t owner : store.owner) result.owners = std::max(result.owners, int(owner) + 1);
-  const Domain<dim>& domain = columns.domain();
-  std::vector<std::uint32_t> key(store.slots(), no_particle);
-  result.first.assign(std::size_t(columns.groups()) * result.owners + 1, 0);
-  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
-    if (store.id[slot] == no_particle) continue;
+void Sorting<dim, Real>::begin() {
+  store_.pack = {}, store_.sums = {}, store_.stress = {}, store_.extra_sums = {};
+  store_.id.resize(store_.slots());  // the halo's go
+  key_.assign(store_.slots(), no_particle);
+}
+
+template <int dim, class Real>
+void Sorting<dim, Real>::classify(int part) {
+  const Domain<dim>& domain = columns_.domain();
+  const auto [first, last] = range(store_.slots(), part);
+  for (std::size_t slot = first; slot < last; ++slot) {
+    if (store_.id[slot] == no_particle) continue;
     std::array<double, dim> x;
     for (int k = 0; k < dim; ++k) {
       if (domain.periodic[k]) {
         const double length = domain.high[k] - domain.low[k];
-        store.x[k][slot] -= length * std::floor((store.x[k][slot] - domain.low[k]) / length);
+        store_.x[k][slot] -= length * std::floor((store_.x[k][slot] - domain.low[k]) / length);
       }
-      x[k] = store.x[k][slot];
+      x[k] = store_.x[k][slot];
     }
-    if (!domain.contains(x)) {
-      std::array<double, dim> v;
-      for (int k = 0; k < dim; ++k) v[k] = store.v[k][slot];
-      store.lost.push_back({store.id[slot], x, v});
+    key_[slot] = domain.contains(x)
+                     ? std::uint32_t(columns_.group(x) * store_.owners + store_.owner[slot / cluster_size])
+                     : lost_key;
+  }
+}
+
+template <int dim, class Real>
+void Sorting<dim, Real>::migrate(MPI_Comm comm) {
+  const auto arrays = state();
+  std::vector<runtime::Packer> away(std::size_t(runtime::ranks_in(comm)));
+  runtime::Packer lost;
+  for (std::size_t slot = 0; slot < key_.size(); ++slot) {
+    if (key_[slot] == no_particle) continue;
+    if (key_[slot] == lost_key) {
+      LostParticle<dim> particle{store_.id[slot], {}, {}};
+      for (int k = 0; k < dim; ++k) particle.position[k] = store_.x[k][slot], particle.velocity[k] = store_.v[k][slot];
+      lost.put_one(particle);
+      key_[slot] = no_particle;
       continue;
     }
-    key[slot] = std::uint32_t(columns.group(x) * result.owners + store.owner[slot / cluster_size]);
-    ++result.first[key[slot] + 1];
+    const int group = int(key_[slot]) / store_.owners;
+    if (territory_.owns(group)) continue;
+    runtime::Packer& to = away[std::size_t(territory_.rank_of_group[std::size_t(group)])];
+    to.put_one(key_[slot]);
+    to.put_one(store_.id[slot]);
+    for (const Array<double>* array : arrays) to.put_one((*array)[slot]);
+    key_[slot] = no_particle;
   }
-  for (std::size_t n = 1; n < result.first.size(); ++n) result.first[n] += result.first[n - 1];
-  result.items.resize(result.first.back());
-  std::vector<std::size_t> next(result.first.begin(), result.first.end() - 1);
-  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
-    if (key[slot] == no_particle) continue;
-    Item<dim>& item = result.items[next[key[slot]]++];
-    for (int k = 0; k < dim; ++k) item.x[k] = store.x[k][slot];
-    item.id = store.id[slot], item.slot = std::uint32_t(slot);
+  std::vector<runtime::Bytes> parcels;
+  for (auto& packer : away) parcels.push_back(packer.take());
+  for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels)) {
+    for (runtime::Unpacker from(bytes); !from.done();) {
+      key_.push_back(from.one<std::uint32_t>());
+      store_.id.push_back(from.one<std::uint32_t>());
+      for (Array<double>* array : arrays) array->push_back(from.one<double>());
+    }
   }
-#pragma omp parallel for schedule(dynamic, 8)
-  for (std::size_t n = 0; n < result.first.size() - 1; ++n)
-    if (result.first[n + 1] > result.first[n])
-      halve(std::span(result.items).subspan(result.first[n], result.first[n + 1] - result.first[n]));
-  return result;
-}
+  const std::size_t known = store_.lost.size();
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm, lost.take()))
+    for (runtime::Unpacker from(bytes); !from.done();) store_.lost.push_back(from.one<LostParticle<dim>>());
+  std::sort(store_.lost.begin() + std::ptrdiff_t(known), store_.lost.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
 
-template <class T>
-void reorder(Array<T>& values, const Array<std::uint32_t>& source, T empty) {
-  if (values.empty()) return;
-  Array<T> sorted(source.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t slot = 0; slot < source.size(); ++slot)
-    sorted[slot] = source[slot] == no_particle ? empty : values[source[slot]];
-  values.swap(sorted);
+  // Count, then put each particle into its bin.
+  std::vector<std::uint32_t> place(std::size_t(columns_.groups()), 0);  // of a group among the own ones
+  for (std::size_t n = 0; n < territory_.own.size(); ++n) place[std::size_t(territory_.own[n])] = std::uint32_t(n);
+  const auto bin_of = [&](std::uint32_t key) {
+    return bin(place[key / std::uint32_t(store_.owners)], int(key % std::uint32_t(store_.owners)));
+  };
+  first_.assign(territory_.own.size() * std::size_t(store_.owners) + 1, 0);
+  for (const std::uint32_t key : key_)
+    if (key != no_particle) ++first_[bin_of(key) + 1];
+  for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
+  items_.resize(first_.back());
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t slot = 0; slot < key_.size(); ++slot) {
+    if (key_[slot] == no_particle) continue;
+    Item& item = items_[next[bin_of(key_[slot])]++];
+    for (int k = 0; k < dim; ++k) item.x[k] = store_.x[k][slot];
+    item.id = store_.id[slot], item.slot = std::uint32_t(slot);
+  }
+  key_ = {};
 }
 
 template <int dim, class Real>
-void place_anchors(Store<dim, Real>& store, double step) {
+void Sorting<dim, Real>::halve(int part) {
+  // Bins differ much in size: each part takes those whose first particle lies in its share.
+  const auto [low, high] = range(items_.size(), part);
+  for (std::size_t n = 0; n + 1 < first_.size(); ++n)
+    if (first_[n] >= low && first_[n] < high && first_[n + 1] > first_[n])
+      halve(std::span(items_).subspan(first_[n], first_[n + 1] - first_[n]));
+}
+
+template <int dim, class Real>
+void Sorting<dim, Real>::lay_out() {
+  store_.groups.assign(std::size_t(columns_.groups()), Group{});
+  store_.owner.clear();
+  store_.longest = 0;
+  for (std::size_t own = 0; own < territory_.own.size(); ++own) {
+    Group& group = store_.groups[std::size_t(territory_.own[own])];
+    group.fluid = std::uint32_t(store_.owner.size());
+    for (int owner = 0; owner < store_.owners; ++owner) {
+      if (owner == 1) group.solid = std::uint32_t(store_.owner.size());
+      store_.owner.insert(store_.owner.end(), clusters_of(bin(own, owner)), std::uint16_t(owner));
+    }
+    group.end = std::uint32_t(store_.owner.size());
+    if (store_.owners == 1) group.solid = group.end;
+    store_.longest = std::max<std::size_t>(store_.longest, group.end - group.fluid);
+  }
+  source_.assign(store_.owner.size() * cluster_size, no_particle);
+  std::size_t slot = 0;
+  for (std::size_t n = 0; n + 1 < first_.size(); ++n) {
+    for (std::size_t item = first_[n]; item < first_[n + 1]; ++item) source_[slot + item - first_[n]] = items_[item].slot;
+    slot += clusters_of(n) * cluster_size;
+  }
+  items_ = {};
+}
+
+template <int dim, class Real>
+void Sorting<dim, Real>::reorder(int array) {
+  if (array == arrays_ - 1) return reorder_by(store_.id, source_, no_particle);
+  // Not through state(): while another task swaps its array, only this one's may be looked at.
+  if (array < dim) return reorder_by(store_.x[array], source_, 0.0);
+  if (array < 2 * dim) return reorder_by(store_.v[array - dim], source_, 0.0);
+  if (array == 2 * dim) return reorder_by(store_.deviation, source_, 0.0);
+  if (array < 3 * dim + 1) return reorder_by(store_.v_before[array - 2 * dim - 1], source_, 0.0);
+  reorder_by(store_.deviation_before, source_, 0.0);
+}
+
+template <int dim, class Real>
+void Sorting<dim, Real>::anchor(int part) {
+  const auto [first, last] = range(store_.clusters(), part);
   for (int k = 0; k < dim; ++k) {
-    store.anchor[k].resize(store.clusters());
-    for (std::size_t cluster = 0; cluster < store.clusters(); ++cluster) {
+    for (std::size_t cluster = first; cluster < last; ++cluster) {
       double low = 1e300, high = -1e300;
       for (std::size_t slot = cluster * cluster_size; slot < (cluster + 1) * cluster_size; ++slot)
-        if (store.id[slot] != no_particle) low = std::min(low, store.x[k][slot]), high = std::max(high, store.x[k][slot]);
-      store.anchor[k][cluster] = step * std::round(0.5 * (low + high) / step);
+        if (store_.id[slot] != no_particle) low = std::min(low, store_.x[k][slot]), high = std::max(high, store_.x[k][slot]);
+      store_.anchor[k][cluster] = anchor_step_ * std::round(0.5 * (low + high) / anchor_step_);
     }
   }
 }
 
-}  // namespace
+template <int dim, class Real>
+void Sorting<dim, Real>::show(MPI_Comm comm) {
+  show_halo(store_, columns_, territory_, comm);
+  source_ = {};
+}
 
 template <int dim, class Real>
-void sort(Store<dim, Real>& store, const Columns<dim>& columns, double anchor_step) {
-  // The planes hold nothing between sweeps: giving them back first makes room for the plan, so that a sort never sets the memory
-  // needed.
-  store.pack = {}, store.sums = {};
-  Array<std::uint32_t> source;
-  {
-    const Plan<dim> order = plan(store, columns);
-    const auto clusters_of = [&](std::size_t n) {
-      return (order.first[n + 1] - order.first[n] + cluster_size - 1) / cluster_size;
-    };
-    store.groups.resize(columns.groups());
-    store.owner.clear();
-    for (int group = 0; group < columns.groups(); ++group) {
-      store.groups[group].fluid = std::uint32_t(store.owner.size());
-      for (int owner = 0; owner < order.owners; ++owner) {
-        if (owner == 1) store.groups[group].solid = std::uint32_t(store.owner.size());
-        store.owner.insert(store.owner.end(), clusters_of(std::size_t(group) * order.owners + owner), std::uint16_t(owner));
-      }
-      store.groups[group].end = std::uint32_t(store.owner.size());
-      if (order.owners == 1) store.groups[group].solid = store.groups[group].end;
-    }
-    source.assign(store.owner.size() * cluster_size, no_particle);
-    std::size_t slot = 0;
-    for (std::size_t n = 0; n + 1 < order.first.size(); ++n) {
-      for (std::size_t item = order.first[n]; item < order.first[n + 1]; ++item)
-        source[slot + item - order.first[n]] = order.items[item].slot;
-      slot += clusters_of(n) * cluster_size;
-    }
-  }
-  for (int k = 0; k < dim; ++k)
-    reorder(store.x[k], source, 0.0), reorder(store.v[k], source, 0.0), reorder(store.v_before[k], source, 0.0);
-  reorder(store.deviation, source, 0.0), reorder(store.deviation_before, source, 0.0);
-  reorder(store.id, source, no_particle);
+void Sorting<dim, Real>::all(MPI_Comm comm) {
+  begin();
+  for (int part = 0; part < parts; ++part) classify(part);
+  migrate(comm);
+  for (int part = 0; part < parts; ++part) halve(part);
+  lay_out();
+  const int count = arrays();
+  for (int array = 0; array < count; ++array) reorder(array);
+  make_anchors();
+  for (int part = 0; part < parts; ++part) anchor(part);
+  show(comm);
+}
+
+template <int dim, class Real>
+void Sorting<dim, Real>::make_anchors() {
+  for (int k = 0; k < dim; ++k) store_.anchor[k].resize(store_.clusters());
+}
+
+template <int dim, class Real>
+void show_halo(Store<dim, Real>& store, const Columns<dim>& columns, const Territory& territory, MPI_Comm comm) {
   store.corner = columns.domain().low;
-  place_anchors(store, anchor_step);
-  store.pack.resize(store.clusters() * pack_planes<dim> * cluster_size);
-  store.sums.resize(store.clusters() * sum_planes<dim> * cluster_size);
+  std::vector<runtime::Bytes> parcels(std::size_t(runtime::ranks_in(comm)));
+  for (const Territory::Border& border : territory.borders) {
+    runtime::Packer packer;
+    for (const int g : border.shown) {
+      const Group& group = store.groups[std::size_t(g)];
+      const std::size_t count = group.end - group.fluid;
+      packer.put_one(group.solid - group.fluid);
+      packer.put(std::span<const std::uint16_t>(store.owner.data() + group.fluid, count));
+      packer.put(std::span<const std::uint32_t>(store.id.data() + std::size_t(group.fluid) * cluster_size, count * cluster_size));
+      for (int k = 0; k < dim; ++k) packer.put(std::span<const double>(store.anchor[k].data() + group.fluid, count));
+    }
+    parcels[std::size_t(border.rank)] = packer.take();
+  }
+  if (runtime::ranks_in(comm) > 1) {
+    const auto came = runtime::exchange(comm, parcels);
+    const auto append = [](auto& to, const auto& values) { to.insert(to.end(), values.begin(), values.end()); };
+    for (const Territory::Border& border : territory.borders) {
+      runtime::Unpacker from(came[std::size_t(border.rank)]);
+      for (const int g : border.seen) {
+        Group& group = store.groups[std::size_t(g)];
+        group.fluid = std::uint32_t(store.owner.size());
+        group.solid = group.fluid + from.one<std::uint32_t>();
+        append(store.owner, from.many<std::uint16_t>());
+        append(store.id, from.many<std::uint32_t>());
+        for (int k = 0; k < dim; ++k) append(store.anchor[k], from.many<double>());
+        group.end = std::uint32_t(store.owner.size());
+        store.longest = std::max<std::size_t>(store.longest, group.end - group.fluid);
+      }
+    }
+  }
+  store.pack.resize(store.seen_clusters() * pack_planes<dim> * cluster_size);
+  store.sums.resize(store.seen_clusters() * sum_planes<dim> * cluster_size);
+  store.stress.resize(store.seen_clusters() * std::size_t(store.stress_planes) * cluster_size);
+  for (std::size_t n = 0; n < store.extra_sums.size(); ++n)
+    store.extra_sums[n].resize(store.seen_clusters() * std::size_t(store.extra_planes[n]) * cluster_size);
   for (int k = 0; k < dim; ++k) {
-    // The search reads boxes sixteen at a time: one register more than there are clusters.
-    store.low[k].resize(store.clusters() + cluster_size);
-    store.high[k].resize(store.clusters() + cluster_size);
+    // The search reads boxes a register at a time: one register more than there are clusters.
+    store.low[k].resize(store.seen_clusters() + cluster_size);
+    store.high[k].resize(store.seen_clusters() + cluster_size);
   }
 }
 
 template <int dim, class Real>
-void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, double anchor_step) {
-  // A provisional order, one owner per cluster, which sort() then replaces.
+void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, const Territory& territory,
+          MPI_Comm comm, double anchor_step) {
+  // A provisional order, one owner per cluster, which the sort then replaces.
+  const auto extra_planes = store.extra_planes;
+  const int stress_planes = store.stress_planes;
   store = {};
-  std::uint16_t owners = 0;
-  for (const Seed<dim>& seed : seeds) owners = std::max<std::uint16_t>(owners, seed.owner + 1);
-  for (std::uint16_t owner = 0; owner < owners; ++owner) {
-    for (std::size_t n = 0; n < seeds.size(); ++n) {
-      if (seeds[n].owner != owner) continue;
+  store.extra_planes = extra_planes, store.stress_planes = stress_planes;
+  for (const Seed<dim>& seed : seeds) store.owners = std::max<int>(store.owners, seed.owner + 1);
+  std::vector<std::vector<std::uint32_t>> of_owner(std::size_t(store.owners));
+  const auto group_of = [&](const Seed<dim>& seed) {
+    return columns.domain().contains(seed.position) ? columns.group(seed.position) : 0;  // the sort lists those outside as lost
+  };
+  for (std::size_t n = 0; n < seeds.size(); ++n)
+    if (territory.owns(group_of(seeds[n]))) of_owner[seeds[n].owner].push_back(std::uint32_t(n));
+  for (int owner = 0; owner < store.owners; ++owner) {
+    for (const std::uint32_t n : of_owner[std::size_t(owner)]) {
       for (int k = 0; k < dim; ++k) store.x[k].push_back(seeds[n].position[k]), store.v[k].push_back(seeds[n].velocity[k]);
       store.deviation.push_back(seeds[n].deviation);
-      store.id.push_back(std::uint32_t(n));
+      store.id.push_back(n);
     }
     const std::size_t clusters = (store.id.size() + cluster_size - 1) / cluster_size;
     store.id.resize(clusters * cluster_size, no_particle);
     store.deviation.resize(clusters * cluster_size, 0.0);
     for (int k = 0; k < dim; ++k)
       store.x[k].resize(clusters * cluster_size, 0.0), store.v[k].resize(clusters * cluster_size, 0.0);
-    store.owner.resize(clusters, owner);
+    store.owner.resize(clusters, std::uint16_t(owner));
   }
-  sort(store, columns, anchor_step);
+  Sorting<dim, Real>(store, columns, territory, anchor_step).all(comm);
 }
 
-#define SPINDRIFT_SPH_INSTANTIATE(dim, Real)                                     \
-  template void sort<dim, Real>(Store<dim, Real>&, const Columns<dim>&, double); \
-  template void fill<dim, Real>(Store<dim, Real>&, std::span<const Seed<dim>>, const Columns<dim>&, double);
+#define SPINDRIFT_SPH_INSTANTIATE(dim, Real)                                                                                    \
+  template class Sorting<dim, Real>;                                                                                            \
+  template void show_halo<dim, Real>(Store<dim, Real>&, const Columns<dim>&, const Territory&, MPI_Comm);                       \
+  template void fill<dim, Real>(Store<dim, Real>&, std::span<const Seed<dim>>, const Columns<dim>&, const Territory&, MPI_Comm, \
+                                double);
 SPINDRIFT_SPH_INSTANTIATE(2, float)
 SPINDRIFT_SPH_INSTANTIATE(2, double)
 SPINDRIFT_SPH_INSTANTIATE(3, float)

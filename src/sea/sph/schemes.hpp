@@ -1,6 +1,6 @@
 // The choice of schemes: turns a scene's names into one pair sweep of compiled schemes. Made once per scene, called once per
 // group. The sweeps are compiled in schemes_artificial.cpp, schemes_laminar.cpp and schemes_extra.cpp.
-// Called by sea_sph.cpp; tested in tests/src/sea/sph/sweep_test.cpp.
+// Called by schemes.cpp; tested in tests/src/sea/sph/sweep_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,6 +11,7 @@
 #include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/sweep_pairs.hpp"
+#include "src/sea/sph/territory.hpp"
 
 namespace spindrift::sph {
 
@@ -19,12 +20,12 @@ using GroupSweep = std::function<void(Real* sums, int group, Meetings<dim, Real>
 template <int dim, class Real>
 using GroupBoundary = std::function<void(Store<dim, Real>&, int group, Candidates<dim, Real>&)>;
 
-/// Makes sweeps over one store; the store and the columns must outlive them.
+/// Makes sweeps over one store; the store, the columns and the territory must outlive them.
 template <int dim, class Real>
 class Schemes {
  public:
-  Schemes(const Store<dim, Real>& store, const Columns<dim>& columns, const Parameters& p)
-      : store_(store), columns_(columns), p_(p) {
+  Schemes(const Store<dim, Real>& store, const Columns<dim>& columns, const Territory& territory, const Parameters& p)
+      : store_(store), columns_(columns), territory_(territory), p_(p) {
     double length = 0.0;
     for (int k = 0; k < dim; ++k) length += columns.domain().high[k] - columns.domain().low[k];
     reach_ = float(p.reach() + 4e-7 * length);  // boxes are floats from the corner of the domain
@@ -48,14 +49,15 @@ class Schemes {
   GroupSweep<dim, Real> laminar() const;
   template <class Water, class Solid>
   GroupSweep<dim, Real> sweep(const Water& water, const Solid& solid) const {
-    return
-        [&store = store_, &columns = columns_, reach = reach_, water, solid](Real* sums, int group, Meetings<dim, Real>& meets) {
-          sweep_pairs(store, sums, columns, group, reach, meets, water, solid);
-        };
+    return [&store = store_, &columns = columns_, &territory = territory_, reach = reach_, water, solid](
+               Real* sums, int group, Meetings<dim, Real>& meets) {
+      sweep_pairs(store, sums, columns, group, reach, meets, water, solid, [&](int other) { return territory.owns(other); });
+    };
   }
 
   const Store<dim, Real>& store_;
   const Columns<dim>& columns_;
+  const Territory& territory_;
   const Parameters& p_;
   float reach_;
 };

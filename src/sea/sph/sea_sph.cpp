@@ -1,208 +1,198 @@
-// The step over groups: see sea_sph.hpp.
+// The facade over the tasks: see sea_sph.hpp.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/sea_sph.hpp"
 
 #include <omp.h>
 
-#include <chrono>
 #include <string>
 
-#include "kernels/base/failure.hpp"
-#include "src/sea/sph/filters.hpp"
-#include "src/sea/sph/schemes.hpp"
-#include "src/sea/sph/step.hpp"
+#include "runtime/partition/partition.hpp"
 
 namespace spindrift::sph {
-namespace {
-
-/// Adds the wall seconds of its life to a counter.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  double& total_;
-  std::chrono::steady_clock::time_point start_;
-};
-
-template <int dim>
-std::string place_of(const std::array<double, dim>& x) {
-  std::string text = "(";
-  for (int k = 0; k < dim; ++k) text += (k > 0 ? ", " : "") + std::to_string(x[k]);
-  return text + ") m";
-}
-
-}  // namespace
 
 template <int dim, class Real>
-SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds)
-    : p_(parameters), body_limit_(std::numeric_limits<double>::infinity()), particles_(seeds.size()) {
-  const double reach = p_.reach() + 2.0 * p_.drift();
-  columns_ = Columns<dim>(domain, reach, p_.column_over_reach * reach);
-  fill(store_, seeds, columns_, p_.anchor_step());
-  if (p_.step == StepChoice::verlet) store_.v_before = store_.v, store_.deviation_before = store_.deviation;
-  const Schemes<dim, Real> schemes(store_, columns_, p_);
-  ghosts_ = Ghosts<dim>(seeds);
-  boundary_ = schemes.boundary(ghosts_);
-  rates_ = schemes.rates(), strain_ = schemes.strain(), filter_ = schemes.filter(), shifting_ = schemes.shifting();
-  colours_.resize(columns_.colours());
-  for (int group = 0; group < columns_.groups(); ++group) colours_[columns_.colour(group)].push_back(group);
-  scratch_.resize(omp_get_max_threads());
-}
-
-template <int dim, class Real>
-template <class Body>
-void SeaSph<dim, Real>::for_groups(double& seconds, Body&& body) {
-  const Stopwatch watch(seconds);
-#pragma omp parallel for schedule(dynamic, 4)
-  for (int group = 0; group < columns_.groups(); ++group) body(group);
-}
-
-template <int dim, class Real>
-void SeaSph<dim, Real>::sort_if_drifted() {
-  if (std::max(drift_, solid_drift_) <= p_.drift()) return;
-  const Stopwatch watch(work_.sort_s);
-  sort(store_, columns_, p_.anchor_step());
-  drift_ = solid_drift_ = 0.0;
-  ++work_.sorts;
-  if (store_.lost.size() > p_.lost_at_most) {
-    const LostParticle<dim>& last = store_.lost.back();
-    throw NumericalFailure("sea: " + std::to_string(store_.lost.size()) + " particles left the domain (allowed " +
-                               std::to_string(p_.lost_at_most) + "), the last one, " + std::to_string(last.id) + ", at " +
-                               place_of<dim>(last.position) + "; widen the domain or check the walls",
-                           "sea", work_.steps, time_, double(p_.lost_at_most));
+SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds,
+                          Machine machine)
+    : machine_(std::move(machine)), comm_(machine_.comm), s_(parameters, domain), particles_(seeds.size()) {
+  if (machine_.threads <= 0) machine_.threads = omp_get_max_threads();
+  std::vector<int> rank_of_group = machine_.rank_of_group;
+  if (rank_of_group.empty()) {
+    std::vector<GroupCount> counts(std::size_t(s_.columns.groups()));
+    for (int g = 0; g < s_.columns.groups(); ++g) counts[std::size_t(g)] = {g, 0, 0};
+    for (const Seed<dim>& seed : seeds)
+      if (domain.contains(seed.position)) {
+        GroupCount& count = counts[std::size_t(s_.columns.group(seed.position))];
+        ++(seed.owner == 0 ? count.water : count.solid);
+      }
+    for (GroupCount& c : counts) c.water = (c.water + cluster_size - 1) / cluster_size, c.solid = (c.solid + cluster_size - 1) / cluster_size;
+    rank_of_group = comm_.size() == 1 ? std::vector<int>(counts.size(), 0)
+                                      : runtime::partition_blocks(block_graph(s_.columns, counts), {.ranks = comm_.size()}, comm_.get())
+                                            .rank_of_block;
   }
+  s_.ghosts = Ghosts<dim>(seeds);
+  set_territory(std::move(rank_of_group));
+  set_schemes(s_);
+  fill(s_.store, seeds, s_.columns, s_.territory, comm_.get(), s_.p.anchor_step());
+  if (s_.p.step == StepChoice::verlet) s_.store.v_before = s_.store.v, s_.store.deviation_before = s_.store.deviation;
 }
 
 template <int dim, class Real>
-void SeaSph<dim, Real>::prepare(double half_dt) {
-  for_groups(work_.pack_s, [&](int group) { pack(store_, p_, group, half_dt); });
-  if (boundary_) {
-    reserve_scratch();
-    for_groups(work_.pair_s, [&](int group) { boundary_(store_, group, scratch_[omp_get_thread_num()].water); });
-  }
+void SeaSph<dim, Real>::set_territory(std::vector<int> rank_of_group) {
+  if (rank_of_group.size() != std::size_t(s_.columns.groups()))
+    throw std::invalid_argument("sea: ranks are given for " + std::to_string(rank_of_group.size()) + " groups of " +
+                                std::to_string(s_.columns.groups()));
+  forget_programs();
+  s_.territory = territory_of(s_.columns, std::move(rank_of_group), comm_.rank(), s_.ghosts.empty() ? 1 : 2);
 }
 
 template <int dim, class Real>
-void SeaSph<dim, Real>::reserve_scratch() {
-  std::size_t longest = 0;
-  for (const Group& group : store_.groups) longest = std::max<std::size_t>(longest, group.end - group.fluid);
-  constexpr std::size_t columns_met = dim == 2 ? 5 : 25;  // by a ghost node; a pair sweep meets five
-  for (Meetings<dim, Real>& scratch : scratch_) scratch.reserve((boundary_ ? columns_met : 9) * longest);
+void SeaSph<dim, Real>::forget_programs() {
+  for (auto* program : {&sort_, &begin_, &half_, &end_, &window_}) program->reset();
+}
+
+/// Records where that has not been done, runs, and throws what the numerics found wrong.
+template <int dim, class Real>
+template <class Record>
+void SeaSph<dim, Real>::run(std::unique_ptr<Program>& program, Record&& record) {
+  if (!program) {
+    runtime::Graph graph(comm_.get());
+    auto tasks = std::make_unique<StepTasks<dim, Real>>(s_, graph, machine_.threads);
+    record(*tasks);
+    const bool is_window = &program == &window_;
+    program.reset(new Program{std::move(tasks),
+                              runtime::Executor(std::move(graph), {.threads = machine_.threads,
+                                                                   .records = is_window ? machine_.records : 0,
+                                                                   .random_schedule = machine_.random_schedule})});
+  }
+  program->executor.run();
+  if (s_.plan.failure) throw NumericalFailure(*s_.plan.failure);
 }
 
 template <int dim, class Real>
-void SeaSph<dim, Real>::evaluate_packed() {
-  if (strain_) {
-    constexpr int planes = SymmetricTensor<double, dim>::components;
-    extra_sums_.assign(store_.slots() * planes, Real(0));
-    store_.stress.resize(store_.slots() * planes);
-    run(strain_, extra_sums_);
-    for_groups(work_.correct_s, [&](int group) { apply_stress(store_, extra_sums_, p_, group); });
-  }
-  run(rates_, store_.sums);
-  if (p_.contact && !free_.empty()) {
-    const Contact law = contact_law(p_, dim);
-    std::vector<std::vector<Touch>> touches(columns_.groups());
-    for_groups(work_.correct_s, [&](int group) { find_contacts(store_, columns_, free_, law, group, touches[group]); });
-    contacts_ = merge_contacts(touches);
-  }
-  ++work_.evaluations;
+void SeaSph<dim, Real>::sort() {
+  s_.plan.sort = true;
+  run(sort_, [](StepTasks<dim, Real>& tasks) { tasks.sort(); });
 }
 
 template <int dim, class Real>
-void SeaSph<dim, Real>::run(const Sweep& sweep, Array<Real>& sums) {
-  const Stopwatch watch(work_.pair_s);
-  reserve_scratch();
-#pragma omp parallel num_threads(int(scratch_.size()))
-  for (const std::vector<int>& colour : colours_) {
-#pragma omp for schedule(dynamic, 1)
-    for (std::size_t n = 0; n < colour.size(); ++n) sweep(sums.data(), colour[n], scratch_[omp_get_thread_num()]);
-  }
+void SeaSph<dim, Real>::sort_if_due() {
+  if (s_.sort_is_due()) sort();
 }
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::evaluate() {
-  sort_if_drifted();
-  prepare(0.0);
-  evaluate_packed();
+  sort_if_due();
+  s_.plan.planned = 1;
+  run(begin_, [](StepTasks<dim, Real>& tasks) {
+    tasks.evaluate(StepTasks<dim, Real>::Half::begin);
+    tasks.limits();
+  });
+  gather_contacts();
+}
+
+template <int dim, class Real>
+double SeaSph<dim, Real>::step_limit() {
+  evaluate();
+  return s_.plan.limit;
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::start_step(double dt) {
+  s_.start_steps(dt, 1);
 }
 
 template <int dim, class Real>
 double SeaSph<dim, Real>::begin_step(double dt_max) {
-  evaluate();
-  Extremes most;
-  for (int group = 0; group < columns_.groups(); ++group) most.merge(extremes(store_, p_, group));
-  const double speed = std::sqrt(most.speed2), acceleration = std::sqrt(most.acceleration2);
-  limits_ = step_limits(p_.cfl, p_.h(), p_.eos.c0, speed, acceleration, p_.laminar() ? std::max(p_.nu, p_.nu_solid) : 0.0);
-  limits_.body = body_limit_;
-  const double limit = limits_.smallest();
-  constexpr double smallest_share = 1e-4;  // of the step of water at rest: speeds of 1e4 c0 are no flow
-  if (!(limit > smallest_share * p_.cfl * p_.h() / p_.eos.c0))
-    throw NumericalFailure("sea: the step fell to " + std::to_string(limit) + " s (largest speed " + std::to_string(speed) +
-                               " m/s, acceleration " + std::to_string(acceleration) +
-                               " m/s2); try a smaller sea.cfl or more viscosity",
-                           "sea", work_.steps, time_, limit);
-  dt_ = std::min(limit, dt_max);
-  // Over the step a particle goes at most (|v| + dt |a|) dt; the half step's acceleration may be larger, hence the factor two.
-  drift_ += dt_ * (speed + 2.0 * dt_ * acceleration);
-  return dt_;
+  start_step(std::min(step_limit(), dt_max));
+  return s_.plan.dt;
 }
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::half_step() {
-  if (p_.step == StepChoice::verlet) return;
-  prepare(0.5 * dt_);
-  evaluate_packed();
+  if (s_.p.step == StepChoice::verlet) return;
+  run(half_, [](StepTasks<dim, Real>& tasks) { tasks.evaluate(StepTasks<dim, Real>::Half::middle); });
+  gather_contacts();
 }
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::end_step() {
-  const bool join = work_.steps % p_.verlet_join_every == 0;
-  for_groups(work_.correct_s, [&](int group) {
-    if (p_.step == StepChoice::verlet)
-      correct_verlet(store_, p_, group, dt_, join);
-    else
-      correct_symplectic(store_, p_, group, dt_);
+  run(end_, [](StepTasks<dim, Real>& tasks) {
+    tasks.correct();
+    tasks.filters();
   });
-  time_ += dt_;
-  ++work_.steps;
-  filter_if_due();
+  s_.plan.left = s_.plan.dt;
+  s_.finish_steps();
 }
 
 template <int dim, class Real>
-void SeaSph<dim, Real>::filter_if_due() {
-  const auto gather = [&](const Sweep& sweep, int planes) {
-    sort_if_drifted();
-    prepare(0.0);
-    extra_sums_.assign(store_.slots() * planes, Real(0));
-    run(sweep, extra_sums_);
-  };
-  if (filter_ && work_.steps % p_.filter_every == 0) {
-    gather(filter_, p_.filter == FilterChoice::mls ? FilterMls<dim>::planes : FilterShepard::planes);
-    for_groups(work_.correct_s, [&](int group) {
-      p_.filter == FilterChoice::mls ? apply_mls(store_, extra_sums_, group) : apply_shepard(store_, extra_sums_, group);
-    });
-  }
-  if (shifting_) {
-    gather(shifting_, Shifting<dim>::planes);
-    std::vector<double> longest(columns_.groups());
-    for_groups(work_.correct_s, [&](int group) { longest[group] = apply_shifting(store_, extra_sums_, p_, group, dt_); });
-    drift_ += *std::max_element(longest.begin(), longest.end());
-  }
+double SeaSph<dim, Real>::step(double dt_max) {
+  const double dt = begin_step(dt_max);
+  half_step();
+  end_step();
+  return dt;
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::advance(double duration) {
+  if (!(duration > 0.0)) return;
+  s_.plan.left = duration;
+  run(window_, [](StepTasks<dim, Real>& tasks) { tasks.window(); });
+  if (window_->tasks->outdated()) window_ = nullptr;
+  if (comm_.size() > 1) repartition();
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::set_pace(Pace pace) {
+  if (pace.steps_per_look < 1 || pace.dt < 0.0) throw std::invalid_argument("sea: a pace needs steps_per_look >= 1 and dt >= 0");
+  s_.pace = pace;
+  window_ = nullptr;
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::set_bodies(MoveBodies move) {
+  s_.move_bodies = std::move(move);
+  window_ = nullptr;
 }
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::add_body(std::uint16_t owner, const Motion& motion, double mass) {
-  solids_.push_back(solid_from(store_, owner, motion));
-  built_.push_back(motion);
+  s_.solids.push_back(solid_from(s_.store, owner, motion, comm_.get()));
+  forget_programs();
   if (mass <= 0.0) return;
-  const Solid& solid = solids_.back();
-  free_.push_back(box_of<dim>(solid, motion));
-  const double relative_weight = mass / (double(solid.local.size()) * p_.mass(dim));
+  const Solid& solid = s_.solids.back();
+  s_.free.push_back(box_of<dim>(solid, motion));
+  const double relative_weight = mass / (double(solid.local.size()) * s_.p.mass(dim));
   // Half of what is stable for a body pressed from one side: it is wet all round, and turns.
-  body_limit_ = std::min(body_limit_, 0.5 * step_limit_body(relative_weight, solid.layers(p_.spacing), p_.spacing, p_.eos.c0));
+  s_.body_limit = std::min(
+      s_.body_limit, 0.5 * step_limit_body(relative_weight, solid.layers(s_.p.spacing), s_.p.spacing, s_.p.eos.c0));
+}
+
+/// One list of contacts from those of all groups, in the order of groups.
+template <int dim, class Real>
+void SeaSph<dim, Real>::gather_contacts() {
+  if (!s_.has_contacts()) return;
+  struct Part {
+    int group;
+    std::uint16_t on, of;
+    std::array<double, 6> load;
+  };
+  runtime::Packer mine;
+  for (const int g : s_.territory.own)
+    for (const Touch& touch : s_.touches[std::size_t(g)]) {
+      const Eigen::Vector3d &f = touch.wrench.force, &m = touch.wrench.moment;
+      mine.put_one(Part{g, touch.on, touch.of, {f[0], f[1], f[2], m[0], m[1], m[2]}});
+    }
+  std::vector<Part> parts;
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm_.get(), mine.take()))
+    for (runtime::Unpacker from(bytes); !from.done();) parts.push_back(from.one<Part>());
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.group < b.group; });
+  contacts_.clear();
+  for (const Part& part : parts) {
+    auto known = std::find_if(contacts_.begin(), contacts_.end(), [&](const Touch& t) { return t.on == part.on && t.of == part.of; });
+    if (known == contacts_.end()) known = contacts_.insert(known, Touch{part.on, part.of, {}});
+    for (int k = 0; k < 3; ++k)
+      known->wrench.force[k] += part.load[std::size_t(k)], known->wrench.moment[k] += part.load[std::size_t(3 + k)];
+  }
 }
 
 template <int dim, class Real>
@@ -220,29 +210,94 @@ Wrench SeaSph<dim, Real>::contact_on(std::uint16_t owner, const Eigen::Vector3d&
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::place_body(std::uint16_t owner, const Motion& motion) {
-  for (std::size_t n = 0; n < solids_.size(); ++n) {
-    if (solids_[n].owner != owner) continue;
-    solid_drift_ += place(store_, columns_.domain(), solids_[n], motion);
-    for (BodyBox<dim>& box : free_)
-      if (box.owner == owner) box = box_of<dim>(solids_[n], motion);
-    if (!ghosts_.empty()) ghosts_.turn(solids_[n], motion.attitude * built_[n].attitude.conjugate());
+  for (Solid& solid : s_.solids) {
+    if (solid.owner != owner) continue;
+    s_.set_motion(solid, motion);
+    for (const int g : s_.territory.own) place(s_.store, s_.columns.domain(), solid, g);
   }
 }
 
 template <int dim, class Real>
-double SeaSph<dim, Real>::step(double dt_max) {
-  const double dt = begin_step(dt_max);
-  half_step();
-  end_step();
-  return dt;
+Wrench SeaSph<dim, Real>::load_on(std::uint16_t owner, const Eigen::Vector3d& about) const {
+  struct Part {
+    int group;
+    std::array<double, 6> load;
+  };
+  runtime::Packer mine;
+  for (const int g : s_.territory.own) {
+    const Wrench w = load(s_.store, owner, s_.p.mass(dim), about, g);
+    if (w.force != Eigen::Vector3d::Zero() || w.moment != Eigen::Vector3d::Zero())
+      mine.put_one(Part{g, {w.force[0], w.force[1], w.force[2], w.moment[0], w.moment[1], w.moment[2]}});
+  }
+  std::vector<Part> parts;
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm_.get(), mine.take()))
+    for (runtime::Unpacker from(bytes); !from.done();) parts.push_back(from.one<Part>());
+  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.group < b.group; });
+  Wrench total{.point = about};
+  for (const Part& part : parts)
+    for (int k = 0; k < 3; ++k) total.force[k] += part.load[std::size_t(k)], total.moment[k] += part.load[std::size_t(3 + k)];
+  return total;
 }
 
 template <int dim, class Real>
-void SeaSph<dim, Real>::advance(double duration) {
-  for (double left = duration; left > 0.0;) {
-    const double dt = step(left);
-    left = dt < left ? left - dt : 0.0;
+Saved<dim> SeaSph<dim, Real>::save() const {
+  return save_groups(s_, s_.territory.own);
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::restore(std::span<const Saved<dim>> pieces) {
+  restore_groups(s_, pieces);
+  show_halo(s_.store, s_.columns, s_.territory, comm_.get());
+}
+
+template <int dim, class Real>
+std::vector<GroupCount> SeaSph<dim, Real>::counts() const {
+  runtime::Packer mine;
+  for (const int g : s_.territory.own) {
+    const Group& group = s_.store.groups[std::size_t(g)];
+    mine.put_one(GroupCount{g, int(group.solid - group.fluid), int(group.end - group.solid)});
   }
+  std::vector<GroupCount> all;
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm_.get(), mine.take()))
+    for (runtime::Unpacker from(bytes); !from.done();) all.push_back(from.one<GroupCount>());
+  return all;
+}
+
+template <int dim, class Real>
+double SeaSph<dim, Real>::imbalance() const {
+  return runtime::partition_quality(block_graph(s_.columns, counts()), s_.territory.rank_of_group, comm_.size()).imbalance[0];
+}
+
+template <int dim, class Real>
+bool SeaSph<dim, Real>::repartition() {
+  const runtime::BlockGraph graph = block_graph(s_.columns, counts());
+  const auto now = runtime::partition_quality(graph, s_.territory.rank_of_group, comm_.size());
+  if (now.imbalance[0] <= machine_.repartition_above) return false;
+  const runtime::Partition better = runtime::partition_blocks(graph, {.ranks = comm_.size()}, comm_.get());
+  if (better.quality.imbalance[0] > 0.9 * now.imbalance[0]) return false;  // not worth the move
+  return repartition(better.rank_of_block);
+}
+
+template <int dim, class Real>
+bool SeaSph<dim, Real>::repartition(std::vector<int> rank_of_group) {
+  if (rank_of_group == s_.territory.rank_of_group) return false;
+  std::vector<runtime::Bytes> parcels;
+  for (int r = 0; r < comm_.size(); ++r) {
+    std::vector<int> theirs;
+    for (const int g : s_.territory.own)
+      if (rank_of_group.at(std::size_t(g)) == r) theirs.push_back(g);
+    runtime::Packer packer;
+    save_groups(s_, theirs).put(packer);
+    parcels.push_back(packer.take());
+  }
+  std::vector<Saved<dim>> pieces;
+  for (const runtime::Bytes& bytes : runtime::exchange(comm_.get(), parcels)) {
+    runtime::Unpacker from(bytes);
+    pieces.push_back(Saved<dim>::take(from));
+  }
+  set_territory(std::move(rank_of_group));
+  restore(pieces);
+  return true;
 }
 
 template class SeaSph<2, float>;

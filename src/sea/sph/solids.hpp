@@ -1,7 +1,7 @@
 // Solids made of particles: which particles belong to a body, moving them with it, and the force of the water on it.
-// These forces come from pairs with water only: contact of bodies with walls and with each other is contact.hpp's.
-// The reduction runs over clusters in their order, which the scene and the state fix: the same bits for any number of threads.
-// Called by sea_sph.cpp; tested in tests/src/sea/sph/solids_test.cpp.
+// Forces come from pairs with water only: contact of bodies with walls or with each other is not modelled here.
+// Loads are summed group by group, then over groups in their order: the same bits for any number of threads and ranks.
+// Called by sea_sph.cpp and tasks.cpp; tested in tests/src/sea/sph/solids_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,6 +12,7 @@
 
 #include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/wrench.hpp"
+#include "runtime/mpi/exchange.hpp"
 #include "src/sea/sph/store.hpp"
 
 namespace spindrift::sph {
@@ -37,7 +38,10 @@ struct Solid {
   std::uint16_t owner = 0;
   std::uint32_t first_id = 0;
   std::vector<Eigen::Vector3d> local;
+  Motion motion;        ///< in which its particles were placed last
+  double radius = 0.0;  ///< of its farthest particle [m]
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = Eigen::Vector3d::Constant(-1e300);  ///< box of `local`
+  Eigen::Quaterniond built = Eigen::Quaterniond::Identity();  ///< attitude in which it was added
 
   /// Particles across it where it is thinnest: those it has over those it shows along the axis that shows most.
   double layers(double spacing) const {
@@ -51,67 +55,78 @@ struct Solid {
     volume = double(local.size());
     return std::max(1.0, largest_face > 0.0 ? volume / largest_face : 1.0);
   }
+
+  /// A bound on how far any particle goes from the motion now to another one [m]: the same on all ranks.
+  double way_to(const Motion& to) const {
+    const double half_chord = (motion.attitude.conjugate() * to.attitude).vec().norm();
+    return (to.position - motion.position).norm() + 2.0 * half_chord * radius;
+  }
 };
 
-/// Reads a body's particles where they are now, under its motion now.
+/// Reads a body's particles where they are now, on all ranks, under its motion now. Collective.
 template <int dim, class Real>
-Solid solid_from(const Store<dim, Real>& store, std::uint16_t owner, const Motion& motion) {
-  Solid solid{.owner = owner, .first_id = no_particle, .local = {}};
-  std::uint32_t last = 0, count = 0;
-  const auto visit = [&](auto&& with) {
-    for (std::size_t slot = 0; slot < store.slots(); ++slot)
-      if (store.owner[slot / cluster_size] == owner && store.id[slot] != no_particle) with(slot);
-  };
-  visit([&](std::size_t slot) {
-    solid.first_id = std::min(solid.first_id, store.id[slot]), last = std::max(last, store.id[slot]), ++count;
-  });
-  if (count == 0) throw std::invalid_argument("sph: solid " + std::to_string(owner) + " has no particles");
-  if (last - solid.first_id + 1 != count)
-    throw std::invalid_argument("sph: the particles of solid " + std::to_string(owner) + " must be added in one run");
-  solid.local.resize(count);
-  visit([&](std::size_t slot) {
+Solid solid_from(const Store<dim, Real>& store, std::uint16_t owner, const Motion& motion, MPI_Comm comm = MPI_COMM_SELF) {
+  struct Point {
+    std::uint32_t id;
     std::array<double, dim> x;
-    for (int k = 0; k < dim; ++k) x[k] = store.x[k][slot];
-    const Eigen::Vector3d local = motion.attitude.conjugate() * (to_earth<dim>(x) - motion.position);
-    solid.local[store.id[slot] - solid.first_id] = local;
-    solid.low = solid.low.cwiseMin(local), solid.high = solid.high.cwiseMax(local);
-  });
+  };
+  runtime::Packer mine;
+  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
+    if (store.owner[slot / cluster_size] != owner || store.id[slot] == no_particle) continue;
+    Point point{store.id[slot], {}};
+    for (int k = 0; k < dim; ++k) point.x[k] = store.x[k][slot];
+    mine.put_one(point);
+  }
+  std::vector<Point> points;
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take()))
+    for (runtime::Unpacker from(bytes); !from.done();) points.push_back(from.one<Point>());
+  if (points.empty()) throw std::invalid_argument("sph: solid " + std::to_string(owner) + " has no particles");
+  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.id < b.id; });
+  if (points.back().id - points.front().id + 1 != points.size())
+    throw std::invalid_argument("sph: the particles of solid " + std::to_string(owner) + " must be added in one run");
+  Solid solid{.owner = owner, .first_id = points.front().id, .local = {}, .motion = motion, .built = motion.attitude};
+  for (const Point& point : points) {
+    solid.local.push_back(motion.attitude.conjugate() * (to_earth<dim>(point.x) - motion.position));
+    solid.radius = std::max(solid.radius, solid.local.back().norm());
+    solid.low = solid.low.cwiseMin(solid.local.back()), solid.high = solid.high.cwiseMax(solid.local.back());
+  }
   return solid;
 }
 
-/// Puts a body's particles where its motion has them, on periodic axes at the image nearest to where they were; returns the
-/// longest way any of them went [m].
+/// Calls visit(cluster) for the clusters of an owner in a group.
+template <int dim, class Real, class Visit>
+void for_clusters_of(const Store<dim, Real>& store, std::uint16_t owner, int group, Visit&& visit) {
+  const Group& range = store.groups[std::size_t(group)];
+  for (std::size_t cluster = range.solid; cluster < range.end; ++cluster)
+    if (store.owner[cluster] == owner) visit(cluster);
+}
+
+/// Puts a body's particles in a group where its motion has them, on periodic axes at the image nearest to where they were.
 template <int dim, class Real>
-double place(Store<dim, Real>& store, const Domain<dim>& domain, const Solid& solid, const Motion& motion) {
-  double farthest2 = 0.0;
-  for (std::size_t cluster = 0; cluster < store.clusters(); ++cluster) {
-    if (store.owner[cluster] != solid.owner) continue;
+void place(Store<dim, Real>& store, const Domain<dim>& domain, const Solid& solid, int group) {
+  for_clusters_of(store, solid.owner, group, [&](std::size_t cluster) {
     for (std::size_t slot = cluster * cluster_size; slot < (cluster + 1) * cluster_size && store.id[slot] != no_particle;
          ++slot) {
       const Eigen::Vector3d& local = solid.local[store.id[slot] - solid.first_id];
-      auto x = from_earth<dim>(motion.point(local));
-      const auto v = from_earth<dim>(motion.point_velocity(local));
-      double way2 = 0.0;
+      auto x = from_earth<dim>(solid.motion.point(local));
+      const auto v = from_earth<dim>(solid.motion.point_velocity(local));
       for (int k = 0; k < dim; ++k) {
         if (domain.periodic[k]) {
           const double length = domain.high[k] - domain.low[k];
           x[k] += length * std::round((store.x[k][slot] - x[k]) / length);
         }
-        way2 += (x[k] - store.x[k][slot]) * (x[k] - store.x[k][slot]);
         store.x[k][slot] = x[k], store.v[k][slot] = v[k];
       }
-      farthest2 = std::max(farthest2, way2);
     }
-  }
-  return std::sqrt(farthest2);
+  });
 }
 
-/// Force of the water on a solid and its moment about a point, from the sums of the last pair sweep; per metre of width in 2-D.
+/// Force of the water on the part of a solid in a group and its moment about a point, from the sums of the last pair sweep; per
+/// metre of width in 2-D.
 template <int dim, class Real>
-Wrench load(const Store<dim, Real>& store, std::uint16_t owner, double mass, const Eigen::Vector3d& about) {
+Wrench load(const Store<dim, Real>& store, std::uint16_t owner, double mass, const Eigen::Vector3d& about, int group) {
   Wrench total{.point = about};
-  for (std::size_t cluster = 0; cluster < store.clusters(); ++cluster) {
-    if (store.owner[cluster] != owner) continue;
+  for_clusters_of(store, owner, group, [&](std::size_t cluster) {
     const Real* planes = store.pack_of(cluster);
     const Real* sums = store.sums_of(cluster);
     for (int lane = 0; lane < cluster_size && store.id[cluster * cluster_size + lane] != no_particle; ++lane) {
@@ -122,7 +137,7 @@ Wrench load(const Store<dim, Real>& store, std::uint16_t owner, double mass, con
       }
       total.add_force(to_earth<dim>(force), to_earth<dim>(at));
     }
-  }
+  });
   return total;
 }
 

@@ -75,6 +75,19 @@ void pack(Store<dim, Real>& store, const Parameters& p, int group, double half_d
   }
 }
 
+/// Bounding box of a cluster whose planes came from another rank; as `pack` makes it.
+template <int dim, class Real>
+void set_box(Store<dim, Real>& store, std::size_t cluster) {
+  const Real* planes = store.pack_of(cluster);
+  for (int k = 0; k < dim; ++k) {
+    Real low = Real(1e30), high = Real(-1e30);
+    for (int lane = 0; lane < cluster_size && store.id[cluster * cluster_size + lane] != no_particle; ++lane)
+      low = std::min(low, planes[k * cluster_size + lane]), high = std::max(high, planes[k * cluster_size + lane]);
+    store.low[k][cluster] = store.frame(k, cluster) + float(low);
+    store.high[k][cluster] = store.frame(k, cluster) + float(high);
+  }
+}
+
 /// Largest squared speed and acceleration of water in a group.
 struct Extremes {
   double speed2 = 0.0, acceleration2 = 0.0;

@@ -103,9 +103,10 @@ struct Meetings {
 };
 
 /// The pairs of cluster `mine` with all that it meets. Pairs inside a cluster of water are computed from both ends, one-sided.
+/// `inside`: with the pairs inside the cluster.
 template <bool is_water, class LawWater, class LawSolid, int dim, class Real>
 void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t mine, Meetings<dim, Real>& meets, float reach,
-                   const LawWater& water, const LawSolid& solid) {
+                   bool inside, const LawWater& water, const LawSolid& solid) {
   using V = NativeWide<Real>;
   const Real* state = store.pack_of(mine);
   constexpr int planes = LawWater::sum_planes;
@@ -122,7 +123,7 @@ void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t 
     const auto tau_i = spread_stress<LawWater, V>(store, mine, lane);
     Vec<V, planes> to_i{};
     if constexpr (is_water) {
-      particle_against_cluster<false>(to_i, i, tau_i, state, stress, sums, water);
+      if (inside) particle_against_cluster<false>(to_i, i, tau_i, state, stress, sums, water);
       particle_against_chosen(to_i, i, tau_i, store, all_sums, meets.water, meets.water.choose(point, reach), water);
       if (meets.solid.size() > 0)
         particle_against_chosen(to_i, i, tau_i, store, all_sums, meets.solid, meets.solid.choose(point, reach), solid);
@@ -135,30 +136,44 @@ void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t 
 
 /// The pairs of one group: water with water by the law `water`, water with walls and bodies by `solid`. Solids do not meet each
 /// other. all_sums: Law::sum_planes planes per cluster, cleared before. reach: support plus the rounding of boxes [m].
-template <class LawWater, class LawSolid, int dim, class Real>
+/// is_own: tells of groups whether this rank owns them. Of a group of another rank only its pairs with own groups are computed,
+/// in the order in which that rank computes them, so that the sums of own groups have the same bits on any number of ranks.
+template <class LawWater, class LawSolid, int dim, class Real, class IsOwn>
 void sweep_pairs(const Store<dim, Real>& store, Real* all_sums, const Columns<dim>& columns, int group, float reach,
-                 Meetings<dim, Real>& meets, const LawWater& water, const LawSolid& solid) {
+                 Meetings<dim, Real>& meets, const LawWater& water, const LawSolid& solid, IsOwn&& is_own) {
   const Group& own = store.groups[group];
+  const bool all = is_own(group);
   const std::array<double, dim> here{};
   for (std::uint32_t mine = own.fluid; mine < own.solid; ++mine) {
     meets.clear();
-    meets.water.add(store, mine, mine + 1, own.solid, here, reach);
-    meets.solid.add(store, mine, own.solid, own.end, here, reach);
+    if (all) {
+      meets.water.add(store, mine, mine + 1, own.solid, here, reach);
+      meets.solid.add(store, mine, own.solid, own.end, here, reach);
+    }
     columns.for_forward(group, [&](const Neighbour<dim>& near) {
+      if (!all && !is_own(near.group)) return;
       const Group& other = store.groups[near.group];
       meets.water.add(store, mine, other.fluid, other.solid, near.shift, reach);
       meets.solid.add(store, mine, other.solid, other.end, near.shift, reach);
     });
-    sweep_cluster<true>(store, all_sums, mine, meets, reach, water, solid);
+    sweep_cluster<true>(store, all_sums, mine, meets, reach, all, water, solid);
   }
   for (std::uint32_t mine = own.solid; mine < own.end; ++mine) {
     meets.clear();
     columns.for_forward(group, [&](const Neighbour<dim>& near) {
+      if (!all && !is_own(near.group)) return;
       const Group& other = store.groups[near.group];
       meets.water.add(store, mine, other.fluid, other.solid, near.shift, reach);
     });
-    if (meets.water.size() > 0) sweep_cluster<false>(store, all_sums, mine, meets, reach, water, solid);
+    if (meets.water.size() > 0) sweep_cluster<false>(store, all_sums, mine, meets, reach, false, water, solid);
   }
+}
+
+/// The same where this rank owns all groups.
+template <class LawWater, class LawSolid, int dim, class Real>
+void sweep_pairs(const Store<dim, Real>& store, Real* all_sums, const Columns<dim>& columns, int group, float reach,
+                 Meetings<dim, Real>& meets, const LawWater& water, const LawSolid& solid) {
+  sweep_pairs(store, all_sums, columns, group, reach, meets, water, solid, [](int) { return true; });
 }
 
 }  // namespace spindrift::sph

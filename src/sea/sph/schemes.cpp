@@ -1,0 +1,29 @@
+// The scene's sweeps in one place: see schemes.hpp.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/sph/schemes.hpp"
+
+#include "kernels/sph/filter_mls.hpp"
+#include "kernels/sph/filter_shepard.hpp"
+#include "kernels/sph/shifting.hpp"
+#include "src/sea/sph/state.hpp"
+
+namespace spindrift::sph {
+
+template <int dim, class Real>
+void set_schemes(SeaState<dim, Real>& sea) {
+  const Parameters& p = sea.p;
+  const Schemes<dim, Real> schemes(sea.store, sea.columns, sea.territory, p);
+  sea.rates = schemes.rates(), sea.strain = schemes.strain(), sea.boundary = schemes.boundary(sea.ghosts);
+  sea.filter = schemes.filter(), sea.shifting = schemes.shifting();
+  auto& planes = sea.store.extra_planes;
+  if (sea.filter) planes[of_filter] = p.filter == FilterChoice::mls ? FilterMls<dim>::planes : FilterShepard::planes;
+  if (sea.shifting) planes[of_shifting] = Shifting<dim>::planes;
+  if (sea.strain) planes[of_strain] = sea.store.stress_planes = SymmetricTensor<double, dim>::components;
+}
+
+template void set_schemes(SeaState<2, float>&);
+template void set_schemes(SeaState<2, double>&);
+template void set_schemes(SeaState<3, float>&);
+template void set_schemes(SeaState<3, double>&);
+
+}  // namespace spindrift::sph

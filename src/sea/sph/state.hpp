@@ -1,0 +1,181 @@
+// What a step of the sea works on, and the few numbers that steer it. All ranks have the same `Plan`: it is computed from global
+// extremes and sums only.
+// Called by tasks.cpp and sea_sph.cpp; tested through them.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernels/base/failure.hpp"
+#include "kernels/sph/time_step.hpp"
+#include "src/sea/sph/boundary.hpp"
+#include "src/sea/sph/contact.hpp"
+#include "src/sea/sph/ordering.hpp"
+#include "src/sea/sph/parameters.hpp"
+#include "src/sea/sph/solids.hpp"
+#include "src/sea/sph/sweep_pairs.hpp"
+#include "src/sea/sph/territory.hpp"
+
+namespace spindrift::sph {
+
+/// Counters of a run, for reports and benchmarks.
+struct Work {
+  long steps = 0, evaluations = 0, sorts = 0;
+};
+
+/// How the steps of a window are chosen.
+struct Pace {
+  double dt = 0.0;  ///< a fixed step [s]; 0: as the limits allow
+  /// Steps between two looks at the limits (and sorts). 1: before each, with a reduction over all ranks in each step.
+  int steps_per_look = 1;
+};
+
+/// Half a step as bodies see it.
+struct HalfStep {
+  int half;         ///< 0: loads are those of `time`; 1: of the middle of the step
+  double time, to;  ///< begin of the step, and the time that the motions are wanted at [s]
+  double dt;        ///< of the whole step [s]
+  std::span<const Touch> contacts;  ///< of bodies with walls and each other; not in the loads
+};
+/// Moves the bodies: `motions` hold where they are and are to be set to where they are at half.to; loads are about the centres of
+/// mass as they are. In the order in which the bodies were added. Called by one task on every rank with the same numbers.
+using MoveBodies = std::function<void(const HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions)>;
+
+/// Where the run stands.
+struct Plan {
+  double time = 0.0;
+  long steps = 0;
+  double left = 0.0;  ///< of the window [s]
+  double dt = 0.0;    ///< of the steps planned [s]
+  int planned = 0;    ///< steps until the next look
+  double speed = 0.0, acceleration = 0.0, limit = 0.0;  ///< largest at the last look, and what they allow [s]
+  StepLimits limits{};
+  double drift = 0.0, solid_drift = 0.0;                ///< bounds on the way since the last sort [m]
+  double way = 0.0, solid_way = 0.0;                    ///< and since the last look
+  double shifted = 0.0;                                 ///< largest way by shifting since the last look
+  double solid_path = 0.0;                              ///< of bodies in all [m]
+  bool sort = false;
+  std::optional<NumericalFailure> failure;  ///< set where the numerics gave up; what is left of the window does nothing
+};
+
+template <int dim, class Real>
+struct SeaState {
+  SeaState(const Parameters& parameters, const Domain<dim>& domain)
+      : p(parameters), columns(domain, p.reach() + 2.0 * p.drift(), p.column_over_reach * (p.reach() + 2.0 * p.drift())) {}
+  SeaState(const SeaState&) = delete;  // sweeps refer to it
+  SeaState& operator=(const SeaState&) = delete;
+
+  using Sweep = std::function<void(Real* sums, int group, Meetings<dim, Real>&)>;
+
+  Parameters p;
+  Columns<dim> columns;
+  Territory territory;
+  Store<dim, Real> store;
+  std::vector<Solid> solids;
+  Ghosts<dim> ghosts;              ///< of modified walls
+  std::vector<BodyBox<dim>> free;  ///< boxes round the free bodies
+  double body_limit = std::numeric_limits<double>::infinity();  ///< on the step [s]
+  Sweep rates, strain, filter, shifting;  ///< pair sweeps of one group with the scene's schemes; empty where there is none
+  std::function<void(Store<dim, Real>&, int group, Candidates<dim, Real>&)> boundary;  ///< empty without ghost nodes
+  std::vector<std::vector<Touch>> touches;  ///< of each own group, at the last evaluation
+  MoveBodies move_bodies;
+  Pace pace;
+  Plan plan;
+  Work work;
+
+  /// Whether to sort before the next steps: they may go twice as far as those before.
+  bool sort_is_due() const {
+    return std::max(plan.drift + 2.0 * plan.way, plan.solid_drift + 2.0 * plan.solid_way) > p.drift();
+  }
+  void sorted() {
+    plan.drift = plan.solid_drift = 0.0;
+    plan.sort = false;
+    ++work.sorts;
+    if (store.lost.size() <= p.lost_at_most || plan.failure) return;
+    const LostParticle<dim>& last = store.lost.back();
+    std::string place = "(";
+    for (int k = 0; k < dim; ++k) place += (k > 0 ? ", " : "") + std::to_string(last.position[k]);
+    plan.failure = NumericalFailure("sea: " + std::to_string(store.lost.size()) + " particles left the domain (allowed " +
+                                        std::to_string(p.lost_at_most) + "), the last one, " + std::to_string(last.id) + ", at " +
+                                        place + ") m; widen the domain or check the walls",
+                                    "sea", plan.steps, plan.time, double(p.lost_at_most));
+  }
+  /// Takes in the extremes of the state at n.
+  void look(double speed2, double acceleration2, double shifted) {
+    plan.speed = std::sqrt(speed2), plan.acceleration = std::sqrt(acceleration2);
+    plan.shifted = shifted;
+    plan.drift += shifted;
+    plan.limits = step_limits(p.cfl, p.h(), p.eos.c0, plan.speed, plan.acceleration, p.laminar() ? std::max(p.nu, p.nu_solid) : 0.0);
+    plan.limits.body = body_limit;
+    plan.limit = plan.limits.smallest();
+    constexpr double smallest_share = 1e-4;  // of the step of water at rest: speeds of 1e4 c0 are no flow
+    if (!(plan.limit > smallest_share * p.cfl * p.h() / p.eos.c0) && !plan.failure)
+      plan.failure = NumericalFailure("sea: the step fell to " + std::to_string(plan.limit) + " s (largest speed " +
+                                          std::to_string(plan.speed) + " m/s, acceleration " + std::to_string(plan.acceleration) +
+                                          " m/s2); try a smaller sea.cfl or more viscosity",
+                                      "sea", plan.steps, plan.time, plan.limit);
+  }
+  void start_steps(double dt, int count) {
+    plan.dt = dt, plan.planned = count;
+    // Over the steps a particle goes at most (|v| + T |a|) T; the half steps' acceleration may be larger, hence the factor two.
+    const double duration = dt * count;
+    plan.way = duration * (plan.speed + 2.0 * duration * plan.acceleration) + plan.shifted;
+    plan.drift += plan.way - plan.shifted;
+    plan.solid_way = 0.0;
+  }
+  /// Chooses the next steps of a window.
+  void choose_steps() {
+    if (plan.failure) return void(plan.planned = 0);
+    if (pace.dt > 0.0) {
+      if (pace.dt > plan.limit * (1.0 + 1e-12))
+        plan.failure = NumericalFailure("sea: the fixed step of " + std::to_string(pace.dt) + " s is beyond the limit of " +
+                                            std::to_string(plan.limit) + " s (largest speed " + std::to_string(plan.speed) +
+                                            " m/s, acceleration " + std::to_string(plan.acceleration) + " m/s2)",
+                                        "sea", plan.steps, plan.time, plan.limit);
+      const double steps_left = std::round(plan.left / pace.dt);
+      start_steps(pace.dt, plan.failure ? 0 : int(std::min<double>(pace.steps_per_look, steps_left)));
+    } else if (pace.steps_per_look == 1) {
+      start_steps(std::min(plan.limit, plan.left), 1);
+    } else {
+      constexpr double margin = 0.9;  // the limits may tighten before the next look
+      const double count = std::ceil(plan.left / (margin * plan.limit));
+      const bool last = count <= pace.steps_per_look;
+      start_steps(last ? plan.left / count : margin * plan.limit, last ? int(count) : pace.steps_per_look);
+    }
+  }
+  void finish_steps() {
+    const bool last = pace.dt > 0.0 ? std::round(plan.left / pace.dt) <= plan.planned
+                                    : plan.dt * plan.planned >= plan.left * (1.0 - 1e-12);
+    for (int n = 0; n < plan.planned; ++n) plan.time += plan.dt;
+    plan.steps += plan.planned, work.steps = plan.steps;
+    work.evaluations += plan.planned * (p.step == StepChoice::symplectic ? 2 : 1);
+    plan.left = last || plan.failure ? 0.0 : plan.left - plan.dt * plan.planned;
+  }
+  /// What goes with a body beside its particles: the box round it, and the ghost nodes of its surface.
+  void follow(const Solid& solid) {
+    for (BodyBox<dim>& box : free)
+      if (box.owner == solid.owner) box = box_of<dim>(solid, solid.motion);
+    if (!ghosts.empty()) ghosts.turn(solid, solid.motion.attitude * solid.built.conjugate());
+  }
+  bool has_contacts() const { return p.contact && !free.empty(); }
+  /// Notes where a body is now; placing its particles is for each group.
+  void set_motion(Solid& solid, const Motion& motion) {
+    const double way = solid.way_to(motion);
+    plan.solid_drift += way, plan.solid_way += way, plan.solid_path += way;
+    solid.motion = motion;
+    follow(solid);
+  }
+};
+
+/// Sets the sweeps of the scene's schemes, and the planes of sums that they need (schemes.cpp, which alone takes long to compile).
+template <int dim, class Real>
+void set_schemes(SeaState<dim, Real>& sea);
+
+}  // namespace spindrift::sph

@@ -1,0 +1,297 @@
+// The step as tasks: the same bits for any number of threads, ranks and any schedule; windows as steps one by one; bodies in the
+// loop; groups that change ranks; states saved and restored.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/sph/tasks.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <bit>
+#include <cstring>
+#include <map>
+
+#include "src/sea/sph/lattice.hpp"
+#include "src/sea/sph/sea_sph.hpp"
+#include "src/sea/sph/shapes.hpp"
+#include "tests/src/sea/sph/scenes.hpp"
+
+using namespace spindrift;
+using namespace spindrift::sph;
+
+namespace {
+
+/// Dam break across a tank twice as long as the water, 3-D, some thousand particles; a box floats in it where `body`.
+struct Scene {
+  Parameters p;
+  std::vector<Seed<3>> seeds;
+  Motion box;
+  Domain<3> domain{{-0.5, -0.5, -0.5}, {3.0, 1.1, 2.0}};
+
+  explicit Scene(bool body = false, StepChoice step = StepChoice::symplectic) {
+    const double d = p.spacing = 0.05;
+    p.eos = {1000.0, 25.0}, p.h_over_d = 1.3, p.step = step;
+    add_water<3>(seeds, {0, 0, 0}, d, {1, 1, 1}, {20, 12, 14}, p.eos, p.gravity, 0.7);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> shift(-0.2 * d, 0.2 * d);
+    for (auto& seed : seeds)
+      for (double& x : seed.position) x += shift(random);
+    add_tank<3>(seeds, {0, 0, 0}, d, {1, 1, 1}, {46, 12, 20}, 1, p.eos, p.gravity, 0.0);
+    if (body) {
+      box.position = {0.5, 0.3, 0.85};
+      for (const auto& point : points_in_box({0.25, 0.2, 0.15}, d))
+        seeds.push_back({.position = from_earth<3>(box.point(point)), .owner = 2});
+    }
+  }
+};
+
+/// State of all particles of all ranks, by identity.
+using Everything = std::map<std::uint32_t, std::array<double, 7>>;
+Everything everything(const SeaSph<3, float>& sea, MPI_Comm comm = MPI_COMM_SELF) {
+  runtime::Packer mine;
+  const auto& store = sea.store();
+  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
+    if (store.id[slot] == no_particle) continue;
+    mine.put_one(store.id[slot]);
+    std::array<double, 7> s;
+    for (int k = 0; k < 3; ++k) s[k] = store.x[k][slot], s[3 + k] = store.v[k][slot];
+    s[6] = store.deviation[slot];
+    mine.put_one(s);
+  }
+  Everything all;
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take()))
+    for (runtime::Unpacker from(bytes); !from.done();) {
+      const auto id = from.one<std::uint32_t>();
+      CHECK(all.emplace(id, from.one<std::array<double, 7>>()).second);  // on one rank only
+    }
+  return all;
+}
+
+/// A body that falls, pushed by the water: Euler's step, enough to be chaotic in its bits.
+MoveBodies falling(double mass) {
+  return [mass](const HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) {
+    for (std::size_t n = 0; n < motions.size(); ++n) {
+      const double dt = 0.5 * half.dt;
+      motions[n].velocity += dt * (loads[n].force / mass + Eigen::Vector3d(0, 0, -9.81));
+      motions[n].position += dt * motions[n].velocity;
+      motions[n].omega += dt * 1e-2 * loads[n].moment;
+      motions[n].attitude =
+          (motions[n].attitude * Eigen::Quaterniond(1.0, 0.5 * dt * motions[n].omega[0], 0.5 * dt * motions[n].omega[1],
+                                                    0.5 * dt * motions[n].omega[2]))
+              .normalized();
+    }
+  };
+}
+
+constexpr double window = 0.02;
+
+Everything run(const Scene& scene, Machine machine, int windows, Pace pace = {}, double* imbalance = nullptr) {
+  const MPI_Comm comm = machine.comm;
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, std::move(machine));
+  if (scene.box.position.norm() > 0) {
+    sea.add_body(2, scene.box);
+    sea.set_bodies(falling(6.0));
+  }
+  sea.set_pace(pace);
+  for (int n = 0; n < windows; ++n) sea.advance(window);
+  CHECK(sea.time() == Approx(windows * window));
+  CHECK(sea.work().sorts > 0);
+  CHECK(sea.store().lost.empty());
+  if (imbalance) *imbalance = sea.imbalance();
+  return everything(sea, comm);
+}
+
+std::vector<int> striped(const SeaSph<3, float>& sea, int ranks) {
+  std::vector<int> rank_of_group(std::size_t(sea.columns().groups()), 0);
+  for (std::size_t g = 0; g < rank_of_group.size(); ++g) rank_of_group[g] = int(g % std::size_t(ranks));
+  return rank_of_group;
+}
+
+}  // namespace
+
+TEST_CASE("a window as one graph has the bits of its steps one by one", "[sph][tasks][fast]") {
+  const StepChoice step = GENERATE(StepChoice::symplectic, StepChoice::verlet);
+  Scene scene(false, step);
+  scene.p.filter = FilterChoice::mls, scene.p.filter_every = 7, scene.p.shifting = 2.0;
+  SeaSph<3, float> window_by_window(scene.p, scene.domain, scene.seeds, {.threads = 2});
+  SeaSph<3, float> step_by_step(scene.p, scene.domain, scene.seeds, {.threads = 1});
+  window_by_window.advance(0.01);
+  for (double left = 0.01; left > 0.0;) {
+    const double dt = step_by_step.step(left);
+    left = dt < left ? left - dt : 0.0;
+  }
+  CHECK(window_by_window.work().steps == step_by_step.work().steps);
+  CHECK(window_by_window.work().evaluations == step_by_step.work().evaluations);
+  CHECK(window_by_window.time() == step_by_step.time());
+  CHECK(everything(window_by_window) == everything(step_by_step));
+}
+
+TEST_CASE("threads and schedules leave every bit, with a body in the loop", "[sph][tasks][fast]") {
+  const Scene scene(true);
+  const Pace pace = GENERATE(Pace{}, Pace{.steps_per_look = 5});
+  const Everything expected = run(scene, {.threads = 1}, 2, pace);
+  CHECK(run(scene, {.threads = 2}, 2, pace) == expected);
+  CHECK(run(scene, {.threads = 3}, 2, pace) == expected);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    CHECK(run(scene, {.threads = int(1 + seed % 3), .random_schedule = seed}, 2, pace) == expected);
+}
+
+TEST_CASE("fixed steps are made in full and refused beyond their limit", "[sph][tasks][fast]") {
+  const Scene scene;
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 1});
+  sea.set_pace({.dt = 2e-4, .steps_per_look = 8});
+  sea.advance(0.004);
+  CHECK(sea.work().steps == 20);
+  CHECK(sea.time() == Approx(0.004).epsilon(1e-12));
+  sea.set_pace({.dt = 2e-3, .steps_per_look = 8});
+  CHECK_THROWS_WITH(sea.advance(0.004), Catch::Contains("fixed step") && Catch::Contains("beyond the limit"));
+}
+
+TEST_CASE("a body in the loop gets the loads that the facade gives", "[sph][tasks][fast]") {
+  const Scene scene(true);
+  std::vector<Wrench> seen;
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 2}), other(scene.p, scene.domain, scene.seeds, {.threads = 1});
+  sea.add_body(2, scene.box), other.add_body(2, scene.box);
+  sea.set_bodies([&](const HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) {
+    seen.push_back(loads[0]);
+    motions[0].velocity = {0, 0, -1}, motions[0].position = scene.box.position - Eigen::Vector3d(0, 0, half.to);
+  });
+  sea.advance(0.005);
+  Motion motion = scene.box;
+  std::size_t at = 0;
+  for (double left = 0.005; left > 0.0; ++at) {
+    const double t = other.time(), dt = other.begin_step(left);
+    const auto compare = [&](double to) {
+      const Wrench w = other.load_on(2, motion.position);
+      REQUIRE(at < seen.size());
+      CHECK(w.force == seen[at].force);
+      CHECK(w.moment == seen[at].moment);
+      motion.velocity = {0, 0, -1}, motion.position = scene.box.position - Eigen::Vector3d(0, 0, to);
+      other.place_body(2, motion);
+    };
+    compare(t + 0.5 * dt);
+    other.half_step(), ++at;
+    compare(t + dt);
+    other.end_step();
+    left = dt < left ? left - dt : 0.0;
+  }
+  CHECK(at == seen.size());
+  CHECK(everything(sea) == everything(other));
+}
+
+TEST_CASE("a body that outruns its window's groups stops the run", "[sph][tasks][fast]") {
+  const Scene scene(true);
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 1});
+  sea.add_body(2, scene.box);
+  sea.set_bodies([](const HalfStep& half, std::span<const Wrench>, std::span<Motion> motions) {
+    motions[0].velocity = {100, 0, 0}, motions[0].position[0] += 50 * half.dt;
+  });
+  CHECK_THROWS_WITH(sea.advance(0.02), Catch::Contains("more than a column"));
+}
+
+TEST_CASE("a window repeated from its snapshot has the same bits; a snapshot takes at most 100 bytes per particle", "[sph][tasks][fast]") {
+  const StepChoice step = GENERATE(StepChoice::symplectic, StepChoice::verlet);
+  const Scene scene(true, step);
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 2});
+  sea.add_body(2, scene.box);
+  sea.set_bodies(falling(6.0));
+  sea.advance(0.015);
+  const Saved<3> snapshot = sea.save();
+  CHECK(double(snapshot.bytes()) / double(scene.seeds.size()) < (step == StepChoice::symplectic ? 75.0 : 110.0));
+  sea.advance(0.03);
+  const Everything once = everything(sea);
+  const double time = sea.time();
+  sea.restore(snapshot);
+  CHECK(sea.time() == 0.015);
+  sea.advance(0.03);
+  CHECK(sea.time() == time);
+  CHECK(everything(sea) == once);
+}
+
+TEST_CASE("a saved state that lacks a group or was made with another step is refused", "[sph][tasks][fast]") {
+  const Scene scene;
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 1});
+  Saved<3> twice = sea.save(), lacking = twice, other = twice;
+  const std::vector<Saved<3>> pieces{twice, twice};
+  CHECK_THROWS_WITH(sea.restore(pieces), Catch::Contains("given twice"));
+  lacking.groups.resize(lacking.groups.size() - 3);
+  while (!lacking.groups.empty() && lacking.groups[lacking.groups.size() - 1] + lacking.groups[lacking.groups.size() - 2] > 0)
+    break;
+  CHECK_THROWS_WITH(sea.restore(lacking), Catch::Contains("lacks group"));
+  other.values.pop_back();
+  CHECK_THROWS_WITH(sea.restore(other), Catch::Contains("does not hold"));
+}
+
+namespace {
+
+/// Every way of dealing groups to ranks gives the bits of one rank.
+void same_bits_on_ranks() {
+  const MPI_Comm world = MPI_COMM_WORLD;
+  const int ranks = runtime::ranks_in(world);
+  const bool body = GENERATE(true, false);
+  const Scene scene(body);
+  const Pace pace = body ? Pace{} : Pace{.steps_per_look = 6};
+  const Everything expected = run(scene, {.threads = 1}, 3, pace);
+  const SeaSph<3, float> probe(scene.p, scene.domain, scene.seeds, {.threads = 1});
+  CHECK(run(scene, {.comm = world, .threads = 1}, 3, pace) == expected);
+  CHECK(run(scene, {.comm = world, .threads = 2, .random_schedule = 7 + runtime::rank_in(world)}, 3, pace) == expected);
+  CHECK(run(scene, {.comm = world, .threads = 1, .rank_of_group = striped(probe, ranks)}, 3, pace) == expected);
+  const std::vector<int> last(std::size_t(probe.columns().groups()), ranks - 1);  // others have no particle
+  CHECK(run(scene, {.comm = world, .threads = 1, .repartition_above = 1e9, .rank_of_group = last}, 1, pace) ==
+        run(scene, {.threads = 1}, 1, pace));
+  double imbalance = 0.0;  // all on one rank at the start, dealt out after the first window
+  CHECK(run(scene, {.comm = world, .threads = 1, .rank_of_group = last}, 3, pace, &imbalance) == expected);
+  CHECK(imbalance < 0.8 * ranks);
+}
+
+/// A state saved on all ranks goes on the same on one, and one saved on one rank goes on the same on all.
+void restart_on_other_ranks() {
+  const MPI_Comm world = MPI_COMM_WORLD;
+  const Scene scene(true);
+  const auto make = [&](MPI_Comm comm, int threads) {
+    auto sea = std::make_unique<SeaSph<3, float>>(scene.p, scene.domain, scene.seeds, Machine{.comm = comm, .threads = threads});
+    sea->add_body(2, scene.box);
+    sea->set_bodies(falling(6.0));
+    return sea;
+  };
+  const auto gathered = [&](const Saved<3>& mine) {
+    runtime::Packer packer;
+    mine.put(packer);
+    std::vector<Saved<3>> pieces;
+    for (const runtime::Bytes& bytes : runtime::exchange_all(world, packer.take())) {
+      runtime::Unpacker from(bytes);
+      pieces.push_back(Saved<3>::take(from));
+    }
+    return pieces;
+  };
+  const auto sea = make(world, 1), alone = make(MPI_COMM_SELF, 2), again = make(world, 2);
+  sea->advance(0.03);
+  const auto pieces = gathered(sea->save());
+  alone->restore(pieces);
+  sea->advance(0.02), alone->advance(0.02);
+  const Everything expected = everything(*sea, world);
+  CHECK(everything(*alone) == expected);
+  again->restore(pieces);
+  again->advance(0.02);
+  CHECK(everything(*again, world) == expected);
+}
+
+void lost_particles_are_known_to_all() {
+  Scene scene;
+  scene.seeds[0].velocity = {0, -120.0, 0};
+  scene.p.lost_at_most = 5;
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.comm = MPI_COMM_WORLD, .threads = 1});
+  sea.advance(0.02);
+  REQUIRE(sea.store().lost.size() == 1);
+  CHECK(sea.store().lost[0].id == 0);
+  CHECK(everything(sea, MPI_COMM_WORLD).size() == scene.seeds.size() - 1);
+  scene.p.lost_at_most = 0;
+  SeaSph<3, float> strict(scene.p, scene.domain, scene.seeds, {.comm = MPI_COMM_WORLD, .threads = 1});
+  CHECK_THROWS_WITH(strict.advance(0.02), Catch::Contains("left the domain"));
+}
+
+}  // namespace
+
+TEST_CASE("two ranks give the bits of one, however groups are dealt out", "[sph][tasks][mpi2]") { same_bits_on_ranks(); }
+TEST_CASE("four ranks give the bits of one, however groups are dealt out", "[sph][tasks][mpi4]") { same_bits_on_ranks(); }
+TEST_CASE("a state saved on two ranks goes on the same on one and on two", "[sph][tasks][mpi2]") { restart_on_other_ranks(); }
+TEST_CASE("a state saved on four ranks goes on the same on one and on four", "[sph][tasks][mpi4]") { restart_on_other_ranks(); }
+TEST_CASE("lost particles are counted, located and limited on all ranks", "[sph][tasks][mpi2]") { lost_particles_are_known_to_all(); }
