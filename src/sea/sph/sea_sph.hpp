@@ -54,7 +54,7 @@ class SeaSph {
   void half_step();
   void end_step();
 
-  /// Sorts now, whatever the drift.
+  /// Sorts now, whatever the drift. What follows is then a function of the particles' state alone.
   void sort();
   /// Goes on as after `steps` steps at `time` [s]; the caller has put that state into store().
   void resume(double time, long steps) { s_.plan.time = time, s_.plan.steps = s_.work.steps = steps; }

@@ -86,6 +86,7 @@ struct SeaState {
   std::function<void(Store<dim, Real>&, int group, Candidates<dim, Real>&)> boundary;  ///< empty without ghost nodes
   std::vector<std::vector<Touch>> touches;  ///< of each own group, at the last evaluation
   MoveBodies move_bodies;
+  std::function<void(int group, double dt)> after_step;  ///< what else a step does to the particles of a group (damping zones)
   Pace pace;
   Plan plan;
   Work work;
@@ -95,7 +96,7 @@ struct SeaState {
     return std::max(plan.drift + 2.0 * plan.way, plan.solid_drift + 2.0 * plan.solid_way) > p.drift();
   }
   void sorted() {
-    plan.drift = plan.solid_drift = 0.0;
+    plan.drift = plan.solid_drift = plan.way = plan.solid_way = 0.0;  // what follows depends on the particles alone
     plan.sort = false;
     ++work.sorts;
     if (store.lost.size() <= p.lost_at_most || plan.failure) return;

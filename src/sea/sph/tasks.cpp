@@ -135,6 +135,7 @@ void StepTasks<dim, Real>::steps(bool first) {
     graph_.task("sea/steps", {updates(plan_)}, [&sea] { sea.choose_steps(); });
   } else {
     step_ = [](const Context& c) { return int(c.iteration) + 1; };
+    graph_.task("sea/substep", {reads(plan_)}, [] {});  // a rank may have no group, a loop must have a task
     evaluate(Half::begin);
   }
   step();
@@ -505,6 +506,7 @@ void StepTasks<dim, Real>::correct() {
                       correct_verlet(sea.store, sea.p, g, sea.plan.dt, join);
                     else
                       correct_symplectic(sea.store, sea.p, g, sea.plan.dt);
+                    if (sea.after_step) sea.after_step(g, sea.plan.dt);
                   }
                 }));
   }
