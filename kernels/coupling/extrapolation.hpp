@@ -18,7 +18,12 @@ class Extrapolation {
   }
   bool empty() const { return times_.empty(); }
   const Vector& last() const { return values_.back(); }
-  Vector at(double t) const { return lagrange(times_, values_, t); }
+  void at(double t, Vector& out) const { lagrange(times_, values_, t, out); }
+  Vector at(double t) const {
+    Vector value;
+    at(t, value);
+    return value;
+  }
   void visit(auto& v) { v(times_), v(values_); }
 
  private:

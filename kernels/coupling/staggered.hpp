@@ -34,8 +34,7 @@ class Staggered {
   template <class Parts>
   bool advance(Parts& parts, double begin, double end) {
     const Vector x_start = motion_.last();
-    const auto load = [this](double t) { return load_.at(t); };
-    const Vector x = parts.move(load, begin, end);
+    const Vector x = parts.move(load_, begin, end);
     if (!x.allFinite()) return false;
     Vector y;
     if (scheme_.serial)
@@ -52,8 +51,9 @@ class Staggered {
 
   /// Loads that F returned less those that S had assumed at the last window's end: what the scheme neglects, to the order it has.
   const Vector& mismatch() const { return mismatch_; }
-  const Vector& load() const { return load_.last(); }
-  Vector load_at(double t) const { return load_.at(t); }
+  /// Loads by now, and what S is going to see of them.
+  const Extrapolation& load() const { return load_; }
+  const Extrapolation& motion() const { return motion_; }
   void visit(auto& v) { motion_.visit(v), load_.visit(v), v(mismatch_); }
 
  private:

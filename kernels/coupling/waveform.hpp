@@ -15,16 +15,15 @@ namespace spindrift::coupling {
 
 enum class Interpolation { constant, linear, cubic };
 
-/// The polynomial through (times[k], values[k]) at t.
-inline Vector lagrange(std::span<const double> times, std::span<const Vector> values, double t) {
-  Vector sum = Vector::Zero(values[0].size());
+/// The polynomial through (times[k], values[k]) at t; does not allocate where `out` has the size.
+inline void lagrange(std::span<const double> times, std::span<const Vector> values, double t, Vector& out) {
+  out.setZero(values[0].size());
   for (std::size_t k = 0; k < times.size(); ++k) {
     double weight = 1.0;
     for (std::size_t j = 0; j < times.size(); ++j)
       if (j != k) weight *= (t - times[j]) / (times[k] - times[j]);
-    sum += weight * values[k];
+    out += weight * values[k];
   }
-  return sum;
 }
 
 class Waveform {
@@ -39,16 +38,27 @@ class Waveform {
   static Waveform held(Vector value) { return Waveform(Interpolation::constant, {0.0}, {std::move(value)}); }
 
   /// Beyond the last sample the last piece goes on.
-  Vector at(double t) const {
+  void at(double t, Vector& out) const {
     const std::size_t n = times_.size();
-    if (n == 1) return values_[0];
+    if (n == 1) {
+      out = values_[0];
+      return;
+    }
     // The piece [k-1, k] that holds t; its right end belongs to it.
     std::size_t k = 1;
     while (k + 1 < n && t > times_[k]) ++k;
-    if (kind_ == Interpolation::constant) return values_[k];
+    if (kind_ == Interpolation::constant) {
+      out = values_[k];
+      return;
+    }
     const std::size_t points = kind_ == Interpolation::linear ? 2 : std::min<std::size_t>(4, n);
     const std::size_t first = points == 2 ? k - 1 : std::min(k >= 2 ? k - 2 : 0, n - points);
-    return lagrange(std::span(times_).subspan(first, points), std::span(values_).subspan(first, points), t);
+    lagrange(std::span(times_).subspan(first, points), std::span(values_).subspan(first, points), t, out);
+  }
+  Vector at(double t) const {
+    Vector value;
+    at(t, value);
+    return value;
   }
   const Vector& end() const { return values_.back(); }
   void visit(auto& v) {

@@ -55,7 +55,7 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
   now.axis = body.attitude * axis_;
   now.up = support * support_up_;
   now.omega = body.omega_earth();
-  now.relative_wind = (wind_ - now.hub_velocity).dot(now.axis);
+  now.relative_wind = relative_wind(now.hub_velocity, now.axis);
   if (!placement_.support) {
     now.azimuth = whole_turns_off(start_azimuth_ + speed_ * t);
     now.speed = speed_;
@@ -91,6 +91,12 @@ void RotorLoads::add_loads(double t, std::span<const Motion> bodies, std::span<W
   const RotorLoad load = this->load(t, now, ramp);
   wrenches[placement_.body].add_force(load.force, now.hub);
   wrenches[placement_.body].add_moment(load.moment);
+}
+
+void RotorLoads::add_at_hub(std::span<const Motion> bodies, std::span<Wrench> wrenches, const Eigen::Vector3d& force,
+                            const Eigen::Vector3d& moment) const {
+  wrenches[placement_.body].add_force(force, bodies[placement_.body].point(hub_));
+  wrenches[placement_.body].add_moment(moment);
 }
 
 }  // namespace spindrift::aero

@@ -54,7 +54,13 @@ class RotorLoads {
   /// Adds the load, times `ramp`, to the rotor body's wrench.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp = 1.0) const;
 
+  /// Adds a load known from elsewhere, about the hub, to the rotor body's wrench.
+  void add_at_hub(std::span<const Motion> bodies, std::span<Wrench> wrenches, const Eigen::Vector3d& force,
+                  const Eigen::Vector3d& moment) const;
+
   RotorState state(double t, std::span<const Motion> bodies) const;
+  /// Wind along the axis, seen from a hub that moves so [m/s].
+  double relative_wind(const Eigen::Vector3d& hub_velocity, const Eigen::Vector3d& axis) const { return (wind_ - hub_velocity).dot(axis); }
   RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const;
 
  private:

@@ -85,7 +85,12 @@ Machine::Machine(Scenario scenario)
     on[std::size_t(index_of(names, s.rotor.body))] = true;
     add_source(sources,
                {"rotor",
-                [this](double t, std::span<const Motion> m, std::span<Wrench> w) { rotor_->add_loads(t, m, w, ramp(t)); },
+                [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
+                  if (rotor_elsewhere_)
+                    rotor_elsewhere_(t, m, w);
+                  else
+                    rotor_->add_loads(t, m, w, ramp(t));
+                },
                 {}},
                on);
   }

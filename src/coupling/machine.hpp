@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,6 +39,10 @@ class Machine {
   const std::optional<sea::EngineeringSea>& sea() const { return sea_; }
   const std::optional<aero::RotorLoads>& rotor() const { return rotor_; }
 
+  /// Bodies take the rotor's load from `loads` instead of asking the rotor as they go; an empty one undoes it. For coupling windows.
+  using RotorLoadFunction = std::function<void(double, std::span<const Motion>, std::span<Wrench>)>;
+  void replace_rotor_loads(RotorLoadFunction loads) { rotor_elsewhere_ = std::move(loads); }
+
   bool has_waves() const { return scenario_.has_waves(); }
 
   /// Whether the source can load the body at all (what cannot is not written).
@@ -62,6 +67,7 @@ class Machine {
   std::optional<moorings::Moorings> moorings_;
   std::optional<sea::EngineeringSea> sea_;
   std::optional<aero::RotorLoads> rotor_;
+  RotorLoadFunction rotor_elsewhere_;
   std::vector<Eigen::Vector3d> reference_points_;
   std::vector<std::vector<bool>> loaded_;  ///< [source][body]
   std::vector<SourceClock> clocks_;

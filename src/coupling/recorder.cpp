@@ -100,7 +100,7 @@ Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine), 
     wave_column_ = history.add({"waves.elevation_m", "m", "surface elevation of the undisturbed waves at the earth origin"});
 }
 
-void Recorder::write(const bodies::BodiesState& state, double t) {
+void Recorder::write(const bodies::BodiesState& state, double t, const std::function<void(std::span<double>)>& others) {
   const bodies::Evaluation& now = machine_.system().evaluate(state, t);
   const auto bodies = machine_.system().bodies();
   const std::span<double> row = history_.row(t);
@@ -128,6 +128,7 @@ void Recorder::write(const bodies::BodiesState& state, double t) {
     for (std::size_t line = 0; line < machine_.moorings()->size(); ++line)
       row[mooring_column_ + line] = machine_.moorings()->tension(line, state.motions).fairlead;
   if (machine_.has_waves()) row[wave_column_] = machine_.sea()->elevation(0.0, 0.0, t);
+  if (others) others(row);
   history_.write();
 }
 

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,8 +31,8 @@ class Recorder {
   /// Declares the columns in `history`; both must outlive the recorder.
   Recorder(Machine& machine, io::History& history);
 
-  /// Appends the row of time t [s].
-  void write(const bodies::BodiesState& state, double t);
+  /// Appends the row of time t [s]; `others` fills columns that it does not know.
+  void write(const bodies::BodiesState& state, double t, const std::function<void(std::span<double>)>& others = {});
 
  private:
   struct Load {

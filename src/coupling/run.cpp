@@ -14,6 +14,7 @@
 #include "runtime/trace/trace_of.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/start.hpp"
+#include "src/coupling/window.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/history.hpp"
 #include "src/io/machine_failure.hpp"
@@ -28,9 +29,29 @@ struct Window {
   bodies::BodiesState start, state;  ///< at the window's start; now
   bodies::StepReport trouble;        ///< of the first step that failed; `state` is then the last good one
   std::int64_t steps = 0;
+  std::optional<CoupledWindow> coupled{};  ///< where the rotor is a part of its own
+  std::string failure{};                   ///< of the window as a whole, in words; empty when all is well
+  bool ok() const { return trouble.ok() && failure.empty(); }
 };
 
+/// The window of a rotor and a machine that exchange data: one task, which may evaluate the window more than once.
+runtime::Graph record_coupled_window(Machine& machine, Window& window) {
+  runtime::Graph graph;
+  const runtime::Datum state = graph.datum();
+  graph.task("coupling/window", {runtime::updates(state)}, [&machine, &window] {
+    WindowReport report = window.coupled->advance(window.state);
+    if (report.ok()) window.steps += machine.timeline().steps_per_window();
+    if (report.log.retries > 0)
+      spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}",
+                   double(window.start.tick) * machine.timeline().tick_s() + machine.timeline().window_s(), report.log.retries, report.log.cuts,
+                   report.log.evaluations, bound_name(report.log.bound));
+    window.failure = std::move(report.failure);
+  });
+  return graph;
+}
+
 runtime::Graph record_window(Machine& machine, Window& window) {
+  if (window.coupled) return record_coupled_window(machine, window);
   const double tick_s = machine.timeline().tick_s();
   const auto steps = std::uint32_t(machine.timeline().steps_per_window());
   runtime::Graph graph;
@@ -57,8 +78,8 @@ class Checkpoints {
   Checkpoints(MPI_Comm comm, const Machine& machine, const io::RunDirectory& directory)
       : series_(comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
 
-  void save(const Window& window, std::int64_t number, int restarts) {
-    const bodies::BodiesState& state = window.trouble.ok() ? window.state : window.start;  // a restart begins at a window's start
+  void save(Window& window, std::int64_t number, int restarts) {
+    const bodies::BodiesState& state = window.ok() ? window.state : window.start;  // a restart begins at a window's start
     std::vector<double> packed(state.packed_size());
     state.pack(packed);
     series_.save(state.tick, [&](io::CheckpointWriter& file) {
@@ -66,6 +87,7 @@ class Checkpoints {
       file.set("steps", window.steps);
       file.set("restarts", std::int64_t(restarts));
       file.write<double>("bodies/state", packed);
+      if (window.coupled) file.write<double>("coupling/history", window.coupled->history());
     });
     saved_ = number;
   }
@@ -78,6 +100,8 @@ class Checkpoints {
     window.state.unpack(file->read<double>("bodies/state"));
     window.steps = file->integer("steps");
     restarts = int(file->integer("restarts")) + 1;
+    if (window.coupled && !window.coupled->restore(file->read<double>("coupling/history")))
+      throw io::InputError(file->path().string() + ": its coupling history is that of another coupling.scheme");
     return saved_ = file->integer("window");
   }
 
@@ -144,6 +168,12 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   Recorder recorder(machine, history);
   std::int64_t first = 0;
   window.state = start.state;
+  if (machine.rotor() && machine.scenario().coupling.scheme != SchemeKind::monolithic) {
+    window.coupled.emplace(machine).begin(start.state);
+    window.coupled->declare(history);
+  }
+  const std::function<void(std::span<double>)> coupling_columns =
+      window.coupled ? [&window](std::span<double> row) { window.coupled->put(row); } : std::function<void(std::span<double>)>();
   if (settings.restart) {
     first = checkpoints.resume(window, summary.restarts);
     spdlog::info("restart from t = {} s", timeline.window_end_s(first));
@@ -153,7 +183,7 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     history.resume(directory.history(), timeline.window_end_s(first));
   else if (writes)
     history.open(directory.history());
-  if (!settings.restart) recorder.write(window.state, 0.0);
+  if (!settings.restart) recorder.write(window.state, 0.0, coupling_columns);
 
   const std::int64_t last = windows_until(timeline, settings.until_s);
   const int every = machine.scenario().output.history_every;
@@ -170,15 +200,15 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     window.start = window.state;
     executor.run();
     window_seconds += seconds_since(window_begin);
-    if (!window.trouble.ok()) {
-      const NumericalFailure failure = machine.system().failure(window.trouble, window.state, timeline.tick_s());
+    if (!window.ok()) {
+      if (window.failure.empty()) window.failure = machine.system().failure(window.trouble, window.state, timeline.tick_s()).what();
       summary.exit_code = 3;
-      summary.exit_reason = failure.what();
-      summary.numerical_trouble.push_back(failure.what());
+      summary.exit_reason = window.failure;
+      summary.numerical_trouble.push_back(window.failure);
       break;
     }
     ++number;
-    if (number % every == 0 || number == last) recorder.write(window.state, timeline.window_end_s(number));
+    if (number % every == 0 || number == last) recorder.write(window.state, timeline.window_end_s(number), coupling_columns);
     progress.update(timeline.window_end_s(number));
     if (std::string why = stop.agreed(world.comm); !why.empty() && number < last) {
       summary.exit_code = 5;
@@ -195,6 +225,14 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   summary.end_time_s = double(window.state.tick) * timeline.tick_s();
   summary.window_s = timeline.window_s();
   summary.counts = {{"windows", number - first}, {"steps", window.steps}};
+  if (window.coupled) {
+    const CoupledWindow::Totals& totals = window.coupled->totals();
+    summary.counts.emplace_back("coupling_evaluations", totals.evaluations);
+    summary.counts.emplace_back("coupling_retries", totals.retries);
+    summary.counts.emplace_back("coupling_cuts", totals.cuts);
+    summary.counts.emplace_back("rotor_evaluations", totals.rotor_calls);
+    summary.counts.emplace_back("step_evaluations", totals.body_steps);
+  }
   summary.wall_seconds = seconds_since(begin);
   summary.parts = part_times(machine, window_seconds, summary.wall_seconds - window_seconds, window.steps);
   finish_trace(executor, directory, world, settings.trace, summary);

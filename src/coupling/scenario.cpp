@@ -35,10 +35,10 @@ void check_names(scene::Document& document, const Scenario& s) {
 }  // namespace
 
 std::span<const scene::SectionBase* const> all_sections() {
-  static const std::array<const scene::SectionBase*, 14> sections{
+  static const std::array<const scene::SectionBase*, 15> sections{
       &time_section(),        &environment_section(), &aero::wind_section(),   &aero::aero_section(),
       &aero::rotor_section(), &sea::sea_section(),    &sea::waves_section(),  &bodies::body_section(), &bodies::joint_section(),
-      &moorings::line_section(), &start_section(),    &runtime_section(),     &output_section(),  &checkpoint_section()};
+      &moorings::line_section(), &coupling_section(), &start_section(),    &runtime_section(),     &output_section(),  &checkpoint_section()};
   return sections;
 }
 
@@ -70,6 +70,7 @@ Scenario read_scenario(scene::Document& document) {
   s.bodies = document.read_named(bodies::body_section());
   s.joints = document.read_named(bodies::joint_section());
   s.moorings = document.read_named(moorings::line_section());
+  s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple");
   s.start = document.read(start_section());
   s.runtime = document.read(runtime_section());
   s.output = document.read(output_section());
@@ -77,6 +78,7 @@ Scenario read_scenario(scene::Document& document) {
 
   check_names(document, s);
   if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
+  check_coupling(document, s.coupling, s.time);
   check_bodies(document, s.bodies, s.joints);
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, bodies);

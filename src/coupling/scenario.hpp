@@ -10,6 +10,7 @@
 
 #include "src/aero/options.hpp"
 #include "src/bodies/options.hpp"
+#include "src/coupling/coupling_options.hpp"
 #include "src/coupling/options.hpp"
 #include "src/moorings/options.hpp"
 #include "src/scene/document.hpp"
@@ -26,6 +27,7 @@ struct Scenario {
   RuntimeOptions runtime;
   OutputOptions output;
   CheckpointOptions checkpoint;
+  CouplingOptions coupling;
   bodies::NamedBodies bodies;
   bodies::NamedJoints joints;
   std::vector<scene::Named<moorings::LineOptions>> moorings;

@@ -52,5 +52,5 @@ TEST_CASE("waveforms, predictors and staggered marches go through data bit for b
   REQUIRE(restore_history(s2, in));
   CHECK(in.empty());
   CHECK(w2.at(0.2) == w.at(0.2));
-  CHECK(s2.load_at(0.4) == s.load_at(0.4));
+  CHECK(s2.load().at(0.4) == s.load().at(0.4));
 }

@@ -68,7 +68,7 @@ struct FowtParts {
 
   template <class Load>
   Vector move(const Load& load, double begin, double end) {
-    march_rk4(body, begin, end, f.step, [&](double t, const Vector& s) { return f.body_rates(t, s, load(t)[0]); });
+    march_rk4(body, begin, end, f.step, [&](double t, const Vector& s) { return f.body_rates(t, s, load.at(t)[0]); });
     return Vector::Constant(1, f.hub_speed(body));
   }
   Vector load(const Waveform& motion, double begin, double end) {
@@ -108,7 +108,7 @@ class FowtWindow {
   }
   Vector second(const Vector& y) {
     const Waveform load(Interpolation::linear, {begin(), end()}, {start_.rotor, y});
-    return now_.move([&](double t) { return load.at(t); }, begin(), end());
+    return now_.move(load, begin(), end());
   }
   Vector guess() const { return past_.at(end()); }
   void accept() {

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/coupling_options.hpp"
+
+#include <fmt/format.h>
+
+#include "src/coupling/options.hpp"
+#include "src/scene/document.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+using Strings = std::vector<std::string>;
+
+void check_section(const CouplingOptions& o, const scene::Report& report) {
+  if (o.interpolation == Interpolation::cubic && is_strong(o.scheme) && o.samples < 3)
+    report("interpolation", fmt::format("cubic needs samples of at least 3 (and the window's start); there {} {}", o.samples == 1 ? "is" : "are",
+                                        o.samples));
+}
+
+}  // namespace
+
+const scene::Section<CouplingOptions>& coupling_section() {
+  using scene::above, scene::between;
+  static const Strings strong{"relaxation", "aitken", "steepest_descent", "iqn_ils", "ibqn_ls", "interface_gmres", "newton"},
+      stacked{"relaxation", "aitken", "steepest_descent", "iqn_ils", "interface_gmres", "newton"}, learning{"iqn_ils", "ibqn_ls", "interface_gmres"},
+      relaxed{"relaxation", "aitken", "steepest_descent", "iqn_ils", "ibqn_ls", "interface_gmres"};
+  static const Strings predicted = [] {
+    Strings all = strong;
+    all.insert(all.begin(), "css");
+    return all;
+  }();
+  static const auto section =
+      scene::Section<CouplingOptions>("coupling", "How the rotor and the rest of the machine share a window.")
+          .choice("scheme", &CouplingOptions::scheme,
+                  {{"monolithic", SchemeKind::monolithic, "the rotor is asked in every evaluation of the bodies: exact, no window between them"},
+                   {"cps", SchemeKind::cps, "both at once on what they had at the window's start, as in Leble & Barakos (2016): first order"},
+                   {"cps2", SchemeKind::cps2, "both at once on data extrapolated linearly: second order at the same cost"},
+                   {"css", SchemeKind::css, "bodies first on extrapolated loads, then the rotor on their motion: order predictor_order + 1"},
+                   {"relaxation", SchemeKind::relaxation, "iterated with a constant factor; 1 is the plain fixed point"},
+                   {"aitken", SchemeKind::aitken, "iterated with Aitken's factor"},
+                   {"steepest_descent", SchemeKind::steepest_descent, "iterated with the factor of steepest descent, two evaluations each"},
+                   {"iqn_ils", SchemeKind::iqn_ils, "interface quasi-Newton, inverse Jacobian by least squares"},
+                   {"ibqn_ls", SchemeKind::ibqn_ls, "interface block quasi-Newton, a model of each part by least squares"},
+                   {"interface_gmres", SchemeKind::interface_gmres, "Newton with a Krylov method on the interface"},
+                   {"newton", SchemeKind::newton, "Newton with a Jacobian by differences, one evaluation per row"}},
+                  "Monolithic, loose (cps, cps2, css: one evaluation of the rotor per window), or strong (iterated until both agree).")
+          .choice("composition", &CouplingOptions::composition,
+                  {{"serial", Composition::serial, "bodies on the loads, then the rotor on their motion (Gauss-Seidel)"},
+                   {"parallel", Composition::parallel, "both at once on loads and motion (Jacobi): more evaluations, each of which overlaps"}},
+                  "Order of the parts in an evaluation.")
+          .only_if("scheme", stacked)
+          .integer("predictor_order", &CouplingOptions::predictor_order, "-",
+                   "Order of the polynomial in time that extrapolates loads: what css bodies see, where strong schemes begin.", between(0, 2))
+          .only_if("scheme", predicted)
+          .number("relaxation", &CouplingOptions::relaxation, "-",
+                  "Factor of the scheme, or of its first step. A fluid r times as heavy as the body needs less than 2 / (1 + r).",
+                  above(0.0).up_to(1.0))
+          .only_if("scheme", relaxed)
+          .number("tolerance", &CouplingOptions::tolerance, "-",
+                  "The window is solved when the loads that went in and came out differ by less than this part of them.", above(0.0).up_to(0.1))
+          .only_if("scheme", strong)
+          .integer("max_evaluations", &CouplingOptions::max_evaluations, "-",
+                   "Evaluations of a window before the fallback: clear what was learned, relax, retry, then cut the window.", between(1, 100000))
+          .only_if("scheme", strong)
+          .integer("max_cuts", &CouplingOptions::max_cuts, "-", "How often what is left of a window may be halved; after that the run stops.",
+                   between(0, 20))
+          .only_if("scheme", strong)
+          .integer("reuse_windows", &CouplingOptions::reuse_windows, "-", "Windows before this one whose differences are kept.", between(0, 1000))
+          .only_if("scheme", learning)
+          .number("filter", &CouplingOptions::filter, "-", "Differences are dropped where less than this part of them is new.",
+                  above(0.0).up_to(0.5))
+          .only_if("scheme", learning)
+          .integer("samples", &CouplingOptions::samples, "-", "Loads and motion exchanged at this many equal parts of the window.",
+                   between(1, 100))
+          .only_if("scheme", strong)
+          .choice("interpolation", &CouplingOptions::interpolation,
+                  {{"constant", Interpolation::constant, "the value at the end of each part: first order"},
+                   {"linear", Interpolation::linear, "straight lines between samples: second order"},
+                   {"cubic", Interpolation::cubic, "through the four nearest samples: fourth order"}},
+                  "Loads between samples.")
+          .only_if("scheme", strong)
+          .check(check_section);
+  return section;
+}
+
+void check_coupling(scene::Document& document, const CouplingOptions& o, const TimeOptions& time) {
+  const auto steps = whole_ratio(time.window_s, time.step());
+  if (is_strong(o.scheme) && steps && *steps % o.samples != 0)
+    document.problem("coupling.samples", fmt::format("must divide the window's {} steps", *steps));
+}
+
+}  // namespace spindrift::coupling

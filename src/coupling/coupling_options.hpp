@@ -1,0 +1,55 @@
+// [coupling]: how the rotor and the rest of the machine share a window. Declared in coupling_options.cpp, read by scenario.cpp, acted on
+// by window.cpp; schemes in kernels/coupling. Tested in tests/src/coupling/window_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/coupling/waveform.hpp"
+#include "src/coupling/timeline.hpp"
+
+namespace spindrift::scene {
+template <class Options>
+class Section;
+class Document;
+}  // namespace spindrift::scene
+
+namespace spindrift::coupling {
+
+struct TimeOptions;
+
+enum class SchemeKind {
+  monolithic,
+  cps,
+  cps2,
+  css,
+  relaxation,
+  aitken,
+  steepest_descent,
+  iqn_ils,
+  ibqn_ls,
+  interface_gmres,
+  newton,
+};
+inline constexpr bool is_loose(SchemeKind k) { return k == SchemeKind::cps || k == SchemeKind::cps2 || k == SchemeKind::css; }
+inline constexpr bool is_strong(SchemeKind k) { return k != SchemeKind::monolithic && !is_loose(k); }
+
+enum class Composition { serial, parallel };
+
+struct CouplingOptions {
+  SchemeKind scheme = SchemeKind::monolithic;
+  Composition composition = Composition::serial;
+  int predictor_order = 1;
+  double relaxation = 0.5;
+  double tolerance = 1e-6;
+  int max_evaluations = 50;
+  int max_cuts = 3;
+  int reuse_windows = 5;
+  double filter = 1e-6;
+  int samples = 1;
+  Interpolation interpolation = Interpolation::linear;
+};
+
+const scene::Section<CouplingOptions>& coupling_section();
+
+/// Rules with [time]: samples divide the window's steps.
+void check_coupling(scene::Document& document, const CouplingOptions& coupling, const TimeOptions& time);
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/rotor_interface.hpp"
+
+#include <cmath>
+
+#include "kernels/base/constants.hpp"
+
+namespace spindrift::coupling {
+
+RotorInterface::RotorInterface(const Machine& machine) : machine_(machine) {
+  // Loads in accelerations of the whole machine, lengths in hub heights over its centre of mass: rows then compare.
+  double mass = 0.0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  std::vector<Motion> start;
+  for (const auto& [name, body] : machine.scenario().bodies) {
+    start.push_back(described_motion(body));
+    mass += body.mass_kg, centre += body.mass_kg * body.centre_m;
+  }
+  length_ = std::max(1.0, (machine.rotor()->state(0.0, start).hub - centre / mass).norm());
+  force_ = mass;
+}
+
+Vector RotorInterface::motion(double t, std::span<const Motion> bodies, double near) const {
+  const aero::RotorState s = machine_.rotor()->state(t, bodies);
+  Vector m(motion_rows);
+  m << s.hub / length_, s.hub_velocity / length_, s.omega - s.speed * s.axis, s.axis, s.up, near + std::remainder(s.azimuth - near, 2 * pi),
+      s.speed;
+  return m;
+}
+
+Vector RotorInterface::turned(const Vector& motion, double dt) {
+  Vector m = motion;
+  m[15] += dt * motion[16];
+  return m;
+}
+
+Vector RotorInterface::load(double t, const Vector& m) const {
+  aero::RotorState s;
+  s.hub = length_ * m.segment<3>(0), s.hub_velocity = length_ * m.segment<3>(3);
+  s.axis = m.segment<3>(9).normalized();
+  const Eigen::Vector3d up = m.segment<3>(12);
+  s.up = (up - up.dot(s.axis) * s.axis).normalized();
+  const double turns = m[15] / (2 * pi);
+  s.azimuth = 2 * pi * (turns - std::floor(turns));
+  s.speed = m[16];
+  s.omega = m.segment<3>(6) + s.speed * s.axis;
+  s.relative_wind = machine_.rotor()->relative_wind(s.hub_velocity, s.axis);
+  const aero::RotorLoad load = machine_.rotor()->load(t, s, machine_.ramp(t));
+  Vector rows(load_rows);
+  rows << load.force / force_, load.moment / (force_ * length_);
+  return rows;
+}
+
+void RotorInterface::add_load(const Vector& load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
+  machine_.rotor()->add_at_hub(bodies, wrenches, force_ * load.head<3>(), force_ * length_ * load.tail<3>());
+}
+
+}  // namespace spindrift::coupling

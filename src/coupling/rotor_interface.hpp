@@ -1,0 +1,38 @@
+// What the rotor and the rest of the machine tell each other, as rows of plain numbers that compare: motion of the hub one way, load at
+// the hub the other. Motion: hub, its velocity (over the reference length), angular velocity of what carries the rotor, rotor axis and its
+// upright (as unit vectors: no angle to wrap), azimuth with whole turns, rate. Load: force over weight-like scale, moment over that and
+// the length. Used by window.cpp; tested in tests/src/coupling/window_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "kernels/coupling/scheme.hpp"
+#include "src/coupling/machine.hpp"
+
+namespace spindrift::coupling {
+
+class RotorInterface {
+ public:
+  static constexpr Eigen::Index motion_rows = 17, load_rows = 6;
+
+  /// The machine has a rotor.
+  explicit RotorInterface(const Machine& machine);
+
+  /// `near`: an azimuth [rad] within half a turn of the true one, whole turns counted.
+  Vector motion(double t, std::span<const Motion> bodies, double near) const;
+  /// The motion after `dt` of standing still with the rotor turning on.
+  static Vector turned(const Vector& motion, double dt);
+  static double azimuth(const Vector& motion) { return motion[15]; }
+  static double rate(const Vector& motion) { return motion[16]; }
+
+  /// Load of the rotor that moves so at time t; ramped as the scene asks.
+  Vector load(double t, const Vector& motion) const;
+  /// Puts it on the rotor's body.
+  void add_load(const Vector& load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+
+ private:
+  const Machine& machine_;
+  double length_ = 1.0, force_ = 1.0;  ///< scales [m], [N]
+};
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,97 @@
+// A window shared by the rotor and the rest of the machine (bodies, sea, moorings, advanced in their own steps): the rotor is asked once
+// per window and sample, and the bodies see its loads as a signal in time, by a loose scheme or iterated until both agree. What iterates is
+// a pure function of a snapshot in memory, so a window may be repeated, cut, or begun again after a restart.
+// Schemes: kernels/coupling. Called by run.cpp; tested in tests/src/coupling/window_test.cpp and tests/coupled/schemes_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "kernels/coupling/ibqn_ls.hpp"
+#include "kernels/coupling/interface_gmres.hpp"
+#include "kernels/coupling/iqn_ils.hpp"
+#include "kernels/coupling/newton.hpp"
+#include "kernels/coupling/relaxation_aitken.hpp"
+#include "kernels/coupling/relaxation_steepest_descent.hpp"
+#include "kernels/coupling/solve_window.hpp"
+#include "kernels/coupling/staggered.hpp"
+#include "src/coupling/machine.hpp"
+#include "src/coupling/rotor_interface.hpp"
+#include "src/io/history.hpp"
+
+namespace spindrift::coupling {
+
+/// How a window went.
+struct WindowReport {
+  WindowLog log;          ///< loose: one evaluation; the residual is what the scheme neglects, as is
+  double mismatch = 0.0;  ///< residual over the loads
+  std::string failure;    ///< not empty: the state is that of the window's start
+  bool ok() const { return failure.empty(); }
+};
+
+class CoupledWindow {
+ public:
+  /// The machine has a rotor, its scheme is not monolithic, and it outlives the window; its bodies take the rotor's loads from here on.
+  explicit CoupledWindow(Machine& machine);
+  ~CoupledWindow();
+  CoupledWindow(const CoupledWindow&) = delete;
+  CoupledWindow& operator=(const CoupledWindow&) = delete;
+
+  /// Motion and loads of the run's first state.
+  void begin(const bodies::BodiesState& state);
+  /// From a window's start to its end.
+  WindowReport advance(bodies::BodiesState& state);
+
+  /// Everything but the bodies' state that the next window depends on; bit for bit.
+  std::vector<double> history();
+  /// False where the values are not such a history.
+  bool restore(std::span<const double> values);
+
+  /// Totals since the object was made.
+  struct Totals {
+    std::int64_t windows = 0, evaluations = 0, probes = 0, retries = 0, cuts = 0, body_steps = 0, rotor_calls = 0;
+  };
+  const Totals& totals() const { return totals_; }
+
+  // Columns of history.csv: evaluations and mismatch; of strong schemes also columns kept, cuts and retries.
+  void declare(io::History& history);
+  void put(std::span<double> row) const;
+
+ private:
+  class Pieces;
+  friend class Pieces;
+  using AnyScheme = std::variant<RelaxationConstant, RelaxationAitken, RelaxationSteepestDescent, IqnIls, IbqnLs, InterfaceGmres, Newton>;
+  static AnyScheme make_scheme(const CouplingOptions& options);
+
+  double time(std::int64_t tick) const { return double(tick) * machine_.timeline().tick_s(); }
+  /// Advances the bodies under `signal`; false where a step fails (then trouble_).
+  bool move(bodies::BodiesState& state, std::int64_t end);
+  template <class Signal>
+  void feel(const Signal& signal);
+  WindowReport advance_loose(bodies::BodiesState& state);
+  WindowReport advance_strong(bodies::BodiesState& state);
+  std::string describe(const WindowLog& log, const bodies::BodiesState& state) const;
+  void visit(auto& v);
+
+  Machine& machine_;
+  const CouplingOptions options_;
+  RotorInterface interface_;
+  std::optional<Staggered> loose_;
+  std::optional<AnyScheme> strong_;
+  Extrapolation loads_, motions_;  ///< strong: at the ends of the last pieces
+  Waveform signal_;                ///< strong: loads over the piece
+  std::function<void(double, Vector&)> felt_;
+  Vector load_now_;                ///< scratch of the right-hand side
+  bodies::StepReport trouble_;     ///< of the last step that failed
+  bodies::BodiesState trouble_state_;
+  WindowReport last_;
+  Totals totals_;
+  std::size_t column_ = 0;
+};
+
+}  // namespace spindrift::coupling
