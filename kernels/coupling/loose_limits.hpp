@@ -43,13 +43,28 @@ inline std::vector<double> cps2_polynomial(double r) { return {r, -4.0 * r, 4.0 
 /// -r (5/2 a_n - 2 a_{n-1} + 1/2 a_{n-2}), and S takes it in the same window.
 inline std::vector<double> predicted_position_polynomial(double r) { return {0.5 * r, -2.0 * r, 2.5 * r, 1.0}; }
 
-/// Largest r whose polynomial has all roots within the unit circle, by bisection to round-off.
+// The same for a load that damps, y = -c v, with s = c dt / m: S integrates what it is given exactly over the window.
+
+/// cps: y_{n+1} = -c v_n held, v_{n+1} = v_n + dt y_n / m: z^2 - z + s.
+inline std::vector<double> cps_damping_polynomial(double s) { return {s, -1.0, 1.0}; }
+/// cps2: y_n = -c (2 v_{n-1} - v_{n-2}), S takes 3/2 y_n - 1/2 y_{n-1} on average.
+inline std::vector<double> cps2_damping_polynomial(double s) { return {0.5 * s, -2.5 * s, 3.0 * s, -1.0, 1.0}; }
+/// css: y_n = -c v_n; averages of the extrapolation are the weights of Adams and Bashforth.
+inline std::vector<double> css_damping_polynomial(int order, double s) {
+  switch (order) {
+    case 0: return {s - 1.0, 1.0};
+    case 1: return {-0.5 * s, 1.5 * s - 1.0, 1.0};
+    default: return {5.0 / 12.0 * s, -16.0 / 12.0 * s, 23.0 / 12.0 * s - 1.0, 1.0};
+  }
+}
+
+/// Largest r whose polynomial has all roots within the unit circle, by bisection.
 template <class Polynomial>
 double stability_ratio(Polynomial polynomial) {
   double low = 0.0, high = 1e3;
   for (int k = 0; k < 100; ++k) {
     const double middle = 0.5 * (low + high);
-    (largest_root(polynomial(middle)) <= 1.0 ? low : high) = middle;
+    (largest_root(polynomial(middle)) <= 1.0 + 1e-12 ? low : high) = middle;
   }
   return low;
 }

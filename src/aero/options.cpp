@@ -9,6 +9,7 @@
 #include "src/aero/prescribed.hpp"
 #include "src/aero/thrust_curve.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/scene/columns.hpp"
 #include "src/scene/document.hpp"
 
 namespace spindrift::aero {
@@ -110,6 +111,9 @@ const scene::Section<RotorOptions>& rotor_section() {
                    scene::between(-180.0, 180.0))
           .number("diameter_m", &RotorOptions::diameter_m, "m", "Rotor diameter.", scene::positive())
           .path("turbine", &RotorOptions::turbine, "Turbine file: blades as section tables (inputs/turbines).")
+          .path("operation", &RotorOptions::operation,
+                "CSV file with wind_m_s and speed_rpm: steady operation, for the frequencies that `check` compares; without it the rotor "
+                "speed of the scene stands for every wind.")
           .check(check_axis);
   return section;
 }
@@ -148,6 +152,12 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
   if (aero.model == "bem" && rotor.turbine.empty())
     doc.problem("rotor.turbine", "must name a turbine file: aero.model \"bem\" needs the blades");
   try_file("rotor.turbine", rotor.turbine, [&] { read_turbine(rotor.turbine); });
+  try_file("rotor.operation", rotor.operation, [&] {
+    const scene::Columns table = scene::read_columns(rotor.operation);
+    table.require_rows(1);
+    table.require_increasing("wind_m_s", "wind must increase from row to row");
+    table["speed_rpm"];
+  });
   try_file("aero.table", aero.table, [&] { Prescribed model(aero); });
   try_file("aero.curve", aero.curve, [&] { ThrustCurve model(aero, rotor, 1.0); });
 }

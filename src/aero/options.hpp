@@ -46,6 +46,7 @@ struct RotorOptions {
   double blade_pitch = 0.0;  ///< [rad], positive nose into the wind
   std::optional<double> diameter_m;
   std::string turbine;  ///< path: blades as data
+  std::string operation;  ///< path: rotor speed against wind
 };
 
 struct WindOptions {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "src/app/commands.hpp"
+#include "src/coupling/campbell.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/start.hpp"
@@ -90,6 +91,39 @@ void print_modes(const Machine& machine, const bodies::Linearisation& linearisat
   }
 }
 
+/// Blank where there is none.
+std::string hertz(double f) { return f > 0.0 ? fmt::format("{:.4f}", f) : "-"; }
+
+void print_campbell(Machine& machine, const coupling::Start& start, const bodies::Linearisation& linearisation) {
+  const double speed = machine.rotor()->state(0.0, start.state.motions).speed;
+  const coupling::Campbell c = campbell(machine.scenario(), linearisation, speed);
+  fmt::print("\nFrequencies [Hz]: rotor, waves and platform (wind and most probable waves by sea state after Lee et al. 1985)\n");
+  fmt::print("  {:<14}{:>10}{:>10}{:>10}{:>10}{:>10}   within {:.0f} %\n", "", "wind m/s", "height m", "waves", "1P", "3P", 100.0 * coupling::close);
+  for (const coupling::CampbellRow& row : c.rows) {
+    fmt::print("  {:<14}{:>10.2f}{:>10.2f}{:>10}{:>10}{:>10}   ", row.name, row.wind_m_s, row.wave_height_m, hertz(row.wave), hertz(row.once),
+               hertz(row.thrice));
+    for (std::size_t i = 0; i < row.together.size(); ++i) fmt::print("{}{}", i ? ", " : "", row.together[i]);
+    fmt::print("\n");
+  }
+  for (double wind : c.meets_waves_m_s) fmt::print("  1P meets the most probable waves at a wind of {:.1f} m/s\n", wind);
+
+  machine.use_full_loads(true);
+  const coupling::LooseVerdict verdict = loose_verdict(machine, start.state, c);
+  machine.use_full_loads(false);
+  fmt::print("\nCoupling of rotor and platform (window {} s): mass at the hub {:.3g} kg, thrust falls {:.4g} kN per m/s, fastest {:.3g} Hz\n",
+             machine.timeline().window_s(), verdict.hub_mass_kg, 1e-3 * verdict.slope_N_s_m, verdict.fastest_Hz);
+  bool will_do = false;
+  for (const auto& scheme : verdict.schemes) {
+    will_do = will_do || scheme.will_do;
+    fmt::print("  {:<6}stable for windows {}; misses {:.2g} % of a load at that frequency: {}\n", scheme.name,
+               std::isinf(scheme.window_limit_s) ? std::string("of any length") : fmt::format("up to {:.3g} s", scheme.window_limit_s),
+               100.0 * scheme.missed, scheme.will_do ? "will do" : "will not do");
+  }
+  fmt::print("  {}\n", will_do ? "A loose scheme will do." : "No loose scheme will do at this window: iterate (coupling.scheme) or shorten it.");
+  if (!c.rows.back().together.empty())
+    fmt::print("  Frequencies of this scene lie together: response there is sensitive to phase; compare with a strong scheme.\n");
+}
+
 }  // namespace
 
 int check(const SceneArguments& arguments, const runtime::World& world) {
@@ -105,6 +139,7 @@ int check(const SceneArguments& arguments, const runtime::World& world) {
   }
   require_stable(machine, stability);
   if (world.rank != 0) return done;
+  if (machine.rotor()) print_campbell(machine, start, stability.linearisation);
   machine.use_full_loads(true);
   const bodies::Equilibrium equilibrium =
       start.equilibrium ? *start.equilibrium : find_equilibrium(machine.system(), start.state, 0.0);

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/campbell.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "kernels/base/constants.hpp"
+#include "kernels/coupling/loose_limits.hpp"
+#include "src/scene/columns.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+bool near(double a, double b) { return a > 0.0 && b > 0.0 && std::abs(a - b) <= close * std::min(a, b); }
+
+double waves_at(double wind) {
+  const auto above = std::find_if(sea_states.begin(), sea_states.end(), [wind](const SeaState& s) { return s.wind_m_s >= wind; });
+  if (above == sea_states.begin()) return 1.0 / above->period_s;
+  if (above == sea_states.end()) return 1.0 / sea_states.back().period_s;
+  const SeaState &b = *above, &a = *(above - 1);
+  const double x = (wind - a.wind_m_s) / (b.wind_m_s - a.wind_m_s);
+  return (1.0 - x) / a.period_s + x / b.period_s;
+}
+
+void find_pairs(CampbellRow& row, const Campbell& c) {
+  const std::pair<const char*, double> rotor[2] = {{"1P", row.once}, {"3P", row.thrice}};
+  for (const auto& [name, f] : rotor)
+    if (near(f, row.wave)) row.together.push_back(fmt::format("{} and waves", name));
+  for (const auto& [mode, natural] : c.platform) {
+    for (const auto& [name, f] : rotor)
+      if (near(f, natural)) row.together.push_back(fmt::format("{} and {}", name, mode));
+    if (near(row.wave, natural)) row.together.push_back(fmt::format("waves and {}", mode));
+  }
+}
+
+}  // namespace
+
+double Operation::at(double wind) const {
+  const auto above = std::upper_bound(wind_m_s.begin(), wind_m_s.end(), wind);
+  if (above == wind_m_s.begin()) return speed.front();
+  if (above == wind_m_s.end()) return speed.back();
+  const auto i = std::size_t(above - wind_m_s.begin());
+  const double x = (wind - wind_m_s[i - 1]) / (wind_m_s[i] - wind_m_s[i - 1]);
+  return (1.0 - x) * speed[i - 1] + x * speed[i];
+}
+
+Campbell campbell(const Scenario& s, const bodies::Linearisation& linearisation, double speed) {
+  Campbell c;
+  for (const bodies::Mode& mode : linearisation.modes)
+    if (std::abs(mode.eigenvalue.imag()) > 1e-6 && mode.damping_ratio() < 1.0) c.platform.emplace_back(mode.name, 1.0 / mode.period_s());
+  Operation operation;
+  if (!s.rotor.operation.empty()) {
+    const scene::Columns table = scene::read_columns(s.rotor.operation);
+    operation.wind_m_s.assign(table["wind_m_s"].begin(), table["wind_m_s"].end());
+    for (double rpm : table["speed_rpm"]) operation.speed.push_back(rpm * rad_s_per_rpm);
+  }
+  const auto once = [&](double wind) { return std::abs(operation.speed.empty() ? speed : operation.at(wind)) / (2 * pi); };
+  for (const SeaState& sea : sea_states)
+    c.rows.push_back({fmt::format("sea state {}", sea.number), sea.wind_m_s, sea.height_m, 1.0 / sea.period_s, once(sea.wind_m_s),
+                      3.0 * once(sea.wind_m_s), {}});
+  const double own = std::abs(speed) / (2 * pi);
+  c.rows.push_back({"this scene", s.wind.speed_m_s, s.has_waves() ? s.waves.height_m : 0.0, s.has_waves() ? 1.0 / s.waves.period_s : 0.0, own,
+                    3.0 * own, {}});
+  for (CampbellRow& row : c.rows) find_pairs(row, c);
+  double before = 0.0;
+  constexpr double step = 0.05;
+  for (double wind = sea_states.front().wind_m_s; wind <= sea_states.back().wind_m_s; wind += step) {
+    const double ahead = once(wind) - waves_at(wind);
+    if (before * ahead < 0.0) c.meets_waves_m_s.push_back(wind - step * ahead / (ahead - before));
+    before = ahead;
+  }
+  return c;
+}
+
+double missed_part(SchemeKind scheme, int order, double omega, double window) {
+  using Phasor = std::complex<double>;
+  const auto v = [&](double n) { return std::exp(Phasor(0.0, omega * window * n)); };  // at whole windows from now
+  // Load at the end of the window that ends n windows from now, as the scheme has it from the motion it gives the rotor.
+  const auto y = [&](double n) {
+    if (scheme == SchemeKind::cps) return v(n - 1);
+    return scheme == SchemeKind::cps2 ? 2.0 * v(n - 1) - v(n - 2) : v(n);
+  };
+  const int load_order = scheme == SchemeKind::cps ? 0 : scheme == SchemeKind::cps2 ? 1 : order;
+  double worst = 0.0;
+  for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    Phasor assumed = y(0);
+    if (load_order == 1) assumed += x * (y(0) - y(-1));
+    if (load_order == 2) assumed = 0.5 * (x + 1) * (x + 2) * y(0) - x * (x + 2) * y(-1) + 0.5 * x * (x + 1) * y(-2);
+    worst = std::max(worst, std::abs(assumed - v(x)));
+  }
+  return worst;
+}
+
+LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, const Campbell& campbell) {
+  LooseVerdict verdict;
+  const aero::RotorLoads& rotor = *machine.rotor();
+  aero::RotorState hub = rotor.state(0.0, state.motions);
+  bodies::System& system = machine.system();
+  if (!system.open_chart(state, 0.0).ok() || system.freedoms() == 0) return verdict;
+
+  // Mobility of the hub along the axis: 1 / (J M^-1 J^T), J its velocity per independent velocity.
+  Eigen::VectorXd force(system.freedoms());
+  Eigen::MatrixXd mass(system.freedoms(), system.freedoms());
+  if (!system.forces_at_rest(0.0, Eigen::VectorXd::Zero(system.freedoms()), force, mass)) return verdict;
+  const Eigen::MatrixXd motion = system.motion_of_freedoms();
+  const std::string& body = machine.scenario().rotor.body;
+  for (std::size_t b = 0; b < system.bodies().size(); ++b) {
+    if (system.bodies()[b].name != body) continue;
+    const Motion& m = state.motions[b];
+    const Eigen::Vector3d arm = hub.hub - m.position;
+    Eigen::VectorXd along(system.freedoms());
+    for (Eigen::Index k = 0; k < along.size(); ++k) {
+      const Eigen::Vector3d linear = motion.col(k).segment<3>(Eigen::Index(6 * b)),
+                            spin = m.attitude * Eigen::Vector3d(motion.col(k).segment<3>(Eigen::Index(6 * b + 3)));
+      along[k] = (linear + spin.cross(arm)).dot(hub.axis);
+    }
+    const double mobility = along.dot(mass.llt().solve(along));
+    verdict.hub_mass_kg = mobility > 0.0 ? 1.0 / mobility : std::numeric_limits<double>::infinity();
+  }
+  constexpr double change = 0.1;  // m/s either side
+  double thrust[2];
+  for (int side = 0; side < 2; ++side) {
+    aero::RotorState moved = hub;
+    moved.hub_velocity += (side ? change : -change) * hub.axis;
+    moved.relative_wind = rotor.relative_wind(moved.hub_velocity, hub.axis);
+    thrust[side] = rotor.load(0.0, moved).force.dot(hub.axis);
+  }
+  verdict.slope_N_s_m = (thrust[0] - thrust[1]) / (2 * change);
+  for (const auto& [name, f] : campbell.platform) verdict.fastest_Hz = std::max(verdict.fastest_Hz, f);
+  verdict.fastest_Hz = std::max({verdict.fastest_Hz, campbell.rows.back().wave, campbell.rows.back().thrice});
+
+  const double window = machine.timeline().window_s(), omega = 2 * pi * verdict.fastest_Hz;
+  const auto add = [&](const char* name, SchemeKind kind, int order, auto polynomial) {
+    const double ratio = stability_ratio(polynomial);
+    const double limit = verdict.slope_N_s_m > 0.0 ? ratio * verdict.hub_mass_kg / verdict.slope_N_s_m : std::numeric_limits<double>::infinity();
+    const double missed = missed_part(kind, order, omega, window);
+    verdict.schemes.push_back({name, limit, missed, window <= 0.5 * limit && missed <= acceptable});
+  };
+  add("cps", SchemeKind::cps, 0, cps_damping_polynomial);
+  add("cps2", SchemeKind::cps2, 1, cps2_damping_polynomial);
+  add("css1", SchemeKind::css, 1, [](double s) { return css_damping_polynomial(1, s); });
+  return verdict;
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,71 @@
+// The Campbell table of the paper's machine and the judgement of loose schemes.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/campbell.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "kernels/base/constants.hpp"
+#include "kernels/coupling/loose_limits.hpp"
+#include "tests/src/coupling/windows.hpp"
+
+using namespace spindrift;
+using namespace spindrift::coupling;
+using namespace spindrift::coupling::test;
+
+namespace {
+const std::string case3 = SPINDRIFT_SOURCE_DIR "/inputs/leble_barakos/case3_engineering.toml";
+}
+
+TEST_CASE("1P of the DTU rotor and the sea states are the paper's, and meet near 9 m/s", "[coupling][fast]") {
+  const auto machine = machine_of(case3, {});
+  const Start start = make_start(*machine);
+  const Stability s = stability(*machine, start.state);
+  const Campbell c = campbell(machine->scenario(), s.linearisation, 8.8 * rad_s_per_rpm);
+  REQUIRE(c.rows.size() == sea_states.size() + 1);
+  CHECK(c.rows[1].wave == Approx(1 / 7.5));
+  CHECK(c.rows[2].wave == Approx(1 / 8.8));
+  CHECK(c.rows[2].once == Approx(0.131).epsilon(0.01));  // 7.5 U / R at 9.8 m/s
+  CHECK(c.rows[3].once == Approx(0.160));                // 9.6 rpm from 12 m/s
+  CHECK(c.rows[3].thrice == Approx(0.480));
+  CHECK(c.rows.back().once == Approx(8.8 / 60));
+  CHECK(c.rows.back().wave == Approx(1 / 8.8));
+  REQUIRE(c.meets_waves_m_s.size() == 1);
+  CHECK(c.meets_waves_m_s[0] == Approx(9.0).margin(0.3));  // "for sea states between 3 and 4 (or wind speed about 9m/s) resonances may occur"
+  const auto& pairs = c.rows.back().together;
+  CHECK(std::any_of(pairs.begin(), pairs.end(), [](const std::string& p) { return p.rfind("waves and heave", 0) == 0; }));
+
+  Operation table{{4.0, 7.0, 12.0}, {0.6, 0.6, 1.0}};
+  CHECK(table.at(1.0) == 0.6);
+  CHECK(table.at(9.5) == Approx(0.8));
+  CHECK(table.at(30.0) == 1.0);
+}
+
+TEST_CASE("a loose scheme will do for the paper's machine at windows of 0.02 s, not at 5 s", "[coupling][fast]") {
+  const auto verdict_at = [](const std::string& window) {
+    const auto machine = machine_of(case3, {"time.end_s=10.0", "time.window_s=" + window, "time.step_s=0.02"});
+    const Start start = make_start(*machine);
+    const Campbell c = campbell(machine->scenario(), stability(*machine, start.state).linearisation, 8.8 * rad_s_per_rpm);
+    return loose_verdict(*machine, start.state, c);
+  };
+  const LooseVerdict fine = verdict_at("0.02"), coarse = verdict_at("5.0");
+  CHECK(fine.slope_N_s_m == Approx(162.5e3).epsilon(0.03));
+  CHECK(fine.hub_mass_kg == Approx(1.6e6).epsilon(0.3));  // 1 / (1/m + h^2/I), with the water's mass
+  CHECK(fine.schemes[1].will_do);
+  CHECK(fine.schemes[1].missed < 0.1 * fine.schemes[0].missed);
+  for (const auto& scheme : coarse.schemes) CHECK_FALSE(scheme.will_do);
+}
+
+TEST_CASE("what a scheme misses falls with its order in the window", "[coupling][fast]") {
+  const double omega = 1.0;
+  for (const auto& [kind, order, p] : {std::tuple{SchemeKind::cps, 0, 1}, {SchemeKind::css, 0, 1}, {SchemeKind::cps2, 1, 2},
+                                       {SchemeKind::css, 1, 2}, {SchemeKind::css, 2, 3}})
+    CHECK(missed_part(kind, order, omega, 0.02) / missed_part(kind, order, omega, 0.01) == Approx(std::pow(2.0, p)).epsilon(0.03));
+  CHECK(missed_part(SchemeKind::cps, 0, omega, 0.01) == Approx(0.02).epsilon(0.01));  // two windows late at its end
+}
+
+TEST_CASE("a load that damps has its own limits under loose coupling", "[coupling][fast]") {
+  CHECK(stability_ratio(cps_damping_polynomial) == Approx(1.0).epsilon(1e-6));
+  CHECK(stability_ratio([](double s) { return css_damping_polynomial(0, s); }) == Approx(2.0).epsilon(1e-6));
+  CHECK(stability_ratio([](double s) { return css_damping_polynomial(1, s); }) == Approx(1.0).epsilon(1e-6));      // Adams-Bashforth 2
+  CHECK(stability_ratio([](double s) { return css_damping_polynomial(2, s); }) == Approx(6.0 / 11.0).epsilon(1e-6));  // and 3
+}
