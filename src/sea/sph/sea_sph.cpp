@@ -24,10 +24,12 @@ SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domai
         GroupCount& count = counts[std::size_t(s_.columns.group(seed.position))];
         ++(seed.owner == 0 ? count.water : count.solid);
       }
-    for (GroupCount& c : counts) c.water = (c.water + cluster_size - 1) / cluster_size, c.solid = (c.solid + cluster_size - 1) / cluster_size;
-    rank_of_group = comm_.size() == 1 ? std::vector<int>(counts.size(), 0)
-                                      : runtime::partition_blocks(block_graph(s_.columns, counts), {.ranks = comm_.size()}, comm_.get())
-                                            .rank_of_block;
+    for (GroupCount& c : counts)
+      c.water = (c.water + cluster_size - 1) / cluster_size, c.solid = (c.solid + cluster_size - 1) / cluster_size;
+    rank_of_group =
+        comm_.size() == 1
+            ? std::vector<int>(counts.size(), 0)
+            : runtime::partition_blocks(block_graph(s_.columns, counts), {.ranks = comm_.size()}, comm_.get()).rank_of_block;
   }
   s_.ghosts = Ghosts<dim>(seeds);
   set_territory(std::move(rank_of_group));
@@ -59,10 +61,10 @@ void SeaSph<dim, Real>::run(std::unique_ptr<Program>& program, Record&& record) 
     auto tasks = std::make_unique<StepTasks<dim, Real>>(s_, graph, machine_.threads);
     record(*tasks);
     const bool is_window = &program == &window_;
-    program.reset(new Program{std::move(tasks),
-                              runtime::Executor(std::move(graph), {.threads = machine_.threads,
-                                                                   .records = is_window ? machine_.records : 0,
-                                                                   .random_schedule = machine_.random_schedule})});
+    program.reset(
+        new Program{std::move(tasks), runtime::Executor(std::move(graph), {.threads = machine_.threads,
+                                                                           .records = is_window ? machine_.records : 0,
+                                                                           .random_schedule = machine_.random_schedule})});
   }
   program->executor.run();
   if (s_.plan.failure) throw NumericalFailure(*s_.plan.failure);
@@ -163,8 +165,8 @@ void SeaSph<dim, Real>::add_body(std::uint16_t owner, const Motion& motion, doub
   s_.free.push_back(box_of<dim>(solid, motion));
   const double relative_weight = mass / (double(solid.local.size()) * s_.p.mass(dim));
   // Half of what is stable for a body pressed from one side: it is wet all round, and turns.
-  s_.body_limit = std::min(
-      s_.body_limit, 0.5 * step_limit_body(relative_weight, solid.layers(s_.p.spacing), s_.p.spacing, s_.p.eos.c0));
+  s_.body_limit =
+      std::min(s_.body_limit, 0.5 * step_limit_body(relative_weight, solid.layers(s_.p.spacing, dim), s_.p.spacing, s_.p.eos.c0));
 }
 
 /// One list of contacts from those of all groups, in the order of groups.
@@ -188,7 +190,8 @@ void SeaSph<dim, Real>::gather_contacts() {
   std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.group < b.group; });
   contacts_.clear();
   for (const Part& part : parts) {
-    auto known = std::find_if(contacts_.begin(), contacts_.end(), [&](const Touch& t) { return t.on == part.on && t.of == part.of; });
+    auto known =
+        std::find_if(contacts_.begin(), contacts_.end(), [&](const Touch& t) { return t.on == part.on && t.of == part.of; });
     if (known == contacts_.end()) known = contacts_.insert(known, Touch{part.on, part.of, {}});
     for (int k = 0; k < 3; ++k)
       known->wrench.force[k] += part.load[std::size_t(k)], known->wrench.moment[k] += part.load[std::size_t(3 + k)];

@@ -44,16 +44,12 @@ struct Solid {
   Eigen::Quaterniond built = Eigen::Quaterniond::Identity();  ///< attitude in which it was added
 
   /// Particles across it where it is thinnest: those it has over those it shows along the axis that shows most.
-  double layers(double spacing) const {
-    const Eigen::Vector3d extent = (high - low).array() + spacing;
-    double volume = 0.0, largest_face = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      if (high[k] == low[k]) continue;  // the axis that a 2-D scene lacks
-      const double face = (extent / spacing).prod() / (extent[k] / spacing);
-      largest_face = std::max(largest_face, face);
-    }
-    volume = double(local.size());
-    return std::max(1.0, largest_face > 0.0 ? volume / largest_face : 1.0);
+  double layers(double spacing, int dim) const {
+    const Eigen::Array3d across = ((high - low).array() + spacing) / spacing;
+    double largest_face = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (dim == 3 || axis != 1) largest_face = std::max(largest_face, across.prod() / across[axis]);
+    return std::max(1.0, double(local.size()) / largest_face);
   }
 
   /// A bound on how far any particle goes from the motion now to another one [m]: the same on all ranks.

@@ -26,8 +26,12 @@ struct Tank {
   double bottom() const { return -0.5 * p.spacing; }
 
   void add_water_to(std::vector<Seed<2>>& seeds) const { add_water_at_rest<2>(seeds, {0, 0}, p, {0, 0}, {columns, rows}); }
-  void add_walls_to(std::vector<Seed<2>>& seeds, int length, int height) const {
+  /// `modified`: with ghost nodes mirrored in the walls' surfaces, half a spacing inside their first layer.
+  void add_walls_to(std::vector<Seed<2>>& seeds, int length, int height, bool modified = false) const {
+    const std::size_t first = seeds.size();
     add_tank<2>(seeds, {0, 0}, p.spacing, {0, 0}, {length, height}, wall_layers, p.eos, p.gravity, surface());
+    for (std::size_t n = first; n < seeds.size() && modified; ++n)
+      seeds[n].ghost = mirror_in_box<2>(seeds[n].position, {bottom(), bottom()}, {(length - 0.5) * p.spacing, 1e300});
   }
 };
 
