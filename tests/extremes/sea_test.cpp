@@ -75,8 +75,9 @@ TEST_CASE("bodies of every weight dropped at five particles per radius stay boun
     CHECK(height < above + 0.011);
     above = height;
   }
-  drop(25.0, 0.5, 0.1);
 }
+
+TEST_CASE("a cylinder dropped at 25 particles per radius stays bounded", "[extremes][sea][nightly]") { drop(25.0, 0.5, 0.1); }
 
 TEST_CASE("ten times the allowed step is cut to what is allowed", "[extremes][sea][fast]") {
   const Tank tank(0.05, 1.0, 0.5);
@@ -186,8 +187,7 @@ TEST_CASE("two bodies dropped on each other in the water touch, are named, and c
   check_sound(sea, 6.0);
 }
 
-TEST_CASE("water from soft to stiff is still, the stiffer the nearer to Archimedes", "[extremes][sea][fast]") {
-  double error_before = 1e9;
+TEST_CASE("water from soft to stiff is still at five particles of depth", "[extremes][sea][fast]") {
   for (double ratio : {5.0, 15.0, 40.0}) {
     const Tank tank(0.1, 1.0, 0.5, ratio);
     std::vector<Seed<2>> seeds;
@@ -203,10 +203,7 @@ TEST_CASE("water from soft to stiff is still, the stiffer the nearer to Archimed
       error2 += std::pow(tank.p.eos.pressure(sea.store().deviation[slot]) / (weight * tank.depth) - depth / tank.depth, 2),
           ++count;
     });
-    const double error = std::sqrt(error2 / count);
-    CHECK(error < 0.04);
-    CHECK(error < error_before);
-    error_before = error;
+    CHECK(std::sqrt(error2 / count) < 0.025);  // 1.5 to 1.9 %, of the walls' coarse particles and not of the sound
   }
 }
 
