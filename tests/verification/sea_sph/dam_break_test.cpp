@@ -1,6 +1,6 @@
 // Collapse of a water column 1 m wide and 2 m high: position of the front against the experiment of Koshizuka & Oka (1996),
-// Nucl. Sci. Eng. 123, 421, scaled to a width of 1 m. The experiment's front is held back by the gate and the bottom's friction;
-// inviscid computations run ahead of it, and so does this one, by some 5 % of the way.
+// Nucl. Sci. Eng. 123, 421, scaled to a width of 1 m. The experiment's front is held back by the gate at the start; this one leads by
+// some 5 % of the way, made in the first 0.3 s (docs/developer/sea_physics.md).
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 

@@ -1,10 +1,10 @@
-// A box afloat in 2-D: it comes to rest at the draft of Archimedes, within half a spacing, because its particles displace its
-// own volume.
+// Bodies afloat in 2-D. A box comes to rest at the draft of Archimedes within half a spacing, because its particles displace its
+// own volume. A half-immersed cylinder let go above its rest swings with the period of linear theory.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
-#include "src/sea/sph/shapes.hpp"
-#include "tests/verification/sea_sph/tank.hpp"
+#include "kernels/base/constants.hpp"
+#include "tests/verification/sea_sph/floater.hpp"
 
 using namespace spindrift;
 using namespace spindrift::sph;
@@ -13,42 +13,24 @@ namespace {
 
 /// Way of the centre in spacings, upwards, from the draft of Archimedes to rest; heave only, with a damper that fades the start.
 double rise_to_rest(double spacing, double relative_weight, double duration) {
-  const double edge = 0.4, damping = 2.0;
+  const double edge = 0.4;
   const Tank tank(spacing, 1.6, 0.6);
-  const double mass = relative_weight * tank.p.eos.rho0 * edge * edge;
-  Motion box;
-  box.position = {0.5 * (tank.columns - 1) * spacing, 0.0, tank.surface() + edge * (0.5 - relative_weight)};
+  Floater box{.owner = 2, .motion = {}, .mass = relative_weight * tank.p.eos.rho0 * edge * edge, .inertia = 0.0};
+  box.damping = 2.0;
+  box.motion.position = {0.5 * (tank.columns - 1) * spacing, 0.0, tank.surface() + edge * (0.5 - relative_weight)};
+  const double start = box.motion.position[2];
   std::vector<Seed<2>> seeds;
   tank.add_water_to(seeds);
-  std::erase_if(seeds, [&](const Seed<2>& seed) {
-    return std::abs(seed.position[0] - box.position[0]) < 0.5 * edge && std::abs(seed.position[1] - box.position[2]) < 0.5 * edge;
-  });
+  insert_body(seeds, tank, points_in_box({edge, 0.0, edge}, spacing), box.motion, 2,
+              [&](double x, double z) { return std::abs(x) < 0.5 * edge && std::abs(z) < 0.5 * edge; });
   tank.add_walls_to(seeds, tank.columns, tank.rows + 10);
-  for (const Eigen::Vector3d& point : points_in_box({edge, 0.0, edge}, spacing)) {
-    const auto x = from_earth<2>(box.point(point));
-    seeds.push_back({.position = x,
-                     .deviation = tank.p.eos.hydrostatic_deviation(std::max(0.0, tank.surface() - x[1]), tank.p.gravity),
-                     .owner = 2});
-  }
   SeaSph<2> sea(tank.p, {{-1, -1}, {3, 3}}, seeds);
-  sea.add_body(2, box);
-  const double start = box.position[2];
-  while (sea.time() < duration) {
-    const double dt = sea.begin_step(1.0), z = box.position[2], v = box.velocity[2];
-    const auto acceleration = [&] {
-      return sea.load_on(2, box.position).force[2] / mass - tank.p.gravity - damping * box.velocity[2];
-    };
-    const double v_half = v + 0.5 * dt * acceleration();
-    box.position[2] = z + 0.5 * dt * v, box.velocity[2] = v_half;
-    sea.place_body(2, box);
-    sea.half_step();
-    box.velocity[2] = v + dt * acceleration();
-    box.position[2] = z + 0.5 * dt * (v + box.velocity[2]);
-    sea.place_body(2, box);
-    sea.end_step();
-  }
+  sea.add_body(2, box.motion, box.mass);
+  std::vector<Floater> bodies{box};
+  while (sea.time() < duration) step_with(sea, bodies, 1.0);
   CHECK(sea.store().lost.empty());
-  return (box.position[2] - start) / spacing;
+  CHECK(sea.contacts().empty());
+  return (bodies[0].motion.position[2] - start) / spacing;
 }
 
 }  // namespace
@@ -60,4 +42,35 @@ TEST_CASE("a half-buoyant box floats at half its height within half a spacing", 
 TEST_CASE("light and heavy boxes float at their draft within half a spacing", "[verification][sea][nightly]") {
   const double weight = GENERATE(0.1, 0.5, 0.9);
   CHECK(std::abs(rise_to_rest(0.025, weight, 3.0)) < 0.5);
+}
+
+TEST_CASE("a cylinder let go above its rest swings with the period of theory with added mass", "[verification][sea][nightly]") {
+  // Linear potential theory, deep water: added mass and damping from multipoles (Ursell 1949; at omega^2 a/g 0.8 added mass 0.60
+  // and damping 0.52 of the displaced mass), then the response to a step as the Fourier integral of the transfer function: first
+  // lowest point at 3.72 sqrt(a/g), next highest one at 7.22. Evaluated for this test with two cut-offs and resolutions.
+  constexpr double lowest = 3.72, next_highest = 7.22;
+  const double radius = 0.1, spacing = radius / 8.0, raised = 0.25 * radius, held = 0.2;
+  Tank tank(spacing, 2.0, 0.35);
+  tank.p.alpha = tank.p.alpha_solid = 0.05;
+  Floater cylinder{.owner = 2, .motion = {}, .mass = 0.5 * tank.p.eos.rho0 * pi * radius * radius, .inertia = 0.0};
+  cylinder.motion.position = {0.5 * (tank.columns - 1) * spacing, 0.0, tank.surface() + raised};
+  std::vector<Seed<2>> seeds;
+  tank.add_water_to(seeds);
+  insert_body(seeds, tank, points_in_cylinder(radius, 0.0, 1, spacing), cylinder.motion, 2,
+              [&](double x, double z) { return x * x + z * z < radius * radius; });
+  tank.add_walls_to(seeds, tank.columns, tank.rows + 10);
+  SeaSph<2> sea(tank.p, {{-1, -1}, {3, 3}}, seeds);
+  sea.add_body(2, cylinder.motion, cylinder.mass);
+  while (sea.time() < held) sea.step(1.0);
+  std::vector<Floater> bodies{cylinder};
+  std::vector<double> turns;
+  double speed = 0.0;
+  while (turns.size() < 2 && sea.time() < held + 1.2) {
+    step_with(sea, bodies, 1.0);
+    if (speed * bodies[0].motion.velocity[2] < 0.0) turns.push_back((sea.time() - held) * std::sqrt(tank.p.gravity / radius));
+    speed = bodies[0].motion.velocity[2];
+  }
+  REQUIRE(turns.size() == 2);
+  CHECK(turns[0] == Approx(lowest).epsilon(0.05));
+  CHECK(turns[1] == Approx(next_highest).epsilon(0.05));
 }
