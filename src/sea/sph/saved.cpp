@@ -148,7 +148,8 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
   plan = Plan{};
   plan.time = n[0], plan.steps = long(n[1]), plan.left = n[2], plan.dt = n[3], plan.planned = int(n[4]), plan.speed = n[5];
   plan.acceleration = n[6], plan.limit = n[7], plan.drift = n[8], plan.solid_drift = n[9], plan.way = n[10];
-  plan.solid_way = n[11], plan.shifted = n[12], plan.solid_path = n[13];
+  plan.solid_way = n[11], plan.solid_path = n[13];
+  for (const Saved<dim>& piece : pieces) plan.shifted = std::max(plan.shifted, piece.plan[12]);  // each rank's own since the last look
   sea.work = {long(n[14]), long(n[15]), long(n[16])};
   if (s.motions.size() != 13 * sea.solids.size())
     throw std::invalid_argument("sea: a saved state has " + std::to_string(s.motions.size() / 13) + " bodies, the scene " +

@@ -101,6 +101,7 @@ double SeaSph<dim, Real>::step_limit() {
 template <int dim, class Real>
 void SeaSph<dim, Real>::start_step(double dt) {
   s_.start_steps(dt, 1);
+  s_.plan.shifted = 0.0;
 }
 
 template <int dim, class Real>

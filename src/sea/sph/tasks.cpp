@@ -3,6 +3,7 @@
 #include "src/sea/sph/tasks.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "src/sea/sph/filters.hpp"
 #include "src/sea/sph/step.hpp"
@@ -40,7 +41,7 @@ struct StepTasks<dim, Real>::Shared {
   Shared(SeaState<dim, Real>& sea) : sorting(sea.store, sea.columns, sea.territory, sea.p.anchor_step()) {}
   Sorting<dim, Real> sorting;
   std::vector<Meetings<dim, Real>> meetings;  // one per thread
-  std::vector<double> extremes, shifted;      // partials by bundle: speed, acceleration (squares), way by shifting
+  std::vector<double> extremes;               // partials by bundle: speed, acceleration (squares), way by shifting
   double extreme[3] = {};
   std::vector<double> partial_loads, loads;  // by body group and body: force, moment
   struct Message {
@@ -78,7 +79,7 @@ StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph,
       for (const int g : border.seen) (*data)[std::size_t(g)] = graph.datum();
   }
   extremes_ = graph.data(bundles_.size());
-  shared_->extremes.resize(3 * bundles_.size()), shared_->shifted.resize(bundles_.size());
+  shared_->extremes.resize(3 * bundles_.size());
 
   if (!sea.move_bodies) return;
   // Bodies load the groups they are in and two rings round these: path_limit sees to it that none goes farther.
@@ -132,7 +133,10 @@ void StepTasks<dim, Real>::steps(bool first) {
     graph_.task("sea/plan", {updates(plan_)}, [&sea] { sea.plan.planned = sea.plan.failure ? 0 : 1; });
     evaluate(Half::begin);
     limits();
-    graph_.task("sea/steps", {updates(plan_)}, [&sea] { sea.choose_steps(); });
+    graph_.task("sea/steps", {updates(plan_)}, [&sea] {
+      sea.choose_steps();
+      sea.plan.shifted = 0.0;
+    });
   } else {
     step_ = [](const Context& c) { return int(c.iteration) + 1; };
     graph_.task("sea/substep", {reads(plan_)}, [] {});  // a rank may have no group, a loop must have a task
@@ -412,7 +416,7 @@ void StepTasks<dim, Real>::limits() {
                   Extremes most;
                   for (const int g : groups) most.merge(extremes(sea.store, sea.p, g));
                   shared->extremes[3 * b] = most.speed2, shared->extremes[3 * b + 1] = most.acceleration2;
-                  shared->extremes[3 * b + 2] = std::exchange(shared->shifted[b], 0.0);
+                  shared->extremes[3 * b + 2] = sea.plan.shifted;
                 }));
   }
   const Datum result = graph_.datum();
@@ -517,7 +521,6 @@ void StepTasks<dim, Real>::correct() {
 template <int dim, class Real>
 void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& label, const Sweep& sweep, std::function<bool(int step)> due,
                                        std::function<double(int group)> apply) {
-  const auto shared = shared_;
   due_ = std::move(due);
   clear(which, label);
   pack(Half::begin);
@@ -527,9 +530,14 @@ void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& lab
   for (std::size_t b = 0; b < bundles_.size(); ++b) {
     Uses uses = of_groups(bundles_[b], updates, state_);
     for (const int g : bundles_[b]) uses.push_back(reads(extra_[which][std::size_t(g)]));
-    uses.push_back(reads(order_)), uses.push_back(reads(plan_)), uses.push_back(updates(extremes_[b]));
-    graph_.task(name(label + "/apply", b), uses, if_active([&groups = bundles_[b], shared, apply, b] {
-                  for (const int g : groups) shared->shifted[b] = std::max(shared->shifted[b], apply(g));
+    uses.push_back(reads(order_)), uses.push_back(reads(plan_));
+    graph_.task(name(label + "/apply", b), uses, if_active([&groups = bundles_[b], &plan = sea_.plan, apply] {
+                  double farthest = 0.0;
+                  for (const int g : groups) farthest = std::max(farthest, apply(g));
+                  // This rank's until the next look takes the maximum of all; a maximum needs no order.
+                  const std::atomic_ref<double> shifted(plan.shifted);
+                  for (double before = shifted.load(); before < farthest && !shifted.compare_exchange_weak(before, farthest);) {
+                  }
                 }));
   }
   due_ = {};
