@@ -160,7 +160,8 @@ int main(int argc, char** argv) {
     const auto one_thread = make_sea<float>(p, seeds, 1), two_threads = make_sea<float>(p, seeds, 2);
     const double dt = 0.5 * one_thread->step_limit(), duration = 4.0 * dt;
     double best_one = 1e300, best_two = 1e300;
-    for (SeaSph<3, float>* sea : {one_thread.get(), two_threads.get()}) sea->set_pace({.dt = dt, .steps_per_look = 4}), sea->advance(duration);
+    for (SeaSph<3, float>* sea : {one_thread.get(), two_threads.get()})
+      sea->set_pace({.dt = dt, .steps_per_look = 4}), sea->advance(duration);
     for (int n = 0; n < 7; ++n) {
       best_one = std::min(best_one, perf::seconds([&] { one_thread->advance(duration); }));
       best_two = std::min(best_two, perf::seconds([&] { two_threads->advance(duration); }));
@@ -177,7 +178,8 @@ int main(int argc, char** argv) {
         idle += double(sea.window_executor()->times(t).idle_ns), wall += double(sea.window_executor()->times(t).wall_ns);
       return idle / wall;
     };
-    group.figure("two_threads_task_time", task_s(*two_threads) / task_s(*one_thread), "-", "seconds inside tasks, two threads over one");
+    group.figure("two_threads_task_time", task_s(*two_threads) / task_s(*one_thread), "-",
+                 "seconds inside tasks, two threads over one");
     group.figure("two_threads_idle", idle_share(*two_threads), "-", "share of both threads' time");
   }
 
@@ -200,7 +202,8 @@ int main(int argc, char** argv) {
     const std::vector<Seed<3>> particles = periodic_water(size, cells, box);
     const double rate = evaluations_per_second<float>(size, particles, 3.0, box);
     slowest = std::min(slowest, rate), fastest = std::max(fastest, rate);
-    group.point("sea_size_periodic", "water only, one core", double(particles.size()), "particles", rate * 1e-6, "evaluations [M/s]");
+    group.point("sea_size_periodic", "water only, one core", double(particles.size()), "particles", rate * 1e-6,
+                "evaluations [M/s]");
   }
   group.at_most("size_dependence_per_particle", fastest / slowest - 1.0, "-", 0.10, perf::Ceiling::none,
                 "water only, periodic sides: the same partners at 0.11, 0.5 and 5.0 M particles");

@@ -1,8 +1,7 @@
-// What the choices of a sea of particles trade: a standing wave in 2-D (length 1 m, depth 0.5 m, amplitude 1 cm, d = 1/40 m), each
-// choice varied alone, its error in frequency against linear theory, its decay and its price in processor seconds per second of sea.
-// Ratios to the first line, run in turn in one process, so that a busy machine matters little.
-// Run by perf/run; read in docs/developer/sea.md.
-// SPDX-License-Identifier: Apache-2.0
+// What the choices of a sea of particles trade: a standing wave in 2-D (length 1 m, depth 0.5 m, amplitude 1 cm, d = 1/40 m),
+// each choice varied alone, its error in frequency against linear theory, its decay and its price in processor seconds per second
+// of sea. Ratios to the first line, run in turn in one process, so that a busy machine matters little. Run by perf/run; read in
+// docs/developer/sea.md. SPDX-License-Identifier: Apache-2.0
 #include <sys/resource.h>
 
 #include <cmath>
@@ -59,7 +58,8 @@ Outcome standing_wave(const Parameters& given, double c0_over_wave_speed) {
       if (sea.store().id[slot] != no_particle && sea.store().owner[slot / cluster_size] == 0)
         mode += sea.store().x[1][slot] * std::cos(k * sea.store().x[0][slot]);
     peak = std::max(peak, std::abs(mode));
-    if (before * mode < 0.0) crossings.push_back(sea.time() - dt * mode / (mode - before)), peaks.push_back(std::exchange(peak, 0.0));
+    if (before * mode < 0.0)
+      crossings.push_back(sea.time() - dt * mode / (mode - before)), peaks.push_back(std::exchange(peak, 0.0));
     before = mode;
   }
   const double seconds = processor_s() - start, halves = double(crossings.size()) - 2.0;  // the first half is starting noise
@@ -72,7 +72,8 @@ Outcome standing_wave(const Parameters& given, double c0_over_wave_speed) {
 int main(int argc, char** argv) {
   perf::Group group("sea_trade", argc, argv);
   Parameters base;
-  base.spacing = 1.0 / 40, base.h_over_d = 1.5, base.alpha = 0.02, base.alpha_solid = 0.0, base.diffusion = DiffusionChoice::fourtakas;
+  base.spacing = 1.0 / 40, base.h_over_d = 1.5, base.alpha = 0.02, base.alpha_solid = 0.0,
+  base.diffusion = DiffusionChoice::fourtakas;
   double base_price = 0.0;
   const auto report = [&](const std::string& name, const Outcome& o) {
     if (base_price == 0.0) base_price = o.seconds_per_second;
@@ -80,8 +81,8 @@ int main(int argc, char** argv) {
     group.figure(name + ".decay", 100.0 * o.decay_per_period, "% per period");
     group.figure(name + ".price", o.seconds_per_second / base_price, "of base");
     group.figure(name + ".evaluation", o.microseconds_per_evaluation, "us");
-    group.point("sea_trade", name, o.seconds_per_second / base_price, "processor time / base", 100.0 * std::abs(o.frequency_error),
-                "error of frequency [%]");
+    group.point("sea_trade", name, o.seconds_per_second / base_price, "processor time / base",
+                100.0 * std::abs(o.frequency_error), "error of frequency [%]");
   };
   const auto with = [&](auto&& change) {
     Parameters p = base;
@@ -93,7 +94,8 @@ int main(int argc, char** argv) {
   for (double h : {1.2, 1.732, 2.0})
     report("h_" + std::to_string(h).substr(0, 3), standing_wave<float>(with([&](Parameters& p) { p.h_over_d = h; }), 10.0));
   for (double skin : {0.1, 0.25, 1.0})
-    report("skin_" + std::to_string(skin).substr(0, 4), standing_wave<float>(with([&](Parameters& p) { p.drift_over_d = skin; }), 10.0));
+    report("skin_" + std::to_string(skin).substr(0, 4),
+           standing_wave<float>(with([&](Parameters& p) { p.drift_over_d = skin; }), 10.0));
   report("double", standing_wave<double>(base, 10.0));
   report("no_diffusion", standing_wave<float>(with([](Parameters& p) { p.diffusion = DiffusionChoice::none; }), 10.0));
   report("molteni", standing_wave<float>(with([](Parameters& p) { p.diffusion = DiffusionChoice::molteni; }), 10.0));

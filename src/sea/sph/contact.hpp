@@ -44,8 +44,7 @@ inline Contact contact_law(const Parameters& p, int dim) {
 /// those of the bodies' motions; whatever is no body rests.
 template <int dim, class Real>
 void find_contacts(const Store<dim, Real>& store, const Columns<dim>& columns, const std::vector<Solid>& solids,
-                   const std::vector<BodyBox<dim>>& bodies,
-                   const Contact& law, int group, std::vector<Touch>& touches) {
+                   const std::vector<BodyBox<dim>>& bodies, const Contact& law, int group, std::vector<Touch>& touches) {
   const auto is_body = [&](std::uint16_t owner) {
     return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) { return body.owner == owner; });
   };

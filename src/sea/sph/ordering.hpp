@@ -26,17 +26,17 @@ class Sorting {
         anchor_step_(anchor_step),
         arrays_(store.deviation_before.empty() ? 2 * dim + 2 : 3 * dim + 3) {}
 
-  void begin();                ///< gives the planes back: they hold nothing between steps, and their room serves the sort
-  void classify(int part);     ///< finds the group of each particle
-  void migrate(MPI_Comm comm); ///< sends away, takes in, lists lost ones; collective
-  void halve(int part);        ///< orders the particles of some groups
-  void lay_out();              ///< clusters of groups
-  void reorder(int array);     ///< one array of the state, 0 to arrays() - 1
-  void make_anchors();         ///< room for them
-  void anchor(int part);       ///< anchors of some clusters
-  void show(MPI_Comm comm);    ///< the structure of the halo, room for the planes; collective
+  void begin();                 ///< gives the planes back: they hold nothing between steps, and their room serves the sort
+  void classify(int part);      ///< finds the group of each particle
+  void migrate(MPI_Comm comm);  ///< sends away, takes in, lists lost ones; collective
+  void halve(int part);         ///< orders the particles of some groups
+  void lay_out();               ///< clusters of groups
+  void reorder(int array);      ///< one array of the state, 0 to arrays() - 1
+  void make_anchors();          ///< room for them
+  void anchor(int part);        ///< anchors of some clusters
+  void show(MPI_Comm comm);     ///< the structure of the halo, room for the planes; collective
   int arrays() const { return arrays_; }
-  void all(MPI_Comm comm);     ///< the whole, one after the other
+  void all(MPI_Comm comm);  ///< the whole, one after the other
 
  private:
   struct Item {
@@ -56,10 +56,10 @@ class Sorting {
   const Territory& territory_;
   double anchor_step_;
   int arrays_;  // of a particle: position, velocity, deviation, those of one step earlier with Verlet's step, identity
-  std::vector<std::uint32_t> key_;   // group * owners + owner, of each slot
-  std::vector<Item> items_;          // by bin: (own group, owner)
-  std::vector<std::size_t> first_;   // of each bin, and the end
-  Array<std::uint32_t> source_;      // slot before, of each slot after
+  std::vector<std::uint32_t> key_;  // group * owners + owner, of each slot
+  std::vector<Item> items_;         // by bin: (own group, owner)
+  std::vector<std::size_t> first_;  // of each bin, and the end
+  Array<std::uint32_t> source_;     // slot before, of each slot after
 };
 
 /// Shows and sees the structure of the halo (clusters, owners, identities, anchors) and makes room for the planes. Collective.

@@ -56,9 +56,23 @@ Saved<dim> save_groups(const SeaState<dim, Real>& sea, std::span<const int> grou
   const Store<dim, Real>& store = sea.store;
   const Plan& plan = sea.plan;
   Saved<dim> s;
-  s.plan = {plan.time, double(plan.steps), plan.left, plan.dt, double(plan.planned), plan.speed, plan.acceleration, plan.limit,
-            plan.drift, plan.solid_drift, plan.way, plan.solid_way, plan.shifted, plan.solid_path, double(sea.work.steps),
-            double(sea.work.evaluations), double(sea.work.sorts)};
+  s.plan = {plan.time,
+            double(plan.steps),
+            plan.left,
+            plan.dt,
+            double(plan.planned),
+            plan.speed,
+            plan.acceleration,
+            plan.limit,
+            plan.drift,
+            plan.solid_drift,
+            plan.way,
+            plan.solid_way,
+            plan.shifted,
+            plan.solid_path,
+            double(sea.work.steps),
+            double(sea.work.evaluations),
+            double(sea.work.sorts)};
   for (const Solid& solid : sea.solids) {
     const Motion& m = solid.motion;
     for (int k = 0; k < 3; ++k) s.motions.push_back(m.position[k]);
@@ -101,7 +115,8 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
     std::size_t cluster = 0;
     for (std::size_t n = 0; n < piece.groups.size(); n += 3) {
       Place& place = places.at(std::size_t(piece.groups[n]));
-      if (place.piece != nullptr) throw std::invalid_argument("sea: group " + std::to_string(piece.groups[n]) + " is given twice");
+      if (place.piece != nullptr)
+        throw std::invalid_argument("sea: group " + std::to_string(piece.groups[n]) + " is given twice");
       place = {&piece, cluster, std::uint32_t(piece.groups[n + 1]), std::uint32_t(piece.groups[n + 2])};
       cluster += place.water + place.solid;
     }
@@ -149,7 +164,8 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
   plan.time = n[0], plan.steps = long(n[1]), plan.left = n[2], plan.dt = n[3], plan.planned = int(n[4]), plan.speed = n[5];
   plan.acceleration = n[6], plan.limit = n[7], plan.drift = n[8], plan.solid_drift = n[9], plan.way = n[10];
   plan.solid_way = n[11], plan.solid_path = n[13];
-  for (const Saved<dim>& piece : pieces) plan.shifted = std::max(plan.shifted, piece.plan[12]);  // each rank's own since the last look
+  for (const Saved<dim>& piece : pieces)
+    plan.shifted = std::max(plan.shifted, piece.plan[12]);  // each rank's own since the last look
   sea.work = {long(n[14]), long(n[15]), long(n[16])};
   if (s.motions.size() != 13 * sea.solids.size())
     throw std::invalid_argument("sea: a saved state has " + std::to_string(s.motions.size() / 13) + " bodies, the scene " +
@@ -163,7 +179,7 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
   }
 }
 
-#define SPINDRIFT_SPH_INSTANTIATE(dim, Real)                                                     \
+#define SPINDRIFT_SPH_INSTANTIATE(dim, Real)                                                    \
   template Saved<dim> save_groups<dim, Real>(const SeaState<dim, Real>&, std::span<const int>); \
   template void restore_groups<dim, Real>(SeaState<dim, Real>&, std::span<const Saved<dim>>);
 SPINDRIFT_SPH_INSTANTIATE(2, float)

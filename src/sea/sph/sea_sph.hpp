@@ -1,5 +1,5 @@
-// A sea of particles: its state, and its step driven by itself. A facade over the tasks (tasks.hpp): whole windows as one graph, or
-// the parts of a step one by one. Method: docs/theory/sph.md. Called by tests, perf/sea and the coupling; tested in
+// A sea of particles: its state, and its step driven by itself. A facade over the tasks (tasks.hpp): whole windows as one graph,
+// or the parts of a step one by one. Method: docs/theory/sph.md. Called by tests, perf/sea and the coupling; tested in
 // tests/src/sea/sph.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

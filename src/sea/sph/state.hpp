@@ -39,9 +39,9 @@ struct Pace {
 
 /// Half a step as bodies see it.
 struct HalfStep {
-  int half;         ///< 0: loads are those of `time`; 1: of the middle of the step
-  double time, to;  ///< begin of the step, and the time that the motions are wanted at [s]
-  double dt;        ///< of the whole step [s]
+  int half;                         ///< 0: loads are those of `time`; 1: of the middle of the step
+  double time, to;                  ///< begin of the step, and the time that the motions are wanted at [s]
+  double dt;                        ///< of the whole step [s]
   std::span<const Touch> contacts;  ///< of bodies with walls and each other; not in the loads
 };
 /// Moves the bodies: `motions` hold where they are and are to be set to where they are at half.to; loads are about the centres of
@@ -52,15 +52,15 @@ using MoveBodies = std::function<void(const HalfStep& half, std::span<const Wren
 struct Plan {
   double time = 0.0;
   long steps = 0;
-  double left = 0.0;  ///< of the window [s]
-  double dt = 0.0;    ///< of the steps planned [s]
-  int planned = 0;    ///< steps until the next look
+  double left = 0.0;                                    ///< of the window [s]
+  double dt = 0.0;                                      ///< of the steps planned [s]
+  int planned = 0;                                      ///< steps until the next look
   double speed = 0.0, acceleration = 0.0, limit = 0.0;  ///< largest at the last look, and what they allow [s]
   StepLimits limits{};
-  double drift = 0.0, solid_drift = 0.0;                ///< bounds on the way since the last sort [m]
-  double way = 0.0, solid_way = 0.0;                    ///< and since the last look
-  double shifted = 0.0;                                 ///< largest way by shifting since the last look
-  double solid_path = 0.0;                              ///< of bodies in all [m]
+  double drift = 0.0, solid_drift = 0.0;  ///< bounds on the way since the last sort [m]
+  double way = 0.0, solid_way = 0.0;      ///< and since the last look
+  double shifted = 0.0;                   ///< largest way by shifting since the last look
+  double solid_path = 0.0;                ///< of bodies in all [m]
   bool sort = false;
   std::optional<NumericalFailure> failure;  ///< set where the numerics gave up; what is left of the window does nothing
 };
@@ -79,8 +79,8 @@ struct SeaState {
   Territory territory;
   Store<dim, Real> store;
   std::vector<Solid> solids;
-  Ghosts<dim> ghosts;              ///< of modified walls
-  std::vector<BodyBox<dim>> free;  ///< boxes round the free bodies
+  Ghosts<dim> ghosts;                                           ///< of modified walls
+  std::vector<BodyBox<dim>> free;                               ///< boxes round the free bodies
   double body_limit = std::numeric_limits<double>::infinity();  ///< on the step [s]
   Sweep rates, strain, filter, shifting;  ///< pair sweeps of one group with the scene's schemes; empty where there is none
   std::function<void(Store<dim, Real>&, int group, Candidates<dim, Real>&)> boundary;  ///< empty without ghost nodes
@@ -92,9 +92,7 @@ struct SeaState {
   Work work;
 
   /// Whether to sort before the next steps: they may go twice as far as those before.
-  bool sort_is_due() const {
-    return std::max(plan.drift + 2.0 * plan.way, plan.solid_drift + 2.0 * plan.solid_way) > p.drift();
-  }
+  bool sort_is_due() const { return std::max(plan.drift + 2.0 * plan.way, plan.solid_drift + 2.0 * plan.solid_way) > p.drift(); }
   void sorted() {
     plan.drift = plan.solid_drift = plan.way = plan.solid_way = 0.0;  // what follows depends on the particles alone
     plan.sort = false;
@@ -113,7 +111,8 @@ struct SeaState {
     plan.speed = std::sqrt(speed2), plan.acceleration = std::sqrt(acceleration2);
     plan.shifted = shifted;
     plan.drift += shifted;
-    plan.limits = step_limits(p.cfl, p.h(), p.eos.c0, plan.speed, plan.acceleration, p.laminar() ? std::max(p.nu, p.nu_solid) : 0.0);
+    plan.limits =
+        step_limits(p.cfl, p.h(), p.eos.c0, plan.speed, plan.acceleration, p.laminar() ? std::max(p.nu, p.nu_solid) : 0.0);
     plan.limits.body = body_limit;
     plan.limit = plan.limits.smallest();
     constexpr double smallest_share = 1e-4;  // of the step of water at rest: speeds of 1e4 c0 are no flow
@@ -152,8 +151,8 @@ struct SeaState {
     }
   }
   void finish_steps() {
-    const bool last = pace.dt > 0.0 ? std::round(plan.left / pace.dt) <= plan.planned
-                                    : plan.dt * plan.planned >= plan.left * (1.0 - 1e-12);
+    const bool last =
+        pace.dt > 0.0 ? std::round(plan.left / pace.dt) <= plan.planned : plan.dt * plan.planned >= plan.left * (1.0 - 1e-12);
     for (int n = 0; n < plan.planned; ++n) plan.time += plan.dt;
     plan.steps += plan.planned, work.steps = plan.steps;
     work.evaluations += plan.planned * (p.step == StepChoice::symplectic ? 2 : 1);
@@ -175,7 +174,8 @@ struct SeaState {
   }
 };
 
-/// Sets the sweeps of the scene's schemes, and the planes of sums that they need (schemes.cpp, which alone takes long to compile).
+/// Sets the sweeps of the scene's schemes, and the planes of sums that they need (schemes.cpp, which alone takes long to
+/// compile).
 template <int dim, class Real>
 void set_schemes(SeaState<dim, Real>& sea);
 

@@ -1,7 +1,7 @@
-// The particles of a sea on one rank: who owns which arrays. One entry ("slot") per lane of a cluster; empty lanes carry no_particle.
-// The state at the last full step is in double; what pair sweeps read is `pack`, in Real, relative to the anchor of the cluster,
-// and holds the state at n or at n + 1/2, so that the predictor needs no second copy of the state.
-// Called by ordering.cpp (which alone changes the order), step.hpp, sweep_pairs.hpp and sea_sph.hpp; tested in tests/src/sea/sph.
+// The particles of a sea on one rank: who owns which arrays. One entry ("slot") per lane of a cluster; empty lanes carry
+// no_particle. The state at the last full step is in double; what pair sweeps read is `pack`, in Real, relative to the anchor of
+// the cluster, and holds the state at n or at n + 1/2, so that the predictor needs no second copy of the state. Called by
+// ordering.cpp (which alone changes the order), step.hpp, sweep_pairs.hpp and sea_sph.hpp; tested in tests/src/sea/sph.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -33,9 +33,9 @@ struct LostParticle {
 template <int dim, class Real>
 struct Store {
   // per slot
-  std::array<Array<double>, dim> x, v;  ///< [m], [m/s], earth frame; in 2-D x and z
-  Array<double> deviation;              ///< rho - rho0 [kg/m3]
-  Array<std::uint32_t> id;              ///< of the halo's particles too
+  std::array<Array<double>, dim> x, v;      ///< [m], [m/s], earth frame; in 2-D x and z
+  Array<double> deviation;                  ///< rho - rho0 [kg/m3]
+  Array<std::uint32_t> id;                  ///< of the halo's particles too
   std::array<Array<double>, dim> v_before;  ///< one step earlier; empty unless the step is Verlet's
   Array<double> deviation_before;
   // per cluster, those of own groups first, then those of the halo
@@ -51,7 +51,7 @@ struct Store {
   int owners = 1;                       ///< water and solids of the scene
   std::array<int, 3> extra_planes{};    ///< of extra_sums
   int stress_planes = 0;
-  std::size_t longest = 0;              ///< clusters of the largest group
+  std::size_t longest = 0;           ///< clusters of the largest group
   std::array<double, dim> corner{};  ///< lowest corner of the domain, where boxes are measured from [m]
 
   /// Anchor of a cluster from the corner of the domain [m].

@@ -25,7 +25,8 @@ constexpr std::size_t groups_per_bundle = 64;   // of empty columns, which may f
 
 /// Consecutive groups with about `wanted` clusters.
 template <int dim, class Real>
-void bundle(const Store<dim, Real>& store, const std::vector<int>& groups, std::size_t wanted, std::vector<std::vector<int>>& into) {
+void bundle(const Store<dim, Real>& store, const std::vector<int>& groups, std::size_t wanted,
+            std::vector<std::vector<int>>& into) {
   std::size_t clusters = wanted;
   for (const int g : groups) {
     if (clusters >= wanted || into.back().size() >= groups_per_bundle) into.emplace_back(), clusters = 0;
@@ -162,7 +163,8 @@ void StepTasks<dim, Real>::evaluate(Half half) {
   show("halo", false);
   set_walls();
   stress();
-  sweep_pairs("pairs", sea_.rates, [&store = sea_.store] { return store.sums.data(); }, sums_, bool(sea_.strain));
+  sweep_pairs(
+      "pairs", sea_.rates, [&store = sea_.store] { return store.sums.data(); }, sums_, bool(sea_.strain));
   contacts();
 }
 
@@ -276,7 +278,8 @@ template <int dim, class Real>
 void StepTasks<dim, Real>::stress() {
   if (!sea_.strain) return;
   clear(of_strain, "strain");
-  sweep_pairs("strain", sea_.strain, [&store = sea_.store] { return store.extra_sums[of_strain].data(); }, extra_[of_strain]);
+  sweep_pairs(
+      "strain", sea_.strain, [&store = sea_.store] { return store.extra_sums[of_strain].data(); }, extra_[of_strain]);
   for (std::size_t b = 0; b < bundles_.size(); ++b) {
     Uses uses = of_groups(bundles_[b], writes, stress_);
     for (const int g : bundles_[b])
@@ -356,8 +359,8 @@ void StepTasks<dim, Real>::show(const std::string& what, bool stress) {
 /// Pairs of each group with itself and its forward neighbours. Sums are updated in the order of recording, colour by colour: the
 /// same bits for any number of threads and ranks, and whatever is bundled.
 template <int dim, class Real>
-void StepTasks<dim, Real>::sweep_pairs(const std::string& label, const Sweep& sweep, std::function<Real*()> sums, const Data& data,
-                                       bool with_stress) {
+void StepTasks<dim, Real>::sweep_pairs(const std::string& label, const Sweep& sweep, std::function<Real*()> sums,
+                                       const Data& data, bool with_stress) {
   const auto shared = shared_;
   for (std::size_t b = 0; b < pair_bundles_.size(); ++b) {
     Uses uses = {reads(order_), reads(plan_)};
@@ -372,7 +375,8 @@ void StepTasks<dim, Real>::sweep_pairs(const std::string& label, const Sweep& sw
         if (sea_.territory.owns(g) || sea_.territory.owns(near.group)) touch(near.group);
       });
     }
-    graph_.task(name(label, b), uses, if_active([&sea = sea_, &groups = pair_bundles_[b], shared, &sweep, sums](const Context& context, int) {
+    graph_.task(name(label, b), uses,
+                if_active([&sea = sea_, &groups = pair_bundles_[b], shared, &sweep, sums](const Context& context, int) {
                   Meetings<dim, Real>& meetings = shared->meetings[std::size_t(context.thread)];
                   meetings.reserve(9 * sea.store.longest);
                   for (const int g : groups) sweep(sums(), g, meetings);
@@ -453,7 +457,8 @@ void StepTasks<dim, Real>::bodies(Half half) {
                   std::fill(mine + 6 * solids, mine + shared->loads.size(), 0.0);
                   if (touching.empty()) return;
                   for (const Touch& touch : sea.touches[std::size_t(g)]) {
-                    const auto at = std::find(touching.begin(), touching.end(), std::pair<int, int>(touch.on, touch.of)) - touching.begin();
+                    const auto at =
+                        std::find(touching.begin(), touching.end(), std::pair<int, int>(touch.on, touch.of)) - touching.begin();
                     double* to = mine + 6 * (solids + std::size_t(at));
                     for (int k = 0; k < 3; ++k) to[k] += touch.wrench.force[k], to[3 + k] += touch.wrench.moment[k];
                   }
@@ -481,17 +486,19 @@ void StepTasks<dim, Real>::bodies(Half half) {
                 double begin = plan.time;
                 for (int done = 0; done < n; ++done) begin += plan.dt;  // as the clock will add them up
                 const bool last = half == Half::middle || sea.p.step == StepChoice::verlet;
-                sea.move_bodies({half == Half::begin ? 0 : 1, begin, begin + (last ? plan.dt : 0.5 * plan.dt), plan.dt, shared->contacts},
-                                shared->wrenches, shared->motions);
+                sea.move_bodies(
+                    {half == Half::begin ? 0 : 1, begin, begin + (last ? plan.dt : 0.5 * plan.dt), plan.dt, shared->contacts},
+                    shared->wrenches, shared->motions);
                 for (std::size_t s = 0; s < sea.solids.size(); ++s) sea.set_motion(sea.solids[s], shared->motions[s]);
                 if (plan.solid_path > farthest)
-                  sea.plan.failure = NumericalFailure("sea: a body went more than a column of cells and a half in one window; "
-                                                      "shorten coupling.window_s",
-                                                      "sea", plan.steps, plan.time, farthest);
+                  sea.plan.failure = NumericalFailure(
+                      "sea: a body went more than a column of cells and a half in one window; "
+                      "shorten coupling.window_s",
+                      "sea", plan.steps, plan.time, farthest);
               }));
   for (const int g : body_groups_)
-    graph_.task(name("place/" + when, std::size_t(g)), {reads(order_), reads(plan_), reads(loads_), updates(state_[std::size_t(g)])},
-                if_active([&sea, g] {
+    graph_.task(name("place/" + when, std::size_t(g)),
+                {reads(order_), reads(plan_), reads(loads_), updates(state_[std::size_t(g)])}, if_active([&sea, g] {
                   for (const Solid& solid : sea.solids) place(sea.store, sea.columns.domain(), solid, g);
                 }));
 }
@@ -500,8 +507,7 @@ template <int dim, class Real>
 void StepTasks<dim, Real>::correct() {
   for (std::size_t b = 0; b < bundles_.size(); ++b) {
     Uses uses = of_groups(bundles_[b], updates, state_);
-    for (const int g : bundles_[b])
-      uses.push_back(reads(planes_[std::size_t(g)])), uses.push_back(reads(sums_[std::size_t(g)]));
+    for (const int g : bundles_[b]) uses.push_back(reads(planes_[std::size_t(g)])), uses.push_back(reads(sums_[std::size_t(g)]));
     uses.push_back(reads(order_)), uses.push_back(reads(plan_));
     graph_.task(name("correct", b), uses, if_active([&sea = sea_, &groups = bundles_[b]](const Context&, int n) {
                   const bool join = (sea.plan.steps + n) % sea.p.verlet_join_every == 0;
@@ -519,14 +525,15 @@ void StepTasks<dim, Real>::correct() {
 /// A sweep of its own after the step: planes at n + 1, pair sums, and what each group makes of them (returning how far it moved
 /// its particles).
 template <int dim, class Real>
-void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& label, const Sweep& sweep, std::function<bool(int step)> due,
-                                       std::function<double(int group)> apply) {
+void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& label, const Sweep& sweep,
+                                       std::function<bool(int step)> due, std::function<double(int group)> apply) {
   due_ = std::move(due);
   clear(which, label);
   pack(Half::begin);
   show(label + "/halo", false);
   set_walls();
-  sweep_pairs(label, sweep, [&store = sea_.store, which] { return store.extra_sums[which].data(); }, extra_[which]);
+  sweep_pairs(
+      label, sweep, [&store = sea_.store, which] { return store.extra_sums[which].data(); }, extra_[which]);
   for (std::size_t b = 0; b < bundles_.size(); ++b) {
     Uses uses = of_groups(bundles_[b], updates, state_);
     for (const int g : bundles_[b]) uses.push_back(reads(extra_[which][std::size_t(g)]));
@@ -536,8 +543,7 @@ void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& lab
                   for (const int g : groups) farthest = std::max(farthest, apply(g));
                   // This rank's until the next look takes the maximum of all; a maximum needs no order.
                   const std::atomic_ref<double> shifted(plan.shifted);
-                  for (double before = shifted.load(); before < farthest && !shifted.compare_exchange_weak(before, farthest);) {
-                  }
+                  for (double before = shifted.load(); before < farthest && !shifted.compare_exchange_weak(before, farthest);) {}
                 }));
   }
   due_ = {};

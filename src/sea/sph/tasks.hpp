@@ -1,5 +1,5 @@
-// The step of the sea as tasks of a runtime::Graph. `tasks.cpp` read top to bottom is the algorithm. Data that tasks share are the
-// groups' (state, planes, sums); colours fix the order of the sums, ranks exchange planes, and substeps of different regions
+// The step of the sea as tasks of a runtime::Graph. `tasks.cpp` read top to bottom is the algorithm. Data that tasks share are
+// the groups' (state, planes, sums); colours fix the order of the sums, ranks exchange planes, and substeps of different regions
 // overlap. Between two looks at the limits nothing but data orders; a look is a reduction over all ranks.
 // Called by sea_sph.cpp, or to record the sea into the graph of a whole machine; tested in tests/src/sea/sph/tasks_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
@@ -28,12 +28,12 @@ class StepTasks {
 
   // Its parts, for who drives the step himself.
   enum class Half { begin, middle };
-  void sort();              ///< does its work where plan.sort is set
-  void evaluate(Half half); ///< planes and rates at n, or at n + 1/2
-  void limits();            ///< after evaluate(begin): plan.limit
-  void bodies(Half half);   ///< loads, motions, places; nothing without SeaState::move_bodies
-  void correct();           ///< to n + 1
-  void filters();           ///< density filter and shifting, where the step is due
+  void sort();               ///< does its work where plan.sort is set
+  void evaluate(Half half);  ///< planes and rates at n, or at n + 1/2
+  void limits();             ///< after evaluate(begin): plan.limit
+  void bodies(Half half);    ///< loads, motions, places; nothing without SeaState::move_bodies
+  void correct();            ///< to n + 1
+  void filters();            ///< density filter and shifting, where the step is due
 
   /// Whether a body may soon leave the groups whose loads are gathered: record again before the next window.
   bool outdated() const;
@@ -66,15 +66,15 @@ class StepTasks {
   SeaState<dim, Real>& sea_;
   runtime::Graph& graph_;
   int next_tag_;
-  double path_;  // of bodies when this was recorded [m]
-  std::vector<std::vector<int>> bundles_;        // own groups, some thousand particles each
-  std::vector<std::vector<int>> pair_bundles_;   // groups of one colour, colour by colour
-  std::vector<std::pair<int, int>> touching_;    // owners whose contacts are told to bodies
-  std::vector<int> body_groups_;                 // own groups that bodies may come into before the next recording
+  double path_;                                 // of bodies when this was recorded [m]
+  std::vector<std::vector<int>> bundles_;       // own groups, some thousand particles each
+  std::vector<std::vector<int>> pair_bundles_;  // groups of one colour, colour by colour
+  std::vector<std::pair<int, int>> touching_;   // owners whose contacts are told to bodies
+  std::vector<int> body_groups_;                // own groups that bodies may come into before the next recording
   runtime::Datum order_, plan_, loads_;
   Data state_, planes_, walls_, sums_, stress_, extra_[3], touches_, extremes_, partial_loads_;
   Step step_ = [](const runtime::Context&) { return 0; };
-  std::function<bool(int step)> due_;            // further condition on the tasks being recorded
+  std::function<bool(int step)> due_;  // further condition on the tasks being recorded
   std::shared_ptr<Shared> shared_;
 };
 

@@ -22,8 +22,8 @@ struct Territory {
   };
   int rank = 0;
   std::vector<int> rank_of_group;
-  std::vector<int> own;        ///< ascending
-  std::vector<Border> borders; ///< by rank, ascending
+  std::vector<int> own;             ///< ascending
+  std::vector<Border> borders;      ///< by rank, ascending
   std::vector<std::uint8_t> owned;  ///< by group: 1 for own ones
 
   bool owns(int group) const { return owned[std::size_t(group)] != 0; }
@@ -58,8 +58,7 @@ Territory territory_of(const Columns<dim>& columns, std::vector<int> rank_of_gro
     }
   }
   for (std::size_t r = 0; r < shown.size(); ++r)
-    if (!shown[r].empty())
-      t.borders.push_back({int(r), {shown[r].begin(), shown[r].end()}, {seen[r].begin(), seen[r].end()}});
+    if (!shown[r].empty()) t.borders.push_back({int(r), {shown[r].begin(), shown[r].end()}, {seen[r].begin(), seen[r].end()}});
   return t;
 }
 

@@ -19,8 +19,8 @@ using namespace spindrift::sph;
 
 namespace {
 
-/// Dam break across a tank twice as long as the water, 3-D, some thousand particles; a box floats in it where `body`. `all`: a free
-/// box that touches the wall, modified walls, sub-particle stress: every sweep there is.
+/// Dam break across a tank twice as long as the water, 3-D, some thousand particles; a box floats in it where `body`. `all`: a
+/// free box that touches the wall, modified walls, sub-particle stress: every sweep there is.
 struct Scene {
   Parameters p;
   std::vector<Seed<3>> seeds;
@@ -46,7 +46,8 @@ struct Scene {
     }
     if (!all) return;
     touching_mass = 6.0;
-    p.viscosity = ViscosityChoice::laminar_sps, p.wall = WallChoice::no_slip, p.filter = FilterChoice::shepard, p.filter_every = 9;
+    p.viscosity = ViscosityChoice::laminar_sps, p.wall = WallChoice::no_slip, p.filter = FilterChoice::shepard,
+    p.filter_every = 9;
     for (Seed<3>& seed : seeds)
       if (seed.owner == 1) seed.ghost = mirror_in_box<3>(seed.position, {0.5 * d, 0.5 * d, 0.5 * d}, {45.5 * d, 11.5 * d, 1e9});
   }
@@ -162,7 +163,8 @@ TEST_CASE("fixed steps are made in full and refused beyond their limit", "[sph][
 TEST_CASE("a body in the loop gets the loads that the facade gives", "[sph][tasks][fast]") {
   const Scene scene(true);
   std::vector<Wrench> seen;
-  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 2}), other(scene.p, scene.domain, scene.seeds, {.threads = 1});
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 2}),
+      other(scene.p, scene.domain, scene.seeds, {.threads = 1});
   sea.add_body(2, scene.box), other.add_body(2, scene.box);
   sea.set_bodies([&](const HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) {
     seen.push_back(loads[0]);
@@ -201,7 +203,8 @@ TEST_CASE("a body that outruns its window's groups stops the run", "[sph][tasks]
   CHECK_THROWS_WITH(sea.advance(0.02), Catch::Contains("more than a column"));
 }
 
-TEST_CASE("a window repeated from its snapshot has the same bits; a snapshot takes at most 100 bytes per particle", "[sph][tasks][fast]") {
+TEST_CASE("a window repeated from its snapshot has the same bits; a snapshot takes at most 100 bytes per particle",
+          "[sph][tasks][fast]") {
   const StepChoice step = GENERATE(StepChoice::symplectic, StepChoice::verlet);
   const Scene scene(true, step);
   SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 2});
@@ -244,7 +247,8 @@ void same_bits_on_ranks() {
   const Everything expected = run(scene, {.threads = 1}, 3, pace);
   const SeaSph<3, float> probe(scene.p, scene.domain, scene.seeds, {.threads = 1});
   CHECK(same(run(scene, {.comm = world, .threads = 1}, 3, pace), expected));
-  CHECK(same(run(scene, {.comm = world, .threads = 2, .random_schedule = std::uint64_t(7 + runtime::rank_in(world))}, 3, pace), expected));
+  CHECK(same(run(scene, {.comm = world, .threads = 2, .random_schedule = std::uint64_t(7 + runtime::rank_in(world))}, 3, pace),
+             expected));
   CHECK(same(run(scene, {.comm = world, .threads = 1, .rank_of_group = striped(probe, ranks)}, 3, pace), expected));
   const std::vector<int> last(std::size_t(probe.columns().groups()), ranks - 1);  // others have no particle
   CHECK(same(run(scene, {.comm = world, .threads = 1, .repartition_above = 1e9, .rank_of_group = last}, 3, pace), expected));
@@ -305,4 +309,6 @@ TEST_CASE("two ranks give the bits of one, however groups are dealt out", "[sph]
 TEST_CASE("four ranks give the bits of one, however groups are dealt out", "[sph][tasks][mpi4]") { same_bits_on_ranks(); }
 TEST_CASE("a state saved on two ranks goes on the same on one and on two", "[sph][tasks][mpi2]") { restart_on_other_ranks(); }
 TEST_CASE("a state saved on four ranks goes on the same on one and on four", "[sph][tasks][mpi4]") { restart_on_other_ranks(); }
-TEST_CASE("lost particles are counted, located and limited on all ranks", "[sph][tasks][mpi2]") { lost_particles_are_known_to_all(); }
+TEST_CASE("lost particles are counted, located and limited on all ranks", "[sph][tasks][mpi2]") {
+  lost_particles_are_known_to_all();
+}
