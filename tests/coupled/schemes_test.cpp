@@ -41,8 +41,7 @@ std::vector<double> errors(const std::string& file, const std::vector<std::strin
 
 TEST_CASE("case 3: cps is of order 1, cps2, css1 and linear strong windows of order 2, cubic ones higher", "[coupled][fast]") {
   const std::vector<std::string> common{"time.end_s=9.6", "time.step_s=0.04", "waves.ramp_s=4.0"};
-  const std::vector<double> windows{0.48, 0.24, 0.12};
-  const auto order = [&](std::initializer_list<std::string> scheme, const char* name) {
+  const auto order = [&](std::initializer_list<std::string> scheme, const char* name, const std::vector<double>& windows = {0.48, 0.24, 0.12}) {
     const std::vector<double> e = errors(case3, common, scheme, windows);
     const double p = observed_order(windows, e);
     std::cout << "case 3 " << name << ": order " << p << ", error " << e[0] << " " << e[1] << " " << e[2] << " deg\n";
@@ -52,7 +51,9 @@ TEST_CASE("case 3: cps is of order 1, cps2, css1 and linear strong windows of or
   CHECK(order({"coupling.scheme=cps2"}, "cps2") == Approx(2.0).margin(0.4));
   CHECK(order({"coupling.scheme=css"}, "css1") == Approx(2.0).margin(0.4));
   CHECK(order({"coupling.scheme=iqn_ils"}, "iqn_ils linear") == Approx(2.0).margin(0.3));
-  CHECK(order({"coupling.scheme=iqn_ils", "coupling.samples=3", "coupling.interpolation=cubic", "coupling.tolerance=1e-9"}, "iqn_ils cubic") > 2.7);
+  // Below windows of 0.24 s what is left, 6e-8 degrees, is the bodies' own step of 0.04 s: its stages see a signal instead of the rotor.
+  CHECK(order({"coupling.scheme=iqn_ils", "coupling.samples=3", "coupling.interpolation=cubic", "coupling.tolerance=1e-9"}, "iqn_ils cubic",
+              {0.96, 0.48, 0.24}) > 3.0);
 }
 
 TEST_CASE("case 3: at windows of 0.08 s cps2 is far more accurate than cps", "[coupled][fast]") {
@@ -63,18 +64,19 @@ TEST_CASE("case 3: at windows of 0.08 s cps2 is far more accurate than cps", "[c
 }
 
 TEST_CASE("case 2: a thrust that dips with azimuth is sampled to the scheme's order", "[coupled][fast]") {
-  const std::vector<std::string> common{"time.end_s=9.6", "time.step_s=0.01"};
-  const std::vector<double> windows{0.08, 0.04, 0.02};
+  const std::vector<std::string> common{"time.end_s=9.6", "time.step_s=0.01"};  // the highest harmonic lasts 0.45 s
+  const std::vector<double> windows{0.04, 0.02, 0.01};
   const std::vector<double> cps = errors(case2, common, {"coupling.scheme=cps"}, windows), cps2 = errors(case2, common, {"coupling.scheme=cps2"}, windows);
   std::cout << "case 2: cps " << cps[0] << " " << cps[2] << " order " << observed_order(windows, cps) << ", cps2 " << cps2[0] << " " << cps2[2]
             << " order " << observed_order(windows, cps2) << "\n";
   CHECK(observed_order(windows, cps) == Approx(1.0).margin(0.3));
-  CHECK(observed_order(windows, cps2) == Approx(2.0).margin(0.4));
+  CHECK(observed_order(windows, cps2) == Approx(2.0).margin(0.5));
   CHECK(cps2[2] < 0.1 * cps[2]);
 }
 
 TEST_CASE("case 3: every strong scheme, in turn or at once, finds the same motion in a few evaluations", "[coupled][fast]") {
-  const std::vector<std::string> common{"time.end_s=4.0", "time.window_s=0.2", "time.step_s=0.05", "waves.ramp_s=0.0", "coupling.tolerance=1e-8"};
+  const std::vector<std::string> common{"time.end_s=4.0", "time.window_s=0.2", "time.step_s=0.05", "waves.ramp_s=0.0", "coupling.tolerance=1e-8",
+                                        "coupling.max_evaluations=200"};
   const March reference = march(case3, with(common, {"coupling.scheme=newton"}));
   REQUIRE(reference.failure == "");
   for (const std::string scheme : {"relaxation", "aitken", "steepest_descent", "iqn_ils", "ibqn_ls", "interface_gmres"})
@@ -95,7 +97,7 @@ TEST_CASE("case 3: every strong scheme, in turn or at once, finds the same motio
 
 TEST_CASE("a window that cannot be solved in the evaluations allowed is cut and goes on", "[coupled][fast]") {
   const std::vector<std::string> common{"time.end_s=6.4", "time.window_s=1.6", "time.step_s=0.05", "waves.ramp_s=0.0"};
-  const March cut = march(case3, with(common, {"coupling.scheme=aitken", "coupling.max_evaluations=2", "coupling.tolerance=1e-4", "coupling.max_cuts=5"})),
+  const March cut = march(case3, with(common, {"coupling.scheme=aitken", "coupling.relaxation=1.0", "coupling.max_evaluations=2", "coupling.tolerance=1e-4", "coupling.max_cuts=5"})),
               whole = march(case3, with(common, {"coupling.scheme=monolithic"}));
   REQUIRE(cut.failure == "");
   CHECK(cut.totals.cuts > 0);
