@@ -21,7 +21,7 @@ struct Staggering {
 };
 
 /// The staggered march. Parts, over a window [begin, end]:
-///   Vector move(load, begin, end)    S advanced under loads load(t); the motion at the end
+///   Vector move(load, begin, end)    S advanced under loads load.at(t); the motion at the end
 ///   Vector load(motion, begin, end)  F advanced under motion(t); the loads at the end
 class Staggered {
  public:
