@@ -112,11 +112,12 @@ TEST_CASE("Gresho's vortex turns once on 80 x 80 cells with most of its energy",
   CHECK(low.sawtooth < 0.005);
 }
 
-TEST_CASE("what Gresho's vortex keeps does not depend on the Mach number with low-Mach Roe", "[gas][nightly]") {
-  const Turn at_1e1 = turned_once(RoeLowMach{}, 0.1), at_1e2 = turned_once(RoeLowMach{}, 0.01), roe = turned_once(Roe{}, 0.01);
+// A quarter of a turn: the explicit steps of Mach 0.01 are many.
+TEST_CASE("what Gresho's vortex keeps does not depend on the Mach number with low-Mach Roe, with Roe it does", "[gas][nightly]") {
+  const Turn at_1e1 = turned_once(RoeLowMach{}, 0.1, 0.25), at_1e2 = turned_once(RoeLowMach{}, 0.01, 0.25),
+             roe = turned_once(Roe{}, 0.01, 0.25);
   INFO("low-Mach Roe " << at_1e1.energy << " " << at_1e2.energy << ", sawtooth " << at_1e2.sawtooth << ", Roe " << roe.energy);
-  CHECK(at_1e2.energy > 0.95);
-  CHECK(at_1e2.energy == Approx(at_1e1.energy).margin(0.005));
+  CHECK(at_1e2.energy == Approx(at_1e1.energy).margin(0.001));
   CHECK(at_1e2.sawtooth < 0.005);
-  CHECK(roe.energy < at_1e2.energy - 0.02);
+  CHECK(roe.energy < at_1e2.energy - 0.005);
 }
