@@ -22,8 +22,8 @@ MultiBlockGrid split_at(const MultiBlockGrid& grid, std::span<const std::array<s
 MultiBlockGrid split(const MultiBlockGrid& grid, int parts, std::span<const std::string> walls,
                      const TilingOptions& options = {});
 
-/// Block `number` re-indexed: its new direction d walks along its old direction |axes[d]| - 1, backwards where negative.
-/// Right-handed axes only.
+/// Block `number` re-indexed: its new direction d walks along its old direction |axes[d]| - 1, backwards where negative. Axes
+/// that are a mirror image make a left-handed block right-handed.
 void reorient(MultiBlockGrid& grid, int number, const Index& axes);
 
 /// The window of a side that covers a layer of cells just inside or outside of it.

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <string>
+
+#include "src/aero/grid/checks.hpp"
+#include "src/aero/grid/generators/box.hpp"
+#include "src/aero/grid/generators/plane_cases.hpp"
+#include "src/aero/grid/quality.hpp"
+#include "tests/src/aero/grid/examples.hpp"
+
+using namespace spindrift::aero;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Every second node of the finer member is a node of the coarser: one law, sampled.
+double family_gap(const Block& coarse, const Block& fine) {
+  double worst = 0;
+  for (int j = 0; j <= coarse.nj; ++j)
+    for (int i = 0; i <= coarse.ni; ++i)
+      worst = std::max(worst, (coarse.nodes[coarse.node(0, j, i)] - fine.nodes[fine.node(0, 2 * j, 2 * i)]).norm());
+  return worst;
+}
+/// Departure from 90 degrees between the wall and the first edge off it, in a range of i [deg].
+double lean_at_wall(const Block& b, int first, int last) {
+  double worst = 0;
+  for (int i = first; i < last; ++i) {
+    const Vector3d along = b.nodes[b.node(0, 0, i + 1)] - b.nodes[b.node(0, 0, i - 1)];
+    const Vector3d off = b.nodes[b.node(0, 1, i)] - b.nodes[b.node(0, 0, i)];
+    worst = std::max(worst, std::abs(std::asin(along.dot(off) / along.norm() / off.norm())) * 180 / std::acos(-1.0));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("boxes of every kind are sound", "[aero][grid][fast]") {
+  const BoxOptions box{.ni = 12, .nj = 10, .nk = 8, .periodic = {true, false, true}};
+  CHECK(grid_faults(cartesian_box(box)).empty());
+  CHECK(grid_faults(planar_box(box)).empty());
+  for (const double amplitude : {0.02, 0.06}) {
+    CHECK(grid_faults(perturbed(cartesian_box(box), box, amplitude)).empty());
+    CHECK(grid_faults(perturbed(planar_box(box), box, amplitude)).empty());
+  }
+  const MultiBlockGrid thin = thin_sheared_box(8);
+  CHECK(grid_faults(thin).empty());
+  CHECK(grid_quality(thin).aspect_ratio.value ==
+        Approx(1e5 / std::sqrt(3.0)).epsilon(1e-3));  // the leaning edge is longer than the cell is high
+}
+
+TEST_CASE("the flat plate is the TMR's grid", "[aero][grid][fast]") {
+  std::ifstream file(SPINDRIFT_SOURCE_DIR "/tests/src/aero/grid/data/flatplate_clust2_4levelsdown_35x25.p2dfmt");
+  int blocks = 0, ni = 0, nj = 0;
+  REQUIRE(file >> blocks >> ni >> nj);
+  REQUIRE((ni == 35 && nj == 25));
+  std::vector<double> x(2 * ni * nj);
+  for (double& v : x) REQUIRE(file >> v);
+  const Block plate = flat_plate(1).blocks[0];
+  double worst = 0;
+  for (int j = 0; j < nj; ++j)
+    for (int i = 0; i < ni; ++i) {
+      const Vector3d& p = plate.nodes[plate.node(0, j, i)];
+      worst = std::max({worst, std::abs(p.x() - x[j * ni + i]), std::abs(p.z() - x[ni * nj + j * ni + i])});
+    }
+  INFO("largest difference [m] " << worst);
+  CHECK(worst < 1e-10);
+  for (const int n : {1, 2, 4}) {
+    CHECK(grid_faults(flat_plate(n)).empty());
+    CHECK(family_gap(flat_plate(n).blocks[0], flat_plate(2 * n).blocks[0]) < 1e-14);
+  }
+}
+
+TEST_CASE("the cylinder's O-grid closes, in cells as high as long or with the height asked for", "[aero][grid][fast]") {
+  const MultiBlockGrid even = cylinder({.around = 64, .outward = 47, .far = 50});
+  CHECK(grid_faults(even).empty());
+  CHECK(grid_quality(even).aspect_ratio.value < 1.05);
+  const MultiBlockGrid fine = cylinder({.around = 128, .outward = 80, .far = 50, .first_cell = 0.01});
+  CHECK(grid_faults(fine).empty());
+  const Block& b = fine.blocks[0];
+  CHECK((b.nodes[b.node(0, 1, 5)] - b.nodes[b.node(0, 0, 5)]).norm() == Approx(0.005).epsilon(0.01));
+  CHECK(family_gap(cylinder({.around = 32, .outward = 20, .first_cell = 0.01}).blocks[0],
+                   cylinder({.around = 64, .outward = 40, .first_cell = 0.01}).blocks[0]) < 1e-13);
+}
+
+TEST_CASE("the NACA 0012 grid is sound at every size, normal to the wall and as fine as the TMR's", "[aero][grid][fast]") {
+  for (const int n : {1, 2, 4}) {
+    const MultiBlockGrid grid = naca0012({.n = n});
+    CHECK(grid_faults(grid).empty());
+    const GridQuality q = grid_quality(grid);
+    INFO("n = " << n << "\n" << describe(q, grid));
+    const Block& b = grid.blocks[0];
+    CHECK(b.ni == 112 * n);
+    CHECK(b.nj == 32 * n);
+    CHECK(q.scaled_jacobian.value > 0.97);
+    CHECK(lean_at_wall(b, 28 * n, 84 * n) < (n == 1 ? 1.5 : 0.5));  // away from the trailing edge
+    CHECK(lean_at_wall(b, 24 * n + 1, 88 * n) < 5.0);               // beside it: lines turn towards the bisector
+    // On the aerofoil, closed and sharp.
+    CHECK((b.nodes[b.node(0, 0, 24 * n)] - Vector3d(1, 0, 0)).norm() == 0);
+    CHECK((b.nodes[b.node(0, 0, 56 * n)] - Vector3d(0, 0, 0)).norm() < 1e-15);
+    for (int i = 56 * n; i < 88 * n; ++i) {
+      const Vector3d& x = b.nodes[b.node(0, 0, i)];
+      REQUIRE(x.z() == Approx(naca0012_half_thickness(std::max(x.x(), 0.0))).margin(1e-13));
+    }
+    for (int i = 25 * n; i < 88 * n; ++i)
+      REQUIRE((b.nodes[b.node(0, 1, i)] - b.nodes[b.node(0, 0, i)]).norm() == Approx(7.2e-6 / n).epsilon(0.06));
+    if (n < 4) CHECK(family_gap(b, naca0012({.n = 2 * n}).blocks[0]) < 1e-12);
+  }
+  const Block b = naca0012({.n = 2}).blocks[0];
+  const auto length = [&](int i) { return (b.nodes[b.node(0, 0, i + 1)] - b.nodes[b.node(0, 0, i)]).norm(); };
+  // The TMR's 225x65: 4.27e-4 at the nose, 0.039 in the middle, 4.3e-3 at the trailing edge, 96 at the outflow.
+  CHECK(length(112) == Approx(4.27e-4).epsilon(0.15));
+  double longest = 0;
+  for (int i = 112; i < 176; ++i) longest = std::max(longest, length(i));
+  CHECK(longest == Approx(0.039).epsilon(0.15));
+  CHECK(length(175) == Approx(4.3e-3).epsilon(0.2));
+  CHECK(length(176) == Approx(length(175)).epsilon(0.15));
+  CHECK(length(223) == Approx(96).epsilon(0.1));
+  CHECK(b.nodes[b.node(0, 64, 112)].x() == Approx(-500).epsilon(5e-3));
+  CHECK(b.nodes[b.node(0, 0, 224)].x() == Approx(501).epsilon(1e-3));
+}
+
+TEST_CASE("bump channel and drawn-out wing are sound", "[aero][grid][fast]") {
+  const MultiBlockGrid bump = bump_channel({.n = 1});
+  CHECK(grid_faults(bump).empty());
+  CHECK(family_gap(bump.blocks[0], bump_channel({.n = 2}).blocks[0]) < 1e-12);
+  CHECK(grid_quality(bump).volume == Approx((51.5 * 5 - 0.05 * 0.9 * 3 / 8) * 1.0).epsilon(1e-4));  // sin^4 has the mean 3/8
+  const MultiBlockGrid wing = extruded(naca0012({.n = 1}), 4, 1.0, true);
+  CHECK(grid_faults(wing).empty());
+  CHECK(wing.blocks[0].nk == 4);
+  const MultiBlockGrid walled = extruded(bump, 3, 0.5, false, "symmetry");
+  CHECK(grid_faults(walled).empty());
+  CHECK(walled.boundaries.size() == bump.boundaries.size() + 2);
+}
