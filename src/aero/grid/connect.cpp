@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -145,6 +147,49 @@ void connect_by_coordinates(MultiBlockGrid& grid, double tolerance) {
         }
       start += std::size_t(nu) * nv;
     }
+}
+
+double find_periodic_map(const MultiBlockGrid& grid, Connection& c) {
+  IndexMap nodes = cell_map(c, grid);
+  for (int d = 0; d < 3; ++d)
+    if (nodes.sign(d) < 0) nodes.offset[nodes.target(d)] += 1;
+  const Block &a = grid.blocks[c.from.block], &b = grid.blocks[c.to.block];
+  const int across = direction_of(c.from.side);
+  const auto [u, v] = along(c.from.side);
+  std::vector<Eigen::Vector3d> x, y;
+  Index n{};
+  n[across] = at_end(c.from.side) ? a.cells()[across] : 0;
+  for (n[v] = c.from.low[1]; n[v] <= c.from.high[1]; ++n[v])
+    for (n[u] = c.from.low[0]; n[u] <= c.from.high[0]; ++n[u]) {
+      const Index m = nodes(n);
+      x.push_back(a.nodes[a.node(n[2], n[1], n[0])]), y.push_back(b.nodes[b.node(m[2], m[1], m[0])]);
+    }
+  Eigen::Vector3d mx = Eigen::Vector3d::Zero(), my = mx;
+  for (std::size_t p = 0; p < x.size(); ++p) mx += x[p] / double(x.size()), my += y[p] / double(x.size());
+  double size = 0;
+  for (const auto& p : x) size = std::max(size, (p - mx).norm());
+  const auto misfit = [&](const RigidMap& map) {
+    double worst = 0;
+    for (std::size_t p = 0; p < x.size(); ++p) worst = std::max(worst, (map.rotation * x[p] + map.translation - y[p]).norm());
+    return worst;
+  };
+  const double tolerance = 1e-6 * size;  // tells which kind of map it is; checks compare node by node with the cells' own edges
+  RigidMap map;
+  c.periodic.reset();
+  if (misfit(map) <= tolerance) return 0.0;
+  map.translation = my - mx;
+  if (misfit(map) > tolerance) {
+    Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+    for (std::size_t p = 0; p < x.size(); ++p) h += (x[p] - mx) * (y[p] - my).transpose();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
+    sign(2, 2) = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1;
+    map.rotation = svd.matrixV() * sign * svd.matrixU().transpose();
+    map.translation = my - map.rotation * mx;
+    if (misfit(map) > tolerance) return misfit(map);
+  }
+  c.periodic = map;
+  return 0.0;
 }
 
 }  // namespace spindrift::aero

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "kernels/grid/metrics.hpp"
+#include "src/aero/grid/connect.hpp"
 #include "src/aero/grid/index_map.hpp"
 #include "src/aero/grid/split.hpp"
 #include "src/scene/error.hpp"
@@ -186,53 +186,10 @@ class Reader {
     }
     const int from = direction_of(a.window.side), to = direction_of(b.window.side);
     c.orientation[from] = (at_end(a.window.side) != at_end(b.window.side) ? 1 : -1) * (to + 1);
-    find_map(line, c);
+    const double apart = find_periodic_map(grid_, c);
+    if (apart > 0)
+      refuse(line.number, "", fmt::format("the windows' nodes lie up to {:.3g} m apart under any rigid motion: not one-to-one", apart));
     grid_.connections.push_back(c);
-  }
-
-  /// Whether the windows lie on one another; where not, the rigid map between them (translation, else least squares, Kabsch
-  /// 1976).
-  void find_map(const Line& line, Connection& c) const {
-    IndexMap nodes = cell_map(c, grid_);
-    for (int d = 0; d < 3; ++d)
-      if (nodes.sign(d) < 0) nodes.offset[nodes.target(d)] += 1;
-    const Block &a = grid_.blocks[c.from.block], &b = grid_.blocks[c.to.block];
-    const int across = direction_of(c.from.side);
-    const auto [u, v] = along(c.from.side);
-    std::vector<Eigen::Vector3d> x, y;
-    Index n{};
-    n[across] = at_end(c.from.side) ? a.cells()[across] : 0;
-    for (n[v] = c.from.low[1]; n[v] <= c.from.high[1]; ++n[v])
-      for (n[u] = c.from.low[0]; n[u] <= c.from.high[0]; ++n[u]) {
-        const Index m = nodes(n);
-        x.push_back(a.nodes[a.node(n[2], n[1], n[0])]), y.push_back(b.nodes[b.node(m[2], m[1], m[0])]);
-      }
-    Eigen::Vector3d mx = Eigen::Vector3d::Zero(), my = mx;
-    for (std::size_t p = 0; p < x.size(); ++p) mx += x[p] / double(x.size()), my += y[p] / double(x.size());
-    double size = 0;
-    for (const auto& p : x) size = std::max(size, (p - mx).norm());
-    const auto misfit = [&](const RigidMap& map) {
-      double worst = 0;
-      for (std::size_t p = 0; p < x.size(); ++p) worst = std::max(worst, (map.rotation * x[p] + map.translation - y[p]).norm());
-      return worst;
-    };
-    RigidMap map;
-    const double tolerance = 1e-6 * size;  // which kind of map it is; checks() compares node by node with the cells' own edges
-    if (misfit(map) <= tolerance) return;
-    map.translation = my - mx;
-    if (misfit(map) > tolerance) {
-      Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
-      for (std::size_t p = 0; p < x.size(); ++p) h += (x[p] - mx) * (y[p] - my).transpose();
-      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
-      sign(2, 2) = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1;
-      map.rotation = svd.matrixV() * sign * svd.matrixU().transpose();
-      map.translation = my - map.rotation * mx;
-      if (misfit(map) > tolerance)
-        refuse(line.number, "",
-               fmt::format("the windows' nodes lie up to {:.3g} m apart under any rigid motion: not one-to-one", misfit(map)));
-    }
-    c.periodic = map;
   }
 
   MultiBlockGrid& grid_;
