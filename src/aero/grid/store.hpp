@@ -1,7 +1,7 @@
-// The geometry of the tiles a rank owns: nodes, face vectors, volumes, centres, wall distances, and at moving grids what faces
-// sweep. Bytes per cell (8 x 16 x 64 tile; padding and ghosts counted): nodes 30, faces 78, volume 12, centres 36, wall distance
-// 8: 164; moving adds nodes 60, sweeps 78, volumes 16 (docs/theory/grid.md). Called by src/aero/flow; tested in
-// tests/src/aero/grid/store_test.cpp. SPDX-License-Identifier: Apache-2.0
+// The geometry of the tiles a rank owns: nodes, face vectors, volumes, centres, wall distances, and at moving grids what faces sweep.
+// Bytes per cell (8 x 16 x 64 tile; padding and ghosts counted): nodes 32, faces 80, volume 13, centres 38, wall distance 8: 171;
+// moving adds nodes 65, sweeps 80, volumes 16: 331 (docs/theory/grid.md).
+// Called by src/aero/flow; tested in tests/src/aero/grid/store_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
