@@ -79,7 +79,8 @@ class Reader {
     int physical = 0, zones = 0;
     call(cg_base_read(file_.number(), base, name, &dimensions_, &physical), "reading the base");
     if (dimensions_ != physical || dimensions_ < 2)
-      refuse(path_, fmt::format("base \"{}\" has cells of dimension {} in {} dimensions: 3 in 3 or 2 in 2 are read", name, dimensions_, physical));
+      refuse(path_, fmt::format("base \"{}\" has cells of dimension {} in {} dimensions: 3 in 3 or 2 in 2 are read", name,
+                                dimensions_, physical));
     grid_.planar = dimensions_ == 2;
     call(cg_nzones(file_.number(), base, &zones), "counting zones");
     for (int z = 1; z <= zones; ++z) nodes(z);
@@ -135,7 +136,8 @@ class Reader {
     for (int s = 0; s < 2; ++s) {
       const int d = directions[s];
       if (d >= dimensions_) continue;
-      w.low[s] = int(std::min(range[d], range[dimensions_ + d])) - 1, w.high[s] = int(std::max(range[d], range[dimensions_ + d])) - 1;
+      w.low[s] = int(std::min(range[d], range[dimensions_ + d])) - 1,
+      w.high[s] = int(std::max(range[d], range[dimensions_ + d])) - 1;
       if (w.low[s] < 0 || w.high[s] > cells[d] || w.low[s] == w.high[s])
         refuse(path_, fmt::format("{}: nodes {} to {} of {} in {}", what, w.low[s] + 1, w.high[s] + 1, cells[d] + 1, "ijk"[d]));
     }
@@ -153,16 +155,22 @@ class Reader {
       const std::string what = fmt::format("connection \"{}\"", name);
       const auto other = number_.find(donor);
       if (other == number_.end()) refuse(path_, fmt::format("{} names zone \"{}\", which is not there", what, donor));
-      Connection c{window(zone - 1, range, what), window(other->second, donor_range, what), {transform[0], transform[1], dimensions_ == 3 ? transform[2] : 3}, {}};
+      Connection c{window(zone - 1, range, what),
+                   window(other->second, donor_range, what),
+                   {transform[0], transform[1], dimensions_ == 3 ? transform[2] : 3},
+                   {}};
       // A connection stands with both its zones; ours once.
-      const auto same = [](const Window& a, const Window& b) { return a.block == b.block && a.side == b.side && a.low == b.low && a.high == b.high; };
+      const auto same = [](const Window& a, const Window& b) {
+        return a.block == b.block && a.side == b.side && a.low == b.low && a.high == b.high;
+      };
       bool known = false;
       for (const Connection& k : grid_.connections) known = known || (same(k.from, c.to) && same(k.to, c.from));
       if (known) continue;
       for (const int d : c.orientation)
         if (d == 0 || std::abs(d) > 3) refuse(path_, fmt::format("{} has a transform of {}", what, d));
       const double apart = find_periodic_map(grid_, c);
-      if (apart > 0) refuse(path_, fmt::format("{}: the windows' nodes lie up to {:.3g} m apart under any rigid motion", what, apart));
+      if (apart > 0)
+        refuse(path_, fmt::format("{}: the windows' nodes lie up to {:.3g} m apart under any rigid motion", what, apart));
       grid_.connections.push_back(c);
     }
   }
@@ -249,8 +257,9 @@ void write_cgns(const MultiBlockGrid& grid, const std::filesystem::path& path) {
       const int t = map.target(d);
       if (d < dimensions && map.sign(d) < 0) std::swap(donor[t], donor[dimensions + t]);
     }
-    file.check(cg_1to1_write(file.number(), base, from.block + 1, fmt::format("connection_{}", n).c_str(), zone_name(grid, to.block).c_str(),
-                             range, donor, transform, &id), "writing a connection");
+    file.check(cg_1to1_write(file.number(), base, from.block + 1, fmt::format("connection_{}", n).c_str(),
+                             zone_name(grid, to.block).c_str(), range, donor, transform, &id),
+               "writing a connection");
   };
   int n = 0;
   for (const Connection& c : grid.connections) {
@@ -267,8 +276,9 @@ void write_cgns(const MultiBlockGrid& grid, const std::filesystem::path& path) {
     }
     cgsize_t range[6] = {};
     write_range(grid, b.where, dimensions, range);
-    file.check(cg_boco_write(file.number(), base, b.where.block + 1, fmt::format("boundary_{}", ++n).c_str(), FamilySpecified, PointRange, 2,
-                             range, &id), "writing a boundary");
+    file.check(cg_boco_write(file.number(), base, b.where.block + 1, fmt::format("boundary_{}", ++n).c_str(), FamilySpecified,
+                             PointRange, 2, range, &id),
+               "writing a boundary");
     file.check(cg_goto(file.number(), base, "Zone_t", b.where.block + 1, "ZoneBC_t", 1, "BC_t", id, "end"), "finding a boundary");
     file.check(cg_famname_write(family.c_str()), "writing a family's name");
   }

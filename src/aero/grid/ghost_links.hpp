@@ -11,6 +11,17 @@
 
 namespace spindrift::aero {
 
+/// The periodic maps of a grid that moved as a whole from where they were found: motion, after the map, after motion's inverse.
+/// Needed where the motion does more than turn about the axis of rotational periodicity.
+inline std::vector<RigidMap> moved_maps(std::span<const RigidMap> maps, const RigidMap& motion) {
+  std::vector<RigidMap> moved;
+  for (const RigidMap& m : maps) {
+    const Eigen::Matrix3d rotation = motion.rotation * m.rotation * motion.rotation.transpose();
+    moved.push_back({rotation, motion.rotation * m.translation + motion.translation - rotation * motion.translation});
+  }
+  return moved;
+}
+
 /// What components mean, one after the other, so that rotational periodicity can turn them.
 enum class Quantity : unsigned char {
   scalar,  ///< 1 component

@@ -188,7 +188,8 @@ class Reader {
     c.orientation[from] = (at_end(a.window.side) != at_end(b.window.side) ? 1 : -1) * (to + 1);
     const double apart = find_periodic_map(grid_, c);
     if (apart > 0)
-      refuse(line.number, "", fmt::format("the windows' nodes lie up to {:.3g} m apart under any rigid motion: not one-to-one", apart));
+      refuse(line.number, "",
+             fmt::format("the windows' nodes lie up to {:.3g} m apart under any rigid motion: not one-to-one", apart));
     grid_.connections.push_back(c);
   }
 

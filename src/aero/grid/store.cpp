@@ -188,13 +188,13 @@ void GridStore::build_all(const MultiBlockGrid& grid, bool moving) {
   fill_local_geometry();
 }
 
-void GridStore::fill_local_geometry() {
+void GridStore::fill_local_geometry(std::span<const RigidMap> periodic) {
   for (const int t : owned_) fill_boundary_geometry(*geometry_[t], tiling_.boundary(t));
   for (const int l : plan_.local) {
     const GhostLink& link = tiling_.links[l];
     TileGeometry &from = *geometry_[link.from], &to = *geometry_[link.to];
-    copy_ghosts<double>(link, tiling_.periodic, centre_quantities, gradient_ghosts, from.centre(), to.centre());
-    copy_ghosts<double>(link, tiling_.periodic, volume_quantities, gradient_ghosts, from.volume(), to.volume());
+    copy_ghosts<double>(link, periodic, centre_quantities, gradient_ghosts, from.centre(), to.centre());
+    copy_ghosts<double>(link, periodic, volume_quantities, gradient_ghosts, from.volume(), to.volume());
   }
 }
 
@@ -223,6 +223,19 @@ void gather_cells(const Tiling& tiling, int tile, BoxView<const double> values, 
 }
 void scatter_cells(const Tiling& tiling, int tile, std::span<const double> block_values, int component, BoxView<double> values) {
   for_cells(tiling, tile, [&](std::size_t at, int k, int j, int i) { values(component, k, j, i) = block_values[at]; });
+}
+void copy_points(const TileGeometry& g, std::span<double> points) {
+  std::size_t at = 0;
+  const BoxView<const double> x = g.nodes();
+  for_box(g.node_box, [&](int k, int j, int i) {
+    for (int c = 0; c < 3; ++c) points[at++] = x(c, k, j, i);
+  });
+}
+void copy_cells(BoxView<const double> values, int first, int count, std::span<double> cells) {
+  std::size_t at = 0;
+  for_box(values.layout, [&](int k, int j, int i) {
+    for (int c = first; c < first + count; ++c) cells[at++] = values(c, k, j, i);
+  });
 }
 Box block_box(const Tiling& tiling, int tile) { return image(tiling.tiles[tile].to_block, tiling.tiles[tile].box()); }
 

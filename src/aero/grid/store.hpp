@@ -1,7 +1,7 @@
-// The geometry of the tiles a rank owns: nodes, face vectors, volumes, centres, wall distances, and at moving grids what faces sweep.
-// Bytes per cell (8 x 16 x 64 tile; padding and ghosts counted): nodes 32, faces 80, volume 13, centres 38, wall distance 8: 171;
-// moving adds nodes 65, sweeps 80, volumes 16: 331 (docs/theory/grid.md).
-// Called by src/aero/flow; tested in tests/src/aero/grid/store_test.cpp. SPDX-License-Identifier: Apache-2.0
+// The geometry of the tiles a rank owns: nodes, face vectors, volumes, centres, wall distances, and at moving grids what faces
+// sweep. Bytes per cell (8 x 16 x 64 tile; padding and ghosts counted): nodes 32, faces 80, volume 13, centres 38, wall distance
+// 8: 171; moving adds nodes 65, sweeps 80, volumes 16: 331 (docs/theory/grid.md). Called by src/aero/flow; tested in
+// tests/src/aero/grid/store_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -102,7 +102,9 @@ class GridStore {
   /// Builds all owned tiles one after the other and fills what ghosts can be filled without messages.
   void build_all(const MultiBlockGrid& grid, bool moving = false);
   /// Ghost centres and volumes beyond boundaries and from tiles of this rank; those of other ranks come by pack and unpack.
-  void fill_local_geometry();
+  void fill_local_geometry() { fill_local_geometry(tiling_.periodic); }
+  /// With the periodic maps of a grid that has moved (moved_maps).
+  void fill_local_geometry(std::span<const RigidMap> periodic);
   std::size_t bytes() const;
 
  private:
@@ -119,6 +121,11 @@ class GridStore {
 void gather_cells(const Tiling& tiling, int tile, BoxView<const double> values, int component, std::span<double> block_values);
 /// The other way, for restarts.
 void scatter_cells(const Tiling& tiling, int tile, std::span<const double> block_values, int component, BoxView<double> values);
+
+/// A tile as a block of its own, for output without passing anything between ranks: numbers of one place lie together, i fastest.
+/// Node coordinates, 3 (ni+1)(nj+1)(nk+1); components [first, first + count) of cells, count ni nj nk.
+void copy_points(const TileGeometry& geometry, std::span<double> points);
+void copy_cells(BoxView<const double> values, int first, int count, std::span<double> cells);
 
 /// Window of a block that a tile covers, for parallel output: cells [low, high) of the block.
 Box block_box(const Tiling& tiling, int tile);

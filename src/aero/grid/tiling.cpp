@@ -133,7 +133,8 @@ Index tile_target(const Lines& lines, int line_cells, bool planar, const TilingO
   return {i, j, k};
 }
 
-int pieces(int n, int largest) { return std::max(1, (n + largest - 1) / largest); }
+/// At least state_ghosts cells each: a neighbour's ghost layers come from one tile.
+int pieces(int n, int largest) { return std::max(1, std::min((n + largest - 1) / largest, n / state_ghosts)); }
 
 void cut(const Block& block, int number, const Lines& lines, bool planar, const TilingOptions& options,
          std::vector<Tile>& tiles) {

@@ -79,8 +79,6 @@ MultiBlockGrid perturbed(MultiBlockGrid box, const BoxOptions& o, double amplitu
                                std::sin(2 * pi * s.x() + 0.3) * std::cos(2 * pi * s.y()));
     return Eigen::Vector3d(x + amplitude * still * size.cwiseProduct(wave));
   });
-  for (Connection& c : box.connections)  // waves have the box's period: the far side stays a copy up to round-off
-    if (c.periodic) c.periodic->rotation.setIdentity();
   return box;
 }
 

@@ -18,7 +18,8 @@ using namespace spindrift::aero;
 
 namespace {
 struct Scratch {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("spindrift_grid_" + std::to_string(::getpid()) + ".cgns");
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("spindrift_grid_" + std::to_string(::getpid()) + ".cgns");
   ~Scratch() { std::filesystem::remove(path); }
 };
 }  // namespace

@@ -184,6 +184,51 @@ TEST_CASE("tiles gathered into blocks and scattered again are the same numbers",
   }
 }
 
+TEST_CASE("a tile for output holds its nodes and cells with the numbers of one place together", "[aero][grid][fast]") {
+  const MultiBlockGrid grid = turned_box(cartesian_box({.ni = 6, .nj = 7, .nk = 5}), 6);
+  GridStore store = make_store(grid, false);
+  for (const int t : store.owned()) {
+    const Tile& tile = store.tiling().tiles[t];
+    std::vector<double> points(3 * (tile.ni + 1) * (tile.nj + 1) * (tile.nk + 1)), cells(2 * tile.count());
+    copy_points(store[t], points);
+    copy_cells(store[t].centre(), 1, 2, cells);
+    const auto x = store[t].nodes();
+    const auto c = store[t].centre();
+    REQUIRE(points[3 * ((tile.nj + 1 + 1) * (tile.ni + 1) + 1) + 2] == x(2, 1, 1, 1));
+    REQUIRE(cells[2 * (tile.nj * tile.ni + tile.ni + 1) + 1] == c(2, 1, 1, 1));
+  }
+}
+
+TEST_CASE("a sector that flies and tilts keeps its periodic neighbours", "[aero][grid][fast]") {
+  const double sector = 2 * std::acos(-1.0) / 3;
+  MultiBlockGrid grid;
+  grid.blocks.push_back(mapped_block("sector", 4, 6, 4, [&](double r, double phi, double z) {
+    return Vector3d((1 + r) * std::cos(sector * phi), (1 + r) * std::sin(sector * phi), z);
+  }));
+  RigidMap turn;
+  turn.rotation = Eigen::AngleAxisd(-sector, Vector3d::UnitZ()).toRotationMatrix();
+  grid.connections = {{{0, Side::j_max, {0, 0}, {4, 4}}, {0, Side::j_min, {0, 0}, {4, 4}}, {1, 2, 3}, turn}};
+  for (const Side s : {Side::i_min, Side::i_max}) grid.boundaries.push_back({{0, s, {0, 0}, {6, 4}}, "r"});
+  for (const Side s : {Side::k_min, Side::k_max}) grid.boundaries.push_back({{0, s, {0, 0}, {4, 6}}, "z"});
+  GridStore still = make_store(grid, false), store = make_store(grid, true);
+  const RigidMap motion{attitude(Vector3d(0.2, -0.4, 0.3)).toRotationMatrix(), Vector3d(5, -3, 2)};
+  for (const int t : store.owned()) move_rigidly(store[t], motion), update_metrics(store[t], false);
+  store.fill_local_geometry(moved_maps(store.tiling().periodic, motion));
+  double gap = 0;
+  for (const GhostLink& l : store.tiling().links) {
+    const auto [a, b] = along(l.side);
+    Index ghost{};
+    ghost[a] = l.low[0], ghost[b] = l.low[1];
+    ghost[direction_of(l.side)] = at_end(l.side) ? store.tiling().tiles[l.to].cells()[direction_of(l.side)] : -1;
+    const auto at = [&](GridStore& s) {
+      const auto c = s[l.to].centre();
+      return Vector3d(c(0, ghost[2], ghost[1], ghost[0]), c(1, ghost[2], ghost[1], ghost[0]), c(2, ghost[2], ghost[1], ghost[0]));
+    };
+    gap = std::max(gap, (motion.rotation * at(still) + motion.translation - at(store)).norm());
+  }
+  CHECK(gap < 1e-14);
+}
+
 TEST_CASE("what the store holds per cell is as documented, and a rank without tiles holds nothing", "[aero][grid][fast]") {
   const MultiBlockGrid grid = cartesian_box({.ni = 64, .nj = 64, .nk = 16});
   const std::vector<std::string> walls{"i_min"};

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "runtime/partition/partition.hpp"
 #include "tests/src/aero/grid/examples.hpp"
 
 using namespace spindrift::aero;
@@ -106,6 +107,19 @@ TEST_CASE("cutting a grid along its tiles leaves the tiles as they are", "[aero]
     for (const Tile& t : after.tiles) CHECK(t.cells() == before.tiles[0].cells());
     CHECK(after.links.size() == before.links.size());
   }
+}
+
+TEST_CASE("tiles shared out among ranks keep to their fair shares, and ranks may stay empty", "[aero][grid][fast]") {
+  const MultiBlockGrid grid = cartesian_box({.ni = 64, .nj = 64, .nk = 32});
+  const Tiling tiling = make_tiling(grid, {}, {.across_j = 8, .across_k = 8, .normal = 16});
+  const auto shared = spindrift::runtime::partition_blocks(tile_graph(tiling), {.ranks = 4});
+  CHECK(shared.within_tolerance);
+  CHECK(shared.quality.empty_ranks == 0);
+  CHECK(shared.quality.cut < 0.35 * shared.quality.edges);
+  const Tiling few = make_tiling(grid, {}, {.across_j = 64, .across_k = 32, .normal = 64, .max_cells = 1 << 20});
+  REQUIRE(few.size() == 1);
+  const auto lone = spindrift::runtime::partition_blocks(tile_graph(few), {.ranks = 3});
+  CHECK(lone.quality.empty_ranks == 2);
 }
 
 TEST_CASE("one rank's messages are another's", "[aero][grid][fast]") {
