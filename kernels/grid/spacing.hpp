@@ -45,7 +45,7 @@ class SinhLaw {
 class VinokurLaw {
  public:
   VinokurLaw(double slope_start, double slope_end)
-      : a_(std::sqrt(slope_start / slope_end)),
+      : a_(std::sqrt(slope_end / slope_start)),
         k2_(detail::inverse_sinhc_squared(1.0 / std::sqrt(slope_start * slope_end))),
         k_(std::sqrt(std::abs(k2_))) {}
   double operator()(double s) const {
