@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/grid/aerofoil.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/document.hpp"
 
@@ -22,6 +23,19 @@ const scene::Section<PolarOptions>& polar_section() {
           .required()
           .path("file", &PolarOptions::file,
                 "CSV file with columns alpha_deg from -180 to 180, cl, cd; cm may be there and is not used.")
+          .required();
+  return section;
+}
+
+const scene::Section<AerofoilOptions>& aerofoil_section() {
+  static const auto section =
+      scene::Section<AerofoilOptions>("aerofoils", "The outline of one relative thickness.")
+          .number("thickness_pct", &AerofoilOptions::thickness_pct, "%", "Relative thickness of the section.",
+                  scene::between(0.1, 100.0))
+          .required()
+          .path("file", &AerofoilOptions::file,
+                "CSV file with columns x_c, y_c over the chord: from the trailing edge along the suction side (y_c > 0) to the leading "
+                "edge and back along the pressure side.")
           .required();
   return section;
 }
@@ -45,6 +59,34 @@ Polar read_polar(const PolarOptions& options) {
   return {0.01 * options.thickness_pct, column(file, "alpha_deg", radians_per_degree), column(file, "cl"), column(file, "cd")};
 }
 
+/// What an outline must be for a grid to go round it.
+Aerofoil read_aerofoil(const AerofoilOptions& options) {
+  const scene::Columns file = scene::read_columns(options.file);
+  file.allow_only({"x_c", "y_c"});
+  file.require_rows(9);
+  const auto x = file["x_c"], y = file["y_c"];
+  const std::size_t n = file.rows();
+  Aerofoil aerofoil{0.01 * options.thickness_pct, {}};
+  for (std::size_t i = 0; i < n; ++i) {
+    if (x[i] < -0.05 || x[i] > 1.05) file.fail(int(i), fmt::format("x_c = {} is off the chord, which goes from 0 to 1", x[i]));
+    if (i > 0 && x[i] == x[i - 1] && y[i] == y[i - 1]) file.fail(int(i), "the same point as the one before");
+    aerofoil.outline.emplace_back(x[i], y[i]);
+  }
+  for (const std::size_t i : {std::size_t(0), n - 1})
+    if (std::abs(x[i] - 1.0) > 0.02) file.fail(int(i), fmt::format("x_c = {}: an outline begins and ends at the trailing edge, x_c = 1", x[i]));
+  std::vector<Eigen::Vector2d> loop = aerofoil.outline;
+  if ((loop.front() - loop.back()).norm() < 1e-9) loop.pop_back();
+  const SegmentPair crossing = first_crossing(loop);
+  if (crossing.first >= 0)
+    file.fail(crossing.second, fmt::format("the outline crosses itself: the piece from ({}, {}) meets the one from ({}, {})", x[std::size_t(crossing.second)],
+                                           y[std::size_t(crossing.second)], x[std::size_t(crossing.first)], y[std::size_t(crossing.first)]));
+  if (signed_area(loop) < 0.0) file.fail(0, "the outline runs along the pressure side first: it must begin with the suction side, y_c > 0");
+  const double thickness = outline_thickness(loop);
+  if (std::abs(thickness - aerofoil.thickness) > 0.02)
+    file.fail(-1, fmt::format("the outline is {:.1f} % thick, thickness_pct says {}", 100.0 * thickness, options.thickness_pct));
+  return aerofoil;
+}
+
 Planform read_planform(const std::string& path, double hub_radius) {
   const scene::Columns file = scene::read_columns(path);
   file.allow_only({"span_m", "chord_m", "twist_deg", "thickness_pct", "prebend_m", "sweep_m"});
@@ -56,7 +98,8 @@ Planform read_planform(const std::string& path, double hub_radius) {
   for (std::size_t i = 0; i < file.rows(); ++i)
     if (file["chord_m"][i] <= 0.0) file.fail(int(i), "chord_m must be positive");
   return {column(file, "span_m"), column(file, "chord_m"), column(file, "twist_deg", radians_per_degree),
-          column(file, "thickness_pct", 0.01), column(file, "prebend_m")};
+          column(file, "thickness_pct", 0.01), column(file, "prebend_m"),
+          file.has("sweep_m") ? column(file, "sweep_m") : std::vector<double>(file.rows(), 0.0)};
 }
 
 }  // namespace
@@ -73,7 +116,9 @@ const scene::Section<TurbineOptions>& turbine_section() {
               "CSV file from root to tip: span_m (from the rotor axis along the blade), chord_m, twist_deg (nose into the wind), "
               "thickness_pct, prebend_m (downwind); sweep_m may be there and is not used by blade element momentum.")
           .required()
-          .tables("polars", &TurbineOptions::polars, polar_section(), "Lift and drag for the thicknesses along the blade.");
+          .tables("polars", &TurbineOptions::polars, polar_section(), "Lift and drag for the thicknesses along the blade.")
+          .tables("aerofoils", &TurbineOptions::aerofoils, aerofoil_section(),
+                  "Outlines for the thicknesses along the blade: what a resolved blade's surface is made from.");
   return section;
 }
 
@@ -83,10 +128,12 @@ Turbine read_turbine(const std::string& path) {
   if (options.polars.empty()) doc.problem("turbine.polars", "must have at least one entry");
   doc.finish();
   Turbine turbine{
-      options.blades, options.hub_radius_m, options.precone, read_planform(options.planform, options.hub_radius_m), {}};
+      options.blades, options.hub_radius_m, options.precone, read_planform(options.planform, options.hub_radius_m), {}, {}};
   for (const PolarOptions& polar : options.polars) turbine.polars.push_back(read_polar(polar));
-  std::sort(turbine.polars.begin(), turbine.polars.end(),
-            [](const Polar& a, const Polar& b) { return a.thickness < b.thickness; });
+  for (const AerofoilOptions& aerofoil : options.aerofoils) turbine.aerofoils.push_back(read_aerofoil(aerofoil));
+  const auto thinner = [](const auto& a, const auto& b) { return a.thickness < b.thickness; };
+  std::sort(turbine.aerofoils.begin(), turbine.aerofoils.end(), thinner);
+  std::sort(turbine.polars.begin(), turbine.polars.end(), thinner);
   return turbine;
 }
 

@@ -1,7 +1,9 @@
 // A rotor's blades as data: sections along the span and their polars, from a turbine file (inputs/turbines).
-// Read by turbine.cpp; used by bem.cpp; tested in tests/src/aero/turbine_test.cpp.
+// Read by turbine.cpp; used by bem.cpp and rotor_grid; tested in tests/src/aero/turbine_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+
+#include <Eigen/Core>
 
 #include <string>
 #include <vector>
@@ -18,6 +20,11 @@ struct PolarOptions {
   std::string file;  ///< path
 };
 
+struct AerofoilOptions {
+  double thickness_pct = 0.0;
+  std::string file;  ///< path
+};
+
 /// [turbine] of a turbine file.
 struct TurbineOptions {
   int blades = 3;
@@ -25,6 +32,7 @@ struct TurbineOptions {
   double precone = 0.0;  ///< [rad], positive: blades lean upwind
   std::string planform;  ///< path
   std::vector<PolarOptions> polars;
+  std::vector<AerofoilOptions> aerofoils;
 };
 
 const scene::Section<TurbineOptions>& turbine_section();
@@ -36,6 +44,12 @@ struct Polar {
   std::vector<double> lift, drag;
 };
 
+/// The outline of a section of chord 1.
+struct Aerofoil {
+  double thickness = 0.0;                ///< over chord [-]
+  std::vector<Eigen::Vector2d> outline;  ///< trailing edge (1, y), suction side (y > 0), leading edge (0, 0), pressure side, trailing edge
+};
+
 /// Sections from root to tip on the undeformed blade.
 struct Planform {
   std::vector<double> span;       ///< distance from the rotor axis along the coned blade axis [m]
@@ -43,6 +57,7 @@ struct Planform {
   std::vector<double> twist;      ///< nose into the wind positive [rad]
   std::vector<double> thickness;  ///< over chord [-]
   std::vector<double> prebend;    ///< offset of the centre line across the blade axis, downwind positive [m]
+  std::vector<double> sweep;      ///< the same in the rotor's plane, towards the leading edge positive [m]
 };
 
 struct Turbine {
@@ -50,6 +65,7 @@ struct Turbine {
   double hub_radius = 0.0, precone = 0.0;  ///< [m], [rad]
   Planform planform;
   std::vector<Polar> polars;  ///< by increasing thickness
+  std::vector<Aerofoil> aerofoils;     ///< by increasing thickness; none where the file gives none
 };
 
 /// Throws scene::SceneError with all that is wrong with the file and the data files that it names.

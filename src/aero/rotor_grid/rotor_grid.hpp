@@ -1,0 +1,19 @@
+// The multi-block grid of a rotor: ten blocks a sector, blades as section tables. Recipe: docs/theory/rotor_grid.md.
+// Used by `spindrift grid` and by aero.model = "blade_resolved"; tested in tests/src/aero/rotor_grid/rotor_grid_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "src/aero/grid/multi_block.hpp"
+#include "src/aero/rotor_grid/layout.hpp"
+#include "src/aero/turbine.hpp"
+
+namespace spindrift::aero {
+
+/// Blocks of each blade's sector, in this order, their indices (i, j, k): O (outward, round from the trailing edge along the pressure
+/// side, radially outward); plug (towards the leading edge, towards the suction side, radial); eight H blocks (along the turning
+/// direction, axial, radial), named by the compass with upstream in the west and the turning direction in the north.
+/// Patches: blade_1 ... blade_B (walls), hub, inflow, outflow, far. Same bits for any number of threads.
+/// Throws NumericalFailure where the surface folds.
+MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec);
+
+}  // namespace spindrift::aero
