@@ -81,7 +81,9 @@ inline void resample(const PlaneCurve& curve, const SectionSpacing& spacing, dou
         closed ? at(edge * u) : Eigen::Vector2d(0.5 * (1.0 + u) * begin + 0.5 * (1.0 - u) * end);
   }
   const auto fill = [&](double length, auto put) {
-    const Vinokur law(spacing.trailing_edge * side / length, spacing.leading_edge * side / length);
+    const double tail = closed ? spacing.rounded_edge / spacing.edge : spacing.trailing_edge;
+    const double nose = closed ? 0.5 * length / side : spacing.leading_edge;  // a circle has no nose to resolve
+    const Vinokur law(tail * side / length, nose * side / length);
     for (int m = 1; m <= side; ++m) put(m, length * law(double(m) / side));
   };
   fill(leading - edge, [&](int m, double s) { nodes[std::size_t(half + m)] = at(edge + s); });

@@ -30,6 +30,7 @@ auto smoothed(double r, double width, F&& f) {
 
 constexpr double smoothing_radii = 0.045;   // half-width of the smoothing along the span, in tip radii: 4 m of 89
 constexpr double last_chord_radii = 0.955;  // the box follows the chord up to here, and beyond has this one's
+constexpr double thinnest_radii = 0.98;     // the first cell follows the chord up to here: the last piece is short and would be the thinnest
 constexpr double outboard_growth = 0.15;    // of the box's scale per length beyond the tip
 
 }  // namespace
@@ -64,7 +65,7 @@ RotorLayout::RotorLayout(const BladeSurface& blade, const RotorGridSpec& spec, i
   const RotorGridSizes& n = spec.sizes;
   const double tip = blade.tip_radius(), length = tip - spec.hub_radius_m, outer = spec.radial_extent * tip;
   // Finer at the tip than in proportion: coarse grids would stretch too fast outboard, fine ones should see the closure.
-  const double tip_size = 3.7 * blade.closure() * std::pow(12.0 / n.span, 1.5);
+  const double tip_size = 4.3 * blade.closure() * std::pow(12.0 / n.span, 1.5);
   const Vinokur law(0.9, tip_size * n.span / length);
   for (int k = 0; k < n.span; ++k) radii_.push_back(spec.hub_radius_m + length * law(double(k) / n.span));
   radii_.push_back(tip);
@@ -78,12 +79,14 @@ double RotorLayout::sector(double r) const { return pi * r / blades_; }
 
 double RotorLayout::first_cell(int k) const {
   const int tip = spec_.sizes.span;
-  const double r = radii_[std::size_t(std::min(k, tip))], chord = blade_.chord(r);
+  const double r = radii_[std::size_t(std::min(k, tip))], chord = blade_.chord(std::min(r, thinnest_radii * blade_.tip_radius()));
   double h = spec_.first_cell_m > 0.0 ? spec_.first_cell_m : spec_.first_cell_chords * chord;
   if (spec_.y_plus > 0.0)
     h = first_cell_for(spec_.y_plus, std::hypot(spec_.rotor_speed * r, spec_.wind_m_s), chord, spec_.kinematic_viscosity);
   if (k <= tip) return h;
-  return std::min(h * std::pow(1.0 + 1.1 / spec_.resolution(), k - tip), std::max(h, 0.02 * blade_.tip_chord()));
+  const std::size_t above = std::min(std::size_t(k) + 1, radii_.size() - 1);
+  const double radial = radii_[above] - radii_[above - 1];
+  return std::min(h * std::pow(1.0 + 1.25 / spec_.resolution(), k - tip), std::max({h, 0.02 * blade_.tip_chord(), radial / 1500.0}));
 }
 
 double RotorLayout::smoothed_chord(double r) const {

@@ -115,7 +115,7 @@ void fill_plug_boundary(const BladeSurface& blade, const RotorLayout& layout, st
     const double equal = (double(from_tail) / n.chordwise() - 0.5) * length0;
     const Vector2d q = point(n.round - i) - middle;
     const double mean = 0.5 * (p + q).dot(up), side = 0.5 * (p - q).dot(up), ahead = p.dot(along);
-    plane.ring_nodes[plane.ring.at(i, 0)] = middle * 1.0 + along * ((1.0 - even) * ahead + even * equal) * (length / length0) +
+    plane.ring_nodes[plane.ring.at(i, 0)] = middle + along * ((1.0 - even) * ahead + even * equal) * (length / length0) +
                                             up * (mean * (1.0 - even) + side * thick / plate);
   }
 }
@@ -133,7 +133,6 @@ std::vector<double> normals(const Plane& plane) {
     const Vector2d t = a + b;
     angle[std::size_t(i)] = std::atan2(-t.x(), t.y());  // outward: right of counter-clockwise
   }
-  std::vector<double> turn(static_cast<std::size_t>(round));  // against the node before, in (-pi, pi]
   const int sweeps = std::max(2, int(std::lround(2.0 * std::pow(round / 60.0, 2))));
   const auto difference = [](double a, double b) { return std::remainder(a - b, 2.0 * pi); };
   std::vector<double> next(angle);
@@ -194,7 +193,7 @@ void fill_rays(const RotorLayout& layout, int k, Plane& plane) {
   const RotorGridSizes& n = layout.spec().sizes;
   const std::vector<double> angle = normals(plane);
   const double first = layout.first_cell(k);
-  constexpr double handle = 0.15;  // of the ray's length; long handles make rays cross
+  constexpr double handle = 0.12;  // of the ray's length; long handles make rays cross
   std::vector<double> size(std::size_t(n.layers));
   // Sizes that the H lines begin with, on the four sides of the box.
   const auto h = [&](int J, int I) { return plane.h(J, I); };
@@ -205,9 +204,9 @@ void fill_rays(const RotorLayout& layout, int k, Plane& plane) {
     const Vector2d wall = plane.ring_nodes[plane.ring.at(i, 0)];
     const BoxNode b = box_node(n, layout.roll(), i);
     const Vector2d out = plane.h(b.J, b.I);
-    const double chord = (out - wall).norm(), arrive = arrival(n, layout.roll(), i), leave = angle[std::size_t(i)];
-    const Ray ray({wall, wall + handle * chord * Vector2d(std::cos(leave), std::sin(leave)),
-                   out - handle * chord * Vector2d(std::cos(arrive), std::sin(arrive)), out});
+    const double apart = (out - wall).norm(), arrive = arrival(n, layout.roll(), i), leave = angle[std::size_t(i)];
+    const Ray ray({wall, wall + handle * apart * Vector2d(std::cos(leave), std::sin(leave)),
+                   out - handle * apart * Vector2d(std::cos(arrive), std::sin(arrive)), out});
     if (n.round < 64)
       geometric_sizes(first, ray.length(), size);
     else
@@ -224,11 +223,13 @@ void smooth(double chord, Plane& plane) {
   middlecoff_controls(ring, plane.ring_nodes, phi, psi);
   constexpr double damping = 0.6;
   for (int i = 0; i < ring.round; ++i) {
-    double distance = 0.0;
-    for (int j = 0; j <= ring.layers; ++j) {
-      if (j > 0) distance += (plane.ring_nodes[ring.at(i, j)] - plane.ring_nodes[ring.at(i, j - 1)]).norm();
-      share[ring.at(i, j)] = damping * smooth_step((distance / chord - 0.05) / 0.30);
-    }
+    const auto size = [&](int j) { return (plane.ring_nodes[ring.at(i, j + 1)] - plane.ring_nodes[ring.at(i, j)]).norm(); };
+    double stretch = 1.0, distance = 0.0;
+    for (int j = 1; j < ring.layers; ++j) stretch = std::max(stretch, size(j) / size(j - 1));
+    // Where sizes jump, the equations as differenced here fold convex corners.
+    const double most = damping * smooth_step((3.1 - stretch) / 0.8);
+    for (int j = 0; j < ring.layers; distance += size(j++))
+      share[ring.at(i, j)] = most * smooth_step((distance / chord - 0.05) / 0.30) * smooth_step(4.0 * (1.0 - double(j) / ring.layers));
   }
   Nodes next(plane.ring_nodes);
   constexpr int sweeps = 15;
