@@ -210,7 +210,7 @@ void fill_rays(const RotorLayout& layout, int k, Plane& plane) {
     if (n.round < 64)
       geometric_sizes(first, ray.length(), size);
     else
-      limited_sizes(first, std::max(3.0 * h_cell, 1.7 * ray.length() / n.layers), ray.length(), size);
+      limited_sizes(first, std::max(3.0 * h_cell, 1.8 * ray.length() / n.layers), ray.length(), size);
     double s = 0.0;
     for (int j = 1; j < n.layers; ++j) plane.ring_nodes[plane.ring.at(i, j)] = ray.at_length(s += size[std::size_t(j) - 1]);
     plane.ring_nodes[plane.ring.at(i, n.layers)] = out;
