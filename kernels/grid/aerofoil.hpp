@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <span>
 
+#include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
 #include "kernels/grid/spline.hpp"
 #include "kernels/grid/stretching.hpp"
@@ -57,6 +58,7 @@ struct SectionSpacing {
   double leading_edge = 0.004;    ///< size of the cells at the leading edge
   double trailing_edge = 0.006;   ///< and of those beside the trailing edge
   double rounded_edge = 0.12;     ///< length of curve that counts as the edge where the outline is closed
+  bool round_off = false;         ///< half a circle on the edge of an open outline, in place of the flat
 };
 
 /// Nodes i = 0 ... round - 1 on an outline that runs from the trailing edge along the pressure side to the leading edge and back
@@ -66,6 +68,7 @@ struct SectionSpacing {
 inline void resample(const PlaneCurve& curve, const SectionSpacing& spacing, double slide, std::span<Eigen::Vector2d> nodes) {
   const double total = curve.total();
   const Eigen::Vector2d begin = curve(0.0), end = curve(total), middle = 0.5 * (begin + end);
+  const Eigen::Vector2d outward(end.y() - begin.y(), begin.x() - end.x());  // as long as the edge
   const bool closed = (end - begin).norm() < 1e-9 * total;
   const int half = spacing.edge / 2, side = (spacing.round - spacing.edge) / 2;
   const double leading = closed ? 0.5 * total : farthest_from(curve, middle), edge = closed ? 0.5 * spacing.rounded_edge : 0.0;
@@ -77,8 +80,13 @@ inline void resample(const PlaneCurve& curve, const SectionSpacing& spacing, dou
   const int round = spacing.round;
   for (int m = -half; m <= half; ++m) {
     const double u = double(m) / half;  // -1 on the suction side, 1 on the pressure side
-    nodes[std::size_t((m + round) % round)] =
-        closed ? at(edge * u) : Eigen::Vector2d(0.5 * (1.0 + u) * begin + 0.5 * (1.0 - u) * end);
+    Eigen::Vector2d& node = nodes[std::size_t((m + round) % round)];
+    if (closed)
+      node = at(edge * u);
+    else if (spacing.round_off)
+      node = middle + 0.5 * std::sin(0.5 * pi * u) * (begin - end) + 0.5 * std::cos(0.5 * pi * u) * outward;
+    else
+      node = 0.5 * (1.0 + u) * begin + 0.5 * (1.0 - u) * end;
   }
   const auto fill = [&](double length, auto put) {
     const double tail = closed ? spacing.rounded_edge / spacing.edge : spacing.trailing_edge;

@@ -87,6 +87,7 @@ const scene::Section<AeroOptions>& aero_section() {
                    {"buhl", "momentum theory, Buhl's parabola beyond 0.4"}},
                   "Induction from local loading.")
           .only_if("model", {"bem"})
+          .table("grid", &AeroOptions::grid, rotor_grid_section(), "The grid round the resolved rotor.")
           .one_of({"thrust_N", "table"})
           .one_of({"thrust_coefficient", "curve"})
           .check(check_aero);

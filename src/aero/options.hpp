@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "src/aero/rotor_grid/options.hpp"
+
 namespace spindrift::scene {
 template <class Options>
 class Section;
@@ -34,6 +36,7 @@ struct AeroOptions {
   std::string interpolation = "linear";
   // bem
   std::string induction = "madsen";
+  std::optional<RotorGridOptions> grid;  ///< resolved rotor
 };
 
 struct RotorOptions {

@@ -47,9 +47,9 @@ RotorGridSizes sizes_of(double n) {
   return s;
 }
 
-SectionSpacing section_spacing(const RotorGridSizes& sizes) {
+SectionSpacing section_spacing(const RotorGridSizes& sizes, bool rounded_edge) {
   SectionSpacing spacing;
-  spacing.round = sizes.round, spacing.edge = sizes.edge;
+  spacing.round = sizes.round, spacing.edge = sizes.edge, spacing.round_off = rounded_edge;
   spacing.leading_edge = 0.004 * 120.0 / sizes.round, spacing.trailing_edge = 0.006 * 120.0 / sizes.round;
   return spacing;
 }

@@ -32,7 +32,7 @@ struct RotorGridSizes {
 RotorGridSizes sizes_of(double n);
 
 /// Nodes round the section for these sizes.
-SectionSpacing section_spacing(const RotorGridSizes& sizes);
+SectionSpacing section_spacing(const RotorGridSizes& sizes, bool rounded_edge = false);
 
 struct RotorGridSpec {
   RotorGridSizes sizes;
@@ -45,6 +45,8 @@ struct RotorGridSpec {
   double wind_m_s = 0.0;
   double kinematic_viscosity = 1.46e-5;  ///< [m2/s]
   double pitch = 0.0;                ///< [rad]
+  bool rounded_edge = false;         ///< trailing edges closed by half a circle
+  int coarsen = 0;                   ///< times that every second node is kept
   bool whole = true;                 ///< all blades; else one sector with rotational periodicity
   double resolution() const { return sizes.round / 40.0; }
 };

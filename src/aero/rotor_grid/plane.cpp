@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/grid/ray.hpp"
 #include "kernels/grid/stretching.hpp"
 
 namespace spindrift::aero {
@@ -122,28 +123,12 @@ void fill_plug_boundary(const BladeSurface& blade, const RotorLayout& layout, st
 
 // ---- rays of the O ---------------------------------------------------------------------------------------------------------------
 
-/// Outward normals of the inner side as angles, smoothed over a few nodes.
+/// Outward normals of the inner side as angles, smoothed over about two nodes of 120.
 std::vector<double> normals(const Plane& plane) {
-  const int round = plane.ring.round;
-  std::vector<double> angle(static_cast<std::size_t>(round));
-  for (int i = 0; i < round; ++i) {
-    // Mean of the two adjoining edges' directions: a node on an edge between long and short cells must not follow the long one alone.
-    const Vector2d a = (plane.ring_nodes[plane.ring.at(i, 0)] - plane.ring_nodes[plane.ring.at(i - 1, 0)]).normalized();
-    const Vector2d b = (plane.ring_nodes[plane.ring.at(i + 1, 0)] - plane.ring_nodes[plane.ring.at(i, 0)]).normalized();
-    const Vector2d t = a + b;
-    angle[std::size_t(i)] = std::atan2(-t.x(), t.y());  // outward: right of counter-clockwise
-  }
-  const int sweeps = std::max(2, int(std::lround(2.0 * std::pow(round / 60.0, 2))));
-  const auto difference = [](double a, double b) { return std::remainder(a - b, 2.0 * pi); };
-  std::vector<double> next(angle);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (int i = 0; i < round; ++i) {
-      const double here = angle[std::size_t(i)];
-      next[std::size_t(i)] = here + 0.25 * (difference(angle[std::size_t((i + 1) % round)], here) +
-                                            difference(angle[std::size_t((i + round - 1) % round)], here));
-    }
-    angle.swap(next);
-  }
+  const std::size_t round = std::size_t(plane.ring.round);
+  std::vector<double> angle(round), work(round);
+  const int sweeps = std::max(2, int(std::lround(2.0 * std::pow(plane.ring.round / 60.0, 2))));
+  smoothed_normals(std::span(plane.ring_nodes).first(round), sweeps, angle, work);
   return angle;
 }
 
@@ -159,35 +144,6 @@ double arrival(const RotorGridSizes& n, int roll, int i) {
   }
   return corner;
 }
-
-/// A cubic Bezier curve with its length, to be walked along.
-class Ray {
- public:
-  Ray(const std::array<Vector2d, 4>& p) : p_(p) {
-    Vector2d last = p[0];
-    length_[0] = 0.0;
-    for (int m = 1; m <= pieces; ++m) {
-      const Vector2d next = at(double(m) / pieces);
-      length_[std::size_t(m)] = length_[std::size_t(m) - 1] + (next - last).norm();
-      last = next;
-    }
-  }
-  double length() const { return length_.back(); }
-  Vector2d at(double t) const {
-    const double u = 1.0 - t;
-    return u * u * u * p_[0] + 3.0 * u * u * t * p_[1] + 3.0 * u * t * t * p_[2] + t * t * t * p_[3];
-  }
-  Vector2d at_length(double s) const {
-    const auto above = std::upper_bound(length_.begin() + 1, length_.end() - 1, s);
-    const std::size_t m = std::size_t(above - length_.begin()) - 1;
-    return at((double(m) + (s - length_[m]) / (length_[m + 1] - length_[m])) / pieces);
-  }
-
- private:
-  static constexpr int pieces = 96;
-  std::array<Vector2d, 4> p_;
-  std::array<double, pieces + 1> length_{};
-};
 
 void fill_rays(const RotorLayout& layout, int k, Plane& plane) {
   const RotorGridSizes& n = layout.spec().sizes;

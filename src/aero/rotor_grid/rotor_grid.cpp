@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "src/aero/rotor_grid/coarsen.hpp"
 #include "src/aero/rotor_grid/plane.hpp"
 
 namespace spindrift::aero {
@@ -212,13 +213,16 @@ class Assembly {
 
 MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec) {
   const int round = spec.sizes.round;
-  const int roll = int(std::lround(round * spec.pitch / (2.0 * pi)));
+  const int fit = 1 << spec.coarsen;
+  const int roll = fit * int(std::lround(round * spec.pitch / (2.0 * pi * fit)));
   BladeSettings settings;
-  settings.spacing = section_spacing(spec.sizes);
+  settings.spacing = section_spacing(spec.sizes, spec.rounded_edge);
   settings.hub_radius = spec.hub_radius_m, settings.pitch = spec.pitch, settings.roll = 2.0 * pi * roll / round;
   const BladeSurface blade(turbine, settings);
   const RotorLayout layout(blade, spec, turbine.blades, roll);
-  return Assembly(turbine, spec, layout).make(blade);
+  MultiBlockGrid grid = Assembly(turbine, spec, layout).make(blade);
+  for (int m = 0; m < spec.coarsen; ++m) grid = coarsened(grid);
+  return grid;
 }
 
 }  // namespace spindrift::aero
