@@ -133,6 +133,22 @@ Turbine read_turbine(const std::string& path) {
   for (const AerofoilOptions& aerofoil : options.aerofoils) turbine.aerofoils.push_back(read_aerofoil(aerofoil));
   const auto thinner = [](const auto& a, const auto& b) { return a.thickness < b.thickness; };
   std::sort(turbine.aerofoils.begin(), turbine.aerofoils.end(), thinner);
+  if (!turbine.aerofoils.empty()) {
+    const double thin = turbine.aerofoils.front().thickness, thick = turbine.aerofoils.back().thickness;
+    for (std::size_t m = 0; m < turbine.planform.span.size(); ++m) {
+      const double t = turbine.planform.thickness[m];
+      if (t < thin - 1e-9 || t > thick + 1e-9) {
+        doc.problem("turbine.aerofoils",
+                    fmt::format("no outline for the section {:.1f} % thick at span {} m of the planform: outlines go from {:.1f} to {:.1f} %",
+                                100.0 * t, turbine.planform.span[m], 100.0 * thin, 100.0 * thick));
+        break;
+      }
+    }
+    for (std::size_t a = 1; a < turbine.aerofoils.size(); ++a)
+      if (turbine.aerofoils[a].thickness == turbine.aerofoils[a - 1].thickness)
+        doc.problem("turbine.aerofoils", fmt::format("two outlines are {} % thick", 100.0 * turbine.aerofoils[a].thickness));
+    doc.finish();
+  }
   std::sort(turbine.polars.begin(), turbine.polars.end(), thinner);
   return turbine;
 }

@@ -73,7 +73,7 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
                    scene::between(0, 5))
           .number("least_scaled_jacobian", &RotorGridOptions::least_scaled_jacobian, "-",
                   "Limit of quality: a grid with a worse cell is refused.", scene::between(0.0, 1.0))
-          .degrees("most_off_orthogonal_deg", &RotorGridOptions::most_off_orthogonal,
+          .number("most_off_orthogonal_deg", &RotorGridOptions::most_off_orthogonal_deg, "deg",
                    "Limit of quality: a grid with a face farther off the line of its cells' centres is refused.", scene::between(0.0, 90.0))
           .at_most_one_of({"first_cell_chords", "first_cell_m", "y_plus"})
           .check(check_grid);

@@ -27,7 +27,7 @@ struct RotorGridOptions {
   std::string trailing_edge = "kept";
   int coarsen = 0;
   double least_scaled_jacobian = 0.01;
-  double most_off_orthogonal = 1.5358897417550099;  ///< [rad]
+  double most_off_orthogonal_deg = 88.0;
 };
 
 const scene::Section<RotorGridOptions>& rotor_grid_section();

@@ -10,43 +10,39 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/failure.hpp"
+#include "src/aero/grid/index_map.hpp"
 
 namespace spindrift::aero {
 
 namespace {
 
 using Eigen::Vector3d;
-using Index = std::array<int, 3>;
 
 constexpr double skewed_below = 0.4;
 
-void lower(Extreme& worst, double value, int block, int k, int j, int i) {
-  if (value < worst.value || worst.block < 0) worst = {value, block, k, j, i};
-}
 void higher(Extreme& worst, double value, int block, int k, int j, int i) {
-  if (value > worst.value || worst.block < 0) worst = {value, block, k, j, i};
-}
-void merge_low(Extreme& a, const Extreme& b) {
-  if (b.block >= 0) lower(a, b.value, b.block, b.k, b.j, b.i);
+  if (value > worst.value || worst.block < 0) worst = {value, block, k, j, i, {}};
 }
 void merge_high(Extreme& a, const Extreme& b) {
   if (b.block >= 0) higher(a, b.value, b.block, b.k, b.j, b.i);
 }
 
-/// Angle off a direction, without loss of digits near zero.
-double angle(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))); }
+/// Angle [deg] off a direction, without loss of digits near zero.
+double angle(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) / radians_per_degree;
+}
 
 /// One block, one cell at a time.
 class BlockMeter {
  public:
   BlockMeter(const Block& block, int number) : b_(block), number_(number) {}
 
-  void slab(int k, GridQuality& q) const {
+  void slab(int k, RotorGridQuality& q) const {
     for (int j = 0; j < b_.nj; ++j)
       for (int i = 0; i < b_.ni; ++i) cell(k, j, i, q);
   }
   /// Of the face of a wall: `side` is the block's side.
-  void wall(Side side, int k, int j, int i, GridQuality& q, std::vector<double>& angles) const {
+  void wall(Side side, int k, int j, int i, RotorGridQuality& q, std::vector<double>& angles) const {
     const int d = direction_of(side);
     const bool end = at_end(side);
     const auto [face, normal] = quad(d, k, j, i, end);
@@ -59,7 +55,7 @@ class BlockMeter {
     q.first_cell_high = std::max(q.first_cell_high, height);
   }
   /// Along the line of cells that begins at a wall's face.
-  void line(Side side, int k, int j, int i, GridQuality& q) const {
+  void line(Side side, int k, int j, int i, RotorGridQuality& q) const {
     const int d = direction_of(side), n = b_.cells()[std::size_t(d)];
     Index at{i, j, k};
     double last = 0.0;
@@ -74,11 +70,6 @@ class BlockMeter {
  private:
   const Vector3d& node(int k, int j, int i) const { return b_.nodes[b_.node(k, j, i)]; }
   Vector3d edge(int d, int k, int j, int i) const { return node(k + (d == 2), j + (d == 1), i + (d == 0)) - node(k, j, i); }
-  Vector3d centre(int k, int j, int i) const {
-    Vector3d sum = Vector3d::Zero();
-    for (int c = 0; c < 8; ++c) sum += node(k + (c >> 2), j + (c >> 1 & 1), i + (c & 1));
-    return 0.125 * sum;
-  }
   /// Middle and area vector of the face of cell (k, j, i) across d, at its end or its beginning.
   std::pair<Vector3d, Vector3d> quad(int d, int k, int j, int i, bool end) const {
     const int dk = d == 2 && end, dj = d == 1 && end, di = d == 0 && end;
@@ -91,17 +82,15 @@ class BlockMeter {
     return {0.25 * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)), 0.5 * (at(1, 1) - at(0, 0)).cross(at(0, 1) - at(1, 0))};
   }
 
-  void cell(int k, int j, int i, GridQuality& q) const {
+  void cell(int k, int j, int i, RotorGridQuality& q) const {
     std::array<std::array<Vector3d, 4>, 3> e;  // edges by direction
-    double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
     std::array<std::array<double, 4>, 3> length{};
     for (int d = 0; d < 3; ++d)
       for (int c = 0; c < 4; ++c) {
         const int u = c & 1, v = c >> 1;
         Vector3d& x = e[std::size_t(d)][std::size_t(c)];
         x = d == 0 ? edge(0, k + v, j + u, i) : d == 1 ? edge(1, k + v, j, i + u) : edge(2, k, j + v, i + u);
-        const double l = length[std::size_t(d)][std::size_t(c)] = x.norm();
-        shortest = std::min(shortest, l), longest = std::max(longest, l);
+        length[std::size_t(d)][std::size_t(c)] = x.norm();
       }
     double worst = 2.0;
     for (int c = 0; c < 8; ++c) {
@@ -109,45 +98,15 @@ class BlockMeter {
       const std::size_t a = std::size_t(dj + 2 * dk), b = std::size_t(di + 2 * dk), g = std::size_t(di + 2 * dj);
       worst = std::min(worst, e[0][a].dot(e[1][b].cross(e[2][g])) / (length[0][a] * length[1][b] * length[2][g]));
     }
-    ++q.cells;
     if (!(worst > 0.0)) ++q.folded;
     if (worst < skewed_below) ++q.skewed;
-    lower(q.scaled_jacobian, worst, number_, k, j, i);
-    higher(q.aspect_ratio, longest / shortest, number_, k, j, i);
-    const double volume = volume_of(k, j, i);
-    q.volume_total += volume;
-    lower(q.volume, volume, number_, k, j, i);
     neighbours(k, j, i, q);
   }
 
-  /// Of the cell with trilinear edges and bilinear faces: a third of the flux of x through its faces, from the cell's centre.
-  double volume_of(int k, int j, int i) const {
-    const Vector3d c = centre(k, j, i);
-    double sum = 0.0;
-    for (int d = 0; d < 3; ++d)
-      for (const bool end : {false, true}) {
-        const int a = (d + 1) % 3, b = (d + 2) % 3;
-        const auto at = [&](int u, int v) -> Vector3d {
-          Index s{i, j, k};
-          s[std::size_t(d)] += end, s[std::size_t(a)] += u, s[std::size_t(b)] += v;
-          return node(s[2], s[1], s[0]) - c;
-        };
-        const Vector3d p = at(0, 0), x = at(1, 0), y = at(0, 1), z = at(1, 1);
-        // Integral of r . n over a bilinear patch.
-        const double flux = (p.dot(x.cross(y)) + p.dot(x.cross(z)) + p.dot(z.cross(y)) + x.dot(z.cross(y))) / 4.0;
-        sum += end ? flux : -flux;
-      }
-    return sum / 3.0;
-  }
-
-  void neighbours(int k, int j, int i, GridQuality& q) const {
-    const Vector3d here = centre(k, j, i);
+  void neighbours(int k, int j, int i, RotorGridQuality& q) const {
     for (int d = 0; d < 3; ++d) {
       const int K = k + (d == 2), J = j + (d == 1), I = i + (d == 0);
       if (K >= b_.nk || J >= b_.nj || I >= b_.ni) continue;
-      const auto [unused, normal] = quad(d, k, j, i, true);
-      (void)unused;
-      higher(q.orthogonality, angle(normal, centre(K, J, I) - here), number_, k, j, i);
       const double a = edge(d, k, j, i).norm(), b = edge(d, K, J, I).norm();
       higher(q.stretch[std::size_t(d)], std::max(a / b, b / a), number_, k, j, i);
     }
@@ -157,12 +116,10 @@ class BlockMeter {
   int number_;
 };
 
-GridQuality merged(const std::vector<GridQuality>& parts) {
-  GridQuality all;
-  for (const GridQuality& p : parts) {
-    all.cells += p.cells, all.folded += p.folded, all.skewed += p.skewed, all.volume_total += p.volume_total;
-    merge_low(all.volume, p.volume), merge_low(all.scaled_jacobian, p.scaled_jacobian);
-    merge_high(all.orthogonality, p.orthogonality), merge_high(all.aspect_ratio, p.aspect_ratio);
+RotorGridQuality merged(const std::vector<RotorGridQuality>& parts) {
+  RotorGridQuality all;
+  for (const RotorGridQuality& p : parts) {
+    all.folded += p.folded, all.skewed += p.skewed;
     for (std::size_t d = 0; d < 3; ++d) merge_high(all.stretch[d], p.stretch[d]);
   }
   return all;
@@ -212,15 +169,16 @@ std::string place(const MultiBlockGrid& grid, const Extreme& e) {
 
 }  // namespace
 
-GridQuality measure_quality(const MultiBlockGrid& grid, const std::vector<std::string>& walls) {
+RotorGridQuality rotor_grid_quality(const MultiBlockGrid& grid, const std::vector<std::string>& walls) {
   std::vector<std::pair<int, int>> slabs;
   for (int b = 0; b < int(grid.blocks.size()); ++b)
     for (int k = 0; k < grid.blocks[std::size_t(b)].nk; ++k) slabs.emplace_back(b, k);
-  std::vector<GridQuality> parts(slabs.size());
+  std::vector<RotorGridQuality> parts(slabs.size());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t s = 0; s < slabs.size(); ++s)
     BlockMeter(grid.blocks[std::size_t(slabs[s].first)], slabs[s].first).slab(slabs[s].second, parts[s]);
-  GridQuality q = merged(parts);
+  RotorGridQuality q = merged(parts);
+  q.general = grid_quality(grid);
   std::vector<double> angles;
   for (const Boundary& boundary : grid.boundaries) {
     const bool wall = std::any_of(walls.begin(), walls.end(), [&](const std::string& w) { return boundary.patch.starts_with(w); });
@@ -247,25 +205,25 @@ GridQuality measure_quality(const MultiBlockGrid& grid, const std::vector<std::s
   return q;
 }
 
-void require_quality(const MultiBlockGrid& grid, const GridQuality& q, const QualityLimits& limits) {
+void require_quality(const MultiBlockGrid& grid, const RotorGridQuality& q, const QualityLimits& limits) {
   const auto stop = [&](const std::string& what, const Extreme& e, double limit) {
     const std::string cell = place(grid, e);
     throw NumericalFailure(fmt::format("grid refused: {} in block {}", what, cell), cell, 0, 0.0, limit);
   };
+  const GridQuality& g = q.general;
   if (q.folded > 0)
     stop(fmt::format("{} of {} cells fold (a corner Jacobian is not positive); the worst, with scaled Jacobian {:.3g}, is", q.folded,
-                     q.cells, q.scaled_jacobian.value),
-         q.scaled_jacobian, 0.0);
-  if (!(q.volume.value > 0.0)) stop(fmt::format("volume {:.3g} m3", q.volume.value), q.volume, 0.0);
-  if (q.scaled_jacobian.value < limits.scaled_jacobian)
-    stop(fmt::format("scaled Jacobian {:.3g} below {:.3g}", q.scaled_jacobian.value, limits.scaled_jacobian), q.scaled_jacobian,
+                     g.cells, g.scaled_jacobian.value),
+         g.scaled_jacobian, 0.0);
+  if (!(g.min_volume.value > 0.0)) stop(fmt::format("volume {:.3g} m3", g.min_volume.value), g.min_volume, 0.0);
+  if (g.scaled_jacobian.value < limits.scaled_jacobian)
+    stop(fmt::format("scaled Jacobian {:.3g} below {:.3g}", g.scaled_jacobian.value, limits.scaled_jacobian), g.scaled_jacobian,
          limits.scaled_jacobian);
-  if (q.orthogonality.value > limits.orthogonality)
-    stop(fmt::format("{:.1f} deg off orthogonal, above {:.1f}", q.orthogonality.value / radians_per_degree,
-                     limits.orthogonality / radians_per_degree),
-         q.orthogonality, limits.orthogonality);
-  for (const Extreme& s : q.stretch)
-    if (s.value > limits.stretch) stop(fmt::format("neighbours' sizes in the ratio {:.1f}, above {:.1f}", s.value, limits.stretch), s, limits.stretch);
+  if (g.non_orthogonality.value > limits.non_orthogonality)
+    stop(fmt::format("{:.1f} deg off orthogonal, above {:.1f}", g.non_orthogonality.value, limits.non_orthogonality), g.non_orthogonality,
+         limits.non_orthogonality);
+  if (g.stretch.value > limits.stretch)
+    stop(fmt::format("neighbours' sizes in the ratio {:.1f}, above {:.1f}", g.stretch.value, limits.stretch), g.stretch, limits.stretch);
   double reach = 0.0;
   for (const Block& b : grid.blocks)
     for (const Vector3d& p : b.nodes) reach = std::max(reach, p.lpNorm<Eigen::Infinity>());
@@ -274,30 +232,23 @@ void require_quality(const MultiBlockGrid& grid, const GridQuality& q, const Qua
                            limits.interface_gap * reach);
 }
 
-std::string describe_quality(const MultiBlockGrid& grid, const GridQuality& q) {
-  std::string text;
+std::string describe_quality(const MultiBlockGrid& grid, const RotorGridQuality& q) {
+  std::string text = describe(q.general, grid);
   const auto line = [&](const std::string& what, const std::string& value, const std::string& where) {
-    text += fmt::format("  {:<36}{:>14}   {}\n", what, value, where);
+    text += fmt::format("  {:<34} {:>12}   {}\n", what, value, where);
   };
-  const auto degrees = [](double radians) { return fmt::format("{:.1f} deg", radians / radians_per_degree); };
-  line("cells", fmt::format("{}", q.cells), fmt::format("{} blocks, {} connections", grid.blocks.size(), grid.connections.size()));
-  line("volume, all", fmt::format("{:.6g} m3", q.volume_total), "");
-  line("volume, smallest", fmt::format("{:.3g} m3", q.volume.value), place(grid, q.volume));
-  line("folded cells", fmt::format("{}", q.folded), "");
-  line("scaled Jacobian, smallest", fmt::format("{:.3f}", q.scaled_jacobian.value), place(grid, q.scaled_jacobian));
-  line("scaled Jacobian below 0.4", fmt::format("{:.3f} %", 100.0 * double(q.skewed) / double(std::max(1L, q.cells))), "");
-  line("off orthogonal, largest", degrees(q.orthogonality.value), place(grid, q.orthogonality));
-  line("aspect ratio, largest", fmt::format("{:.3g}", q.aspect_ratio.value), place(grid, q.aspect_ratio));
+  line("cells that fold", fmt::format("{}", q.folded), "");
+  line("scaled Jacobian below 0.4 [%]", fmt::format("{:.3f}", 100.0 * double(q.skewed) / double(std::max(1L, q.general.cells))), "");
   const std::array<const char*, 3> direction{"i", "j", "k"};
   for (std::size_t d = 0; d < 3; ++d)
-    line(fmt::format("size of neighbours along {}, largest", direction[d]), fmt::format("{:.3f}", q.stretch[d].value), place(grid, q.stretch[d]));
+    line(fmt::format("largest stretch along {}", direction[d]), fmt::format("{:.3f}", q.stretch[d].value), place(grid, q.stretch[d]));
   if (q.wall_orthogonality.block >= 0) {
-    line("growth from the wall, largest", fmt::format("{:.3f}", q.wall_growth.value), place(grid, q.wall_growth));
-    line("off the wall's normal, median", degrees(q.wall_orthogonality_median), "");
-    line("off the wall's normal, largest", degrees(q.wall_orthogonality.value), place(grid, q.wall_orthogonality));
-    line("first cell", fmt::format("{:.3g} m", q.first_cell_low), fmt::format("to {:.3g} m", q.first_cell_high));
+    line("largest growth from the wall", fmt::format("{:.3f}", q.wall_growth.value), place(grid, q.wall_growth));
+    line("median off the wall's normal [deg]", fmt::format("{:.1f}", q.wall_orthogonality_median), "");
+    line("largest off the wall's normal [deg]", fmt::format("{:.1f}", q.wall_orthogonality.value), place(grid, q.wall_orthogonality));
+    line("first cells [m]", fmt::format("{:.3g}", q.first_cell_low), fmt::format("to {:.3g}", q.first_cell_high));
   }
-  line("interfaces, largest gap", fmt::format("{:.2g} m", q.interface_gap), "");
+  line("largest gap at interfaces [m]", fmt::format("{:.2g}", q.interface_gap), "");
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/failure.hpp"
 #include "src/aero/rotor_grid/coarsen.hpp"
 #include "src/aero/rotor_grid/plane.hpp"
 
@@ -212,6 +213,8 @@ class Assembly {
 }  // namespace
 
 MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec) {
+  if (turbine.aerofoils.empty())
+    throw NumericalFailure("rotor grid: the turbine file has no turbine.aerofoils, the outlines that a surface is made from", "turbine", 0, 0.0);
   const int round = spec.sizes.round;
   const int fit = 1 << spec.coarsen;
   const int roll = fit * int(std::lround(round * spec.pitch / (2.0 * pi * fit)));

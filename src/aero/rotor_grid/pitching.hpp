@@ -1,0 +1,44 @@
+// Blade pitch as motion of a rotor grid's nodes: near the blade they turn rigidly about its axis, towards the box of the O-grid and
+// outboard of the tip the turn fades to nothing. Positions are a function of the pitch alone, so that a moving grid may be put
+// anywhere at any time. Used where blades pitch during a run; tested in tests/src/aero/rotor_grid/pitching_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+#include "src/aero/grid/multi_block.hpp"
+#include "src/aero/rotor_grid/layout.hpp"
+#include "src/aero/turbine.hpp"
+
+namespace spindrift::aero {
+
+class BladePitching {
+ public:
+  /// `grid` as made by make_rotor_grid from the same turbine and spec, not coarsened after; its nodes are those of zero change.
+  BladePitching(const MultiBlockGrid& grid, const Turbine& turbine, const RotorGridSpec& spec);
+
+  /// Only ring and plug of a sector move.
+  bool moves(int block) const { return block % blocks_of_sector < 2; }
+  /// Nodes of a block when its blade's pitch has changed by `change` [rad] from the grid's, nose into the wind positive. Good for
+  /// changes up to about 20 deg (docs/theory/rotor_grid.md); beyond, make a grid at a pitch nearby.
+  void nodes(int block, double change, std::span<Eigen::Vector3d> moved) const;
+  /// Share of the turn that node (k, j, i) of a moving block takes: 1 at the blade, 0 at the box.
+  double share(int block, int k, int j, int i) const;
+  /// Unit vector along the blade of a block's sector.
+  Eigen::Vector3d axis(int block) const;
+
+  static constexpr int blocks_of_sector = 10;
+
+ private:
+  const MultiBlockGrid& grid_;
+  int blades_;
+  double precone_, hub_radius_, root_chord_;
+  std::vector<double> ring_share_;  ///< of sector 1, as its nodes; all sectors are alike
+  std::vector<double> outboard_;    ///< by k of the ring
+  int span_;
+};
+
+}  // namespace spindrift::aero

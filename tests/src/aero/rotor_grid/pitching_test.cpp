@@ -1,0 +1,81 @@
+// Blade pitch as motion of the grid: blades turn rigidly, interfaces stay one, hub and box hold, no cell folds within the stated range.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/rotor_grid/pitching.hpp"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "src/aero/rotor_grid/stations.hpp"
+#include "tests/src/aero/rotor_grid/example.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+
+namespace {
+
+MultiBlockGrid pitched(const MultiBlockGrid& grid, const BladePitching& pitching, double change) {
+  MultiBlockGrid moved = grid;
+  for (int b = 0; b < int(grid.blocks.size()); ++b)
+    if (pitching.moves(b)) pitching.nodes(b, change, moved.blocks[std::size_t(b)].nodes);
+  return moved;
+}
+
+}  // namespace
+
+TEST_CASE("no change of pitch leaves every node where it is, bit by bit", "[rotor_grid][fast]") {
+  const RotorGridSpec spec = spec_of(1.0, 2e-3, 0.0, true);
+  const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
+  const MultiBlockGrid same = pitched(grid, BladePitching(grid, dtu(), spec), 0.0);
+  for (std::size_t b = 0; b < grid.blocks.size(); ++b) CHECK(same.blocks[b].nodes == grid.blocks[b].nodes);
+}
+
+TEST_CASE("blades pitch as rigid bodies; grids stay whole within 15 degrees either way", "[rotor_grid][fast]") {
+  const RotorGridSpec spec = spec_of(GENERATE(1.0, 2.04), 5e-4, 0.0, true);
+  const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
+  const BladePitching pitching(grid, dtu(), spec);
+  const double change = GENERATE(-15.0, -5.0, 5.0, 15.0) * radians_per_degree;
+  const MultiBlockGrid moved = pitched(grid, pitching, change);
+  const RotorGridQuality q = rotor_grid_quality(moved, blade_walls());
+  INFO("scaled Jacobian " << q.general.scaled_jacobian.value);
+  CHECK(q.folded == 0);
+  CHECK(q.interface_gap < 1e-14);
+  CHECK(q.general.scaled_jacobian.value > 0.05);
+  CHECK(q.general.volume == Approx(grid_quality(grid).volume).epsilon(1e-5));
+  for (const int block : {0, 10, 20}) {
+    const Block &before = grid.blocks[std::size_t(block)], &after = moved.blocks[std::size_t(block)];
+    const Eigen::AngleAxisd turn(change, pitching.axis(block));
+    double rigid = 0.0, off_hub = 0.0;
+    for (int k = 0; k <= spec.sizes.span; ++k)
+      for (int j = 0; j <= before.nj; ++j) {
+        const Eigen::Vector3d &p = before.nodes[before.node(k, j, 0)], &m = after.nodes[after.node(k, j, 0)];
+        // Above the root circle nodes are carried; on it they slide along its straight lines, and stay on its surface.
+        if (std::hypot(p.y(), p.z()) > 10.5) rigid = std::max(rigid, (turn * p - m).norm());
+        if (k == 0) off_hub = std::max(off_hub, std::abs(std::hypot(m.y(), m.z()) - 5.0));
+      }
+    CHECK(rigid < 1e-12);
+    CHECK(off_hub < 1e-12);
+  }
+}
+
+TEST_CASE("stations of loads cover the blade and know their directions", "[rotor_grid][fast]") {
+  const MultiBlockGrid grid = make_rotor_grid(dtu(), spec_of(1.5, 1e-3, 0.0, true));
+  const auto blades = blade_stations(grid);
+  REQUIRE(blades.size() == 3);
+  for (const auto& blade : blades) {
+    double length = 0.0;
+    for (const BladeStation& s : blade) {
+      length += s.length;
+      CHECK(s.normal.dot(s.tangential) == Approx(0.0).margin(1e-12));
+      CHECK(s.tangential.norm() == Approx(1.0));
+      CHECK(s.tangential.dot(s.chordwise) > 0.9);  // noses point the way the rotor turns
+    }
+    CHECK(length == Approx(88.935 - 5.0).margin(0.01));
+    CHECK(blade[9].wetted_area > 2.0 * 0.97 * blade[9].chord * blade[9].length);
+    CHECK(blade[9].wetted_area < 2.4 * blade[9].chord * blade[9].length);
+  }
+  // Blade 1 points up and moves towards -y; a force of 3 N downwind and 5 N that way.
+  const BladeStation& s = blades[0][10];
+  const StationLoad load = load_at(s, Eigen::Vector3d(3.0, -5.0, 0.0));
+  CHECK(load.normal == Approx(3.0 / s.length));
+  CHECK(load.tangential == Approx(5.0 / s.length).epsilon(1e-3));
+}

@@ -1,0 +1,186 @@
+// Rotor grids over the space of sizes, pitches and first cells: sound, unfolded, as good as stated; nested and similar families; the same
+// bits for any number of threads.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/rotor_grid/rotor_grid.hpp"
+
+#include <omp.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+
+#include "kernels/base/failure.hpp"
+#include "src/aero/grid/checks.hpp"
+#include "src/aero/rotor_grid/coarsen.hpp"
+#include "tests/src/aero/rotor_grid/example.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+
+namespace {
+
+struct Limits {
+  double jacobian, skewed_percent, off_orthogonal_deg, growth, aspect;
+};
+
+void check_grid(const RotorGridSpec& spec, const Limits& limits) {
+  const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
+  const std::vector<std::string> faults = grid_faults(grid);
+  INFO((faults.empty() ? "" : faults.front()));
+  CHECK(faults.empty());
+  const RotorGridQuality q = rotor_grid_quality(grid, blade_walls());
+  INFO(describe_quality(grid, q));
+  CHECK(q.folded == 0);
+  CHECK(q.general.min_volume.value > 0.0);
+  CHECK(q.interface_gap < (spec.whole ? 1e-14 : 2e-12));
+  CHECK(q.general.scaled_jacobian.value >= limits.jacobian);
+  CHECK(100.0 * double(q.skewed) / double(q.general.cells) <= limits.skewed_percent);
+  CHECK(q.general.non_orthogonality.value <= limits.off_orthogonal_deg);
+  CHECK(q.general.aspect_ratio.value <= limits.aspect);
+  double growth = 0.0;  // of the O round the section, all along
+  for (const Block& b : grid.blocks)
+    if (b.name.starts_with("ring"))
+      for (int k = 0; k <= b.nk; ++k)
+        for (int j = 0; j <= b.nj; ++j)
+          for (int i = 1; i < b.ni; ++i) {
+            const double last = (b.nodes[b.node(k, j, i)] - b.nodes[b.node(k, j, i - 1)]).norm();
+            const double next = (b.nodes[b.node(k, j, i + 1)] - b.nodes[b.node(k, j, i)]).norm();
+            growth = std::max({growth, next / last, last / next});
+          }
+  CHECK(growth <= limits.growth);
+  require_quality(grid, q);
+}
+
+}  // namespace
+
+// The prototype's figures for these grids are the limits: scaled Jacobian, share below 0.4, angle, growth, aspect ratio.
+TEST_CASE("rotor grids of 30 k cells are as good as stated", "[rotor_grid][fast]") {
+  check_grid(spec_of(1.0, 2e-3, 0.0, true), {0.36, 0.03, 54.0, 2.6, 2e3});
+}
+TEST_CASE("rotor grids of 255 k cells are as good as stated, for wall functions and for y+ of 1", "[rotor_grid][fast]") {
+  check_grid(spec_of(2.04, 2.6e-4), {0.36, 0.03, 59.0, 2.1, 7e3});
+  check_grid(spec_of(2.04, 1e-5), {0.33, 0.03, 60.0, 2.9, 2e5});
+}
+TEST_CASE("rotor grids of 1.5 M cells are as good as stated", "[rotor_grid][nightly]") {
+  RotorGridSpec spec = spec_of(3.0, 2.6e-4, 0.0, true);
+  spec.sizes = medium_sizes();
+  check_grid(spec, {0.3, 0.02, 64.0, 1.36, 3e3});
+  spec.first_cell_chords = 1e-5;
+  check_grid(spec, {0.3, 0.03, 66.0, 1.57, 8e4});
+}
+TEST_CASE("the paper's grid of 7.7 M cells is as good as stated", "[rotor_grid][nightly]") {
+  RotorGridSpec spec = spec_of(6.0, 1e-5, 0.0, true);
+  spec.sizes = paper_sizes();
+  check_grid(spec, {0.31, 0.01, 69.0, 1.37, 5e4});
+}
+
+TEST_CASE("every pitch from 0 to 90 degrees gives a grid without folds, for thick and thin first cells", "[rotor_grid][fast]") {
+  const auto pitch = GENERATE(0.0, 23.0, 45.0, 90.0);
+  check_grid(spec_of(1.0, 2e-3, pitch), {0.3, 0.1, 66.0, 2.7, 2e3});
+  check_grid(spec_of(1.0, 1e-5, pitch), {0.3, 0.1, 66.0, 6.2, 4e5});
+}
+
+TEST_CASE("every pitch gives a grid without folds at middle and large sizes", "[rotor_grid][nightly]") {
+  const auto pitch = GENERATE(0.0, 10.0, 23.0, 35.0, 45.0, 60.0, 75.0, 90.0);
+  const auto n = GENERATE(1.3, 1.6, 2.0, 2.5, 3.0, 4.0);
+  const auto first = GENERATE(2.6e-4, 1e-5);
+  check_grid(spec_of(n, first, pitch), {0.02, 0.8, 75.0, 5.5, 4e5});
+}
+TEST_CASE("the paper's grid is without folds at every pitch", "[rotor_grid][nightly]") {
+  const auto pitch = GENERATE(23.0, 45.0, 90.0);
+  RotorGridSpec spec = spec_of(6.0, 1e-5, pitch);
+  spec.sizes = paper_sizes();
+  check_grid(spec, {0.1, 0.3, 75.0, 1.6, 6e4});
+}
+
+TEST_CASE("other numbers of blades, hubs, extents and rounded edges give sound grids", "[rotor_grid][fast]") {
+  RotorGridSpec spec = spec_of(1.0, 1e-3);
+  spec.rounded_edge = true;
+  check_grid(spec, {0.3, 0.1, 66.0, 3.0, 4e3});
+  spec = spec_of(1.0, 1e-3, 5.0, true);
+  spec.hub_radius_m = 4.6, spec.radial_extent = 5.0, spec.upstream_extent = 2.0, spec.downstream_extent = 10.0;
+  check_grid(spec, {0.2, 0.2, 70.0, 3.0, 5e3});
+  Turbine two = dtu();
+  two.blades = 2;
+  const MultiBlockGrid grid = make_rotor_grid(two, spec);
+  CHECK(grid.blocks.size() == 20);
+  CHECK(grid_faults(grid).empty());
+  require_quality(grid, rotor_grid_quality(grid, blade_walls()));
+}
+
+TEST_CASE("one sector with rotational periodicity is a third of the rotor", "[rotor_grid][fast]") {
+  const MultiBlockGrid all = make_rotor_grid(dtu(), spec_of(1.0, 2e-3, 0.0, true)), one = make_rotor_grid(dtu(), spec_of(1.0, 2e-3));
+  CHECK(all.blocks.size() == 30);
+  CHECK(one.blocks.size() == 10);
+  const GridQuality a = grid_quality(all), b = grid_quality(one);
+  CHECK(a.cells == 3 * b.cells);
+  CHECK(a.volume == Approx(3.0 * b.volume).epsilon(1e-12));
+  // All but the blades: a cylinder ring as long as nine tip radii; its polygons lose 2 % on so coarse a grid.
+  const double R = 88.935, ring = pi * (9.0 * R * R - 25.0) * 9.0 * R;
+  CHECK(a.volume == Approx(ring).epsilon(0.03));
+  CHECK(a.volume < ring);
+}
+
+TEST_CASE("coarsening keeps every second node and its grid is sound", "[rotor_grid][fast]") {
+  RotorGridSpec spec = spec_of(2.0, 1e-3, 10.0);
+  spec.sizes.edge = 4;
+  const MultiBlockGrid fine = make_rotor_grid(dtu(), spec);
+  spec.coarsen = 1;
+  const MultiBlockGrid coarse = make_rotor_grid(dtu(), spec);
+  CHECK(grid_faults(coarse).empty());
+  CHECK(grid_quality(coarse).cells * 8 == grid_quality(fine).cells);
+  CHECK(grid_quality(coarse).scaled_jacobian.value > 0.0);
+  spec.sizes.layers = 17, spec.coarsen = 1;
+  CHECK_THROWS_WITH(make_rotor_grid(dtu(), spec), Catch::Contains("ring_1") && Catch::Contains("odd index 17"));
+}
+
+TEST_CASE("grids of one family are similar: sizes go with 1/n", "[rotor_grid][fast]") {
+  // Sizes of cells at places that both grids have, n = 1 and 2, 2 and 4: the ratio nears two all over.
+  const auto compare = [](double n) {
+    const RotorGridSpec coarse = spec_of(n, 2e-3 / n), fine = spec_of(2.0 * n, 1e-3 / n);
+    const MultiBlockGrid a = make_rotor_grid(dtu(), coarse), b = make_rotor_grid(dtu(), fine);
+    double sum = 0.0, squares = 0.0;
+    long count = 0;
+    for (const std::size_t block : {0, 3, 5, 8})
+      for (int k = 1; k < a.blocks[block].nk; ++k)
+        for (int j = 1; j < a.blocks[block].nj; ++j)
+          for (int i = 1; i < a.blocks[block].ni; ++i) {
+            const Block &p = a.blocks[block], &q = b.blocks[block];
+            const auto volume = [](const Block& g, int kk, int jj, int ii) {
+              const Eigen::Vector3d o = g.nodes[g.node(kk, jj, ii)];
+              return (g.nodes[g.node(kk, jj, ii + 1)] - o).cross(g.nodes[g.node(kk, jj + 1, ii)] - o).dot(g.nodes[g.node(kk + 1, jj, ii)] - o);
+            };
+            const double ratio = std::log2(volume(p, k, j, i) / volume(q, 2 * k, 2 * j, 2 * i));
+            sum += ratio, squares += ratio * ratio, ++count;
+          }
+    const double mean = sum / double(count);
+    return std::pair(mean, std::sqrt(squares / double(count) - mean * mean));
+  };
+  const auto [mean1, spread1] = compare(1.0);
+  const auto [mean2, spread2] = compare(2.0);
+  INFO("volume ratio 2^p: p = " << mean1 << " +- " << spread1 << ", " << mean2 << " +- " << spread2);
+  CHECK(std::abs(mean2 - 3.0) < std::abs(mean1 - 3.0));
+  CHECK(mean2 == Approx(3.0).margin(0.6));
+  CHECK(spread2 < spread1);
+}
+
+TEST_CASE("grids are the same bits for any number of threads", "[rotor_grid][fast]") {
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const MultiBlockGrid one = make_rotor_grid(dtu(), spec_of(1.7, 1e-4, 7.0, true));
+  omp_set_num_threads(3);
+  const MultiBlockGrid three = make_rotor_grid(dtu(), spec_of(1.7, 1e-4, 7.0, true));
+  omp_set_num_threads(before);
+  for (std::size_t b = 0; b < one.blocks.size(); ++b)
+    CHECK(std::memcmp(one.blocks[b].nodes.data(), three.blocks[b].nodes.data(), one.blocks[b].nodes.size() * sizeof(Eigen::Vector3d)) == 0);
+}
+
+TEST_CASE("first cells have the height asked for, or that of the y+ asked for", "[rotor_grid][fast]") {
+  RotorGridSpec spec = spec_of(1.0, 0.0);
+  spec.first_cell_m = 2e-4;
+  RotorGridQuality q = rotor_grid_quality(make_rotor_grid(dtu(), spec), blade_walls());
+  CHECK(q.first_cell_low > 1e-4);
+  CHECK(q.first_cell_low < 2.2e-4);
+  // White's law at 70 m/s, 3.4 m of chord, half of it run: Re 8.2e6, c_f 0.00268, u_tau 2.56 m/s, so y+ = 1 at 5.7e-6 m.
+  CHECK(0.5 * first_cell_for(1.0, 70.0, 3.4, 1.46e-5) == Approx(5.7e-6).epsilon(0.01));
+}
