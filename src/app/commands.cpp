@@ -37,6 +37,14 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return check(*arguments, world); }; });
   }
   {
+    auto arguments = std::make_shared<GridArguments>();
+    CLI::App* command = cli.add_subcommand("grid", "Make the rotor's grid, print its quality, write it as Plot3D or CGNS");
+    add_scene(*command, *arguments);
+    command->add_option("-o,--output", arguments->files, "File: .cgns; .p3d or .xyz (binary Plot3D) or .p3dfmt, with a .nmf beside it")
+        ->allow_extra_args(false);
+    command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return grid(*arguments, world); }; });
+  }
+  {
     auto arguments = std::make_shared<StudyArguments>();
     CLI::App* command = cli.add_subcommand("study", "Run the variants of a study; error against cost, the front, the cheapest that will do");
     command->add_option("study", arguments->file, "Study file (TOML)")->required();

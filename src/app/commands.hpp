@@ -38,6 +38,10 @@ struct ReportArguments {
   std::string png;  ///< empty: no picture
 };
 
+struct GridArguments : SceneArguments {
+  std::vector<std::string> files;  ///< .cgns, .p3d or .xyz, .p3dfmt; none: the report alone
+};
+
 struct StudyArguments {
   std::string file;
   std::vector<std::string> overrides;  ///< of the study file
@@ -45,6 +49,7 @@ struct StudyArguments {
 };
 
 int run(const RunArguments& arguments, const runtime::World& world);
+int grid(const GridArguments& arguments, const runtime::World& world);
 int check(const SceneArguments& arguments, const runtime::World& world);
 /// All of the reference, or what `topic` names (a section or a key); as Markdown for inputs/REFERENCE.md.
 int reference(const std::string& topic, bool markdown, const runtime::World& world);
