@@ -62,7 +62,7 @@ def main(path, out):
     for n in range(0, len(grid), 10):
         x, y, z = grid[n][:, : span + 1, :, 0]
         ax.plot_surface(y, x, z, color="0.85", edgecolor="tab:blue", linewidth=0.15, shade=True, rcount=200, ccount=200)
-    ax.set_box_aspect((np.ptp(grid[0][1]) or 1, 40, np.ptp(grid[0][2]) or 1) if len(grid) == 10 else (1, 0.25, 1))
+    ax.set_box_aspect((np.ptp(grid[0][1]) or 1, 40, np.ptp(grid[0][2]) or 1) if len(grid) == 10 else (1, 0.25, 1), zoom=1.6)
     ax.set_xlim(-90, 90), ax.set_ylim(-30, 30), ax.set_zlim(-90, 90)
     ax.view_init(12, -70)
     ax.set_axis_off()
@@ -78,7 +78,7 @@ def main(path, out):
     s, x = unrolled(ring, 0)
     plane(figure.add_subplot(2, 2, 4), sector, 0, span, 6.5, (0.0, float(x[:, 0].mean())), "hub cylinder")
     figure.tight_layout()
-    figure.savefig(out, dpi=110)
+    figure.savefig(out, dpi=80)
 
 
 if __name__ == "__main__":
