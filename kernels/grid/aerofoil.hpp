@@ -1,6 +1,7 @@
 // Aerofoil outlines as curves, and nodes on them as the grid round the section wants them: the same number on every outline, so
-// that sections blend node by node. Spacing after Vinokur (1983), kernels/grid/stretching.hpp; the curve is a cubic spline in chord
-// length. Used by src/aero/rotor_grid/sections.cpp; tested in tests/kernels/grid/aerofoil_test.cpp. SPDX-License-Identifier: Apache-2.0
+// that sections blend node by node. Spacing after Vinokur (1983), kernels/grid/stretching.hpp; the curve is a cubic spline in
+// chord length. Used by src/aero/rotor_grid/sections.cpp; tested in tests/kernels/grid/aerofoil_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -53,12 +54,12 @@ inline double farthest_from(const PlaneCurve& curve, const Eigen::Vector2d& poin
 
 /// How many nodes go where, lengths over the chord.
 struct SectionSpacing {
-  int round = 120;                ///< cells round the section, even
-  int edge = 4;                   ///< of them on the blunt trailing edge, even
-  double leading_edge = 0.004;    ///< size of the cells at the leading edge
-  double trailing_edge = 0.006;   ///< and of those beside the trailing edge
-  double rounded_edge = 0.12;     ///< length of curve that counts as the edge where the outline is closed
-  bool round_off = false;         ///< half a circle on the edge of an open outline, in place of the flat
+  int round = 120;               ///< cells round the section, even
+  int edge = 4;                  ///< of them on the blunt trailing edge, even
+  double leading_edge = 0.004;   ///< size of the cells at the leading edge
+  double trailing_edge = 0.006;  ///< and of those beside the trailing edge
+  double rounded_edge = 0.12;    ///< length of curve that counts as the edge where the outline is closed
+  bool round_off = false;        ///< half a circle on the edge of an open outline, in place of the flat
 };
 
 /// Nodes i = 0 ... round - 1 on an outline that runs from the trailing edge along the pressure side to the leading edge and back

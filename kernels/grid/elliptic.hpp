@@ -1,6 +1,6 @@
-// Elliptic smoothing of a plane O-grid: Winslow (1966) with the control functions of Thomas & Middlecoff (1980), AIAA J. 18, 652, so
-// that the spacing given at the wall survives. Used by src/aero/rotor_grid/plane.cpp; tested in tests/kernels/grid/elliptic_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Elliptic smoothing of a plane O-grid: Winslow (1966) with the control functions of Thomas & Middlecoff (1980), AIAA J. 18, 652,
+// so that the spacing given at the wall survives. Used by src/aero/rotor_grid/plane.cpp; tested in
+// tests/kernels/grid/elliptic_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -17,9 +17,10 @@ struct RingShape {
   std::size_t size() const { return std::size_t(layers + 1) * std::size_t(round); }
 };
 
-/// Control functions of the grid as it is: phi (round the section) from wall and outer side, linear between them; psi (outward) along
-/// every ray. Both are of the size of the grid.
-inline void middlecoff_controls(RingShape ring, std::span<const Eigen::Vector2d> p, std::span<double> phi, std::span<double> psi) {
+/// Control functions of the grid as it is: phi (round the section) from wall and outer side, linear between them; psi (outward)
+/// along every ray. Both are of the size of the grid.
+inline void middlecoff_controls(RingShape ring, std::span<const Eigen::Vector2d> p, std::span<double> phi,
+                                std::span<double> psi) {
   const auto along = [&](int i, int j) {
     const Eigen::Vector2d& here = p[ring.at(i, j)];
     const Eigen::Vector2d first = 0.5 * (p[ring.at(i + 1, j)] - p[ring.at(i - 1, j)]);
@@ -42,9 +43,10 @@ inline void middlecoff_controls(RingShape ring, std::span<const Eigen::Vector2d>
 }
 
 /// One damped Jacobi sweep into `next`, each node moved by `share` in [0, 1] of the way; wall and outer side stay.
-inline void winslow_sweep(RingShape ring, std::span<const Eigen::Vector2d> p, std::span<const double> phi, std::span<const double> psi,
-                          std::span<const double> share, std::span<Eigen::Vector2d> next) {
-  for (int i = 0; i < ring.round; ++i) next[ring.at(i, 0)] = p[ring.at(i, 0)], next[ring.at(i, ring.layers)] = p[ring.at(i, ring.layers)];
+inline void winslow_sweep(RingShape ring, std::span<const Eigen::Vector2d> p, std::span<const double> phi,
+                          std::span<const double> psi, std::span<const double> share, std::span<Eigen::Vector2d> next) {
+  for (int i = 0; i < ring.round; ++i)
+    next[ring.at(i, 0)] = p[ring.at(i, 0)], next[ring.at(i, ring.layers)] = p[ring.at(i, ring.layers)];
   for (int j = 1; j < ring.layers; ++j)
     for (int i = 0; i < ring.round; ++i) {
       const std::size_t c = ring.at(i, j);

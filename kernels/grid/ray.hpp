@@ -17,11 +17,13 @@ namespace spindrift {
 
 /// Outward normals of a counter-clockwise closed polygon at its nodes, as angles [rad], smoothed over `sweeps` passes of
 /// (1/4, 1/2, 1/4), which reaches about sqrt(sweeps / 2) nodes. `work` has the size of `angle`.
-inline void smoothed_normals(std::span<const Eigen::Vector2d> nodes, int sweeps, std::span<double> angle, std::span<double> work) {
+inline void smoothed_normals(std::span<const Eigen::Vector2d> nodes, int sweeps, std::span<double> angle,
+                             std::span<double> work) {
   const std::size_t n = nodes.size();
   for (std::size_t i = 0; i < n; ++i) {
     // Mean of the adjoining edges' directions: a node between a long and a short edge must not follow the long one alone.
-    const Eigen::Vector2d before = (nodes[i] - nodes[(i + n - 1) % n]).normalized(), after = (nodes[(i + 1) % n] - nodes[i]).normalized();
+    const Eigen::Vector2d before = (nodes[i] - nodes[(i + n - 1) % n]).normalized(),
+                          after = (nodes[(i + 1) % n] - nodes[i]).normalized();
     const Eigen::Vector2d t = before + after;
     angle[i] = std::atan2(-t.x(), t.y());
   }

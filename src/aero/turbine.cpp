@@ -28,15 +28,15 @@ const scene::Section<PolarOptions>& polar_section() {
 }
 
 const scene::Section<AerofoilOptions>& aerofoil_section() {
-  static const auto section =
-      scene::Section<AerofoilOptions>("aerofoils", "The outline of one relative thickness.")
-          .number("thickness_pct", &AerofoilOptions::thickness_pct, "%", "Relative thickness of the section.",
-                  scene::between(0.1, 100.0))
-          .required()
-          .path("file", &AerofoilOptions::file,
-                "CSV file with columns x_c, y_c over the chord: from the trailing edge along the suction side (y_c > 0) to the leading "
-                "edge and back along the pressure side.")
-          .required();
+  static const auto section = scene::Section<AerofoilOptions>("aerofoils", "The outline of one relative thickness.")
+                                  .number("thickness_pct", &AerofoilOptions::thickness_pct, "%",
+                                          "Relative thickness of the section.", scene::between(0.1, 100.0))
+                                  .required()
+                                  .path("file", &AerofoilOptions::file,
+                                        "CSV file with columns x_c, y_c over the chord: from the trailing edge along the suction "
+                                        "side (y_c > 0) to the leading "
+                                        "edge and back along the pressure side.")
+                                  .required();
   return section;
 }
 
@@ -73,14 +73,17 @@ Aerofoil read_aerofoil(const AerofoilOptions& options) {
     aerofoil.outline.emplace_back(x[i], y[i]);
   }
   for (const std::size_t i : {std::size_t(0), n - 1})
-    if (std::abs(x[i] - 1.0) > 0.02) file.fail(int(i), fmt::format("x_c = {}: an outline begins and ends at the trailing edge, x_c = 1", x[i]));
+    if (std::abs(x[i] - 1.0) > 0.02)
+      file.fail(int(i), fmt::format("x_c = {}: an outline begins and ends at the trailing edge, x_c = 1", x[i]));
   std::vector<Eigen::Vector2d> loop = aerofoil.outline;
   if ((loop.front() - loop.back()).norm() < 1e-9) loop.pop_back();
   const SegmentPair crossing = first_crossing(loop);
   if (crossing.first >= 0)
-    file.fail(crossing.second, fmt::format("the outline crosses itself: the piece from ({}, {}) meets the one from ({}, {})", x[std::size_t(crossing.second)],
-                                           y[std::size_t(crossing.second)], x[std::size_t(crossing.first)], y[std::size_t(crossing.first)]));
-  if (signed_area(loop) < 0.0) file.fail(0, "the outline runs along the pressure side first: it must begin with the suction side, y_c > 0");
+    file.fail(crossing.second, fmt::format("the outline crosses itself: the piece from ({}, {}) meets the one from ({}, {})",
+                                           x[std::size_t(crossing.second)], y[std::size_t(crossing.second)],
+                                           x[std::size_t(crossing.first)], y[std::size_t(crossing.first)]));
+  if (signed_area(loop) < 0.0)
+    file.fail(0, "the outline runs along the pressure side first: it must begin with the suction side, y_c > 0");
   const double thickness = outline_thickness(loop);
   if (std::abs(thickness - aerofoil.thickness) > 0.02)
     file.fail(-1, fmt::format("the outline is {:.1f} % thick, thickness_pct says {}", 100.0 * thickness, options.thickness_pct));
@@ -97,8 +100,11 @@ Planform read_planform(const std::string& path, double hub_radius) {
                              hub_radius));
   for (std::size_t i = 0; i < file.rows(); ++i)
     if (file["chord_m"][i] <= 0.0) file.fail(int(i), "chord_m must be positive");
-  return {column(file, "span_m"), column(file, "chord_m"), column(file, "twist_deg", radians_per_degree),
-          column(file, "thickness_pct", 0.01), column(file, "prebend_m"),
+  return {column(file, "span_m"),
+          column(file, "chord_m"),
+          column(file, "twist_deg", radians_per_degree),
+          column(file, "thickness_pct", 0.01),
+          column(file, "prebend_m"),
           file.has("sweep_m") ? column(file, "sweep_m") : std::vector<double>(file.rows(), 0.0)};
 }
 
@@ -138,9 +144,11 @@ Turbine read_turbine(const std::string& path) {
     for (std::size_t m = 0; m < turbine.planform.span.size(); ++m) {
       const double t = turbine.planform.thickness[m];
       if (t < thin - 1e-9 || t > thick + 1e-9) {
-        doc.problem("turbine.aerofoils",
-                    fmt::format("no outline for the section {:.1f} % thick at span {} m of the planform: outlines go from {:.1f} to {:.1f} %",
-                                100.0 * t, turbine.planform.span[m], 100.0 * thin, 100.0 * thick));
+        doc.problem(
+            "turbine.aerofoils",
+            fmt::format(
+                "no outline for the section {:.1f} % thick at span {} m of the planform: outlines go from {:.1f} to {:.1f} %",
+                100.0 * t, turbine.planform.span[m], 100.0 * thin, 100.0 * thick));
         break;
       }
     }

@@ -46,8 +46,9 @@ struct Polar {
 
 /// The outline of a section of chord 1.
 struct Aerofoil {
-  double thickness = 0.0;                ///< over chord [-]
-  std::vector<Eigen::Vector2d> outline;  ///< trailing edge (1, y), suction side (y > 0), leading edge (0, 0), pressure side, trailing edge
+  double thickness = 0.0;  ///< over chord [-]
+  std::vector<Eigen::Vector2d>
+      outline;  ///< trailing edge (1, y), suction side (y > 0), leading edge (0, 0), pressure side, trailing edge
 };
 
 /// Sections from root to tip on the undeformed blade.
@@ -64,8 +65,8 @@ struct Turbine {
   int blades = 3;
   double hub_radius = 0.0, precone = 0.0;  ///< [m], [rad]
   Planform planform;
-  std::vector<Polar> polars;  ///< by increasing thickness
-  std::vector<Aerofoil> aerofoils;     ///< by increasing thickness; none where the file gives none
+  std::vector<Polar> polars;        ///< by increasing thickness
+  std::vector<Aerofoil> aerofoils;  ///< by increasing thickness; none where the file gives none
 };
 
 /// Throws scene::SceneError with all that is wrong with the file and the data files that it names.

@@ -24,7 +24,8 @@ struct Wanted {
   aero::RotorGridSpec spec;
 };
 
-/// A scene may be as short as [rotor] turbine and [aero.grid]; what else it has must be right, but need not be all that a run needs.
+/// A scene may be as short as [rotor] turbine and [aero.grid]; what else it has must be right, but need not be all that a run
+/// needs.
 Wanted read(const SceneArguments& arguments) {
   scene::Document document = scene::load(arguments.scene, arguments.overrides);
   const aero::AeroOptions air = document.read(aero::aero_section());
@@ -63,8 +64,9 @@ int grid(const GridArguments& arguments, const runtime::World& world) {
   const aero::MultiBlockGrid grid = make_rotor_grid(wanted.turbine, wanted.spec);
   const aero::RotorGridQuality quality = rotor_grid_quality(grid, {"blade_"});
   fmt::print("{}", describe_quality(grid, quality));
-  require_quality(grid, quality,
-                  {.scaled_jacobian = wanted.options.least_scaled_jacobian, .non_orthogonality = wanted.options.most_off_orthogonal_deg});
+  require_quality(
+      grid, quality,
+      {.scaled_jacobian = wanted.options.least_scaled_jacobian, .non_orthogonality = wanted.options.most_off_orthogonal_deg});
   require_sound(grid, arguments.scene);
   for (const std::string& file : arguments.files) write(grid, file);
   return done;

@@ -32,7 +32,8 @@ class Along {
   std::vector<double> slope_;
 };
 
-/// Thins a section of chord 1 towards a plate about its mean line, square at both ends so that the plug beyond the tip fits on it.
+/// Thins a section of chord 1 towards a plate about its mean line, square at both ends so that the plug beyond the tip fits on
+/// it.
 void close_tip(double weight, int edge, std::span<Eigen::Vector2d> nodes) {
   const int round = int(nodes.size()), half = round / 2, end = edge / 2;
   const auto mean = [&](int i) -> Eigen::Vector2d {
@@ -55,8 +56,8 @@ void close_tip(double weight, int edge, std::span<Eigen::Vector2d> nodes) {
   }
 }
 
-/// Stations along the span, closer in the last part, where the tip closes; a little beyond both ends, since a coaxial surface cuts the
-/// sections at different spans.
+/// Stations along the span, closer in the last part, where the tip closes; a little beyond both ends, since a coaxial surface
+/// cuts the sections at different spans.
 std::vector<double> stations(double begin, double dense, double end) {
   std::vector<double> span;
   for (int m = 0; m < 900; ++m) span.push_back(begin + (dense - begin) * m / 900.0);
@@ -80,8 +81,7 @@ BladeSurface::BladeSurface(const Turbine& turbine, const BladeSettings& settings
   const double tip = p.span.back(), root_chord = chord(settings.hub_radius);
   tip_chord_ = p.chord.back(), closure_ = closure_chords * tip_chord_;
   const double reach = 0.75 * root_chord, inner = settings.hub_radius * settings.hub_radius - reach * reach;
-  const std::vector<double> span =
-      stations(0.9 * std::sqrt(std::max(inner, 0.0)), tip - 2.0 * closure_, tip + 0.06 * tip_chord_);
+  const std::vector<double> span = stations(0.9 * std::sqrt(std::max(inner, 0.0)), tip - 2.0 * closure_, tip + 0.06 * tip_chord_);
 
   const double cone_cos = std::cos(turbine.precone), cone_sin = std::sin(turbine.precone);
   const double pitch_cos = std::cos(settings.pitch), pitch_sin = std::sin(settings.pitch);
@@ -109,11 +109,11 @@ BladeSurface::BladeSurface(const Turbine& turbine, const BladeSettings& settings
   const auto finish = [&](Line& line, const std::string& what) {
     for (std::size_t m = 1; m < span.size(); ++m)
       if (!(line.r[m] > line.r[m - 1]))
-        throw NumericalFailure(fmt::format("blade surface: {} does not move outward between span {:.3f} and {:.3f} m: the sections there "
-                                           "pass through each other (precone {:.1f} deg, pitch {:.1f} deg)",
-                                           what, span[m - 1], span[m], turbine.precone / radians_per_degree,
-                                           settings.pitch / radians_per_degree),
-                               "blade surface", 0, 0.0);
+        throw NumericalFailure(
+            fmt::format("blade surface: {} does not move outward between span {:.3f} and {:.3f} m: the sections there "
+                        "pass through each other (precone {:.1f} deg, pitch {:.1f} deg)",
+                        what, span[m - 1], span[m], turbine.precone / radians_per_degree, settings.pitch / radians_per_degree),
+            "blade surface", 0, 0.0);
     line.slope_theta.resize(span.size()), line.slope_x.resize(span.size());
     monotone_slopes(line.r, line.theta, line.slope_theta);
     monotone_slopes(line.r, line.x, line.slope_x);

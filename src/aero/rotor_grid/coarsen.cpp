@@ -12,15 +12,16 @@ namespace {
 int half(int n, const MultiBlockGrid& grid, int block) {
   const Block& b = grid.blocks[std::size_t(block)];
   if (n % 2 != 0)
-    throw NumericalFailure(fmt::format("grid cannot be coarsened: block {} ({} x {} x {} cells) has an edge at the odd index {}", b.name, b.ni,
-                                       b.nj, b.nk, n),
+    throw NumericalFailure(fmt::format("grid cannot be coarsened: block {} ({} x {} x {} cells) has an edge at the odd index {}",
+                                       b.name, b.ni, b.nj, b.nk, n),
                            b.name, 0, 0.0);
   return n / 2;
 }
 
 Window half(Window w, const MultiBlockGrid& grid) {
   for (int d = 0; d < 2; ++d)
-    w.low[std::size_t(d)] = half(w.low[std::size_t(d)], grid, w.block), w.high[std::size_t(d)] = half(w.high[std::size_t(d)], grid, w.block);
+    w.low[std::size_t(d)] = half(w.low[std::size_t(d)], grid, w.block),
+    w.high[std::size_t(d)] = half(w.high[std::size_t(d)], grid, w.block);
   return w;
 }
 

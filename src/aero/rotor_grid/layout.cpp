@@ -24,14 +24,16 @@ template <class F>
 auto smoothed(double r, double width, F&& f) {
   constexpr int samples = 24;
   decltype(f(r)) sum = 0.0 * f(r);
-  for (int m = 1 - samples; m < samples; ++m) sum += (0.5 + 0.5 * std::cos(pi * m / samples)) / samples * f(r + width * m / samples);
+  for (int m = 1 - samples; m < samples; ++m)
+    sum += (0.5 + 0.5 * std::cos(pi * m / samples)) / samples * f(r + width * m / samples);
   return sum;
 }
 
 constexpr double smoothing_radii = 0.045;   // half-width of the smoothing along the span, in tip radii: 4 m of 89
 constexpr double last_chord_radii = 0.955;  // the box follows the chord up to here, and beyond has this one's
-constexpr double thinnest_radii = 0.98;     // the first cell follows the chord up to here: the last piece is short and would be the thinnest
-constexpr double outboard_growth = 0.15;    // of the box's scale per length beyond the tip
+constexpr double thinnest_radii =
+    0.98;  // the first cell follows the chord up to here: the last piece is short and would be the thinnest
+constexpr double outboard_growth = 0.15;  // of the box's scale per length beyond the tip
 
 }  // namespace
 
@@ -86,7 +88,8 @@ double RotorLayout::first_cell(int k) const {
   if (k <= tip) return h;
   const std::size_t above = std::min(std::size_t(k) + 1, radii_.size() - 1);
   const double radial = radii_[above] - radii_[above - 1];
-  return std::min(h * std::pow(1.0 + 1.25 / spec_.resolution(), k - tip), std::max({h, 0.02 * blade_.tip_chord(), radial / 1500.0}));
+  return std::min(h * std::pow(1.0 + 1.25 / spec_.resolution(), k - tip),
+                  std::max({h, 0.02 * blade_.tip_chord(), radial / 1500.0}));
 }
 
 double RotorLayout::smoothed_chord(double r) const {

@@ -13,14 +13,16 @@
 
 namespace spindrift::aero {
 
-/// Where the rotor is: its hub as a rigid body whose axes are the rotor frame at azimuth zero (x the axis downwind, z along blade 1),
-/// and how far and how fast it has turned on it, positive about x.
+/// Where the rotor is: its hub as a rigid body whose axes are the rotor frame at azimuth zero (x the axis downwind, z along blade
+/// 1), and how far and how fast it has turned on it, positive about x.
 struct RotorPose {
   Motion hub;            ///< position of the hub, attitude, velocity, omega of the body that carries the bearing
   double azimuth = 0.0;  ///< [rad]
   double speed = 0.0;    ///< [rad/s]
 
-  Eigen::Quaterniond attitude() const { return hub.attitude * Eigen::Quaterniond(Eigen::AngleAxisd(azimuth, Eigen::Vector3d::UnitX())); }
+  Eigen::Quaterniond attitude() const {
+    return hub.attitude * Eigen::Quaterniond(Eigen::AngleAxisd(azimuth, Eigen::Vector3d::UnitX()));
+  }
   /// Angular velocity of the blades, earth frame [rad/s].
   Eigen::Vector3d omega() const { return hub.attitude * (hub.omega + speed * Eigen::Vector3d::UnitX()); }
   /// Earth position of a point of the rotor frame [m].

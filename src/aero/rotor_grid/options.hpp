@@ -33,6 +33,7 @@ struct RotorGridOptions {
 const scene::Section<RotorGridOptions>& rotor_grid_section();
 
 /// What the generator is told. `speed` [rad/s] and `wind_m_s` matter where y+ is asked for; `pitch` [rad].
-RotorGridSpec rotor_grid_spec(const RotorGridOptions& options, const Turbine& turbine, double pitch, double speed, double wind_m_s);
+RotorGridSpec rotor_grid_spec(const RotorGridOptions& options, const Turbine& turbine, double pitch, double speed,
+                              double wind_m_s);
 
 }  // namespace spindrift::aero

@@ -28,8 +28,8 @@ double fade(double t) {
 
 double radius(const Eigen::Vector3d& p) { return std::hypot(p.y(), p.z()); }
 
-constexpr double fade_radii = 0.2;      // length over which the turn fades beyond the tip, in tip radii
-constexpr double slide_chords = 1.0;    // height above the hub cylinder over which nodes are kept from leaving it, in root chords
+constexpr double fade_radii = 0.2;    // length over which the turn fades beyond the tip, in tip radii
+constexpr double slide_chords = 1.0;  // height above the hub cylinder over which nodes are kept from leaving it, in root chords
 
 }  // namespace
 
@@ -49,7 +49,8 @@ BladePitching::BladePitching(const MultiBlockGrid& grid, const Turbine& turbine,
   for (int k = 0; k <= ring.nk; ++k)
     for (int j = 0; j <= ring.nj; ++j) {
       for (int i = 1; i <= ring.ni; ++i)
-        length[std::size_t(i)] = length[std::size_t(i) - 1] + (ring.nodes[ring.node(k, j, i)] - ring.nodes[ring.node(k, j, i - 1)]).norm();
+        length[std::size_t(i)] =
+            length[std::size_t(i) - 1] + (ring.nodes[ring.node(k, j, i)] - ring.nodes[ring.node(k, j, i - 1)]).norm();
       for (int i = 0; i <= ring.ni; ++i) {
         const double way = length[std::size_t(i)] / length.back();
         ring_share_[ring.node(k, j, i)] = i == ring.ni ? 0.0 : fade(way) * outboard_[std::size_t(k)];
@@ -80,10 +81,11 @@ void BladePitching::nodes(int block, double change, std::span<Eigen::Vector3d> m
           moved[n] = b.nodes[n];
           continue;
         }
-        // Nose into the wind turns the leading edge, which is ahead in the turning direction, upstream: about the outward axis, positive.
+        // Nose into the wind turns the leading edge, which is ahead in the turning direction, upstream: about the outward axis,
+        // positive.
         Eigen::Vector3d p = Eigen::AngleAxisd(turn, along) * b.nodes[n];
-        // The turned section of the hub cylinder is no piece of it: slide along the blade's axis, on the root's straight lines, back to
-        // the radius the node had; less and less so further out.
+        // The turned section of the hub cylinder is no piece of it: slide along the blade's axis, on the root's straight lines,
+        // back to the radius the node had; less and less so further out.
         const double r0 = radius(b.nodes[n]);
         const double keep = 1.0 - smooth_step((r0 - hub_radius_) / (slide_chords * root_chord_));
         if (keep > 0.0) {

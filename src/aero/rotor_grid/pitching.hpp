@@ -1,6 +1,6 @@
-// Blade pitch as motion of a rotor grid's nodes: near the blade they turn rigidly about its axis, towards the box of the O-grid and
-// outboard of the tip the turn fades to nothing. Positions are a function of the pitch alone, so that a moving grid may be put
-// anywhere at any time. Used where blades pitch during a run; tested in tests/src/aero/rotor_grid/pitching_test.cpp.
+// Blade pitch as motion of a rotor grid's nodes: near the blade they turn rigidly about its axis, towards the box of the O-grid
+// and outboard of the tip the turn fades to nothing. Positions are a function of the pitch alone, so that a moving grid may be
+// put anywhere at any time. Used where blades pitch during a run; tested in tests/src/aero/rotor_grid/pitching_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -22,7 +22,8 @@ double smooth_step(double t) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// ---- H lines -------------------------------------------------------------------------------------------------------------------
+// ---- H lines
+// -------------------------------------------------------------------------------------------------------------------
 
 /// Axial sizes from the box outward, to the distance `length`; far away they are those of the radius `reach` on every surface.
 std::vector<double> axial_sizes(const RotorLayout& layout, double r, int cells, double edge, double sign) {
@@ -63,8 +64,8 @@ void fill_h(const RotorLayout& layout, Plane& plane) {
   const RotorLayout::Box box = layout.box(plane.r);
   const double tip_extent = layout.radii().back() / layout.spec().radial_extent;
   const double front = -layout.spec().upstream_extent * tip_extent, back = layout.spec().downstream_extent * tip_extent;
-  std::vector<double> x = lines(axial_sizes(layout, plane.r, n.upstream, front, -1.0), box.x - box.half_x, box.x + box.half_x, n.box,
-                                axial_sizes(layout, plane.r, n.downstream, back, 1.0));
+  std::vector<double> x = lines(axial_sizes(layout, plane.r, n.upstream, front, -1.0), box.x - box.half_x, box.x + box.half_x,
+                                n.box, axial_sizes(layout, plane.r, n.downstream, back, 1.0));
   x.front() = front, x.back() = back;
   const double side = layout.sector(plane.r), cell = 2.0 * box.half_s / n.box_chordwise();
   const auto beside = [&](double length) {
@@ -90,7 +91,8 @@ void fill_h(const RotorLayout& layout, Plane& plane) {
   }
 }
 
-// ---- the inner side of the O -----------------------------------------------------------------------------------------------------
+// ---- the inner side of the O
+// -----------------------------------------------------------------------------------------------------
 
 /// The plug's boundary beyond the tip: the tip's plate, growing thicker and longer, its nodes turning to equal spacing.
 void fill_plug_boundary(const BladeSurface& blade, const RotorLayout& layout, std::span<const SurfacePoint> tip, Plane& plane) {
@@ -121,7 +123,8 @@ void fill_plug_boundary(const BladeSurface& blade, const RotorLayout& layout, st
   }
 }
 
-// ---- rays of the O ---------------------------------------------------------------------------------------------------------------
+// ---- rays of the O
+// ---------------------------------------------------------------------------------------------------------------
 
 /// Outward normals of the inner side as angles, smoothed over about two nodes of 120.
 std::vector<double> normals(const Plane& plane) {
@@ -185,7 +188,8 @@ void smooth(double chord, Plane& plane) {
     // Where sizes jump, the equations as differenced here fold convex corners.
     const double most = damping * smooth_step((3.1 - stretch) / 0.8);
     for (int j = 0; j < ring.layers; distance += size(j++))
-      share[ring.at(i, j)] = most * smooth_step((distance / chord - 0.05) / 0.30) * smooth_step(4.0 * (1.0 - double(j) / ring.layers));
+      share[ring.at(i, j)] =
+          most * smooth_step((distance / chord - 0.05) / 0.30) * smooth_step(4.0 * (1.0 - double(j) / ring.layers));
   }
   Nodes next(plane.ring_nodes);
   constexpr int sweeps = 15;
@@ -241,7 +245,8 @@ Plane make_plane(const BladeSurface& blade, const RotorLayout& layout, int k) {
   std::vector<SurfacePoint> section(std::size_t(n.round));
   blade.cut(std::min(plane.r, blade.tip_radius()), section);
   if (k <= n.span)
-    for (int i = 0; i < n.round; ++i) plane.ring_nodes[plane.ring.at(i, 0)] = {section[std::size_t(i)].s, section[std::size_t(i)].x};
+    for (int i = 0; i < n.round; ++i)
+      plane.ring_nodes[plane.ring.at(i, 0)] = {section[std::size_t(i)].s, section[std::size_t(i)].x};
   else
     fill_plug_boundary(blade, layout, section, plane);
   fill_rays(layout, k, plane);

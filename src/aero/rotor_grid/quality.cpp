@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/rotor_grid/quality.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -181,7 +181,8 @@ RotorGridQuality rotor_grid_quality(const MultiBlockGrid& grid, const std::vecto
   q.general = grid_quality(grid);
   std::vector<double> angles;
   for (const Boundary& boundary : grid.boundaries) {
-    const bool wall = std::any_of(walls.begin(), walls.end(), [&](const std::string& w) { return boundary.patch.starts_with(w); });
+    const bool wall =
+        std::any_of(walls.begin(), walls.end(), [&](const std::string& w) { return boundary.patch.starts_with(w); });
     if (!wall) continue;
     const Window& w = boundary.where;
     const Block& block = grid.blocks[std::size_t(w.block)];
@@ -212,24 +213,25 @@ void require_quality(const MultiBlockGrid& grid, const RotorGridQuality& q, cons
   };
   const GridQuality& g = q.general;
   if (q.folded > 0)
-    stop(fmt::format("{} of {} cells fold (a corner Jacobian is not positive); the worst, with scaled Jacobian {:.3g}, is", q.folded,
-                     g.cells, g.scaled_jacobian.value),
+    stop(fmt::format("{} of {} cells fold (a corner Jacobian is not positive); the worst, with scaled Jacobian {:.3g}, is",
+                     q.folded, g.cells, g.scaled_jacobian.value),
          g.scaled_jacobian, 0.0);
   if (!(g.min_volume.value > 0.0)) stop(fmt::format("volume {:.3g} m3", g.min_volume.value), g.min_volume, 0.0);
   if (g.scaled_jacobian.value < limits.scaled_jacobian)
     stop(fmt::format("scaled Jacobian {:.3g} below {:.3g}", g.scaled_jacobian.value, limits.scaled_jacobian), g.scaled_jacobian,
          limits.scaled_jacobian);
   if (g.non_orthogonality.value > limits.non_orthogonality)
-    stop(fmt::format("{:.1f} deg off orthogonal, above {:.1f}", g.non_orthogonality.value, limits.non_orthogonality), g.non_orthogonality,
-         limits.non_orthogonality);
+    stop(fmt::format("{:.1f} deg off orthogonal, above {:.1f}", g.non_orthogonality.value, limits.non_orthogonality),
+         g.non_orthogonality, limits.non_orthogonality);
   if (g.stretch.value > limits.stretch)
-    stop(fmt::format("neighbours' sizes in the ratio {:.1f}, above {:.1f}", g.stretch.value, limits.stretch), g.stretch, limits.stretch);
+    stop(fmt::format("neighbours' sizes in the ratio {:.1f}, above {:.1f}", g.stretch.value, limits.stretch), g.stretch,
+         limits.stretch);
   double reach = 0.0;
   for (const Block& b : grid.blocks)
     for (const Vector3d& p : b.nodes) reach = std::max(reach, p.lpNorm<Eigen::Infinity>());
   if (q.interface_gap > limits.interface_gap * reach)
-    throw NumericalFailure(fmt::format("grid refused: nodes that should be one are {:.2g} m apart", q.interface_gap), "interfaces", 0, 0.0,
-                           limits.interface_gap * reach);
+    throw NumericalFailure(fmt::format("grid refused: nodes that should be one are {:.2g} m apart", q.interface_gap),
+                           "interfaces", 0, 0.0, limits.interface_gap * reach);
 }
 
 std::string describe_quality(const MultiBlockGrid& grid, const RotorGridQuality& q) {
@@ -238,14 +240,17 @@ std::string describe_quality(const MultiBlockGrid& grid, const RotorGridQuality&
     text += fmt::format("  {:<34} {:>12}   {}\n", what, value, where);
   };
   line("cells that fold", fmt::format("{}", q.folded), "");
-  line("scaled Jacobian below 0.4 [%]", fmt::format("{:.3f}", 100.0 * double(q.skewed) / double(std::max(1L, q.general.cells))), "");
+  line("scaled Jacobian below 0.4 [%]", fmt::format("{:.3f}", 100.0 * double(q.skewed) / double(std::max(1L, q.general.cells))),
+       "");
   const std::array<const char*, 3> direction{"i", "j", "k"};
   for (std::size_t d = 0; d < 3; ++d)
-    line(fmt::format("largest stretch along {}", direction[d]), fmt::format("{:.3f}", q.stretch[d].value), place(grid, q.stretch[d]));
+    line(fmt::format("largest stretch along {}", direction[d]), fmt::format("{:.3f}", q.stretch[d].value),
+         place(grid, q.stretch[d]));
   if (q.wall_orthogonality.block >= 0) {
     line("largest growth from the wall", fmt::format("{:.3f}", q.wall_growth.value), place(grid, q.wall_growth));
     line("median off the wall's normal [deg]", fmt::format("{:.1f}", q.wall_orthogonality_median), "");
-    line("largest off the wall's normal [deg]", fmt::format("{:.1f}", q.wall_orthogonality.value), place(grid, q.wall_orthogonality));
+    line("largest off the wall's normal [deg]", fmt::format("{:.1f}", q.wall_orthogonality.value),
+         place(grid, q.wall_orthogonality));
     line("first cells [m]", fmt::format("{:.3g}", q.first_cell_low), fmt::format("to {:.3g}", q.first_cell_high));
   }
   line("largest gap at interfaces [m]", fmt::format("{:.2g}", q.interface_gap), "");

@@ -1,7 +1,6 @@
-// How good a grid round walls is, beyond the shared report: lines that leave walls, first cells, interfaces, weak cells counted; and a
-// stop where a stated limit is broken. Definitions: docs/theory/rotor_grid.md. Used by the generators of this folder and by `spindrift grid`; tested in
-// tests/src/aero/rotor_grid/quality_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// How good a grid round walls is, beyond the shared report: lines that leave walls, first cells, interfaces, weak cells counted;
+// and a stop where a stated limit is broken. Definitions: docs/theory/rotor_grid.md. Used by the generators of this folder and by
+// `spindrift grid`; tested in tests/src/aero/rotor_grid/quality_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -15,12 +14,12 @@ namespace spindrift::aero {
 /// What the shared report (src/aero/grid/quality.hpp) says, and what matters on grids round walls.
 struct RotorGridQuality {
   GridQuality general;
-  long folded = 0;                 ///< cells with a corner Jacobian that is not positive
-  long skewed = 0;                 ///< cells with a scaled Jacobian below 0.4
-  std::array<Extreme, 3> stretch;  ///< largest ratio of sizes of neighbours inside a block, along i, j, k
-  Extreme wall_growth;             ///< the same along the lines that leave walls
-  Extreme wall_orthogonality;      ///< largest angle [deg] between a wall face's normal and the line to the opposite face
-  double wall_orthogonality_median = 0.0;              ///< [deg]; zero where there is no wall
+  long folded = 0;                         ///< cells with a corner Jacobian that is not positive
+  long skewed = 0;                         ///< cells with a scaled Jacobian below 0.4
+  std::array<Extreme, 3> stretch;          ///< largest ratio of sizes of neighbours inside a block, along i, j, k
+  Extreme wall_growth;                     ///< the same along the lines that leave walls
+  Extreme wall_orthogonality;              ///< largest angle [deg] between a wall face's normal and the line to the opposite face
+  double wall_orthogonality_median = 0.0;  ///< [deg]; zero where there is no wall
   double first_cell_low = 0.0, first_cell_high = 0.0;  ///< heights of wall cells [m]
   double interface_gap = 0.0;  ///< largest distance of nodes that a connection says are one [m]; periodic ones mapped
 };
@@ -30,10 +29,10 @@ RotorGridQuality rotor_grid_quality(const MultiBlockGrid& grid, const std::vecto
 
 /// What a grid must hold to be used.
 struct QualityLimits {
-  double scaled_jacobian = 0.01;         ///< at least
-  double non_orthogonality = 88.0;       ///< at most [deg]
-  double stretch = 20.0;                 ///< at most
-  double interface_gap = 1e-11;          ///< at most, over the largest coordinate; periodic maps round
+  double scaled_jacobian = 0.01;    ///< at least
+  double non_orthogonality = 88.0;  ///< at most [deg]
+  double stretch = 20.0;            ///< at most
+  double interface_gap = 1e-11;     ///< at most, over the largest coordinate; periodic maps round
 };
 
 /// Throws NumericalFailure naming limit, value, block and cell.

@@ -25,7 +25,8 @@ struct Part {
 };
 
 std::array<Part, 8> parts(const RotorGridSizes& z) {
-  const int J1 = z.beside, J2 = J1 + z.box_chordwise(), J3 = J2 + z.beside, I1 = z.upstream, I2 = I1 + z.box, I3 = I2 + z.downstream;
+  const int J1 = z.beside, J2 = J1 + z.box_chordwise(), J3 = J2 + z.beside, I1 = z.upstream, I2 = I1 + z.box,
+            I3 = I2 + z.downstream;
   return {{{"sw", 0, J1, 0, I1},
            {"w", J1, J2, 0, I1},
            {"nw", J2, J3, 0, I1},
@@ -214,7 +215,8 @@ class Assembly {
 
 MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec) {
   if (turbine.aerofoils.empty())
-    throw NumericalFailure("rotor grid: the turbine file has no turbine.aerofoils, the outlines that a surface is made from", "turbine", 0, 0.0);
+    throw NumericalFailure("rotor grid: the turbine file has no turbine.aerofoils, the outlines that a surface is made from",
+                           "turbine", 0, 0.0);
   const int round = spec.sizes.round;
   const int fit = 1 << spec.coarsen;
   const int roll = fit * int(std::lround(round * spec.pitch / (2.0 * pi * fit)));

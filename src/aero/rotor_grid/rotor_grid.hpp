@@ -9,9 +9,9 @@
 
 namespace spindrift::aero {
 
-/// Blocks of each blade's sector, in this order, their indices (i, j, k): O (outward, round from the trailing edge along the pressure
-/// side, radially outward); plug (towards the leading edge, towards the suction side, radial); eight H blocks (along the turning
-/// direction, axial, radial), named by the compass with upstream in the west and the turning direction in the north.
+/// Blocks of each blade's sector, in this order, their indices (i, j, k): O (outward, round from the trailing edge along the
+/// pressure side, radially outward); plug (towards the leading edge, towards the suction side, radial); eight H blocks (along the
+/// turning direction, axial, radial), named by the compass with upstream in the west and the turning direction in the north.
 /// Patches: blade_1 ... blade_B (walls), hub, inflow, outflow, far. Same bits for any number of threads.
 /// Throws NumericalFailure where the surface folds.
 MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec);

@@ -38,7 +38,8 @@ std::vector<Eigen::Vector2d> resample_outline(const Aerofoil& aerofoil, const Se
   return nodes;
 }
 
-Sections::Sections(std::span<const Aerofoil> aerofoils, const SectionSpacing& spacing) : spacing_(spacing), root_(aerofoils.back()) {
+Sections::Sections(std::span<const Aerofoil> aerofoils, const SectionSpacing& spacing)
+    : spacing_(spacing), root_(aerofoils.back()) {
   closed_root_ = closed(root_);
   const std::size_t n = aerofoils.size(), round = std::size_t(spacing.round);
   for (const Aerofoil& a : aerofoils) {

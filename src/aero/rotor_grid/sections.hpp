@@ -23,16 +23,17 @@ class Sections {
   Sections(std::span<const Aerofoil> aerofoils, const SectionSpacing& spacing);
 
   int round() const { return spacing_.round; }
-  /// The section of relative thickness `thickness` (of chord 1). `slide` [rad] turns the nodes of closed outlines (the root circle)
-  /// back against the section, with a weight that grows from 0 where the blend first meets the closed outline's neighbour.
+  /// The section of relative thickness `thickness` (of chord 1). `slide` [rad] turns the nodes of closed outlines (the root
+  /// circle) back against the section, with a weight that grows from 0 where the blend first meets the closed outline's
+  /// neighbour.
   void blend(double thickness, double slide, std::span<Eigen::Vector2d> nodes) const;
 
  private:
   std::vector<double> thickness_;
-  std::vector<std::vector<Eigen::Vector2d>> nodes_;           ///< by aerofoil
-  std::vector<std::vector<Eigen::Vector2d>> slopes_;          ///< d node / d thickness
+  std::vector<std::vector<Eigen::Vector2d>> nodes_;   ///< by aerofoil
+  std::vector<std::vector<Eigen::Vector2d>> slopes_;  ///< d node / d thickness
   SectionSpacing spacing_;
-  bool closed_root_ = false;                                  ///< the thickest outline is closed
+  bool closed_root_ = false;  ///< the thickest outline is closed
   Aerofoil root_;
 };
 

@@ -33,7 +33,8 @@ std::vector<std::vector<BladeStation>> blade_stations(const MultiBlockGrid& grid
     if (!boundary.patch.starts_with("blade_") || boundary.where.side != Side::i_min) continue;
     blades.emplace_back();
     const Block& block = grid.blocks[std::size_t(boundary.where.block)];
-    for (int k = boundary.where.low[1]; k < boundary.where.high[1]; ++k) blades.back().push_back(station(block, boundary.where.block, k));
+    for (int k = boundary.where.low[1]; k < boundary.where.high[1]; ++k)
+      blades.back().push_back(station(block, boundary.where.block, k));
   }
   return blades;
 }

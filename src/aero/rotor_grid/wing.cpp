@@ -32,7 +32,8 @@ std::vector<Vector2d> plane_nodes(const std::vector<Vector2d>& section, const Wi
     const Ray ray({from, from + near * leave, to - far * spec.extent_chords * out, to});
     geometric_sizes(spec.first_cell_chords, ray.length(), size);
     double s = 0.0;
-    for (int i = 1; i < spec.layers; ++i) nodes[std::size_t(i) * wall.size() + std::size_t(j)] = ray.at_length(s += size[std::size_t(i) - 1]);
+    for (int i = 1; i < spec.layers; ++i)
+      nodes[std::size_t(i) * wall.size() + std::size_t(j)] = ray.at_length(s += size[std::size_t(i) - 1]);
     nodes[std::size_t(spec.layers) * wall.size() + std::size_t(j)] = to;
   }
   return nodes;
@@ -57,7 +58,9 @@ MultiBlockGrid make_wing_grid(const Aerofoil& aerofoil, const WingSpec& spec) {
   const auto side = [&](Side where, int n0, int n1) { return Window{0, where, {0, 0}, {n0, n1}}; };
   grid.connections.push_back({side(Side::j_max, spec.layers, nk), side(Side::j_min, spec.layers, nk), {1, 2, 3}, {}});
   if (!spec.planar)
-    grid.connections.push_back({side(Side::k_max, spec.layers, round), side(Side::k_min, spec.layers, round), {1, 2, 3},
+    grid.connections.push_back({side(Side::k_max, spec.layers, round),
+                                side(Side::k_min, spec.layers, round),
+                                {1, 2, 3},
                                 RigidMap{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.0, -width, 0.0)}});
   grid.boundaries.push_back({side(Side::i_min, round, nk), "wing"});
   grid.boundaries.push_back({side(Side::i_max, round, nk), "far"});

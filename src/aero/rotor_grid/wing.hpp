@@ -1,6 +1,6 @@
-// A straight, untwisted wing of one aerofoil between two planes, made by the blade's lofter: an O-grid round the section, the same on
-// every plane. For comparison with two-dimensional results. Used by validation scenes; tested in tests/src/aero/rotor_grid/wing_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// A straight, untwisted wing of one aerofoil between two planes, made by the blade's lofter: an O-grid round the section, the
+// same on every plane. For comparison with two-dimensional results. Used by validation scenes; tested in
+// tests/src/aero/rotor_grid/wing_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "src/aero/grid/multi_block.hpp"
@@ -15,16 +15,16 @@ struct WingSpec {
   double span_chords = 1.0;
   double chord_m = 1.0;
   double first_cell_chords = 1e-5;
-  double extent_chords = 50.0;   ///< radius of the outer boundary
-  bool planar = false;           ///< one cell along the span and no conditions there: flow in the x-z plane
+  double extent_chords = 50.0;  ///< radius of the outer boundary
+  bool planar = false;          ///< one cell along the span and no conditions there: flow in the x-z plane
 };
 
-/// One block (i outward, j round from the trailing edge along the pressure side, k along +y); leading edge at the origin, chord along
-/// x, suction side towards +z. Patches: wing, far; the two ends are periodic.
+/// One block (i outward, j round from the trailing edge along the pressure side, k along +y); leading edge at the origin, chord
+/// along x, suction side towards +z. Patches: wing, far; the two ends are periodic.
 MultiBlockGrid make_wing_grid(const Aerofoil& aerofoil, const WingSpec& spec);
 
-/// NACA four-digit symmetric section with its blunt edge of 0.252 % (Abbott & von Doenhoff 1959, eq. 6.2), as an outline of 2 n + 1
-/// points, cosine spaced.
+/// NACA four-digit symmetric section with its blunt edge of 0.252 % (Abbott & von Doenhoff 1959, eq. 6.2), as an outline of 2 n +
+/// 1 points, cosine spaced.
 Aerofoil naca_symmetric(double thickness, int n = 100);
 
 }  // namespace spindrift::aero

@@ -41,7 +41,8 @@ TEST_CASE("nodes on a blunt outline lie on it, symmetric, with the edge and the 
   CHECK(signed_area(nodes) < 0.0);  // clockwise in (chordwise, up): counter-clockwise on a blade, whose s runs forward
   for (int i = 3; i < round / 2; ++i) {
     CHECK(std::abs(off_ellipse(nodes[std::size_t(i)], 0.24)) < 2e-5);
-    CHECK((nodes[std::size_t(i)] - Vector2d(nodes[std::size_t(round - i)].x(), -nodes[std::size_t(round - i)].y())).norm() < 1e-7);
+    CHECK((nodes[std::size_t(i)] - Vector2d(nodes[std::size_t(round - i)].x(), -nodes[std::size_t(round - i)].y())).norm() <
+          1e-7);
   }
   const double nose = (nodes[std::size_t(round / 2 + 1)] - nodes[std::size_t(round / 2)]).norm();
   CHECK(nose == Approx(spacing.leading_edge).epsilon(0.2));
@@ -54,7 +55,8 @@ TEST_CASE("a rounded trailing edge is half a circle that meets the outline", "[g
   resample(o.curve, spacing, 0.0, nodes);
   const Vector2d middle = 0.5 * (o.curve(0.0) + o.curve(o.curve.total()));
   const double radius = 0.5 * (o.curve(o.curve.total()) - o.curve(0.0)).norm();
-  for (const int i : {0, 1, 2, 3, 4, 76, 77, 78, 79}) CHECK((nodes[std::size_t(i)] - middle).norm() == Approx(radius).epsilon(1e-12));
+  for (const int i : {0, 1, 2, 3, 4, 76, 77, 78, 79})
+    CHECK((nodes[std::size_t(i)] - middle).norm() == Approx(radius).epsilon(1e-12));
   CHECK(nodes[0].x() > middle.x());
 }
 

@@ -32,7 +32,8 @@ double distance(const std::vector<Vector2d>& a, const std::vector<Vector2d>& b) 
 
 }  // namespace
 
-TEST_CASE("elliptic smoothing keeps the symmetry of rings, and shaken rings return to where the smooth ones settle", "[grid][fast]") {
+TEST_CASE("elliptic smoothing keeps the symmetry of rings, and shaken rings return to where the smooth ones settle",
+          "[grid][fast]") {
   const RingShape ring{64, 12};
   const std::vector<Vector2d> exact = rings(ring, 1.1);
   std::vector<double> phi(ring.size()), psi(ring.size()), share(ring.size(), 0.6);

@@ -30,12 +30,13 @@ TEST_CASE("normals of a circle stay under smoothing, a square's corners turn", "
   for (int i = 0; i < 40; ++i) circle.emplace_back(std::cos(2 * pi * i / 40), std::sin(2 * pi * i / 40));
   std::vector<double> angle(40), work(40);
   smoothed_normals(circle, 9, angle, work);
-  for (int i = 0; i < 40; ++i) CHECK(std::remainder(angle[std::size_t(i)] - 2 * pi * i / 40, 2 * pi) == Approx(0.0).margin(1e-12));
+  for (int i = 0; i < 40; ++i)
+    CHECK(std::remainder(angle[std::size_t(i)] - 2 * pi * i / 40, 2 * pi) == Approx(0.0).margin(1e-12));
   for (int i = 0; i < 10; ++i) square.emplace_back(i / 10.0, 0.0);
   for (int i = 0; i < 10; ++i) square.emplace_back(1.0, i / 10.0);
   for (int i = 0; i < 10; ++i) square.emplace_back(1.0 - i / 10.0, 1.0);
   for (int i = 0; i < 10; ++i) square.emplace_back(0.0, 1.0 - i / 10.0);
   smoothed_normals(square, 2, angle, work);
-  CHECK(angle[10] == Approx(-0.25 * pi));   // the corner (1, 0)
-  CHECK(angle[5] == Approx(-0.5 * pi));     // the middle of the lower side
+  CHECK(angle[10] == Approx(-0.25 * pi));  // the corner (1, 0)
+  CHECK(angle[5] == Approx(-0.5 * pi));    // the middle of the lower side
 }

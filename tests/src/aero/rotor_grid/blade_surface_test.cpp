@@ -1,5 +1,5 @@
-// The lofted surface: its sections are those of the turbine's tables, it is smooth along the span, closed at the tip, free of folds.
-// SPDX-License-Identifier: Apache-2.0
+// The lofted surface: its sections are those of the turbine's tables, it is smooth along the span, closed at the tip, free of
+// folds. SPDX-License-Identifier: Apache-2.0
 #include "src/aero/rotor_grid/blade_surface.hpp"
 
 #include <catch2/catch.hpp>

@@ -17,16 +17,33 @@ inline const Turbine& dtu() {
 
 inline RotorGridSpec spec_of(double n, double first_cell_chords, double pitch_deg = 0.0, bool whole = false) {
   RotorGridSpec spec;
-  spec.sizes = sizes_of(n), spec.first_cell_chords = first_cell_chords, spec.pitch = pitch_deg * radians_per_degree, spec.whole = whole;
+  spec.sizes = sizes_of(n), spec.first_cell_chords = first_cell_chords, spec.pitch = pitch_deg * radians_per_degree,
+  spec.whole = whole;
   return spec;
 }
 
 /// The paper's: 166 cells round the section, 90 along the span.
 inline RotorGridSizes paper_sizes() {
-  return {.round = 166, .edge = 8, .box = 42, .layers = 44, .beside = 34, .upstream = 26, .downstream = 60, .span = 90, .outboard = 40};
+  return {.round = 166,
+          .edge = 8,
+          .box = 42,
+          .layers = 44,
+          .beside = 34,
+          .upstream = 26,
+          .downstream = 60,
+          .span = 90,
+          .outboard = 40};
 }
 inline RotorGridSizes medium_sizes() {
-  return {.round = 120, .edge = 4, .box = 30, .layers = 32, .beside = 16, .upstream = 16, .downstream = 24, .span = 50, .outboard = 18};
+  return {.round = 120,
+          .edge = 4,
+          .box = 30,
+          .layers = 32,
+          .beside = 16,
+          .upstream = 16,
+          .downstream = 24,
+          .span = 50,
+          .outboard = 18};
 }
 
 inline const std::vector<std::string>& blade_walls() {

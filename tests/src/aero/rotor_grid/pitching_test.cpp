@@ -1,5 +1,5 @@
-// Blade pitch as motion of the grid: blades turn rigidly, interfaces stay one, hub and box hold, no cell folds within the stated range.
-// SPDX-License-Identifier: Apache-2.0
+// Blade pitch as motion of the grid: blades turn rigidly, interfaces stay one, hub and box hold, no cell folds within the stated
+// range. SPDX-License-Identifier: Apache-2.0
 #include "src/aero/rotor_grid/pitching.hpp"
 
 #include <Eigen/Geometry>

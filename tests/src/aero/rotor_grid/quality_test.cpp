@@ -22,7 +22,9 @@ MultiBlockGrid box(double shear) {
   grid.blocks.push_back(b);
   grid.boundaries.push_back({{0, Side::i_min, {0, 0}, {3, 2}}, "blade_1"});
   for (const Side s : {Side::i_max}) grid.boundaries.push_back({{0, s, {0, 0}, {3, 2}}, "far"});
-  grid.connections.push_back({{0, Side::j_max, {0, 0}, {4, 2}}, {0, Side::j_min, {0, 0}, {4, 2}}, {1, 2, 3},
+  grid.connections.push_back({{0, Side::j_max, {0, 0}, {4, 2}},
+                              {0, Side::j_min, {0, 0}, {4, 2}},
+                              {1, 2, 3},
                               RigidMap{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.0, -3.0, 0.0)}});
   return grid;
 }
@@ -44,7 +46,8 @@ TEST_CASE("a sheared box has the angles, growth and first cells it was made with
 TEST_CASE("a folded, a weak or a torn grid is refused by block and cell", "[rotor_grid][fast]") {
   MultiBlockGrid grid = box(0.0);
   grid.blocks[0].nodes[grid.blocks[0].node(1, 1, 2)].x() += 5.0;
-  CHECK_THROWS_WITH(require_quality(grid, rotor_grid_quality(grid, {"blade_"})), Catch::Contains("fold") && Catch::Contains("box ("));
+  CHECK_THROWS_WITH(require_quality(grid, rotor_grid_quality(grid, {"blade_"})),
+                    Catch::Contains("fold") && Catch::Contains("box ("));
   grid = box(4.0);
   CHECK_THROWS_WITH(require_quality(grid, rotor_grid_quality(grid, {}), {.scaled_jacobian = 0.3}),
                     Catch::Contains("scaled Jacobian 0.24") && Catch::Contains("box ("));

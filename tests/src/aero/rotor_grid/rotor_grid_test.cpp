@@ -1,6 +1,5 @@
-// Rotor grids over the space of sizes, pitches and first cells: sound, unfolded, as good as stated; nested and similar families; the same
-// bits for any number of threads.
-// SPDX-License-Identifier: Apache-2.0
+// Rotor grids over the space of sizes, pitches and first cells: sound, unfolded, as good as stated; nested and similar families;
+// the same bits for any number of threads. SPDX-License-Identifier: Apache-2.0
 #include "src/aero/rotor_grid/rotor_grid.hpp"
 
 #include <omp.h>
@@ -109,7 +108,8 @@ TEST_CASE("other numbers of blades, hubs, extents and rounded edges give sound g
 }
 
 TEST_CASE("one sector with rotational periodicity is a third of the rotor", "[rotor_grid][fast]") {
-  const MultiBlockGrid all = make_rotor_grid(dtu(), spec_of(1.0, 2e-3, 0.0, true)), one = make_rotor_grid(dtu(), spec_of(1.0, 2e-3));
+  const MultiBlockGrid all = make_rotor_grid(dtu(), spec_of(1.0, 2e-3, 0.0, true)),
+                       one = make_rotor_grid(dtu(), spec_of(1.0, 2e-3));
   CHECK(all.blocks.size() == 30);
   CHECK(one.blocks.size() == 10);
   const GridQuality a = grid_quality(all), b = grid_quality(one);
@@ -148,7 +148,9 @@ TEST_CASE("grids of one family are similar: sizes go with 1/n", "[rotor_grid][fa
             const Block &p = a.blocks[block], &q = b.blocks[block];
             const auto volume = [](const Block& g, int kk, int jj, int ii) {
               const Eigen::Vector3d o = g.nodes[g.node(kk, jj, ii)];
-              return (g.nodes[g.node(kk, jj, ii + 1)] - o).cross(g.nodes[g.node(kk, jj + 1, ii)] - o).dot(g.nodes[g.node(kk + 1, jj, ii)] - o);
+              return (g.nodes[g.node(kk, jj, ii + 1)] - o)
+                  .cross(g.nodes[g.node(kk, jj + 1, ii)] - o)
+                  .dot(g.nodes[g.node(kk + 1, jj, ii)] - o);
             };
             const double ratio = std::log2(volume(p, k, j, i) / volume(q, 2 * k, 2 * j, 2 * i));
             sum += ratio, squares += ratio * ratio, ++count;
@@ -172,7 +174,8 @@ TEST_CASE("grids are the same bits for any number of threads", "[rotor_grid][fas
   const MultiBlockGrid three = make_rotor_grid(dtu(), spec_of(1.7, 1e-4, 7.0, true));
   omp_set_num_threads(before);
   for (std::size_t b = 0; b < one.blocks.size(); ++b)
-    CHECK(std::memcmp(one.blocks[b].nodes.data(), three.blocks[b].nodes.data(), one.blocks[b].nodes.size() * sizeof(Eigen::Vector3d)) == 0);
+    CHECK(std::memcmp(one.blocks[b].nodes.data(), three.blocks[b].nodes.data(),
+                      one.blocks[b].nodes.size() * sizeof(Eigen::Vector3d)) == 0);
 }
 
 TEST_CASE("first cells have the height asked for, or that of the y+ asked for", "[rotor_grid][fast]") {

@@ -17,16 +17,20 @@ const std::string planform = data_file("rg_planform.csv", R"(span_m,chord_m,twis
 20,0.5,0,30,0
 )");
 const std::string polar = data_file("rg_polar.csv", "alpha_deg,cl,cd\n-180,0,0\n180,0,0\n");
-const std::string diamond = "x_c,y_c\n1,0.002\n0.75,0.08\n0.5,0.15\n0.25,0.08\n0,0\n0.25,-0.08\n0.5,-0.15\n0.75,-0.08\n1,-0.002\n";
+const std::string diamond =
+    "x_c,y_c\n1,0.002\n0.75,0.08\n0.5,0.15\n0.25,0.08\n0,0\n0.25,-0.08\n0.5,-0.15\n0.75,-0.08\n1,-0.002\n";
 
 std::string turbine(const std::string& outline, double thickness, const std::string& planform_file = planform) {
   const std::string file = data_file("rg_outline.csv", outline);
   return data_file("rg_turbine.toml", "[turbine]\nhub_radius_m = 2\nplanform = '" + planform_file +
-                                          "'\npolars = [{ thickness_pct = 30, file = '" + polar + "' }]\naerofoils = [{ thickness_pct = " +
-                                          std::to_string(thickness) + ", file = '" + file + "' }]\n");
+                                          "'\npolars = [{ thickness_pct = 30, file = '" + polar +
+                                          "' }]\naerofoils = [{ thickness_pct = " + std::to_string(thickness) + ", file = '" +
+                                          file + "' }]\n");
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) { return text.replace(text.find(what), what.size(), by); }
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
 
 }  // namespace
 
@@ -39,19 +43,24 @@ TEST_CASE("outlines are read with the turbine", "[rotor_grid][fast]") {
 }
 
 TEST_CASE("outlines that no surface can be made from are refused by file and line", "[rotor_grid][fast]") {
-  CHECK_THROWS_WITH(read_turbine(turbine(replaced(diamond, "0.25,-0.08", "0.25,0.3"), 30)), Contains("crosses itself") && Contains("rg_outline.csv"));
+  CHECK_THROWS_WITH(read_turbine(turbine(replaced(diamond, "0.25,-0.08", "0.25,0.3"), 30)),
+                    Contains("crosses itself") && Contains("rg_outline.csv"));
   CHECK_THROWS_WITH(read_turbine(turbine(diamond, 24)), Contains("the outline is 30.0 % thick"));
-  CHECK_THROWS_WITH(read_turbine(turbine(replaced(diamond, "1,0.002", "0.9,0.002"), 30)), Contains("begins and ends at the trailing edge"));
+  CHECK_THROWS_WITH(read_turbine(turbine(replaced(diamond, "1,0.002", "0.9,0.002"), 30)),
+                    Contains("begins and ends at the trailing edge"));
   CHECK_THROWS_WITH(read_turbine(turbine(replaced(diamond, "0.5,0.15", "1.5,0.15"), 30)), Contains("off the chord"));
   CHECK_THROWS_WITH(read_turbine(turbine("x_c,y_c\n1,0\n0,0\n1,0\n", 30)), Contains("rows"));
-  const std::string upside = "x_c,y_c\n1,-0.002\n0.75,-0.08\n0.5,-0.15\n0.25,-0.08\n0,0\n0.25,0.08\n0.5,0.15\n0.75,0.08\n1,0.002\n";
+  const std::string upside =
+      "x_c,y_c\n1,-0.002\n0.75,-0.08\n0.5,-0.15\n0.25,-0.08\n0,0\n0.25,0.08\n0.5,0.15\n0.75,0.08\n1,0.002\n";
   CHECK_THROWS_WITH(read_turbine(turbine(upside, 30)), Contains("pressure side first"));
 }
 
 TEST_CASE("a planform whose sections have no outline, or do not go outward, is refused", "[rotor_grid][fast]") {
-  const std::string thick = data_file("rg_thick.csv", "span_m,chord_m,twist_deg,thickness_pct,prebend_m\n2,1,10,80,0\n20,0.5,0,30,0\n");
+  const std::string thick =
+      data_file("rg_thick.csv", "span_m,chord_m,twist_deg,thickness_pct,prebend_m\n2,1,10,80,0\n20,0.5,0,30,0\n");
   CHECK_THROWS_WITH(read_turbine(turbine(diamond, 30, thick)), Contains("no outline for the section 80.0 % thick at span 2 m"));
-  const std::string back = data_file("rg_back.csv", "span_m,chord_m,twist_deg,thickness_pct,prebend_m\n2,1,10,30,0\n1.5,0.5,0,30,0\n");
+  const std::string back =
+      data_file("rg_back.csv", "span_m,chord_m,twist_deg,thickness_pct,prebend_m\n2,1,10,30,0\n1.5,0.5,0,30,0\n");
   CHECK_THROWS_WITH(read_turbine(turbine(diamond, 30, back)), Contains("span_m"));
   Turbine bare = dtu();
   bare.aerofoils.clear();
