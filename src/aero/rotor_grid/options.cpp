@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "src/aero/rotor_grid/layout.hpp"
 #include "src/scene/section.hpp"
 
 namespace spindrift::aero {

@@ -6,14 +6,15 @@
 #include <optional>
 #include <string>
 
-#include "src/aero/rotor_grid/layout.hpp"
-
 namespace spindrift::scene {
 template <class Options>
 class Section;
 }
 
 namespace spindrift::aero {
+
+struct RotorGridSpec;
+struct Turbine;
 
 struct RotorGridOptions {
   double resolution = 2.0;
