@@ -1,0 +1,118 @@
+// Products and the inverse of small dense blocks, n x n floats stored column by column. For n = 5 a column is read as eight floats: the
+// three lanes beyond it hold numbers of what follows, are multiplied along and never stored; no padding, 100 bytes per block.
+// Measured (docs/developer/air.md): this order against rows of many cells per register. Called by block_ilu.hpp, stencil_matrix.hpp;
+// tested in tests/kernels/linear/small_block_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "kernels/base/wide.hpp"
+
+namespace spindrift::linear {
+
+/// Floats that may be read past the end of the last block or vector.
+inline constexpr int block_overrun = 8;
+
+/// A column of a block, or a vector of n numbers, on its way through registers.
+template <int n>
+struct Column {
+  std::array<float, n> v;
+  static Column load(const float* from) {
+    Column c;
+    std::memcpy(c.v.data(), from, sizeof c.v);
+    return c;
+  }
+  void store(float* to) const { std::memcpy(to, v.data(), sizeof v); }
+};
+template <int n>
+requires(n > 2 && n <= 8) struct Column<n> {
+  Wide<float, 8> v;
+  static Column load(const float* from) { return {Wide<float, 8>::load(from)}; }
+  void store(float* to) const {
+    alignas(32) float all[8];
+    v.store(all);
+    std::memcpy(to, all, n * sizeof(float));
+  }
+};
+template <int n>
+SPINDRIFT_INLINE void add(Column<n>& y, float a, const Column<n>& x) {
+  if constexpr (n > 2)
+    y.v += Wide<float, 8>(a) * x.v;
+  else
+    for (int r = 0; r < n; ++r) y.v[r] += a * x.v[r];
+}
+template <int n>
+SPINDRIFT_INLINE Column<n> zero() {
+  return Column<n>{};
+}
+
+/// y += A x, with y as two sums so that the additions of one do not wait for each other.
+template <int n>
+struct TwoSums {
+  Column<n> even = zero<n>(), odd = zero<n>();
+  SPINDRIFT_INLINE void multiply_add(const float* block, const float* x) {
+    for (int c = 0; c < n; ++c) add(c % 2 == 0 ? even : odd, x[c], Column<n>::load(block + c * n));
+  }
+  SPINDRIFT_INLINE Column<n> total() const {
+    Column<n> sum = even;
+    add(sum, 1.0f, odd);
+    return sum;
+  }
+};
+
+/// y = A x.
+template <int n>
+SPINDRIFT_INLINE void multiply(const float* block, const float* x, float* y) {
+  TwoSums<n> sums;
+  sums.multiply_add(block, x);
+  sums.total().store(y);
+}
+
+/// C = A B; C is neither.
+template <int n>
+SPINDRIFT_INLINE void multiply_blocks(const float* a, const float* b, float* c) {
+  for (int column = 0; column < n; ++column) multiply<n>(a, b + column * n, c + column * n);
+}
+/// C -= A B.
+template <int n>
+SPINDRIFT_INLINE void subtract_product(const float* a, const float* b, float* c) {
+  for (int column = 0; column < n; ++column) {
+    float y[n];
+    multiply<n>(a, b + column * n, y);
+    for (int r = 0; r < n; ++r) c[column * n + r] -= y[r];
+  }
+}
+
+/// B = A^-1 by Gauss-Jordan with the largest pivot of each column, in double. False where A is singular or not finite (B is then not set).
+template <int n>
+bool invert(const float* block, float* inverse) {
+  double a[n][2 * n];
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) a[r][c] = double(block[c * n + r]), a[r][n + c] = r == c ? 1.0 : 0.0;
+  for (int p = 0; p < n; ++p) {
+    int best = p;
+    for (int r = p + 1; r < n; ++r)
+      if (std::abs(a[r][p]) > std::abs(a[best][p])) best = r;
+    if (!(std::abs(a[best][p]) > 0.0) || !std::isfinite(a[best][p])) return false;
+    if (best != p)
+      for (int c = 0; c < 2 * n; ++c) std::swap(a[p][c], a[best][c]);
+    const double scale = 1.0 / a[p][p];
+    for (int c = 0; c < 2 * n; ++c) a[p][c] *= scale;
+    for (int r = 0; r < n; ++r) {
+      if (r == p) continue;
+      const double factor = a[r][p];
+      for (int c = 0; c < 2 * n; ++c) a[r][c] -= factor * a[p][c];
+    }
+  }
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c)
+      if (!std::isfinite(float(a[r][n + c]))) return false;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) inverse[c * n + r] = float(a[r][n + c]);
+  return true;
+}
+
+}  // namespace spindrift::linear

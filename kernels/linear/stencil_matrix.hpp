@@ -1,0 +1,57 @@
+// The matrix of a box of cells that couple with themselves and their six (planar: four) neighbours: n x n blocks of floats, all blocks
+// of a cell together, since the sweeps of block_ilu.hpp use them together. Rows of the matrix are cells, i fastest.
+// Called by src/aero/flow; tested in tests/kernels/linear/block_ilu_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "kernels/linear/small_block.hpp"
+
+namespace spindrift::linear {
+
+/// A box of cells without ghosts.
+struct CellBox {
+  int ni = 0, nj = 0, nk = 0;
+  std::ptrdiff_t count() const { return std::ptrdiff_t(ni) * nj * nk; }
+  std::ptrdiff_t stride(int direction) const { return direction == 0 ? 1 : direction == 1 ? ni : std::ptrdiff_t(ni) * nj; }
+};
+
+/// Blocks of a cell: the diagonal, the inverse of its pivot (block_ilu.hpp), then one for each side: i-, i+, j-, j+, k-, k+.
+template <int n>
+struct StencilMatrix {
+  static constexpr int diagonal = 0, pivot = 1, sides = 2;
+  float* data = nullptr;
+  CellBox box;
+  int directions = 3;  ///< 2 where planar: no neighbours in k
+
+  static std::size_t size(const CellBox& box, int directions) {
+    return std::size_t(box.count()) * (2 + 2 * directions) * n * n + block_overrun;
+  }
+  std::ptrdiff_t cell_stride() const { return (2 + 2 * directions) * n * n; }
+  float* block(std::ptrdiff_t cell, int slot) const { return data + cell * cell_stride() + slot * n * n; }
+};
+
+/// y = A x over the cells of the box. x is read beyond it: numbers of cell (k, j, i) are at x[(origin + i + j row + k plane) n], as in a box
+/// with ghosts. y is [cell][n].
+template <int n>
+void multiply(const StencilMatrix<n>& a, const float* x, std::ptrdiff_t origin, std::ptrdiff_t row, std::ptrdiff_t plane, float* y) {
+  const std::array<std::ptrdiff_t, 6> step{-n, n, -row * n, row * n, -plane * n, plane * n};
+  const int neighbours = 2 * a.directions;
+  std::ptrdiff_t cell = 0;
+  for (int k = 0; k < a.box.nk; ++k)
+    for (int j = 0; j < a.box.nj; ++j) {
+      const float* here = x + (origin + j * row + k * plane) * n;
+      for (int i = 0; i < a.box.ni; ++i, ++cell, here += n) {
+        const float* block = a.block(cell, 0);
+        TwoSums<n> sums;
+        sums.multiply_add(block, here);
+        block += StencilMatrix<n>::sides * n * n;
+        for (int side = 0; side < neighbours; ++side) sums.multiply_add(block + side * n * n, here + step[side]);
+        sums.total().store(y + cell * n);
+      }
+    }
+}
+
+}  // namespace spindrift::linear
