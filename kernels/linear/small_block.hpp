@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "kernels/base/wide.hpp"
 
@@ -53,8 +55,9 @@ SPINDRIFT_INLINE Column<n> zero() {
 template <int n>
 struct TwoSums {
   Column<n> even = zero<n>(), odd = zero<n>();
-  SPINDRIFT_INLINE void multiply_add(const float* block, const float* x) {
-    for (int c = 0; c < n; ++c) add(c % 2 == 0 ? even : odd, x[c], Column<n>::load(block + c * n));
+  /// Numbers of x are `stride` apart.
+  SPINDRIFT_INLINE void multiply_add(const float* block, const float* x, std::ptrdiff_t stride = 1) {
+    for (int c = 0; c < n; ++c) add(c % 2 == 0 ? even : odd, x[c * stride], Column<n>::load(block + c * n));
   }
   SPINDRIFT_INLINE Column<n> total() const {
     Column<n> sum = even;

@@ -33,22 +33,26 @@ struct StencilMatrix {
   float* block(std::ptrdiff_t cell, int slot) const { return data + cell * cell_stride() + slot * n * n; }
 };
 
-/// y = A x over the cells of the box. x is read beyond it: numbers of cell (k, j, i) are at x[(origin + i + j row + k plane) n], as in a box
-/// with ghosts. y is [cell][n].
+/// Where the numbers of a box with ghosts are: number c of cell (k, j, i) at origin + i + j row + k plane + c component.
+struct GhostedBox {
+  std::ptrdiff_t origin = 0, row = 0, plane = 0, component = 0;
+};
+
+/// y = A x over the cells of the box; x is read in ghosts too. y is [cell][n].
 template <int n>
-void multiply(const StencilMatrix<n>& a, const float* x, std::ptrdiff_t origin, std::ptrdiff_t row, std::ptrdiff_t plane, float* y) {
-  const std::array<std::ptrdiff_t, 6> step{-n, n, -row * n, row * n, -plane * n, plane * n};
+void multiply(const StencilMatrix<n>& a, const float* x, const GhostedBox& of_x, float* y) {
+  const std::array<std::ptrdiff_t, 6> step{-1, 1, -of_x.row, of_x.row, -of_x.plane, of_x.plane};
   const int neighbours = 2 * a.directions;
   std::ptrdiff_t cell = 0;
   for (int k = 0; k < a.box.nk; ++k)
     for (int j = 0; j < a.box.nj; ++j) {
-      const float* here = x + (origin + j * row + k * plane) * n;
-      for (int i = 0; i < a.box.ni; ++i, ++cell, here += n) {
+      const float* here = x + of_x.origin + j * of_x.row + k * of_x.plane;
+      for (int i = 0; i < a.box.ni; ++i, ++cell, ++here) {
         const float* block = a.block(cell, 0);
         TwoSums<n> sums;
-        sums.multiply_add(block, here);
+        sums.multiply_add(block, here, of_x.component);
         block += StencilMatrix<n>::sides * n * n;
-        for (int side = 0; side < neighbours; ++side) sums.multiply_add(block + side * n * n, here + step[side]);
+        for (int side = 0; side < neighbours; ++side) sums.multiply_add(block + side * n * n, here + step[side], of_x.component);
         sums.total().store(y + cell * n);
       }
     }

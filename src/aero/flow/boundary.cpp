@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow/boundary.hpp"
+
+#include "src/aero/flow/sweep.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+gas::Primitive<double> load(const FlowTile& tile, const double* state, std::ptrdiff_t at) {
+  return gas::load_primitive<double>(state + at, std::size_t(tile.cells.component));
+}
+
+gas::Primitive<double> ghost_state(const FlowBoundary& boundary, const gas::Primitive<double>& inside, const gas::Face<double>& f,
+                                   const gas::Vector<double>& wall, const BoundarySetting& s) {
+  switch (boundary.condition) {
+    case Condition::no_slip: return gas::no_slip_ghost(inside, wall);
+    case Condition::slip:
+    case Condition::symmetry: return gas::mirrored(inside, f);
+    case Condition::inflow_velocity: return gas::inflow_velocity(inside, s.stream);
+    case Condition::outflow_pressure: return gas::outflow_pressure(s.gas, inside, s.stream, f);
+    case Condition::far_field: break;
+  }
+  return gas::far_field(s.gas, inside, s.stream, f, s.reference_speed);
+}
+
+/// Index step from a cell out of the tile through a side.
+std::ptrdiff_t outward(const BoxLayout& box, Side side) { return (at_end(side) ? 1 : -1) * box.stride(direction_of(side)); }
+
+}  // namespace
+
+gas::Vector<double> wall_velocity(const TileGeometry& g, Side side, int k, int j, int i, double dt) {
+  if (!g.moving() || dt <= 0.0) return {0.0, 0.0, 0.0};
+  const int d = direction_of(side), end = at_end(side) ? 1 : 0;
+  const auto [a, b] = along(side);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int n = 0; n < 4; ++n) {
+    int at[3] = {i, j, k};
+    at[d] += end, at[a] += n % 2, at[b] += n / 2;
+    for (int c = 0; c < 3; ++c) {
+      const std::ptrdiff_t place = c * g.node_box.component + g.node_box.at(at[2], at[1], at[0]);
+      sum[c] += g.node_data.data()[place] - g.old_node_data.data()[place];
+    }
+  }
+  sum /= 4.0 * dt;
+  return {sum[0], sum[1], sum[2]};
+}
+
+void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
+  const TileGeometry& g = *tile.geometry;
+  for (const FlowBoundary& boundary : tile.boundaries) {
+    const Side side = boundary.where.side;
+    const std::ptrdiff_t out = outward(tile.cells, side), component = tile.cells.component;
+    const bool deep = (direction_of(side) == 0   ? tile.box.ni
+                       : direction_of(side) == 1 ? tile.box.nj
+                                                 : tile.box.nk) > 1;
+    for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
+      const std::ptrdiff_t cell = tile.cells.at(k, j, i);
+      const gas::Face<double> f = outward_face(g, side, k, j, i);
+      const gas::Vector<double> wall =
+          boundary.condition == Condition::no_slip ? wall_velocity(g, side, k, j, i, s.dt) : gas::Vector<double>{0.0, 0.0, 0.0};
+      const gas::Primitive<double> first = load(tile, state, cell);
+      // A wall's second ghost mirrors the second cell; behind an open boundary both are alike.
+      const gas::Primitive<double> second = is_wall(boundary.condition) && deep ? load(tile, state, cell - out) : first;
+      gas::store_primitive(state + cell + out, std::size_t(component), ghost_state(boundary, first, f, wall, s));
+      gas::store_primitive(state + cell + 2 * out, std::size_t(component), ghost_state(boundary, second, f, wall, s));
+      if (tile.turbulence == 0) return;
+      double inside[2], ghost[2];
+      for (int t = 0; t < tile.turbulence; ++t) ghost[t] = inside[t] = state[cell + (mean_unknowns + t) * component];
+      if (boundary.condition == Condition::no_slip) {
+        const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, first)) / gas::density(s.gas, first);
+        s.wall_carried(inside, nu, g.wall_distance_data.data()[g.inner_box.at(k, j, i)], ghost);
+      } else if (!is_wall(boundary.condition) && gas::normal_velocity(first, f) < f.speed) {
+        for (int t = 0; t < tile.turbulence; ++t) ghost[t] = s.carried[std::size_t(t)];
+      }
+      for (int t = 0; t < tile.turbulence; ++t)
+        state[cell + out + (mean_unknowns + t) * component] = state[cell + 2 * out + (mean_unknowns + t) * component] = ghost[t];
+    });
+  }
+}
+
+double wall_pressure(const FlowTile& tile, const double* state, Side side, int k, int j, int i) {
+  const int d = direction_of(side), extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk};
+  const std::ptrdiff_t cell = tile.cells.at(k, j, i), in = -outward(tile.cells, side);
+  if (extent[d] < 2) return state[cell];
+  const TileGeometry& g = *tile.geometry;
+  const std::ptrdiff_t here = g.cell_box.at(k, j, i), step = -outward(g.cell_box, side);
+  const double v = g.volume_data.data()[here], weight = v / (v + g.volume_data.data()[here + step]);
+  return state[cell] + weight * (state[cell] - state[cell + in]);
+}
+
+void add_wall_pressure(FlowTile& tile, const double* state, double* residual) {
+  for (const FlowBoundary& boundary : tile.boundaries) {
+    if (!is_wall(boundary.condition)) continue;
+    const Side side = boundary.where.side;
+    for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
+      // A plane of symmetry has no gradient of pressure across it; a wall may.
+      const double p = boundary.condition == Condition::symmetry ? state[tile.cells.at(k, j, i)]
+                                                                 : wall_pressure(tile, state, side, k, j, i);
+      const gas::Conserved<double> flux = gas::wall_flux(p, outward_face(*tile.geometry, side, k, j, i));
+      double* at = residual + tile.inner.at(k, j, i);
+      const std::ptrdiff_t c = tile.inner.component;
+      at[c] += flux.mx, at[2 * c] += flux.my, at[3 * c] += flux.mz, at[4 * c] += flux.E;
+    });
+  }
+}
+
+void set_open_faces(FlowTile& tile) {
+  for (const FlowBoundary& boundary : tile.boundaries) {
+    if (!is_wall(boundary.condition)) continue;
+    const Side side = boundary.where.side;
+    const int d = direction_of(side);
+    const auto [a, b] = along(side);
+    const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk};
+    AlignedArray<double>& open = tile.open[std::size_t(side)];
+    const std::ptrdiff_t row = open_row(tile.box, d);
+    if (open.size() == 0) {
+      open = AlignedArray<double>(std::size_t(row * extent[b] + row_lanes));
+      for (double& flag : open.span()) flag = 1.0;
+    }
+    for (int m = boundary.where.low[1]; m < boundary.where.high[1]; ++m)
+      for (int n = boundary.where.low[0]; n < boundary.where.high[0]; ++n) open.data()[m * row + n] = 0.0;
+    static_cast<void>(a);
+  }
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,33 @@
+// Ghost cells behind boundary windows and the pressure of walls. Ghosts serve gradients, viscous faces and open boundaries; through
+// wall faces no flux scheme is called: the pressure there is extrapolated along the line of cells and nothing else passes.
+// Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/boundary_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "src/aero/flow/flow_tile.hpp"
+#include "kernels/gas/boundary.hpp"
+
+namespace spindrift::aero {
+
+struct BoundarySetting {
+  gas::IdealGas gas;
+  gas::Primitive<double> stream{};         ///< undisturbed flow, above the references
+  std::array<double, 2> carried{};         ///< of the turbulence unknowns in it
+  double reference_speed = 1e30;           ///< of the far field's waves [m/s]; beyond the sound speed: the physical ones
+  double dt = 0.0;                         ///< of a moving grid, for the speed of its walls
+  /// Ghost value of the turbulence unknowns behind a no-slip wall, of those inside, the laminar nu and the wall distance; null: none.
+  void (*wall_carried)(const double* inside, double nu, double distance, double* ghost) = nullptr;
+};
+
+void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& setting);
+void add_wall_pressure(FlowTile& tile, const double* state, double* residual);
+/// 1 where the flux scheme acts: sets FlowTile::open from its boundaries.
+void set_open_faces(FlowTile& tile);
+
+/// Pressure on a wall face (above the reference) and the velocity of the wall [m/s].
+double wall_pressure(const FlowTile& tile, const double* state, Side side, int k, int j, int i);
+gas::Vector<double> wall_velocity(const TileGeometry& g, Side side, int k, int j, int i, double dt);
+
+}  // namespace spindrift::aero

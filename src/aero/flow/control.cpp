@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow/control.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spindrift::aero {
+
+void March::begin_step() {
+  steps_ = rejections_ = in_a_row_ = 0;
+  first_ = before_ = 0.0;
+  matrix_free_ = retry_ = false;
+  fraction_ = 1.0;
+  loads_.clear();
+}
+
+Verdict March::judge(const Norms& n, double load) {
+  const double total = std::sqrt(n.mean), density = std::sqrt(n.density / n.cells);
+  const bool fresh = steps_ == 0;
+  const bool bad = n.broken > 0.0 || !std::isfinite(total) || (!fresh && !retry_ && total > o_.rise_limit * before_);
+  ++steps_;
+  if (bad) {
+    ++rejections_;
+    if (fresh) {
+      why_ = "the state it starts from has no finite residual";
+      return verdict_ = Verdict::failed;
+    }
+    cfl_ *= o_.back_off;
+    retry_ = true;
+    if (++in_a_row_ > 12 || cfl_ < o_.cfl_least) {
+      why_ = "no pseudo-step was small enough";
+      return verdict_ = Verdict::failed;
+    }
+    return verdict_ = Verdict::rejected;
+  }
+  density_ = density;
+  if (fresh) first_ = density, before_ = least_ = total;
+  first_ = std::max(first_, density);  // what an impulsive start stirs up counts as the start
+  if (!fresh && !retry_) {
+    in_a_row_ = 0;
+    const double ratio = before_ > 0.0 ? total / before_ : 1.0;
+    // Full steps let the number grow by what the residual fell, and by a little where it did not rise much; shortened ones hold it.
+    if (fraction_ > 0.99)
+      cfl_ *= std::clamp(ratio < 1.0 ? std::max(1.3, 1.0 / ratio) : 1.3 / (ratio * ratio), 0.5, o_.growth);
+    else if (fraction_ < 0.3)
+      cfl_ *= 0.5;
+    cfl_ = std::clamp(cfl_, o_.cfl_least, o_.cfl_max);
+  }
+  retry_ = false;
+  before_ = total;
+  if (o_.matrix_free_below > 0.0) matrix_free_ = density < o_.matrix_free_below * first_;
+  const auto done = [&](const char* why) {
+    why_ = why;
+    return verdict_ = Verdict::converged;
+  };
+  loads_.push_back(load);
+  if (steps_ > o_.min_steps) {
+    if (density <= o_.drop * first_) return done("the density residual fell by the drop asked for");
+    if (density <= o_.absolute) return done("the density residual is below the absolute limit");
+    if (o_.load_change > 0.0 && int(loads_.size()) > o_.load_window) {
+      const auto [low, high] = std::minmax_element(loads_.end() - o_.load_window, loads_.end());
+      if (*high - *low <= o_.load_change * std::max(std::abs(*low), std::abs(*high))) return done("the loads have settled");
+    }
+  }
+  if (steps_ > o_.max_steps) return done("the number of pseudo-steps is spent");
+  return verdict_ = Verdict::go_on;
+}
+
+void March::updated(double fraction, int krylov, double) {
+  fraction_ = fraction;
+  krylov_ = krylov;
+  krylov_total_ += krylov;
+}
+
+}  // namespace spindrift::aero

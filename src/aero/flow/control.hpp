@@ -1,0 +1,76 @@
+// The decisions of a pseudo-time march: when a step is good, how large the next may be, when to stop and when to give up. Numbers in,
+// decisions out; the same on every rank, as all its numbers are ordered reductions.
+// CFL: switched evolution relaxation (Mulder & van Leer 1985, J. Comput. Phys. 59, 232) between bounds, with back-off.
+// Called by tasks.cpp; tested in tests/src/aero/flow/control_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace spindrift::aero {
+
+struct MarchOptions {
+  double cfl_start = 5.0, cfl_max = 1e4, cfl_least = 1e-3;
+  double growth = 2.0;           ///< most that the CFL number grows in a step
+  double back_off = 0.2;         ///< what it is multiplied by after a rejected step
+  double rise_limit = 10.0;      ///< of the residual in one step; beyond it the step is rejected
+  double drop = 1e-2;            ///< of the density residual since the start of the (physical) step: done
+  double absolute = 0.0;         ///< density residual [kg/(m3 s)] below which all is done
+  double load_change = 0.0;      ///< relative change of the loads over load_window steps: done; 0: not looked at
+  int load_window = 20;
+  int min_steps = 1, max_steps = 500;
+  int krylov_steps = 20;         ///< most Krylov iterations of a pseudo-step
+  double krylov_drop = 0.05;     ///< of the linear residual: enough
+  double matrix_free_below = 0.1;  ///< drop of the residual from which on products are matrix-free; 0: never
+};
+
+/// What the tiles report of a state, summed over all cells.
+struct Norms {
+  double density = 0.0;     ///< sum of squared density rates
+  double mean = 0.0;        ///< of squared scaled residuals of the mean flow
+  double model = 0.0;       ///< of the turbulence unknowns
+  double cells = 1.0;
+  double broken = 0.0;      ///< cells whose residual is not finite
+};
+
+enum class Verdict : std::uint8_t { go_on, rejected, converged, failed };
+
+class March {
+ public:
+  explicit March(const MarchOptions& options) : o_(options), cfl_(options.cfl_start) {}
+
+  /// A new physical step: the CFL number stays.
+  void begin_step();
+  /// After each residual.
+  Verdict judge(const Norms& norms, double load);
+  /// After each update: the fraction of it that was applied, and the Krylov iterations it took.
+  void updated(double fraction, int krylov, double linear_drop);
+
+  double cfl() const { return cfl_; }
+  int steps() const { return steps_; }
+  int rejections() const { return rejections_; }
+  bool matrix_free() const { return matrix_free_; }
+  double density_residual() const { return density_; }
+  double first_density_residual() const { return first_; }
+  Verdict verdict() const { return verdict_; }
+  const char* why() const { return why_; }
+  int krylov() const { return krylov_; }
+  long krylov_total() const { return krylov_total_; }
+  double fraction() const { return fraction_; }
+  void set_cfl(double cfl) { cfl_ = cfl; }
+  const MarchOptions& options() const { return o_; }
+
+ private:
+  MarchOptions o_;
+  double cfl_, density_ = 0.0, first_ = 0.0, before_ = 0.0, least_ = 0.0, fraction_ = 1.0;
+  int steps_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
+  long krylov_total_ = 0;
+  bool matrix_free_ = false, retry_ = false;
+  Verdict verdict_ = Verdict::go_on;
+  const char* why_ = "";
+  std::vector<double> loads_;
+};
+
+}  // namespace spindrift::aero

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow/flow_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "src/aero/flow/krylov_vectors.hpp"
+#include "src/aero/flow/sweep_gradients.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+constexpr std::size_t padded(std::size_t n) { return (n + 15) / 16 * 16; }
+constexpr int norm_count = 4;
+
+Scales scales_of(const FlowSetting& s) {
+  const double rho = gas::density(s.gas, s.stream), u = s.speed;
+  Scales scales;
+  scales.unknown = {rho * u * u, u, u, u, u * u / s.gas.cp()};
+  scales.residual = {rho * u, rho * u * u, rho * u * u, rho * u * u, rho * u * u * u};
+  return scales;
+}
+
+}  // namespace
+
+std::size_t FlowTile::bytes() const {
+  std::size_t sum = state.bytes() + trial.bytes() + gradients.bytes() + residual.bytes() + trial_residual.bytes() + before.bytes() +
+                    before_that.bytes() + rate.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() + direction.bytes();
+  for (const auto& v : vectors) sum += v.bytes();
+  for (const auto& v : directions_kept) sum += v.bytes();
+  for (const auto& v : open) sum += v.bytes();
+  return sum;
+}
+
+FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<PatchCondition> conditions)
+    : grid_(grid), setting_(setting), conditions_(std::move(conditions)), march_(setting.march) {
+  const Tiling& tiling = grid.tiling();
+  if (setting.speed <= 0.0) throw std::invalid_argument("flow: the scale of velocity must be positive");
+  convective_.gas = viscous_.gas = boundary_.gas = implicit_.gas = setting.gas;
+  const double rho = gas::density(setting.gas, setting.stream);
+  if (setting.smooth > 0.0) convective_.smooth = gas::smoothness(setting.gas, rho, setting.speed, 0.0, setting.smooth);
+  convective_sweep_ = convective_sweep(setting.flux, setting.limiter);
+  viscous_.active = setting.viscous;
+  viscous_.thin_layer = setting.thin_layer;
+  boundary_.stream = setting.stream;
+  boundary_.dt = setting.dt;
+  if (setting.preconditioned) boundary_.reference_speed = setting.speed;
+  implicit_.scales = scales_of(setting);
+  implicit_.viscous = setting.viscous;
+  implicit_.low_mach = setting.flux == "roe_low_mach";
+  implicit_.preconditioned = setting.preconditioned;
+  implicit_.floor_speed = setting.speed;
+
+  const int columns = std::min(setting.march.krylov_steps, linear::max_krylov);
+  local_.assign(std::size_t(tiling.size()), -1);
+  for (const int index : grid.owned()) {
+    local_[std::size_t(index)] = int(tiles_.size());
+    const Tile& from = tiling.tiles[std::size_t(index)];
+    if (from.ni > longest_row)
+      throw std::invalid_argument("flow: a tile has rows of " + std::to_string(from.ni) + " cells; the sweeps hold " +
+                                  std::to_string(longest_row));
+    FlowTile& t = tiles_.emplace_back();
+    t.geometry = &grid[index];
+    t.index = index;
+    t.directions = tiling.planar ? 2 : 3;
+    t.cells = cell_layout(from, state_ghosts, tiling.planar);
+    t.gradient_box = cell_layout(from, gradient_ghosts, tiling.planar);
+    t.inner = BoxLayout(from.ni, from.nj, from.nk);
+    t.box = {from.ni, from.nj, from.nk};
+    for (const TileBoundary& where : tiling.boundary(index)) {
+      const PatchCondition& c = conditions_.at(std::size_t(where.patch));
+      t.boundaries.push_back({where, c.condition, c.loads});
+    }
+    const int unknowns = t.unknowns();
+    t.state = AlignedArray<double>(t.cells.size(unknowns));
+    t.trial = AlignedArray<double>(t.cells.size(unknowns));
+    t.gradients = AlignedArray<double>(t.gradient_box.size(gradient_components(t.turbulence)));
+    t.residual = AlignedArray<double>(t.inner.size(unknowns));
+    t.trial_residual = AlignedArray<double>(t.inner.size(unknowns));
+    t.rate = AlignedArray<double>(t.inner.size(1));
+    if (setting.time_order > 0) t.before = AlignedArray<double>(t.inner.size(unknowns));
+    if (setting.time_order > 1) t.before_that = AlignedArray<double>(t.inner.size(unknowns));
+    t.mean_matrix = AlignedArray<float>(linear::StencilMatrix<5>::size(t.box, t.directions));
+    t.direction = AlignedArray<float>(t.gradient_box.size(unknowns));
+    for (int n = 0; n <= columns; ++n) t.vectors.emplace_back(padded(t.vector_size()));
+    set_open_faces(t);
+    parts_.push_back(index);
+  }
+  const std::size_t owned = tiles_.size();
+  norm_partials_.resize(owned * norm_count);
+  load_partials_.resize(owned * std::max<std::size_t>(1, conditions_.size()) * load_components);
+  dot_partials_.resize(owned * std::size_t(columns + 1));
+  size_partials_.resize(owned);
+  fraction_partials_.resize(owned);
+  norm_sums_.resize(norm_count);
+  loads_.resize(std::max<std::size_t>(1, conditions_.size()) * load_components);
+  dots_.resize(std::size_t(columns + 1));
+  combination_.resize(std::size_t(columns + 1));
+  rows_.reserve(1024);
+}
+
+void FlowSolver::start_uniform() {
+  start([this](const Eigen::Vector3d&) { return setting_.stream; });
+}
+
+void FlowSolver::forget() { time_steps_ = 0; }
+
+long FlowSolver::cells() const {
+  long sum = 0;
+  for (const Tile& tile : grid_.tiling().tiles) sum += tile.count();
+  return sum;
+}
+
+std::size_t FlowSolver::bytes() const {
+  std::size_t sum = 0;
+  for (const FlowTile& tile : tiles_) sum += tile.bytes();
+  return sum;
+}
+
+void FlowSolver::set_time_step(double dt, double dt_before) { setting_.dt = boundary_.dt = dt, dt_before_ = dt_before; }
+
+/// The state as it is becomes the past; weights follow from how much past there is.
+void FlowSolver::begin_time_step(FlowTile& tile) {
+  if (setting_.time_order == 0) return;
+  if (setting_.time_order > 1) std::swap(tile.before, tile.before_that);
+  const TileGeometry& g = *tile.geometry;
+  const std::size_t component = std::size_t(tile.cells.component);
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; ++i) {
+      const std::ptrdiff_t from = tile.cells.at(k, j, i), to = tile.inner.at(k, j, i);
+      const auto w = gas::conserved(setting_.gas, gas::load_primitive<double>(tile.state.data() + from, component));
+      // Of a moving grid the geometry has already moved on: the volume of the state is the old one.
+      const double v = g.moving() ? g.old_volume_data.data()[g.inner_box.at(k, j, i)] : g.volume_data.data()[g.cell_box.at(k, j, i)];
+      gas::store_conserved(tile.before.data() + to, std::size_t(tile.inner.component), v * w);
+      for (int t = 0; t < tile.turbulence; ++t) {
+        const int c = mean_unknowns + t;
+        tile.before.data()[to + c * tile.inner.component] = v * w.rho * tile.state.data()[from + c * tile.cells.component];
+      }
+    }
+  });
+}
+
+/// Residual of a state whose ghosts and gradients are there: fluxes, sources, the physical time derivative.
+void FlowSolver::evaluate(FlowTile& tile, double* state, double* residual) {
+  convective_sweep_(tile, state, residual, convective_);
+  add_wall_pressure(tile, state, residual);
+  if (setting_.viscous) sweep_viscous(tile, state, residual, viscous_);
+  if (setting_.time_order == 0) return;
+  const TileGeometry& g = *tile.geometry;
+  const double now = weights_.now / setting_.dt, old = weights_.old / setting_.dt, older = weights_.older / setting_.dt;
+  const std::ptrdiff_t c = tile.inner.component;
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; i += row_lanes) {
+      const double* at = state + tile.cells.at(k, j, i);
+      const auto w = gas::conserved(setting_.gas, gas::load_primitive<Row>(at, std::size_t(tile.cells.component)));
+      const Row v = Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)) * now;
+      const std::ptrdiff_t place = tile.inner.at(k, j, i);
+      const auto add = [&](int n, const Row& amount) {
+        double* to = residual + place + n * c;
+        Row sum = Row::load(to) + v * amount + Row(old) * Row::load(tile.before.data() + place + n * c);
+        if (older != 0.0) sum += Row(older) * Row::load(tile.before_that.data() + place + n * c);
+        sum.store(to);
+      };
+      add(0, w.rho), add(1, w.mx), add(2, w.my), add(3, w.mz), add(4, w.E);
+      for (int t = 0; t < tile.turbulence; ++t)
+        add(mean_unknowns + t, w.rho * Row::load(at + (mean_unknowns + t) * tile.cells.component));
+    }
+  });
+}
+
+void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<double> loads) {
+  const TileGeometry& g = *tile.geometry;
+  std::fill(partial.begin(), partial.end(), 0.0);
+  const Scales& s = implicit_.scales;
+  for_rows(tile.box, [&](int k, int j) {
+    double density = 0.0, mean = 0.0, model = 0.0;
+    for (int i = 0; i < tile.box.ni; ++i) {
+      const double* r = tile.residual.data() + tile.inner.at(k, j, i);
+      const double rate = r[0] / g.volume_data.data()[g.cell_box.at(k, j, i)];
+      density += rate * rate;
+      for (int c = 0; c < mean_unknowns; ++c) {
+        const double scaled = r[c * tile.inner.component] / s.residual[std::size_t(c)];
+        mean += scaled * scaled;
+      }
+      for (int t = 0; t < tile.turbulence; ++t) {
+        const double scaled = r[(mean_unknowns + t) * tile.inner.component] / s.model_residual[std::size_t(t)];
+        model += scaled * scaled;
+      }
+    }
+    if (!std::isfinite(density + mean + model)) partial[3] += 1.0;
+    partial[0] += density, partial[1] += mean, partial[2] += model;
+  });
+  std::fill(loads.begin(), loads.end(), 0.0);
+  add_loads(tile, tile.state.data(), viscous_, boundary_, loads);
+}
+
+/// One place where the march goes on, back, or ends: after the sums over all cells.
+void FlowSolver::judge() {
+  norms_ = {norm_sums_[0], norm_sums_[1], norm_sums_[2], double(cells()), norm_sums_[3]};
+  double force[3] = {0.0, 0.0, 0.0};
+  for (std::size_t p = 0; p < conditions_.size(); ++p)
+    if (conditions_[p].loads)
+      for (std::size_t c = 0; c < 3; ++c) force[c] += loads_[p * load_components + c] + loads_[p * load_components + 3 + c];
+  const double load = std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
+  const double cfl = march_.cfl();
+  const Verdict verdict = march_.judge(norms_, load);
+  rows_.push_back({.step = march_.steps() - 1,
+                   .krylov = march_.krylov(),
+                   .rejections = march_.rejections(),
+                   .cfl = cfl,
+                   .density_residual = march_.density_residual(),
+                   .mean_residual = std::sqrt(norms_.mean),
+                   .model_residual = std::sqrt(norms_.model),
+                   .fraction = march_.fraction(),
+                   .matrix_free = matrix_free_,
+                   .force = {force[0], force[1], force[2]}});
+  solving_ = verdict == Verdict::go_on;
+  matrix_free_ = march_.matrix_free();
+  if (solving_) gmres_.start(std::sqrt(norms_.mean + norms_.model));
+}
+
+void FlowSolver::build_matrix(FlowTile& tile) {
+  if (!solving_) return;
+  sweep_rates(tile, tile.state.data(), implicit_);
+  sweep_jacobian(tile, tile.state.data(), nullptr, march_.cfl(), implicit_);
+  if (const std::ptrdiff_t cell = linear::factor(tile.mean()); cell >= 0)
+    throw std::runtime_error("singular pivot in tile " + std::to_string(tile.index) + ", cell " + std::to_string(cell));
+}
+
+/// v_0: the scaled residual with its sign turned, of unit length.
+void FlowSolver::first_vector(FlowTile& tile) {
+  const double scale = -1.0 / gmres_.residual_norm();
+  float* v = tile.vectors[0].data();
+  float* m = v + tile.box.count() * mean_unknowns;
+  const Scales& s = implicit_.scales;
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; ++i) {
+      const double* r = tile.residual.data() + tile.inner.at(k, j, i);
+      for (int c = 0; c < mean_unknowns; ++c) *v++ = float(scale * r[c * tile.inner.component] / s.residual[std::size_t(c)]);
+      for (int t = 0; t < tile.turbulence; ++t)
+        *m++ = float(scale * r[(mean_unknowns + t) * tile.inner.component] / s.model_residual[std::size_t(t)]);
+    }
+  });
+}
+
+void FlowSolver::precondition(FlowTile& tile, const float* v, float* z) { linear::solve(tile.mean(), v, z); }
+
+/// v_j from the last product, and the direction M^-1 v_j; returns its largest component in the units of the unknowns.
+double FlowSolver::make_direction(FlowTile& tile, int j) {
+  if (!solving_) return 0.0;
+  float* v = tile.vectors[std::size_t(j)].data();
+  if (j == 0)
+    first_vector(tile);
+  else
+    orthogonalise(v, std::span(tile.vectors).first(std::size_t(j)), gmres_.projections(), gmres_.next_scale(), padded(tile.vector_size()));
+  float* z = tile.vectors[std::size_t(j) + 1].data();  // free until the product comes
+  precondition(tile, v, z);
+  const float* m = z + tile.box.count() * mean_unknowns;
+  float largest = 0.0f;
+  for_rows(tile.box, [&](int k, int row) {
+    float* to = tile.direction.data() + tile.gradient_box.at(k, row, 0);
+    for (int i = 0; i < tile.box.ni; ++i, ++to) {
+      for (int c = 0; c < mean_unknowns; ++c) {
+        const float value = *z++;
+        to[c * tile.gradient_box.component] = value;
+        largest = std::max(largest, std::abs(value));
+      }
+      for (int t = 0; t < tile.turbulence; ++t) to[(mean_unknowns + t) * tile.gradient_box.component] = *m++;
+    }
+  });
+  return double(largest);
+}
+
+namespace {
+/// Largest change of an unknown, in its unit, by which matrix-free products differ from the state.
+constexpr double difference_size = 1e-6;
+}  // namespace
+
+void FlowSolver::perturb(FlowTile& tile) {
+  const double step = difference_size / std::max(direction_size_, 1e-30);
+  for (int c = 0; c < tile.unknowns(); ++c) {
+    const double factor = step * (c < mean_unknowns ? implicit_.scales.unknown[std::size_t(c)]
+                                                    : implicit_.scales.model_unknown[std::size_t(c - mean_unknowns)]);
+    for_rows(tile.box, [&](int k, int j) {
+      const double* from = tile.state.data() + c * tile.cells.component + tile.cells.at(k, j, 0);
+      const float* z = tile.direction.data() + c * tile.gradient_box.component + tile.gradient_box.at(k, j, 0);
+      double* to = tile.trial.data() + c * tile.cells.component + tile.cells.at(k, j, 0);
+      for (int i = 0; i < tile.box.ni; ++i) to[i] = from[i] + factor * double(z[i]);
+    });
+  }
+}
+
+/// w = A z, and its products with all v so far and itself.
+void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
+  if (!solving_) return;
+  float* w = tile.vectors[std::size_t(j) + 1].data();
+  if (!matrix_free_) {
+    const BoxLayout& box = tile.gradient_box;
+    linear::multiply(tile.mean(), tile.direction.data(), {box.origin, box.row, box.plane, box.component}, w);
+  } else {
+    const double inverse = std::max(direction_size_, 1e-30) / difference_size;
+    float *to = w, *model = w + tile.box.count() * mean_unknowns;
+    for_rows(tile.box, [&](int k, int row) {
+      for (int i = 0; i < tile.box.ni; ++i) {
+        const std::ptrdiff_t at = tile.inner.at(k, row, i);
+        const auto difference = [&](int c, double unit) {
+          const std::ptrdiff_t place = at + c * tile.inner.component;
+          return float((tile.trial_residual.data()[place] - tile.residual.data()[place]) * inverse / unit);
+        };
+        for (int c = 0; c < mean_unknowns; ++c) *to++ = difference(c, implicit_.scales.residual[std::size_t(c)]);
+        for (int t = 0; t < tile.turbulence; ++t) *model++ = difference(mean_unknowns + t, implicit_.scales.model_residual[std::size_t(t)]);
+      }
+    });
+    add_pseudo_time(tile, tile.state.data(), march_.cfl(), implicit_, tile.direction.data(), w);
+  }
+  std::fill(dots.begin(), dots.end(), 0.0);
+  dot_products(w, std::span(tile.vectors).first(std::size_t(j) + 1), padded(tile.vector_size()), dots.first(std::size_t(j) + 2));
+}
+
+/// The change of the unknowns, left in the last vector; returns the fraction of it that keeps pressure and temperature positive.
+double FlowSolver::find_update(FlowTile& tile) {
+  if (!solving_) return 1.0;
+  const std::size_t columns = std::size_t(gmres_.columns()), size = padded(tile.vector_size());
+  gmres_.solve(combination_);
+  float* x = tile.vectors.back().data();
+  if (columns == tile.vectors.size() - 1) {
+    // All vectors are in use but the last, which no combination needs.
+  }
+  std::fill_n(x, size, 0.0f);
+  for (std::size_t n = 0; n < columns; ++n) add_scaled(x, combination_[n], tile.vectors[n].data(), size);
+  precondition(tile, x, x);
+  constexpr double most = 0.2;  // of the absolute value, in one pseudo-step
+  double fraction = 1.0;
+  const Scales& s = implicit_.scales;
+  const float* d = x;
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; ++i, d += mean_unknowns) {
+      const auto q = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
+      const auto limit = [&](double change, double value) {
+        // Not a number must not hide: it gives no step at all.
+        if (!(std::abs(change) <= most * value)) fraction = std::min(fraction, std::isfinite(change) ? most * value / std::abs(change) : 0.0);
+      };
+      limit(double(d[0]) * s.unknown[0], gas::absolute_pressure(setting_.gas, q));
+      limit(double(d[4]) * s.unknown[4], gas::absolute_temperature(setting_.gas, q));
+    }
+  });
+  return fraction;
+}
+
+void FlowSolver::apply_update(FlowTile& tile) {
+  const Verdict verdict = march_.verdict();
+  if (verdict == Verdict::converged || verdict == Verdict::failed) {
+    if (verdict == Verdict::failed && march_.rejections() > 0) std::swap(tile.state, tile.trial);
+    return;
+  }
+  if (verdict == Verdict::rejected) {
+    std::copy_n(tile.trial.data(), tile.trial.size(), tile.state.data());
+    return;
+  }
+  std::copy_n(tile.state.data(), tile.state.size(), tile.trial.data());
+  const float* d = tile.vectors.back().data();
+  const Scales& s = implicit_.scales;
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; ++i) {
+      double* at = tile.state.data() + tile.cells.at(k, j, i);
+      for (int c = 0; c < mean_unknowns; ++c) at[c * tile.cells.component] += fraction_ * s.unknown[std::size_t(c)] * double(*d++);
+    }
+  });
+}
+
+// ---- restart
+
+std::size_t FlowSolver::saved_size(int owned) const {
+  const FlowTile& t = tiles_[std::size_t(owned)];
+  return std::size_t(t.box.count()) * std::size_t(t.unknowns()) * std::size_t(1 + setting_.time_order);
+}
+
+namespace {
+template <class Tile, class Body>
+void for_saved(Tile& t, int time_order, Body&& body) {
+  const auto walk = [&](auto& array, const BoxLayout& layout) {
+    for (int c = 0; c < t.unknowns(); ++c)
+      for_rows(t.box, [&](int k, int j) {
+        for (int i = 0; i < t.box.ni; ++i) body(array.data()[c * layout.component + layout.at(k, j, i)]);
+      });
+  };
+  walk(t.state, t.cells);
+  if (time_order > 0) walk(t.before, t.inner);
+  if (time_order > 1) walk(t.before_that, t.inner);
+}
+}  // namespace
+
+void FlowSolver::save(int owned, std::span<double> to) const {
+  std::size_t n = 0;
+  for_saved(tiles_[std::size_t(owned)], setting_.time_order, [&](const double& value) { to[n++] = value; });
+}
+void FlowSolver::load(int owned, std::span<const double> from) {
+  std::size_t n = 0;
+  for_saved(tiles_[std::size_t(owned)], setting_.time_order, [&](double& value) { value = from[n++]; });
+}
+std::vector<double> FlowSolver::save_march() const { return {march_.cfl(), double(time_steps_), dt_before_}; }
+void FlowSolver::load_march(std::span<const double> from) {
+  march_.set_cfl(from[0]);
+  time_steps_ = std::int64_t(from[1]);
+  dt_before_ = from[2];
+}
+
+}  // namespace spindrift::aero

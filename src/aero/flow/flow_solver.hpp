@@ -1,0 +1,171 @@
+// The air: a compressible flow on the tiles of this rank, one implicit (pseudo-)time march as tasks. Owns all arrays of the solver and
+// the decisions between tasks; the graph itself is tasks.cpp, the method docs/theory/air.md.
+// Built by blade_resolved.cpp and by tests; tested in tests/src/aero/flow and tests/verification/air.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernels/linear/block_ilu.hpp"
+#include "kernels/linear/krylov.hpp"
+#include "runtime/graph/graph.hpp"
+#include "src/aero/flow/boundary.hpp"
+#include "src/aero/flow/control.hpp"
+#include "src/aero/flow/flow_tile.hpp"
+#include "src/aero/flow/loads.hpp"
+#include "src/aero/flow/sweep_convective.hpp"
+#include "src/aero/flow/sweep_jacobian.hpp"
+#include "src/aero/flow/sweep_viscous.hpp"
+#include "src/aero/grid/store.hpp"
+
+namespace spindrift::aero {
+
+/// What acts on a patch of the grid.
+struct PatchCondition {
+  Condition condition = Condition::far_field;
+  bool loads = false;  ///< its force is summed and reported
+};
+
+enum class Krylov : std::uint8_t { gmres, gcg };
+
+/// All that a scene may choose, in SI units; from FlowOptions or written by a test.
+struct FlowSetting {
+  gas::IdealGas gas;               ///< with the references of the undisturbed flow
+  gas::Primitive<double> stream{};  ///< undisturbed flow above those references
+  double speed = 0.0;              ///< scale of velocity [m/s]: that of the stream, or of what moves
+  std::string flux = "roe_low_mach", limiter = "none", turbulence = "none";
+  bool viscous = false, thin_layer = false;
+  double smooth = 0.0;             ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
+  bool preconditioned = true;
+  double eddy_ratio = 3.0;         ///< SA: nu tilde over nu in the stream
+  double turbulence_intensity = 0.001;  ///< SST, and its eddy ratio 0.01
+  Krylov krylov = Krylov::gmres;
+  MarchOptions march;
+  int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
+  double dt = 0.0;                 ///< physical step [s]
+};
+
+/// What a pseudo-step did; one row for each since the last clear.
+struct PseudoRow {
+  int step = 0, krylov = 0, rejections = 0;
+  double cfl = 0.0, density_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, fraction = 1.0;
+  bool matrix_free = false;
+  std::array<double, 3> force{};  ///< of all patches with loads [N]
+};
+
+class FlowSolver {
+ public:
+  /// `conditions` by patch of the grid's tiling. The grid must outlive the solver and have been built.
+  FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<PatchCondition> conditions);
+  FlowSolver(const FlowSolver&) = delete;
+  FlowSolver& operator=(const FlowSolver&) = delete;
+
+  /// Every cell as the undisturbed flow.
+  void start_uniform();
+  /// Any state: body(centre) gives the primitive values above the references, and those of the turbulence unknowns.
+  template <class Body>
+  void start(Body&& body) {
+    for (FlowTile& tile : tiles_) start_tile(tile, body);
+    forget();
+  }
+  /// No past: the physical step that follows is the first.
+  void forget();
+
+  /// Records one march: the whole steady solution, or one physical step. See tasks.cpp.
+  void record(runtime::Graph& graph);
+  /// Records what fills ghost volumes and centres from other ranks; to be run once, and after each motion of the grid.
+  void record_geometry(runtime::Graph& graph);
+
+  const FlowSetting& setting() const { return setting_; }
+  GridStore& grid() { return grid_; }
+  std::span<FlowTile> tiles() { return tiles_; }
+  std::span<const FlowTile> tiles() const { return tiles_; }
+  const March& march() const { return march_; }
+  March& march() { return march_; }
+  const std::vector<PseudoRow>& rows() const { return rows_; }
+  void clear_rows() { rows_.clear(); }
+  /// Loads by patch, the same on every rank.
+  PatchLoads loads(int patch) const { return patch_loads(loads_, patch); }
+  const std::vector<PatchCondition>& conditions() const { return conditions_; }
+  /// Physical steps since the start.
+  std::int64_t time_steps() const { return time_steps_; }
+  void set_time_step(double dt, double dt_before);
+
+  /// What a restart needs of a tile, besides its geometry: state and past, then the march.
+  std::size_t saved_size(int owned) const;
+  void save(int owned, std::span<double> to) const;
+  void load(int owned, std::span<const double> from);
+  std::vector<double> save_march() const;
+  void load_march(std::span<const double> from);
+
+  std::size_t bytes() const;
+  long cells() const;  ///< of all ranks
+
+ private:
+  friend class StepGraph;
+  template <class Body>
+  void start_tile(FlowTile& tile, Body& body) {
+    const TileGeometry& g = *tile.geometry;
+    for (int k = 0; k < tile.box.nk; ++k)
+      for (int j = 0; j < tile.box.nj; ++j)
+        for (int i = 0; i < tile.box.ni; ++i) {
+          const std::ptrdiff_t place = g.cell_box.at(k, j, i), c = g.cell_box.component;
+          const double* x = g.centre_data.data() + place;
+          const gas::Primitive<double> q = body(Eigen::Vector3d(x[0], x[c], x[2 * c]));
+          const std::ptrdiff_t at = tile.cells.at(k, j, i);
+          gas::store_primitive(tile.state.data() + at, std::size_t(tile.cells.component), q);
+          for (int t = 0; t < tile.turbulence; ++t)
+            tile.state.data()[at + (mean_unknowns + t) * tile.cells.component] = boundary_.carried[std::size_t(t)];
+        }
+  }
+
+  // Work of single tasks.
+  void begin_time_step(FlowTile& tile);
+  void evaluate(FlowTile& tile, double* state, double* residual);
+  void measure(FlowTile& tile, std::span<double> partial, std::span<double> loads);
+  void judge();
+  void build_matrix(FlowTile& tile);
+  void first_vector(FlowTile& tile);
+  double make_direction(FlowTile& tile, int iteration);
+  void precondition(FlowTile& tile, const float* v, float* z);
+  void perturb(FlowTile& tile);
+  void product(FlowTile& tile, int iteration, std::span<double> dots);
+  double find_update(FlowTile& tile);
+  void apply_update(FlowTile& tile);
+
+  GridStore& grid_;
+  FlowSetting setting_;
+  std::vector<PatchCondition> conditions_;
+  std::vector<FlowTile> tiles_;  ///< owned, in the order of the tiling
+  std::vector<int> local_;       ///< by tile of the tiling: index in tiles_, -1 elsewhere
+  ConvectiveSetting convective_;
+  ConvectiveSweep convective_sweep_ = nullptr;
+  ViscousSetting viscous_;
+  BoundarySetting boundary_;
+  ImplicitSetting implicit_;
+
+  March march_;
+  linear::Gmres gmres_;
+  Norms norms_;
+  std::vector<std::int64_t> parts_;
+  std::vector<double> norm_partials_, load_partials_, dot_partials_, size_partials_, fraction_partials_;
+  std::vector<double> norm_sums_, loads_, dots_;
+  double direction_size_ = 0.0, fraction_ = 1.0;
+  bool solving_ = false, matrix_free_ = false, refresh_ = true;
+  std::vector<double> combination_;
+  std::vector<PseudoRow> rows_;
+  std::string trouble_;
+  std::int64_t time_steps_ = 0;
+  double dt_before_ = 0.0;
+  TimeWeights weights_{};
+  std::vector<std::shared_ptr<void>> pieces_;  ///< what the tasks of recorded graphs refer to
+  std::deque<std::vector<double>> double_buffers_;
+  std::deque<std::vector<float>> float_buffers_;
+};
+
+}  // namespace spindrift::aero

@@ -1,0 +1,82 @@
+// What the solver keeps for one tile: state, residual, gradients, the past, the matrix and the Krylov vectors, each allocated only
+// where the scene needs it. Bytes per cell are added up in docs/developer/air.md.
+// Unknowns are p u v w T above the references of the gas, then those of the turbulence model; residuals in the order rho mx my mz E.
+// Called by the sweeps and tasks of src/aero/flow; tested through tests/src/aero/flow.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernels/grid/layout.hpp"
+#include "kernels/linear/stencil_matrix.hpp"
+#include "src/aero/grid/aligned.hpp"
+#include "src/aero/grid/store.hpp"
+#include "src/aero/grid/tiling.hpp"
+
+namespace spindrift::aero {
+
+inline constexpr int mean_unknowns = 5;
+
+/// How the faces of a window behave; from the scene's boundaries by patch name.
+enum class Condition : unsigned char { far_field, inflow_velocity, outflow_pressure, slip, no_slip, symmetry };
+inline bool is_wall(Condition c) { return c == Condition::slip || c == Condition::no_slip || c == Condition::symmetry; }
+
+/// A window of the tile where a condition acts.
+struct FlowBoundary {
+  TileBoundary where;
+  Condition condition = Condition::far_field;
+  bool loads = false;  ///< counts towards forces
+};
+
+struct FlowTile {
+  TileGeometry* geometry = nullptr;
+  int index = 0;            ///< in the tiling
+  int turbulence = 0;       ///< number of its unknowns
+  int directions = 3;       ///< 2 where planar
+  BoxLayout cells;          ///< of states: two ghosts
+  BoxLayout gradient_box;   ///< one ghost
+  BoxLayout inner;          ///< no ghosts
+  linear::CellBox box;
+  std::vector<FlowBoundary> boundaries;
+
+  AlignedArray<double> state;          ///< unknowns
+  AlignedArray<double> trial;          ///< perturbed state of matrix-free products; between pseudo-steps the state before the last one
+  AlignedArray<double> gradients;      ///< 3 each of u v w T and the turbulence unknowns
+  AlignedArray<double> residual, trial_residual;
+  AlignedArray<double> before, before_that;  ///< conserved times volume one and two steps ago
+  AlignedArray<double> rate;           ///< V / pseudo-time step [m3/s]
+  std::array<AlignedArray<double>, 6> open;  ///< per side with walls: 1 where the flux scheme acts, 0 on wall faces; else empty
+
+  AlignedArray<float> mean_matrix, turbulence_matrix;
+  AlignedArray<float> direction;             ///< with one ghost: what the operator is applied to
+  std::vector<AlignedArray<float>> vectors;  ///< of the Krylov cycle: [cell][5], then [cell][turbulence]
+  std::vector<AlignedArray<float>> directions_kept;  ///< of GCG
+
+  int unknowns() const { return mean_unknowns + turbulence; }
+  std::size_t vector_size() const { return std::size_t(box.count()) * unknowns(); }
+  BoxView<double> state_view() { return {state.data(), cells}; }
+  BoxView<double> trial_view() { return {trial.data(), cells}; }
+  BoxView<double> gradient_view() { return {gradients.data(), gradient_box}; }
+  BoxView<float> direction_view() { return {direction.data(), gradient_box}; }
+  linear::StencilMatrix<5> mean() { return {mean_matrix.data(), box, directions}; }
+  template <int n>
+  linear::StencilMatrix<n> model() {
+    return {turbulence_matrix.data(), box, directions};
+  }
+  std::size_t bytes() const;
+};
+
+/// Calls body(k, j, i) for the cell inside of each face of a window, low directions innermost, and its ordinal.
+template <class Body>
+void for_window(const FlowTile& tile, Side side, std::array<int, 2> low, std::array<int, 2> high, Body&& body) {
+  const int d = direction_of(side);
+  const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk};
+  const auto [a, b] = along(side);
+  int at[3];
+  at[d] = at_end(side) ? extent[d] - 1 : 0;
+  for (at[b] = low[1]; at[b] < high[1]; ++at[b])
+    for (at[a] = low[0]; at[a] < high[0]; ++at[a]) body(at[2], at[1], at[0]);
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow/loads.hpp"
+
+#include "src/aero/flow/sweep.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+/// Centre of a wall face [m].
+Eigen::Vector3d face_centre(const TileGeometry& g, Side side, int k, int j, int i) {
+  const int d = direction_of(side);
+  const auto [a, b] = along(side);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int n = 0; n < 4; ++n) {
+    int at[3] = {i, j, k};
+    at[d] += at_end(side) ? 1 : 0, at[a] += n % 2, at[b] += n / 2;
+    for (int c = 0; c < 3; ++c) sum[c] += g.node_data.data()[c * g.node_box.component + g.node_box.at(at[2], at[1], at[0])];
+  }
+  return sum / 4.0;
+}
+
+/// Calls body(boundary, k, j, i, outward face, pressure, friction force) for the wall faces of a tile.
+template <class Body>
+void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& viscous, Body&& body) {
+  for (const FlowBoundary& boundary : tile.boundaries) {
+    if (boundary.condition != Condition::slip && boundary.condition != Condition::no_slip) continue;
+    const Side side = boundary.where.side;
+    for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
+      const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
+      Eigen::Vector3d friction = Eigen::Vector3d::Zero();
+      if (viscous.active && boundary.condition == Condition::no_slip) {
+        const gas::Conserved<double> flux = wall_friction(tile, state, viscous, side, k, j, i);
+        friction = {flux.mx, flux.my, flux.mz};
+      }
+      body(boundary, k, j, i, f, wall_pressure(tile, state, side, k, j, i), friction);
+    });
+  }
+}
+
+}  // namespace
+
+PatchLoads patch_loads(std::span<const double> sums, int patch) {
+  PatchLoads loads;
+  const double* at = sums.data() + std::size_t(patch) * load_components;
+  for (std::size_t c = 0; c < 3; ++c) loads.pressure_force[c] = at[c], loads.viscous_force[c] = at[3 + c], loads.moment[c] = at[6 + c];
+  return loads;
+}
+
+void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting&,
+               std::span<double> partial) {
+  for_walls(tile, state, viscous,
+            [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p, const Eigen::Vector3d& friction) {
+              if (!boundary.loads) return;
+              // What flows out of the gas through the wall is what the wall receives.
+              const Eigen::Vector3d push = p * f.area * Eigen::Vector3d(f.nx, f.ny, f.nz);
+              const Eigen::Vector3d moment = face_centre(*tile.geometry, boundary.where.side, k, j, i).cross(push + friction);
+              double* at = partial.data() + std::size_t(boundary.where.patch) * load_components;
+              for (int c = 0; c < 3; ++c) at[c] += push[c], at[3 + c] += friction[c], at[6 + c] += moment[c];
+            });
+}
+
+void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting& setting,
+                 std::vector<WallPoint>& points) {
+  for_walls(tile, state, viscous,
+            [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p, const Eigen::Vector3d& friction) {
+              const Eigen::Vector3d x = face_centre(*tile.geometry, boundary.where.side, k, j, i);
+              WallPoint point{.patch = boundary.where.patch, .place = {x[0], x[1], x[2]}, .pressure = p, .area = f.area};
+              for (int c = 0; c < 3; ++c) point.traction[std::size_t(c)] = friction[c] / f.area;
+              const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
+              const double rho = gas::density(setting.gas, q), mu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, q));
+              const double distance = tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)];
+              if (viscous.active) point.y_plus = std::sqrt(rho * friction.norm() / f.area) * distance / mu;
+              points.push_back(point);
+            });
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,37 @@
+// Forces and moments of the flow on its walls, patch by patch, and what is seen on a wall: pressure, friction, first cell's y+.
+// Called by flow_solver.cpp (partials of a tile, summed in the order of tiles) and by output; tested in tests/src/aero/flow.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "src/aero/flow/boundary.hpp"
+#include "src/aero/flow/sweep_viscous.hpp"
+
+namespace spindrift::aero {
+
+/// On a patch, earth axes; moments about the origin; pressure above the reference.
+struct PatchLoads {
+  std::array<double, 3> pressure_force{}, viscous_force{}, moment{};
+};
+inline constexpr int load_components = 9;
+PatchLoads patch_loads(std::span<const double> sums, int patch);
+
+/// Adds the loads on a tile's walls to partial[patch][component].
+void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting& boundary,
+               std::span<double> partial);
+
+/// A wall face.
+struct WallPoint {
+  int patch = 0;
+  std::array<double, 3> place{};  ///< [m] centre of the face
+  std::array<double, 3> traction{};  ///< viscous, of the flow on the wall [Pa]
+  double pressure = 0.0;          ///< above the reference [Pa]
+  double area = 0.0, y_plus = 0.0;
+};
+void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting& boundary,
+                 std::vector<WallPoint>& points);
+
+}  // namespace spindrift::aero

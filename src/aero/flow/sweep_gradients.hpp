@@ -1,0 +1,17 @@
+// Gradients in the cells of a tile by Green-Gauss over its faces, the value on a face being the mean of both sides: of velocity,
+// temperature and what the turbulence model carries. Ghost gradients beyond boundaries are those of the cell inside.
+// Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/sweep_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "src/aero/flow/flow_tile.hpp"
+
+namespace spindrift::aero {
+
+/// Of u, v, w, T and the turbulence unknowns: component 3 n + direction.
+constexpr int gradient_components(int turbulence) { return 3 * (4 + turbulence); }
+
+void sweep_gradients(FlowTile& tile, const double* state);
+void fill_boundary_gradients(FlowTile& tile);
+
+}  // namespace spindrift::aero

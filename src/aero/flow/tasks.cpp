@@ -1,0 +1,241 @@
+// The graph of one march of the air, top to bottom as the algorithm (docs/theory/air.md):
+//   until converged: ghosts, gradients, residual, judgement, matrix; Krylov iterations; update.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow/tasks.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow/sweep_gradients.hpp"
+
+namespace spindrift::aero {
+
+using namespace runtime;
+
+/// Names of what the tasks share, and the pieces of the graph.
+class StepGraph {
+ public:
+  StepGraph(FlowSolver& solver, Graph& graph) : s_(solver), g_(graph), owned_(solver.tiles_.size()) {
+    for (auto* data : {&state_, &state_ghosts_, &gradients_, &gradient_ghosts_, &residual_, &matrix_, &norms_, &vectors_, &direction_,
+                       &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &trial_residual_, &dots_, &fraction_, &past_})
+      *data = graph.data(owned_);
+    sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(), krylov_ = graph.datum(),
+    total_fraction_ = graph.datum();
+  }
+
+  void record() {
+    if (s_.setting_.time_order > 0) begin_time_step();
+    begin();
+    g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(s_.march_.options().max_steps) + 2}, [&] {
+      residual_of_state();
+      judge();
+      each("aero/matrix", [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(state_ghosts_[n]), writes(matrix_[n])}; },
+           [this](std::size_t n) { s_.build_matrix(s_.tiles_[n]); });
+      g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = 1}, [&] { krylov_iteration(); });
+      update();
+      g_.until("aero/converged", {reads(decision_)}, [this] {
+        const Verdict v = s_.march_.verdict();
+        return v == Verdict::converged || v == Verdict::failed;
+      });
+    });
+  }
+
+ private:
+  int columns() const { return int(s_.tiles_.empty() ? s_.combination_.size() : s_.tiles_[0].vectors.size()) - 1; }
+  std::string of(const char* path, std::size_t n) const { return std::string(path) + "/" + std::to_string(s_.tiles_[n].index); }
+  template <class UsesOf, class Work>
+  void each(const char* path, UsesOf&& uses, Work work) {
+    for (std::size_t n = 0; n < owned_; ++n) g_.task(of(path, n), uses(n), [work, n] { work(n); });
+  }
+
+  /// The past moves back by one step; ordered before all that reads the state.
+  void begin_time_step() {
+    each("aero/past", [&](std::size_t n) { return Uses{reads(state_[n]), updates(past_[n])}; },
+         [this](std::size_t n) { s_.begin_time_step(s_.tiles_[n]); });
+  }
+  void begin() {
+    Uses uses{updates(decision_)};
+    uses.push_back(reads(past_));
+    g_.task("aero/begin", uses, [this] {
+      s_.march_.begin_step();
+      s_.solving_ = true;
+      if (s_.setting_.time_order > 0) {
+        const bool second = s_.setting_.time_order > 1 && s_.time_steps_ > 0;
+        s_.weights_ = second ? bdf2(s_.setting_.dt / s_.dt_before_) : bdf1;
+        s_.implicit_.physical_rate = s_.weights_.now / s_.setting_.dt;
+        s_.dt_before_ = s_.setting_.dt;
+        ++s_.time_steps_;
+      }
+    });
+  }
+
+  void residual_of_state() {
+    ghosts_of("aero/ghosts", state_, state_ghosts_, false, 1);
+    each("aero/gradients", [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(state_ghosts_[n]), writes(gradients_[n])}; },
+         [this](std::size_t n) {
+           if (s_.setting_.viscous) sweep_gradients(s_.tiles_[n], s_.tiles_[n].state.data());
+         });
+    gradient_ghosts("aero/gradient_ghosts", [this] { return s_.setting_.viscous; }, 2);
+    each("aero/residual",
+         [&](std::size_t n) {
+           return Uses{reads(state_[n]),     reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(past_[n]), reads(decision_),
+                       writes(residual_[n]), writes(norms_[n])};
+         },
+         [this](std::size_t n) {
+           FlowTile& tile = s_.tiles_[n];
+           s_.evaluate(tile, tile.state.data(), tile.residual.data());
+           const std::size_t loads = s_.loads_.size();
+           s_.measure(tile, std::span(s_.norm_partials_).subspan(n * 4, 4), std::span(s_.load_partials_).subspan(n * loads, loads));
+         });
+  }
+  void judge() {
+    g_.reduce("aero/norms", {reads(norms_), writes(sums_)},
+              {.parts = s_.parts_, .partials = s_.norm_partials_, .result = s_.norm_sums_});
+    const Datum loads = g_.datum();
+    g_.reduce("aero/loads", {reads(norms_), writes(loads)},
+              {.parts = s_.parts_, .partials = s_.load_partials_, .result = s_.loads_});
+    g_.task("aero/judge", {reads(sums_), reads(loads), updates(decision_)}, [this] { s_.judge(); });
+  }
+
+  void krylov_iteration() {
+    // v_j, and the direction z = M^-1 v_j.
+    for (std::size_t n = 0; n < owned_; ++n)
+      g_.task(of("aero/krylov/direction", n),
+              {reads(decision_), reads(krylov_), reads(residual_[n]), reads(matrix_[n]), updates(vectors_[n]), writes(direction_[n]), writes(size_[n])},
+              [this, n](const Context& c) { s_.size_partials_[n] = s_.make_direction(s_.tiles_[n], int(c.iteration)); });
+    g_.reduce("aero/krylov/size", {reads(size_), writes(total_size_)},
+              {Reduction::Operation::max, s_.parts_, s_.size_partials_, {&s_.direction_size_, 1}});
+    // w = A z: by the stored blocks, or by the residual of a state a little further along z.
+    const HaloField<float> direction{"aero/krylov/direction_ghosts",
+                                     [this](int t) { return tile_of(t).direction_view(); },
+                                     [this](const Tile& t) { return cell_layout(t, gradient_ghosts_count, planar()); },
+                                     state_quantities(),
+                                     1,
+                                     &direction_,
+                                     &direction_ghosts_,
+                                     3};
+    record_halo<float>(g_, s_.grid_, s_.local_, direction, s_.float_buffers_, [this] { return s_.solving_ && !s_.matrix_free_; },
+                       [](int) {}, {reads(decision_)});
+    each("aero/krylov/perturb",
+         [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(total_size_), reads(direction_[n]), writes(trial_[n])}; },
+         [this](std::size_t n) {
+           if (perturbs()) s_.perturb(s_.tiles_[n]);
+         });
+    ghosts_of("aero/krylov/trial_ghosts", trial_, trial_ghosts_, true, 4);
+    each("aero/krylov/gradients",
+         [&](std::size_t n) { return Uses{reads(decision_), reads(trial_[n]), reads(trial_ghosts_[n]), writes(gradients_[n])}; },
+         [this](std::size_t n) {
+           if (perturbs() && s_.setting_.viscous) sweep_gradients(s_.tiles_[n], s_.tiles_[n].trial.data());
+         });
+    gradient_ghosts("aero/krylov/gradient_ghosts", [this] { return perturbs() && s_.setting_.viscous; }, 5);
+    for (std::size_t n = 0; n < owned_; ++n)
+      g_.task(of("aero/krylov/product", n),
+              {reads(decision_), reads(direction_[n]), reads(direction_ghosts_[n]), reads(total_size_), reads(trial_[n]), reads(trial_ghosts_[n]),
+               reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(matrix_[n]), reads(past_[n]), reads(residual_[n]), updates(vectors_[n]), writes(dots_[n])},
+              [this, n](const Context& c) {
+                FlowTile& tile = s_.tiles_[n];
+                if (perturbs()) s_.evaluate(tile, tile.trial.data(), tile.trial_residual.data());
+                s_.product(tile, int(c.iteration), dots_of(n));
+              });
+    g_.reduce("aero/krylov/dots", {reads(dots_), writes(total_dots_)},
+              {.parts = s_.parts_, .partials = s_.dot_partials_, .result = s_.dots_});
+    g_.task("aero/krylov/append", {reads(total_dots_), reads(decision_), updates(krylov_)}, [this] {
+      if (s_.solving_) s_.gmres_.append(s_.dots_);
+    });
+    g_.until("aero/krylov/enough", {reads(krylov_), reads(decision_)}, [this] {
+      return !s_.solving_ || s_.gmres_.breakdown() ||
+             s_.gmres_.residual_norm() <= s_.march_.options().krylov_drop * std::sqrt(s_.norms_.mean + s_.norms_.model);
+    });
+  }
+
+  void update() {
+    each("aero/update",
+         [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), reads(matrix_[n]), reads(state_[n]), updates(vectors_[n]), writes(fraction_[n])}; },
+         [this](std::size_t n) { s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]); });
+    g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
+              {Reduction::Operation::min, s_.parts_, s_.fraction_partials_, {&s_.fraction_, 1}});
+    g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
+      if (s_.solving_) s_.march_.updated(s_.fraction_, s_.gmres_.columns(), 0.0);
+    });
+    each("aero/apply",
+         [&](std::size_t n) { return Uses{reads(decision_), reads(total_fraction_), reads(vectors_[n]), updates(state_[n]), updates(trial_[n])}; },
+         [this](std::size_t n) { s_.apply_update(s_.tiles_[n]); });
+  }
+
+  // ---- ghosts
+
+  void ghosts_of(const char* label, const std::vector<Datum>& inside, const std::vector<Datum>& ghosts, bool trial, int tag) {
+    const HaloField<double> field{label,
+                                  [this, trial](int t) { return trial ? tile_of(t).trial_view() : tile_of(t).state_view(); },
+                                  [this](const Tile& t) { return cell_layout(t, state_ghosts, planar()); },
+                                  state_quantities(),
+                                  state_ghosts,
+                                  &inside,
+                                  &ghosts,
+                                  tag};
+    record_halo<double>(g_, s_.grid_, s_.local_, field, s_.double_buffers_, [this, trial] { return !trial || perturbs(); },
+                        [this, trial](int n) {
+                          FlowTile& tile = s_.tiles_[std::size_t(n)];
+                          fill_boundaries(tile, trial ? tile.trial.data() : tile.state.data(), s_.boundary_);
+                        },
+                        {reads(decision_)});
+  }
+  void gradient_ghosts(const char* label, std::function<bool()> active, int tag) {
+    std::vector<Quantity> quantities{Quantity::tensor, Quantity::vector};
+    for (int t = 0; t < turbulence(); ++t) quantities.push_back(Quantity::vector);
+    const HaloField<double> field{label,
+                                  [this](int t) { return tile_of(t).gradient_view(); },
+                                  [this](const Tile& t) { return cell_layout(t, gradient_ghosts_count, planar()); },
+                                  quantities,
+                                  1,
+                                  &gradients_,
+                                  &gradient_ghosts_,
+                                  tag};
+    record_halo<double>(g_, s_.grid_, s_.local_, field, s_.double_buffers_, active,
+                        [this](int n) { fill_boundary_gradients(s_.tiles_[std::size_t(n)]); }, {reads(decision_)});
+  }
+  std::vector<Quantity> state_quantities() const {
+    std::vector<Quantity> q{Quantity::scalar, Quantity::vector, Quantity::scalar};
+    for (int t = 0; t < turbulence(); ++t) q.push_back(Quantity::scalar);
+    return q;
+  }
+  static constexpr int gradient_ghosts_count = aero::gradient_ghosts;
+
+  FlowTile& tile_of(int tile) { return s_.tiles_[std::size_t(s_.local_[std::size_t(tile)])]; }
+  bool planar() const { return s_.grid_.tiling().planar; }
+  int turbulence() const { return s_.tiles_.empty() ? 0 : s_.tiles_[0].turbulence; }
+  bool perturbs() const { return s_.solving_ && s_.matrix_free_; }
+  std::span<double> dots_of(std::size_t n) {
+    const std::size_t width = s_.dots_.size();
+    return std::span(s_.dot_partials_).subspan(n * width, width);
+  }
+
+  FlowSolver& s_;
+  Graph& g_;
+  std::size_t owned_;
+  std::vector<Datum> state_, state_ghosts_, gradients_, gradient_ghosts_, residual_, matrix_, norms_, vectors_, direction_, direction_ghosts_,
+      size_, trial_, trial_ghosts_, trial_residual_, dots_, fraction_, past_;
+  Datum sums_, decision_, total_size_, total_dots_, krylov_, total_fraction_;
+};
+
+void FlowSolver::record(Graph& graph) {
+  // The pieces of the graph live on in its tasks.
+  auto pieces = std::make_shared<StepGraph>(*this, graph);
+  pieces->record();
+  pieces_.push_back(std::move(pieces));
+}
+
+void FlowSolver::record_geometry(Graph& graph) {
+  const std::vector<Datum> nodes = graph.data(tiles_.size()), centres = graph.data(tiles_.size()), volumes = graph.data(tiles_.size());
+  const auto view = [this](int t) -> TileGeometry& { return grid_[t]; };
+  const auto layout = [this](const Tile& t) { return cell_layout(t, gradient_ghosts, grid_.tiling().planar); };
+  for (std::size_t n = 0; n < tiles_.size(); ++n) graph.task("aero/geometry/" + std::to_string(tiles_[n].index), {writes(nodes[n])}, [] {});
+  const HaloField<double> centre{"aero/centres", [view](int t) { return view(t).centre(); }, layout, {Quantity::point}, 1, &nodes, &centres, 6};
+  const HaloField<double> volume{"aero/volumes", [view](int t) { return view(t).volume(); }, layout, {Quantity::scalar}, 1, &nodes, &volumes, 7};
+  const auto always = [] { return true; };
+  record_halo<double>(graph, grid_, local_, centre, double_buffers_, always, [](int) {}, {});
+  record_halo<double>(graph, grid_, local_, volume, double_buffers_, always, [](int) {}, {});
+}
+
+}  // namespace spindrift::aero

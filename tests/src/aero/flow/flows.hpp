@@ -1,0 +1,64 @@
+// Flows that tests share: air at sea level in a box, solved on any number of threads, ranks and schedules.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/executor/executor.hpp"
+#include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/grid/generators/box.hpp"
+
+namespace spindrift::aero::testing {
+
+/// Air at 101325 Pa and 288.15 K flowing at a Mach number along a direction.
+inline FlowSetting air(double mach, Eigen::Vector3d direction = Eigen::Vector3d::UnitX()) {
+  FlowSetting s;
+  s.gas.pressure_reference = 101325.0;
+  s.gas.temperature_reference = 288.15;
+  s.speed = mach * std::sqrt(s.gas.gamma * s.gas.gas_constant * s.gas.temperature_reference);
+  const Eigen::Vector3d u = s.speed * direction.normalized();
+  s.stream = {0.0, u[0], u[1], u[2], 0.0};
+  return s;
+}
+
+/// A grid with its solver on one rank, or a part of it on several.
+struct Case {
+  MultiBlockGrid grid;
+  std::unique_ptr<GridStore> store;
+  std::unique_ptr<FlowSolver> solver;
+  std::unique_ptr<runtime::Executor> executor;
+
+  Case(MultiBlockGrid from, const FlowSetting& setting, const std::vector<std::pair<std::string, PatchCondition>>& conditions,
+       const TilingOptions& tiling = {}, int ranks = 1, int rank = 0)
+      : grid(std::move(from)) {
+    std::vector<std::string> walls;
+    for (const auto& [name, c] : conditions)
+      if (c.condition == Condition::no_slip || c.condition == Condition::slip) walls.push_back(name);
+    Tiling tiles = make_tiling(grid, walls, tiling);
+    std::vector<PatchCondition> by_patch(tiles.patches.size());
+    for (const auto& [name, c] : conditions)
+      if (const int p = tiles.patch(name); p >= 0) by_patch[std::size_t(p)] = c;
+    std::vector<int> rank_of_tile(std::size_t(tiles.size()));
+    for (std::size_t t = 0; t < rank_of_tile.size(); ++t) rank_of_tile[t] = int(t) * ranks / int(rank_of_tile.size());
+    store = std::make_unique<GridStore>(std::move(tiles), std::move(rank_of_tile), rank);
+    store->build_all(grid);
+    solver = std::make_unique<FlowSolver>(*store, setting, by_patch);
+    solver->start_uniform();
+  }
+  /// Records the march; `comm` has as many ranks as the case.
+  void prepare(MPI_Comm comm = MPI_COMM_SELF, runtime::ExecutorOptions options = {.threads = 1}) {
+    if (int size; MPI_Comm_size(comm, &size), size > 1) {
+      runtime::Graph geometry(comm);
+      solver->record_geometry(geometry);
+      runtime::Executor(std::move(geometry), {.threads = 1}).run();
+    }
+    runtime::Graph graph(comm);
+    solver->record(graph);
+    executor = std::make_unique<runtime::Executor>(std::move(graph), options);
+  }
+  void run(std::uint32_t n = 1) { executor->run(n); }
+};
+
+}  // namespace spindrift::aero::testing
