@@ -8,10 +8,16 @@ namespace spindrift::aero {
 
 void March::begin_step() {
   steps_ = rejections_ = in_a_row_ = 0;
+  last_step_ = o_.max_steps;
   first_ = before_ = 0.0;
   matrix_free_ = retry_ = false;
   fraction_ = 1.0;
   loads_.clear();
+}
+
+void March::resume(int more_steps) {
+  last_step_ = steps_ + more_steps;
+  verdict_ = Verdict::go_on;
 }
 
 Verdict March::judge(const Norms& n, double load) {
@@ -62,7 +68,7 @@ Verdict March::judge(const Norms& n, double load) {
       if (*high - *low <= o_.load_change * std::max(std::abs(*low), std::abs(*high))) return done("the loads have settled");
     }
   }
-  if (steps_ > o_.max_steps) return done("the number of pseudo-steps is spent");
+  if (steps_ > last_step_) return done("the number of pseudo-steps is spent");
   return verdict_ = Verdict::go_on;
 }
 

@@ -43,6 +43,9 @@ class March {
 
   /// A new physical step: the CFL number stays.
   void begin_step();
+  /// A steady march goes on where it was, for at most so many more steps.
+  void resume(int more_steps);
+  void set_drop(double drop) { o_.drop = drop; }
   /// After each residual.
   Verdict judge(const Norms& norms, double load);
   /// After each update: the fraction of it that was applied, and the Krylov iterations it took.
@@ -65,7 +68,7 @@ class March {
  private:
   MarchOptions o_;
   double cfl_, density_ = 0.0, first_ = 0.0, before_ = 0.0, least_ = 0.0, fraction_ = 1.0;
-  int steps_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
+  int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
   long krylov_total_ = 0;
   bool matrix_free_ = false, retry_ = false;
   Verdict verdict_ = Verdict::go_on;

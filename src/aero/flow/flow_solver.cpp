@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "src/aero/flow/krylov_vectors.hpp"
@@ -42,7 +41,8 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   convective_.gas = viscous_.gas = boundary_.gas = implicit_.gas = setting.gas;
   const double rho = gas::density(setting.gas, setting.stream);
   if (setting.smooth > 0.0) convective_.smooth = gas::smoothness(setting.gas, rho, setting.speed, 0.0, setting.smooth);
-  convective_sweep_ = convective_sweep(setting.flux, setting.limiter);
+  convective_.reconstruct = reconstruction(setting.limiter);
+  convective_.flux = row_flux(setting.flux);
   viscous_.active = setting.viscous;
   viscous_.thin_layer = setting.thin_layer;
   boundary_.stream = setting.stream;
@@ -53,6 +53,16 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   implicit_.low_mach = setting.flux == "roe_low_mach";
   implicit_.preconditioned = setting.preconditioned;
   implicit_.floor_speed = setting.speed;
+  model_ = &model_sweeps(setting.turbulence);
+  if (model_->equations > 0) {
+    const double nu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, setting.stream)) / rho;
+    boundary_.carried = model_->far_field(nu, setting.speed, gas::sound_speed(setting.gas, setting.stream));
+    boundary_.wall_carried = model_->wall;
+    // SA: nu tilde of a boundary layer. SST: k, and the omega that goes with both.
+    const double eddy = 100.0 * nu, k = 1e-2 * setting.speed * setting.speed;
+    implicit_.scales.model_unknown = model_->equations == 1 ? std::array{eddy, 1.0} : std::array{k, k / eddy};
+    for (std::size_t t = 0; t < 2; ++t) implicit_.scales.model_residual[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
+  }
 
   const int columns = std::min(setting.march.krylov_steps, linear::max_krylov);
   local_.assign(std::size_t(tiling.size()), -1);
@@ -66,6 +76,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     t.geometry = &grid[index];
     t.index = index;
     t.directions = tiling.planar ? 2 : 3;
+    t.turbulence = model_->equations;
     t.cells = cell_layout(from, state_ghosts, tiling.planar);
     t.gradient_box = cell_layout(from, gradient_ghosts, tiling.planar);
     t.inner = BoxLayout(from.ni, from.nj, from.nk);
@@ -84,6 +95,8 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     if (setting.time_order > 0) t.before = AlignedArray<double>(t.inner.size(unknowns));
     if (setting.time_order > 1) t.before_that = AlignedArray<double>(t.inner.size(unknowns));
     t.mean_matrix = AlignedArray<float>(linear::StencilMatrix<5>::size(t.box, t.directions));
+    if (t.turbulence == 1) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<1>::size(t.box, t.directions));
+    if (t.turbulence == 2) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<2>::size(t.box, t.directions));
     t.direction = AlignedArray<float>(t.gradient_box.size(unknowns));
     for (int n = 0; n <= columns; ++n) t.vectors.emplace_back(padded(t.vector_size()));
     set_open_faces(t);
@@ -143,11 +156,19 @@ void FlowSolver::begin_time_step(FlowTile& tile) {
   });
 }
 
+/// Gradients, and what the turbulence model makes of them.
+void FlowSolver::slopes(FlowTile& tile, const double* state) {
+  if (!setting_.viscous) return;
+  sweep_gradients(tile, state);
+  if (tile.turbulence > 0) model_->closures(tile, state, viscous_);
+}
+
 /// Residual of a state whose ghosts and gradients are there: fluxes, sources, the physical time derivative.
 void FlowSolver::evaluate(FlowTile& tile, double* state, double* residual) {
-  convective_sweep_(tile, state, residual, convective_);
+  sweep_convective(tile, state, residual, convective_);
   add_wall_pressure(tile, state, residual);
   if (setting_.viscous) sweep_viscous(tile, state, residual, viscous_);
+  if (tile.turbulence > 0) model_->residual(tile, state, residual, viscous_);
   if (setting_.time_order == 0) return;
   const TileGeometry& g = *tile.geometry;
   const double now = weights_.now / setting_.dt, old = weights_.old / setting_.dt, older = weights_.older / setting_.dt;
@@ -225,8 +246,15 @@ void FlowSolver::judge() {
 void FlowSolver::build_matrix(FlowTile& tile) {
   if (!solving_) return;
   sweep_rates(tile, tile.state.data(), implicit_);
-  sweep_jacobian(tile, tile.state.data(), nullptr, march_.cfl(), implicit_);
-  if (const std::ptrdiff_t cell = linear::factor(tile.mean()); cell >= 0)
+  const double* eddy =
+      tile.turbulence > 0 ? tile.gradients.data() + eddy_component(tile.turbulence) * tile.gradient_box.component : nullptr;
+  sweep_jacobian(tile, tile.state.data(), eddy, march_.cfl(), implicit_);
+  std::ptrdiff_t cell = linear::factor(tile.mean());
+  if (tile.turbulence > 0) {
+    model_->matrix(tile, tile.state.data(), march_.cfl(), implicit_);
+    if (cell < 0) cell = model_->factor(tile);
+  }
+  if (cell >= 0)
     throw std::runtime_error("singular pivot in tile " + std::to_string(tile.index) + ", cell " + std::to_string(cell));
 }
 
@@ -246,7 +274,11 @@ void FlowSolver::first_vector(FlowTile& tile) {
   });
 }
 
-void FlowSolver::precondition(FlowTile& tile, const float* v, float* z) { linear::solve(tile.mean(), v, z); }
+void FlowSolver::precondition(FlowTile& tile, const float* v, float* z) {
+  linear::solve(tile.mean(), v, z);
+  const std::ptrdiff_t model = tile.box.count() * mean_unknowns;
+  if (tile.turbulence > 0) model_->solve(tile, v + model, z + model);
+}
 
 /// v_j from the last product, and the direction M^-1 v_j; returns its largest component in the units of the unknowns.
 double FlowSolver::make_direction(FlowTile& tile, int j) {
@@ -268,7 +300,11 @@ double FlowSolver::make_direction(FlowTile& tile, int j) {
         to[c * tile.gradient_box.component] = value;
         largest = std::max(largest, std::abs(value));
       }
-      for (int t = 0; t < tile.turbulence; ++t) to[(mean_unknowns + t) * tile.gradient_box.component] = *m++;
+      for (int t = 0; t < tile.turbulence; ++t) {
+        const float value = *m++;
+        to[(mean_unknowns + t) * tile.gradient_box.component] = value;
+        largest = std::max(largest, std::abs(value));
+      }
     }
   });
   return double(largest);
@@ -300,6 +336,8 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
   if (!matrix_free_) {
     const BoxLayout& box = tile.gradient_box;
     linear::multiply(tile.mean(), tile.direction.data(), {box.origin, box.row, box.plane, box.component}, w);
+    if (tile.turbulence > 0)
+      model_->multiply(tile, tile.direction.data() + mean_unknowns * box.component, w + tile.box.count() * mean_unknowns);
   } else {
     const double inverse = std::max(direction_size_, 1e-30) / difference_size;
     float *to = w, *model = w + tile.box.count() * mean_unknowns;
@@ -315,6 +353,20 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
       }
     });
     add_pseudo_time(tile, tile.state.data(), march_.cfl(), implicit_, tile.direction.data(), w);
+    if (tile.turbulence > 0) {
+      model = w + tile.box.count() * mean_unknowns;
+      for_rows(tile.box, [&](int k, int row) {
+        for (int i = 0; i < tile.box.ni; ++i) {
+          const auto q = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, row, i), std::size_t(tile.cells.component));
+          const double time = gas::density(setting_.gas, q) * tile.rate.data()[tile.inner.at(k, row, i)] / march_.cfl();
+          for (int t = 0; t < tile.turbulence; ++t) {
+            const double unit = implicit_.scales.model_unknown[std::size_t(t)] / implicit_.scales.model_residual[std::size_t(t)];
+            const float z = tile.direction.data()[(mean_unknowns + t) * tile.gradient_box.component + tile.gradient_box.at(k, row, i)];
+            *model++ += float(time * unit * double(z));
+          }
+        }
+      });
+    }
   }
   std::fill(dots.begin(), dots.end(), 0.0);
   dot_products(w, std::span(tile.vectors).first(std::size_t(j) + 1), padded(tile.vector_size()), dots.first(std::size_t(j) + 2));
@@ -326,10 +378,7 @@ double FlowSolver::find_update(FlowTile& tile) {
   const std::size_t columns = std::size_t(gmres_.columns()), size = padded(tile.vector_size());
   gmres_.solve(combination_);
   float* x = tile.vectors.back().data();
-  if (columns == tile.vectors.size() - 1) {
-    // All vectors are in use but the last, which no combination needs.
-  }
-  std::fill_n(x, size, 0.0f);
+  std::fill_n(x, size, 0.0f);  // the last vector is in no combination
   for (std::size_t n = 0; n < columns; ++n) add_scaled(x, combination_[n], tile.vectors[n].data(), size);
   precondition(tile, x, x);
   constexpr double most = 0.2;  // of the absolute value, in one pseudo-step
@@ -368,6 +417,16 @@ void FlowSolver::apply_update(FlowTile& tile) {
       double* at = tile.state.data() + tile.cells.at(k, j, i);
       for (int c = 0; c < mean_unknowns; ++c) at[c * tile.cells.component] += fraction_ * s.unknown[std::size_t(c)] * double(*d++);
     }
+  });
+  if (tile.turbulence == 0) return;
+  // An update that would take more than nine tenths of a quantity that must stay above its bound is shortened in that cell.
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; ++i)
+      for (int t = 0; t < tile.turbulence; ++t) {
+        double& q = tile.state.data()[tile.cells.at(k, j, i) + (mean_unknowns + t) * tile.cells.component];
+        const double change = fraction_ * s.model_unknown[std::size_t(t)] * double(*d++), low = model_->lowest[std::size_t(t)];
+        q += std::max(change, -0.9 * (q - low));
+      }
   });
 }
 

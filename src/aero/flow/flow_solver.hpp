@@ -20,6 +20,7 @@
 #include "src/aero/flow/loads.hpp"
 #include "src/aero/flow/sweep_convective.hpp"
 #include "src/aero/flow/sweep_jacobian.hpp"
+#include "src/aero/flow/sweep_model.hpp"
 #include "src/aero/flow/sweep_viscous.hpp"
 #include "src/aero/grid/store.hpp"
 
@@ -42,8 +43,6 @@ struct FlowSetting {
   bool viscous = false, thin_layer = false;
   double smooth = 0.0;             ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
   bool preconditioned = true;
-  double eddy_ratio = 3.0;         ///< SA: nu tilde over nu in the stream
-  double turbulence_intensity = 0.001;  ///< SST, and its eddy ratio 0.01
   Krylov krylov = Krylov::gmres;
   MarchOptions march;
   int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
@@ -126,6 +125,7 @@ class FlowSolver {
 
   // Work of single tasks.
   void begin_time_step(FlowTile& tile);
+  void slopes(FlowTile& tile, const double* state);
   void evaluate(FlowTile& tile, double* state, double* residual);
   void measure(FlowTile& tile, std::span<double> partial, std::span<double> loads);
   void judge();
@@ -144,8 +144,8 @@ class FlowSolver {
   std::vector<FlowTile> tiles_;  ///< owned, in the order of the tiling
   std::vector<int> local_;       ///< by tile of the tiling: index in tiles_, -1 elsewhere
   ConvectiveSetting convective_;
-  ConvectiveSweep convective_sweep_ = nullptr;
   ViscousSetting viscous_;
+  const ModelSweeps* model_ = nullptr;
   BoundarySetting boundary_;
   ImplicitSetting implicit_;
 

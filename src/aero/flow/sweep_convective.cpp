@@ -3,12 +3,62 @@
 
 namespace spindrift::aero {
 
-ConvectiveSweep convective_sweep(std::string_view flux, std::string_view limiter) {
-  if (flux == "osher") return convective_osher(limiter);
-  if (flux == "osher_reversed") return convective_osher_reversed(limiter);
-  if (flux == "roe") return convective_roe(limiter);
-  if (flux == "rusanov") return convective_rusanov(limiter);
-  return convective_roe_low_mach(limiter);
+namespace {
+
+/// Fluxes of all unknowns through `count` faces from (k, j, i) on, into out[c stride + n].
+void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, const ConvectiveSetting& s, double* out,
+            std::ptrdiff_t stride) {
+  FacePiece states;
+  s.reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component, tile.turbulence, count, states);
+  s.flux(s.gas, *tile.geometry, d, k, j, i, count, states, out, stride);
+  for (int t = mean_unknowns; t < mean_unknowns + tile.turbulence; ++t)
+    for (int n = 0; n < count; n += row_lanes) {
+      const Row mass = Row::load(out + n), zero(0.0);
+      (max(mass, zero) * Row::load(states.left[t] + n) + min(mass, zero) * Row::load(states.right[t] + n)).store(out + t * stride + n);
+    }
+}
+
+}  // namespace
+
+void sweep_convective(FlowTile& tile, const double* state, double* residual, const ConvectiveSetting& s) {
+  const linear::CellBox& box = tile.box;
+  const BoxLayout& inner = tile.inner;
+  const int unknowns = tile.unknowns();
+  constexpr std::ptrdiff_t stride = longest_row + 2 * row_lanes;
+  alignas(64) double row[mean_unknowns + 2][stride];
+  for_rows(box, [&](int k, int j) {  // faces across i: the flux of a row, then its differences
+    for (int i = 0; i <= box.ni; i += piece) fluxes(tile, state, 0, k, j, i, std::min(piece, box.ni + 1 - i), s, row[0] + i, stride);
+    const std::ptrdiff_t place = k * open_row(box, 0) + j;
+    for (const int end : {0, 1})
+      if (const auto& open = tile.open[std::size_t(end)]; open.size() > 0)
+        for (int c = 0; c < unknowns; ++c) row[c][end * box.ni] *= open.data()[place];
+    double* out = residual + inner.at(k, j, 0);
+    for (int c = 0; c < unknowns; ++c)
+      for (int i = 0; i < box.ni; i += row_lanes)
+        (Row::load(row[c] + i + 1) - Row::load(row[c] + i)).store(out + c * inner.component + i);
+  });
+  alignas(64) double flux[mean_unknowns + 2][piece];
+  for (int d = 1; d < tile.directions; ++d) {
+    const int last = d == 1 ? box.nj : box.nk, others = d == 1 ? box.nk : box.nj;
+    for (int m = 0; m < others; ++m)
+      for (int n = 0; n <= last; ++n) {
+        const int k = d == 1 ? m : n, j = d == 1 ? n : m;
+        const auto& open = tile.open[std::size_t(2 * d + (n == last ? 1 : 0))];
+        const bool masked = (n == 0 || n == last) && open.size() > 0;
+        for (int first = 0; first < box.ni; first += piece) {
+          const int count = std::min(piece, box.ni - first);
+          fluxes(tile, state, d, k, j, first, count, s, flux[0], piece);
+          double* out = residual + inner.at(k, j, first);
+          for (int c = 0; c < unknowns; ++c, out += inner.component)
+            for (int i = 0; i < count; i += row_lanes) {
+              Row f = Row::load(flux[c] + i);
+              if (masked) f *= Row::load(open.data() + m * open_row(box, d) + first + i);
+              if (n < last) (Row::load(out + i) - f).store(out + i);
+              if (n > 0) (Row::load(out + i - inner.stride(d)) + f).store(out + i - inner.stride(d));
+            }
+        }
+      }
+  }
 }
 
 }  // namespace spindrift::aero

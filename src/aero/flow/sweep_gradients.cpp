@@ -46,6 +46,11 @@ void fill_boundary_gradients(FlowTile& tile) {
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       double* at = tile.gradients.data() + tile.gradient_box.at(k, j, i);
       for (int c = 0; c < components; ++c) at[out + c * tile.gradient_box.component] = at[c * tile.gradient_box.component];
+      if (tile.turbulence > 0 && boundary.condition == Condition::no_slip)  // on the wall, between both, there is no eddy viscosity
+        for (int c = 0; c < 2; ++c) {
+          const std::ptrdiff_t place = (3 * (4 + tile.turbulence) + c) * tile.gradient_box.component;
+          at[out + place] = -at[place];
+        }
     });
   }
 }

@@ -8,8 +8,8 @@
 
 namespace spindrift::aero {
 
-/// Of u, v, w, T and the turbulence unknowns: component 3 n + direction.
-constexpr int gradient_components(int turbulence) { return 3 * (4 + turbulence); }
+/// Of u, v, w, T and the turbulence unknowns, component 3 n + direction; then the closures of the model (sweep_model.hpp).
+constexpr int gradient_components(int turbulence) { return 3 * (4 + turbulence) + (turbulence > 0 ? 2 + turbulence : 0); }
 
 void sweep_gradients(FlowTile& tile, const double* state);
 void fill_boundary_gradients(FlowTile& tile);

@@ -2,6 +2,7 @@
 #include "src/aero/flow/sweep_viscous.hpp"
 
 #include "src/aero/flow/sweep_gradients.hpp"
+#include "src/aero/flow/sweep_model.hpp"
 
 namespace spindrift::aero {
 
@@ -30,15 +31,22 @@ SPINDRIFT_INLINE gas::Conserved<Real> face_flux(const FlowTile& tile, const Pair
   const gas::Primitive<Real> l = gas::load_primitive<Real>(p.state - p.step, component), r = gas::load_primitive<Real>(p.state, component);
   const gas::Vector<Real> xl = load3<Real>(p.centres - p.centre_step, centre_component), xr = load3<Real>(p.centres, centre_component);
   gas::Vector<Real> d{xr.x - xl.x, xr.y - xl.y, xr.z - xl.z};
-  if constexpr (!std::is_arithmetic_v<Real>) d.x = select(d.x * f.nx + d.y * f.ny + d.z * f.nz == Real(0.0), Real(1.0), d.x);
+  if constexpr (!std::is_arithmetic_v<Real>) d.x = select(abs(d.x * f.nx + d.y * f.ny + d.z * f.nz) <= Real(0.0), Real(1.0), d.x);
   const gas::FaceLine<Real> line = gas::face_line(d, f);
   const gas::Primitive<Real> q = 0.5 * (l + r);
-  const gas::Transport<Real> t = gas::transport(s.gas, gas::viscosity(s.gas, gas::absolute_temperature(s.gas, q)), Real(0.0));
+  Real eddy(0.0), pressure(0.0);
+  if (tile.turbulence > 0) {
+    const double* closure = p.gradients + eddy_component(tile.turbulence) * gradient_component;
+    eddy = 0.5 * (gas::load_number<Real>(closure - p.gradient_step) + gas::load_number<Real>(closure));
+    closure += gradient_component;
+    pressure = 0.5 * (gas::load_number<Real>(closure - p.gradient_step) + gas::load_number<Real>(closure));
+  }
+  const gas::Transport<Real> t = gas::transport(s.gas, gas::viscosity(s.gas, gas::absolute_temperature(s.gas, q)), eddy);
   const gas::Gradients<Real> g =
       s.thin_layer ? gas::thin_layer_gradients(l, r, line)
                    : gas::face_gradients(load_gradients<Real>(p.gradients - p.gradient_step, gradient_component),
                                          load_gradients<Real>(p.gradients, gradient_component), l, r, line);
-  return gas::viscous_flux(t, g, q.u, q.v, q.w, f);
+  return gas::viscous_flux(t, g, q.u, q.v, q.w, f, pressure);
 }
 
 template <class Real>

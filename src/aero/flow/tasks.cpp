@@ -30,7 +30,8 @@ class StepGraph {
     g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(s_.march_.options().max_steps) + 2}, [&] {
       residual_of_state();
       judge();
-      each("aero/matrix", [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(state_ghosts_[n]), writes(matrix_[n])}; },
+      each("aero/matrix", [&](std::size_t n) { return Uses{reads(decision_),    reads(state_[n]),     reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]),
+                       writes(matrix_[n])}; },
            [this](std::size_t n) { s_.build_matrix(s_.tiles_[n]); });
       g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = 1}, [&] { krylov_iteration(); });
       update();
@@ -58,7 +59,10 @@ class StepGraph {
     Uses uses{updates(decision_)};
     uses.push_back(reads(past_));
     g_.task("aero/begin", uses, [this] {
-      s_.march_.begin_step();
+      if (s_.setting_.time_order > 0 || s_.march_.steps() == 0)
+        s_.march_.begin_step();
+      else
+        s_.march_.resume(s_.march_.options().max_steps);
       s_.solving_ = true;
       if (s_.setting_.time_order > 0) {
         const bool second = s_.setting_.time_order > 1 && s_.time_steps_ > 0;
@@ -73,9 +77,7 @@ class StepGraph {
   void residual_of_state() {
     ghosts_of("aero/ghosts", state_, state_ghosts_, false, 1);
     each("aero/gradients", [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(state_ghosts_[n]), writes(gradients_[n])}; },
-         [this](std::size_t n) {
-           if (s_.setting_.viscous) sweep_gradients(s_.tiles_[n], s_.tiles_[n].state.data());
-         });
+         [this](std::size_t n) { s_.slopes(s_.tiles_[n], s_.tiles_[n].state.data()); });
     gradient_ghosts("aero/gradient_ghosts", [this] { return s_.setting_.viscous; }, 2);
     each("aero/residual",
          [&](std::size_t n) {
@@ -126,7 +128,7 @@ class StepGraph {
     each("aero/krylov/gradients",
          [&](std::size_t n) { return Uses{reads(decision_), reads(trial_[n]), reads(trial_ghosts_[n]), writes(gradients_[n])}; },
          [this](std::size_t n) {
-           if (perturbs() && s_.setting_.viscous) sweep_gradients(s_.tiles_[n], s_.tiles_[n].trial.data());
+           if (perturbs()) s_.slopes(s_.tiles_[n], s_.tiles_[n].trial.data());
          });
     gradient_ghosts("aero/krylov/gradient_ghosts", [this] { return perturbs() && s_.setting_.viscous; }, 5);
     for (std::size_t n = 0; n < owned_; ++n)
@@ -184,6 +186,7 @@ class StepGraph {
   void gradient_ghosts(const char* label, std::function<bool()> active, int tag) {
     std::vector<Quantity> quantities{Quantity::tensor, Quantity::vector};
     for (int t = 0; t < turbulence(); ++t) quantities.push_back(Quantity::vector);
+    if (turbulence() > 0) quantities.insert(quantities.end(), std::size_t(2 + turbulence()), Quantity::scalar);
     const HaloField<double> field{label,
                                   [this](int t) { return tile_of(t).gradient_view(); },
                                   [this](const Tile& t) { return cell_layout(t, gradient_ghosts_count, planar()); },

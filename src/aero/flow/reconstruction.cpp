@@ -1,0 +1,44 @@
+// MUSCL over a piece of a row, one function per limiter. SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow/sweep_convective.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+template <class Limiter>
+void reconstruct_row(const gas::IdealGas& gas, const gas::Primitive<double>& smooth, const double* at, std::ptrdiff_t step,
+                     std::ptrdiff_t component, int turbulence, int count, FacePiece& states) {
+  for (int n = 0; n < count; n += row_lanes, at += row_lanes) {
+    const auto load = [&](std::ptrdiff_t offset) { return gas::load_primitive<Row>(at + offset, std::size_t(component)); };
+    const auto s = gas::muscl(gas, Limiter{}, load(-2 * step), load(-step), load(0), load(step), smooth);
+    gas::store_primitive(states.left[0] + n, piece, s.l);
+    gas::store_primitive(states.right[0] + n, piece, s.r);
+    // Always limited: what turbulence carries must not overshoot below zero at the edge of a layer.
+    for (int t = mean_unknowns; t < mean_unknowns + turbulence; ++t) {
+      const double* from = at + t * component;
+      const Row b = Row::load(from - 2 * step), l = Row::load(from - step), r = Row::load(from), a = Row::load(from + step);
+      gas::reconstruct(gas::Minmod{}, b, l, r, 0.0).store(states.left[t] + n);
+      gas::reconstruct(gas::Minmod{}, a, r, l, 0.0).store(states.right[t] + n);
+    }
+  }
+}
+
+/// No reconstruction: first order.
+struct FirstOrder {
+  template <class Real>
+  SPINDRIFT_INLINE Real operator()(const Real&, const Real&, double) const {
+    return Real(0.0);
+  }
+};
+
+}  // namespace
+
+Reconstruction reconstruction(std::string_view limiter) {
+  if (limiter == gas::VanAlbada::name) return reconstruct_row<gas::VanAlbada>;
+  if (limiter == gas::VanLeer::name) return reconstruct_row<gas::VanLeer>;
+  if (limiter == gas::Minmod::name) return reconstruct_row<gas::Minmod>;
+  if (limiter == "first_order") return reconstruct_row<FirstOrder>;
+  return reconstruct_row<gas::Unlimited>;
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,31 @@
+// Flux schemes over a piece of a row, one function per scheme. SPDX-License-Identifier: Apache-2.0
+#include "kernels/gas/flux_osher.hpp"
+#include "kernels/gas/flux_roe.hpp"
+#include "kernels/gas/flux_roe_low_mach.hpp"
+#include "kernels/gas/flux_rusanov.hpp"
+#include "src/aero/flow/sweep_convective.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+template <class Flux>
+void flux_row(const gas::IdealGas& gas, const TileGeometry& geometry, int d, int k, int j, int i, int count, const FacePiece& states,
+              double* out, std::ptrdiff_t stride) {
+  for (int n = 0; n < count; n += row_lanes) {
+    const auto l = gas::load_primitive<Row>(states.left[0] + n, piece), r = gas::load_primitive<Row>(states.right[0] + n, piece);
+    gas::store_conserved(out + n, std::size_t(stride), Flux{}(gas, l, r, load_face(geometry, d, k, j, i + n)));
+  }
+}
+
+}  // namespace
+
+RowFlux row_flux(std::string_view flux) {
+  if (flux == "osher") return flux_row<gas::Osher<gas::OsherOrder::physical>>;
+  if (flux == "osher_inverse") return flux_row<gas::Osher<gas::OsherOrder::inverse>>;
+  if (flux == gas::Roe::name) return flux_row<gas::Roe>;
+  if (flux == gas::Rusanov::name) return flux_row<gas::Rusanov>;
+  return flux_row<gas::RoeLowMach>;
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,38 @@
+// What a turbulence model adds to the sweeps: closures in cells (eddy viscosity and diffusivities, exchanged with the gradients),
+// diffusion and sources in the residual, and a matrix of its own, solved beside that of the mean flow (docs/theory/air.md, "Turbulence").
+// One table of functions per model of kernels/turbulence, chosen once. Tested in tests/src/aero/flow/model_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "src/aero/flow/sweep_jacobian.hpp"
+#include "src/aero/flow/sweep_viscous.hpp"
+
+namespace spindrift::aero {
+
+struct ModelSweeps {
+  std::string_view name = "none";
+  int equations = 0;
+  std::array<double, 2> lowest{};  ///< bounds that updates respect
+  void (*closures)(FlowTile& tile, const double* state, const ViscousSetting& s) = nullptr;
+  void (*residual)(FlowTile& tile, const double* state, double* residual, const ViscousSetting& s) = nullptr;
+  void (*matrix)(FlowTile& tile, const double* state, double cfl, const ImplicitSetting& s) = nullptr;
+  std::ptrdiff_t (*factor)(FlowTile& tile) = nullptr;
+  void (*solve)(FlowTile& tile, const float* r, float* z) = nullptr;
+  void (*multiply)(FlowTile& tile, const float* x, float* y) = nullptr;
+  void (*wall)(const double* inside, double nu, double distance, double* ghost) = nullptr;
+  std::array<double, 2> (*far_field)(double nu, double speed, double sound_speed) = nullptr;
+};
+
+/// By the name in the scene: none, sa, sa_neg, sst, sst_vm.
+const ModelSweeps& model_sweeps(std::string_view name);
+const ModelSweeps& sweeps_sa();
+const ModelSweeps& sweeps_sa_neg();
+const ModelSweeps& sweeps_sst();
+const ModelSweeps& sweeps_sst_vm();
+
+/// Components of FlowTile::gradients after those of gradients: what closures() leaves there.
+constexpr int eddy_component(int equations) { return 3 * (4 + equations); }
+
+}  // namespace spindrift::aero
