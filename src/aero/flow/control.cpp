@@ -11,7 +11,7 @@ void March::begin_step() {
   last_step_ = o_.max_steps;
   first_ = before_ = 0.0;
   matrix_free_ = retry_ = false;
-  fraction_ = 1.0;
+  fraction_ = 1.0, linear_drop_ = 0.0;
   loads_.clear();
 }
 
@@ -46,7 +46,10 @@ Verdict March::judge(const Norms& n, double load) {
     in_a_row_ = 0;
     const double ratio = before_ > 0.0 ? total / before_ : 1.0;
     // Full steps let the number grow by what the residual fell, and by a little where it did not rise much; shortened ones hold it.
-    if (fraction_ > 0.99)
+    // So does a linear system that was hardly solved: its solution is no Newton step, and larger ones would be worse.
+    if (linear_drop_ > 0.6)
+      cfl_ *= 0.6;
+    else if (fraction_ > 0.99 && linear_drop_ < 0.35)
       cfl_ *= std::clamp(ratio < 1.0 ? std::max(1.3, 1.0 / ratio) : 1.3 / (ratio * ratio), 0.5, o_.growth);
     else if (fraction_ < 0.3)
       cfl_ *= 0.5;
@@ -72,7 +75,8 @@ Verdict March::judge(const Norms& n, double load) {
   return verdict_ = Verdict::go_on;
 }
 
-void March::updated(double fraction, int krylov, double) {
+void March::updated(double fraction, int krylov, double linear_drop) {
+  linear_drop_ = linear_drop;
   fraction_ = fraction;
   krylov_ = krylov;
   krylov_total_ += krylov;

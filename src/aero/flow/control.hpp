@@ -21,8 +21,8 @@ struct MarchOptions {
   double load_change = 0.0;      ///< relative change of the loads over load_window steps: done; 0: not looked at
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
-  int krylov_steps = 20;         ///< most Krylov iterations of a pseudo-step
-  double krylov_drop = 0.05;     ///< of the linear residual: enough
+  int krylov_steps = 30;         ///< most Krylov iterations of a pseudo-step
+  double krylov_drop = 0.1;      ///< of the linear residual: enough
   double matrix_free_below = 0.1;  ///< drop of the residual from which on products are matrix-free; 0: never
 };
 
@@ -62,12 +62,13 @@ class March {
   int krylov() const { return krylov_; }
   long krylov_total() const { return krylov_total_; }
   double fraction() const { return fraction_; }
+  double linear_drop() const { return linear_drop_; }
   void set_cfl(double cfl) { cfl_ = cfl; }
   const MarchOptions& options() const { return o_; }
 
  private:
   MarchOptions o_;
-  double cfl_, density_ = 0.0, first_ = 0.0, before_ = 0.0, least_ = 0.0, fraction_ = 1.0;
+  double cfl_, density_ = 0.0, first_ = 0.0, before_ = 0.0, least_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
   int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
   long krylov_total_ = 0;
   bool matrix_free_ = false, retry_ = false;

@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kernels/gas/preconditioner.hpp"
 #include "src/aero/flow/flow_tile.hpp"
 #include "src/aero/flow/sweep.hpp"
 

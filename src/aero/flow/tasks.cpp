@@ -3,8 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/tasks.hpp"
 
-#include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
@@ -158,7 +157,7 @@ class StepGraph {
     g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
               {Reduction::Operation::min, s_.parts_, s_.fraction_partials_, {&s_.fraction_, 1}});
     g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
-      if (s_.solving_) s_.march_.updated(s_.fraction_, s_.gmres_.columns(), 0.0);
+      if (s_.solving_) s_.march_.updated(s_.fraction_, s_.gmres_.columns(), s_.gmres_.residual_norm() / std::sqrt(s_.norms_.mean + s_.norms_.model));
     });
     each("aero/apply",
          [&](std::size_t n) { return Uses{reads(decision_), reads(total_fraction_), reads(vectors_[n]), updates(state_[n]), updates(trial_[n])}; },
