@@ -50,7 +50,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   if (setting.preconditioned) boundary_.reference_speed = setting.speed;
   implicit_.scales = scales_of(setting);
   implicit_.viscous = setting.viscous;
-  implicit_.low_mach = setting.flux == "roe_low_mach";
+  implicit_.mach_floor = setting.flux == "roe_low_mach" ? setting.matrix_mach_floor : 1.0;
   implicit_.preconditioned = setting.preconditioned;
   implicit_.floor_speed = setting.speed;
   model_ = &model_sweeps(setting.turbulence);

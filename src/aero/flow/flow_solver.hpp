@@ -43,6 +43,7 @@ struct FlowSetting {
   bool viscous = false, thin_layer = false;
   double smooth = 0.0;             ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
   bool preconditioned = true;
+  double matrix_mach_floor = 1.0;  ///< of the low-Mach scaling in the matrix: more dissipation there makes a better ILU
   Krylov krylov = Krylov::gmres;
   MarchOptions march;
   int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2

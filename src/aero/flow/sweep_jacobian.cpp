@@ -13,7 +13,8 @@ using Block = gas::Block5<Row>;
 /// Derivatives of the first-order flux through eight faces by the states on both sides.
 SPINDRIFT_INLINE gas::FluxJacobian<Row> convection(const ImplicitSetting& s, const gas::Primitive<Row>& l, const gas::Primitive<Row>& r,
                                                    const gas::Face<Row>& f) {
-  return s.low_mach ? gas::flux_jacobian(gas::RoeLowMach{}, s.gas, l, r, f) : gas::flux_jacobian(gas::Roe{}, s.gas, l, r, f);
+  if (s.mach_floor >= 1.0) return gas::flux_jacobian(gas::Roe{}, s.gas, l, r, f);
+  return gas::flux_jacobian(gas::RoeLowMach{.mach_floor = s.mach_floor}, s.gas, l, r, f);
 }
 SPINDRIFT_INLINE void add_viscosity(gas::FluxJacobian<Row>& b, const ImplicitSetting& s, const gas::Primitive<Row>& l,
                                     const gas::Primitive<Row>& r, const gas::Vector<Row>& line, const Row& eddy,

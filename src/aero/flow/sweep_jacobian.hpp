@@ -22,7 +22,7 @@ struct ImplicitSetting {
   gas::IdealGas gas;
   Scales scales;
   bool viscous = false;
-  bool low_mach = true;          ///< dissipation of RoeLowMach; else of Roe
+  double mach_floor = 1.0;       ///< least scaling of RoeLowMach's dissipation; 1: that of Roe
   bool preconditioned = true;    ///< pseudo-time of Weiss & Smith
   double floor_speed = 0.0;      ///< least reference speed of the preconditioner [m/s]
   double physical_rate = 0.0;    ///< a0 / dt of the physical step [1/s]; 0 steady
