@@ -10,14 +10,17 @@ void March::begin_step() {
   steps_ = rejections_ = in_a_row_ = 0;
   last_step_ = o_.max_steps;
   first_ = before_ = 0.0;
-  matrix_free_ = retry_ = false;
+  matrix_free_ = retry_ = spent_ = false;
   fraction_ = 1.0, linear_drop_ = 0.0;
   loads_.clear();
 }
 
 void March::resume(int more_steps) {
-  last_step_ = steps_ + more_steps;
+  // The last step of the run before was judged and not solved: it is judged again.
+  last_step_ = --steps_ + more_steps;
   verdict_ = Verdict::go_on;
+  spent_ = false;
+  retry_ = true;
 }
 
 Verdict March::judge(const Norms& n, double load) {
@@ -40,16 +43,16 @@ Verdict March::judge(const Norms& n, double load) {
     return verdict_ = Verdict::rejected;
   }
   density_ = density;
-  if (fresh) first_ = density, before_ = least_ = total;
+  if (fresh) first_ = density, before_ = total;
   first_ = std::max(first_, density);  // what an impulsive start stirs up counts as the start
   if (!fresh && !retry_) {
     in_a_row_ = 0;
     const double ratio = before_ > 0.0 ? total / before_ : 1.0;
     // Full steps let the number grow by what the residual fell, and by a little where it did not rise much; shortened ones hold it.
     // So does a linear system that was hardly solved: its solution is no Newton step, and larger ones would be worse.
-    if (linear_drop_ > 0.6)
+    if (linear_drop_ > 0.9)
       cfl_ *= 0.6;
-    else if (fraction_ > 0.99 && linear_drop_ < 0.35)
+    else if (fraction_ > 0.99 && linear_drop_ < 0.7)
       cfl_ *= std::clamp(ratio < 1.0 ? std::max(1.3, 1.0 / ratio) : 1.3 / (ratio * ratio), 0.5, o_.growth);
     else if (fraction_ < 0.3)
       cfl_ *= 0.5;
@@ -71,7 +74,10 @@ Verdict March::judge(const Norms& n, double load) {
       if (*high - *low <= o_.load_change * std::max(std::abs(*low), std::abs(*high))) return done("the loads have settled");
     }
   }
-  if (steps_ > last_step_) return done("the number of pseudo-steps is spent");
+  if (steps_ > last_step_) {
+    spent_ = true;
+    return done("the number of pseudo-steps is spent");
+  }
   return verdict_ = Verdict::go_on;
 }
 

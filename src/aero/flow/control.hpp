@@ -21,9 +21,9 @@ struct MarchOptions {
   double load_change = 0.0;      ///< relative change of the loads over load_window steps: done; 0: not looked at
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
-  int krylov_steps = 30;         ///< most Krylov iterations of a pseudo-step
-  double krylov_drop = 0.1;      ///< of the linear residual: enough
-  double matrix_free_below = 0.1;  ///< drop of the residual from which on products are matrix-free; 0: never
+  int krylov_steps = 20;         ///< most Krylov iterations of a pseudo-step
+  double krylov_drop = 0.05;     ///< of the linear residual: enough
+  double matrix_free_below = 0.01;  ///< drop of the residual from which on products are matrix-free; 0: never
 };
 
 /// What the tiles report of a state, summed over all cells.
@@ -58,6 +58,7 @@ class March {
   double density_residual() const { return density_; }
   double first_density_residual() const { return first_; }
   Verdict verdict() const { return verdict_; }
+  bool spent() const { return spent_; }  ///< ended for want of steps
   const char* why() const { return why_; }
   int krylov() const { return krylov_; }
   long krylov_total() const { return krylov_total_; }
@@ -68,10 +69,10 @@ class March {
 
  private:
   MarchOptions o_;
-  double cfl_, density_ = 0.0, first_ = 0.0, before_ = 0.0, least_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
+  double cfl_, density_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
   int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
   long krylov_total_ = 0;
-  bool matrix_free_ = false, retry_ = false;
+  bool matrix_free_ = false, retry_ = false, spent_ = false;
   Verdict verdict_ = Verdict::go_on;
   const char* why_ = "";
   std::vector<double> loads_;

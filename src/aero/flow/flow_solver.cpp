@@ -26,7 +26,7 @@ Scales scales_of(const FlowSetting& s) {
 }  // namespace
 
 std::size_t FlowTile::bytes() const {
-  std::size_t sum = state.bytes() + trial.bytes() + gradients.bytes() + residual.bytes() + trial_residual.bytes() + before.bytes() +
+  std::size_t sum = state.bytes() + trial.bytes() + gradients.bytes() + residual.bytes() + before.bytes() +
                     before_that.bytes() + rate.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() + direction.bytes();
   for (const auto& v : vectors) sum += v.bytes();
   for (const auto& v : directions_kept) sum += v.bytes();
@@ -90,7 +90,6 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     t.trial = AlignedArray<double>(t.cells.size(unknowns));
     t.gradients = AlignedArray<double>(t.gradient_box.size(gradient_components(t.turbulence)));
     t.residual = AlignedArray<double>(t.inner.size(unknowns));
-    t.trial_residual = AlignedArray<double>(t.inner.size(unknowns));
     t.rate = AlignedArray<double>(t.inner.size(1));
     if (setting.time_order > 0) t.before = AlignedArray<double>(t.inner.size(unknowns));
     if (setting.time_order > 1) t.before_that = AlignedArray<double>(t.inner.size(unknowns));
@@ -108,6 +107,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   dot_partials_.resize(owned * std::size_t(columns + 1));
   size_partials_.resize(owned);
   fraction_partials_.resize(owned);
+  limits_.resize(owned);
   norm_sums_.resize(norm_count);
   loads_.resize(std::max<std::size_t>(1, conditions_.size()) * load_components);
   dots_.resize(std::size_t(columns + 1));
@@ -211,7 +211,10 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
         model += scaled * scaled;
       }
     }
-    if (!std::isfinite(density + mean + model)) partial[3] += 1.0;
+    if (!std::isfinite(density + mean + model)) {
+      partial[3] += 1.0;
+      limits_[std::size_t(&tile - tiles_.data())] = {0.0, {0, j, k}, "no finite residual in the row of"};
+    }
     partial[0] += density, partial[1] += mean, partial[2] += model;
   });
   std::fill(loads.begin(), loads.end(), 0.0);
@@ -238,9 +241,19 @@ void FlowSolver::judge() {
                    .fraction = march_.fraction(),
                    .matrix_free = matrix_free_,
                    .force = {force[0], force[1], force[2]}});
+  if (verdict == Verdict::failed) name_trouble();
   solving_ = verdict == Verdict::go_on;
   matrix_free_ = march_.matrix_free();
   if (solving_) gmres_.start(std::sqrt(norms_.mean + norms_.model));
+}
+
+void FlowSolver::name_trouble() {
+  const auto worst = std::min_element(limits_.begin(), limits_.end(), [](const Limit& a, const Limit& b) { return a.fraction < b.fraction; });
+  if (worst == limits_.end() || worst->fraction >= 1.0) return;
+  const Tile& tile = grid_.tiling().tiles[std::size_t(tiles_[std::size_t(worst - limits_.begin())].index)];
+  const Index at = tile.to_block(worst->cell);
+  trouble_ = std::string("; ") + worst->what + " block " + std::to_string(tile.block) + " cell (" + std::to_string(at[0]) + ", " +
+             std::to_string(at[1]) + ", " + std::to_string(at[2]) + ")";
 }
 
 void FlowSolver::build_matrix(FlowTile& tile) {
@@ -260,7 +273,7 @@ void FlowSolver::build_matrix(FlowTile& tile) {
 
 /// v_0: the scaled residual with its sign turned, of unit length.
 void FlowSolver::first_vector(FlowTile& tile) {
-  const double scale = -1.0 / gmres_.residual_norm();
+  const double norm = gmres_.residual_norm(), scale = norm > 0.0 ? -1.0 / norm : 0.0;
   float* v = tile.vectors[0].data();
   float* m = v + tile.box.count() * mean_unknowns;
   const Scales& s = implicit_.scales;
@@ -339,6 +352,9 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
     if (tile.turbulence > 0)
       model_->multiply(tile, tile.direction.data() + mean_unknowns * box.component, w + tile.box.count() * mean_unknowns);
   } else {
+    thread_local AlignedArray<double> scratch;  // one tile's residual of the perturbed state lives no longer than this task
+    if (scratch.size() < tile.residual.size()) scratch = AlignedArray<double>(tile.residual.size());
+    evaluate(tile, tile.trial.data(), scratch.data());
     const double inverse = std::max(direction_size_, 1e-30) / difference_size;
     float *to = w, *model = w + tile.box.count() * mean_unknowns;
     for_rows(tile.box, [&](int k, int row) {
@@ -346,7 +362,7 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
         const std::ptrdiff_t at = tile.inner.at(k, row, i);
         const auto difference = [&](int c, double unit) {
           const std::ptrdiff_t place = at + c * tile.inner.component;
-          return float((tile.trial_residual.data()[place] - tile.residual.data()[place]) * inverse / unit);
+          return float((scratch.data()[place] - tile.residual.data()[place]) * inverse / unit);
         };
         for (int c = 0; c < mean_unknowns; ++c) *to++ = difference(c, implicit_.scales.residual[std::size_t(c)]);
         for (int t = 0; t < tile.turbulence; ++t) *model++ = difference(mean_unknowns + t, implicit_.scales.model_residual[std::size_t(t)]);
@@ -383,17 +399,20 @@ double FlowSolver::find_update(FlowTile& tile) {
   precondition(tile, x, x);
   constexpr double most = 0.2;  // of the absolute value, in one pseudo-step
   double fraction = 1.0;
+  Limit& limit_of_tile = limits_[std::size_t(&tile - tiles_.data())];
+  limit_of_tile = {};
   const Scales& s = implicit_.scales;
   const float* d = x;
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; ++i, d += mean_unknowns) {
       const auto q = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
-      const auto limit = [&](double change, double value) {
-        // Not a number must not hide: it gives no step at all.
-        if (!(std::abs(change) <= most * value)) fraction = std::min(fraction, std::isfinite(change) ? most * value / std::abs(change) : 0.0);
+      const auto limit = [&](double change, double value, const char* what) {
+        if (std::abs(change) <= most * value) return;
+        const double allowed = std::isfinite(change) ? most * value / std::abs(change) : 0.0;  // not a number must not hide
+        if (allowed < fraction) fraction = allowed, limit_of_tile = {allowed, {i, j, k}, what};
       };
-      limit(double(d[0]) * s.unknown[0], gas::absolute_pressure(setting_.gas, q));
-      limit(double(d[4]) * s.unknown[4], gas::absolute_temperature(setting_.gas, q));
+      limit(double(d[0]) * s.unknown[0], gas::absolute_pressure(setting_.gas, q), "the change of pressure in");
+      limit(double(d[4]) * s.unknown[4], gas::absolute_temperature(setting_.gas, q), "the change of temperature in");
     }
   });
   return fraction;

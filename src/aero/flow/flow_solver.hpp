@@ -89,6 +89,12 @@ class FlowSolver {
   March& march() { return march_; }
   const std::vector<PseudoRow>& rows() const { return rows_; }
   void clear_rows() { rows_.clear(); }
+  /// Between two chunks of a steady march: its last row will be judged again.
+  void keep_last_row() {
+    if (rows_.size() > 1) rows_.erase(rows_.begin(), rows_.end() - 1);
+  }
+  /// Where a march failed on this rank: block, cell and the limit that bound there; empty where none did.
+  const std::string& trouble() const { return trouble_; }
   /// Loads by patch, the same on every rank.
   PatchLoads loads(int patch) const { return patch_loads(loads_, patch); }
   const std::vector<PatchCondition>& conditions() const { return conditions_; }
@@ -130,6 +136,11 @@ class FlowSolver {
   void evaluate(FlowTile& tile, double* state, double* residual);
   void measure(FlowTile& tile, std::span<double> partial, std::span<double> loads);
   void judge();
+  void name_trouble();
+  void resume() {
+    march_.resume(setting_.march.max_steps);
+    if (!rows_.empty()) rows_.pop_back();
+  }
   void build_matrix(FlowTile& tile);
   void first_vector(FlowTile& tile);
   double make_direction(FlowTile& tile, int iteration);
@@ -160,6 +171,13 @@ class FlowSolver {
   bool solving_ = false, matrix_free_ = false, refresh_ = true;
   std::vector<double> combination_;
   std::vector<PseudoRow> rows_;
+  /// The cell of each tile that limits its update most, and by what.
+  struct Limit {
+    double fraction = 1.0;
+    Index cell{};
+    const char* what = "";
+  };
+  std::vector<Limit> limits_;
   std::string trouble_;
   std::int64_t time_steps_ = 0;
   double dt_before_ = 0.0;

@@ -43,7 +43,7 @@ struct FlowTile {
   AlignedArray<double> state;          ///< unknowns
   AlignedArray<double> trial;          ///< perturbed state of matrix-free products; between pseudo-steps the state before the last one
   AlignedArray<double> gradients;      ///< 3 each of u v w T and the turbulence unknowns
-  AlignedArray<double> residual, trial_residual;
+  AlignedArray<double> residual;
   AlignedArray<double> before, before_that;  ///< conserved times volume one and two steps ago
   AlignedArray<double> rate;           ///< V / pseudo-time step [m3/s]
   std::array<AlignedArray<double>, 6> open;  ///< per side with walls: 1 where the flux scheme acts, 0 on wall faces; else empty

@@ -17,7 +17,7 @@ class StepGraph {
  public:
   StepGraph(FlowSolver& solver, Graph& graph) : s_(solver), g_(graph), owned_(solver.tiles_.size()) {
     for (auto* data : {&state_, &state_ghosts_, &gradients_, &gradient_ghosts_, &residual_, &matrix_, &norms_, &vectors_, &direction_,
-                       &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &trial_residual_, &dots_, &fraction_, &past_})
+                       &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &dots_, &fraction_, &past_})
       *data = graph.data(owned_);
     sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(), krylov_ = graph.datum(),
     total_fraction_ = graph.datum();
@@ -61,7 +61,7 @@ class StepGraph {
       if (s_.setting_.time_order > 0 || s_.march_.steps() == 0)
         s_.march_.begin_step();
       else
-        s_.march_.resume(s_.march_.options().max_steps);
+        s_.resume();
       s_.solving_ = true;
       if (s_.setting_.time_order > 0) {
         const bool second = s_.setting_.time_order > 1 && s_.time_steps_ > 0;
@@ -135,9 +135,7 @@ class StepGraph {
               {reads(decision_), reads(direction_[n]), reads(direction_ghosts_[n]), reads(total_size_), reads(trial_[n]), reads(trial_ghosts_[n]),
                reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(matrix_[n]), reads(past_[n]), reads(residual_[n]), updates(vectors_[n]), writes(dots_[n])},
               [this, n](const Context& c) {
-                FlowTile& tile = s_.tiles_[n];
-                if (perturbs()) s_.evaluate(tile, tile.trial.data(), tile.trial_residual.data());
-                s_.product(tile, int(c.iteration), dots_of(n));
+                s_.product(s_.tiles_[n], int(c.iteration), dots_of(n));
               });
     g_.reduce("aero/krylov/dots", {reads(dots_), writes(total_dots_)},
               {.parts = s_.parts_, .partials = s_.dot_partials_, .result = s_.dots_});
@@ -217,7 +215,7 @@ class StepGraph {
   Graph& g_;
   std::size_t owned_;
   std::vector<Datum> state_, state_ghosts_, gradients_, gradient_ghosts_, residual_, matrix_, norms_, vectors_, direction_, direction_ghosts_,
-      size_, trial_, trial_ghosts_, trial_residual_, dots_, fraction_, past_;
+      size_, trial_, trial_ghosts_, dots_, fraction_, past_;
   Datum sums_, decision_, total_size_, total_dots_, krylov_, total_fraction_;
 };
 
