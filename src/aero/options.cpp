@@ -19,6 +19,8 @@ namespace {
 const std::vector<std::string> prescribed{"prescribed"}, curves{"thrust_curve"}, tabulated{"prescribed", "thrust_curve"};
 
 void check_aero(const AeroOptions& o, const scene::Report& report) {
+  if (o.model == "blade_resolved" && !o.flow) report("flow", "must be given: aero.model \"blade_resolved\" needs a grid and its boundaries");
+  if (o.model != "blade_resolved" && o.flow) report("flow", "has no effect: aero.model is not \"blade_resolved\"");
   const bool series = !o.thrust_cosine_N.empty() || !o.thrust_sine_N.empty() || !o.torque_cosine_N_m.empty() ||
                       !o.torque_sine_N_m.empty() || o.torque_N_m != 0.0;
   if (!o.table.empty() && series) report("table", "takes the place of torque_N_m and of all harmonics: give the table or those");
@@ -39,7 +41,8 @@ const scene::Section<AeroOptions>& aero_section() {
                   {{"none", "no load"},
                    {"prescribed", "thrust and torque constant, in harmonics of azimuth, or from a table in time"},
                    {"thrust_curve", "thrust and torque from the wind that the hub meets"},
-                   {"bem", "blade element momentum on the section tables of rotor.turbine, in quasi-steady balance"}},
+                   {"bem", "blade element momentum on the section tables of rotor.turbine, in quasi-steady balance"},
+                   {"blade_resolved", "the air itself, by finite volumes on the grid of aero.flow"}},
                   "Rung of the ladder.")
           .number("thrust_N", &AeroOptions::thrust_N, "N", "Thrust, or its mean over a turn.")
           .only_if("model", prescribed)
@@ -88,6 +91,7 @@ const scene::Section<AeroOptions>& aero_section() {
                   "Induction from local loading.")
           .only_if("model", {"bem"})
           .table("grid", &AeroOptions::grid, rotor_grid_section(), "The grid round the resolved rotor.")
+          .table("flow", &AeroOptions::flow, flow_section(), "The resolved air.")
           .one_of({"thrust_N", "table"})
           .one_of({"thrust_coefficient", "curve"})
           .check(check_aero);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/aero/flow_options.hpp"
 #include "src/aero/rotor_grid/options.hpp"
 
 namespace spindrift::scene {
@@ -36,6 +37,7 @@ struct AeroOptions {
   std::string interpolation = "linear";
   // bem
   std::string induction = "madsen";
+  std::optional<FlowOptions> flow;  ///< blade_resolved
   std::optional<RotorGridOptions> grid;  ///< resolved rotor
 };
 

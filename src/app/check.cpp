@@ -128,7 +128,14 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
 
 int check(const SceneArguments& arguments, const runtime::World& world) {
   scene::Document document = scene::load(arguments.scene, arguments.overrides);
-  Machine machine(coupling::read_scenario(document));
+  coupling::Scenario scenario = coupling::read_scenario(document);
+  if (scenario.has_flow()) {
+    if (world.rank == 0)
+      fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
+                 scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence, scenario.aero.flow->grid);
+    return done;
+  }
+  Machine machine(std::move(scenario));
   const coupling::Start start = make_start(machine);
   const coupling::Stability stability = coupling::stability(machine, start.state);
   if (world.rank == 0) {

@@ -1,5 +1,6 @@
 // spindrift run: reads the scene, runs it into a run directory, writes summary and report.
 // SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/flow_run.hpp"
 #include "src/coupling/run.hpp"
 
 #include <fmt/format.h>
@@ -51,8 +52,35 @@ ReadyScene read_scene(const std::string& path, const std::vector<std::string>& o
   return ready;
 }
 
+namespace {
+/// A scene of the air alone has no machine of bodies.
+SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& echo, const RunArguments& arguments,
+                        const runtime::World& world) {
+  const io::RunDirectory directory = open_directory(arguments, world.comm);
+  io::log_to_file(world.rank, directory.log());
+  directory.write_scene(world.comm, echo);
+  coupling::RunSettings settings{.restart = arguments.restart, .trace = arguments.trace, .quiet = arguments.quiet};
+  if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
+  io::Summary summary = coupling::run_flow(scenario, directory, world, settings);
+  summary.title = scenario.output.title.empty() ? std::filesystem::path(arguments.scene).stem().string() : scenario.output.title;
+  summary.scene = arguments.scene;
+  if (world.rank == 0) {
+    for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
+    summary.warnings = io::warnings_logged();
+    write_summary(directory.summary(), summary, io::history_statistics(directory.history(), mean_ranges(scenario, summary.end_time_s)));
+    print_summary(summary, directory);
+  }
+  return {std::move(summary), directory.path()};
+}
+}  // namespace
+
 SceneRun run_scene(const RunArguments& arguments, const runtime::World& world) {
   io::start_log(world.rank, arguments.quiet);
+  {
+    scene::Document document = scene::load(arguments.scene, arguments.overrides);
+    if (const coupling::Scenario scenario = coupling::read_scenario(document); scenario.has_flow())
+      return run_flow_scene(scenario, document.echo(), arguments, world);
+  }
   const ReadyScene scene = read_scene(arguments.scene, arguments.overrides);
   const io::RunDirectory directory = open_directory(arguments, world.comm);
   io::log_to_file(world.rank, directory.log());

@@ -63,7 +63,7 @@ Scenario read_scenario(scene::Document& document) {
   s.environment = document.read(environment_section());
   s.aero = document.read(aero::aero_section());
   s.rotor = document.read_where(s.has_rotor(), aero::rotor_section(), "aero.model is none");
-  s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem", aero::wind_section(),
+  s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.has_flow(), aero::wind_section(),
                                "aero.model = \"" + s.aero.model + "\" does not look at the wind");
   s.sea = document.read(sea::sea_section());
   s.waves = document.read_where(s.sea.model == "morison", sea::waves_section(), "sea.model is not morison");
@@ -78,6 +78,12 @@ Scenario read_scenario(scene::Document& document) {
 
   check_names(document, s);
   if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
+  if (s.has_flow()) {
+    if (s.wind.speed_m_s <= 0.0) document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
+    if (!s.bodies.empty()) document.problem("bodies", "have no effect yet beside aero.model \"blade_resolved\"");
+    document.finish();
+    return s;
+  }
   check_coupling(document, s.coupling, s.time);
   check_bodies(document, s.bodies, s.joints);
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);

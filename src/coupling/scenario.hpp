@@ -37,7 +37,8 @@ struct Scenario {
   sea::SeaOptions sea;
   sea::WavesOptions waves;
 
-  bool has_rotor() const { return aero.model != "none"; }
+  bool has_flow() const { return aero.model == "blade_resolved"; }  ///< the air by itself: flow_run.hpp
+  bool has_rotor() const { return aero.model != "none" && !has_flow(); }
   bool has_sea() const { return sea.model != "none"; }
   bool has_waves() const { return has_sea() && waves.model != "none"; }
 };

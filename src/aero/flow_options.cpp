@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow_options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/aero/flow/flow_solver.hpp"
+#include "src/scene/document.hpp"
+#include "src/scene/error.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+const scene::Section<PatchOptions>& patch_section() {
+  static const auto section =
+      scene::Section<PatchOptions>("boundaries", "What acts on a patch of the grid.")
+          .text("patch", &PatchOptions::patch, "Name of the patch in the grid's map.")
+          .required()
+          .choice("condition", &PatchOptions::condition,
+                  {{"far_field", Condition::far_field, "characteristic: the undisturbed wind outside"},
+                   {"no_slip", Condition::no_slip, "adiabatic wall"},
+                   {"slip", Condition::slip, "wall without friction"},
+                   {"symmetry", Condition::symmetry, "plane of symmetry"},
+                   {"inflow", Condition::inflow_velocity, "wind and temperature given, pressure from inside"},
+                   {"outflow", Condition::outflow_pressure, "pressure given, all else from inside"}},
+                  "Boundary condition.")
+          .flag("loads", &PatchOptions::loads, "Whether the force on it (of a wall) is summed into the flow's columns.");
+  return section;
+}
+
+}  // namespace
+
+const scene::Section<FlowOptions>& flow_section() {
+  using scene::above, scene::between;
+  static const auto section =
+      scene::Section<FlowOptions>("flow", "The resolved air: compressible finite volumes on a structured grid.")
+          .path("grid", &FlowOptions::grid, "Grid: Plot3D, formatted or binary; a two-dimensional one lies in the x-z plane.")
+          .required()
+          .path("map", &FlowOptions::map, "Neutral map file of the grid: which sides of its blocks meet, which are patches.")
+          .required()
+          .number("width_m", &FlowOptions::width_m, "m", "Width of a two-dimensional grid.", above(0.0).up_to(1e6))
+          .tables("boundaries", &FlowOptions::boundaries, patch_section(), "Conditions by patch; each patch of the grid once.")
+          .number("temperature_K", &FlowOptions::temperature_K, "K", "Temperature of the undisturbed air.", between(50.0, 2000.0))
+          .number("viscosity_Pa_s", &FlowOptions::viscosity_Pa_s, "Pa s", "Dynamic viscosity at that temperature (Sutherland's law around it).",
+                  above(0.0).up_to(1e3))
+          .choice("viscous", &FlowOptions::viscous,
+                  {{"none", "inviscid"}, {"thin_layer", "differences across faces only"}, {"full", "all gradients"}}, "Viscous terms.")
+          .choice("turbulence", &FlowOptions::turbulence,
+                  {{"none", "laminar"},
+                   {"sa", "Spalart-Allmaras"},
+                   {"sa_neg", "Spalart-Allmaras, negative variant"},
+                   {"sst", "k-omega SST 2003"},
+                   {"sst_vm", "k-omega SST with vorticity, without 2/3 k"}},
+                  "Turbulence model.")
+          .only_if("viscous", {"thin_layer", "full"})
+          .choice("flux", &FlowOptions::flux,
+                  {{"roe_low_mach", "Roe with Rieper's scaling: accurate at any Mach number below one and above"},
+                   {"roe", "Roe"},
+                   {"osher", "Osher, physical ordering"},
+                   {"osher_inverse", "Osher, inverse ordering"},
+                   {"rusanov", "local Lax-Friedrichs, the most dissipative"}},
+                  "Numerical flux.")
+          .choice("limiter", &FlowOptions::limiter,
+                  {{"none", "third-order upwind-biased reconstruction as it is"},
+                   {"van_albada", "smooth"},
+                   {"van_leer", "harmonic"},
+                   {"minmod", "the most dissipative"},
+                   {"first_order", "no reconstruction"}},
+                  "Limiter of the reconstruction.")
+          .flag("low_mach", &FlowOptions::low_mach, "Low-Mach preconditioning of the pseudo-time; the solution does not depend on it.")
+          .choice("time", &FlowOptions::time,
+                  {{"steady", "one march to the steady state; a window is at most one pseudo-step, its length a count"},
+                   {"bdf1", "first order, a step per window"},
+                   {"bdf2", "second order, a step per window"}},
+                  "Time integration.")
+          .number("cfl", &FlowOptions::cfl, "-", "CFL number of the first pseudo-step.", above(0.0).up_to(1e6))
+          .number("cfl_max", &FlowOptions::cfl_max, "-", "Largest CFL number.", above(0.0).up_to(1e8))
+          .number("drop", &FlowOptions::drop, "-", "Drop of the density residual that ends a march.", between(0.0, 1.0))
+          .number("absolute", &FlowOptions::absolute, "kg/(m3 s)", "Density residual that ends a march.", between(0.0, 1e6))
+          .number("load_change", &FlowOptions::load_change, "-",
+                  "Relative change of the force over 20 pseudo-steps that ends a march; 0: not looked at.", between(0.0, 1.0))
+          .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.", between(1, 1e6))
+          .only_if("time", {"bdf1", "bdf2"})
+          .integer("krylov_steps", &FlowOptions::krylov_steps, "-", "Most iterations of the linear solver in a pseudo-step; memory grows with it.",
+                   between(2, 40))
+          .number("krylov_drop", &FlowOptions::krylov_drop, "-", "Drop of the linear residual that is enough.", above(0.0).up_to(1.0))
+          .number("matrix_free_below", &FlowOptions::matrix_free_below, "-",
+                  "Drop of the density residual from which on the operator is the linearised residual itself (Newton), not the stored "
+                  "first-order matrix; 0: never.",
+                  between(0.0, 1.0))
+          .degrees("incidence_deg", &FlowOptions::incidence, "Angle by which the wind blows upwards.", between(-90.0, 90.0))
+          .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2", "Area of the coefficients in history.csv.", above(0.0).up_to(1e9));
+  return section;
+}
+
+FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vector3d& wind, double dt) {
+  FlowSetting s;
+  s.gas.temperature_reference = o.temperature_K;
+  s.gas.pressure_reference = density * s.gas.gas_constant * o.temperature_K;
+  s.gas.viscosity = {.mu0 = o.viscosity_Pa_s, .T0 = o.temperature_K, .S = 110.33};
+  s.stream = {0.0, wind.x(), wind.y(), wind.z(), 0.0};
+  s.speed = wind.norm();
+  s.flux = o.flux;
+  s.limiter = o.limiter;
+  s.viscous = o.viscous != "none";
+  s.thin_layer = o.viscous == "thin_layer";
+  s.turbulence = s.viscous ? o.turbulence : "none";
+  s.preconditioned = o.low_mach;
+  s.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
+  s.dt = s.time_order > 0 ? dt : 0.0;
+  s.march = {.cfl_start = o.cfl,
+             .cfl_max = std::max(o.cfl, o.cfl_max),
+             .drop = o.drop,
+             .absolute = o.absolute,
+             .load_change = o.load_change,
+             .max_steps = o.max_pseudo_steps,
+             .krylov_steps = o.krylov_steps,
+             .krylov_drop = o.krylov_drop,
+             .matrix_free_below = o.matrix_free_below};
+  return s;
+}
+
+std::vector<std::string> wall_patches(const FlowOptions& options) {
+  std::vector<std::string> names;
+  for (const PatchOptions& b : options.boundaries)
+    if (b.condition == Condition::no_slip || b.condition == Condition::slip) names.push_back(b.patch);
+  return names;
+}
+
+std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling) {
+  std::vector<PatchCondition> conditions(tiling.patches.size());
+  std::vector<int> given(tiling.patches.size());
+  for (const PatchOptions& b : options.boundaries) {
+    const int patch = tiling.patch(b.patch);
+    if (patch < 0)
+      throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("the grid has no patch \"{}\"; it has: {}", b.patch, fmt::join(tiling.patches, ", "))}});
+    if (given[std::size_t(patch)]++ > 0)
+      throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("patch \"{}\" is given twice", b.patch)}});
+    conditions[std::size_t(patch)] = {b.condition, b.loads && (b.condition == Condition::no_slip || b.condition == Condition::slip)};
+  }
+  for (std::size_t p = 0; p < given.size(); ++p)
+    if (given[p] == 0)
+      throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("patch \"{}\" of the grid has no condition", tiling.patches[p])}});
+  return conditions;
+}
+
+}  // namespace spindrift::aero

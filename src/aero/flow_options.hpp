@@ -1,0 +1,58 @@
+// Options of the resolved air: [aero.flow] with its grid, its schemes, its march and what acts on the patches of the grid.
+// Declared in flow_options.cpp; read as part of [aero]; tested in tests/src/aero/flow_options_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "src/aero/flow/flow_tile.hpp"
+
+namespace spindrift::scene {
+template <class Options>
+class Section;
+class Document;
+}  // namespace spindrift::scene
+
+namespace spindrift::aero {
+
+struct FlowSetting;
+struct PatchCondition;
+
+struct PatchOptions {
+  std::string patch;
+  Condition condition = Condition::far_field;
+  bool loads = true;  ///< of walls
+};
+
+struct FlowOptions {
+  std::string grid, map;  ///< paths: Plot3D, neutral map
+  double width_m = 1.0;   ///< of planar grids
+  std::vector<PatchOptions> boundaries;
+  double temperature_K = 288.15;
+  double viscosity_Pa_s = 1.8e-5;
+  std::string viscous = "full", turbulence = "sa";
+  std::string flux = "roe_low_mach", limiter = "none";
+  bool low_mach = true;
+  std::string time = "steady";
+  std::string krylov = "gmres";
+  double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, absolute = 0.0, load_change = 0.0;
+  int max_pseudo_steps = 500, krylov_steps = 20;
+  double krylov_drop = 0.05, matrix_free_below = 1e-2;
+  double incidence = 0.0;  ///< of the wind, turned about y: positive blows upwards [rad]
+  double reference_area_m2 = 1.0;
+};
+
+const scene::Section<FlowOptions>& flow_section();
+
+/// The solver's own numbers: air of this density at this wind; a physical step of dt [s] where the scene is unsteady.
+FlowSetting flow_setting(const FlowOptions& options, double density, const Eigen::Vector3d& wind, double dt);
+
+/// Conditions by patch of the tiling; a patch that no boundary names, or a name that no patch has, is a problem of the scene.
+std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling);
+/// Names of the patches whose normal direction is to be a tile's i.
+std::vector<std::string> wall_patches(const FlowOptions& options);
+
+}  // namespace spindrift::aero

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/flow_run.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "runtime/executor/executor.hpp"
+#include "runtime/mpi/stop_request.hpp"
+#include "runtime/partition/partition.hpp"
+#include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow_options.hpp"
+#include "src/aero/grid/checks.hpp"
+#include "src/aero/grid/neutral_map.hpp"
+#include "src/aero/grid/plot3d.hpp"
+#include "src/aero/grid/wall_distance.hpp"
+#include "src/coupling/timeline.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/fields.hpp"
+#include "src/io/history.hpp"
+#include "src/io/machine_failure.hpp"
+#include "src/io/progress.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+using aero::FlowSolver;
+
+/// Pseudo-steps of a steady march between two looks at the clock and the disk.
+constexpr int steady_chunk = 20;
+
+Eigen::Vector3d wind_vector(const Scenario& s) {
+  const double up = s.aero.flow->incidence, along = s.wind.speed_m_s * std::cos(up);
+  return {along * std::cos(s.wind.direction), along * std::sin(s.wind.direction), s.wind.speed_m_s * std::sin(up)};
+}
+
+/// Grid, tiles and solver of a scene on this rank.
+struct Air {
+  aero::MultiBlockGrid grid;
+  std::unique_ptr<aero::GridStore> store;
+  std::unique_ptr<FlowSolver> solver;
+
+  Air(const Scenario& s, const runtime::World& world) {
+    const aero::FlowOptions& o = *s.aero.flow;
+    grid = aero::read_plot3d(o.grid, o.width_m);
+    aero::read_neutral_map(grid, o.map);
+    aero::require_sound(grid, o.grid);
+    const std::vector<std::string> walls = aero::wall_patches(o);
+    aero::Tiling tiling = aero::make_tiling(grid, walls);
+    std::vector<aero::PatchCondition> conditions = aero::patch_conditions(o, tiling);
+    std::vector<int> ranks(std::size_t(tiling.size()), 0);
+    if (world.size > 1) ranks = runtime::partition_blocks(aero::tile_graph(tiling), {.ranks = world.size}).rank_of_block;
+    store = std::make_unique<aero::GridStore>(std::move(tiling), std::move(ranks), world.rank);
+    store->build_all(grid);
+    std::vector<std::string> no_slip;
+    for (const aero::PatchOptions& b : o.boundaries)
+      if (b.condition == aero::Condition::no_slip) no_slip.push_back(b.patch);
+    const aero::WallSurface surface = aero::wall_surface(grid, no_slip);
+    for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
+    aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, wind_vector(s), s.time.window_s);
+    if (setting.time_order == 0) setting.march.max_steps = steady_chunk;
+    solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
+    solver->start_uniform();
+  }
+  bool steady() const { return solver->setting().time_order == 0; }
+};
+
+/// Columns of history.csv and how a row fills them.
+struct FlowColumns {
+  std::size_t force[3], lift, drag, residual, momentum, model, cfl, krylov, steps;
+
+  explicit FlowColumns(io::History& history) {
+    const char* axes[3] = {"x", "y", "z"};
+    for (std::size_t d = 0; d < 3; ++d)
+      force[d] = history.add({fmt::format("flow.f{}_N", axes[d]), "N", "Force of the air on the patches with loads, pressure above the undisturbed one."});
+    lift = history.add({"flow.lift_coefficient", "-", "Force across the wind in its vertical plane, on dynamic pressure and aero.flow.reference_area_m2."});
+    drag = history.add({"flow.drag_coefficient", "-", "Force along the wind, likewise."});
+    residual = history.add({"flow.density_residual", "kg/(m3 s)", "Root mean square over the cells."});
+    momentum = history.add({"flow.scaled_residual", "-", "Norm of the residual of the mean flow in units of the undisturbed one."});
+    model = history.add({"flow.turbulence_residual", "-", "The same of the turbulence model."});
+    cfl = history.add({"flow.cfl", "-", "CFL number of the pseudo-step."});
+    krylov = history.add({"flow.krylov_steps", "-", "Iterations of the linear solver in the pseudo-step before."});
+    steps = history.add({"flow.pseudo_steps", "-", "Pseudo-steps: so far (steady), of the window (unsteady)."});
+  }
+  void fill(std::span<double> row, const FlowSolver& solver, const aero::PseudoRow& p, const aero::FlowOptions& o, const Eigen::Vector3d& wind) const {
+    const aero::FlowSetting& s = solver.setting();
+    const Eigen::Vector3d f(p.force[0], p.force[1], p.force[2]), along = wind.normalized();
+    Eigen::Vector3d across = Eigen::Vector3d::UnitZ() - along.z() * along;
+    if (across.norm() > 0.0) across.normalize();
+    const double unit = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed * o.reference_area_m2;
+    for (std::size_t d = 0; d < 3; ++d) row[force[d]] = p.force[d];
+    row[lift] = f.dot(across) / unit, row[drag] = f.dot(along) / unit;
+    row[residual] = p.density_residual, row[momentum] = p.mean_residual, row[model] = p.model_residual;
+    row[cfl] = p.cfl, row[krylov] = p.krylov, row[steps] = p.step + 1;
+  }
+};
+
+/// State and march, tile after tile in the order of the tiling.
+class FlowCheckpoints {
+ public:
+  FlowCheckpoints(MPI_Comm comm, const Air& air, const io::RunDirectory& directory, int keep)
+      : series_(comm, directory.checkpoints(), keep), air_(air) {
+    const FlowSolver& solver = *air.solver;
+    const std::int64_t per_cell = solver.tiles().empty() ? 0 : std::int64_t(solver.saved_size(0)) / solver.tiles()[0].box.count();
+    for (const aero::Tile& tile : air.store->tiling().tiles) starts_.push_back(total_), total_ += tile.count() * per_cell;
+  }
+  void save(std::int64_t tick, std::int64_t window, int restarts) {
+    std::vector<std::vector<double>> tiles;
+    std::vector<io::Slice<const double>> slices;
+    for (int n = 0; n < int(air_.solver->tiles().size()); ++n) {
+      auto& values = tiles.emplace_back(air_.solver->saved_size(n));
+      air_.solver->save(n, values);
+    }
+    for (std::size_t n = 0; n < tiles.size(); ++n)
+      slices.push_back({starts_[std::size_t(air_.solver->tiles()[n].index)], std::span<const double>(tiles[n])});
+    series_.save(tick, [&](io::CheckpointWriter& file) {
+      file.set("window", window);
+      file.set("restarts", std::int64_t(restarts));
+      file.write<double>("flow/march", std::span<const double>(air_.solver->save_march()));
+      file.write<double>("flow/tiles", total_, slices);
+    });
+  }
+  std::int64_t resume(int& restarts) {
+    const std::optional<io::CheckpointReader> file = series_.newest();
+    if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
+    for (int n = 0; n < int(air_.solver->tiles().size()); ++n) {
+      std::vector<double> values(air_.solver->saved_size(n));
+      const io::Slice<double> slice{starts_[std::size_t(air_.solver->tiles()[std::size_t(n)].index)], values};
+      file->read<double>("flow/tiles", std::span(&slice, 1));
+      air_.solver->load(n, values);
+    }
+    air_.solver->load_march(file->read<double>("flow/march"));
+    restarts = int(file->integer("restarts")) + 1;
+    return file->integer("window");
+  }
+
+ private:
+  io::CheckpointSeries series_;
+  const Air& air_;
+  std::vector<std::int64_t> starts_;
+  std::int64_t total_ = 0;
+};
+
+/// Pressure, velocity, temperature and eddy variables at cell centres for ParaView.
+void write_fields(MPI_Comm comm, const Air& air, const io::RunDirectory& directory, std::int64_t tick, double time_s) {
+  const aero::Tiling& tiling = air.store->tiling();
+  std::vector<io::GridBlock> blocks;
+  for (const aero::Tile& tile : tiling.tiles)
+    blocks.push_back({fmt::format("tile_{}", blocks.size()), tile.ni, tile.nj, tile.nk});
+  std::vector<io::Field> fields{{"pressure", "Pa"}, {"velocity", "m/s", 3}, {"temperature", "K"}};
+  const int carried = air.solver->tiles().empty() ? 0 : air.solver->tiles()[0].turbulence;
+  for (int t = 0; t < carried; ++t) fields.push_back({fmt::format("turbulence_{}", t + 1), carried == 1 ? "m2/s" : t == 0 ? "m2/s2" : "1/s"});
+  io::GridFields file(comm, directory.fields(), "air", std::move(blocks), std::move(fields), false);
+  const gas::IdealGas& gas = air.solver->setting().gas;
+  std::vector<std::vector<double>> kept;
+  std::vector<io::GridFields::Values> values;
+  kept.reserve(air.solver->tiles().size() * std::size_t(4 + carried));
+  for (const aero::FlowTile& t : air.solver->tiles()) {
+    const auto component = [&](int c, double offset) -> std::vector<double>& {
+      auto& out = kept.emplace_back();
+      aero::for_rows(t.box, [&](int k, int j) {
+        for (int i = 0; i < t.box.ni; ++i) out.push_back(offset + t.state.data()[c * t.cells.component + t.cells.at(k, j, i)]);
+      });
+      return out;
+    };
+    auto& points = kept.emplace_back();
+    const BoxLayout& nodes = t.geometry->node_box;
+    for (int k = 0; k <= t.box.nk; ++k)
+      for (int j = 0; j <= t.box.nj; ++j)
+        for (int i = 0; i <= t.box.ni; ++i)
+          for (int c = 0; c < 3; ++c) points.push_back(t.geometry->node_data.data()[c * nodes.component + nodes.at(k, j, i)]);
+    io::GridFields::Values v{t.index, points, {}};
+    v.fields.push_back(component(0, gas.pressure_reference));
+    auto& velocity = kept.emplace_back();
+    aero::for_rows(t.box, [&](int k, int j) {
+      for (int i = 0; i < t.box.ni; ++i)
+        for (int c = 1; c < 4; ++c) velocity.push_back(t.state.data()[c * t.cells.component + t.cells.at(k, j, i)]);
+    });
+    v.fields.push_back(velocity);
+    v.fields.push_back(component(4, gas.temperature_reference));
+    for (int c = 0; c < carried; ++c) v.fields.push_back(component(aero::mean_unknowns + c, 0.0));
+    values.push_back(std::move(v));
+  }
+  file.write(tick, time_s, values);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const runtime::World& world, const RunSettings& settings) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Timeline timeline(s.time.window_s, s.time.window_s, s.time.end_s);
+  const runtime::StopRequest stop(s.runtime.wall_limit_s);
+  Air air(s, world);
+  FlowSolver& solver = *air.solver;
+  spdlog::info("air: {} cells in {} tiles of {} blocks, {:.0f} bytes per cell", solver.cells(), air.store->tiling().size(),
+               air.grid.blocks.size(), double(solver.bytes() + air.store->bytes()) / double(std::max(1L, solver.cells())) * world.size);
+  {
+    runtime::Graph geometry(world.comm);
+    solver.record_geometry(geometry);
+    runtime::Executor(std::move(geometry), {.threads = 1}).run();
+  }
+  runtime::Graph graph(world.comm);
+  solver.record(graph);
+  runtime::Executor executor(std::move(graph));
+
+  io::Summary summary;
+  io::History history;
+  const FlowColumns columns(history);
+  FlowCheckpoints checkpoints(world.comm, air, directory, s.checkpoint.keep);
+  std::int64_t number = 0, saved = -1;
+  if (settings.restart) {
+    number = checkpoints.resume(summary.restarts);
+    solver.set_time_step(s.time.window_s, s.time.window_s);
+  }
+  if (world.rank == 0 && settings.restart)
+    history.resume(directory.history(), timeline.window_end_s(number));
+  else if (world.rank == 0)
+    history.open(directory.history());
+  const std::int64_t first = number;
+  std::int64_t last = timeline.windows();
+  if (settings.until_s) last = std::min<std::int64_t>(last, std::int64_t(std::ceil(*settings.until_s / s.time.window_s * (1.0 - 1e-12))));
+  const std::int64_t save_every =
+      s.checkpoint.interval_s > 0.0 ? std::max<std::int64_t>(1, std::llround(s.checkpoint.interval_s / s.time.window_s)) : 0;
+  const Eigen::Vector3d wind = wind_vector(s);
+  io::Progress progress(timeline.window_end_s(number), timeline.window_end_s(last), io::progress_style(world.rank, settings.quiet));
+  const auto write_row = [&](const aero::PseudoRow& row, double time) {
+    columns.fill(history.row(time), solver, row, *s.aero.flow, wind);
+    history.write();
+  };
+
+  double march_seconds = 0.0;
+  bool settled = false;
+  while (number < last && summary.exit_code == 0 && !settled) {
+    const auto march_begin = std::chrono::steady_clock::now();
+    executor.run();
+    march_seconds += seconds_since(march_begin);
+    const aero::March& march = solver.march();
+    if (air.steady()) {
+      // The last row of a chunk that goes on is judged, and written, by the next.
+      const std::size_t count = solver.rows().size() - (march.spent() ? 1 : 0);
+      for (std::size_t n = 0; n < count && number < last; ++n) write_row(solver.rows()[n], timeline.window_end_s(++number));
+      settled = march.verdict() == aero::Verdict::converged && !march.spent();
+      solver.keep_last_row();
+    } else {
+      write_row(solver.rows().back(), timeline.window_end_s(++number));
+      solver.clear_rows();
+    }
+    if (march.verdict() == aero::Verdict::failed) {
+      summary.exit_code = 3;
+      summary.exit_reason = fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}", march.why(),
+                                        march.steps(), march.cfl(), march.density_residual(), march.first_density_residual(), solver.trouble());
+      summary.numerical_trouble.push_back(summary.exit_reason);
+    }
+    progress.update(timeline.window_end_s(number));
+    if (std::string why = stop.agreed(world.comm); !why.empty() && number < last && !settled && summary.exit_code == 0)
+      summary.exit_code = 5, summary.exit_reason = why;
+    if (save_every > 0 && number / save_every != saved / save_every) history.flush(), checkpoints.save(saved = number, number, summary.restarts);
+  }
+  history.flush();
+  if (saved != number) checkpoints.save(number, number, summary.restarts);
+  write_fields(world.comm, air, directory, number, timeline.window_end_s(number));
+
+  if (summary.exit_code == 0)
+    summary.exit_reason = !air.steady() ? "done" : settled ? fmt::format("done: {}", solver.march().why()) : "done: the pseudo-steps of the scene are spent";
+  summary.start_time_s = timeline.window_end_s(first);
+  summary.end_time_s = timeline.window_end_s(number);
+  summary.window_s = timeline.window_s();
+  summary.counts = {{"windows", number - first}, {"cells", solver.cells()}, {"krylov_steps", solver.march().krylov_total()}};
+  summary.wall_seconds = seconds_since(begin);
+  summary.parts = {{"air", march_seconds, march_seconds * executor.threads() * world.size, number - first},
+                   {"output", summary.wall_seconds - march_seconds, summary.wall_seconds - march_seconds, 0}};
+  summary.ranks = world.size;
+  summary.threads = executor.threads();
+  summary.columns = history.columns();
+  return summary;
+}
+
+}  // namespace spindrift::coupling
