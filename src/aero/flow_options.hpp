@@ -38,7 +38,7 @@ struct FlowOptions {
   bool low_mach = true;
   std::string time = "steady";
   std::string krylov = "gmres";
-  double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, absolute = 0.0, load_change = 0.0;
+  double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, load_change = 0.0;
   int max_pseudo_steps = 500, krylov_steps = 20;
   double krylov_drop = 0.05, matrix_free_below = 1e-2;
   double incidence = 0.0;  ///< of the wind, turned about y: positive blows upwards [rad]
