@@ -26,7 +26,7 @@ TEST_CASE("values and arrays come out of a parcel as they went in, and not more 
 
 TEST_CASE("each rank gets what every other one addressed to it", "[runtime][mpi2][mpi4]") {
   const int rank = rank_in(MPI_COMM_WORLD), ranks = ranks_in(MPI_COMM_WORLD);
-  std::vector<Bytes> to(std::size_t(ranks), Bytes());
+  std::vector<Bytes> to{std::size_t(ranks), Bytes{}};
   for (int r = 0; r < ranks; ++r) to[std::size_t(r)] = Bytes(std::size_t(1000 * rank + r), std::byte(10 * rank + r));
   const auto from = exchange(MPI_COMM_WORLD, to);
   REQUIRE(int(from.size()) == ranks);
