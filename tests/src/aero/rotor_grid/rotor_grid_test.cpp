@@ -4,6 +4,7 @@
 
 #include <omp.h>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
