@@ -1,7 +1,8 @@
 # Precompiled headers: half of a build from nothing is reading the same library headers 380 times.
 # One for the program and one for the tests, each used by every target below its folders. Off beside a compiler cache
-# (CMAKE_CXX_COMPILER_LAUNCHER), which precompiled headers would blind; then each file proves its own includes.
-if(CMAKE_CXX_COMPILER_LAUNCHER)
+# (CMAKE_CXX_COMPILER_LAUNCHER), which precompiled headers would blind; then each file proves its own includes. Off with clang, whose
+# OpenMP flag, needed everywhere once the header has it, refuses structured bindings in lambdas.
+if(CMAKE_CXX_COMPILER_LAUNCHER OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(precompile OFF)
 else()
   set(precompile ON)
