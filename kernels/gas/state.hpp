@@ -26,10 +26,12 @@ struct Conserved {
   Real rho, mx, my, mz, E;
 };
 
-/// Unit normal out of the left cell [-], area [m2], normal velocity of the moving face [m/s].
+/// Unit normal out of the left cell [-], area [m2], normal velocity of the moving face [m/s]; and its velocity, of which fluxes
+/// whose dissipation knows a local Mach number see the tangential part.
 template <class Real>
 struct Face {
   Real nx, ny, nz, area, speed;
+  Real vx = Real(0.0), vy = Real(0.0), vz = Real(0.0);
 };
 
 /// Sutherland's law mu = mu0 (T/T0)^1.5 (T0 + S) / (T + S); S as NASA's TMR uses it (198.6 R).

@@ -29,20 +29,22 @@ std::ptrdiff_t outward(const BoxLayout& box, Side side) { return (at_end(side) ?
 
 }  // namespace
 
-gas::Vector<double> wall_velocity(const TileGeometry& g, Side side, int k, int j, int i, double dt) {
-  if (!g.moving() || dt <= 0.0) return {0.0, 0.0, 0.0};
+gas::Vector<double> wall_velocity(const TileGeometry& g, Side side, int k, int j, int i, const BoundarySetting& s) {
+  if (!g.moving() || (s.dt <= 0.0 && !s.turning)) return {0.0, 0.0, 0.0};
   const int d = direction_of(side), end = at_end(side) ? 1 : 0;
   const auto [a, b] = along(side);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int n = 0; n < 4; ++n) {
     int at[3] = {i, j, k};
     at[d] += end, at[a] += n % 2, at[b] += n / 2;
-    for (int c = 0; c < 3; ++c) {
-      const std::ptrdiff_t place = c * g.node_box.component + g.node_box.at(at[2], at[1], at[0]);
-      sum[c] += g.node_data.data()[place] - g.old_node_data.data()[place];
+    if (s.turning) {
+      const double* x = g.node_data.data() + g.node_box.at(at[2], at[1], at[0]);
+      sum += g.rate.velocity + g.rate.omega.cross(Eigen::Vector3d(x[0], x[g.node_box.component], x[2 * g.node_box.component]));
+    } else {
+      sum += node_velocity(g, s.weights, s.dt, at[2], at[1], at[0]);
     }
   }
-  sum /= 4.0 * dt;
+  sum /= 4.0;
   return {sum[0], sum[1], sum[2]};
 }
 
@@ -58,7 +60,7 @@ void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
       const std::ptrdiff_t cell = tile.cells.at(k, j, i);
       const gas::Face<double> f = outward_face(g, side, k, j, i);
       const gas::Vector<double> wall =
-          boundary.condition == Condition::no_slip ? wall_velocity(g, side, k, j, i, s.dt) : gas::Vector<double>{0.0, 0.0, 0.0};
+          boundary.condition == Condition::no_slip ? wall_velocity(g, side, k, j, i, s) : gas::Vector<double>{0.0, 0.0, 0.0};
       const gas::Primitive<double> first = load(tile, state, cell);
       // A wall's second ghost mirrors the second cell; behind an open boundary both are alike.
       const gas::Primitive<double> second = is_wall(boundary.condition) && deep ? load(tile, state, cell - out) : first;

@@ -16,7 +16,9 @@ struct BoundarySetting {
   gas::Primitive<double> stream{};         ///< undisturbed flow, above the references
   std::array<double, 2> carried{};         ///< of the turbulence unknowns in it
   double reference_speed = 1e30;           ///< of the far field's waves [m/s]; beyond the sound speed: the physical ones
-  double dt = 0.0;                         ///< of a moving grid, for the speed of its walls
+  double dt = 0.0;                         ///< of a moving grid, for the speed of its walls, with
+  TimeWeights weights{};                   ///< those of the physical step
+  bool turning = false;                    ///< walls at rest in a frame that turns: their speed follows from TileGeometry's own
   /// Ghost value of the turbulence unknowns behind a no-slip wall, of those inside, the laminar nu and the wall distance; null: none.
   void (*wall_carried)(const double* inside, double nu, double distance, double* ghost) = nullptr;
 };
@@ -28,6 +30,6 @@ void set_open_faces(FlowTile& tile);
 
 /// Pressure on a wall face (above the reference) and the velocity of the wall [m/s].
 double wall_pressure(const FlowTile& tile, const double* state, Side side, int k, int j, int i);
-gas::Vector<double> wall_velocity(const TileGeometry& g, Side side, int k, int j, int i, double dt);
+gas::Vector<double> wall_velocity(const TileGeometry& g, Side side, int k, int j, int i, const BoundarySetting& setting);
 
 }  // namespace spindrift::aero

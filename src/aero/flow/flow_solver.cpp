@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "src/aero/flow/krylov_vectors.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
@@ -64,6 +65,17 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     for (std::size_t t = 0; t < 2; ++t) implicit_.scales.model_residual[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
   }
 
+  periodic_ = tiling.periodic;
+  const bool turning = !setting.frame_omega.isZero();
+  if (turning) {
+    if (setting.time_order > 0) throw std::invalid_argument("flow: a turning frame is for steady flow; unsteady grids move");
+    const Eigen::Vector3d u(setting.stream.u, setting.stream.v, setting.stream.w);
+    if (setting.frame_omega.cross(u).norm() > 1e-9 * setting.frame_omega.norm() * setting.speed)
+      throw std::invalid_argument("flow: a stream across the axis is not steady in a turning frame");
+    boundary_.turning = true;
+    for (std::size_t c = 0; c < 3; ++c) implicit_.omega[c] = setting.frame_omega[Eigen::Index(c)];
+  }
+
   const int columns = std::min(setting.march.krylov_steps, linear::max_krylov);
   local_.assign(std::size_t(tiling.size()), -1);
   for (const int index : grid.owned()) {
@@ -75,6 +87,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     FlowTile& t = tiles_.emplace_back();
     t.geometry = &grid[index];
     t.index = index;
+    if (turning) turn_frame(*t.geometry, setting.frame_omega, setting.frame_centre, tiling.planar);
     t.directions = tiling.planar ? 2 : 3;
     t.turbulence = model_->equations;
     t.cells = cell_layout(from, state_ghosts, tiling.planar);
@@ -145,8 +158,7 @@ void FlowSolver::begin_time_step(FlowTile& tile) {
     for (int i = 0; i < tile.box.ni; ++i) {
       const std::ptrdiff_t from = tile.cells.at(k, j, i), to = tile.inner.at(k, j, i);
       const auto w = gas::conserved(setting_.gas, gas::load_primitive<double>(tile.state.data() + from, component));
-      // Of a moving grid the geometry has already moved on: the volume of the state is the old one.
-      const double v = g.moving() ? g.old_volume_data.data()[g.inner_box.at(k, j, i)] : g.volume_data.data()[g.cell_box.at(k, j, i)];
+      const double v = g.volume_data.data()[g.cell_box.at(k, j, i)];  // a moving grid has not moved yet
       gas::store_conserved(tile.before.data() + to, std::size_t(tile.inner.component), v * w);
       for (int t = 0; t < tile.turbulence; ++t) {
         const int c = mean_unknowns + t;
@@ -154,6 +166,84 @@ void FlowSolver::begin_time_step(FlowTile& tile) {
       }
     }
   });
+}
+
+// ---- motion
+
+const BlockPose& FlowSolver::pose(const std::vector<BlockPose>& poses, const FlowTile& tile) const {
+  return poses.size() == 1 ? poses[0] : poses[std::size_t(grid_.tiling().tiles[std::size_t(tile.index)].block)];
+}
+
+void FlowSolver::check_poses(const std::vector<BlockPose>& poses) const {
+  const Tiling& tiling = grid_.tiling();
+  if (setting_.time_order == 0 || (!tiles_.empty() && !tiles_[0].geometry->moving()))
+    throw std::invalid_argument("flow: only grids built as moving, in unsteady flow, move");
+  if (poses.size() != 1 && poses.size() != tiling.block_cells.size())
+    throw std::invalid_argument("flow: " + std::to_string(poses.size()) + " poses for " + std::to_string(tiling.block_cells.size()) + " blocks");
+  if (tiling.periodic.empty()) return;
+  // Across a periodic link both sides must see the same motion: only along the period, or about and along its axis.
+  for (const BlockPose& p : poses) {
+    const std::vector<RigidMap> maps = moved_maps(tiling.periodic, p.map);
+    for (std::size_t n = 0; n < maps.size(); ++n) {
+      const double size = 1.0 + p.map.translation.norm() + periodic_[n].translation.norm();
+      if ((maps[n].rotation - periodic_[n].rotation).norm() > 1e-9 || (maps[n].translation - periodic_[n].translation).norm() > 1e-9 * size)
+        throw std::invalid_argument("flow: this motion does not keep the periodicity of the grid; a turn must be about its axis");
+    }
+  }
+}
+
+void FlowSolver::move_to(std::vector<BlockPose> poses) {
+  check_poses(poses);
+  poses_next_ = std::move(poses);
+}
+
+namespace {
+void set_nodes(TileGeometry& g, const BlockPose& pose) {
+  if (!pose.shape) return move_rigidly(g, pose.map);
+  move_nodes(g, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return pose.map.rotation * pose.shape(x) + pose.map.translation; });
+}
+/// From one pose to another: displacement at the origin and turn, those of the middle of the step to second order.
+TileGeometry::RigidRate change(const RigidMap& from, const RigidMap& to) {
+  const Eigen::AngleAxisd axis(to.rotation * from.rotation.transpose());
+  const Eigen::Vector3d turn = axis.axis() * axis.angle();
+  return {to.translation - from.translation - turn.cross(0.5 * (to.translation + from.translation)), turn};
+}
+}  // namespace
+
+void FlowSolver::place(std::vector<BlockPose> before, std::vector<BlockPose> now) {
+  periodic_ = moved_maps(grid_.tiling().periodic, now[0].map);
+  check_poses(before), check_poses(now);
+  const bool planar = grid_.tiling().planar;
+  for (FlowTile& tile : tiles_) {
+    TileGeometry& g = *tile.geometry;
+    set_nodes(g, pose(before, tile));
+    begin_step(g);  // nothing was swept on the way here
+    update_metrics(g, planar);
+    update_sweeps(g, planar);
+    begin_step(g);
+    set_nodes(g, pose(now, tile));
+    update_metrics(g, planar);
+    update_sweeps(g, planar);
+    g.over_step = change(pose(before, tile).map, pose(now, tile).map);
+  }
+  poses_before_ = std::move(before);
+  poses_ = poses_next_ = std::move(now);
+  grid_.fill_local_geometry(periodic_);
+}
+
+void FlowSolver::move_tile(FlowTile& tile) {
+  TileGeometry& g = *tile.geometry;
+  const bool planar = grid_.tiling().planar;
+  begin_step(g);
+  set_nodes(g, pose(poses_, tile));
+  update_metrics(g, planar);
+  update_sweeps(g, planar);
+  update_speeds(g, weights_, setting_.dt, planar);
+  // As face speeds: of this step and the one before it, second order at the new time level.
+  const auto old = std::exchange(g.over_step, change(pose(poses_before_, tile).map, pose(poses_, tile).map));
+  g.rate.velocity = (weights_.now * g.over_step.velocity - weights_.older * old.velocity) / setting_.dt;
+  g.rate.omega = (weights_.now * g.over_step.omega - weights_.older * old.omega) / setting_.dt;
+  fill_boundary_geometry(g, grid_.tiling().boundary(tile.index));
 }
 
 /// Gradients, and what the turbulence model makes of them.
@@ -169,8 +259,21 @@ void FlowSolver::evaluate(FlowTile& tile, double* state, double* residual) {
   add_wall_pressure(tile, state, residual);
   if (setting_.viscous) sweep_viscous(tile, state, residual, viscous_);
   if (tile.turbulence > 0) model_->residual(tile, state, residual, viscous_);
-  if (setting_.time_order == 0) return;
   const TileGeometry& g = *tile.geometry;
+  if (boundary_.turning) {  // in axes that turn with the frame, the components of a constant momentum change
+    const auto [x, y, z] = implicit_.omega;
+    for_rows(tile.box, [&](int k, int j) {
+      for (int i = 0; i < tile.box.ni; i += row_lanes) {
+        const auto w = gas::conserved(setting_.gas, gas::load_primitive<Row>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component)));
+        const Row v = Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)), across[3] = {y * w.mz - z * w.my, z * w.mx - x * w.mz, x * w.my - y * w.mx};
+        for (int c = 0; c < 3; ++c) {
+          double* to = residual + tile.inner.at(k, j, i) + (c + 1) * tile.inner.component;
+          (Row::load(to) + v * across[c]).store(to);
+        }
+      }
+    });
+  }
+  if (setting_.time_order == 0) return;
   const double now = weights_.now / setting_.dt, old = weights_.old / setting_.dt, older = weights_.older / setting_.dt;
   const std::ptrdiff_t c = tile.inner.component;
   for_rows(tile.box, [&](int k, int j) {
@@ -479,11 +582,31 @@ void FlowSolver::load(int owned, std::span<const double> from) {
   std::size_t n = 0;
   for_saved(tiles_[std::size_t(owned)], setting_.time_order, [&](double& value) { value = from[n++]; });
 }
-std::vector<double> FlowSolver::save_march() const { return {march_.cfl(), double(time_steps_), dt_before_}; }
+std::vector<double> FlowSolver::save_march() const {
+  std::vector<double> all{march_.cfl(), double(time_steps_), dt_before_};
+  if (!moves()) return all;
+  all.push_back(double(poses_before_.size()));
+  for (const auto* poses : {&poses_before_, &poses_})
+    for (const BlockPose& p : *poses) {
+      all.insert(all.end(), p.map.rotation.data(), p.map.rotation.data() + 9);
+      all.insert(all.end(), p.map.translation.data(), p.map.translation.data() + 3);
+    }
+  return all;
+}
 void FlowSolver::load_march(std::span<const double> from) {
   march_.set_cfl(from[0]);
   time_steps_ = std::int64_t(from[1]);
   dt_before_ = from[2];
+  if (!moves()) return;
+  constexpr std::size_t numbers = 12;
+  const std::size_t first = std::size_t(from[3]), given = (from.size() - 4) / numbers;
+  std::vector<BlockPose> all(given);
+  for (std::size_t n = 0; n < given; ++n) {
+    const double* at = from.data() + 4 + n * numbers;
+    all[n].map.rotation = Eigen::Map<const Eigen::Matrix3d>(at);
+    all[n].map.translation = Eigen::Map<const Eigen::Vector3d>(at + 9);
+  }
+  place({all.begin(), all.begin() + std::ptrdiff_t(first)}, {all.begin() + std::ptrdiff_t(first), all.end()});
 }
 
 }  // namespace spindrift::aero

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -48,6 +49,15 @@ struct FlowSetting {
   MarchOptions march;
   int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
   double dt = 0.0;                 ///< physical step [s]
+  /// Steady flow seen from a frame that turns about an axis through `centre` along the stream: velocities stay those in space, their
+  /// components turn with the frame. Blades are at rest in the grid.
+  Eigen::Vector3d frame_omega = Eigen::Vector3d::Zero(), frame_centre = Eigen::Vector3d::Zero();  ///< [rad/s], [m]
+};
+
+/// Where a block of the grid is at the end of a step: its nodes as made, changed by `shape` where there is one, then carried by `map`.
+struct BlockPose {
+  RigidMap map;
+  std::function<Eigen::Vector3d(const Eigen::Vector3d&)> shape;
 };
 
 /// What a pseudo-step did; one row for each since the last clear.
@@ -75,6 +85,14 @@ class FlowSolver {
   }
   /// No past: the physical step that follows is the first.
   void forget();
+
+  /// Moving grids (built with `moving`; time_order 1 or 2): where the blocks are at the end of the next physical step, by block, or one
+  /// pose for all. To be called before each step; a step without it leaves the grid where it is. Face speeds follow from positions, so
+  /// that any motion keeps a uniform stream.
+  void move_to(std::vector<BlockPose> poses);
+  /// Puts the blocks where the last step left them and, one step before it, `before`: starts and restarts away from the nodes as made.
+  /// What save_march() keeps of rigid poses is placed by load_march(); of shapes it keeps nothing, place them after it.
+  void place(std::vector<BlockPose> before, std::vector<BlockPose> now);
 
   /// Records one march: the whole steady solution, or one physical step. See tasks.cpp.
   void record(runtime::Graph& graph);
@@ -132,6 +150,12 @@ class FlowSolver {
 
   // Work of single tasks.
   void begin_time_step(FlowTile& tile);
+  bool moves() const { return setting_.time_order > 0 && !tiles_.empty() && tiles_[0].geometry->moving(); }
+  const BlockPose& pose(const std::vector<BlockPose>& poses, const FlowTile& tile) const;
+  void check_poses(const std::vector<BlockPose>& poses) const;
+  void move_tile(FlowTile& tile);
+  void record_centres(runtime::Graph& graph, const std::vector<runtime::Datum>& nodes, const std::vector<runtime::Datum>& ghosts,
+                      const std::vector<runtime::Use>& control);
   void slopes(FlowTile& tile, const double* state);
   void evaluate(FlowTile& tile, double* state, double* residual);
   void measure(FlowTile& tile, std::span<double> partial, std::span<double> loads);
@@ -179,6 +203,8 @@ class FlowSolver {
   };
   std::vector<Limit> limits_;
   std::string trouble_;
+  std::vector<BlockPose> poses_before_{1}, poses_{1}, poses_next_{1};  ///< one step ago, now, at the end of the next step
+  std::vector<RigidMap> periodic_;                                     ///< of the grid where it is
   std::int64_t time_steps_ = 0;
   double dt_before_ = 0.0;
   TimeWeights weights_{};

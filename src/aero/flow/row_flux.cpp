@@ -12,9 +12,13 @@ namespace {
 template <class Flux>
 void flux_row(const gas::IdealGas& gas, const TileGeometry& geometry, int d, int k, int j, int i, int count, const FacePiece& states,
               double* out, std::ptrdiff_t stride) {
+  constexpr bool tangential = requires { Flux::sees_tangential_speed; };
+  const bool moving = tangential && geometry.moving();
   for (int n = 0; n < count; n += row_lanes) {
+    gas::Face<Row> face = load_face(geometry, d, k, j, i + n);
+    if (moving) add_grid_velocity(geometry, d, k, j, i + n, face);
     const auto l = gas::load_primitive<Row>(states.left[0] + n, piece), r = gas::load_primitive<Row>(states.right[0] + n, piece);
-    gas::store_conserved(out + n, std::size_t(stride), Flux{}(gas, l, r, load_face(geometry, d, k, j, i + n)));
+    gas::store_conserved(out + n, std::size_t(stride), Flux{}(gas, l, r, face));
   }
 }
 

@@ -23,6 +23,17 @@ SPINDRIFT_INLINE gas::Face<Row> load_face(const TileGeometry& g, int direction, 
   if (g.moving()) f.speed = Row::load(g.speed_data[direction].data() + box.at(k, j, i)) * inverse;
   return f;
 }
+/// Adds the velocity of the grid at eight faces, by its rigid motion at the middle of the cells on both sides.
+SPINDRIFT_INLINE void add_grid_velocity(const TileGeometry& g, int direction, int k, int j, int i, gas::Face<Row>& f) {
+  const double* at = g.centre_data.data() + g.cell_box.at(k, j, i);
+  const std::ptrdiff_t c = g.cell_box.component, back = g.cell_box.stride(direction);
+  const auto middle = [&](int n) { return 0.5 * (Row::load(at + n * c) + Row::load(at + n * c - back)); };
+  const Row x = middle(0), y = middle(1), z = middle(2);
+  const Eigen::Vector3d &v = g.rate.velocity, &turn = g.rate.omega;
+  f.vx = v[0] + (turn[1] * z - turn[2] * y);
+  f.vy = v[1] + (turn[2] * x - turn[0] * z);
+  f.vz = v[2] + (turn[0] * y - turn[1] * x);
+}
 /// One face, for boundaries.
 inline gas::Face<double> face_at(const TileGeometry& g, int direction, int k, int j, int i) {
   const BoxLayout& box = g.face_box[direction];

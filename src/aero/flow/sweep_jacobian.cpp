@@ -65,7 +65,8 @@ void add_faces(FlowTile& tile, const double* state, const double* eddy, int d, c
       for (int i = 0; i < ni; i += row_lanes) {
         const double* at = state + tile.cells.at(k, j, i);
         const gas::Primitive<Row> ql = gas::load_primitive<Row>(at - step, component), qr = gas::load_primitive<Row>(at, component);
-        const gas::Face<Row> f = load_face(g, d, k, j, i);
+        gas::Face<Row> f = load_face(g, d, k, j, i);
+        if (s.mach_floor < 1.0 && g.moving()) add_grid_velocity(g, d, k, j, i, f);
         gas::FluxJacobian<Row> b = convection(s, ql, qr, f);
         const int n = d == 1 ? j : k;
         const auto masked = [&](int end) -> const AlignedArray<double>& { return tile.open[std::size_t(2 * d + end)]; };
@@ -156,6 +157,20 @@ SPINDRIFT_INLINE gas::Block5<Real> time_block(const ImplicitSetting& s, const ga
   return sum;
 }
 
+/// Volume times the derivatives of omega x (rho u).
+SPINDRIFT_INLINE void add_turning(Block& sum, const ImplicitSetting& s, const gas::Primitive<Row>& q, const Row& volume) {
+  const auto [x, y, z] = s.omega;
+  const gas::Thermo<Row> t = gas::thermo(s.gas, q);
+  const Row across[3] = {y * q.w - z * q.v, z * q.u - x * q.w, x * q.v - y * q.u}, mass = volume * t.rho;
+  for (int r = 0; r < 3; ++r) {
+    sum.m[r + 1][0] += volume * t.rho_p * across[r];
+    sum.m[r + 1][4] += volume * t.rho_T * across[r];
+  }
+  sum.m[1][3] += y * mass, sum.m[1][2] += -z * mass;
+  sum.m[2][1] += z * mass, sum.m[2][3] += -x * mass;
+  sum.m[3][2] += x * mass, sum.m[3][1] += -y * mass;
+}
+
 }  // namespace
 
 void sweep_rates(FlowTile& tile, const double* state, const ImplicitSetting& s) {
@@ -191,7 +206,9 @@ void sweep_jacobian(FlowTile& tile, const double* state, const double* eddy, dou
       const gas::Primitive<Row> q = gas::load_primitive<Row>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
       const Row pseudo = Row::load(tile.rate.data() + tile.inner.at(k, j, i)) * (1.0 / cfl);
       const Row physical = Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)) * s.physical_rate;
-      to_lanes(time_block(s, q, pseudo, physical), entries.scale, lanes);
+      gas::Block5<Row> block = time_block(s, q, pseudo, physical);
+      if (s.omega != std::array<double, 3>{}) add_turning(block, s, q, Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)));
+      to_lanes(block, entries.scale, lanes);
       scatter<false>(lanes, 0, std::min(8, tile.box.ni - i), 1.0f, a.block((std::ptrdiff_t(k) * tile.box.nj + j) * tile.box.ni + i, 0),
                      a.cell_stride());
     }

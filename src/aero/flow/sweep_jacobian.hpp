@@ -26,6 +26,7 @@ struct ImplicitSetting {
   bool preconditioned = true;    ///< pseudo-time of Weiss & Smith
   double floor_speed = 0.0;      ///< least reference speed of the preconditioner [m/s]
   double physical_rate = 0.0;    ///< a0 / dt of the physical step [1/s]; 0 steady
+  std::array<double, 3> omega{}; ///< of a frame that turns steadily [rad/s]
 };
 
 /// FlowTile::rate: sum of the (preconditioned) spectral radii of a cell's faces, halved, viscous ones added: V / pseudo-step at CFL 1.

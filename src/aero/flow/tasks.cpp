@@ -4,6 +4,7 @@
 #include "src/aero/flow/tasks.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
@@ -26,6 +27,7 @@ class StepGraph {
   void record() {
     if (s_.setting_.time_order > 0) begin_time_step();
     begin();
+    if (s_.moves()) move_grid();
     g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(s_.march_.options().max_steps) + 2}, [&] {
       residual_of_state();
       judge();
@@ -67,10 +69,19 @@ class StepGraph {
         const bool second = s_.setting_.time_order > 1 && s_.time_steps_ > 0;
         s_.weights_ = second ? bdf2(s_.setting_.dt / s_.dt_before_) : bdf1;
         s_.implicit_.physical_rate = s_.weights_.now / s_.setting_.dt;
+        s_.boundary_.weights = s_.weights_;
+        s_.poses_before_ = std::exchange(s_.poses_, s_.poses_next_);
         s_.dt_before_ = s_.setting_.dt;
         ++s_.time_steps_;
       }
     });
+  }
+
+  /// Nodes, metrics and face speeds of the new time level; what follows waits through the states.
+  void move_grid() {
+    each("aero/move", [&](std::size_t n) { return Uses{reads(decision_), reads(past_[n]), updates(state_[n])}; },
+         [this](std::size_t n) { s_.move_tile(s_.tiles_[n]); });
+    s_.record_centres(g_, state_, state_ghosts_, {reads(decision_)});
   }
 
   void residual_of_state() {
@@ -115,7 +126,8 @@ class StepGraph {
                                      1,
                                      &direction_,
                                      &direction_ghosts_,
-                                     3};
+                                     3,
+                                     &s_.periodic_};
     record_halo<float>(g_, s_.grid_, s_.local_, direction, s_.float_buffers_, [this] { return s_.solving_ && !s_.matrix_free_; },
                        [](int) {}, {reads(decision_)});
     each("aero/krylov/perturb",
@@ -172,7 +184,8 @@ class StepGraph {
                                   state_ghosts,
                                   &inside,
                                   &ghosts,
-                                  tag};
+                                  tag,
+                                  &s_.periodic_};
     record_halo<double>(g_, s_.grid_, s_.local_, field, s_.double_buffers_, [this, trial] { return !trial || perturbs(); },
                         [this, trial](int n) {
                           FlowTile& tile = s_.tiles_[std::size_t(n)];
@@ -191,7 +204,8 @@ class StepGraph {
                                   1,
                                   &gradients_,
                                   &gradient_ghosts_,
-                                  tag};
+                                  tag,
+                                  &s_.periodic_};
     record_halo<double>(g_, s_.grid_, s_.local_, field, s_.double_buffers_, active,
                         [this](int n) { fill_boundary_gradients(s_.tiles_[std::size_t(n)]); }, {reads(decision_)});
   }
@@ -227,15 +241,20 @@ void FlowSolver::record(Graph& graph) {
 }
 
 void FlowSolver::record_geometry(Graph& graph) {
-  const std::vector<Datum> nodes = graph.data(tiles_.size()), centres = graph.data(tiles_.size()), volumes = graph.data(tiles_.size());
+  const std::vector<Datum> nodes = graph.data(tiles_.size()), ghosts = graph.data(tiles_.size());
+  for (std::size_t n = 0; n < tiles_.size(); ++n) graph.task("aero/geometry/" + std::to_string(tiles_[n].index), {writes(nodes[n])}, [] {});
+  record_centres(graph, nodes, ghosts, {});
+}
+
+/// Ghosts of centres and volumes, from tiles here and on other ranks.
+void FlowSolver::record_centres(Graph& graph, const std::vector<Datum>& nodes, const std::vector<Datum>& ghosts, const std::vector<Use>& control) {
   const auto view = [this](int t) -> TileGeometry& { return grid_[t]; };
   const auto layout = [this](const Tile& t) { return cell_layout(t, gradient_ghosts, grid_.tiling().planar); };
-  for (std::size_t n = 0; n < tiles_.size(); ++n) graph.task("aero/geometry/" + std::to_string(tiles_[n].index), {writes(nodes[n])}, [] {});
-  const HaloField<double> centre{"aero/centres", [view](int t) { return view(t).centre(); }, layout, {Quantity::point}, 1, &nodes, &centres, 6};
-  const HaloField<double> volume{"aero/volumes", [view](int t) { return view(t).volume(); }, layout, {Quantity::scalar}, 1, &nodes, &volumes, 7};
+  const HaloField<double> centre{"aero/centres", [view](int t) { return view(t).centre(); }, layout, {Quantity::point}, 1, &nodes, &ghosts, 6, &periodic_};
+  const HaloField<double> volume{"aero/volumes", [view](int t) { return view(t).volume(); }, layout, {Quantity::scalar}, 1, &nodes, &ghosts, 7, &periodic_};
   const auto always = [] { return true; };
-  record_halo<double>(graph, grid_, local_, centre, double_buffers_, always, [](int) {}, {});
-  record_halo<double>(graph, grid_, local_, volume, double_buffers_, always, [](int) {}, {});
+  record_halo<double>(graph, grid_, local_, centre, double_buffers_, always, [](int) {}, control);
+  record_halo<double>(graph, grid_, local_, volume, double_buffers_, always, [](int) {}, control);
 }
 
 }  // namespace spindrift::aero

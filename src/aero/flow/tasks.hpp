@@ -22,6 +22,7 @@ struct HaloField {
   int layers = 1;
   const std::vector<runtime::Datum>*inside = nullptr, *ghosts = nullptr;  ///< by owned tile
   int tag = 0;                                       ///< of its messages; one per field and place in the graph
+  const std::vector<RigidMap>* periodic = nullptr;   ///< of the grid where it is when the task runs
 };
 
 /// Records what fills the ghosts of all owned tiles: packing, messages, and one task per tile that copies, unpacks and then calls
@@ -85,9 +86,9 @@ void record_halo(runtime::Graph& graph, const GridStore& grid, const std::vector
       if (!active()) return;
       for (const GhostLink& link : tiling.into(tile))
         if (grid.owns(link.from))
-          copy_ghosts<T>(link, tiling.periodic, field.quantities, field.layers, field.view(link.from), field.view(tile));
+          copy_ghosts<T>(link, *field.periodic, field.quantities, field.layers, field.view(link.from), field.view(tile));
       for (const Incoming& in : from)
-        unpack<T>(tiling.links[std::size_t(in.link)], tiling.periodic, field.quantities, field.layers, in.buffer, field.view(tile));
+        unpack<T>(tiling.links[std::size_t(in.link)], *field.periodic, field.quantities, field.layers, in.buffer, field.view(tile));
       boundaries(int(n));
     });
   }

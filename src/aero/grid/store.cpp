@@ -2,6 +2,7 @@
 #include "src/aero/grid/store.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -41,7 +42,7 @@ int flow_directions(bool planar) { return planar ? 2 : 3; }
 std::size_t TileGeometry::bytes() const {
   std::size_t sum = 0;
   for (const auto* a : {&node_data, &volume_data, &centre_data, &wall_distance_data, &reference_node_data, &old_node_data,
-                        &old_volume_data, &older_volume_data})
+                        &older_node_data, &old_volume_data, &older_volume_data})
     sum += a->bytes();
   for (const auto* family : {&face_data, &swept_data, &old_swept_data, &speed_data})
     for (const auto& a : *family) sum += a.bytes();
@@ -77,6 +78,7 @@ std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Ti
   if (moving) {
     g.reference_node_data = AlignedArray<double>(g.node_box.size(3));
     g.old_node_data = AlignedArray<double>(g.node_box.size(3));
+    g.older_node_data = AlignedArray<double>(g.node_box.size(3));
     std::ranges::copy(g.node_data.span(), g.reference_node_data.data());
     std::ranges::copy(g.node_data.span(), g.old_node_data.data());
     for (int d = 0; d < 3; ++d)
@@ -129,6 +131,7 @@ void fill_boundary_geometry(TileGeometry& g, std::span<const TileBoundary> bound
 }
 
 void begin_step(TileGeometry& g) {
+  std::swap(g.old_node_data, g.older_node_data);
   std::ranges::copy(g.node_data.span(), g.old_node_data.data());
   for (int d = 0; d < 3; ++d) std::swap(g.swept_data[d], g.old_swept_data[d]);
   std::swap(g.old_volume_data, g.older_volume_data);
@@ -166,6 +169,43 @@ void update_speeds(TileGeometry& g, TimeWeights weights, double dt, bool planar)
     BoxView<double> speed = g.speed(d), swept = g.swept(d), old = g.old_swept(d);
     for_box(g.face_box[d],
             [&](int k, int j, int i) { speed(0, k, j, i) = swept_rate(weights, swept(0, k, j, i), old(0, k, j, i), dt); });
+  }
+}
+
+Eigen::Vector3d node_velocity(const TileGeometry& g, TimeWeights w, double dt, int k, int j, int i) {
+  Eigen::Vector3d v;
+  for (int c = 0; c < 3; ++c) {
+    const std::ptrdiff_t at = c * g.node_box.component + g.node_box.at(k, j, i);
+    const double now = g.node_data.data()[at], old = g.old_node_data.data()[at];
+    // With differences, not positions: digits of small steps far from the origin.
+    v[c] = (w.now * (now - old) - w.older * (old - g.older_node_data.data()[at])) / dt;
+  }
+  return v;
+}
+
+namespace {
+/// Integral of (omega x r) . n over a bilinear face: 2 x 2 Gauss points are exact, the integrand is quadratic in each coordinate.
+double turned_volume(const Quad& f, const Eigen::Vector3d& omega, const Eigen::Vector3d& centre) {
+  const Eigen::Vector3d q = f.b - f.a, r = f.d - f.a, s = (f.a - f.b) + (f.c - f.d);
+  const double low = 0.5 - 0.5 / std::sqrt(3.0);
+  double sum = 0.0;
+  for (const double u : {low, 1.0 - low})
+    for (const double v : {low, 1.0 - low}) {
+      const Eigen::Vector3d x = (f.a - centre) + u * q + v * r + u * v * s;
+      sum += 0.25 * omega.cross(x).dot((q + v * s).cross(r + u * s));
+    }
+  return sum;
+}
+}  // namespace
+
+void turn_frame(TileGeometry& g, const Eigen::Vector3d& omega, const Eigen::Vector3d& centre, bool planar) {
+  const BoxView<const double> x = g.nodes();
+  g.rate = {-omega.cross(centre), omega};
+  for (int d = 0; d < 3; ++d)
+    if (g.speed_data[d].size() == 0) g.speed_data[d] = AlignedArray<double>(g.face_box[d].size(1));
+  for (int d = 0; d < flow_directions(planar); ++d) {
+    BoxView<double> speed = g.speed(d);
+    for_box(g.face_box[d], [&](int k, int j, int i) { speed(0, k, j, i) = turned_volume(face_at(x, d, k, j, i), omega, centre); });
   }
 }
 

@@ -1,6 +1,6 @@
 // The geometry of the tiles a rank owns: nodes, face vectors, volumes, centres, wall distances, and at moving grids what faces
 // sweep. Bytes per cell (8 x 16 x 64 tile; padding and ghosts counted): nodes 32, faces 80, volume 13, centres 38, wall distance
-// 8: 171; moving adds nodes 65, sweeps 80, volumes 16: 331 (docs/theory/grid.md). Called by src/aero/flow; tested in
+// 8: 171; moving adds nodes 97, sweeps 80, volumes 16: 364 (docs/theory/grid.md). Called by src/aero/flow; tested in
 // tests/src/aero/grid/store_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,10 +34,16 @@ struct TileGeometry {
   AlignedArray<double> wall_distance_data;        ///< 1 [m]; infinite where there is no wall
 
   // Moving grids only (empty otherwise).
-  AlignedArray<double> reference_node_data, old_node_data;         ///< nodes as made; nodes one step ago
+  AlignedArray<double> reference_node_data;                        ///< nodes as made
+  AlignedArray<double> old_node_data, older_node_data;             ///< nodes one and two steps ago
   std::array<AlignedArray<double>, 3> swept_data, old_swept_data;  ///< [m3] in this step and in the one before
   std::array<AlignedArray<double>, 3> speed_data;                  ///< [m3/s] volume per time swept, see swept_rate
   AlignedArray<double> old_volume_data, older_volume_data;         ///< [m3] interior, one and two steps ago
+  /// The rigid part of a motion: velocity at the origin [m/s] and rate of turn [rad/s] now, or what they came to over the last step.
+  struct RigidRate {
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), omega = Eigen::Vector3d::Zero();
+  };
+  RigidRate rate, over_step;
 
   BoxView<double> nodes() { return {node_data.data(), node_box}; }
   BoxView<double> volume() { return {volume_data.data(), cell_box}; }
@@ -85,6 +91,12 @@ void move_rigidly(TileGeometry& geometry, const RigidMap& from_reference);
 void move_nodes(TileGeometry& geometry, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& position);
 void update_sweeps(TileGeometry& geometry, bool planar);
 void update_speeds(TileGeometry& geometry, TimeWeights weights, double dt, bool planar);
+/// Velocity of a node under the same weights [m/s].
+Eigen::Vector3d node_velocity(const TileGeometry& geometry, TimeWeights weights, double dt, int k, int j, int i);
+
+/// A frame that turns steadily about `centre` with the nodes at rest in it: speeds of the faces, exact integrals of (omega x r) . n, so
+/// that they sum to zero over a cell. Makes room for them where the grid does not move otherwise.
+void turn_frame(TileGeometry& geometry, const Eigen::Vector3d& omega, const Eigen::Vector3d& centre, bool planar);
 
 /// The tiles of one rank; a tile that lives elsewhere has no geometry.
 class GridStore {

@@ -65,7 +65,6 @@ TEMPLATE_TEST_CASE("a flux turns with the axes", "[gas][fast]", OsherP, OsherO, 
   CHECK(worst < 1e-12);
 }
 
-// For the low-Mach Roe flux only with an observer who moves along the normal: its scaling knows the tangential speed in space.
 TEMPLATE_TEST_CASE("a face that moves with the observer sees the same flux", "[gas][fast]", OsherP, OsherO, Roe, RoeLowMach,
                    Rusanov) {
   const IdealGas gas = gauge_air();
@@ -74,13 +73,13 @@ TEMPLATE_TEST_CASE("a face that moves with the observer sees the same flux", "[g
   for (int n = 0; n < samples; ++n) {
     const auto l = g.state(gas), r = g.near(gas, l, 0.5);
     const auto f = g.face();
-    Eigen::Vector3d v = g.between(-300, 300) * Eigen::Vector3d(f.nx, f.ny, f.nz);
-    if (!std::is_same_v<TestType, RoeLowMach>) v += g.between(0, 300) * g.direction();
+    const Eigen::Vector3d v = g.between(0, 300) * g.direction();
     auto moving_l = l, moving_r = r;
     moving_l.u += v.x(), moving_l.v += v.y(), moving_l.w += v.z();
     moving_r.u += v.x(), moving_r.v += v.y(), moving_r.w += v.z();
     auto moving_f = f;
     moving_f.speed += v.x() * f.nx + v.y() * f.ny + v.z() * f.nz;
+    moving_f.vx += v.x(), moving_f.vy += v.y(), moving_f.vz += v.z();
     const auto expected = seen_from(TestType{}(gas, l, r, f), v);
     worst = std::max(worst, difference(TestType{}(gas, moving_l, moving_r, moving_f), expected,
                                        flux_scale(gas, moving_l, moving_r, moving_f)));

@@ -31,7 +31,7 @@ struct Case {
   std::unique_ptr<runtime::Executor> executor;
 
   Case(MultiBlockGrid from, const FlowSetting& setting, const std::vector<std::pair<std::string, PatchCondition>>& conditions,
-       const TilingOptions& tiling = {}, int ranks = 1, int rank = 0)
+       const TilingOptions& tiling = {}, int ranks = 1, int rank = 0, bool moving = false)
       : grid(std::move(from)) {
     std::vector<std::string> walls;
     for (const auto& [name, c] : conditions)
@@ -43,7 +43,7 @@ struct Case {
     std::vector<int> rank_of_tile(std::size_t(tiles.size()));
     for (std::size_t t = 0; t < rank_of_tile.size(); ++t) rank_of_tile[t] = int(t) * ranks / int(rank_of_tile.size());
     store = std::make_unique<GridStore>(std::move(tiles), std::move(rank_of_tile), rank);
-    store->build_all(grid);
+    store->build_all(grid, moving);
     solver = std::make_unique<FlowSolver>(*store, setting, by_patch);
     solver->start_uniform();
   }
