@@ -151,7 +151,7 @@ TEST_CASE("BDF2 keeps its order on a grid that turns, flies and deforms", "[flow
 
 TEST_CASE("a frame that turns sees a vortex that turns with another rate at rest, to second order", "[flow][order][fast]") {
   std::vector<double> h, errors;
-  for (const int n : {64, 128}) {
+  for (const int n : {45, 90}) {
     const double rate = 300.0, frame = 500.0;
     FlowSetting s = air(0.1, {0.0, 1.0, 0.0});
     s.frame_omega = {0.0, frame, 0.0}, s.frame_centre = {0.4, 0.0, 0.6};
