@@ -199,7 +199,7 @@ void check_bodies(scene::Document& document, const NamedBodies& bodies, const Na
       if (body != "earth" && std::find(names.begin(), names.end(), body) == names.end())
         document.problem("joints." + name + ".bodies",
                          fmt::format("names body \"{}\", which is not in [bodies]; known: {}, earth", body, fmt::join(names, ", ")));
-    const auto check_table = [&](const std::optional<DriverOptions>& driver, const char* which, auto make) {
+    const auto check_table = [&, &name = name](const std::optional<DriverOptions>& driver, const char* which, auto make) {
       if (!driver || driver->table.empty()) return;
       try {
         make(*driver);
