@@ -26,4 +26,16 @@ struct Cylinder {
   }
 };
 
+/// Box with its edges along the body axes.
+struct Box {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), size = Eigen::Vector3d::Ones();
+  double volume() const { return size.prod(); }
+};
+
+struct Sphere {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 1.0;
+  double volume() const { return 4.0 / 3.0 * pi * radius * radius * radius; }
+};
+
 }  // namespace spindrift

@@ -25,4 +25,19 @@ inline double flap_transfer(double kh) {
   return 4.0 * std::sinh(kh) / kh * lever / (std::sinh(2.0 * kh) + 2.0 * kh);
 }
 
+/// Height / stroke at still water of a flap whose hinge stands over the bottom: kd is wave number times its height (kh: at the
+/// surface, the limit of no flap). The wall under it does not move.
+inline double flap_transfer(double kh, double kd) {
+  if (kd <= 0.0) return flap_transfer(kh);
+  if (kh > 300.0) return 2.0 * (1.0 - 1.0 / (kh - kd));
+  return 4.0 * std::sinh(kh) / (std::sinh(2.0 * kh) + 2.0 * kh) * (std::sinh(kh) + (std::cosh(kd) - std::cosh(kh)) / (kh - kd));
+}
+
+/// Amplitude [m] of the motion at twice the frequency that a piston adds, so that the wave is free of the free second harmonic:
+/// e = S/2 sin wt + piston_second sin 2wt. Madsen (1971), J. Geophys. Res. 76, 8672, eq. 24.
+inline double piston_second(double height, double depth, double kh) {
+  const double s = std::sinh(kh);
+  return height * height / (32.0 * depth) * (3.0 / (std::tanh(kh) * s * s) - 2.0 / piston_transfer(kh));
+}
+
 }  // namespace spindrift::waves

@@ -40,6 +40,27 @@ double seconds_per_step(Machine& machine, bodies::BodiesState state) {
   return fastest;
 }
 
+/// Of a sea of particles: how many, how large, how long. Nothing of it is made but a list of places.
+void print_particles(const Machine& machine, const coupling::Start& start) {
+  const coupling::Scenario& s = machine.scenario();
+  const sea::ParticleCensus census = particle_census(*machine.particle_plan(), start.state.motions);
+  const sph::Parameters& p = machine.particle_plan()->parameters;
+  const double step = std::min(s.time.step_s.value_or(census.step_s), machine.body_step_limit());
+  const double duration = s.time.end_s + s.sea.settle_s(), steps = duration / std::min(step, census.step_s);
+  const double evaluations = steps * double(census.particles()) * (p.step == sph::StepChoice::verlet ? 1.0 : 2.0);
+  const double seconds = evaluations / census.evaluations_per_second;
+  fmt::print("\nSea of particles\n");
+  fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls, census.bodies);
+  for (const auto& [name, volume] : census.displaced_m3) fmt::print("  {:<22}{:.6g} m3 displaced by its particles\n", name, volume);
+  fmt::print("  {:<22}{:.4g} m/s, {:.3g} m spacing, support {:.3g} m\n", "speed of sound", p.eos.c0, p.spacing, p.reach());
+  fmt::print("  {:<22}{:.4g} s at rest, set by {}{}\n", "largest step", census.step_s, census.step_set_by,
+             s.time.step_s ? fmt::format("; the scene asks for {} s", *s.time.step_s) : "");
+  fmt::print("  {:<22}{:.0f} MB\n", "memory of particles", census.bytes / 1e6);
+  fmt::print("  {:<22}{:.3g} steps of {:.3g} M particle evaluations per second and core (measured now on a small sea): {:.3g} core-hours, "
+             "{:.3g} per simulated minute\n",
+             "predicted cost", steps, 1e-6 * census.evaluations_per_second, seconds / 3600.0, seconds / 3600.0 / duration * 60.0);
+}
+
 void print_cost(Machine& machine, const coupling::Start& start) {
   const coupling::Timeline& t = machine.timeline();
   const double steps = double(t.windows()) * double(t.steps_per_window());
@@ -78,8 +99,9 @@ void print_modes(const Machine& machine, const bodies::Linearisation& linearisat
                  1.0 / mode.period_s(), 100.0 * mode.damping_ratio());
     else
       fmt::print("  {:<34}rate {:+.3g} 1/s\n", mode.name, mode.eigenvalue.real());
-  fmt::print("\nLargest stable step (the scene asks for {} s with {})\n", machine.timeline().tick_s(),
-             name(machine.scenario().time.integrator));
+  const coupling::TimeOptions& time = machine.scenario().time;
+  const std::string asked = machine.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());
+  fmt::print("\nLargest stable step (the scene {}, with {})\n", asked, name(time.integrator));
   for (const Integrator integrator : {Integrator::rk4, Integrator::symplectic, Integrator::explicit_euler}) {
     const bodies::StepLimit limit = step_limit(integrator, linearisation);
     if (std::isinf(limit.step_s))
@@ -142,10 +164,14 @@ int check(const SceneArguments& arguments, const runtime::World& world) {
     fmt::print("{}: valid\n", arguments.scene);
     print_models(machine);
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
-    print_modes(machine, stability.linearisation);
+    if (!start.state.motions.empty()) print_modes(machine, stability.linearisation);
   }
   require_stable(machine, stability);
   if (world.rank != 0) return done;
+  if (start.state.motions.empty()) {
+    print_particles(machine, start);
+    return done;
+  }
   if (machine.rotor()) print_campbell(machine, start, stability.linearisation);
   machine.use_full_loads(true);
   const bodies::Equilibrium equilibrium =
@@ -155,7 +181,10 @@ int check(const SceneArguments& arguments, const runtime::World& world) {
     print_equilibrium(machine, equilibrium.state);
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", equilibrium.problem);
-  print_cost(machine, start);
+  if (machine.particle_plan())
+    print_particles(machine, start);
+  else
+    print_cost(machine, start);
   return done;
 }
 

@@ -38,6 +38,24 @@ const Section<CylinderOptions>& cylinder_section() {
   return section;
 }
 
+const Section<BoxOptions>& box_section() {
+  static const auto section =
+      Section<BoxOptions>("boxes", "A box of the body's wetted shape, for a sea of particles; edges along the earth's axes at the start.")
+          .text("name", &BoxOptions::name, "Name, for messages.").required()
+          .vector("centre_m", &BoxOptions::centre_m, "m", "Its centre, initial earth coordinates.").required()
+          .vector("size_m", &BoxOptions::size_m, "m", "Its edges.", positive()).required();
+  return section;
+}
+
+const Section<SphereOptions>& sphere_section() {
+  static const auto section =
+      Section<SphereOptions>("spheres", "A sphere of the body's wetted shape, for a sea of particles.")
+          .text("name", &SphereOptions::name, "Name, for messages.").required()
+          .vector("centre_m", &SphereOptions::centre_m, "m", "Its centre, initial earth coordinates.").required()
+          .number("diameter_m", &SphereOptions::diameter_m, "m", "Its diameter.", positive()).required();
+  return section;
+}
+
 const Section<ForceOptions>& force_section() {
   static const auto section =
       Section<ForceOptions>("forces", "A constant force and moment on the body.")
@@ -149,6 +167,8 @@ const Section<BodyOptions>& body_section() {
           .vector("velocity_m_s", &BodyOptions::velocity_m_s, "m/s", "Velocity of the centre of mass at the start.")
           .vector("omega_rad_s", &BodyOptions::omega_rad_s, "rad/s", "Angular velocity at the start, earth axes.")
           .tables("cylinders", &BodyOptions::cylinders, cylinder_section(), "Shape that meets the water.")
+          .tables("boxes", &BodyOptions::boxes, box_section(), "Shape that meets a sea of particles.")
+          .tables("spheres", &BodyOptions::spheres, sphere_section(), "Shape that meets a sea of particles.")
           .tables("forces", &BodyOptions::forces, force_section(), "Constant forces and moments.")
           .check(check_inertia);
   return section;
@@ -183,8 +203,8 @@ const Section<JointOptions>& joint_section() {
   return section;
 }
 
-void check_bodies(scene::Document& document, const NamedBodies& bodies, const NamedJoints& joints) {
-  if (bodies.empty()) document.problem("bodies", "the scene has no body: give at least one [bodies.NAME]");
+void check_bodies(scene::Document& document, const NamedBodies& bodies, const NamedJoints& joints, bool water_alone) {
+  if (bodies.empty() && !water_alone) document.problem("bodies", "the scene has no body: give at least one [bodies.NAME]");
   std::vector<std::string> names;
   std::set<std::string> cylinders;
   for (const auto& [name, body] : bodies) {
@@ -255,6 +275,10 @@ std::vector<PointLoad> make_point_loads(const NamedBodies& bodies) {
 Cylinder make_cylinder(const CylinderOptions& c, const BodyOptions& body) {
   return {.start = c.start_m - body.centre_m, .end = c.end_m - body.centre_m, .start_radius = 0.5 * c.diameter_m,
           .end_radius = 0.5 * c.end_diameter_m.value_or(c.diameter_m)};
+}
+Box make_box(const BoxOptions& b, const BodyOptions& body) { return {.centre = b.centre_m - body.centre_m, .size = b.size_m}; }
+Sphere make_sphere(const SphereOptions& s, const BodyOptions& body) {
+  return {.centre = s.centre_m - body.centre_m, .radius = 0.5 * s.diameter_m};
 }
 
 }  // namespace spindrift::bodies

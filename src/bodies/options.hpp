@@ -31,6 +31,18 @@ struct CylinderOptions {
   std::optional<double> end_diameter_m;
 };
 
+/// [[bodies.NAME.boxes]], initial earth coordinates.
+struct BoxOptions {
+  std::string name;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero(), size_m = Eigen::Vector3d::Zero();
+};
+/// [[bodies.NAME.spheres]]
+struct SphereOptions {
+  std::string name;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  double diameter_m = 0.0;
+};
+
 /// [[bodies.NAME.forces]]
 struct ForceOptions {
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< initial earth coordinates
@@ -51,6 +63,8 @@ struct BodyOptions {
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d omega_rad_s = Eigen::Vector3d::Zero();  ///< earth axes
   std::vector<CylinderOptions> cylinders;
+  std::vector<BoxOptions> boxes;
+  std::vector<SphereOptions> spheres;
   std::vector<ForceOptions> forces;
 
   const Eigen::Vector3d& reference() const { return reference_m ? *reference_m : centre_m; }
@@ -80,8 +94,8 @@ using NamedJoints = std::vector<scene::Named<JointOptions>>;
 const scene::Section<BodyOptions>& body_section();
 const scene::Section<JointOptions>& joint_section();
 
-/// Rules between sections: at least one body, joints between bodies that exist, readable tables, unique cylinder names.
-void check_bodies(scene::Document& document, const NamedBodies& bodies, const NamedJoints& joints);
+/// Rules between sections: at least one body (unless water alone is what the scene is about), joints between bodies that exist, readable tables, unique cylinder names.
+void check_bodies(scene::Document& document, const NamedBodies& bodies, const NamedJoints& joints, bool water_alone = false);
 
 /// The position that the scene describes: axes parallel to the earth's, at rest.
 Motion described_motion(const BodyOptions& body);
@@ -94,5 +108,7 @@ std::vector<Joint> make_joints(const NamedJoints& joints, const NamedBodies& bod
 std::vector<PointLoad> make_point_loads(const NamedBodies& bodies);
 /// Body axes from the centre of mass.
 Cylinder make_cylinder(const CylinderOptions& cylinder, const BodyOptions& body);
+Box make_box(const BoxOptions& box, const BodyOptions& body);
+Sphere make_sphere(const SphereOptions& sphere, const BodyOptions& body);
 
 }  // namespace spindrift::bodies

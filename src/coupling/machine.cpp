@@ -37,7 +37,7 @@ aero::RotorPlacement place_rotor(const Scenario& s, const std::vector<std::strin
 }  // namespace
 
 Machine::Machine(Scenario scenario)
-    : scenario_(std::move(scenario)), timeline_(scenario_.time.window_s, scenario_.time.step(), scenario_.time.end_s) {
+    : scenario_(std::move(scenario)), timeline_(scenario_.time.window_s, scenario_.tick_s(), scenario_.time.end_s) {
   const Scenario& s = scenario_;
   const std::vector<Motion> start = described_motions(s.bodies);
   std::vector<std::string> names;
@@ -67,7 +67,40 @@ Machine::Machine(Scenario scenario)
                {"moorings", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { moorings_->add_loads(t, m, w); }, {}},
                on);
   }
-  if (s.has_sea()) {
+  if (s.has_particles()) {
+    const std::vector<sea::ParticleBody> shaped = particle_bodies(s.bodies);
+    particle_plan_ = sea::particle_plan(s.sea, s.waves, sea_environment(s.environment), shaped);
+    std::vector<bool> on(names.size());
+    bool only_cylinders = true;
+    for (std::size_t b = 0; b < names.size(); ++b) {
+      on[b] = !shaped[b].shapes.empty();
+      only_cylinders = only_cylinders && s.bodies[b].options.boxes.empty() && s.bodies[b].options.spheres.empty();
+    }
+    if (only_cylinders && !names.empty()) {
+      sea::SeaOptions still;
+      still.model = "hydrostatic";
+      sea_.emplace(still, sea::WavesOptions{}, sea_environment(s.environment), sea_bodies(s.bodies));
+    }
+    sea_source_ = sources.size();
+    add_source(sources,
+               {"sea",
+                [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
+                  if (particles_)
+                    particles_->add_loads(m, w);
+                  else if (sea_)
+                    sea_->add_loads(t, m, w);
+                },
+                {}},
+               on);
+    if (particle_plan_->parameters.contact && std::find(on.begin(), on.end(), true) != on.end())
+      add_source(sources,
+                 {"contact",
+                  [this](double, std::span<const Motion> m, std::span<Wrench> w) {
+                    if (particles_) particles_->add_contacts(m, w);
+                  },
+                  {}},
+                 on);
+  } else if (s.has_sea()) {
     const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
     sea_.emplace(s.sea, s.waves, sea_environment(s.environment), wetted);
     std::vector<bool> on(names.size());
@@ -113,6 +146,10 @@ void Machine::add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadS
   if (source.added_mass) source.added_mass = clocked(source.added_mass);
   sources.push_back(std::move(source));
   loaded_.push_back(std::move(on));
+}
+
+void Machine::fill_sea(std::span<const Motion> start, const runtime::World& world) {
+  if (particle_plan_) particles_ = sea::ParticleSea::make(*particle_plan_, start, world);
 }
 
 double Machine::ramp(double t) const {

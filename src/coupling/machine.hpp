@@ -3,8 +3,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,6 +19,7 @@
 #include "src/aero/rotor_loads.hpp"
 #include "src/moorings/moorings.hpp"
 #include "src/sea/engineering_sea.hpp"
+#include "src/sea/particle_sea.hpp"
 
 namespace spindrift::coupling {
 
@@ -36,6 +39,7 @@ class Machine {
   bodies::System& system() { return *system_; }
 
   const std::optional<moorings::Moorings>& moorings() const { return moorings_; }
+  /// Of a scene with particles: its hydrostatics, which statics and linearisation use, where its shapes are cylinders.
   const std::optional<sea::EngineeringSea>& sea() const { return sea_; }
   const std::optional<aero::RotorLoads>& rotor() const { return rotor_; }
 
@@ -43,7 +47,23 @@ class Machine {
   using RotorLoadFunction = std::function<void(double, std::span<const Motion>, std::span<Wrench>)>;
   void replace_rotor_loads(RotorLoadFunction loads) { rotor_elsewhere_ = std::move(loads); }
 
-  bool has_waves() const { return scenario_.has_waves(); }
+  bool has_waves() const { return scenario_.has_waves() && !scenario_.has_particles(); }
+
+  /// Windows before t = 0 in which the bodies are held, and the tick (not above zero) with which the run begins.
+  std::int64_t held_windows() const { return std::llround(scenario_.sea.settle_s() / timeline_.window_s()); }
+  std::int64_t first_tick() const { return -timeline_.tick_of_window(held_windows()); }
+
+  /// Of a scene with particles, before any is made.
+  const std::optional<sea::ParticlePlan>& particle_plan() const { return particle_plan_; }
+  /// Makes the particles, round the bodies where they start; from then on their loads are the sea's.
+  void fill_sea(std::span<const Motion> start, const runtime::World& world);
+  /// Null where the scene has none or fill_sea was not called.
+  sea::ParticleSea* particles() const { return particles_.get(); }
+  /// Largest step of the bodies' integrator beside particles that choose their own [s].
+  double body_step_limit() const { return body_step_limit_; }
+  void limit_body_step(double limit_s) { body_step_limit_ = limit_s; }
+  /// Adds to the time of the source "sea".
+  void count_sea(std::int64_t ns, std::int64_t calls) { clocks_[sea_source_].ns += ns, clocks_[sea_source_].calls += calls; }
 
   /// Whether the source can load the body at all (what cannot is not written).
   bool loads_body(std::size_t source, std::size_t body) const { return loaded_[source][body]; }
@@ -72,6 +92,10 @@ class Machine {
   std::vector<std::vector<bool>> loaded_;  ///< [source][body]
   std::vector<SourceClock> clocks_;
   bool full_loads_ = false;
+  std::optional<sea::ParticlePlan> particle_plan_;
+  std::unique_ptr<sea::ParticleSea> particles_;
+  std::size_t sea_source_ = 0;
+  double body_step_limit_ = std::numeric_limits<double>::infinity();
   std::unique_ptr<bodies::System> system_;
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/recorder.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "kernels/rigid/rotation.hpp"
 
@@ -98,10 +100,53 @@ Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine), 
     }
   if (machine.has_waves())
     wave_column_ = history.add({"waves.elevation_m", "m", "surface elevation of the undisturbed waves at the earth origin"});
+  if (machine.particle_plan()) declare_particles();
+}
+
+void Recorder::declare_particles() {
+  const sea::ParticlePlan& plan = *machine_.particle_plan();
+  particle_column_ = declare(history_, "sea.",
+                             {{"lost_particles", "-", "particles that left the tank so far"},
+                              {"x_max_m", "m", "farthest water along x: the front of a broken dam"},
+                              {"z_max_m", "m", "highest water"},
+                              {"kinetic_energy_J", "J", "of the water"}});
+  if (plan.wavemaker)
+    declare(history_, "wavemaker.", {{"displacement_m", "m", "of the paddle's face at still water"}, {"velocity_m_s", "m/s", "of the same"}});
+  for (const sea::GaugeOptions& gauge : plan.gauges) history_.add({gauge.name + ".elevation_m", "m", "height of the water's surface; the bed where there is none"});
+  for (const sea::ProbeOptions& probe : plan.probes)
+    declare(history_, probe.name + ".",
+            {{"pressure_Pa", "Pa", "pressure of the water, zero where there is none"},
+             {"vx_m_s", "m/s", "velocity of the water along x, zero where there is none"},
+             {"vy_m_s", "m/s", "along y"},
+             {"vz_m_s", "m/s", "along z"}});
+}
+
+void Recorder::put_particles(std::span<double> row, double t) const {
+  const sea::ParticlePlan& plan = *machine_.particle_plan();
+  const sea::ParticleSea& sea = *machine_.particles();
+  std::size_t column = particle_column_;
+  const auto extent = sea.extent();
+  for (double value : {double(sea.lost()), extent.x_max, extent.z_max, extent.kinetic_energy}) row[column++] = value;
+  if (plan.wavemaker) {
+    const auto paddle = sea.paddle(t);
+    row[column++] = paddle.displacement, row[column++] = paddle.velocity;
+  }
+  std::vector<std::array<double, 2>> places;
+  for (const sea::GaugeOptions& gauge : plan.gauges) places.push_back(gauge.point_m);
+  // Where there is no water the surface is the bed and nothing moves: no column holds what is not a number.
+  const std::vector<double> heights = sea.surface(places);
+  for (std::size_t n = 0; n < places.size(); ++n) row[column++] = std::isfinite(heights[n]) ? heights[n] : plan.tank.bed_at(places[n][0]);
+  for (const sea::ProbeOptions& probe : plan.probes) {
+    const auto reading = sea.probe(probe.point_m);
+    row[column++] = reading.pressure;
+    put(row, column, reading.velocity.allFinite() ? reading.velocity : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  }
 }
 
 void Recorder::write(const bodies::BodiesState& state, double t, const std::function<void(std::span<double>)>& others) {
-  const bodies::Evaluation& now = machine_.system().evaluate(state, t);
+  // Bodies that are held before t = 0 are as they start: drivers and loads that depend on time begin there.
+  static const bodies::Evaluation nothing;
+  const bodies::Evaluation& now = state.motions.empty() ? nothing : machine_.system().evaluate(state, std::max(t, 0.0));
   const auto bodies = machine_.system().bodies();
   const std::span<double> row = history_.row(t);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -127,6 +172,7 @@ void Recorder::write(const bodies::BodiesState& state, double t, const std::func
   if (machine_.moorings())
     for (std::size_t line = 0; line < machine_.moorings()->size(); ++line)
       row[mooring_column_ + line] = machine_.moorings()->tension(line, state.motions).fairlead;
+  if (machine_.particles()) put_particles(row, t);
   if (machine_.has_waves()) row[wave_column_] = machine_.sea()->elevation(0.0, 0.0, t);
   if (others) others(row);
   history_.write();

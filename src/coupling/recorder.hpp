@@ -43,7 +43,9 @@ class Recorder {
   std::vector<std::size_t> body_columns_;  ///< first of each body
   std::vector<Load> loads_;
   std::vector<std::size_t> joint_columns_;
-  std::size_t rotor_column_ = 0, mooring_column_ = 0, wave_column_ = 0;
+  void declare_particles();
+  void put_particles(std::span<double> row, double t) const;
+  std::size_t rotor_column_ = 0, mooring_column_ = 0, wave_column_ = 0, particle_column_ = 0;
 };
 
 }  // namespace spindrift::coupling

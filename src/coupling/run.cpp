@@ -13,6 +13,8 @@
 #include "runtime/trace/efficiency.hpp"
 #include "runtime/trace/trace_of.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/coupling/sea_output.hpp"
+#include "src/coupling/sea_window.hpp"
 #include "src/coupling/start.hpp"
 #include "src/coupling/window.hpp"
 #include "src/io/checkpoint.hpp"
@@ -50,8 +52,24 @@ runtime::Graph record_coupled_window(Machine& machine, Window& window) {
   return graph;
 }
 
+/// The window of a scene with a sea of particles: one task, whose loops over groups share the threads.
+runtime::Graph record_particle_window(Machine& machine, Window& window) {
+  runtime::Graph graph;
+  const runtime::Datum state = graph.datum();
+  graph.task("sea/window", {runtime::updates(state)}, [&machine, &window] {
+    // A restart may begin within a window, where a failure was saved.
+    const std::int64_t ticks = machine.timeline().steps_per_window();
+    const std::int64_t begun = window.state.tick - (((window.state.tick % ticks) + ticks) % ticks);
+    try {
+      window.steps += advance_with_particles(machine, window.state, begun + ticks);
+    } catch (const NumericalFailure& failure) { window.failure = failure.what(); }
+  });
+  return graph;
+}
+
 runtime::Graph record_window(Machine& machine, Window& window) {
   if (window.coupled) return record_coupled_window(machine, window);
+  if (machine.particles()) return record_particle_window(machine, window);
   const double tick_s = machine.timeline().tick_s();
   const auto steps = std::uint32_t(machine.timeline().steps_per_window());
   runtime::Graph graph;
@@ -73,21 +91,44 @@ runtime::Graph record_window(Machine& machine, Window& window) {
   return graph;
 }
 
+/// The particles of a checkpoint into the machine's sea, which must be the same sea.
+void restore_particles(const Machine& machine, const io::CheckpointReader& file) {
+  if (!machine.particles()) return;
+  try {
+    sea::ParticleState state = machine.particles()->room();
+    if (file.size("sea/particles") != state.total)
+      throw std::invalid_argument("its sea has " + std::to_string(file.size("sea/particles")) + " values of particles, this one " +
+                                  std::to_string(state.total));
+    const io::Slice<double> mine{state.first, state.values};
+    file.read<double>("sea/particles", std::span(&mine, 1));
+    state.time_s = file.number("sea/time_s"), state.steps = file.integer("sea/steps");
+    machine.particles()->restore(state);
+  } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
+}
+
 class Checkpoints {
  public:
   Checkpoints(MPI_Comm comm, const Machine& machine, const io::RunDirectory& directory)
-      : series_(comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
+      : machine_(machine), series_(comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
 
   void save(Window& window, std::int64_t number, int restarts) {
-    const bodies::BodiesState& state = window.ok() ? window.state : window.start;  // a restart begins at a window's start
+    // Particles have no copy of the window's start: a failure is saved as the last good substep left it.
+    const sea::ParticleSea* sea = machine_.particles();
+    const bodies::BodiesState& state = window.ok() || sea ? window.state : window.start;  // a restart begins at a window's start
     std::vector<double> packed(state.packed_size());
     state.pack(packed);
-    series_.save(state.tick, [&](io::CheckpointWriter& file) {
+    series_.save(state.tick - machine_.first_tick(), [&](io::CheckpointWriter& file) {
       file.set("window", number);
       file.set("steps", window.steps);
       file.set("restarts", std::int64_t(restarts));
       file.write<double>("bodies/state", packed);
       if (window.coupled) file.write<double>("coupling/history", window.coupled->history());
+      if (!sea) return;
+      const sea::ParticleState particles = sea->save();
+      file.set("sea/time_s", particles.time_s);
+      file.set("sea/steps", particles.steps);
+      const io::Slice<const double> mine{particles.first, particles.values};
+      file.write<double>("sea/particles", particles.total, std::span(&mine, 1));
     });
     saved_ = number;
   }
@@ -102,10 +143,12 @@ class Checkpoints {
     restarts = int(file->integer("restarts")) + 1;
     if (window.coupled && !window.coupled->restore(file->read<double>("coupling/history")))
       throw io::InputError(file->path().string() + ": its coupling history is that of another coupling.scheme");
+    restore_particles(machine_, *file);
     return saved_ = file->integer("window");
   }
 
  private:
+  const Machine& machine_;
   io::CheckpointSeries series_;
   std::int64_t saved_ = -1;
 };
@@ -114,7 +157,7 @@ class Checkpoints {
 std::int64_t windows_until(const Timeline& timeline, const std::optional<double>& until_s) {
   if (!until_s) return timeline.windows();
   const auto windows = std::int64_t(std::ceil(*until_s / timeline.window_s() * (1.0 - 1e-12)));
-  return std::clamp<std::int64_t>(windows, 0, timeline.windows());
+  return std::min<std::int64_t>(windows, timeline.windows());
 }
 
 std::vector<io::PartTime> part_times(Machine& machine, double window_seconds, double output_seconds, std::int64_t steps) {
@@ -165,8 +208,11 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   Window window;
   Checkpoints checkpoints(world.comm, machine, directory);
   io::History history;
+  machine.fill_sea(start.state.motions, world);
+  if (const auto& initial = machine.scenario().sea.initial; initial && initial->state == "file")
+    restore_particles(machine, io::CheckpointReader(world.comm, initial->file));
   Recorder recorder(machine, history);
-  std::int64_t first = 0;
+  std::int64_t first = -machine.held_windows();
   window.state = start.state;
   if (machine.rotor() && machine.scenario().coupling.scheme != SchemeKind::monolithic) {
     window.coupled.emplace(machine).begin(start.state);
@@ -174,6 +220,7 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   }
   const std::function<void(std::span<double>)> coupling_columns =
       window.coupled ? [&window](std::span<double> row) { window.coupled->put(row); } : std::function<void(std::span<double>)>();
+  window.state.tick = machine.first_tick();
   if (settings.restart) {
     first = checkpoints.resume(window, summary.restarts);
     spdlog::info("restart from t = {} s", timeline.window_end_s(first));
@@ -183,7 +230,12 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     history.resume(directory.history(), timeline.window_end_s(first));
   else if (writes)
     history.open(directory.history());
-  if (!settings.restart) recorder.write(window.state, 0.0, coupling_columns);
+  SeaOutput sea_output(machine, directory.fields(), world, settings.restart ? timeline.window_end_s(first) : io::from_the_start);
+  if (!settings.restart) {
+    if (machine.particles()) evaluate_particles(machine, window.state);
+    recorder.write(window.state, timeline.window_end_s(first), coupling_columns);
+    sea_output.write_if_due(first);
+  }
 
   const std::int64_t last = windows_until(timeline, settings.until_s);
   const int every = machine.scenario().output.history_every;
@@ -209,6 +261,7 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     }
     ++number;
     if (number % every == 0 || number == last) recorder.write(window.state, timeline.window_end_s(number), coupling_columns);
+    sea_output.write_if_due(number);
     progress.update(timeline.window_end_s(number));
     if (std::string why = stop.agreed(world.comm); !why.empty() && number < last) {
       summary.exit_code = 5;
@@ -233,6 +286,11 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     summary.counts.emplace_back("rotor_evaluations", totals.rotor_calls);
     summary.counts.emplace_back("step_evaluations", totals.body_steps);
   }
+  if (const sea::ParticleSea* sea = machine.particles())
+    for (const auto& [name, count] : std::initializer_list<std::pair<const char*, std::int64_t>>{
+             {"particles", std::int64_t(sea->particles())}, {"particle_evaluations", sea->evaluations()}, {"particle_sorts", sea->sorts()},
+             {"particles_lost", std::int64_t(sea->lost())}})
+      summary.counts.emplace_back(name, count);
   summary.wall_seconds = seconds_since(begin);
   summary.parts = part_times(machine, window_seconds, summary.wall_seconds - window_seconds, window.steps);
   finish_trace(executor, directory, world, settings.trace, summary);

@@ -7,6 +7,8 @@
 #include <array>
 #include <set>
 
+#include "src/coupling/timeline.hpp"
+
 namespace spindrift::coupling {
 
 namespace {
@@ -32,6 +34,25 @@ void check_names(scene::Document& document, const Scenario& s) {
   check("moorings", names(s.moorings));
 }
 
+/// Rules between a sea of particles and the rest of the scene.
+void check_particles(scene::Document& document, const Scenario& s) {
+  const std::vector<sea::ParticleBody> bodies = particle_bodies(s.bodies);
+  for (const sea::OptionProblem& p : particle_problems(s.sea, s.waves, sea_environment(s.environment), bodies))
+    document.problem(p.key, p.what);
+  if (s.start.equilibrium)
+    for (const auto& [name, body] : s.bodies)
+      if (!body.boxes.empty() || !body.spheres.empty())
+        document.problem("start.equilibrium", fmt::format("is found by hydrostatics of cylinders: bodies.{} has other shapes", name));
+  std::vector<std::string> columns;
+  for (const sea::GaugeOptions& gauge : s.sea.gauges) columns.push_back(gauge.name);
+  for (const sea::ProbeOptions& probe : s.sea.probes) columns.push_back(probe.name);
+  for (const std::string& column : columns)
+    for (const auto& body : s.bodies)
+      if (body.name == column) document.problem("bodies." + column, "is the name of a gauge or probe too");
+  if (s.sea.settle_s() > 0.0 && !whole_ratio(s.sea.settle_s(), s.time.window_s))
+    document.problem("sea.initial.settle_s", fmt::format("must be a whole number of windows of {} s", s.time.window_s));
+}
+
 }  // namespace
 
 std::span<const scene::SectionBase* const> all_sections() {
@@ -52,6 +73,18 @@ std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies) {
   return result;
 }
 
+std::vector<sea::ParticleBody> particle_bodies(const bodies::NamedBodies& bodies) {
+  std::vector<sea::ParticleBody> result;
+  for (const auto& [name, body] : bodies) {
+    sea::ParticleBody particle_body{.name = name, .mass = body.mass_kg, .described = described_motion(body), .shapes = {}};
+    for (const bodies::CylinderOptions& c : body.cylinders) particle_body.shapes.push_back(make_cylinder(c, body));
+    for (const bodies::BoxOptions& b : body.boxes) particle_body.shapes.push_back(make_box(b, body));
+    for (const bodies::SphereOptions& s : body.spheres) particle_body.shapes.push_back(make_sphere(s, body));
+    result.push_back(std::move(particle_body));
+  }
+  return result;
+}
+
 sea::SeaEnvironment sea_environment(const EnvironmentOptions& environment) {
   return {environment.water_density_kg_m3, environment.water_depth_m, environment.gravity_m_s2};
 }
@@ -66,7 +99,8 @@ Scenario read_scenario(scene::Document& document) {
   s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.has_flow(), aero::wind_section(),
                                "aero.model = \"" + s.aero.model + "\" does not look at the wind");
   s.sea = document.read(sea::sea_section());
-  s.waves = document.read_where(s.sea.model == "morison", sea::waves_section(), "sea.model is not morison");
+  s.waves = document.read_where(s.sea.model == "morison" || s.has_particles(), sea::waves_section(),
+                                "sea.model is neither morison nor sph");
   s.bodies = document.read_named(bodies::body_section());
   s.joints = document.read_named(bodies::joint_section());
   s.moorings = document.read_named(moorings::line_section());
@@ -85,7 +119,13 @@ Scenario read_scenario(scene::Document& document) {
     return s;
   }
   check_coupling(document, s.coupling, s.time);
-  check_bodies(document, s.bodies, s.joints);
+  if (s.has_particles() && s.coupling.scheme != SchemeKind::monolithic)
+    document.problem("coupling.scheme", "must be \"monolithic\" beside sea.model = \"sph\": its windows cannot be repeated yet");
+  check_bodies(document, s.bodies, s.joints, s.has_particles());
+  for (const auto& [name, body] : s.bodies)
+    for (const char* shapes : {"boxes", "spheres"})
+      if (!s.has_particles() && document.given(fmt::format("bodies.{}.{}", name, shapes)))
+        document.problem(fmt::format("bodies.{}.{}", name, shapes), "has no effect: only sea.model = \"sph\" knows this shape, others cylinders");
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, bodies);
   if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
@@ -94,7 +134,8 @@ Scenario read_scenario(scene::Document& document) {
   };
   const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
   report(sea_problems(s.sea, s.waves, wetted));
-  if (s.has_sea()) report(shape_problems(sea_environment(s.environment), wetted));
+  if (s.has_sea() && !s.has_particles()) report(shape_problems(sea_environment(s.environment), wetted));
+  if (s.has_particles() && s.sea.particles && s.sea.tank) check_particles(document, s);
   if (s.has_waves()) report(wave_problems(s.waves, sea_environment(s.environment)));
   document.finish();
   return s;
@@ -112,6 +153,11 @@ std::string describe_rotor(const Scenario& s) {
 
 std::string describe_sea(const Scenario& s) {
   if (!s.has_sea()) return "none";
+  if (s.has_particles()) {
+    std::string text = fmt::format("particles in {}-D, spacing {} m", s.sea.particles->dimensions, s.sea.particles->spacing_m);
+    if (s.sea.wavemaker) text += fmt::format(", {} making {} waves (H {} m, T {} s)", s.sea.wavemaker->type, s.waves.model, s.waves.height_m, s.waves.period_s);
+    return text;
+  }
   std::size_t cylinders = 0;
   for (const auto& body : s.bodies) cylinders += body.options.cylinders.size();
   std::string text = fmt::format("{}, {} cylinder{}", s.sea.model, cylinders, cylinders == 1 ? "" : "s");

@@ -16,6 +16,7 @@
 #include "src/scene/document.hpp"
 #include "src/sea/engineering_sea.hpp"
 #include "src/sea/options.hpp"
+#include "src/sea/particle_sea.hpp"
 
 namespace spindrift::coupling {
 
@@ -41,6 +42,15 @@ struct Scenario {
   bool has_rotor() const { return aero.model != "none" && !has_flow(); }
   bool has_sea() const { return sea.model != "none"; }
   bool has_waves() const { return has_sea() && waves.model != "none"; }
+  bool has_particles() const { return sea.has_particles(); }
+
+  /// The unit of time that steps are counted in. Substeps of a sea of particles are even numbers of ticks (bodies are evaluated at
+  /// their middle); where its step is not given, a window has enough ticks that rounding a step to them does not show.
+  double tick_s() const {
+    if (!has_particles()) return time.step();
+    return time.step_s ? 0.5 * *time.step_s : time.window_s / ticks_per_free_window;
+  }
+  static constexpr double ticks_per_free_window = 16777216.0;
 };
 
 /// Every section of the program, for the reader, `spindrift reference` and inputs/REFERENCE.md.
@@ -51,6 +61,9 @@ Scenario read_scenario(scene::Document& document);
 
 /// The bodies as the sea sees them, in the order of the scene.
 std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies);
+
+/// The same for a sea of particles.
+std::vector<sea::ParticleBody> particle_bodies(const bodies::NamedBodies& bodies);
 
 sea::SeaEnvironment sea_environment(const EnvironmentOptions& environment);
 

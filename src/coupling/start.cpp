@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "src/scene/error.hpp"
 
@@ -46,6 +47,7 @@ class FullLoads {
 }  // namespace
 
 Start make_start(Machine& machine) {
+  if (machine.system().bodies().empty()) return {};  // water alone
   bodies::Assembly assembly = machine.system().assemble();
   if (!assembly.contradiction.empty()) refuse(machine, "joints", "", assembly.contradiction);
   Start start{std::move(assembly.state), assembly.degrees_of_freedom, std::move(assembly.redundant), {}};
@@ -64,13 +66,41 @@ Start make_start(Machine& machine) {
 }
 
 Stability stability(Machine& machine, const bodies::BodiesState& state) {
+  if (state.motions.empty()) return {{}, {std::numeric_limits<double>::infinity(), "", {}}};
   const FullLoads full(machine);
   Stability result{linearise(machine.system(), state, 0.0), {}};
   result.limit = step_limit(machine.system().integrator(), result.linearisation);
   return result;
 }
 
+namespace {
+
+/// Particles choose their step where the scene does not: the bodies' limit joins theirs. A given step must keep to both.
+void require_stable_particles(Machine& machine, const Stability& stability) {
+  if (!stability.linearisation.report.ok())
+    refuse(machine, "bodies", "", "the start cannot be evaluated: " + machine.system().describe(stability.linearisation.report));
+  constexpr double margin = 0.9;  // the water adds stiffness that the linearisation does not see
+  const double bodies = margin * stability.limit.step_s;
+  if (bodies == 0.0)
+    refuse(machine, "time.integrator", std::string(name(machine.system().integrator())),
+           fmt::format("is unstable at any step for {}, which is undamped; use rk4 or symplectic", stability.limit.mode));
+  machine.limit_body_step(bodies);
+  const std::optional<double>& step = machine.scenario().time.step_s;
+  if (!step) return;
+  const sph::Parameters& p = machine.particle_plan()->parameters;
+  const double sound = p.cfl * p.h() / p.eos.c0;
+  if (*step > sound)
+    refuse(machine, "time.step_s", fmt::format("{}", *step),
+           fmt::format("is above the limit of {:.4g} s that the speed of sound of {:.4g} m/s sets (sea.particles.cfl {}); leave it out and "
+                       "the sea takes the largest step that is stable",
+                       sound, p.eos.c0, p.cfl));
+  if (*step > bodies) refuse(machine, "time.step_s", fmt::format("{}", *step), fmt::format("is above the limit of {:.4g} s of {}", bodies, stability.limit.mode));
+}
+
+}  // namespace
+
 void require_stable(Machine& machine, const Stability& stability) {
+  if (machine.particle_plan()) return require_stable_particles(machine, stability);
   const double step = machine.timeline().tick_s();
   const bodies::StepLimit& limit = stability.limit;
   if (!stability.linearisation.report.ok())

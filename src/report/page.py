@@ -9,10 +9,11 @@ import numpy as np
 
 import figures
 import quantities
+import sea_pictures
 
 EXITS = {0: "Done", 2: "Bad input", 3: "Numerical failure", 4: "Machine failure", 5: "Stopped on request"}
 GROUPS = {"motion": "Motions", "rates": "Velocities and accelerations", "forces": "Forces by source", "moments": "Moments by source",
-          "rotor": "Rotor", "moorings": "Moorings", "other": "Other columns"}
+          "rotor": "Rotor", "moorings": "Moorings", "sea": "Gauges, probes, paddle", "other": "Other columns"}
 LOG_LINES = 80
 
 
@@ -300,6 +301,11 @@ def spectra(runs):
     return f'<div class="figures">{out}</div>' if out else ""
 
 
+def sea(run):
+    out = "".join(_figure(title, "", figures.as_html(figure, escape(title)), words) for title, figure, words in sea_pictures.pictures(run))
+    return f'<div class="figures">{out}</div>' if out else ""
+
+
 def _bars(entries, words):
     """entries: (name, share 0..1, text)."""
     rows = "".join(f'<span>{escape(name)}</span><span><b style="width:{100 * min(max(share, 0.0), 1.0):.1f}%"></b></span><span>{escape(text)}</span>'
@@ -402,6 +408,8 @@ def build(runs):
     parts = [section("model", "What was modelled", model(one)) if one else section("differences", "Differences of the scenes", differences(runs)),
              section("key-figures", "Key figures", key_figures(one) if one else compared_figures(runs))]
     parts += [section(key, title, over_time[key]) for key, title in list(GROUPS.items())[:2]]
+    if one:
+        parts.append(section("sea-pictures", "The sea", sea(one)))
     parts.append(section("spectra", "Spectra of motions", spectra(runs)))
     parts += [section(key, title, over_time[key]) for key, title in list(GROUPS.items())[2:]]
     if one:

@@ -107,6 +107,13 @@ def groups(names):
     tensions = [(n.rpartition(".")[0], n) for n in names if n.endswith(".tension_N")]
     add("moorings", "Mooring tensions", "Tension of each line at its fairlead.", [("tension", tensions)] if tensions else [])
 
+    gauges = [(n.rpartition(".")[0], n) for n in names if n.endswith(".elevation_m")]
+    add("sea", "Wave gauges", "Height of the water's surface.", [("elevation", gauges)] if gauges else [])
+    probes = list(dict.fromkeys(n.rpartition(".")[0] for n in names if n.endswith(".pressure_Pa")))
+    for probe in probes:
+        add("sea", f"{probe}: probe", "Pressure and velocity of the water at a point.", _triple(names, probe, ("pressure", "vx", "vy", "vz")))
+    add("sea", "wavemaker", "Displacement and velocity of the paddle at still water.", _triple(names, "wavemaker", ("displacement", "velocity")))
+
     used = {"time_s"} | {column for group in found for column in group.columns()}
     rest = {}
     for name in names:

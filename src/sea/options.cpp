@@ -79,13 +79,14 @@ const Section<WavesOptions>& waves_section() {
 }
 
 const Section<SeaOptions>& sea_section() {
-  static const std::vector<std::string> wet = {"hydrostatic", "morison"}, strips = {"morison"};
+  static const std::vector<std::string> wet = {"hydrostatic", "morison"}, strips = {"morison"}, particles = {"sph"};
   static const auto section =
       Section<SeaOptions>("sea", "Hydrodynamic model.")
           .choice("model", &SeaOptions::model,
                   {{"none", "no water"},
                    {"hydrostatic", "exact buoyancy in still water and linear damping"},
-                   {"morison", "exact buoyancy up to the waves; inertia and drag by strips (Morison), current, linear damping"}},
+                   {"morison", "exact buoyancy up to the waves; inertia and drag by strips (Morison), current, linear damping"},
+                   {"sph", "a tank of particles (weakly compressible SPH): waves, breaking, green water, any motion"}},
                   "Rung of the ladder.")
           .number("drag_coefficient", &SeaOptions::drag_coefficient, "-", "Transverse drag of the cylinders, on the diameter.",
                   scene::between(0.0, 20.0)).only_if("model", strips)
@@ -102,7 +103,18 @@ const Section<SeaOptions>& sea_section() {
               .only_if("model", strips)
           .tables("coefficients", &SeaOptions::coefficients, coefficients_section(), "Coefficients of single cylinders.")
               .only_if("model", strips)
-          .tables("damping", &SeaOptions::damping, damping_section(), "Linear damping of bodies.").only_if("model", wet);
+          .tables("damping", &SeaOptions::damping, damping_section(), "Linear damping of bodies.").only_if("model", wet)
+          .table("particles", &SeaOptions::particles, particle_section(), "Resolution and schemes.").only_if("model", particles).required()
+          .table("tank", &SeaOptions::tank, tank_section(), "Where water may be.").only_if("model", particles).required()
+          .tables("water", &SeaOptions::water, water_section(), "Boxes of water; where there are none the tank is filled to z = 0.")
+              .only_if("model", particles)
+          .tables("obstacles", &SeaOptions::obstacles, obstacle_section(), "Fixed boxes.").only_if("model", particles)
+          .table("wavemaker", &SeaOptions::wavemaker, wavemaker_section(), "A paddle.").only_if("model", particles)
+          .tables("damping_zones", &SeaOptions::damping_zones, damping_zone_section(), "Where waves die away.").only_if("model", particles)
+          .table("initial", &SeaOptions::initial, initial_section(), "How the sea starts.").only_if("model", particles)
+          .tables("gauges", &SeaOptions::gauges, gauge_section(), "Wave gauges.").only_if("model", particles)
+          .tables("probes", &SeaOptions::probes, probe_section(), "Pressure and velocity probes.").only_if("model", particles)
+          .table("fields", &SeaOptions::fields, fields_section(), "Output for ParaView.").only_if("model", particles);
   return section;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/scene/section.hpp"
+#include "src/sea/particle_options.hpp"
 
 namespace spindrift::sea {
 
@@ -44,7 +45,7 @@ struct DampingOptions {
 
 /// [sea]
 struct SeaOptions {
-  std::string model = "none";                    ///< none, hydrostatic, morison
+  std::string model = "none";                    ///< none, hydrostatic, morison, sph
   double drag_coefficient = 1.0;                 ///< transverse, on the diameter
   double added_mass_coefficient = 1.0;           ///< transverse, on the displaced mass
   double axial_drag_coefficient = 1.0;           ///< of each exposed end, on its area
@@ -53,6 +54,19 @@ struct SeaOptions {
   Eigen::Vector3d current_m_s = Eigen::Vector3d::Zero();     ///< uniform, earth axes
   std::vector<CoefficientsOptions> coefficients;
   std::vector<DampingOptions> damping;
+  // of "sph"
+  std::optional<ParticleOptions> particles;
+  std::optional<TankOptions> tank;
+  std::vector<BoxOptions> water, obstacles;
+  std::optional<WavemakerOptions> wavemaker;
+  std::vector<DampingZoneOptions> damping_zones;
+  std::optional<InitialOptions> initial;
+  std::vector<GaugeOptions> gauges;
+  std::vector<ProbeOptions> probes;
+  std::optional<FieldsOptions> fields;
+
+  bool has_particles() const { return model == "sph"; }
+  double settle_s() const { return initial ? initial->settle_s : 0.0; }
 };
 
 const scene::Section<WavesOptions>& waves_section();

@@ -46,7 +46,7 @@ void check_shapes(const SeaBody& body, double depth, std::vector<OptionProblem>&
 }  // namespace
 
 std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves, const std::vector<SeaBody>& bodies) {
-  if (options.model == "none") return {};
+  if (options.model == "none" || options.has_particles()) return {};  // particles: particle_problems
   std::vector<OptionProblem> problems;
   std::string cylinders, names;
   for (const SeaBody& body : bodies) {

@@ -54,6 +54,22 @@ class Program(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual((self.out / "history.csv").read_bytes(), (two / "history.csv").read_bytes())
 
+    def test_ranks_do_not_change_a_bit_of_a_sea_of_particles(self):
+        box = ROOT / "inputs/validation/floating_box/floating_box.toml"
+        small = ["--set", "sea.particles.spacing_m=0.08", "--set", "time.window_s=0.04", "--set", "time.end_s=0.2",
+                 "--set", "sea.initial.settle_s=0.08", "--set", "sea.fields.interval_s=0.2"]
+        self.assertEqual(self.run_case(*small, scene=box).returncode, 0)
+        two = self.out.parent / "two"
+        done = self.run_case(*small, scene=box, ranks=2, out=two)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual((self.out / "history.csv").read_bytes(), (two / "history.csv").read_bytes())
+        # A checkpoint of one rank goes on the same on two.
+        again = self.out.parent / "again"
+        self.assertEqual(self.run_case("--until", 0.08, *small, scene=box, out=again).returncode, 0)
+        done = self.run_case("--restart", *small, scene=box, ranks=2, out=again)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual((self.out / "history.csv").read_bytes(), (again / "history.csv").read_bytes())
+
     def test_bad_input_ends_with_2_and_names_key_and_remedy(self):
         done = spindrift("check", CASE1, "--set", "time.step_s=-1.0", "--set", "aero.thurst_N=1.0")
         self.assertEqual(done.returncode, 2)

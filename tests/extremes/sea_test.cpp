@@ -203,7 +203,7 @@ TEST_CASE("water from soft to stiff is still at five particles of depth", "[extr
       error2 += std::pow(tank.p.eos.pressure(sea.store().deviation[slot]) / (weight * tank.depth) - depth / tank.depth, 2),
           ++count;
     });
-    CHECK(std::sqrt(error2 / count) < 0.025);  // 1.5 to 1.9 %, of the walls' coarse particles and not of the sound
+    CHECK(std::sqrt(error2 / count) < 0.02);  // measured 1.5 to 1.9 %, about the same at all three
   }
 }
 

@@ -10,10 +10,26 @@
 
 namespace spindrift::sph {
 
+namespace {
+
+/// Ghost nodes may see no farther than two columns: so far reach the uses of tasks and the halos of ranks. Widens columns for those
+/// that lie far in.
+template <int dim>
+Parameters with_room_for_ghosts(Parameters p, std::span<const Seed<dim>> seeds) {
+  double farthest = 0.0;
+  for (const Seed<dim>& seed : seeds)
+    for (int k = 0; k < dim - 1; ++k) farthest = std::max(farthest, std::abs(seed.ghost[k]));
+  const double least = p.reach() + 2.0 * p.drift();
+  p.column_over_reach = std::max(p.column_over_reach, 0.5 * (farthest + least) / least);
+  return p;
+}
+
+}  // namespace
+
 template <int dim, class Real>
 SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds,
                           Machine machine)
-    : machine_(std::move(machine)), comm_(machine_.comm), s_(parameters, domain), particles_(seeds.size()) {
+    : machine_(std::move(machine)), comm_(machine_.comm), s_(with_room_for_ghosts(parameters, seeds), domain), particles_(seeds.size()) {
   if (machine_.threads <= 0) machine_.threads = omp_get_max_threads();
   std::vector<int> rank_of_group = machine_.rank_of_group;
   if (rank_of_group.empty()) {
@@ -164,10 +180,7 @@ void SeaSph<dim, Real>::add_body(std::uint16_t owner, const Motion& motion, doub
   if (mass <= 0.0) return;
   const Solid& solid = s_.solids.back();
   s_.free.push_back(box_of<dim>(solid, motion));
-  const double relative_weight = mass / (double(solid.local.size()) * s_.p.mass(dim));
-  // Half of what is stable for a body pressed from one side: it is wet all round, and turns.
-  s_.body_limit =
-      std::min(s_.body_limit, 0.5 * step_limit_body(relative_weight, solid.layers(s_.p.spacing, dim), s_.p.spacing, s_.p.eos.c0));
+  s_.body_limit = std::min(s_.body_limit, body_step_limit(solid, mass, s_.p, dim));
 }
 
 /// One list of contacts from those of all groups, in the order of groups.
@@ -304,9 +317,7 @@ bool SeaSph<dim, Real>::repartition(std::vector<int> rank_of_group) {
   return true;
 }
 
-template class SeaSph<2, float>;
-template class SeaSph<2, double>;
-template class SeaSph<3, float>;
-template class SeaSph<3, double>;
+// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for each.
+template class SeaSph<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>;
 
 }  // namespace spindrift::sph

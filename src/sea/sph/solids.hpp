@@ -13,6 +13,8 @@
 #include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/wrench.hpp"
 #include "runtime/mpi/exchange.hpp"
+#include "kernels/sph/time_step.hpp"
+#include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/store.hpp"
 
 namespace spindrift::sph {
@@ -58,6 +60,13 @@ struct Solid {
     return (to.position - motion.position).norm() + 2.0 * half_chord * radius;
   }
 };
+
+/// Largest step of a floating body of this mass [kg], in 2-D per metre of width: half of what is stable for a body pressed from one
+/// side, since it is wet all round, and turns.
+inline double body_step_limit(const Solid& solid, double mass, const Parameters& p, int dim) {
+  const double relative_weight = mass / (double(solid.local.size()) * p.mass(dim));
+  return 0.5 * step_limit_body(relative_weight, solid.layers(p.spacing, dim), p.spacing, p.eos.c0);
+}
 
 /// Reads a body's particles where they are now, on all ranks, under its motion now. Collective.
 template <int dim, class Real>

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/sea_output.hpp"
+
+#include <cmath>
+
+namespace spindrift::coupling {
+
+namespace {
+
+/// Ticks begin below zero while bodies are held; files are numbered from zero.
+std::int64_t file_number(const Machine& machine, std::int64_t tick) { return tick - machine.first_tick(); }
+
+io::Field field_named(const std::string& name) {
+  if (name == "velocity") return {name, "m/s", 3};
+  if (name == "pressure") return {name, "Pa", 1};
+  if (name == "density") return {name, "kg/m3", 1};
+  return {"owner", "-", 1};
+}
+
+}  // namespace
+
+SeaOutput::SeaOutput(const Machine& machine, const std::filesystem::path& folder, const runtime::World& world, double resume_s)
+    : machine_(machine), writes_(world.rank == 0) {
+  const auto& options = machine.scenario().sea.fields;
+  if (!machine.particles() || !options) return;
+  const Timeline& timeline = machine.timeline();
+  every_ = std::max<std::int64_t>(1, std::llround(options->interval_s / timeline.window_s()));
+  first_ = std::llround(options->from_s / timeline.window_s());
+  last_ = options->to_s ? std::llround(*options->to_s / timeline.window_s()) : timeline.windows();
+  std::vector<io::Field> fields;
+  for (const std::string& name : options->particles) fields.push_back(field_named(name));
+  if (!fields.empty()) particles_ = std::make_unique<io::ParticleFields>(world.comm, folder, "particles", fields, resume_s);
+  if (options->surface_spacing_m == 0.0) return;
+  const sph::TankPlan& tank = machine.particle_plan()->tank;
+  const bool planar = machine.particle_plan()->options.planar();
+  const auto cells = [&](double length) { return std::max(1, int(std::lround(length / options->surface_spacing_m))); };
+  nx_ = cells(tank.x[1] - tank.x[0]), dx_ = (tank.x[1] - tank.x[0]) / nx_;
+  ny_ = planar ? 1 : cells(tank.y[1] - tank.y[0]), dy_ = planar ? dx_ : (tank.y[1] - tank.y[0]) / ny_;
+  surface_ = std::make_unique<io::GridFields>(world.comm, folder, "surface", std::vector<io::GridBlock>{{"water", nx_, ny_, 1}},
+                                              std::vector<io::Field>{{"elevation", "m", 1}}, true, resume_s);
+}
+
+bool SeaOutput::due(std::int64_t window) const {
+  return every_ > 0 && window >= first_ && window <= last_ && (window - first_) % every_ == 0;
+}
+
+void SeaOutput::write_if_due(std::int64_t window) {
+  if (!due(window)) return;
+  const std::int64_t tick = machine_.timeline().tick_of_window(window);
+  const double t = machine_.timeline().window_end_s(window);
+  if (particles_) write_particles(file_number(machine_, tick), t);
+  if (surface_) write_surface(file_number(machine_, tick), t);
+}
+
+void SeaOutput::write_particles(std::int64_t tick, double t) {
+  const sea::FieldsOptions& options = *machine_.scenario().sea.fields;
+  const sea::ParticleSample sample = machine_.particles()->sample(options.low_m, options.high_m, options.solids);
+  std::vector<std::span<const double>> fields;
+  for (const std::string& name : options.particles)
+    fields.push_back(name == "velocity" ? sample.velocity : name == "pressure" ? sample.pressure : name == "density" ? sample.density : sample.owner);
+  particles_->write(tick, t, sample.id, sample.position, fields);
+}
+
+/// One layer of cells from the bed to the surface, whose upper corners are heights read there and whose value is the middle's.
+void SeaOutput::write_surface(std::int64_t tick, double t) {
+  const sph::TankPlan& tank = machine_.particle_plan()->tank;
+  const double y0 = machine_.particle_plan()->options.planar() ? -0.5 * dy_ : tank.y[0];
+  std::vector<std::array<double, 2>> corners, middles;
+  for (int j = 0; j <= ny_; ++j)
+    for (int i = 0; i <= nx_; ++i) corners.push_back({tank.x[0] + i * dx_, y0 + j * dy_});
+  for (int j = 0; j < ny_; ++j)
+    for (int i = 0; i < nx_; ++i) middles.push_back({tank.x[0] + (i + 0.5) * dx_, y0 + (j + 0.5) * dy_});
+  std::vector<double> heights = machine_.particles()->surface(corners), elevation = machine_.particles()->surface(middles);
+  const auto wet = [&](double height, double x) { return std::isfinite(height) ? height : tank.bed_at(x); };
+  if (!writes_) return surface_->write(tick, t, {});
+  std::vector<double> points;
+  for (int k = 0; k <= 1; ++k)
+    for (std::size_t n = 0; n < corners.size(); ++n)
+      points.insert(points.end(), {corners[n][0], corners[n][1], k == 0 ? tank.bed_at(corners[n][0]) : wet(heights[n], corners[n][0])});
+  for (std::size_t n = 0; n < middles.size(); ++n) elevation[n] = wet(elevation[n], middles[n][0]);
+  const io::GridFields::Values values{0, points, {elevation}};
+  surface_->write(tick, t, std::span(&values, 1));
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,109 @@
+"""Pictures of a sea of particles from fields/: a slice of particles coloured by speed and pressure, the height of the surface, at the first,
+middle and last output. Called by page.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+import pathlib
+
+import numpy as np
+
+import figures
+from figures import plt
+
+MOST_DRAWN = 40_000  # particles in one picture; thinned evenly beyond
+
+
+def _outputs(run, name):
+    return sorted(pathlib.Path(run.folder, "fields").glob(f"{name}_*.h5"))
+
+
+def _chosen(files):
+    """First, middle, last: no more than three, each once."""
+    return [files[i] for i in sorted({0, len(files) // 2, len(files) - 1})] if files else []
+
+
+def _slice(file):
+    """x, z, speed, pressure of the water near y = 0 (all of it in 2-D), time; thinned."""
+    position = file["position"][...]
+    keep = np.ones(len(position), bool)
+    width = np.ptp(position[:, 1]) if len(position) else 0.0
+    if width > 0.0:
+        y = np.unique(np.round(np.abs(position[:, 1]), 6))
+        keep = np.abs(position[:, 1]) <= y[min(len(y) - 1, max(1, len(y) // 60))]
+    if "owner" in file:
+        keep &= file["owner"][...] == 0
+    chosen = np.flatnonzero(keep)
+    chosen = chosen[:: max(1, len(chosen) // MOST_DRAWN)]
+    speed = np.linalg.norm(file["velocity"][...][chosen], axis=1) if "velocity" in file else None
+    pressure = file["pressure"][...][chosen] if "pressure" in file else None
+    return position[chosen, 0], position[chosen, 2], speed, pressure, float(file.attrs["time_s"])
+
+
+def particles(run, h5py):
+    """(title, figure, caption) of slices, one figure per quantity."""
+    slices = []
+    for path in _chosen(_outputs(run, "particles")):
+        with h5py.File(path) as file:
+            slices.append(_slice(file))
+    for index, name, unit, factor in ((2, "speed", "m/s", 1.0), (3, "pressure", "kPa", 1e-3)):
+        shown = [s for s in slices if s[index] is not None and len(s[0])]
+        if not shown:
+            continue
+        span = max(np.ptp(s[0]) for s in shown) / max(1e-9, max(np.ptp(s[1]) for s in shown))
+        figure, axes = plt.subplots(len(shown), 1, squeeze=False, sharex=True, layout="constrained",
+                                    figsize=(5.4, min(2.4, max(0.9, 5.0 / span)) * len(shown) + 0.5))
+        top = max(np.percentile(factor * s[index], 99.5) for s in shown)
+        for axis, s in zip(axes[:, 0], shown):
+            drawn = axis.scatter(s[0], s[1], c=factor * s[index], s=max(0.05, min(6.0, 3000.0 / len(s[0]))), linewidths=0, cmap="viridis",
+                                 vmin=0.0, vmax=top or 1.0, rasterized=True)
+            axis.set_ylabel("z [m]")
+            axis.set_title(f"t = {s[4]:g} s", loc="left")
+            if span < 12.0:
+                axis.set_aspect("equal")
+        axes[-1, 0].set_xlabel("x [m]")
+        figure.colorbar(drawn, ax=list(axes[:, 0]), label=f"{name} [{unit}]", fraction=0.04)
+        yield f"Water particles: {name}", figure, "Slice of the water along y = 0, at the first, middle and last output of fields/particles."
+
+
+def surface(run, h5py):
+    """(title, figure, caption) of the height of the surface: a map, or lines where the scene is a plane."""
+    maps = []
+    for path in _chosen(_outputs(run, "surface")):
+        with h5py.File(path) as file:
+            points = file["water/points"]
+            corners = points[...] if points is not None else None
+            maps.append((corners, file["water/elevation"][0], float(file.attrs["time_s"])))
+    if not maps:
+        return
+    if maps[0][1].shape[0] == 1:
+        figure, axis = plt.subplots(figsize=(5.4, 1.9), layout="constrained")
+        for i, (corners, elevation, time) in enumerate(maps):
+            x = corners[0, 0, :, 0]
+            axis.plot(0.5 * (x[1:] + x[:-1]), elevation[0], color=figures.PALETTE[i], label=f"t = {time:g} s")
+        axis.set_xlabel("x [m]")
+        axis.set_ylabel("elevation [m]")
+        axis.legend(ncols=len(maps))
+    else:
+        figure, axes = plt.subplots(1, len(maps), squeeze=False, sharey=True, figsize=(5.4, 2.6), layout="constrained")
+        most = max(np.percentile(np.abs(m[1]), 99) for m in maps) or 1.0
+        for axis, (corners, elevation, time) in zip(axes[0], maps):
+            drawn = axis.pcolormesh(corners[0, :, :, 0], corners[0, :, :, 1], elevation, cmap="RdBu_r", vmin=-most, vmax=most, rasterized=True)
+            axis.set_aspect("equal")
+            axis.set_title(f"t = {time:g} s", loc="left")
+            axis.set_xlabel("x [m]")
+        axes[0, 0].set_ylabel("y [m]")
+        figure.colorbar(drawn, ax=list(axes[0]), label="elevation [m]", fraction=0.04)
+    yield "Height of the water's surface", figure, "Read on the mesh of fields/surface, at the first, middle and last output."
+
+
+def pictures(run):
+    """[(title, figure, caption)]; a note in the run where fields are there and cannot be read."""
+    if not (_outputs(run, "particles") or _outputs(run, "surface")):
+        return []
+    try:
+        import h5py
+    except ImportError:
+        run.notes.append("pictures of the sea need h5py (python3-h5py)")
+        return []
+    try:
+        return list(surface(run, h5py)) + list(particles(run, h5py))
+    except (OSError, KeyError, ValueError) as error:
+        run.notes.append(f"fields/ cannot be read: {error}")
+        return []

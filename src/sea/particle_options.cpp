@@ -1,0 +1,224 @@
+// Declarations of the sections of a sea of particles: see particle_options.hpp. How to choose: docs/user/sea_of_particles.md.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/particle_options.hpp"
+
+#include "src/scene/section.hpp"
+
+namespace spindrift::sea {
+
+using scene::above;
+using scene::between;
+using scene::not_negative;
+using scene::positive;
+using scene::Section;
+
+namespace {
+
+Section<BoxOptions> box(const char* name, const char* help) {
+  return Section<BoxOptions>(name, help)
+      .vector("low_m", &BoxOptions::low_m, "m", "Lowest corner.").required()
+      .vector("high_m", &BoxOptions::high_m, "m", "Highest corner.").required()
+      .check([](const BoxOptions& o, const scene::Report& report) {
+        for (int k = 0; k < 3; ++k)
+          if (!(o.high_m[k] > o.low_m[k])) return report("high_m", "must be above low_m along every axis");
+      });
+}
+
+void check_span(const std::array<double, 2>& span, const char* key, const scene::Report& report) {
+  if (!(span[1] > span[0])) report(key, "must go from the lower to the higher end");
+}
+
+}  // namespace
+
+const Section<ParticleOptions>& particle_section() {
+  static const auto section =
+      Section<ParticleOptions>("particles", "Resolution and schemes of the sea of particles (docs/theory/sph.md).")
+          .number("spacing_m", &ParticleOptions::spacing_m, "m", "Distance d between particles at the start.", positive()).required()
+          .choice("dimensions", &ParticleOptions::dimensions,
+                  {{"2", "the plane of x and z; loads on bodies are those of width_m"}, {"3", "space"}}, "Dimensions of the scene.")
+          .number("width_m", &ParticleOptions::width_m, "m", "Width of sea that a 2-D scene stands for.", positive())
+          .only_if("dimensions", {"2"})
+          .number("smoothing_over_spacing", &ParticleOptions::smoothing_over_spacing, "-",
+                  "Smoothing length h over d; pairs meet within 2 h. Larger is smoother and dearer.", between(1.0, 3.0))
+          .choice("kernel", &ParticleOptions::kernel,
+                  {{"wendland", sph::KernelChoice::wendland, "quintic C2; particles do not clump"},
+                   {"cubic_spline", sph::KernelChoice::cubic, "cubic B-spline"}},
+                  "Smoothing kernel.")
+          .number("sound_speed_factor", &ParticleOptions::sound_speed_factor, "-",
+                  "Speed of sound over sqrt(gravity x water depth): 10 where neither this nor sound_speed_m_s is given, which keeps "
+                  "density within 1 %.", between(5.0, 400.0))
+          .number("sound_speed_m_s", &ParticleOptions::sound_speed_m_s, "m/s", "Speed of sound itself.", positive())
+          .choice("viscosity_model", &ParticleOptions::viscosity_model,
+                  {{"artificial", sph::ViscosityChoice::artificial, "Monaghan's, on approaching pairs: steadies and dissipates"},
+                   {"laminar", sph::ViscosityChoice::laminar, "of a viscous fluid"},
+                   {"laminar_sps", sph::ViscosityChoice::laminar_sps, "the same and the stress of unresolved turbulence"}},
+                  "Viscosity of the water.")
+          .number("viscosity", &ParticleOptions::viscosity, "-", "Alpha of the artificial viscosity.", between(0.0, 2.0))
+          .only_if("viscosity_model", {"artificial"})
+          .number("solid_viscosity", &ParticleOptions::solid_viscosity, "-",
+                  "The same between water and walls or bodies; the paper neglects it (0). That of the water where absent.",
+                  between(0.0, 2.0)).only_if("viscosity_model", {"artificial"})
+          .number("kinematic_viscosity_m2_s", &ParticleOptions::kinematic_viscosity_m2_s, "m2/s", "Kinematic viscosity.", not_negative())
+          .only_if("viscosity_model", {"laminar", "laminar_sps"})
+          .number("solid_kinematic_viscosity_m2_s", &ParticleOptions::solid_kinematic_viscosity_m2_s, "m2/s",
+                  "The same between water and walls or bodies; that of the water where absent.", not_negative())
+          .only_if("viscosity_model", {"laminar", "laminar_sps"})
+          .choice("walls", &ParticleOptions::walls,
+                  {{"dynamic", "particles whose density follows continuity (Crespo et al. 2007)"},
+                   {"modified", "density carried on from the water beside them (English et al. 2022), velocity their own"},
+                   {"modified_no_slip", "the same, water sticks"},
+                   {"modified_free_slip", "the same, water slides"}},
+                  "What walls and bodies do to the water beside them; modified ones need a level bed.")
+          .flag("contact", &ParticleOptions::contact, "Bodies touch walls and each other; the loads are columns BODY.contact.")
+          .number("contact_stiffness", &ParticleOptions::contact_stiffness, "-", "Stiffness of contact over that of the water.",
+                  between(0.01, 1.0)).only_if("contact", {"true"})
+          .number("contact_damping", &ParticleOptions::contact_damping, "-", "Damping of contact, as a share of critical.",
+                  between(0.0, 1.0)).only_if("contact", {"true"})
+          .number("contact_friction", &ParticleOptions::contact_friction, "-", "Coulomb's coefficient of friction.", between(0.0, 2.0))
+          .only_if("contact", {"true"})
+          .choice("density_diffusion", &ParticleOptions::density_diffusion,
+                  {{"none", sph::DiffusionChoice::none, "pressure may be noisy"},
+                   {"molteni", sph::DiffusionChoice::molteni, "Molteni & Colagrossi (2009)"},
+                   {"fourtakas", sph::DiffusionChoice::fourtakas, "Fourtakas et al. (2019), hydrostatic part taken out"}},
+                  "Diffusion of density, which smooths the pressure.")
+          .number("diffusion_strength", &ParticleOptions::diffusion_strength, "-", "Delta of the density diffusion.",
+                  between(0.0, 0.5)).only_if("density_diffusion", {"molteni", "fourtakas"})
+          .choice("density_filter", &ParticleOptions::density_filter,
+                  {{"none", sph::FilterChoice::none, "density is what continuity makes it"},
+                   {"shepard", sph::FilterChoice::shepard, "zeroth order"},
+                   {"mls", sph::FilterChoice::mls, "first order"}},
+                  "Filter that sets the density anew every so many steps.")
+          .integer("filter_every", &ParticleOptions::filter_every, "-", "Steps from one filter to the next.", between(1, 1e6))
+          .only_if("density_filter", {"shepard", "mls"})
+          .number("shifting", &ParticleOptions::shifting, "-",
+                  "Strength of particle shifting, 1 to 6; 0: none. Keeps particles even in violent flow; not for waves.", between(0.0, 6.0))
+          .choice("step", &ParticleOptions::step,
+                  {{"symplectic", sph::StepChoice::symplectic, "two evaluations, second order (the paper's)"},
+                   {"verlet", sph::StepChoice::verlet, "one evaluation, half the cost, half the accuracy"}},
+                  "Time step of the particles.")
+          .integer("verlet_join_every", &ParticleOptions::verlet_join_every, "-", "Steps from one that ties the two chains of Verlet's "
+                   "step together to the next.", between(2, 1000)).only_if("step", {"verlet"})
+          .number("cfl", &ParticleOptions::cfl, "-", "Courant number of the acoustic, force and viscous limits.", above(0.0).up_to(0.6))
+          .choice("precision", &ParticleOptions::precision,
+                  {{"single", "pairs in float, state in double"}, {"double", "everything in double, about twice the time"}},
+                  "Arithmetic of the pairs.")
+          .integer("lost_at_most", &ParticleOptions::lost_at_most, "-",
+                   "Particles that may leave the tank before the run stops; each is counted in history.csv.", between(0, 1e9))
+          .at_most_one_of({"sound_speed_factor", "sound_speed_m_s"});
+  return section;
+}
+
+const Section<TankOptions>& tank_section() {
+  static const std::vector<scene::Choice> sides = {{"wall", "walls of particles"}, {"periodic", "what leaves on one side enters on the other"}};
+  static const auto section =
+      Section<TankOptions>("tank", "The tank: walls, bed and open sides. Still water stands at z = 0, the flat bed at the water depth.")
+          .vector("x_m", &TankOptions::x_m, "m", "From and to along x; a wavemaker stands at the lower end.").required()
+          .vector("y_m", &TankOptions::y_m, "m", "From and to along y; not used in 2-D.")
+          .number("top_m", &TankOptions::top_m, "m", "Height of the walls' upper edge.").required()
+          .choice("sides_x", &TankOptions::sides_x, sides, "The two ends.")
+          .choice("sides_y", &TankOptions::sides_y, sides, "The two long sides.")
+          .rows("bed_m", &TankOptions::bed_m, "m",
+                "Slopes and beaches: rows [x, z] of the bed's height, straight between them and level beyond; level at the water depth "
+                "where there are none.")
+          .check([](const TankOptions& o, const scene::Report& report) {
+            check_span(o.x_m, "x_m", report);
+            for (std::size_t n = 1; n < o.bed_m.size(); ++n)
+              if (!(o.bed_m[n][0] > o.bed_m[n - 1][0])) return report("bed_m", "x must increase from row to row");
+          });
+  return section;
+}
+
+const Section<BoxOptions>& water_section() {
+  static const auto section = box("water", "A box of water at the start, with a surface of its own.");
+  return section;
+}
+const Section<BoxOptions>& obstacle_section() {
+  static const auto section = box("obstacles", "A fixed box in the tank, made of wall particles.");
+  return section;
+}
+
+const Section<WavemakerOptions>& wavemaker_section() {
+  static const auto section =
+      Section<WavemakerOptions>("wavemaker",
+                                "A paddle at the lower x end that makes the waves of [waves] by linear theory (Biesel); stokes2 adds "
+                                "Madsen's second-order motion, sea states are sums of their harmonics.")
+          .choice("type", &WavemakerOptions::type, {{"piston", "moves as a whole"}, {"flap", "turns about a hinge"}}, "Kind of paddle.")
+          .number("ramp_s", &WavemakerOptions::ramp_s, "s", "Time over which the paddle's motion grows smoothly from nothing.",
+                  not_negative())
+          .number("start_s", &WavemakerOptions::start_s, "s", "When the paddle starts; negative: while the bodies are still held.",
+                  between(-1e6, 1e6))
+          .number("hinge_m", &WavemakerOptions::hinge_m, "m", "Height of the flap's hinge; the bed where absent.")
+          .only_if("type", {"flap"})
+          .number("stroke_m", &WavemakerOptions::stroke_m, "m",
+                  "Stroke of a regular wave (of a flap at still water) in place of that of linear theory.", positive());
+  return section;
+}
+
+const Section<DampingZoneOptions>& damping_zone_section() {
+  static const auto section =
+      Section<DampingZoneOptions>("damping_zones", "A stretch of x where the water is brought to rest: dv/dt = -rate s^2 v, s from 0 to 1.")
+          .number("from_m", &DampingZoneOptions::from_m, "m", "x where the damping begins.").required()
+          .number("to_m", &DampingZoneOptions::to_m, "m", "x where it has its full rate; below from_m for a zone at the lower end.")
+          .required()
+          .number("rate_1_s", &DampingZoneOptions::rate_1_s, "1/s", "Full rate; about the waves' angular frequency times 2 to 5.",
+                  positive()).required()
+          .check([](const DampingZoneOptions& o, const scene::Report& report) {
+            if (o.from_m == o.to_m) report("to_m", "is where from_m is");
+          });
+  return section;
+}
+
+const Section<InitialOptions>& initial_section() {
+  static const auto section =
+      Section<InitialOptions>("initial", "How the sea starts.")
+          .choice("state", &InitialOptions::state,
+                  {{"still", "at rest, density that of rest"},
+                   {"waves", "in the motion of [waves], to its order, at t = 0"},
+                   {"standing", "[waves] and its mirror image at half the height: highest crest at x = 0 at t = 0"},
+                   {"file", "as a checkpoint of a run of the same sea left it"}},
+                  "State of the water.")
+          .path("file", &InitialOptions::file, "Checkpoint (checkpoints/*.h5 of a run).").only_if("state", {"file"}).required()
+          .number("settle_s", &InitialOptions::settle_s, "s",
+                  "The sea runs this long before t = 0 with the bodies held where they start, then they are released (the paper's start).",
+                  not_negative())
+          .number("settle_damping_1_s", &InitialOptions::settle_damping_1_s, "1/s",
+                  "Until t = 0 the water's velocity decays at this rate, which calms particles that settle; not for waves.",
+                  not_negative());
+  return section;
+}
+
+const Section<GaugeOptions>& gauge_section() {
+  static const auto section = Section<GaugeOptions>("gauges", "A wave gauge: height of the water's surface at a place.")
+                                  .text("name", &GaugeOptions::name, "Name of the columns.").required()
+                                  .vector("point_m", &GaugeOptions::point_m, "m", "x and y.").required();
+  return section;
+}
+
+const Section<ProbeOptions>& probe_section() {
+  static const auto section = Section<ProbeOptions>("probes", "Pressure and velocity of the water at a point.")
+                                  .text("name", &ProbeOptions::name, "Name of the columns.").required()
+                                  .vector("point_m", &ProbeOptions::point_m, "m", "The point.").required();
+  return section;
+}
+
+const Section<FieldsOptions>& fields_section() {
+  static const auto section =
+      Section<FieldsOptions>("fields", "Particles and the water's surface, written for ParaView.")
+          .number("interval_s", &FieldsOptions::interval_s, "s", "Simulated time between outputs, rounded to windows.", positive()).required()
+          .number("from_s", &FieldsOptions::from_s, "s", "First output.", between(-1e6, 1e6))
+          .number("to_s", &FieldsOptions::to_s, "s", "Last output; the end where absent.", between(-1e6, 1e6))
+          .texts("particles", &FieldsOptions::particles, "Fields of the particles: velocity, pressure, density, owner; none: no particles.")
+          .vector("low_m", &FieldsOptions::low_m, "m", "Only particles above this corner.")
+          .vector("high_m", &FieldsOptions::high_m, "m", "Only particles below this corner.")
+          .flag("solids", &FieldsOptions::solids, "Walls and bodies are written too.")
+          .number("surface_spacing_m", &FieldsOptions::surface_spacing_m, "m", "Mesh of the height field of the surface; 0: none.",
+                  not_negative())
+          .check([](const FieldsOptions& o, const scene::Report& report) {
+            for (const std::string& name : o.particles)
+              if (name != "velocity" && name != "pressure" && name != "density" && name != "owner")
+                return report("particles", "has \"" + name + "\"; known: velocity, pressure, density, owner");
+          });
+  return section;
+}
+
+}  // namespace spindrift::sea

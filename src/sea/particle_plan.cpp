@@ -1,0 +1,185 @@
+// From the options of a scene to the numbers of a sea of particles, and what is wrong with them: see particle_sea.hpp.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "src/sea/particle_sea.hpp"
+#include "src/sea/wave_field.hpp"
+
+namespace spindrift::sea {
+namespace {
+
+constexpr double default_sound_speed_factor = 10.0;
+
+/// Depth that sets the speed of sound: of the deepest water of the scene.
+double deepest_water(const SeaOptions& o, double water_depth) {
+  double deepest = 0.0;
+  for (const BoxOptions& box : o.water) deepest = std::max(deepest, box.high_m[2] + water_depth);
+  return o.water.empty() ? water_depth : deepest;
+}
+
+bool starts_in_waves(const SeaOptions& o) { return o.initial && (o.initial->state == "waves" || o.initial->state == "standing"); }
+
+sph::Parameters parameters_of(const SeaOptions& o, const SeaEnvironment& environment) {
+  const ParticleOptions& s = *o.particles;
+  sph::Parameters p;
+  p.spacing = s.spacing_m, p.h_over_d = s.smoothing_over_spacing, p.kernel = s.kernel;
+  p.eos.rho0 = environment.water_density;
+  const double wave_speed = std::sqrt(environment.gravity * deepest_water(o, environment.water_depth));
+  p.eos.c0 = s.sound_speed_m_s.value_or(s.sound_speed_factor.value_or(default_sound_speed_factor) * wave_speed);
+  p.viscosity = s.viscosity_model;
+  p.alpha = s.viscosity, p.alpha_solid = s.solid_viscosity.value_or(s.viscosity);
+  p.nu = s.kinematic_viscosity_m2_s, p.nu_solid = s.solid_kinematic_viscosity_m2_s.value_or(s.kinematic_viscosity_m2_s);
+  p.wall = s.walls == "modified_no_slip"     ? sph::WallChoice::no_slip
+           : s.walls == "modified_free_slip" ? sph::WallChoice::free_slip
+                                             : sph::WallChoice::still;
+  p.contact = s.contact, p.contact_stiffness = s.contact_stiffness, p.contact_damping = s.contact_damping;
+  p.contact_friction = s.contact_friction;
+  p.verlet_join_every = s.verlet_join_every;
+  p.diffusion = s.density_diffusion, p.delta = s.diffusion_strength;
+  p.gravity = environment.gravity;
+  p.step = s.step, p.filter = s.density_filter, p.filter_every = s.filter_every, p.shifting = s.shifting, p.cfl = s.cfl;
+  p.lost_at_most = std::size_t(s.lost_at_most);
+  return p;
+}
+
+sph::TankPlan::Block block_of(const BoxOptions& box) { return {box.low_m, box.high_m}; }
+
+}  // namespace
+
+ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const SeaEnvironment& environment,
+                           std::vector<ParticleBody> bodies) {
+  ParticlePlan plan{.options = *o.particles, .parameters = parameters_of(o, environment), .bodies = std::move(bodies)};
+  const TankOptions& t = *o.tank;
+  plan.tank.x = t.x_m, plan.tank.y = t.y_m, plan.tank.depth = environment.water_depth, plan.tank.top = t.top_m;
+  plan.tank.periodic = {t.sides_x == "periodic", t.sides_y == "periodic"};
+  plan.tank.bed = t.bed_m, plan.tank.modified_walls = o.particles->modified_walls();
+  for (const BoxOptions& box : o.water) plan.tank.water.push_back(block_of(box));
+  for (const BoxOptions& box : o.obstacles) plan.tank.obstacles.push_back(block_of(box));
+  if (waves.model != "none") plan.waves = WaveField(waves, environment).components();
+  plan.second_order = waves.model == "stokes2";
+  if (starts_in_waves(o)) plan.tank.waves = plan.waves;
+  if (o.initial && o.initial->state == "standing") {
+    for (waves::Component& c : plan.tank.waves) c.amplitude *= 0.5, c.speed_amplitude *= 0.5;
+    for (const waves::Component& c : plan.waves) {
+      waves::Component mirrored = c;
+      mirrored.direction += pi, mirrored.phase = -c.phase, mirrored.amplitude *= 0.5, mirrored.speed_amplitude *= 0.5;
+      plan.tank.waves.push_back(mirrored);
+    }
+  }
+  plan.settle_damping = o.initial ? o.initial->settle_damping_1_s : 0.0;
+  plan.damping_zones = o.damping_zones, plan.gauges = o.gauges, plan.probes = o.probes;
+  if (o.wavemaker) {
+    plan.wavemaker = o.wavemaker;
+    const double bed = plan.tank.bed_at(t.x_m[0]), hinge = o.wavemaker->hinge_m.value_or(bed);
+    const sph::Paddle paddle{.flap = o.wavemaker->type == "flap", .x = t.x_m[0], .hinge = hinge, .bed = bed};
+    const double reach = sph::Wavemaker(paddle, plan.waves, plan.second_order, o.wavemaker->stroke_m.value_or(0.0)).reach();
+    plan.tank.paddle = paddle;
+    plan.tank.paddle_reach = paddle.flap ? reach * (t.top_m - hinge) / -hinge : reach;
+  }
+  return plan;
+}
+
+std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOptions& waves, const SeaEnvironment& environment,
+                                             std::span<const ParticleBody> bodies) {
+  std::vector<OptionProblem> problems;
+  const auto wrong = [&](std::string key, std::string what) { problems.push_back({std::move(key), std::move(what)}); };
+  const ParticleOptions& p = *o.particles;
+  const TankOptions& t = *o.tank;
+  const bool planar = p.planar(), waved = waves.model != "none";
+  const double d = p.spacing_m, depth = environment.water_depth, reach = 2.0 * p.smoothing_over_spacing * d;
+
+  if (!planar && !(t.y_m[1] > t.y_m[0])) wrong("sea.tank.y_m", "is needed in 3-D and must go from the lower to the higher side");
+  if (planar && t.y_m != std::array<double, 2>{}) wrong("sea.tank.y_m", "has no effect: sea.particles.dimensions is 2");
+  if (planar && t.sides_y == "periodic") wrong("sea.tank.sides_y", "has no effect: sea.particles.dimensions is 2");
+  if (!(t.top_m > -depth)) wrong("sea.tank.top_m", fmt::format("is below the bed at {} m", -depth));
+  if (o.water.empty() && t.top_m < 0.0) wrong("sea.tank.top_m", "is below the still water at 0 m");
+  if (deepest_water(o, depth) < 4.0 * d)
+    wrong("sea.particles.spacing_m", fmt::format("leaves fewer than 4 particles over the depth of {} m", deepest_water(o, depth)));
+  for (int axis = 0; axis < (planar ? 1 : 2); ++axis) {
+    const auto& span = axis == 0 ? t.x_m : t.y_m;
+    const bool periodic = (axis == 0 ? t.sides_x : t.sides_y) == "periodic";
+    const char* key = axis == 0 ? "sea.tank.x_m" : "sea.tank.y_m";
+    const double least = 3.0 * (reach + d) * 1.01;
+    if (periodic && span[1] - span[0] < least)
+      wrong(key, fmt::format("periodic sides must be at least {:.4g} m apart at this spacing (three supports)", least));
+  }
+  for (std::size_t n = 0; n < t.bed_m.size(); ++n)
+    if (t.bed_m[n][1] < -depth - 1e-9 * depth)
+      wrong(fmt::format("sea.tank.bed_m[{}]", n), fmt::format("is deeper than environment.water_depth_m = {} m, which is the deepest", depth));
+  if (t.sides_x == "periodic" && o.wavemaker) wrong("sea.wavemaker", "needs walls at the ends: sea.tank.sides_x is periodic");
+  if (t.sides_x == "periodic" && !t.bed_m.empty() && t.bed_m.front()[1] != t.bed_m.back()[1])
+    wrong("sea.tank.bed_m", "must end at the height it begins with: sea.tank.sides_x is periodic");
+
+  if (p.modified_walls() && !t.bed_m.empty())
+    wrong("sea.particles.walls", "must be \"dynamic\" above slopes (sea.tank.bed_m): stairs have no ghost nodes");
+
+  if (o.wavemaker && !waved) wrong("sea.wavemaker", "has no wave to make: give [waves]");
+  if (waved && !o.wavemaker && !starts_in_waves(o))
+    wrong("waves.model", "has no effect: the sea of particles has neither [sea.wavemaker] nor sea.initial.state = \"waves\"");
+  if (waved && waves.ramp_s > 0.0) wrong("waves.ramp_s", "has no effect in a sea of particles: give sea.wavemaker.ramp_s");
+  if (waved && std::abs(std::sin(waves.direction)) > 1e-9 && (planar || o.wavemaker))
+    wrong("waves.direction_deg", "must be 0: the paddle, or the plane of the scene, makes waves along x");
+  if (waved && o.wavemaker && std::cos(waves.direction) < 0.0) wrong("waves.direction_deg", "must be 0: the paddle stands at the lower end");
+  if (starts_in_waves(o) && !waved) wrong("sea.initial.state", "needs [waves]");
+  if (starts_in_waves(o) && !o.water.empty()) wrong("sea.initial.state", "fills the tank: no [[sea.water]]");
+  if (o.initial && o.initial->settle_damping_1_s > 0.0 && o.initial->settle_s == 0.0)
+    wrong("sea.initial.settle_damping_1_s", "has no effect: settle_s is 0");
+  if (o.wavemaker) {
+    const WavemakerOptions& w = *o.wavemaker;
+    const double bed = t.bed_m.empty() ? -depth : t.bed_m.front()[1];
+    if (w.type == "flap" && waves.model == "stokes2") wrong("sea.wavemaker.type", "a flap makes waves of first order: use a piston for stokes2");
+    if (w.stroke_m && waves.model != "airy" && waves.model != "stokes2") wrong("sea.wavemaker.stroke_m", "is that of a regular wave (airy, stokes2)");
+    if (w.hinge_m && !(*w.hinge_m >= bed && *w.hinge_m < 0.0)) wrong("sea.wavemaker.hinge_m", fmt::format("must lie between the bed at {} m and still water", bed));
+    if (o.initial && w.start_s < -o.initial->settle_s) wrong("sea.wavemaker.start_s", fmt::format("is before the sea starts at {} s", -o.initial->settle_s));
+    if (!o.initial && w.start_s < 0.0) wrong("sea.wavemaker.start_s", "is before the sea starts: give sea.initial.settle_s");
+  }
+
+  std::set<std::string> names;
+  const auto name = [&](const std::string& key, const std::string& value) {
+    if (value.empty() || value.find_first_of(" ,\"\t\n") != std::string::npos) wrong(key, "must be a name without spaces, commas and quotes");
+    if (!names.insert(value).second) wrong(key, "is the name of another gauge or probe");
+  };
+  for (std::size_t n = 0; n < o.gauges.size(); ++n) {
+    const std::string key = fmt::format("sea.gauges[{}]", n);
+    name(key + ".name", o.gauges[n].name);
+    if (!(o.gauges[n].point_m[0] >= t.x_m[0] && o.gauges[n].point_m[0] <= t.x_m[1])) wrong(key + ".point_m", "is outside the tank");
+    if (!planar && !(o.gauges[n].point_m[1] >= t.y_m[0] && o.gauges[n].point_m[1] <= t.y_m[1])) wrong(key + ".point_m", "is outside the tank");
+  }
+  for (std::size_t n = 0; n < o.probes.size(); ++n) {
+    const std::string key = fmt::format("sea.probes[{}]", n);
+    name(key + ".name", o.probes[n].name);
+    const Eigen::Vector3d& x = o.probes[n].point_m;
+    if (!(x[0] >= t.x_m[0] && x[0] <= t.x_m[1]) || (!planar && !(x[1] >= t.y_m[0] && x[1] <= t.y_m[1]))) wrong(key + ".point_m", "is outside the tank");
+  }
+  for (std::size_t n = 0; n < o.damping_zones.size(); ++n)
+    for (const double x : {o.damping_zones[n].from_m, o.damping_zones[n].to_m})
+      if (!(x >= t.x_m[0] && x <= t.x_m[1])) wrong(fmt::format("sea.damping_zones[{}]", n), fmt::format("reaches x = {} m, outside the tank", x));
+  for (std::size_t n = 0; n < o.water.size(); ++n)
+    if (o.water[n].high_m[2] <= -depth) wrong(fmt::format("sea.water[{}]", n), fmt::format("lies below the bed at {} m", -depth));
+
+  const sph::Cut cut = planar ? sph::Cut::plane : sph::Cut::space;
+  for (const ParticleBody& body : bodies)
+    for (const sph::BodyShape& shape : body.shapes) {
+      const auto points = sph::fill_shape(shape, d, cut);
+      const std::string key = "bodies." + body.name;
+      if (points.size() < (planar ? 4u : 8u)) wrong(key, fmt::format("has a shape of {} particle{} at a spacing of {} m: too coarse", points.size(), points.size() == 1 ? "" : "s", d));
+      Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+      for (const Eigen::Vector3d& x : points) low = low.cwiseMin(body.described.point(x)), high = high.cwiseMax(body.described.point(x));
+      const double bed = [&] {
+        double highest = -depth;
+        for (const auto& point : t.bed_m)
+          if (point[0] > low[0] - d && point[0] < high[0] + d) highest = std::max(highest, point[1]);
+        return highest;
+      }();
+      if (low[2] < bed) wrong(key, fmt::format("reaches {:.4g} m, below the bed at {:.4g} m", low[2], bed));
+      const bool outside_x = t.sides_x == "wall" && (low[0] < t.x_m[0] || high[0] > t.x_m[1]);
+      const bool outside_y = !planar && t.sides_y == "wall" && (low[1] < t.y_m[0] || high[1] > t.y_m[1]);
+      if (outside_x || outside_y) wrong(key, "stands in a wall of the tank");
+    }
+  return problems;
+}
+
+}  // namespace spindrift::sea

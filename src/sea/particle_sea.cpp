@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/particle_sea.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "kernels/sph/time_step.hpp"
+#include "src/sea/sph/by_identity.hpp"
+#include "src/sea/sph/damping.hpp"
+#include "src/sea/sph/gauges.hpp"
+#include "src/sea/sph/lattice.hpp"
+#include "src/sea/sph/sea_sph.hpp"
+#include "src/sea/wave_field.hpp"
+
+namespace spindrift::sea {
+
+using sph::Store;
+
+namespace {
+
+/// The plan's tank with the bodies where they start.
+sph::TankPlan tank_with_bodies(const ParticlePlan& plan, std::span<const Motion> start) {
+  sph::TankPlan tank = plan.tank;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b)
+    if (!plan.bodies[b].shapes.empty()) tank.bodies.push_back({plan.bodies[b].name, plan.bodies[b].shapes, start[b]});
+  return tank;
+}
+
+sph::Paddle paddle_of(const ParticlePlan& plan) {
+  const WavemakerOptions& w = *plan.wavemaker;
+  const double bed = plan.tank.bed_at(plan.tank.x[0]);
+  return {.flap = w.type == "flap", .x = plan.tank.x[0], .hinge = w.hinge_m.value_or(bed), .bed = bed, .start_s = w.start_s, .ramp_s = w.ramp_s};
+}
+sph::Wavemaker wavemaker_of(const ParticlePlan& plan) {
+  return {paddle_of(plan), plan.waves, plan.second_order, plan.wavemaker->stroke_m.value_or(0.0)};
+}
+
+/// Largest step of a floating body in explicit coupling, as SeaSph::add_body bounds it.
+template <int dim>
+double body_step_limit(const ParticleBody& body, const sph::Points& points, const sph::Parameters& p, double width) {
+  sph::Solid solid;
+  for (const Eigen::Vector3d& x : points) solid.local.push_back(x), solid.low = solid.low.cwiseMin(x), solid.high = solid.high.cwiseMax(x);
+  return sph::body_step_limit(solid, body.mass / width, p, dim);
+}
+
+template <int dim, class Real>
+class Sea final : public ParticleSea {
+ public:
+  Sea(const ParticlePlan& plan, std::span<const Motion> start, sph::Parameters parameters, const sph::TankParticles<dim>& tank,
+      const runtime::World& world)
+      : width_(dim == 2 ? plan.options.width_m : 1.0),
+        settle_damping_(plan.settle_damping),
+        comm_(world.comm),
+        ranks_(world.size),
+        sea_(parameters, tank.domain, tank.seeds, {.comm = world.comm}),
+        particles_(tank.seeds.size()),
+        owner_of_body_(plan.bodies.size(), 0),
+        loads_(plan.bodies.size()),
+        contacts_(plan.bodies.size()),
+        motions_(start.begin(), start.end()) {
+    for (const DampingZoneOptions& z : plan.damping_zones) zones_.push_back({z.from_m, z.to_m, z.rate_1_s});
+    if (tank.paddle) {
+      wavemaker_.emplace(wavemaker_of(plan)), paddle_ = *tank.paddle;
+      sea_.add_body(paddle_, wavemaker_->at_rest());
+    }
+    const auto mine = sph::identities_of(particles_, world.rank, world.size);
+    for (std::size_t id = mine.first; id < mine.last; ++id) owner_.push_back(tank.seeds[id].owner);
+    std::size_t shaped = 0;
+    for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+      if (plan.bodies[b].shapes.empty()) continue;
+      owner_of_body_[b] = tank.bodies[shaped++];
+      sea_.add_body(owner_of_body_[b], start[b], plan.bodies[b].mass / width_);
+    }
+  }
+
+  void open_window() override {
+    if (ranks_ > 1) sea_.repartition();
+    sea_.sort();
+  }
+  double step_limit() override {
+    const double limit = sea_.step_limit();
+    read_loads();
+    return limit;
+  }
+  void start_step(double dt) override { sea_.start_step(dt), dt_ = dt; }
+  void place(double t, std::span<const Motion> bodies) override {
+    motions_.assign(bodies.begin(), bodies.end());
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (owner_of_body_[b]) sea_.place_body(owner_of_body_[b], bodies[b]);
+    if (wavemaker_) sea_.place_body(paddle_, wavemaker_->motion(t));
+  }
+  void half_step() override {
+    sea_.half_step();
+    read_loads();
+  }
+  void end_step(bool settling) override {
+    sea_.end_step();
+    sph::damp(sea_.store(), std::span<const sph::DampingZone>(zones_), settling ? settle_damping_ : 0.0, dt_);
+  }
+  std::span<const Wrench> loads() const override { return loads_; }
+  std::span<const Wrench> contacts() const override { return contacts_; }
+
+  std::vector<double> surface(std::span<const std::array<double, 2>> places) const override {
+    std::vector<std::array<double, dim - 1>> horizontal;
+    for (const auto& place : places) {
+      if constexpr (dim == 2)
+        horizontal.push_back({place[0]});
+      else
+        horizontal.push_back(place);
+    }
+    const auto& domain = sea_.columns().domain();
+    return sph::surface_heights<dim>(sea_.store(), sea_.parameters(), domain, std::span<const std::array<double, dim - 1>>(horizontal),
+                                     std::numeric_limits<double>::quiet_NaN(), comm_);
+  }
+  Reading probe(const Eigen::Vector3d& at) const override {
+    const auto reading = sph::probe<dim>(sea_.store(), sea_.parameters(), sea_.columns().domain(), sph::from_earth<dim>(at), comm_);
+    return {reading.pressure, sph::to_earth<dim>(reading.velocity)};
+  }
+  sph::Wavemaker::Stroke paddle(double t) const override { return wavemaker_ ? wavemaker_->stroke(t) : sph::Wavemaker::Stroke{0.0, 0.0}; }
+
+  Extent extent() const override {
+    struct Part {
+      int group;
+      double x_max, z_max, speed2;
+    };
+    const Store<dim, Real>& store = sea_.store();
+    std::vector<Part> parts;
+    for (const int g : sea_.territory().own) {
+      Part part{g, -1e300, -1e300, 0.0};
+      const sph::Group& group = store.groups[std::size_t(g)];
+      for (std::size_t slot = std::size_t(group.fluid) * sph::cluster_size; slot < std::size_t(group.solid) * sph::cluster_size; ++slot) {
+        if (store.id[slot] == sph::no_particle) continue;
+        part.x_max = std::max(part.x_max, store.x[0][slot]), part.z_max = std::max(part.z_max, store.x[dim - 1][slot]);
+        for (int k = 0; k < dim; ++k) part.speed2 += store.v[k][slot] * store.v[k][slot];
+      }
+      if (group.solid > group.fluid) parts.push_back(part);
+    }
+    if (ranks_ > 1) {
+      runtime::Packer mine;
+      mine.put(std::span<const Part>(parts));
+      parts.clear();
+      for (const runtime::Bytes& bytes : runtime::exchange_all(comm_, mine.take()))
+        for (const Part& part : runtime::Unpacker(bytes).template many<Part>()) parts.push_back(part);
+    }
+    std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.group < b.group; });
+    Part all{0, -1e300, -1e300, 0.0};
+    for (const Part& part : parts)
+      all.x_max = std::max(all.x_max, part.x_max), all.z_max = std::max(all.z_max, part.z_max), all.speed2 += part.speed2;
+    const double half = 0.5 * sea_.parameters().spacing;
+    return {all.x_max + half, all.z_max + half, 0.5 * sea_.parameters().mass(dim) * width_ * all.speed2};
+  }
+
+  ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high, bool solids) const override {
+    const sph::EosTait& eos = sea_.parameters().eos;
+    const auto mine = sph::by_identity(sea_, particles_, comm_);
+    const std::size_t size = sph::values_per_particle<dim>(sea_.parameters());
+    ParticleSample sample;
+    for (std::size_t n = 0; n < mine.owner.size(); ++n) {
+      if (!mine.present[n] || (mine.owner[n] != sph::water_owner && !solids)) continue;
+      const double* value = mine.values.data() + n * size;
+      std::array<double, dim> x, v;
+      for (int k = 0; k < dim; ++k) x[k] = value[k], v[k] = value[dim + k];
+      const Eigen::Vector3d at = sph::to_earth<dim>(x), speed = sph::to_earth<dim>(v);
+      if ((low && !(at.array() >= low->array()).all()) || (high && !(at.array() <= high->array()).all())) continue;
+      sample.id.push_back(std::int64_t(mine.range.first + n));
+      for (int k = 0; k < 3; ++k) sample.position.push_back(at[k]), sample.velocity.push_back(speed[k]);
+      sample.pressure.push_back(eos.pressure(value[2 * dim]));
+      sample.density.push_back(eos.rho0 + value[2 * dim]);
+      sample.owner.push_back(mine.owner[n]);
+    }
+    return sample;
+  }
+
+  ParticleState save() const override {
+    ParticleState state = room();
+    state.values = sph::by_identity(sea_, particles_, comm_).values;
+    return state;
+  }
+  ParticleState room() const override {
+    const std::size_t size = sph::values_per_particle<dim>(sea_.parameters());
+    const auto mine = sph::identities_of(particles_, runtime::rank_in(comm_), ranks_);
+    return {std::int64_t(mine.first * size), std::int64_t(particles_ * size), std::vector<double>((mine.last - mine.first) * size), sea_.time(),
+            sea_.work().steps};
+  }
+  void restore(const ParticleState& state) override {
+    sph::set_by_identity<dim, Real>(sea_, sph::identities_of(particles_, runtime::rank_in(comm_), ranks_), state.values, owner_, state.time_s,
+                                    long(state.steps));
+  }
+
+  std::size_t particles() const override { return particles_; }
+  std::size_t lost() const override { return sea_.store().lost.size(); }
+  std::size_t bytes() const override { return sea_.store().bytes(); }
+  std::int64_t steps() const override { return sea_.work().steps; }
+  std::int64_t evaluations() const override { return sea_.work().evaluations; }
+  std::int64_t sorts() const override { return sea_.work().sorts; }
+
+ private:
+  void read_loads() {
+    for (std::size_t b = 0; b < loads_.size(); ++b) {
+      loads_[b] = contacts_[b] = Wrench{.point = motions_[b].position};
+      if (!owner_of_body_[b]) continue;
+      loads_[b] = of_width(sea_.load_on(owner_of_body_[b], motions_[b].position));
+      contacts_[b] = of_width(sea_.contact_on(owner_of_body_[b], motions_[b].position));
+    }
+  }
+  Wrench of_width(Wrench load) const {
+    if constexpr (dim == 2) {  // in the plane: no roll, no yaw
+      load.force[1] = 0.0, load.moment[0] = load.moment[2] = 0.0;
+    }
+    load.force *= width_, load.moment *= width_;
+    return load;
+  }
+
+  double width_, settle_damping_;
+  MPI_Comm comm_;
+  int ranks_;
+  sph::SeaSph<dim, Real> sea_;
+  std::size_t particles_;
+  std::vector<std::uint16_t> owner_;             ///< of this rank's run of identities
+  std::optional<sph::Wavemaker> wavemaker_;
+  std::uint16_t paddle_ = 0;
+  std::vector<sph::DampingZone> zones_;
+  std::vector<std::uint16_t> owner_of_body_;     ///< 0: it has no particles
+  std::vector<Wrench> loads_, contacts_;
+  std::vector<Motion> motions_;
+  double dt_ = 0.0;
+};
+
+template <int dim, class Real>
+std::unique_ptr<ParticleSea> make_sea(const ParticlePlan& plan, std::span<const Motion> start, const runtime::World& world) {
+  sph::Parameters parameters = plan.parameters;
+  const auto tank = sph::lay_out<dim>(tank_with_bodies(plan, start), parameters);
+  return std::make_unique<Sea<dim, Real>>(plan, start, parameters, tank, world);
+}
+
+/// Evaluations per core-second (processor time, so that a busy machine does not count) and bytes per particle of a small sea of the
+/// same schemes.
+template <int dim, class Real>
+void measure(const sph::Parameters& scene, ParticleCensus& census) {
+  sph::Parameters p = scene;
+  const int n = dim == 2 ? 100 : 24;
+  std::vector<sph::Seed<dim>> seeds;
+  std::array<double, dim> origin{};
+  std::array<int, dim> low{}, high;
+  high.fill(n);
+  sph::add_water<dim>(seeds, origin, p.spacing, low, high, p.eos, p.gravity, (n - 0.5) * p.spacing);
+  sph::add_tank<dim>(seeds, origin, p.spacing, low, high, 3, p.eos, p.gravity, (n - 0.5) * p.spacing);
+  sph::Domain<dim> domain;
+  domain.low.fill(-10.0 * p.spacing), domain.high.fill((n + 20) * p.spacing);
+  sph::SeaSph<dim, Real> sea(p, domain, seeds);
+  sea.step(1e300);
+  const std::clock_t begin = std::clock();
+  const int steps = 3;
+  const long before = sea.work().evaluations;
+  for (int s = 0; s < steps; ++s) sea.step(1e300);
+  const double seconds = std::max(1e-6, double(std::clock() - begin) / CLOCKS_PER_SEC);
+  census.evaluations_per_second = double(seeds.size()) * double(sea.work().evaluations - before) / seconds;
+  census.bytes = double(sea.store().bytes()) / double(seeds.size());
+}
+
+template <int dim, class Real>
+ParticleCensus census_of(const ParticlePlan& plan, std::span<const Motion> start) {
+  ParticleCensus census;
+  sph::Parameters p = plan.parameters;
+  measure<dim, Real>(p, census);
+  const auto tank = sph::lay_out<dim>(tank_with_bodies(plan, start), p);
+  census.water = tank.water, census.walls = tank.seeds.size() - tank.water;
+  census.step_s = sph::step_limits(p.cfl, p.h(), p.eos.c0, 0.0, p.gravity, 0.0).smallest(), census.step_set_by = "sound";
+  std::size_t shaped = 0;
+  for (const ParticleBody& body : plan.bodies) {
+    if (body.shapes.empty()) continue;
+    const std::size_t count = tank.body_particles[shaped++];
+    census.bodies += count, census.walls -= count;
+    const double cell = std::pow(p.spacing, dim) * tank.cell_volume * (dim == 2 ? plan.options.width_m : 1.0);
+    census.displaced_m3.push_back({body.name, double(count) * cell});
+    const auto points = sph::fill_body(body.shapes, p.spacing, dim == 2 ? sph::Cut::plane : sph::Cut::space);
+    const double limit = body_step_limit<dim>(body, points, p, dim == 2 ? plan.options.width_m : 1.0);
+    if (limit < census.step_s) census.step_s = limit, census.step_set_by = "body " + body.name;
+  }
+  census.bytes *= double(census.particles());
+  return census;
+}
+
+}  // namespace
+
+void ParticleSea::add_loads(std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
+  // Held over a step, in which centres of mass move: force and moment about the centre stay.
+  for (std::size_t b = 0; b < bodies.size(); ++b) wrenches[b].force += loads()[b].force, wrenches[b].moment += loads()[b].moment;
+}
+
+void ParticleSea::add_contacts(std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
+  for (std::size_t b = 0; b < bodies.size(); ++b) wrenches[b].force += contacts()[b].force, wrenches[b].moment += contacts()[b].moment;
+}
+
+std::unique_ptr<ParticleSea> ParticleSea::make(const ParticlePlan& plan, std::span<const Motion> start, const runtime::World& world) {
+  const bool single = plan.options.precision == "single";
+  if (plan.options.planar()) return single ? make_sea<2, float>(plan, start, world) : make_sea<2, double>(plan, start, world);
+  return single ? make_sea<3, float>(plan, start, world) : make_sea<3, double>(plan, start, world);
+}
+
+ParticleCensus particle_census(const ParticlePlan& plan, std::span<const Motion> start) {
+  const bool single = plan.options.precision == "single";
+  if (plan.options.planar()) return single ? census_of<2, float>(plan, start) : census_of<2, double>(plan, start);
+  return single ? census_of<3, float>(plan, start) : census_of<3, double>(plan, start);
+}
+
+}  // namespace spindrift::sea

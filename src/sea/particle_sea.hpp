@@ -1,0 +1,139 @@
+// The sea of particles as the coupling sees it: bodies held or moving in a tank, advanced in substeps between which the coupling
+// moves them, with instruments, output and a state that can be saved and put back. Hides dimensions and precision.
+// Called by src/coupling (sea_window.cpp, run.cpp, recorder.cpp); tested in tests/src/sea/particle_sea_test.cpp and tests/coupled.
+//
+//   ParticleSea::Plan plan = plan_of(options, waves, environment, bodies);   // checked before; cheap
+//   auto sea = ParticleSea::make(plan, motions at the start, world);   // this and all that follows on all ranks alike
+//   sea->open_window();                                     // what follows depends on the state alone
+//   const double limit = sea->step_limit();                 // loads() are those at t
+//   sea->start_step(dt);
+//   sea->place(t + dt/2, motions); sea->half_step();        // loads() are those at t + dt/2
+//   sea->place(t + dt, motions);   sea->end_step();
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernels/rigid/motion.hpp"
+#include "kernels/rigid/wrench.hpp"
+#include "runtime/mpi/environment.hpp"
+#include "src/sea/options.hpp"
+#include "src/sea/sph/tank.hpp"
+#include "src/sea/wave_field.hpp"
+
+namespace spindrift::sea {
+
+/// A body that meets the particles, shapes in body axes from the centre of mass. Bodies without shapes do not.
+struct ParticleBody {
+  std::string name;
+  double mass = 0.0;
+  Motion described;                              ///< where the scene describes it
+  std::vector<sph::BodyShape> shapes;
+};
+
+/// Everything of the scene in plain numbers.
+struct ParticlePlan {
+  ParticleOptions options;
+  sph::Parameters parameters;
+  sph::TankPlan tank;                            ///< without the bodies
+  std::vector<ParticleBody> bodies;              ///< by body of the scene
+  std::vector<waves::Component> waves;           ///< of [waves]
+  bool second_order = false;
+  std::optional<WavemakerOptions> wavemaker;
+  std::vector<DampingZoneOptions> damping_zones;
+  double settle_damping = 0.0;
+  std::vector<GaugeOptions> gauges;
+  std::vector<ProbeOptions> probes;
+};
+ParticlePlan particle_plan(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
+                           std::vector<ParticleBody> bodies);
+
+/// What is wrong with a sea of particles beyond what one section sees.
+std::vector<OptionProblem> particle_problems(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
+                                             std::span<const ParticleBody> bodies);
+
+/// What a scene amounts to, without running it.
+struct ParticleCensus {
+  std::size_t water = 0, walls = 0, bodies = 0;
+  double bytes = 0.0;                            ///< of the particles in memory
+  double step_s = 0.0;                           ///< largest step at rest
+  std::string step_set_by;                       ///< "sound", "body NAME"
+  double evaluations_per_second = 0.0;           ///< measured now on a small sea of the same schemes, one thread
+  std::vector<std::pair<std::string, double>> displaced_m3;   ///< by body: volume that its particles stand for
+  std::size_t particles() const { return water + walls + bodies; }
+};
+ParticleCensus particle_census(const ParticlePlan& plan, std::span<const Motion> start);
+
+/// Particles for output, of this rank's run of identities (the ranks' samples one after the other are in the order of identities);
+/// vectors have three components (y zero in 2-D).
+struct ParticleSample {
+  std::vector<std::int64_t> id;
+  std::vector<double> position, velocity, pressure, density, owner;
+};
+
+/// State of this rank's run of identities: x, v, deviation (and those one step earlier where the step is Verlet's), time and steps.
+struct ParticleState {
+  std::int64_t first = 0, total = 0;  ///< of `values` among those of all ranks
+  std::vector<double> values;
+  double time_s = 0.0;
+  std::int64_t steps = 0;
+};
+
+class ParticleSea {
+ public:
+  static std::unique_ptr<ParticleSea> make(const ParticlePlan& plan, std::span<const Motion> start, const runtime::World& world);
+  virtual ~ParticleSea() = default;
+
+  // The step, in the order of the example above.
+  virtual void open_window() = 0;
+  /// Evaluates the state now; the largest stable step, bodies included [s].
+  virtual double step_limit() = 0;
+  virtual void start_step(double dt_s) = 0;
+  /// Moves bodies and paddle to where they are at time t.
+  virtual void place(double t_s, std::span<const Motion> bodies) = 0;
+  virtual void half_step() = 0;
+  /// `settling`: the water is damped as until t = 0.
+  virtual void end_step(bool settling) = 0;
+
+  /// Of the last evaluation, by body of the scene, each about the place of its centre of mass then; zero for bodies without shapes.
+  virtual std::span<const Wrench> loads() const = 0;
+  /// The same of contact with walls and other bodies, which is not in loads().
+  virtual std::span<const Wrench> contacts() const = 0;
+  /// Adds loads() or contacts() moved to where the centres of mass are now.
+  void add_loads(std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+  void add_contacts(std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+
+  // Instruments, any time between steps.
+  virtual std::vector<double> surface(std::span<const std::array<double, 2>> places) const = 0;
+  struct Reading {
+    double pressure;
+    Eigen::Vector3d velocity;
+  };
+  virtual Reading probe(const Eigen::Vector3d& at) const = 0;
+  /// Displacement and velocity of the paddle at still water [m], [m/s]; zero without one.
+  virtual sph::Wavemaker::Stroke paddle(double t_s) const = 0;
+  /// Farthest and highest water [m], kinetic energy of the water [J] (2-D: of the scene's width).
+  struct Extent {
+    double x_max, z_max, kinetic_energy;
+  };
+  virtual Extent extent() const = 0;
+  virtual ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high, bool solids) const = 0;
+
+  virtual ParticleState save() const = 0;
+  /// Which values restore() wants on this rank.
+  virtual ParticleState room() const = 0;
+  virtual void restore(const ParticleState& state) = 0;
+
+  virtual std::size_t particles() const = 0;
+  virtual std::size_t lost() const = 0;
+  virtual std::size_t bytes() const = 0;
+  virtual std::int64_t steps() const = 0;
+  virtual std::int64_t evaluations() const = 0;
+  virtual std::int64_t sorts() const = 0;
+};
+
+}  // namespace spindrift::sea

@@ -1,0 +1,143 @@
+// The state of a sea by identity, dealt out to ranks in runs of identities: what output and checkpoints hold, the same for any number
+// of ranks. Rank r of n has the identities from N r/n on, whoever has their particles in its groups.
+// Called by particle_sea.cpp; tested in tests/src/sea/sph/by_identity_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "runtime/mpi/exchange.hpp"
+#include "src/sea/sph/sea_sph.hpp"
+
+namespace spindrift::sph {
+
+struct IdentityRange {
+  std::size_t first, last;
+};
+inline IdentityRange identities_of(std::size_t particles, int rank, int ranks) {
+  return {particles * std::size_t(rank) / std::size_t(ranks), particles * std::size_t(rank + 1) / std::size_t(ranks)};
+}
+inline int rank_of_identity(std::size_t id, std::size_t particles, int ranks) {
+  int rank = int(id * std::size_t(ranks) / std::max<std::size_t>(particles, 1));
+  while (id < identities_of(particles, rank, ranks).first) --rank;
+  while (id >= identities_of(particles, rank, ranks).last) ++rank;
+  return rank;
+}
+
+/// Values per particle: position, velocity, deviation, and those one step earlier where the step is Verlet's.
+template <int dim>
+std::size_t values_per_particle(const Parameters& p) {
+  return p.step == StepChoice::verlet ? 3 * dim + 2 : 2 * dim + 1;
+}
+
+/// This rank's run of identities: values, owners, and which of them are in the sea (the others are lost, and are where they left it).
+template <int dim>
+struct ByIdentity {
+  IdentityRange range{};
+  std::vector<double> values;
+  std::vector<std::uint16_t> owner;
+  std::vector<bool> present;
+};
+
+/// Collective.
+template <int dim, class Real>
+ByIdentity<dim> by_identity(const SeaSph<dim, Real>& sea, std::size_t particles, MPI_Comm comm) {
+  const Store<dim, Real>& store = sea.store();
+  const std::size_t size = values_per_particle<dim>(sea.parameters());
+  const int ranks = runtime::ranks_in(comm);
+  ByIdentity<dim> mine{identities_of(particles, runtime::rank_in(comm), ranks), {}, {}, {}};
+  const std::size_t count = mine.range.last - mine.range.first;
+  mine.values.resize(count * size), mine.owner.resize(count), mine.present.resize(count);
+  std::vector<double> values(size);
+  const auto keep = [&](std::size_t id, std::uint16_t owner) {
+    std::copy(values.begin(), values.end(), mine.values.begin() + std::ptrdiff_t((id - mine.range.first) * size));
+    mine.owner[id - mine.range.first] = owner, mine.present[id - mine.range.first] = true;
+  };
+  struct Head {
+    std::uint32_t id;
+    std::uint16_t owner;
+  };
+  std::vector<runtime::Packer> away(std::size_t(ranks), runtime::Packer{});
+  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
+    const std::uint32_t id = store.id[slot];
+    if (id == no_particle) continue;
+    auto out = values.begin();
+    for (int k = 0; k < dim; ++k) *out++ = store.x[k][slot];
+    for (int k = 0; k < dim; ++k) *out++ = store.v[k][slot];
+    *out++ = store.deviation[slot];
+    if (out != values.end()) {
+      for (int k = 0; k < dim; ++k) *out++ = store.v_before[k][slot];
+      *out++ = store.deviation_before[slot];
+    }
+    const std::uint16_t owner = store.owner[slot / cluster_size];
+    if (id >= mine.range.first && id < mine.range.last) {
+      keep(id, owner);
+      continue;
+    }
+    runtime::Packer& to = away[std::size_t(rank_of_identity(id, particles, ranks))];
+    to.put_one(Head{id, owner});
+    to.put(std::span<const double>(values));
+  }
+  if (ranks > 1) {
+    std::vector<runtime::Bytes> parcels;
+    for (runtime::Packer& packer : away) parcels.push_back(packer.take());
+    for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels))
+      for (runtime::Unpacker from(bytes); !from.done();) {
+        const Head head = from.one<Head>();
+        values = from.many<double>();
+        keep(head.id, head.owner);
+      }
+  }
+  for (const LostParticle<dim>& lost : store.lost) {
+    if (lost.id < mine.range.first || lost.id >= mine.range.last) continue;
+    double* out = mine.values.data() + (lost.id - mine.range.first) * size;
+    for (int k = 0; k < dim; ++k) out[k] = lost.position[k], out[dim + k] = lost.velocity[k];
+  }
+  return mine;
+}
+
+/// Puts a state back: `values` of this rank's run, `owner` as the sea was laid out. Particles go to their groups with the sort that
+/// ends this; those outside the domain are lost again. Collective.
+template <int dim, class Real>
+void set_by_identity(SeaSph<dim, Real>& sea, const IdentityRange& range, std::span<const double> values,
+                     std::span<const std::uint16_t> owner, double time, long steps) {
+  Store<dim, Real>& store = sea.store();
+  const bool verlet = sea.parameters().step == StepChoice::verlet;
+  const std::size_t size = values_per_particle<dim>(sea.parameters()), count = range.last - range.first;
+  if (values.size() != count * size || owner.size() != count)
+    throw std::invalid_argument("sea: the state is of another sea (" + std::to_string(values.size()) + " values, not " +
+                                std::to_string(count * size) + ")");
+  std::vector<std::vector<std::uint32_t>> of_owner(std::size_t(store.owners));
+  for (std::size_t n = 0; n < count; ++n) of_owner[owner[n]].push_back(std::uint32_t(n));
+  std::vector<std::pair<std::uint32_t, std::uint16_t>> order;  // place in the run, owner; clusters are of one owner
+  for (std::size_t o = 0; o < of_owner.size(); ++o) {
+    for (const std::uint32_t n : of_owner[o]) order.emplace_back(n, std::uint16_t(o));
+    while (order.size() % cluster_size != 0) order.emplace_back(no_particle, std::uint16_t(o));
+  }
+  const std::size_t slots = order.size();
+  for (int k = 0; k < dim; ++k) {
+    store.x[k].assign(slots, 0.0), store.v[k].assign(slots, 0.0);
+    if (verlet) store.v_before[k].assign(slots, 0.0);
+  }
+  store.deviation.assign(slots, 0.0), store.id.assign(slots, no_particle), store.owner.resize(slots / cluster_size);
+  if (verlet) store.deviation_before.assign(slots, 0.0);
+  store.lost.clear();
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    store.owner[slot / cluster_size] = order[slot].second;
+    if (order[slot].first == no_particle) continue;
+    store.id[slot] = std::uint32_t(range.first) + order[slot].first;
+    const double* in = values.data() + order[slot].first * size;
+    for (int k = 0; k < dim; ++k) store.x[k][slot] = *in++;
+    for (int k = 0; k < dim; ++k) store.v[k][slot] = *in++;
+    store.deviation[slot] = *in++;
+    if (!verlet) continue;
+    for (int k = 0; k < dim; ++k) store.v_before[k][slot] = *in++;
+    store.deviation_before[slot] = *in++;
+  }
+  sea.resume(time, steps);
+  sea.sort();
+}
+
+}  // namespace spindrift::sph

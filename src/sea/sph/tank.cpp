@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/sph/tank.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/sea/sph/boundary.hpp"
+#include "src/sea/sph/lattice.hpp"
+#include "src/sea/sph/solids.hpp"
+
+namespace spindrift::sph {
+
+double TankPlan::bed_at(double at) const {
+  if (bed.empty()) return -depth;
+  if (at <= bed.front()[0]) return bed.front()[1];
+  for (std::size_t n = 1; n < bed.size(); ++n)
+    if (at < bed[n][0]) {
+      const double s = (at - bed[n - 1][0]) / (bed[n][0] - bed[n - 1][0]);
+      return bed[n - 1][1] + s * (bed[n][1] - bed[n - 1][1]);
+    }
+  return bed.back()[1];
+}
+
+namespace {
+
+/// The lattice of a tank: cells counted from the lower corner of the water at the level bed.
+template <int dim>
+struct Lattice {
+  std::array<double, dim> corner, edge;
+  std::array<int, dim> count;                       ///< inside the walls; along z up to their top
+
+  Lattice(const TankPlan& plan, double spacing) {
+    const auto cells = [&](int axis, double low, double high, double whole) {
+      corner[axis] = low, edge[axis] = whole / std::max(1.0, std::round(whole / spacing));
+      count[axis] = int(std::ceil((high - low) / edge[axis] * (1.0 - 1e-12)));
+    };
+    cells(0, plan.x[0], plan.x[1], plan.x[1] - plan.x[0]);
+    if constexpr (dim == 3) cells(1, plan.y[0], plan.y[1], plan.y[1] - plan.y[0]);
+    cells(dim - 1, -plan.depth, plan.top, plan.depth);
+  }
+  double at(int axis, int index) const { return corner[axis] + (index + 0.5) * edge[axis]; }
+  std::array<double, dim> at(const std::array<int, dim>& index) const {
+    std::array<double, dim> x;
+    for (int k = 0; k < dim; ++k) x[k] = at(k, index[k]);
+    return x;
+  }
+  double cell() const {
+    double volume = 1.0;
+    for (double e : edge) volume *= e;
+    return volume;
+  }
+};
+
+template <int dim>
+bool inside(const TankPlan::Block& block, const std::array<double, dim>& x) {
+  const Eigen::Vector3d at = to_earth<dim>(x);
+  for (int k = 0; k < 3; ++k)
+    if (!(dim == 2 && k == 1) && !(at[k] > block.low[k] && at[k] < block.high[k])) return false;
+  return true;
+}
+
+/// Where a particle of water at rest is at t = 0 in the motion of the waves, and its velocity: displacements of linear theory,
+/// (U/omega) (-C sin psi, S cos psi) along and up, which keep volume to first order.
+template <int dim>
+void set_in_motion(Seed<dim>& seed, std::span<const waves::Component> waves, double depth) {
+  Eigen::Vector3d x = to_earth<dim>(seed.position), v = Eigen::Vector3d::Zero(), way = Eigen::Vector3d::Zero();
+  for (const waves::Component& c : waves) {
+    const Eigen::Vector3d along(std::cos(c.direction), std::sin(c.direction), 0.0);
+    const double psi = c.wave_number * along.dot(x) + c.phase, kz = c.wave_number * (x[2] + depth), kh = c.wave_number * depth;
+    const double horizontal = std::cosh(kz) / std::sinh(kh), vertical = std::sinh(kz) / std::sinh(kh);
+    const double displacement = c.speed_amplitude / c.angular_frequency;
+    way += displacement * (-horizontal * std::sin(psi) * along + vertical * std::cos(psi) * Eigen::Vector3d::UnitZ());
+    v += c.speed_amplitude * (horizontal * std::cos(psi) * along + vertical * std::sin(psi) * Eigen::Vector3d::UnitZ());
+  }
+  seed.position = from_earth<dim>(x + way), seed.velocity = from_earth<dim>(v);
+}
+
+template <int dim>
+class Builder {
+ public:
+  Builder(const TankPlan& plan, Parameters& p) : plan_(plan), p_(p), lattice_(plan, p.spacing), layers_(int(std::ceil(p.reach() / p.spacing - 1e-9))) {
+    const bool heavy = p.gravity > 0.0;
+    p.mass_factor = lattice_.cell() / std::pow(p.spacing, dim) * (heavy ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0);
+    row_mass_ = p.eos.rho0 * lattice_.edge[dim - 1] * (heavy ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0);
+  }
+
+  TankParticles<dim> build() {
+    result_.cell_volume = lattice_.cell() / std::pow(p_.spacing, dim);
+    fill_bodies();
+    add_water();
+    result_.water = result_.seeds.size();
+    add_walls();
+    result_.walls = result_.seeds.size() - result_.water;
+    std::uint16_t owner = wall_owner + 1;
+    if (plan_.paddle) add_paddle(*(result_.paddle = owner++));
+    for (std::size_t b = 0; b < plan_.bodies.size(); ++b) add_body(b, owner++);
+    set_domain();
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr Cut cut = dim == 2 ? Cut::plane : Cut::space;
+
+  double deviation_at(double z, double surface) const {
+    return p_.gravity > 0.0 ? p_.eos.hydrostatic_deviation(std::max(0.0, surface - z), p_.gravity) : 0.0;
+  }
+  double bed_of_column(int i) const { return plan_.bed_at(lattice_.at(0, i)); }
+  bool is_obstacle(const std::array<double, dim>& x) const {
+    return std::any_of(plan_.obstacles.begin(), plan_.obstacles.end(), [&](const auto& block) { return inside<dim>(block, x); });
+  }
+  /// Nearer to a body than a quarter of a spacing: no water there, or the body would be pushed at once.
+  bool is_body(const Eigen::Vector3d& x) const {
+    for (std::size_t b = 0; b < plan_.bodies.size(); ++b) {
+      const TankPlan::Body& body = plan_.bodies[b];
+      const Eigen::Vector3d local = body.motion.attitude.conjugate() * (x - body.motion.position);
+      if (local.cwiseAbs().maxCoeff() < extent_[b] && signed_distance(body.shapes, local, cut) < 0.25 * p_.spacing) return true;
+    }
+    return false;
+  }
+
+  void fill_bodies() {
+    const double spacing = p_.spacing * std::pow(result_.cell_volume, 1.0 / dim);
+    for (const TankPlan::Body& body : plan_.bodies) {
+      points_.push_back(fill_body(body.shapes, spacing, cut));
+      double far = 0.0;
+      for (const Eigen::Vector3d& point : points_.back()) far = std::max(far, point.cwiseAbs().maxCoeff());
+      extent_.push_back(far + 2.0 * p_.spacing);
+    }
+  }
+
+  void add_water() {
+    if (plan_.water.empty()) {
+      add_water_in({{-1e300, -1e300, -1e300}, {1e300, 1e300, 0.0}}, 0.0);
+      return;
+    }
+    for (const TankPlan::Block& block : plan_.water) add_water_in(block, block.high[2]);
+  }
+  /// Rows from the surface down, each with the weight of the rows above it.
+  void add_water_in(const TankPlan::Block& block, double surface) {
+    std::array<int, dim> low{}, high = lattice_.count;
+    for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
+      std::array<double, dim> x = lattice_.at(index);
+      if (!inside<dim>(block, x) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x)) return;
+      Seed<dim> seed{.position = x};
+      if (p_.gravity > 0.0) {
+        const double rows_above = (surface - x[dim - 1]) / lattice_.edge[dim - 1];
+        const double below = p_.eos.depth_of_mass(rows_above * row_mass_, p_.gravity);
+        seed.position[dim - 1] = surface - below;
+        seed.deviation = p_.eos.hydrostatic_deviation(below, p_.gravity);
+      }
+      if (!plan_.waves.empty()) set_in_motion<dim>(seed, plan_.waves, plan_.depth);
+      const bool in_tank = plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
+      if (in_tank && !is_body(to_earth<dim>(seed.position))) result_.seeds.push_back(seed);
+    });
+  }
+
+  double surface_of_scene() const {
+    if (plan_.water.empty()) return 0.0;
+    double highest = -1e300;
+    for (const auto& block : plan_.water) highest = std::max(highest, block.high[2]);
+    return highest;
+  }
+  void add_wall_particle(const std::array<double, dim>& x, std::uint16_t owner) {
+    Seed<dim> seed{.position = x};
+    // Beside boxes of water that do not fill the tank walls start without pressure: water will come to them.
+    seed.deviation = plan_.water.empty() ? deviation_at(x[dim - 1], surface_of_scene()) : 0.0;
+    seed.owner = owner;
+    if (plan_.modified_walls) seed.ghost = ghost_of_wall(x, owner);
+    result_.seeds.push_back(seed);
+  }
+
+  /// Mirror image in the faces that a wall particle lies beyond; of an obstacle's particle in its nearest face, as far in as water sees.
+  /// Behind a paddle the bed is mirrored upwards only: water comes there as the paddle retreats.
+  std::array<double, dim> ghost_of_wall(const std::array<double, dim>& x, std::uint16_t owner) const {
+    std::array<double, dim> low, high;
+    low.fill(-1e300), high.fill(1e300);
+    if (!plan_.periodic[0]) low[0] = plan_.paddle && owner == wall_owner ? -1e300 : plan_.x[0], high[0] = plan_.x[1];
+    if constexpr (dim == 3)
+      if (!plan_.periodic[1]) low[1] = plan_.y[0], high[1] = plan_.y[1];
+    low[dim - 1] = -plan_.depth;
+    for (const TankPlan::Block& block : plan_.obstacles) {
+      if (!inside<dim>(block, x)) continue;
+      std::array<double, dim> offset{};
+      double nearest = layers_ * p_.spacing;
+      for (int k = 0; k < dim; ++k) {
+        const int axis = dim == 2 && k == 1 ? 2 : k;
+        for (const double face : {block.low[axis], block.high[axis]}) {
+          const bool wet = face > low[k] + 0.5 * p_.spacing && face < high[k] - 0.5 * p_.spacing;
+          if (!wet || std::abs(face - x[k]) >= nearest) continue;
+          nearest = std::abs(face - x[k]), offset = {}, offset[k] = 2.0 * (face - x[k]);
+        }
+      }
+      return offset;
+    }
+    return mirror_in_box<dim>(x, low, high);
+  }
+  /// Mirror image of a body's particle in its surface, as far in as water sees.
+  std::array<double, dim> ghost_of_body(const TankPlan::Body& body, const Eigen::Vector3d& local) const {
+    const double depth = -signed_distance(body.shapes, local, cut);
+    if (depth <= 0.0 || depth > layers_ * p_.spacing) return {};
+    const double step = 1e-3 * p_.spacing;
+    Eigen::Vector3d out = Eigen::Vector3d::Zero();
+    for (const int axis : {0, 1, 2}) {
+      if (dim == 2 && axis == 1) continue;
+      const Eigen::Vector3d along = step * Eigen::Vector3d::Unit(axis);
+      out[axis] = signed_distance(body.shapes, local + along, cut) - signed_distance(body.shapes, local - along, cut);
+    }
+    if (out.norm() < step) return {};  // on a ridge: as far from one face as from another
+    return from_earth<dim>(body.motion.attitude * (2.0 * depth * out.normalized()));
+  }
+
+  /// Layers of the lattice under the bed and behind the sides, and obstacles. Behind a paddle the bed and the long sides go on.
+  void add_walls() {
+    const int behind = plan_.paddle ? layers_ + int(std::ceil(plan_.paddle_reach / lattice_.edge[0])) + 1 : layers_;
+    std::array<int, dim> low{}, high = lattice_.count;
+    low[0] = plan_.periodic[0] ? 0 : -behind;
+    if (!plan_.periodic[0]) high[0] += layers_;
+    if constexpr (dim == 3)
+      if (!plan_.periodic[1]) low[1] = -layers_, high[1] += layers_;
+    double lowest = -plan_.depth;
+    for (const auto& point : plan_.bed) lowest = std::min(lowest, point[1]);
+    low[dim - 1] = int(std::floor((lowest + plan_.depth) / lattice_.edge[dim - 1])) - layers_;
+    std::vector<double> bed, lowest_near;
+    for (int i = low[0]; i < high[0]; ++i) {
+      bed.push_back(bed_of_column(i)), lowest_near.push_back(bed.back());
+      for (int near = i - layers_; near <= i + layers_; ++near) lowest_near.back() = std::min(lowest_near.back(), bed_of_column(near));
+    }
+    for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
+      const std::array<double, dim> x = lattice_.at(index);
+      const auto column = std::size_t(index[0] - low[0]);
+      const double depth_of_layers = lowest_near[column] - layers_ * lattice_.edge[dim - 1];
+      if (x[dim - 1] < depth_of_layers) return;
+      bool wall = x[dim - 1] < bed[column];
+      if (!plan_.periodic[0]) wall = wall || index[0] >= lattice_.count[0] || (index[0] < 0 && !plan_.paddle);
+      if constexpr (dim == 3) wall = wall || (!plan_.periodic[1] && (index[1] < 0 || index[1] >= lattice_.count[1]));
+      bool in_tank = index[0] >= 0 && index[0] < lattice_.count[0];
+      if constexpr (dim == 3) in_tank = in_tank && index[1] >= 0 && index[1] < lattice_.count[1];
+      if (wall || (in_tank && is_obstacle(x))) add_wall_particle(x, wall_owner);
+    });
+  }
+
+  void add_paddle(std::uint16_t owner) {
+    std::array<int, dim> low{}, high = lattice_.count;
+    low[0] = -layers_, high[0] = 0;
+    // Under the hinge of a flap there is a fixed wall; it comes first, because a body's particles are added in one run.
+    for (const bool moving : {false, true})
+      for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
+        const std::array<double, dim> x = lattice_.at(index);
+        const bool fixed = plan_.paddle->flap && x[dim - 1] < plan_.paddle->hinge;
+        if (x[dim - 1] > plan_.bed_at(plan_.x[0]) && fixed != moving) add_wall_particle(x, moving ? owner : wall_owner);
+      });
+  }
+
+  void add_body(std::size_t b, std::uint16_t owner) {
+    const TankPlan::Body& body = plan_.bodies[b];
+    for (const Eigen::Vector3d& point : points_[b]) {
+      const Eigen::Vector3d x = body.motion.point(point);
+      Seed<dim> seed{.position = from_earth<dim>(x), .velocity = from_earth<dim>(body.motion.point_velocity(point))};
+      seed.deviation = plan_.water.empty() ? deviation_at(x[2], 0.0) : 0.0;
+      seed.owner = owner;
+      if (plan_.modified_walls) seed.ghost = ghost_of_body(body, point);
+      result_.seeds.push_back(seed);
+    }
+    result_.bodies.push_back(owner);
+    result_.body_particles.push_back(points_[b].size());
+  }
+
+  /// Room for walls, the paddle's way, splashes and bodies; sides that repeat have exactly their length.
+  void set_domain() {
+    Domain<dim>& domain = result_.domain;
+    const double margin = (layers_ + 2) * p_.spacing;
+    domain.low[0] = plan_.x[0] - margin - (plan_.paddle ? plan_.paddle_reach + margin : 0.0), domain.high[0] = plan_.x[1] + margin;
+    if constexpr (dim == 3) domain.low[1] = plan_.y[0] - margin, domain.high[1] = plan_.y[1] + margin;
+    for (int k = 0; k < dim - 1; ++k)
+      if ((domain.periodic[k] = plan_.periodic[std::size_t(k)])) domain.low[k] = (k == 0 ? plan_.x : plan_.y)[0], domain.high[k] = (k == 0 ? plan_.x : plan_.y)[1];
+    double lowest = 1e300, highest = plan_.top;
+    for (const Seed<dim>& seed : result_.seeds) {
+      lowest = std::min(lowest, seed.position[dim - 1]);
+      if (seed.owner > wall_owner) highest = std::max(highest, seed.position[dim - 1]);
+    }
+    domain.low[dim - 1] = lowest - margin;
+    domain.high[dim - 1] = highest + 2.0 * (highest + plan_.depth) + margin;
+  }
+
+  const TankPlan& plan_;
+  Parameters& p_;
+  Lattice<dim> lattice_;
+  int layers_;
+  double row_mass_;                                 ///< mass per area of a row of water [kg/m2]
+  std::vector<Points> points_;
+  std::vector<double> extent_;
+  TankParticles<dim> result_;
+};
+
+}  // namespace
+
+template <int dim>
+TankParticles<dim> lay_out(const TankPlan& plan, Parameters& p) {
+  return Builder<dim>(plan, p).build();
+}
+template TankParticles<2> lay_out<2>(const TankPlan&, Parameters&);
+template TankParticles<3> lay_out<3>(const TankPlan&, Parameters&);
+
+}  // namespace spindrift::sph

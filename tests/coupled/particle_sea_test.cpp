@@ -1,0 +1,161 @@
+// Scenes with a sea of particles as a user runs them: a dam breaks, a box floats, bodies are held and released, a run is interrupted
+// and goes on bit for bit, fields are written, bad input is refused.
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+
+#include "src/coupling/sea_window.hpp"
+#include "src/scene/error.hpp"
+#include "tests/coupled/runs.hpp"
+
+using namespace spindrift;
+using namespace spindrift::coupling;
+using Catch::Contains;
+
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::string refusal(const std::string& file, const std::vector<std::string>& overrides) {
+  try {
+    scene::Document document = scene::load(test::input(file), overrides);
+    Machine machine(read_scenario(document));
+    require_stable(machine, stability(machine, make_start(machine).state));
+  } catch (const scene::SceneError& e) { return e.what(); }
+  return "";
+}
+
+const std::string dam = "validation/dam_break/koshizuka_oka.toml", box = "validation/floating_box/floating_box.toml";
+/// A box small and coarse enough for a test, in seconds.
+const std::vector<std::string> small_box{"sea.particles.spacing_m=0.08", "time.end_s=0.4", "time.window_s=0.04", "sea.initial.settle_s=0.2"};
+
+}  // namespace
+
+TEST_CASE("a dam breaks from a scene file: its front runs ahead of the measured one by less than a quarter of a metre", "[coupled][sea][fast]") {
+  const test::Folder folder("dam");
+  const io::Summary summary = test::run_scene(test::input(dam), {"sea.particles.spacing_m=0.1", "time.end_s=0.6"}, folder.path());
+  CHECK(summary.exit_code == 0);
+  const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
+  const scene::Columns measured = scene::read_columns(test::input("validation/dam_break/koshizuka_oka_front.csv"));
+  int compared = 0;
+  for (std::size_t n = 0; n < measured["time_s"].size(); ++n)
+    for (std::size_t row = 0; row < history["time_s"].size(); ++row)
+      if (std::abs(history["time_s"][row] - measured["time_s"][n]) < 0.01 && measured["time_s"][n] > 0.15) {
+        CHECK(history["sea.x_max_m"][row] == Approx(measured["x_max_m"][n] + 0.1).margin(0.25));
+        ++compared;
+      }
+  CHECK(compared >= 4);
+  CHECK(history["sea.lost_particles"].back() == 0.0);
+  CHECK(std::filesystem::exists(folder.path() / "fields" / "particles.xdmf"));
+  CHECK(std::filesystem::exists(folder.path() / "fields" / "surface.xdmf"));
+}
+
+TEST_CASE("a body is held while the water settles, then released", "[coupled][sea][fast]") {
+  const test::Folder folder("held");
+  test::run_scene(test::input(box), small_box, folder.path());
+  const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
+  const auto t = history["time_s"], z = history["box.z_m"];
+  CHECK(t.front() == Approx(-0.2));
+  for (std::size_t n = 0; n < t.size(); ++n)
+    if (t[n] <= 0.0) CHECK(z[n] == z[0]);
+  CHECK(z[0] == Approx(0.05));
+  CHECK(z.back() < 0.04);
+  // 50 mm too high it lacks 0.05 x 0.4 x 9810 N of its 785 N of buoyancy.
+  const auto force = history["box.sea.fz_N"];
+  double held = 0.0;
+  int rows = 0;
+  for (std::size_t n = 0; n < t.size(); ++n)
+    if (t[n] > -0.1 && t[n] <= 0.0) held += force[n], ++rows;
+  CHECK(held / rows == Approx(785.0 - 196.0).margin(100.0));
+}
+
+TEST_CASE("every scheme runs from a scene file", "[coupled][sea][fast]") {
+  using Overrides = std::vector<std::string>;
+  const Overrides schemes = GENERATE(Overrides{"sea.particles.walls='modified_no_slip'", "sea.particles.viscosity_model='laminar_sps'"},
+                                     Overrides{"sea.particles.step='verlet'", "sea.particles.verlet_join_every=20"},
+                                     Overrides{"sea.particles.precision='double'", "sea.particles.density_filter='mls'"},
+                                     Overrides{"sea.particles.shifting=2.0", "sea.particles.kernel='cubic_spline'"});
+  const test::Folder folder("scheme");
+  Overrides overrides = small_box;
+  overrides.insert(overrides.end(), schemes.begin(), schemes.end());
+  overrides.push_back("time.end_s=0.12");
+  CHECK(test::run_scene(test::input(box), overrides, folder.path()).exit_code == 0);
+  const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
+  CHECK(history["box.z_m"].back() < 0.05);
+  CHECK(history["box.z_m"].back() > 0.03);
+}
+
+TEST_CASE("a body that comes to lie on the bed is carried by its contact, named in the output", "[coupled][sea][fast]") {
+  // 400 kg in the room of 160 kg of water: at rest the bed carries at least the difference, more where no water is left underneath.
+  const test::Folder folder("sunk");
+  test::run_scene(test::input(box), {"sea.particles.spacing_m=0.08", "time.end_s=3.0", "time.window_s=0.04", "bodies.box.mass_kg=400.0",
+                                     "bodies.box.inertia_kg_m2=[10.7, 10.7, 10.7]", "bodies.box.displacement_m=[0.0, 0.0, -0.36]",
+                                     "sea.initial.settle_s=0.2", "sea.tank.top_m=0.6"},
+                  folder.path());
+  const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
+  CHECK(test::mean_of_last(history, "box.contact.fz_N", 1.0) > 0.9 * 240.0 * 9.81);
+  CHECK(test::mean_of_last(history, "box.sea.fz_N", 1.0) + test::mean_of_last(history, "box.contact.fz_N", 1.0) ==
+        Approx(400.0 * 9.81).epsilon(0.02));
+}
+
+TEST_CASE("an interrupted sea of particles goes on bit for bit", "[coupled][sea][fast]") {
+  const test::Folder whole("sea_whole"), parts("sea_parts");
+  test::run_scene(test::input(box), small_box, whole.path());
+  RunSettings first{.until_s = 0.16, .quiet = true};
+  test::run_scene(test::input(box), small_box, parts.path(), first);
+  test::run_scene(test::input(box), small_box, parts.path(), {.restart = true, .quiet = true});
+  CHECK(text_of(whole.path() / "history.csv") == text_of(parts.path() / "history.csv"));
+}
+
+TEST_CASE("a sea starts from the state of another run", "[coupled][sea][fast]") {
+  const test::Folder first("sea_first"), second("sea_second");
+  test::run_scene(test::input(dam), {"sea.particles.spacing_m=0.1", "time.end_s=0.2"}, first.path());
+  const std::string file = (first.path() / "checkpoints").string();
+  std::string checkpoint;
+  for (const auto& entry : std::filesystem::directory_iterator(file)) checkpoint = entry.path().string();
+  test::run_scene(test::input(dam), {"sea.particles.spacing_m=0.1", "time.end_s=0.04", "sea.initial.state='file'", "sea.initial.file='" + checkpoint + "'"},
+                  second.path());
+  const scene::Columns before = scene::read_columns((first.path() / "history.csv").string());
+  const scene::Columns after = scene::read_columns((second.path() / "history.csv").string());
+  CHECK(after["sea.x_max_m"].front() == before["sea.x_max_m"].back());
+}
+
+TEST_CASE("substeps share out what is left of a window and never exceed the limit", "[coupled][sea][fast]") {
+  for (double limit : {7.9, 1000.0, 123456.7, 1e12}) {
+    const std::int64_t window = limit < 10.0 ? 1000 : 16777216;
+    std::int64_t left = window, steps = 0;
+    while (left > 0) {
+      const std::int64_t ticks = substep_ticks(left, limit);
+      if (ticks < 2 || ticks % 2 != 0 || double(ticks) > limit) FAIL("a substep of " << ticks << " ticks, limit " << limit);
+      left -= ticks, ++steps;
+    }
+    CHECK(left == 0);
+    CHECK(steps == std::int64_t(std::ceil(0.5 * double(window) / std::floor(0.5 * limit))));
+  }
+  CHECK(substep_ticks(100, 1.9) == 0);
+  CHECK(substep_ticks(2, 2.0) == 2);
+}
+
+TEST_CASE("bad seas of particles are refused by key before anything is made", "[coupled][sea][fast]") {
+  CHECK_THAT(refusal(dam, {"sea.particles.spacing_m=1.0"}), Contains("sea.particles.spacing_m") && Contains("fewer than 4"));
+  CHECK_THAT(refusal(dam, {"sea.tank.x_m=[4.0, 0.0]"}), Contains("sea.tank.x_m"));
+  CHECK_THAT(refusal(dam, {"sea.probes[0].point_m=[9.0, 0.0, 0.0]"}), Contains("sea.probes[0].point_m") && Contains("outside the tank"));
+  CHECK_THAT(refusal(dam, {"time.step_s=0.01"}), Contains("time.step_s") && Contains("speed of sound"));
+  CHECK_THAT(refusal(dam, {"waves.model='airy'", "waves.height_m=0.1", "waves.period_s=2.0"}), Contains("waves.model") && Contains("wavemaker"));
+  CHECK_THAT(refusal(dam, {"sea.wavemaker.ramp_s=1.0"}), Contains("sea.wavemaker") && Contains("no wave"));
+  CHECK_THAT(refusal(box, {"sea.particles.dimensions='3'"}), Contains("sea.tank.y_m"));
+  CHECK_THAT(refusal(dam, {"sea.particles.walls='modified'", "sea.tank.bed_m=[[0.0, -2.0], [4.0, -1.5]]"}),
+             Contains("sea.particles.walls") && Contains("slopes"));
+  CHECK_THAT(refusal(dam, {"sea.particles.kinematic_viscosity_m2_s=1e-5"}), Contains("kinematic_viscosity_m2_s"));
+  CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.0, 0.0, -0.5]"}), Contains("bodies.box") && Contains("below the bed"));
+  CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.9, 0.0, 0.0]"}), Contains("in a wall"));
+  CHECK_THAT(refusal(box, {"start.equilibrium=true"}), Contains("start.equilibrium"));
+  CHECK_THAT(refusal(box, {"sea.model='hydrostatic'"}), Contains("has no effect"));
+  CHECK_THAT(refusal(box, {"sea.initial.settle_s=1.01"}), Contains("settle_s") && Contains("windows"));
+}

@@ -1,0 +1,172 @@
+// A scene's tank filled with particles: counts, mass, where walls stand, what bodies displace.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/sph/tank.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace spindrift;
+using namespace spindrift::sph;
+
+namespace {
+
+TankPlan tank(double length, double width, double depth) {
+  return {.x = {0.0, length}, .y = {0.0, width}, .depth = depth, .top = 0.5 * depth};
+}
+Parameters particles(double spacing, double depth) {
+  Parameters p;
+  p.spacing = spacing, p.h_over_d = 1.5, p.eos = {1000.0, 10.0 * std::sqrt(9.81 * depth)};
+  return p;
+}
+template <int dim, class Visit>
+void for_owner(const TankParticles<dim>& t, std::uint16_t owner, Visit&& visit) {
+  for (const Seed<dim>& seed : t.seeds)
+    if (seed.owner == owner) visit(seed);
+}
+
+}  // namespace
+
+TEST_CASE("the water of a tank has the mass of water at rest, also where spacings do not divide its sides", "[sea][sph][fast]") {
+  const double spacing = GENERATE(0.1, 0.13);
+  const TankPlan plan = tank(2.0, 1.0, 1.0);
+  Parameters p = particles(spacing, 1.0);
+  const auto t = lay_out<3>(plan, p);
+  CHECK(double(t.water) * p.mass(3) == Approx(2.0 * 1.0 * p.eos.column_mass(1.0, p.gravity)).epsilon(1e-12));
+  double heaviest = 0.0;
+  for_owner(t, water_owner, [&](const Seed<3>& seed) {
+    CHECK(seed.position[2] < 0.0);
+    CHECK(seed.position[2] > -1.0);
+    heaviest = std::max(heaviest, seed.deviation);
+  });
+  CHECK(heaviest < p.eos.hydrostatic_deviation(1.0, p.gravity));
+}
+
+TEST_CASE("walls stand outside the water on all sides and under it, open at the top", "[sea][sph][fast]") {
+  const TankPlan plan = tank(1.0, 0.6, 0.5);
+  Parameters p = particles(0.1, 0.5);
+  const auto t = lay_out<3>(plan, p);
+  std::array<double, 3> low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  for_owner(t, wall_owner, [&](const Seed<3>& seed) {
+    const auto& x = seed.position;
+    const bool inside = x[0] > 0.0 && x[0] < 1.0 && x[1] > 0.0 && x[1] < 0.6 && x[2] > -0.5;
+    CHECK_FALSE(inside);
+    for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+  });
+  CHECK(t.walls == (16 * 12 * (3 + 8) - 10 * 6 * 8));  // three layers round 10 x 6 cells, 5 deep and 3 up
+  CHECK(low[2] == Approx(-0.75));
+  CHECK(high[2] == Approx(0.25));
+}
+
+TEST_CASE("a slope keeps water above it and has walls under it", "[sea][sph][fast]") {
+  TankPlan plan = tank(4.0, 0.0, 1.0);
+  plan.bed = {{1.0, -1.0}, {4.0, 0.4}};
+  Parameters p = particles(0.1, 1.0);
+  const auto t = lay_out<2>(plan, p);
+  for_owner(t, water_owner, [&](const Seed<2>& s) { CHECK(s.position[1] > plan.bed_at(s.position[0]) - 0.01); });
+  int under = 0;
+  for_owner(t, wall_owner, [&](const Seed<2>& s) {
+    if (!(s.position[0] > 0.0 && s.position[0] < 4.0)) return;
+    CHECK(s.position[1] < plan.bed_at(s.position[0]) + 1e-9);
+    ++under;
+  });
+  CHECK(under > 3 * 40);
+  CHECK(plan.bed_at(2.5) == Approx(-0.3));
+  CHECK(plan.bed_at(-1.0) == -1.0);
+}
+
+TEST_CASE("sides that repeat have no walls and the domain's exact length", "[sea][sph][fast]") {
+  TankPlan plan = tank(2.0, 1.0, 0.5);
+  plan.periodic = {true, true};
+  Parameters p = particles(0.1, 0.5);
+  const auto t = lay_out<3>(plan, p);
+  for_owner(t, wall_owner, [&](const Seed<3>& s) { CHECK(s.position[2] < -0.5); });
+  CHECK(t.domain.periodic[0]);
+  CHECK(t.domain.high[0] - t.domain.low[0] == 2.0);
+  CHECK(t.domain.high[1] - t.domain.low[1] == 1.0);
+}
+
+TEST_CASE("a union of shapes displaces its volume, and water leaves it room", "[sea][sph][fast]") {
+  const double d = 0.1;
+  const std::vector<BodyShape> shapes{Cylinder{.start = {0, 0, -1}, .end = {0, 0, 1}, .start_radius = 0.5, .end_radius = 0.5},
+                                      Box{.centre = {0.9, 0, 0}, .size = {1.2, 0.4, 0.4}}};
+  TankPlan plan = tank(6.0, 4.0, 3.0);
+  plan.bodies = {{"buoy", shapes, Motion{.position = {3.0, 2.0, -1.0}}}};
+  Parameters p = particles(d, 3.0);
+  const auto t = lay_out<3>(plan, p);
+  // The box of 0.192 m3 reaches 0.2 m into the cylinder along its axis; its cross-section there is nearly inside it as a whole.
+  const double overlap = 0.4 * 0.4 * 0.2 - 0.4 * (0.5 * 0.5 * std::asin(0.4) - 0.2 * std::sqrt(0.21) - 0.4 * (0.5 - std::sqrt(0.21)));
+  const double volume = pi * 0.25 * 2.0 + 0.192 - overlap;
+  CHECK(double(t.body_particles[0]) * d * d * d * t.cell_volume == Approx(volume).epsilon(0.02));
+  for_owner(t, water_owner, [&](const Seed<3>& s) {
+    const Eigen::Vector3d x(s.position[0] - 3.0, s.position[1] - 2.0, s.position[2] + 1.0);
+    CHECK(signed_distance(shapes, x, Cut::space) >= 0.25 * d);
+  });
+}
+
+TEST_CASE("in a 2-D scene a cylinder across the plane is a disc and one in it a rectangle", "[sea][sph][fast]") {
+  const Cylinder across{.start = {0, -1, 0}, .end = {0, 1, 0}, .start_radius = 0.5, .end_radius = 0.5};
+  const Cylinder upright{.start = {0, 0, -1}, .end = {0, 0, 1}, .start_radius = 0.5, .end_radius = 0.5};
+  CHECK(double(fill_shape(across, 0.05, Cut::plane).size()) * 0.0025 == Approx(pi * 0.25).epsilon(0.005));
+  CHECK(double(fill_shape(upright, 0.05, Cut::plane).size()) * 0.0025 == Approx(2.0).epsilon(1e-12));
+  CHECK(signed_distance(BodyShape(across), {0.3, 5.0, 0.4}, Cut::plane) == Approx(0.0).margin(1e-12));
+  CHECK(signed_distance(BodyShape(upright), {0.6, 3.0, 0.0}, Cut::plane) == Approx(0.1));
+  CHECK(volume_of(BodyShape(across), Cut::plane) == Approx(pi * 0.25));
+}
+
+TEST_CASE("water that starts in a wave follows its surface and its velocity", "[sea][sph][fast]") {
+  TankPlan plan = tank(10.0, 0.0, 2.0);
+  plan.periodic = {true, false};
+  const double k = 2.0 * pi / 10.0, omega = std::sqrt(9.81 * k * std::tanh(k * 2.0)), a = 0.1;
+  plan.waves = {{.wave_number = k, .angular_frequency = omega, .amplitude = a, .speed_amplitude = a * omega, .phase = 0.0, .direction = 0.0}};
+  Parameters p = particles(0.1, 2.0);
+  const auto t = lay_out<2>(plan, p);
+  double crest = -1e9, trough_top = -1e9, fastest = 0.0;
+  for_owner(t, water_owner, [&](const Seed<2>& s) {
+    if (std::abs(s.position[0] - 10.0) < 0.1 || s.position[0] < 0.1) crest = std::max(crest, s.position[1]);
+    if (std::abs(s.position[0] - 5.0) < 0.1) trough_top = std::max(trough_top, s.position[1]);
+    fastest = std::max(fastest, s.velocity[0]);
+  });
+  CHECK(crest - trough_top == Approx(2.0 * a).epsilon(0.05));
+  CHECK(fastest == Approx(a * omega / std::tanh(k * 2.0)).epsilon(0.05));
+}
+
+TEST_CASE("ghost nodes of modified walls lie in the water, as far from the face as their particle", "[sea][sph][fast]") {
+  TankPlan plan = tank(2.0, 1.0, 1.0);
+  plan.modified_walls = true;
+  plan.obstacles.push_back({{0.8, 0.4, -1.0}, {1.2, 0.6, 0.3}});
+  Motion motion;
+  motion.position = {1.5, 0.5, -0.3};
+  motion.attitude = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
+  plan.bodies.push_back({"ball", {Sphere{.centre = {0.0, 0.0, 0.0}, .radius = 0.2}}, motion});
+  Parameters p = particles(0.05, 1.0);
+  const auto t = lay_out<3>(plan, p);
+  int tank_nodes = 0, obstacle_nodes = 0, body_nodes = 0;
+  for (const Seed<3>& seed : t.seeds) {
+    if (seed.owner == water_owner) {
+      CHECK(seed.ghost == std::array<double, 3>{});
+      continue;
+    }
+    std::array<double, 3> node;
+    double length = 0.0;
+    for (int k = 0; k < 3; ++k) node[k] = seed.position[k] + seed.ghost[k], length += seed.ghost[k] * seed.ghost[k];
+    length = std::sqrt(length);
+    if (seed.owner == t.bodies[0]) {
+      const double from = (Eigen::Vector3d(node[0], node[1], node[2]) - motion.position).norm();
+      const double at = (to_earth<3>(seed.position) - motion.position).norm();
+      if (at < 0.045) continue;  // too deep for water to see
+      CHECK(0.5 * (from + at) == Approx(0.2).epsilon(1e-6));
+      CHECK(length == Approx(from - at).epsilon(1e-6));
+      ++body_nodes;
+      continue;
+    }
+    const bool obstacle = seed.position[0] > 0.0 && seed.position[0] < 2.0 && seed.position[1] > 0.0 && seed.position[1] < 1.0 &&
+                          seed.position[2] > -1.0;
+    ++(obstacle ? obstacle_nodes : tank_nodes);
+    if (obstacle) CHECK_FALSE((node[0] > 0.8 && node[0] < 1.2 && node[1] > 0.4 && node[1] < 0.6 && node[2] < 0.3));
+    const bool inside = node[0] > 0.0 && node[0] < 2.0 && node[1] > 0.0 && node[1] < 1.0 && node[2] > -1.0;
+    CHECK(inside);
+    CHECK(length > 0.0);
+  }
+  CHECK(tank_nodes > 1000);
+  CHECK(obstacle_nodes > 100);
+  CHECK(body_nodes > 100);
+}
