@@ -44,6 +44,56 @@ TEST_CASE("light and heavy boxes float at their draft within half a spacing", "[
   CHECK(std::abs(rise_to_rest(0.025, weight, 3.0)) < 0.5);
 }
 
+namespace {
+
+constexpr double cylinder_radius = 0.1, tank_length = 2.0;  // [m]
+
+/// Half the density of water, 8 or more particles per radius, in a tank of 20 radii by 3.5, raised by a quarter of its radius.
+struct CylinderAfloat {
+  Tank tank;
+  Floater cylinder{.owner = 2, .motion = {}, .mass = 0.0, .inertia = 0.0};
+  std::vector<Seed<2>> seeds;
+  static constexpr double raised = 0.25 * cylinder_radius;
+
+  CylinderAfloat(double particles_per_radius, bool modified, double alpha, double alpha_solid)
+      : tank(cylinder_radius / particles_per_radius, tank_length, 3.5 * cylinder_radius) {
+    const double radius = cylinder_radius, spacing = tank.p.spacing;
+    tank.p.alpha = alpha, tank.p.alpha_solid = alpha_solid;
+    cylinder.mass = 0.5 * tank.p.eos.rho0 * pi * radius * radius;
+    cylinder.motion.position = {0.5 * (tank.columns - 1) * spacing, 0.0, tank.surface() + raised};
+    tank.add_water_to(seeds);
+    insert_body(seeds, tank, points_in_cylinder(radius, 0.0, 1, spacing), cylinder.motion, 2,
+                [&](double x, double z) { return x * x + z * z < radius * radius; });
+    for (Seed<2>& seed : seeds) {
+      const double x = seed.position[0] - cylinder.motion.position[0], z = seed.position[1] - cylinder.motion.position[2];
+      const double r = std::hypot(x, z), mirror = 2.0 * (radius - r) / r;
+      if (modified && seed.owner == 2 && r > radius - 3.1 * spacing) seed.ghost = {mirror * x, mirror * z};
+    }
+    tank.add_walls_to(seeds, tank.columns, tank.rows + 10);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a cylinder with modified walls rests a tenth of a spacing from Archimedes' draft, with dynamic ones half a spacing",
+          "[verification][sea][nightly]") {
+  const bool modified = GENERATE(false, true);
+  const CylinderAfloat scene(8.0, modified, 0.1, 0.1);
+  SeaSph<2> sea(scene.tank.p, {{-1, -1}, {3, 3}}, scene.seeds);
+  sea.add_body(2, scene.cylinder.motion, scene.cylinder.mass);
+  std::vector<Floater> bodies{scene.cylinder};
+  // What it displaces more at rest than where it starts raises the water between the walls.
+  const double u = 0.25, radius = cylinder_radius, more = radius * radius * (std::asin(u) + u * std::sqrt(1.0 - u * u));
+  const double level = scene.tank.surface() + more / (tank_length - 2.0 * radius);
+  double way = 0.0, time = 0.0;
+  while (sea.time() < 4.0) {
+    const double dt = step_with(sea, bodies, 1.0);
+    if (sea.time() > 2.0) way += dt * (bodies[0].motion.position[2] - level), time += dt;
+  }
+  CAPTURE(modified, way / time / scene.tank.p.spacing);
+  CHECK(std::abs(way / time) < (modified ? 0.1 : 0.5) * scene.tank.p.spacing);
+}
+
 TEST_CASE("a cylinder let go above its rest swings with the period of theory with added mass, at any resolution and with either wall",
           "[verification][sea][nightly]") {
   // Linear potential theory, deep water: added mass and damping from multipoles (Ursell 1949; at omega^2 a/g 0.8 added mass 0.60
@@ -53,32 +103,20 @@ TEST_CASE("a cylinder let go above its rest swings with the period of theory wit
   constexpr double lowest = 3.72, next_highest = 7.22;
   const double particles_per_radius = GENERATE(8.0, 10.0, 14.0);
   const bool modified = GENERATE(false, true);
-  const double radius = 0.1, spacing = radius / particles_per_radius, raised = 0.25 * radius, held = 0.2;
-  Tank tank(spacing, 2.0, 0.35);
-  tank.p.alpha = 0.01, tank.p.alpha_solid = 0.0;
-  Floater cylinder{.owner = 2, .motion = {}, .mass = 0.5 * tank.p.eos.rho0 * pi * radius * radius, .inertia = 0.0};
-  cylinder.motion.position = {0.5 * (tank.columns - 1) * spacing, 0.0, tank.surface() + raised};
-  std::vector<Seed<2>> seeds;
-  tank.add_water_to(seeds);
-  insert_body(seeds, tank, points_in_cylinder(radius, 0.0, 1, spacing), cylinder.motion, 2,
-              [&](double x, double z) { return x * x + z * z < radius * radius; });
-  for (Seed<2>& seed : seeds) {
-    const double x = seed.position[0] - cylinder.motion.position[0], z = seed.position[1] - cylinder.motion.position[2];
-    const double r = std::hypot(x, z), mirror = 2.0 * (radius - r) / r;
-    if (modified && seed.owner == 2 && r > radius - 3.1 * spacing) seed.ghost = {mirror * x, mirror * z};
-  }
-  tank.add_walls_to(seeds, tank.columns, tank.rows + 10);
-  SeaSph<2> sea(tank.p, {{-1, -1}, {3, 3}}, seeds);
-  sea.add_body(2, cylinder.motion, cylinder.mass);
+  constexpr double held = 0.2;
+  const CylinderAfloat scene(particles_per_radius, modified, 0.01, 0.0);
+  const Tank& tank = scene.tank;
+  SeaSph<2> sea(tank.p, {{-1, -1}, {3, 3}}, scene.seeds);
+  sea.add_body(2, scene.cylinder.motion, scene.cylinder.mass);
   while (sea.time() < held) sea.step(1.0);
-  std::vector<Floater> bodies{cylinder};
+  std::vector<Floater> bodies{scene.cylinder};
   std::vector<double> turns, ways;
   double speed = 0.0;
   while (turns.size() < 2 && sea.time() < held + 1.2) {
     step_with(sea, bodies, 1.0);
     if (speed * bodies[0].motion.velocity[2] < 0.0) {
-      turns.push_back((sea.time() - held) * std::sqrt(tank.p.gravity / radius));
-      ways.push_back((bodies[0].motion.position[2] - tank.surface()) / raised);
+      turns.push_back((sea.time() - held) * std::sqrt(tank.p.gravity / cylinder_radius));
+      ways.push_back((bodies[0].motion.position[2] - tank.surface()) / CylinderAfloat::raised);
     }
     speed = bodies[0].motion.velocity[2];
   }
