@@ -15,7 +15,7 @@ namespace {
 struct Scene {
   Parameters p;
   std::vector<Seed<2>> seeds = disordered_block<2>(0.1, {40, 12}, {0.0, 0.0}, true);
-  Domain<2> domain{{-0.5, -0.5}, {5.0, 3.0}};
+  Domain<2> domain{{-0.5, -0.5}, {5.0, 1.5}};
 
   explicit Scene(StepChoice step = StepChoice::symplectic) {
     p.spacing = 0.1, p.eos = {1000.0, 20.0}, p.step = step, p.lost_at_most = 1;

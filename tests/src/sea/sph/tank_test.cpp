@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "src/sea/sph/solids.hpp"
+
 using namespace spindrift;
 using namespace spindrift::sph;
 
