@@ -73,7 +73,7 @@ TEST_CASE("a piston in a small tank makes waves of Biesel's height that travel a
 }
 
 TEST_CASE("the paper's wave at five particles per height: Biesel's height near the paddle, phase speed, loss, reflection",
-          "[coupled][sea][nightly]") {
+          "[.][coupled][sea][long]") {  // an hour or more on one core; not run yet
   const test::Folder folder("wave_tank");
   test::run_scene(test::input("validation/wave_tank/wave_tank.toml"), {}, folder.path());
   const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
