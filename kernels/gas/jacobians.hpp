@@ -58,14 +58,16 @@ SPINDRIFT_INLINE Block5<Real> physical_jacobian(const IdealGas& gas, const Primi
   return J;
 }
 
-/// The matrix of wave_dissipation(), with the waves of the mean state held.
+/// The matrix of wave_dissipation(), with the waves of the mean state held. `pressure` scales the mass that a pressure jump drives
+/// through the face: 1 is Roe's, c over the preconditioner's reference speed that of the preconditioned equations.
 template <class Real>
 SPINDRIFT_INLINE Block5<Real> dissipation_jacobian(const IdealGas& gas, const RoeMean<Real>& m, const Face<Real>& f,
-                                                   const Real& slow, const Real& middle, const Real& fast, const Real& scale) {
+                                                   const Real& slow, const Real& middle, const Real& fast, const Real& scale,
+                                                   const Real& pressure = Real(1.0)) {
   const Real inverse = m.inverse_c, sum = 0.5 * f.area * (fast + slow), difference = 0.5 * f.area * (fast - slow);
   const Real entropy_p = f.area * middle * (m.rho_p - inverse * inverse), entropy_T = f.area * middle * m.rho_T, zero(0.0);
   const Real by_un = difference * inverse * m.rho * scale, push_un = sum * m.rho * scale;
-  const Row5<Real> mass{sum * inverse * inverse + entropy_p, by_un * f.nx, by_un * f.ny, by_un * f.nz, entropy_T};
+  const Row5<Real> mass{sum * inverse * inverse * pressure + entropy_p, by_un * f.nx, by_un * f.ny, by_un * f.nz, entropy_T};
   const Row5<Real> push{difference * inverse, push_un * f.nx, push_un * f.ny, push_un * f.nz, zero};
   Block5<Real> J = carried(mass, push, m.u, m.v, m.w, m.h, f, m.un);
   const Real shear = f.area * middle * m.rho, n[3] = {f.nx, f.ny, f.nz}, velocity[3] = {m.u, m.v, m.w};

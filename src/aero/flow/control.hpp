@@ -29,6 +29,7 @@ struct MarchOptions {
 /// What the tiles report of a state, summed over all cells.
 struct Norms {
   double density = 0.0;     ///< sum of squared density rates
+  double mass = 0.0;        ///< of squared mass balances: not divided by volumes
   double mean = 0.0;        ///< of squared scaled residuals of the mean flow
   double model = 0.0;       ///< of the turbulence unknowns
   double cells = 1.0;
@@ -56,6 +57,7 @@ class March {
   int rejections() const { return rejections_; }
   bool matrix_free() const { return matrix_free_; }
   double density_residual() const { return density_; }
+  double mass_residual() const { return mass_; }
   double first_density_residual() const { return first_; }
   Verdict verdict() const { return verdict_; }
   bool spent() const { return spent_; }  ///< ended for want of steps
@@ -69,7 +71,7 @@ class March {
 
  private:
   MarchOptions o_;
-  double cfl_, density_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
+  double cfl_, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
   int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
   long krylov_total_ = 0;
   bool matrix_free_ = false, retry_ = false, spent_ = false;

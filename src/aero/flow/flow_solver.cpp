@@ -14,7 +14,7 @@ namespace spindrift::aero {
 namespace {
 
 constexpr std::size_t padded(std::size_t n) { return (n + 15) / 16 * 16; }
-constexpr int norm_count = 4;
+constexpr int norm_count = 5;
 
 Scales scales_of(const FlowSetting& s) {
   const double rho = gas::density(s.gas, s.stream), u = s.speed;
@@ -51,7 +51,10 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   if (setting.preconditioned) boundary_.reference_speed = setting.speed;
   implicit_.scales = scales_of(setting);
   implicit_.viscous = setting.viscous;
-  implicit_.mach_floor = setting.flux == "roe_low_mach" ? setting.matrix_mach_floor : 1.0;
+  if (setting.flux == "roe_low_mach") {
+    implicit_.preconditioned_waves = setting.preconditioned && !setting.matrix_mach_floor;
+    implicit_.mach_floor = setting.matrix_mach_floor.value_or(1.0);
+  }
   implicit_.preconditioned = setting.preconditioned;
   implicit_.floor_speed = setting.speed;
   model_ = &model_sweeps(setting.turbulence);
@@ -300,11 +303,11 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
   std::fill(partial.begin(), partial.end(), 0.0);
   const Scales& s = implicit_.scales;
   for_rows(tile.box, [&](int k, int j) {
-    double density = 0.0, mean = 0.0, model = 0.0;
+    double density = 0.0, mass = 0.0, mean = 0.0, model = 0.0;
     for (int i = 0; i < tile.box.ni; ++i) {
       const double* r = tile.residual.data() + tile.inner.at(k, j, i);
       const double rate = r[0] / g.volume_data.data()[g.cell_box.at(k, j, i)];
-      density += rate * rate;
+      density += rate * rate, mass += r[0] * r[0];
       for (int c = 0; c < mean_unknowns; ++c) {
         const double scaled = r[c * tile.inner.component] / s.residual[std::size_t(c)];
         mean += scaled * scaled;
@@ -318,7 +321,7 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
       partial[3] += 1.0;
       limits_[std::size_t(&tile - tiles_.data())] = {0.0, {0, j, k}, "no finite residual in the row of"};
     }
-    partial[0] += density, partial[1] += mean, partial[2] += model;
+    partial[0] += density, partial[1] += mean, partial[2] += model, partial[4] += mass;
   });
   std::fill(loads.begin(), loads.end(), 0.0);
   add_loads(tile, tile.state.data(), viscous_, boundary_, loads);
@@ -326,7 +329,7 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
 
 /// One place where the march goes on, back, or ends: after the sums over all cells.
 void FlowSolver::judge() {
-  norms_ = {norm_sums_[0], norm_sums_[1], norm_sums_[2], double(cells()), norm_sums_[3]};
+  norms_ = {.density = norm_sums_[0], .mass = norm_sums_[4], .mean = norm_sums_[1], .model = norm_sums_[2], .cells = double(cells()), .broken = norm_sums_[3]};
   double force[3] = {0.0, 0.0, 0.0};
   for (std::size_t p = 0; p < conditions_.size(); ++p)
     if (conditions_[p].loads)
@@ -339,11 +342,13 @@ void FlowSolver::judge() {
                    .rejections = march_.rejections(),
                    .cfl = cfl,
                    .density_residual = march_.density_residual(),
+                   .mass_residual = march_.mass_residual(),
                    .mean_residual = std::sqrt(norms_.mean),
                    .model_residual = std::sqrt(norms_.model),
                    .fraction = march_.fraction(),
                    .matrix_free = matrix_free_,
                    .force = {force[0], force[1], force[2]}});
+  if (watcher_) watcher_(rows_.back());
   if (verdict == Verdict::failed) name_trouble();
   solving_ = verdict == Verdict::go_on;
   matrix_free_ = march_.matrix_free();

@@ -8,6 +8,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,7 +45,9 @@ struct FlowSetting {
   bool viscous = false, thin_layer = false;
   double smooth = 0.0;             ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
   bool preconditioned = true;
-  double matrix_mach_floor = 1.0;  ///< of the low-Mach scaling in the matrix: more dissipation there makes a better ILU
+  /// Dissipation in the matrix where the flux is low-Mach Roe. Empty: that of the preconditioned equations, good at any Mach number;
+  /// else Rieper's with at least this scaling, 1 being Roe's.
+  std::optional<double> matrix_mach_floor;
   Krylov krylov = Krylov::gmres;
   MarchOptions march;
   int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
@@ -63,7 +66,7 @@ struct BlockPose {
 /// What a pseudo-step did; one row for each since the last clear.
 struct PseudoRow {
   int step = 0, krylov = 0, rejections = 0;
-  double cfl = 0.0, density_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, fraction = 1.0;
+  double cfl = 0.0, density_residual = 0.0, mass_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, fraction = 1.0;
   bool matrix_free = false;
   std::array<double, 3> force{};  ///< of all patches with loads [N]
 };
@@ -106,6 +109,8 @@ class FlowSolver {
   const March& march() const { return march_; }
   March& march() { return march_; }
   const std::vector<PseudoRow>& rows() const { return rows_; }
+  /// Called with each row as it is made: progress, clocks.
+  void watch(std::function<void(const PseudoRow&)> watcher) { watcher_ = std::move(watcher); }
   void clear_rows() { rows_.clear(); }
   /// Between two chunks of a steady march: its last row will be judged again.
   void keep_last_row() {
@@ -192,9 +197,10 @@ class FlowSolver {
   std::vector<double> norm_partials_, load_partials_, dot_partials_, size_partials_, fraction_partials_;
   std::vector<double> norm_sums_, loads_, dots_;
   double direction_size_ = 0.0, fraction_ = 1.0;
-  bool solving_ = false, matrix_free_ = false, refresh_ = true;
+  bool solving_ = false, matrix_free_ = false;
   std::vector<double> combination_;
   std::vector<PseudoRow> rows_;
+  std::function<void(const PseudoRow&)> watcher_;
   /// The cell of each tile that limits its update most, and by what.
   struct Limit {
     double fraction = 1.0;

@@ -23,6 +23,8 @@ struct ImplicitSetting {
   Scales scales;
   bool viscous = false;
   double mach_floor = 1.0;       ///< least scaling of RoeLowMach's dissipation; 1: that of Roe
+  bool preconditioned_waves = false;  ///< dissipation of the preconditioned equations instead, with this many times floor_speed at least:
+  static constexpr double wave_speeds_of_floor = 7.0;
   bool preconditioned = true;    ///< pseudo-time of Weiss & Smith
   double floor_speed = 0.0;      ///< least reference speed of the preconditioner [m/s]
   double physical_rate = 0.0;    ///< a0 / dt of the physical step [1/s]; 0 steady

@@ -98,7 +98,7 @@ class StepGraph {
            FlowTile& tile = s_.tiles_[n];
            s_.evaluate(tile, tile.state.data(), tile.residual.data());
            const std::size_t loads = s_.loads_.size();
-           s_.measure(tile, std::span(s_.norm_partials_).subspan(n * 4, 4), std::span(s_.load_partials_).subspan(n * loads, loads));
+           s_.measure(tile, std::span(s_.norm_partials_).subspan(n * s_.norm_sums_.size(), s_.norm_sums_.size()), std::span(s_.load_partials_).subspan(n * loads, loads));
          });
   }
   void judge() {
