@@ -1,0 +1,61 @@
+// The march with other fluxes and turbulence models than the default ones: NACA 0012 at 10 degrees, Re 6e6, 112 x 32 cells of the TMR's
+// family, six orders of the density residual each, and lifts that agree as far as such a grid lets them.
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "src/aero/grid/wall_distance.hpp"
+#include "tests/src/aero/flow/flows.hpp"
+#include "tests/verification/air/tmr_grids.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using namespace spindrift::aero::testing;
+
+namespace {
+
+struct Outcome {
+  double lift, drag;
+  int steps;
+};
+Outcome aerofoil(const char* flux, const char* model, double mach) {
+  const double alpha = 10.0 * std::numbers::pi / 180.0;
+  FlowSetting s = air(mach, {std::cos(alpha), 0.0, std::sin(alpha)});
+  const double rho = gas::density(s.gas, s.stream);
+  s.gas.viscosity = {.mu0 = rho * s.speed / 6e6, .T0 = 288.15, .S = 105.97};
+  s.viscous = true;
+  s.flux = flux, s.turbulence = model;
+  s.march.max_steps = 250, s.march.drop = 1e-6;
+  Case c(tmr_c_grid(std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/validation/naca0012/n0012_113-33.p2dfmt", 24), s,
+         {{"wall", {Condition::no_slip, true}}, {"far", {Condition::far_field, false}}});
+  const WallSurface wall = wall_surface(c.grid, std::array<std::string, 1>{"wall"});
+  for (FlowTile& tile : c.solver->tiles()) fill_wall_distance(*tile.geometry, wall);
+  c.prepare();
+  c.run();
+  CAPTURE(flux, model, mach, c.solver->march().steps(), c.solver->march().why());
+  CHECK(c.solver->march().verdict() == Verdict::converged);
+  CHECK_FALSE(c.solver->march().spent());
+  const std::array<double, 3>& f = c.solver->rows().back().force;
+  const double q = 0.5 * rho * s.speed * s.speed;
+  return {(f[2] * std::cos(alpha) - f[0] * std::sin(alpha)) / q, (f[0] * std::cos(alpha) + f[2] * std::sin(alpha)) / q, c.solver->march().steps()};
+}
+
+}  // namespace
+
+TEST_CASE("Osher's flux and SST converge by six orders as the default schemes do", "[flow][nightly]") {
+  const Outcome plain = aerofoil("roe_low_mach", "sa", 0.15);
+  for (const auto& [flux, model] : {std::pair{"osher", "sa"}, {"roe_low_mach", "sst"}, {"roe_low_mach", "sa_neg"}, {"osher", "sst"}}) {
+    const Outcome other = aerofoil(flux, model, 0.15);
+    CAPTURE(flux, model, plain.lift, plain.drag, plain.steps, other.lift, other.drag, other.steps);
+    CHECK(other.lift == Approx(plain.lift).epsilon(0.06));
+    CHECK(other.steps < 200);
+  }
+}
+
+TEST_CASE("the same aerofoil at Mach 0.01 needs no more steps with the same settings", "[flow][nightly]") {
+  const Outcome plain = aerofoil("roe_low_mach", "sa", 0.15), slow = aerofoil("roe_low_mach", "sa", 0.01);
+  CAPTURE(plain.lift, plain.drag, plain.steps, slow.lift, slow.drag, slow.steps);
+  CHECK(slow.steps <= 2 * plain.steps);
+  CHECK(slow.lift == Approx(plain.lift).epsilon(0.03));
+}
