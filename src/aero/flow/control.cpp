@@ -42,7 +42,7 @@ Verdict March::judge(const Norms& n, double load) {
     }
     return verdict_ = Verdict::rejected;
   }
-  density_ = density;
+  density_ = density, mass_ = std::sqrt(n.mass / n.cells);
   if (fresh) first_ = density, before_ = total;
   first_ = std::max(first_, density);  // what an impulsive start stirs up counts as the start
   if (!fresh && !retry_) {
