@@ -30,9 +30,7 @@ GroupSweep<dim, Real> Schemes<dim, Real>::artificial() const {
   });
 }
 
-template GroupSweep<2, float> Schemes<2, float>::artificial() const;
-template GroupSweep<2, double> Schemes<2, double>::artificial() const;
-template GroupSweep<3, float> Schemes<3, float>::artificial() const;
-template GroupSweep<3, double> Schemes<3, double>::artificial() const;
+// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for each.
+template GroupSweep<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::artificial() const;
 
 }  // namespace spindrift::sph

@@ -46,21 +46,10 @@ GroupSweep<dim, Real> Schemes<dim, Real>::shifting() const {
   });
 }
 
-template GroupSweep<2, float> Schemes<2, float>::strain() const;
-template GroupSweep<2, double> Schemes<2, double>::strain() const;
-template GroupSweep<3, float> Schemes<3, float>::strain() const;
-template GroupSweep<3, double> Schemes<3, double>::strain() const;
-template GroupBoundary<2, float> Schemes<2, float>::boundary(const Ghosts<2>&) const;
-template GroupBoundary<2, double> Schemes<2, double>::boundary(const Ghosts<2>&) const;
-template GroupBoundary<3, float> Schemes<3, float>::boundary(const Ghosts<3>&) const;
-template GroupBoundary<3, double> Schemes<3, double>::boundary(const Ghosts<3>&) const;
-template GroupSweep<2, float> Schemes<2, float>::filter() const;
-template GroupSweep<2, double> Schemes<2, double>::filter() const;
-template GroupSweep<3, float> Schemes<3, float>::filter() const;
-template GroupSweep<3, double> Schemes<3, double>::filter() const;
-template GroupSweep<2, float> Schemes<2, float>::shifting() const;
-template GroupSweep<2, double> Schemes<2, double>::shifting() const;
-template GroupSweep<3, float> Schemes<3, float>::shifting() const;
-template GroupSweep<3, double> Schemes<3, double>::shifting() const;
+// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for each.
+template GroupSweep<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::strain() const;
+template GroupBoundary<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::boundary(const Ghosts<SPINDRIFT_SPH_DIM>&) const;
+template GroupSweep<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::filter() const;
+template GroupSweep<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::shifting() const;
 
 }  // namespace spindrift::sph

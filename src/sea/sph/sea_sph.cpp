@@ -317,9 +317,7 @@ bool SeaSph<dim, Real>::repartition(std::vector<int> rank_of_group) {
   return true;
 }
 
-template class SeaSph<2, float>;
-template class SeaSph<2, double>;
-template class SeaSph<3, float>;
-template class SeaSph<3, double>;
+// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for each.
+template class SeaSph<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>;
 
 }  // namespace spindrift::sph

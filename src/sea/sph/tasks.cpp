@@ -594,9 +594,7 @@ bool StepTasks<dim, Real>::outdated() const {
   return sea_.move_bodies && sea_.plan.solid_path > path_ + 0.5 * (path_limit() - path_);
 }
 
-template class StepTasks<2, float>;
-template class StepTasks<2, double>;
-template class StepTasks<3, float>;
-template class StepTasks<3, double>;
+// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for each.
+template class StepTasks<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>;
 
 }  // namespace spindrift::sph

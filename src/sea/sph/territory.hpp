@@ -69,8 +69,7 @@ Territory whole_territory(const Columns<dim>& columns) {
 }
 
 /// What a group costs, counted, in clusters of water and of walls: each cluster meets those of its own and of the neighbouring
-/// groups. Counted and not measured, so that runs repeat; on the dam break of perf/sea it follows the measured time of a group's
-/// tasks (docs/developer/sea.md).
+/// groups. Counted and not measured, so that runs repeat. How well it follows measured times has not been compared.
 struct GroupCount {
   int group, water, solid;  ///< clusters
 };
