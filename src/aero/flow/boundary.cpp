@@ -18,6 +18,7 @@ gas::Primitive<double> ghost_state(const FlowBoundary& boundary, const gas::Prim
     case Condition::slip:
     case Condition::symmetry: return gas::mirrored(inside, f);
     case Condition::inflow_velocity: return gas::inflow_velocity(inside, s.stream);
+    case Condition::inflow_stagnation: return gas::inflow_reservoir(s.gas, inside, s.reservoir);
     case Condition::outflow_pressure: return gas::outflow_pressure(s.gas, inside, s.stream, f);
     case Condition::far_field: break;
   }
@@ -93,13 +94,11 @@ double wall_pressure(const FlowTile& tile, const double* state, Side side, int k
 
 void add_wall_pressure(FlowTile& tile, const double* state, double* residual) {
   for (const FlowBoundary& boundary : tile.boundaries) {
-    if (!is_wall(boundary.condition)) continue;
+    if (!is_closed(boundary.condition)) continue;
     const Side side = boundary.where.side;
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
-      // A plane of symmetry has no gradient of pressure across it; a wall may.
-      const double p = boundary.condition == Condition::symmetry ? state[tile.cells.at(k, j, i)]
-                                                                 : wall_pressure(tile, state, side, k, j, i);
-      const gas::Conserved<double> flux = gas::wall_flux(p, outward_face(*tile.geometry, side, k, j, i));
+      const gas::Conserved<double> flux =
+          gas::wall_flux(wall_pressure(tile, state, side, k, j, i), outward_face(*tile.geometry, side, k, j, i));
       double* at = residual + tile.inner.at(k, j, i);
       const std::ptrdiff_t c = tile.inner.component;
       at[c] += flux.mx, at[2 * c] += flux.my, at[3 * c] += flux.mz, at[4 * c] += flux.E;
@@ -109,7 +108,7 @@ void add_wall_pressure(FlowTile& tile, const double* state, double* residual) {
 
 void set_open_faces(FlowTile& tile) {
   for (const FlowBoundary& boundary : tile.boundaries) {
-    if (!is_wall(boundary.condition)) continue;
+    if (!is_closed(boundary.condition)) continue;
     const Side side = boundary.where.side;
     const int d = direction_of(side);
     const auto [a, b] = along(side);

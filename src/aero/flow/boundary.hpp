@@ -14,6 +14,7 @@ namespace spindrift::aero {
 struct BoundarySetting {
   gas::IdealGas gas;
   gas::Primitive<double> stream{};         ///< undisturbed flow, above the references
+  gas::Reservoir reservoir{};              ///< that the undisturbed flow comes from
   std::array<double, 2> carried{};         ///< of the turbulence unknowns in it
   double reference_speed = 1e30;           ///< of the far field's waves [m/s]; beyond the sound speed: the physical ones
   double dt = 0.0;                         ///< of a moving grid, for the speed of its walls, with

@@ -24,10 +24,18 @@ Scales scales_of(const FlowSetting& s) {
   return scales;
 }
 
+/// Where the undisturbed flow comes to rest without loss.
+gas::Reservoir reservoir_of(const FlowSetting& s) {
+  const double T = gas::absolute_temperature(s.gas, s.stream), T0 = T + gas::kinetic(s.stream) / s.gas.cp();
+  const double speed = std::sqrt(2.0 * gas::kinetic(s.stream)), inverse = speed > 0.0 ? 1.0 / speed : 0.0;
+  return {gas::absolute_pressure(s.gas, s.stream) * std::pow(T0 / T, s.gas.gamma / (s.gas.gamma - 1.0)), T0, s.stream.u * inverse,
+          s.stream.v * inverse, s.stream.w * inverse};
+}
+
 }  // namespace
 
 std::size_t FlowTile::bytes() const {
-  std::size_t sum = state.bytes() + trial.bytes() + gradients.bytes() + residual.bytes() + before.bytes() +
+  std::size_t sum = state.bytes() + trial.bytes() + source.bytes() + gradients.bytes() + residual.bytes() + before.bytes() +
                     before_that.bytes() + rate.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() + direction.bytes();
   for (const auto& v : vectors) sum += v.bytes();
   for (const auto& v : directions_kept) sum += v.bytes();
@@ -44,12 +52,15 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   if (setting.smooth > 0.0) convective_.smooth = gas::smoothness(setting.gas, rho, setting.speed, 0.0, setting.smooth);
   convective_.reconstruct = reconstruction(setting.limiter);
   convective_.flux = row_flux(setting.flux);
+  convective_.upwinding = setting.upwinding;
   viscous_.active = setting.viscous;
   viscous_.thin_layer = setting.thin_layer;
   boundary_.stream = setting.stream;
+  boundary_.reservoir = reservoir_of(setting);
   boundary_.dt = setting.dt;
-  if (setting.preconditioned) boundary_.reference_speed = setting.speed;
+  if (setting.preconditioned && !setting.physical_far_field) boundary_.reference_speed = setting.speed;
   implicit_.scales = scales_of(setting);
+  implicit_.inflow = {boundary_.reservoir.x, boundary_.reservoir.y, boundary_.reservoir.z};
   implicit_.viscous = setting.viscous;
   if (setting.flux == "roe_low_mach") {
     implicit_.preconditioned_waves = setting.preconditioned && !setting.matrix_mach_floor;
@@ -262,6 +273,15 @@ void FlowSolver::evaluate(FlowTile& tile, double* state, double* residual) {
   add_wall_pressure(tile, state, residual);
   if (setting_.viscous) sweep_viscous(tile, state, residual, viscous_);
   if (tile.turbulence > 0) model_->residual(tile, state, residual, viscous_);
+  if (tile.source.size() > 0) {
+    const BoxLayout& cells = tile.geometry->cell_box;
+    for (int c = 0; c < tile.unknowns(); ++c)
+      for_rows(tile.box, [&](int k, int j) {
+        const std::ptrdiff_t at = tile.inner.at(k, j, 0) + c * tile.inner.component;
+        for (int i = 0; i < tile.box.ni; ++i)
+          residual[at + i] -= tile.geometry->volume_data.data()[cells.at(k, j, i)] * tile.source.data()[at + i];
+      });
+  }
   const TileGeometry& g = *tile.geometry;
   if (boundary_.turning) {  // in axes that turn with the frame, the components of a constant momentum change
     const auto [x, y, z] = implicit_.omega;

@@ -42,9 +42,11 @@ struct FlowSetting {
   gas::Primitive<double> stream{};  ///< undisturbed flow above those references
   double speed = 0.0;              ///< scale of velocity [m/s]: that of the stream, or of what moves
   std::string flux = "roe_low_mach", limiter = "none", turbulence = "none";
+  double upwinding = 1.0;          ///< share of the jump between reconstructed states that the flux sees
   bool viscous = false, thin_layer = false;
   double smooth = 0.0;             ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
   bool preconditioned = true;
+  bool physical_far_field = false;  ///< its waves at their own speeds also where the pseudo-time is preconditioned
   /// Dissipation in the matrix where the flux is low-Mach Roe. Empty: that of the preconditioned equations, good at any Mach number;
   /// else Rieper's with at least this scaling, 1 being Roe's.
   std::optional<double> matrix_mach_floor;
@@ -86,6 +88,24 @@ class FlowSolver {
     for (FlowTile& tile : tiles_) start_tile(tile, body);
     forget();
   }
+  /// A source of conserved amounts [per m3 and s], for manufactured solutions: rate(centre, values) fills one value per unknown.
+  template <class Body>
+  void set_source(Body&& rate) {
+    for (FlowTile& tile : tiles_) {
+      tile.source = AlignedArray<double>(tile.inner.size(tile.unknowns()));
+      const TileGeometry& g = *tile.geometry;
+      const std::ptrdiff_t c = g.cell_box.component;
+      for (int k = 0; k < tile.box.nk; ++k)
+        for (int j = 0; j < tile.box.nj; ++j)
+          for (int i = 0; i < tile.box.ni; ++i) {
+            const double* x = g.centre_data.data() + g.cell_box.at(k, j, i);
+            std::array<double, mean_unknowns + 2> values{};
+            rate(Eigen::Vector3d(x[0], x[c], x[2 * c]), values);
+            for (int n = 0; n < tile.unknowns(); ++n)
+              tile.source.data()[tile.inner.at(k, j, i) + n * tile.inner.component] = values[std::size_t(n)];
+          }
+    }
+  }
   /// No past: the physical step that follows is the first.
   void forget();
 
@@ -121,6 +141,12 @@ class FlowSolver {
   /// Loads by patch, the same on every rank.
   PatchLoads loads(int patch) const { return patch_loads(loads_, patch); }
   const std::vector<PatchCondition>& conditions() const { return conditions_; }
+  /// What is seen on the walls of a tile of this rank.
+  std::vector<WallPoint> wall_points(const FlowTile& tile) const {
+    std::vector<WallPoint> points;
+    gather_wall(tile, tile.state.data(), viscous_, boundary_, points);
+    return points;
+  }
   /// Physical steps since the start.
   std::int64_t time_steps() const { return time_steps_; }
   void set_time_step(double dt, double dt_before);

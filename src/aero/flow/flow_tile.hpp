@@ -19,8 +19,11 @@ namespace spindrift::aero {
 inline constexpr int mean_unknowns = 5;
 
 /// How the faces of a window behave; from the scene's boundaries by patch name.
-enum class Condition : unsigned char { far_field, inflow_velocity, outflow_pressure, slip, no_slip, symmetry };
+enum class Condition : unsigned char { far_field, inflow_velocity, inflow_stagnation, outflow_pressure, slip, no_slip, symmetry };
 inline bool is_wall(Condition c) { return c == Condition::slip || c == Condition::no_slip || c == Condition::symmetry; }
+/// Through walls goes pressure alone. On a plane of symmetry the scheme acts between mirror images, so that half a flow is the
+/// whole one cell by cell; its mass flux there is none by symmetry.
+inline bool is_closed(Condition c) { return c == Condition::slip || c == Condition::no_slip; }
 
 /// A window of the tile where a condition acts.
 struct FlowBoundary {
@@ -45,6 +48,7 @@ struct FlowTile {
   AlignedArray<double> gradients;      ///< 3 each of u v w T and the turbulence unknowns
   AlignedArray<double> residual;
   AlignedArray<double> before, before_that;  ///< conserved times volume one and two steps ago
+  AlignedArray<double> source;         ///< added to the rate of change of conserved amounts per volume; empty but in manufactured solutions
   AlignedArray<double> rate;           ///< V / pseudo-time step [m3/s]
   std::array<AlignedArray<double>, 6> open;  ///< per side with walls: 1 where the flux scheme acts, 0 on wall faces; else empty
 

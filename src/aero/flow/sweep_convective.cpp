@@ -5,11 +5,23 @@ namespace spindrift::aero {
 
 namespace {
 
+/// Both states of the mean flow move towards their mean.
+void draw_together(double share, int count, FacePiece& states) {
+  const Row near = 0.5 * (1.0 + share), far = 0.5 * (1.0 - share);
+  for (int c = 0; c < mean_unknowns; ++c)
+    for (int n = 0; n < count; n += row_lanes) {
+      const Row l = Row::load(states.left[c] + n), r = Row::load(states.right[c] + n);
+      (near * l + far * r).store(states.left[c] + n);
+      (near * r + far * l).store(states.right[c] + n);
+    }
+}
+
 /// Fluxes of all unknowns through `count` faces from (k, j, i) on, into out[c stride + n].
 void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, const ConvectiveSetting& s, double* out,
             std::ptrdiff_t stride) {
   FacePiece states;
   s.reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component, tile.turbulence, count, states);
+  if (s.upwinding < 1.0) draw_together(s.upwinding, count, states);
   s.flux(s.gas, *tile.geometry, d, k, j, i, count, states, out, stride);
   for (int t = mean_unknowns; t < mean_unknowns + tile.turbulence; ++t)
     for (int n = 0; n < count; n += row_lanes) {

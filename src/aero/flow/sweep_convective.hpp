@@ -35,6 +35,7 @@ struct ConvectiveSetting {
   gas::Primitive<double> smooth{};  ///< differences that no limiter touches
   Reconstruction reconstruct = nullptr;
   RowFlux flux = nullptr;
+  double upwinding = 1.0;  ///< share of the jump between both states that the flux sees
 };
 
 /// residual = sum of fluxes out of each cell [in the units of conserved amounts per second].

@@ -38,19 +38,52 @@ void sweep_gradients(FlowTile& tile, const double* state) {
   });
 }
 
-void fill_boundary_gradients(FlowTile& tile) {
-  const int components = gradient_components(tile.turbulence);
+namespace {
+
+/// `to` = factor (I - 2 n n^T) applied to the gradient of one scalar.
+void mirror(const double* from, std::ptrdiff_t c, double factor, const double (&n)[3], double* to) {
+  const double across = 2.0 * (from[0] * n[0] + from[c] * n[1] + from[2 * c] * n[2]);
+  for (int d = 0; d < 3; ++d) to[d * c] = factor * (from[d * c] - across * n[d]);
+}
+
+}  // namespace
+
+void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas, const std::array<double, 2>& wall_spread) {
+  const std::ptrdiff_t c = tile.gradient_box.component;
+  const int carried = tile.turbulence, eddy = 3 * (4 + carried), components = gradient_components(carried);
   for (const FlowBoundary& boundary : tile.boundaries) {
     const Side side = boundary.where.side;
     const std::ptrdiff_t out = (at_end(side) ? 1 : -1) * tile.gradient_box.stride(direction_of(side));
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
-      double* at = tile.gradients.data() + tile.gradient_box.at(k, j, i);
-      for (int c = 0; c < components; ++c) at[out + c * tile.gradient_box.component] = at[c * tile.gradient_box.component];
-      if (tile.turbulence > 0 && boundary.condition == Condition::no_slip)  // on the wall, between both, there is no eddy viscosity
-        for (int c = 0; c < 2; ++c) {
-          const std::ptrdiff_t place = (3 * (4 + tile.turbulence) + c) * tile.gradient_box.component;
-          at[out + place] = -at[place];
+      const double* at = tile.gradients.data() + tile.gradient_box.at(k, j, i);
+      double* ghost = tile.gradients.data() + tile.gradient_box.at(k, j, i) + out;
+      if (!is_wall(boundary.condition)) {
+        for (int m = 0; m < components; ++m) ghost[m * c] = at[m * c];
+        return;
+      }
+      const bool sticks = boundary.condition == Condition::no_slip;
+      const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
+      const double n[3] = {f.nx, f.ny, f.nz};
+      // A wall at rest turns velocities and what turbulence carries about (of a moving one the velocity may vary along it: there the
+      // cell's gradient is taken); a mirror turns the velocity's normal component.
+      const bool moves = sticks && tile.geometry->moving();
+      for (int v = 0; v < 4 + carried; ++v)
+        if (moves && v < 3)
+          for (int d = 0; d < 3; ++d) ghost[(3 * v + d) * c] = at[(3 * v + d) * c];
+        else
+          mirror(at + 3 * v * c, c, sticks && v != 3 ? -1.0 : 1.0, n, ghost + 3 * v * c);
+      if (!sticks)
+        for (int d = 0; d < 3; ++d) {
+          const double across = 2.0 * (ghost[d * c] * n[0] + ghost[(3 + d) * c] * n[1] + ghost[(6 + d) * c] * n[2]);
+          for (int v = 0; v < 3; ++v) ghost[(3 * v + d) * c] -= across * n[v];
         }
+      if (carried == 0) return;
+      for (int m = eddy; m < components; ++m) ghost[m * c] = at[m * c];
+      if (!sticks) return;
+      for (int m = eddy; m < eddy + 2; ++m) ghost[m * c] = -at[m * c];  // on the wall there is no eddy viscosity
+      const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
+      const double mu = gas::viscosity(gas, gas::absolute_temperature(gas, q));
+      for (int t = 0; t < carried; ++t) ghost[(eddy + 2 + t) * c] = 2.0 * wall_spread[std::size_t(t)] * mu - at[(eddy + 2 + t) * c];
     });
   }
 }

@@ -1,9 +1,11 @@
 // Gradients in the cells of a tile by Green-Gauss over its faces, the value on a face being the mean of both sides: of velocity,
-// temperature and what the turbulence model carries. Ghost gradients beyond boundaries are those of the cell inside.
+// temperature and what the turbulence model carries. Ghost gradients: mirror images behind walls and planes of symmetry (so that on a
+// no-slip wall nothing varies along it, on a plane of symmetry no shear remains), those of the cell inside behind open boundaries.
 // Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/sweep_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kernels/gas/state.hpp"
 #include "src/aero/flow/flow_tile.hpp"
 
 namespace spindrift::aero {
@@ -12,6 +14,7 @@ namespace spindrift::aero {
 constexpr int gradient_components(int turbulence) { return 3 * (4 + turbulence) + (turbulence > 0 ? 2 + turbulence : 0); }
 
 void sweep_gradients(FlowTile& tile, const double* state);
-void fill_boundary_gradients(FlowTile& tile);
+/// `wall_spread`: diffusivity of the turbulence unknowns on a no-slip wall over the laminar viscosity.
+void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas, const std::array<double, 2>& wall_spread);
 
 }  // namespace spindrift::aero

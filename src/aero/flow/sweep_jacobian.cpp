@@ -124,7 +124,7 @@ void add_faces(FlowTile& tile, const double* state, const double* eddy, int d, c
 }
 
 /// What a cell beyond a boundary adds to the diagonal, as its state follows that of the cell inside; it is no neighbour then.
-void fold_boundaries(FlowTile& tile, const Entries& entries) {
+void fold_boundaries(FlowTile& tile, const Entries& entries, const std::array<double, 3>& inflow) {
   const linear::StencilMatrix<5> a = tile.mean();
   for (const FlowBoundary& boundary : tile.boundaries) {
     const Side side = boundary.where.side;
@@ -142,11 +142,15 @@ void fold_boundaries(FlowTile& tile, const Entries& entries) {
           if (boundary.condition == Condition::no_slip) add_column(c + 1, -1.0f, c + 1);
           if (boundary.condition != Condition::no_slip)
             for (int r = 0; r < 3; ++r) add_column(c + 1, float((r == c ? 1.0 : 0.0) - 2.0 * n[r] * n[c]), r + 1);
-          diagonal[c + 1] += float(n[c] * f.area * entries.scale[c + 1][0]);  // pressure of the cell on the wall
+          if (is_closed(boundary.condition)) diagonal[c + 1] += float(n[c] * f.area * entries.scale[c + 1][0]);  // pressure of the cell on the wall
         }
-        diagonal[4] += float(f.speed * f.area * entries.scale[4][0]);
+        if (is_closed(boundary.condition)) diagonal[4] += float(f.speed * f.area * entries.scale[4][0]);
       } else if (boundary.condition == Condition::inflow_velocity) {
         add_column(0, 1.0f, 0);
+      } else if (boundary.condition == Condition::inflow_stagnation) {
+        // At constant entropy and total enthalpy dh = dp / rho = -u du; in scaled unknowns at the stream's speed the factors are these.
+        add_column(0, 1.0f, 0), add_column(0, 1.0f, 4);
+        for (int c = 0; c < 3; ++c) add_column(0, float(-inflow[std::size_t(c)]), c + 1);
       } else if (boundary.condition == Condition::outflow_pressure) {
         for (int c = 1; c < 5; ++c) add_column(c, 1.0f, c);
       }
@@ -224,7 +228,7 @@ void sweep_jacobian(FlowTile& tile, const double* state, const double* eddy, dou
     }
   });
   for (int d = 0; d < tile.directions; ++d) add_faces(tile, state, eddy, d, s, entries);
-  fold_boundaries(tile, entries);
+  fold_boundaries(tile, entries, s.inflow);
 }
 
 void add_pseudo_time(const FlowTile& tile, const double* state, double cfl, const ImplicitSetting& s, const float* z, float* w) {

@@ -27,6 +27,7 @@ struct ImplicitSetting {
   static constexpr double wave_speeds_of_floor = 7.0;
   bool preconditioned = true;    ///< pseudo-time of Weiss & Smith
   double floor_speed = 0.0;      ///< least reference speed of the preconditioner [m/s]
+  std::array<double, 3> inflow{};  ///< direction of what enters from a reservoir
   double physical_rate = 0.0;    ///< a0 / dt of the physical step [1/s]; 0 steady
   std::array<double, 3> omega{}; ///< of a frame that turns steadily [rad/s]
 };

@@ -15,6 +15,7 @@ struct ModelSweeps {
   std::string_view name = "none";
   int equations = 0;
   std::array<double, 2> lowest{};  ///< bounds that updates respect
+  std::array<double, 2> wall_spread{};  ///< diffusivity on a no-slip wall over the laminar viscosity
   void (*closures)(FlowTile& tile, const double* state, const ViscousSetting& s) = nullptr;
   void (*residual)(FlowTile& tile, const double* state, double* residual, const ViscousSetting& s) = nullptr;
   void (*matrix)(FlowTile& tile, const double* state, double cfl, const ImplicitSetting& s) = nullptr;

@@ -208,7 +208,13 @@ struct SweepsOf {
   static ModelSweeps table() {
     std::array<double, 2> lowest{};
     for (std::size_t m = 0; m < std::size_t(n); ++m) lowest[m] = Model::lowest[m];
-    return {Model::name, n, lowest, closures, residual, matrix, factor, solve, multiply, wall, far_field};
+    const gas::Vector<double> none{0.0, 0.0, 0.0};
+    turbulence::Turbulence<double, n> still{};  // on the wall: nothing but what makes the model's quotients defined
+    if constexpr (n == 2) still.q[1] = 1.0;
+    const auto closure = Model{}.closure(turbulence::Flow<double>{1.0, 1.0, 1.0, none, none, none}, still);
+    std::array<double, 2> spread{};
+    for (std::size_t m = 0; m < std::size_t(n); ++m) spread[m] = closure.diffusivity[m];
+    return {Model::name, n, lowest, spread, closures, residual, matrix, factor, solve, multiply, wall, far_field};
   }
 };
 

@@ -88,7 +88,7 @@ class StepGraph {
     ghosts_of("aero/ghosts", state_, state_ghosts_, false, 1);
     each("aero/gradients", [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(state_ghosts_[n]), writes(gradients_[n])}; },
          [this](std::size_t n) { s_.slopes(s_.tiles_[n], s_.tiles_[n].state.data()); });
-    gradient_ghosts("aero/gradient_ghosts", [this] { return s_.setting_.viscous; }, 2);
+    gradient_ghosts("aero/gradient_ghosts", [this] { return s_.setting_.viscous; }, false, 2);
     each("aero/residual",
          [&](std::size_t n) {
            return Uses{reads(state_[n]),     reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(past_[n]), reads(decision_),
@@ -141,7 +141,7 @@ class StepGraph {
          [this](std::size_t n) {
            if (perturbs()) s_.slopes(s_.tiles_[n], s_.tiles_[n].trial.data());
          });
-    gradient_ghosts("aero/krylov/gradient_ghosts", [this] { return perturbs() && s_.setting_.viscous; }, 5);
+    gradient_ghosts("aero/krylov/gradient_ghosts", [this] { return perturbs() && s_.setting_.viscous; }, true, 5);
     for (std::size_t n = 0; n < owned_; ++n)
       g_.task(of("aero/krylov/product", n),
               {reads(decision_), reads(direction_[n]), reads(direction_ghosts_[n]), reads(total_size_), reads(trial_[n]), reads(trial_ghosts_[n]),
@@ -193,7 +193,7 @@ class StepGraph {
                         },
                         {reads(decision_)});
   }
-  void gradient_ghosts(const char* label, std::function<bool()> active, int tag) {
+  void gradient_ghosts(const char* label, std::function<bool()> active, bool trial, int tag) {
     std::vector<Quantity> quantities{Quantity::tensor, Quantity::vector};
     for (int t = 0; t < turbulence(); ++t) quantities.push_back(Quantity::vector);
     if (turbulence() > 0) quantities.insert(quantities.end(), std::size_t(2 + turbulence()), Quantity::scalar);
@@ -207,7 +207,11 @@ class StepGraph {
                                   tag,
                                   &s_.periodic_};
     record_halo<double>(g_, s_.grid_, s_.local_, field, s_.double_buffers_, active,
-                        [this](int n) { fill_boundary_gradients(s_.tiles_[std::size_t(n)]); }, {reads(decision_)});
+                        [this, trial](int n) {
+                          FlowTile& tile = s_.tiles_[std::size_t(n)];
+                          fill_boundary_gradients(tile, trial ? tile.trial.data() : tile.state.data(), s_.setting_.gas, s_.model_->wall_spread);
+                        },
+                        {reads(decision_)});
   }
   std::vector<Quantity> state_quantities() const {
     std::vector<Quantity> q{Quantity::scalar, Quantity::vector, Quantity::scalar};
