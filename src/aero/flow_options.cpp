@@ -26,6 +26,7 @@ const scene::Section<PatchOptions>& patch_section() {
                    {"slip", Condition::slip, "wall without friction"},
                    {"symmetry", Condition::symmetry, "plane of symmetry"},
                    {"inflow", Condition::inflow_velocity, "wind and temperature given, pressure from inside"},
+                   {"reservoir", Condition::inflow_stagnation, "stagnation pressure and temperature of the wind and its direction given, speed from inside"},
                    {"outflow", Condition::outflow_pressure, "pressure given, all else from inside"}},
                   "Boundary condition.")
           .flag("loads", &PatchOptions::loads, "Whether the force on it (of a wall) is summed into the flow's columns.");
@@ -38,10 +39,10 @@ const scene::Section<FlowOptions>& flow_section() {
   using scene::above, scene::between;
   static const auto section =
       scene::Section<FlowOptions>("flow", "The resolved air: compressible finite volumes on a structured grid.")
-          .path("grid", &FlowOptions::grid, "Grid: Plot3D, formatted or binary; a two-dimensional one lies in the x-z plane.")
-          .required()
-          .path("map", &FlowOptions::map, "Neutral map file of the grid: which sides of its blocks meet, which are patches.")
-          .required()
+          .path("grid", &FlowOptions::grid,
+                "Grid file: CGNS (.cgns), or Plot3D, formatted or binary; a two-dimensional one lies in the x-z plane.")
+          .path("map", &FlowOptions::map, "Neutral map file of a Plot3D grid: which sides of its blocks meet, which are patches.")
+          .table("generate", &FlowOptions::generate, generate_section(), "A grid made by the program, in place of a file.")
           .number("width_m", &FlowOptions::width_m, "m", "Width of a two-dimensional grid.", above(0.0).up_to(1e6))
           .tables("boundaries", &FlowOptions::boundaries, patch_section(), "Conditions by patch; each patch of the grid once.")
           .number("temperature_K", &FlowOptions::temperature_K, "K", "Temperature of the undisturbed air.", between(50.0, 2000.0))
@@ -71,7 +72,13 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"minmod", "the most dissipative"},
                    {"first_order", "no reconstruction"}},
                   "Limiter of the reconstruction.")
+          .number("upwinding", &FlowOptions::upwinding, "-",
+                  "Share of the jump between reconstructed states that the flux sees; below 1 less dissipation, for resolved eddies.",
+                  above(0.0).up_to(1.0))
           .flag("low_mach", &FlowOptions::low_mach, "Low-Mach preconditioning of the pseudo-time; the solution does not depend on it.")
+          .flag("physical_far_field", &FlowOptions::physical_far_field,
+                "Whether the far field's characteristic conditions take the waves at their physical speeds also with low_mach: as most codes do; "
+                "reflects more, and holds a displaced flow back with the pressure rho c v.")
           .choice("time", &FlowOptions::time,
                   {{"steady", "one march to the steady state; a window is at most one pseudo-step, its length a count"},
                    {"bdf1", "first order, a step per window"},
@@ -91,8 +98,21 @@ const scene::Section<FlowOptions>& flow_section() {
                   "Drop of the density residual from which on the operator is the linearised residual itself (Newton), not the stored "
                   "first-order matrix; 0: never.",
                   between(0.0, 1.0))
+          .choice("start", &FlowOptions::start,
+                  {{"wind", "the wind everywhere"},
+                   {"rest", "air at rest, into which the wind breaks from the boundaries"},
+                   {"taylor_green", "Taylor and Green's vortex of the wind's speed, wave length 2 pi m"}},
+                  "State at the beginning.")
+          .flag("surfaces", &FlowOptions::surfaces, "Whether walls are written to fields/walls.xdmf: pressure, friction, y+.")
           .degrees("incidence_deg", &FlowOptions::incidence, "Angle by which the wind blows upwards.", between(-90.0, 90.0))
-          .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2", "Area of the coefficients in history.csv.", above(0.0).up_to(1e9));
+          .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2", "Area of the coefficients in history.csv.", above(0.0).up_to(1e9))
+          .check([](const FlowOptions& o, const scene::Report& report) {
+            const bool cgns = o.grid.ends_with(".cgns");
+            if (o.generate && !o.grid.empty()) report("generate", "is given beside a grid file: one of the two");
+            if (!o.generate && o.grid.empty()) report("grid", "must be given, or [aero.flow.generate]");
+            if (!o.generate && !o.grid.empty() && !cgns && o.map.empty()) report("map", "must be given: a Plot3D grid holds coordinates only");
+            if ((o.generate || cgns) && !o.map.empty()) report("map", "has no effect: it belongs to Plot3D grids");
+          });
   return section;
 }
 
@@ -105,10 +125,12 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.speed = wind.norm();
   s.flux = o.flux;
   s.limiter = o.limiter;
+  s.upwinding = o.upwinding;
   s.viscous = o.viscous != "none";
   s.thin_layer = o.viscous == "thin_layer";
   s.turbulence = s.viscous ? o.turbulence : "none";
   s.preconditioned = o.low_mach;
+  s.physical_far_field = o.physical_far_field;
   s.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
   s.dt = s.time_order > 0 ? dt : 0.0;
   s.march = {.cfl_start = o.cfl,

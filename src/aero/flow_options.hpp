@@ -3,12 +3,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "src/aero/flow/flow_tile.hpp"
+#include "src/aero/flow_grid.hpp"
 
 namespace spindrift::scene {
 template <class Options>
@@ -28,19 +30,23 @@ struct PatchOptions {
 };
 
 struct FlowOptions {
-  std::string grid, map;  ///< paths: Plot3D, neutral map
+  std::string grid, map;  ///< paths: Plot3D or CGNS; neutral map of the former
+  std::optional<GenerateOptions> generate;
   double width_m = 1.0;   ///< of planar grids
   std::vector<PatchOptions> boundaries;
   double temperature_K = 288.15;
   double viscosity_Pa_s = 1.8e-5;
   std::string viscous = "full", turbulence = "sa";
   std::string flux = "roe_low_mach", limiter = "none";
-  bool low_mach = true;
+  double upwinding = 1.0;
+  std::string start = "wind";
+  bool low_mach = true, physical_far_field = false;
   std::string time = "steady";
   std::string krylov = "gmres";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, load_change = 0.0;
   int max_pseudo_steps = 500, krylov_steps = 20;
   double krylov_drop = 0.05, matrix_free_below = 1e-2;
+  bool surfaces = true;
   double incidence = 0.0;  ///< of the wind, turned about y: positive blows upwards [rad]
   double reference_area_m2 = 1.0;
 };

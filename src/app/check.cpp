@@ -154,7 +154,7 @@ int check(const SceneArguments& arguments, const runtime::World& world) {
   if (scenario.has_flow()) {
     if (world.rank == 0)
       fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
-                 scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence, scenario.aero.flow->grid);
+                 scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence, aero::describe_flow_grid(*scenario.aero.flow));
     return done;
   }
   Machine machine(std::move(scenario));

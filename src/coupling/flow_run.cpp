@@ -12,10 +12,8 @@
 #include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
-#include "src/aero/grid/checks.hpp"
-#include "src/aero/grid/neutral_map.hpp"
-#include "src/aero/grid/plot3d.hpp"
 #include "src/aero/grid/wall_distance.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/io/checkpoint.hpp"
@@ -40,15 +38,25 @@ Eigen::Vector3d wind_vector(const Scenario& s) {
 
 /// Grid, tiles and solver of a scene on this rank.
 struct Air {
+  void begin(const std::string& start) {
+    const aero::FlowSetting& s = solver->setting();
+    if (start == "wind") return solver->start_uniform();
+    const double rho = gas::density(s.gas, gas::Primitive<double>{}), U = s.speed;
+    solver->start([&](const Eigen::Vector3d& x) {
+      if (start == "rest") return gas::Primitive<double>{};
+      const double p = rho * U * U / 16.0 * (std::cos(2 * x[0]) + std::cos(2 * x[1])) * (std::cos(2 * x[2]) + 2.0);
+      return gas::Primitive<double>{p, U * std::sin(x[0]) * std::cos(x[1]) * std::cos(x[2]),
+                                    -U * std::cos(x[0]) * std::sin(x[1]) * std::cos(x[2]), 0.0, p / (rho * s.gas.gas_constant)};
+    });
+  }
+
   aero::MultiBlockGrid grid;
   std::unique_ptr<aero::GridStore> store;
   std::unique_ptr<FlowSolver> solver;
 
   Air(const Scenario& s, const runtime::World& world) {
     const aero::FlowOptions& o = *s.aero.flow;
-    grid = aero::read_plot3d(o.grid, o.width_m);
-    aero::read_neutral_map(grid, o.map);
-    aero::require_sound(grid, o.grid);
+    grid = aero::flow_grid(o);
     const std::vector<std::string> walls = aero::wall_patches(o);
     aero::Tiling tiling = aero::make_tiling(grid, walls);
     std::vector<aero::PatchCondition> conditions = aero::patch_conditions(o, tiling);
@@ -64,7 +72,7 @@ struct Air {
     aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, wind_vector(s), s.time.window_s);
     if (setting.time_order == 0) setting.march.max_steps = steady_chunk;
     solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
-    solver->start_uniform();
+    begin(o.start);
   }
   bool steady() const { return solver->setting().time_order == 0; }
 };
@@ -188,6 +196,61 @@ void write_fields(MPI_Comm comm, const Air& air, const io::RunDirectory& directo
   file.write(tick, time_s, values);
 }
 
+/// Walls as surfaces: a block for each window of a tile on a wall.
+void write_walls(MPI_Comm comm, const Air& air, const io::RunDirectory& directory, std::int64_t tick, double time_s) {
+  const aero::Tiling& tiling = air.store->tiling();
+  const FlowSolver& solver = *air.solver;
+  const auto on_wall = [&](const aero::TileBoundary& b) {
+    const aero::Condition c = solver.conditions()[std::size_t(b.patch)].condition;
+    return c == aero::Condition::no_slip || c == aero::Condition::slip;
+  };
+  std::vector<io::GridBlock> blocks;
+  std::vector<int> first_block;  // by tile
+  for (int tile = 0; tile < tiling.size(); ++tile) {
+    first_block.push_back(int(blocks.size()));
+    for (const aero::TileBoundary& b : tiling.boundary(tile))
+      if (on_wall(b))
+        blocks.push_back({fmt::format("{}_{}", tiling.patches[std::size_t(b.patch)], blocks.size()), b.high[0] - b.low[0], b.high[1] - b.low[1], 0});
+  }
+  if (blocks.empty()) return;
+  io::GridFields file(comm, directory.fields(), "walls", std::move(blocks),
+                      {{"pressure", "Pa"}, {"pressure_coefficient", "-"}, {"friction_coefficient", "-", 3}, {"y_plus", "-"}}, false);
+  const aero::FlowSetting& s = solver.setting();
+  const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
+  std::vector<std::array<std::vector<double>, 5>> kept;
+  std::vector<int> numbers;
+  for (const aero::FlowTile& t : solver.tiles()) {
+    const std::vector<aero::WallPoint> points = solver.wall_points(t);
+    std::size_t at = 0;
+    int block = first_block[std::size_t(t.index)];
+    for (const aero::FlowBoundary& b : t.boundaries) {
+      if (!on_wall(b.where)) continue;
+      auto& [corners, pressure, cp, cf, y_plus] = kept.emplace_back();
+      numbers.push_back(block++);
+      const int d = aero::direction_of(b.where.side), extent[3] = {t.box.ni, t.box.nj, t.box.nk};
+      const auto [along_a, along_b] = aero::along(b.where.side);
+      const BoxLayout& nodes = t.geometry->node_box;
+      int n[3];
+      n[d] = aero::at_end(b.where.side) ? extent[d] : 0;
+      for (n[along_b] = b.where.low[1]; n[along_b] <= b.where.high[1]; ++n[along_b])
+        for (n[along_a] = b.where.low[0]; n[along_a] <= b.where.high[0]; ++n[along_a])
+          for (int c = 0; c < 3; ++c) corners.push_back(t.geometry->node_data.data()[c * nodes.component + nodes.at(n[2], n[1], n[0])]);
+      const int faces = (b.where.high[0] - b.where.low[0]) * (b.where.high[1] - b.where.low[1]);
+      for (int m = 0; m < faces; ++m) {
+        const aero::WallPoint& p = points.at(at++);
+        pressure.push_back(s.gas.pressure_reference + p.pressure), cp.push_back(p.pressure / q), y_plus.push_back(p.y_plus);
+        for (const double stress : p.traction) cf.push_back(stress / q);
+      }
+    }
+  }
+  std::vector<io::GridFields::Values> values;
+  for (std::size_t m = 0; m < kept.size(); ++m) {
+    const auto& [corners, pressure, cp, cf, y_plus] = kept[m];
+    values.push_back({numbers[m], corners, {pressure, cp, cf, y_plus}});
+  }
+  file.write(tick, time_s, values);
+}
+
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -267,6 +330,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   history.flush();
   if (saved != number) checkpoints.save(number, number, summary.restarts);
   write_fields(world.comm, air, directory, number, timeline.window_end_s(number));
+  if (s.aero.flow->surfaces) write_walls(world.comm, air, directory, number, timeline.window_end_s(number));
 
   if (summary.exit_code == 0)
     summary.exit_reason = !air.steady() ? "done" : settled ? fmt::format("done: {}", solver.march().why()) : "done: the pseudo-steps of the scene are spent";

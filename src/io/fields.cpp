@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "src/io/collective.hpp"
@@ -80,7 +81,7 @@ struct GridFields::Impl {
   bool moves;
   std::string points_file{};  // that has the points of the next output
 
-  static std::size_t cells(const GridBlock& b) { return static_cast<std::size_t>(b.ni) * b.nj * b.nk; }
+  static std::size_t cells(const GridBlock& b) { return static_cast<std::size_t>(b.ni) * b.nj * std::max(b.nk, 1); }
   static std::size_t corners(const GridBlock& b) { return static_cast<std::size_t>(b.ni + 1) * (b.nj + 1) * (b.nk + 1); }
 
   /// Points first where they are written, then the fields, block by block.
@@ -88,9 +89,10 @@ struct GridFields::Impl {
     std::vector<SharedFile::Array> list;
     for (const GridBlock& b : blocks) {
       const auto extent = [](int n) { return static_cast<hsize_t>(n); };
-      if (with_points) list.push_back({b.name + "/points", H5T_NATIVE_DOUBLE, {extent(b.nk + 1), extent(b.nj + 1), extent(b.ni + 1), 3}, {}});
-      for (const Field& field : series.fields)
-        list.push_back(field_array(b.name + "/" + field.name, {extent(b.nk), extent(b.nj), extent(b.ni)}, field));
+      std::vector<hsize_t> points{extent(b.nk + 1), extent(b.nj + 1), extent(b.ni + 1), 3}, cells{extent(b.nk), extent(b.nj), extent(b.ni)};
+      if (b.nk == 0) points.erase(points.begin()), cells.erase(cells.begin());
+      if (with_points) list.push_back({b.name + "/points", H5T_NATIVE_DOUBLE, points, {}});
+      for (const Field& field : series.fields) list.push_back(field_array(b.name + "/" + field.name, cells, field));
     }
     return list;
   }
@@ -99,8 +101,11 @@ struct GridFields::Impl {
     std::string text = fmt::format("<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{}\"/>\n",
                                    series.name, time_s);
     for (const GridBlock& b : blocks) {
-      const std::string corners = fmt::format("{} {} {}", b.nk + 1, b.nj + 1, b.ni + 1), cells = fmt::format("{} {} {}", b.nk, b.nj, b.ni);
-      text += fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\"><Topology TopologyType=\"3DSMesh\" Dimensions=\"{}\"/>\n", b.name, corners);
+      const bool surface = b.nk == 0;
+      const std::string corners = surface ? fmt::format("{} {}", b.nj + 1, b.ni + 1) : fmt::format("{} {} {}", b.nk + 1, b.nj + 1, b.ni + 1),
+                        cells = surface ? fmt::format("{} {}", b.nj, b.ni) : fmt::format("{} {} {}", b.nk, b.nj, b.ni);
+      text += fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\"><Topology TopologyType=\"{}DSMesh\" Dimensions=\"{}\"/>\n", b.name,
+                          surface ? 2 : 3, corners);
       text += "<Geometry GeometryType=\"XYZ\">" + item(corners + " 3", "Float", 8, points_file, b.name + "/points") + "</Geometry>\n";
       for (const Field& field : series.fields) text += attribute(field, cells, "Cell", file, b.name + "/" + field.name);
       text += "</Grid>\n";

@@ -24,7 +24,7 @@ struct Field {
 /// Where a series begins: before everything, or after the restart's time.
 inline constexpr double from_the_start = -std::numeric_limits<double>::infinity();
 
-/// A block of ni x nj x nk cells. Arrays have i fastest, then j, then k; components of one place lie together.
+/// A block of ni x nj x nk cells; nk = 0: a surface of ni x nj faces. Arrays have i fastest, then j, then k; components of one place lie together.
 struct GridBlock {
   std::string name;
   int ni, nj, nk;

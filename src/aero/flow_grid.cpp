@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "src/aero/flow_options.hpp"
+#include "src/aero/grid/cgns.hpp"
+#include "src/aero/grid/checks.hpp"
+#include "src/aero/grid/generators/box.hpp"
+#include "src/aero/grid/generators/plane_cases.hpp"
+#include "src/aero/grid/neutral_map.hpp"
+#include "src/aero/grid/plot3d.hpp"
+#include "src/scene/error.hpp"
+#include "src/scene/section.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+void check_box(const GenerateOptions& o, const scene::Report& report) {
+  if (o.kind != "box") return;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (o.cells[d] != std::floor(o.cells[d])) report("cells", fmt::format("must be whole numbers; found {}", o.cells[d]));
+    if (o.high_m[d] <= o.low_m[d]) report("high_m", fmt::format("must be above low_m along each axis; along {} it is {} and {}", "xyz"[d], o.high_m[d], o.low_m[d]));
+  }
+  for (const std::string& axis : o.periodic) {
+    if (axis != "x" && axis != "y" && axis != "z") report("periodic", fmt::format("names axes: \"x\", \"y\", \"z\"; found \"{}\"", axis));
+    if (axis == "y" && o.cells[1] == 1.0) report("periodic", "\"y\" has no meaning in a planar box (one cell along y)");
+  }
+}
+
+MultiBlockGrid make_box(const GenerateOptions& g) {
+  const auto repeats = [&](const char* axis) { return std::find(g.periodic.begin(), g.periodic.end(), axis) != g.periodic.end(); };
+  const auto point = [](const std::array<double, 3>& a) { return Eigen::Vector3d(a[0], a[1], a[2]); };
+  BoxOptions box{.low = point(g.low_m), .high = point(g.high_m)};
+  const int x = int(g.cells[0]), y = int(g.cells[1]), z = int(g.cells[2]);
+  if (y == 1) {  // i along x, j along z
+    box.ni = x, box.nj = z, box.nk = 1;
+    box.periodic = {repeats("x"), repeats("z"), false};
+    box.patches = {"x_min", "x_max", "z_min", "z_max", "", ""};
+    return planar_box(box);
+  }
+  box.ni = x, box.nj = y, box.nk = z;
+  box.periodic = {repeats("x"), repeats("y"), repeats("z")};
+  box.patches = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+  return cartesian_box(box);
+}
+
+MultiBlockGrid aerofoil(const GenerateOptions& g, double width) {
+  AerofoilOptions o{.n = g.refinement, .far = g.far_m, .width = width};
+  if (g.first_cell_m > 0.0) o.first_cell = g.first_cell_m;
+  return naca0012(o);
+}
+
+MultiBlockGrid generated(const GenerateOptions& g, double width) {
+  if (g.kind == "box") return make_box(g);
+  if (g.kind == "flat_plate") return flat_plate(g.refinement, width);
+  if (g.kind == "naca0012") return aerofoil(g, width);
+  if (g.kind == "wing") return extruded(aerofoil(g, width), g.span_cells, g.span_m, false);
+  if (g.kind == "bump") {
+    BumpOptions o{.n = g.refinement, .width = width};
+    if (g.first_cell_m > 0.0) o.first_cell = g.first_cell_m;
+    return bump_channel(o);
+  }
+  return cylinder({.around = g.around, .outward = g.outward, .radius = g.radius_m, .far = g.far_m, .first_cell = g.first_cell_m, .width = width});
+}
+
+bool is_cgns(const std::string& file) { return std::filesystem::path(file).extension() == ".cgns"; }
+
+}  // namespace
+
+const scene::Section<GenerateOptions>& generate_section() {
+  using scene::above, scene::between;
+  static const auto section =
+      scene::Section<GenerateOptions>("generate", "A grid made by the program. Families: every member samples one smooth law.")
+          .choice("kind", &GenerateOptions::kind,
+                  {{"box", "a box of equal cells; patches x_min ... z_max"},
+                   {"flat_plate", "NASA's flat plate from x = 0 to 2 m; patches inflow, outflow, symmetry, wall, top"},
+                   {"cylinder", "an O round a circular cylinder along y; patches wall, farfield"},
+                   {"naca0012", "a C round NACA 0012, chord 1 m from x = 0; patches wall, farfield, outflow"},
+                   {"wing", "that drawn out along y; patch sides beside those"},
+                   {"bump", "NASA's bump in a channel; patches inflow, outflow, symmetry, wall, top"}},
+                  "Shape.")
+          .required()
+          .integer("refinement", &GenerateOptions::refinement, "-",
+                   "Member of the family: 34 n x 24 n cells (flat_plate), 112 n x 32 n (naca0012, wing), 44 n x 20 n (bump).", between(1, 32))
+          .only_if("kind", {"flat_plate", "naca0012", "wing", "bump"})
+          .integer("around", &GenerateOptions::around, "-", "Cells round the cylinder.", between(8, 1e5))
+          .only_if("kind", {"cylinder"})
+          .integer("outward", &GenerateOptions::outward, "-", "Cells from the cylinder to the far field.", between(4, 512))
+          .only_if("kind", {"cylinder"})
+          .number("radius_m", &GenerateOptions::radius_m, "m", "Radius of the cylinder.", above(0.0).up_to(1e4))
+          .only_if("kind", {"cylinder"})
+          .number("far_m", &GenerateOptions::far_m, "m", "Distance of the far field (cylinder: its radius).", above(0.0).up_to(1e6))
+          .only_if("kind", {"cylinder", "naca0012", "wing"})
+          .number("first_cell_m", &GenerateOptions::first_cell_m, "m",
+                  "Height of the first cell at the wall, of refinement 2 or 64 cells around and in proportion for others; 0: the generator's own "
+                  "(aerofoil 3.6e-6, bump 1e-5, cylinder: radii in geometric progression).",
+                  between(0.0, 1e3))
+          .only_if("kind", {"cylinder", "naca0012", "wing", "bump"})
+          .number("span_m", &GenerateOptions::span_m, "m", "Span of the wing.", above(0.0).up_to(1e4))
+          .only_if("kind", {"wing"})
+          .integer("span_cells", &GenerateOptions::span_cells, "-", "Cells along the span.", between(2, 1e4))
+          .only_if("kind", {"wing"})
+          .vector("cells", &GenerateOptions::cells, "-", "Cells of the box along x, y, z; one along y makes it planar.", between(1, 4096))
+          .only_if("kind", {"box"})
+          .vector("low_m", &GenerateOptions::low_m, "m", "Lowest corner of the box.")
+          .only_if("kind", {"box"})
+          .vector("high_m", &GenerateOptions::high_m, "m", "Highest corner of the box.")
+          .only_if("kind", {"box"})
+          .texts("periodic", &GenerateOptions::periodic, "Axes along which the box repeats, of \"x\", \"y\", \"z\".")
+          .only_if("kind", {"box"})
+          .check([](const GenerateOptions& o, const scene::Report& report) {
+            check_box(o, report);
+            if (o.kind == "cylinder" && o.far_m <= 2.0 * o.radius_m)
+              report("far_m", fmt::format("must be above 2 radius_m = {}; found {}", 2.0 * o.radius_m, o.far_m));
+            if ((o.kind == "naca0012" || o.kind == "wing") && o.far_m < 5.0)
+              report("far_m", fmt::format("must be at least 5 chords; found {}", o.far_m));
+          });
+  return section;
+}
+
+MultiBlockGrid flow_grid(const FlowOptions& o) {
+  MultiBlockGrid grid;
+  if (o.generate) {
+    grid = generated(*o.generate, o.width_m);
+  } else if (is_cgns(o.grid)) {
+    grid = read_cgns(o.grid, o.width_m);
+  } else {
+    grid = read_plot3d(o.grid, o.width_m);
+    read_neutral_map(grid, o.map);
+  }
+  require_sound(grid, o.generate ? "aero.flow.generate" : o.grid);
+  return grid;
+}
+
+std::string describe_flow_grid(const FlowOptions& o) { return o.generate ? "made: " + o.generate->kind : o.grid; }
+
+}  // namespace spindrift::aero

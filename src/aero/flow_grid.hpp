@@ -1,0 +1,41 @@
+// The grid of a resolved flow: a file (Plot3D with its neutral map, CGNS) or one of the generators of src/aero/grid, chosen in
+// [aero.flow]. Options declared in flow_grid.cpp; called by src/coupling/flow_run.cpp and `spindrift check`.
+// Tested in tests/src/aero/flow_grid_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "src/aero/grid/multi_block.hpp"
+
+namespace spindrift::scene {
+template <class Options>
+class Section;
+}  // namespace spindrift::scene
+
+namespace spindrift::aero {
+
+struct FlowOptions;
+
+/// [aero.flow.generate]
+struct GenerateOptions {
+  std::string kind;
+  int refinement = 2;                                    ///< flat plate, aerofoil, wing, bump
+  int around = 96, outward = 64;                         ///< cylinder
+  double radius_m = 0.5, far_m = 50.0;                   ///< cylinder; far_m also of the aerofoil
+  double first_cell_m = 0.0;                             ///< 0: the generator's own
+  double span_m = 1.0;                                   ///< wing
+  int span_cells = 8;
+  std::array<double, 3> cells{32.0, 1.0, 32.0};          ///< box, along x, y, z; one along y: planar
+  std::array<double, 3> low_m{0.0, 0.0, 0.0}, high_m{1.0, 1.0, 1.0};
+  std::vector<std::string> periodic;                     ///< axes of a box
+};
+const scene::Section<GenerateOptions>& generate_section();
+
+/// Reads or makes the grid and checks that it is sound. Throws scene::SceneError.
+MultiBlockGrid flow_grid(const FlowOptions& options);
+/// For people: "grid wing.cgns", "a flat plate of 6528 cells".
+std::string describe_flow_grid(const FlowOptions& options);
+
+}  // namespace spindrift::aero

@@ -1,0 +1,85 @@
+"""The air alone as a user runs it: scenes with grids made by the program, fields and walls for ParaView, the report's pictures.
+Usage: flow_run_test.py SPINDRIFT"""
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CASES = ROOT / "inputs/validation"
+
+
+def spindrift(*arguments, ranks=0):
+    launcher = [ROOT / "ci/mpirun", str(ranks)] if ranks else []
+    return subprocess.run([*launcher, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+
+
+class FlowRun(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_flow_")
+        self.out = pathlib.Path(self.folder.name) / "run"
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def history(self, out=None):
+        with open((out or self.out) / "history.csv") as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def test_a_plate_leaves_history_fields_walls_and_pictures(self):
+        done = spindrift("run", CASES / "flat_plate/flat_plate.toml", "--out", self.out, "--set", "aero.flow.generate.refinement=1",
+                         "--set", "aero.flow.drop=1e-4")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertAlmostEqual(self.history()[-1]["flow.drag_coefficient"], 0.00293, delta=0.00002)
+        for name in ("air", "walls"):
+            tree = xml.etree.ElementTree.parse(self.out / f"fields/{name}.xdmf")
+            names = {a.get("Name") for a in tree.iter("Attribute")}
+            self.assertIn("pressure", names)
+            if name == "walls":
+                self.assertEqual(names, {"pressure", "pressure_coefficient", "friction_coefficient", "y_plus"})
+                self.assertEqual({t.get("TopologyType") for t in tree.iter("Topology")}, {"2DSMesh"})
+        page = (self.out / "report.html").read_text()
+        for words in ("Residuals", "Along the walls", "Slice of the flow", "Mach number"):
+            self.assertIn(words, page)
+        try:
+            import h5py
+        except ImportError:
+            return
+        with h5py.File(sorted((self.out / "fields").glob("walls_*.h5"))[-1]) as file:
+            faces, drag = 0, 0.0
+            for block in file.values():
+                points, cf = block["points"][...], block["friction_coefficient"][..., 0]
+                self.assertEqual(points.shape[:2], (cf.shape[0] + 1, cf.shape[1] + 1))
+                length = abs(points[1:, 1:, 0] - points[:-1, :-1, 0])
+                faces += cf.size
+                drag += float((cf * length).sum()) / 2.0
+            self.assertEqual(faces, 28)
+            self.assertAlmostEqual(drag, self.history()[-1]["flow.drag_coefficient"], delta=1e-6)
+
+    def test_ranks_do_not_change_a_bit(self):
+        scene, more = CASES / "cylinder_low_mach/cylinder.toml", ("--until", 12, "--no-report")
+        self.assertEqual(spindrift("run", scene, "--out", self.out, *more).returncode, 0)
+        two = self.out.parent / "two"
+        done = spindrift("run", scene, "--out", two, *more, ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual((self.out / "history.csv").read_bytes(), (two / "history.csv").read_bytes())
+
+    def test_a_vortex_between_mirrors_decays(self):
+        done = spindrift("run", CASES / "taylor_green/taylor_green.toml", "--out", self.out, "--no-report", "--until", 0.01,
+                         "--set", "aero.flow.generate.cells=[8, 8, 8]")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_wrong_grids_end_with_2_and_the_remedy(self):
+        done = spindrift("check", CASES / "cylinder_low_mach/cylinder.toml", "--set", "aero.flow.generate.kind='sphere'")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("flat_plate", done.stdout + done.stderr)
+        done = spindrift("run", CASES / "cylinder_low_mach/cylinder.toml", "--out", self.out, "--set", "aero.flow.generate.kind='bump'")
+        self.assertEqual(done.returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

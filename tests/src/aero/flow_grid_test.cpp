@@ -1,0 +1,80 @@
+// Where a flow's grid comes from: each generator by its keys, files, and what is refused with which words.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow_grid.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "src/aero/flow_options.hpp"
+#include "src/aero/grid/cgns.hpp"
+#include "src/aero/grid/generators/plane_cases.hpp"
+#include "src/aero/options.hpp"
+#include "src/scene/document.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using Catch::Matchers::Contains;
+
+namespace {
+
+FlowOptions read(const std::string& flow) {
+  scene::Document doc = scene::parse("[aero]\nmodel = 'blade_resolved'\n[aero.flow]\n" + flow, "test.toml", std::filesystem::temp_directory_path());
+  const AeroOptions air = doc.read(aero_section());
+  doc.finish();
+  return *air.flow;
+}
+MultiBlockGrid made(const std::string& generate) { return flow_grid(read("[aero.flow.generate]\n" + generate)); }
+long cells(const MultiBlockGrid& grid) {
+  long sum = 0;
+  for (const Block& b : grid.blocks) sum += long(b.ni) * b.nj * b.nk;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("the declarations of a flow are sound in themselves", "[flow][fast]") {
+  CHECK(flow_section().faults().empty());
+  CHECK(generate_section().faults().empty());
+}
+
+TEST_CASE("every generator makes the grid that its keys say", "[flow][fast]") {
+  CHECK(cells(made("kind = 'flat_plate'\nrefinement = 1\n")) == 34 * 24);
+  CHECK(cells(made("kind = 'naca0012'\nrefinement = 1\nfar_m = 50\n")) == 112 * 32);
+  CHECK(cells(made("kind = 'bump'\nrefinement = 1\n")) == 44 * 20);
+  CHECK(cells(made("kind = 'wing'\nrefinement = 1\nspan_cells = 3\nspan_m = 0.5\n")) == 112 * 32 * 3);
+  CHECK(cells(made("kind = 'cylinder'\naround = 32\noutward = 16\nradius_m = 1\nfar_m = 20\n")) == 32 * 16);
+  const MultiBlockGrid flat = made("kind = 'box'\ncells = [6, 1, 4]\nperiodic = ['x']\n");
+  CHECK(flat.planar);
+  CHECK(cells(flat) == 24);
+  CHECK(flat.connections.size() == 1);
+  CHECK(flat.boundaries.size() == 2);
+  CHECK(flat.boundaries[0].patch == "z_min");
+  const MultiBlockGrid box = made("kind = 'box'\ncells = [3, 4, 5]\nhigh_m = [1, 2, 3]\n");
+  CHECK(!box.planar);
+  CHECK(cells(box) == 60);
+  CHECK(box.boundaries.size() == 6);
+}
+
+TEST_CASE("a CGNS file needs no map and gives the grid that was written", "[flow][fast]") {
+  if (!cgns_available()) return;
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "spindrift_flow_grid_test.cgns";
+  write_cgns(flat_plate(1), file);
+  const MultiBlockGrid back = flow_grid(read("grid = '" + file.string() + "'\n"));
+  CHECK(cells(back) == 34 * 24);
+  CHECK(back.boundaries.size() == 5);
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("a grid that is not said, or said twice, or said wrongly is refused with what is wrong", "[flow][fast]") {
+  CHECK_THROWS_WITH(read(""), Contains("aero.flow.grid") && Contains("must be given, or [aero.flow.generate]"));
+  const std::string file = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/validation/naca0012/n0012_113-33.p2dfmt";
+  CHECK_THROWS_WITH(read("grid = '" + file + "'\n"), Contains("aero.flow.map") && Contains("Plot3D grid holds coordinates only"));
+  CHECK_THROWS_WITH(read("grid = '" + file + "'\n[aero.flow.generate]\nkind = 'bump'\n"), Contains("one of the two"));
+  CHECK_THROWS_WITH(read("[aero.flow.generate]\nrefinement = 2\n"), Contains("kind"));
+  CHECK_THROWS_WITH(read("[aero.flow.generate]\nkind = 'cylinder'\nrefinement = 2\n"), Contains("refinement"));
+  CHECK_THROWS_WITH(read("[aero.flow.generate]\nkind = 'cylinder'\nfar_m = 0.6\n"), Contains("must be above 2 radius_m = 1"));
+  CHECK_THROWS_WITH(read("[aero.flow.generate]\nkind = 'box'\ncells = [3.5, 1, 4]\n"), Contains("whole numbers"));
+  CHECK_THROWS_WITH(read("[aero.flow.generate]\nkind = 'box'\nhigh_m = [0, 1, 1]\n"), Contains("along x"));
+  CHECK_THROWS_WITH(read("[aero.flow.generate]\nkind = 'box'\nperiodic = ['t']\n"), Contains("names axes"));
+  CHECK_THROWS_WITH(read("[aero.flow.generate]\nkind = 'sphere'\n"), Contains("flat_plate"));
+}
