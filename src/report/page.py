@@ -8,6 +8,7 @@ import pathlib
 import numpy as np
 
 import figures
+import flow_pictures
 import quantities
 import sea_pictures
 
@@ -306,6 +307,22 @@ def sea(run):
     return f'<div class="figures">{out}</div>' if out else ""
 
 
+def flow(run):
+    """Pictures of a resolved flow, those that the run's files give."""
+    out = ""
+    if found := flow_pictures.residuals(run):
+        figure, legend = found
+        out += _figure("Residuals", _legend(legend), figures.as_html(figure, "Residuals"),
+                       "Root mean square of the density rate, scaled residual of the mean flow, that of turbulence; CFL number of the pseudo-step.")
+    if figure := flow_pictures.wall_curves(run):
+        out += _figure("Along the walls", "", figures.as_html(figure, "Along the walls"),
+                       f"In the middle plane of the walls; pressure with its sign turned. {flow_pictures.y_plus_words(run)}".strip())
+    if figure := flow_pictures.flow_slice(run):
+        out += _figure("Slice of the flow", "", figures.as_html(figure, "Slice of the flow"),
+                       "Cells in the middle plane, at the end of the run: pressure above the undisturbed one on dynamic pressure; Mach number.")
+    return f'<div class="figures">{out}</div>' if out else ""
+
+
 def _bars(entries, words):
     """entries: (name, share 0..1, text)."""
     rows = "".join(f'<span>{escape(name)}</span><span><b style="width:{100 * min(max(share, 0.0), 1.0):.1f}%"></b></span><span>{escape(text)}</span>'
@@ -411,6 +428,8 @@ def build(runs):
     if one:
         parts.append(section("sea-pictures", "The sea", sea(one)))
     parts.append(section("spectra", "Spectra of motions", spectra(runs)))
+    if one:
+        parts.append(section("flow", "The flow", flow(one)))
     parts += [section(key, title, over_time[key]) for key, title in list(GROUPS.items())[2:]]
     if one:
         parts += [section("time-spent", "Where the time was spent", where_time(one) + counts(one)),

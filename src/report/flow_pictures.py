@@ -1,0 +1,162 @@
+"""Pictures of a resolved flow: its residuals, a slice of pressure and Mach number near the walls, pressure and friction along them.
+From history.csv and the newest fields/air_*.h5 and walls_*.h5; h5py is needed for the latter. Called by page.py; tested in tests/src/report.
+SPDX-License-Identifier: Apache-2.0"""
+import matplotlib.pyplot as plt
+import numpy as np
+
+import figures
+
+GAMMA, GAS_CONSTANT = 1.4, 287.05  # of kernels/gas/state.hpp
+
+
+def residuals(run):
+    """Density, scaled and turbulence residual over their largest value, and the CFL number; None where the run has no flow."""
+    lines = [("density", "flow.density_residual"), ("flow", "flow.scaled_residual"), ("turbulence", "flow.turbulence_residual")]
+    if "flow.density_residual" not in run.columns or len(run.time) < 2:
+        return None
+    figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(5.4, 3.2), layout="constrained", height_ratios=[2, 1])
+    legend = {}
+    for colour, (label, column) in enumerate(lines):
+        values = run.column(column)
+        largest = np.nanmax(values, initial=0.0)
+        if largest > 0.0:
+            upper.semilogy(run.time, np.where(values > 0.0, values, np.nan) / largest, color=figures.PALETTE[colour])
+            legend[label] = colour
+    lower.semilogy(run.time, run.column("flow.cfl"), color=figures.PALETTE[3])
+    upper.set_ylabel("residual / largest")
+    lower.set_ylabel("CFL")
+    lower.set_xlabel("time [s] (steady: windows, each a pseudo-step)")
+    for axis in (upper, lower):
+        axis.margins(x=0.0)
+        axis.yaxis.set_major_formatter(lambda value, _: figures.power_of_ten(value))
+        axis.yaxis.set_minor_locator(plt.NullLocator())
+    figure.align_ylabels()
+    return figure, legend
+
+
+def newest(run, name):
+    """The blocks of the newest fields/NAME_*.h5 as a list of {dataset: array}; None where there are none or h5py is missing."""
+    files = sorted((run.folder / "fields").glob(f"{name}_*.h5"))
+    if not files:
+        return None
+    try:
+        import h5py
+    except ImportError:
+        return None
+    try:
+        with h5py.File(files[-1]) as file:
+            blocks = [{key: np.array(group[key]) for key in group} for group in file.values()]
+            attributes = [name for name in file]
+    except OSError:
+        return None
+    for block, label in zip(blocks, attributes):
+        block["block"] = label
+    return [block for block in blocks if "points" in block]
+
+
+def layer(block, y0):
+    """Corners (x, z) and the index of the one layer of cells nearest to the plane y = y0; None where the block is elsewhere."""
+    points = block["points"]
+    steps = [np.abs(np.diff(points[..., 1], axis=d)).mean() for d in range(3)]
+    across = int(np.argmax(steps))
+    y = np.moveaxis(points[..., 1], across, 0)
+    y = y.reshape(len(y), -1).mean(axis=1)
+    if y0 < y.min() - 1e-9 or y0 > y.max() + 1e-9:
+        return None
+    cell = int(np.argmin(np.abs(0.5 * (y[1:] + y[:-1]) - y0)))
+    corners = np.take(points, cell, axis=across)
+    return corners[..., 0], corners[..., 2], across, cell
+
+
+def flow_slice(run):
+    """Pressure coefficient and Mach number in the middle plane; None where the run left no fields."""
+    blocks = newest(run, "air")
+    walls = newest(run, "walls") or []
+    if not blocks:
+        return None
+    wind = run.scene.get("wind", {}).get("speed_m_s", 0.0)
+    density = run.scene.get("environment", {}).get("air_density_kg_m3", 0.0)
+    temperature = run.scene.get("aero", {}).get("flow", {}).get("temperature_K", 288.15)
+    if not wind or not density:
+        return None
+    ambient, q = density * GAS_CONSTANT * temperature, 0.5 * density * wind * wind
+    every = np.concatenate([b["points"].reshape(-1, 3) for b in blocks])
+    y0 = 0.5 * (every[:, 1].min() + every[:, 1].max())
+    around = np.concatenate([w["points"].reshape(-1, 3) for w in walls])[:, [0, 2]] if walls else every[:, [0, 2]]
+    low, high = around.min(axis=0), around.max(axis=0)
+    margin = 0.6 * (high - low).max() if walls else 0.0
+    low, high = np.maximum(low - margin, every[:, [0, 2]].min(axis=0)), np.minimum(high + margin, every[:, [0, 2]].max(axis=0))
+    pieces = []
+    for block in blocks:
+        found = layer(block, y0)
+        if found is None:
+            continue
+        x, z, across, cell = found
+        if x.max() < low[0] or x.min() > high[0] or z.max() < low[1] or z.min() > high[1]:
+            continue
+        pressure = np.take(block["pressure"], cell, axis=across)
+        speed = np.linalg.norm(np.take(block["velocity"], cell, axis=across), axis=-1)
+        mach = speed / np.sqrt(GAMMA * GAS_CONSTANT * np.take(block["temperature"], cell, axis=across))
+        pieces.append((x, z, (pressure - ambient) / q, mach))
+    if not pieces:
+        return None
+    aspect = (high[1] - low[1]) / max(high[0] - low[0], 1e-12)
+    figure, axes = plt.subplots(1, 2, figsize=(10.8, float(np.clip(4.6 * aspect, 1.4, 5.0)) + 0.9), layout="constrained")
+    for axis, n, label, colours in ((axes[0], 2, "pressure coefficient", "RdYlBu_r"), (axes[1], 3, "Mach number", "viridis")):
+        seen = np.concatenate([p[n][inside(p, low, high)] for p in pieces])
+        least, most = np.percentile(seen, [0.5, 99.5]) if len(seen) else (0.0, 1.0)
+        for piece in pieces:
+            drawn = axis.pcolormesh(piece[0], piece[1], piece[n], cmap=colours, vmin=least, vmax=max(most, least + 1e-12), rasterized=True)
+        figure.colorbar(drawn, ax=axis, label=label, shrink=0.9)
+        axis.set_xlim(low[0], high[0])
+        axis.set_ylim(low[1], high[1])
+        axis.set_aspect("equal" if 0.05 < aspect < 20.0 else "auto")
+        axis.set_xlabel("x [m]")
+        axis.set_ylabel("z [m]")
+        axis.grid(False)
+    return figure
+
+
+def inside(piece, low, high):
+    x, z = (0.25 * (a[1:, 1:] + a[:-1, 1:] + a[1:, :-1] + a[:-1, :-1]) for a in piece[:2])
+    return (x >= low[0]) & (x <= high[0]) & (z >= low[1]) & (z <= high[1])
+
+
+def wall_curves(run):
+    """Pressure coefficient (negative upwards) and friction along the walls in the middle plane; None without walls."""
+    walls = newest(run, "walls")
+    if not walls:
+        return None
+    every = np.concatenate([w["points"].reshape(-1, 3) for w in walls])
+    y0, depth = 0.5 * (every[:, 1].min() + every[:, 1].max()), np.ptp(every[:, 1])
+    x, cp, cf = [], [], []
+    for wall in walls:
+        p = wall["points"]
+        centre = 0.25 * (p[1:, 1:] + p[:-1, 1:] + p[1:, :-1] + p[:-1, :-1])
+        rows = np.abs(p[1:, 1:, 1] - p[:-1, :-1, 1]).max() if depth > 0 else 0.0
+        chosen = np.abs(centre[..., 1] - y0) <= 0.51 * max(rows, 1e-12)
+        x.append(centre[..., 0][chosen]), cp.append(wall["pressure_coefficient"][chosen])
+        cf.append(np.linalg.norm(wall["friction_coefficient"], axis=-1)[chosen])
+    x, cp, cf = map(np.concatenate, (x, cp, cf))
+    if not len(x):
+        return None
+    rubs = np.nanmax(cf, initial=0.0) > 0.0
+    figure, axes = plt.subplots(2 if rubs else 1, 1, sharex=True, squeeze=False, figsize=(5.4, 4.2 if rubs else 2.4), layout="constrained")
+    axes[0, 0].plot(x, cp, ".", markersize=2.5, color=figures.PALETTE[0])
+    axes[0, 0].invert_yaxis()
+    axes[0, 0].set_ylabel("pressure coefficient")
+    if rubs:
+        axes[1, 0].plot(x, cf, ".", markersize=2.5, color=figures.PALETTE[1])
+        axes[1, 0].set_ylabel("friction coefficient")
+    axes[-1, 0].set_xlabel("x [m]")
+    figure.align_ylabels()
+    return figure
+
+
+def y_plus_words(run):
+    walls = newest(run, "walls")
+    values = np.concatenate([w["y_plus"].ravel() for w in walls]) if walls else np.empty(0)
+    if not len(values) or not values.max() > 0.0:
+        return ""
+    return f"First centres lie at y+ {np.median(values):.2g} (half of the faces below), at most {values.max():.2g}."
+
