@@ -109,7 +109,6 @@ const scene::Section<FlowOptions>& flow_section() {
           .check([](const FlowOptions& o, const scene::Report& report) {
             const bool cgns = o.grid.ends_with(".cgns");
             if (o.generate && !o.grid.empty()) report("generate", "is given beside a grid file: one of the two");
-            if (!o.generate && o.grid.empty()) report("grid", "must be given, or [aero.flow.generate]");
             if (!o.generate && !o.grid.empty() && !cgns && o.map.empty()) report("map", "must be given: a Plot3D grid holds coordinates only");
             if ((o.generate || cgns) && !o.map.empty()) report("map", "has no effect: it belongs to Plot3D grids");
           });

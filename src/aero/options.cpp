@@ -20,6 +20,11 @@ const std::vector<std::string> prescribed{"prescribed"}, curves{"thrust_curve"},
 
 void check_aero(const AeroOptions& o, const scene::Report& report) {
   if (o.model == "blade_resolved" && !o.flow) report("flow", "must be given: aero.model \"blade_resolved\" needs a grid and its boundaries");
+  if (o.flow) {
+    const bool file = !o.flow->grid.empty(), made = o.flow->generate.has_value();
+    if (o.grid && (file || made)) report(file ? "flow.grid" : "flow.generate", "is given beside [aero.grid], the grid of a rotor: one of the two");
+    if (!o.grid && !file && !made) report("flow.grid", "must be given, or [aero.flow.generate], or for a rotor [aero.grid]");
+  }
   if (o.model != "blade_resolved" && o.flow) report("flow", "has no effect: aero.model is not \"blade_resolved\"");
   const bool series = !o.thrust_cosine_N.empty() || !o.thrust_sine_N.empty() || !o.torque_cosine_N_m.empty() ||
                       !o.torque_sine_N_m.empty() || o.torque_N_m != 0.0;

@@ -9,6 +9,7 @@
 
 #include "src/app/commands.hpp"
 #include "src/coupling/campbell.hpp"
+#include "src/coupling/flow_scene.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/start.hpp"
@@ -146,11 +147,30 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
     fmt::print("  Frequencies of this scene lie together: response there is sensitive to phase; compare with a strong scheme.\n");
 }
 
+void print_resolved_rotor(const std::string& source, const coupling::Scenario& s) {
+  const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
+  const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
+  const coupling::Timeline time(s.time.window_s, s.time.window_s, s.time.end_s);
+  const bool steady = setup.dt == 0.0;
+  fmt::print("{}: valid\n\nWhat will be modelled\n", source);
+  fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, setup.flow.viscous == "none" ? "inviscid" : setup.flow.turbulence, setup.flow.flux);
+  fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
+  fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors, size.sectors == 1 ? ", periodic" : "s", size.stations);
+  fmt::print("\nSize and cost\n  {:<22}{}\n  {:<22}about {:.0f} MB\n", "cells", size.cells, "memory", size.megabytes);
+  const double steps = double(time.windows()) * (steady ? 1.0 : std::min(20, setup.flow.max_pseudo_steps));
+  fmt::print("  {:<22}{:.3g} s of one core; all {} {}: at most {:.3g} core-hours\n", "a pseudo-step", size.core_seconds_per_pseudo_step, time.windows(),
+             steady ? "of them" : "windows, 20 each", steps * size.core_seconds_per_pseudo_step / 3600.0);
+}
+
 }  // namespace
 
 int check(const SceneArguments& arguments, const runtime::World& world) {
   scene::Document document = scene::load(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
+  if (has_resolved_rotor(scenario)) {
+    if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario);
+    return done;
+  }
   if (scenario.has_flow()) {
     if (world.rank == 0)
       fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,

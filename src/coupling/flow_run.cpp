@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "kernels/base/constants.hpp"
 #include "runtime/executor/executor.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
@@ -15,7 +16,10 @@
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/wall_distance.hpp"
+#include "src/aero/resolved_rotor.hpp"
+#include "src/coupling/flow_scene.hpp"
 #include "src/coupling/timeline.hpp"
+#include "src/io/atomic_file.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/fields.hpp"
 #include "src/io/history.hpp"
@@ -31,11 +35,6 @@ using aero::FlowSolver;
 /// Pseudo-steps of a steady march between two looks at the clock and the disk.
 constexpr int steady_chunk = 20;
 
-Eigen::Vector3d wind_vector(const Scenario& s) {
-  const double up = s.aero.flow->incidence, along = s.wind.speed_m_s * std::cos(up);
-  return {along * std::cos(s.wind.direction), along * std::sin(s.wind.direction), s.wind.speed_m_s * std::sin(up)};
-}
-
 /// Grid, tiles and solver of a scene on this rank.
 struct Air {
   void begin(const std::string& start) {
@@ -50,28 +49,42 @@ struct Air {
     });
   }
 
-  aero::MultiBlockGrid grid;
-  std::unique_ptr<aero::GridStore> store;
-  std::unique_ptr<FlowSolver> solver;
+  std::unique_ptr<aero::ResolvedRotor> rotor;  ///< has grid, store and solver itself
+  aero::MultiBlockGrid own_grid;
+  std::unique_ptr<aero::GridStore> own_store;
+  std::unique_ptr<FlowSolver> own_solver;
+  aero::GridStore* store = nullptr;
+  FlowSolver* solver = nullptr;
+
+  std::size_t blocks() const { return (rotor ? rotor->grid() : own_grid).blocks.size(); }
 
   Air(const Scenario& s, const runtime::World& world) {
     const aero::FlowOptions& o = *s.aero.flow;
+    if (has_resolved_rotor(s)) {
+      rotor = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, steady_chunk);
+      store = &rotor->store(), solver = &rotor->solver();
+      begin(o.start);
+      return;
+    }
+    aero::MultiBlockGrid& grid = own_grid;
     grid = aero::flow_grid(o);
     const std::vector<std::string> walls = aero::wall_patches(o);
     aero::Tiling tiling = aero::make_tiling(grid, walls);
     std::vector<aero::PatchCondition> conditions = aero::patch_conditions(o, tiling);
     std::vector<int> ranks(std::size_t(tiling.size()), 0);
     if (world.size > 1) ranks = runtime::partition_blocks(aero::tile_graph(tiling), {.ranks = world.size}).rank_of_block;
-    store = std::make_unique<aero::GridStore>(std::move(tiling), std::move(ranks), world.rank);
+    own_store = std::make_unique<aero::GridStore>(std::move(tiling), std::move(ranks), world.rank);
+    store = own_store.get();
     store->build_all(grid);
     std::vector<std::string> no_slip;
     for (const aero::PatchOptions& b : o.boundaries)
       if (b.condition == aero::Condition::no_slip) no_slip.push_back(b.patch);
     const aero::WallSurface surface = aero::wall_surface(grid, no_slip);
     for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
-    aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, wind_vector(s), s.time.window_s);
+    aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, flow_wind(s), s.time.window_s);
     if (setting.time_order == 0) setting.march.max_steps = steady_chunk;
-    solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
+    own_solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
+    solver = own_solver.get();
     begin(o.start);
   }
   bool steady() const { return solver->setting().time_order == 0; }
@@ -80,19 +93,43 @@ struct Air {
 /// Columns of history.csv and how a row fills them.
 struct FlowColumns {
   std::size_t force[3], lift, drag, residual, momentum, model, cfl, krylov, steps;
+  const aero::ResolvedRotor* rotor;
+  std::size_t thrust = 0, torque = 0, power = 0, azimuth = 0, rpm = 0;
+  std::vector<std::array<std::size_t, 2>> blades;  ///< thrust and torque, of unsteady scenes
 
-  explicit FlowColumns(io::History& history) {
+  FlowColumns(io::History& history, const aero::ResolvedRotor* of) : rotor(of) {
+    if (rotor) add_rotor(history);
     const char* axes[3] = {"x", "y", "z"};
     for (std::size_t d = 0; d < 3; ++d)
       force[d] = history.add({fmt::format("flow.f{}_N", axes[d]), "N", "Force of the air on the patches with loads, pressure above the undisturbed one."});
-    lift = history.add({"flow.lift_coefficient", "-", "Force across the wind in its vertical plane, on dynamic pressure and aero.flow.reference_area_m2."});
-    drag = history.add({"flow.drag_coefficient", "-", "Force along the wind, likewise."});
+    if (!rotor) lift = history.add({"flow.lift_coefficient", "-", "Force across the wind in its vertical plane, on dynamic pressure and aero.flow.reference_area_m2."});
+    if (!rotor) drag = history.add({"flow.drag_coefficient", "-", "Force along the wind, likewise."});
     residual = history.add({"flow.density_residual", "kg/(m3 s)", "Root mean square over the cells."});
     momentum = history.add({"flow.scaled_residual", "-", "Norm of the residual of the mean flow in units of the undisturbed one."});
     model = history.add({"flow.turbulence_residual", "-", "The same of the turbulence model."});
     cfl = history.add({"flow.cfl", "-", "CFL number of the pseudo-step."});
     krylov = history.add({"flow.krylov_steps", "-", "Iterations of the linear solver in the pseudo-step before."});
     steps = history.add({"flow.pseudo_steps", "-", "Pseudo-steps: so far (steady), of the window (unsteady)."});
+  }
+  void add_rotor(io::History& history) {
+    thrust = history.add({"rotor.thrust_N", "N", "Force of the air on the blades along the rotor axis, positive downwind."});
+    torque = history.add({"rotor.torque_N_m", "N m", "Moment of the air on the blades about the rotor axis, positive where it drives the rotor."});
+    power = history.add({"rotor.power_W", "W", "Torque times rotor speed."});
+    azimuth = history.add({"rotor.azimuth_deg", "deg", "Of blade 1 from upright, 0 to 360."});
+    rpm = history.add({"rotor.rpm", "rpm", "Rotor speed."});
+    for (int b = 1; b <= rotor->grid_blades() && !rotor->steady(); ++b)
+      blades.push_back({history.add({fmt::format("rotor.blade_{}.thrust_N", b), "N", "Share of one blade."}),
+                        history.add({fmt::format("rotor.blade_{}.torque_N_m", b), "N m", "Share of one blade."})});
+  }
+  void fill_rotor(std::span<double> row, const aero::PseudoRow& p) const {
+    const aero::RotorLoad load = rotor->load(p);
+    const double turns = rotor->pose().azimuth / (2.0 * pi);
+    row[thrust] = load.thrust, row[torque] = load.torque, row[power] = load.power;
+    row[azimuth] = 360.0 * (turns - std::floor(turns)), row[rpm] = rotor->pose().speed * 30.0 / pi;
+    for (std::size_t b = 0; b < blades.size(); ++b) {
+      const aero::RotorLoad blade = rotor->blade_load(int(b) + 1);
+      row[blades[b][0]] = blade.thrust, row[blades[b][1]] = blade.torque;
+    }
   }
   void fill(std::span<double> row, const FlowSolver& solver, const aero::PseudoRow& p, const aero::FlowOptions& o, const Eigen::Vector3d& wind) const {
     const aero::FlowSetting& s = solver.setting();
@@ -101,7 +138,10 @@ struct FlowColumns {
     if (across.norm() > 0.0) across.normalize();
     const double unit = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed * o.reference_area_m2;
     for (std::size_t d = 0; d < 3; ++d) row[force[d]] = p.force[d];
-    row[lift] = f.dot(across) / unit, row[drag] = f.dot(along) / unit;
+    if (rotor)
+      fill_rotor(row, p);
+    else
+      row[lift] = f.dot(across) / unit, row[drag] = f.dot(along) / unit;
     row[residual] = p.density_residual, row[momentum] = p.mean_residual, row[model] = p.model_residual;
     row[cfl] = p.cfl, row[krylov] = p.krylov, row[steps] = p.step + 1;
   }
@@ -251,6 +291,17 @@ void write_walls(MPI_Comm comm, const Air& air, const io::RunDirectory& director
   file.write(tick, time_s, values);
 }
 
+/// Loads along the blades as they are at the end: spanwise.csv.
+void write_span(const runtime::World& world, aero::ResolvedRotor& rotor, const io::RunDirectory& directory) {
+  const std::vector<aero::SpanLoad> loads = rotor.span_loads(world.comm);
+  if (world.rank != 0) return;
+  std::string text = "blade,radius_m,length_m,chord_m,normal_N_m,tangential_N_m,friction_normal_N_m,friction_tangential_N_m\n";
+  for (const aero::SpanLoad& s : loads)
+    text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.17g},{:.17g},{:.17g},{:.17g}\n", s.blade, s.radius, s.length, s.chord, s.load.normal,
+                        s.load.tangential, s.friction.normal, s.friction.tangential);
+  io::write_atomically(directory.path() / "spanwise.csv", text);
+}
+
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -264,7 +315,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   Air air(s, world);
   FlowSolver& solver = *air.solver;
   spdlog::info("air: {} cells in {} tiles of {} blocks, {:.0f} bytes per cell", solver.cells(), air.store->tiling().size(),
-               air.grid.blocks.size(), double(solver.bytes() + air.store->bytes()) / double(std::max(1L, solver.cells())) * world.size);
+               air.blocks(), double(solver.bytes() + air.store->bytes()) / double(std::max(1L, solver.cells())) * world.size);
   {
     runtime::Graph geometry(world.comm);
     solver.record_geometry(geometry);
@@ -276,12 +327,13 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
 
   io::Summary summary;
   io::History history;
-  const FlowColumns columns(history);
+  const FlowColumns columns(history, air.rotor.get());
   FlowCheckpoints checkpoints(world.comm, air, directory, s.checkpoint.keep);
   std::int64_t number = 0, saved = -1;
   if (settings.restart) {
     number = checkpoints.resume(summary.restarts);
     solver.set_time_step(s.time.window_s, s.time.window_s);
+    if (air.rotor && !air.steady()) air.rotor->placed_at(number);
   }
   if (world.rank == 0 && settings.restart)
     history.resume(directory.history(), timeline.window_end_s(number));
@@ -292,7 +344,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   if (settings.until_s) last = std::min<std::int64_t>(last, std::int64_t(std::ceil(*settings.until_s / s.time.window_s * (1.0 - 1e-12))));
   const std::int64_t save_every =
       s.checkpoint.interval_s > 0.0 ? std::max<std::int64_t>(1, std::llround(s.checkpoint.interval_s / s.time.window_s)) : 0;
-  const Eigen::Vector3d wind = wind_vector(s);
+  const Eigen::Vector3d wind = flow_wind(s);
   io::Progress progress(timeline.window_end_s(number), timeline.window_end_s(last), io::progress_style(world.rank, settings.quiet));
   const auto write_row = [&](const aero::PseudoRow& row, double time) {
     columns.fill(history.row(time), solver, row, *s.aero.flow, wind);
@@ -303,6 +355,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   bool settled = false;
   while (number < last && summary.exit_code == 0 && !settled) {
     const auto march_begin = std::chrono::steady_clock::now();
+    if (air.rotor && !air.steady()) air.rotor->move_to(air.rotor->turned(number + 1));
     executor.run();
     march_seconds += seconds_since(march_begin);
     const aero::March& march = solver.march();
@@ -330,6 +383,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   history.flush();
   if (saved != number) checkpoints.save(number, number, summary.restarts);
   write_fields(world.comm, air, directory, number, timeline.window_end_s(number));
+  if (air.rotor) write_span(world, *air.rotor, directory);
   if (s.aero.flow->surfaces) write_walls(world.comm, air, directory, number, timeline.window_end_s(number));
 
   if (summary.exit_code == 0)

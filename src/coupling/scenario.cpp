@@ -5,8 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
 #include <set>
 
+#include "src/coupling/flow_scene.hpp"
 #include "src/coupling/timeline.hpp"
 
 namespace spindrift::coupling {
@@ -63,6 +65,15 @@ std::span<const scene::SectionBase* const> all_sections() {
   return sections;
 }
 
+Eigen::Vector3d flow_wind(const Scenario& s) {
+  const double up = s.aero.flow ? s.aero.flow->incidence : 0.0, along = s.wind.speed_m_s * std::cos(up);
+  return {along * std::cos(s.wind.direction), along * std::sin(s.wind.direction), s.wind.speed_m_s * std::sin(up)};
+}
+
+aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
+  return {*s.aero.flow, *s.aero.grid, s.rotor, flow_wind(s), s.environment.air_density_kg_m3, s.aero.flow->time == "steady" ? 0.0 : s.time.window_s};
+}
+
 std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies) {
   std::vector<sea::SeaBody> result;
   for (const auto& [name, body] : bodies) {
@@ -95,7 +106,7 @@ Scenario read_scenario(scene::Document& document) {
   s.time = document.read(time_section());
   s.environment = document.read(environment_section());
   s.aero = document.read(aero::aero_section());
-  s.rotor = document.read_where(s.has_rotor(), aero::rotor_section(), "aero.model is none");
+  s.rotor = document.read_where(s.has_rotor() || has_resolved_rotor(s), aero::rotor_section(), "aero.model is none");
   s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.has_flow(), aero::wind_section(),
                                "aero.model = \"" + s.aero.model + "\" does not look at the wind");
   s.sea = document.read(sea::sea_section());
@@ -113,7 +124,8 @@ Scenario read_scenario(scene::Document& document) {
   check_names(document, s);
   if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
   if (s.has_flow()) {
-    if (s.wind.speed_m_s <= 0.0) document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
+    if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s));
+    if (s.wind.speed_m_s <= 0.0 && !has_resolved_rotor(s)) document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
     if (!s.bodies.empty()) document.problem("bodies", "have no effect yet beside aero.model \"blade_resolved\"");
     document.finish();
     return s;
@@ -148,6 +160,7 @@ std::string describe_bodies(const Scenario& s) {
 }
 
 std::string describe_rotor(const Scenario& s) {
+  if (has_resolved_rotor(s)) return fmt::format("blade_resolved, {}", s.rotor.turbine);
   return s.has_rotor() ? fmt::format("{} on body {}", s.aero.model, s.rotor.body) : "none";
 }
 

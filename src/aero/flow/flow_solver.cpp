@@ -184,6 +184,7 @@ void FlowSolver::begin_time_step(FlowTile& tile) {
 
 // ---- motion
 
+const Tile& FlowSolver::tiling_tile(const FlowTile& tile) const { return grid_.tiling().tiles[std::size_t(tile.index)]; }
 const BlockPose& FlowSolver::pose(const std::vector<BlockPose>& poses, const FlowTile& tile) const {
   return poses.size() == 1 ? poses[0] : poses[std::size_t(grid_.tiling().tiles[std::size_t(tile.index)].block)];
 }
@@ -212,7 +213,26 @@ void FlowSolver::move_to(std::vector<BlockPose> poses) {
 }
 
 namespace {
-void set_nodes(TileGeometry& g, const BlockPose& pose) {
+/// Of a node of a tile in its block: cell t lies between nodes t and t + 1 in both, also where the two count against each other.
+Index node_of_block(const IndexMap& to_block, const Index& node) {
+  Index at = to_block(node);
+  for (int d = 0; d < 3; ++d)
+    if (to_block.sign(d) < 0) ++at[std::size_t(to_block.target(d))];
+  return at;
+}
+void set_nodes(TileGeometry& g, const Tile& tile, const BlockPose& pose) {
+  if (pose.shape_at) {
+    for (int k = 0; k <= tile.nk; ++k)
+      for (int j = 0; j <= tile.nj; ++j)
+        for (int i = 0; i <= tile.ni; ++i) {
+          const std::ptrdiff_t at = g.node_box.at(k, j, i), c = g.node_box.component;
+          const double* x = g.reference_node_data.data() + at;
+          const Eigen::Vector3d shaped = pose.shape_at(node_of_block(tile.to_block, {i, j, k}), {x[0], x[c], x[2 * c]});
+          const Eigen::Vector3d placed = pose.map.rotation * shaped + pose.map.translation;
+          for (int d = 0; d < 3; ++d) g.node_data.data()[at + d * c] = placed[d];
+        }
+    return;
+  }
   if (!pose.shape) return move_rigidly(g, pose.map);
   move_nodes(g, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return pose.map.rotation * pose.shape(x) + pose.map.translation; });
 }
@@ -230,12 +250,12 @@ void FlowSolver::place(std::vector<BlockPose> before, std::vector<BlockPose> now
   const bool planar = grid_.tiling().planar;
   for (FlowTile& tile : tiles_) {
     TileGeometry& g = *tile.geometry;
-    set_nodes(g, pose(before, tile));
+    set_nodes(g, tiling_tile(tile), pose(before, tile));
     begin_step(g);  // nothing was swept on the way here
     update_metrics(g, planar);
     update_sweeps(g, planar);
     begin_step(g);
-    set_nodes(g, pose(now, tile));
+    set_nodes(g, tiling_tile(tile), pose(now, tile));
     update_metrics(g, planar);
     update_sweeps(g, planar);
     g.over_step = change(pose(before, tile).map, pose(now, tile).map);
@@ -249,7 +269,7 @@ void FlowSolver::move_tile(FlowTile& tile) {
   TileGeometry& g = *tile.geometry;
   const bool planar = grid_.tiling().planar;
   begin_step(g);
-  set_nodes(g, pose(poses_, tile));
+  set_nodes(g, tiling_tile(tile), pose(poses_, tile));
   update_metrics(g, planar);
   update_sweeps(g, planar);
   update_speeds(g, weights_, setting_.dt, planar);
@@ -350,10 +370,13 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
 /// One place where the march goes on, back, or ends: after the sums over all cells.
 void FlowSolver::judge() {
   norms_ = {.density = norm_sums_[0], .mass = norm_sums_[4], .mean = norm_sums_[1], .model = norm_sums_[2], .cells = double(cells()), .broken = norm_sums_[3]};
-  double force[3] = {0.0, 0.0, 0.0};
+  double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
   for (std::size_t p = 0; p < conditions_.size(); ++p)
     if (conditions_[p].loads)
-      for (std::size_t c = 0; c < 3; ++c) force[c] += loads_[p * load_components + c] + loads_[p * load_components + 3 + c];
+      for (std::size_t c = 0; c < 3; ++c) {
+        force[c] += loads_[p * load_components + c] + loads_[p * load_components + 3 + c];
+        moment[c] += loads_[p * load_components + 6 + c];
+      }
   const double load = std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
   const double cfl = march_.cfl();
   const Verdict verdict = march_.judge(norms_, load);
@@ -367,7 +390,8 @@ void FlowSolver::judge() {
                    .model_residual = std::sqrt(norms_.model),
                    .fraction = march_.fraction(),
                    .matrix_free = matrix_free_,
-                   .force = {force[0], force[1], force[2]}});
+                   .force = {force[0], force[1], force[2]},
+                   .moment = {moment[0], moment[1], moment[2]}});
   if (watcher_) watcher_(rows_.back());
   if (verdict == Verdict::failed) name_trouble();
   solving_ = verdict == Verdict::go_on;

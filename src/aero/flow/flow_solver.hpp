@@ -63,6 +63,8 @@ struct FlowSetting {
 struct BlockPose {
   RigidMap map;
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> shape;
+  /// In place of `shape` where it goes by the node's index in its block: (index, node as made) -> node.
+  std::function<Eigen::Vector3d(const Index&, const Eigen::Vector3d&)> shape_at = {};
 };
 
 /// What a pseudo-step did; one row for each since the last clear.
@@ -70,7 +72,8 @@ struct PseudoRow {
   int step = 0, krylov = 0, rejections = 0;
   double cfl = 0.0, density_residual = 0.0, mass_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, fraction = 1.0;
   bool matrix_free = false;
-  std::array<double, 3> force{};  ///< of all patches with loads [N]
+  std::array<double, 3> force{};   ///< of all patches with loads [N]
+  std::array<double, 3> moment{};  ///< likewise, about the origin [N m]
 };
 
 class FlowSolver {
@@ -147,6 +150,8 @@ class FlowSolver {
     gather_wall(tile, tile.state.data(), viscous_, boundary_, points);
     return points;
   }
+  /// Force of the flow on each wall face of a tile of this rank, see for_wall_forces.
+  void wall_forces(const FlowTile& tile, const WallForceFunction& body) const { for_wall_forces(tile, tile.state.data(), viscous_, body); }
   /// Physical steps since the start.
   std::int64_t time_steps() const { return time_steps_; }
   void set_time_step(double dt, double dt_before);
@@ -182,6 +187,7 @@ class FlowSolver {
   // Work of single tasks.
   void begin_time_step(FlowTile& tile);
   bool moves() const { return setting_.time_order > 0 && !tiles_.empty() && tiles_[0].geometry->moving(); }
+  const Tile& tiling_tile(const FlowTile& tile) const;
   const BlockPose& pose(const std::vector<BlockPose>& poses, const FlowTile& tile) const;
   void check_poses(const std::vector<BlockPose>& poses) const;
   void move_tile(FlowTile& tile);

@@ -60,6 +60,13 @@ void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& 
             });
 }
 
+void for_wall_forces(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const WallForceFunction& body) {
+  for_walls(tile, state, viscous,
+            [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p, const Eigen::Vector3d& friction) {
+              body(boundary, k, j, i, p * f.area * Eigen::Vector3d(f.nx, f.ny, f.nz), friction);
+            });
+}
+
 void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting& setting,
                  std::vector<WallPoint>& points) {
   for_walls(tile, state, viscous,

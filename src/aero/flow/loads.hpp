@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,12 @@ PatchLoads patch_loads(std::span<const double> sums, int patch);
 /// Adds the loads on a tile's walls to partial[patch][component].
 void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting& boundary,
                std::span<double> partial);
+
+/// Calls body(window, k, j, i, force by pressure, by friction [N]) for each wall face of a tile, its cell (k, j, i); order of the windows,
+/// low directions innermost.
+using WallForceFunction =
+    std::function<void(const FlowBoundary&, int k, int j, int i, const Eigen::Vector3d& pressure, const Eigen::Vector3d& friction)>;
+void for_wall_forces(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const WallForceFunction& body);
 
 /// A wall face.
 struct WallPoint {

@@ -69,34 +69,33 @@ Eigen::Vector3d BladePitching::axis(int block) const {
   return {-std::sin(precone_), -c * std::sin(azimuth), c * std::cos(azimuth)};
 }
 
+Eigen::Vector3d BladePitching::node(int block, int k, int j, int i, double change) const {
+  const Block& b = grid_.blocks[std::size_t(block)];
+  const Eigen::Vector3d& as_made = b.nodes[b.node(k, j, i)];
+  const double turn = share(block, k, j, i) * change;
+  if (turn == 0.0) return as_made;
+  const Eigen::Vector3d along = axis(block);
+  // Nose into the wind turns the leading edge, which is ahead in the turning direction, upstream: about the outward axis, positive.
+  Eigen::Vector3d p = Eigen::AngleAxisd(turn, along) * as_made;
+  // The turned section of the hub cylinder is no piece of it: slide along the blade's axis, on the root's straight lines, back to the
+  // radius the node had; less and less so further out.
+  const double r0 = radius(as_made);
+  const double keep = 1.0 - smooth_step((r0 - hub_radius_) / (slide_chords * root_chord_));
+  if (keep > 0.0) {
+    const double target = keep * r0 + (1.0 - keep) * radius(p);
+    // |p + t along| = target in the rotor's plane: a quadratic with the root nearest to zero.
+    const double a = along.y() * along.y() + along.z() * along.z(), h = p.y() * along.y() + p.z() * along.z();
+    const double c = p.y() * p.y() + p.z() * p.z() - target * target;
+    p += (-c / (h + std::sqrt(std::max(0.0, h * h - a * c)))) * along;
+  }
+  return p;
+}
+
 void BladePitching::nodes(int block, double change, std::span<Eigen::Vector3d> moved) const {
   const Block& b = grid_.blocks[std::size_t(block)];
-  const Eigen::Vector3d along = axis(block);
   for (int k = 0; k <= b.nk; ++k)
     for (int j = 0; j <= b.nj; ++j)
-      for (int i = 0; i <= b.ni; ++i) {
-        const std::size_t n = b.node(k, j, i);
-        const double turn = share(block, k, j, i) * change;
-        if (turn == 0.0) {
-          moved[n] = b.nodes[n];
-          continue;
-        }
-        // Nose into the wind turns the leading edge, which is ahead in the turning direction, upstream: about the outward axis,
-        // positive.
-        Eigen::Vector3d p = Eigen::AngleAxisd(turn, along) * b.nodes[n];
-        // The turned section of the hub cylinder is no piece of it: slide along the blade's axis, on the root's straight lines,
-        // back to the radius the node had; less and less so further out.
-        const double r0 = radius(b.nodes[n]);
-        const double keep = 1.0 - smooth_step((r0 - hub_radius_) / (slide_chords * root_chord_));
-        if (keep > 0.0) {
-          const double target = keep * r0 + (1.0 - keep) * radius(p);
-          // |p + t along| = target in the rotor's plane: a quadratic with the root nearest to zero.
-          const double a = along.y() * along.y() + along.z() * along.z(), h = p.y() * along.y() + p.z() * along.z();
-          const double c = p.y() * p.y() + p.z() * p.z() - target * target;
-          p += (-c / (h + std::sqrt(std::max(0.0, h * h - a * c)))) * along;
-        }
-        moved[n] = p;
-      }
+      for (int i = 0; i <= b.ni; ++i) moved[b.node(k, j, i)] = node(block, k, j, i, change);
 }
 
 }  // namespace spindrift::aero

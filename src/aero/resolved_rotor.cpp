@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/resolved_rotor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/base/constants.hpp"
+#include "kernels/base/failure.hpp"
+#include "runtime/partition/partition.hpp"
+#include "src/aero/grid/checks.hpp"
+#include "src/aero/grid/wall_distance.hpp"
+#include "src/aero/rotor_grid/quality.hpp"
+#include "src/aero/rotor_grid/rotor_grid.hpp"
+#include "src/aero/turbine.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+constexpr int span_components = 6;  // force by pressure, by friction
+
+RigidMap map_of(const RotorPose& pose) { return {pose.attitude().toRotationMatrix(), pose.hub.position}; }
+
+/// Patches that the scene does not name: blades stick (slip without friction), the hub slips, the rest is the far field.
+FlowOptions with_default_patches(FlowOptions o, const Tiling& tiling) {
+  for (const std::string& patch : tiling.patches) {
+    if (std::ranges::any_of(o.boundaries, [&](const PatchOptions& b) { return b.patch == patch; })) continue;
+    if (patch.starts_with("blade_"))
+      o.boundaries.push_back({patch, o.viscous == "none" ? Condition::slip : Condition::no_slip, true});
+    else
+      o.boundaries.push_back({patch, patch == "hub" ? Condition::slip : Condition::far_field, false});
+  }
+  return o;
+}
+
+/// The grid where the rotor is, in earth coordinates.
+MultiBlockGrid carried(MultiBlockGrid grid, const RigidMap& map) {
+  for (Block& b : grid.blocks)
+    for (Eigen::Vector3d& x : b.nodes) x = map.rotation * x + map.translation;
+  for (Connection& c : grid.connections)
+    if (c.periodic) c.periodic = moved_maps(std::span(&*c.periodic, 1), map)[0];
+  return grid;
+}
+
+}  // namespace
+
+RotorPose hub_pose(const RotorOptions& rotor) {
+  RotorPose pose;
+  const Eigen::Vector3d axis = rotor.axis.normalized();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ() - axis.z() * axis;
+  if (up.norm() < 1e-6) up = Eigen::Vector3d::UnitX() - axis.x() * axis;  // as RotorLoads does
+  up.normalize();
+  Eigen::Matrix3d frame;
+  frame << axis, up.cross(axis), up;
+  pose.hub.position = rotor.hub_m;
+  pose.hub.attitude = Eigen::Quaterniond(frame).normalized();
+  pose.azimuth = rotor.azimuth, pose.speed = rotor.speed;
+  return pose;
+}
+
+ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk)
+    : setup_(setup), turbine_(read_turbine(setup.rotor.turbine)), start_(hub_pose(setup.rotor)) {
+  const RotorOptions& rotor = setup.rotor;
+  spec_ = rotor_grid_spec(setup.grid, turbine_, rotor.blade_pitch, rotor.speed, setup.wind.norm());
+  grid_ = make_rotor_grid(turbine_, spec_);
+  require_quality(grid_, rotor_grid_quality(grid_, {"blade_"}),
+                  {.scaled_jacobian = setup.grid.least_scaled_jacobian, .non_orthogonality = setup.grid.most_off_orthogonal_deg});
+  require_sound(grid_, "aero.grid");
+  stations_ = blade_stations(grid_);
+  pitching_ = std::make_unique<BladePitching>(grid_, turbine_, spec_);
+
+  // Seen from the rotor a steady flow stands still: nodes rest in the earth where the rotor is at the start, and only their frame
+  // turns.
+  pose_ = pose_before_ = start_;
+  const MultiBlockGrid placed = steady() ? carried(grid_, map_of(start_)) : MultiBlockGrid();
+  const MultiBlockGrid& made = steady() ? placed : grid_;
+  std::vector<std::string> blades;
+  for (const Boundary& b : grid_.boundaries)
+    if (b.patch.starts_with("blade_")) blades.push_back(b.patch);
+  Tiling tiling = make_tiling(made, blades);
+  const FlowOptions flow = with_default_patches(setup.flow, tiling);
+  std::vector<PatchCondition> conditions = patch_conditions(flow, tiling);
+  std::vector<int> rank_of_tile(std::size_t(tiling.size()), 0);
+  if (ranks > 1) rank_of_tile = runtime::partition_blocks(tile_graph(tiling), {.ranks = ranks}).rank_of_block;
+  store_ = std::make_unique<GridStore>(std::move(tiling), std::move(rank_of_tile), rank);
+  store_->build_all(made, !steady());
+  std::vector<std::string> sticking;
+  for (const PatchOptions& b : flow.boundaries)
+    if (b.condition == Condition::no_slip) sticking.push_back(b.patch);
+  const WallSurface surface = wall_surface(made, sticking);
+  for (const int tile : store_->owned()) fill_wall_distance((*store_)[tile], surface);
+
+  FlowSetting setting = flow_setting(flow, setup.air_density, setup.wind, setup.dt);
+  const double tip = turbine_.planform.span.back() * std::cos(turbine_.precone);
+  setting.speed = std::hypot(setup.wind.norm(), rotor.speed * tip);
+  if (steady()) {
+    if (chunk > 0) setting.march.max_steps = chunk;
+    setting.frame_omega = rotor.speed * (start_.hub.attitude * Eigen::Vector3d::UnitX());
+    setting.frame_centre = rotor.hub_m;
+  }
+  solver_ = std::make_unique<FlowSolver>(*store_, setting, std::move(conditions));
+  if (!steady()) place(turned(-1), turned(0));
+}
+
+// ---- motion
+
+RotorPose ResolvedRotor::turned(std::int64_t step) const {
+  RotorPose pose = start_;
+  pose.azimuth += start_.speed * setup_.dt * double(step);
+  return pose;
+}
+
+std::vector<BlockPose> ResolvedRotor::block_poses(const RotorPose& pose, double pitch) const {
+  const RigidMap map = map_of(pose);
+  if (pitch == 0.0) return {BlockPose{.map = map, .shape = {}}};
+  std::vector<BlockPose> poses(grid_.blocks.size(), BlockPose{.map = map, .shape = {}});
+  for (int b = 0; b < int(poses.size()); ++b)
+    if (pitching_->moves(b))
+      poses[std::size_t(b)].shape_at = [this, b, pitch](const Index& n, const Eigen::Vector3d&) {
+        return pitching_->node(b, n[2], n[1], n[0], pitch);
+      };
+  return poses;
+}
+
+void ResolvedRotor::move_to(const RotorPose& pose, double pitch) {
+  solver_->move_to(block_poses(pose, pitch));
+  pose_before_ = pose_, pitch_before_ = pitch_;
+  pose_ = pose, pitch_ = pitch;
+}
+
+void ResolvedRotor::place(const RotorPose& before, const RotorPose& now, double pitch_before, double pitch) {
+  solver_->place(block_poses(before, pitch_before), block_poses(now, pitch));
+  pose_before_ = before, pose_ = now, pitch_before_ = pitch_before, pitch_ = pitch;
+}
+
+void ResolvedRotor::placed_at(std::int64_t step) { pose_before_ = turned(step - 1), pose_ = turned(step); }
+
+// ---- loads
+
+RotorLoad ResolvedRotor::about_hub(const Eigen::Vector3d& force, const Eigen::Vector3d& moment, bool all) const {
+  const Eigen::Vector3d axis = pose_.hub.attitude * Eigen::Vector3d::UnitX();
+  RotorLoad load;
+  load.force = force, load.moment = moment - pose_.hub.position.cross(force);
+  if (all && !whole()) {  // blades alike at equal angles: what lies across the axis cancels
+    load.force = blades() * axis.dot(load.force) * axis;
+    load.moment = blades() * axis.dot(load.moment) * axis;
+  }
+  load.thrust = axis.dot(load.force), load.torque = axis.dot(load.moment), load.power = load.torque * pose_.speed;
+  return load;
+}
+
+RotorLoad ResolvedRotor::load(const PseudoRow& row) const {
+  return about_hub(Eigen::Vector3d(row.force[0], row.force[1], row.force[2]),
+                   Eigen::Vector3d(row.moment[0], row.moment[1], row.moment[2]), true);
+}
+
+RotorLoad ResolvedRotor::blade_load(int blade) const {
+  const PatchLoads p = solver_->loads(store_->tiling().patch(fmt::format("blade_{}", blade)));
+  const auto vector = [](const std::array<double, 3>& v) { return Eigen::Vector3d(v[0], v[1], v[2]); };
+  return about_hub(vector(p.pressure_force) + vector(p.viscous_force), vector(p.moment), false);
+}
+
+RotorLoad ResolvedRotor::load() const {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+  for (int b = 1; b <= grid_blades(); ++b) {
+    const RotorLoad blade = blade_load(b);
+    force += blade.force, moment += blade.moment;
+  }
+  return about_hub(force, moment + pose_.hub.position.cross(force), true);
+}
+
+std::vector<SpanLoad> ResolvedRotor::span_loads(MPI_Comm comm) {
+  std::vector<const BladeStation*> all;
+  std::vector<int> first_of_block(grid_.blocks.size(), -1);  // station of k = 0
+  for (const auto& blade : stations_)
+    for (const BladeStation& s : blade) {
+      if (first_of_block[std::size_t(s.block)] < 0) first_of_block[std::size_t(s.block)] = int(all.size()) - s.k;
+      all.push_back(&s);
+    }
+  const std::size_t width = all.size() * span_components;
+  if (!sums_) {  // ordered over tiles: the same bits on any ranks
+    span_partials_.resize(solver_->tiles().size() * width), span_sums_.resize(width);
+    for (const FlowTile& tile : solver_->tiles()) parts_.push_back(tile.index);
+    runtime::Graph graph(comm);
+    const runtime::Datum partials = graph.datum(), sums = graph.datum();
+    graph.task("aero/rotor/span", {runtime::writes(partials)}, [this, first_of_block, width] {
+      std::fill(span_partials_.begin(), span_partials_.end(), 0.0);
+      for (std::size_t n = 0; n < solver_->tiles().size(); ++n) {
+        const FlowTile& tile = solver_->tiles()[n];
+        const Tile& from = store_->tiling().tiles[std::size_t(tile.index)];
+        const int first = first_of_block[std::size_t(from.block)];
+        if (first < 0) continue;
+        solver_->wall_forces(tile, [&](const FlowBoundary& b, int k, int j, int i, const Eigen::Vector3d& pressure,
+                                       const Eigen::Vector3d& friction) {
+          if (!b.loads) return;
+          double* at = span_partials_.data() + n * width + std::size_t(first + from.to_block({i, j, k})[2]) * span_components;
+          for (int c = 0; c < 3; ++c) at[c] += pressure[c], at[3 + c] += friction[c];
+        });
+      }
+    });
+    graph.reduce("aero/rotor/span_sums", {runtime::reads(partials), runtime::writes(sums)},
+                 {.parts = parts_, .partials = span_partials_, .result = span_sums_});
+    sums_ = std::make_unique<runtime::Executor>(std::move(graph), runtime::ExecutorOptions{.threads = 1});
+  }
+  sums_->run();
+  std::vector<SpanLoad> loads;
+  const Eigen::Matrix3d to_rotor = pose_.attitude().toRotationMatrix().transpose();
+  std::size_t n = 0;
+  for (std::size_t blade = 0; blade < stations_.size(); ++blade)
+    for (const BladeStation& s : stations_[blade]) {
+      const double* at = span_sums_.data() + n++ * span_components;
+      const Eigen::Vector3d pressure = to_rotor * Eigen::Vector3d(at[0], at[1], at[2]),
+                            friction = to_rotor * Eigen::Vector3d(at[3], at[4], at[5]);
+      loads.push_back({int(blade) + 1, s.radius, s.length, s.chord, load_at(s, pressure + friction), load_at(s, friction)});
+    }
+  return loads;
+}
+
+// ---- windows
+
+void ResolvedRotor::prepare(MPI_Comm comm, runtime::ExecutorOptions options) {
+  {
+    runtime::Graph geometry(comm);
+    solver_->record_geometry(geometry);
+    runtime::Executor(std::move(geometry), {.threads = 1}).run();
+  }
+  runtime::Graph graph(comm);
+  solver_->record(graph);
+  march_ = std::make_unique<runtime::Executor>(std::move(graph), options);
+}
+
+RotorLoad ResolvedRotor::advance(const RotorPose& end, double pitch) {
+  move_to(end, pitch);
+  solver_->clear_rows();
+  march_->run();
+  const March& march = solver_->march();
+  if (march.verdict() == Verdict::failed)
+    throw NumericalFailure(
+        fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}){}", march.why(), march.steps(), march.cfl(), solver_->trouble()),
+        "aero/rotor", long(solver_->time_steps()), double(solver_->time_steps()) * setup_.dt);
+  return load();
+}
+
+ResolvedRotor::Snapshot ResolvedRotor::snapshot() const {
+  Snapshot s{.tiles = {},
+             .march = solver_->save_march(),
+             .before = pose_before_,
+             .now = pose_,
+             .pitch_before = pitch_before_,
+             .pitch = pitch_};
+  for (int n = 0; n < int(solver_->tiles().size()); ++n) solver_->save(n, s.tiles.emplace_back(solver_->saved_size(n)));
+  return s;
+}
+
+void ResolvedRotor::restore(const Snapshot& s) {
+  for (int n = 0; n < int(s.tiles.size()); ++n) solver_->load(n, s.tiles[std::size_t(n)]);
+  solver_->load_march(s.march);
+  pose_before_ = s.before, pose_ = s.now, pitch_before_ = s.pitch_before, pitch_ = s.pitch;
+  if (s.pitch_before != 0.0 || s.pitch != 0.0) place(s.before, s.now, s.pitch_before, s.pitch);
+}
+
+}  // namespace spindrift::aero

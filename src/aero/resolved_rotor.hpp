@@ -1,0 +1,106 @@
+// The blade-resolved rung of the rotor: a turbine's blades turning in compressible air. Grid, tiles, solver and poses put
+// together from a scene's options; thrust, torque, loads by blade and along the span handed out. Frames and signs:
+// docs/user/conventions.md; method: docs/theory/rotor_resolved.md. Built by src/coupling/flow_run.cpp; tested in
+// tests/src/aero/resolved_rotor_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/executor/executor.hpp"
+#include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/resolved_rotor_setup.hpp"
+#include "src/aero/rotor_grid/layout.hpp"
+#include "src/aero/rotor_grid/motion.hpp"
+#include "src/aero/rotor_grid/pitching.hpp"
+#include "src/aero/rotor_grid/stations.hpp"
+#include "src/aero/rotor_loads.hpp"
+
+namespace spindrift::aero {
+
+/// Hub and attitude at azimuth zero: x the axis, z as upright as the axis lets it.
+RotorPose hub_pose(const RotorOptions& rotor);
+
+/// Loads of the air on a row of wall faces of a blade, per length of radius.
+struct SpanLoad {
+  int blade = 1;
+  double radius = 0.0, length = 0.0, chord = 0.0;  ///< [m]
+  StationLoad load;      ///< normal (downwind) and tangential (the way the rotor turns), pressure and friction [N/m]
+  StationLoad friction;  ///< friction's part [N/m]
+};
+
+class ResolvedRotor {
+ public:
+  /// Throws scene::SceneError or NumericalFailure where the scene does not make a grid fit for use.
+  /// `chunk`: pseudo-steps that one run of a steady march takes at most; 0: as many as the scene allows.
+  explicit ResolvedRotor(const ResolvedRotorSetup& setup, int ranks = 1, int rank = 0, int chunk = 0);
+
+  FlowSolver& solver() { return *solver_; }
+  const FlowSolver& solver() const { return *solver_; }
+  GridStore& store() { return *store_; }
+  const MultiBlockGrid& grid() const { return grid_; }
+  bool steady() const { return setup_.dt == 0.0; }
+  int blades() const { return turbine_.blades; }
+  bool whole() const { return spec_.whole; }
+
+  /// The rotor turning at the scene's speed with its hub at rest, after so many physical steps.
+  RotorPose turned(std::int64_t step) const;
+  const RotorPose& pose() const { return pose_; }
+
+  /// Where the rotor is at the end of the next physical step; `pitch` [rad] beyond that of the grid, of all blades.
+  void move_to(const RotorPose& pose, double pitch = 0.0);
+  /// Where it is now and was one step ago, without flow in between: starts away from the scene's own pose.
+  void place(const RotorPose& before, const RotorPose& now, double pitch_before = 0.0, double pitch = 0.0);
+  /// Restarts: the solver has been placed by FlowSolver::load_march.
+  void placed_at(std::int64_t step);
+
+  /// Of the whole rotor after the last march, about the hub; one sector's load stands for all blades.
+  RotorLoad load() const;
+  /// From a row of the march, which has forces on all blades of the grid, about the origin.
+  RotorLoad load(const PseudoRow& row) const;
+  /// Of one blade of the grid (1, 2, ...), about the hub.
+  RotorLoad blade_load(int blade) const;
+  int grid_blades() const { return int(stations_.size()); }
+  /// Along the blades of the grid from root to tip, the same on every rank. Collective over `comm`.
+  std::vector<SpanLoad> span_loads(MPI_Comm comm);
+
+  // For whoever couples: a window may be tried, undone and tried again.
+  /// Records the march on the ranks of `comm`; needed by advance().
+  void prepare(MPI_Comm comm, runtime::ExecutorOptions options = {});
+  /// The march as it stands: a steady flow, or the physical step that move_to() has prepared. Collective.
+  void run() { march_->run(); }
+  /// One physical step that ends in this pose; the load at its end. Throws NumericalFailure naming place and limit. Collective.
+  RotorLoad advance(const RotorPose& end, double pitch = 0.0);
+  struct Snapshot {
+    std::vector<std::vector<double>> tiles;
+    std::vector<double> march;
+    RotorPose before, now;
+    double pitch_before = 0.0, pitch = 0.0;
+  };
+  Snapshot snapshot() const;
+  void restore(const Snapshot& from);
+
+ private:
+  std::vector<BlockPose> block_poses(const RotorPose& pose, double pitch) const;
+  RotorLoad about_hub(const Eigen::Vector3d& force, const Eigen::Vector3d& moment, bool all) const;
+
+  ResolvedRotorSetup setup_;
+  Turbine turbine_;
+  RotorGridSpec spec_;
+  MultiBlockGrid grid_;                              ///< rotor frame
+  std::vector<std::vector<BladeStation>> stations_;  ///< rotor frame
+  std::unique_ptr<BladePitching> pitching_;
+  std::unique_ptr<GridStore> store_;
+  std::unique_ptr<FlowSolver> solver_;
+  std::unique_ptr<runtime::Executor> march_, sums_;
+  std::vector<double> span_partials_, span_sums_;
+  std::vector<std::int64_t> parts_;
+  RotorPose start_, pose_, pose_before_;
+  double pitch_ = 0.0, pitch_before_ = 0.0;
+};
+
+}  // namespace spindrift::aero

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/resolved_rotor_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "kernels/base/constants.hpp"
+#include "src/aero/rotor_grid/layout.hpp"
+#include "src/aero/turbine.hpp"
+#include "src/scene/document.hpp"
+#include "src/scene/error.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+double off_axis_degrees(const RotorOptions& rotor, const Eigen::Vector3d& wind) {
+  if (wind.norm() == 0.0) return 0.0;
+  return std::atan2(rotor.axis.cross(wind).norm(), std::abs(rotor.axis.dot(wind))) / radians_per_degree;
+}
+
+}  // namespace
+
+void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor,
+                          const Eigen::Vector3d& wind) {
+  if (rotor.turbine.empty()) {
+    document.problem("rotor.turbine", "must name a turbine file: the grid of [aero.grid] is made round its blades");
+    return;
+  }
+  try {
+    if (read_turbine(rotor.turbine).aerofoils.empty())
+      document.problem("rotor.turbine",
+                       "names a turbine without outlines of its aerofoils ([[turbine.aerofoils]]): no surface can be made");
+  } catch (const scene::SceneError& e) { document.problem("rotor.turbine", e.what()); }
+  if (!rotor.joint.empty())
+    document.problem("rotor.joint", "has no effect yet beside aero.model \"blade_resolved\": give hub_m, axis and speed_rpm");
+  if (!rotor.body.empty()) document.problem("rotor.body", "has no effect yet beside aero.model \"blade_resolved\"");
+  const bool steady = aero.flow->time == "steady", one = aero.grid->sectors == "one";
+  const double off = off_axis_degrees(rotor, wind);
+  if (off > 1e-6 && (steady || one))
+    document.problem(
+        steady ? "aero.flow.time" : "aero.grid.sectors",
+        fmt::format(
+            "{} needs the wind along the rotor axis; it is {:.3g} degrees off (wind.direction_deg, aero.flow.incidence_deg, "
+            "rotor.axis): {}",
+            steady ? "\"steady\", a flow seen from the turning rotor," : "\"one\"", off,
+            steady ? "take \"bdf2\"" : "take \"all\""));
+  if (wind.norm() == 0.0 && rotor.speed == 0.0)
+    document.problem("wind.speed_m_s", "must be > 0 where rotor.speed_rpm is 0: nothing would move");
+  if (!steady && aero.flow->start != "wind" && aero.flow->start != "rest")
+    document.problem("aero.flow.start", "must be \"wind\" or \"rest\" with a rotor");
+}
+
+ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
+  const Turbine turbine = read_turbine(setup.rotor.turbine);
+  const RotorGridSpec spec = rotor_grid_spec(setup.grid, turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
+  ResolvedRotorSize size;
+  size.sectors = spec.whole ? turbine.blades : 1;
+  size.cells = size.sectors * spec.sizes.cells() >> (3 * spec.coarsen);
+  size.stations = spec.sizes.span >> spec.coarsen;
+  // Time: SA, 20 Krylov vectors, 11.1 us per cell and pseudo-step measured (docs/developer/rotor_resolved.md). Memory: the 2130
+  // bytes per cell of docs/developer/air.md by half as much again for the ghosts of small tiles, and the moving grid's arrays.
+  const double bytes = setup.dt > 0.0 ? 4000.0 : 3200.0;
+  size.megabytes = double(size.cells) * bytes / 1e6;
+  size.core_seconds_per_pseudo_step = double(size.cells) * 12e-6;
+  return size;
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,17 @@
+// What a scene says to the resolved air: wind, whether there is a rotor in it, that rotor's set-up.
+// Used by scenario.cpp, flow_run.cpp and `spindrift check`; tested through tests/coupled/rotor_run_test.py.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "src/aero/resolved_rotor_setup.hpp"
+#include "src/coupling/scenario.hpp"
+
+namespace spindrift::coupling {
+
+inline bool has_resolved_rotor(const Scenario& s) { return s.has_flow() && s.aero.grid.has_value(); }
+/// The undisturbed wind with aero.flow.incidence_deg [m/s].
+Eigen::Vector3d flow_wind(const Scenario& scenario);
+/// Of a scene with a resolved rotor.
+aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& scenario);
+
+}  // namespace spindrift::coupling
