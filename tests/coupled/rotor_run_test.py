@@ -1,0 +1,75 @@
+"""The blade-resolved rotor as a user runs it: history, loads along the span, what `check` says, a restart, what is refused.
+Usage: rotor_run_test.py SPINDRIFT"""
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+SCENE = ROOT / "inputs/leble_barakos/rotor_demo.toml"
+# 6 400 cells a sector.
+TINY = [f"aero.grid.{key}" for key in ("cells_round=28", "cells_layers=6", "first_cell_chords=4e-3")]
+TINY += ["aero.flow.viscous=none", "aero.flow.krylov_steps=8"]
+TURNING = ["aero.flow.time=bdf2", "aero.flow.max_pseudo_steps=3", "aero.flow.load_change=0", "time.window_s=0.05", "time.end_s=0.2"]
+
+
+def spindrift(command, *arguments, settings=()):
+    given = [word for s in settings for word in ("--set", s)]
+    return subprocess.run([PROGRAM, command, SCENE, *map(str, arguments), *given], capture_output=True, text=True, timeout=600)
+
+
+class RotorRun(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_rotor_")
+        self.out = pathlib.Path(self.folder.name) / "run"
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def table(self, name):
+        with open(self.out / name) as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def test_a_steady_run_leaves_thrust_torque_power_and_loads_along_the_span(self):
+        done = spindrift("run", "--out", self.out, settings=[*TINY, "time.end_s=40"])
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        last = self.table("history.csv")[-1]
+        self.assertGreater(last["rotor.thrust_N"], 3e5)
+        self.assertAlmostEqual(last["rotor.power_W"] / (last["rotor.torque_N_m"] * 0.92530), 1.0, places=4)
+        self.assertAlmostEqual(last["rotor.rpm"], 8.836, places=9)
+        rows = self.table("spanwise.csv")
+        self.assertGreater(len(rows), 8)
+        self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in rows) / last["rotor.thrust_N"], 1.0, delta=0.1)  # a march ends on a whole chunk
+
+    def test_a_turning_rotor_has_columns_by_blade_and_restarts_with_the_same_digits(self):
+        whole = [*TINY, *TURNING, "aero.grid.sectors=all"]
+        done = spindrift("run", "--out", self.out, settings=whole)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        expected = self.table("history.csv")
+        self.assertEqual(len(expected), 4)
+        self.assertAlmostEqual(expected[-1]["rotor.azimuth_deg"], 8.836 * 6.0 * 0.2, places=6)
+        blades = sum(expected[-1][f"rotor.blade_{b}.thrust_N"] for b in (1, 2, 3))
+        self.assertAlmostEqual(blades / expected[-1]["rotor.thrust_N"], 1.0, places=10)
+        self.out = self.out.with_name("again")
+        self.assertEqual(spindrift("run", "--out", self.out, "--until", 0.1, settings=whole).returncode, 0)
+        again = spindrift("run", "--out", self.out, "--restart", settings=whole)
+        self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+        self.assertEqual(self.table("history.csv"), expected)
+
+    def test_check_tells_size_and_cost(self):
+        done = spindrift("check")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        for words in ("blade_resolved", "1 sector, periodic", "cells", "MB", "core-hours"):
+            self.assertIn(words, done.stdout)
+
+    def test_wind_across_the_axis_is_refused_where_flow_is_to_be_steady(self):
+        done = spindrift("check", settings=["wind.direction_deg=20"])
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("needs the wind along the rotor axis; it is 20 degrees off", done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

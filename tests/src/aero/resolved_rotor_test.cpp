@@ -1,0 +1,213 @@
+// The resolved rotor as the air, the run and the coupling see it: a uniform stream stays one while the rotor spins, surges,
+// pitches and its blades pitch; one sector stands for three; loads add up; bits do not depend on threads and ranks; a window
+// undone leaves no trace. SPDX-License-Identifier: Apache-2.0
+#include "src/aero/resolved_rotor.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+
+#include "kernels/base/constants.hpp"
+#include "kernels/rigid/rotation.hpp"
+#include "src/scene/document.hpp"
+#include "src/scene/error.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using Catch::Matchers::Contains;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double rated_rpm = 8.836;
+
+/// The DTU 10-MW rotor on a grid of 6 400 cells a sector, 11 m/s.
+ResolvedRotorSetup tiny(const std::string& time, bool whole) {
+  ResolvedRotorSetup s;
+  s.grid.resolution = 1.0, s.grid.cells_round = 28, s.grid.cells_layers = 6, s.grid.first_cell_chords = 4e-3;
+  s.grid.sectors = whole ? "all" : "one";
+  s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
+  s.rotor.hub_m = {1.0, -2.0, 119.0};
+  s.rotor.speed = rated_rpm * pi / 30.0;
+  s.wind = {11.0, 0.0, 0.0};
+  s.flow.time = time, s.flow.viscous = "none", s.flow.matrix_free_below = 0.0, s.flow.krylov_steps = 8, s.flow.cfl = 2.0,
+  s.flow.cfl_max = 20.0;
+  s.dt = time == "steady" ? 0.0 : 0.05;
+  return s;
+}
+
+std::vector<double> states(ResolvedRotor& rotor) {
+  std::vector<double> all;
+  for (int n = 0; n < int(rotor.solver().tiles().size()); ++n) {
+    std::vector<double> tile(rotor.solver().saved_size(n));
+    rotor.solver().save(n, tile);
+    all.insert(all.end(), tile.begin(), tile.end());
+  }
+  return all;
+}
+
+/// Hub on a platform that surges and pitches about the water line while the rotor turns.
+RotorPose on_platform(const ResolvedRotor& rotor, std::int64_t step, double t) {
+  RotorPose pose = rotor.turned(step);
+  const double lean = 0.06 * std::sin(0.7 * t);
+  const Eigen::Quaterniond turn = rotation_exp(Vector3d(0.0, lean, 0.0));
+  pose.hub.attitude = turn * pose.hub.attitude;
+  pose.hub.position = turn * pose.hub.position + Vector3d(2.0 * std::sin(0.5 * t), 0.0, 0.0);
+  return pose;
+}
+
+/// Largest deviation from the stream: pressure and temperature over the air's, velocity over the tip's.
+double free_stream(int steps) {
+  ResolvedRotorSetup s = tiny("bdf2", true);
+  s.wind = {9.0, 3.0, -4.0};
+  for (const char* patch : {"blade_1", "blade_2", "blade_3", "hub", "inflow", "outflow", "far"})
+    s.flow.boundaries.push_back({patch, Condition::far_field, false});
+  s.flow.drop = 0.0, s.flow.max_pseudo_steps = 2;
+  ResolvedRotor rotor(s);
+  rotor.solver().start_uniform();
+  rotor.prepare(MPI_COMM_SELF, {.threads = 1});
+  for (int n = 1; n <= steps; ++n) {
+    const double t = n * s.dt;
+    rotor.move_to(on_platform(rotor, n, t), 4.0 * radians_per_degree * std::sin(1.3 * t));
+    rotor.run();
+  }
+  const FlowSetting& f = rotor.solver().setting();
+  const double stream[5] = {0.0, f.stream.u, f.stream.v, f.stream.w, 0.0};
+  const double unit[5] = {f.gas.pressure_reference, f.speed, f.speed, f.speed, f.gas.temperature_reference};
+  double largest = 0.0;
+  for (const FlowTile& tile : rotor.solver().tiles())
+    for (int c = 0; c < 5; ++c)
+      for_rows(tile.box, [&](int k, int j) {
+        for (int i = 0; i < tile.box.ni; ++i)
+          largest = std::max(
+              largest, std::abs(tile.state.data()[c * tile.cells.component + tile.cells.at(k, j, i)] - stream[c]) / unit[c]);
+      });
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("a uniform stream stays one while the rotor spins, surges, leans and its blades pitch", "[rotor][fast]") {
+  const double deviation = free_stream(6);
+  CAPTURE(deviation);
+  CHECK(deviation < 1e-12);
+}
+TEST_CASE("a uniform stream stays one through a hundred steps of spin, surge, lean and blade pitch", "[rotor][nightly]") {
+  const double deviation = free_stream(100);
+  CAPTURE(deviation);
+  CHECK(deviation < 1e-12);
+}
+
+TEST_CASE("one sector with rotational periodicity stands for the rotor, and rows of faces add up to blades", "[rotor][fast]") {
+  RotorLoad loads[2];
+  for (const bool whole : {false, true}) {
+    ResolvedRotorSetup s = tiny("steady", whole);
+    s.flow.max_pseudo_steps = 12, s.flow.drop = 0.0;
+    ResolvedRotor rotor(s);
+    rotor.solver().start_uniform();
+    rotor.prepare(MPI_COMM_SELF, {.threads = 1});
+    rotor.run();
+    loads[whole] = rotor.load();
+    CHECK(rotor.load(rotor.solver().rows().back()).thrust == Approx(loads[whole].thrust).epsilon(1e-12));
+    double thrust = 0.0, lever = 0.0;
+    for (const SpanLoad& row : rotor.span_loads(MPI_COMM_SELF))
+      thrust += row.load.normal * row.length, lever += row.load.tangential * row.length * row.radius;
+    const double blades = whole ? 1.0 : 3.0;
+    CHECK(blades * thrust == Approx(loads[whole].thrust).epsilon(1e-10));
+    CHECK(blades * lever == Approx(loads[whole].torque).epsilon(0.05));  // forces act off the quarter-chord line of a row
+    CHECK(loads[whole].power == Approx(loads[whole].torque * s.rotor.speed).epsilon(1e-14));
+  }
+  CHECK(loads[0].thrust > 2e5);
+  CHECK(loads[1].thrust == Approx(loads[0].thrust).epsilon(1e-6));
+  CHECK(loads[1].torque == Approx(loads[0].torque).epsilon(1e-6));
+  CHECK(loads[0].force.cross(Vector3d::UnitX()).norm() < 1e-6 * loads[0].thrust);
+}
+
+namespace {
+ResolvedRotorSetup turning() {
+  ResolvedRotorSetup s = tiny("bdf2", true);
+  s.flow.viscous = "full", s.flow.turbulence = "sa", s.flow.max_pseudo_steps = 3;
+  return s;
+}
+RotorLoad step(ResolvedRotor& rotor, int n) { return rotor.advance(on_platform(rotor, n, 0.05 * n), 0.01 * n); }
+}  // namespace
+
+TEST_CASE("threads leave every bit of a turning rotor as it is", "[rotor][fast]") {
+  std::vector<double> expected;
+  for (const int threads : {1, 3}) {
+    ResolvedRotor rotor(turning());
+    rotor.solver().start_uniform();
+    rotor.prepare(MPI_COMM_SELF, {.threads = threads});
+    for (int n = 1; n <= 2; ++n) step(rotor, n);
+    const std::vector<double> now = states(rotor);
+    if (expected.empty()) expected = now;
+    CHECK(now == expected);
+  }
+}
+
+TEST_CASE("two ranks give the bits of one for a turning rotor", "[rotor][mpi2]") {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  ResolvedRotor whole(turning()), part(turning(), 2, rank);
+  whole.solver().start_uniform(), part.solver().start_uniform();
+  whole.prepare(MPI_COMM_SELF, {.threads = 1});
+  part.prepare(MPI_COMM_WORLD, {.threads = 1});
+  for (int n = 1; n <= 2; ++n) {
+    const RotorLoad a = step(whole, n), b = step(part, n);
+    CHECK(a.force == b.force);
+    CHECK(a.moment == b.moment);
+  }
+  const auto a = whole.span_loads(MPI_COMM_SELF), b = part.span_loads(MPI_COMM_WORLD);
+  REQUIRE(a.size() == b.size());
+  for (std::size_t n = 0; n < a.size(); ++n)
+    CHECK((a[n].load.normal == b[n].load.normal && a[n].friction.tangential == b[n].friction.tangential));
+}
+
+TEST_CASE("a window undone and done again leaves the bits of one done once", "[rotor][fast]") {
+  ResolvedRotor once(turning()), twice(turning());
+  for (ResolvedRotor* rotor : {&once, &twice}) {
+    rotor->solver().start_uniform();
+    rotor->prepare(MPI_COMM_SELF, {.threads = 1});
+    step(*rotor, 1);
+  }
+  step(once, 2);
+  const RotorLoad expected = step(once, 3);
+  step(twice, 2);
+  const ResolvedRotor::Snapshot before = twice.snapshot();
+  RotorPose astray = on_platform(twice, 3, 0.15);
+  astray.hub.position += Vector3d(0.1, 0.0, 0.05);
+  const RotorLoad other = twice.advance(astray, -0.02);
+  CHECK((other.force - expected.force).norm() > 1.0);
+  twice.restore(before);
+  const RotorLoad again = step(twice, 3);
+  CHECK(again.force == expected.force);
+  CHECK(again.moment == expected.moment);
+  CHECK(states(twice) == states(once));
+}
+
+namespace {
+std::string problems(const std::string& rotor, const std::string& aero, const Vector3d& wind) {
+  scene::Document doc = scene::parse("[aero]\nmodel = 'blade_resolved'\n[aero.grid]\n" + aero + "\n[rotor]\n" + rotor,
+                                     "test.toml", std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "inputs" / "turbines");
+  const AeroOptions air = doc.read(aero_section());
+  const RotorOptions options = doc.read(rotor_section());
+  check_resolved_rotor(doc, air, options, wind);
+  try {
+    doc.finish();
+  } catch (const scene::SceneError& e) { return e.what(); }
+  return "";
+}
+}  // namespace
+
+TEST_CASE("a scene that no resolved rotor can be made of says what is wrong", "[rotor][fast]") {
+  const std::string dtu = "turbine = 'dtu_10mw.toml'\nspeed_rpm = 8.836\n", bdf2 = "[aero.flow]\ntime = 'bdf2'\n",
+                    steady = "[aero.flow]\ntime = 'steady'\n";
+  CHECK(problems(dtu, steady, {11, 0, 0}).empty());
+  CHECK(problems(dtu, bdf2, {10, 4, 0}).empty());
+  CHECK_THAT(problems("speed_rpm = 8.836\n", steady, {11, 0, 0}),
+             Contains("rotor.turbine") && Contains("must name a turbine file"));
+  CHECK_THAT(problems(dtu, steady, {10, 4, 0}), Contains("needs the wind along the rotor axis; it is 21.8 degrees off"));
+  CHECK_THAT(problems(dtu, "sectors = 'one'\n" + bdf2, {10, 4, 0}), Contains("aero.grid.sectors") && Contains("take \"all\""));
+  CHECK_THAT(problems("turbine = 'dtu_10mw.toml'\n", bdf2, {0, 0, 0}), Contains("nothing would move"));
+  CHECK_THAT(problems(dtu, bdf2 + "grid = 'dtu_10mw.toml'\nmap = 'dtu_10mw.toml'\n", {11, 0, 0}), Contains("beside [aero.grid]"));
+}

@@ -1,0 +1,53 @@
+// The DTU 10-MW rotor on the demo's grid at 11 m/s, 8.836 rpm, pitch 0 against its 2013 report (1507 kN, 9.70 MW; Bak et al., DTU
+// Wind Energy I-0092) and the normal force along the span by blade element momentum (Madsen's induction, Prandtl's losses,
+// cone 2.5 degrees, no tilt: 1511 kN, 9803 kW). What the demo grid misses is stated in docs/developer/rotor_resolved.md; the test
+// holds it there. SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "kernels/base/constants.hpp"
+#include "src/aero/resolved_rotor.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+
+namespace {
+
+/// Radius [m], normal force [N/m].
+constexpr double bem[][2]{{26.551, 3873.5}, {30.869, 4489.1}, {35.187, 4815.0},  {39.506, 5328.3}, {43.824, 5934.9},
+                          {48.142, 6580.9}, {52.460, 7250.2}, {56.779, 7924.6},  {61.097, 8567.9}, {65.415, 9146.5},
+                          {69.734, 9614.8}, {74.052, 9953.7}, {78.370, 10125.0}, {80.5, 10100.0}};
+
+double bem_normal(double r) {
+  std::size_t n = 1;
+  while (n + 1 < std::size(bem) && bem[n][0] < r) ++n;
+  const double share = (r - bem[n - 1][0]) / (bem[n][0] - bem[n - 1][0]);
+  return (1.0 - share) * bem[n - 1][1] + share * bem[n][1];
+}
+
+}  // namespace
+
+TEST_CASE("the demo rotor without friction has the thrust of blade element momentum to fifteen per cent", "[rotor][nightly]") {
+  ResolvedRotorSetup s;
+  s.grid.resolution = 1.0, s.grid.sectors = "one";
+  s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
+  s.rotor.hub_m = {0.0, 0.0, 119.0}, s.rotor.speed = 8.836 * pi / 30.0;
+  s.wind = {11.0, 0.0, 0.0};
+  s.flow.time = "steady", s.flow.viscous = "none", s.flow.cfl = 2.0, s.flow.cfl_max = 100.0, s.flow.drop = 1e-4,
+  s.flow.max_pseudo_steps = 300;
+  ResolvedRotor rotor(s);
+  rotor.solver().start_uniform();
+  rotor.prepare(MPI_COMM_SELF, {.threads = 1});
+  rotor.run();
+  const RotorLoad load = rotor.load();
+  CAPTURE(load.thrust, load.power, rotor.solver().march().steps(), rotor.solver().march().why());
+  CHECK(rotor.solver().march().verdict() == Verdict::converged);
+  CHECK(load.thrust == Approx(1507e3).epsilon(0.15));
+  double worst = 0.0;
+  for (const SpanLoad& row : rotor.span_loads(MPI_COMM_SELF)) {
+    const double share = row.radius / 89.166, off = row.load.normal / bem_normal(row.radius) - 1.0;
+    UNSCOPED_INFO("r/R " << share << ": " << row.load.normal << " N/m, off " << off << ", tangential " << row.load.tangential);
+    if (share > 0.3 && share < 0.9) worst = std::max(worst, std::abs(off));
+  }
+  CHECK(worst < 0.25);
+}
