@@ -89,13 +89,13 @@ double free_stream(int steps) {
 
 TEST_CASE("a uniform stream stays one while the rotor spins, surges, leans and its blades pitch", "[rotor][fast]") {
   const double deviation = free_stream(6);
-  CAPTURE(deviation);
-  CHECK(deviation < 1e-12);
+  const double of_bound = deviation / 1e-12;  // printed with digits
+  CHECK(of_bound < 1.0);
 }
 TEST_CASE("a uniform stream stays one through a hundred steps of spin, surge, lean and blade pitch", "[rotor][nightly]") {
   const double deviation = free_stream(100);
-  CAPTURE(deviation);
-  CHECK(deviation < 1e-12);
+  const double of_bound = deviation / 1e-12;  // printed with digits
+  CHECK(of_bound < 1.0);
 }
 
 TEST_CASE("one sector with rotational periodicity stands for the rotor, and rows of faces add up to blades", "[rotor][fast]") {
