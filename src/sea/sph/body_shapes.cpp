@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/sph/body_shapes.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace spindrift::sph {
+
+double signed_distance(const BodyShape& shape, Eigen::Vector3d x, Cut cut) {
+  if (cut == Cut::plane) x[1] = 0.0;
+  if (const auto* c = std::get_if<Cylinder>(&shape)) {
+    const Eigen::Vector3d axis = c->axis();
+    Eigen::Vector3d from = x - 0.5 * (c->start + c->end);
+    if (cut == Cut::plane) from[1] = 0.0;
+    const double along = from.dot(axis), across = (from - along * axis).norm();
+    const double radius = c->radius(std::clamp(0.5 + along / c->length(), 0.0, 1.0));
+    if (cut == Cut::plane && std::abs(axis[1]) > 0.5) return across - radius;
+    const Eigen::Vector2d out(std::abs(along) - 0.5 * c->length(), across - radius);
+    return out.cwiseMax(0.0).norm() + std::min(out.maxCoeff(), 0.0);
+  }
+  if (const auto* b = std::get_if<Box>(&shape)) {
+    Eigen::Vector3d out = (x - b->centre).cwiseAbs() - 0.5 * b->size;
+    if (cut == Cut::plane) out[1] = -1e300;
+    return out.cwiseMax(0.0).norm() + std::min(out.maxCoeff(), 0.0);
+  }
+  const Sphere& s = std::get<Sphere>(shape);
+  Eigen::Vector3d from = x - s.centre;
+  if (cut == Cut::plane) from[1] = 0.0;
+  return from.norm() - s.radius;
+}
+
+double volume_of(const BodyShape& shape, Cut cut) {
+  if (cut == Cut::space) return std::visit([](const auto& s) { return s.volume(); }, shape);
+  if (const auto* c = std::get_if<Cylinder>(&shape))
+    return std::abs(c->axis()[1]) > 0.5 ? pi * c->start_radius * c->start_radius
+                                        : (c->start_radius + c->end_radius) * c->length();
+  if (const auto* b = std::get_if<Box>(&shape)) return b->size[0] * b->size[2];
+  const double r = std::get<Sphere>(shape).radius;
+  return pi * r * r;
+}
+
+namespace {
+
+Points fill_cylinder(const Cylinder& c, double spacing, Cut cut) {
+  Points points;
+  const Eigen::Vector3d middle = 0.5 * (c.start + c.end), axis = c.axis();
+  if (cut == Cut::plane && std::abs(axis[1]) > 0.5) {
+    for (const Eigen::Vector2d& p : points_in_disc(c.start_radius, spacing))
+      points.push_back(middle + Eigen::Vector3d(p[0], 0.0, p[1]));
+    return points;
+  }
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis);
+  for (double along : cell_centres(c.length(), spacing)) {
+    const double radius = c.radius(0.5 + along / c.length());
+    if (cut == Cut::plane) {
+      const Eigen::Vector3d across = axis.cross(Eigen::Vector3d::UnitY());
+      for (double offset : cell_centres(2.0 * radius, spacing)) points.push_back(middle + along * axis + offset * across);
+    } else {
+      for (const Eigen::Vector2d& p : points_in_disc(radius, spacing))
+        points.push_back(middle + turn * Eigen::Vector3d(p[0], p[1], along));
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+Points fill_shape(const BodyShape& shape, double spacing, Cut cut) {
+  if (const auto* c = std::get_if<Cylinder>(&shape)) return fill_cylinder(*c, spacing, cut);
+  Points points;
+  Eigen::Vector3d centre;
+  if (const auto* b = std::get_if<Box>(&shape)) {
+    centre = b->centre;
+    points = points_in_box(cut == Cut::plane ? Eigen::Vector3d(b->size[0], 0.0, b->size[2]) : b->size, spacing);
+  } else {
+    const Sphere& s = std::get<Sphere>(shape);
+    centre = s.centre;
+    points = cut == Cut::plane ? points_in_cylinder(s.radius, 0.0, 1, spacing) : points_in_sphere(s.radius, spacing);
+  }
+  for (Eigen::Vector3d& p : points) p += centre;
+  return points;
+}
+
+Points fill_body(std::span<const BodyShape> shapes, double spacing, Cut cut) {
+  Points all;
+  for (std::size_t n = 0; n < shapes.size(); ++n)
+    for (const Eigen::Vector3d& p : fill_shape(shapes[n], spacing, cut))
+      if (std::none_of(shapes.begin(), shapes.begin() + std::ptrdiff_t(n),
+                       [&](const BodyShape& earlier) { return signed_distance(earlier, p, cut) < 0.0; }))
+        all.push_back(p);
+  return all;
+}
+
+double signed_distance(std::span<const BodyShape> shapes, const Eigen::Vector3d& x, Cut cut) {
+  double nearest = 1e300;
+  for (const BodyShape& shape : shapes) nearest = std::min(nearest, signed_distance(shape, x, cut));
+  return nearest;
+}
+
+}  // namespace spindrift::sph
