@@ -135,8 +135,8 @@ Scenario read_scenario(scene::Document& document) {
     document.problem("coupling.scheme", "must be \"monolithic\" beside sea.model = \"sph\": its windows cannot be repeated yet");
   check_bodies(document, s.bodies, s.joints, s.has_particles());
   for (const auto& [name, body] : s.bodies)
-    for (const char* shapes : {"boxes", "spheres"})
-      if (!s.has_particles() && document.given(fmt::format("bodies.{}.{}", name, shapes)))
+    for (const auto& [shapes, any] : {std::pair{"boxes", !body.boxes.empty()}, std::pair{"spheres", !body.spheres.empty()}})
+      if (!s.has_particles() && any)
         document.problem(fmt::format("bodies.{}.{}", name, shapes), "has no effect: only sea.model = \"sph\" knows this shape, others cylinders");
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, bodies);
