@@ -34,8 +34,6 @@ struct PatchCondition {
   bool loads = false;  ///< its force is summed and reported
 };
 
-enum class Krylov : std::uint8_t { gmres, gcg };
-
 /// All that a scene may choose, in SI units; from FlowOptions or written by a test.
 struct FlowSetting {
   gas::IdealGas gas;               ///< with the references of the undisturbed flow
@@ -50,7 +48,6 @@ struct FlowSetting {
   /// Dissipation in the matrix where the flux is low-Mach Roe. Empty: that of the preconditioned equations, good at any Mach number;
   /// else Rieper's with at least this scaling, 1 being Roe's.
   std::optional<double> matrix_mach_floor;
-  Krylov krylov = Krylov::gmres;
   MarchOptions march;
   int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
   double dt = 0.0;                 ///< physical step [s]
