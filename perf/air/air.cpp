@@ -60,8 +60,7 @@ struct History {
 void march(perf::Group& group, const std::string& name, double mach, double drop, double bar_2, double bar_6) {
   FlowSetting s = aerofoil(mach);
   s.march.drop = drop;
-  const std::string path = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/validation/naca0012/n0012_225-65.p2dfmt";
-  Case c(tmr_c_grid(path, 48), s, {{"wall", {Condition::no_slip, true}}, {"far", {Condition::far_field, false}}});
+  Case c(tmr_c_grid(SPINDRIFT_SOURCE_DIR, "tmr_224x64"), s, {{"wall", {Condition::no_slip, true}}, {"far", {Condition::far_field, false}}});
   const WallSurface wall = wall_surface(c.grid, std::array<std::string, 1>{"wall"});
   for (FlowTile& tile : c.solver->tiles()) fill_wall_distance(*tile.geometry, wall);
   c.prepare();

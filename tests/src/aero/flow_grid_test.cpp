@@ -67,7 +67,7 @@ TEST_CASE("a CGNS file needs no map and gives the grid that was written", "[flow
 
 TEST_CASE("a grid that is not said, or said twice, or said wrongly is refused with what is wrong", "[flow][fast]") {
   CHECK_THROWS_WITH(read(""), Contains("aero.flow.grid") && Contains("must be given, or [aero.flow.generate]"));
-  const std::string file = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/validation/naca0012/n0012_113-33.p2dfmt";
+  const std::string file = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/validation/naca0012/tmr_112x32.p3d";
   CHECK_THROWS_WITH(read("grid = '" + file + "'\n"), Contains("aero.flow.map") && Contains("Plot3D grid holds coordinates only"));
   CHECK_THROWS_WITH(read("grid = '" + file + "'\n[aero.flow.generate]\nkind = 'bump'\n"), Contains("one of the two"));
   CHECK_THROWS_WITH(read("[aero.flow.generate]\nrefinement = 2\n"), Contains("kind"));

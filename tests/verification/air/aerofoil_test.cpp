@@ -1,5 +1,5 @@
-// NACA 0012 at 10 degrees, Mach 0.15, Re 6e6, Spalart-Allmaras, on grids of NASA's Turbulence Modeling Resource (inputs/validation/naca0012).
-// SPDX-License-Identifier: Apache-2.0
+// NACA 0012 at 10 degrees, Mach 0.15, Re 6e6, Spalart-Allmaras, on grids of NASA's Turbulence Modeling Resource
+// (inputs/validation/naca0012). SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -43,35 +43,33 @@ Result aerofoil(MultiBlockGrid grid, double mach, double drop, int steps = 250) 
           c.solver->march().density_residual() / c.solver->march().first_density_residual(), c.solver->march().verdict()};
 }
 
-MultiBlockGrid tmr(const char* file, int wake) {
-  return tmr_c_grid(std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/validation/naca0012/" + file, wake);
-}
-
 }  // namespace
 
 TEST_CASE("a coarse aerofoil converges by five orders to its lift", "[flow][fast]") {
-  const Result r = aerofoil(tmr("n0012_113-33.p2dfmt", 24), 0.15, 1e-5);
+  const Result r = aerofoil(tmr_c_grid(SPINDRIFT_SOURCE_DIR, "tmr_112x32"), 0.15, 1e-5);
   CAPTURE(r.lift, r.drag);
   CHECK(r.drop <= 1e-5);
   CHECK(r.lift == Approx(1.043).epsilon(0.003));  // our own converged value: a change of the scheme shows here
 }
 
 TEST_CASE("lift of NACA 0012 on 225 x 65 nodes within two per cent of CFL3D on the same grid", "[flow][nightly]") {
-  const Result r = aerofoil(tmr("n0012_225-65.p2dfmt", 48), 0.15, 1e-6);
+  const Result r = aerofoil(tmr_c_grid(SPINDRIFT_SOURCE_DIR, "tmr_224x64"), 0.15, 1e-6);
   CAPTURE(r.lift, r.drag, r.drop);
   CHECK(r.lift == Approx(1.0838).epsilon(0.02));
   CHECK(r.drag == Approx(0.014488).epsilon(0.05));
 }
 
 TEST_CASE("NACA 0012 on our own family of grids converges into the spread of seven codes", "[flow][nightly]") {
-  // CFL3D and FUN3D on the finest grids of the resource: CL 1.0909 and 1.0983, CD .01231 and .01242; seven codes within 1 % and 4 %.
+  // CFL3D and FUN3D on the finest grids of the resource: CL 1.0909 and 1.0983, CD .01231 and .01242; seven codes within 1 % and 4
+  // %.
   double drag[3], lift[3];
   for (int m = 0; m < 3; ++m) {
     const Result r = aerofoil(naca0012({.n = 1 << m}), 0.15, 1e-5, 400);
     lift[m] = r.lift, drag[m] = r.drag;
     WARN("n = " << (1 << m) << ": CL " << r.lift << " CD " << r.drag << " drop " << r.drop);
   }
-  const double lift_limit = lift[2] + (lift[2] - lift[1]) / 3.0, drag_limit = drag[2] + (drag[2] - drag[1]) / 3.0;  // second order
+  const double lift_limit = lift[2] + (lift[2] - lift[1]) / 3.0,
+               drag_limit = drag[2] + (drag[2] - drag[1]) / 3.0;  // second order
   CAPTURE(lift[0], lift[1], lift[2], lift_limit, drag[0], drag[1], drag[2], drag_limit);
   CHECK(std::abs(lift[2] - lift[1]) < 0.5 * std::abs(lift[1] - lift[0]));
   CHECK(std::abs(drag[2] - drag[1]) < 0.5 * std::abs(drag[1] - drag[0]));

@@ -27,7 +27,7 @@ Outcome aerofoil(const char* flux, const char* model, double mach) {
   s.viscous = true;
   s.flux = flux, s.turbulence = model;
   s.march.max_steps = 250, s.march.drop = 1e-6;
-  Case c(tmr_c_grid(std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/validation/naca0012/n0012_113-33.p2dfmt", 24), s,
+  Case c(tmr_c_grid(SPINDRIFT_SOURCE_DIR, "tmr_112x32"), s,
          {{"wall", {Condition::no_slip, true}}, {"far", {Condition::far_field, false}}});
   const WallSurface wall = wall_surface(c.grid, std::array<std::string, 1>{"wall"});
   for (FlowTile& tile : c.solver->tiles()) fill_wall_distance(*tile.geometry, wall);

@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const fs::path data = SPINDRIFT_SOURCE_DIR "/tests/src/aero/grid/data";
+const fs::path aerofoils = SPINDRIFT_SOURCE_DIR "/inputs/validation/naca0012";
 
 /// A file that goes with the test.
 struct Scratch {
@@ -106,8 +107,8 @@ void expect_refusal(const std::function<void()>& what, const std::string& part) 
 }  // namespace
 
 TEST_CASE("the TMR's files are read, closed and sound", "[aero][grid][fast]") {
-  MultiBlockGrid plate = read_plot3d(data / "flatplate_clust2_4levelsdown_35x25.p2dfmt");
-  read_neutral_map(plate, data / "flatplate_clust2_4levelsdown_35x25.nmf");
+  MultiBlockGrid plate = read_plot3d(data / "tmr_plate_34x24.p3d");
+  read_neutral_map(plate, data / "tmr_plate_34x24.nmf");
   CHECK(plate.planar);
   CHECK(plate.blocks[0].cells() == Index{34, 24, 1});
   CHECK(grid_faults(plate).empty());
@@ -118,8 +119,8 @@ TEST_CASE("the TMR's files are read, closed and sound", "[aero][grid][fast]") {
   CHECK(wall->where.low == std::array<int, 2>{6, 0});
   CHECK(wall->where.high == std::array<int, 2>{34, 1});
 
-  MultiBlockGrid foil = read_plot3d(data / "n0012_113-33.p2dfmt");
-  read_neutral_map(foil, data / "n0012_113-33.nmf");
+  MultiBlockGrid foil = read_plot3d(aerofoils / "tmr_112x32.p3d");
+  read_neutral_map(foil, aerofoils / "tmr_112x32.nmf");
   CHECK(grid_faults(foil).empty());
   REQUIRE(foil.connections.size() == 1);
   CHECK(!foil.connections[0].periodic);

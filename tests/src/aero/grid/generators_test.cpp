@@ -51,7 +51,7 @@ TEST_CASE("boxes of every kind are sound", "[aero][grid][fast]") {
 }
 
 TEST_CASE("the flat plate is the TMR's grid", "[aero][grid][fast]") {
-  std::ifstream file(SPINDRIFT_SOURCE_DIR "/tests/src/aero/grid/data/flatplate_clust2_4levelsdown_35x25.p2dfmt");
+  std::ifstream file(SPINDRIFT_SOURCE_DIR "/tests/src/aero/grid/data/tmr_plate_34x24.p3d");
   int blocks = 0, ni = 0, nj = 0;
   REQUIRE(file >> blocks >> ni >> nj);
   REQUIRE((ni == 35 && nj == 25));
