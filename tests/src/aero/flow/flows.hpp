@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +23,24 @@ inline FlowSetting air(double mach, Eigen::Vector3d direction = Eigen::Vector3d:
   const Eigen::Vector3d u = s.speed * direction.normalized();
   s.stream = {0.0, u[0], u[1], u[2], 0.0};
   return s;
+}
+
+/// Largest deviation of the flow from its uniform stream: pressure and temperature over the air's, velocity over the scale of speed.
+/// A number that is none deviates without bound.
+inline double stream_deviation(const FlowSolver& solver) {
+  const FlowSetting& f = solver.setting();
+  const double stream[5] = {f.stream.p, f.stream.u, f.stream.v, f.stream.w, f.stream.T};
+  const double unit[5] = {f.gas.pressure_reference, f.speed, f.speed, f.speed, f.gas.temperature_reference};
+  double largest = 0.0;
+  for (const FlowTile& tile : solver.tiles())
+    for (int c = 0; c < 5; ++c)
+      for_rows(tile.box, [&](int k, int j) {
+        for (int i = 0; i < tile.box.ni; ++i) {
+          const double off = std::abs(tile.state.data()[c * tile.cells.component + tile.cells.at(k, j, i)] - stream[c]) / unit[c];
+          if (!(off <= largest)) largest = std::isnan(off) ? std::numeric_limits<double>::infinity() : off;
+        }
+      });
+  return largest;
 }
 
 /// A grid with its solver on one rank, or a part of it on several.
