@@ -59,7 +59,7 @@ std::vector<Bytes> exchange(MPI_Comm comm, const std::vector<Bytes>& to) {
 }
 
 std::vector<Bytes> exchange_all(MPI_Comm comm, const Bytes& mine) {
-  return exchange(comm, std::vector<Bytes>(std::size_t(ranks_in(comm)), mine));
+  return runtime::exchange(comm, std::vector<Bytes>(std::size_t(ranks_in(comm)), mine));
 }
 
 }  // namespace spindrift::runtime

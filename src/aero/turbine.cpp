@@ -27,12 +27,12 @@ const scene::Section<PolarOptions>& polar_section() {
   return section;
 }
 
-const scene::Section<AerofoilOptions>& aerofoil_section() {
-  static const auto section = scene::Section<AerofoilOptions>("aerofoils", "The outline of one relative thickness.")
-                                  .number("thickness_pct", &AerofoilOptions::thickness_pct, "%",
+const scene::Section<OutlineOptions>& aerofoil_section() {
+  static const auto section = scene::Section<OutlineOptions>("aerofoils", "The outline of one relative thickness.")
+                                  .number("thickness_pct", &OutlineOptions::thickness_pct, "%",
                                           "Relative thickness of the section.", scene::between(0.1, 100.0))
                                   .required()
-                                  .path("file", &AerofoilOptions::file,
+                                  .path("file", &OutlineOptions::file,
                                         "CSV file with columns x_c, y_c over the chord: from the trailing edge along the suction "
                                         "side (y_c > 0) to the leading "
                                         "edge and back along the pressure side.")
@@ -60,7 +60,7 @@ Polar read_polar(const PolarOptions& options) {
 }
 
 /// What an outline must be for a grid to go round it.
-Aerofoil read_aerofoil(const AerofoilOptions& options) {
+Aerofoil read_aerofoil(const OutlineOptions& options) {
   const scene::Columns file = scene::read_columns(options.file);
   file.allow_only({"x_c", "y_c"});
   file.require_rows(9);
@@ -136,7 +136,7 @@ Turbine read_turbine(const std::string& path) {
   Turbine turbine{
       options.blades, options.hub_radius_m, options.precone, read_planform(options.planform, options.hub_radius_m), {}, {}};
   for (const PolarOptions& polar : options.polars) turbine.polars.push_back(read_polar(polar));
-  for (const AerofoilOptions& aerofoil : options.aerofoils) turbine.aerofoils.push_back(read_aerofoil(aerofoil));
+  for (const OutlineOptions& aerofoil : options.aerofoils) turbine.aerofoils.push_back(read_aerofoil(aerofoil));
   const auto thinner = [](const auto& a, const auto& b) { return a.thickness < b.thickness; };
   std::sort(turbine.aerofoils.begin(), turbine.aerofoils.end(), thinner);
   if (!turbine.aerofoils.empty()) {

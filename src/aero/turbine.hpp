@@ -20,7 +20,7 @@ struct PolarOptions {
   std::string file;  ///< path
 };
 
-struct AerofoilOptions {
+struct OutlineOptions {
   double thickness_pct = 0.0;
   std::string file;  ///< path
 };
@@ -32,7 +32,7 @@ struct TurbineOptions {
   double precone = 0.0;  ///< [rad], positive: blades lean upwind
   std::string planform;  ///< path
   std::vector<PolarOptions> polars;
-  std::vector<AerofoilOptions> aerofoils;
+  std::vector<OutlineOptions> aerofoils;
 };
 
 const scene::Section<TurbineOptions>& turbine_section();

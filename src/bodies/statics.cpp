@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/bodies/statics.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
-#include <cstdio>
 
 #include "src/bodies/linearise.hpp"
 
@@ -13,7 +14,7 @@ namespace spindrift::bodies {
 
 namespace {
 
-constexpr double position_difference = 1e-6;  // of the reference length, or radians
+constexpr double chart_difference = 1e-6;  // of the reference length, or radians
 
 /// Forces and stiffness at the centre of an open chart, in coordinates y = G^T x with mass = G G^T: then stiffness is in 1/s2.
 struct Balance {
@@ -29,9 +30,9 @@ bool evaluate(System& system, double t, Balance& b) {
   Eigen::VectorXd ahead, behind;
   b.stiffness.resize(n, n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::VectorXd step = position_difference * Eigen::VectorXd::Unit(n, k);
+    const Eigen::VectorXd step = chart_difference * Eigen::VectorXd::Unit(n, k);
     if (!system.forces_at_rest(t, step, ahead, unused) || !system.forces_at_rest(t, -step, behind, unused)) return false;
-    b.stiffness.col(k) = (behind - ahead) / (2.0 * position_difference);
+    b.stiffness.col(k) = (behind - ahead) / (2.0 * chart_difference);
   }
   if (!system.forces_at_rest(t, zero, b.force, mass, &b.all_loads)) return false;
   const Eigen::LLT<Eigen::MatrixXd> llt(mass);
@@ -50,12 +51,6 @@ double unbalanced(System& system, double t, const Eigen::VectorXd& x, const Bala
   if (!system.forces_at_rest(t, x, force, mass)) return INFINITY;
   b.cholesky.triangularView<Eigen::Lower>().solveInPlace(force);
   return (stiff.transpose() * force).norm();
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 }  // namespace
@@ -89,7 +84,7 @@ Equilibrium find_equilibrium(System& system, const BodiesState& start, double t_
       result.free_directions.push_back(name(svd.matrixV().col(k)));
       if (load > options.load_tolerance * b.all_loads && result.iterations > 0) {
         result.problem = "statics: no equilibrium: " + result.free_directions.back() + " has no stiffness and carries " +
-                         number(load / b.all_loads) + " of the loads";
+                         fmt::format("{:.3g}", load / b.all_loads) + " of the loads";
         return result;
       }
     }
@@ -111,7 +106,8 @@ Equilibrium find_equilibrium(System& system, const BodiesState& start, double t_
     }
     if (result.iterations == options.iterations) {
       result.problem = "statics: not converged in " + std::to_string(options.iterations) + " iterations; unbalanced load " +
-                       number(result.residual) + " of all loads, last correction " + number(newton_size) + ", mostly " + name(y);
+                       fmt::format("{:.3g}", result.residual) + " of all loads, last correction " +
+                       fmt::format("{:.3g}", newton_size) + ", mostly " + name(y);
       return result;
     }
     if (unstable) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/bodies/system.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "src/bodies/mechanism.hpp"
 
@@ -29,12 +30,6 @@ std::vector<int> supports(std::span<const Body> bodies, std::span<const Joint> j
     }
   }
   return support;
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 }  // namespace
@@ -258,7 +253,7 @@ Assembly System::assemble_from(const BodiesState& near, double t_s) {
         if (other != joint && assembly.contradiction.find("'" + w_->joints[std::size_t(other)].name + "'") == std::string::npos)
           assembly.contradiction += ", '" + w_->joints[std::size_t(other)].name + "'";
     }
-    assembly.contradiction += " (residual " + number(value) + ")";
+    assembly.contradiction += " (residual " + fmt::format("{:.3g}", value) + ")";
   };
   // A driver may ask for a place away from the initial one: solve, centre the chart there, choose the partition again.
   for (int pass = 0; pass < 2; ++pass) {
@@ -389,14 +384,15 @@ std::string System::describe(const StepReport& r) const {
     case Trouble::none:
       return "no trouble";
     case Trouble::newton:
-      return joint + ": the position equations did not converge (residual " + number(r.value) +
+      return joint + ": the position equations did not converge (residual " + fmt::format("{:.3g}", r.value) +
              " of the reference length); try a smaller step";
     case Trouble::singular:
-      return joint + ": the mechanism is in a singular position (pivot ratio " + number(r.value) +
+      return joint + ": the mechanism is in a singular position (pivot ratio " + fmt::format("{:.3g}", r.value) +
              "), where its motion is not determined; a different step or initial position avoids it";
     case Trouble::inconsistent:
       return joint + ": a condition that followed from the other joints at the start no longer does (residual " +
-             number(r.value) + " of the reference length); the start was a singular position or the joints contradict each other";
+             fmt::format("{:.3g}", r.value) +
+             " of the reference length); the start was a singular position or the joints contradict each other";
     case Trouble::not_finite:
       return body + ": a load or motion is not a finite number; the step is probably beyond its stability limit";
     case Trouble::mass:
@@ -410,8 +406,8 @@ NumericalFailure System::failure(const StepReport& r, const BodiesState& state, 
   const std::string place = r.joint >= 0  ? w_->joints[std::size_t(r.joint)].name
                             : r.body >= 0 ? w_->bodies[std::size_t(r.body)].name
                                           : "bodies";
-  return NumericalFailure("t = " + number(t) + " s, tick " + std::to_string(state.tick) + ": " + describe(r), place,
-                          long(state.tick), t, r.value);
+  return NumericalFailure("t = " + fmt::format("{:.3g}", t) + " s, tick " + std::to_string(state.tick) + ": " + describe(r),
+                          place, long(state.tick), t, r.value);
 }
 
 StepReport System::open_chart(const BodiesState& state, double t_s) {

@@ -302,10 +302,6 @@ void write_span(const runtime::World& world, aero::ResolvedRotor& rotor, const i
   io::write_atomically(directory.path() / "spanwise.csv", text);
 }
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 }  // namespace
 
 io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const runtime::World& world, const RunSettings& settings) {

@@ -191,10 +191,6 @@ void finish_trace(const runtime::Executor& executor, const io::RunDirectory& dir
   if (write) write_chrome_trace(traces, directory.trace().string());
 }
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 }  // namespace
 
 io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& directory, const runtime::World& world,

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -22,6 +23,11 @@ struct RunSettings {
   bool trace = false;
   bool quiet = false;             ///< no progress
 };
+
+/// By the clock on the wall.
+inline double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
 
 /// Runs the machine into the directory and writes everything but report and summary.json; returns the summary with the exit code
 /// (0 done, 3 numerical failure with the state saved, 5 stopped on request with a checkpoint). Collective.

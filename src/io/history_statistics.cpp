@@ -14,7 +14,7 @@ namespace spindrift::io {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
 /// Calls visit(field) for each comma-separated part of a line.
 template <class Visit>
@@ -28,7 +28,7 @@ void for_each_field(std::string_view line, Visit visit) {
 }
 
 double number(std::string_view text) {
-  double value = nan;
+  double value = absent;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
 }
@@ -36,7 +36,7 @@ double number(std::string_view text) {
 /// Trapezoidal integral of every column over the rows of one range.
 struct Integral {
   std::vector<double> sum, first;
-  double from = nan, to = nan;
+  double from = absent, to = absent;
 
   void add(double time, const std::vector<double>& before, const std::vector<double>& now) {
     if (std::isnan(from)) {
@@ -50,7 +50,7 @@ struct Integral {
     to = time;
   }
   double mean(std::size_t column) const {
-    if (std::isnan(from)) return nan;
+    if (std::isnan(from)) return absent;
     return to > from ? sum[column] / (to - from) : first[column];
   }
 };
@@ -75,7 +75,7 @@ HistoryStatistics history_statistics(const std::filesystem::path& path, std::vec
   std::string line;
   std::getline(in, line);
   for_each_field(line, [&](std::string_view name) {
-    result.columns.push_back({std::string(name), nan, nan, nan, nan, nan, 0, {}});
+    result.columns.push_back({std::string(name), absent, absent, absent, absent, absent, 0, {}});
   });
 
   std::vector<Integral> integrals(result.ranges.size());
@@ -83,7 +83,7 @@ HistoryStatistics history_statistics(const std::filesystem::path& path, std::vec
   while (std::getline(in, line) && !in.eof()) {
     now.clear();
     for_each_field(line, [&](std::string_view field) { now.push_back(number(field)); });
-    now.resize(result.columns.size(), nan);
+    now.resize(result.columns.size(), absent);
     const double time = now[0];
     for (std::size_t c = 0; c < now.size(); ++c) update(result.columns[c], time, now[c]);
     for (std::size_t r = 0; r < integrals.size(); ++r) {

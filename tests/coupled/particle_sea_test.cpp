@@ -2,8 +2,6 @@
 // and goes on bit for bit, fields are written, bad input is refused.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
-#include <fstream>
-#include <sstream>
 
 #include "src/coupling/sea_window.hpp"
 #include "src/scene/error.hpp"
@@ -14,13 +12,6 @@ using namespace spindrift::coupling;
 using Catch::Contains;
 
 namespace {
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 std::string refusal(const std::string& file, const std::vector<std::string>& overrides) {
   try {
@@ -110,7 +101,7 @@ TEST_CASE("an interrupted sea of particles goes on bit for bit", "[coupled][sea]
   RunSettings first{.until_s = 0.16, .quiet = true};
   test::run_scene(test::input(box), small_box, parts.path(), first);
   test::run_scene(test::input(box), small_box, parts.path(), {.restart = true, .quiet = true});
-  CHECK(text_of(whole.path() / "history.csv") == text_of(parts.path() / "history.csv"));
+  CHECK(test::text_of(whole.path() / "history.csv") == test::text_of(parts.path() / "history.csv"));
 }
 
 TEST_CASE("a sea starts from the state of another run", "[coupled][sea][fast]") {

@@ -2,23 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
-#include <fstream>
-#include <sstream>
 
 #include "tests/coupled/runs.hpp"
 
 using namespace spindrift::coupling;
 using namespace spindrift::coupling::test;
-
-namespace {
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-}  // namespace
 
 TEST_CASE("2 N windows are N windows, a restart, and N windows, bit for bit", "[coupled][fast]") {
   const std::string scene = input("leble_barakos/case2_engineering.toml");

@@ -6,7 +6,8 @@
 
 #include <cmath>
 #include <filesystem>
-#include <map>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,12 @@ inline io::Summary run_scene(const std::string& file, const std::vector<std::str
   const runtime::World world{MPI_COMM_WORLD, 0, 1};
   const io::RunDirectory directory(world.comm, out, settings.restart ? io::Existing::resume : io::Existing::refuse);
   return run(machine, start, directory, world, settings);
+}
+
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
 }
 
 /// Mean of a history column over its last `length` seconds.

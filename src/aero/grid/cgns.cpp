@@ -67,9 +67,9 @@ constexpr int base = 1;
 constexpr const char* coordinate_names[] = {"CoordinateX", "CoordinateY", "CoordinateZ"};
 using Name = char[33];
 
-class Reader {
+class CgnsReader {
  public:
-  Reader(const std::filesystem::path& path, double width) : path_(path), file_(path, CG_MODE_READ), width_(width) {}
+  CgnsReader(const std::filesystem::path& path, double width) : path_(path), file_(path, CG_MODE_READ), width_(width) {}
 
   MultiBlockGrid run() {
     int bases = 0;
@@ -227,7 +227,7 @@ bool cgns_available() { return true; }
 
 MultiBlockGrid read_cgns(const std::filesystem::path& file, double planar_width) {
   if (!std::filesystem::exists(file)) refuse(file, "cannot be opened");
-  return Reader(file, planar_width).run();
+  return CgnsReader(file, planar_width).run();
 }
 
 void write_cgns(const MultiBlockGrid& grid, const std::filesystem::path& path) {

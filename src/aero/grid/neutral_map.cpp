@@ -25,9 +25,9 @@ struct Line {
   std::vector<std::string> words;
 };
 
-class Reader {
+class MapReader {
  public:
-  Reader(MultiBlockGrid& grid, const std::filesystem::path& file) : grid_(grid), file_(file) {}
+  MapReader(MultiBlockGrid& grid, const std::filesystem::path& file) : grid_(grid), file_(file) {}
 
   void run() {
     std::ifstream in(file_);
@@ -202,7 +202,7 @@ constexpr int file_face[] = {3, 4, 5, 6, 1, 2};  // of our sides
 
 }  // namespace
 
-void read_neutral_map(MultiBlockGrid& grid, const std::filesystem::path& file) { Reader(grid, file).run(); }
+void read_neutral_map(MultiBlockGrid& grid, const std::filesystem::path& file) { MapReader(grid, file).run(); }
 
 void make_right_handed(MultiBlockGrid& grid) {
   for (int b = 0; b < int(grid.blocks.size()); ++b) {

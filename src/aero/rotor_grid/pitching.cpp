@@ -7,15 +7,11 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/smooth_step.hpp"
 
 namespace spindrift::aero {
 
 namespace {
-
-double smooth_step(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 /// From 1 at t = 0 to 0 at t = 1, straight but for rounded ends: a bell-shaped slope would shear the middle half as much again.
 double fade(double t) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/smooth_step.hpp"
 #include "kernels/grid/ray.hpp"
 #include "kernels/grid/stretching.hpp"
 
@@ -16,11 +17,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Nodes = std::vector<Vector2d>;
-
-double smooth_step(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 // ---- H lines
 // -------------------------------------------------------------------------------------------------------------------

@@ -9,14 +9,14 @@ using namespace spindrift;
 using namespace spindrift::turbulence;
 
 namespace {
-const Vector<double> none{0, 0, 0};
+const Vector<double> no_gradient{0, 0, 0};
 }
 
 TEMPLATE_TEST_CASE("the log layer balances production and destruction of k", "[turbulence][fast]", Sst, SstVm) {
   const double u_tau = 0.5, y = 0.01, nu = 1e-8, kappa = 0.41, root = 0.3;  // sqrt(beta*)
   const double k = u_tau * u_tau / root, omega = u_tau / (root * kappa * y);
-  const Flow<double> flow{1.2, 1.2 * nu, y, {0.0, u_tau / (kappa * y), 0.0}, none, none};
-  const Turbulence<double, 2> t{{k, omega}, {none, {0.0, -omega / y, 0.0}}};
+  const Flow<double> flow{1.2, 1.2 * nu, y, {0.0, u_tau / (kappa * y), 0.0}, no_gradient, no_gradient};
+  const Turbulence<double, 2> t{{k, omega}, {no_gradient, {0.0, -omega / y, 0.0}}};
   const auto s = TestType{}.source(flow, t);
   const auto c = TestType{}.closure(flow, t);
   CHECK(c.eddy_viscosity ==
@@ -32,8 +32,8 @@ TEMPLATE_TEST_CASE("the log layer balances production and destruction of k", "[t
 
 // Decay of free turbulence: k ~ t^(-beta*/beta2), so d(k)/k over d(omega)/omega is beta*/beta2.
 TEMPLATE_TEST_CASE("free turbulence decays with the outer constants", "[turbulence][fast]", Sst, SstVm) {
-  const Flow<double> flow{1.2, 1.8e-5, 1e3, none, none, none};
-  const Turbulence<double, 2> t{{0.1, 50.0}, {none, none}};
+  const Flow<double> flow{1.2, 1.8e-5, 1e3, no_gradient, no_gradient, no_gradient};
+  const Turbulence<double, 2> t{{0.1, 50.0}, {no_gradient, no_gradient}};
   const auto s = TestType{}.source(flow, t);
   CHECK(s.rate[0] == Approx(-0.09 * 1.2 * 0.1 * 50.0).epsilon(1e-12));
   // Without cross diffusion F1 is 1 where arg1 is large; far from walls it is small.
@@ -42,15 +42,15 @@ TEMPLATE_TEST_CASE("free turbulence decays with the outer constants", "[turbulen
 
 TEMPLATE_TEST_CASE("production of k is at most the limiter times its destruction", "[turbulence][fast]", Sst, SstVm) {
   const double limiter = std::is_same_v<TestType, Sst> ? 10.0 : 20.0;
-  const Flow<double> flow{1.2, 1.8e-5, 1e3, {0.0, 3e4, 0.0}, none, none};
-  const auto s = TestType{}.source(flow, {{0.1, 50.0}, {none, none}});
+  const Flow<double> flow{1.2, 1.8e-5, 1e3, {0.0, 3e4, 0.0}, no_gradient, no_gradient};
+  const auto s = TestType{}.source(flow, {{0.1, 50.0}, {no_gradient, no_gradient}});
   const double destruction = 0.09 * 1.2 * 0.1 * 50.0;
   CHECK(s.rate[0] == Approx((limiter - 1.0) * destruction).epsilon(1e-12));
 }
 
 TEST_CASE("the vorticity variant makes no turbulence in a stagnation flow, the strain variant does", "[turbulence][fast]") {
-  const Flow<double> flow{1.2, 1.8e-5, 1.0, {100.0, 0.0, 0.0}, {0.0, -100.0, 0.0}, none};
-  const Turbulence<double, 2> t{{0.1, 100.0}, {none, none}};
+  const Flow<double> flow{1.2, 1.8e-5, 1.0, {100.0, 0.0, 0.0}, {0.0, -100.0, 0.0}, no_gradient};
+  const Turbulence<double, 2> t{{0.1, 100.0}, {no_gradient, no_gradient}};
   const double destruction = 0.09 * 1.2 * 0.1 * 100.0;
   CHECK(SstVm{}.source(flow, t).rate[0] == Approx(-destruction).epsilon(1e-10));
   CHECK(Sst{}.source(flow, t).rate[0] > 0.0);
@@ -64,6 +64,6 @@ TEST_CASE("SST values on walls and in the far field are Menter's and the TMR's",
   CHECK(Sst{}.wall(d, nu)[1] == Approx(10.0 * 6.0 * nu / (0.075 * d * d)));
   const auto far = SstVm{}.far_field(nu, 50.0, 340.0);
   CHECK(far[0] / far[1] == Approx(0.009 * nu));
-  const Flow<double> flow{1.2, 1.2 * nu, 1e3, none, none, none};
-  CHECK(SstVm{}.closure(flow, {{far[0], far[1]}, {none, none}}).eddy_viscosity / flow.mu == Approx(0.009).epsilon(1e-6));
+  const Flow<double> flow{1.2, 1.2 * nu, 1e3, no_gradient, no_gradient, no_gradient};
+  CHECK(SstVm{}.closure(flow, {{far[0], far[1]}, {no_gradient, no_gradient}}).eddy_viscosity / flow.mu == Approx(0.009).epsilon(1e-6));
 }

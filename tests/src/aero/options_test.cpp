@@ -13,16 +13,16 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-struct Read {
+struct Sections {
   AeroOptions aero;
   RotorOptions rotor;
   WindOptions wind;
 };
 
-Read read(const std::string& text) {
+Sections read_sections(const std::string& text) {
   const std::vector<std::string> bodies{"platform", "rotor"}, joints{"bearing"};
   scene::Document doc = scene::parse(text, "test.toml", std::filesystem::temp_directory_path());
-  const Read all{doc.read(aero_section()), doc.read(rotor_section()), doc.read(wind_section())};
+  const Sections all{doc.read(aero_section()), doc.read(rotor_section()), doc.read(wind_section())};
   check_rotor(doc, all.aero, all.rotor, bodies, joints);
   doc.finish();
   return all;
@@ -39,11 +39,11 @@ TEST_CASE("the declarations of rotor, air and wind are sound in themselves", "[a
 }
 
 TEST_CASE("a scene without a rotor is legal, and so is each model with what it needs", "[aero][fast]") {
-  CHECK(read("").aero.model == "none");
-  CHECK(read(rotor + "[aero]\nmodel = 'prescribed'\nthrust_N = 1.5e6\n").aero.thrust_N == 1.5e6);
-  CHECK(read(rotor + "[aero]\nmodel = 'thrust_curve'\nthrust_coefficient = 0.8\n[wind]\nspeed_m_s = 11\ndirection_deg = 90\n")
+  CHECK(read_sections("").aero.model == "none");
+  CHECK(read_sections(rotor + "[aero]\nmodel = 'prescribed'\nthrust_N = 1.5e6\n").aero.thrust_N == 1.5e6);
+  CHECK(read_sections(rotor + "[aero]\nmodel = 'thrust_curve'\nthrust_coefficient = 0.8\n[wind]\nspeed_m_s = 11\ndirection_deg = 90\n")
             .wind.direction == Approx(1.5707963));
-  CHECK(read("[rotor]\nbody = 'platform'\nhub_m = [0, 0, 119]\nspeed_rpm = 9.549296585513721\n").rotor.speed == Approx(1.0));
+  CHECK(read_sections("[rotor]\nbody = 'platform'\nhub_m = [0, 0, 119]\nspeed_rpm = 9.549296585513721\n").rotor.speed == Approx(1.0));
 }
 
 TEST_CASE("a rotor that its model cannot use is refused with what is wrong", "[aero][fast]") {
@@ -66,5 +66,5 @@ TEST_CASE("a rotor that its model cannot use is refused with what is wrong", "[a
       Case{rotor + "turbine = '" + table + "'\n[aero]\nmodel = 'bem'\n", "spindrift_aero_options.csv"},
       Case{"[rotor]\nbody = 'rotor'\naxis = [0, 0, 0]\n", "must not be zero"}, Case{"[wind]\nspeed_m_s = -1\n", "speed_m_s"},
       Case{rotor + "[aero]\nmodel = 'prescribed'\nthrust_N = 1\nharmonic_step = 0\n", "harmonic_step"});
-  CHECK_THROWS_WITH(read(c.text), Contains(c.message));
+  CHECK_THROWS_WITH(read_sections(c.text), Contains(c.message));
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double rho = 1.225;
 
-RotorOptions rotor(double diameter = 178.33) {
+RotorOptions rotor_of(double diameter = 178.33) {
   RotorOptions r;
   r.diameter_m = diameter;
   return r;
@@ -25,7 +25,7 @@ RotorOptions rotor(double diameter = 178.33) {
 ThrustCurve with_curve(const std::string& path, const std::string& interpolation = "linear") {
   AeroOptions o;
   o.curve = path, o.interpolation = interpolation;
-  return ThrustCurve(o, rotor(), rho);
+  return ThrustCurve(o, rotor_of(), rho);
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ ThrustCurve with_curve(const std::string& path, const std::string& interpolation
 TEST_CASE("the analytic law goes with area and relative wind squared, and turns round with the wind", "[aero][fast]") {
   AeroOptions o;
   o.thrust_coefficient = 0.814, o.torque_coefficient = 0.0635;
-  const ThrustCurve law(o, rotor(), rho);
+  const ThrustCurve law(o, rotor_of(), rho);
   const double u = GENERATE(-30.0, -2.0, 0.0, 1e-3, 11.0, 50.0), area = pi / 4 * 178.33 * 178.33;
   CHECK(law(u, 1.0, 0.0).thrust == Approx(0.5 * rho * area * 0.814 * std::abs(u) * u));
   CHECK(law(u, 1.0, 0.0).torque == Approx(0.5 * rho * area * 89.165 * 0.0635 * std::abs(u) * u));

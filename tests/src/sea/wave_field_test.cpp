@@ -12,7 +12,7 @@ using namespace spindrift::sea;
 
 namespace {
 
-const SeaEnvironment tank{1025.0, 20.6, 9.81};
+const SeaEnvironment water{1025.0, 20.6, 9.81};
 
 WavesOptions regular(const char* model) {
   WavesOptions options;
@@ -27,7 +27,7 @@ WavesOptions regular(const char* model) {
 TEST_CASE("a wave travels in its direction from a crest at the origin", "[sea][fast]") {
   WavesOptions options = regular("airy");
   options.direction = 0.5 * pi;
-  const WaveField sea(options, tank);
+  const WaveField sea(options, water);
   CHECK(sea.elevation(0.0, 0.0, 0.0) == Approx(0.94));
   CHECK(sea.elevation(8.8, 17.0, 0.0) == Approx(0.94));
   const double c = waves::wave_properties(8.8, 20.6, 9.81).phase_speed;
@@ -38,7 +38,7 @@ TEST_CASE("a wave travels in its direction from a crest at the origin", "[sea][f
 TEST_CASE("the surface slope is the derivative of the elevation", "[sea][fast]") {
   WavesOptions options = regular("jonswap");
   options.direction = 0.7;
-  const WaveField sea(options, tank);
+  const WaveField sea(options, water);
   const double d = 1e-4, t = 31.0, x = 12.0, y = -4.0;
   const waves::Surface s = sea.surface(t, x, y);
   CHECK(s.slope_x == Approx((sea.elevation(t, x + d, y) - sea.elevation(t, x - d, y)) / (2 * d)).epsilon(1e-6));
@@ -50,7 +50,7 @@ TEST_CASE("an irregular sea is the plain sum of its harmonics", "[sea][fast]") {
   options.components = 101;                                   // a part-filled group of lanes
   options.stretching = "extrapolated";
   options.direction = -0.4;
-  const WaveField sea(options, tank);
+  const WaveField sea(options, water);
   const double t = 100.0, x = 7.0, y = 3.0, z = -4.0;
   double eta = 0.0;
   Eigen::Vector3d u(0, 0, 0), a(0, 0, 0);
@@ -74,7 +74,7 @@ TEST_CASE("stretching brings linear kinematics to the surface by the rule that i
   WavesOptions options = regular("airy");
   const auto at = [&](const char* rule, double z) {
     options.stretching = rule;
-    const WaveField sea(options, tank);
+    const WaveField sea(options, water);
     return sea.kinematics(0.0, {0, 0, z}, 0.94).velocity.x();
   };
   const double level = at("extrapolated", 0.0), crest = at("extrapolated", 0.94), bottom = at("extrapolated", -20.6);
@@ -89,15 +89,15 @@ TEST_CASE("stretching brings linear kinematics to the surface by the rule that i
   CHECK(at("extrapolated", -25.0) == Approx(bottom));
   // With Wheeler's rule the total pressure at the surface is zero to first order at the surface itself: p = rho g eta there.
   options.stretching = "wheeler";
-  CHECK(WaveField(options, tank).kinematics(0.0, {0, 0, 0.94}, 0.94).pressure_over_density == Approx(9.81 * 0.94));
+  CHECK(WaveField(options, water).kinematics(0.0, {0, 0, 0.94}, 0.94).pressure_over_density == Approx(9.81 * 0.94));
 }
 
 TEST_CASE("waves grow smoothly from nothing over the ramp", "[sea][fast]") {
   WavesOptions options = regular("stokes2");
   options.ramp_s = 10.0;
-  const WaveField sea(options, tank);
+  const WaveField sea(options, water);
   options.ramp_s = 0.0;
-  const WaveField full(options, tank);
+  const WaveField full(options, water);
   CHECK(sea.elevation(0.0, 0, 0) == 0.0);
   CHECK(sea.elevation(-1.0, 0, 0) == 0.0);
   CHECK(sea.elevation(5.0, 0, 0) == Approx(0.5 * full.elevation(5.0, 0, 0)));
@@ -108,20 +108,20 @@ TEST_CASE("waves grow smoothly from nothing over the ramp", "[sea][fast]") {
 
 TEST_CASE("no waves are still water", "[sea][fast]") {
   CHECK(WaveField().still());
-  CHECK(WaveField(WavesOptions{}, tank).still());
+  CHECK(WaveField(WavesOptions{}, water).still());
 }
 
 TEST_CASE("a wave that would break, and a Stokes wave outside its theory, are refused by name", "[sea][fast]") {
-  CHECK(wave_problems(WavesOptions{}, tank).empty());
-  CHECK(wave_problems(regular("stokes2"), tank).empty());
+  CHECK(wave_problems(WavesOptions{}, water).empty());
+  CHECK(wave_problems(regular("stokes2"), water).empty());
   WavesOptions steep = regular("airy");
   steep.height_m = 15.0;
-  REQUIRE(wave_problems(steep, tank).size() == 1);
-  CHECK(wave_problems(steep, tank)[0].key == "waves.height_m");
-  CHECK(wave_problems(steep, tank)[0].what.find("breaks above") != std::string::npos);
+  REQUIRE(wave_problems(steep, water).size() == 1);
+  CHECK(wave_problems(steep, water)[0].key == "waves.height_m");
+  CHECK(wave_problems(steep, water)[0].what.find("breaks above") != std::string::npos);
   WavesOptions shallow = regular("stokes2");
   shallow.period_s = 25.0;
   shallow.height_m = 6.0;
-  REQUIRE(wave_problems(shallow, tank).size() == 1);
-  CHECK(wave_problems(shallow, tank)[0].key == "waves.model");
+  REQUIRE(wave_problems(shallow, water).size() == 1);
+  CHECK(wave_problems(shallow, water)[0].key == "waves.model");
 }

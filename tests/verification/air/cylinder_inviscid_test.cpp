@@ -29,14 +29,14 @@ MultiBlockGrid o_grid(int around, int out, double far) {
   return grid;
 }
 
-struct Result {
+struct Outcome {
   double pressure_range;  ///< of the static pressure
   double drag, lowest_cp, highest_cp, sawtooth;
   int steps_to_3_orders;
   bool converged;
 };
 
-Result cylinder(double mach, const std::string& flux) {
+Outcome cylinder(double mach, const std::string& flux) {
   FlowSetting s = air(mach);
   s.flux = flux;
   // The operator must be that of the flux: with Roe's full dissipation in it (the default floor) the march stalls from Mach 0.01
@@ -48,7 +48,7 @@ Result cylinder(double mach, const std::string& flux) {
   c.prepare();
   c.run();
   const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
-  Result r{0, c.solver->rows().back().force[0] / q, 1e9, -1e9, 0, 0, c.solver->march().verdict() == Verdict::converged};
+  Outcome r{0, c.solver->rows().back().force[0] / q, 1e9, -1e9, 0, 0, c.solver->march().verdict() == Verdict::converged};
   const double first = c.solver->rows().front().density_residual;
   for (const PseudoRow& row : c.solver->rows())
     if (row.density_residual > 1e-3 * first) r.steps_to_3_orders = row.step + 1;
@@ -73,7 +73,7 @@ TEST_CASE("a cylinder in inviscid flow: pressure with the square of the Mach num
   std::vector<double> range, drag;
   std::vector<int> steps;
   for (const double m : mach) {
-    const Result r = cylinder(m, "roe_low_mach");
+    const Outcome r = cylinder(m, "roe_low_mach");
     INFO("M " << m << " range " << r.pressure_range << " CD " << r.drag << " cp " << r.lowest_cp << " ... " << r.highest_cp
               << " sawtooth " << r.sawtooth << " steps to 3 orders " << r.steps_to_3_orders);
     range.push_back(r.pressure_range), drag.push_back(r.drag), steps.push_back(r.steps_to_3_orders);

@@ -3,8 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 
@@ -16,16 +14,8 @@
 using namespace spindrift;
 using namespace spindrift::aero;
 
-namespace {
-struct Scratch {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("spindrift_grid_" + std::to_string(::getpid()) + ".cgns");
-  ~Scratch() { std::filesystem::remove(path); }
-};
-}  // namespace
-
 TEST_CASE("a grid written as CGNS is the grid read", "[aero][grid][fast]") {
-  const Scratch file;
+  const ScratchFile file("grid.cgns");
   if (!cgns_available()) {
     CHECK_THROWS_AS(write_cgns(cylinder({}), file.path), scene::SceneError);
     return;
@@ -66,7 +56,7 @@ TEST_CASE("a grid written as CGNS is the grid read", "[aero][grid][fast]") {
 }
 
 TEST_CASE("what is no CGNS file is refused by name", "[aero][grid][fast]") {
-  const Scratch file;
+  const ScratchFile file("grid.cgns");
   std::ofstream(file.path) << "not a grid";
   CHECK_THROWS_AS(read_cgns(file.path), scene::SceneError);
   CHECK_THROWS_AS(read_cgns("/no/such/file.cgns"), scene::SceneError);

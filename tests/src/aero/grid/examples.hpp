@@ -1,8 +1,13 @@
-// Grids that several tests use: boxes cut into blocks whose indices are turned at random.
+// What several tests of grids use: boxes cut into blocks whose indices are turned at random, small tiles, files that go.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "src/aero/grid/generators/box.hpp"
@@ -39,5 +44,17 @@ inline MultiBlockGrid turned_box(const MultiBlockGrid& box, unsigned seed) {
   turn_blocks(grid, seed);
   return grid;
 }
+
+/// Tiles so small that an example has many.
+inline constexpr TilingOptions small_tiles{.across_j = 4, .across_k = 3, .planar_across = 4, .normal = 5, .planar_normal = 5};
+
+/// A file that goes with the test.
+struct ScratchFile {
+  std::filesystem::path path;
+  explicit ScratchFile(const std::string& name)
+      : path(std::filesystem::temp_directory_path() / ("spindrift_grid_" + std::to_string(::getpid()) + "_" + name)) {}
+  ~ScratchFile() { std::filesystem::remove(path); }
+  void write(const std::string& bytes) const { std::ofstream(path, std::ios::binary) << bytes; }
+};
 
 }  // namespace spindrift::aero

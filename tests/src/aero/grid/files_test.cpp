@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
-#include <unistd.h>
-
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -27,15 +25,6 @@ namespace {
 
 const fs::path data = SPINDRIFT_SOURCE_DIR "/tests/src/aero/grid/data";
 const fs::path aerofoils = SPINDRIFT_SOURCE_DIR "/inputs/validation/naca0012";
-
-/// A file that goes with the test.
-struct Scratch {
-  fs::path path;
-  explicit Scratch(const std::string& name)
-      : path(fs::temp_directory_path() / ("spindrift_grid_" + std::to_string(::getpid()) + "_" + name)) {}
-  ~Scratch() { fs::remove(path); }
-  void write(const std::string& bytes) const { std::ofstream(path, std::ios::binary) << bytes; }
-};
 
 /// In a planar grid y is not in the file.
 bool same_nodes(const MultiBlockGrid& a, const MultiBlockGrid& b) {
@@ -133,7 +122,7 @@ TEST_CASE("a grid written is the grid read, bit for bit", "[aero][grid][fast]") 
   const auto form = GENERATE(Plot3dForm::formatted, Plot3dForm::binary);
   const BoxOptions box{.ni = 6, .nj = 7, .nk = 8, .periodic = {true, false, false}};
   const MultiBlockGrid grid = turned_box(perturbed(planar ? planar_box(box) : cartesian_box(box), box, 0.05), 12);
-  const Scratch coordinates("written.p3d"), map("written.nmf");
+  const ScratchFile coordinates("written.p3d"), map("written.nmf");
   write_plot3d(grid, coordinates.path, form);
   write_neutral_map(grid, map.path);
   MultiBlockGrid back = read_plot3d(coordinates.path);
@@ -158,7 +147,7 @@ TEST_CASE("a sector's rotation is found from its nodes", "[aero][grid][fast]") {
   for (const Side s : {Side::i_min, Side::i_max}) grid.boundaries.push_back({{0, s, {0, 0}, {6, 4}}, "r"});
   for (const Side s : {Side::k_min, Side::k_max}) grid.boundaries.push_back({{0, s, {0, 0}, {3, 6}}, "x"});
   REQUIRE(grid_faults(grid).empty());
-  const Scratch coordinates("sector.p3d"), map("sector.nmf");
+  const ScratchFile coordinates("sector.p3d"), map("sector.nmf");
   write_plot3d(grid, coordinates.path), write_neutral_map(grid, map.path);
   MultiBlockGrid back = read_plot3d(coordinates.path);
   read_neutral_map(back, map.path);
@@ -173,7 +162,7 @@ TEST_CASE("binary files of every layout are understood", "[aero][grid][fast]") {
              planar = GENERATE(true, false);
   const BoxOptions box{.ni = 5, .nj = 4, .nk = 3, .high = Vector3d(5, 4, 3)};  // whole numbers: exact in single precision
   const MultiBlockGrid grid = planar ? planar_box(box) : cartesian_box(box);
-  const Scratch file("layout.p3d");
+  const ScratchFile file("layout.p3d");
   file.write(binary_plot3d<double>(grid, counted, records, swapped));
   const MultiBlockGrid a = read_plot3d(file.path);
   file.write(binary_plot3d<float>(grid, counted, records, swapped));
@@ -193,7 +182,7 @@ TEST_CASE("binary files of every layout are understood", "[aero][grid][fast]") {
 }
 
 TEST_CASE("formatted files may repeat numbers, use D exponents and turn the other way", "[aero][grid][fast]") {
-  const Scratch file("text.p2d");
+  const ScratchFile file("text.p2d");
   file.write("1\n3 3\n2*0.0 0 1.0D0 1d0 +1 3*2.\n0 1 2,0 1 2\n0 1 2\n");  // i along y: clockwise
   const MultiBlockGrid grid = read_plot3d(file.path);
   CHECK(grid.blocks[0].nodes[3] == Vector3d(1, 0, 0));
@@ -206,7 +195,7 @@ TEST_CASE("left-handed blocks get i and j exchanged with all their windows", "[a
   const MultiBlockGrid right = turned_box(cartesian_box({.ni = 6, .nj = 7, .nk = 8, .periodic = {true, false, false}}), 21);
   MultiBlockGrid left = right;
   reorient(left, 1, {1, 2, -3}), reorient(left, 4, {2, 1, 3});
-  const Scratch coordinates("left.p3d"), map("left.nmf");
+  const ScratchFile coordinates("left.p3d"), map("left.nmf");
   write_plot3d(left, coordinates.path, Plot3dForm::binary), write_neutral_map(left, map.path);
   MultiBlockGrid back = read_plot3d(coordinates.path);
   CHECK(!grid_faults(left).empty());
@@ -232,7 +221,7 @@ TEST_CASE("blocks are joined by their coordinates where no map is given", "[aero
 }
 
 TEST_CASE("bad files are refused with file, line and what is wrong", "[aero][grid][fast]") {
-  const Scratch file("bad.p3d"), map("bad.nmf");
+  const ScratchFile file("bad.p3d"), map("bad.nmf");
   expect_refusal([&] { read_plot3d("/no/such/grid.p3d"); }, "/no/such/grid.p3d: cannot be opened");
   file.write("");
   expect_refusal([&] { read_plot3d(file.path); }, "is empty");

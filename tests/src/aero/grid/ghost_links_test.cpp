@@ -70,7 +70,6 @@ GridStore whole_store(const MultiBlockGrid& grid, const TilingOptions& options) 
   store.build_all(grid);
   return store;
 }
-constexpr TilingOptions small{.across_j = 4, .across_k = 3, .planar_across = 4, .normal = 5, .planar_normal = 5};
 
 }  // namespace
 
@@ -79,7 +78,7 @@ TEST_CASE("ghost cells hold what lies beyond, through tiles, turned blocks and t
   const unsigned seed = GENERATE(1u, 2u, 3u);
   BoxOptions box{.ni = 13, .nj = 11, .nk = 12, .high = Vector3d(13, 11, 12), .periodic = {true, false, false}};
   const MultiBlockGrid grid = turned_box(planar ? planar_box(box) : cartesian_box(box), seed);
-  GridStore store = whole_store(grid, small);
+  GridStore store = whole_store(grid, small_tiles);
   const double turn = 2 * std::numbers::pi / 13;
   const auto at = [&](const Vector3d& x) {  // periodic in x but for the point, which is the place itself
     const double s = std::sin(turn * x.x());
@@ -110,7 +109,7 @@ TEST_CASE("ghost cells hold what lies beyond, through tiles, turned blocks and t
 TEST_CASE("what comes through a buffer is what is copied, bit for bit", "[aero][grid][fast]") {
   BoxOptions box{.ni = 9, .nj = 8, .nk = 10, .periodic = {true, true, false}};
   MultiBlockGrid grid = turned_box(cartesian_box(box), 4);
-  GridStore store = whole_store(grid, small);
+  GridStore store = whole_store(grid, small_tiles);
   const auto& tiling = store.tiling();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(-1, 1);
@@ -151,7 +150,7 @@ TEST_CASE("a sector's ghosts are turned onto its other side", "[aero][grid][fast
   for (const Side s : {Side::i_min, Side::i_max}) grid.boundaries.push_back({{0, s, {0, 0}, {n, 5}}, "r"});
   for (const Side s : {Side::k_min, Side::k_max}) grid.boundaries.push_back({{0, s, {0, 0}, {6, n}}, "z"});
   turn_blocks(grid, GENERATE(1u, 2u));
-  GridStore store = whole_store(grid, small);
+  GridStore store = whole_store(grid, small_tiles);
   // Axisymmetric fields: swirl plus radial, their gradient (of u = (-y + x, x + y, r^2)), the place itself.
   const auto at = [](const Vector3d& x) {
     Matrix3d gradient;

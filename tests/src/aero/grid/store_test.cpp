@@ -13,10 +13,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr TilingOptions small{.across_j = 4, .across_k = 3, .planar_across = 4, .normal = 5, .planar_normal = 5};
 
 GridStore make_store(const MultiBlockGrid& grid, bool moving) {
-  Tiling tiling = make_tiling(grid, {}, small);
+  Tiling tiling = make_tiling(grid, {}, small_tiles);
   GridStore store(tiling, std::vector<int>(tiling.size(), 0), 0);
   store.build_all(grid, moving);
   return store;

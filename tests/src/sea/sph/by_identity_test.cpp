@@ -12,12 +12,12 @@ using namespace spindrift::sph;
 
 namespace {
 
-struct Scene {
+struct Pool {
   Parameters p;
   std::vector<Seed<2>> seeds = disordered_block<2>(0.1, {40, 12}, {0.0, 0.0}, true);
   Domain<2> domain{{-0.5, -0.5}, {5.0, 1.5}};
 
-  explicit Scene(StepChoice step = StepChoice::symplectic) {
+  explicit Pool(StepChoice step = StepChoice::symplectic) {
     p.spacing = 0.1, p.eos = {1000.0, 20.0}, p.step = step, p.lost_at_most = 1;
     seeds.back().velocity = {0.0, 60.0};  // leaves through the top
   }
@@ -37,7 +37,7 @@ std::vector<double> values_of(const Sea& sea, std::size_t particles, MPI_Comm co
 }
 
 void goes_back_bit_for_bit(StepChoice step, MPI_Comm comm) {
-  const Scene scene(step);
+  const Pool scene(step);
   SeaSph<2, float> sea(scene.p, scene.domain, scene.seeds, {.comm = comm, .threads = 1});
   const auto mine = identities_of(scene.seeds.size(), runtime::rank_in(comm), runtime::ranks_in(comm));
   std::vector<std::uint16_t> owner;
@@ -84,7 +84,7 @@ TEST_CASE("a state by identity goes back in bit for bit, with what was lost, wit
 }
 
 TEST_CASE("a state of another sea is refused", "[sph][identity][fast]") {
-  const Scene scene;
+  const Pool scene;
   SeaSph<2, float> sea(scene.p, scene.domain, scene.seeds);
   const std::vector<double> few(5);
   const std::vector<std::uint16_t> owner(scene.seeds.size());
@@ -92,7 +92,7 @@ TEST_CASE("a state of another sea is refused", "[sph][identity][fast]") {
 }
 
 TEST_CASE("on two ranks the state by identity and all instruments have the bits of one", "[sph][identity][mpi2]") {
-  const Scene scene;
+  const Pool scene;
   SeaSph<2, float> alone(scene.p, scene.domain, scene.seeds, {.threads = 1});
   SeaSph<2, float> sea(scene.p, scene.domain, scene.seeds, {.comm = MPI_COMM_WORLD, .threads = 1});
   for (int n = 0; n < 20; ++n) alone.step(1.0), sea.step(1.0);

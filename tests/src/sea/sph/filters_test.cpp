@@ -10,13 +10,13 @@ using namespace spindrift::sph;
 
 namespace {
 
-constexpr double d = 0.1;
+constexpr double spacing = 0.1;
 
 /// One step of no length and then the filter, which sees the density of the seeds.
 template <int dim, class Real>
 std::vector<double> filtered(FilterChoice filter, const std::vector<Seed<dim>>& seeds) {
   Parameters p;
-  p.spacing = d, p.h_over_d = 1.5, p.filter = filter, p.filter_every = 1;
+  p.spacing = spacing, p.h_over_d = 1.5, p.filter = filter, p.filter_every = 1;
   SeaSph<dim, Real> sea(p, domain_around<dim>({}, 4.0), seeds);
   sea.step(1e-12);
   return by_identity(sea.store(), seeds.size(), [&](std::size_t slot) { return sea.store().deviation[slot]; });
@@ -24,7 +24,7 @@ std::vector<double> filtered(FilterChoice filter, const std::vector<Seed<dim>>& 
 
 template <int dim>
 std::vector<Seed<dim>> linear_block(std::array<int, dim> cells) {
-  auto seeds = disordered_block<dim>(d, cells, {}, true);
+  auto seeds = disordered_block<dim>(spacing, cells, {}, true);
   for (auto& seed : seeds) seed.velocity = {}, seed.deviation = 20.0 - 5.0 * seed.position[0] - 4.0 * seed.position[dim - 1];
   return seeds;
 }
@@ -53,8 +53,8 @@ TEST_CASE("the MLS sweep keeps a linear density, the Shepard sweep a constant on
 
 TEST_CASE("shifting evens out disorder inside the water", "[sph][fast]") {
   Parameters p;
-  p.spacing = d, p.gravity = 0.0, p.eos.c0 = 20.0, p.h_over_d = 1.5;
-  auto seeds = disordered_block<2>(d, {30, 30}, {0, 0}, false);
+  p.spacing = spacing, p.gravity = 0.0, p.eos.c0 = 20.0, p.h_over_d = 1.5;
+  auto seeds = disordered_block<2>(spacing, {30, 30}, {0, 0}, false);
   for (auto& seed : seeds) seed.velocity = {1.0, 0.0}, seed.deviation = 0.0;
   const auto disorder = [&](double shifting) {  // spread of the nearest-partner distance in the middle
     p.shifting = shifting;
@@ -78,13 +78,13 @@ TEST_CASE("shifting evens out disorder inside the water", "[sph][fast]") {
 }
 
 TEST_CASE("Verlet's step and the symplectic one agree better the smaller the step", "[sph][fast]") {
-  auto seeds = disordered_block<2>(d, {12, 12}, {0, 0}, false);
+  auto seeds = disordered_block<2>(spacing, {12, 12}, {0, 0}, false);
   for (auto& seed : seeds)
     for (double& v : seed.velocity) v *= 0.05;
   for (auto& seed : seeds) seed.deviation = 0.0;
   const auto end = [&](StepChoice step, double dt) {
     Parameters p;
-    p.spacing = d, p.h_over_d = 1.5, p.step = step;
+    p.spacing = spacing, p.h_over_d = 1.5, p.step = step;
     SeaSph<2, double> sea(p, Domain<2>{{-2, -2}, {4, 4}}, seeds);
     for (int n = 0; n < int(std::lround(0.02 / dt)); ++n) sea.step(dt);
     CHECK(sea.time() == Approx(0.02));
@@ -97,6 +97,6 @@ TEST_CASE("Verlet's step and the symplectic one agree better the smaller the ste
     return worst;
   };
   const double coarse = difference(4e-4), fine = difference(1e-4);
-  CHECK(coarse < 1e-3 * d);
+  CHECK(coarse < 1e-3 * spacing);
   CHECK(fine < 0.5 * coarse);
 }
