@@ -10,6 +10,7 @@ import numpy as np
 import figures
 import flow_pictures
 import quantities
+import rotor_pictures
 import sea_pictures
 
 EXITS = {0: "Done", 2: "Bad input", 3: "Numerical failure", 4: "Machine failure", 5: "Stopped on request"}
@@ -314,6 +315,10 @@ def flow(run):
         figure, legend = found
         out += _figure("Residuals", _legend(legend), figures.as_html(figure, "Residuals"),
                        "Root mean square of the density rate, scaled residual of the mean flow, that of turbulence; CFL number of the pseudo-step.")
+    pictures = list(rotor_pictures.pictures(run))
+    out += "".join(_figure(title, "", figures.as_html(figure, title), words) for title, figure, words in pictures)
+    if pictures:   # the middle plane of a rotor says nothing
+        return f'<div class="figures">{out}</div>'
     if figure := flow_pictures.wall_curves(run):
         out += _figure("Along the walls", "", figures.as_html(figure, "Along the walls"),
                        f"In the middle plane of the walls; pressure with its sign turned. {flow_pictures.y_plus_words(run)}".strip())

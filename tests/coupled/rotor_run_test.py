@@ -40,6 +40,9 @@ class RotorRun(unittest.TestCase):
         self.assertGreater(last["rotor.thrust_N"], 3e5)
         self.assertAlmostEqual(last["rotor.power_W"] / (last["rotor.torque_N_m"] * 0.92530), 1.0, places=4)
         self.assertAlmostEqual(last["rotor.rpm"], 8.836, places=9)
+        report = (self.out / "report.html").read_text()
+        for picture in ("Pressure on a blade", "Wind through the rotor", "Vortices"):
+            self.assertIn(picture, report)
         rows = self.table("spanwise.csv")
         self.assertGreater(len(rows), 8)
         self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in rows) / last["rotor.thrust_N"], 1.0, delta=0.1)  # a march ends on a whole chunk

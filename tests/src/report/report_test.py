@@ -14,6 +14,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[2] / "src/report")]
 sys.dont_write_bytecode = True
 
+import cut
 import figures
 import page
 import picture
@@ -249,6 +250,34 @@ class PartsTest(unittest.TestCase):
         self.assertAlmostEqual(frequency[power.argmax()], 0.31, delta=0.01)
         self.assertAlmostEqual(power.sum() * frequency[0], 2.0, delta=0.02)
         self.assertIsNone(figures.density(t[:50], t[:50]))
+
+    def test_gradients_of_linear_fields_are_exact_on_skewed_blocks(self):
+        k, j, i = np.meshgrid(np.arange(5.0), np.arange(6.0), np.arange(7.0), indexing="ij")
+        points = np.stack([i + 0.3 * j, 1.2 * j - 0.2 * k, 0.7 * k + 0.1 * i], axis=-1)
+        centres = 0.125 * sum(points[a:4 + a, b:5 + b, c:6 + c] for a in (0, 1) for b in (0, 1) for c in (0, 1))
+        slopes = np.array([[1.0, -2.0, 0.5], [0.3, 4.0, -1.0]])
+        found = cut.gradient(points, centres @ slopes.T)
+        np.testing.assert_allclose(found, np.broadcast_to(slopes, found.shape), atol=1e-12)
+
+    def test_a_surface_through_a_block_has_the_area_of_its_sphere_and_carries_values(self):
+        error = []
+        for n in (10, 20):
+            line = np.linspace(-1.0, 1.0, n + 1)
+            z, y, x = np.meshgrid(line, line, line, indexing="ij")
+            points = np.stack([x, y, z], axis=-1)
+            triangles, values = cut.surface(points, np.linalg.norm(points, axis=-1), 0.7, 3.0 * x)
+            np.testing.assert_allclose(values, 3.0 * triangles[..., 0], atol=1e-12)
+            sides = triangles[:, 1:] - triangles[:, :1]
+            area = 0.5 * np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=-1).sum()
+            error.append(abs(area / (4.0 * np.pi * 0.7**2) - 1.0))
+        self.assertLess(error[1], 0.02)
+        self.assertGreater(error[0] / error[1], 3.0)   # second order
+
+    def test_values_at_nodes_keep_a_constant_and_the_middle_of_a_slope(self):
+        cells = np.broadcast_to(np.arange(4.0), (3, 2, 4))
+        nodes = cut.at_nodes(cells)
+        self.assertEqual(nodes.shape, (4, 3, 5))
+        np.testing.assert_allclose(nodes[1, 1], [0.0, 0.5, 1.5, 2.5, 3.0])
 
     def test_azimuth_breaks_where_it_wraps(self):
         t, a = figures.unwrapped_breaks(np.arange(4.0), np.array([350.0, 359, 5, 10]))

@@ -1,0 +1,201 @@
+"""Pictures of a resolved rotor: pressure on a blade, the wind through and behind the rotor, and its vortices.
+From the newest fields/air_*.h5 and walls_*.h5; h5py is needed. Called by page.py; tested in tests/src/report.
+SPDX-License-Identifier: Apache-2.0"""
+import pathlib
+import tomllib
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import PolyCollection
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+import cut
+import flow_pictures
+
+
+class Rotor:
+    """What the scene says of the rotor, and its frame: x downwind along the axis, z up, origin at the hub."""
+
+    def __init__(self, run):
+        scene = run.scene.get("rotor", {})
+        self.hub = np.array(scene.get("hub_m", [0.0, 0.0, 0.0]), dtype=float)
+        axis = np.array(scene.get("axis", [1.0, 0.0, 0.0]), dtype=float)
+        along = axis / np.linalg.norm(axis)
+        up = np.array([0.0, 0.0, 1.0]) - along[2] * along
+        up /= np.linalg.norm(up)
+        self.frame = np.stack([along, np.cross(up, along), up])
+        self.speed = scene.get("speed_rpm", 0.0) * np.pi / 30.0
+        self.wind = run.scene.get("wind", {}).get("speed_m_s", 0.0)
+        self.density = run.scene.get("environment", {}).get("air_density_kg_m3", 1.225)
+        self.temperature = run.scene.get("aero", {}).get("flow", {}).get("temperature_K", 288.15)
+        walls = flow_pictures.newest(run, "walls") or []
+        radii = [np.linalg.norm(self.local(wall["points"])[..., 1:], axis=-1).max() for wall in walls]
+        self.tip = max(radii, default=0.5 * scene.get("diameter_m", 0.0))
+        self.copies = self.blades(run, scene) if run.scene.get("aero", {}).get("grid", {}).get("sectors") == "one" else 1
+
+    @staticmethod
+    def blades(run, scene):
+        try:
+            with open(pathlib.Path(run.folder) / scene["turbine"], "rb") as file:
+                return int(tomllib.load(file).get("turbine", {}).get("blades", 3))
+        except (OSError, KeyError, tomllib.TOMLDecodeError):
+            return 3
+
+    def local(self, points):
+        return (points - self.hub) @ self.frame.T
+
+    def turned(self, points, copy):
+        """Points of the rotor's frame, turned by whole sectors about the axis."""
+        a = 2.0 * np.pi * copy / self.copies
+        y, z = points[..., 1], points[..., 2]
+        return np.stack([points[..., 0], np.cos(a) * y - np.sin(a) * z, np.sin(a) * y + np.cos(a) * z], axis=-1)
+
+
+def of(run):
+    """The rotor of a run that left fields of a resolved one, else None."""
+    if run.scene.get("aero", {}).get("model") != "blade_resolved" or not flow_pictures.newest(run, "walls"):
+        return None
+    return Rotor(run)
+
+
+def blade(run, rotor):
+    """Pressure coefficient (on wind and turning at the radius) of the first blade, seen from upwind and from downwind."""
+    walls = flow_pictures.newest(run, "walls")
+    if not walls:
+        return None
+    ambient = rotor.density * flow_pictures.GAS_CONSTANT * rotor.temperature
+    quads = np.concatenate([faces(rotor.local(wall["points"])) for wall in walls])
+    pressure = np.concatenate([wall["pressure"].ravel() for wall in walls]) - ambient
+    block = np.concatenate([np.full(wall["pressure"].size, n) for n, wall in enumerate(walls)])
+    centre = quads.mean(axis=1)
+    radius = np.hypot(centre[:, 1], centre[:, 2])
+    upright = (centre[:, 2] > 0.0) & (np.abs(centre[:, 1]) < 0.5 * radius)
+    quads, pressure, radius, block = quads[upright], pressure[upright], radius[upright], block[upright]
+    if not len(quads):
+        return None
+    normal = np.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1])
+    outward = np.einsum("ij,ij->i", normal, quads.mean(axis=1) - spine(quads))
+    normal *= np.sign(np.bincount(block, outward))[block][:, None]   # all faces of a block alike
+    cp = pressure / (0.5 * rotor.density * (rotor.wind**2 + (rotor.speed * radius) ** 2))
+    figure, axes = plt.subplots(2, 1, figsize=(10.8, 3.6), layout="constrained", sharex=True)
+    least, most = np.percentile(cp, [1, 99])
+    for axis, side, words in ((axes[0], normal[:, 0] < 0.0, "from upwind"), (axes[1], normal[:, 0] > 0.0, "from downwind")):
+        drawn = PolyCollection(quads[side][:, :, [2, 1]], array=cp[side], cmap="RdYlBu_r", edgecolors="face", linewidths=0.2, rasterized=True)
+        drawn.set_clim(least, most)
+        axis.add_collection(drawn)
+        axis.autoscale_view()
+        axis.set_ylabel(f"{words}, y [m]")
+        axis.set_aspect("equal")
+        axis.grid(False)
+    axes[1].set_xlabel("radius [m]")
+    figure.colorbar(drawn, ax=axes, label="pressure coefficient", shrink=0.9)
+    return figure
+
+
+def faces(p):
+    """The quadrilaterals of a surface's nodes, four corners each."""
+    return np.stack([p[:-1, :-1], p[:-1, 1:], p[1:, 1:], p[1:, :-1]], axis=-2).reshape(-1, 4, 3)
+
+
+def spine(quads):
+    """For each face the middle of the section at its radius: what lies inside of the blade."""
+    z = quads[..., 2].mean(axis=1)
+    bins = np.linspace(z.min(), z.max() + 1e-9, 25)
+    place = np.digitize(z, bins)
+    centre = quads.mean(axis=1)
+    out = centre.copy()
+    for b in np.unique(place):
+        mask = place == b
+        out[mask, :2] = centre[mask, :2].mean(axis=0)
+    return out
+
+
+def volume(run, rotor):
+    """The blocks in the rotor's frame: nodes, and at the nodes the axial velocity over the wind and Q over (wind / 10 m)^2."""
+    blocks = flow_pictures.newest(run, "air")
+    if not blocks or not rotor.wind:
+        return None
+    out = []
+    for block in blocks:
+        nodes = rotor.local(block["points"])
+        velocity = block["velocity"] @ rotor.frame.T
+        if min(velocity.shape[:3]) < 2:
+            continue
+        g = cut.gradient(nodes, velocity)
+        q = -0.5 * np.einsum("...ij,...ji->...", g, g)   # |Omega|^2 - |S|^2 over 2 where the divergence is small
+        out.append((nodes, cut.at_nodes(velocity[..., 0]) / rotor.wind, cut.at_nodes(q) * (10.0 / rotor.wind) ** 2))
+    return out or None
+
+
+def wake(blocks, rotor):
+    """The axial wind in the plane of the axis and the first blade, and in a plane across the wake a quarter of a diameter behind the rotor."""
+    tip = rotor.tip
+    figure, axes = plt.subplots(1, 2, figsize=(10.8, 4.6), layout="constrained")
+    behind = 0.5 * tip
+    for axis, normal, level, shown, span in ((axes[0], 1, 0.0, (0, 2), ((-2.0, 4.0), (-2.0, 2.0))), (axes[1], 0, behind, (1, 2), ((-1.6, 1.6),) * 2)):
+        for copy in range(rotor.copies):
+            for nodes, axial, _ in blocks:
+                places = rotor.turned(nodes, copy)
+                if places[..., normal].min() > level or places[..., normal].max() < level:
+                    continue
+                triangles, values = cut.surface(places, places[..., normal], level, axial)
+                if len(triangles):
+                    flat = triangles[:, :, shown].reshape(-1, 2)
+                    drawn = axis.tripcolor(flat[:, 0], flat[:, 1], np.arange(len(flat)).reshape(-1, 3), values.ravel(), shading="gouraud",
+                                           cmap="viridis", vmin=0.0, vmax=1.2, rasterized=True)
+        axis.set_xlim(*(tip * s for s in span[0]))
+        axis.set_ylim(*(tip * s for s in span[1]))
+        axis.set_aspect("equal")
+        axis.grid(False)
+        axis.set_xlabel(f"{'xyz'[shown[0]]} from the hub [m]")
+        axis.set_ylabel(f"{'xyz'[shown[1]]} from the hub [m]")
+    axes[0].set_title("through the axis")
+    axes[1].set_title(f"{behind:.0f} m behind the rotor")
+    figure.colorbar(drawn, ax=axes, label="axial velocity / wind", shrink=0.9)
+    return figure
+
+
+vortex_level = 0.05   # of Q in units of (wind / 10 m)^2: low enough for the vortices of coarse grids
+
+
+def vortices(blocks, rotor):
+    """The surface of `vortex_level` within two radii of the hub, coloured by the axial velocity."""
+    tip = rotor.tip
+    triangles, values = [], []
+    for nodes, axial, q in blocks:
+        if np.linalg.norm(nodes, axis=-1).min() > 3.0 * tip:
+            continue
+        t, v = cut.surface(nodes, q, vortex_level, axial)
+        near = (np.linalg.norm(t[:, :, 1:], axis=-1).max(axis=1) < 1.3 * tip) & (t[:, :, 0].max(axis=1) < 3.0 * tip) & (t[:, :, 0].min(axis=1) > -0.5 * tip)
+        triangles.append(t[near]), values.append(v[near].mean(axis=1))
+    if not triangles or not sum(map(len, triangles)):
+        return None
+    triangles, values = np.concatenate(triangles), np.concatenate(values)
+    every = np.concatenate([rotor.turned(triangles, copy) for copy in range(rotor.copies)])
+    figure = plt.figure(figsize=(7.2, 5.4), layout="constrained")
+    axis = figure.add_subplot(projection="3d")
+    colours = plt.cm.viridis(np.clip(np.tile(values, rotor.copies) / 1.2, 0.0, 1.0))
+    axis.add_collection3d(Poly3DCollection(every, facecolors=colours, linewidths=0.0, rasterized=True))
+    axis.set_xlim(-0.5 * tip, 2.5 * tip)
+    axis.set_ylim(-1.2 * tip, 1.2 * tip)
+    axis.set_zlim(-1.2 * tip, 1.2 * tip)
+    axis.set_box_aspect((3.0, 2.4, 2.4))
+    axis.view_init(elev=18, azim=-60)
+    axis.set_xlabel("x [m]"), axis.set_ylabel("y [m]"), axis.set_zlabel("z [m]")
+    return figure
+
+
+def pictures(run):
+    """(title, figure, caption) of each picture that the run's files give."""
+    rotor = of(run)
+    if not rotor:
+        return
+    if figure := blade(run, rotor):
+        yield ("Pressure on a blade", figure,
+               "Pressure above the undisturbed one on the dynamic pressure of wind and turning at the radius; leading edge and suction side are blue.")
+    if blocks := volume(run, rotor):
+        yield "Wind through the rotor", wake(blocks, rotor), "Velocity along the axis over the wind's, at the end of the run."
+        if figure := vortices(blocks, rotor):
+            yield ("Vortices", figure,
+                   f"Surface Q = {vortex_level:g} (wind / 10 m)^2 (Q: half of squared rotation less squared strain); colour: velocity along the axis, "
+                   "dark slow, bright fast.")
