@@ -304,7 +304,7 @@ void FlowSolver::evaluate(FlowTile& tile, double* state, double* residual) {
   }
   const TileGeometry& g = *tile.geometry;
   if (boundary_.turning) {  // in axes that turn with the frame, the components of a constant momentum change
-    const auto [x, y, z] = implicit_.omega;
+    const double x = implicit_.omega[0], y = implicit_.omega[1], z = implicit_.omega[2];  // no binding: clang with OpenMP captures none
     for_rows(tile.box, [&](int k, int j) {
       for (int i = 0; i < tile.box.ni; i += row_lanes) {
         const auto w = gas::conserved(setting_.gas, gas::load_primitive<Row>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component)));
