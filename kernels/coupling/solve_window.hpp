@@ -9,6 +9,7 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <tuple>
 
 #include "kernels/coupling/relaxation_constant.hpp"
 
@@ -127,10 +128,15 @@ Vector serial_answer(Parts& parts, const Vector& x) {
   return y.allFinite() ? Vector(parts.second(y)) : Vector(Vector::Constant(x.size(), std::numeric_limits<double>::quiet_NaN()));
 }
 
-/// Jacobi: both at once on z = (x, y), of which x has `rows` rows: (S(y), F(x)).
+/// Jacobi: both at once on z = (x, y), of which x has `rows` rows: (S(y), F(x)). Parts that can advance at once have both(x, y), which
+/// returns (F(x), S(y)).
 template <class Parts>
 Vector parallel_answer(Parts& parts, const Vector& z, Eigen::Index rows) {
-  const Vector y = parts.first(z.head(rows)), x = parts.second(z.tail(z.size() - rows));
+  Vector x, y;
+  if constexpr (requires { parts.both(z.head(rows), z.tail(z.size() - rows)); })
+    std::tie(y, x) = parts.both(z.head(rows), z.tail(z.size() - rows));
+  else
+    y = parts.first(z.head(rows)), x = parts.second(z.tail(z.size() - rows));
   Vector answer(z.size());
   answer << x, y;
   return answer;

@@ -6,6 +6,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tuple>
+
 #include "kernels/coupling/extrapolation.hpp"
 
 namespace spindrift::coupling {
@@ -23,6 +25,7 @@ struct Staggering {
 /// The staggered march. Parts, over a window [begin, end]:
 ///   Vector move(load, begin, end)    S advanced under loads load.at(t); the motion at the end
 ///   Vector load(motion, begin, end)  F advanced under motion(t); the loads at the end
+/// and, where they can advance at once, std::pair<Vector, Vector> both(load, motion, begin, end): motion and loads at the end
 class Staggered {
  public:
   explicit Staggered(Staggering scheme) : scheme_(scheme), motion_(std::max(1, scheme.motion_order)), load_(scheme.load_order) {}
@@ -34,16 +37,20 @@ class Staggered {
   template <class Parts>
   bool advance(Parts& parts, double begin, double end) {
     const Vector x_start = motion_.last();
-    const Vector x = parts.move(load_, begin, end);
-    if (!x.allFinite()) return false;
-    Vector y;
-    if (scheme_.serial)
+    Vector x, y;
+    if (scheme_.serial) {
+      x = parts.move(load_, begin, end);
+      if (!x.allFinite()) return false;
       y = parts.load(Waveform(Interpolation::linear, {begin, end}, {x_start, x}), begin, end);
-    else if (scheme_.motion_order == 0)
-      y = parts.load(Waveform::held(x_start), begin, end);
-    else
-      y = parts.load(Waveform(Interpolation::linear, {begin, end}, {x_start, motion_.at(end)}), begin, end);
-    if (!y.allFinite()) return false;
+    } else {
+      const Waveform motion = scheme_.motion_order == 0 ? Waveform::held(x_start)
+                                                        : Waveform(Interpolation::linear, {begin, end}, {x_start, motion_.at(end)});
+      if constexpr (requires { parts.both(load_, motion, begin, end); })
+        std::tie(x, y) = parts.both(load_, motion, begin, end);
+      else
+        x = parts.move(load_, begin, end), y = parts.load(motion, begin, end);
+    }
+    if (!x.allFinite() || !y.allFinite()) return false;
     mismatch_ = y - load_.at(end);
     motion_.add(end, x), load_.add(end, std::move(y));
     return true;

@@ -34,9 +34,6 @@ void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, co
       document.problem("rotor.turbine",
                        "names a turbine without outlines of its aerofoils ([[turbine.aerofoils]]): no surface can be made");
   } catch (const scene::SceneError& e) { document.problem("rotor.turbine", e.what()); }
-  if (!rotor.joint.empty())
-    document.problem("rotor.joint", "has no effect yet beside aero.model \"blade_resolved\": give hub_m, axis and speed_rpm");
-  if (!rotor.body.empty()) document.problem("rotor.body", "has no effect yet beside aero.model \"blade_resolved\"");
   const bool steady = aero.flow->time == "steady", one = aero.grid->sectors == "one";
   const double off = off_axis_degrees(rotor, wind);
   if (off > 1e-6 && (steady || one))

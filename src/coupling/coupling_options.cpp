@@ -33,7 +33,8 @@ const scene::Section<CouplingOptions>& coupling_section() {
   static const auto section =
       scene::Section<CouplingOptions>("coupling", "How the rotor and the rest of the machine share a window.")
           .choice("scheme", &CouplingOptions::scheme,
-                  {{"monolithic", SchemeKind::monolithic, "the rotor is asked in every evaluation of the bodies: exact, no window between them"},
+                  {{"automatic", SchemeKind::automatic, "cps2 for a resolved rotor, monolithic for others"},
+                   {"monolithic", SchemeKind::monolithic, "the rotor is asked in every evaluation of the bodies: exact, no window between them"},
                    {"cps", SchemeKind::cps, "both at once on what they had at the window's start, as in Leble & Barakos (2016): first order"},
                    {"cps2", SchemeKind::cps2, "both at once on data extrapolated linearly: second order at the same cost"},
                    {"css", SchemeKind::css, "bodies first on extrapolated loads, then the rotor on their motion: order predictor_order + 1"},

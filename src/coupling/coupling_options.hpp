@@ -16,6 +16,7 @@ namespace spindrift::coupling {
 struct TimeOptions;
 
 enum class SchemeKind {
+  automatic,
   monolithic,
   cps,
   cps2,
@@ -29,12 +30,12 @@ enum class SchemeKind {
   newton,
 };
 inline constexpr bool is_loose(SchemeKind k) { return k == SchemeKind::cps || k == SchemeKind::cps2 || k == SchemeKind::css; }
-inline constexpr bool is_strong(SchemeKind k) { return k != SchemeKind::monolithic && !is_loose(k); }
+inline constexpr bool is_strong(SchemeKind k) { return k > SchemeKind::css; }
 
 enum class Composition { serial, parallel };
 
 struct CouplingOptions {
-  SchemeKind scheme = SchemeKind::monolithic;
+  SchemeKind scheme = SchemeKind::automatic;  ///< read_scenario puts the one it stands for
   Composition composition = Composition::serial;
   int predictor_order = 1;
   double relaxation = 0.5;

@@ -17,6 +17,7 @@
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/wall_distance.hpp"
 #include "src/aero/resolved_rotor.hpp"
+#include "src/coupling/air_file.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/io/atomic_file.hpp"
@@ -147,50 +148,29 @@ struct FlowColumns {
   }
 };
 
-/// State and march, tile after tile in the order of the tiling.
+/// The checkpoints of a run of the air alone.
 class FlowCheckpoints {
  public:
   FlowCheckpoints(MPI_Comm comm, const Air& air, const io::RunDirectory& directory, int keep)
-      : series_(comm, directory.checkpoints(), keep), air_(air) {
-    const FlowSolver& solver = *air.solver;
-    const std::int64_t per_cell = solver.tiles().empty() ? 0 : std::int64_t(solver.saved_size(0)) / solver.tiles()[0].box.count();
-    for (const aero::Tile& tile : air.store->tiling().tiles) starts_.push_back(total_), total_ += tile.count() * per_cell;
-  }
+      : series_(comm, directory.checkpoints(), keep), air_(*air.solver, *air.store) {}
   void save(std::int64_t tick, std::int64_t window, int restarts) {
-    std::vector<std::vector<double>> tiles;
-    std::vector<io::Slice<const double>> slices;
-    for (int n = 0; n < int(air_.solver->tiles().size()); ++n) {
-      auto& values = tiles.emplace_back(air_.solver->saved_size(n));
-      air_.solver->save(n, values);
-    }
-    for (std::size_t n = 0; n < tiles.size(); ++n)
-      slices.push_back({starts_[std::size_t(air_.solver->tiles()[n].index)], std::span<const double>(tiles[n])});
     series_.save(tick, [&](io::CheckpointWriter& file) {
       file.set("window", window);
       file.set("restarts", std::int64_t(restarts));
-      file.write<double>("flow/march", std::span<const double>(air_.solver->save_march()));
-      file.write<double>("flow/tiles", total_, slices);
+      air_.write(file);
     });
   }
   std::int64_t resume(int& restarts) {
     const std::optional<io::CheckpointReader> file = series_.newest();
     if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
-    for (int n = 0; n < int(air_.solver->tiles().size()); ++n) {
-      std::vector<double> values(air_.solver->saved_size(n));
-      const io::Slice<double> slice{starts_[std::size_t(air_.solver->tiles()[std::size_t(n)].index)], values};
-      file->read<double>("flow/tiles", std::span(&slice, 1));
-      air_.solver->load(n, values);
-    }
-    air_.solver->load_march(file->read<double>("flow/march"));
+    air_.read(*file);
     restarts = int(file->integer("restarts")) + 1;
     return file->integer("window");
   }
 
  private:
   io::CheckpointSeries series_;
-  const Air& air_;
-  std::vector<std::int64_t> starts_;
-  std::int64_t total_ = 0;
+  AirFile air_;
 };
 
 /// Pressure, velocity, temperature and eddy variables at cell centres for ParaView.

@@ -8,10 +8,10 @@
 
 namespace spindrift::coupling {
 
-inline bool has_resolved_rotor(const Scenario& s) { return s.has_flow() && s.aero.grid.has_value(); }
+inline bool has_resolved_rotor(const Scenario& s) { return s.resolves_air() && s.aero.grid.has_value(); }
 /// The undisturbed wind with aero.flow.incidence_deg [m/s].
 Eigen::Vector3d flow_wind(const Scenario& scenario);
-/// Of a scene with a resolved rotor.
+/// Of a scene with a resolved rotor, which is where [rotor] puts it.
 aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& scenario);
 
 }  // namespace spindrift::coupling

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/trace/clock.hpp"
+#include "src/aero/turbine.hpp"
 #include "src/bodies/loads.hpp"
 
 namespace spindrift::coupling {
@@ -32,6 +33,13 @@ aero::RotorPlacement place_rotor(const Scenario& s, const std::vector<std::strin
       placement.axis = joint.axis;
     }
   return placement;
+}
+
+/// Resolved air is estimated by blade elements, where the turbine has what they need.
+aero::AeroOptions engineering_rung(const Scenario& s) {
+  aero::AeroOptions aero = s.aero;
+  if (s.resolves_air()) aero.model = aero::read_turbine(s.rotor.turbine).polars.empty() ? "none" : "bem";
+  return aero;
 }
 
 }  // namespace
@@ -81,7 +89,6 @@ Machine::Machine(Scenario scenario)
       still.model = "hydrostatic";
       sea_.emplace(still, sea::WavesOptions{}, sea_environment(s.environment), sea_bodies(s.bodies));
     }
-    sea_source_ = sources.size();
     add_source(sources,
                {"sea",
                 [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
@@ -113,7 +120,7 @@ Machine::Machine(Scenario scenario)
     add_source(sources, std::move(source), on);
   }
   if (s.has_rotor()) {
-    rotor_.emplace(s.aero, s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start);
+    rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start);
     std::vector<bool> on(names.size());
     on[std::size_t(index_of(names, s.rotor.body))] = true;
     add_source(sources,

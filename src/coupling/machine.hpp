@@ -41,11 +41,18 @@ class Machine {
   const std::optional<moorings::Moorings>& moorings() const { return moorings_; }
   /// Of a scene with particles: its hydrostatics, which statics and linearisation use, where its shapes are cylinders.
   const std::optional<sea::EngineeringSea>& sea() const { return sea_; }
+  /// Where the rotor is, and its loads by the engineering model; of a resolved rotor by blade element momentum on the same blades, for
+  /// estimates (static equilibrium, linearisation, `check`).
   const std::optional<aero::RotorLoads>& rotor() const { return rotor_; }
 
   /// Bodies take the rotor's load from `loads` instead of asking the rotor as they go; an empty one undoes it. For coupling windows.
   using RotorLoadFunction = std::function<void(double, std::span<const Motion>, std::span<Wrench>)>;
   void replace_rotor_loads(RotorLoadFunction loads) { rotor_elsewhere_ = std::move(loads); }
+  /// The rotor's load as history has it: what a coupling window wrote here, else that of its state.
+  aero::RotorLoad written_rotor_load(double t, const aero::RotorState& now) const {
+    return rotor_written_ ? *rotor_written_ : rotor_->load(t, now, ramp(t));
+  }
+  void write_rotor_load(const aero::RotorLoad* load) { rotor_written_ = load; }
 
   bool has_waves() const { return scenario_.has_waves() && !scenario_.has_particles(); }
 
@@ -62,8 +69,6 @@ class Machine {
   /// Largest step of the bodies' integrator beside particles that choose their own [s].
   double body_step_limit() const { return body_step_limit_; }
   void limit_body_step(double limit_s) { body_step_limit_ = limit_s; }
-  /// Adds to the time of the source "sea".
-  void count_sea(std::int64_t ns, std::int64_t calls) { clocks_[sea_source_].ns += ns, clocks_[sea_source_].calls += calls; }
 
   /// Whether the source can load the body at all (what cannot is not written).
   bool loads_body(std::size_t source, std::size_t body) const { return loaded_[source][body]; }
@@ -88,13 +93,13 @@ class Machine {
   std::optional<sea::EngineeringSea> sea_;
   std::optional<aero::RotorLoads> rotor_;
   RotorLoadFunction rotor_elsewhere_;
+  const aero::RotorLoad* rotor_written_ = nullptr;
   std::vector<Eigen::Vector3d> reference_points_;
   std::vector<std::vector<bool>> loaded_;  ///< [source][body]
   std::vector<SourceClock> clocks_;
   bool full_loads_ = false;
   std::optional<sea::ParticlePlan> particle_plan_;
   std::unique_ptr<sea::ParticleSea> particles_;
-  std::size_t sea_source_ = 0;
   double body_step_limit_ = std::numeric_limits<double>::infinity();
   std::unique_ptr<bodies::System> system_;
 };

@@ -62,7 +62,11 @@ const scene::Section<StartOptions>& start_section() {
           .flag("equilibrium", &StartOptions::equilibrium,
                 "Start from the static equilibrium under all loads at their full value, instead of from the positions of the scene.")
           .number("ramp_s", &StartOptions::ramp_s, "s",
-                  "Rotor loads grow smoothly from nothing over this time; 0 applies them at once.", scene::between(0.0, 1e6));
+                  "Rotor loads grow smoothly from nothing over this time; 0 applies them at once.", scene::between(0.0, 1e6))
+          .integer("air_steps", &StartOptions::air_steps, "-",
+                   "Resolved rotor on a body: pseudo-steps by which its air settles before t = 0, seen from the turning rotor, hub held. 0: "
+                   "the undisturbed wind everywhere, and no load on the bodies in the first window.",
+                   scene::between(0, 1e6));
   return section;
 }
 

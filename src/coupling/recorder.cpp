@@ -92,7 +92,13 @@ Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine), 
                              {"torque_N_m", "N m", "aerodynamic torque about the axis, positive when the air drives the rotor"},
                              {"power_W", "W", "torque times rate"},
                              {"azimuth_deg", "deg", "azimuth of blade 1, zero upwards, 0 to 360"},
-                             {"rpm", "rpm", "rate of the rotor"}});
+                             {"rpm", "rpm", "rate of the rotor"},
+                             {"hub_x_m", "m", "hub, along the earth's x"},
+                             {"hub_y_m", "m", "hub, along y"},
+                             {"hub_z_m", "m", "hub, along z"},
+                             {"hub_vx_m_s", "m/s", "velocity of the hub along x"},
+                             {"hub_vy_m_s", "m/s", "velocity of the hub along y"},
+                             {"hub_vz_m_s", "m/s", "velocity of the hub along z"}});
   if (machine.moorings())
     for (std::size_t line = 0; line < machine.moorings()->size(); ++line) {
       const std::size_t column = history.add({machine.moorings()->name(line) + ".tension_N", "N", "tension at the fairlead"});
@@ -164,10 +170,12 @@ void Recorder::write(const bodies::BodiesState& state, double t, const std::func
   for (std::size_t j = 0; j < joint_columns_.size(); ++j) put(row, joint_columns_[j], now.joint_reactions[j]);
   if (machine_.rotor()) {
     const aero::RotorState rotor = machine_.rotor()->state(t, state.motions);
-    const aero::RotorLoad load = machine_.rotor()->load(t, rotor, machine_.ramp(t));
+    const aero::RotorLoad load = machine_.written_rotor_load(t, rotor);
     std::size_t column = rotor_column_;
     for (double value : {load.thrust, load.torque, load.power, rotor.azimuth / radians_per_degree, rotor.speed / rad_s_per_rpm})
       row[column++] = value;
+    put(row, column, rotor.hub);
+    put(row, column, rotor.hub_velocity);
   }
   if (machine_.moorings())
     for (std::size_t line = 0; line < machine_.moorings()->size(); ++line)

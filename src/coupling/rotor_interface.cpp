@@ -34,7 +34,7 @@ Vector RotorInterface::turned(const Vector& motion, double dt) {
   return m;
 }
 
-Vector RotorInterface::load(double t, const Vector& m) const {
+aero::RotorState RotorInterface::state(const Vector& m) const {
   aero::RotorState s;
   s.hub = length_ * m.segment<3>(0), s.hub_velocity = length_ * m.segment<3>(3);
   s.axis = m.segment<3>(9).normalized();
@@ -45,7 +45,10 @@ Vector RotorInterface::load(double t, const Vector& m) const {
   s.speed = m[16];
   s.omega = m.segment<3>(6) + s.speed * s.axis;
   s.relative_wind = machine_.rotor()->relative_wind(s.hub_velocity, s.axis);
-  const aero::RotorLoad load = machine_.rotor()->load(t, s, machine_.ramp(t));
+  return s;
+}
+
+Vector RotorInterface::rows(const aero::RotorLoad& load) const {
   Vector rows(load_rows);
   rows << load.force / force_, load.moment / (force_ * length_);
   return rows;

@@ -25,8 +25,9 @@ class RotorInterface {
   static double azimuth(const Vector& motion) { return motion[15]; }
   static double rate(const Vector& motion) { return motion[16]; }
 
-  /// Load of the rotor that moves so at time t; ramped as the scene asks.
-  Vector load(double t, const Vector& motion) const;
+  /// The rotor that moves so, and its load as rows.
+  aero::RotorState state(const Vector& motion) const;
+  Vector rows(const aero::RotorLoad& load) const;
   /// Puts it on the rotor's body.
   void add_load(const Vector& load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
 

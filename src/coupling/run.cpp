@@ -30,10 +30,14 @@ namespace {
 struct Window {
   bodies::BodiesState start, state;  ///< at the window's start; now
   bodies::StepReport trouble;        ///< of the first step that failed; `state` is then the last good one
-  std::int64_t steps = 0;
+  std::int64_t steps = 0, first_steps = 0;  ///< of all runs so far; before this one
   std::optional<CoupledWindow> coupled{};  ///< where the rotor is a part of its own
+  std::unique_ptr<BodySide> side{};        ///< of a sea of particles that shares the window with no such part,
+  std::unique_ptr<WindowTasks> tasks{};    ///< and its tasks
   std::string failure{};                   ///< of the window as a whole, in words; empty when all is well
   bool ok() const { return trouble.ok() && failure.empty(); }
+  const BodySide& body_side() const { return coupled ? coupled->bodies() : *side; }
+  const WindowTasks* shared_tasks() const { return coupled ? &coupled->tasks() : tasks.get(); }
 };
 
 /// The window of a rotor and a machine that exchange data: one task, which may evaluate the window more than once.
@@ -41,8 +45,9 @@ runtime::Graph record_coupled_window(Machine& machine, Window& window) {
   runtime::Graph graph;
   const runtime::Datum state = graph.datum();
   graph.task("coupling/window", {runtime::updates(state)}, [&machine, &window] {
+    const std::int64_t steps = window.coupled->bodies().steps();
     WindowReport report = window.coupled->advance(window.state);
-    if (report.ok()) window.steps += machine.timeline().steps_per_window();
+    if (report.ok()) window.steps += machine.particles() ? window.coupled->bodies().steps() - steps : machine.timeline().steps_per_window();
     if (report.log.retries > 0)
       spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}",
                    double(window.start.tick) * machine.timeline().tick_s() + machine.timeline().window_s(), report.log.retries, report.log.cuts,
@@ -52,17 +57,21 @@ runtime::Graph record_coupled_window(Machine& machine, Window& window) {
   return graph;
 }
 
-/// The window of a scene with a sea of particles: one task, whose loops over groups share the threads.
+/// The window of a scene with a sea of particles: one task, which runs those of the sea.
 runtime::Graph record_particle_window(Machine& machine, Window& window) {
   runtime::Graph graph;
   const runtime::Datum state = graph.datum();
   graph.task("sea/window", {runtime::updates(state)}, [&machine, &window] {
-    // A restart may begin within a window, where a failure was saved.
-    const std::int64_t ticks = machine.timeline().steps_per_window();
-    const std::int64_t begun = window.state.tick - (((window.state.tick % ticks) + ticks) % ticks);
     try {
-      window.steps += advance_with_particles(machine, window.state, begun + ticks);
-    } catch (const NumericalFailure& failure) { window.failure = failure.what(); }
+      window.side->keep(0);
+      window.side->aim(window.state, window.state.tick + machine.timeline().steps_per_window());
+      window.tasks->run(false, true);
+      window.state = window.side->finish();
+      window.steps = window.first_steps + window.side->steps();
+    } catch (const NumericalFailure& failure) {
+      window.failure = failure.what();
+      window.side->back(0);
+    }
   });
   return graph;
 }
@@ -112,9 +121,8 @@ class Checkpoints {
       : machine_(machine), series_(comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
 
   void save(Window& window, std::int64_t number, int restarts) {
-    // Particles have no copy of the window's start: a failure is saved as the last good substep left it.
+    const bodies::BodiesState& state = window.ok() ? window.state : window.start;  // a restart begins at a window's start
     const sea::ParticleSea* sea = machine_.particles();
-    const bodies::BodiesState& state = window.ok() || sea ? window.state : window.start;  // a restart begins at a window's start
     std::vector<double> packed(state.packed_size());
     state.pack(packed);
     series_.save(state.tick - machine_.first_tick(), [&](io::CheckpointWriter& file) {
@@ -123,6 +131,7 @@ class Checkpoints {
       file.set("restarts", std::int64_t(restarts));
       file.write<double>("bodies/state", packed);
       if (window.coupled) file.write<double>("coupling/history", window.coupled->history());
+      if (window.coupled) window.coupled->air().save(file);
       if (!sea) return;
       const sea::ParticleState particles = sea->save();
       file.set("sea/time_s", particles.time_s);
@@ -143,7 +152,9 @@ class Checkpoints {
     restarts = int(file->integer("restarts")) + 1;
     if (window.coupled && !window.coupled->restore(file->read<double>("coupling/history")))
       throw io::InputError(file->path().string() + ": its coupling history is that of another coupling.scheme");
+    if (window.coupled) window.coupled->air().restore(*file);
     restore_particles(machine_, *file);
+    window.first_steps = window.steps;
     return saved_ = file->integer("window");
   }
 
@@ -160,16 +171,31 @@ std::int64_t windows_until(const Timeline& timeline, const std::optional<double>
   return std::min<std::int64_t>(windows, timeline.windows());
 }
 
-std::vector<io::PartTime> part_times(Machine& machine, double window_seconds, double output_seconds, std::int64_t steps) {
+/// Core-seconds, and seconds as if they were shared out evenly. Sources of load are asked within the steps of the bodies, all of them within
+/// the windows; what is left of those is waiting and, where parts have tasks, the runtime's own work.
+std::vector<io::PartTime> part_times(Machine& machine, const Window& window, double window_seconds, double output_seconds) {
   std::vector<io::PartTime> parts;
-  double loads = 0.0;
+  const WindowTasks* tasks = window.shared_tasks();
+  const int threads = tasks && tasks->executor() ? tasks->executor()->threads() : 1;
+  double known = 0.0, asked = 0.0;
+  const auto add = [&](const std::string& name, double core_seconds, std::int64_t calls) {
+    parts.push_back({name, core_seconds / threads, core_seconds, calls});
+    known += core_seconds / threads;
+  };
   const auto clocks = machine.clocks();
-  for (std::size_t s = 0; s < clocks.size(); ++s) {
-    const double seconds = 1e-9 * double(clocks[s].ns);
-    parts.push_back({machine.system().loads()[s].name, seconds, seconds, clocks[s].calls});
-    loads += seconds;
+  for (const SourceClock& clock : clocks) asked += 1e-9 * double(clock.ns);
+  if (tasks && tasks->executor()) {
+    add("bodies", std::max(0.0, 1e-9 * double(window.body_side().own_ns()) - asked), window.steps);
+    if (window.coupled) add("air", tasks->core_seconds("aero"), window.coupled->totals().rotor_calls);
+  } else {
+    add("bodies", window_seconds - asked, window.steps);
   }
-  parts.insert(parts.begin(), {"bodies", window_seconds - loads, window_seconds - loads, steps});
+  for (std::size_t s = 0; s < clocks.size(); ++s) {
+    const bool particles = machine.particles() && machine.system().loads()[s].name == "sea";
+    const double own = particles ? tasks->core_seconds("sea") - 1e-9 * double(window.body_side().own_ns()) : 0.0;
+    add(machine.system().loads()[s].name, own + 1e-9 * double(clocks[s].ns), particles ? window.body_side().steps() : clocks[s].calls);
+  }
+  if (threads > 1 || tasks) parts.push_back({"idle_and_runtime", window_seconds - known, (window_seconds - known) * threads, 0});
   parts.push_back({"output", output_seconds, output_seconds, 0});
   return parts;
 }
@@ -202,6 +228,7 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
 
   io::Summary summary;
   Window window;
+  const std::size_t records = settings.trace ? std::size_t(1) << 20 : 0;
   Checkpoints checkpoints(world.comm, machine, directory);
   io::History history;
   machine.fill_sea(start.state.motions, world);
@@ -211,8 +238,13 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   std::int64_t first = -machine.held_windows();
   window.state = start.state;
   if (machine.rotor() && machine.scenario().coupling.scheme != SchemeKind::monolithic) {
-    window.coupled.emplace(machine).begin(start.state);
+    window.coupled.emplace(machine, make_air(machine, machine.rotor()->state(0.0, start.state.motions), world), world.comm, records);
+    if (!settings.restart) window.coupled->begin(start.state);
     window.coupled->declare(history);
+  }
+  if (machine.particles() && !window.coupled) {
+    window.side = make_body_side(machine);
+    window.tasks = std::make_unique<WindowTasks>(nullptr, *window.side, world.comm, records);
   }
   const std::function<void(std::span<double>)> coupling_columns =
       window.coupled ? [&window](std::span<double> row) { window.coupled->put(row); } : std::function<void(std::span<double>)>();
@@ -237,7 +269,7 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   const int every = machine.scenario().output.history_every;
   const std::int64_t save_every =
       checkpoint.interval_s > 0.0 ? std::max<std::int64_t>(1, std::llround(checkpoint.interval_s / timeline.window_s())) : 0;
-  runtime::Executor executor(record_window(machine, window), {.threads = 1, .records = settings.trace ? std::size_t(1) << 20 : 0});
+  runtime::Executor executor(record_window(machine, window), {.threads = 1, .records = records});
   io::Progress progress(timeline.window_end_s(first), timeline.window_end_s(last), io::progress_style(world.rank, settings.quiet));
   machine.reset_clocks();
 
@@ -288,10 +320,13 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
              {"particles_lost", std::int64_t(sea->lost())}})
       summary.counts.emplace_back(name, count);
   summary.wall_seconds = seconds_since(begin);
-  summary.parts = part_times(machine, window_seconds, summary.wall_seconds - window_seconds, window.steps);
-  finish_trace(executor, directory, world, settings.trace, summary);
+  summary.parts = part_times(machine, window, window_seconds, summary.wall_seconds - window_seconds);
+  // Where parts have tasks of their own, these tell more than the one task that runs them.
+  const WindowTasks* tasks = window.shared_tasks();
+  const runtime::Executor& traced = tasks && tasks->executor() ? *tasks->executor() : executor;
+  finish_trace(traced, directory, world, settings.trace, summary);
   summary.ranks = world.size;
-  summary.threads = executor.threads();
+  summary.threads = traced.threads();
   summary.columns = history.columns();
   return summary;
 }

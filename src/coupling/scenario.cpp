@@ -55,6 +55,20 @@ void check_particles(scene::Document& document, const Scenario& s) {
     document.problem("sea.initial.settle_s", fmt::format("must be a whole number of windows of {} s", s.time.window_s));
 }
 
+/// Rules between a resolved rotor and the bodies that carry it.
+void check_resolved_air(scene::Document& document, const Scenario& s) {
+  if (!has_resolved_rotor(s)) return document.problem("bodies", "have no effect beside an air without a rotor: give [aero.grid], or leave them out");
+  aero::RotorOptions rotor = s.rotor;
+  for (const auto& [name, joint] : s.joints)
+    if (name == s.rotor.joint) rotor.axis = joint.axis, rotor.speed = 1.0;  // the bearing's motion gives the speed
+  aero::check_resolved_rotor(document, s.aero, rotor, flow_wind(s));
+  if (s.aero.flow->time == "steady") document.problem("aero.flow.time", "must be \"bdf1\" or \"bdf2\" where bodies carry the rotor: it moves with them");
+  if (s.start.air_steps > 0 && rotor.axis.cross(flow_wind(s)).norm() > 1e-6 * rotor.axis.norm() * flow_wind(s).norm())
+    document.problem("start.air_steps", "needs the wind along the rotor's axis: seen from the turning rotor no other flow is steady");
+  if (s.coupling.scheme == SchemeKind::monolithic)
+    document.problem("coupling.scheme", "must not be \"monolithic\": a resolved rotor answers once per window; take \"cps2\"");
+}
+
 }  // namespace
 
 std::span<const scene::SectionBase* const> all_sections() {
@@ -106,13 +120,13 @@ Scenario read_scenario(scene::Document& document) {
   s.time = document.read(time_section());
   s.environment = document.read(environment_section());
   s.aero = document.read(aero::aero_section());
+  s.bodies = document.read_named(bodies::body_section());
   s.rotor = document.read_where(s.has_rotor() || has_resolved_rotor(s), aero::rotor_section(), "aero.model is none");
-  s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.has_flow(), aero::wind_section(),
+  s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
                                "aero.model = \"" + s.aero.model + "\" does not look at the wind");
   s.sea = document.read(sea::sea_section());
   s.waves = document.read_where(s.sea.model == "morison" || s.has_particles(), sea::waves_section(),
                                 "sea.model is neither morison nor sph");
-  s.bodies = document.read_named(bodies::body_section());
   s.joints = document.read_named(bodies::joint_section());
   s.moorings = document.read_named(moorings::line_section());
   s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple");
@@ -122,17 +136,20 @@ Scenario read_scenario(scene::Document& document) {
   s.checkpoint = document.read(checkpoint_section());
 
   check_names(document, s);
+  if (!(s.has_rotor() && s.resolves_air()) && s.start.air_steps > 0)
+    document.problem("start.air_steps", "has no effect: there is no resolved rotor on a body");
   if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
   if (s.has_flow()) {
     if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s));
+    if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
+    if (has_resolved_rotor(s) && !s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
     if (s.wind.speed_m_s <= 0.0 && !has_resolved_rotor(s)) document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
-    if (!s.bodies.empty()) document.problem("bodies", "have no effect yet beside aero.model \"blade_resolved\"");
     document.finish();
     return s;
   }
+  if (s.resolves_air()) check_resolved_air(document, s);
+  if (s.coupling.scheme == SchemeKind::automatic) s.coupling.scheme = s.resolves_air() ? SchemeKind::cps2 : SchemeKind::monolithic;
   check_coupling(document, s.coupling, s.time);
-  if (s.has_particles() && s.coupling.scheme != SchemeKind::monolithic)
-    document.problem("coupling.scheme", "must be \"monolithic\" beside sea.model = \"sph\": its windows cannot be repeated yet");
   check_bodies(document, s.bodies, s.joints, s.has_particles());
   for (const auto& [name, body] : s.bodies)
     for (const auto& [shapes, any] : {std::pair{"boxes", !body.boxes.empty()}, std::pair{"spheres", !body.spheres.empty()}})
@@ -160,7 +177,7 @@ std::string describe_bodies(const Scenario& s) {
 }
 
 std::string describe_rotor(const Scenario& s) {
-  if (has_resolved_rotor(s)) return fmt::format("blade_resolved, {}", s.rotor.turbine);
+  if (has_resolved_rotor(s)) return fmt::format("blade_resolved, {}{}", s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
   return s.has_rotor() ? fmt::format("{} on body {}", s.aero.model, s.rotor.body) : "none";
 }
 

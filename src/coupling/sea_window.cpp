@@ -7,23 +7,11 @@
 #include <cmath>
 
 #include "runtime/trace/clock.hpp"
+#include "src/coupling/machine.hpp"
 
 namespace spindrift::coupling {
 
 namespace {
-
-/// Adds the time of its life to the source "sea".
-class SeaClock {
- public:
-  explicit SeaClock(Machine& machine) : machine_(machine), begin_(runtime::Clock::now_ns()) {}
-  ~SeaClock() { machine_.count_sea(runtime::Clock::now_ns() - begin_, 0); }
-  SeaClock(const SeaClock&) = delete;
-  SeaClock& operator=(const SeaClock&) = delete;
-
- private:
-  Machine& machine_;
-  std::int64_t begin_;
-};
 
 /// Bodies that are held do not move.
 std::vector<Motion> at_rest(std::vector<Motion> motions) {
@@ -58,7 +46,6 @@ std::int64_t substep_ticks(std::int64_t left, double limit) {
 }
 
 void evaluate_particles(Machine& machine, const bodies::BodiesState& state) {
-  const SeaClock clock(machine);
   sea::ParticleSea& sea = *machine.particles();
   const double t = double(state.tick) * machine.timeline().tick_s();
   sea.place(t, t < 0.0 ? at_rest(state.motions) : state.motions);
@@ -66,53 +53,74 @@ void evaluate_particles(Machine& machine, const bodies::BodiesState& state) {
   sea.step_limit();
 }
 
-std::int64_t advance_with_particles(Machine& machine, bodies::BodiesState& state, std::int64_t end_tick) {
-  sea::ParticleSea& sea = *machine.particles();
-  const double tick_s = machine.timeline().tick_s();
-  bodies::BodiesState middle, next;
-  std::int64_t substeps = 0;
-  const bool held = state.tick < 0;
-  const std::vector<Motion> held_motions = held ? at_rest(state.motions) : std::vector<Motion>();
-  const auto advance = [&](const bodies::BodiesState& from, bodies::BodiesState& to, std::int64_t ticks) {
-    to = from;
-    const bodies::StepReport report = machine.system().advance(to, tick_s, ticks);
-    if (!report.ok()) throw machine.system().failure(report, from, tick_s);
-  };
-  {
-    const SeaClock clock(machine);
+namespace {
+
+class ParticleSide final : public BodySide, sea::WindowDriver {
+ public:
+  explicit ParticleSide(Machine& machine) : machine_(machine), sea_(*machine.particles()) {}
+
+  void aim(const bodies::BodiesState& from, std::int64_t end_tick) override {
+    state_ = from, end_ = end_tick, held_ = from.tick < 0;
     // A released body moves at once; a held one must not carry its start velocity into the water.
-    sea.place(double(state.tick) * tick_s, held ? held_motions : state.motions);
-    sea.open_window();
+    if (held_) held_motions_ = at_rest(from.motions);
+    sea_.open(time(from.tick), held_ ? held_motions_ : from.motions, held_);
   }
-  while (state.tick < end_tick) {
-    double limit;
-    {
-      const SeaClock clock(machine);
-      limit = std::min(sea.step_limit(), machine.body_step_limit());
-    }
-    const std::int64_t ticks = choose_substep(machine, state.tick, end_tick - state.tick, limit);
-    const double t = double(state.tick) * tick_s;
-    if (!held && !state.motions.empty()) advance(state, middle, ticks / 2);
-    {
-      const SeaClock clock(machine);
-      sea.start_step(double(ticks) * tick_s);
-      sea.place(t + 0.5 * double(ticks) * tick_s, held ? held_motions : middle.motions);
-      sea.half_step();
-    }
-    if (!held && !state.motions.empty()) advance(state, next, ticks);
-    {
-      const SeaClock clock(machine);
-      sea.place(double(state.tick + ticks) * tick_s, held ? held_motions : next.motions);
-      sea.end_step(held);
-    }
-    if (!held && !state.motions.empty())
-      std::swap(state, next);
-    else
-      state.tick += ticks;
-    ++substeps;
+  bool record(runtime::Graph& graph) override {
+    constexpr int first_tag = 64;  // those of the air are below
+    sea_.record(graph, *this, first_tag);
+    return true;
   }
-  machine.count_sea(0, substeps);
-  return substeps;
-}
+  bodies::BodiesState finish() override {
+    sea_.close();
+    return state_;
+  }
+  bool outdated() const override { return sea_.outdated(); }
+  void forget_tasks() override { sea_.forget_tasks(); }
+  void keep(int note) override {
+    if (note == 0) sea_.balance();
+    sea_.keep(note);
+  }
+  void back(int note) override { sea_.back(note); }
+
+ private:
+  Step choose(double limit) override {
+    ticks_ = choose_substep(machine_, state_.tick, end_ - state_.tick, std::min(limit, machine_.body_step_limit()));
+    const Step step{double(ticks_) * machine_.timeline().tick_s(), state_.tick + ticks_ == end_};
+    if (!sea_.moves_solids()) {  // nobody will ask
+      std::vector<Motion> motions;
+      move(false, motions), move(true, motions);
+    }
+    return step;
+  }
+  double move(bool to_end, std::vector<Motion>& motions) override {
+    const std::int64_t begin = runtime::Clock::now_ns(), ticks = to_end ? ticks_ : ticks_ / 2;
+    const double t = time(state_.tick + ticks);
+    next_ = state_;
+    if (held_ || state_.motions.empty()) {
+      next_.tick += ticks;
+      motions = held_ ? held_motions_ : state_.motions;
+    } else {
+      const double tick_s = machine_.timeline().tick_s();
+      const bodies::StepReport report = machine_.system().advance(next_, tick_s, ticks);
+      if (!report.ok()) throw machine_.system().failure(report, state_, tick_s);
+      motions = next_.motions;
+    }
+    if (to_end) std::swap(state_, next_), ++steps_;
+    own_ns_ += runtime::Clock::now_ns() - begin;
+    return t;
+  }
+  double time(std::int64_t tick) const { return double(tick) * machine_.timeline().tick_s(); }
+
+  Machine& machine_;
+  sea::ParticleSea& sea_;
+  bodies::BodiesState state_, next_;
+  std::vector<Motion> held_motions_;
+  std::int64_t end_ = 0, ticks_ = 0;
+  bool held_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<BodySide> make_particle_side(Machine& machine) { return std::make_unique<ParticleSide>(machine); }
 
 }  // namespace spindrift::coupling

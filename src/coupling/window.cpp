@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "kernels/base/failure.hpp"
+
 namespace spindrift::coupling {
 
 namespace {
@@ -31,8 +33,9 @@ CoupledWindow::AnyScheme CoupledWindow::make_scheme(const CouplingOptions& o) {
   }
 }
 
-CoupledWindow::CoupledWindow(Machine& machine)
-    : machine_(machine), options_(machine.scenario().coupling), interface_(machine), loads_(options_.predictor_order), motions_(1),
+CoupledWindow::CoupledWindow(Machine& machine, std::unique_ptr<AirSide> air, MPI_Comm comm, std::size_t records)
+    : machine_(machine), options_(machine.scenario().coupling), interface_(machine), air_(air ? std::move(air) : make_engineering_air(machine)),
+      bodies_(make_body_side(machine)), tasks_(air_.get(), *bodies_, comm, records), loads_(options_.predictor_order), motions_(1),
       load_now_(RotorInterface::load_rows) {
   if (is_loose(options_.scheme))
     loose_.emplace(staggering(options_));
@@ -42,9 +45,13 @@ CoupledWindow::CoupledWindow(Machine& machine)
     felt_(t, load_now_);
     interface_.add_load(load_now_, bodies, wrenches);
   });
+  machine_.write_rotor_load(air_->written());
 }
 
-CoupledWindow::~CoupledWindow() { machine_.replace_rotor_loads({}); }
+CoupledWindow::~CoupledWindow() {
+  machine_.replace_rotor_loads({});
+  machine_.write_rotor_load(nullptr);
+}
 
 template <class Signal>
 void CoupledWindow::feel(const Signal& signal) {
@@ -53,7 +60,8 @@ void CoupledWindow::feel(const Signal& signal) {
 
 void CoupledWindow::begin(const bodies::BodiesState& state) {
   const double t = time(state.tick);
-  const Vector motion = interface_.motion(t, state.motions, 0.0), load = interface_.load(t, motion);
+  const Vector motion = interface_.motion(t, state.motions, 0.0);
+  const Vector load = interface_.rows(air_->begin(t, interface_.state(motion)));
   if (loose_) {
     loose_->begin(t, motion, load);
     feel(loose_->load());
@@ -64,25 +72,53 @@ void CoupledWindow::begin(const bodies::BodiesState& state) {
   }
 }
 
-bool CoupledWindow::move(bodies::BodiesState& state, std::int64_t end) {
-  while (state.tick < end) {
-    trouble_ = machine_.system().advance(state, machine_.timeline().tick_s(), 1);
-    ++totals_.body_steps;
-    if (!trouble_.ok()) {
-      trouble_state_ = state;
-      return false;
-    }
+bool CoupledWindow::finish(bodies::BodiesState& state) {
+  const std::int64_t before = bodies_->steps();
+  try {
+    state = bodies_->finish();
+  } catch (const NumericalFailure& failure) { trouble_ = failure.what(); }
+  totals_.body_steps += bodies_->steps() - before;
+  return trouble_.empty();
+}
+
+Vector CoupledWindow::answer() {
+  ++totals_.rotor_calls;
+  try {
+    return interface_.rows(air_->answer());
+  } catch (const NumericalFailure& failure) {
+    trouble_ = failure.what();
+    return not_finite(RotorInterface::load_rows);
   }
-  return true;
+}
+
+bool CoupledWindow::move(bodies::BodiesState& state, std::int64_t end) {
+  bodies_->aim(state, end);
+  tasks_.run(false, true);
+  return finish(state);
+}
+
+Vector CoupledWindow::air_load(double t, double dt, const Vector& motion) {
+  air_->aim(t, dt, interface_.state(motion));
+  tasks_.run(true, false);
+  return answer();
 }
 
 WindowReport CoupledWindow::advance(bodies::BodiesState& state) {
-  trouble_ = {};
-  last_ = loose_ ? advance_loose(state) : advance_strong(state);
+  trouble_.clear();
+  air_->keep(AirSide::window), bodies_->keep(AirSide::window);
+  last_ = state.tick < 0 ? advance_held(state) : loose_ ? advance_loose(state) : advance_strong(state);
+  if (!last_.ok()) air_->back(AirSide::window), bodies_->back(AirSide::window);
   ++totals_.windows;
   totals_.evaluations += last_.log.evaluations, totals_.probes += last_.log.probes;
   totals_.retries += last_.log.retries, totals_.cuts += last_.log.cuts;
   return last_;
+}
+
+/// Before t = 0 the sea settles round bodies that are held; the air waits.
+WindowReport CoupledWindow::advance_held(bodies::BodiesState& state) {
+  WindowReport report;
+  if (!move(state, state.tick + machine_.timeline().steps_per_window())) report.failure = trouble_;
+  return report;
 }
 
 WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
@@ -91,18 +127,28 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
     bodies::BodiesState state;
     std::int64_t end;
     Vector start;  // motion at the window's start
-    Vector move(const Extrapolation& load, double begin, double end_s) {
-      w.feel(load);
-      if (!w.move(state, end)) return not_finite(RotorInterface::motion_rows);
-      const double near = RotorInterface::azimuth(start) + (end_s - begin) * RotorInterface::rate(start);
-      return w.interface_.motion(end_s, state.motions, near);
+    Vector motion_at(double begin, double end_s) const {
+      return w.interface_.motion(end_s, state.motions, RotorInterface::azimuth(start) + (end_s - begin) * RotorInterface::rate(start));
     }
-    Vector load(const Waveform& motion, double begin, double end_s) {
-      ++w.totals_.rotor_calls;
+    Vector shown(const Waveform& motion, double begin, double end_s) const {
       const Vector given = motion.at(end_s);
       // Motion may be held, the rotor turns on.
-      const bool held = w.options_.scheme == SchemeKind::cps;
-      return w.interface_.load(end_s, held ? RotorInterface::turned(given, end_s - begin) : given);
+      return w.options_.scheme == SchemeKind::cps ? RotorInterface::turned(given, end_s - begin) : given;
+    }
+    Vector move(const Extrapolation& load, double begin, double end_s) {
+      w.feel(load);
+      return w.move(state, end) ? motion_at(begin, end_s) : not_finite(RotorInterface::motion_rows);
+    }
+    Vector load(const Waveform& motion, double begin, double end_s) {
+      return w.air_load(end_s, w.machine_.timeline().window_s(), shown(motion, begin, end_s));
+    }
+    std::pair<Vector, Vector> both(const Extrapolation& load, const Waveform& motion, double begin, double end_s) {
+      w.feel(load);
+      w.bodies_->aim(state, end);
+      w.air_->aim(end_s, w.machine_.timeline().window_s(), w.interface_.state(shown(motion, begin, end_s)));
+      w.tasks_.run(true, true);
+      const bool moved = w.finish(state);
+      return {moved ? motion_at(begin, end_s) : not_finite(RotorInterface::motion_rows), w.answer()};
     }
   };
   const std::int64_t end = state.tick + machine_.timeline().steps_per_window();
@@ -125,40 +171,50 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
 class CoupledWindow::Pieces {
  public:
   Pieces(CoupledWindow& window, const bodies::BodiesState& start)
-      : w_(window), start_(start), length_(window.machine_.timeline().steps_per_window()), end_(start.tick + length_) {}
+      : w_(window), start_(start), length_(window.machine_.timeline().steps_per_window()), end_(start.tick + length_) {
+    keep();
+  }
 
   Vector evaluate(const Vector& x) {
     return w_.options_.composition == Composition::parallel ? parallel_answer(*this, x, load_rows()) : serial_answer(*this, x);
   }
   /// Bodies: loads at the samples to motions at the samples.
   Vector first(const Vector& loads) {
-    state_ = start_;
-    std::vector<double> times{w_.time(start_.tick)};
-    std::vector<Vector> values{w_.loads_.last()};
-    for (int s = 1; s <= samples(); ++s) times.push_back(w_.time(tick(s))), values.push_back(part(loads, s, RotorInterface::load_rows));
-    w_.signal_ = Waveform(w_.options_.interpolation, std::move(times), std::move(values));
-    w_.feel(w_.signal_);
+    go_back(false, true);
+    show(loads);
     Vector motions(samples() * RotorInterface::motion_rows);
-    for (int s = 1; s <= samples(); ++s) {
-      if (!w_.move(state_, tick(s))) return not_finite(motions.size());
-      const double t = w_.time(tick(s));
-      const Vector turned = RotorInterface::turned(w_.motions_.last(), t - w_.time(start_.tick));
-      motions.segment((s - 1) * RotorInterface::motion_rows, RotorInterface::motion_rows) =
-          w_.interface_.motion(t, state_.motions, RotorInterface::azimuth(turned));
-    }
+    for (int s = 1; s <= samples(); ++s)
+      if (w_.move(state_, tick(s)))
+        put_motion(s, motions);
+      else
+        return not_finite(motions.size());
     end_motion_ = part(motions, samples(), RotorInterface::motion_rows);
     return motions;
   }
   /// Rotor: motions to loads.
   Vector second(const Vector& motions) {
+    go_back(true, false);
     Vector loads(load_rows());
-    for (int s = 1; s <= samples(); ++s) {
-      ++w_.totals_.rotor_calls;
-      loads.segment((s - 1) * RotorInterface::load_rows, RotorInterface::load_rows) =
-          w_.interface_.load(w_.time(tick(s)), part(motions, s, RotorInterface::motion_rows));
-    }
+    for (int s = 1; s <= samples(); ++s)
+      if (!put_load(s, w_.air_load(w_.time(tick(s)), dt(), part(motions, s, RotorInterface::motion_rows)), loads)) return not_finite(loads.size());
     end_load_ = part(loads, samples(), RotorInterface::load_rows);
     return loads;
+  }
+  /// Both at once, sample by sample.
+  std::pair<Vector, Vector> both(const Vector& given_loads, const Vector& given_motions) {
+    go_back(true, true);
+    show(given_loads);
+    Vector motions(samples() * RotorInterface::motion_rows), loads(load_rows());
+    for (int s = 1; s <= samples(); ++s) {
+      w_.bodies_->aim(state_, tick(s));
+      w_.air_->aim(w_.time(tick(s)), dt(), w_.interface_.state(part(given_motions, s, RotorInterface::motion_rows)));
+      w_.tasks_.run(true, true);
+      const bool moved = w_.finish(state_), loaded = put_load(s, w_.answer(), loads);
+      if (!moved || !loaded) return {not_finite(motions.size()), not_finite(loads.size())};
+      put_motion(s, motions);
+    }
+    end_motion_ = part(motions, samples(), RotorInterface::motion_rows), end_load_ = part(loads, samples(), RotorInterface::load_rows);
+    return {motions, loads};
   }
   Vector guess() const {
     const bool both = w_.options_.composition == Composition::parallel;
@@ -172,6 +228,7 @@ class CoupledWindow::Pieces {
   }
   void accept() {
     start_ = state_;
+    keep();
     const double t = w_.time(start_.tick);
     w_.loads_.add(t, end_load_), w_.motions_.add(t, end_motion_);
   }
@@ -185,6 +242,31 @@ class CoupledWindow::Pieces {
   double load_size() const { return end_load_.norm(); }
 
  private:
+  void keep() { w_.air_->keep(AirSide::piece), w_.bodies_->keep(AirSide::piece); }
+  void go_back(bool air, bool bodies) {
+    w_.trouble_.clear();
+    if (air) w_.air_->back(AirSide::piece);
+    if (bodies) w_.bodies_->back(AirSide::piece), state_ = start_;
+  }
+  /// The signal through the loads at the samples.
+  void show(const Vector& loads) {
+    std::vector<double> times{w_.time(start_.tick)};
+    std::vector<Vector> values{w_.loads_.last()};
+    for (int s = 1; s <= samples(); ++s) times.push_back(w_.time(tick(s))), values.push_back(part(loads, s, RotorInterface::load_rows));
+    w_.signal_ = Waveform(w_.options_.interpolation, std::move(times), std::move(values));
+    w_.feel(w_.signal_);
+  }
+  void put_motion(int s, Vector& motions) {
+    const double t = w_.time(tick(s));
+    const Vector turned = RotorInterface::turned(w_.motions_.last(), t - w_.time(start_.tick));
+    motions.segment((s - 1) * RotorInterface::motion_rows, RotorInterface::motion_rows) =
+        w_.interface_.motion(t, state_.motions, RotorInterface::azimuth(turned));
+  }
+  bool put_load(int s, const Vector& load, Vector& loads) {
+    loads.segment((s - 1) * RotorInterface::load_rows, RotorInterface::load_rows) = load;
+    return load.allFinite();
+  }
+  double dt() const { return double(length_ / samples()) * w_.machine_.timeline().tick_s(); }
   int samples() const { return w_.options_.samples; }
   Eigen::Index load_rows() const { return samples() * RotorInterface::load_rows; }
   std::int64_t tick(int sample) const { return start_.tick + sample * (length_ / samples()); }
@@ -219,8 +301,7 @@ WindowReport CoupledWindow::advance_strong(bodies::BodiesState& state) {
 
 std::string CoupledWindow::describe(const WindowLog& log, const bodies::BodiesState& state) const {
   const double begin = time(state.tick), window = machine_.timeline().window_s();
-  if (log.bound == Bound::not_finite && !trouble_.ok())
-    return machine_.system().failure(trouble_, trouble_state_, machine_.timeline().tick_s()).what();
+  if (log.bound == Bound::not_finite && !trouble_.empty()) return trouble_;
   if (log.bound == Bound::not_finite) return fmt::format("t = {:g} s: the rotor's load over the window of {:g} s is not a finite number", begin, window);
   return fmt::format(
       "t = {:g} s: rotor and bodies do not agree over the window of {:g} s: {} hit after {} evaluations, {} retries and {} cuts (residual {:.3g} of "
@@ -253,6 +334,7 @@ bool CoupledWindow::restore(std::span<const double> values) {
 }
 
 void CoupledWindow::declare(io::History& history) {
+  air_->declare(history);
   column_ = history.add({"coupling.evaluations", "-", "of the window by the scheme, probes included"});
   history.add({"coupling.mismatch", "-", "loads that went in and came out, their difference over them"});
   if (loose_) return;
@@ -262,6 +344,7 @@ void CoupledWindow::declare(io::History& history) {
 }
 
 void CoupledWindow::put(std::span<double> row) const {
+  air_->put(row);
   row[column_] = last_.log.evaluations, row[column_ + 1] = last_.mismatch;
   if (loose_) return;
   row[column_ + 2] = last_.log.columns, row[column_ + 3] = last_.log.cuts, row[column_ + 4] = last_.log.retries;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,8 +21,11 @@
 #include "kernels/coupling/relaxation_steepest_descent.hpp"
 #include "kernels/coupling/solve_window.hpp"
 #include "kernels/coupling/staggered.hpp"
+#include "src/coupling/air_side.hpp"
+#include "src/coupling/body_side.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/rotor_interface.hpp"
+#include "src/coupling/window_tasks.hpp"
 #include "src/io/history.hpp"
 
 namespace spindrift::coupling {
@@ -37,12 +41,13 @@ struct WindowReport {
 class CoupledWindow {
  public:
   /// The machine has a rotor, its scheme is not monolithic, and it outlives the window; its bodies take the rotor's loads from here on.
-  explicit CoupledWindow(Machine& machine);
+  /// `air`: its rotor's side; the engineering one where none is given. `comm`: of the ranks that share its tasks.
+  explicit CoupledWindow(Machine& machine, std::unique_ptr<AirSide> air = nullptr, MPI_Comm comm = MPI_COMM_SELF, std::size_t records = 0);
   ~CoupledWindow();
   CoupledWindow(const CoupledWindow&) = delete;
   CoupledWindow& operator=(const CoupledWindow&) = delete;
 
-  /// Motion and loads of the run's first state.
+  /// Motion and loads of the run's first state; what has to settle first, settles. Not before restore().
   void begin(const bodies::BodiesState& state);
   /// From a window's start to its end.
   WindowReport advance(bodies::BodiesState& state);
@@ -54,9 +59,11 @@ class CoupledWindow {
 
   /// Totals since the object was made.
   struct Totals {
-    std::int64_t windows = 0, evaluations = 0, probes = 0, retries = 0, cuts = 0, body_steps = 0, rotor_calls = 0;
-  };
+    std::int64_t windows = 0, evaluations = 0, probes = 0, retries = 0, cuts = 0, body_steps = 0, rotor_calls = 0;  };
   const Totals& totals() const { return totals_; }
+  AirSide& air() { return *air_; }
+  const WindowTasks& tasks() const { return tasks_; }
+  const BodySide& bodies() const { return *bodies_; }
 
   // Columns of history.csv: evaluations and mismatch; of strong schemes also columns kept, cuts and retries.
   void declare(io::History& history);
@@ -69,8 +76,13 @@ class CoupledWindow {
   static AnyScheme make_scheme(const CouplingOptions& options);
 
   double time(std::int64_t tick) const { return double(tick) * machine_.timeline().tick_s(); }
-  /// Advances the bodies under `signal`; false where a step fails (then trouble_).
+  /// After the tasks: the bodies at the end, or false, or load rows, not finite, where a side fails (then trouble_).
+  bool finish(bodies::BodiesState& state);
+  Vector answer();
+  /// Bodies alone, or air alone for `dt` seconds that end at `t` with this motion.
   bool move(bodies::BodiesState& state, std::int64_t end);
+  Vector air_load(double t, double dt, const Vector& motion);
+  WindowReport advance_held(bodies::BodiesState& state);
   template <class Signal>
   void feel(const Signal& signal);
   WindowReport advance_loose(bodies::BodiesState& state);
@@ -81,14 +93,16 @@ class CoupledWindow {
   Machine& machine_;
   const CouplingOptions options_;
   RotorInterface interface_;
+  std::unique_ptr<AirSide> air_;
+  std::unique_ptr<BodySide> bodies_;
+  WindowTasks tasks_;
   std::optional<Staggered> loose_;
   std::optional<AnyScheme> strong_;
   Extrapolation loads_, motions_;  ///< strong: at the ends of the last pieces
   Waveform signal_;                ///< strong: loads over the piece
   std::function<void(double, Vector&)> felt_;
   Vector load_now_;                ///< scratch of the right-hand side
-  bodies::StepReport trouble_;     ///< of the last step that failed
-  bodies::BodiesState trouble_state_;
+  std::string trouble_;            ///< of the side that failed last
   WindowReport last_;
   Totals totals_;
   std::size_t column_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/particle_sea.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -60,6 +62,11 @@ class Sea final : public ParticleSea {
         contacts_(plan.bodies.size()),
         motions_(start.begin(), start.end()) {
     for (const DampingZoneOptions& z : plan.damping_zones) zones_.push_back({z.from_m, z.to_m, z.rate_1_s});
+    if (!zones_.empty() || settle_damping_ > 0.0)
+      sea_.state().after_step = [this](int group, double dt) {
+        const sph::Group& g = sea_.store().groups[std::size_t(group)];
+        sph::damp(sea_.store(), std::span<const sph::DampingZone>(zones_), settling_ ? settle_damping_ : 0.0, dt, g.fluid, g.solid);
+      };
     if (tank.paddle) {
       wavemaker_.emplace(wavemaker_of(plan)), paddle_ = *tank.paddle;
       sea_.add_body(paddle_, wavemaker_->at_rest());
@@ -83,7 +90,7 @@ class Sea final : public ParticleSea {
     read_loads();
     return limit;
   }
-  void start_step(double dt) override { sea_.start_step(dt), dt_ = dt; }
+  void start_step(double dt) override { sea_.start_step(dt); }
   void place(double t, std::span<const Motion> bodies) override {
     motions_.assign(bodies.begin(), bodies.end());
     for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -95,8 +102,47 @@ class Sea final : public ParticleSea {
     read_loads();
   }
   void end_step(bool settling) override {
+    settling_ = settling;
     sea_.end_step();
-    sph::damp(sea_.store(), std::span<const sph::DampingZone>(zones_), settling ? settle_damping_ : 0.0, dt_);
+  }
+
+  void balance() override {
+    if (ranks_ > 1 && sea_.repartition()) moved_ = true;
+  }
+  void record(runtime::Graph& graph, WindowDriver& driver, int first_tag) override {
+    driver_ = &driver;
+    sph::SeaState<dim, Real>& state = sea_.state();
+    state.pace = {.choose = [this](double limit) {
+      const WindowDriver::Step step = driver_->choose(limit);
+      return sph::Pace::Choice{step.dt, step.last};
+    }};
+    if (moves_solids())
+      state.move_bodies = [this](const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) { move(half, loads, motions); };
+    tasks_.push_back(std::make_unique<sph::StepTasks<dim, Real>>(state, graph, omp_get_max_threads(), first_tag));
+    tasks_.back()->window();
+    moved_ = false;
+  }
+  bool moves_solids() const override { return !sea_.state().solids.empty(); }
+  bool outdated() const override {
+    return moved_ || std::any_of(tasks_.begin(), tasks_.end(), [](const auto& tasks) { return tasks->outdated(); });
+  }
+  void forget_tasks() override { tasks_.clear(); }
+  void open(double t, std::span<const Motion> bodies, bool settling) override {
+    settling_ = settling;
+    place(t, bodies);
+    sph::Plan& plan = sea_.state().plan;
+    plan.left = 1.0;                                 // until the driver calls a step the last
+    plan.drift = 2.0 * sea_.parameters().drift();    // sorts first: what follows depends on the state alone
+    plan.failure.reset();
+  }
+  void close() override {
+    if (const auto& failure = sea_.state().plan.failure) throw NumericalFailure(*failure);
+  }
+  void keep(int note) override { notes_[std::size_t(note)] = {sea_.save(), loads_, contacts_, motions_}; }
+  void back(int note) override {
+    const Noted& n = notes_[std::size_t(note)];
+    sea_.restore(n.sea);
+    loads_ = n.loads, contacts_ = n.contacts, motions_ = n.motions;
   }
   std::span<const Wrench> loads() const override { return loads_; }
   std::span<const Wrench> contacts() const override { return contacts_; }
@@ -196,6 +242,35 @@ class Sea final : public ParticleSea {
   std::int64_t sorts() const override { return sea_.work().sorts; }
 
  private:
+  /// As read_loads() and place(), within a window.
+  void move(const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> solids) {
+    const std::vector<sph::Solid>& known = sea_.state().solids;
+    for (std::size_t b = 0; b < loads_.size(); ++b) {
+      loads_[b] = contacts_[b] = Wrench{.point = motions_[b].position};
+      if (!owner_of_body_[b]) continue;
+      for (std::size_t s = 0; s < known.size(); ++s)
+        if (known[s].owner == owner_of_body_[b]) loads_[b] = of_width(loads[s]);
+      for (const sph::Touch& touch : half.contacts) {
+        if (touch.on != owner_of_body_[b] && touch.of != owner_of_body_[b]) continue;
+        Wrench w = touch.wrench.about(motions_[b].position);
+        if (touch.of == owner_of_body_[b]) w.force = -w.force, w.moment = -w.moment;
+        const Wrench wide = of_width(w);
+        contacts_[b].force += wide.force, contacts_[b].moment += wide.moment;
+      }
+    }
+    double t = half.to;
+    try {
+      t = driver_->move(half.half == 1 || sea_.parameters().step == sph::StepChoice::verlet, motions_);
+    } catch (const NumericalFailure& failure) {
+      sea_.state().plan.failure = failure;
+      return;
+    }
+    for (std::size_t s = 0; s < known.size(); ++s) {
+      if (wavemaker_ && known[s].owner == paddle_) solids[s] = wavemaker_->motion(t);
+      for (std::size_t b = 0; b < motions_.size(); ++b)
+        if (known[s].owner == owner_of_body_[b]) solids[s] = motions_[b];
+    }
+  }
   void read_loads() {
     for (std::size_t b = 0; b < loads_.size(); ++b) {
       loads_[b] = contacts_[b] = Wrench{.point = motions_[b].position};
@@ -224,7 +299,17 @@ class Sea final : public ParticleSea {
   std::vector<std::uint16_t> owner_of_body_;     ///< 0: it has no particles
   std::vector<Wrench> loads_, contacts_;
   std::vector<Motion> motions_;
-  double dt_ = 0.0;
+  bool settling_ = false;
+  // Windows as tasks.
+  struct Noted {
+    sph::Saved<dim> sea;
+    std::vector<Wrench> loads, contacts;
+    std::vector<Motion> motions;
+  };
+  WindowDriver* driver_ = nullptr;
+  std::vector<std::unique_ptr<sph::StepTasks<dim, Real>>> tasks_;
+  bool moved_ = false;  ///< groups went to other ranks
+  std::array<Noted, 2> notes_;
 };
 
 template <int dim, class Real>

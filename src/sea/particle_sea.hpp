@@ -20,6 +20,7 @@
 
 #include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/wrench.hpp"
+#include "runtime/graph/graph.hpp"
 #include "runtime/mpi/environment.hpp"
 #include "src/sea/options.hpp"
 #include "src/sea/sph/tank.hpp"
@@ -83,6 +84,21 @@ struct ParticleState {
   std::int64_t steps = 0;
 };
 
+/// Moves the bodies while a window goes on as tasks. Called by single tasks, on all ranks with the same numbers; both may throw
+/// NumericalFailure, which ends the window.
+class WindowDriver {
+ public:
+  virtual ~WindowDriver() = default;
+  struct Step {
+    double dt;  ///< [s], at most `limit`
+    bool last;  ///< of the window
+  };
+  virtual Step choose(double limit) = 0;
+  /// The sea's loads() are those of the step's begin, or (to_end, but for Verlet's step) of its middle. Sets where the bodies are at the
+  /// middle of the step, or at its end, and returns that time [s].
+  virtual double move(bool to_end, std::vector<Motion>& bodies) = 0;
+};
+
 class ParticleSea {
  public:
   static std::unique_ptr<ParticleSea> make(const ParticlePlan& plan, std::span<const Motion> start, const runtime::World& world);
@@ -98,6 +114,23 @@ class ParticleSea {
   virtual void half_step() = 0;
   /// `settling`: the water is damped as until t = 0.
   virtual void end_step(bool settling) = 0;
+
+  // A window as tasks, in place of the parts above: balance(), then for each run of the tasks open(), the tasks, close().
+  /// Deals groups out to the ranks anew where that pays; afterwards tasks are outdated().
+  virtual void balance() = 0;
+  /// Records the steps of a window; `first_tag`: of their messages. The driver outlives the tasks.
+  virtual void record(runtime::Graph& graph, WindowDriver& driver, int first_tag) = 0;
+  /// Whether any body or paddle moves with the sea; where none does the driver is asked for steps alone.
+  virtual bool moves_solids() const = 0;
+  virtual bool outdated() const = 0;
+  /// The executors of what was recorded are gone.
+  virtual void forget_tasks() = 0;
+  virtual void open(double t_s, std::span<const Motion> bodies, bool settling) = 0;
+  /// Throws the NumericalFailure of the window.
+  virtual void close() = 0;
+  /// Notes the state (0, 1), and goes back to it bit for bit.
+  virtual void keep(int note) = 0;
+  virtual void back(int note) = 0;
 
   /// Of the last evaluation, by body of the scene, each about the place of its centre of mass then; zero for bodies without shapes.
   virtual std::span<const Wrench> loads() const = 0;

@@ -106,6 +106,8 @@ class FlowSolver {
           }
     }
   }
+  /// The state of another solver on the same tiles, a steady one say; no past.
+  void start_from(const FlowSolver& other);
   /// No past: the physical step that follows is the first.
   void forget();
 
@@ -121,6 +123,8 @@ class FlowSolver {
   void record(runtime::Graph& graph);
   /// Records what fills ghost volumes and centres from other ranks; to be run once, and after each motion of the grid.
   void record_geometry(runtime::Graph& graph);
+  /// What recorded graphs refer to is freed: their executors are gone.
+  void forget_graphs() { pieces_.clear(), double_buffers_.clear(), float_buffers_.clear(); }
 
   const FlowSetting& setting() const { return setting_; }
   GridStore& grid() { return grid_; }
@@ -152,6 +156,8 @@ class FlowSolver {
   /// Physical steps since the start.
   std::int64_t time_steps() const { return time_steps_; }
   void set_time_step(double dt, double dt_before);
+  /// Length of the next physical step; that of the last one is kept.
+  void next_time_step(double dt) { setting_.dt = boundary_.dt = dt; }
 
   /// What a restart needs of a tile, besides its geometry: state and past, then the march.
   std::size_t saved_size(int owned) const;

@@ -1,5 +1,5 @@
 // Where waves die away: the velocity of the water decays at a rate that grows quadratically over a zone, exactly over each step
-// (v exp(-rate s^2 dt)), so that no rate is too large. Called by particle_sea.cpp after each step; tested in
+// (v exp(-rate s^2 dt)), so that no rate is too large. Called by particle_sea.cpp for each group after a step; tested in
 // tests/src/sea/sph/wave_tank_parts_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,12 +19,12 @@ struct DampingZone {
   }
 };
 
-/// Damps the water; `everywhere` [1/s] comes on top of the zones.
+/// Damps the water in some clusters; `everywhere` [1/s] comes on top of the zones.
 template <int dim, class Real>
-void damp(Store<dim, Real>& store, std::span<const DampingZone> zones, double everywhere, double dt) {
+void damp(Store<dim, Real>& store, std::span<const DampingZone> zones, double everywhere, double dt, std::size_t first,
+          std::size_t last) {
   if (zones.empty() && everywhere == 0.0) return;
-#pragma omp parallel for schedule(static)
-  for (std::size_t cluster = 0; cluster < store.clusters(); ++cluster) {
+  for (std::size_t cluster = first; cluster < last; ++cluster) {
     if (store.owner[cluster] != 0) continue;
     for (std::size_t slot = cluster * cluster_size; slot < (cluster + 1) * cluster_size; ++slot) {
       double rate = everywhere;
@@ -37,6 +37,12 @@ void damp(Store<dim, Real>& store, std::span<const DampingZone> zones, double ev
       }
     }
   }
+}
+
+/// All of it.
+template <int dim, class Real>
+void damp(Store<dim, Real>& store, std::span<const DampingZone> zones, double everywhere, double dt) {
+  damp(store, zones, everywhere, dt, 0, store.clusters());
 }
 
 }  // namespace spindrift::sph

@@ -35,6 +35,13 @@ struct Pace {
   double dt = 0.0;  ///< a fixed step [s]; 0: as the limits allow
   /// Steps between two looks at the limits (and sorts). 1: before each, with a reduction over all ranks in each step.
   int steps_per_look = 1;
+  /// A step chosen by who counts time himself, and whether the window ends with it.
+  struct Choice {
+    double dt;
+    bool last;
+  };
+  /// With steps_per_look 1: asked before each step for one not above the limit [s], on all ranks alike; may throw NumericalFailure.
+  std::function<Choice(double limit)> choose = {};
 };
 
 /// Half a step as bodies see it.
@@ -62,6 +69,7 @@ struct Plan {
   double shifted = 0.0;                   ///< largest way by shifting since the last look
   double solid_path = 0.0;                ///< of bodies in all [m]
   bool sort = false;
+  bool last = false;                        ///< the step planned ends the window (Pace::choose)
   std::optional<NumericalFailure> failure;  ///< set where the numerics gave up; what is left of the window does nothing
 };
 
@@ -133,7 +141,13 @@ struct SeaState {
   /// Chooses the next steps of a window.
   void choose_steps() {
     if (plan.failure) return void(plan.planned = 0);
-    if (pace.dt > 0.0) {
+    if (pace.choose) {
+      try {
+        const Pace::Choice choice = pace.choose(plan.limit);
+        plan.last = choice.last;
+        start_steps(choice.dt, 1);
+      } catch (const NumericalFailure& failure) { plan.failure = failure, plan.planned = 0; }
+    } else if (pace.dt > 0.0) {
       if (pace.dt > plan.limit * (1.0 + 1e-12))
         plan.failure = NumericalFailure("sea: the fixed step of " + std::to_string(pace.dt) + " s is beyond the limit of " +
                                             std::to_string(plan.limit) + " s (largest speed " + std::to_string(plan.speed) +
@@ -152,7 +166,7 @@ struct SeaState {
   }
   void finish_steps() {
     const bool last =
-        pace.dt > 0.0 ? std::round(plan.left / pace.dt) <= plan.planned : plan.dt * plan.planned >= plan.left * (1.0 - 1e-12);
+        pace.choose ? plan.last : pace.dt > 0.0 ? std::round(plan.left / pace.dt) <= plan.planned : plan.dt * plan.planned >= plan.left * (1.0 - 1e-12);
     for (int n = 0; n < plan.planned; ++n) plan.time += plan.dt;
     plan.steps += plan.planned, work.steps = plan.steps;
     work.evaluations += plan.planned * (p.step == StepChoice::symplectic ? 2 : 1);

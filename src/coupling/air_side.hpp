@@ -1,0 +1,56 @@
+// The air's side of a coupled window: told how the rotor is to move, it answers with the rotor's load. One interface for the engineering
+// models, which answer at once, and for resolved air, whose work is tasks of a graph that may run beside those of the sea. Its state can be
+// kept and gone back to, so that windows repeat, and goes into checkpoints.
+// Used by window.cpp; implemented here and in resolved_air.cpp; tested in tests/src/coupling/window_test.cpp and tests/coupled/machine_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "runtime/graph/graph.hpp"
+#include "runtime/mpi/environment.hpp"
+#include "src/aero/rotor_loads.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/history.hpp"
+
+namespace spindrift::coupling {
+
+class Machine;
+
+class AirSide {
+ public:
+  virtual ~AirSide() = default;
+
+  /// Load on the rotor at the start of the run, where it is in state `now`; what has to settle first, settles here. Collective.
+  virtual aero::RotorLoad begin(double t, const aero::RotorState& now) = 0;
+  /// What is to come: `dt` seconds, at whose end `t` the rotor is in this state.
+  virtual void aim(double t, double dt, const aero::RotorState& at_end) = 0;
+  /// Records the tasks that do it; false where there are none.
+  virtual bool record(runtime::Graph&) { return false; }
+  /// Their executors are gone.
+  virtual void forget_tasks() {}
+  /// To be called once they have run: the load at the end, ramped as the scene asks. Throws NumericalFailure.
+  virtual aero::RotorLoad answer() = 0;
+  /// The load to be written to history, where it is not simply that of the rotor's state now.
+  virtual const aero::RotorLoad* written() const { return nullptr; }
+
+  /// Notes the state to go back to: of a window, and of the piece of it that is being iterated.
+  enum Note { window, piece };
+  virtual void keep(Note) {}
+  virtual void back(Note) {}
+
+  virtual void save(io::CheckpointWriter&) const {}
+  virtual void restore(const io::CheckpointReader&) {}
+
+  /// Its columns of history.csv.
+  virtual void declare(io::History&) {}
+  virtual void put(std::span<double>) const {}
+};
+
+/// Resolved where the scene resolves it, else an engineering one. The machine outlives it. `now`: of the rotor at the start.
+std::unique_ptr<AirSide> make_air(const Machine& machine, const aero::RotorState& now, const runtime::World& world);
+/// Answers by the machine's engineering rotor.
+std::unique_ptr<AirSide> make_engineering_air(const Machine& machine);
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/body_side.hpp"
+
+#include "runtime/trace/clock.hpp"
+#include "src/coupling/machine.hpp"
+#include "src/coupling/sea_window.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+/// The bodies' own steps, one after the other.
+class Steps final : public BodySide {
+ public:
+  explicit Steps(Machine& machine) : machine_(machine) {}
+  void aim(const bodies::BodiesState& from, std::int64_t end_tick) override { state_ = from, end_ = end_tick; }
+  bodies::BodiesState finish() override {
+    const std::int64_t begin = runtime::Clock::now_ns();
+    const double tick_s = machine_.timeline().tick_s();
+    while (state_.tick < end_) {
+      const bodies::StepReport report = machine_.system().advance(state_, tick_s, 1);
+      if (!report.ok()) throw machine_.system().failure(report, state_, tick_s);
+      ++steps_;
+    }
+    own_ns_ += runtime::Clock::now_ns() - begin;
+    return state_;
+  }
+
+ private:
+  Machine& machine_;
+  bodies::BodiesState state_;
+  std::int64_t end_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<BodySide> make_body_side(Machine& machine) {
+  if (machine.particles()) return make_particle_side(machine);
+  return std::make_unique<Steps>(machine);
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,45 @@
+// The bodies' side of a window: bodies and moorings in their own steps, with an engineering sea, which they ask as they go, or with one of
+// particles, whose substeps are tasks that may run beside those of the air. A pure function of the state at its start.
+// Used by window_tasks.cpp, window.cpp and run.cpp; implemented here and in sea_window.cpp; tested in tests/coupled.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "runtime/graph/graph.hpp"
+#include "src/bodies/state.hpp"
+
+namespace spindrift::coupling {
+
+class Machine;
+
+class BodySide {
+ public:
+  virtual ~BodySide() = default;
+
+  /// What is to come: from this state to the end tick.
+  virtual void aim(const bodies::BodiesState& from, std::int64_t end_tick) = 0;
+  /// Records the tasks that do it; false where there are none.
+  virtual bool record(runtime::Graph&) { return false; }
+  /// Once they have run: the state at the end. Throws NumericalFailure.
+  virtual bodies::BodiesState finish() = 0;
+  /// Whether what was recorded no longer serves; once its executors are gone, forget_tasks() and record again.
+  virtual bool outdated() const { return false; }
+  virtual void forget_tasks() {}
+
+  // What is not in the bodies' state (particles) is noted and gone back to; numbered as AirSide::Note.
+  virtual void keep(int) {}
+  virtual void back(int) {}
+
+  std::int64_t steps() const { return steps_; }        ///< of the bodies, or substeps of the sea, so far
+  std::int64_t own_ns() const { return own_ns_; }      ///< spent on the bodies and all that they ask
+
+ protected:
+  std::int64_t steps_ = 0, own_ns_ = 0;
+};
+
+/// The machine outlives it. Of a machine with particles: after Machine::fill_sea.
+std::unique_ptr<BodySide> make_body_side(Machine& machine);
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,46 @@
+// The sides of a window as one task graph: air and bodies at once, so that what one leaves idle the other fills, or one of them where a
+// scheme wants it alone. Sides without tasks cost no graph. Between runs a side is aimed and asked; within one nothing but data orders.
+// Used by window.cpp and run.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include "runtime/executor/executor.hpp"
+#include "src/coupling/air_side.hpp"
+#include "src/coupling/body_side.hpp"
+
+namespace spindrift::coupling {
+
+class WindowTasks {
+ public:
+  /// `air` may be null. `records`: per thread, for a trace.
+  WindowTasks(AirSide* air, BodySide& bodies, MPI_Comm comm, std::size_t records);
+
+  /// Runs the tasks of the sides named, which have been aimed.
+  void run(bool air, bool bodies);
+
+  /// The executor that tells most of where time went: of both sides, else of one; null where none has run.
+  const runtime::Executor* executor() const;
+  /// Core-seconds of tasks whose labels begin so, on this rank.
+  double core_seconds(std::string_view module) const;
+  double wall_seconds() const { return 1e-9 * double(wall_ns_); }
+
+ private:
+  struct Program {
+    std::unique_ptr<runtime::Executor> executor;
+    bool recorded = false;
+  };
+  void drop();
+
+  AirSide* air_;
+  BodySide& bodies_;
+  MPI_Comm comm_;
+  std::size_t records_;
+  std::array<Program, 4> programs_;  ///< by 1 for the air, 2 for the bodies
+  std::array<double, 2> dropped_{};  ///< core-seconds of executors that are gone: of the air, of the sea
+  std::int64_t wall_ns_ = 0;
+};
+
+}  // namespace spindrift::coupling
