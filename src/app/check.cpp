@@ -147,6 +147,19 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
     fmt::print("  Frequencies of this scene lie together: response there is sensitive to phase; compare with a strong scheme.\n");
 }
 
+/// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
+void print_air(const Machine& machine, const coupling::Start& start) {
+  aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(machine.scenario());
+  setup.rotor.speed = machine.rotor()->state(0.0, start.state.motions).speed;
+  const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
+  const double most = double(machine.timeline().windows()) * setup.flow.max_pseudo_steps + machine.scenario().start.air_steps;
+  fmt::print("\nResolved air (estimates above take the rotor's load from blade elements)\n");
+  fmt::print("  {:<22}{} in {} sector{}, about {:.0f} MB\n", "cells", size.cells, size.sectors, size.sectors == 1 ? ", which feels motion along the axis only" : "s",
+             size.megabytes);
+  fmt::print("  {:<22}{:.3g} s of one core a pseudo-step, at most {} a window: at most {:.3g} core-hours\n", "predicted cost",
+             size.core_seconds_per_pseudo_step, setup.flow.max_pseudo_steps, most * size.core_seconds_per_pseudo_step / 3600.0);
+}
+
 void print_resolved_rotor(const std::string& source, const coupling::Scenario& s) {
   const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
@@ -167,7 +180,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
 int check(const SceneArguments& arguments, const runtime::World& world) {
   scene::Document document = scene::load(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
-  if (has_resolved_rotor(scenario)) {
+  if (scenario.has_flow() && has_resolved_rotor(scenario)) {
     if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario);
     return done;
   }
@@ -201,6 +214,7 @@ int check(const SceneArguments& arguments, const runtime::World& world) {
     print_equilibrium(machine, equilibrium.state);
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", equilibrium.problem);
+  if (machine.scenario().resolves_air()) print_air(machine, start);
   if (machine.particle_plan())
     print_particles(machine, start);
   else
