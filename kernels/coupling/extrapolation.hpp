@@ -18,6 +18,7 @@ class Extrapolation {
   }
   bool empty() const { return times_.empty(); }
   const Vector& last() const { return values_.back(); }
+  std::size_t windows() const { return values_.size(); }
   void at(double t, Vector& out) const { lagrange(times_, values_, t, out); }
   Vector at(double t) const {
     Vector value;

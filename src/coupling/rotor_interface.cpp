@@ -34,6 +34,12 @@ Vector RotorInterface::turned(const Vector& motion, double dt) {
   return m;
 }
 
+Vector RotorInterface::carried_on(const Vector& motion, double dt) {
+  Vector m = turned(motion, dt);
+  m.segment<3>(0) += dt * m.segment<3>(3);
+  return m;
+}
+
 aero::RotorState RotorInterface::state(const Vector& m) const {
   aero::RotorState s;
   s.hub = length_ * m.segment<3>(0), s.hub_velocity = length_ * m.segment<3>(3);

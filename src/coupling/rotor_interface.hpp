@@ -22,6 +22,8 @@ class RotorInterface {
   Vector motion(double t, std::span<const Motion> bodies, double near) const;
   /// The motion after `dt` of standing still with the rotor turning on.
   static Vector turned(const Vector& motion, double dt);
+  /// The motion after `dt` of going on at its velocity.
+  static Vector carried_on(const Vector& motion, double dt);
   static double azimuth(const Vector& motion) { return motion[15]; }
   static double rate(const Vector& motion) { return motion[16]; }
 

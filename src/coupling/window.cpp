@@ -131,6 +131,8 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
       return w.interface_.motion(end_s, state.motions, RotorInterface::azimuth(start) + (end_s - begin) * RotorInterface::rate(start));
     }
     Vector shown(const Waveform& motion, double begin, double end_s) const {
+      // One window is no line to extrapolate: a rotor that stood still for it would jump.
+      if (w.loose_->motion().windows() == 1 && w.options_.scheme == SchemeKind::cps2) return RotorInterface::carried_on(start, end_s - begin);
       const Vector given = motion.at(end_s);
       // Motion may be held, the rotor turns on.
       return w.options_.scheme == SchemeKind::cps ? RotorInterface::turned(given, end_s - begin) : given;
