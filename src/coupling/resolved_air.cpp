@@ -148,10 +148,14 @@ class ResolvedAir final : public AirSide {
                                          march.cfl(), held.solver().trouble()),
                              "aero/rotor", march.steps(), 0.0);
     load_ = leant(held.load());
-    const auto &rows = held.solver().rows();
-    const auto thrust_before = [&](std::size_t back) { return held.load(rows[rows.size() - 1 - std::min(back, rows.size() - 1)]).thrust; };
-    spdlog::info("air settled by {} pseudo-steps: thrust {:.4g} kN, {:+.2g} % in the last 20, density residual fallen by {:.2g}", march.steps() - 1,
-                 1e-3 * load_.thrust, 100.0 * (load_.thrust / thrust_before(20) - 1.0), march.density_residual() / march.first_density_residual());
+    const auto& rows = held.solver().rows();
+    constexpr std::size_t look_back = 20;
+    const std::string change =
+        rows.size() > look_back + 1
+            ? fmt::format(", {:+.2g} % in the last {}", 100.0 * (load_.thrust / held.load(rows[rows.size() - 1 - look_back]).thrust - 1.0), look_back)
+            : std::string();
+    spdlog::info("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}", march.steps() - 1, 1e-3 * load_.thrust, change,
+                 march.density_residual() / march.first_density_residual());
     rotor_.solver().start_from(held.solver());
   }
 
