@@ -1,5 +1,5 @@
 // Aerofoil outlines as curves, and nodes on them as the grid round the section wants them: the same number on every outline, so
-// that sections blend node by node. Spacing after Vinokur (1983), kernels/grid/stretching.hpp; the curve is a cubic spline in
+// that sections blend node by node. Spacing after Vinokur (1983), kernels/grid/spacing.hpp; the curve is a cubic spline in
 // chord length. Used by src/aero/rotor_grid/sections.cpp; tested in tests/kernels/grid/aerofoil_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -14,7 +14,7 @@
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
 #include "kernels/grid/spline.hpp"
-#include "kernels/grid/stretching.hpp"
+#include "kernels/grid/spacing.hpp"
 
 namespace spindrift {
 
@@ -92,7 +92,7 @@ inline void resample(const PlaneCurve& curve, const SectionSpacing& spacing, dou
   const auto fill = [&](double length, auto put) {
     const double tail = closed ? spacing.rounded_edge / spacing.edge : spacing.trailing_edge;
     const double nose = closed ? 0.5 * length / side : spacing.leading_edge;  // a circle has no nose to resolve
-    const Vinokur law(tail * side / length, nose * side / length);
+    const VinokurLaw law(tail * side / length, nose * side / length);
     for (int m = 1; m <= side; ++m) put(m, length * law(double(m) / side));
   };
   fill(leading - edge, [&](int m, double s) { nodes[std::size_t(half + m)] = at(edge + s); });

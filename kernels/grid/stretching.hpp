@@ -1,5 +1,5 @@
-// Spacing laws of a grid line: geometric, two-sided after Vinokur (1983), J. Comput. Phys. 50, 215, and growth up to a limit.
-// Used by kernels/grid/aerofoil.hpp and src/aero/rotor_grid; tested in tests/kernels/grid/stretching_test.cpp.
+// Sizes of the cells of a grid line, one by one: geometric, and growth up to a limit. Laws that are functions: spacing.hpp.
+// Used by src/aero/rotor_grid; tested in tests/kernels/grid/stretching_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -53,40 +53,5 @@ inline void limited_sizes(double first, double limit, double length, std::span<d
   const double total = fill(0.5 * (low + high));
   for (double& s : size) s *= length / total;
 }
-
-/// Inverse of sinh(y)/y = b (b > 1) or sin(y)/y = b (b < 1), by Newton steps from Vinokur's approximations.
-inline double vinokur_argument(double b) {
-  const bool above = b > 1.0;
-  double y = std::sqrt(6.0 * std::abs(b - 1.0));
-  if (above && b > 3.0) y = std::log(2.0 * b) + std::log(std::log(2.0 * b));
-  if (!above && b < 0.5) y = 3.0;
-  for (int n = 0; n < 60; ++n) {
-    const double s = above ? std::sinh(y) : std::sin(y), c = above ? std::cosh(y) : std::cos(y);
-    const double step = (s / y - b) / (c / y - s / (y * y));
-    const double next = std::clamp(y - step, 0.2 * y, above ? 5.0 * y : 0.5 * (y + 3.141592653589793));
-    if (std::abs(next - y) < 1e-14 * y) break;
-    y = next;
-  }
-  return y;
-}
-
-/// Vinokur's two-sided stretching of [0, 1] by a continuous coordinate t in [0, 1]: ds/dt is `slope0` at 0 and `slope1` at 1
-/// (size over length times the number of cells). Its error of discretisation goes with the square of the number of cells, so
-/// that one law at 1, 2, 4 ... times as many cells gives similar grids.
-struct Vinokur {
-  Vinokur(double slope0, double slope1)
-      : a_(std::sqrt(slope1 / slope0)), b_(1.0 / std::sqrt(slope0 * slope1)), y_(flat() ? 0.0 : vinokur_argument(b_)) {}
-  double operator()(double t) const {
-    double u = t;
-    if (!flat())
-      u = b_ > 1.0 ? 0.5 + std::tanh(y_ * (t - 0.5)) / (2.0 * std::tanh(0.5 * y_))
-                   : 0.5 + std::tan(y_ * (t - 0.5)) / (2.0 * std::tan(0.5 * y_));
-    return u / (a_ + (1.0 - a_) * u);
-  }
-
- private:
-  bool flat() const { return std::abs(b_ - 1.0) < 1e-4; }
-  double a_, b_, y_;
-};
 
 }  // namespace spindrift

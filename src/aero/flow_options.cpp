@@ -23,6 +23,7 @@ const scene::Section<PatchOptions>& patch_section() {
           .choice("condition", &PatchOptions::condition,
                   {{"far_field", Condition::far_field, "characteristic: the undisturbed wind outside"},
                    {"no_slip", Condition::no_slip, "adiabatic wall"},
+                   {"wall_function", Condition::wall_law, "adiabatic wall on a grid whose first cells stand in the logarithmic layer: friction by the law of the wall"},
                    {"slip", Condition::slip, "wall without friction"},
                    {"symmetry", Condition::symmetry, "plane of symmetry"},
                    {"inflow", Condition::inflow_velocity, "wind and temperature given, pressure from inside"},
@@ -45,6 +46,10 @@ const scene::Section<FlowOptions>& flow_section() {
           .table("generate", &FlowOptions::generate, generate_section(), "A grid made by the program, in place of a file.")
           .number("width_m", &FlowOptions::width_m, "m", "Width of a two-dimensional grid.", above(0.0).up_to(1e6))
           .tables("boundaries", &FlowOptions::boundaries, patch_section(), "Conditions by patch; each patch of the grid once.")
+          .choice("blades", &FlowOptions::blades,
+                  {{"no_slip", Condition::no_slip, "resolved to the wall"},
+                   {"wall_function", Condition::wall_law, "friction by the law of the wall: first cells in the logarithmic layer"}},
+                  "Blades of a resolved rotor in viscous air that no boundary names.")
           .number("temperature_K", &FlowOptions::temperature_K, "K", "Temperature of the undisturbed air.", between(50.0, 2000.0))
           .number("viscosity_Pa_s", &FlowOptions::viscosity_Pa_s, "Pa s", "Dynamic viscosity at that temperature (Sutherland's law around it).",
                   above(0.0).up_to(1e3))
@@ -91,6 +96,20 @@ const scene::Section<FlowOptions>& flow_section() {
                   "Relative change of the force over 20 pseudo-steps that ends a march; 0: not looked at.", between(0.0, 1.0))
           .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.", between(1, 1e6))
           .only_if("time", {"bdf1", "bdf2"})
+          .choice("krylov", &FlowOptions::krylov,
+                  {{"gmres", KrylovMethod::gmres, "GMRES, one set of vectors"},
+                   {"fgmres", KrylovMethod::fgmres, "flexible GMRES: keeps the directions too, the preconditioner may change"},
+                   {"gcg", KrylovMethod::gcg, "generalised conjugate gradients: keeps the directions too"}},
+                  "Method of the linear solver; all three minimise the same residual.")
+          .choice("preconditioner", &FlowOptions::preconditioner,
+                  {{"block_ilu", "block ILU(0), tile by tile"},
+                   {"block_jacobi", "each cell by itself"},
+                   {"identity", "none"}},
+                  "Approximate inverse that the linear solver works with.")
+          .integer("refresh_every", &FlowOptions::refresh_every, "-",
+                   "Pseudo-steps that a matrix of the preconditioner serves where products are matrix-free; less where the CFL number changes by "
+                   "a factor of two or the linear systems are solved worse.",
+                   between(1, 1000))
           .integer("krylov_steps", &FlowOptions::krylov_steps, "-", "Most iterations of the linear solver in a pseudo-step; memory grows with it.",
                    between(2, 40))
           .number("krylov_drop", &FlowOptions::krylov_drop, "-", "Drop of the linear residual that is enough.", above(0.0).up_to(1.0))
@@ -107,6 +126,11 @@ const scene::Section<FlowOptions>& flow_section() {
           .degrees("incidence_deg", &FlowOptions::incidence, "Angle by which the wind blows upwards.", between(-90.0, 90.0))
           .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2", "Area of the coefficients in history.csv.", above(0.0).up_to(1e9))
           .check([](const FlowOptions& o, const scene::Report& report) {
+            for (const PatchOptions& b : o.boundaries)
+              if (b.condition == Condition::wall_law && (o.viscous == "none" || !o.turbulence.starts_with("sa")))
+                report("boundaries", fmt::format("patch \"{}\": \"wall_function\" goes with turbulence \"sa\" or \"sa_neg\"", b.patch));
+            if (o.blades == Condition::wall_law && (o.viscous == "none" || !o.turbulence.starts_with("sa")))
+              report("blades", "\"wall_function\" goes with turbulence \"sa\" or \"sa_neg\"");
             const bool cgns = o.grid.ends_with(".cgns");
             if (o.generate && !o.grid.empty()) report("generate", "is given beside a grid file: one of the two");
             if (!o.generate && !o.grid.empty() && !cgns && o.map.empty()) report("map", "must be given: a Plot3D grid holds coordinates only");
@@ -132,6 +156,8 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.physical_far_field = o.physical_far_field;
   s.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
   s.dt = s.time_order > 0 ? dt : 0.0;
+  s.krylov = o.krylov;
+  s.preconditioner = o.preconditioner;
   s.march = {.cfl_start = o.cfl,
              .cfl_max = std::max(o.cfl, o.cfl_max),
              .drop = o.drop,
@@ -139,6 +165,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
              .max_steps = o.max_pseudo_steps,
              .krylov_steps = o.krylov_steps,
              .krylov_drop = o.krylov_drop,
+             .refresh_every = o.refresh_every,
              .matrix_free_below = o.matrix_free_below};
   return s;
 }
@@ -146,7 +173,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
 std::vector<std::string> wall_patches(const FlowOptions& options) {
   std::vector<std::string> names;
   for (const PatchOptions& b : options.boundaries)
-    if (b.condition == Condition::no_slip || b.condition == Condition::slip) names.push_back(b.patch);
+    if (sticks(b.condition) || b.condition == Condition::slip) names.push_back(b.patch);
   return names;
 }
 
@@ -159,7 +186,7 @@ std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const T
       throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("the grid has no patch \"{}\"; it has: {}", b.patch, fmt::join(tiling.patches, ", "))}});
     if (given[std::size_t(patch)]++ > 0)
       throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("patch \"{}\" is given twice", b.patch)}});
-    conditions[std::size_t(patch)] = {b.condition, b.loads && (b.condition == Condition::no_slip || b.condition == Condition::slip)};
+    conditions[std::size_t(patch)] = {b.condition, b.loads && (sticks(b.condition) || b.condition == Condition::slip)};
   }
   for (std::size_t p = 0; p < given.size(); ++p)
     if (given[p] == 0)

@@ -21,6 +21,7 @@ class Document;
 namespace spindrift::aero {
 
 struct FlowSetting;
+enum class KrylovMethod : unsigned char;
 struct PatchCondition;
 
 struct PatchOptions {
@@ -39,12 +40,14 @@ struct FlowOptions {
   std::string viscous = "full", turbulence = "sa";
   std::string flux = "roe_low_mach", limiter = "none";
   double upwinding = 1.0;
+  Condition blades = Condition::no_slip;  ///< of a resolved rotor in viscous air, where no boundary names them
   std::string start = "wind";
   bool low_mach = true, physical_far_field = false;
   std::string time = "steady";
-  std::string krylov = "gmres";
+  KrylovMethod krylov{};  ///< GMRES
+  std::string preconditioner = "block_ilu";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, load_change = 0.0;
-  int max_pseudo_steps = 500, krylov_steps = 20;
+  int max_pseudo_steps = 500, krylov_steps = 20, refresh_every = 1;
   double krylov_drop = 0.05, matrix_free_below = 1e-2;
   bool surfaces = true;
   double incidence = 0.0;  ///< of the wind, turned about y: positive blows upwards [rad]

@@ -23,12 +23,12 @@ constexpr int span_components = 6;  // force by pressure, by friction
 
 RigidMap map_of(const RotorPose& pose) { return {pose.attitude().toRotationMatrix(), pose.hub.position}; }
 
-/// Patches that the scene does not name: blades stick (slip without friction), the hub slips, the rest is the far field.
+/// Patches that the scene does not name: blades are as asked for (slip without friction), the hub slips, the rest is the far field.
 FlowOptions with_default_patches(FlowOptions o, const Tiling& tiling) {
   for (const std::string& patch : tiling.patches) {
     if (std::ranges::any_of(o.boundaries, [&](const PatchOptions& b) { return b.patch == patch; })) continue;
     if (patch.starts_with("blade_"))
-      o.boundaries.push_back({patch, o.viscous == "none" ? Condition::slip : Condition::no_slip, true});
+      o.boundaries.push_back({patch, o.viscous == "none" ? Condition::slip : o.blades, true});
     else
       o.boundaries.push_back({patch, patch == "hub" ? Condition::slip : Condition::far_field, false});
   }
@@ -88,7 +88,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   store_->build_all(made, !steady());
   std::vector<std::string> sticking;
   for (const PatchOptions& b : flow.boundaries)
-    if (b.condition == Condition::no_slip) sticking.push_back(b.patch);
+    if (sticks(b.condition)) sticking.push_back(b.patch);
   const WallSurface surface = wall_surface(made, sticking);
   for (const int tile : store_->owned()) fill_wall_distance((*store_)[tile], surface);
 

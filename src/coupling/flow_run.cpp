@@ -79,7 +79,7 @@ struct Air {
     store->build_all(grid);
     std::vector<std::string> no_slip;
     for (const aero::PatchOptions& b : o.boundaries)
-      if (b.condition == aero::Condition::no_slip) no_slip.push_back(b.patch);
+      if (aero::sticks(b.condition)) no_slip.push_back(b.patch);
     const aero::WallSurface surface = aero::wall_surface(grid, no_slip);
     for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
     aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, flow_wind(s), s.time.window_s);
@@ -222,7 +222,7 @@ void write_walls(MPI_Comm comm, const Air& air, const io::RunDirectory& director
   const FlowSolver& solver = *air.solver;
   const auto on_wall = [&](const aero::TileBoundary& b) {
     const aero::Condition c = solver.conditions()[std::size_t(b.patch)].condition;
-    return c == aero::Condition::no_slip || c == aero::Condition::slip;
+    return aero::sticks(c) || c == aero::Condition::slip;
   };
   std::vector<io::GridBlock> blocks;
   std::vector<int> first_block;  // by tile

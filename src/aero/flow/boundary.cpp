@@ -14,6 +14,7 @@ gas::Primitive<double> load(const FlowTile& tile, const double* state, std::ptrd
 gas::Primitive<double> ghost_state(const FlowBoundary& boundary, const gas::Primitive<double>& inside, const gas::Face<double>& f,
                                    const gas::Vector<double>& wall, const BoundarySetting& s) {
   switch (boundary.condition) {
+    case Condition::wall_law:
     case Condition::no_slip: return gas::no_slip_ghost(inside, wall);
     case Condition::slip:
     case Condition::symmetry: return gas::mirrored(inside, f);

@@ -13,6 +13,7 @@ void March::begin_step() {
   matrix_free_ = retry_ = spent_ = false;
   fraction_ = 1.0, linear_drop_ = 0.0;
   loads_.clear();
+  cfl_of_matrix_ = 0.0;
 }
 
 void March::resume(int more_steps) {
@@ -21,6 +22,7 @@ void March::resume(int more_steps) {
   verdict_ = Verdict::go_on;
   spent_ = false;
   retry_ = true;
+  cfl_of_matrix_ = 0.0;
 }
 
 Verdict March::judge(const Norms& n, double load) {
@@ -36,6 +38,7 @@ Verdict March::judge(const Norms& n, double load) {
     }
     cfl_ *= o_.back_off;
     retry_ = true;
+    cfl_of_matrix_ = 0.0;
     if (++in_a_row_ > 12 || cfl_ < o_.cfl_least) {
       why_ = "no pseudo-step was small enough";
       return verdict_ = Verdict::failed;
@@ -61,6 +64,10 @@ Verdict March::judge(const Norms& n, double load) {
   retry_ = false;
   before_ = total;
   if (o_.matrix_free_below > 0.0) matrix_free_ = density < o_.matrix_free_below * first_;
+  const double of_matrix = cfl_of_matrix_ > 0.0 ? cfl_ / cfl_of_matrix_ : 0.0;
+  refresh_ = !matrix_free_ || ++since_refresh_ >= o_.refresh_every || !(of_matrix > 0.5 && of_matrix < 2.0) ||
+             linear_drop_ > std::max(o_.krylov_drop, 1.5 * drop_of_matrix_);
+  if (refresh_) since_refresh_ = 0, cfl_of_matrix_ = cfl_;
   const auto done = [&](const char* why) {
     why_ = why;
     return verdict_ = Verdict::converged;
@@ -83,6 +90,7 @@ Verdict March::judge(const Norms& n, double load) {
 
 void March::updated(double fraction, int krylov, double linear_drop) {
   linear_drop_ = linear_drop;
+  if (refresh_) drop_of_matrix_ = linear_drop;
   fraction_ = fraction;
   krylov_ = krylov;
   krylov_total_ += krylov;

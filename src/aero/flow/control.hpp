@@ -23,6 +23,7 @@ struct MarchOptions {
   int min_steps = 1, max_steps = 500;
   int krylov_steps = 20;         ///< most Krylov iterations of a pseudo-step
   double krylov_drop = 0.05;     ///< of the linear residual: enough
+  int refresh_every = 1;         ///< pseudo-steps between two matrices of the preconditioner, where products are matrix-free
   double matrix_free_below = 0.01;  ///< drop of the residual from which on products are matrix-free; 0: never
 };
 
@@ -61,6 +62,9 @@ class March {
   double first_density_residual() const { return first_; }
   Verdict verdict() const { return verdict_; }
   bool spent() const { return spent_; }  ///< ended for want of steps
+  /// Whether the matrix is to be made anew: always where it is the operator; else after refresh_every steps, or sooner where the CFL number
+  /// has left a factor of two, a step was rejected, or a linear system was solved worse than with the fresh matrix.
+  bool refresh() const { return refresh_; }
   const char* why() const { return why_; }
   int krylov() const { return krylov_; }
   long krylov_total() const { return krylov_total_; }
@@ -74,7 +78,9 @@ class March {
   double cfl_, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
   int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
   long krylov_total_ = 0;
-  bool matrix_free_ = false, retry_ = false, spent_ = false;
+  int since_refresh_ = 0;
+  double cfl_of_matrix_ = 0.0, drop_of_matrix_ = 0.0;
+  bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false;
   Verdict verdict_ = Verdict::go_on;
   const char* why_ = "";
   std::vector<double> loads_;

@@ -6,14 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "src/aero/flow/krylov_vectors.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
 
 namespace spindrift::aero {
 
 namespace {
 
-constexpr std::size_t padded(std::size_t n) { return (n + 15) / 16 * 16; }
 constexpr int norm_count = 5;
 
 Scales scales_of(const FlowSetting& s) {
@@ -44,7 +42,8 @@ std::size_t FlowTile::bytes() const {
 }
 
 FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<PatchCondition> conditions)
-    : grid_(grid), setting_(setting), conditions_(std::move(conditions)), march_(setting.march) {
+    : grid_(grid), setting_(setting), conditions_(std::move(conditions)), march_(setting.march), cycle_(setting.krylov, setting.march.krylov_steps),
+      preconditioner_(make_preconditioner(setting.preconditioner)) {
   const Tiling& tiling = grid.tiling();
   if (setting.speed <= 0.0) throw std::invalid_argument("flow: the scale of velocity must be positive");
   convective_.gas = viscous_.gas = boundary_.gas = implicit_.gas = setting.gas;
@@ -90,7 +89,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     for (std::size_t c = 0; c < 3; ++c) implicit_.omega[c] = setting.frame_omega[Eigen::Index(c)];
   }
 
-  const int columns = std::min(setting.march.krylov_steps, linear::max_krylov);
+  const int columns = cycle_.most_columns();
   local_.assign(std::size_t(tiling.size()), -1);
   for (const int index : grid.owned()) {
     local_[std::size_t(index)] = int(tiles_.size());
@@ -110,7 +109,9 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     t.box = {from.ni, from.nj, from.nk};
     for (const TileBoundary& where : tiling.boundary(index)) {
       const PatchCondition& c = conditions_.at(std::size_t(where.patch));
-      t.boundaries.push_back({where, c.condition, c.loads});
+      const bool law = c.condition == Condition::wall_law;
+      if (law && model_->equations != 1) throw std::invalid_argument("flow: the law of the wall goes with Spalart-Allmaras models");
+      t.boundaries.push_back({where, law ? Condition::no_slip : c.condition, c.loads, law});
     }
     const int unknowns = t.unknowns();
     t.state = AlignedArray<double>(t.cells.size(unknowns));
@@ -124,7 +125,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     if (t.turbulence == 1) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<1>::size(t.box, t.directions));
     if (t.turbulence == 2) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<2>::size(t.box, t.directions));
     t.direction = AlignedArray<float>(t.gradient_box.size(unknowns));
-    for (int n = 0; n <= columns; ++n) t.vectors.emplace_back(padded(t.vector_size()));
+    cycle_.allocate(t);
     set_open_faces(t);
     parts_.push_back(index);
   }
@@ -138,7 +139,6 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   norm_sums_.resize(norm_count);
   loads_.resize(std::max<std::size_t>(1, conditions_.size()) * load_components);
   dots_.resize(std::size_t(columns + 1));
-  combination_.resize(std::size_t(columns + 1));
   rows_.reserve(1024);
 }
 
@@ -294,6 +294,7 @@ void FlowSolver::move_tile(FlowTile& tile) {
 void FlowSolver::slopes(FlowTile& tile, const double* state) {
   if (!setting_.viscous) return;
   sweep_gradients(tile, state);
+  set_wall_law_gradients(tile, state, setting_.gas);
   if (tile.turbulence > 0) model_->closures(tile, state, viscous_);
 }
 
@@ -393,6 +394,7 @@ void FlowSolver::judge() {
   rows_.push_back({.step = march_.steps() - 1,
                    .krylov = march_.krylov(),
                    .rejections = march_.rejections(),
+                   .matrices = matrices_,
                    .cfl = cfl,
                    .density_residual = march_.density_residual(),
                    .mass_residual = march_.mass_residual(),
@@ -406,7 +408,8 @@ void FlowSolver::judge() {
   if (verdict == Verdict::failed) name_trouble();
   solving_ = verdict == Verdict::go_on;
   matrix_free_ = march_.matrix_free();
-  if (solving_) gmres_.start(std::sqrt(norms_.mean + norms_.model));
+  if (refreshes()) ++matrices_;
+  if (solving_) cycle_.start(std::sqrt(norms_.mean + norms_.model));
 }
 
 void FlowSolver::name_trouble() {
@@ -421,22 +424,24 @@ void FlowSolver::name_trouble() {
 void FlowSolver::build_matrix(FlowTile& tile) {
   if (!solving_) return;
   sweep_rates(tile, tile.state.data(), implicit_);
+  if (!refreshes()) return;  // the pseudo-time of matrix-free products follows the state all the same
   const double* eddy =
       tile.turbulence > 0 ? tile.gradients.data() + eddy_component(tile.turbulence) * tile.gradient_box.component : nullptr;
   sweep_jacobian(tile, tile.state.data(), eddy, march_.cfl(), implicit_);
-  std::ptrdiff_t cell = linear::factor(tile.mean());
-  if (tile.turbulence > 0) {
-    model_->matrix(tile, tile.state.data(), march_.cfl(), implicit_);
-    if (cell < 0) cell = model_->factor(tile);
-  }
-  if (cell >= 0)
-    throw std::runtime_error("singular pivot in tile " + std::to_string(tile.index) + ", cell " + std::to_string(cell));
+  if (tile.turbulence > 0) model_->matrix(tile, tile.state.data(), march_.cfl(), implicit_);
+}
+
+void FlowSolver::refresh_preconditioner(std::span<FlowTile> tiles, MPI_Comm comm) {
+  if (!refreshes()) return;
+  std::vector<FlowTile*> all;
+  for (FlowTile& tile : tiles) all.push_back(&tile);
+  preconditioner_->refresh(all, comm);
 }
 
 /// v_0: the scaled residual with its sign turned, of unit length.
 void FlowSolver::first_vector(FlowTile& tile) {
-  const double norm = gmres_.residual_norm(), scale = norm > 0.0 ? -1.0 / norm : 0.0;
-  float* v = tile.vectors[0].data();
+  const double norm = cycle_.first_norm(), scale = norm > 0.0 ? -1.0 / norm : 0.0;
+  float* v = cycle_.first(tile);
   float* m = v + tile.box.count() * mean_unknowns;
   const Scales& s = implicit_.scales;
   for_rows(tile.box, [&](int k, int j) {
@@ -449,22 +454,29 @@ void FlowSolver::first_vector(FlowTile& tile) {
   });
 }
 
-void FlowSolver::precondition(FlowTile& tile, const float* v, float* z) {
-  linear::solve(tile.mean(), v, z);
-  const std::ptrdiff_t model = tile.box.count() * mean_unknowns;
-  if (tile.turbulence > 0) model_->solve(tile, v + model, z + model);
-}
-
-/// v_j from the last product, and the direction M^-1 v_j; returns its largest component in the units of the unknowns.
-double FlowSolver::make_direction(FlowTile& tile, int j) {
-  if (!solving_) return 0.0;
-  float* v = tile.vectors[std::size_t(j)].data();
+void FlowSolver::make_vector(FlowTile& tile, int j) {
+  if (!solving_) return;
   if (j == 0)
     first_vector(tile);
   else
-    orthogonalise(v, std::span(tile.vectors).first(std::size_t(j)), gmres_.projections(), gmres_.next_scale(), padded(tile.vector_size()));
-  float* z = tile.vectors[std::size_t(j) + 1].data();  // free until the product comes
-  precondition(tile, v, z);
+    cycle_.advance(tile, j);
+}
+
+void FlowSolver::precondition_vectors(std::span<FlowTile> tiles, int j, MPI_Comm comm) {
+  if (!solving_) return;
+  if (tiles.size() == 1) {
+    const Preconditioner::Piece piece{tiles.data(), cycle_.source(tiles[0], j), cycle_.direction(tiles[0], j)};
+    return preconditioner_->apply({&piece, 1}, comm);
+  }
+  std::vector<Preconditioner::Piece> pieces;
+  for (FlowTile& tile : tiles) pieces.push_back({&tile, cycle_.source(tile, j), cycle_.direction(tile, j)});
+  preconditioner_->apply(pieces, comm);
+}
+
+/// Puts the direction M^-1 v_j where neighbours look for it; returns its largest component in the units of the unknowns.
+double FlowSolver::spread_direction(FlowTile& tile, int j) {
+  if (!solving_) return 0.0;
+  const float* z = cycle_.direction(tile, j);
   const float* m = z + tile.box.count() * mean_unknowns;
   float largest = 0.0f;
   for_rows(tile.box, [&](int k, int row) {
@@ -507,7 +519,7 @@ void FlowSolver::perturb(FlowTile& tile) {
 /// w = A z, and its products with all v so far and itself.
 void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
   if (!solving_) return;
-  float* w = tile.vectors[std::size_t(j) + 1].data();
+  float* w = cycle_.product(tile, j);
   if (!matrix_free_) {
     const BoxLayout& box = tile.gradient_box;
     linear::multiply(tile.mean(), tile.direction.data(), {box.origin, box.row, box.plane, box.component}, w);
@@ -547,18 +559,23 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
     }
   }
   std::fill(dots.begin(), dots.end(), 0.0);
-  dot_products(w, std::span(tile.vectors).first(std::size_t(j) + 1), padded(tile.vector_size()), dots.first(std::size_t(j) + 2));
+  cycle_.dots(tile, j, dots.first(std::size_t(j) + 2));
 }
 
-/// The change of the unknowns, left in the last vector; returns the fraction of it that keeps pressure and temperature positive.
+void FlowSolver::combine(FlowTile& tile) {
+  if (solving_) cycle_.combine(tile);
+}
+void FlowSolver::precondition_solution(std::span<FlowTile> tiles, MPI_Comm comm) {
+  if (!solving_ || !cycle_.precondition_at_end()) return;
+  std::vector<Preconditioner::Piece> pieces;
+  for (FlowTile& tile : tiles) pieces.push_back({&tile, KrylovCycle::solution(tile), KrylovCycle::solution(tile)});
+  preconditioner_->apply(pieces, comm);
+}
+
+/// Of the change of the unknowns: the fraction that keeps pressure and temperature positive.
 double FlowSolver::find_update(FlowTile& tile) {
   if (!solving_) return 1.0;
-  const std::size_t columns = std::size_t(gmres_.columns()), size = padded(tile.vector_size());
-  gmres_.solve(combination_);
-  float* x = tile.vectors.back().data();
-  std::fill_n(x, size, 0.0f);  // the last vector is in no combination
-  for (std::size_t n = 0; n < columns; ++n) add_scaled(x, combination_[n], tile.vectors[n].data(), size);
-  precondition(tile, x, x);
+  const float* x = KrylovCycle::solution(tile);
   constexpr double most = 0.2;  // of the absolute value, in one pseudo-step
   double fraction = 1.0;
   Limit& limit_of_tile = limits_[std::size_t(&tile - tiles_.data())];
@@ -591,7 +608,7 @@ void FlowSolver::apply_update(FlowTile& tile) {
     return;
   }
   std::copy_n(tile.state.data(), tile.state.size(), tile.trial.data());
-  const float* d = tile.vectors.back().data();
+  const float* d = KrylovCycle::solution(tile);
   const Scales& s = implicit_.scales;
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; ++i) {

@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "kernels/linear/block_ilu.hpp"
-#include "kernels/linear/krylov.hpp"
 #include "runtime/graph/graph.hpp"
 #include "src/aero/flow/boundary.hpp"
 #include "src/aero/flow/control.hpp"
 #include "src/aero/flow/flow_tile.hpp"
+#include "src/aero/flow/krylov_cycle.hpp"
 #include "src/aero/flow/loads.hpp"
+#include "src/aero/flow/preconditioner.hpp"
 #include "src/aero/flow/sweep_convective.hpp"
 #include "src/aero/flow/sweep_jacobian.hpp"
 #include "src/aero/flow/sweep_model.hpp"
@@ -49,6 +49,8 @@ struct FlowSetting {
   /// else Rieper's with at least this scaling, 1 being Roe's.
   std::optional<double> matrix_mach_floor;
   MarchOptions march;
+  KrylovMethod krylov = KrylovMethod::gmres;
+  std::string preconditioner = "block_ilu";
   int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
   double dt = 0.0;                 ///< physical step [s]
   /// Steady flow seen from a frame that turns about an axis through `centre` along the stream: velocities stay those in space, their
@@ -66,7 +68,7 @@ struct BlockPose {
 
 /// What a pseudo-step did; one row for each since the last clear.
 struct PseudoRow {
-  int step = 0, krylov = 0, rejections = 0;
+  int step = 0, krylov = 0, rejections = 0, matrices = 0;  ///< matrices made so far
   double cfl = 0.0, density_residual = 0.0, mass_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, fraction = 1.0;
   bool matrix_free = false;
   std::array<double, 3> force{};   ///< of all patches with loads [N]
@@ -119,6 +121,8 @@ class FlowSolver {
   /// What save_march() keeps of rigid poses is placed by load_march(); of shapes it keeps nothing, place them after it.
   void place(std::vector<BlockPose> before, std::vector<BlockPose> now);
 
+  /// In place of the one the setting names; before record().
+  void use(std::unique_ptr<Preconditioner> preconditioner) { preconditioner_ = std::move(preconditioner); }
   /// Records one march: the whole steady solution, or one physical step. See tasks.cpp.
   void record(runtime::Graph& graph);
   /// Records what fills ghost volumes and centres from other ranks; to be run once, and after each motion of the grid.
@@ -206,9 +210,14 @@ class FlowSolver {
     if (!rows_.empty()) rows_.pop_back();
   }
   void build_matrix(FlowTile& tile);
+  bool refreshes() const { return solving_ && march_.refresh(); }
+  void refresh_preconditioner(std::span<FlowTile> tiles, MPI_Comm comm);
   void first_vector(FlowTile& tile);
-  double make_direction(FlowTile& tile, int iteration);
-  void precondition(FlowTile& tile, const float* v, float* z);
+  void make_vector(FlowTile& tile, int iteration);
+  void precondition_vectors(std::span<FlowTile> tiles, int iteration, MPI_Comm comm);
+  double spread_direction(FlowTile& tile, int iteration);
+  void combine(FlowTile& tile);
+  void precondition_solution(std::span<FlowTile> tiles, MPI_Comm comm);
   void perturb(FlowTile& tile);
   void product(FlowTile& tile, int iteration, std::span<double> dots);
   double find_update(FlowTile& tile);
@@ -226,14 +235,15 @@ class FlowSolver {
   ImplicitSetting implicit_;
 
   March march_;
-  linear::Gmres gmres_;
+  KrylovCycle cycle_;
+  std::unique_ptr<Preconditioner> preconditioner_;
+  int matrices_ = 0, iteration_ = 0;
   Norms norms_;
   std::vector<std::int64_t> parts_;
   std::vector<double> norm_partials_, load_partials_, dot_partials_, size_partials_, fraction_partials_;
   std::vector<double> norm_sums_, loads_, dots_;
   double direction_size_ = 0.0, fraction_ = 1.0;
   bool solving_ = false, matrix_free_ = false;
-  std::vector<double> combination_;
   std::vector<PseudoRow> rows_;
   std::function<void(const PseudoRow&)> watcher_;
   /// The cell of each tile that limits its update most, and by what.

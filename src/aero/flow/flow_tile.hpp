@@ -19,7 +19,9 @@ namespace spindrift::aero {
 inline constexpr int mean_unknowns = 5;
 
 /// How the faces of a window behave; from the scene's boundaries by patch name.
-enum class Condition : unsigned char { far_field, inflow_velocity, inflow_stagnation, outflow_pressure, slip, no_slip, symmetry };
+enum class Condition : unsigned char { far_field, inflow_velocity, inflow_stagnation, outflow_pressure, slip, no_slip, symmetry, wall_law };
+/// In the solver a wall with the law of the wall is `no_slip` with FlowBoundary::law.
+inline bool sticks(Condition c) { return c == Condition::no_slip || c == Condition::wall_law; }
 inline bool is_wall(Condition c) { return c == Condition::slip || c == Condition::no_slip || c == Condition::symmetry; }
 /// Through walls goes pressure alone. On a plane of symmetry the scheme acts between mirror images, so that half a flow is the
 /// whole one cell by cell; its mass flux there is none by symmetry.
@@ -30,6 +32,7 @@ struct FlowBoundary {
   TileBoundary where;
   Condition condition = Condition::far_field;
   bool loads = false;  ///< counts towards forces
+  bool law = false;    ///< a no-slip wall whose friction follows from the law of the wall
 };
 
 struct FlowTile {
@@ -55,7 +58,7 @@ struct FlowTile {
   AlignedArray<float> mean_matrix, turbulence_matrix;
   AlignedArray<float> direction;             ///< with one ghost: what the operator is applied to
   std::vector<AlignedArray<float>> vectors;  ///< of the Krylov cycle: [cell][5], then [cell][turbulence]
-  std::vector<AlignedArray<float>> directions_kept;  ///< of GCG
+  std::vector<AlignedArray<float>> directions_kept;  ///< of flexible GMRES and GCG
 
   int unknowns() const { return mean_unknowns + turbulence; }
   std::size_t vector_size() const { return std::size_t(box.count()) * unknowns(); }

@@ -1,6 +1,6 @@
 // The vectors of a Krylov cycle in one tile: linear combinations and dot products over floats, summed in double. One pass over memory
 // for all dot products of an iteration. Deterministic: the order of additions is that of the cells.
-// Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/krylov_vectors_test.cpp.
+// Called by krylov_cycle.cpp; tested in tests/src/aero/flow/linear_solver_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,8 +14,8 @@ namespace spindrift::aero {
 
 inline constexpr std::size_t vector_chunk = 1024;  ///< numbers whose products are summed in float lanes before they go to double
 
-/// dots[n] = (w, vectors[n]) for all, then dots[count] = (w, w). Vectors are padded with zeros to a multiple of 16.
-inline void dot_products(const float* w, std::span<const AlignedArray<float>> vectors, std::size_t size, std::span<double> dots) {
+/// dots[n] = (w, vectors[n]) for all, of which w may be one. Vectors are padded with zeros to a multiple of 16.
+inline void dot_products(const float* w, std::span<const float* const> vectors, std::size_t size, std::span<double> dots) {
   using Lanes = Wide<float, 16>;
   std::fill(dots.begin(), dots.end(), 0.0);
   for (std::size_t first = 0; first < size; first += vector_chunk) {
@@ -25,8 +25,7 @@ inline void dot_products(const float* w, std::span<const AlignedArray<float>> ve
       for (std::size_t n = first; n < last; n += 16) sum += Lanes::load(w + n) * Lanes::load(v + n);
       return double(spindrift::sum(sum));
     };
-    for (std::size_t m = 0; m < vectors.size(); ++m) dots[m] += product(vectors[m].data());
-    dots[vectors.size()] += product(w);
+    for (std::size_t m = 0; m < vectors.size(); ++m) dots[m] += product(vectors[m]);
   }
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/sweep_gradients.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/turbulence/wall_law.hpp"
 #include "src/aero/flow/sweep.hpp"
 
 namespace spindrift::aero {
@@ -48,6 +52,49 @@ void mirror(const double* from, std::ptrdiff_t c, double factor, const double (&
 
 }  // namespace
 
+namespace {
+
+/// The first cell of a wall with a wall function: velocity along the wall relative to it, distance, density and viscosity.
+struct FirstCell {
+  double u, v, w, speed, distance, rho, mu;
+};
+FirstCell first_cell(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Side side, const double (&n)[3], int k, int j, int i) {
+  const std::ptrdiff_t at = tile.cells.at(k, j, i), out = (at_end(side) ? 1 : -1) * tile.cells.stride(direction_of(side));
+  const auto q = gas::load_primitive<double>(state + at, std::size_t(tile.cells.component)),
+             ghost = gas::load_primitive<double>(state + at + out, std::size_t(tile.cells.component));
+  double u = 0.5 * (q.u - ghost.u), v = 0.5 * (q.v - ghost.v), w = 0.5 * (q.w - ghost.w);  // the wall has the mean of both
+  const double across = u * n[0] + v * n[1] + w * n[2];
+  u -= across * n[0], v -= across * n[1], w -= across * n[2];
+  return {u, v, w, std::sqrt(u * u + v * v + w * w), tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)],
+          gas::density(gas, q), gas::viscosity(gas, gas::absolute_temperature(gas, q))};
+}
+
+}  // namespace
+
+void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas) {
+  const std::ptrdiff_t c = tile.gradient_box.component;
+  for (const FlowBoundary& boundary : tile.boundaries) {
+    if (!boundary.law) continue;
+    const Side side = boundary.where.side;
+    for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
+      const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
+      const double n[3] = {f.nx, f.ny, f.nz};
+      const FirstCell cell = first_cell(tile, state, gas, side, n, k, j, i);
+      if (!(cell.speed > 0.0)) return;
+      const double rate = turbulence::wall_law_rate(cell.speed, cell.distance, cell.mu / cell.rho) / cell.speed;
+      double* at = tile.gradients.data() + tile.gradient_box.at(k, j, i);
+      double now[3], along_wall = 0.0;
+      for (int v = 0; v < 3; ++v) {
+        now[v] = at[3 * v * c] * n[0] + at[(3 * v + 1) * c] * n[1] + at[(3 * v + 2) * c] * n[2];
+        along_wall += now[v] * n[v];
+      }
+      const double law[3] = {-rate * cell.u, -rate * cell.v, -rate * cell.w};  // n points into the wall
+      for (int v = 0; v < 3; ++v)
+        for (int d = 0; d < 3; ++d) at[(3 * v + d) * c] += (law[v] - (now[v] - along_wall * n[v])) * n[d];
+    });
+  }
+}
+
 void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas, const std::array<double, 2>& wall_spread) {
   const std::ptrdiff_t c = tile.gradient_box.component;
   const int carried = tile.turbulence, eddy = 3 * (4 + carried), components = gradient_components(carried);
@@ -83,6 +130,11 @@ void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::Ide
       for (int m = eddy; m < eddy + 2; ++m) ghost[m * c] = -at[m * c];  // on the wall there is no eddy viscosity
       const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
       const double mu = gas::viscosity(gas, gas::absolute_temperature(gas, q));
+      if (boundary.law) {
+        // The face's share is such that half the difference of cell and ghost over the distance gives the law's friction.
+        const FirstCell cell = first_cell(tile, state, gas, side, n, k, j, i);
+        ghost[eddy * c] += 2.0 * (turbulence::wall_viscosity(cell.speed, cell.distance, cell.rho, cell.mu) - cell.mu);
+      }
       for (int t = 0; t < carried; ++t) ghost[(eddy + 2 + t) * c] = 2.0 * wall_spread[std::size_t(t)] * mu - at[(eddy + 2 + t) * c];
     });
   }

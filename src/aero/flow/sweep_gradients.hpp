@@ -14,6 +14,9 @@ namespace spindrift::aero {
 constexpr int gradient_components(int turbulence) { return 3 * (4 + turbulence) + (turbulence > 0 ? 2 + turbulence : 0); }
 
 void sweep_gradients(FlowTile& tile, const double* state);
+/// In the first cells of walls with a wall function: how fast the velocity along the wall rises is what the law of the wall says of the
+/// cell's own velocity. A difference over the cell would be three to four times that, and as much production of turbulence.
+void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas);
 /// `wall_spread`: diffusivity of the turbulence unknowns on a no-slip wall over the laminar viscosity.
 void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas, const std::array<double, 2>& wall_spread);
 

@@ -19,8 +19,6 @@ struct ModelSweeps {
   void (*closures)(FlowTile& tile, const double* state, const ViscousSetting& s) = nullptr;
   void (*residual)(FlowTile& tile, const double* state, double* residual, const ViscousSetting& s) = nullptr;
   void (*matrix)(FlowTile& tile, const double* state, double cfl, const ImplicitSetting& s) = nullptr;
-  std::ptrdiff_t (*factor)(FlowTile& tile) = nullptr;
-  void (*solve)(FlowTile& tile, const float* r, float* z) = nullptr;
   void (*multiply)(FlowTile& tile, const float* x, float* y) = nullptr;
   void (*wall)(const double* inside, double nu, double distance, double* ghost) = nullptr;
   std::array<double, 2> (*far_field)(double nu, double speed, double sound_speed) = nullptr;

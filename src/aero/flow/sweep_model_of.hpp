@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kernels/gas/preconditioner.hpp"
-#include "kernels/linear/block_ilu.hpp"
+#include "kernels/linear/stencil_matrix.hpp"
 #include "kernels/turbulence/model.hpp"
 #include "src/aero/flow/boundary.hpp"
 #include "src/aero/flow/sweep_model.hpp"
@@ -189,8 +189,6 @@ struct SweepsOf {
     }
   }
 
-  static std::ptrdiff_t factor(FlowTile& tile) { return linear::factor(tile.model<n>()); }
-  static void solve(FlowTile& tile, const float* r, float* z) { linear::solve(tile.model<n>(), r, z); }
   static void multiply(FlowTile& tile, const float* x, float* y) {
     const BoxLayout& box = tile.gradient_box;
     linear::multiply(tile.model<n>(), x, {box.origin, box.row, box.plane, box.component}, y);
@@ -214,7 +212,7 @@ struct SweepsOf {
     const auto closure = Model{}.closure(turbulence::Flow<double>{1.0, 1.0, 1.0, none, none, none}, still);
     std::array<double, 2> spread{};
     for (std::size_t m = 0; m < std::size_t(n); ++m) spread[m] = closure.diffusivity[m];
-    return {Model::name, n, lowest, spread, closures, residual, matrix, factor, solve, multiply, wall, far_field};
+    return {Model::name, n, lowest, spread, closures, residual, matrix, multiply, wall, far_field};
   }
 };
 

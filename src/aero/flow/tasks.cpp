@@ -20,7 +20,7 @@ class StepGraph {
     for (auto* data : {&state_, &state_ghosts_, &gradients_, &gradient_ghosts_, &residual_, &matrix_, &norms_, &vectors_, &direction_,
                        &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &dots_, &fraction_, &past_})
       *data = graph.data(owned_);
-    sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(), krylov_ = graph.datum(),
+    sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(), krylov_ = graph.datum(), built_ = graph.datum(),
     total_fraction_ = graph.datum();
   }
 
@@ -33,7 +33,13 @@ class StepGraph {
       judge();
       each("aero/matrix", [&](std::size_t n) { return Uses{reads(decision_),    reads(state_[n]),     reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]),
                        writes(matrix_[n])}; },
-           [this](std::size_t n) { s_.build_matrix(s_.tiles_[n]); });
+           [this](std::size_t n) {
+             s_.build_matrix(s_.tiles_[n]);
+             if (by_tile()) s_.refresh_preconditioner(tile_at(n), MPI_COMM_NULL);
+           });
+      if (!by_tile()) {
+        g_.collective("aero/preconditioner", all({reads(decision_), updates(built_)}, {&matrix_}), [this](MPI_Comm comm) { s_.refresh_preconditioner(s_.tiles_, comm); });
+      }
       g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = 1}, [&] { krylov_iteration(); });
       update();
       g_.until("aero/converged", {reads(decision_)}, [this] {
@@ -44,7 +50,16 @@ class StepGraph {
   }
 
  private:
-  int columns() const { return int(s_.tiles_.empty() ? s_.combination_.size() : s_.tiles_[0].vectors.size()) - 1; }
+  int columns() const { return s_.cycle_.most_columns(); }
+  bool by_tile() const { return s_.preconditioner_->by_tile(); }
+  std::span<FlowTile> tile_at(std::size_t n) { return std::span(s_.tiles_).subspan(n, 1); }
+  /// These uses, and the data of all tiles: read, or updated.
+  static Uses all(Uses uses, std::initializer_list<const std::vector<Datum>*> read, std::initializer_list<const std::vector<Datum>*> updated = {}) {
+    for (const auto* data : read) uses.push_back(reads(*data));
+    for (const auto* data : updated)
+      for (const Datum d : *data) uses.push_back(updates(d));
+    return uses;
+  }
   std::string of(const char* path, std::size_t n) const { return std::string(path) + "/" + std::to_string(s_.tiles_[n].index); }
   template <class UsesOf, class Work>
   void each(const char* path, UsesOf&& uses, Work work) {
@@ -112,10 +127,28 @@ class StepGraph {
 
   void krylov_iteration() {
     // v_j, and the direction z = M^-1 v_j.
-    for (std::size_t n = 0; n < owned_; ++n)
-      g_.task(of("aero/krylov/direction", n),
-              {reads(decision_), reads(krylov_), reads(residual_[n]), reads(matrix_[n]), updates(vectors_[n]), writes(direction_[n]), writes(size_[n])},
-              [this, n](const Context& c) { s_.size_partials_[n] = s_.make_direction(s_.tiles_[n], int(c.iteration)); });
+    if (by_tile()) {
+      for (std::size_t n = 0; n < owned_; ++n)
+        g_.task(of("aero/krylov/direction", n),
+                {reads(decision_), reads(krylov_), reads(residual_[n]), reads(matrix_[n]), updates(vectors_[n]), writes(direction_[n]), writes(size_[n])},
+                [this, n](const Context& c) {
+                  s_.make_vector(s_.tiles_[n], int(c.iteration));
+                  s_.precondition_vectors(tile_at(n), int(c.iteration), MPI_COMM_NULL);
+                  s_.size_partials_[n] = s_.spread_direction(s_.tiles_[n], int(c.iteration));
+                });
+    } else {
+      for (std::size_t n = 0; n < owned_; ++n)
+        g_.task(of("aero/krylov/vector", n), {reads(decision_), reads(krylov_), reads(residual_[n]), updates(vectors_[n])},
+                [this, n](const Context& c) {
+                  s_.make_vector(s_.tiles_[n], int(c.iteration));
+                  if (n == 0) s_.iteration_ = int(c.iteration);
+                });
+      g_.collective("aero/krylov/precondition", all({reads(decision_), reads(built_)}, {&matrix_}, {&vectors_}),
+                    [this](MPI_Comm comm) { s_.precondition_vectors(s_.tiles_, s_.iteration_, comm); });
+      for (std::size_t n = 0; n < owned_; ++n)
+        g_.task(of("aero/krylov/direction", n), {reads(decision_), reads(vectors_[n]), writes(direction_[n]), writes(size_[n])},
+                [this, n](const Context& c) { s_.size_partials_[n] = s_.spread_direction(s_.tiles_[n], int(c.iteration)); });
+    }
     g_.reduce("aero/krylov/size", {reads(size_), writes(total_size_)},
               {Reduction::Operation::max, s_.parts_, s_.size_partials_, {&s_.direction_size_, 1}});
     // w = A z: by the stored blocks, or by the residual of a state a little further along z.
@@ -152,22 +185,39 @@ class StepGraph {
     g_.reduce("aero/krylov/dots", {reads(dots_), writes(total_dots_)},
               {.parts = s_.parts_, .partials = s_.dot_partials_, .result = s_.dots_});
     g_.task("aero/krylov/append", {reads(total_dots_), reads(decision_), updates(krylov_)}, [this] {
-      if (s_.solving_) s_.gmres_.append(s_.dots_);
+      if (s_.solving_) s_.cycle_.append(s_.dots_);
     });
     g_.until("aero/krylov/enough", {reads(krylov_), reads(decision_)}, [this] {
-      return !s_.solving_ || s_.gmres_.breakdown() ||
-             s_.gmres_.residual_norm() <= s_.march_.options().krylov_drop * std::sqrt(s_.norms_.mean + s_.norms_.model);
+      return !s_.solving_ || s_.cycle_.breakdown() ||
+             s_.cycle_.residual_norm() <= s_.march_.options().krylov_drop * std::sqrt(s_.norms_.mean + s_.norms_.model);
     });
   }
 
   void update() {
-    each("aero/update",
-         [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), reads(matrix_[n]), reads(state_[n]), updates(vectors_[n]), writes(fraction_[n])}; },
-         [this](std::size_t n) { s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]); });
+    g_.task("aero/solution", {reads(decision_), updates(krylov_)}, [this] {
+      if (s_.solving_) s_.cycle_.finish();
+    });
+    if (by_tile()) {
+      each("aero/update",
+           [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), reads(matrix_[n]), reads(state_[n]), updates(vectors_[n]), writes(fraction_[n])}; },
+           [this](std::size_t n) {
+             s_.combine(s_.tiles_[n]);
+             s_.precondition_solution(tile_at(n), MPI_COMM_NULL);
+             s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]);
+           });
+    } else {
+      each("aero/combine", [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), updates(vectors_[n])}; },
+           [this](std::size_t n) { s_.combine(s_.tiles_[n]); });
+      if (s_.cycle_.precondition_at_end())
+        g_.collective("aero/precondition", all({reads(decision_), reads(built_)}, {&matrix_}, {&vectors_}),
+                      [this](MPI_Comm comm) { s_.precondition_solution(s_.tiles_, comm); });
+      each("aero/update", [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(vectors_[n]), writes(fraction_[n])}; },
+           [this](std::size_t n) { s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]); });
+    }
     g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
               {Reduction::Operation::min, s_.parts_, s_.fraction_partials_, {&s_.fraction_, 1}});
     g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
-      if (s_.solving_) s_.march_.updated(s_.fraction_, s_.gmres_.columns(), s_.gmres_.residual_norm() / std::sqrt(s_.norms_.mean + s_.norms_.model));
+      if (s_.solving_) s_.march_.updated(s_.fraction_, s_.cycle_.columns(), s_.cycle_.residual_norm() / std::sqrt(s_.norms_.mean + s_.norms_.model));
     });
     each("aero/apply",
          [&](std::size_t n) { return Uses{reads(decision_), reads(total_fraction_), reads(vectors_[n]), updates(state_[n]), updates(trial_[n])}; },
@@ -234,7 +284,7 @@ class StepGraph {
   std::size_t owned_;
   std::vector<Datum> state_, state_ghosts_, gradients_, gradient_ghosts_, residual_, matrix_, norms_, vectors_, direction_, direction_ghosts_,
       size_, trial_, trial_ghosts_, dots_, fraction_, past_;
-  Datum sums_, decision_, total_size_, total_dots_, krylov_, total_fraction_;
+  Datum sums_, decision_, total_size_, total_dots_, krylov_, built_, total_fraction_;
 };
 
 void FlowSolver::record(Graph& graph) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/grid/spacing.hpp"
 #include "kernels/grid/stretching.hpp"
 
 namespace spindrift::aero {
@@ -68,7 +69,7 @@ RotorLayout::RotorLayout(const BladeSurface& blade, const RotorGridSpec& spec, i
   const double tip = blade.tip_radius(), length = tip - spec.hub_radius_m, outer = spec.radial_extent * tip;
   // Finer at the tip than in proportion: coarse grids would stretch too fast outboard, fine ones should see the closure.
   const double tip_size = 4.3 * blade.closure() * std::pow(12.0 / n.span, 1.5);
-  const Vinokur law(0.9, tip_size * n.span / length);
+  const VinokurLaw law(0.9, tip_size * n.span / length);
   for (int k = 0; k < n.span; ++k) radii_.push_back(spec.hub_radius_m + length * law(double(k) / n.span));
   radii_.push_back(tip);
   std::vector<double> size(std::size_t(n.outboard));

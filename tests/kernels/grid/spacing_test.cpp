@@ -29,7 +29,7 @@ TEST_CASE("the sinh law has the slope asked for, no curvature at its start, and 
 }
 
 TEST_CASE("the Vinokur law has the slopes asked for at both ends", "[grid][fast]") {
-  const double start = GENERATE(1e-5, 0.01, 0.5, 1.0, 1.6), end = GENERATE(1e-4, 0.2, 1.0, 1.5);
+  const double start = GENERATE(1e-5, 0.01, 0.5, 1.0, 1.6, 2.5), end = GENERATE(1e-4, 0.2, 1.0, 1.5, 3.0);
   const VinokurLaw law(start, end);
   CHECK(law(0.0) == Approx(0.0).margin(1e-15));
   CHECK(law(1.0) == Approx(1.0).epsilon(1e-14));

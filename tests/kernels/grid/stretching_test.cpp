@@ -1,4 +1,4 @@
-// Spacing laws: sums, ends, limits, and that one law on twice as many cells is the same law.
+// Sizes along a line: sums, ends, limits.
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/grid/stretching.hpp"
 
@@ -26,20 +26,4 @@ TEST_CASE("limited sizes never pass their limit, however thin the first", "[grid
   CHECK(size[0] == Approx(first).epsilon(0.01));
   CHECK(*std::max_element(size.begin(), size.end()) < 0.2);
   CHECK(std::is_sorted(size.begin(), size.end()));
-}
-
-TEST_CASE("Vinokur's law has the slopes asked for at both ends and only grows", "[grid][fast]") {
-  const auto slope0 = GENERATE(0.01, 0.3, 1.0, 2.5);
-  const auto slope1 = GENERATE(0.002, 0.5, 1.0, 3.0);
-  const Vinokur law(slope0, slope1);
-  CHECK(law(0.0) == Approx(0.0).margin(1e-14));
-  CHECK(law(1.0) == Approx(1.0).epsilon(1e-14));
-  const double d = 1e-7;
-  CHECK(law(d) / d == Approx(slope0).epsilon(2e-4));
-  CHECK((1.0 - law(1.0 - d)) / d == Approx(slope1).epsilon(2e-4));
-  double last = 0.0;
-  for (int i = 1; i <= 100; ++i) {
-    CHECK(law(i / 100.0) > last);
-    last = law(i / 100.0);
-  }
 }

@@ -55,7 +55,7 @@ struct Case {
       : grid(std::move(from)) {
     std::vector<std::string> walls;
     for (const auto& [name, c] : conditions)
-      if (c.condition == Condition::no_slip || c.condition == Condition::slip) walls.push_back(name);
+      if (sticks(c.condition) || c.condition == Condition::slip) walls.push_back(name);
     Tiling tiles = make_tiling(grid, walls, tiling);
     std::vector<PatchCondition> by_patch(tiles.patches.size());
     for (const auto& [name, c] : conditions)

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow/preconditioner.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "kernels/linear/block_ilu.hpp"
+#include "kernels/linear/block_jacobi.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+/// One of the two ways of kernels/linear, on the blocks of the mean flow and on those of the turbulence model.
+struct Ilu {
+  static constexpr std::string_view name = "block_ilu";
+  template <int n>
+  static std::ptrdiff_t factor(const linear::StencilMatrix<n>& a) {
+    return linear::factor(a);
+  }
+  template <int n>
+  static void solve(const linear::StencilMatrix<n>& a, const float* r, float* z) {
+    linear::solve(a, r, z);
+  }
+};
+struct Jacobi {
+  static constexpr std::string_view name = "block_jacobi";
+  template <int n>
+  static std::ptrdiff_t factor(const linear::StencilMatrix<n>& a) {
+    return linear::factor_diagonal(a);
+  }
+  template <int n>
+  static void solve(const linear::StencilMatrix<n>& a, const float* r, float* z) {
+    linear::solve_diagonal(a, r, z);
+  }
+};
+
+template <class Method>
+class ByBlocks final : public Preconditioner {
+ public:
+  std::string_view name() const override { return Method::name; }
+  void refresh(std::span<FlowTile* const> tiles, MPI_Comm) override {
+    for (FlowTile* tile : tiles) {
+      std::ptrdiff_t cell = Method::factor(tile->mean());
+      if (cell < 0 && tile->turbulence == 1) cell = Method::factor(tile->model<1>());
+      if (cell < 0 && tile->turbulence == 2) cell = Method::factor(tile->model<2>());
+      if (cell >= 0) throw std::runtime_error("singular pivot in tile " + std::to_string(tile->index) + ", cell " + std::to_string(cell));
+    }
+  }
+  void apply(std::span<const Piece> pieces, MPI_Comm) override {
+    for (const Piece& piece : pieces) {
+      FlowTile& tile = *piece.tile;
+      Method::solve(tile.mean(), piece.v, piece.z);
+      const std::ptrdiff_t model = tile.box.count() * mean_unknowns;
+      if (tile.turbulence == 1) Method::solve(tile.model<1>(), piece.v + model, piece.z + model);
+      if (tile.turbulence == 2) Method::solve(tile.model<2>(), piece.v + model, piece.z + model);
+    }
+  }
+};
+
+class Identity final : public Preconditioner {
+ public:
+  std::string_view name() const override { return "identity"; }
+  void refresh(std::span<FlowTile* const>, MPI_Comm) override {}
+  void apply(std::span<const Piece> pieces, MPI_Comm) override {
+    for (const Piece& p : pieces)
+      if (p.z != p.v) std::copy_n(p.v, p.tile->vector_size(), p.z);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Preconditioner> make_preconditioner(std::string_view name) {
+  if (name == Ilu::name) return std::make_unique<ByBlocks<Ilu>>();
+  if (name == Jacobi::name) return std::make_unique<ByBlocks<Jacobi>>();
+  if (name == "identity") return std::make_unique<Identity>();
+  throw std::invalid_argument("flow: no preconditioner is called " + std::string(name));
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,212 @@
+// The linear solver's choices: the Krylov methods see the same residuals and end in the same flow, preconditioners change the way and not
+// the end, one for all tiles at once is the same as by tile, matrices kept over pseudo-steps are counted, and all of it to the bit on any
+// threads and ranks. SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/src/aero/flow/flows.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using namespace spindrift::aero::testing;
+
+namespace {
+
+constexpr KrylovMethod methods[]{KrylovMethod::gmres, KrylovMethod::fgmres, KrylovMethod::gcg};
+
+FlowSetting turbulent_air() {
+  FlowSetting s = air(0.3, {1.0, 0.4, 0.2});
+  s.viscous = true;
+  s.turbulence = "sa";
+  s.gas.viscosity.mu0 = 1e-2;
+  s.march.drop = 1e-6;
+  s.march.max_steps = 60;
+  return s;
+}
+
+/// A bump in a skewed box of eight tiles, that leaves.
+Case bump(const FlowSetting& setting, int ranks = 1, int rank = 0, std::unique_ptr<Preconditioner> preconditioner = nullptr) {
+  const BoxOptions box{.ni = 8, .nj = 8, .nk = 8};
+  Case c(perturbed(cartesian_box(box), box, 0.04), setting, {}, {.across_j = 4, .across_k = 4, .normal = 8}, ranks, rank);
+  if (preconditioner) c.solver->use(std::move(preconditioner));
+  for (FlowTile& tile : c.solver->tiles()) std::ranges::fill(tile.geometry->wall_distance_data.span(), 0.1);
+  c.solver->start([&](const Eigen::Vector3d& x) {
+    gas::Primitive<double> q = setting.stream;
+    const double height = std::exp(-20.0 * (x - Eigen::Vector3d::Constant(0.5)).squaredNorm());
+    q.p += 2000.0 * height, q.T += 3.0 * height, q.v += 10.0 * height;
+    return q;
+  });
+  return c;
+}
+Case marched(const FlowSetting& setting, std::unique_ptr<Preconditioner> preconditioner = nullptr) {
+  Case c = bump(setting, 1, 0, std::move(preconditioner));
+  c.prepare();
+  c.run();
+  return c;
+}
+
+std::vector<double> fingerprint(const FlowSolver& solver) {
+  std::vector<double> all;
+  for (const PseudoRow& row : solver.rows())
+    all.insert(all.end(), {row.density_residual, row.mean_residual, row.model_residual, row.cfl, double(row.krylov), double(row.matrices)});
+  return all;
+}
+std::vector<double> state_of(const FlowSolver& solver) {
+  std::vector<double> all;
+  for (int n = 0; n < int(solver.tiles().size()); ++n) {
+    std::vector<double> tile(solver.saved_size(n));
+    solver.save(n, tile);
+    all.insert(all.end(), tile.begin(), tile.end());
+  }
+  return all;
+}
+
+/// Block ILU of each tile, but for all tiles of a process at once, as a library's multigrid would come.
+class AllAtOnce final : public Preconditioner {
+ public:
+  std::string_view name() const override { return "all_at_once"; }
+  bool by_tile() const override { return false; }
+  void refresh(std::span<FlowTile* const> tiles, MPI_Comm comm) override {
+    CHECK(comm != MPI_COMM_NULL);
+    for (FlowTile* const& tile : tiles) each_->refresh({&tile, 1}, MPI_COMM_NULL);
+  }
+  void apply(std::span<const Piece> pieces, MPI_Comm) override {
+    for (const Piece& piece : pieces) each_->apply({&piece, 1}, MPI_COMM_NULL);
+  }
+
+ private:
+  std::unique_ptr<Preconditioner> each_ = make_preconditioner("block_ilu");
+};
+
+}  // namespace
+
+TEST_CASE("flexible GMRES and GCG reduce a linear system as GMRES does, with either operator", "[flow][fast]") {
+  for (const double matrix_free_below : {0.0, 2.0}) {
+    std::vector<double> drop;
+    std::vector<std::vector<double>> state;
+    for (const KrylovMethod method : methods) {
+      FlowSetting s = turbulent_air();
+      s.krylov = method;
+      s.march = {.cfl_start = 50.0, .drop = 0.0, .max_steps = 1, .krylov_steps = 8, .krylov_drop = 0.0, .matrix_free_below = matrix_free_below};
+      const Case c = marched(s);
+      drop.push_back(c.solver->march().linear_drop());
+      state.push_back(state_of(*c.solver));
+      CHECK(c.solver->march().krylov() == 8);
+    }
+    CAPTURE(drop);
+    CHECK(drop[0] < 0.1);
+    double change = 0.0, apart = 0.0;
+    const std::vector<double> before = state_of(*bump(turbulent_air()).solver);
+    for (std::size_t m = 1; m < 3; ++m) {
+      CHECK(drop[m] == Approx(drop[0]).epsilon(0.02));
+      for (std::size_t n = 0; n < before.size(); ++n) {
+        change = std::max(change, std::abs(state[0][n] - before[n]));
+        apart = std::max(apart, std::abs(state[m][n] - state[0][n]));
+      }
+    }
+    CHECK(apart < 2e-3 * change);
+  }
+}
+
+TEST_CASE("every method and preconditioner ends in the same flow, the better ones in fewer iterations", "[flow][fast]") {
+  std::vector<long> iterations;
+  for (const char* preconditioner : {"block_ilu", "block_jacobi", "identity"})
+    for (const KrylovMethod method : methods) {
+      FlowSetting s = turbulent_air();
+      s.krylov = method, s.preconditioner = preconditioner;
+      s.march.cfl_max = 20.0, s.march.krylov_drop = 0.05, s.march.krylov_steps = 40;
+      const Case c = marched(s);
+      CAPTURE(preconditioner, int(method));
+      CHECK(c.solver->march().verdict() == Verdict::converged);
+      CHECK_FALSE(c.solver->march().spent());
+      CHECK(stream_deviation(*c.solver) < 1e-5);
+      iterations.push_back(c.solver->march().krylov_total());
+    }
+  CAPTURE(iterations);
+  for (std::size_t m = 0; m < 3; ++m) {
+    CHECK(iterations[m] < iterations[3 + m]);
+    CHECK(iterations[3 + m] < iterations[6 + m]);
+  }
+}
+
+TEST_CASE("a preconditioner for all tiles of a process at once gives the bits of the same one by tile", "[flow][fast]") {
+  for (const KrylovMethod method : methods) {
+    FlowSetting s = turbulent_air();
+    s.krylov = method, s.march.max_steps = 6;
+    const Case by_tile = marched(s), at_once = marched(s, std::make_unique<AllAtOnce>());
+    CHECK(fingerprint(*by_tile.solver) == fingerprint(*at_once.solver));
+    CHECK(state_of(*by_tile.solver) == state_of(*at_once.solver));
+  }
+}
+
+TEST_CASE("matrices kept over some pseudo-steps are fewer and end in the same flow", "[flow][fast]") {
+  FlowSetting s = turbulent_air();
+  s.march.matrix_free_below = 2.0, s.march.cfl_start = 20.0, s.march.cfl_max = 20.0;
+  const Case each = marched(s);
+  s.march.refresh_every = 4;
+  const Case kept = marched(s);
+  CHECK(each.solver->march().verdict() == Verdict::converged);
+  CHECK(kept.solver->march().verdict() == Verdict::converged);
+  CHECK(stream_deviation(*kept.solver) < 1e-5);
+  CHECK(each.solver->rows().back().matrices == each.solver->march().steps() - 1);
+  CHECK(2 * kept.solver->rows().back().matrices < kept.solver->march().steps());
+}
+
+TEST_CASE("threads leave every bit of flexible GMRES and GCG with matrices kept", "[flow][fast]") {
+  for (const KrylovMethod method : {KrylovMethod::fgmres, KrylovMethod::gcg}) {
+    FlowSetting s = turbulent_air();
+    s.krylov = method, s.march.refresh_every = 3, s.march.matrix_free_below = 2.0, s.march.max_steps = 6;
+    std::vector<double> rows, state;
+    for (const int threads : {1, 3}) {
+      Case c = bump(s);
+      runtime::ExecutorOptions options{.threads = threads};
+      if (threads > 1) options.random_schedule = 7;
+      c.prepare(MPI_COMM_SELF, options);
+      c.run();
+      if (rows.empty()) rows = fingerprint(*c.solver), state = state_of(*c.solver);
+      CHECK(fingerprint(*c.solver) == rows);
+      CHECK(state_of(*c.solver) == state);
+    }
+  }
+}
+
+TEST_CASE("a physical step begins with a new matrix, so a march restarted between steps goes on with the same bits", "[flow][fast]") {
+  FlowSetting s = turbulent_air();
+  s.krylov = KrylovMethod::gcg;
+  s.time_order = 2, s.dt = 1e-3, s.march.drop = 1e-3, s.march.refresh_every = 5, s.march.matrix_free_below = 2.0;
+  Case whole = bump(s), first = bump(s), second = bump(s);
+  for (Case* c : {&whole, &first, &second}) c->prepare();
+  for (int n = 0; n < 4; ++n) whole.run();
+  for (int n = 0; n < 2; ++n) first.run();
+  for (int t = 0; t < int(first.solver->tiles().size()); ++t) {
+    std::vector<double> saved(first.solver->saved_size(t));
+    first.solver->save(t, saved);
+    second.solver->load(t, saved);
+  }
+  second.solver->load_march(first.solver->save_march());
+  for (int n = 0; n < 2; ++n) second.run();
+  CHECK(state_of(*whole.solver) == state_of(*second.solver));
+}
+
+namespace {
+void same_bits_on(int ranks) {
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  for (const KrylovMethod method : methods)
+    for (const bool at_once : {false, true}) {
+      FlowSetting s = turbulent_air();
+      s.krylov = method, s.march.refresh_every = 2, s.march.max_steps = 6;
+      const auto preconditioner = [&] { return at_once ? std::make_unique<AllAtOnce>() : nullptr; };
+      Case whole = bump(s, 1, 0, preconditioner()), part = bump(s, ranks, rank, preconditioner());
+      whole.prepare();
+      whole.run();
+      part.prepare(MPI_COMM_WORLD, {.threads = 2});
+      part.run();
+      CHECK(fingerprint(*whole.solver) == fingerprint(*part.solver));
+    }
+}
+}  // namespace
+
+TEST_CASE("two ranks give every Krylov method the bits of one", "[flow][mpi2]") { same_bits_on(2); }
+TEST_CASE("four ranks give every Krylov method the bits of one", "[flow][mpi4]") { same_bits_on(4); }

@@ -1,0 +1,95 @@
+// The law of the wall in place of a resolved sublayer: the flat plate of flat_plate_test.cpp with its lowest cells replaced by one whose
+// centre stands at y+ 30, 50, 100 (at x = 0.97), and in the sublayer, against friction and drag of the resolved grids (.00271, .00286).
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "src/aero/grid/generators/plane_cases.hpp"
+#include "src/aero/grid/wall_distance.hpp"
+#include "tests/src/aero/flow/flows.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using namespace spindrift::aero::testing;
+
+namespace {
+
+/// Of the plate's grid, one cell of this height at the wall in place of all that begin below 1.5 heights.
+MultiBlockGrid coarse_at_wall(MultiBlockGrid grid, double height) {
+  REQUIRE(grid.blocks.size() == 1);
+  const Block from = grid.blocks[0];  // i along the wall, j away from it
+  int first = 1;
+  while (from.nodes[from.node(0, first, 0)][2] < 1.5 * height) ++first;
+  const int gone = first - 2;
+  Block to{.name = from.name, .ni = from.ni, .nj = from.nj - gone, .nk = from.nk};
+  for (int k = 0; k <= to.nk; ++k)
+    for (int j = 0; j <= to.nj; ++j)
+      for (int i = 0; i <= to.ni; ++i) {
+        to.nodes.push_back(from.nodes[from.node(k, j == 0 ? 0 : j + gone, i)]);
+        if (j == 1) to.nodes.back()[2] = height;
+      }
+  grid.blocks[0] = to;
+  for (Boundary& b : grid.boundaries) {
+    const auto [a, c] = along(b.where.side);
+    if (a == 1) b.where.high[0] -= gone;
+    if (c == 1) b.where.high[1] -= gone;
+  }
+  return grid;
+}
+
+struct Plate {
+  double friction, drag, y_plus;
+};
+/// First centre at this y+ of the resolved friction; the free stream has Re 5e6 per metre.
+Plate plate(int n, double y_plus, Condition wall_condition) {
+  const double height = 2.0 * y_plus / (5e6 * std::sqrt(0.5 * .0027056));
+  FlowSetting s = air(0.2);
+  s.gas.temperature_reference = 300.0;
+  s.speed = s.stream.u = 0.2 * std::sqrt(s.gas.gamma * s.gas.gas_constant * 300.0);
+  const double rho = gas::density(s.gas, s.stream);
+  s.gas.viscosity = {.mu0 = rho * s.speed / 5e6, .T0 = 300.0, .S = 110.33};
+  s.viscous = true;
+  s.turbulence = "sa";
+  s.physical_far_field = true;
+  s.march.drop = 1e-5, s.march.max_steps = 300;
+  Case c(coarse_at_wall(flat_plate(n), height), s,
+         {{"wall", {wall_condition, true}},
+          {"symmetry", {Condition::symmetry, false}},
+          {"inflow", {Condition::inflow_stagnation, false}},
+          {"outflow", {Condition::outflow_pressure, false}},
+          {"top", {Condition::far_field, false}}});
+  const WallSurface wall = wall_surface(c.grid, std::array<std::string, 1>{"wall"});
+  for (FlowTile& tile : c.solver->tiles()) fill_wall_distance(*tile.geometry, wall);
+  c.prepare(MPI_COMM_SELF, {.threads = 1});
+  c.run();
+  CHECK(c.solver->march().verdict() == Verdict::converged);
+  const double q = 0.5 * rho * s.speed * s.speed;
+  Plate result{0.0, c.solver->rows().back().force[0] / (2.0 * q), 0.0};
+  double nearest = 1e30;
+  for (const FlowTile& tile : c.solver->tiles())
+    for (const WallPoint& p : c.solver->wall_points(tile))
+      if (std::abs(p.place[0] - 0.97) < nearest) nearest = std::abs(p.place[0] - 0.97), result.friction = p.traction[0] / q, result.y_plus = p.y_plus;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a wall function gives a plate's friction and drag on grids whose first cell stands in the logarithmic layer", "[flow][fast]") {
+  for (const double y_plus : {30.0, 50.0, 100.0}) {
+    const Plate law = plate(2, y_plus, Condition::wall_law);
+    CAPTURE(y_plus, law.y_plus, law.friction, law.drag);
+    CHECK(law.y_plus == Approx(y_plus).epsilon(0.03));
+    CHECK(law.friction == Approx(.0027056).epsilon(0.03));
+    CHECK(law.drag == Approx(.0028562).epsilon(0.03));
+  }
+  CHECK(plate(2, 50.0, Condition::no_slip).friction < .0015);  // what the same grid has without it
+}
+
+TEST_CASE("a wall function on a resolved grid is the resolved wall", "[flow][fast]") {
+  const Plate law = plate(2, 1.0, Condition::wall_law), wall = plate(2, 1.0, Condition::no_slip);
+  CAPTURE(law.friction, wall.friction);
+  CHECK(law.friction == Approx(wall.friction).epsilon(2e-3));
+  CHECK(law.drag == Approx(wall.drag).epsilon(2e-3));
+}
