@@ -26,6 +26,31 @@ gas::Primitive<double> ghost_state(const FlowBoundary& boundary, const gas::Prim
   return gas::far_field(s.gas, inside, s.stream, f, s.reference_speed);
 }
 
+/// Behind a slip wall along which the flow turns, pressure and what moves along the wall vary across it: ghosts are the straight line through
+/// the two cells inside. Mirror images have a kink at the wall, which the reconstruction of the next face answers with a jump.
+struct SlipGhosts {
+  gas::Primitive<double> first, second;
+};
+SlipGhosts slip_ghosts(const gas::Primitive<double>& inside, const gas::Primitive<double>& next, const gas::Face<double>& f, double weight, bool all) {
+  const gas::Primitive<double> mirror = gas::mirrored(inside, f), mirror_next = gas::mirrored(next, f);
+  const double slope = 2.0 * weight;  // from the cell to its ghost, over the difference of both cells
+  SlipGhosts g{mirror, mirror_next};
+  g.first.p = inside.p + slope * (inside.p - next.p), g.second.p = g.first.p + (inside.p - next.p);
+  if (!all) return g;
+  const double un = gas::normal_velocity(inside, f), un_next = gas::normal_velocity(next, f), du = un - un_next;
+  const gas::Primitive<double> d{0.0, inside.u - next.u - du * f.nx, inside.v - next.v - du * f.ny, inside.w - next.w - du * f.nz, inside.T - next.T};
+  const double ghost = 2.0 * f.speed - un, ghost_next = 2.0 * f.speed - un_next;
+  const auto along = [&](double share, double normal) {
+    const double shift = normal - un;
+    return gas::Primitive<double>{0.0, inside.u + share * d.u + shift * f.nx, inside.v + share * d.v + shift * f.ny, inside.w + share * d.w + shift * f.nz,
+                                  inside.T + share * d.T};
+  };
+  const double p = g.first.p, p_next = g.second.p;
+  g.first = along(slope, ghost), g.second = along(slope + 1.0, ghost_next);
+  g.first.p = p, g.second.p = p_next;
+  return g;
+}
+
 /// Index step from a cell out of the tile through a side.
 std::ptrdiff_t outward(const BoxLayout& box, Side side) { return (at_end(side) ? 1 : -1) * box.stride(direction_of(side)); }
 
@@ -66,8 +91,16 @@ void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
       const gas::Primitive<double> first = load(tile, state, cell);
       // A wall's second ghost mirrors the second cell; behind an open boundary both are alike.
       const gas::Primitive<double> second = is_wall(boundary.condition) && deep ? load(tile, state, cell - out) : first;
-      gas::store_primitive(state + cell + out, std::size_t(component), ghost_state(boundary, first, f, wall, s));
-      gas::store_primitive(state + cell + 2 * out, std::size_t(component), ghost_state(boundary, second, f, wall, s));
+      SlipGhosts ghosts{};
+      if (boundary.condition == Condition::slip && deep) {
+        const std::ptrdiff_t here = g.cell_box.at(k, j, i), in = -outward(g.cell_box, side);
+        const double v = g.volume_data.data()[here], weight = v / (v + g.volume_data.data()[here + in]);
+        ghosts = slip_ghosts(first, second, f, weight, s.inviscid);
+      } else {
+        ghosts = {ghost_state(boundary, first, f, wall, s), ghost_state(boundary, second, f, wall, s)};
+      }
+      gas::store_primitive(state + cell + out, std::size_t(component), ghosts.first);
+      gas::store_primitive(state + cell + 2 * out, std::size_t(component), ghosts.second);
       if (tile.turbulence == 0) return;
       double inside[2], ghost[2];
       for (int t = 0; t < tile.turbulence; ++t) ghost[t] = inside[t] = state[cell + (mean_unknowns + t) * component];

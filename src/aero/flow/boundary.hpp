@@ -19,6 +19,7 @@ struct BoundarySetting {
   double reference_speed = 1e30;           ///< of the far field's waves [m/s]; beyond the sound speed: the physical ones
   double dt = 0.0;                         ///< of a moving grid, for the speed of its walls, with
   TimeWeights weights{};                   ///< those of the physical step
+  bool inviscid = false;                   ///< behind slip walls all is extrapolated; else pressure alone, and nothing rubs
   bool turning = false;                    ///< walls at rest in a frame that turns: their speed follows from TileGeometry's own
   /// Ghost value of the turbulence unknowns behind a no-slip wall, of those inside, the laminar nu and the wall distance; null: none.
   void (*wall_carried)(const double* inside, double nu, double distance, double* ghost) = nullptr;

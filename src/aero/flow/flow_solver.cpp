@@ -55,6 +55,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   viscous_.active = setting.viscous;
   viscous_.thin_layer = setting.thin_layer;
   boundary_.stream = setting.stream;
+  boundary_.inviscid = !setting.viscous;
   boundary_.reservoir = reservoir_of(setting);
   boundary_.dt = setting.dt;
   if (setting.preconditioned && !setting.physical_far_field) boundary_.reference_speed = setting.speed;

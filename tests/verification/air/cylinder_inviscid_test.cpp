@@ -39,9 +39,6 @@ struct Outcome {
 Outcome cylinder(double mach, const std::string& flux) {
   FlowSetting s = air(mach);
   s.flux = flux;
-  // The operator must be that of the flux: with Roe's full dissipation in it (the default floor) the march stalls from Mach 0.01
-  // down.
-  s.matrix_mach_floor = 0.0, s.march.matrix_free_below = 2.0;
   s.march.drop = 1e-6, s.march.max_steps = 150;
   Case c(o_grid(96, 48, 20.0), s, {{"wall", {Condition::slip, true}}, {"far", {Condition::far_field, false}}},
          {.across_j = 48, .across_k = 1, .normal = 48});
@@ -68,7 +65,7 @@ Outcome cylinder(double mach, const std::string& flux) {
 
 }  // namespace
 
-TEST_CASE("a cylinder in inviscid flow: pressure with the square of the Mach number, drag without it", "[air][nightly]") {
+TEST_CASE("a cylinder in inviscid flow with default settings: pressure with the square of the Mach number, drag without it", "[air][nightly]") {
   const std::vector<double> mach{1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
   std::vector<double> range, drag;
   std::vector<int> steps;
@@ -80,11 +77,12 @@ TEST_CASE("a cylinder in inviscid flow: pressure with the square of the Mach num
     CHECK(r.lowest_cp == Approx(-2.75).margin(0.05));  // first centres: 3 % of a radius off the wall, where potential flow has -3
     CHECK(r.highest_cp == Approx(1.0).margin(0.03));
     CHECK(r.sawtooth < 5e-3);
-    CHECK(std::abs(r.drag) < 0.01);
-    CHECK(r.steps_to_3_orders < 80);
+    CHECK(r.converged);
+    CHECK(std::abs(r.drag) < 0.003);
+    CHECK(r.steps_to_3_orders < 25);
   }
   CAPTURE(drag, steps, range);
   CHECK(observed_order(mach, range) == Approx(2.0).margin(0.05));
   for (std::size_t m = 2; m < drag.size(); ++m) CHECK(drag[m] == Approx(drag[2]).margin(1e-4));
-  CHECK(steps[2] <= 3 * steps[0]);  // asked for are 2; docs/developer/air.md
+  for (const int n : steps) CHECK(n <= 2 * steps[0]);
 }
