@@ -25,9 +25,7 @@ double bem_normal(double r) {
   return (1.0 - share) * bem[n - 1][1] + share * bem[n][1];
 }
 
-}  // namespace
-
-TEST_CASE("the demo rotor without friction has the thrust of blade element momentum to fifteen per cent", "[rotor][nightly]") {
+ResolvedRotorSetup demo() {
   ResolvedRotorSetup s;
   s.grid.resolution = 1.0, s.grid.sectors = "one";
   s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
@@ -35,7 +33,13 @@ TEST_CASE("the demo rotor without friction has the thrust of blade element momen
   s.wind = {11.0, 0.0, 0.0};
   s.flow.time = "steady", s.flow.viscous = "none", s.flow.cfl = 2.0, s.flow.cfl_max = 100.0, s.flow.drop = 1e-4,
   s.flow.max_pseudo_steps = 300;
-  ResolvedRotor rotor(s);
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("the demo rotor without friction has the thrust of blade element momentum to fifteen per cent", "[rotor][nightly]") {
+  ResolvedRotor rotor(demo());
   rotor.solver().start_uniform();
   rotor.prepare(MPI_COMM_SELF, {.threads = 1});
   rotor.run();
@@ -50,4 +54,29 @@ TEST_CASE("the demo rotor without friction has the thrust of blade element momen
     if (share > 0.3 && share < 0.9) worst = std::max(worst, std::abs(off));
   }
   CHECK(worst < 0.25);
+}
+
+TEST_CASE("the demo rotor's friction by the law of the wall takes power as a rotor's does, which walls that stick miss", "[rotor][nightly]") {
+  std::vector<double> share;
+  for (const Condition blades : {Condition::no_slip, Condition::wall_law}) {
+    ResolvedRotorSetup s = demo();
+    s.flow.viscous = "full", s.flow.turbulence = "sa", s.flow.viscosity_Pa_s = 1.8e-5, s.flow.blades = blades;
+    s.flow.drop = 1e-4;
+    ResolvedRotor rotor(s);
+    rotor.solver().start_uniform();
+    rotor.prepare(MPI_COMM_SELF, {.threads = 1});
+    rotor.run();
+    const RotorLoad load = rotor.load();
+    double friction = 0.0, tangential = 0.0;
+    for (const SpanLoad& row : rotor.span_loads(MPI_COMM_SELF))
+      friction += row.friction.tangential * row.length * row.radius, tangential += row.load.tangential * row.length * row.radius;
+    share.push_back(friction / tangential);
+    CAPTURE(int(blades), load.thrust, load.power, share.back(), rotor.solver().march().steps());
+    CHECK(rotor.solver().march().verdict() == Verdict::converged);
+    CHECK_FALSE(rotor.solver().march().spent());
+    CHECK(load.thrust == Approx(1507e3).epsilon(0.15));
+  }
+  CHECK(std::abs(share[0]) < 0.005);
+  CHECK(share[1] < -0.02);
+  CHECK(share[1] > -0.08);
 }
