@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -34,19 +35,38 @@ struct Window {
   std::optional<CoupledWindow> coupled{};  ///< where the rotor is a part of its own
   std::unique_ptr<BodySide> side{};        ///< of a sea of particles that shares the window with no such part,
   std::unique_ptr<WindowTasks> tasks{};    ///< and its tasks
+  std::array<double, 3> core_seconds{};    ///< of air, sea and bodies so far, as last logged
   std::string failure{};                   ///< of the window as a whole, in words; empty when all is well
   bool ok() const { return trouble.ok() && failure.empty(); }
   const BodySide& body_side() const { return coupled ? coupled->bodies() : *side; }
   const WindowTasks* shared_tasks() const { return coupled ? &coupled->tasks() : tasks.get(); }
 };
 
+/// A line of log.txt for a window whose sides have tasks: how it went, and core-seconds of each side.
+void log_window(Window& window, const WindowReport& report, double end_s, double wall_s) {
+  const WindowTasks& tasks = window.coupled->tasks();
+  if (!tasks.executor()) return;
+  const double bodies = 1e-9 * double(window.body_side().own_ns());
+  const std::array<double, 3> now{tasks.core_seconds("aero"), tasks.core_seconds("sea"), bodies};
+  std::array<double, 3> spent;
+  for (std::size_t n = 0; n < now.size(); ++n) spent[n] = now[n] - window.core_seconds[n];
+  window.core_seconds = now;
+  // Bodies beside particles move within tasks of the sea.
+  const double sea = spent[1] > 0.0 ? spent[1] - spent[2] : 0.0;
+  spdlog::debug("window to t = {:g} s: {} evaluations, mismatch {:.3g}, {} columns, {} cuts{}; {:.3g} s; core-s: air {:.3g}, sea {:.3g}, bodies {:.3g}",
+                end_s, report.log.evaluations, report.mismatch, report.log.columns, report.log.cuts,
+                window.coupled->is_loose() ? std::string() : fmt::format(", ended by {}", bound_name(report.log.bound)), wall_s, spent[0], sea, spent[2]);
+}
+
 /// The window of a rotor and a machine that exchange data: one task, which may evaluate the window more than once.
 runtime::Graph record_coupled_window(Machine& machine, Window& window) {
   runtime::Graph graph;
   const runtime::Datum state = graph.datum();
   graph.task("coupling/window", {runtime::updates(state)}, [&machine, &window] {
+    const auto begin = std::chrono::steady_clock::now();
     const std::int64_t steps = window.coupled->bodies().steps();
     WindowReport report = window.coupled->advance(window.state);
+    log_window(window, report, double(window.start.tick) * machine.timeline().tick_s() + machine.timeline().window_s(), seconds_since(begin));
     if (report.ok()) window.steps += machine.particles() ? window.coupled->bodies().steps() - steps : machine.timeline().steps_per_window();
     if (report.log.retries > 0)
       spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}",

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/trace/clock.hpp"
 
 namespace spindrift::coupling {
 
@@ -105,7 +106,9 @@ Vector CoupledWindow::air_load(double t, double dt, const Vector& motion) {
 
 WindowReport CoupledWindow::advance(bodies::BodiesState& state) {
   trouble_.clear();
+  const std::int64_t begin = runtime::Clock::now_ns();
   air_->keep(AirSide::window), bodies_->keep(AirSide::window);
+  totals_.keep_ns += runtime::Clock::now_ns() - begin;
   last_ = state.tick < 0 ? advance_held(state) : loose_ ? advance_loose(state) : advance_strong(state);
   if (!last_.ok()) air_->back(AirSide::window), bodies_->back(AirSide::window);
   ++totals_.windows;

@@ -59,9 +59,12 @@ class CoupledWindow {
 
   /// Totals since the object was made.
   struct Totals {
-    std::int64_t windows = 0, evaluations = 0, probes = 0, retries = 0, cuts = 0, body_steps = 0, rotor_calls = 0;  };
+    std::int64_t windows = 0, evaluations = 0, probes = 0, retries = 0, cuts = 0, body_steps = 0, rotor_calls = 0;
+    std::int64_t keep_ns = 0;  ///< noting the state at the start of each window
+  };
   const Totals& totals() const { return totals_; }
   AirSide& air() { return *air_; }
+  bool is_loose() const { return loose_.has_value(); }
   const WindowTasks& tasks() const { return tasks_; }
   const BodySide& bodies() const { return *bodies_; }
 

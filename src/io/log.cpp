@@ -74,6 +74,7 @@ void log_to_file(int rank, const std::filesystem::path& path) {
     auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string());
     file->set_pattern("%Y-%m-%d %H:%M:%S.%e %-8l %v");
     spdlog::default_logger()->sinks().push_back(std::move(file));
+    spdlog::default_logger()->set_level(spdlog::level::debug);  // to the file alone: the console has a level of its own
     // Line by line: what a killed run said last is what is wanted.
     spdlog::default_logger()->flush_on(spdlog::level::info);
   } catch (const spdlog::spdlog_ex& error) {
