@@ -33,7 +33,7 @@ std::vector<io::TimeRange> mean_ranges(const coupling::Scenario& scenario, doubl
 }
 
 void print_summary(const io::Summary& summary, const io::RunDirectory& directory) {
-  spdlog::info("{}: {:g} s simulated in {:.3g} s, {:.0f} times real time", summary.exit_reason,
+  spdlog::info("{}: {:g} s simulated in {:.3g} s, {:.3g} times real time", summary.exit_reason,
                summary.end_time_s - summary.start_time_s, summary.wall_seconds, io::real_time_factor(summary));
   for (const io::PartTime& part : summary.parts)
     spdlog::info("  {:<12}{:9.4f} s  {:5.1f} %", part.name, part.seconds, 100.0 * part.seconds / summary.wall_seconds);

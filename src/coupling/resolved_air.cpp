@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "kernels/base/failure.hpp"
 #include "src/aero/resolved_rotor.hpp"
@@ -24,7 +25,16 @@ Eigen::Quaterniond hub_attitude(const aero::RotorState& s) {
   return Eigen::Quaterniond(frame);
 }
 
-/// The scene's rotor where the bodies have it at the start. Azimuth counts from the upright that the grid's frame has by itself.
+/// The rotor where it is, upright as the scene describes it: an equilibrium leans it, and steady flow wants the wind along the axis.
+aero::RotorState upright(const Machine& machine, aero::RotorState now) {
+  std::vector<Motion> described;
+  for (const auto& body : machine.scenario().bodies) described.push_back(described_motion(body.options));
+  const aero::RotorState as_described = machine.rotor()->state(0.0, described);
+  now.axis = as_described.axis, now.up = as_described.up;
+  return now;
+}
+
+/// The scene's rotor in this state. Azimuth counts from the upright that the grid's frame has by itself.
 aero::ResolvedRotorSetup setup_at(const Machine& machine, const aero::RotorState& now) {
   aero::ResolvedRotorSetup setup = resolved_rotor_setup(machine.scenario());
   setup.rotor.hub_m = now.hub, setup.rotor.axis = now.axis, setup.rotor.speed = now.speed, setup.rotor.azimuth = 0.0;
@@ -38,7 +48,7 @@ aero::ResolvedRotorSetup setup_at(const Machine& machine, const aero::RotorState
 class ResolvedAir final : public AirSide {
  public:
   ResolvedAir(const Machine& machine, const aero::RotorState& now, const runtime::World& world)
-      : machine_(machine), world_(world), setup_(setup_at(machine, now)), first_(now), rotor_(setup_, world.size, world.rank),
+      : machine_(machine), world_(world), first_(upright(machine, now)), setup_(setup_at(machine, first_)), rotor_(setup_, world.size, world.rank),
         file_(rotor_.solver(), rotor_.store()), state_(now) {
     rotor_.solver().start_uniform();
     aero::RotorState before = now;
@@ -133,7 +143,8 @@ class ResolvedAir final : public AirSide {
     return load;
   }
 
-  /// A steady march seen from the turning rotor, hub held where it starts; the physical steps go on from its flow.
+  /// A steady march seen from the turning rotor, hub held where it starts, upright; the physical steps go on from its flow, which does not
+  /// know of a lean that an equilibrium gave the rotor.
   void settle(int steps) {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
@@ -161,8 +172,8 @@ class ResolvedAir final : public AirSide {
 
   const Machine& machine_;
   const runtime::World world_;
+  aero::RotorState first_;  ///< at the start, upright
   aero::ResolvedRotorSetup setup_;
-  aero::RotorState first_;
   aero::ResolvedRotor rotor_;
   AirFile file_;
   double t_ = 0.0;

@@ -55,7 +55,7 @@ void log_window(Window& window, const WindowReport& report, double end_s, double
   const double sea = spent[1] > 0.0 ? spent[1] - spent[2] : 0.0;
   spdlog::debug("window to t = {:g} s: {} evaluations, mismatch {:.3g}, {} columns, {} cuts{}; {:.3g} s; core-s: air {:.3g}, sea {:.3g}, bodies {:.3g}",
                 end_s, report.log.evaluations, report.mismatch, report.log.columns, report.log.cuts,
-                window.coupled->is_loose() ? std::string() : fmt::format(", ended by {}", bound_name(report.log.bound)), wall_s, spent[0], sea, spent[2]);
+                window.coupled->loose() ? std::string() : fmt::format(", ended by {}", bound_name(report.log.bound)), wall_s, spent[0], sea, spent[2]);
 }
 
 /// The window of a rotor and a machine that exchange data: one task, which may evaluate the window more than once.

@@ -64,7 +64,7 @@ class CoupledWindow {
   };
   const Totals& totals() const { return totals_; }
   AirSide& air() { return *air_; }
-  bool is_loose() const { return loose_.has_value(); }
+  bool loose() const { return loose_.has_value(); }
   const WindowTasks& tasks() const { return tasks_; }
   const BodySide& bodies() const { return *bodies_; }
 

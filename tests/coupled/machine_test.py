@@ -138,6 +138,14 @@ class MachineRun(unittest.TestCase):
         self.spindrift(PARTICLES, "strong_parts", "--restart", settings=settings)
         self.assertEqual(self.text("strong"), self.text("strong_parts"))
 
+    def test_a_start_in_equilibrium_has_the_thrust_of_blade_elements_in_its_lean(self):
+        for sectors in ("one", "all"):
+            self.spindrift(ENGINEERING, sectors, settings=["start.equilibrium=true", "time.end_s=0.2", f"aero.grid.sectors='{sectors}'"])
+            first, last = self.rows(sectors)[0], self.rows(sectors)[-1]
+            self.assertAlmostEqual(first["platform.pitch_deg"], 5.0, delta=1.0)
+            self.assertLess(abs(last["rotor.hub_vx_m_s"]), 0.1)  # unloaded, the hub would have picked up 0.2
+            self.assertGreater(last["rotor.thrust_N"], 1e6)
+
     def test_what_cannot_be_is_refused(self):
         for setting, words in (("aero.flow.time='steady'", "where bodies carry the rotor"), ("coupling.scheme='monolithic'", "answers once per window"),
                                ("wind.direction_deg=10", "needs the wind along the rotor axis")):
