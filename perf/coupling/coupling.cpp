@@ -1,7 +1,8 @@
-// What running both fluids at once gains, on the paper's case 3 as a demo: a window of air and sea as one graph on two threads, against each
-// alone on two threads, against each on a core of its own, and what the exchange between windows takes. Windows of the three kinds in turns, each
-// going on from where the last one of its kind left air and sea. Two threads whatever OMP_NUM_THREADS says. Run by perf/run coupling; what
-// was measured is in docs/developer/machine.md. SPDX-License-Identifier: Apache-2.0
+// What running both fluids at once gains, on the paper's case 3 as a demo: a window of air and sea as one graph on two threads,
+// against each alone on two threads, against each on a core of its own, and what the exchange between windows takes. Windows of
+// the three kinds in turns, each going on from where the last one of its kind left air and sea. Two threads whatever
+// OMP_NUM_THREADS says. Run by perf/run coupling; what was measured is in docs/developer/machine.md. SPDX-License-Identifier:
+// Apache-2.0
 #include <omp.h>
 
 #include <cstdio>
@@ -22,7 +23,10 @@ namespace {
 /// The sides of a machine, advanced by whole windows with the rotor going on as it does and bodies under the water's loads alone.
 struct Sides {
   explicit Sides(Machine& m)
-      : machine(m), state(make_start(m).state), air(make_air(m, m.rotor()->state(0.0, state.motions), {MPI_COMM_SELF, 0, 1})), bodies(make_body_side(m)) {
+      : machine(m),
+        state(make_start(m).state),
+        air(make_air(m, m.rotor()->state(0.0, state.motions), {MPI_COMM_SELF, 0, 1})),
+        bodies(make_body_side(m)) {
     air->begin(0.0, m.rotor()->state(0.0, state.motions));
     rotor = m.rotor()->state(0.0, state.motions);
   }
@@ -56,7 +60,8 @@ int main(int argc, char** argv) {
   machine.fill_sea(make_start(machine).state.motions, {MPI_COMM_SELF, 0, 1});
   {
     Sides sides(machine);
-    WindowTasks two(sides.air.get(), *sides.bodies, MPI_COMM_SELF, std::size_t(1) << 20), one(sides.air.get(), *sides.bodies, MPI_COMM_SELF, 0);
+    WindowTasks two(sides.air.get(), *sides.bodies, MPI_COMM_SELF, std::size_t(1) << 20),
+        one(sides.air.get(), *sides.bodies, MPI_COMM_SELF, 0);
     // Executors take the number of threads that stands when they first run.
     sides.window(two, true, true), sides.window(two, true, false), sides.window(two, false, true);
     omp_set_num_threads(1);
@@ -78,7 +83,8 @@ int main(int argc, char** argv) {
     group.figure("sea_alone_one_core", 1e3 * median(sea_one), "ms/window");
     group.at_most("coupled_to_sum", median(sum_ratio), "-", 1.05, perf::Ceiling::none, "each alone on 2 threads");
     const double a = median(air_one), b = median(sea_one), ideal = 2.0 * std::max(a, b) / (a + b);
-    group.at_least("gain_to_ideal", std::max(a, b) / median(both) / ideal, "-", 0.9, perf::Ceiling::none, "gain over a core for each fluid");
+    group.at_least("gain_to_ideal", std::max(a, b) / median(both) / ideal, "-", 0.9, perf::Ceiling::none,
+                   "gain over a core for each fluid");
     const runtime::RankTrace trace = runtime::trace_of(*two.executor());
     std::fputs((runtime::efficiency_table(runtime::efficiency_of(std::span(&trace, 1))) + "\n").c_str(), stderr);
   }
@@ -95,7 +101,8 @@ int main(int argc, char** argv) {
       for (int n = 0; n < windows; ++n) window.advance(state);
     });
     const double tasks = window.tasks().wall_seconds() - before, kept = 1e-9 * double(window.totals().keep_ns) - kept_before;
-    group.at_most("exchange_of_window", 100.0 * (wall - tasks - kept) / wall, "%", 0.1, perf::Ceiling::none, "all that is neither tasks nor snapshot");
+    group.at_most("exchange_of_window", 100.0 * (wall - tasks - kept) / wall, "%", 0.1, perf::Ceiling::none,
+                  "all that is neither tasks nor snapshot");
     group.figure("snapshot_of_window", 100.0 * kept / wall, "%", "so that a window that fails is saved as it began");
   }
 }

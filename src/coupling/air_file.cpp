@@ -27,7 +27,8 @@ void AirFile::write(io::CheckpointWriter& file) const {
 
 void AirFile::read(const io::CheckpointReader& file) const {
   if (file.size("flow/tiles") != total_)
-    throw io::InputError(fmt::format("{}: its air has {} values, this one {}", file.path().string(), file.size("flow/tiles"), total_));
+    throw io::InputError(
+        fmt::format("{}: its air has {} values, this one {}", file.path().string(), file.size("flow/tiles"), total_));
   for (int n = 0; n < int(solver_.tiles().size()); ++n) {
     std::vector<double> values(solver_.saved_size(n));
     const io::Slice<double> slice{starts_[std::size_t(solver_.tiles()[std::size_t(n)].index)], values};

@@ -1,6 +1,6 @@
-// The bodies' side of a window: bodies and moorings in their own steps, with an engineering sea, which they ask as they go, or with one of
-// particles, whose substeps are tasks that may run beside those of the air. A pure function of the state at its start.
-// Used by window_tasks.cpp, window.cpp and run.cpp; implemented here and in sea_window.cpp; tested in tests/coupled.
+// The bodies' side of a window: bodies and moorings in their own steps, with an engineering sea, which they ask as they go, or
+// with one of particles, whose substeps are tasks that may run beside those of the air. A pure function of the state at its
+// start. Used by window_tasks.cpp, window.cpp and run.cpp; implemented here and in sea_window.cpp; tested in tests/coupled.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,8 +32,8 @@ class BodySide {
   virtual void keep(int) {}
   virtual void back(int) {}
 
-  std::int64_t steps() const { return steps_; }        ///< of the bodies, or substeps of the sea, so far
-  std::int64_t own_ns() const { return own_ns_; }      ///< spent on the bodies and all that they ask
+  std::int64_t steps() const { return steps_; }    ///< of the bodies, or substeps of the sea, so far
+  std::int64_t own_ns() const { return own_ns_; }  ///< spent on the bodies and all that they ask
 
  protected:
   std::int64_t steps_ = 0, own_ns_ = 0;

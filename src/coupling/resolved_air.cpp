@@ -25,7 +25,8 @@ Eigen::Quaterniond hub_attitude(const aero::RotorState& s) {
   return Eigen::Quaterniond(frame);
 }
 
-/// The rotor where it is, upright as the scene describes it: an equilibrium leans it, and steady flow wants the wind along the axis.
+/// The rotor where it is, upright as the scene describes it: an equilibrium leans it, and steady flow wants the wind along the
+/// axis.
 aero::RotorState upright(const Machine& machine, aero::RotorState now) {
   std::vector<Motion> described;
   for (const auto& body : machine.scenario().bodies) described.push_back(described_motion(body.options));
@@ -41,15 +42,21 @@ aero::ResolvedRotorSetup setup_at(const Machine& machine, const aero::RotorState
   const Eigen::Quaterniond own = aero::hub_pose(setup.rotor).hub.attitude;
   const Eigen::Vector3d up = own.conjugate() * now.up;
   setup.rotor.azimuth = now.azimuth + std::atan2(-up.y(), up.z());
-  if (machine.scenario().time.window_s > 0.0 && is_strong(machine.scenario().coupling.scheme)) setup.dt /= machine.scenario().coupling.samples;
+  if (machine.scenario().time.window_s > 0.0 && is_strong(machine.scenario().coupling.scheme))
+    setup.dt /= machine.scenario().coupling.samples;
   return setup;
 }
 
 class ResolvedAir final : public AirSide {
  public:
   ResolvedAir(const Machine& machine, const aero::RotorState& now, const runtime::World& world)
-      : machine_(machine), world_(world), first_(upright(machine, now)), setup_(setup_at(machine, first_)), rotor_(setup_, world.size, world.rank),
-        file_(rotor_.solver(), rotor_.store()), state_(now) {
+      : machine_(machine),
+        world_(world),
+        first_(upright(machine, now)),
+        setup_(setup_at(machine, first_)),
+        rotor_(setup_, world.size, world.rank),
+        file_(rotor_.solver(), rotor_.store()),
+        state_(now) {
     rotor_.solver().start_uniform();
     aero::RotorState before = now;
     before.hub -= setup_.dt * now.hub_velocity, before.azimuth -= setup_.dt * now.speed;
@@ -85,9 +92,10 @@ class ResolvedAir final : public AirSide {
   aero::RotorLoad answer() override {
     const aero::March& march = rotor_.solver().march();
     if (march.verdict() == aero::Verdict::failed)
-      throw NumericalFailure(fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
-                                         march.steps(), march.cfl(), rotor_.solver().trouble(), setup_.flow.cfl_max),
-                             "aero/rotor", long(rotor_.solver().time_steps()), t_);
+      throw NumericalFailure(
+          fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
+                      march.steps(), march.cfl(), rotor_.solver().trouble(), setup_.flow.cfl_max),
+          "aero/rotor", long(rotor_.solver().time_steps()), t_);
     return load_ = ramped(leant(rotor_.load()));
   }
   const aero::RotorLoad* written() const override { return &load_; }
@@ -128,7 +136,8 @@ class ResolvedAir final : public AirSide {
     if (rotor_.whole()) {
       pose.hub.position = s.hub, pose.hub.attitude = hub_attitude(s);
     } else {
-      pose.hub.position = first_.hub + (s.hub - first_.hub).dot(first_.axis) * first_.axis, pose.hub.attitude = hub_attitude(first_);
+      pose.hub.position = first_.hub + (s.hub - first_.hub).dot(first_.axis) * first_.axis,
+      pose.hub.attitude = hub_attitude(first_);
     }
     return pose;
   }
@@ -143,8 +152,8 @@ class ResolvedAir final : public AirSide {
     return load;
   }
 
-  /// A steady march seen from the turning rotor, hub held where it starts, upright; the physical steps go on from its flow, which does not
-  /// know of a lean that an equilibrium gave the rotor.
+  /// A steady march seen from the turning rotor, hub held where it starts, upright; the physical steps go on from its flow, which
+  /// does not know of a lean that an equilibrium gave the rotor.
   void settle(int steps) {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
@@ -155,18 +164,19 @@ class ResolvedAir final : public AirSide {
     held.run();
     const aero::March& march = held.solver().march();
     if (march.verdict() == aero::Verdict::failed)
-      throw NumericalFailure(fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}", march.why(), march.steps(),
-                                         march.cfl(), held.solver().trouble()),
+      throw NumericalFailure(fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}",
+                                         march.why(), march.steps(), march.cfl(), held.solver().trouble()),
                              "aero/rotor", march.steps(), 0.0);
     load_ = leant(held.load());
     const auto& rows = held.solver().rows();
     constexpr std::size_t look_back = 20;
     const std::string change =
         rows.size() > look_back + 1
-            ? fmt::format(", {:+.2g} % in the last {}", 100.0 * (load_.thrust / held.load(rows[rows.size() - 1 - look_back]).thrust - 1.0), look_back)
+            ? fmt::format(", {:+.2g} % in the last {}",
+                          100.0 * (load_.thrust / held.load(rows[rows.size() - 1 - look_back]).thrust - 1.0), look_back)
             : std::string();
-    spdlog::info("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}", march.steps() - 1, 1e-3 * load_.thrust, change,
-                 march.density_residual() / march.first_density_residual());
+    spdlog::info("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}", march.steps() - 1,
+                 1e-3 * load_.thrust, change, march.density_residual() / march.first_density_residual());
     rotor_.solver().start_from(held.solver());
   }
 

@@ -17,7 +17,8 @@ constexpr std::array<std::string_view, 2> modules{"aero", "sea"};
 
 }  // namespace
 
-WindowTasks::WindowTasks(AirSide* air, BodySide& bodies, MPI_Comm comm, std::size_t records) : air_(air), bodies_(bodies), comm_(comm), records_(records) {}
+WindowTasks::WindowTasks(AirSide* air, BodySide& bodies, MPI_Comm comm, std::size_t records)
+    : air_(air), bodies_(bodies), comm_(comm), records_(records) {}
 
 void WindowTasks::run(bool air, bool bodies) {
   if (bodies && bodies_.outdated()) drop();
@@ -25,7 +26,8 @@ void WindowTasks::run(bool air, bool bodies) {
   if (!program.recorded) {
     runtime::Graph graph(comm_);
     const bool of_air = air && air_->record(graph), of_bodies = bodies && bodies_.record(graph);
-    if (of_air || of_bodies) program.executor = std::make_unique<runtime::Executor>(std::move(graph), runtime::ExecutorOptions{.records = records_});
+    if (of_air || of_bodies)
+      program.executor = std::make_unique<runtime::Executor>(std::move(graph), runtime::ExecutorOptions{.records = records_});
     program.recorded = true;
   }
   if (!program.executor) return;

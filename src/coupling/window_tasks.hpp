@@ -1,6 +1,6 @@
-// The sides of a window as one task graph: air and bodies at once, so that what one leaves idle the other fills, or one of them where a
-// scheme wants it alone. Sides without tasks cost no graph. Between runs a side is aimed and asked; within one nothing but data orders.
-// Used by window.cpp and run.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
+// The sides of a window as one task graph: air and bodies at once, so that what one leaves idle the other fills, or one of them
+// where a scheme wants it alone. Sides without tasks cost no graph. Between runs a side is aimed and asked; within one nothing
+// but data orders. Used by window.cpp and run.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>

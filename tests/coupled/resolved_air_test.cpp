@@ -1,5 +1,5 @@
-// Resolved air as a side of the coupled window: what it gives the bodies is what it answers, a motion from a file is as good as one from the
-// bodies, thrust falls as the hub moves downwind. SPDX-License-Identifier: Apache-2.0
+// Resolved air as a side of the coupled window: what it gives the bodies is what it answers, a motion from a file is as good as
+// one from the bodies, thrust falls as the hub moves downwind. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
 #include <fstream>
@@ -47,7 +47,8 @@ resolution = 1.0
 
 /// 3 000 cells a sector, three pseudo-steps: enough to see what is passed on.
 const std::string tiny = "cells_round = 28\ncells_layers = 4\ncells_span = 8\nfirst_cell_chords = 8e-3\n";
-const std::vector<std::string> quick{"aero.flow.cfl_max=20.0", "aero.flow.krylov_steps=6", "aero.flow.max_pseudo_steps=3", "start.air_steps=5"};
+const std::vector<std::string> quick{"aero.flow.cfl_max=20.0", "aero.flow.krylov_steps=6", "aero.flow.max_pseudo_steps=3",
+                                     "start.air_steps=5"};
 
 /// Passes everything on, and writes down how the rotor was to move and what came back.
 class Listening final : public AirSide {
@@ -56,7 +57,8 @@ class Listening final : public AirSide {
   aero::RotorLoad begin(double t, const aero::RotorState& now) override { return inner_->begin(t, now); }
   void aim(double t, double dt, const aero::RotorState& s) override {
     motion << std::setprecision(17) << t << ' ' << dt;
-    for (const Eigen::Vector3d& v : {s.hub, s.hub_velocity, s.axis, s.up, s.omega}) motion << ' ' << v.x() << ' ' << v.y() << ' ' << v.z();
+    for (const Eigen::Vector3d& v : {s.hub, s.hub_velocity, s.axis, s.up, s.omega})
+      motion << ' ' << v.x() << ' ' << v.y() << ' ' << v.z();
     motion << ' ' << s.azimuth << ' ' << s.speed << '\n';
     inner_->aim(t, dt, s);
   }
@@ -78,7 +80,8 @@ class Listening final : public AirSide {
 
 }  // namespace
 
-TEST_CASE("what the air answers is what the bodies feel, and its motion from a file gives the same bits", "[coupled][air][fast]") {
+TEST_CASE("what the air answers is what the bodies feel, and its motion from a file gives the same bits",
+          "[coupled][air][fast]") {
   const std::string sectors = GENERATE("sectors = \"one\"\n", "sectors = \"all\"\n");
   INFO(sectors);
   Machine machine(on_platform(tiny + sectors, quick));
@@ -129,7 +132,8 @@ TEST_CASE("what the air answers is what the bodies feel, and its motion from a f
 
 TEST_CASE("thrust falls as the hub of the demo's rotor moves downwind", "[coupled][air][nightly]") {
   // Hub at -1 and +1 m/s from t = 0 on, after the air has settled. The first second sees the wake of the hub at rest.
-  Machine machine(on_platform("sectors = \"one\"\n", {"aero.flow.cfl_max=100.0", "aero.flow.drop=1e-2", "aero.flow.max_pseudo_steps=8", "start.air_steps=150"}));
+  Machine machine(on_platform("sectors = \"one\"\n", {"aero.flow.cfl_max=100.0", "aero.flow.drop=1e-2",
+                                                      "aero.flow.max_pseudo_steps=8", "start.air_steps=150"}));
   const aero::RotorState first = machine.rotor()->state(0.0, make_start(machine).state.motions);
   std::vector<double> thrust[2];
   for (int side = 0; side < 2; ++side) {
@@ -147,8 +151,9 @@ TEST_CASE("thrust falls as the hub of the demo's rotor moves downwind", "[couple
     }
   }
   for (const int n : {9, 19, 29, 39, 49})
-    std::cout << "hub at -1 and +1 m/s for " << 0.1 * (n + 1) << " s: thrust " << 1e-3 * thrust[0][std::size_t(n)] << " and " << 1e-3 * thrust[1][std::size_t(n)]
-              << " kN, fall " << 5e-4 * (thrust[0][std::size_t(n)] - thrust[1][std::size_t(n)]) << " kN per m/s\n";
+    std::cout << "hub at -1 and +1 m/s for " << 0.1 * (n + 1) << " s: thrust " << 1e-3 * thrust[0][std::size_t(n)] << " and "
+              << 1e-3 * thrust[1][std::size_t(n)] << " kN, fall "
+              << 5e-4 * (thrust[0][std::size_t(n)] - thrust[1][std::size_t(n)]) << " kN per m/s\n";
   const double fall = 0.5e-3 * (thrust[0].back() - thrust[1].back());
   CHECK(fall > 100.0);
   CHECK(fall < 260.0);
