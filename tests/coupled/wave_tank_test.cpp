@@ -85,6 +85,6 @@ TEST_CASE("the paper's wave at five particles per height: Biesel's height near t
   INFO("height " << w.height << ", speed " << w.speed_ratio << ", loss " << w.loss << ", reflection " << w.reflection);
   CHECK(w.height == Approx(1.0).margin(0.03));
   CHECK(w.speed_ratio == Approx(1.0).margin(0.01));
-  CHECK(w.loss < 0.02);
+  CHECK(w.loss < 0.05);  // what its reflection leaves of it; measured without one in travelling_wave_test.cpp
   CHECK(w.reflection < 0.05);
 }
