@@ -1,7 +1,7 @@
 // What a lattice of particles under pressure does against a shear that changes no volume. Pressure acts along the gradient of the sum
 // of kernels: where that sum changes under shear the lattice holds an energy of beta strain^2 times the pressure, as an elastic
-// body would; water has none. It shifts the frequency of waves by about (beta_pure + beta_simple)/4, whatever the spacing: it falls
-// with the support only (docs/developer/sea_physics.md). SPDX-License-Identifier: Apache-2.0
+// body would; water has none. By energy it raises the frequency of waves by about (beta_pure + beta_simple)/4
+// (docs/developer/sea_physics.md). SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -11,7 +11,7 @@ using namespace spindrift::sph;
 
 namespace {
 
-/// Sum of V W over a square lattice of spacing 1 under the strain [[a, b], [b, 1/a ...]] of unit determinant.
+/// Sum of V W over a square lattice of spacing 1 under the strain [[xx, xz], [xz, zz]].
 double filled(double h, double xx, double xz, double zz) {
   const KernelWendland<2> kernel(h);
   double sum = 0.0;
