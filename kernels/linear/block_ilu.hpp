@@ -17,14 +17,14 @@ std::ptrdiff_t factor(const StencilMatrix<n>& a) {
   for (int k = 0; k < a.box.nk; ++k)
     for (int j = 0; j < a.box.nj; ++j)
       for (int i = 0; i < a.box.ni; ++i, ++cell) {
-        float pivot[n * n + block_overrun], product[n * n + block_overrun];
+        float pivot[n * n + block_overrun];
         for (int e = 0; e < n * n; ++e) pivot[e] = a.block(cell, StencilMatrix<n>::diagonal)[e];
         const std::array<int, 3> index{i, j, k};
         for (int d = 0; d < a.directions; ++d) {
           if (index[d] == 0) continue;
           const std::ptrdiff_t before = cell - a.box.stride(d);
-          multiply_blocks<n>(a.block(before, StencilMatrix<n>::pivot), a.block(before, StencilMatrix<n>::sides + 2 * d + 1), product);
-          subtract_product<n>(a.block(cell, StencilMatrix<n>::sides + 2 * d), product, pivot);
+          subtract_product<n>(a.block(cell, StencilMatrix<n>::sides + 2 * d), a.block(before, StencilMatrix<n>::pivot),
+                              a.block(before, StencilMatrix<n>::sides + 2 * d + 1), pivot);
         }
         if (!invert<n>(pivot, a.block(cell, StencilMatrix<n>::pivot))) return cell;
       }

@@ -89,32 +89,67 @@ SPINDRIFT_INLINE void subtract_product(const float* a, const float* b, float* c)
   }
 }
 
-/// B = A^-1 by Gauss-Jordan with the largest pivot of each column, in double. False where A is singular or not finite (B is then not set).
+/// D -= A P U, what a neighbour takes from a pivot; D may not be one of the others. Products stay in registers: through memory the narrow
+/// stores of a column are read back as wide loads, which costs more than the arithmetic.
+template <int n>
+SPINDRIFT_INLINE void subtract_product(const float* a, const float* p, const float* u, float* d) {
+  if constexpr (n > 2) {
+    using Lanes = Wide<float, 8>;
+    Lanes ac[n], pc[n];
+    for (int c = 0; c < n; ++c) ac[c] = Lanes::load(a + c * n), pc[c] = Lanes::load(p + c * n);
+    for (int c = 0; c < n; ++c) {
+      alignas(32) float product[8];
+      Lanes even = Lanes(u[c * n]) * pc[0], odd = Lanes(u[c * n + 1]) * pc[1];
+      for (int k = 2; k < n; ++k) (k % 2 == 0 ? even : odd) += Lanes(u[c * n + k]) * pc[k];
+      (even + odd).store(product);
+      even = Lanes(product[0]) * ac[0], odd = Lanes(product[1]) * ac[1];
+      for (int k = 2; k < n; ++k) (k % 2 == 0 ? even : odd) += Lanes(product[k]) * ac[k];
+      alignas(32) float sum[8];
+      (even + odd).store(sum);
+      for (int r = 0; r < n; ++r) d[c * n + r] -= sum[r];
+    }
+  } else {
+    float product[n * n];
+    multiply_blocks<n>(p, u, product);
+    subtract_product<n>(a, product, d);
+  }
+}
+
+/// B = A^-1 by Gauss-Jordan in place with the largest pivot of each column, in double. False where A is singular or not finite (B is then not
+/// set). Rows here are the block's columns, as the inverse of the transpose is the transpose of the inverse.
 template <int n>
 bool invert(const float* block, float* inverse) {
-  double a[n][2 * n];
+  constexpr int width = n > 4 ? 8 : n > 2 ? 4 : n;
+  alignas(64) double a[n][width] = {};
   for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c) a[r][c] = double(block[c * n + r]), a[r][n + c] = r == c ? 1.0 : 0.0;
+    for (int c = 0; c < n; ++c) a[r][c] = double(block[r * n + c]);
+  int swapped[n];
   for (int p = 0; p < n; ++p) {
     int best = p;
     for (int r = p + 1; r < n; ++r)
       if (std::abs(a[r][p]) > std::abs(a[best][p])) best = r;
     if (!(std::abs(a[best][p]) > 0.0) || !std::isfinite(a[best][p])) return false;
+    swapped[p] = best;
     if (best != p)
-      for (int c = 0; c < 2 * n; ++c) std::swap(a[p][c], a[best][c]);
+      for (int c = 0; c < width; ++c) std::swap(a[p][c], a[best][c]);
     const double scale = 1.0 / a[p][p];
-    for (int c = 0; c < 2 * n; ++c) a[p][c] *= scale;
+    alignas(64) double unit[width] = {}, keep[width];
+    for (int c = 0; c < width; ++c) unit[c] = c == p ? 1.0 : 0.0, keep[c] = 1.0 - unit[c];
+    for (int c = 0; c < width; ++c) a[p][c] = (a[p][c] * keep[c] + unit[c]) * scale;
     for (int r = 0; r < n; ++r) {
       if (r == p) continue;
       const double factor = a[r][p];
-      for (int c = 0; c < 2 * n; ++c) a[r][c] -= factor * a[p][c];
+      for (int c = 0; c < width; ++c) a[r][c] = a[r][c] * keep[c] - factor * a[p][c];
     }
   }
+  for (int p = n - 1; p >= 0; --p)
+    if (swapped[p] != p)
+      for (int r = 0; r < n; ++r) std::swap(a[r][p], a[r][swapped[p]]);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c)
-      if (!std::isfinite(float(a[r][n + c]))) return false;
+      if (!std::isfinite(float(a[r][c]))) return false;
   for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c) inverse[c * n + r] = float(a[r][n + c]);
+    for (int c = 0; c < n; ++c) inverse[r * n + c] = float(a[r][c]);
   return true;
 }
 

@@ -80,6 +80,9 @@ const scene::Section<FlowOptions>& flow_section() {
           .number("upwinding", &FlowOptions::upwinding, "-",
                   "Share of the jump between reconstructed states that the flux sees; below 1 less dissipation, for resolved eddies.",
                   above(0.0).up_to(1.0))
+          .flag("first_order_turbulence", &FlowOptions::first_order_turbulence,
+                "Whether what the turbulence model transports is carried by first-order upwind differences, as in CFL3D and FUN3D, and not by limited "
+                "second-order ones: converges sooner with two equations.")
           .flag("low_mach", &FlowOptions::low_mach, "Low-Mach preconditioning of the pseudo-time; the solution does not depend on it.")
           .flag("physical_far_field", &FlowOptions::physical_far_field,
                 "Whether the far field's characteristic conditions take the waves at their physical speeds also with low_mach: as most codes do; "
@@ -149,6 +152,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.flux = o.flux;
   s.limiter = o.limiter;
   s.upwinding = o.upwinding;
+  s.first_order_model = o.first_order_turbulence;
   s.viscous = o.viscous != "none";
   s.thin_layer = o.viscous == "thin_layer";
   s.turbulence = s.viscous ? o.turbulence : "none";

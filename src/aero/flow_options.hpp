@@ -40,6 +40,7 @@ struct FlowOptions {
   std::string viscous = "full", turbulence = "sa";
   std::string flux = "roe_low_mach", limiter = "none";
   double upwinding = 1.0;
+  bool first_order_turbulence = false;
   Condition blades = Condition::no_slip;  ///< of a resolved rotor in viscous air, where no boundary names them
   std::string start = "wind";
   bool low_mach = true, physical_far_field = false;

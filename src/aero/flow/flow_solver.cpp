@@ -52,6 +52,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   convective_.reconstruct = reconstruction(setting.limiter);
   convective_.flux = row_flux(setting.flux);
   convective_.upwinding = setting.upwinding;
+  convective_.first_order_model = setting.first_order_model;
   viscous_.active = setting.viscous;
   viscous_.thin_layer = setting.thin_layer;
   boundary_.stream = setting.stream;

@@ -40,6 +40,7 @@ struct FlowSetting {
   gas::Primitive<double> stream{};  ///< undisturbed flow above those references
   double speed = 0.0;              ///< scale of velocity [m/s]: that of the stream, or of what moves
   std::string flux = "roe_low_mach", limiter = "none", turbulence = "none";
+  bool first_order_model = false;  ///< turbulence is carried by first-order upwind differences, as in CFL3D and FUN3D; else second order, limited
   double upwinding = 1.0;          ///< share of the jump between reconstructed states that the flux sees
   bool viscous = false, thin_layer = false;
   double smooth = 0.0;             ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited

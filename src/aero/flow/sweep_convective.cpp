@@ -23,6 +23,17 @@ void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int 
   s.reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component, tile.turbulence, count, states);
   if (s.upwinding < 1.0) draw_together(s.upwinding, count, states);
   s.flux(s.gas, *tile.geometry, d, k, j, i, count, states, out, stride);
+  if (s.first_order_model) {
+    const std::ptrdiff_t step = tile.cells.stride(d);
+    const double* at = state + tile.cells.at(k, j, i);
+    for (int t = mean_unknowns; t < mean_unknowns + tile.turbulence; ++t)
+      for (int n = 0; n < count; n += row_lanes) {
+        const double* cell = at + t * tile.cells.component + n;
+        const Row mass = Row::load(out + n), zero(0.0);
+        (max(mass, zero) * Row::load(cell - step) + min(mass, zero) * Row::load(cell)).store(out + t * stride + n);
+      }
+    return;
+  }
   for (int t = mean_unknowns; t < mean_unknowns + tile.turbulence; ++t)
     for (int n = 0; n < count; n += row_lanes) {
       const Row mass = Row::load(out + n), zero(0.0);

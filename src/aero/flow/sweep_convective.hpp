@@ -35,6 +35,7 @@ struct ConvectiveSetting {
   gas::Primitive<double> smooth{};  ///< differences that no limiter touches
   Reconstruction reconstruct = nullptr;
   RowFlux flux = nullptr;
+  bool first_order_model = false;  ///< what turbulence carries by its upwind cell, unreconstructed
   double upwinding = 1.0;  ///< share of the jump between both states that the flux sees
 };
 

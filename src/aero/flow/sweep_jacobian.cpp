@@ -235,17 +235,23 @@ void add_pseudo_time(const FlowTile& tile, const double* state, double cfl, cons
   const Entries entries(s.scales);
   ImplicitSetting pseudo_only = s;
   pseudo_only.physical_rate = 0.0;
+  const std::ptrdiff_t component = tile.gradient_box.component;
   std::ptrdiff_t cell = 0;
   for_rows(tile.box, [&](int k, int j) {
-    for (int i = 0; i < tile.box.ni; ++i, ++cell) {
-      const gas::Primitive<double> q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
-      const auto block = time_block<double>(pseudo_only, q, tile.rate.data()[tile.inner.at(k, j, i)] / cfl, 0.0);
-      const std::ptrdiff_t place = tile.gradient_box.at(k, j, i);
+    for (int i = 0; i < tile.box.ni; i += row_lanes) {
+      const gas::Primitive<Row> q = gas::load_primitive<Row>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
+      const auto block = time_block<Row>(pseudo_only, q, Row::load(tile.rate.data() + tile.inner.at(k, j, i)) * (1.0 / cfl), Row(0.0));
+      const int used = std::min(int(row_lanes), tile.box.ni - i);
+      alignas(64) double direction[5][row_lanes] = {}, sum[row_lanes];
+      for (int c = 0; c < 5; ++c)
+        for (int lane = 0; lane < used; ++lane) direction[c][lane] = double(z[tile.gradient_box.at(k, j, i) + c * component + lane]);
       for (int r = 0; r < 5; ++r) {
-        double sum = 0.0;
-        for (int c = 0; c < 5; ++c) sum += block.m[r][c] * entries.scale[r][c] * double(z[place + c * tile.gradient_box.component]);
-        w[cell * 5 + r] += float(sum);
+        Row row = 0.0;
+        for (int c = 0; c < 5; ++c) row += block.m[r][c] * (Row(entries.scale[r][c]) * Row::load(direction[c]));
+        row.store(sum);
+        for (int lane = 0; lane < used; ++lane) w[(cell + lane) * 5 + r] += float(sum[lane]);
       }
+      cell += used;
     }
   });
 }

@@ -30,6 +30,9 @@ Plate plate(int n, const std::string& model, double drop) {
   s.turbulence = model;
   s.physical_far_field = true;  // the codes' upper boundary is the physical Riemann condition, which holds the displaced flow back
   s.march.drop = drop, s.march.max_steps = 400;
+  // Both codes carry turbulence by first-order differences. With two equations that shows: second-order ones give cf 0.17 % below both codes'
+  // on 69 x 49 cells and need more than 400 steps there.
+  s.first_order_model = model != "sa";
   if (model != "sa") s.march.matrix_free_below = 2.0;  // two equations: the stored operator alone may go round in circles before it is left
   Case c(flat_plate(n), s,
          {{"wall", {Condition::no_slip, true}},
@@ -62,9 +65,9 @@ struct Published {
   double friction[2], drag[2];
 };
 
-/// Between the codes (widened by a share), or nearer to the limit than both.
-bool as_good(double value, const double (&codes)[2], double limit, double share) {
-  const double low = (1.0 - share) * std::min(codes[0], codes[1]), high = (1.0 + share) * std::max(codes[0], codes[1]);
+/// Between the codes, or nearer to the limit than both.
+bool as_good(double value, const double (&codes)[2], double limit) {
+  const double low = std::min(codes[0], codes[1]), high = std::max(codes[0], codes[1]);
   return (value >= low && value <= high) || std::abs(value - limit) <= std::min(std::abs(low - limit), std::abs(high - limit));
 }
 
@@ -75,12 +78,12 @@ constexpr Published sst_vm[]{{1, {.00255183387, .00251561563}, {.00270623102, .0
                              {2, {.00262624887, .00260951403}, {.00278506994, .00267868400}},
                              {4, {.00266477116, .00265845195}, {.00282596960, .00277332900}}};
 
-void compare(const Published& grid, const std::string& model, double drop, double friction_limit, double drag_limit, double share = 0.0) {
+void compare(const Published& grid, const std::string& model, double drop, double friction_limit, double drag_limit) {
   const Plate p = plate(grid.n, model, drop);
   CAPTURE(model, grid.n, p.friction, p.drag, p.drop, p.steps, p.y_plus);
   CHECK(p.drop <= drop);
-  CHECK(as_good(p.friction, grid.friction, friction_limit, share));
-  CHECK(as_good(p.drag, grid.drag, drag_limit, share));
+  CHECK(as_good(p.friction, grid.friction, friction_limit));
+  CHECK(as_good(p.drag, grid.drag, drag_limit));
 }
 
 }  // namespace
@@ -92,5 +95,5 @@ TEST_CASE("friction and drag of a flat plate on the coarsest grid lie between tw
 
 TEST_CASE("friction and drag of a flat plate converge to the published values", "[flow][nightly]") {
   for (const Published& grid : sa) compare(grid, "sa", 1e-6, .0027056, .0028562);
-  for (const Published& grid : sst_vm) compare(grid, "sst_vm", 1e-5, .0026909, .0028488, 2e-3);  // cf 0.17 and 0.11 % below both on 69x49 and 137x97
+  for (const Published& grid : sst_vm) compare(grid, "sst_vm", 1e-5, .0026909, .0028488);
 }
