@@ -275,9 +275,7 @@ StepReport Mechanism::solve_positions(double t, const Eigen::VectorXd& x) {
   }
 }
 
-void Mechanism::solve_velocities(const Eigen::VectorXd& u, bool held) {
-  if (held)
-    for (Drive& d : drive_) d.rate = d.acceleration = 0.0;
+void Mechanism::solve_velocities(const Eigen::VectorXd& u) {
   solve_tangent();
   u_.noalias() = tangent_ * u;
   u_ += drift_;

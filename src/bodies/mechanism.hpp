@@ -32,8 +32,8 @@ class Mechanism {
   StepReport open(BodiesState& state, double t, bool choose);
   /// Positions at independent coordinates x (chart); Newton-Raphson on the dependent ones.
   StepReport solve_positions(double t, const Eigen::VectorXd& x);
-  /// Velocities from the independent ones at the positions last solved. `held`: drivers stand still.
-  void solve_velocities(const Eigen::VectorXd& u, bool held = false);
+  /// Velocities from the independent ones at the positions last solved.
+  void solve_velocities(const Eigen::VectorXd& u);
   /// Independent components of d(coordinates)/dt.
   void chart_rate(Eigen::VectorXd& x_rate) const;
   /// Motions in SI units.

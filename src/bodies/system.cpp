@@ -429,7 +429,7 @@ bool System::rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& 
 bool System::forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass,
                             double* all_loads) {
   if (!w_->positions(t_s, x)) return false;
-  w_->mechanism.solve_velocities(Eigen::VectorXd::Zero(freedoms()), true);
+  w_->mechanism.solve_velocities(Eigen::VectorXd::Zero(freedoms()));
   w_->mechanism.motions(w_->motions);
   w_->gather_loads(t_s);
   w_->gather_mass(t_s);

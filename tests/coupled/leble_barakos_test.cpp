@@ -42,6 +42,17 @@ TEST_CASE("case 1 settles where the paper finds its machine, and where the stati
   CHECK(std::abs(mean("platform.sea.fx_N")) < 0.01 * 1.5e6);
 }
 
+TEST_CASE("the equilibrium of case 3 has the thrust of a rotor that turns", "[coupled][fast]") {
+  scene::Document document = scene::load(input("leble_barakos/case3_engineering.toml"), {"waves.model='none'"});
+  Machine machine(read_scenario(document));
+  const Start rest = make_start(machine);
+  const aero::RotorState rotor = machine.rotor()->state(0.0, rest.state.motions);
+  CHECK(machine.rotor()->load(0.0, rotor, 1.0).thrust == Approx(1.50e6).epsilon(0.03));
+  const Eigen::Vector3d angles = euler_angles(rest.state.motions[0].attitude) / radians_per_degree;
+  CHECK(angles.y() == Approx(5.2).margin(0.4));
+  CHECK(std::abs(angles.z()) < 0.2);
+}
+
 TEST_CASE("case 2 differs from case 1 as the thrust does, seen in the pitch acceleration of the last 20 s", "[coupled][fast]") {
   const Folder folder("case2");
   const auto steps = std::vector<std::string>{"time.window_s=0.05"};
