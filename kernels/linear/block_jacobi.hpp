@@ -1,5 +1,6 @@
-// Block-Jacobi: each cell's own block inverted, neighbours left out. In the place where block ILU keeps its pivots (block_ilu.hpp).
-// Called by src/aero/flow/preconditioner.cpp; tested in tests/kernels/linear/block_ilu_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Block-Jacobi: each cell's own block inverted, neighbours left out. In the place where block ILU keeps its pivots
+// (block_ilu.hpp). Called by src/aero/flow/preconditioner.cpp; tested in tests/kernels/linear/block_ilu_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/linear/stencil_matrix.hpp"
@@ -19,7 +20,8 @@ std::ptrdiff_t factor_diagonal(const StencilMatrix<n>& a) {
 template <int n>
 void solve_diagonal(const StencilMatrix<n>& a, const float* r, float* z) {
   const std::ptrdiff_t cells = a.box.count();
-  for (std::ptrdiff_t cell = 0; cell < cells; ++cell) multiply<n>(a.block(cell, StencilMatrix<n>::pivot), r + cell * n, z + cell * n);
+  for (std::ptrdiff_t cell = 0; cell < cells; ++cell)
+    multiply<n>(a.block(cell, StencilMatrix<n>::pivot), r + cell * n, z + cell * n);
 }
 
 }  // namespace spindrift::linear

@@ -1,6 +1,6 @@
-// The law of the wall as one formula from the wall through the logarithmic layer, and what it makes of a first cell that stands in it:
-// Reichardt 1951, ZAMM 31, 208: u+ = ln(1 + .41 y+)/.41 + 7.8 (1 - exp(-y+/11) - y+/11 exp(-.33 y+)).
-// Called by src/aero/flow/sweep_gradients.cpp for walls with a wall function; tested in tests/kernels/turbulence/wall_law_test.cpp.
+// The law of the wall as one formula from the wall through the logarithmic layer, and what it makes of a first cell that stands
+// in it: Reichardt 1951, ZAMM 31, 208: u+ = ln(1 + .41 y+)/.41 + 7.8 (1 - exp(-y+/11) - y+/11 exp(-.33 y+)). Called by
+// src/aero/flow/sweep_gradients.cpp for walls with a wall function; tested in tests/kernels/turbulence/wall_law_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,7 +20,8 @@ inline double wall_law_slope(double y_plus) {
 }
 
 /// Friction velocity [m/s] where the fluid moves with `speed` [m/s] along the wall at a distance [m]; nu [m2/s]. The root of
-/// y+ wall_law(y+) = speed distance / nu by Newton steps in logarithms, where the slope lies between 1 and 2: any start converges.
+/// y+ wall_law(y+) = speed distance / nu by Newton steps in logarithms, where the slope lies between 1 and 2: any start
+/// converges.
 inline double friction_velocity(double speed, double distance, double nu) {
   if (!(speed > 0.0)) return 0.0;
   const double reynolds = speed * distance / nu;
@@ -39,7 +40,8 @@ inline double wall_law_rate(double speed, double distance, double nu) {
   return u * u / nu * wall_law_slope(u * distance / nu);
 }
 
-/// The viscosity [Pa s] with which speed over distance is the law's friction; that of the fluid where the cell lies in the sublayer.
+/// The viscosity [Pa s] with which speed over distance is the law's friction; that of the fluid where the cell lies in the
+/// sublayer.
 inline double wall_viscosity(double speed, double distance, double rho, double mu) {
   if (!(speed > 0.0)) return mu;
   const double u = friction_velocity(speed, distance, mu / rho);

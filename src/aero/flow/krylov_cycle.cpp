@@ -39,7 +39,9 @@ void KrylovCycle::finish() {
   if (method_ != KrylovMethod::gcg) gmres_.solve(factors_);
 }
 
-float* KrylovCycle::first(FlowTile& tile) const { return method_ == KrylovMethod::gcg ? tile.vectors.back().data() : tile.vectors[0].data(); }
+float* KrylovCycle::first(FlowTile& tile) const {
+  return method_ == KrylovMethod::gcg ? tile.vectors.back().data() : tile.vectors[0].data();
+}
 
 void KrylovCycle::advance(FlowTile& tile, int j) const {
   const std::size_t size = padded(tile.vector_size()), last = std::size_t(j) - 1;
@@ -49,7 +51,8 @@ void KrylovCycle::advance(FlowTile& tile, int j) const {
     orthogonalise(q, std::span(tile.vectors).first(last), gcg_.projections(), gcg_.scale(), size);
     add_scaled(tile.vectors.back().data(), -gcg_.alpha(), q, size);
   } else {
-    orthogonalise(tile.vectors[std::size_t(j)].data(), std::span(tile.vectors).first(std::size_t(j)), gmres_.projections(), gmres_.next_scale(), size);
+    orthogonalise(tile.vectors[std::size_t(j)].data(), std::span(tile.vectors).first(std::size_t(j)), gmres_.projections(),
+                  gmres_.next_scale(), size);
   }
 }
 
@@ -79,8 +82,8 @@ void KrylovCycle::dots(const FlowTile& tile, int j, std::span<double> to) const 
 void KrylovCycle::combine(FlowTile& tile) const {
   const std::size_t size = padded(tile.vector_size()), columns_made = std::size_t(columns());
   if (method_ == KrylovMethod::gcg && columns_made > 0)
-    orthogonalise(tile.directions_kept[columns_made - 1].data(), std::span(tile.directions_kept).first(columns_made - 1), gcg_.projections(),
-                  gcg_.scale(), size);
+    orthogonalise(tile.directions_kept[columns_made - 1].data(), std::span(tile.directions_kept).first(columns_made - 1),
+                  gcg_.projections(), gcg_.scale(), size);
   float* x = solution(tile);
   std::fill_n(x, size, 0.0f);  // the last vector is in no combination
   const auto& basis = method_ == KrylovMethod::gmres ? tile.vectors : tile.directions_kept;

@@ -1,8 +1,8 @@
 // One Krylov cycle over tiles: which vectors a method keeps, what it makes of them in each iteration, and its small dense part
 // (kernels/linear/krylov.hpp). One reduction per iteration, all dot products of a tile from one pass over its vectors.
-// GMRES keeps one set of vectors and preconditions once more at the end; flexible GMRES (Saad 1993) and GCG (Eisenstat, Elman & Schultz
-// 1983) keep the directions too, so that the preconditioner may change from one iteration to the next.
-// Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/linear_solver_test.cpp. SPDX-License-Identifier: Apache-2.0
+// GMRES keeps one set of vectors and preconditions once more at the end; flexible GMRES (Saad 1993) and GCG (Eisenstat, Elman &
+// Schultz 1983) keep the directions too, so that the preconditioner may change from one iteration to the next. Called by the
+// tasks of src/aero/flow; tested in tests/src/aero/flow/linear_solver_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>

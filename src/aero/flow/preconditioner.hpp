@@ -1,7 +1,7 @@
-// What approximates the inverse of a pseudo-step's matrix, behind one interface: by tile (block ILU, block-Jacobi, none), from each tile's
-// own tasks; or for all tiles of a process at once, from tasks that all ranks run together (a multigrid library, a coarse correction).
-// The Krylov cycle knows nothing else of it. Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/linear_solver_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// What approximates the inverse of a pseudo-step's matrix, behind one interface: by tile (block ILU, block-Jacobi, none), from
+// each tile's own tasks; or for all tiles of a process at once, from tasks that all ranks run together (a multigrid library, a
+// coarse correction). The Krylov cycle knows nothing else of it. Called by the tasks of src/aero/flow; tested in
+// tests/src/aero/flow/linear_solver_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -25,7 +25,8 @@ class Preconditioner {
   virtual ~Preconditioner() = default;
   virtual std::string_view name() const = 0;
   /// True: refresh() and apply() get one tile at a time, tiles in any order and beside each other, without a communicator.
-  /// False: all tiles of the process in the order of the tiling, in one task at a time that every rank runs as often, with a communicator.
+  /// False: all tiles of the process in the order of the tiling, in one task at a time that every rank runs as often, with a
+  /// communicator.
   virtual bool by_tile() const { return true; }
   /// The blocks of these tiles were filled anew. A singular pivot throws, naming tile and cell.
   virtual void refresh(std::span<FlowTile* const> tiles, MPI_Comm comm) = 0;

@@ -1,9 +1,9 @@
-// The law of the wall in place of a resolved sublayer: the flat plate of flat_plate_test.cpp with its lowest cells replaced by one whose
-// centre stands at y+ 30, 50, 100 (at x = 0.97), and in the sublayer, against friction and drag of the resolved grids (.00271, .00286).
-// SPDX-License-Identifier: Apache-2.0
-#include <catch2/catch.hpp>
+// The law of the wall in place of a resolved sublayer: the flat plate of flat_plate_test.cpp with its lowest cells replaced by
+// one whose centre stands at y+ 30, 50, 100 (at x = 0.97), and in the sublayer, against friction and drag of the resolved grids
+// (.00271, .00286). SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "src/aero/grid/generators/plane_cases.hpp"
@@ -70,13 +70,15 @@ Plate plate(int n, double y_plus, Condition wall_condition) {
   double nearest = 1e30;
   for (const FlowTile& tile : c.solver->tiles())
     for (const WallPoint& p : c.solver->wall_points(tile))
-      if (std::abs(p.place[0] - 0.97) < nearest) nearest = std::abs(p.place[0] - 0.97), result.friction = p.traction[0] / q, result.y_plus = p.y_plus;
+      if (std::abs(p.place[0] - 0.97) < nearest)
+        nearest = std::abs(p.place[0] - 0.97), result.friction = p.traction[0] / q, result.y_plus = p.y_plus;
   return result;
 }
 
 }  // namespace
 
-TEST_CASE("a wall function gives a plate's friction and drag on grids whose first cell stands in the logarithmic layer", "[flow][fast]") {
+TEST_CASE("a wall function gives a plate's friction and drag on grids whose first cell stands in the logarithmic layer",
+          "[flow][fast]") {
   for (const double y_plus : {30.0, 50.0, 100.0}) {
     const Plate law = plate(2, y_plus, Condition::wall_law);
     CAPTURE(y_plus, law.y_plus, law.friction, law.drag);

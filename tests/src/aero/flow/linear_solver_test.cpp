@@ -1,6 +1,6 @@
-// The linear solver's choices: the Krylov methods see the same residuals and end in the same flow, preconditioners change the way and not
-// the end, one for all tiles at once is the same as by tile, matrices kept over pseudo-steps are counted, and all of it to the bit on any
-// threads and ranks. SPDX-License-Identifier: Apache-2.0
+// The linear solver's choices: the Krylov methods see the same residuals and end in the same flow, preconditioners change the way
+// and not the end, one for all tiles at once is the same as by tile, matrices kept over pseudo-steps are counted, and all of it
+// to the bit on any threads and ranks. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -49,7 +49,8 @@ Case marched(const FlowSetting& setting, std::unique_ptr<Preconditioner> precond
 std::vector<double> fingerprint(const FlowSolver& solver) {
   std::vector<double> all;
   for (const PseudoRow& row : solver.rows())
-    all.insert(all.end(), {row.density_residual, row.mean_residual, row.model_residual, row.cfl, double(row.krylov), double(row.matrices)});
+    all.insert(all.end(),
+               {row.density_residual, row.mean_residual, row.model_residual, row.cfl, double(row.krylov), double(row.matrices)});
   return all;
 }
 std::vector<double> state_of(const FlowSolver& solver) {
@@ -88,7 +89,12 @@ TEST_CASE("flexible GMRES and GCG reduce a linear system as GMRES does, with eit
     for (const KrylovMethod method : methods) {
       FlowSetting s = turbulent_air();
       s.krylov = method;
-      s.march = {.cfl_start = 50.0, .drop = 0.0, .max_steps = 1, .krylov_steps = 8, .krylov_drop = 0.0, .matrix_free_below = matrix_free_below};
+      s.march = {.cfl_start = 50.0,
+                 .drop = 0.0,
+                 .max_steps = 1,
+                 .krylov_steps = 8,
+                 .krylov_drop = 0.0,
+                 .matrix_free_below = matrix_free_below};
       const Case c = marched(s);
       drop.push_back(c.solver->march().linear_drop());
       state.push_back(state_of(*c.solver));
@@ -171,7 +177,8 @@ TEST_CASE("threads leave every bit of flexible GMRES and GCG with matrices kept"
   }
 }
 
-TEST_CASE("a physical step begins with a new matrix, so a march restarted between steps goes on with the same bits", "[flow][fast]") {
+TEST_CASE("a physical step begins with a new matrix, so a march restarted between steps goes on with the same bits",
+          "[flow][fast]") {
   FlowSetting s = turbulent_air();
   s.krylov = KrylovMethod::gcg;
   s.time_order = 2, s.dt = 1e-3, s.march.drop = 1e-3, s.march.refresh_every = 5, s.march.matrix_free_below = 2.0;
