@@ -43,6 +43,15 @@ inline double stream_deviation(const FlowSolver& solver) {
   return largest;
 }
 
+/// Residuals, CFL numbers, linear iterations and matrices of all steps.
+inline std::vector<double> fingerprint(const FlowSolver& solver) {
+  std::vector<double> all;
+  for (const PseudoRow& row : solver.rows())
+    all.insert(all.end(),
+               {row.density_residual, row.mean_residual, row.model_residual, row.cfl, double(row.krylov), double(row.matrices)});
+  return all;
+}
+
 /// A grid with its solver on one rank, or a part of it on several.
 struct Case {
   MultiBlockGrid grid;

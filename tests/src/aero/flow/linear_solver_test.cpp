@@ -26,7 +26,7 @@ FlowSetting turbulent_air() {
 }
 
 /// A bump in a skewed box of eight tiles, that leaves.
-Case bump(const FlowSetting& setting, int ranks = 1, int rank = 0, std::unique_ptr<Preconditioner> preconditioner = nullptr) {
+Case leaving_bump(const FlowSetting& setting, int ranks = 1, int rank = 0, std::unique_ptr<Preconditioner> preconditioner = nullptr) {
   const BoxOptions box{.ni = 8, .nj = 8, .nk = 8};
   Case c(perturbed(cartesian_box(box), box, 0.04), setting, {}, {.across_j = 4, .across_k = 4, .normal = 8}, ranks, rank);
   if (preconditioner) c.solver->use(std::move(preconditioner));
@@ -40,19 +40,12 @@ Case bump(const FlowSetting& setting, int ranks = 1, int rank = 0, std::unique_p
   return c;
 }
 Case marched(const FlowSetting& setting, std::unique_ptr<Preconditioner> preconditioner = nullptr) {
-  Case c = bump(setting, 1, 0, std::move(preconditioner));
+  Case c = leaving_bump(setting, 1, 0, std::move(preconditioner));
   c.prepare();
   c.run();
   return c;
 }
 
-std::vector<double> fingerprint(const FlowSolver& solver) {
-  std::vector<double> all;
-  for (const PseudoRow& row : solver.rows())
-    all.insert(all.end(),
-               {row.density_residual, row.mean_residual, row.model_residual, row.cfl, double(row.krylov), double(row.matrices)});
-  return all;
-}
 std::vector<double> state_of(const FlowSolver& solver) {
   std::vector<double> all;
   for (int n = 0; n < int(solver.tiles().size()); ++n) {
@@ -103,7 +96,7 @@ TEST_CASE("flexible GMRES and GCG reduce a linear system as GMRES does, with eit
     CAPTURE(drop);
     CHECK(drop[0] < 0.1);
     double change = 0.0, apart = 0.0;
-    const std::vector<double> before = state_of(*bump(turbulent_air()).solver);
+    const std::vector<double> before = state_of(*leaving_bump(turbulent_air()).solver);
     for (std::size_t m = 1; m < 3; ++m) {
       CHECK(drop[m] == Approx(drop[0]).epsilon(0.02));
       for (std::size_t n = 0; n < before.size(); ++n) {
@@ -165,7 +158,7 @@ TEST_CASE("threads leave every bit of flexible GMRES and GCG with matrices kept"
     s.krylov = method, s.march.refresh_every = 3, s.march.matrix_free_below = 2.0, s.march.max_steps = 6;
     std::vector<double> rows, state;
     for (const int threads : {1, 3}) {
-      Case c = bump(s);
+      Case c = leaving_bump(s);
       runtime::ExecutorOptions options{.threads = threads};
       if (threads > 1) options.random_schedule = 7;
       c.prepare(MPI_COMM_SELF, options);
@@ -182,7 +175,7 @@ TEST_CASE("a physical step begins with a new matrix, so a march restarted betwee
   FlowSetting s = turbulent_air();
   s.krylov = KrylovMethod::gcg;
   s.time_order = 2, s.dt = 1e-3, s.march.drop = 1e-3, s.march.refresh_every = 5, s.march.matrix_free_below = 2.0;
-  Case whole = bump(s), first = bump(s), second = bump(s);
+  Case whole = leaving_bump(s), first = leaving_bump(s), second = leaving_bump(s);
   for (Case* c : {&whole, &first, &second}) c->prepare();
   for (int n = 0; n < 4; ++n) whole.run();
   for (int n = 0; n < 2; ++n) first.run();
@@ -205,7 +198,7 @@ void same_bits_on(int ranks) {
       FlowSetting s = turbulent_air();
       s.krylov = method, s.march.refresh_every = 2, s.march.max_steps = 6;
       const auto preconditioner = [&] { return at_once ? std::make_unique<AllAtOnce>() : nullptr; };
-      Case whole = bump(s, 1, 0, preconditioner()), part = bump(s, ranks, rank, preconditioner());
+      Case whole = leaving_bump(s, 1, 0, preconditioner()), part = leaving_bump(s, ranks, rank, preconditioner());
       whole.prepare();
       whole.run();
       part.prepare(MPI_COMM_WORLD, {.threads = 2});
