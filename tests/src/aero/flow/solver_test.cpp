@@ -98,7 +98,7 @@ TEST_CASE("threads and random schedules leave every bit of a viscous march as it
       CHECK(now == state);
     }
   }
-  CHECK(expected.size() == 9 * 4);
+  CHECK(expected.size() == 9 * 6);
 }
 
 namespace {
