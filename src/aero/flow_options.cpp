@@ -177,7 +177,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
 std::vector<std::string> wall_patches(const FlowOptions& options) {
   std::vector<std::string> names;
   for (const PatchOptions& b : options.boundaries)
-    if (sticks(b.condition) || b.condition == Condition::slip) names.push_back(b.patch);
+    if (is_closed(b.condition)) names.push_back(b.patch);
   return names;
 }
 
@@ -190,7 +190,7 @@ std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const T
       throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("the grid has no patch \"{}\"; it has: {}", b.patch, fmt::join(tiling.patches, ", "))}});
     if (given[std::size_t(patch)]++ > 0)
       throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("patch \"{}\" is given twice", b.patch)}});
-    conditions[std::size_t(patch)] = {b.condition, b.loads && (sticks(b.condition) || b.condition == Condition::slip)};
+    conditions[std::size_t(patch)] = {b.condition, b.loads && is_closed(b.condition)};
   }
   for (std::size_t p = 0; p < given.size(); ++p)
     if (given[p] == 0)

@@ -221,8 +221,7 @@ void write_walls(MPI_Comm comm, const Air& air, const io::RunDirectory& director
   const aero::Tiling& tiling = air.store->tiling();
   const FlowSolver& solver = *air.solver;
   const auto on_wall = [&](const aero::TileBoundary& b) {
-    const aero::Condition c = solver.conditions()[std::size_t(b.patch)].condition;
-    return aero::sticks(c) || c == aero::Condition::slip;
+    return aero::is_closed(solver.conditions()[std::size_t(b.patch)].condition);
   };
   std::vector<io::GridBlock> blocks;
   std::vector<int> first_block;  // by tile

@@ -31,7 +31,7 @@ namespace {
 struct Window {
   bodies::BodiesState start, state;  ///< at the window's start; now
   bodies::StepReport trouble;        ///< of the first step that failed; `state` is then the last good one
-  std::int64_t steps = 0, first_steps = 0;  ///< of all runs so far; before this one
+  std::int64_t steps = 0;                  ///< of all runs so far
   std::optional<CoupledWindow> coupled{};  ///< where the rotor is a part of its own
   std::unique_ptr<BodySide> side{};        ///< of a sea of particles that shares the window with no such part,
   std::unique_ptr<WindowTasks> tasks{};    ///< and its tasks
@@ -66,12 +66,12 @@ runtime::Graph record_coupled_window(Machine& machine, Window& window) {
     const auto begin = std::chrono::steady_clock::now();
     const std::int64_t steps = window.coupled->bodies().steps();
     WindowReport report = window.coupled->advance(window.state);
-    log_window(window, report, double(window.start.tick) * machine.timeline().tick_s() + machine.timeline().window_s(), seconds_since(begin));
+    const double end_s = double(window.start.tick) * machine.timeline().tick_s() + machine.timeline().window_s();
+    log_window(window, report, end_s, seconds_since(begin));
     if (report.ok()) window.steps += machine.particles() ? window.coupled->bodies().steps() - steps : machine.timeline().steps_per_window();
     if (report.log.retries > 0)
-      spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}",
-                   double(window.start.tick) * machine.timeline().tick_s() + machine.timeline().window_s(), report.log.retries, report.log.cuts,
-                   report.log.evaluations, bound_name(report.log.bound));
+      spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}", end_s, report.log.retries,
+                   report.log.cuts, report.log.evaluations, bound_name(report.log.bound));
     window.failure = std::move(report.failure);
   });
   return graph;
@@ -82,12 +82,13 @@ runtime::Graph record_particle_window(Machine& machine, Window& window) {
   runtime::Graph graph;
   const runtime::Datum state = graph.datum();
   graph.task("sea/window", {runtime::updates(state)}, [&machine, &window] {
+    const std::int64_t steps = window.side->steps();
     try {
       window.side->keep(0);
       window.side->aim(window.state, window.state.tick + machine.timeline().steps_per_window());
       window.tasks->run(false, true);
       window.state = window.side->finish();
-      window.steps = window.first_steps + window.side->steps();
+      window.steps += window.side->steps() - steps;
     } catch (const NumericalFailure& failure) {
       window.failure = failure.what();
       window.side->back(0);
@@ -174,7 +175,6 @@ class Checkpoints {
       throw io::InputError(file->path().string() + ": its coupling history is that of another coupling.scheme");
     if (window.coupled) window.coupled->air().restore(*file);
     restore_particles(machine_, *file);
-    window.first_steps = window.steps;
     return saved_ = file->integer("window");
   }
 

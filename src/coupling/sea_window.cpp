@@ -46,11 +46,8 @@ std::int64_t substep_ticks(std::int64_t left, double limit) {
 }
 
 void evaluate_particles(Machine& machine, const bodies::BodiesState& state) {
-  sea::ParticleSea& sea = *machine.particles();
   const double t = double(state.tick) * machine.timeline().tick_s();
-  sea.place(t, t < 0.0 ? at_rest(state.motions) : state.motions);
-  sea.open_window();
-  sea.step_limit();
+  machine.particles()->evaluate(t, t < 0.0 ? at_rest(state.motions) : state.motions);
 }
 
 namespace {

@@ -6,14 +6,18 @@ import numpy as np
 TETRAHEDRA = np.array([[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]])
 
 
+def between(values, axis):
+    """Means of neighbours along an axis: one fewer than there are values."""
+    return 0.5 * (np.take(values, range(1, values.shape[axis]), axis) + np.take(values, range(values.shape[axis] - 1), axis))
+
+
 def at_nodes(cells):
     """Values at the nodes of a block, (nk + 1, nj + 1, ni + 1, ...): means of the cells round them, at the block's faces of its own."""
     out = cells
     for axis in range(3):
         width = [(0, 0)] * out.ndim
         width[axis] = (1, 1)
-        padded = np.pad(out, width, mode="edge")
-        out = 0.5 * (np.take(padded, range(1, padded.shape[axis]), axis) + np.take(padded, range(padded.shape[axis] - 1), axis))
+        out = between(np.pad(out, width, mode="edge"), axis)
     return out
 
 
@@ -21,7 +25,7 @@ def gradient(points, values):
     """Derivatives by x, y, z of cell values (nk, nj, ni, m) of a block with nodes `points`: (nk, nj, ni, m, 3), second order on smooth blocks."""
     centres = points
     for axis in range(3):
-        centres = 0.5 * (np.take(centres, range(1, centres.shape[axis]), axis) + np.take(centres, range(centres.shape[axis] - 1), axis))
+        centres = between(centres, axis)
     along_x = np.stack([np.gradient(centres, axis=axis) for axis in range(3)], axis=-2)   # [..., index direction, xyz]
     along_v = np.stack([np.gradient(values, axis=axis) for axis in range(3)], axis=-2)    # [..., index direction, m]
     return np.swapaxes(np.linalg.solve(along_x, along_v), -1, -2)

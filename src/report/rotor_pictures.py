@@ -16,7 +16,8 @@ import flow_pictures
 class Rotor:
     """What the scene says of the rotor, and its frame: x downwind along the axis, z up, origin at the hub."""
 
-    def __init__(self, run):
+    def __init__(self, run, walls):
+        self.walls = walls
         scene = run.scene.get("rotor", {})
         self.hub = np.array(scene.get("hub_m", [0.0, 0.0, 0.0]), dtype=float)
         axis = np.array(scene.get("axis", [1.0, 0.0, 0.0]), dtype=float)
@@ -28,18 +29,17 @@ class Rotor:
         self.wind = run.scene.get("wind", {}).get("speed_m_s", 0.0)
         self.density = run.scene.get("environment", {}).get("air_density_kg_m3", 1.225)
         self.temperature = run.scene.get("aero", {}).get("flow", {}).get("temperature_K", 288.15)
-        walls = flow_pictures.newest(run, "walls") or []
-        radii = [np.linalg.norm(self.local(wall["points"])[..., 1:], axis=-1).max() for wall in walls]
-        self.tip = max(radii, default=0.5 * scene.get("diameter_m", 0.0))
-        self.copies = self.blades(run, scene) if run.scene.get("aero", {}).get("grid", {}).get("sectors") == "one" else 1
+        self.tip = max(np.linalg.norm(self.local(wall["points"])[..., 1:], axis=-1).max() for wall in walls)
+        self.copies = self.blades(run, scene) if run.scene["aero"]["grid"].get("sectors") == "one" else 1
 
     @staticmethod
     def blades(run, scene):
+        """Of the turbine file; 1, so that one sector is drawn alone, where that is gone."""
         try:
             with open(pathlib.Path(run.folder) / scene["turbine"], "rb") as file:
-                return int(tomllib.load(file).get("turbine", {}).get("blades", 3))
+                return tomllib.load(file)["turbine"]["blades"]
         except (OSError, KeyError, tomllib.TOMLDecodeError):
-            return 3
+            return 1
 
     def local(self, points):
         return (points - self.hub) @ self.frame.T
@@ -51,18 +51,9 @@ class Rotor:
         return np.stack([points[..., 0], np.cos(a) * y - np.sin(a) * z, np.sin(a) * y + np.cos(a) * z], axis=-1)
 
 
-def of(run):
-    """The rotor of a run that left fields of a resolved one, else None."""
-    if run.scene.get("aero", {}).get("model") != "blade_resolved" or not flow_pictures.newest(run, "walls"):
-        return None
-    return Rotor(run)
-
-
-def blade(run, rotor):
+def blade(rotor):
     """Pressure coefficient (on wind and turning at the radius) of the first blade, seen from upwind and from downwind."""
-    walls = flow_pictures.newest(run, "walls")
-    if not walls:
-        return None
+    walls = rotor.walls
     ambient = rotor.density * flow_pictures.GAS_CONSTANT * rotor.temperature
     quads = np.concatenate([faces(rotor.local(wall["points"])) for wall in walls])
     pressure = np.concatenate([wall["pressure"].ravel() for wall in walls]) - ambient
@@ -187,10 +178,13 @@ def vortices(blocks, rotor):
 
 def pictures(run):
     """(title, figure, caption) of each picture that the run's files give."""
-    rotor = of(run)
-    if not rotor:
+    if "grid" not in run.scene.get("aero", {}):   # what stands still in the wind has a grid of its own, [aero.flow]
         return
-    if figure := blade(run, rotor):
+    walls = flow_pictures.newest(run, "walls")
+    if not walls:
+        return
+    rotor = Rotor(run, walls)
+    if figure := blade(rotor):
         yield ("Pressure on a blade", figure,
                "Pressure above the undisturbed one on the dynamic pressure of wind and turning at the radius; leading edge and suction side are blue.")
     if blocks := volume(run, rotor):

@@ -81,29 +81,17 @@ class Sea final : public ParticleSea {
     }
   }
 
-  void open_window() override {
+  void evaluate(double t, std::span<const Motion> bodies) override {
+    place(t, bodies);
     if (ranks_ > 1) sea_.repartition();
     sea_.sort();
-  }
-  double step_limit() override {
-    const double limit = sea_.step_limit();
-    read_loads();
-    return limit;
-  }
-  void start_step(double dt) override { sea_.start_step(dt); }
-  void place(double t, std::span<const Motion> bodies) override {
-    motions_.assign(bodies.begin(), bodies.end());
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      if (owner_of_body_[b]) sea_.place_body(owner_of_body_[b], bodies[b]);
-    if (wavemaker_) sea_.place_body(paddle_, wavemaker_->motion(t));
-  }
-  void half_step() override {
-    sea_.half_step();
-    read_loads();
-  }
-  void end_step(bool settling) override {
-    settling_ = settling;
-    sea_.end_step();
+    (void)sea_.step_limit();
+    for (std::size_t b = 0; b < loads_.size(); ++b) {
+      loads_[b] = contacts_[b] = Wrench{.point = motions_[b].position};
+      if (!owner_of_body_[b]) continue;
+      loads_[b] = of_width(sea_.load_on(owner_of_body_[b], motions_[b].position));
+      contacts_[b] = of_width(sea_.contact_on(owner_of_body_[b], motions_[b].position));
+    }
   }
 
   void balance() override {
@@ -242,7 +230,13 @@ class Sea final : public ParticleSea {
   std::int64_t sorts() const override { return sea_.work().sorts; }
 
  private:
-  /// As read_loads() and place(), within a window.
+  void place(double t, std::span<const Motion> bodies) {
+    motions_.assign(bodies.begin(), bodies.end());
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (owner_of_body_[b]) sea_.place_body(owner_of_body_[b], bodies[b]);
+    if (wavemaker_) sea_.place_body(paddle_, wavemaker_->motion(t));
+  }
+  /// Loads of evaluate() and places of place(), within a window.
   void move(const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> solids) {
     const std::vector<sph::Solid>& known = sea_.state().solids;
     for (std::size_t b = 0; b < loads_.size(); ++b) {
@@ -269,14 +263,6 @@ class Sea final : public ParticleSea {
       if (wavemaker_ && known[s].owner == paddle_) solids[s] = wavemaker_->motion(t);
       for (std::size_t b = 0; b < motions_.size(); ++b)
         if (known[s].owner == owner_of_body_[b]) solids[s] = motions_[b];
-    }
-  }
-  void read_loads() {
-    for (std::size_t b = 0; b < loads_.size(); ++b) {
-      loads_[b] = contacts_[b] = Wrench{.point = motions_[b].position};
-      if (!owner_of_body_[b]) continue;
-      loads_[b] = of_width(sea_.load_on(owner_of_body_[b], motions_[b].position));
-      contacts_[b] = of_width(sea_.contact_on(owner_of_body_[b], motions_[b].position));
     }
   }
   Wrench of_width(Wrench load) const {

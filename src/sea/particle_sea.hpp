@@ -4,11 +4,10 @@
 //
 //   ParticleSea::Plan plan = plan_of(options, waves, environment, bodies);   // checked before; cheap
 //   auto sea = ParticleSea::make(plan, motions at the start, world);   // this and all that follows on all ranks alike
-//   sea->open_window();                                     // what follows depends on the state alone
-//   const double limit = sea->step_limit();                 // loads() are those at t
-//   sea->start_step(dt);
-//   sea->place(t + dt/2, motions); sea->half_step();        // loads() are those at t + dt/2
-//   sea->place(t + dt, motions);   sea->end_step();
+//   sea->evaluate(t, motions);                              // loads() are those at t: for what is written before the first window
+//   sea->record(graph, driver, first_tag);                  // a window's steps as tasks; the driver moves the bodies
+//   sea->balance(), sea->open(t, motions, settling);        // before each run of the tasks,
+//   sea->close();                                           // and after it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -104,18 +103,10 @@ class ParticleSea {
   static std::unique_ptr<ParticleSea> make(const ParticlePlan& plan, std::span<const Motion> start, const runtime::World& world);
   virtual ~ParticleSea() = default;
 
-  // The step, in the order of the example above.
-  virtual void open_window() = 0;
-  /// Evaluates the state now; the largest stable step, bodies included [s].
-  virtual double step_limit() = 0;
-  virtual void start_step(double dt_s) = 0;
-  /// Moves bodies and paddle to where they are at time t.
-  virtual void place(double t_s, std::span<const Motion> bodies) = 0;
-  virtual void half_step() = 0;
-  /// `settling`: the water is damped as until t = 0.
-  virtual void end_step(bool settling) = 0;
+  /// Puts bodies and paddle where they are at time t and evaluates that state, without a step.
+  virtual void evaluate(double t_s, std::span<const Motion> bodies) = 0;
 
-  // A window as tasks, in place of the parts above: balance(), then for each run of the tasks open(), the tasks, close().
+  // A window as tasks: balance(), then for each run of the tasks open(), the tasks, close().
   /// Deals groups out to the ranks anew where that pays; afterwards tasks are outdated().
   virtual void balance() = 0;
   /// Records the steps of a window; `first_tag`: of their messages. The driver outlives the tasks.
@@ -125,6 +116,7 @@ class ParticleSea {
   virtual bool outdated() const = 0;
   /// The executors of what was recorded are gone.
   virtual void forget_tasks() = 0;
+  /// `settling`: the water is damped as until t = 0.
   virtual void open(double t_s, std::span<const Motion> bodies, bool settling) = 0;
   /// Throws the NumericalFailure of the window.
   virtual void close() = 0;

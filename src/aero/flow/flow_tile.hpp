@@ -22,10 +22,10 @@ inline constexpr int mean_unknowns = 5;
 enum class Condition : unsigned char { far_field, inflow_velocity, inflow_stagnation, outflow_pressure, slip, no_slip, symmetry, wall_law };
 /// In the solver a wall with the law of the wall is `no_slip` with FlowBoundary::law.
 inline bool sticks(Condition c) { return c == Condition::no_slip || c == Condition::wall_law; }
-inline bool is_wall(Condition c) { return c == Condition::slip || c == Condition::no_slip || c == Condition::symmetry; }
 /// Through walls goes pressure alone. On a plane of symmetry the scheme acts between mirror images, so that half a flow is the
 /// whole one cell by cell; its mass flux there is none by symmetry.
-inline bool is_closed(Condition c) { return c == Condition::slip || c == Condition::no_slip; }
+inline bool is_closed(Condition c) { return c == Condition::slip || sticks(c); }
+inline bool is_wall(Condition c) { return is_closed(c) || c == Condition::symmetry; }
 
 /// A window of the tile where a condition acts.
 struct FlowBoundary {

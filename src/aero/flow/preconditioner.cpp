@@ -39,7 +39,6 @@ struct Jacobi {
 template <class Method>
 class ByBlocks final : public Preconditioner {
  public:
-  std::string_view name() const override { return Method::name; }
   void refresh(std::span<FlowTile* const> tiles, MPI_Comm) override {
     for (FlowTile* tile : tiles) {
       std::ptrdiff_t cell = Method::factor(tile->mean());
@@ -62,7 +61,6 @@ class ByBlocks final : public Preconditioner {
 
 class Identity final : public Preconditioner {
  public:
-  std::string_view name() const override { return "identity"; }
   void refresh(std::span<FlowTile* const>, MPI_Comm) override {}
   void apply(std::span<const Piece> pieces, MPI_Comm) override {
     for (const Piece& p : pieces)

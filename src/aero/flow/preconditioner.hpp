@@ -23,7 +23,6 @@ class Preconditioner {
   };
 
   virtual ~Preconditioner() = default;
-  virtual std::string_view name() const = 0;
   /// True: refresh() and apply() get one tile at a time, tiles in any order and beside each other, without a communicator.
   /// False: all tiles of the process in the order of the tiling, in one task at a time that every rank runs as often, with a
   /// communicator.

@@ -37,16 +37,6 @@ ResolvedRotorSetup tiny(const std::string& time, bool whole) {
   return s;
 }
 
-std::vector<double> states(ResolvedRotor& rotor) {
-  std::vector<double> all;
-  for (int n = 0; n < int(rotor.solver().tiles().size()); ++n) {
-    std::vector<double> tile(rotor.solver().saved_size(n));
-    rotor.solver().save(n, tile);
-    all.insert(all.end(), tile.begin(), tile.end());
-  }
-  return all;
-}
-
 /// Hub on a platform that surges and pitches about the water line while the rotor turns.
 RotorPose on_platform(const ResolvedRotor& rotor, std::int64_t step, double t) {
   RotorPose pose = rotor.turned(step);
@@ -129,7 +119,7 @@ TEST_CASE("threads leave every bit of a turning rotor as it is", "[rotor][fast]"
     rotor.solver().start_uniform();
     rotor.prepare(MPI_COMM_SELF, {.threads = threads});
     for (int n = 1; n <= 2; ++n) step(rotor, n);
-    const std::vector<double> now = states(rotor);
+    const std::vector<double> now = testing::state_of(rotor.solver());
     if (expected.empty()) expected = now;
     CHECK(now == expected);
   }
@@ -172,7 +162,7 @@ TEST_CASE("a window undone and done again leaves the bits of one done once", "[r
   const RotorLoad again = step(twice, 3);
   CHECK(again.force == expected.force);
   CHECK(again.moment == expected.moment);
-  CHECK(states(twice) == states(once));
+  CHECK(testing::state_of(twice.solver()) == testing::state_of(once.solver()));
 }
 
 namespace {

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "src/aero/grid/generators/plane_cases.hpp"
-#include "src/aero/grid/wall_distance.hpp"
-#include "tests/src/aero/flow/flows.hpp"
+#include "tests/verification/air/plate.hpp"
 
 using namespace spindrift;
 using namespace spindrift::aero;
@@ -21,26 +20,11 @@ struct Plate {
 };
 
 Plate plate(int n, const std::string& model, double drop, bool first_order) {
-  FlowSetting s = air(0.2);
-  s.gas.temperature_reference = 300.0;
-  s.speed = s.stream.u = 0.2 * std::sqrt(s.gas.gamma * s.gas.gas_constant * 300.0);
-  const double rho = gas::density(s.gas, s.stream);
-  s.gas.viscosity = {.mu0 = rho * s.speed / 5e6, .T0 = 300.0, .S = 110.33};
-  s.viscous = true;
-  s.turbulence = model;
-  s.physical_far_field = true;  // the codes' upper boundary is the physical Riemann condition, which holds the displaced flow back
+  FlowSetting s = plate_air(model);
   s.march.drop = drop, s.march.max_steps = 400;
   s.first_order_model = first_order;  // as both codes
   if (model != "sa") s.march.matrix_free_below = 2.0;  // two equations: the stored operator alone may go round in circles before it is left
-  Case c(flat_plate(n), s,
-         {{"wall", {Condition::no_slip, true}},
-          {"symmetry", {Condition::symmetry, false}},
-          {"inflow", {Condition::inflow_stagnation, false}},
-          {"outflow", {Condition::outflow_pressure, false}},
-          {"top", {Condition::far_field, false}}});
-  const WallSurface wall = wall_surface(c.grid, std::array<std::string, 1>{"wall"});
-  for (FlowTile& tile : c.solver->tiles()) fill_wall_distance(*tile.geometry, wall);
-  c.prepare(MPI_COMM_SELF, {.threads = 1});
+  Case c = plate_case(flat_plate(n), s, Condition::no_slip);
   c.run();
   std::vector<WallPoint> points;
   for (const FlowTile& tile : c.solver->tiles()) {
@@ -48,7 +32,7 @@ Plate plate(int n, const std::string& model, double drop, bool first_order) {
     points.insert(points.end(), of_tile.begin(), of_tile.end());
   }
   std::sort(points.begin(), points.end(), [](const WallPoint& a, const WallPoint& b) { return a.place[0] < b.place[0]; });
-  const double q = 0.5 * rho * s.speed * s.speed, x = 0.970084071;
+  const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed, x = 0.970084071;
   std::size_t m = 1;
   while (m + 1 < points.size() && points[m].place[0] < x) ++m;
   const double share = (x - points[m - 1].place[0]) / (points[m].place[0] - points[m - 1].place[0]);

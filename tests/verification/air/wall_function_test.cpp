@@ -2,13 +2,11 @@
 // one whose centre stands at y+ 30, 50, 100 (at x = 0.97), and in the sublayer, against friction and drag of the resolved grids
 // (.00271, .00286). SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "src/aero/grid/generators/plane_cases.hpp"
-#include "src/aero/grid/wall_distance.hpp"
-#include "tests/src/aero/flow/flows.hpp"
+#include "tests/verification/air/plate.hpp"
 
 using namespace spindrift;
 using namespace spindrift::aero;
@@ -45,27 +43,12 @@ struct Plate {
 /// First centre at this y+ of the resolved friction; the free stream has Re 5e6 per metre.
 Plate plate(int n, double y_plus, Condition wall_condition) {
   const double height = 2.0 * y_plus / (5e6 * std::sqrt(0.5 * .0027056));
-  FlowSetting s = air(0.2);
-  s.gas.temperature_reference = 300.0;
-  s.speed = s.stream.u = 0.2 * std::sqrt(s.gas.gamma * s.gas.gas_constant * 300.0);
-  const double rho = gas::density(s.gas, s.stream);
-  s.gas.viscosity = {.mu0 = rho * s.speed / 5e6, .T0 = 300.0, .S = 110.33};
-  s.viscous = true;
-  s.turbulence = "sa";
-  s.physical_far_field = true;
+  FlowSetting s = plate_air("sa");
   s.march.drop = 1e-5, s.march.max_steps = 300;
-  Case c(coarse_at_wall(flat_plate(n), height), s,
-         {{"wall", {wall_condition, true}},
-          {"symmetry", {Condition::symmetry, false}},
-          {"inflow", {Condition::inflow_stagnation, false}},
-          {"outflow", {Condition::outflow_pressure, false}},
-          {"top", {Condition::far_field, false}}});
-  const WallSurface wall = wall_surface(c.grid, std::array<std::string, 1>{"wall"});
-  for (FlowTile& tile : c.solver->tiles()) fill_wall_distance(*tile.geometry, wall);
-  c.prepare(MPI_COMM_SELF, {.threads = 1});
+  Case c = plate_case(coarse_at_wall(flat_plate(n), height), s, wall_condition);
   c.run();
   CHECK(c.solver->march().verdict() == Verdict::converged);
-  const double q = 0.5 * rho * s.speed * s.speed;
+  const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
   Plate result{0.0, c.solver->rows().back().force[0] / (2.0 * q), 0.0};
   double nearest = 1e30;
   for (const FlowTile& tile : c.solver->tiles())

@@ -52,6 +52,27 @@ inline std::vector<double> fingerprint(const FlowSolver& solver) {
   return all;
 }
 
+/// What would be saved of this rank's tiles, one after the other.
+inline std::vector<double> state_of(const FlowSolver& solver) {
+  std::vector<double> all;
+  for (int n = 0; n < int(solver.tiles().size()); ++n) {
+    std::vector<double> tile(solver.saved_size(n));
+    solver.save(n, tile);
+    all.insert(all.end(), tile.begin(), tile.end());
+  }
+  return all;
+}
+
+/// As by a checkpoint: the state and the march of one solver into another of the same tiles.
+inline void carry_over(const FlowSolver& from, FlowSolver& to) {
+  for (int n = 0; n < int(from.tiles().size()); ++n) {
+    std::vector<double> saved(from.saved_size(n));
+    from.save(n, saved);
+    to.load(n, saved);
+  }
+  to.load_march(from.save_march());
+}
+
 /// A grid with its solver on one rank, or a part of it on several.
 struct Case {
   MultiBlockGrid grid;
@@ -64,7 +85,7 @@ struct Case {
       : grid(std::move(from)) {
     std::vector<std::string> walls;
     for (const auto& [name, c] : conditions)
-      if (sticks(c.condition) || c.condition == Condition::slip) walls.push_back(name);
+      if (is_closed(c.condition)) walls.push_back(name);
     Tiling tiles = make_tiling(grid, walls, tiling);
     std::vector<PatchCondition> by_patch(tiles.patches.size());
     for (const auto& [name, c] : conditions)

@@ -46,20 +46,9 @@ Case marched(const FlowSetting& setting, std::unique_ptr<Preconditioner> precond
   return c;
 }
 
-std::vector<double> state_of(const FlowSolver& solver) {
-  std::vector<double> all;
-  for (int n = 0; n < int(solver.tiles().size()); ++n) {
-    std::vector<double> tile(solver.saved_size(n));
-    solver.save(n, tile);
-    all.insert(all.end(), tile.begin(), tile.end());
-  }
-  return all;
-}
-
 /// Block ILU of each tile, but for all tiles of a process at once, as a library's multigrid would come.
 class AllAtOnce final : public Preconditioner {
  public:
-  std::string_view name() const override { return "all_at_once"; }
   bool by_tile() const override { return false; }
   void refresh(std::span<FlowTile* const> tiles, MPI_Comm comm) override {
     CHECK(comm != MPI_COMM_NULL);
@@ -179,12 +168,7 @@ TEST_CASE("a physical step begins with a new matrix, so a march restarted betwee
   for (Case* c : {&whole, &first, &second}) c->prepare();
   for (int n = 0; n < 4; ++n) whole.run();
   for (int n = 0; n < 2; ++n) first.run();
-  for (int t = 0; t < int(first.solver->tiles().size()); ++t) {
-    std::vector<double> saved(first.solver->saved_size(t));
-    first.solver->save(t, saved);
-    second.solver->load(t, saved);
-  }
-  second.solver->load_march(first.solver->save_march());
+  carry_over(*first.solver, *second.solver);
   for (int n = 0; n < 2; ++n) second.run();
   CHECK(state_of(*whole.solver) == state_of(*second.solver));
 }

@@ -202,25 +202,11 @@ TEST_CASE("a march on a moving grid restarts with the same bits", "[flow][fast]"
     c.solver->move_to({turned(Vector3d(0.2, -0.1, 0.3) * (n * n * 0.1), Vector3d(0.05 * n, 0.0, 0.02 * n * n))});
     c.run();
   };
-  const auto states = [](const FlowSolver& solver) {
-    std::vector<double> all;
-    for (int t = 0; t < int(solver.tiles().size()); ++t) {
-      std::vector<double> tile(solver.saved_size(t));
-      solver.save(t, tile);
-      all.insert(all.end(), tile.begin(), tile.end());
-    }
-    return all;
-  };
   Case whole = make(), first = make(), second = make();
   for (int n = 1; n <= 4; ++n) step(whole, n);
   for (int n = 1; n <= 2; ++n) step(first, n);
-  for (int t = 0; t < int(first.solver->tiles().size()); ++t) {
-    std::vector<double> saved(first.solver->saved_size(t));
-    first.solver->save(t, saved);
-    second.solver->load(t, saved);
-  }
-  second.solver->load_march(first.solver->save_march());
+  carry_over(*first.solver, *second.solver);
   for (int n = 3; n <= 4; ++n) step(second, n);
-  CHECK(states(*whole.solver) == states(*second.solver));
+  CHECK(state_of(*whole.solver) == state_of(*second.solver));
   CHECK_THROWS_AS(whole.solver->move_to({BlockPose{}, BlockPose{}, BlockPose{}}), std::invalid_argument);
 }

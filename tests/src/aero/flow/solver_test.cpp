@@ -35,17 +35,6 @@ FlowSetting viscous_air() {
   return s;
 }
 
-/// The state of the first tiles of this rank.
-std::vector<double> states(const FlowSolver& solver, int tiles) {
-  std::vector<double> all;
-  for (int n = 0; n < tiles; ++n) {
-    std::vector<double> tile(solver.saved_size(n));
-    solver.save(n, tile);
-    all.insert(all.end(), tile.begin(), tile.end());
-  }
-  return all;
-}
-
 int rank_of(MPI_Comm comm) {
   int rank;
   MPI_Comm_rank(comm, &rank);
@@ -92,7 +81,7 @@ TEST_CASE("threads and random schedules leave every bit of a viscous march as it
       c.prepare(MPI_COMM_SELF, options);
       c.run();
       const auto rows = fingerprint(*c.solver);
-      const auto now = states(*c.solver, int(c.solver->tiles().size()));
+      const auto now = state_of(*c.solver);
       if (expected.empty()) expected = rows, state = now;
       CHECK(rows == expected);
       CHECK(now == state);
@@ -131,14 +120,9 @@ TEST_CASE("a march restarted from what was saved goes on with the same bits", "[
   for (Case* c : {&whole, &first, &second}) c->prepare();
   for (int n = 0; n < 4; ++n) whole.run();
   for (int n = 0; n < 2; ++n) first.run();
-  for (int t = 0; t < int(first.solver->tiles().size()); ++t) {
-    std::vector<double> saved(first.solver->saved_size(t));
-    first.solver->save(t, saved);
-    second.solver->load(t, saved);
-  }
-  second.solver->load_march(first.solver->save_march());
+  carry_over(*first.solver, *second.solver);
   for (int n = 0; n < 2; ++n) second.run();
-  CHECK(states(*whole.solver, int(whole.solver->tiles().size())) == states(*second.solver, int(second.solver->tiles().size())));
+  CHECK(state_of(*whole.solver) == state_of(*second.solver));
 }
 
 TEST_CASE("a state without a finite residual is refused by name, not marched on", "[flow][fast]") {
