@@ -127,8 +127,8 @@ double cost(Case& c, int samples) {
 int main(int argc, char** argv) {
   perf::Group group("air", argc, argv);
   march(group, "naca0012_m015", 0.15, 1e-6, 40.0, 250.0);
-  march(group, "naca0012_m015_loose", 0.15, 1e-4, 40.0, 0.0);
-  march(group, "naca0012_m005_loose", 0.05, 1e-4, 50.0, 0.0);
+  march(group, "naca0012_m015_loose", 0.15, 1e-5, 40.0, 0.0);
+  march(group, "naca0012_m005_loose", 0.05, 1e-5, 50.0, 0.0);
 
   const auto small = box(48, 1, 1, 0);
   group.at_most("residual", cost(*small, 12), "us/cell", 0.15, perf::Ceiling::fma_double,
