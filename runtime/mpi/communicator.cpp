@@ -9,6 +9,17 @@ Communicator::Communicator(MPI_Comm of) {
     return;
   }
   MPI_Comm_dup(of, &comm_);
+  measure();
+}
+
+Communicator Communicator::split(MPI_Comm of, int colour, int key) {
+  Communicator part;
+  MPI_Comm_split(of, colour, key, &part.comm_);
+  part.measure();
+  return part;
+}
+
+void Communicator::measure() {
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
   MPI_Comm node;

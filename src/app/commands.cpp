@@ -23,6 +23,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->add_option("--out", arguments->out, "Run directory (default: runs/SCENE_DATE_TIME)");
     command->add_option("--until", arguments->until_s, "Stop at this simulated time [s], to be continued by --restart")
         ->check(CLI::NonNegativeNumber);
+    command->add_option("--fluid", arguments->fluid, "Which fluid the ranks of this section of mpirun have; the others the other")
+        ->check(CLI::IsMember({"air", "sea"}));
     command->add_flag("--restart", arguments->restart, "Go on from the newest checkpoint in the run directory")->needs("--out");
     command->add_flag("--overwrite", arguments->overwrite, "Replace the run in the run directory");
     command->add_flag("--trace", arguments->trace, "Write trace.json (open with Perfetto or chrome://tracing)");

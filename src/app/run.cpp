@@ -1,6 +1,7 @@
 // spindrift run: reads the scene, runs it into a run directory, writes summary and report.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/flow_run.hpp"
+#include "src/coupling/placement.hpp"
 #include "src/coupling/run.hpp"
 
 #include <fmt/format.h>
@@ -70,17 +71,27 @@ SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& e
     write_summary(directory.summary(), summary, io::history_statistics(directory.history(), mean_ranges(scenario, summary.end_time_s)));
     print_summary(summary, directory);
   }
-  return {std::move(summary), directory.path()};
+  return {std::move(summary), directory.path(), world.rank == 0};
 }
 }  // namespace
 
-SceneRun run_scene(const RunArguments& arguments, const runtime::World& world) {
+/// What this rank was started with, in a form that compares.
+coupling::Started started_with(const RunArguments& a) {
+  const std::string rest = fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n", a.out, a.until_s, a.restart, a.overwrite, a.trace);
+  scene::Document document = scene::load(a.scene, a.overrides);
+  (void)coupling::read_scenario(document);
+  return {a.fluid, document.echo(), rest};
+}
+
+SceneRun run_scene(const RunArguments& arguments, const runtime::World& started) {
+  io::start_log(started.rank, arguments.quiet);
+  (void)coupling::agree(started, [&] { return started_with(arguments); });
+  scene::Document document = scene::load(arguments.scene, arguments.overrides);
+  const coupling::Scenario scenario = coupling::read_scenario(document);
+  const runtime::Parts parts = coupling::place(scenario, started, arguments.fluid);
+  const runtime::World& world = parts.world();
   io::start_log(world.rank, arguments.quiet);
-  {
-    scene::Document document = scene::load(arguments.scene, arguments.overrides);
-    if (const coupling::Scenario scenario = coupling::read_scenario(document); scenario.has_flow())
-      return run_flow_scene(scenario, document.echo(), arguments, world);
-  }
+  if (scenario.has_flow()) return run_flow_scene(scenario, document.echo(), arguments, world);
   const ReadyScene scene = read_scene(arguments.scene, arguments.overrides);
   const io::RunDirectory directory = open_directory(arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
@@ -91,7 +102,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& world) {
 
   coupling::RunSettings settings{.restart = arguments.restart, .trace = arguments.trace, .quiet = arguments.quiet};
   if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
-  io::Summary summary = coupling::run(*scene.machine, scene.start, directory, world, settings);
+  io::Summary summary = coupling::run(*scene.machine, scene.start, directory, parts, settings);
   const std::string& title = scene.machine->scenario().output.title;
   summary.title = title.empty() ? std::filesystem::path(arguments.scene).stem().string() : title;
   summary.scene = arguments.scene;
@@ -102,12 +113,12 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& world) {
                   io::history_statistics(directory.history(), mean_ranges(scene.machine->scenario(), summary.end_time_s)));
     print_summary(summary, directory);
   }
-  return {std::move(summary), directory.path()};
+  return {std::move(summary), directory.path(), world.rank == 0};
 }
 
 int run(const RunArguments& arguments, const runtime::World& world) {
   const SceneRun run = run_scene(arguments, world);
-  if (world.rank == 0 && !arguments.no_report) {
+  if (run.writes && !arguments.no_report) {
     if (const std::optional<std::string> why = report::write({.directories = {run.directory}}))
       spdlog::warn("no report: {}", *why);
     else

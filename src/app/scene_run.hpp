@@ -24,6 +24,7 @@ ReadyScene read_scene(const std::string& path, const std::vector<std::string>& o
 struct SceneRun {
   io::Summary summary;
   std::filesystem::path directory;
+  bool writes = false;  ///< this rank is the one that writes
 };
 /// Runs into the run directory and writes everything but the report. Collective.
 SceneRun run_scene(const RunArguments& arguments, const runtime::World& world);

@@ -7,22 +7,21 @@
 
 namespace spindrift::coupling {
 
-AirFile::AirFile(aero::FlowSolver& solver, const aero::GridStore& store) : solver_(solver) {
+AirFile::AirFile(aero::FlowSolver& solver, const aero::GridStore& store, int rank) : solver_(solver), rank_(rank) {
   const std::int64_t per_cell = solver.tiles().empty() ? 0 : std::int64_t(solver.saved_size(0)) / solver.tiles()[0].box.count();
   for (const aero::Tile& tile : store.tiling().tiles) starts_.push_back(total_), total_ += tile.count() * per_cell;
 }
 
-void AirFile::write(io::CheckpointWriter& file) const {
-  std::vector<std::vector<double>> tiles;
-  std::vector<io::Slice<const double>> slices;
+std::vector<SavedArray> AirFile::arrays() const {
+  SavedArray march{"flow/march", 0, {}}, tiles{"flow/tiles", total_, {}};
+  std::vector<double> values = solver_.save_march();
+  march.total = std::int64_t(values.size());
+  if (rank_ == 0) march.pieces.push_back({0, std::move(values)});
   for (int n = 0; n < int(solver_.tiles().size()); ++n) {
-    auto& values = tiles.emplace_back(solver_.saved_size(n));
-    solver_.save(n, values);
+    tiles.pieces.push_back({starts_[std::size_t(solver_.tiles()[std::size_t(n)].index)], std::vector<double>(solver_.saved_size(n))});
+    solver_.save(n, tiles.pieces.back().values);
   }
-  for (std::size_t n = 0; n < tiles.size(); ++n)
-    slices.push_back({starts_[std::size_t(solver_.tiles()[n].index)], std::span<const double>(tiles[n])});
-  file.write<double>("flow/march", std::span<const double>(solver_.save_march()));
-  file.write<double>("flow/tiles", total_, slices);
+  return {std::move(march), std::move(tiles)};
 }
 
 void AirFile::read(const io::CheckpointReader& file) const {

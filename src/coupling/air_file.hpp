@@ -6,20 +6,21 @@
 #include <vector>
 
 #include "src/aero/flow/flow_solver.hpp"
-#include "src/io/checkpoint.hpp"
+#include "src/coupling/saved_array.hpp"
 
 namespace spindrift::coupling {
 
 class AirFile {
  public:
-  /// Both are to outlive it.
-  AirFile(aero::FlowSolver& solver, const aero::GridStore& store);
-  void write(io::CheckpointWriter& file) const;
+  /// Both are to outlive it. `rank`: among those that have the air.
+  AirFile(aero::FlowSolver& solver, const aero::GridStore& store, int rank);
+  std::vector<SavedArray> arrays() const;
   /// Throws io::InputError where the file's air has another size.
   void read(const io::CheckpointReader& file) const;
 
  private:
   aero::FlowSolver& solver_;
+  int rank_;
   std::vector<std::int64_t> starts_;  ///< by tile of the tiling
   std::int64_t total_ = 0;
 };

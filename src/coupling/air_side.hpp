@@ -6,13 +6,15 @@
 #pragma once
 
 #include <memory>
-#include <span>
+#include <string>
+#include <vector>
 
 #include "runtime/graph/graph.hpp"
 #include "runtime/mpi/environment.hpp"
 #include "src/aero/rotor_loads.hpp"
-#include "src/io/checkpoint.hpp"
+#include "src/coupling/saved_array.hpp"
 #include "src/io/history.hpp"
+#include "src/io/run_directory.hpp"
 
 namespace spindrift::coupling {
 
@@ -40,12 +42,19 @@ class AirSide {
   virtual void keep(Note) {}
   virtual void back(Note) {}
 
-  virtual void save(io::CheckpointWriter&) const {}
+  virtual std::vector<SavedArray> saved() const { return {}; }
   virtual void restore(const io::CheckpointReader&) {}
 
-  /// Its columns of history.csv.
-  virtual void declare(io::History&) {}
-  virtual void put(std::span<double>) const {}
+  /// Its columns of history.csv, and what stands in them now.
+  virtual std::vector<io::Column> columns() const { return {}; }
+  virtual std::vector<double> values() const { return {}; }
+  // Files for people, in the run's folder; collective over the ranks of the air.
+  /// Where they go; a restart goes on after resume_s.
+  virtual void open_output(const io::RunDirectory&, double /*resume_s*/) {}
+  virtual void write_fields(std::int64_t /*number*/, double /*t*/) {}
+  virtual void write_span() {}
+  /// Sentences for the log since it was last asked.
+  virtual std::vector<std::string> news() { return {}; }
 };
 
 /// Resolved where the scene resolves it, else an engineering one. The machine outlives it. `now`: of the rotor at the start.

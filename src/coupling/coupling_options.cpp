@@ -81,6 +81,14 @@ const scene::Section<CouplingOptions>& coupling_section() {
                    {"cubic", Interpolation::cubic, "through the four nearest samples: fourth order"}},
                   "Loads between samples.")
           .only_if("scheme", strong)
+          .choice("placement", &CouplingOptions::placement,
+                  {{"shared", Placing::shared, "air and sea share all ranks and threads: what one leaves idle the other fills"},
+                   {"split", Placing::split, "ranks of its own for each, as in Leble & Barakos (2016); same results"}},
+                  "Which ranks work on the rotor's air and which on the sea, bodies and moorings. Ranks started as `--fluid air` and "
+                  "`--fluid sea` are split whatever this says.")
+          .integer("air_ranks", &CouplingOptions::air_ranks, "-", "Ranks of the air, the last ones of the run; the others have the sea.",
+                   between(1, 1e6))
+          .only_if("placement", {"split"})
           .check(check_section);
   return section;
 }
@@ -89,6 +97,9 @@ void check_coupling(scene::Document& document, const CouplingOptions& o, const T
   const auto steps = whole_ratio(time.window_s, time.step());
   if (is_strong(o.scheme) && steps && *steps % o.samples != 0)
     document.problem("coupling.samples", fmt::format("must divide the window's {} steps", *steps));
+  if (o.placement == Placing::split && o.scheme == SchemeKind::monolithic)
+    document.problem("coupling.placement", "has nothing to split: with coupling.scheme = \"monolithic\" the rotor is asked by the bodies; take "
+                                           "\"cps2\", say");
 }
 
 }  // namespace spindrift::coupling

@@ -33,6 +33,7 @@ inline constexpr bool is_loose(SchemeKind k) { return k == SchemeKind::cps || k 
 inline constexpr bool is_strong(SchemeKind k) { return k > SchemeKind::css; }
 
 enum class Composition { serial, parallel };
+enum class Placing { shared, split };
 
 struct CouplingOptions {
   SchemeKind scheme = SchemeKind::automatic;  ///< read_scenario puts the one it stands for
@@ -46,6 +47,8 @@ struct CouplingOptions {
   double filter = 1e-6;
   int samples = 1;
   Interpolation interpolation = Interpolation::linear;
+  Placing placement = Placing::shared;
+  int air_ranks = 1;  ///< of a split run; the others are the sea's
 };
 
 const scene::Section<CouplingOptions>& coupling_section();

@@ -18,11 +18,11 @@
 #include "src/aero/grid/wall_distance.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/coupling/air_file.hpp"
+#include "src/coupling/air_output.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/saved_air.hpp"
 #include "src/coupling/timeline.hpp"
-#include "src/io/atomic_file.hpp"
 #include "src/io/checkpoint.hpp"
-#include "src/io/fields.hpp"
 #include "src/io/history.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/io/progress.hpp"
@@ -151,135 +151,34 @@ struct FlowColumns {
 /// The checkpoints of a run of the air alone.
 class FlowCheckpoints {
  public:
-  FlowCheckpoints(MPI_Comm comm, const Air& air, const io::RunDirectory& directory, int keep)
-      : series_(comm, directory.checkpoints(), keep), air_(*air.solver, *air.store) {}
+  FlowCheckpoints(const runtime::World& world, const Air& air, const io::RunDirectory& directory, const Scenario& scenario)
+      : series_(world.comm, directory.checkpoints(), scenario.checkpoint.keep), file_(*air.solver, *air.store, world.rank), air_(air), scenario_(scenario),
+        rank_(world.rank) {}
   void save(std::int64_t tick, std::int64_t window, int restarts) {
     series_.save(tick, [&](io::CheckpointWriter& file) {
       file.set("window", window);
       file.set("restarts", std::int64_t(restarts));
-      air_.write(file);
+      for (const SavedArray& array : file_.arrays()) write(file, array);
+      if (!air_.rotor) return;
+      write_air_settings(file, scenario_);
+      for (const SavedArray& array : rotor_arrays(*air_.rotor, felt_by(*air_.rotor), rank_)) write(file, array);
     });
   }
   std::int64_t resume(int& restarts) {
     const std::optional<io::CheckpointReader> file = series_.newest();
     if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
-    air_.read(*file);
+    file_.read(*file);
     restarts = int(file->integer("restarts")) + 1;
     return file->integer("window");
   }
 
  private:
   io::CheckpointSeries series_;
-  AirFile air_;
+  AirFile file_;
+  const Air& air_;
+  const Scenario& scenario_;
+  int rank_;
 };
-
-/// Pressure, velocity, temperature and eddy variables at cell centres for ParaView.
-void write_fields(MPI_Comm comm, const Air& air, const io::RunDirectory& directory, std::int64_t tick, double time_s) {
-  const aero::Tiling& tiling = air.store->tiling();
-  std::vector<io::GridBlock> blocks;
-  for (const aero::Tile& tile : tiling.tiles)
-    blocks.push_back({fmt::format("tile_{}", blocks.size()), tile.ni, tile.nj, tile.nk});
-  std::vector<io::Field> fields{{"pressure", "Pa"}, {"velocity", "m/s", 3}, {"temperature", "K"}};
-  const int carried = air.solver->tiles().empty() ? 0 : air.solver->tiles()[0].turbulence;
-  for (int t = 0; t < carried; ++t) fields.push_back({fmt::format("turbulence_{}", t + 1), carried == 1 ? "m2/s" : t == 0 ? "m2/s2" : "1/s"});
-  io::GridFields file(comm, directory.fields(), "air", std::move(blocks), std::move(fields), false);
-  const gas::IdealGas& gas = air.solver->setting().gas;
-  std::vector<std::vector<double>> kept;
-  std::vector<io::GridFields::Values> values;
-  kept.reserve(air.solver->tiles().size() * std::size_t(4 + carried));
-  for (const aero::FlowTile& t : air.solver->tiles()) {
-    const auto component = [&](int c, double offset) -> std::vector<double>& {
-      auto& out = kept.emplace_back();
-      aero::for_rows(t.box, [&](int k, int j) {
-        for (int i = 0; i < t.box.ni; ++i) out.push_back(offset + t.state.data()[c * t.cells.component + t.cells.at(k, j, i)]);
-      });
-      return out;
-    };
-    auto& points = kept.emplace_back();
-    const BoxLayout& nodes = t.geometry->node_box;
-    for (int k = 0; k <= t.box.nk; ++k)
-      for (int j = 0; j <= t.box.nj; ++j)
-        for (int i = 0; i <= t.box.ni; ++i)
-          for (int c = 0; c < 3; ++c) points.push_back(t.geometry->node_data.data()[c * nodes.component + nodes.at(k, j, i)]);
-    io::GridFields::Values v{t.index, points, {}};
-    v.fields.push_back(component(0, gas.pressure_reference));
-    auto& velocity = kept.emplace_back();
-    aero::for_rows(t.box, [&](int k, int j) {
-      for (int i = 0; i < t.box.ni; ++i)
-        for (int c = 1; c < 4; ++c) velocity.push_back(t.state.data()[c * t.cells.component + t.cells.at(k, j, i)]);
-    });
-    v.fields.push_back(velocity);
-    v.fields.push_back(component(4, gas.temperature_reference));
-    for (int c = 0; c < carried; ++c) v.fields.push_back(component(aero::mean_unknowns + c, 0.0));
-    values.push_back(std::move(v));
-  }
-  file.write(tick, time_s, values);
-}
-
-/// Walls as surfaces: a block for each window of a tile on a wall.
-void write_walls(MPI_Comm comm, const Air& air, const io::RunDirectory& directory, std::int64_t tick, double time_s) {
-  const aero::Tiling& tiling = air.store->tiling();
-  const FlowSolver& solver = *air.solver;
-  const auto on_wall = [&](const aero::TileBoundary& b) {
-    return aero::is_closed(solver.conditions()[std::size_t(b.patch)].condition);
-  };
-  std::vector<io::GridBlock> blocks;
-  std::vector<int> first_block;  // by tile
-  for (int tile = 0; tile < tiling.size(); ++tile) {
-    first_block.push_back(int(blocks.size()));
-    for (const aero::TileBoundary& b : tiling.boundary(tile))
-      if (on_wall(b))
-        blocks.push_back({fmt::format("{}_{}", tiling.patches[std::size_t(b.patch)], blocks.size()), b.high[0] - b.low[0], b.high[1] - b.low[1], 0});
-  }
-  if (blocks.empty()) return;
-  io::GridFields file(comm, directory.fields(), "walls", std::move(blocks),
-                      {{"pressure", "Pa"}, {"pressure_coefficient", "-"}, {"friction_coefficient", "-", 3}, {"y_plus", "-"}}, false);
-  const aero::FlowSetting& s = solver.setting();
-  const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
-  std::vector<std::array<std::vector<double>, 5>> kept;
-  std::vector<int> numbers;
-  for (const aero::FlowTile& t : solver.tiles()) {
-    const std::vector<aero::WallPoint> points = solver.wall_points(t);
-    std::size_t at = 0;
-    int block = first_block[std::size_t(t.index)];
-    for (const aero::FlowBoundary& b : t.boundaries) {
-      if (!on_wall(b.where)) continue;
-      auto& [corners, pressure, cp, cf, y_plus] = kept.emplace_back();
-      numbers.push_back(block++);
-      const int d = aero::direction_of(b.where.side), extent[3] = {t.box.ni, t.box.nj, t.box.nk};
-      const auto [along_a, along_b] = aero::along(b.where.side);
-      const BoxLayout& nodes = t.geometry->node_box;
-      int n[3];
-      n[d] = aero::at_end(b.where.side) ? extent[d] : 0;
-      for (n[along_b] = b.where.low[1]; n[along_b] <= b.where.high[1]; ++n[along_b])
-        for (n[along_a] = b.where.low[0]; n[along_a] <= b.where.high[0]; ++n[along_a])
-          for (int c = 0; c < 3; ++c) corners.push_back(t.geometry->node_data.data()[c * nodes.component + nodes.at(n[2], n[1], n[0])]);
-      const int faces = (b.where.high[0] - b.where.low[0]) * (b.where.high[1] - b.where.low[1]);
-      for (int m = 0; m < faces; ++m) {
-        const aero::WallPoint& p = points.at(at++);
-        pressure.push_back(s.gas.pressure_reference + p.pressure), cp.push_back(p.pressure / q), y_plus.push_back(p.y_plus);
-        for (const double stress : p.traction) cf.push_back(stress / q);
-      }
-    }
-  }
-  std::vector<io::GridFields::Values> values;
-  for (std::size_t m = 0; m < kept.size(); ++m) {
-    const auto& [corners, pressure, cp, cf, y_plus] = kept[m];
-    values.push_back({numbers[m], corners, {pressure, cp, cf, y_plus}});
-  }
-  file.write(tick, time_s, values);
-}
-
-/// Loads along the blades as they are at the end: spanwise.csv.
-void write_span(const runtime::World& world, aero::ResolvedRotor& rotor, const io::RunDirectory& directory) {
-  const std::vector<aero::SpanLoad> loads = rotor.span_loads(world.comm);
-  if (world.rank != 0) return;
-  std::string text = "blade,radius_m,length_m,chord_m,normal_N_m,tangential_N_m,friction_normal_N_m,friction_tangential_N_m\n";
-  for (const aero::SpanLoad& s : loads)
-    text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.17g},{:.17g},{:.17g},{:.17g}\n", s.blade, s.radius, s.length, s.chord, s.load.normal,
-                        s.load.tangential, s.friction.normal, s.friction.tangential);
-  io::write_atomically(directory.path() / "spanwise.csv", text);
-}
 
 }  // namespace
 
@@ -303,7 +202,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   io::Summary summary;
   io::History history;
   const FlowColumns columns(history, air.rotor.get());
-  FlowCheckpoints checkpoints(world.comm, air, directory, s.checkpoint.keep);
+  FlowCheckpoints checkpoints(world, air, directory, s);
   std::int64_t number = 0, saved = -1;
   if (settings.restart) {
     number = checkpoints.resume(summary.restarts);
@@ -357,9 +256,8 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   }
   history.flush();
   if (saved != number) checkpoints.save(number, number, summary.restarts);
-  write_fields(world.comm, air, directory, number, timeline.window_end_s(number));
+  AirOutput(world.comm, solver, *air.store, directory.fields(), {.walls = s.aero.flow->surfaces}).write(number, timeline.window_end_s(number));
   if (air.rotor) write_span(world, *air.rotor, directory);
-  if (s.aero.flow->surfaces) write_walls(world.comm, air, directory, number, timeline.window_end_s(number));
 
   if (summary.exit_code == 0)
     summary.exit_reason = !air.steady() ? "done" : settled ? fmt::format("done: {}", solver.march().why()) : "done: the pseudo-steps of the scene are spent";

@@ -66,7 +66,14 @@ const scene::Section<StartOptions>& start_section() {
           .integer("air_steps", &StartOptions::air_steps, "-",
                    "Resolved rotor on a body: pseudo-steps by which its air settles before t = 0, seen from the turning rotor, hub held. 0: "
                    "the undisturbed wind everywhere, and no load on the bodies in the first window.",
-                   scene::between(0, 1e6));
+                   scene::between(0, 1e6))
+          .path("air", &StartOptions::air,
+                "Resolved rotor on a body: its air as another run left it, alone or coupled, on the same grid and with the same models. A "
+                "checkpoint, or another file of that run's folder (its scene.toml), which stands for its newest one. Blades may be "
+                "elsewhere: the flow is turned with them. For the sea: sea.initial.file.")
+          .check([](const StartOptions& o, const scene::Report& report) {
+            if (!o.air.empty() && o.air_steps > 0) report("air_steps", "must be 0 where start.air gives the air");
+          });
   return section;
 }
 
@@ -78,7 +85,9 @@ const scene::Section<OutputOptions>& output_section() {
                    scene::between(1, 1e9))
           .number("means_over_s", &OutputOptions::means_over_s, "s",
                   "Length of the time before the end over which summary.json gives means; 0: the last third of the run.",
-                  scene::between(0.0, 1e6));
+                  scene::between(0.0, 1e6))
+          .number("air_interval_s", &OutputOptions::air_interval_s, "s",
+                  "Resolved rotor on a body: simulated time between fields of its air; 0: at the end alone.", scene::between(0.0, 1e6));
   return section;
 }
 

@@ -36,12 +36,14 @@ struct StartOptions {
   bool equilibrium = false;
   double ramp_s = 0.0;
   int air_steps = 0;  ///< resolved rotor on bodies: pseudo-steps of its air before t = 0
+  std::string air;    ///< the same: a file of the run whose air it starts from
 };
 
 struct OutputOptions {
   std::string title;
   int history_every = 1;
   double means_over_s = 0.0;  ///< 0: the last third of the run
+  double air_interval_s = 0.0;  ///< between fields of the resolved air; 0: at the end alone
 };
 
 struct CheckpointOptions {

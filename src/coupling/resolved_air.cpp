@@ -2,18 +2,20 @@
 #include "src/coupling/resolved_air.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "kernels/base/failure.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/coupling/air_file.hpp"
+#include "src/coupling/air_output.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/machine.hpp"
+#include "src/coupling/saved_air.hpp"
 
 namespace spindrift::coupling {
 
@@ -55,8 +57,9 @@ class ResolvedAir final : public AirSide {
         first_(upright(machine, now)),
         setup_(setup_at(machine, first_)),
         rotor_(setup_, world.size, world.rank),
-        file_(rotor_.solver(), rotor_.store()),
-        state_(now) {
+        file_(rotor_.solver(), rotor_.store(), world.rank),
+        state_(now),
+        felt_{{}, std::vector<aero::RotorLoad>(std::size_t(rotor_.grid_blades()))} {
     rotor_.solver().start_uniform();
     aero::RotorState before = now;
     before.hub -= setup_.dt * now.hub_velocity, before.azimuth -= setup_.dt * now.speed;
@@ -64,14 +67,16 @@ class ResolvedAir final : public AirSide {
     runtime::Graph geometry(world.comm);
     rotor_.solver().record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
-    spdlog::info("air: {} cells in {} tiles, {:.0f} MB", rotor_.solver().cells(), rotor_.store().tiling().size(),
-                 1e-6 * double(rotor_.solver().bytes() + rotor_.store().bytes()) * world.size);
+    news_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB", rotor_.solver().cells(), rotor_.store().tiling().size(),
+                                1e-6 * double(rotor_.solver().bytes() + rotor_.store().bytes()) * world.size));
   }
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     aim(t, 0.0, now);
-    if (const int steps = machine_.scenario().start.air_steps; steps > 0) settle(steps);
-    return load_ = ramped(load_);
+    const StartOptions& start = machine_.scenario().start;
+    if (!start.air.empty()) take_up(start.air);
+    if (start.air_steps > 0) settle(start.air_steps);
+    return load_ = ramped(leant(felt_.rotor));
   }
 
   void aim(double t, double dt, const aero::RotorState& at_end) override {
@@ -96,37 +101,58 @@ class ResolvedAir final : public AirSide {
           fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
                       march.steps(), march.cfl(), rotor_.solver().trouble(), setup_.flow.cfl_max),
           "aero/rotor", long(rotor_.solver().time_steps()), t_);
-    return load_ = ramped(leant(rotor_.load()));
+    felt_ = felt_by(rotor_);
+    return load_ = ramped(leant(felt_.rotor));
   }
   const aero::RotorLoad* written() const override { return &load_; }
 
-  void keep(Note note) override { notes_[note].emplace(rotor_.snapshot(), load_); }
+  void keep(Note note) override { notes_[note].emplace(rotor_.snapshot(), load_, felt_); }
   void back(Note note) override {
     rotor_.restore(notes_[note]->air);
-    load_ = notes_[note]->load;
+    load_ = notes_[note]->load, felt_ = notes_[note]->felt;
   }
 
-  void save(io::CheckpointWriter& file) const override { file_.write(file); }
+  std::vector<SavedArray> saved() const override {
+    std::vector<SavedArray> arrays = file_.arrays();
+    for (SavedArray& array : rotor_arrays(rotor_, felt_, world_.rank)) arrays.push_back(std::move(array));
+    return arrays;
+  }
   void restore(const io::CheckpointReader& file) override { file_.read(file); }
 
-  void declare(io::History& history) override {
-    column_ = history.add({"air.pseudo_steps", "-", "pseudo-steps of the window's last physical step"});
-    history.add({"air.density_residual", "kg/(m3 s)", "root mean square over the cells after them"});
-    history.add({"air.residual_drop", "-", "the same over its largest in that step"});
-    history.add({"air.cfl", "-", "CFL number of the last pseudo-step"});
+  std::vector<io::Column> columns() const override {
+    std::vector<io::Column> columns{{"air.pseudo_steps", "-", "pseudo-steps of the window's last physical step"},
+                                    {"air.density_residual", "kg/(m3 s)", "root mean square over the cells after them"},
+                                    {"air.residual_drop", "-", "the same over its largest in that step"},
+                                    {"air.cfl", "-", "CFL number of the last pseudo-step"}};
+    for (int b = 1; b <= rotor_.grid_blades(); ++b) {
+      columns.push_back({fmt::format("rotor.blade_{}.thrust_N", b), "N", "share of one blade, along the axis"});
+      columns.push_back({fmt::format("rotor.blade_{}.torque_N_m", b), "N m", "share of one blade, about the axis"});
+    }
+    return columns;
   }
-  void put(std::span<double> row) const override {
+  std::vector<double> values() const override {
     const aero::March& march = rotor_.solver().march();
-    row[column_] = march.steps() - 1, row[column_ + 1] = march.density_residual();
-    row[column_ + 2] = march.first_density_residual() > 0.0 ? march.density_residual() / march.first_density_residual() : 0.0;
-    row[column_ + 3] = march.cfl();
+    std::vector<double> values{double(march.steps() - 1), march.density_residual(),
+                               march.first_density_residual() > 0.0 ? march.density_residual() / march.first_density_residual() : 0.0, march.cfl()};
+    for (const aero::RotorLoad& blade : felt_.blades) values.insert(values.end(), {blade.thrust, blade.torque});
+    return values;
   }
+
+  void open_output(const io::RunDirectory& directory, double resume_s) override {
+    directory_ = &directory;
+    output_ = std::make_unique<AirOutput>(world_.comm, rotor_.solver(), rotor_.store(), directory.fields(),
+                                          AirOutput::Choice{.walls = setup_.flow.surfaces, .moves = true, .resume_s = resume_s});
+  }
+  void write_fields(std::int64_t number, double t) override { output_->write(number, t); }
+  void write_span() override { coupling::write_span(world_, rotor_, *directory_); }
+  std::vector<std::string> news() override { return std::exchange(news_, {}); }
 
  private:
   struct Noted {
-    Noted(aero::ResolvedRotor::Snapshot a, const aero::RotorLoad& l) : air(std::move(a)), load(l) {}
+    Noted(aero::ResolvedRotor::Snapshot a, const aero::RotorLoad& l, const FeltLoad& f) : air(std::move(a)), load(l), felt(f) {}
     aero::ResolvedRotor::Snapshot air;
     aero::RotorLoad load;
+    FeltLoad felt;
   };
 
   /// Where the grid is to be. One sector stays on the axis it has at the start.
@@ -167,17 +193,25 @@ class ResolvedAir final : public AirSide {
       throw NumericalFailure(fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}",
                                          march.why(), march.steps(), march.cfl(), held.solver().trouble()),
                              "aero/rotor", march.steps(), 0.0);
-    load_ = leant(held.load());
+    felt_ = felt_by(held);
     const auto& rows = held.solver().rows();
     constexpr std::size_t look_back = 20;
     const std::string change =
         rows.size() > look_back + 1
             ? fmt::format(", {:+.2g} % in the last {}",
-                          100.0 * (load_.thrust / held.load(rows[rows.size() - 1 - look_back]).thrust - 1.0), look_back)
+                          100.0 * (felt_.rotor.thrust / held.load(rows[rows.size() - 1 - look_back]).thrust - 1.0), look_back)
             : std::string();
-    spdlog::info("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}", march.steps() - 1,
-                 1e-3 * load_.thrust, change, march.density_residual() / march.first_density_residual());
+    news_.push_back(fmt::format("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}",
+                                march.steps() - 1, 1e-3 * felt_.rotor.thrust, change,
+                                march.density_residual() / march.first_density_residual()));
     rotor_.solver().start_from(held.solver());
+  }
+
+  /// The flow that another run left, carried to where the blades start, upright.
+  void take_up(const std::string& file) {
+    const io::CheckpointReader saved = open_saved(world_.comm, file);
+    felt_ = start_from(saved, machine_.scenario(), rotor_, aero::hub_pose(setup_.rotor));
+    news_.push_back(fmt::format("air taken from {}: thrust {:.4g} kN", saved.path().string(), 1e-3 * felt_.rotor.thrust));
   }
 
   const Machine& machine_;
@@ -188,9 +222,12 @@ class ResolvedAir final : public AirSide {
   AirFile file_;
   double t_ = 0.0;
   aero::RotorState state_;  ///< of the last aim
-  aero::RotorLoad load_;    ///< the last answer
+  FeltLoad felt_;           ///< after the last step, as it is
+  aero::RotorLoad load_;    ///< the last answer: along the axis now, ramped
   std::array<std::optional<Noted>, 2> notes_;
-  std::size_t column_ = 0;
+  std::vector<std::string> news_;
+  const io::RunDirectory* directory_ = nullptr;
+  std::unique_ptr<AirOutput> output_;
 };
 
 }  // namespace

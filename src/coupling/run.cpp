@@ -14,14 +14,17 @@
 #include "runtime/trace/efficiency.hpp"
 #include "runtime/trace/trace_of.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/coupling/saved_air.hpp"
 #include "src/coupling/sea_output.hpp"
 #include "src/coupling/sea_window.hpp"
 #include "src/coupling/start.hpp"
 #include "src/coupling/window.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/io/collective.hpp"
 #include "src/io/history.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/io/progress.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
 
@@ -35,40 +38,47 @@ struct Window {
   std::optional<CoupledWindow> coupled{};  ///< where the rotor is a part of its own
   std::unique_ptr<BodySide> side{};        ///< of a sea of particles that shares the window with no such part,
   std::unique_ptr<WindowTasks> tasks{};    ///< and its tasks
-  std::array<double, 3> core_seconds{};    ///< of air, sea and bodies so far, as last logged
+  std::array<double, 4> core_seconds{};    ///< of air, sea, bodies and waiting so far, as last logged
   std::string failure{};                   ///< of the window as a whole, in words; empty when all is well
   bool ok() const { return trouble.ok() && failure.empty(); }
   const BodySide& body_side() const { return coupled ? coupled->bodies() : *side; }
   const WindowTasks* shared_tasks() const { return coupled ? &coupled->tasks() : tasks.get(); }
 };
 
-/// A line of log.txt for a window whose sides have tasks: how it went, and core-seconds of each side.
-void log_window(Window& window, const WindowReport& report, double end_s, double wall_s) {
+/// A line of log.txt for a window: how it went, and core-seconds of each side on all ranks; not for loose windows of a machine without tasks,
+/// which are too short to be spoken of. Collective.
+void log_window(const Machine& machine, Window& window, const runtime::Parts& parts, const WindowReport& report, double end_s, double wall_s) {
+  const bool tasked = machine.scenario().resolves_air() || machine.particle_plan();
+  if (!tasked && window.coupled->loose()) return;
   const WindowTasks& tasks = window.coupled->tasks();
-  if (!tasks.executor()) return;
-  const double bodies = 1e-9 * double(window.body_side().own_ns());
-  const std::array<double, 3> now{tasks.core_seconds("aero"), tasks.core_seconds("sea"), bodies};
-  std::array<double, 3> spent;
-  for (std::size_t n = 0; n < now.size(); ++n) spent[n] = now[n] - window.core_seconds[n];
-  window.core_seconds = now;
+  const double bodies = parts.has(sea_part) ? 1e-9 * double(window.body_side().own_ns()) : 0.0;
+  const double air = parts.has(air_part) ? 1e-9 * double(window.coupled->totals().answer_ns) : 0.0;
+  const std::vector<double> now = runtime::summed(
+      parts.world().comm, {machine.scenario().resolves_air() ? tasks.core_seconds("aero") : air, tasks.core_seconds("sea"), bodies, 1e-9 * double(parts.waited_ns())});
+  std::array<double, 4> spent;
+  for (std::size_t n = 0; n < now.size(); ++n) spent[n] = now[n] - window.core_seconds[n], window.core_seconds[n] = now[n];
   // Bodies beside particles move within tasks of the sea.
   const double sea = spent[1] > 0.0 ? spent[1] - spent[2] : 0.0;
-  spdlog::debug("window to t = {:g} s: {} evaluations, mismatch {:.3g}, {} columns, {} cuts{}; {:.3g} s; core-s: air {:.3g}, sea {:.3g}, bodies {:.3g}",
-                end_s, report.log.evaluations, report.mismatch, report.log.columns, report.log.cuts,
-                window.coupled->loose() ? std::string() : fmt::format(", ended by {}", bound_name(report.log.bound)), wall_s, spent[0], sea, spent[2]);
+  const WindowLog& log = report.log;
+  std::string how = fmt::format("{} evaluations, mismatch {:.3g}", log.evaluations, report.mismatch);
+  if (!window.coupled->loose())
+    how += fmt::format(", residual {:.3g} of {:.3g} at first, {} columns, {} retries, {} cuts, ended by {}", log.residual, log.first_residual, log.columns,
+                       log.retries, log.cuts, bound_name(log.bound));
+  spdlog::debug("window to t = {:g} s: {}; {:.3g} s; core-s: air {:.3g}, sea {:.3g}, bodies {:.3g}{}", end_s, how, wall_s, spent[0], sea, spent[2],
+                parts.split() ? fmt::format("; ranks waited {:.3g} s for the other side", spent[3]) : std::string());
 }
 
 /// The window of a rotor and a machine that exchange data: one task, which may evaluate the window more than once.
-runtime::Graph record_coupled_window(Machine& machine, Window& window) {
+runtime::Graph record_coupled_window(Machine& machine, Window& window, const runtime::Parts& parts) {
   runtime::Graph graph;
   const runtime::Datum state = graph.datum();
-  graph.task("coupling/window", {runtime::updates(state)}, [&machine, &window] {
+  graph.task("coupling/window", {runtime::updates(state)}, [&machine, &window, &parts] {
     const auto begin = std::chrono::steady_clock::now();
     const std::int64_t steps = window.coupled->bodies().steps();
     WindowReport report = window.coupled->advance(window.state);
     const double end_s = double(window.start.tick) * machine.timeline().tick_s() + machine.timeline().window_s();
-    log_window(window, report, end_s, seconds_since(begin));
-    if (report.ok()) window.steps += machine.particles() ? window.coupled->bodies().steps() - steps : machine.timeline().steps_per_window();
+    log_window(machine, window, parts, report, end_s, seconds_since(begin));
+    if (report.ok()) window.steps += machine.particle_plan() ? window.coupled->bodies().steps() - steps : machine.timeline().steps_per_window();
     if (report.log.retries > 0)
       spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}", end_s, report.log.retries,
                    report.log.cuts, report.log.evaluations, bound_name(report.log.bound));
@@ -97,8 +107,8 @@ runtime::Graph record_particle_window(Machine& machine, Window& window) {
   return graph;
 }
 
-runtime::Graph record_window(Machine& machine, Window& window) {
-  if (window.coupled) return record_coupled_window(machine, window);
+runtime::Graph record_window(Machine& machine, Window& window, const runtime::Parts& parts) {
+  if (window.coupled) return record_coupled_window(machine, window, parts);
   if (machine.particles()) return record_particle_window(machine, window);
   const double tick_s = machine.timeline().tick_s();
   const auto steps = std::uint32_t(machine.timeline().steps_per_window());
@@ -138,12 +148,11 @@ void restore_particles(const Machine& machine, const io::CheckpointReader& file)
 
 class Checkpoints {
  public:
-  Checkpoints(MPI_Comm comm, const Machine& machine, const io::RunDirectory& directory)
-      : machine_(machine), series_(comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
+  Checkpoints(const runtime::Parts& parts, const Machine& machine, const io::RunDirectory& directory)
+      : parts_(parts), machine_(machine), series_(parts.world().comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
 
   void save(Window& window, std::int64_t number, int restarts) {
     const bodies::BodiesState& state = window.ok() ? window.state : window.start;  // a restart begins at a window's start
-    const sea::ParticleSea* sea = machine_.particles();
     std::vector<double> packed(state.packed_size());
     state.pack(packed);
     series_.save(state.tick - machine_.first_tick(), [&](io::CheckpointWriter& file) {
@@ -152,13 +161,14 @@ class Checkpoints {
       file.set("restarts", std::int64_t(restarts));
       file.write<double>("bodies/state", packed);
       if (window.coupled) file.write<double>("coupling/history", window.coupled->history());
-      if (window.coupled) window.coupled->air().save(file);
-      if (!sea) return;
-      const sea::ParticleState particles = sea->save();
-      file.set("sea/time_s", particles.time_s);
+      if (window.coupled) write(file, parts_, air_part, window.coupled->air().saved());
+      if (window.coupled && machine_.scenario().resolves_air()) write_air_settings(file, machine_.scenario());
+      if (!machine_.particle_plan()) return;
+      sea::ParticleState particles;
+      if (parts_.has(sea_part)) particles = machine_.particles()->save();
+      file.set("sea/time_s", particles.time_s);  // as rank 0 has it, which has the sea
       file.set("sea/steps", particles.steps);
-      const io::Slice<const double> mine{particles.first, particles.values};
-      file.write<double>("sea/particles", particles.total, std::span(&mine, 1));
+      write(file, parts_, sea_part, {{"sea/particles", particles.total, {{particles.first, std::move(particles.values)}}}});
     });
     saved_ = number;
   }
@@ -173,12 +183,15 @@ class Checkpoints {
     restarts = int(file->integer("restarts")) + 1;
     if (window.coupled && !window.coupled->restore(file->read<double>("coupling/history")))
       throw io::InputError(file->path().string() + ": its coupling history is that of another coupling.scheme");
-    if (window.coupled) window.coupled->air().restore(*file);
-    restore_particles(machine_, *file);
+    io::together(parts_.world().comm, [&] {
+      if (window.coupled) window.coupled->air().restore(*file);
+      restore_particles(machine_, *file);
+    });
     return saved_ = file->integer("window");
   }
 
  private:
+  const runtime::Parts& parts_;
   const Machine& machine_;
   io::CheckpointSeries series_;
   std::int64_t saved_ = -1;
@@ -191,39 +204,69 @@ std::int64_t windows_until(const Timeline& timeline, const std::optional<double>
   return std::min<std::int64_t>(windows, timeline.windows());
 }
 
-/// Core-seconds, and seconds as if they were shared out evenly. Sources of load are asked within the steps of the bodies, all of them within
-/// the windows; what is left of those is waiting and, where parts have tasks, the runtime's own work.
-std::vector<io::PartTime> part_times(Machine& machine, const Window& window, double window_seconds, double output_seconds) {
-  std::vector<io::PartTime> parts;
+/// Core-seconds of all ranks, and seconds as if they were shared out evenly. Sources of load are asked within the steps of the bodies, all of
+/// them within the windows; what is left of those is waiting and, where parts have tasks, the runtime's own work. Collective.
+std::vector<io::PartTime> part_times(Machine& machine, const Window& window, const runtime::Parts& parts, double window_seconds,
+                                     double output_seconds) {
   const WindowTasks* tasks = window.shared_tasks();
-  const int threads = tasks && tasks->executor() ? tasks->executor()->threads() : 1;
-  double known = 0.0, asked = 0.0;
+  const bool in_tasks = machine.scenario().resolves_air() || machine.particle_plan();
+  const int own_threads = tasks && tasks->executor() ? tasks->executor()->threads() : 1;
+  // Bodies and the loads that they ask for are advanced alike by all ranks that have them; only particles are shared out.
+  std::vector<double> mine{double(own_threads), tasks ? tasks->core_seconds("aero") : 0.0, tasks ? tasks->core_seconds("sea") : 0.0};
+  const auto clocks = machine.clocks();
+  if (in_tasks) mine.push_back(parts.has(sea_part) ? 1e-9 * double(window.body_side().own_ns()) : 0.0);
+  for (const SourceClock& clock : clocks) mine.push_back(1e-9 * double(clock.ns));
+  const std::vector<double> all = runtime::summed(parts.world().comm, mine);
+  const double threads = all[0], *asked = all.data() + (in_tasks ? 4 : 3);
+  double all_asked = 0.0, known = 0.0;
+  for (std::size_t s = 0; s < clocks.size(); ++s) all_asked += asked[s];
+
+  std::vector<io::PartTime> times;
   const auto add = [&](const std::string& name, double core_seconds, std::int64_t calls) {
-    parts.push_back({name, core_seconds / threads, core_seconds, calls});
+    times.push_back({name, core_seconds / threads, core_seconds, calls});
     known += core_seconds / threads;
   };
-  const auto clocks = machine.clocks();
-  for (const SourceClock& clock : clocks) asked += 1e-9 * double(clock.ns);
-  if (tasks && tasks->executor()) {
-    add("bodies", std::max(0.0, 1e-9 * double(window.body_side().own_ns()) - asked), window.steps);
-    if (window.coupled) add("air", tasks->core_seconds("aero"), window.coupled->totals().rotor_calls);
+  if (in_tasks) {
+    add("bodies", std::max(0.0, all[3] - all_asked), window.steps);
+    if (window.coupled) add("air", all[1], window.coupled->totals().rotor_calls);
   } else {
-    add("bodies", window_seconds - asked, window.steps);
+    add("bodies", window_seconds * threads - all_asked, window.steps);
   }
   for (std::size_t s = 0; s < clocks.size(); ++s) {
-    const bool particles = machine.particles() && machine.system().loads()[s].name == "sea";
-    const double own = particles ? tasks->core_seconds("sea") - 1e-9 * double(window.body_side().own_ns()) : 0.0;
-    add(machine.system().loads()[s].name, own + 1e-9 * double(clocks[s].ns), particles ? window.body_side().steps() : clocks[s].calls);
+    const bool particles = machine.particle_plan() && machine.system().loads()[s].name == "sea";
+    add(machine.system().loads()[s].name, (particles ? all[2] - all[3] : 0.0) + asked[s], particles ? window.body_side().steps() : clocks[s].calls);
   }
-  if (threads > 1 || tasks) parts.push_back({"idle_and_runtime", window_seconds - known, (window_seconds - known) * threads, 0});
-  parts.push_back({"output", output_seconds, output_seconds, 0});
-  return parts;
+  if (threads > 1.0 || in_tasks) times.push_back({"idle_and_runtime", window_seconds - known, (window_seconds - known) * threads, 0});
+  times.push_back({"output", output_seconds, output_seconds, 0});
+  return times;
+}
+
+/// Where the core-seconds of each side's ranks went, into the summary and as lines under the table. Collective; split runs.
+void tell_sides(const Window& window, const runtime::Parts& parts, std::int64_t waited_ns, double window_seconds, io::Summary& summary) {
+  const WindowTasks& tasks = window.coupled->tasks();
+  const int threads = tasks.executor() ? tasks.executor()->threads() : 1;
+  const double busy = tasks.executor() ? tasks.core_seconds("aero") + tasks.core_seconds("sea") : 1e-9 * double(window.body_side().own_ns());
+  std::vector<double> mine(8, 0.0);  // by part: ranks, core-seconds in all, busy, waiting for the other side
+  double* at = mine.data() + 4 * parts.part();
+  at[0] = 1.0, at[1] = threads * window_seconds, at[2] = busy, at[3] = 1e-9 * double(waited_ns) * threads;
+  const std::vector<double> all = runtime::summed(parts.world().comm, mine);
+  for (const auto& [part, name, other] : {std::tuple{air_part, "air", "sea"}, std::tuple{sea_part, "sea", "air"}}) {
+    const double *of = all.data() + 4 * part, core_s = of[1];
+    spdlog::info("  {} on {} rank{}: {:5.1f} % busy, {:5.1f} % waiting for the {}, {:5.1f} % other idle and runtime; of {:.4g} core-s", name, of[0],
+                 of[0] == 1.0 ? "" : "s", 100.0 * of[2] / core_s, 100.0 * of[3] / core_s, other, 100.0 * (core_s - of[2] - of[3]) / core_s, core_s);
+    summary.efficiency.push_back({fmt::format("{} busy", name), of[2] / core_s, fmt::format("useful part of the core-seconds of the {}'s ranks", name)});
+    summary.efficiency.push_back({fmt::format("{} waiting", name), of[3] / core_s, fmt::format("part of them spent until the {} was done", other)});
+  }
 }
 
 /// Efficiencies into the summary and, as a table, into the log; trace.json where asked for. Collective.
-void finish_trace(const runtime::Executor& executor, const io::RunDirectory& directory, const runtime::World& world, bool write,
+void finish_trace(const runtime::Executor& executor, const io::RunDirectory& directory, const runtime::Parts& parts, bool write,
                   io::Summary& summary) {
-  const std::vector<runtime::RankTrace> traces = gather_traces(trace_of(executor, world.rank), world.comm);
+  const runtime::World& world = parts.world();
+  runtime::RankTrace own = trace_of(executor, world.rank);
+  for (runtime::TraceNode& node : own.nodes)  // a side's tasks count its own ranks
+    if (node.peer >= 0) node.peer += world.rank - parts.mine().rank;
+  const std::vector<runtime::RankTrace> traces = gather_traces(own, world.comm);
   if (world.rank != 0) return;
   const runtime::Efficiency e = efficiency_of(traces);
   for (const auto& [name, value, meaning] : std::initializer_list<std::tuple<const char*, double, const char*>>{
@@ -237,10 +280,24 @@ void finish_trace(const runtime::Executor& executor, const io::RunDirectory& dir
   if (write) write_chrome_trace(traces, directory.trace().string());
 }
 
+/// The particles that the scene starts from, on the ranks that have the sea. Collective; throws on all ranks alike.
+void fill_sea(Machine& machine, std::span<const Motion> start, const runtime::Parts& parts) {
+  io::together(parts.world().comm, [&] {
+    try {
+      if (parts.has(sea_part)) machine.fill_sea(start, parts.mine());
+    } catch (const scene::SceneError& e) { throw io::InputError(e.what()); }
+  });
+  const auto& initial = machine.scenario().sea.initial;
+  if (!machine.particle_plan() || !initial || initial->state != "file") return;
+  const io::CheckpointReader file = open_saved(parts.world().comm, initial->file);
+  io::together(parts.world().comm, [&] { restore_particles(machine, file); });
+}
+
 }  // namespace
 
-io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& directory, const runtime::World& world,
+io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& directory, const runtime::Parts& parts,
                 const RunSettings& settings) {
+  const runtime::World& world = parts.world();
   const auto begin = std::chrono::steady_clock::now();
   const Timeline& timeline = machine.timeline();
   const CheckpointOptions& checkpoint = machine.scenario().checkpoint;
@@ -249,17 +306,16 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   io::Summary summary;
   Window window;
   const std::size_t records = settings.trace ? std::size_t(1) << 20 : 0;
-  Checkpoints checkpoints(world.comm, machine, directory);
+  Checkpoints checkpoints(parts, machine, directory);
   io::History history;
-  machine.fill_sea(start.state.motions, world);
-  if (const auto& initial = machine.scenario().sea.initial; initial && initial->state == "file")
-    restore_particles(machine, io::CheckpointReader(world.comm, initial->file));
+  fill_sea(machine, start.state.motions, parts);
   Recorder recorder(machine, history);
   std::int64_t first = -machine.held_windows();
   window.state = start.state;
   if (machine.rotor() && machine.scenario().coupling.scheme != SchemeKind::monolithic) {
-    window.coupled.emplace(machine, make_air(machine, machine.rotor()->state(0.0, start.state.motions), world), world.comm, records);
+    window.coupled.emplace(machine, make_sides(machine, machine.rotor()->state(0.0, start.state.motions), parts), parts.mine().comm, records);
     if (!settings.restart) window.coupled->begin(start.state);
+    for (const std::string& sentence : window.coupled->air().news()) spdlog::info("{}", sentence);
     window.coupled->declare(history);
   }
   if (machine.particles() && !window.coupled) {
@@ -274,14 +330,23 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     spdlog::info("restart from t = {} s", timeline.window_end_s(first));
   }
   const bool writes = world.rank == 0;
+  const auto write_row = [&](std::int64_t number) {  // where bodies and water are known
+    if (parts.has(sea_part)) recorder.write(window.state, timeline.window_end_s(number), coupling_columns);
+  };
   if (writes && settings.restart)
     history.resume(directory.history(), timeline.window_end_s(first));
   else if (writes)
     history.open(directory.history());
-  SeaOutput sea_output(machine, directory.fields(), world, settings.restart ? timeline.window_end_s(first) : io::from_the_start);
+  SeaOutput sea_output(machine, directory.fields(), parts.mine(), settings.restart ? timeline.window_end_s(first) : io::from_the_start);
+  const double air_every = machine.scenario().output.air_interval_s;
+  const std::int64_t air_windows = air_every > 0.0 ? std::max<std::int64_t>(1, std::llround(air_every / timeline.window_s())) : 0;
+  const auto write_air = [&](std::int64_t number) {
+    if (window.coupled) window.coupled->air().write_fields(timeline.tick_of_window(number) - machine.first_tick(), timeline.window_end_s(number));
+  };
+  if (window.coupled) window.coupled->air().open_output(directory, settings.restart ? timeline.window_end_s(first) : io::from_the_start);
   if (!settings.restart) {
     if (machine.particles()) evaluate_particles(machine, window.state);
-    recorder.write(window.state, timeline.window_end_s(first), coupling_columns);
+    write_row(first);
     sea_output.write_if_due(first);
   }
 
@@ -289,9 +354,11 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   const int every = machine.scenario().output.history_every;
   const std::int64_t save_every =
       checkpoint.interval_s > 0.0 ? std::max<std::int64_t>(1, std::llround(checkpoint.interval_s / timeline.window_s())) : 0;
-  runtime::Executor executor(record_window(machine, window), {.threads = 1, .records = records});
+  runtime::Executor executor(record_window(machine, window, parts), {.threads = 1, .records = records});
   io::Progress progress(timeline.window_end_s(first), timeline.window_end_s(last), io::progress_style(world.rank, settings.quiet));
   machine.reset_clocks();
+  const std::int64_t waited_before = parts.waited_ns();
+  window.core_seconds[3] = runtime::summed(world.comm, {1e-9 * double(waited_before)})[0];
 
   double window_seconds = 0.0;
   std::int64_t number = first;
@@ -308,8 +375,9 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
       break;
     }
     ++number;
-    if (number % every == 0 || number == last) recorder.write(window.state, timeline.window_end_s(number), coupling_columns);
+    if (number % every == 0 || number == last) write_row(number);
     sea_output.write_if_due(number);
+    if (air_windows > 0 && number > 0 && number < last && number % air_windows == 0) write_air(number);
     progress.update(timeline.window_end_s(number));
     if (std::string why = stop.agreed(world.comm); !why.empty() && number < last) {
       summary.exit_code = 5;
@@ -319,6 +387,8 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   }
   history.flush();
   if (!checkpoints.is_saved(number)) checkpoints.save(window, number, summary.restarts);
+  write_air(number);
+  if (window.coupled) window.coupled->air().write_span();
 
   if (summary.exit_code == 0)
     summary.exit_reason = last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last)) : "done";
@@ -340,11 +410,12 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
              {"particles_lost", std::int64_t(sea->lost())}})
       summary.counts.emplace_back(name, count);
   summary.wall_seconds = seconds_since(begin);
-  summary.parts = part_times(machine, window, window_seconds, summary.wall_seconds - window_seconds);
+  summary.parts = part_times(machine, window, parts, window_seconds, summary.wall_seconds - window_seconds);
   // Where parts have tasks of their own, these tell more than the one task that runs them.
   const WindowTasks* tasks = window.shared_tasks();
   const runtime::Executor& traced = tasks && tasks->executor() ? *tasks->executor() : executor;
-  finish_trace(traced, directory, world, settings.trace, summary);
+  finish_trace(traced, directory, parts, settings.trace, summary);
+  if (parts.split()) tell_sides(window, parts, parts.waited_ns() - waited_before, window_seconds, summary);
   summary.ranks = world.size;
   summary.threads = traced.threads();
   summary.columns = history.columns();

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "runtime/mpi/environment.hpp"
+#include "runtime/mpi/parts.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/start.hpp"
 #include "src/io/run_directory.hpp"
@@ -30,8 +30,9 @@ inline double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 /// Runs the machine into the directory and writes everything but report and summary.json; returns the summary with the exit code
-/// (0 done, 3 numerical failure with the state saved, 5 stopped on request with a checkpoint). Collective.
-io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& directory, const runtime::World& world,
+/// (0 done, 3 numerical failure with the state saved, 5 stopped on request with a checkpoint). `parts`: a world, on which all ranks
+/// have both sides, or what place() made of it. The directory is one of parts.world(). Collective.
+io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& directory, const runtime::Parts& parts,
                 const RunSettings& settings);
 
 }  // namespace spindrift::coupling

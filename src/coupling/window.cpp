@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "kernels/base/failure.hpp"
@@ -34,9 +35,10 @@ CoupledWindow::AnyScheme CoupledWindow::make_scheme(const CouplingOptions& o) {
   }
 }
 
-CoupledWindow::CoupledWindow(Machine& machine, std::unique_ptr<AirSide> air, MPI_Comm comm, std::size_t records)
-    : machine_(machine), options_(machine.scenario().coupling), interface_(machine), air_(air ? std::move(air) : make_engineering_air(machine)),
-      bodies_(make_body_side(machine)), tasks_(air_.get(), *bodies_, comm, records), loads_(options_.predictor_order), motions_(1),
+CoupledWindow::CoupledWindow(Machine& machine, Sides sides, MPI_Comm comm, std::size_t records)
+    : machine_(machine), options_(machine.scenario().coupling), interface_(machine),
+      air_(sides.air ? std::move(sides.air) : make_engineering_air(machine)),
+      bodies_(sides.bodies ? std::move(sides.bodies) : make_body_side(machine)), tasks_(air_.get(), *bodies_, comm, records), loads_(options_.predictor_order), motions_(1),
       load_now_(RotorInterface::load_rows) {
   if (is_loose(options_.scheme))
     loose_.emplace(staggering(options_));
@@ -84,12 +86,13 @@ bool CoupledWindow::finish(bodies::BodiesState& state) {
 
 Vector CoupledWindow::answer() {
   ++totals_.rotor_calls;
+  const std::int64_t begin = runtime::Clock::now_ns();
+  Vector rows = not_finite(RotorInterface::load_rows);
   try {
-    return interface_.rows(air_->answer());
-  } catch (const NumericalFailure& failure) {
-    trouble_ = failure.what();
-    return not_finite(RotorInterface::load_rows);
-  }
+    rows = interface_.rows(air_->answer());
+  } catch (const NumericalFailure& failure) { trouble_ = failure.what(); }
+  totals_.answer_ns += runtime::Clock::now_ns() - begin;
+  return rows;
 }
 
 bool CoupledWindow::move(bodies::BodiesState& state, std::int64_t end) {
@@ -339,7 +342,8 @@ bool CoupledWindow::restore(std::span<const double> values) {
 }
 
 void CoupledWindow::declare(io::History& history) {
-  air_->declare(history);
+  air_column_ = history.columns().size();
+  for (const io::Column& column : air_->columns()) history.add(column);
   column_ = history.add({"coupling.evaluations", "-", "of the window by the scheme, probes included"});
   history.add({"coupling.mismatch", "-", "loads that went in and came out, their difference over them"});
   if (loose_) return;
@@ -349,7 +353,8 @@ void CoupledWindow::declare(io::History& history) {
 }
 
 void CoupledWindow::put(std::span<double> row) const {
-  air_->put(row);
+  const std::vector<double> air = air_->values();
+  std::copy(air.begin(), air.end(), row.begin() + std::ptrdiff_t(air_column_));
   row[column_] = last_.log.evaluations, row[column_ + 1] = last_.mismatch;
   if (loose_) return;
   row[column_ + 2] = last_.log.columns, row[column_ + 3] = last_.log.cuts, row[column_ + 4] = last_.log.retries;

@@ -21,10 +21,9 @@
 #include "kernels/coupling/relaxation_steepest_descent.hpp"
 #include "kernels/coupling/solve_window.hpp"
 #include "kernels/coupling/staggered.hpp"
-#include "src/coupling/air_side.hpp"
-#include "src/coupling/body_side.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/rotor_interface.hpp"
+#include "src/coupling/sides.hpp"
 #include "src/coupling/window_tasks.hpp"
 #include "src/io/history.hpp"
 
@@ -41,8 +40,8 @@ struct WindowReport {
 class CoupledWindow {
  public:
   /// The machine has a rotor, its scheme is not monolithic, and it outlives the window; its bodies take the rotor's loads from here on.
-  /// `air`: its rotor's side; the engineering one where none is given. `comm`: of the ranks that share its tasks.
-  explicit CoupledWindow(Machine& machine, std::unique_ptr<AirSide> air = nullptr, MPI_Comm comm = MPI_COMM_SELF, std::size_t records = 0);
+  /// `sides`: the engineering rotor, and the bodies, where none are given. `comm`: of the ranks that share its tasks.
+  explicit CoupledWindow(Machine& machine, Sides sides = {}, MPI_Comm comm = MPI_COMM_SELF, std::size_t records = 0);
   ~CoupledWindow();
   CoupledWindow(const CoupledWindow&) = delete;
   CoupledWindow& operator=(const CoupledWindow&) = delete;
@@ -60,7 +59,8 @@ class CoupledWindow {
   /// Totals since the object was made.
   struct Totals {
     std::int64_t windows = 0, evaluations = 0, probes = 0, retries = 0, cuts = 0, body_steps = 0, rotor_calls = 0;
-    std::int64_t keep_ns = 0;  ///< noting the state at the start of each window
+    std::int64_t keep_ns = 0;    ///< noting the state at the start of each window
+    std::int64_t answer_ns = 0;  ///< asking the air for its load; of an engineering rotor, all of its work
   };
   const Totals& totals() const { return totals_; }
   AirSide& air() { return *air_; }
@@ -108,7 +108,7 @@ class CoupledWindow {
   std::string trouble_;            ///< of the side that failed last
   WindowReport last_;
   Totals totals_;
-  std::size_t column_ = 0;
+  std::size_t column_ = 0, air_column_ = 0;
 };
 
 }  // namespace spindrift::coupling

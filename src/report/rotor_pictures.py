@@ -19,13 +19,12 @@ class Rotor:
     def __init__(self, run, walls):
         self.walls = walls
         scene = run.scene.get("rotor", {})
-        self.hub = np.array(scene.get("hub_m", [0.0, 0.0, 0.0]), dtype=float)
-        axis = np.array(scene.get("axis", [1.0, 0.0, 0.0]), dtype=float)
-        along = axis / np.linalg.norm(axis)
+        carried = "rotor.hub_x_m" in run.columns
+        self.hub, along = carried_by_bodies(run, scene) if carried else at_rest(scene)
         up = np.array([0.0, 0.0, 1.0]) - along[2] * along
         up /= np.linalg.norm(up)
         self.frame = np.stack([along, np.cross(up, along), up])
-        self.speed = scene.get("speed_rpm", 0.0) * np.pi / 30.0
+        self.speed = (run.column("rotor.rpm")[-1] if carried else scene.get("speed_rpm", 0.0)) * np.pi / 30.0
         self.wind = run.scene.get("wind", {}).get("speed_m_s", 0.0)
         self.density = run.scene.get("environment", {}).get("air_density_kg_m3", 1.225)
         self.temperature = run.scene.get("aero", {}).get("flow", {}).get("temperature_K", 288.15)
@@ -49,6 +48,29 @@ class Rotor:
         a = 2.0 * np.pi * copy / self.copies
         y, z = points[..., 1], points[..., 2]
         return np.stack([points[..., 0], np.cos(a) * y - np.sin(a) * z, np.sin(a) * y + np.cos(a) * z], axis=-1)
+
+
+def at_rest(scene):
+    """Hub and axis of a rotor without bodies."""
+    axis = np.array(scene.get("axis", [1.0, 0.0, 0.0]), dtype=float)
+    return np.array(scene.get("hub_m", [0.0, 0.0, 0.0]), dtype=float), axis / np.linalg.norm(axis)
+
+
+def carried_by_bodies(run, scene):
+    """Hub and axis at the end of a coupled run. The grid of one sector stays on the axis it has at the start."""
+    joint = run.scene.get("joints", {}).get(scene.get("joint"), {})
+    axis = np.array(joint.get("axis", scene.get("axis", [1.0, 0.0, 0.0])), dtype=float)
+    axis /= np.linalg.norm(axis)
+    hub = np.stack([run.column(f"rotor.hub_{c}_m") for c in "xyz"], axis=-1)
+    if run.scene["aero"]["grid"].get("sectors") == "one":
+        return hub[0] + (hub[-1] - hub[0]) @ axis * axis, axis
+    carrier = next((body for body in joint.get("bodies", []) if body != scene.get("body") and f"{body}.pitch_deg" in run.columns), None)
+    if carrier is None:
+        return hub[-1], axis
+    roll, pitch, yaw = (np.radians(run.column(f"{carrier}.{angle}_deg")[-1]) for angle in ("roll", "pitch", "yaw"))
+    about = lambda a, i, j: np.eye(3) + (np.cos(a) - 1.0) * (np.outer(i, i) + np.outer(j, j)) + np.sin(a) * (np.outer(j, i) - np.outer(i, j))
+    x, y, z = np.eye(3)
+    return hub[-1], about(yaw, x, y) @ about(pitch, z, x) @ about(roll, y, z) @ axis
 
 
 def blade(rotor):

@@ -1,6 +1,7 @@
 """The coupled machine as a user runs it: a blade-resolved rotor on a floating platform, with an engineering sea and with one of particles.
 Same bits by threads, ranks and restarts; what is refused. Usage: machine_test.py SPINDRIFT"""
 import csv
+import json
 import os
 import pathlib
 import subprocess
@@ -47,6 +48,13 @@ step_s = 0.05
 [sea]
 model = "hydrostatic"
 """ % CASES + AIR
+# The same rotor without bodies, in the same air.
+ALONE = """
+[time]
+end_s = 20.0
+window_s = 1.0
+""" + AIR.replace("[rotor]", "[rotor]\nhub_m = [0.0, 0.0, 119.0]\naxis = [1.0, 0.0, 0.0]\nspeed_rpm = 8.8").replace('time = "bdf2"', 'time = "steady"').replace(
+    "max_pseudo_steps = 3", "drop = 1e-9\nload_change = 0.0").replace("[start]\nair_steps = 10\n", "")
 PARTICLES = """
 base = "%s/platform.toml"
 [time]
@@ -79,10 +87,21 @@ class MachineRun(unittest.TestCase):
         scene.write_text(text)
         given = [word for s in settings for word in ("--set", s)]
         start = ["mpirun", "-n", str(ranks), "--bind-to", "none"] if ranks > 1 else []
-        done = subprocess.run([*start, PROGRAM, "run", scene, "--quiet", "--no-report", "--out", self.path / name, *map(str, arguments), *given],
-                              capture_output=True, text=True, timeout=900, env={**os.environ, "OMP_NUM_THREADS": str(threads)})
+        return self.ended([*start, PROGRAM, "run", scene, "--quiet", "--no-report", "--out", self.path / name, *map(str, arguments), *given], threads,
+                          code)
+
+    def ended(self, command, threads, code):
+        done = subprocess.run(command, capture_output=True, text=True, timeout=900, env={**os.environ, "OMP_NUM_THREADS": str(threads)})
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
+
+    def in_sections(self, name, *sections, code=0):
+        """Program sections of one mpirun: (ranks, arguments) each, of the scene in the folder."""
+        words = ["mpirun", "--bind-to", "none"]
+        for ranks, arguments in sections:
+            words += [*([":"] if words[-1] != "none" else []), "-n", str(ranks), PROGRAM, "run", self.path / "scene.toml", "--quiet", "--no-report",
+                      "--out", self.path / name, *map(str, arguments)]
+        return self.ended(words, 1, code)
 
     def text(self, name):
         return (self.path / name / "history.csv").read_text()
@@ -145,7 +164,126 @@ class MachineRun(unittest.TestCase):
             self.assertGreater(abs(first["platform.pitch_deg"]), 0.1)
             self.assertGreater(last["rotor.thrust_N"], 1e6)
 
+    def from_air(self, name):
+        return ENGINEERING.replace("air_steps = 10", f'air = "{self.path / name}"')
+
+    def test_air_of_a_rotor_alone_starts_a_coupled_run_as_if_it_had_settled_there(self):
+        settled = ["start.air_steps=20", "time.end_s=0.3"]
+        self.spindrift(ENGINEERING, "settled", settings=settled)
+        self.spindrift(ALONE, "alone")
+        self.assertGreater(self.rows("alone")[-1]["rotor.thrust_N"], 3e5)
+        for threads, ranks, more in ((1, 1, []), (2, 2, ["coupling.placement='split'"])):
+            self.spindrift(self.from_air("alone/scene.toml"), "started", "--overwrite", settings=["time.end_s=0.3", *more], threads=threads, ranks=ranks)
+            self.assertEqual(self.text("settled"), self.text("started"))
+        # Blades that stood elsewhere: the flow is turned with them.
+        self.spindrift(ALONE, "turned", settings=["rotor.azimuth_deg=37.0"])
+        self.spindrift(self.from_air("turned/scene.toml"), "turned_on", settings=["time.end_s=0.1"])
+        for name in ("rotor.thrust_N", "rotor.torque_N_m"):
+            for n in (0, 1):
+                self.assertAlmostEqual(self.rows("turned_on")[n][name] / self.rows("settled")[n][name], 1.0, delta=1e-6)
+        # What a coupled run left starts another one.
+        self.spindrift(self.from_air("settled/scene.toml"), "again", settings=["time.end_s=0.1"])
+        self.assertAlmostEqual(self.rows("again")[0]["rotor.thrust_N"] / self.rows("settled")[-1]["rotor.thrust_N"], 1.0, delta=1e-3)
+
+    def test_air_of_another_rotor_is_refused_by_name(self):
+        self.spindrift(ALONE, "alone", settings=["time.end_s=1.0"])
+        for text, setting, words in ((self.from_air("alone/scene.toml"), "aero.grid.cells_round=32", ("aero.grid.cells_round = 28", "aero.grid.cells_round = 32")),
+                                     (self.from_air("alone/scene.toml"), "wind.speed_m_s=10", ("wind.speed_m_s = 11", "wind.speed_m_s = 10")),
+                                     (self.from_air("alone/scene.toml"), "aero.flow.flux='rusanov'", ("aero.flow.flux",)),
+                                     (self.from_air("scene.toml"), "time.end_s=0.1", ("no checkpoint of a run",))):
+            said = self.spindrift(text, "refused", "--overwrite", settings=[setting], code=2)
+            for word in words:
+                self.assertIn(word, said)
+        said = self.spindrift(ENGINEERING, "refused", "--overwrite", settings=[f"start.air='{self.path / 'alone/scene.toml'}'"], code=2)
+        self.assertIn("start.air", said)
+
+    def test_the_air_leaves_fields_at_chosen_times_and_loads_by_blade_and_along_the_span(self):
+        settings = ["time.end_s=0.4", "output.air_interval_s=0.2"]
+        self.spindrift(ENGINEERING, "out", settings=settings)
+        self.spindrift(ENGINEERING, "split", settings=[*settings, *self.SPLIT], ranks=2)
+        for name in ("out", "split"):
+            for kind in ("air", "walls"):
+                self.assertEqual(len(list((self.path / name / "fields").glob(f"{kind}_*.h5"))), 2)
+                self.assertTrue((self.path / name / f"fields/{kind}.xdmf").exists())
+        self.assertEqual((self.path / "out/spanwise.csv").read_text(), (self.path / "split/spanwise.csv").read_text())
+        last = self.rows("out")[-1]
+        self.assertAlmostEqual(3.0 * last["rotor.blade_1.thrust_N"] / last["rotor.thrust_N"], 1.0, delta=1e-9)
+        with open(self.path / "out/spanwise.csv") as file:
+            span = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in span) / last["rotor.thrust_N"], 1.0, delta=0.02)
+        self.ended([PROGRAM, "report", self.path / "out"], 1, 0)
+        report = (self.path / "out/report.html").read_text()
+        for picture in ("Pressure on a blade", "Wind through the rotor"):
+            self.assertIn(picture, report)
+
+    def test_each_window_logs_how_it_went(self):
+        settings = ["coupling.scheme='relaxation'", "coupling.relaxation=0.9", "coupling.tolerance=1e-9", "coupling.max_evaluations=3", "coupling.max_cuts=1",
+                    "time.end_s=0.1"]
+        self.spindrift(ENGINEERING, "stalls", settings=settings, code=3)
+        log = (self.path / "stalls/log.txt").read_text()
+        for word in ("evaluations", "residual", "columns", "1 cuts", "2 retries", "ended by evaluation limit", "core-s: air"):
+            self.assertIn(word, log)
+
+    def test_a_wall_limit_ends_the_run_with_5_and_it_goes_on_from_there(self):
+        self.spindrift(ENGINEERING, "limited", settings=["time.end_s=600.0", "runtime.wall_limit_s=1.0"], code=5)
+        summary = json.loads((self.path / "limited/summary.json").read_text())
+        self.assertIn("wall", summary["exit_reason"])
+        done = len(self.rows("limited"))
+        self.assertGreater(done, 1)
+        self.spindrift(ENGINEERING, "limited", "--restart", "--until", 0.1 * (done + 1), settings=["time.end_s=600.0"])
+        self.assertEqual(len(self.rows("limited")), done + 2)
+
+    SPLIT = ["coupling.placement='split'"]
+
+    def check_split(self, text, settings, until):
+        self.spindrift(text, "shared", settings=settings)
+        self.spindrift(text, "split", settings=[*settings, *self.SPLIT], ranks=2, threads=2)
+        self.assertEqual(self.text("shared"), self.text("split"))
+        summary = json.loads((self.path / "split/summary.json").read_text())
+        self.assertEqual({"air waiting", "sea waiting", "air busy", "sea busy"} - {e["name"] for e in summary["efficiency"]}, set())
+        # Two ranks of the air, then on from their checkpoint with everything shared, and the other way round.
+        two = [*settings, *self.SPLIT, "coupling.air_ranks=2"]
+        self.spindrift(text, "on", "--until", until, settings=two, ranks=3)
+        self.spindrift(text, "on", "--restart", settings=settings, threads=2)
+        self.assertEqual(self.text("shared"), self.text("on"))
+        self.spindrift(text, "back", "--until", until, settings=settings)
+        self.spindrift(text, "back", "--restart", settings=[*settings, *self.SPLIT], ranks=3)
+        self.assertEqual(self.text("shared"), self.text("back"))
+
+    def test_split_ranks_give_the_same_bits_as_shared_ones(self):
+        self.check_split(PARTICLES, [], 0.2)
+
+    def test_split_ranks_give_the_same_bits_with_an_engineering_sea_and_a_strong_scheme(self):
+        self.check_split(ENGINEERING, ["coupling.scheme='aitken'", "coupling.tolerance=1e-4", "time.end_s=0.4"], 0.2)
+
+    def test_program_sections_give_the_same_bits_and_must_agree(self):
+        end = ["--set", "time.end_s=0.2"]
+        self.spindrift(PARTICLES, "shared", *end)
+        self.in_sections("sections", (1, ["--fluid", "air", *end]), (2, ["--fluid", "sea", *end]))
+        self.assertEqual(self.text("shared"), self.text("sections"))
+        for sections, words in (
+            (((1, ["--fluid", "air", *end]), (2, ["--fluid", "sea"])), ("rank 0 and ranks 1 to 2", "different scenes", "end_s")),
+            (((1, ["--fluid", "air", *end]), (1, ["--fluid", "sea", "--until", 0.1, *end])), ("rank 0 and rank 1", "different options", "--until")),
+            (((1, ["--fluid", "air", *end]), (1, end)), ("rank 0", "rank 1", "--fluid")),
+            (((1, ["--fluid", "air", *end]), (1, ["--fluid", "air", *end])), ("the other fluid needs a program section",)),
+            (((1, ["--fluid", "air", *end]), (1, ["--fluid", "sea", "--set", "sea.tank=3"])), ("cannot read", "sea.tank")),
+            (((2, ["--fluid", "air", *end, "--set", "coupling.placement='split'"]), (1, ["--fluid", "sea", *end, "--set", "coupling.placement='split'"])),
+             ("coupling.air_ranks", "2 ranks with --fluid air"))):
+            said = self.in_sections("refused", *sections, code=2)
+            for word in words:
+                self.assertIn(word, said)
+
+    def test_a_failure_of_one_fluid_stops_both_with_the_reason_and_the_last_good_state(self):
+        for text, settings, words in ((ENGINEERING, ["aero.flow.cfl=1e4", "aero.flow.cfl_max=1e4", "start.air_steps=0"], "aero:"),
+                                      (PARTICLES, ["time.step_s=0.025"], "sea: the step of")):
+            said = self.spindrift(text, "failed", "--overwrite", settings=[*settings, *self.SPLIT], ranks=2, code=3)
+            self.assertIn(words, said)
+            self.assertEqual(len(list((self.path / "failed/checkpoints").iterdir())), 1)
+            self.assertEqual(json.loads((self.path / "failed/summary.json").read_text())["exit_code"], 3)
+
     def test_what_cannot_be_is_refused(self):
+        for setting, ranks in (("coupling.air_ranks=1", 1), ("coupling.air_ranks=2", 2)):
+            self.assertIn("leaves no rank for the sea", self.spindrift(ENGINEERING, "refused", settings=[*self.SPLIT, setting], ranks=ranks, code=2))
         for setting, words in (("aero.flow.time='steady'", "where bodies carry the rotor"), ("coupling.scheme='monolithic'", "answers once per window"),
                                ("wind.direction_deg=10", "needs the wind along the rotor axis")):
             self.assertIn(words, self.spindrift(ENGINEERING, "refused", settings=[setting], code=2))

@@ -89,7 +89,7 @@ TEST_CASE("what the air answers is what the bodies feel, and its motion from a f
   const aero::RotorState first = machine.rotor()->state(0.0, state.motions);
   auto owned = std::make_unique<Listening>(make_air(machine, first, alone));
   const Listening& heard = *owned;
-  CoupledWindow window(machine, std::move(owned));
+  CoupledWindow window(machine, {std::move(owned), nullptr});
   window.begin(state);
   for (int n = 0; n < 3; ++n) REQUIRE(window.advance(state).ok());
   const aero::RotorLoad& load = heard.answers.back();

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/air_output.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
+#include "src/io/atomic_file.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+bool on_wall(const aero::FlowSolver& solver, const aero::TileBoundary& b) {
+  return aero::is_closed(solver.conditions()[std::size_t(b.patch)].condition);
+}
+
+}  // namespace
+
+AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::GridStore& store, const std::filesystem::path& folder, Choice choice)
+    : solver_(solver) {
+  const aero::Tiling& tiling = store.tiling();
+  std::vector<io::GridBlock> blocks;
+  for (const aero::Tile& tile : tiling.tiles)
+    blocks.push_back({fmt::format("tile_{}", blocks.size()), tile.ni, tile.nj, tile.nk});
+  std::vector<io::Field> fields{{"pressure", "Pa"}, {"velocity", "m/s", 3}, {"temperature", "K"}};
+  const int carried = solver.tiles().empty() ? 0 : solver.tiles()[0].turbulence;
+  for (int t = 0; t < carried; ++t) fields.push_back({fmt::format("turbulence_{}", t + 1), carried == 1 ? "m2/s" : t == 0 ? "m2/s2" : "1/s"});
+  volume_ = std::make_unique<io::GridFields>(comm, folder, "air", std::move(blocks), std::move(fields), choice.moves, choice.resume_s);
+  if (!choice.walls) return;
+  // A block for each window of a tile on a wall.
+  std::vector<io::GridBlock> faces;
+  for (int tile = 0; tile < tiling.size(); ++tile) {
+    first_block_.push_back(int(faces.size()));
+    for (const aero::TileBoundary& b : tiling.boundary(tile))
+      if (on_wall(solver, b))
+        faces.push_back({fmt::format("{}_{}", tiling.patches[std::size_t(b.patch)], faces.size()), b.high[0] - b.low[0], b.high[1] - b.low[1], 0});
+  }
+  if (faces.empty()) return;
+  walls_ = std::make_unique<io::GridFields>(
+      comm, folder, "walls", std::move(faces),
+      std::vector<io::Field>{{"pressure", "Pa"}, {"pressure_coefficient", "-"}, {"friction_coefficient", "-", 3}, {"y_plus", "-"}}, choice.moves,
+      choice.resume_s);
+}
+
+void AirOutput::write(std::int64_t number, double time_s) {
+  write_volume(number, time_s);
+  if (walls_) write_walls(number, time_s);
+}
+
+void AirOutput::write_volume(std::int64_t number, double time_s) {
+  const int carried = solver_.tiles().empty() ? 0 : solver_.tiles()[0].turbulence;
+  const gas::IdealGas& gas = solver_.setting().gas;
+  std::vector<std::vector<double>> kept;
+  std::vector<io::GridFields::Values> values;
+  kept.reserve(solver_.tiles().size() * std::size_t(4 + carried));
+  for (const aero::FlowTile& t : solver_.tiles()) {
+    const auto component = [&](int c, double offset) -> std::vector<double>& {
+      auto& out = kept.emplace_back();
+      aero::for_rows(t.box, [&](int k, int j) {
+        for (int i = 0; i < t.box.ni; ++i) out.push_back(offset + t.state.data()[c * t.cells.component + t.cells.at(k, j, i)]);
+      });
+      return out;
+    };
+    auto& points = kept.emplace_back();
+    const BoxLayout& nodes = t.geometry->node_box;
+    for (int k = 0; k <= t.box.nk; ++k)
+      for (int j = 0; j <= t.box.nj; ++j)
+        for (int i = 0; i <= t.box.ni; ++i)
+          for (int c = 0; c < 3; ++c) points.push_back(t.geometry->node_data.data()[c * nodes.component + nodes.at(k, j, i)]);
+    io::GridFields::Values v{t.index, points, {}};
+    v.fields.push_back(component(0, gas.pressure_reference));
+    auto& velocity = kept.emplace_back();
+    aero::for_rows(t.box, [&](int k, int j) {
+      for (int i = 0; i < t.box.ni; ++i)
+        for (int c = 1; c < 4; ++c) velocity.push_back(t.state.data()[c * t.cells.component + t.cells.at(k, j, i)]);
+    });
+    v.fields.push_back(velocity);
+    v.fields.push_back(component(4, gas.temperature_reference));
+    for (int c = 0; c < carried; ++c) v.fields.push_back(component(aero::mean_unknowns + c, 0.0));
+    values.push_back(std::move(v));
+  }
+  volume_->write(number, time_s, values);
+}
+
+void AirOutput::write_walls(std::int64_t number, double time_s) {
+  const aero::FlowSetting& s = solver_.setting();
+  const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
+  std::vector<std::array<std::vector<double>, 5>> kept;
+  std::vector<int> numbers;
+  for (const aero::FlowTile& t : solver_.tiles()) {
+    const std::vector<aero::WallPoint> points = solver_.wall_points(t);
+    std::size_t at = 0;
+    int block = first_block_[std::size_t(t.index)];
+    for (const aero::FlowBoundary& b : t.boundaries) {
+      if (!on_wall(solver_, b.where)) continue;
+      auto& [corners, pressure, cp, cf, y_plus] = kept.emplace_back();
+      numbers.push_back(block++);
+      const int d = aero::direction_of(b.where.side), extent[3] = {t.box.ni, t.box.nj, t.box.nk};
+      const auto [along_a, along_b] = aero::along(b.where.side);
+      const BoxLayout& nodes = t.geometry->node_box;
+      int n[3];
+      n[d] = aero::at_end(b.where.side) ? extent[d] : 0;
+      for (n[along_b] = b.where.low[1]; n[along_b] <= b.where.high[1]; ++n[along_b])
+        for (n[along_a] = b.where.low[0]; n[along_a] <= b.where.high[0]; ++n[along_a])
+          for (int c = 0; c < 3; ++c) corners.push_back(t.geometry->node_data.data()[c * nodes.component + nodes.at(n[2], n[1], n[0])]);
+      const int faces = (b.where.high[0] - b.where.low[0]) * (b.where.high[1] - b.where.low[1]);
+      for (int m = 0; m < faces; ++m) {
+        const aero::WallPoint& p = points.at(at++);
+        pressure.push_back(s.gas.pressure_reference + p.pressure), cp.push_back(p.pressure / q), y_plus.push_back(p.y_plus);
+        for (const double stress : p.traction) cf.push_back(stress / q);
+      }
+    }
+  }
+  std::vector<io::GridFields::Values> values;
+  for (std::size_t m = 0; m < kept.size(); ++m) {
+    const auto& [corners, pressure, cp, cf, y_plus] = kept[m];
+    values.push_back({numbers[m], corners, {pressure, cp, cf, y_plus}});
+  }
+  walls_->write(number, time_s, values);
+}
+
+void write_span(const runtime::World& world, aero::ResolvedRotor& rotor, const io::RunDirectory& directory) {
+  const std::vector<aero::SpanLoad> loads = rotor.span_loads(world.comm);
+  if (world.rank != 0) return;
+  std::string text = "blade,radius_m,length_m,chord_m,normal_N_m,tangential_N_m,friction_normal_N_m,friction_tangential_N_m\n";
+  for (const aero::SpanLoad& s : loads)
+    text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.17g},{:.17g},{:.17g},{:.17g}\n", s.blade, s.radius, s.length, s.chord, s.load.normal,
+                        s.load.tangential, s.friction.normal, s.friction.tangential);
+  io::write_atomically(directory.path() / "spanwise.csv", text);
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,40 @@
+// What the resolved air leaves in a run's folder for people: fields/air.xdmf (pressure, velocity, temperature, turbulence at cell centres),
+// fields/walls.xdmf, spanwise.csv. At the end of a run of the air alone, at chosen times of a coupled one. Called by flow_run.cpp and
+// resolved_air.cpp; tested in tests/coupled/rotor_run_test.py and machine_test.py. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "src/aero/resolved_rotor.hpp"
+#include "src/io/fields.hpp"
+#include "src/io/run_directory.hpp"
+
+namespace spindrift::coupling {
+
+class AirOutput {
+ public:
+  struct Choice {
+    bool walls = true;
+    bool moves = false;                       ///< the grid, from one output to the next
+    double resume_s = io::from_the_start;
+  };
+  /// The solver is to outlive it. Collective over `comm`.
+  AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::GridStore& store, const std::filesystem::path& folder, Choice choice);
+  /// The flow as it is. Collective.
+  void write(std::int64_t number, double time_s);
+
+ private:
+  void write_volume(std::int64_t number, double time_s);
+  void write_walls(std::int64_t number, double time_s);
+
+  const aero::FlowSolver& solver_;
+  std::unique_ptr<io::GridFields> volume_, walls_;
+  std::vector<int> first_block_;  ///< of walls_, by tile
+};
+
+/// Loads along the blades as they are: spanwise.csv. Collective over `world`.
+void write_span(const runtime::World& world, aero::ResolvedRotor& rotor, const io::RunDirectory& directory);
+
+}  // namespace spindrift::coupling

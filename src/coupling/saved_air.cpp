@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/saved_air.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <string_view>
+
+#include "kernels/base/constants.hpp"
+#include "src/aero/rotor_grid/options.hpp"
+#include "src/io/machine_failure.hpp"
+#include "src/scene/printed.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+constexpr const char *settings_name = "air/settings", *pose_name = "air/pose", *load_name = "air/load", *grid_name = "air/grid";
+
+/// The parameters of a section as lines "heading.key = value"; of all keys where none are named.
+void add_lines(std::string& lines, const scene::SectionBase& section, const std::string& heading, const void* options,
+               std::initializer_list<std::string_view> keys = {}) {
+  for (const scene::Parameter& p : section.parameters()) {
+    if (keys.size() > 0 && std::find(keys.begin(), keys.end(), p.key) == keys.end()) continue;
+    if (const std::string value = scene::printed(p, options); !value.empty()) lines += fmt::format("{}.{} = {}\n", heading, p.key, value);
+  }
+}
+
+/// Not how the march goes, only what flow it goes to.
+std::string settings_of(const Scenario& s) {
+  std::string lines = fmt::format("rotor.turbine = {}\n", std::filesystem::path(s.rotor.turbine).filename().string());
+  add_lines(lines, aero::rotor_section(), "rotor", &s.rotor, {"blade_pitch_deg"});
+  add_lines(lines, aero::wind_section(), "wind", &s.wind, {"speed_m_s"});
+  add_lines(lines, environment_section(), "environment", &s.environment, {"air_density_kg_m3"});
+  add_lines(lines, aero::rotor_grid_section(), "aero.grid", &*s.aero.grid);
+  add_lines(lines, aero::flow_section(), "aero.flow", &*s.aero.flow,
+            {"blades", "temperature_K", "viscosity_Pa_s", "viscous", "turbulence", "flux", "limiter", "upwinding", "first_order_turbulence"});
+  return lines;
+}
+
+/// The first line of `a` that `b` has not, empty where there is none.
+std::string missing(const std::string& a, const std::string& b) {
+  std::istringstream lines(a);
+  for (std::string line; std::getline(lines, line);)
+    if (("\n" + b).find("\n" + line + "\n") == std::string::npos) return line;
+  return "";
+}
+
+/// Equal for equal grids, and hardly ever for others: number of nodes and moments of their places.
+std::vector<double> measure(const aero::MultiBlockGrid& grid) {
+  double nodes = 0.0, first = 0.0, second = 0.0;
+  for (const aero::Block& b : grid.blocks)
+    for (const Eigen::Vector3d& x : b.nodes) nodes += 1.0, first += x.x() + 2.0 * x.y() + 3.0 * x.z(), second += x.squaredNorm();
+  return {nodes, first, second};
+}
+
+constexpr std::size_t load_numbers = 9;
+void append(std::vector<double>& to, const aero::RotorLoad& l) {
+  to.insert(to.end(), {l.thrust, l.torque, l.power, l.force.x(), l.force.y(), l.force.z(), l.moment.x(), l.moment.y(), l.moment.z()});
+}
+aero::RotorLoad load_at(const double* l) {
+  return {.thrust = l[0], .torque = l[1], .power = l[2], .force = {l[3], l[4], l[5]}, .moment = {l[6], l[7], l[8]}};
+}
+
+/// Velocities of a tile's state, component by component, turned.
+void turn(std::span<double> state, std::size_t cells, const Eigen::Matrix3d& by) {
+  for (std::size_t i = 0; i < cells; ++i) {
+    const Eigen::Vector3d v = by * Eigen::Vector3d(state[cells + i], state[2 * cells + i], state[3 * cells + i]);
+    for (std::size_t d = 0; d < 3; ++d) state[(d + 1) * cells + i] = v[Eigen::Index(d)];
+  }
+}
+
+}  // namespace
+
+io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file) {
+  if (file.extension() == ".h5") return io::CheckpointReader(comm, file);
+  std::optional<io::CheckpointReader> newest = io::CheckpointSeries(comm, file.parent_path() / "checkpoints", 1).newest();
+  if (!newest) throw io::InputError(fmt::format("{}: there is no checkpoint of a run beside it", file.string()));
+  return std::move(*newest);
+}
+
+void write_air_settings(io::CheckpointWriter& file, const Scenario& scenario) {
+  const std::string lines = settings_of(scenario);
+  file.write<std::byte>(settings_name, std::as_bytes(std::span(lines)));
+}
+
+FeltLoad felt_by(const aero::ResolvedRotor& rotor) {
+  FeltLoad felt{rotor.load(), {}};
+  for (int b = 1; b <= rotor.grid_blades(); ++b) felt.blades.push_back(rotor.blade_load(b));
+  return felt;
+}
+
+std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const FeltLoad& felt, int rank) {
+  const Eigen::Matrix3d attitude = rotor.pose().attitude().toRotationMatrix();
+  std::vector<double> pose(attitude.data(), attitude.data() + 9), loads;
+  pose.push_back(rotor.pose().speed);
+  append(loads, felt.rotor);
+  for (const aero::RotorLoad& blade : felt.blades) append(loads, blade);
+  std::vector<SavedArray> arrays;
+  for (auto& [name, values] : {std::pair{pose_name, pose}, std::pair{load_name, loads}, std::pair{grid_name, measure(rotor.grid())}}) {
+    arrays.push_back({name, std::int64_t(values.size()), {}});
+    if (rank == 0) arrays.back().pieces.push_back({0, values});
+  }
+  return arrays;
+}
+
+FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor, const aero::RotorPose& start) {
+  const auto refuse = [&](const std::string& why) { throw io::InputError(fmt::format("start.air: {}: {}", file.path().string(), why)); };
+  if (!file.has(settings_name) || !file.has(pose_name)) refuse("has no air of a resolved rotor");
+  const std::vector<std::byte> bytes = file.read<std::byte>(settings_name);
+  const std::string theirs(reinterpret_cast<const char*>(bytes.data()), bytes.size()), ours = settings_of(scenario);
+  if (const std::string there = missing(theirs, ours), here = missing(ours, theirs); !there.empty() || !here.empty())
+    refuse(fmt::format("its air was made with {}, this scene has {}", there.empty() ? "the default" : there, here.empty() ? "the default" : here));
+  const std::vector<double> grid = file.read<double>(grid_name), mine = measure(rotor.grid());
+  for (std::size_t n = 0; n < mine.size(); ++n)
+    if (!(std::abs(grid[n] - mine[n]) <= 1e-9 * std::abs(mine[2])) || grid[0] != mine[0])
+      refuse(fmt::format("its grid is another one ({:.0f} nodes, here {:.0f}) although [aero.grid] is the same: the turbine's file or the rotor's speed differs",
+                         grid[0], mine[0]));
+  const std::vector<double> pose = file.read<double>(pose_name);
+  if (std::abs(pose[9] - start.speed) > 0.01 * std::abs(start.speed))
+    refuse(fmt::format("its rotor turned at {:.4g} rpm, this one turns at {:.4g}", pose[9] / rad_s_per_rpm, start.speed / rad_s_per_rpm));
+
+  const Eigen::Matrix3d now = start.attitude().toRotationMatrix(), saved = Eigen::Map<const Eigen::Matrix3d>(pose.data());
+  const bool turned = now != saved;  // where it is not, not a bit changes
+  const Eigen::Matrix3d by = now * saved.transpose();
+  aero::FlowSolver& solver = rotor.solver();
+  const std::vector<aero::Tile>& tiling = rotor.store().tiling().tiles;
+  std::int64_t cells = 0;
+  std::vector<std::int64_t> first;
+  for (const aero::Tile& tile : tiling) first.push_back(cells), cells += tile.count();
+  const std::int64_t per_cell = file.size("flow/tiles") / cells;  // with its past, if it has one
+  for (int n = 0; n < int(solver.tiles().size()); ++n) {
+    const aero::FlowTile& tile = solver.tiles()[std::size_t(n)];
+    const auto count = std::size_t(tile.box.count()), unknowns = std::size_t(tile.unknowns());
+    std::vector<double> values(solver.saved_size(n), 0.0);
+    const io::Slice<double> slice{first[std::size_t(tile.index)] * per_cell, std::span(values).first(count * unknowns)};
+    file.read<double>("flow/tiles", std::span(&slice, 1));
+    if (turned) turn(values, count, by);
+    solver.load(n, values);
+  }
+  solver.forget();
+  std::vector<aero::RotorLoad> loads;
+  const std::vector<double> saved_loads = file.read<double>(load_name);
+  for (std::size_t n = 0; n + load_numbers <= saved_loads.size(); n += load_numbers) loads.push_back(load_at(saved_loads.data() + n));
+  if (loads.size() != 1 + std::size_t(rotor.grid_blades())) refuse("has loads of another number of blades");
+  if (turned)
+    for (aero::RotorLoad& load : loads) load.force = by * load.force, load.moment = by * load.moment;
+  return {loads[0], {loads.begin() + 1, loads.end()}};
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,39 @@
+// Air that one run leaves for another to start from (start.air; Leble & Barakos 2016, section 4.6): beside tiles and march, a
+// checkpoint of a resolved rotor says on which grid and with which settings it was made, where the rotor was and what load it felt.
+// Written by flow_run.cpp and run.cpp, read by resolved_air.cpp; tested in tests/coupled/machine_test.py.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/aero/resolved_rotor.hpp"
+#include "src/coupling/saved_array.hpp"
+#include "src/coupling/scenario.hpp"
+
+namespace spindrift::coupling {
+
+/// What the user names to start from: a checkpoint, or another file of a run's folder (its scene.toml, say), which stands for the
+/// newest checkpoint of that run. Collective; throws io::InputError.
+io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file);
+
+/// Whereby saved air must be like this scene's: "aero.grid.cells_round = 28" and so on, one a line. Into the checkpoint.
+void write_air_settings(io::CheckpointWriter& file, const Scenario& scenario);
+
+/// What a rotor feels as a whole, and each blade of its grid (blade 1 first).
+struct FeltLoad {
+  aero::RotorLoad rotor;
+  std::vector<aero::RotorLoad> blades;
+};
+FeltLoad felt_by(const aero::ResolvedRotor& rotor);
+
+/// Pose, loads and a measure of the grid of a rotor. `rank`: among those that have the air.
+std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const FeltLoad& felt, int rank);
+
+/// Gives `rotor` the flow of the file, carried along with the blades to `start`, without a past. Returns what was felt,
+/// turned likewise. Throws io::InputError naming the key where the file's air is another one.
+FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor, const aero::RotorPose& start);
+
+}  // namespace spindrift::coupling

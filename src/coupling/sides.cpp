@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/sides.hpp"
+
+#include <array>
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kernels/base/failure.hpp"
+#include "src/coupling/machine.hpp"
+#include "src/io/collective.hpp"
+#include "src/io/machine_failure.hpp"
+#include "src/scene/error.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+using runtime::Packer, runtime::Unpacker;
+
+void put(Packer& to, const std::string& text) { to.put(std::span<const char>(text)); }
+std::string text(Unpacker& from) {
+  const std::vector<char> all = from.many<char>();
+  return {all.begin(), all.end()};
+}
+
+/// Has the ranks of a part `pack` what they answer and all ranks `unpack` it. Where the part fails numerically, or the user's files are
+/// not what they should be, all throw.
+template <class Pack, class Unpack>
+void answer_of(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpack) {
+  enum class End : char { answer, numerical, input };
+  Packer parcel;
+  const auto failed = [&](End end, const std::exception& e) {
+    parcel = Packer();
+    parcel.put_one(end), put(parcel, e.what());
+  };
+  if (parts.has(part)) try {
+      parcel.put_one(End::answer);
+      pack(parcel);
+    } catch (const NumericalFailure& f) {
+      failed(End::numerical, f), put(parcel, f.place);
+      parcel.put_one(f.step), parcel.put_one(f.time_s), parcel.put_one(f.limit);
+    } catch (const io::InputError& e) { failed(End::input, e); }
+  const runtime::Bytes bytes = parts.share(part, parcel.take());
+  Unpacker from(bytes);
+  const End end = from.one<End>();
+  if (end == End::answer) return unpack(from);
+  const std::string what = text(from);
+  if (end == End::input) throw io::InputError(what);
+  const std::string place = text(from);
+  const long step = from.one<long>();
+  const double t = from.one<double>(), limit = from.one<double>();
+  throw NumericalFailure(what, place, step, t, limit);
+}
+
+void put(Packer& to, const aero::RotorLoad& load) {
+  for (const double v : {load.thrust, load.torque, load.power}) to.put_one(v);
+  for (const Eigen::Vector3d& v : {load.force, load.moment})
+    for (int d = 0; d < 3; ++d) to.put_one(v[d]);
+}
+aero::RotorLoad rotor_load(Unpacker& from) {
+  aero::RotorLoad load;
+  for (double* v : {&load.thrust, &load.torque, &load.power}) *v = from.one<double>();
+  for (Eigen::Vector3d* v : {&load.force, &load.moment})
+    for (int d = 0; d < 3; ++d) (*v)[d] = from.one<double>();
+  return load;
+}
+
+class SharedAir final : public AirSide {
+ public:
+  SharedAir(const runtime::Parts& parts, std::unique_ptr<AirSide> own) : parts_(parts), own_(std::move(own)) {
+    answer_of(
+        parts_, air_part,
+        [&](Packer& to) {
+          const std::vector<io::Column> columns = own_->columns();
+          to.put_one(own_->written() != nullptr), to.put_one(columns.size());
+          for (const io::Column& c : columns) put(to, c.name), put(to, c.unit), put(to, c.meaning);
+          for (const std::string& sentence : own_->news()) put(to, sentence);
+        },
+        [&](Unpacker& from) {
+          writes_ = from.one<bool>();
+          for (std::size_t left = from.one<std::size_t>(); left > 0; --left) {
+            std::string name = text(from), unit = text(from);
+            columns_.push_back({std::move(name), std::move(unit), text(from)});
+          }
+          while (!from.done()) news_.push_back(text(from));
+        });
+  }
+
+  aero::RotorLoad begin(double t, const aero::RotorState& now) override {
+    answer_of(
+        parts_, air_part,
+        [&](Packer& to) {
+          put(to, own_->begin(t, now));
+          to.put(std::span<const double>(own_->values()));
+          for (const std::string& sentence : own_->news()) put(to, sentence);
+        },
+        [&](Unpacker& from) {
+          shown_.load = rotor_load(from), shown_.values = from.many<double>();
+          while (!from.done()) news_.push_back(text(from));
+        });
+    return shown_.load;
+  }
+  void aim(double t, double dt, const aero::RotorState& at_end) override {
+    if (own_) own_->aim(t, dt, at_end);
+  }
+  bool record(runtime::Graph& graph) override { return own_ && own_->record(graph); }
+  void forget_tasks() override {
+    if (own_) own_->forget_tasks();
+  }
+  aero::RotorLoad answer() override {
+    answer_of(
+        parts_, air_part,
+        [&](Packer& to) {
+          put(to, own_->answer());
+          to.put(std::span<const double>(own_->values()));
+        },
+        [&](Unpacker& from) { shown_.load = rotor_load(from), shown_.values = from.many<double>(); });
+    return shown_.load;
+  }
+  const aero::RotorLoad* written() const override { return writes_ ? &shown_.load : nullptr; }
+
+  void keep(Note note) override {
+    notes_[note] = shown_;
+    if (own_) own_->keep(note);
+  }
+  void back(Note note) override {
+    shown_ = notes_[note];
+    if (own_) own_->back(note);
+  }
+  std::vector<SavedArray> saved() const override { return own_ ? own_->saved() : std::vector<SavedArray>(); }
+  void restore(const io::CheckpointReader& file) override {
+    if (own_) own_->restore(file);
+  }
+  std::vector<io::Column> columns() const override { return columns_; }
+  std::vector<double> values() const override { return shown_.values; }
+  void open_output(const io::RunDirectory& directory, double resume_s) override {
+    if (own_) own_->open_output(directory, resume_s);
+  }
+  void write_fields(std::int64_t number, double t) override {
+    if (own_) own_->write_fields(number, t);
+  }
+  void write_span() override {
+    if (own_) own_->write_span();
+  }
+  std::vector<std::string> news() override { return std::exchange(news_, {}); }
+
+ private:
+  struct Shown {
+    aero::RotorLoad load;
+    std::vector<double> values;
+  };
+  const runtime::Parts& parts_;
+  std::unique_ptr<AirSide> own_;
+  bool writes_ = false;
+  std::vector<io::Column> columns_;
+  Shown shown_;
+  std::array<Shown, 2> notes_;
+  std::vector<std::string> news_;
+};
+
+class SharedBodies final : public BodySide {
+ public:
+  SharedBodies(const runtime::Parts& parts, std::unique_ptr<BodySide> own) : parts_(parts), own_(std::move(own)) {}
+
+  void aim(const bodies::BodiesState& from, std::int64_t end_tick) override {
+    state_ = from;
+    if (own_) own_->aim(from, end_tick);
+  }
+  bool record(runtime::Graph& graph) override { return own_ && own_->record(graph); }
+  bodies::BodiesState finish() override {
+    answer_of(
+        parts_, sea_part,
+        [&](Packer& to) {
+          const bodies::BodiesState end = own_->finish();
+          std::vector<double> packed(end.packed_size());
+          end.pack(packed);
+          to.put(std::span<const double>(packed)), to.put_one(own_->steps()), to.put_one(own_->own_ns());
+        },
+        [&](Unpacker& from) {
+          state_.unpack(from.many<double>());
+          steps_ = from.one<std::int64_t>(), own_ns_ = from.one<std::int64_t>();
+        });
+    return state_;
+  }
+  bool outdated() const override { return own_ && own_->outdated(); }
+  void forget_tasks() override {
+    if (own_) own_->forget_tasks();
+  }
+  void keep(int note) override {
+    if (own_) own_->keep(note);
+  }
+  void back(int note) override {
+    if (own_) own_->back(note);
+  }
+
+ private:
+  const runtime::Parts& parts_;
+  std::unique_ptr<BodySide> own_;
+  bodies::BodiesState state_;
+};
+
+}  // namespace
+
+std::unique_ptr<AirSide> share_air(const runtime::Parts& parts, std::unique_ptr<AirSide> own) {
+  return std::make_unique<SharedAir>(parts, std::move(own));
+}
+std::unique_ptr<BodySide> share_bodies(const runtime::Parts& parts, std::unique_ptr<BodySide> own) {
+  return std::make_unique<SharedBodies>(parts, std::move(own));
+}
+
+Sides make_sides(Machine& machine, const aero::RotorState& now, const runtime::Parts& parts) {
+  Sides sides;
+  io::together(parts.world().comm, [&] {
+    try {
+      if (parts.has(air_part)) sides.air = make_air(machine, now, parts.mine());
+      if (parts.has(sea_part)) sides.bodies = make_body_side(machine);
+    } catch (const scene::SceneError& e) { throw io::InputError(e.what()); }
+  });
+  if (!parts.split()) return sides;
+  return {share_air(parts, std::move(sides.air)), share_bodies(parts, std::move(sides.bodies))};
+}
+
+}  // namespace spindrift::coupling

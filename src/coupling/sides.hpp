@@ -1,0 +1,31 @@
+// The two sides of a coupled window on the ranks that have them. Placed `shared`, every rank has both; placed `split`, a rank has
+// the air or the bodies with their sea, and what one side answers (the rotor's load; the bodies' state: a handful of numbers) goes to
+// all ranks. The schemes do not know the difference, so results do not depend on it. Used by run.cpp; tested in
+// tests/coupled/machine_test.py and tests/src/coupling/sides_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "runtime/mpi/parts.hpp"
+#include "src/coupling/air_side.hpp"
+#include "src/coupling/body_side.hpp"
+
+namespace spindrift::coupling {
+
+/// Parts of a split run. The sea's ranks come first: rank 0 writes history, where bodies and water are known.
+enum Part : int { sea_part = 0, air_part = 1 };
+
+struct Sides {
+  std::unique_ptr<AirSide> air;
+  std::unique_ptr<BodySide> bodies;
+};
+
+/// `now`: of the rotor at the start; of a machine with particles: after Machine::fill_sea on the sea's ranks. Both machine and parts
+/// outlive them. Collective; a failure is thrown on all ranks alike.
+Sides make_sides(Machine& machine, const aero::RotorState& now, const runtime::Parts& parts);
+
+/// A side that is asked where the part is and answers everywhere. `own` is null where this rank has not the part.
+std::unique_ptr<AirSide> share_air(const runtime::Parts& parts, std::unique_ptr<AirSide> own);
+std::unique_ptr<BodySide> share_bodies(const runtime::Parts& parts, std::unique_ptr<BodySide> own);
+
+}  // namespace spindrift::coupling
