@@ -155,10 +155,12 @@ class Checkpoints {
     const bodies::BodiesState& state = window.ok() ? window.state : window.start;  // a restart begins at a window's start
     std::vector<double> packed(state.packed_size());
     state.pack(packed);
+    const double tick_s = machine_.timeline().tick_s();
     series_.save(state.tick - machine_.first_tick(), [&](io::CheckpointWriter& file) {
       file.set("window", number);
       file.set("steps", window.steps);
       file.set("restarts", std::int64_t(restarts));
+      file.write<double>("time/tick_s", std::span<const double>(&tick_s, 1));
       file.write<double>("bodies/state", packed);
       if (window.coupled) file.write<double>("coupling/history", window.coupled->history());
       if (window.coupled) write(file, parts_, air_part, window.coupled->air().saved());
@@ -178,6 +180,10 @@ class Checkpoints {
   std::int64_t resume(Window& window, int& restarts) {
     const std::optional<io::CheckpointReader> file = series_.newest();
     if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
+    if (file->has("time/tick_s"))
+      if (const double theirs = file->read<double>("time/tick_s").at(0), ours = machine_.timeline().tick_s(); theirs != ours)
+        throw io::InputError(fmt::format("{}: its time is counted in units of {:.6g} s, this scene's in {:.6g} s: a restart keeps time.window_s and "
+                                         "time.step_s (given or not)", file->path().string(), theirs, ours));
     window.state.unpack(file->read<double>("bodies/state"));
     window.steps = file->integer("steps");
     restarts = int(file->integer("restarts")) + 1;
