@@ -185,6 +185,24 @@ class MachineRun(unittest.TestCase):
         self.spindrift(self.from_air("settled/scene.toml"), "again", settings=["time.end_s=0.1"])
         self.assertAlmostEqual(self.rows("again")[0]["rotor.thrust_N"] / self.rows("settled")[-1]["rotor.thrust_N"], 1.0, delta=1e-3)
 
+    def test_a_coupled_run_starts_from_both_fluids_saved_alone(self):
+        # The paper's section 4.6: the rotor alone, the sea alone round a platform that is held.
+        self.spindrift(ALONE, "rotor")
+        held = 'without = "rotor"' + PARTICLES.split("[wind]")[0] + '[joints.hold]\ntype = "fixed"\nbodies = ["earth", "platform"]\npoint_m = [0.0, 0.0, 0.0]\n'
+        self.spindrift(held, "sea", settings=["time.end_s=0.3"])
+        self.assertEqual(self.rows("sea")[-1]["platform.x_m"], 0.0)
+        both = PARTICLES.replace("air_steps = 10", f'air = "{self.path / "rotor/scene.toml"}"').replace(
+            "settle_s = 0.1", f'state = "file"\nfile = "{self.path / "sea/scene.toml"}"')
+        self.spindrift(both, "coupled", settings=["time.end_s=0.2"])
+        first, sea, rotor = self.rows("coupled")[0], self.rows("sea")[-1], self.rows("rotor")[-1]
+        self.assertEqual(first["time_s"], 0.0)
+        self.assertAlmostEqual(first["rotor.thrust_N"] / rotor["rotor.thrust_N"], 1.0, delta=0.01)  # its last row is a pseudo-step before its end
+        for axis in "xyz":
+            self.assertAlmostEqual(first[f"platform.sea.f{axis}_N"], sea[f"platform.sea.f{axis}_N"], delta=1e-2 * abs(sea["platform.sea.fz_N"]))  # of half a substep before
+        self.assertEqual(first["sea.kinetic_energy_J"], sea["sea.kinetic_energy_J"])
+        self.spindrift(both, "split", settings=["time.end_s=0.2", *self.SPLIT], ranks=2)
+        self.assertEqual(self.text("coupled"), self.text("split"))
+
     def test_air_of_another_rotor_is_refused_by_name(self):
         self.spindrift(ALONE, "alone", settings=["time.end_s=1.0"])
         for text, setting, words in ((self.from_air("alone/scene.toml"), "aero.grid.cells_round=32", ("aero.grid.cells_round = 28", "aero.grid.cells_round = 32")),
