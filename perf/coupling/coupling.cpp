@@ -63,7 +63,8 @@ struct Coupled {
   Coupled(scene::Document document, const runtime::Parts& p)
       : parts(p), machine(read_scenario(document)), state(make_start(machine).state) {
     if (parts.has(sea_part)) machine.fill_sea(state.motions, parts.mine());
-    window = std::make_unique<CoupledWindow>(machine, make_sides(machine, machine.rotor()->state(0.0, state.motions), parts), parts.mine().comm);
+    window = std::make_unique<CoupledWindow>(machine, make_sides(machine, machine.rotor()->state(0.0, state.motions), parts),
+                                             parts.mine().comm);
     window->begin(state);
   }
   double advance(int threads) {
@@ -76,7 +77,9 @@ struct Coupled {
   std::unique_ptr<CoupledWindow> window;
 };
 
-scene::Document demo() { return scene::load(SPINDRIFT_SOURCE_DIR "/inputs/leble_barakos/case3_demo.toml", {"start.air_steps=40"}); }
+scene::Document demo() {
+  return scene::load(SPINDRIFT_SOURCE_DIR "/inputs/leble_barakos/case3_demo.toml", {"start.air_steps=40"});
+}
 
 constexpr int rounds = 7;
 
@@ -134,14 +137,17 @@ void measure(perf::Group& group, const runtime::Parts& parts) {
   group.figure("window_split", 1e3 * median(in_split), "ms/window", "2 ranks of 1 thread, exchange and snapshot included");
   const double a = median(air_one), b = median(sea_one), ideal = 2.0 * std::max(a, b) / (a + b);
   group.figure("gain_over_split", median(gain), "-", "time of a split window over that of a shared one, each next to the other");
-  group.at_least("gain_to_ideal", median(gain) / ideal, "-", 0.9, perf::Ceiling::none, "ideal: 2 max(a, b) / (a + b) of one core each");
+  group.at_least("gain_to_ideal", median(gain) / ideal, "-", 0.9, perf::Ceiling::none,
+                 "ideal: 2 max(a, b) / (a + b) of one core each");
   const runtime::RankTrace trace = runtime::trace_of(*two.executor());
   std::fputs((runtime::efficiency_table(runtime::efficiency_of(std::span(&trace, 1))) + "\n").c_str(), stderr);
 
   double wall = 0.0;
   for (const double s : in_shared) wall += s;
-  const double tasks = shared.window->tasks().wall_seconds() - tasks_before, kept = 1e-9 * double(shared.window->totals().keep_ns) - kept_before;
-  group.at_most("exchange_of_window", 100.0 * (wall - tasks - kept) / wall, "%", 0.1, perf::Ceiling::none, "all that is neither tasks nor snapshot");
+  const double tasks = shared.window->tasks().wall_seconds() - tasks_before,
+               kept = 1e-9 * double(shared.window->totals().keep_ns) - kept_before;
+  group.at_most("exchange_of_window", 100.0 * (wall - tasks - kept) / wall, "%", 0.1, perf::Ceiling::none,
+                "all that is neither tasks nor snapshot");
   group.figure("snapshot_of_window", 100.0 * kept / wall, "%", "so that a window that fails is saved as it began");
 }
 

@@ -15,9 +15,9 @@ namespace spindrift::runtime {
 class Parts {
  public:
   /// Every rank works on every part. The world's communicator is to outlive it.
-  Parts(const World& world);  // NOLINT: a world is the simplest placement
-  /// This rank works on `part` of 0, 1, ... `parts` - 1 alone. Collective. Throws std::invalid_argument, on all ranks alike, where a
-  /// part has no rank.
+  Parts(const World& world);
+  /// This rank works on `part` of 0, 1, ... `parts` - 1 alone. Collective. Throws std::invalid_argument, on all ranks alike,
+  /// where a part has no rank.
   Parts(const World& world, int parts, int part);
 
   bool split() const { return !first_rank_.empty(); }

@@ -18,7 +18,8 @@ bool on_wall(const aero::FlowSolver& solver, const aero::TileBoundary& b) {
 
 }  // namespace
 
-AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::GridStore& store, const std::filesystem::path& folder, Choice choice)
+AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::GridStore& store,
+                     const std::filesystem::path& folder, Choice choice)
     : solver_(solver) {
   const aero::Tiling& tiling = store.tiling();
   std::vector<io::GridBlock> blocks;
@@ -26,8 +27,10 @@ AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::
     blocks.push_back({fmt::format("tile_{}", blocks.size()), tile.ni, tile.nj, tile.nk});
   std::vector<io::Field> fields{{"pressure", "Pa"}, {"velocity", "m/s", 3}, {"temperature", "K"}};
   const int carried = solver.tiles().empty() ? 0 : solver.tiles()[0].turbulence;
-  for (int t = 0; t < carried; ++t) fields.push_back({fmt::format("turbulence_{}", t + 1), carried == 1 ? "m2/s" : t == 0 ? "m2/s2" : "1/s"});
-  volume_ = std::make_unique<io::GridFields>(comm, folder, "air", std::move(blocks), std::move(fields), choice.moves, choice.resume_s);
+  for (int t = 0; t < carried; ++t)
+    fields.push_back({fmt::format("turbulence_{}", t + 1), carried == 1 ? "m2/s" : t == 0 ? "m2/s2" : "1/s"});
+  volume_ =
+      std::make_unique<io::GridFields>(comm, folder, "air", std::move(blocks), std::move(fields), choice.moves, choice.resume_s);
   if (!choice.walls) return;
   // A block for each window of a tile on a wall.
   std::vector<io::GridBlock> faces;
@@ -35,13 +38,15 @@ AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::
     first_block_.push_back(int(faces.size()));
     for (const aero::TileBoundary& b : tiling.boundary(tile))
       if (on_wall(solver, b))
-        faces.push_back({fmt::format("{}_{}", tiling.patches[std::size_t(b.patch)], faces.size()), b.high[0] - b.low[0], b.high[1] - b.low[1], 0});
+        faces.push_back({fmt::format("{}_{}", tiling.patches[std::size_t(b.patch)], faces.size()), b.high[0] - b.low[0],
+                         b.high[1] - b.low[1], 0});
   }
   if (faces.empty()) return;
   walls_ = std::make_unique<io::GridFields>(
       comm, folder, "walls", std::move(faces),
-      std::vector<io::Field>{{"pressure", "Pa"}, {"pressure_coefficient", "-"}, {"friction_coefficient", "-", 3}, {"y_plus", "-"}}, choice.moves,
-      choice.resume_s);
+      std::vector<io::Field>{
+          {"pressure", "Pa"}, {"pressure_coefficient", "-"}, {"friction_coefficient", "-", 3}, {"y_plus", "-"}},
+      choice.moves, choice.resume_s);
 }
 
 void AirOutput::write(std::int64_t number, double time_s) {
@@ -104,7 +109,8 @@ void AirOutput::write_walls(std::int64_t number, double time_s) {
       n[d] = aero::at_end(b.where.side) ? extent[d] : 0;
       for (n[along_b] = b.where.low[1]; n[along_b] <= b.where.high[1]; ++n[along_b])
         for (n[along_a] = b.where.low[0]; n[along_a] <= b.where.high[0]; ++n[along_a])
-          for (int c = 0; c < 3; ++c) corners.push_back(t.geometry->node_data.data()[c * nodes.component + nodes.at(n[2], n[1], n[0])]);
+          for (int c = 0; c < 3; ++c)
+            corners.push_back(t.geometry->node_data.data()[c * nodes.component + nodes.at(n[2], n[1], n[0])]);
       const int faces = (b.where.high[0] - b.where.low[0]) * (b.where.high[1] - b.where.low[1]);
       for (int m = 0; m < faces; ++m) {
         const aero::WallPoint& p = points.at(at++);
@@ -126,8 +132,8 @@ void write_span(const runtime::World& world, aero::ResolvedRotor& rotor, const i
   if (world.rank != 0) return;
   std::string text = "blade,radius_m,length_m,chord_m,normal_N_m,tangential_N_m,friction_normal_N_m,friction_tangential_N_m\n";
   for (const aero::SpanLoad& s : loads)
-    text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.17g},{:.17g},{:.17g},{:.17g}\n", s.blade, s.radius, s.length, s.chord, s.load.normal,
-                        s.load.tangential, s.friction.normal, s.friction.tangential);
+    text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.17g},{:.17g},{:.17g},{:.17g}\n", s.blade, s.radius, s.length, s.chord,
+                        s.load.normal, s.load.tangential, s.friction.normal, s.friction.tangential);
   io::write_atomically(directory.path() / "spanwise.csv", text);
 }
 

@@ -1,6 +1,7 @@
-// What the resolved air leaves in a run's folder for people: fields/air.xdmf (pressure, velocity, temperature, turbulence at cell centres),
-// fields/walls.xdmf, spanwise.csv. At the end of a run of the air alone, at chosen times of a coupled one. Called by flow_run.cpp and
-// resolved_air.cpp; tested in tests/coupled/rotor_run_test.py and machine_test.py. SPDX-License-Identifier: Apache-2.0
+// What the resolved air leaves in a run's folder for people: fields/air.xdmf (pressure, velocity, temperature, turbulence at cell
+// centres), fields/walls.xdmf, spanwise.csv. At the end of a run of the air alone, at chosen times of a coupled one. Called by
+// flow_run.cpp and resolved_air.cpp; tested in tests/coupled/rotor_run_test.py and machine_test.py. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <filesystem>
@@ -17,11 +18,12 @@ class AirOutput {
  public:
   struct Choice {
     bool walls = true;
-    bool moves = false;                       ///< the grid, from one output to the next
+    bool moves = false;  ///< the grid, from one output to the next
     double resume_s = io::from_the_start;
   };
   /// The solver is to outlive it. Collective over `comm`.
-  AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::GridStore& store, const std::filesystem::path& folder, Choice choice);
+  AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::GridStore& store, const std::filesystem::path& folder,
+            Choice choice);
   /// The flow as it is. Collective.
   void write(std::int64_t number, double time_s);
 

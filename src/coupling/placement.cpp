@@ -77,12 +77,14 @@ Started agree(const runtime::World& world, const std::function<Started()>& read)
     if (!failures[std::size_t(r)].empty()) failing.push_back(r);
   if (failure) std::rethrow_exception(failure);
   if (!failing.empty())
-    throw io::InputError(fmt::format("{} cannot read what this one can: {}", named(failing), failures[std::size_t(failing[0])].substr(1)));
+    throw io::InputError(
+        fmt::format("{} cannot read what this one can: {}", named(failing), failures[std::size_t(failing[0])].substr(1)));
   std::vector<int> said, silent;
   const std::vector<std::string> fluids = from_all(world, mine.fluid);
   for (int r = 0; r < world.size; ++r) (fluids[std::size_t(r)].empty() ? silent : said).push_back(r);
   if (!said.empty() && !silent.empty())
-    throw io::InputError(fmt::format("{} were started with --fluid, {} without: give it to all program sections or to none", named(said), named(silent)));
+    throw io::InputError(fmt::format("{} were started with --fluid, {} without: give it to all program sections or to none",
+                                     named(said), named(silent)));
   require_same(from_all(world, mine.scene), "scenes");
   require_same(from_all(world, mine.rest), "options");
   return mine;
@@ -98,16 +100,19 @@ runtime::Parts place(const Scenario& s, const runtime::World& world, const std::
     const std::vector<std::string> fluids = from_all(world, fluid);
     const auto air = std::count(fluids.begin(), fluids.end(), "air");
     if (air == 0 || air == world.size)
-      throw io::InputError(fmt::format("all {} ranks were started with --fluid {}: the other fluid needs a program section too", world.size, fluid));
+      throw io::InputError(fmt::format("all {} ranks were started with --fluid {}: the other fluid needs a program section too",
+                                       world.size, fluid));
     if (s.coupling.placement == Placing::split && s.coupling.air_ranks != air)
-      refuse("coupling.air_ranks", std::to_string(s.coupling.air_ranks), fmt::format("is not what was started: {} ranks with --fluid air", air));
+      refuse("coupling.air_ranks", std::to_string(s.coupling.air_ranks),
+             fmt::format("is not what was started: {} ranks with --fluid air", air));
     return runtime::Parts(world, 2, fluid == "air" ? air_part : sea_part);
   }
   if (!coupled || s.coupling.placement == Placing::shared) return runtime::Parts(world);
   const int air = s.coupling.air_ranks;
   if (world.size < air + 1)
     refuse("coupling.air_ranks", std::to_string(air),
-           fmt::format("leaves no rank for the sea: the run has {}; start it with mpirun -n {} or more, or set coupling.placement = \"shared\"",
+           fmt::format("leaves no rank for the sea: the run has {}; start it with mpirun -n {} or more, or set "
+                       "coupling.placement = \"shared\"",
                        world.size == 1 ? "one rank" : fmt::format("{} ranks", world.size), air + 1));
   return runtime::Parts(world, 2, world.rank < world.size - air ? sea_part : air_part);
 }

@@ -20,8 +20,8 @@ struct Started {
   std::string rest;   ///< the other options that must be the same, in words
 };
 
-/// Runs `read` on every rank and compares what ranks were started with. Throws on all ranks alike, naming ranks: io::InputError where
-/// they differ or where `read` failed on others; what it threw on this one. Collective.
+/// Runs `read` on every rank and compares what ranks were started with. Throws on all ranks alike, naming ranks: io::InputError
+/// where they differ or where `read` failed on others; what it threw on this one. Collective.
 Started agree(const runtime::World& world, const std::function<Started()>& read);
 
 /// Throws scene::SceneError where the ranks of the run are not enough for what the scene asks. Collective.

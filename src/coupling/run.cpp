@@ -363,16 +363,17 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   runtime::Executor executor(record_window(machine, window, parts), {.threads = 1, .records = records});
   io::Progress progress(timeline.window_end_s(first), timeline.window_end_s(last), io::progress_style(world.rank, settings.quiet));
   machine.reset_clocks();
-  const std::int64_t waited_before = parts.waited_ns();
-  window.core_seconds[3] = runtime::summed(world.comm, {1e-9 * double(waited_before)})[0];
+  window.core_seconds[3] = runtime::summed(world.comm, {1e-9 * double(parts.waited_ns())})[0];
 
   double window_seconds = 0.0;
-  std::int64_t number = first;
+  std::int64_t number = first, waited_ns = 0;
   while (number < last && summary.exit_code == 0) {
     const auto window_begin = std::chrono::steady_clock::now();
+    const std::int64_t waited_before = parts.waited_ns();
     window.start = window.state;
     executor.run();
     window_seconds += seconds_since(window_begin);
+    waited_ns += parts.waited_ns() - waited_before;
     if (!window.ok()) {
       if (window.failure.empty()) window.failure = machine.system().failure(window.trouble, window.state, timeline.tick_s()).what();
       summary.exit_code = 3;
@@ -421,7 +422,7 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   const WindowTasks* tasks = window.shared_tasks();
   const runtime::Executor& traced = tasks && tasks->executor() ? *tasks->executor() : executor;
   finish_trace(traced, directory, parts, settings.trace, summary);
-  if (parts.split()) tell_sides(window, parts, parts.waited_ns() - waited_before, window_seconds, summary);
+  if (parts.split()) tell_sides(window, parts, waited_ns, window_seconds, summary);
   summary.ranks = world.size;
   summary.threads = traced.threads();
   summary.columns = history.columns();

@@ -28,7 +28,8 @@ void add_lines(std::string& lines, const scene::SectionBase& section, const std:
                std::initializer_list<std::string_view> keys = {}) {
   for (const scene::Parameter& p : section.parameters()) {
     if (keys.size() > 0 && std::find(keys.begin(), keys.end(), p.key) == keys.end()) continue;
-    if (const std::string value = scene::printed(p, options); !value.empty()) lines += fmt::format("{}.{} = {}\n", heading, p.key, value);
+    if (const std::string value = scene::printed(p, options); !value.empty())
+      lines += fmt::format("{}.{} = {}\n", heading, p.key, value);
   }
 }
 
@@ -40,7 +41,8 @@ std::string settings_of(const Scenario& s) {
   add_lines(lines, environment_section(), "environment", &s.environment, {"air_density_kg_m3"});
   add_lines(lines, aero::rotor_grid_section(), "aero.grid", &*s.aero.grid);
   add_lines(lines, aero::flow_section(), "aero.flow", &*s.aero.flow,
-            {"blades", "temperature_K", "viscosity_Pa_s", "viscous", "turbulence", "flux", "limiter", "upwinding", "first_order_turbulence"});
+            {"blades", "temperature_K", "viscosity_Pa_s", "viscous", "turbulence", "flux", "limiter", "upwinding",
+             "first_order_turbulence"});
   return lines;
 }
 
@@ -62,7 +64,8 @@ std::vector<double> measure(const aero::MultiBlockGrid& grid) {
 
 constexpr std::size_t load_numbers = 9;
 void append(std::vector<double>& to, const aero::RotorLoad& l) {
-  to.insert(to.end(), {l.thrust, l.torque, l.power, l.force.x(), l.force.y(), l.force.z(), l.moment.x(), l.moment.y(), l.moment.z()});
+  to.insert(to.end(),
+            {l.thrust, l.torque, l.power, l.force.x(), l.force.y(), l.force.z(), l.moment.x(), l.moment.y(), l.moment.z()});
 }
 aero::RotorLoad load_at(const double* l) {
   return {.thrust = l[0], .torque = l[1], .power = l[2], .force = {l[3], l[4], l[5]}, .moment = {l[6], l[7], l[8]}};
@@ -103,28 +106,36 @@ std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const Fel
   append(loads, felt.rotor);
   for (const aero::RotorLoad& blade : felt.blades) append(loads, blade);
   std::vector<SavedArray> arrays;
-  for (auto& [name, values] : {std::pair{pose_name, pose}, std::pair{load_name, loads}, std::pair{grid_name, measure(rotor.grid())}}) {
+  for (auto& [name, values] :
+       {std::pair{pose_name, pose}, std::pair{load_name, loads}, std::pair{grid_name, measure(rotor.grid())}}) {
     arrays.push_back({name, std::int64_t(values.size()), {}});
     if (rank == 0) arrays.back().pieces.push_back({0, values});
   }
   return arrays;
 }
 
-FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor, const aero::RotorPose& start) {
-  const auto refuse = [&](const std::string& why) { throw io::InputError(fmt::format("start.air: {}: {}", file.path().string(), why)); };
+FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
+                    const aero::RotorPose& start) {
+  const auto refuse = [&](const std::string& why) {
+    throw io::InputError(fmt::format("start.air: {}: {}", file.path().string(), why));
+  };
   if (!file.has(settings_name) || !file.has(pose_name)) refuse("has no air of a resolved rotor");
   const std::vector<std::byte> bytes = file.read<std::byte>(settings_name);
   const std::string theirs(reinterpret_cast<const char*>(bytes.data()), bytes.size()), ours = settings_of(scenario);
   if (const std::string there = missing(theirs, ours), here = missing(ours, theirs); !there.empty() || !here.empty())
-    refuse(fmt::format("its air was made with {}, this scene has {}", there.empty() ? "the default" : there, here.empty() ? "the default" : here));
+    refuse(fmt::format("its air was made with {}, this scene has {}", there.empty() ? "the default" : there,
+                       here.empty() ? "the default" : here));
   const std::vector<double> grid = file.read<double>(grid_name), mine = measure(rotor.grid());
   for (std::size_t n = 0; n < mine.size(); ++n)
     if (!(std::abs(grid[n] - mine[n]) <= 1e-9 * std::abs(mine[2])) || grid[0] != mine[0])
-      refuse(fmt::format("its grid is another one ({:.0f} nodes, here {:.0f}) although [aero.grid] is the same: the turbine's file or the rotor's speed differs",
-                         grid[0], mine[0]));
+      refuse(
+          fmt::format("its grid is another one ({:.0f} nodes, here {:.0f}) although [aero.grid] is the same: the turbine's file "
+                      "or the rotor's speed differs",
+                      grid[0], mine[0]));
   const std::vector<double> pose = file.read<double>(pose_name);
   if (std::abs(pose[9] - start.speed) > 0.01 * std::abs(start.speed))
-    refuse(fmt::format("its rotor turned at {:.4g} rpm, this one turns at {:.4g}", pose[9] / rad_s_per_rpm, start.speed / rad_s_per_rpm));
+    refuse(fmt::format("its rotor turned at {:.4g} rpm, this one turns at {:.4g}", pose[9] / rad_s_per_rpm,
+                       start.speed / rad_s_per_rpm));
 
   const Eigen::Matrix3d now = start.attitude().toRotationMatrix(), saved = Eigen::Map<const Eigen::Matrix3d>(pose.data());
   const bool turned = now != saved;  // where it is not, not a bit changes
@@ -147,7 +158,8 @@ FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, 
   solver.forget();
   std::vector<aero::RotorLoad> loads;
   const std::vector<double> saved_loads = file.read<double>(load_name);
-  for (std::size_t n = 0; n + load_numbers <= saved_loads.size(); n += load_numbers) loads.push_back(load_at(saved_loads.data() + n));
+  for (std::size_t n = 0; n + load_numbers <= saved_loads.size(); n += load_numbers)
+    loads.push_back(load_at(saved_loads.data() + n));
   if (loads.size() != 1 + std::size_t(rotor.grid_blades())) refuse("has loads of another number of blades");
   if (turned)
     for (aero::RotorLoad& load : loads) load.force = by * load.force, load.moment = by * load.moment;

@@ -1,6 +1,6 @@
 // Air that one run leaves for another to start from (start.air; Leble & Barakos 2016, section 4.6): beside tiles and march, a
-// checkpoint of a resolved rotor says on which grid and with which settings it was made, where the rotor was and what load it felt.
-// Written by flow_run.cpp and run.cpp, read by resolved_air.cpp; tested in tests/coupled/machine_test.py.
+// checkpoint of a resolved rotor says on which grid and with which settings it was made, where the rotor was and what load it
+// felt. Written by flow_run.cpp and run.cpp, read by resolved_air.cpp; tested in tests/coupled/machine_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,6 +34,7 @@ std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const Fel
 
 /// Gives `rotor` the flow of the file, carried along with the blades to `start`, without a past. Returns what was felt,
 /// turned likewise. Throws io::InputError naming the key where the file's air is another one.
-FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor, const aero::RotorPose& start);
+FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
+                    const aero::RotorPose& start);
 
 }  // namespace spindrift::coupling

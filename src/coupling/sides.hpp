@@ -1,6 +1,6 @@
 // The two sides of a coupled window on the ranks that have them. Placed `shared`, every rank has both; placed `split`, a rank has
-// the air or the bodies with their sea, and what one side answers (the rotor's load; the bodies' state: a handful of numbers) goes to
-// all ranks. The schemes do not know the difference, so results do not depend on it. Used by run.cpp; tested in
+// the air or the bodies with their sea, and what one side answers (the rotor's load; the bodies' state: a handful of numbers)
+// goes to all ranks. The schemes do not know the difference, so results do not depend on it. Used by run.cpp; tested in
 // tests/coupled/machine_test.py and tests/src/coupling/sides_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,8 +20,8 @@ struct Sides {
   std::unique_ptr<BodySide> bodies;
 };
 
-/// `now`: of the rotor at the start; of a machine with particles: after Machine::fill_sea on the sea's ranks. Both machine and parts
-/// outlive them. Collective; a failure is thrown on all ranks alike.
+/// `now`: of the rotor at the start; of a machine with particles: after Machine::fill_sea on the sea's ranks. Both machine and
+/// parts outlive them. Collective; a failure is thrown on all ranks alike.
 Sides make_sides(Machine& machine, const aero::RotorState& now, const runtime::Parts& parts);
 
 /// A side that is asked where the part is and answers everywhere. `own` is null where this rank has not the part.

@@ -1,5 +1,5 @@
 """The coupled machine as a user runs it: a blade-resolved rotor on a floating platform, with an engineering sea and with one of particles.
-Same bits by threads, ranks and restarts; what is refused. Usage: machine_test.py SPINDRIFT"""
+Same bits by threads, ranks, placements and restarts; starts from saved fluids; what is refused. Usage: machine_test.py SPINDRIFT [CLASS...]"""
 import csv
 import json
 import os
@@ -74,7 +74,9 @@ settle_s = 0.1
 """ % CASES + AIR
 
 
-class MachineRun(unittest.TestCase):
+class Machine(unittest.TestCase):
+    SPLIT = ["coupling.placement='split'"]
+
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory(prefix="spindrift_machine_")
         self.path = pathlib.Path(self.folder.name)
@@ -120,6 +122,8 @@ class MachineRun(unittest.TestCase):
         self.spindrift(text, "parts", "--restart", settings=settings, threads=1)
         self.assertEqual(self.text("whole"), self.text("parts"))
 
+
+class MachineRun(Machine):
     def test_an_engineering_sea_gives_the_same_bits_however_it_is_run_and_loads_meet_the_bodies(self):
         self.check_bits(ENGINEERING, [], 0.3)
         rows = self.rows("whole")
@@ -164,6 +168,104 @@ class MachineRun(unittest.TestCase):
             self.assertGreater(abs(first["platform.pitch_deg"]), 0.1)
             self.assertGreater(last["rotor.thrust_N"], 1e6)
 
+    def test_the_air_leaves_fields_at_chosen_times_and_loads_by_blade_and_along_the_span(self):
+        settings = ["time.end_s=0.4", "output.air_interval_s=0.2"]
+        self.spindrift(ENGINEERING, "out", settings=settings)
+        self.spindrift(ENGINEERING, "split", settings=[*settings, *self.SPLIT], ranks=2)
+        for name in ("out", "split"):
+            for kind in ("air", "walls"):
+                self.assertEqual(len(list((self.path / name / "fields").glob(f"{kind}_*.h5"))), 2)
+                self.assertTrue((self.path / name / f"fields/{kind}.xdmf").exists())
+        self.assertEqual((self.path / "out/spanwise.csv").read_text(), (self.path / "split/spanwise.csv").read_text())
+        last = self.rows("out")[-1]
+        self.assertAlmostEqual(3.0 * last["rotor.blade_1.thrust_N"] / last["rotor.thrust_N"], 1.0, delta=1e-9)
+        with open(self.path / "out/spanwise.csv") as file:
+            span = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in span) / last["rotor.thrust_N"], 1.0, delta=0.02)
+        self.ended([PROGRAM, "report", self.path / "out"], 1, 0)
+        report = (self.path / "out/report.html").read_text()
+        for picture in ("Pressure on a blade", "Wind through the rotor"):
+            self.assertIn(picture, report)
+
+    def test_each_window_logs_how_it_went(self):
+        settings = ["coupling.scheme='relaxation'", "coupling.relaxation=0.9", "coupling.tolerance=1e-9", "coupling.max_evaluations=3", "coupling.max_cuts=1",
+                    "time.end_s=0.1"]
+        self.spindrift(ENGINEERING, "stalls", settings=settings, code=3)
+        log = (self.path / "stalls/log.txt").read_text()
+        for word in ("evaluations", "residual", "columns", "1 cuts", "2 retries", "ended by evaluation limit", "core-s: air"):
+            self.assertIn(word, log)
+
+    def test_a_wall_limit_ends_the_run_with_5_and_it_goes_on_from_there(self):
+        self.spindrift(ENGINEERING, "limited", settings=["time.end_s=600.0", "runtime.wall_limit_s=1.0"], code=5)
+        summary = json.loads((self.path / "limited/summary.json").read_text())
+        self.assertIn("wall", summary["exit_reason"])
+        done = len(self.rows("limited"))
+        self.assertGreater(done, 1)
+        self.spindrift(ENGINEERING, "limited", "--restart", "--until", 0.1 * (done + 1), settings=["time.end_s=600.0"])
+        self.assertEqual(len(self.rows("limited")), done + 2)
+
+    def test_what_cannot_be_is_refused(self):
+        for setting, words in (("aero.flow.time='steady'", "where bodies carry the rotor"), ("coupling.scheme='monolithic'", "answers once per window"),
+                               ("wind.direction_deg=10", "needs the wind along the rotor axis")):
+            self.assertIn(words, self.spindrift(ENGINEERING, "refused", settings=[setting], code=2))
+
+
+class Placement(Machine):
+    def check_split(self, text, settings, until):
+        self.spindrift(text, "shared", settings=settings)
+        self.spindrift(text, "split", settings=[*settings, *self.SPLIT], ranks=2, threads=2)
+        self.assertEqual(self.text("shared"), self.text("split"))
+        summary = json.loads((self.path / "split/summary.json").read_text())
+        self.assertEqual({"air waiting", "sea waiting", "air busy", "sea busy"} - {e["name"] for e in summary["efficiency"]}, set())
+        # Two ranks of the air, then on from their checkpoint with everything shared, and the other way round.
+        two = [*settings, *self.SPLIT, "coupling.air_ranks=2"]
+        self.spindrift(text, "on", "--until", until, settings=two, ranks=3)
+        self.spindrift(text, "on", "--restart", settings=settings, threads=2)
+        self.assertEqual(self.text("shared"), self.text("on"))
+        self.spindrift(text, "back", "--until", until, settings=settings)
+        self.spindrift(text, "back", "--restart", settings=[*settings, *self.SPLIT], ranks=3)
+        self.assertEqual(self.text("shared"), self.text("back"))
+
+    def test_split_ranks_give_the_same_bits_as_shared_ones(self):
+        self.check_split(PARTICLES, [], 0.2)
+
+    def test_split_ranks_give_the_same_bits_with_an_engineering_sea_and_a_strong_scheme(self):
+        self.check_split(ENGINEERING, ["coupling.scheme='aitken'", "coupling.tolerance=1e-4", "time.end_s=0.4"], 0.2)
+
+    def test_program_sections_give_the_same_bits_and_must_agree(self):
+        end = ["--set", "time.end_s=0.2"]
+        self.spindrift(PARTICLES, "shared", *end)
+        self.in_sections("sections", (1, ["--fluid", "air", *end]), (2, ["--fluid", "sea", *end]))
+        self.assertEqual(self.text("shared"), self.text("sections"))
+        for sections, words in (
+            (((1, ["--fluid", "air", *end]), (2, ["--fluid", "sea"])), ("rank 0 and ranks 1 to 2", "different scenes", "end_s")),
+            (((1, ["--fluid", "air", *end]), (1, ["--fluid", "sea", "--until", 0.1, *end])), ("rank 0 and rank 1", "different options", "--until")),
+            (((1, ["--fluid", "air", *end]), (1, end)), ("rank 0", "rank 1", "--fluid")),
+            (((1, ["--fluid", "air", *end]), (1, ["--fluid", "air", *end])), ("the other fluid needs a program section",)),
+            (((1, ["--fluid", "air", *end]), (1, ["--fluid", "sea", "--set", "sea.tank=3"])), ("cannot read", "sea.tank")),
+            (((2, ["--fluid", "air", *end, "--set", "coupling.placement='split'"]), (1, ["--fluid", "sea", *end, "--set", "coupling.placement='split'"])),
+             ("coupling.air_ranks", "2 ranks with --fluid air"))):
+            said = self.in_sections("refused", *sections, code=2)
+            for word in words:
+                self.assertIn(word, said)
+
+    def test_a_failure_of_one_fluid_stops_both_with_the_reason_and_the_last_good_state(self):
+        # The largest step of the particles at rest, which they outgrow as they move. (The air's: tests/src/coupling/sides_test.cpp.)
+        said = self.spindrift(PARTICLES, "failed", settings=["time.step_s=0.008333333333333333", *self.SPLIT], ranks=2, code=3)
+        self.assertIn("sea: the step of", said)
+        self.assertEqual(len(list((self.path / "failed/checkpoints").iterdir())), 1)
+        summary = json.loads((self.path / "failed/summary.json").read_text())
+        self.assertEqual(summary["exit_code"], 3)
+        self.assertIn("sea: the step of", summary["exit_reason"])
+        said = self.spindrift(PARTICLES, "failed", "--restart", settings=self.SPLIT, ranks=2, code=2)  # with another step
+        self.assertIn("a restart keeps time.window_s and time.step_s", said)
+
+    def test_too_few_ranks_are_refused(self):
+        for setting, ranks in (("coupling.air_ranks=1", 1), ("coupling.air_ranks=2", 2)):
+            self.assertIn("leaves no rank for the sea", self.spindrift(ENGINEERING, "refused", settings=[*self.SPLIT, setting], ranks=ranks, code=2))
+
+
+class Saved(Machine):
     def from_air(self, name):
         return ENGINEERING.replace("air_steps = 10", f'air = "{self.path / name}"')
 
@@ -214,100 +316,6 @@ class MachineRun(unittest.TestCase):
                 self.assertIn(word, said)
         said = self.spindrift(ENGINEERING, "refused", "--overwrite", settings=[f"start.air='{self.path / 'alone/scene.toml'}'"], code=2)
         self.assertIn("start.air", said)
-
-    def test_the_air_leaves_fields_at_chosen_times_and_loads_by_blade_and_along_the_span(self):
-        settings = ["time.end_s=0.4", "output.air_interval_s=0.2"]
-        self.spindrift(ENGINEERING, "out", settings=settings)
-        self.spindrift(ENGINEERING, "split", settings=[*settings, *self.SPLIT], ranks=2)
-        for name in ("out", "split"):
-            for kind in ("air", "walls"):
-                self.assertEqual(len(list((self.path / name / "fields").glob(f"{kind}_*.h5"))), 2)
-                self.assertTrue((self.path / name / f"fields/{kind}.xdmf").exists())
-        self.assertEqual((self.path / "out/spanwise.csv").read_text(), (self.path / "split/spanwise.csv").read_text())
-        last = self.rows("out")[-1]
-        self.assertAlmostEqual(3.0 * last["rotor.blade_1.thrust_N"] / last["rotor.thrust_N"], 1.0, delta=1e-9)
-        with open(self.path / "out/spanwise.csv") as file:
-            span = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
-        self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in span) / last["rotor.thrust_N"], 1.0, delta=0.02)
-        self.ended([PROGRAM, "report", self.path / "out"], 1, 0)
-        report = (self.path / "out/report.html").read_text()
-        for picture in ("Pressure on a blade", "Wind through the rotor"):
-            self.assertIn(picture, report)
-
-    def test_each_window_logs_how_it_went(self):
-        settings = ["coupling.scheme='relaxation'", "coupling.relaxation=0.9", "coupling.tolerance=1e-9", "coupling.max_evaluations=3", "coupling.max_cuts=1",
-                    "time.end_s=0.1"]
-        self.spindrift(ENGINEERING, "stalls", settings=settings, code=3)
-        log = (self.path / "stalls/log.txt").read_text()
-        for word in ("evaluations", "residual", "columns", "1 cuts", "2 retries", "ended by evaluation limit", "core-s: air"):
-            self.assertIn(word, log)
-
-    def test_a_wall_limit_ends_the_run_with_5_and_it_goes_on_from_there(self):
-        self.spindrift(ENGINEERING, "limited", settings=["time.end_s=600.0", "runtime.wall_limit_s=1.0"], code=5)
-        summary = json.loads((self.path / "limited/summary.json").read_text())
-        self.assertIn("wall", summary["exit_reason"])
-        done = len(self.rows("limited"))
-        self.assertGreater(done, 1)
-        self.spindrift(ENGINEERING, "limited", "--restart", "--until", 0.1 * (done + 1), settings=["time.end_s=600.0"])
-        self.assertEqual(len(self.rows("limited")), done + 2)
-
-    SPLIT = ["coupling.placement='split'"]
-
-    def check_split(self, text, settings, until):
-        self.spindrift(text, "shared", settings=settings)
-        self.spindrift(text, "split", settings=[*settings, *self.SPLIT], ranks=2, threads=2)
-        self.assertEqual(self.text("shared"), self.text("split"))
-        summary = json.loads((self.path / "split/summary.json").read_text())
-        self.assertEqual({"air waiting", "sea waiting", "air busy", "sea busy"} - {e["name"] for e in summary["efficiency"]}, set())
-        # Two ranks of the air, then on from their checkpoint with everything shared, and the other way round.
-        two = [*settings, *self.SPLIT, "coupling.air_ranks=2"]
-        self.spindrift(text, "on", "--until", until, settings=two, ranks=3)
-        self.spindrift(text, "on", "--restart", settings=settings, threads=2)
-        self.assertEqual(self.text("shared"), self.text("on"))
-        self.spindrift(text, "back", "--until", until, settings=settings)
-        self.spindrift(text, "back", "--restart", settings=[*settings, *self.SPLIT], ranks=3)
-        self.assertEqual(self.text("shared"), self.text("back"))
-
-    def test_split_ranks_give_the_same_bits_as_shared_ones(self):
-        self.check_split(PARTICLES, [], 0.2)
-
-    def test_split_ranks_give_the_same_bits_with_an_engineering_sea_and_a_strong_scheme(self):
-        self.check_split(ENGINEERING, ["coupling.scheme='aitken'", "coupling.tolerance=1e-4", "time.end_s=0.4"], 0.2)
-
-    def test_program_sections_give_the_same_bits_and_must_agree(self):
-        end = ["--set", "time.end_s=0.2"]
-        self.spindrift(PARTICLES, "shared", *end)
-        self.in_sections("sections", (1, ["--fluid", "air", *end]), (2, ["--fluid", "sea", *end]))
-        self.assertEqual(self.text("shared"), self.text("sections"))
-        for sections, words in (
-            (((1, ["--fluid", "air", *end]), (2, ["--fluid", "sea"])), ("rank 0 and ranks 1 to 2", "different scenes", "end_s")),
-            (((1, ["--fluid", "air", *end]), (1, ["--fluid", "sea", "--until", 0.1, *end])), ("rank 0 and rank 1", "different options", "--until")),
-            (((1, ["--fluid", "air", *end]), (1, end)), ("rank 0", "rank 1", "--fluid")),
-            (((1, ["--fluid", "air", *end]), (1, ["--fluid", "air", *end])), ("the other fluid needs a program section",)),
-            (((1, ["--fluid", "air", *end]), (1, ["--fluid", "sea", "--set", "sea.tank=3"])), ("cannot read", "sea.tank")),
-            (((2, ["--fluid", "air", *end, "--set", "coupling.placement='split'"]), (1, ["--fluid", "sea", *end, "--set", "coupling.placement='split'"])),
-             ("coupling.air_ranks", "2 ranks with --fluid air"))):
-            said = self.in_sections("refused", *sections, code=2)
-            for word in words:
-                self.assertIn(word, said)
-
-    def test_a_failure_of_one_fluid_stops_both_with_the_reason_and_the_last_good_state(self):
-        # The largest step of the particles at rest, which they outgrow as they move. (The air's: tests/src/coupling/sides_test.cpp.)
-        said = self.spindrift(PARTICLES, "failed", settings=["time.step_s=0.008333333333333333", *self.SPLIT], ranks=2, code=3)
-        self.assertIn("sea: the step of", said)
-        self.assertEqual(len(list((self.path / "failed/checkpoints").iterdir())), 1)
-        summary = json.loads((self.path / "failed/summary.json").read_text())
-        self.assertEqual(summary["exit_code"], 3)
-        self.assertIn("sea: the step of", summary["exit_reason"])
-        said = self.spindrift(PARTICLES, "failed", "--restart", settings=self.SPLIT, ranks=2, code=2)  # with another step
-        self.assertIn("a restart keeps time.window_s and time.step_s", said)
-
-    def test_what_cannot_be_is_refused(self):
-        for setting, ranks in (("coupling.air_ranks=1", 1), ("coupling.air_ranks=2", 2)):
-            self.assertIn("leaves no rank for the sea", self.spindrift(ENGINEERING, "refused", settings=[*self.SPLIT, setting], ranks=ranks, code=2))
-        for setting, words in (("aero.flow.time='steady'", "where bodies carry the rotor"), ("coupling.scheme='monolithic'", "answers once per window"),
-                               ("wind.direction_deg=10", "needs the wind along the rotor axis")):
-            self.assertIn(words, self.spindrift(ENGINEERING, "refused", settings=[setting], code=2))
 
 
 if __name__ == "__main__":
