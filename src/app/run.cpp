@@ -42,8 +42,8 @@ void print_summary(const io::Summary& summary, const io::RunDirectory& directory
 
 }  // namespace
 
-ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  scene::Document document = scene::load(path, overrides);
+ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
+  scene::Document document = scene::load(path, overrides, overrider);
   ReadyScene ready;
   ready.machine = std::make_unique<coupling::Machine>(coupling::read_scenario(document));
   ready.start = make_start(*ready.machine);
@@ -74,14 +74,14 @@ SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& e
 }
 }  // namespace
 
-SceneRun run_scene(const RunArguments& arguments, const runtime::World& world) {
+SceneRun run_scene(const RunArguments& arguments, const runtime::World& world, const scene::Source& overrider) {
   io::start_log(world.rank, arguments.quiet);
   {
-    scene::Document document = scene::load(arguments.scene, arguments.overrides);
+    scene::Document document = scene::load(arguments.scene, arguments.overrides, overrider);
     if (const coupling::Scenario scenario = coupling::read_scenario(document); scenario.has_flow())
       return run_flow_scene(scenario, document.echo(), arguments, world);
   }
-  const ReadyScene scene = read_scene(arguments.scene, arguments.overrides);
+  const ReadyScene scene = read_scene(arguments.scene, arguments.overrides, overrider);
   const io::RunDirectory directory = open_directory(arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
   directory.write_scene(world.comm, scene.echo);

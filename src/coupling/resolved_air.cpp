@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,6 +17,7 @@
 #include "src/coupling/air_file.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/machine.hpp"
+#include "src/io/progress.hpp"
 
 namespace spindrift::coupling {
 
@@ -54,60 +58,68 @@ class ResolvedAir final : public AirSide {
         world_(world),
         first_(upright(machine, now)),
         setup_(setup_at(machine, first_)),
-        rotor_(setup_, world.size, world.rank),
-        file_(rotor_.solver(), rotor_.store()),
-        state_(now) {
-    rotor_.solver().start_uniform();
-    aero::RotorState before = now;
-    before.hub -= setup_.dt * now.hub_velocity, before.azimuth -= setup_.dt * now.speed;
-    rotor_.place(pose(before), pose(now));
-    runtime::Graph geometry(world.comm);
-    rotor_.solver().record_geometry(geometry);
-    runtime::Executor(std::move(geometry), {.threads = 1}).run();
-    spdlog::info("air: {} cells in {} tiles, {:.0f} MB", rotor_.solver().cells(), rotor_.store().tiling().size(),
-                 1e-6 * double(rotor_.solver().bytes() + rotor_.store().bytes()) * world.size);
-  }
+        state_(now) {}
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     aim(t, 0.0, now);
-    if (const int steps = machine_.scenario().start.air_steps; steps > 0) settle(steps);
+    if (rotor_) return load_;  // restored
+    const int steps = machine_.scenario().start.air_steps;
+    const TileStates settled = steps > 0 ? settle(steps) : TileStates();
+    make();
+    for (std::size_t n = 0; n < settled.size(); ++n) {
+      std::vector<double> values(rotor_->solver().saved_size(int(n)));  // the past stays empty: the first step is of first order
+      std::ranges::copy(settled[n], values.begin());
+      rotor_->solver().load(int(n), values);
+    }
     return load_ = ramped(load_);
   }
 
   void aim(double t, double dt, const aero::RotorState& at_end) override {
     t_ = t, state_ = at_end;
     if (dt == 0.0) return;
-    rotor_.solver().next_time_step(dt);
-    rotor_.move_to(pose(at_end));
-    rotor_.solver().clear_rows();
+    rotor_->solver().next_time_step(dt);
+    rotor_->move_to(pose(at_end));
+    rotor_->solver().clear_rows();
   }
 
   bool record(runtime::Graph& graph) override {
-    rotor_.solver().record(graph);
+    rotor_->solver().record(graph);
     return true;
   }
 
-  void forget_tasks() override { rotor_.solver().forget_graphs(); }
+  void forget_tasks() override { rotor_->solver().forget_graphs(); }
 
   aero::RotorLoad answer() override {
-    const aero::March& march = rotor_.solver().march();
+    const aero::March& march = rotor_->solver().march();
     if (march.verdict() == aero::Verdict::failed)
       throw NumericalFailure(
           fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
-                      march.steps(), march.cfl(), rotor_.solver().trouble(), setup_.flow.cfl_max),
-          "aero/rotor", long(rotor_.solver().time_steps()), t_);
-    return load_ = ramped(leant(rotor_.load()));
+                      march.steps(), march.cfl(), rotor_->solver().trouble(), setup_.flow.cfl_max),
+          "aero/rotor", long(rotor_->solver().time_steps()), t_);
+    return load_ = ramped(leant(rotor_->load()));
   }
   const aero::RotorLoad* written() const override { return &load_; }
 
-  void keep(Note note) override { notes_[note].emplace(rotor_.snapshot(), load_); }
+  void keep(Note note) override { notes_[note].emplace(rotor_->snapshot(), load_); }
   void back(Note note) override {
-    rotor_.restore(notes_[note]->air);
+    rotor_->restore(notes_[note]->air);
     load_ = notes_[note]->load;
   }
 
-  void save(io::CheckpointWriter& file) const override { file_.write(file); }
-  void restore(const io::CheckpointReader& file) override { file_.read(file); }
+  void save(io::CheckpointWriter& file) const override {
+    file_->write(file);
+    std::vector<double> load;
+    for (const Eigen::Vector3d& v : {load_.force, load_.moment}) load.insert(load.end(), v.data(), v.data() + 3);
+    load.insert(load.end(), {load_.thrust, load_.torque, load_.power});
+    file.write<double>("flow/load", std::span<const double>(load));
+  }
+  void restore(const io::CheckpointReader& file) override {
+    make();
+    file_->read(file);
+    const std::vector<double> load = file.read<double>("flow/load");
+    load_.force = Eigen::Vector3d(load.data()), load_.moment = Eigen::Vector3d(load.data() + 3);
+    load_.thrust = load[6], load_.torque = load[7], load_.power = load[8];
+  }
 
   void declare(io::History& history) override {
     column_ = history.add({"air.pseudo_steps", "-", "pseudo-steps of the window's last physical step"});
@@ -116,7 +128,7 @@ class ResolvedAir final : public AirSide {
     history.add({"air.cfl", "-", "CFL number of the last pseudo-step"});
   }
   void put(std::span<double> row) const override {
-    const aero::March& march = rotor_.solver().march();
+    const aero::March& march = rotor_->solver().march();
     row[column_] = march.steps() - 1, row[column_ + 1] = march.density_residual();
     row[column_ + 2] = march.first_density_residual() > 0.0 ? march.density_residual() / march.first_density_residual() : 0.0;
     row[column_ + 3] = march.cfl();
@@ -129,11 +141,12 @@ class ResolvedAir final : public AirSide {
     aero::RotorLoad load;
   };
 
+  bool whole() const { return setup_.grid.sectors == "all"; }
   /// Where the grid is to be. One sector stays on the axis it has at the start.
   aero::RotorPose pose(const aero::RotorState& s) const {
     aero::RotorPose pose;
     pose.azimuth = s.azimuth, pose.speed = s.speed;
-    if (rotor_.whole()) {
+    if (whole()) {
       pose.hub.position = s.hub, pose.hub.attitude = hub_attitude(s);
     } else {
       pose.hub.position = first_.hub + (s.hub - first_.hub).dot(first_.axis) * first_.axis,
@@ -143,7 +156,7 @@ class ResolvedAir final : public AirSide {
   }
   /// Thrust and torque of one sector along the axis as it is now.
   aero::RotorLoad leant(aero::RotorLoad load) const {
-    if (!rotor_.whole()) load.force = load.thrust * state_.axis, load.moment = load.torque * state_.axis;
+    if (!whole()) load.force = load.thrust * state_.axis, load.moment = load.torque * state_.axis;
     return load;
   }
   aero::RotorLoad ramped(aero::RotorLoad load) const {
@@ -152,17 +165,37 @@ class ResolvedAir final : public AirSide {
     return load;
   }
 
+  /// Unknowns of this rank's tiles.
+  using TileStates = std::vector<std::vector<double>>;
+
   /// A steady march seen from the turning rotor, hub held where it starts, upright; the physical steps go on from its flow, which
-  /// does not know of a lean that an equilibrium gave the rotor.
-  void settle(int steps) {
+  /// does not know of a lean that an equilibrium gave the rotor. Its solver is gone before the moving one is made: two would not fit
+  /// where one does.
+  TileStates settle(int steps) {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
     steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 1e-9, steady.flow.load_change = 0.0;
-    aero::ResolvedRotor held(steady, world_.size, world_.rank);
+    // A large grid settles in pieces, so that the log shows life; how long they are follows from the grid alone, as the bits do.
+    constexpr double cells_of_a_piece = 2.5e6;  // half a minute of a core
+    const long cells = aero::resolved_rotor_size(steady).cells;
+    const int piece = std::clamp(int(cells_of_a_piece / double(cells)), std::min(10, steps), steps);
+    aero::ResolvedRotor held(steady, world_.size, world_.rank, piece);
+    spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held.solver().cells());
     held.solver().start_uniform();
     held.prepare(world_.comm);
-    held.run();
     const aero::March& march = held.solver().march();
+    const auto begin = std::chrono::steady_clock::now();
+    double said_s = 0.0;
+    for (int done = 0; done == 0 || (march.spent() && done < steps);) {
+      if (done > 0) held.solver().keep_last_row();
+      held.run();
+      done = march.steps() - 1;
+      const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      if (spent_s - said_s < 10.0 || done >= steps) continue;
+      said_s = spent_s;
+      spdlog::info("air settles: {} of {} pseudo-steps, thrust {:.4g} kN, about {} left", done, steps, 1e-3 * held.load().thrust,
+                   io::duration_text(spent_s / done * (steps - done)));
+    }
     if (march.verdict() == aero::Verdict::failed)
       throw NumericalFailure(fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}",
                                          march.why(), march.steps(), march.cfl(), held.solver().trouble()),
@@ -177,15 +210,32 @@ class ResolvedAir final : public AirSide {
             : std::string();
     spdlog::info("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}", march.steps() - 1,
                  1e-3 * load_.thrust, change, march.density_residual() / march.first_density_residual());
-    rotor_.solver().start_from(held.solver());
+    TileStates states;
+    for (std::size_t n = 0; n < held.solver().tiles().size(); ++n) held.solver().save(int(n), states.emplace_back(held.solver().saved_size(int(n))));
+    return states;
+  }
+
+  /// The rotor in the wind as it comes, placed for the first step.
+  void make() {
+    rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank);
+    file_.emplace(rotor_->solver(), rotor_->store());
+    rotor_->solver().start_uniform();
+    aero::RotorState before = state_;
+    before.hub -= setup_.dt * state_.hub_velocity, before.azimuth -= setup_.dt * state_.speed;
+    rotor_->place(pose(before), pose(state_));
+    runtime::Graph geometry(world_.comm);
+    rotor_->solver().record_geometry(geometry);
+    runtime::Executor(std::move(geometry), {.threads = 1}).run();
+    spdlog::info("air: {} cells in {} tiles, {:.0f} MB", rotor_->solver().cells(), rotor_->store().tiling().size(),
+                 1e-6 * double(rotor_->solver().bytes() + rotor_->store().bytes()) * world_.size);
   }
 
   const Machine& machine_;
   const runtime::World world_;
   aero::RotorState first_;  ///< at the start, upright
   aero::ResolvedRotorSetup setup_;
-  aero::ResolvedRotor rotor_;
-  AirFile file_;
+  std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< made by begin() or restore()
+  std::optional<AirFile> file_;
   double t_ = 0.0;
   aero::RotorState state_;  ///< of the last aim
   aero::RotorLoad load_;    ///< the last answer

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "runtime/executor/executor.hpp"
 #include "runtime/mpi/stop_request.hpp"
@@ -148,11 +149,15 @@ class Checkpoints {
     state.pack(packed);
     series_.save(state.tick - machine_.first_tick(), [&](io::CheckpointWriter& file) {
       file.set("window", number);
+      file.set("time_s", machine_.timeline().window_end_s(number));
       file.set("steps", window.steps);
       file.set("restarts", std::int64_t(restarts));
       file.write<double>("bodies/state", packed);
-      if (window.coupled) file.write<double>("coupling/history", window.coupled->history());
-      if (window.coupled) window.coupled->air().save(file);
+      if (window.coupled) {
+        file.set("coupling/scheme", std::int64_t(machine_.scenario().coupling.scheme));
+        file.write<double>("coupling/history", window.coupled->history());
+        window.coupled->air().save(file);
+      }
       if (!sea) return;
       const sea::ParticleState particles = sea->save();
       file.set("sea/time_s", particles.time_s);
@@ -183,6 +188,38 @@ class Checkpoints {
   io::CheckpointSeries series_;
   std::int64_t saved_ = -1;
 };
+
+/// start.file: the state that another run of the same machine left, whatever its windows and its march; the window to go on from.
+std::int64_t take_over(const Machine& machine, Window& window, const runtime::World& world) {
+  const std::filesystem::path given = machine.scenario().start.file;
+  std::optional<io::CheckpointReader> file;
+  if (std::filesystem::is_directory(given))
+    file = io::CheckpointSeries(world.comm, given / "checkpoints", 1).newest();
+  else
+    file.emplace(world.comm, given);
+  if (!file) throw io::InputError(given.string() + " (start.file): no valid checkpoint in it");
+  const auto refuse = [&](const std::string& why) { throw io::InputError(fmt::format("{} (start.file): {}", file->path().string(), why)); };
+
+  const Timeline& timeline = machine.timeline();
+  const double t = file->number("time_s");
+  const std::optional<std::int64_t> windows = t == 0.0 ? std::optional<std::int64_t>(0) : whole_ratio(t, timeline.window_s());
+  if (!windows) refuse(fmt::format("its state is that of t = {:g} s, which is no whole number of windows of {:g} s", t, timeline.window_s()));
+  if (*windows >= timeline.windows())
+    refuse(fmt::format("its state is that of t = {:g} s, the run ends at {:g} s", t, timeline.window_end_s(timeline.windows())));
+  const std::vector<double> bodies = file->read<double>("bodies/state");
+  if (bodies.size() != window.state.packed_size()) refuse("its bodies and joints are not those of this scene");
+  window.state.unpack(bodies);
+  window.state.tick = timeline.tick_of_window(*windows);
+  restore_particles(machine, *file);
+  if (window.coupled) {
+    window.coupled->air().restore(*file);
+    // What the scheme has learnt goes along where it is the same one; else it begins with the state alone.
+    const bool same = file->has("coupling/history") && file->integer("coupling/scheme") == std::int64_t(machine.scenario().coupling.scheme);
+    if (!same || !window.coupled->restore(file->read<double>("coupling/history"))) window.coupled->begin(window.state);
+  }
+  spdlog::info("from t = {:g} s of {}", t, file->path().string());
+  return *windows;
+}
 
 /// What a restart must find unchanged, since otherwise the run would not be the one that was interrupted.
 std::int64_t windows_until(const Timeline& timeline, const std::optional<double>& until_s) {
@@ -256,10 +293,11 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     restore_particles(machine, io::CheckpointReader(world.comm, initial->file));
   Recorder recorder(machine, history);
   std::int64_t first = -machine.held_windows();
+  const bool takes_over = !settings.restart && !machine.scenario().start.file.empty(), begins = !settings.restart && !takes_over;
   window.state = start.state;
   if (machine.rotor() && machine.scenario().coupling.scheme != SchemeKind::monolithic) {
     window.coupled.emplace(machine, make_air(machine, machine.rotor()->state(0.0, start.state.motions), world), world.comm, records);
-    if (!settings.restart) window.coupled->begin(start.state);
+    if (begins) window.coupled->begin(start.state);
     window.coupled->declare(history);
   }
   if (machine.particles() && !window.coupled) {
@@ -272,6 +310,8 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   if (settings.restart) {
     first = checkpoints.resume(window, summary.restarts);
     spdlog::info("restart from t = {} s", timeline.window_end_s(first));
+  } else if (takes_over) {
+    first = take_over(machine, window, world);
   }
   const bool writes = world.rank == 0;
   if (writes && settings.restart)

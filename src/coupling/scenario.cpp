@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "src/coupling/flow_scene.hpp"
@@ -53,6 +54,18 @@ void check_particles(scene::Document& document, const Scenario& s) {
       if (body.name == column) document.problem("bodies." + column, "is the name of a gauge or probe too");
   if (s.sea.settle_s() > 0.0 && !whole_ratio(s.sea.settle_s(), s.time.window_s))
     document.problem("sea.initial.settle_s", fmt::format("must be a whole number of windows of {} s", s.time.window_s));
+}
+
+/// A saved state is the start: what would make another one has no effect.
+void check_saved_start(scene::Document& document, const Scenario& s) {
+  if (s.start.file.empty()) return;
+  if (s.has_flow()) return document.problem("start.file", "has no effect: there are no bodies");
+  if (!std::filesystem::exists(s.start.file)) document.problem("start.file", "is not there");
+  const std::string why = "has no effect: start.file is the start";
+  if (s.start.equilibrium) document.problem("start.equilibrium", why);
+  if (s.start.air_steps > 0) document.problem("start.air_steps", why);
+  if (s.sea.settle_s() > 0.0) document.problem("sea.initial.settle_s", why);
+  if (s.sea.initial && s.sea.initial->state == "file") document.problem("sea.initial.state", why);
 }
 
 /// Rules between a resolved rotor and the bodies that carry it.
@@ -136,6 +149,7 @@ Scenario read_scenario(scene::Document& document) {
   s.checkpoint = document.read(checkpoint_section());
 
   check_names(document, s);
+  check_saved_start(document, s);
   if (!(s.has_rotor() && s.resolves_air()) && s.start.air_steps > 0)
     document.problem("start.air_steps", "has no effect: there is no resolved rotor on a body");
   if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
