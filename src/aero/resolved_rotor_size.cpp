@@ -1,6 +1,7 @@
-// How large a scene's rotor will be and what a pseudo-step of it costs, for `spindrift check`: bytes as store.cpp and flow_solver.cpp
-// allocate them, tile by tile of the sector's blocks; rates stated, or measured by a short march. Declared in resolved_rotor_setup.hpp;
-// tested against the solver's own count in tests/src/aero/resolved_rotor_test.cpp. SPDX-License-Identifier: Apache-2.0
+// How large a scene's rotor will be and what a pseudo-step of it costs, for `spindrift check`: bytes as store.cpp and
+// flow_solver.cpp allocate them, tile by tile of the sector's blocks; rates stated, or measured by a short march. Declared in
+// resolved_rotor_setup.hpp; tested against the solver's own count in tests/src/aero/resolved_rotor_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
 #include <ctime>
@@ -17,7 +18,8 @@ namespace spindrift::aero {
 
 namespace {
 
-// Measured on one core of 50 GFLOP/s in double (docs/developer/rotor_resolved.md, machine.md): SA with 20 Krylov vectors; inviscid.
+// Measured on one core of 50 GFLOP/s in double (docs/developer/rotor_resolved.md, machine.md): SA with 20 Krylov vectors;
+// inviscid.
 constexpr double viscous_seconds = 12e-6, inviscid_seconds = 7.5e-6;
 
 struct Kind {
@@ -74,7 +76,8 @@ double sector_bytes(const Kind& kind, const RotorGridSpec& spec) {
   const auto kept = [&](int n) { return std::max(1, n >> spec.coarsen); };
   const RotorGridSizes& z = spec.sizes;
   const int radial = kept(z.radial());
-  double bytes = block_bytes(kind, {kept(z.layers), kept(z.round), radial}) + block_bytes(kind, {kept(z.edge), kept(z.chordwise()), kept(z.outboard)});
+  double bytes = block_bytes(kind, {kept(z.layers), kept(z.round), radial}) +
+                 block_bytes(kind, {kept(z.edge), kept(z.chordwise()), kept(z.outboard)});
   for (const int along : {z.upstream, z.downstream}) {
     bytes += 2.0 * block_bytes(kind, {kept(along), kept(z.beside), radial});
     bytes += block_bytes(kind, {kept(along), kept(z.box_chordwise()), radial});
@@ -92,7 +95,8 @@ ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
   size.sectors = spec.whole ? turbine.blades : 1;
   size.cells = size.sectors * spec.sizes.cells() >> (3 * spec.coarsen);
   size.stations = spec.sizes.span >> spec.coarsen;
-  const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order), nodes = sizeof(double) * 3.0 * double(size.cells);
+  const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order),
+               nodes = sizeof(double) * 3.0 * double(size.cells);
   size.bytes = size.sectors * sector_bytes(kind, spec) + nodes + (kind.moving() ? state : 0.0);
   size.bytes_of_checkpoint = state;
   size.core_seconds_per_pseudo_step = double(size.cells) * (setup.flow.viscous == "none" ? inviscid_seconds : viscous_seconds);

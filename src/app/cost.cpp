@@ -13,7 +13,9 @@ namespace {
 
 constexpr double program_bytes = 60e6;  // libraries and tables of a rank
 
-std::string bytes_text(double bytes) { return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9); }
+std::string bytes_text(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
+}
 
 }  // namespace
 
@@ -23,16 +25,19 @@ void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks) 
   for (const PartCost& p : parts) {
     const double cost = p.work_per_second * p.core_seconds_per_work;
     fmt::print("  {:<22}{:.0f} {}, {}\n", p.name, p.count, p.things, bytes_text(p.bytes));
-    fmt::print("  {:<22}{:.4g} {} per simulated second of {:.3g} core-s each ({}): {:.4g} core-s\n", "", p.work_per_second, p.work,
-               p.core_seconds_per_work, p.rate, cost);
+    fmt::print("  {:<22}{:.4g} {} per simulated second of {:.3g} core-s each ({}): {:.4g} core-s\n", "", p.work_per_second,
+               p.work, p.core_seconds_per_work, p.rate, cost);
     if (p.work_before > 0.0)
-      fmt::print("  {:<22}{:.4g} {} before t = 0: {:.4g} core-s\n", "", p.work_before, p.work, p.work_before * p.core_seconds_per_work);
+      fmt::print("  {:<22}{:.4g} {} before t = 0: {:.4g} core-s\n", "", p.work_before, p.work,
+                 p.work_before * p.core_seconds_per_work);
     bytes += p.bytes, checkpoint += p.checkpoint_bytes, per_second += cost, before += p.work_before * p.core_seconds_per_work;
   }
   const double whole = before + per_second * simulated_s;
-  fmt::print("  {:<22}{} ({} more while a checkpoint is written); {} rank{}: {} each\n", "memory", bytes_text(bytes + program_bytes * ranks),
-             bytes_text(checkpoint), ranks, ranks == 1 ? "" : "s", bytes_text(bytes / ranks + program_bytes));
-  fmt::print("  {:<22}{:.3g} core-hours for {:g} s ({:.4g} core-s per simulated second)\n", "predicted core-hours", whole / 3600.0, simulated_s, per_second);
+  fmt::print("  {:<22}{} ({} more while a checkpoint is written); {} rank{}: {} each\n", "memory",
+             bytes_text(bytes + program_bytes * ranks), bytes_text(checkpoint), ranks, ranks == 1 ? "" : "s",
+             bytes_text(bytes / ranks + program_bytes));
+  fmt::print("  {:<22}{:.3g} core-hours for {:g} s ({:.4g} core-s per simulated second)\n", "predicted core-hours",
+             whole / 3600.0, simulated_s, per_second);
   constexpr std::array cores{1, 2, 8, 16, 64, 128};
   const auto row = [&](const char* what, auto&& text) {
     fmt::print("  {:<22}", what);

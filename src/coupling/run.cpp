@@ -192,11 +192,9 @@ class Checkpoints {
 /// start.file: the state that another run of the same machine left, whatever its windows and its march; the window to go on from.
 std::int64_t take_over(const Machine& machine, Window& window, const runtime::World& world) {
   const std::filesystem::path given = machine.scenario().start.file;
-  std::optional<io::CheckpointReader> file;
-  if (std::filesystem::is_directory(given))
-    file = io::CheckpointSeries(world.comm, given / "checkpoints", 1).newest();
-  else
-    file.emplace(world.comm, given);
+  const std::optional<io::CheckpointReader> file = std::filesystem::is_directory(given)
+                                                       ? io::CheckpointSeries(world.comm, given / "checkpoints", 1).newest()
+                                                       : std::optional<io::CheckpointReader>(io::CheckpointReader(world.comm, given));
   if (!file) throw io::InputError(given.string() + " (start.file): no valid checkpoint in it");
   const auto refuse = [&](const std::string& why) { throw io::InputError(fmt::format("{} (start.file): {}", file->path().string(), why)); };
 

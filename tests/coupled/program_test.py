@@ -124,15 +124,15 @@ class Program(unittest.TestCase):
         def cost(size, *arguments):
             text = spindrift("check", ROOT / f"inputs/leble_barakos/case3_{size}.toml", *arguments).stdout
             number = lambda pattern: float(re.search(pattern, text).group(1))
-            return {"cells": number(r"air +(\d+) cells"), "particles": number(r"sea +(\d+) particles"), "hours": number(r"predicted core-hours +(\S+) core-hours"),
+            return {"cells": number(r"air +(\d+) cells"), "water": number(r"\((\d+) water"), "hours": number(r"predicted core-hours +(\S+) core-hours"),
                     "rate": number(r"\((\S+) us per cell"), "memory": re.search(r"memory +(\S+) GB", text), "verdict": "A loose scheme will do." in text}
         demo, workstation, paper = cost("demo"), cost("workstation"), cost("paper")
         self.assertTrue(demo["hours"] < workstation["hours"] < paper["hours"])
         self.assertLess(demo["hours"], 0.2)
         self.assertAlmostEqual(paper["cells"] / 8e6, 1.0, delta=0.05)
-        self.assertAlmostEqual(paper["particles"] / 5e6, 1.0, delta=0.15)
+        self.assertAlmostEqual(paper["water"] / 5e6, 1.0, delta=0.02)
         self.assertLess(float(paper["memory"].group(1)), 24.0)
-        self.assertTrue(demo["verdict"] and workstation["verdict"] and paper["verdict"])
+        self.assertTrue(paper["verdict"] and not demo["verdict"])  # windows of 0.02 and 0.1 s against 3P at 0.44 Hz
         self.assertTrue(0.1 < cost("demo", "--calibrate")["rate"] / demo["rate"] < 10.0)
 
 
