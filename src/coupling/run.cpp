@@ -7,7 +7,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 
 #include "runtime/executor/executor.hpp"
 #include "runtime/mpi/stop_request.hpp"
@@ -191,31 +190,27 @@ class Checkpoints {
 
 /// start.file: the state that another run of the same machine left, whatever its windows and its march; the window to go on from.
 std::int64_t take_over(const Machine& machine, Window& window, const runtime::World& world) {
-  const std::filesystem::path given = machine.scenario().start.file;
-  const std::optional<io::CheckpointReader> file = std::filesystem::is_directory(given)
-                                                       ? io::CheckpointSeries(world.comm, given / "checkpoints", 1).newest()
-                                                       : std::optional<io::CheckpointReader>(io::CheckpointReader(world.comm, given));
-  if (!file) throw io::InputError(given.string() + " (start.file): no valid checkpoint in it");
-  const auto refuse = [&](const std::string& why) { throw io::InputError(fmt::format("{} (start.file): {}", file->path().string(), why)); };
+  const io::CheckpointReader file(world.comm, machine.scenario().start.file);
+  const auto refuse = [&](const std::string& why) { throw io::InputError(fmt::format("{} (start.file): {}", file.path().string(), why)); };
 
   const Timeline& timeline = machine.timeline();
-  const double t = file->number("time_s");
+  const double t = file.number("time_s");
   const std::optional<std::int64_t> windows = t == 0.0 ? std::optional<std::int64_t>(0) : whole_ratio(t, timeline.window_s());
   if (!windows) refuse(fmt::format("its state is that of t = {:g} s, which is no whole number of windows of {:g} s", t, timeline.window_s()));
   if (*windows >= timeline.windows())
     refuse(fmt::format("its state is that of t = {:g} s, the run ends at {:g} s", t, timeline.window_end_s(timeline.windows())));
-  const std::vector<double> bodies = file->read<double>("bodies/state");
+  const std::vector<double> bodies = file.read<double>("bodies/state");
   if (bodies.size() != window.state.packed_size()) refuse("its bodies and joints are not those of this scene");
   window.state.unpack(bodies);
   window.state.tick = timeline.tick_of_window(*windows);
-  restore_particles(machine, *file);
+  restore_particles(machine, file);
   if (window.coupled) {
-    window.coupled->air().restore(*file);
+    window.coupled->air().restore(file);
     // What the scheme has learnt goes along where it is the same one; else it begins with the state alone.
-    const bool same = file->has("coupling/history") && file->integer("coupling/scheme") == std::int64_t(machine.scenario().coupling.scheme);
-    if (!same || !window.coupled->restore(file->read<double>("coupling/history"))) window.coupled->begin(window.state);
+    const bool same = file.has("coupling/history") && file.integer("coupling/scheme") == std::int64_t(machine.scenario().coupling.scheme);
+    if (!same || !window.coupled->restore(file.read<double>("coupling/history"))) window.coupled->begin(window.state);
   }
-  spdlog::info("from t = {:g} s of {}", t, file->path().string());
+  spdlog::info("from t = {:g} s of {}", t, file.path().string());
   return *windows;
 }
 

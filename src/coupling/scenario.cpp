@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 #include "src/coupling/flow_scene.hpp"
@@ -60,7 +59,6 @@ void check_particles(scene::Document& document, const Scenario& s) {
 void check_saved_start(scene::Document& document, const Scenario& s) {
   if (s.start.file.empty()) return;
   if (s.has_flow()) return document.problem("start.file", "has no effect: there are no bodies");
-  if (!std::filesystem::exists(s.start.file)) document.problem("start.file", "is not there");
   const std::string why = "has no effect: start.file is the start";
   if (s.start.equilibrium) document.problem("start.equilibrium", why);
   if (s.start.air_steps > 0) document.problem("start.air_steps", why);

@@ -150,7 +150,8 @@ class MachineRun(unittest.TestCase):
             until, settings = 0.2, ["time.end_s=0.4"]
             self.spindrift(text, name, settings=settings)
             self.spindrift(text, name + "_first", "--until", until, settings=settings)
-            start = [*settings, f"start.file='{self.path / (name + '_first')}'", "start.air_steps=0", *(["sea.initial.settle_s=0"] if text is PARTICLES else [])]
+            (saved,) = (self.path / (name + "_first") / "checkpoints").glob("*.h5")
+            start = [*settings, f"start.file='{saved}'", "start.air_steps=0", *(["sea.initial.settle_s=0"] if text is PARTICLES else [])]
             self.spindrift(text, name + "_second", settings=start, threads=2)
             after = [row for row in self.rows(name) if row["time_s"] > until + 1e-9]
             second = self.rows(name + "_second")
@@ -164,7 +165,7 @@ class MachineRun(unittest.TestCase):
             self.assertAlmostEqual(third[-1]["platform.x_m"], after[-1]["platform.x_m"], delta=0.02 * abs(after[-1]["platform.x_m"]))
             self.assertNotEqual(third[-1]["platform.x_m"], after[-1]["platform.x_m"])
             for settings_, words in ((["time.window_s=0.03", "time.end_s=0.6"], "no whole number of windows"), (["time.end_s=0.2"], "the run ends at 0.2 s"),
-                                     (["start.equilibrium=true"], "start.file is the start"), (["start.file='nowhere.h5'"], "is not there"),
+                                     (["start.equilibrium=true"], "start.file is the start"), (["start.file='nowhere.h5'"], "no such file"),
                                      (["aero.grid.cells_downstream=7"], "its air has")):
                 settings_ = [s for s in settings_] + (["time.step_s=0.03"] if "0.03" in settings_[0] and text is ENGINEERING else [])
                 output = self.spindrift(text, "refused", "--overwrite", settings=[*start, *settings_], code=2)
