@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
-#include "src/aero/rotor_grid/layout.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
@@ -48,21 +47,6 @@ void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, co
     document.problem("wind.speed_m_s", "must be > 0 where rotor.speed_rpm is 0: nothing would move");
   if (!steady && aero.flow->start != "wind" && aero.flow->start != "rest")
     document.problem("aero.flow.start", "must be \"wind\" or \"rest\" with a rotor");
-}
-
-ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
-  const Turbine turbine = read_turbine(setup.rotor.turbine);
-  const RotorGridSpec spec = rotor_grid_spec(setup.grid, turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
-  ResolvedRotorSize size;
-  size.sectors = spec.whole ? turbine.blades : 1;
-  size.cells = size.sectors * spec.sizes.cells() >> (3 * spec.coarsen);
-  size.stations = spec.sizes.span >> spec.coarsen;
-  // Time: SA, 20 Krylov vectors, 11.1 us per cell and pseudo-step measured (docs/developer/rotor_resolved.md). Memory: the 2130
-  // bytes per cell of docs/developer/air.md by half as much again for the ghosts of small tiles, and the moving grid's arrays.
-  const double bytes = setup.dt > 0.0 ? 4000.0 : 3200.0;
-  size.megabytes = double(size.cells) * bytes / 1e6;
-  size.core_seconds_per_pseudo_step = double(size.cells) * 12e-6;
-  return size;
 }
 
 }  // namespace spindrift::aero

@@ -23,13 +23,22 @@ struct ResolvedRotorSetup {
 void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor,
                           const Eigen::Vector3d& wind);
 
-/// Size and cost of a scene's rotor before anything is made.
+/// Size and cost of a scene's rotor before anything is made (resolved_rotor_size.cpp).
 struct ResolvedRotorSize {
   long cells = 0;
   int sectors = 1, stations = 0;
-  double megabytes = 0.0;                     ///< of the solver and its grid
-  double core_seconds_per_pseudo_step = 0.0;  ///< by the figure of docs/developer/rotor_resolved.md
+  double bytes = 0.0;                         ///< of solver, grid and the note of a window's start; of one note more per iterated window
+  double bytes_of_checkpoint = 0.0;           ///< while one is written
+  double core_seconds_per_pseudo_step = 0.0;  ///< by the stated rate
 };
 ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup);
+
+/// Processor seconds per cell and pseudo-step of this scene's schemes on this machine now: a short march on some thousand cells, one thread.
+struct AirRate {
+  double core_seconds = 0.0;
+  long cells = 0;
+  int pseudo_steps = 0;
+};
+AirRate measured_air_rate(const ResolvedRotorSetup& setup);
 
 }  // namespace spindrift::aero

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "src/app/commands.hpp"
+#include "src/app/cost.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/machine.hpp"
@@ -42,27 +45,29 @@ double seconds_per_step(Machine& machine, bodies::BodiesState state) {
 }
 
 /// Of a sea of particles: how many, how large, how long. Nothing of it is made but a list of places.
-void print_particles(const Machine& machine, const coupling::Start& start) {
+PartCost print_particles(const Machine& machine, const coupling::Start& start) {
   const coupling::Scenario& s = machine.scenario();
   const sea::ParticleCensus census = particle_census(*machine.particle_plan(), start.state.motions);
   const sph::Parameters& p = machine.particle_plan()->parameters;
-  const double step = std::min(s.time.step_s.value_or(census.step_s), machine.body_step_limit());
-  const double duration = s.time.end_s + s.sea.settle_s(), steps = duration / std::min(step, census.step_s);
-  const double evaluations = steps * double(census.particles()) * (p.step == sph::StepChoice::verlet ? 1.0 : 2.0);
-  const double seconds = evaluations / census.evaluations_per_second;
+  const double step = std::min({s.time.step_s.value_or(census.step_s), machine.body_step_limit(), census.step_s, s.time.window_s});
+  const double steps_per_window = std::ceil(s.time.window_s / step * (1.0 - 1e-9));
   fmt::print("\nSea of particles\n");
   fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls, census.bodies);
   for (const auto& [name, volume] : census.displaced_m3) fmt::print("  {:<22}{:.6g} m3 displaced by its particles\n", name, volume);
   fmt::print("  {:<22}{:.4g} m/s, {:.3g} m spacing, support {:.3g} m\n", "speed of sound", p.eos.c0, p.spacing, p.reach());
-  fmt::print("  {:<22}{:.4g} s at rest, set by {}{}\n", "largest step", census.step_s, census.step_set_by,
-             s.time.step_s ? fmt::format("; the scene asks for {} s", *s.time.step_s) : "");
-  fmt::print("  {:<22}{:.0f} MB\n", "memory of particles", census.bytes / 1e6);
-  fmt::print("  {:<22}{:.3g} steps of {:.3g} M particle evaluations per second and core (measured now on a small sea): {:.3g} core-hours, "
-             "{:.3g} per simulated minute\n",
-             "predicted cost", steps, 1e-6 * census.evaluations_per_second, seconds / 3600.0, seconds / 3600.0 / duration * 60.0);
+  fmt::print("  {:<22}{:.4g} s at rest, set by {}{}; {:.0f} to a window\n", "largest step", census.step_s, census.step_set_by,
+             s.time.step_s ? fmt::format("; the scene asks for {} s", *s.time.step_s) : "", steps_per_window);
+  const double evaluations = steps_per_window / s.time.window_s * (p.step == sph::StepChoice::verlet ? 1.0 : 2.0);
+  const int notes = machine.rotor() && is_strong(s.coupling.scheme) ? 2 : 1;
+  return {.name = "sea", .count = double(census.particles()), .things = "particles",
+          .bytes = census.bytes + notes * sea::bytes_of_note * double(census.particles()),
+          .checkpoint_bytes = sea::bytes_of_note * double(census.particles()), .work_per_second = evaluations, .work = "evaluations of all",
+          .core_seconds_per_work = double(census.particles()) / census.evaluations_per_second,
+          .rate = fmt::format("{:.3g} M particles per core-s, measured now on a small sea", 1e-6 * census.evaluations_per_second),
+          .work_before = s.sea.settle_s() * evaluations};
 }
 
-void print_cost(Machine& machine, const coupling::Start& start) {
+void print_steps(Machine& machine, const coupling::Start& start) {
   const coupling::Timeline& t = machine.timeline();
   const double steps = double(t.windows()) * double(t.steps_per_window());
   const double seconds = steps * seconds_per_step(machine, start.state);
@@ -135,53 +140,69 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
   machine.use_full_loads(false);
   fmt::print("\nCoupling of rotor and platform (window {} s): mass at the hub {:.3g} kg, thrust falls {:.4g} kN per m/s, fastest {:.3g} Hz\n",
              machine.timeline().window_s(), verdict.hub_mass_kg, 1e-3 * verdict.slope_N_s_m, verdict.fastest_Hz);
+  fmt::print("  1P {} Hz, 3P {} Hz; added mass of the blades' air {:.3g} kg, {:.2g} of the mass at the hub\n", hertz(c.rows.back().once),
+             hertz(c.rows.back().thrice), verdict.air_mass_kg, verdict.mass_ratio());
   bool will_do = false;
   for (const auto& scheme : verdict.schemes) {
     will_do = will_do || scheme.will_do;
-    fmt::print("  {:<6}stable for windows {}; misses {:.2g} % of a load at that frequency: {}\n", scheme.name,
+    fmt::print("  {:<6}stable for windows {} and added mass up to {:.3g} of the mass; misses {:.2g} % of a load at that frequency: {}\n", scheme.name,
                std::isinf(scheme.window_limit_s) ? std::string("of any length") : fmt::format("up to {:.3g} s", scheme.window_limit_s),
-               100.0 * scheme.missed, scheme.will_do ? "will do" : "will not do");
+               scheme.mass_ratio_limit, 100.0 * scheme.missed, scheme.will_do ? "will do" : "will not do");
   }
   fmt::print("  {}\n", will_do ? "A loose scheme will do." : "No loose scheme will do at this window: iterate (coupling.scheme) or shorten it.");
   if (!c.rows.back().together.empty())
     fmt::print("  Frequencies of this scene lie together: response there is sensitive to phase; compare with a strong scheme.\n");
 }
 
-/// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
-void print_air(const Machine& machine, const coupling::Start& start) {
-  aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(machine.scenario());
-  setup.rotor.speed = machine.rotor()->state(0.0, start.state.motions).speed;
+/// Size and rate of a resolved rotor, with so many pseudo-steps at most per simulated second and before t = 0.
+PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, double per_second, double before, int notes, bool calibrate) {
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
-  const double most = double(machine.timeline().windows()) * setup.flow.max_pseudo_steps + machine.scenario().start.air_steps;
-  fmt::print("\nResolved air (estimates above take the rotor's load from blade elements)\n");
-  fmt::print("  {:<22}{} in {} sector{}, about {:.0f} MB\n", "cells", size.cells, size.sectors, size.sectors == 1 ? ", which feels motion along the axis only" : "s",
-             size.megabytes);
-  fmt::print("  {:<22}{:.3g} s of one core a pseudo-step, at most {} a window: at most {:.3g} core-hours\n", "predicted cost",
-             size.core_seconds_per_pseudo_step, setup.flow.max_pseudo_steps, most * size.core_seconds_per_pseudo_step / 3600.0);
+  PartCost cost{.name = "air", .count = double(size.cells), .things = "cells", .bytes = size.bytes + (notes - 1) * size.bytes_of_checkpoint,
+                .checkpoint_bytes = size.bytes_of_checkpoint, .work_per_second = per_second, .work = "pseudo-steps at most",
+                .core_seconds_per_work = size.core_seconds_per_pseudo_step, .rate = {}, .work_before = before};
+  std::string source = "stated; --calibrate measures it";
+  if (calibrate) {
+    const aero::AirRate rate = aero::measured_air_rate(setup);
+    cost.core_seconds_per_work = rate.core_seconds * double(size.cells);
+    source = fmt::format("measured now: {} pseudo-steps of {} cells", rate.pseudo_steps, rate.cells);
+  }
+  cost.rate = fmt::format("{:.3g} us per cell, {}", 1e6 * cost.core_seconds_per_work / double(size.cells), source);
+  return cost;
 }
 
-void print_resolved_rotor(const std::string& source, const coupling::Scenario& s) {
+/// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
+PartCost print_air(const Machine& machine, const coupling::Start& start, bool calibrate) {
+  const coupling::Scenario& s = machine.scenario();
+  aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
+  setup.rotor.speed = machine.rotor()->state(0.0, start.state.motions).speed;
+  const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
+  fmt::print("\nResolved air (estimates above take the rotor's load from blade elements)\n");
+  fmt::print("  {:<22}{} in {} sector{}, {} rows of faces along each blade\n", "cells", size.cells, size.sectors,
+             size.sectors == 1 ? ", which feels motion along the axis only" : "s", size.stations);
+  const bool strong = is_strong(s.coupling.scheme);
+  const double samples = strong ? s.coupling.samples : 1.0;
+  return cost_of_air(setup, samples * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps, strong ? 2 : 1, calibrate);
+}
+
+void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, bool calibrate, int ranks) {
   const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
-  const coupling::Timeline time(s.time.window_s, s.time.window_s, s.time.end_s);
   const bool steady = setup.dt == 0.0;
   fmt::print("{}: valid\n\nWhat will be modelled\n", source);
   fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, setup.flow.viscous == "none" ? "inviscid" : setup.flow.turbulence, setup.flow.flux);
   fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
   fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors, size.sectors == 1 ? ", periodic" : "s", size.stations);
-  fmt::print("\nSize and cost\n  {:<22}{}\n  {:<22}about {:.0f} MB\n", "cells", size.cells, "memory", size.megabytes);
-  const double steps = double(time.windows()) * (steady ? 1.0 : std::min(20, setup.flow.max_pseudo_steps));
-  fmt::print("  {:<22}{:.3g} s of one core; all {} {}: at most {:.3g} core-hours\n", "a pseudo-step", size.core_seconds_per_pseudo_step, time.windows(),
-             steady ? "of them" : "windows, 20 each", steps * size.core_seconds_per_pseudo_step / 3600.0);
+  const PartCost cost = cost_of_air(setup, (steady ? 1.0 : setup.flow.max_pseudo_steps) / s.time.window_s, 0.0, 1, calibrate);
+  print_cost(std::span(&cost, 1), s.time.end_s, ranks);
 }
 
 }  // namespace
 
-int check(const SceneArguments& arguments, const runtime::World& world) {
+int check(const CheckArguments& arguments, const runtime::World& world) {
   scene::Document document = scene::load(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
-    if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario);
+    if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size);
     return done;
   }
   if (scenario.has_flow()) {
@@ -202,7 +223,8 @@ int check(const SceneArguments& arguments, const runtime::World& world) {
   require_stable(machine, stability);
   if (world.rank != 0) return done;
   if (start.state.motions.empty()) {
-    print_particles(machine, start);
+    const PartCost cost = print_particles(machine, start);
+    print_cost(std::span(&cost, 1), machine.scenario().time.end_s, world.size);
     return done;
   }
   if (machine.rotor()) print_campbell(machine, start, stability.linearisation);
@@ -214,11 +236,13 @@ int check(const SceneArguments& arguments, const runtime::World& world) {
     print_equilibrium(machine, equilibrium.state);
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", equilibrium.problem);
-  if (machine.scenario().resolves_air()) print_air(machine, start);
+  std::vector<PartCost> parts;
+  if (machine.scenario().resolves_air()) parts.push_back(print_air(machine, start, arguments.calibrate));
   if (machine.particle_plan())
-    print_particles(machine, start);
+    parts.push_back(print_particles(machine, start));
   else
-    print_cost(machine, start);
+    print_steps(machine, start);
+  if (!parts.empty()) print_cost(parts, machine.scenario().time.end_s, world.size);
   return done;
 }
 

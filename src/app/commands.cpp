@@ -33,9 +33,10 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return run(*arguments, world); }; });
   }
   {
-    auto arguments = std::make_shared<SceneArguments>();
-    CLI::App* command = cli.add_subcommand("check", "Validate a scene, say what will be modelled and at which limits; runs nothing");
+    auto arguments = std::make_shared<CheckArguments>();
+    CLI::App* command = cli.add_subcommand("check", "Validate a scene, say what will be modelled, at what cost and at which limits; runs nothing");
     add_scene(*command, *arguments);
+    command->add_flag("--calibrate", arguments->calibrate, "Measure what a resolved rotor costs on this machine (some seconds)");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return check(*arguments, world); }; });
   }
   {

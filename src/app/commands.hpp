@@ -34,6 +34,10 @@ struct RunArguments : SceneArguments {
   bool restart = false, overwrite = false, trace = false, quiet = false, no_report = false;
 };
 
+struct CheckArguments : SceneArguments {
+  bool calibrate = false;  ///< rates of the air measured by a short march instead of stated
+};
+
 struct ReportArguments {
   std::vector<std::string> directories;
   std::string png;  ///< empty: no picture
@@ -51,7 +55,7 @@ struct StudyArguments {
 
 int run(const RunArguments& arguments, const runtime::World& world);
 int grid(const GridArguments& arguments, const runtime::World& world);
-int check(const SceneArguments& arguments, const runtime::World& world);
+int check(const CheckArguments& arguments, const runtime::World& world);
 /// All of the reference, or what `topic` names (a section or a key); as Markdown for inputs/REFERENCE.md.
 int reference(const std::string& topic, bool markdown, const runtime::World& world);
 int study(const StudyArguments& arguments, const runtime::World& world);

@@ -1,8 +1,8 @@
 // spindrift run: reads the scene, runs it into a run directory, writes summary and report.
 // SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/run.hpp"
 #include "src/coupling/flow_run.hpp"
 #include "src/coupling/placement.hpp"
-#include "src/coupling/run.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -43,8 +43,8 @@ void print_summary(const io::Summary& summary, const io::RunDirectory& directory
 
 }  // namespace
 
-ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  scene::Document document = scene::load(path, overrides);
+ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
+  scene::Document document = scene::load(path, overrides, overrider);
   ReadyScene ready;
   ready.machine = std::make_unique<coupling::Machine>(coupling::read_scenario(document));
   ready.start = make_start(*ready.machine);
@@ -68,7 +68,8 @@ SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& e
   if (world.rank == 0) {
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
     summary.warnings = io::warnings_logged();
-    write_summary(directory.summary(), summary, io::history_statistics(directory.history(), mean_ranges(scenario, summary.end_time_s)));
+    write_summary(directory.summary(), summary,
+                  io::history_statistics(directory.history(), mean_ranges(scenario, summary.end_time_s)));
     print_summary(summary, directory);
   }
   return {std::move(summary), directory.path(), world.rank == 0};
@@ -76,28 +77,30 @@ SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& e
 }  // namespace
 
 /// What this rank was started with, in a form that compares.
-coupling::Started started_with(const RunArguments& a) {
-  const std::string rest = fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n", a.out, a.until_s, a.restart, a.overwrite, a.trace);
-  scene::Document document = scene::load(a.scene, a.overrides);
+coupling::Started started_with(const RunArguments& a, const scene::Source& overrider) {
+  const std::string rest = fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n", a.out, a.until_s,
+                                       a.restart, a.overwrite, a.trace);
+  scene::Document document = scene::load(a.scene, a.overrides, overrider);
   (void)coupling::read_scenario(document);
   return {a.fluid, document.echo(), rest};
 }
 
-SceneRun run_scene(const RunArguments& arguments, const runtime::World& started) {
+SceneRun run_scene(const RunArguments& arguments, const runtime::World& started, const scene::Source& overrider) {
   io::start_log(started.rank, arguments.quiet);
-  (void)coupling::agree(started, [&] { return started_with(arguments); });
-  scene::Document document = scene::load(arguments.scene, arguments.overrides);
+  (void)coupling::agree(started, [&] { return started_with(arguments, overrider); });
+  scene::Document document = scene::load(arguments.scene, arguments.overrides, overrider);
   const coupling::Scenario scenario = coupling::read_scenario(document);
   const runtime::Parts parts = coupling::place(scenario, started, arguments.fluid);
   const runtime::World& world = parts.world();
   io::start_log(world.rank, arguments.quiet);
   if (scenario.has_flow()) return run_flow_scene(scenario, document.echo(), arguments, world);
-  const ReadyScene scene = read_scene(arguments.scene, arguments.overrides);
+  const ReadyScene scene = read_scene(arguments.scene, arguments.overrides, overrider);
   const io::RunDirectory directory = open_directory(arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
   directory.write_scene(world.comm, scene.echo);
   const io::BuildInfo& build = io::build_info();
-  spdlog::info("spindrift {} ({}), {} rank{}: {}", build.version, build.commit, world.size, world.size == 1 ? "" : "s", arguments.scene);
+  spdlog::info("spindrift {} ({}), {} rank{}: {}", build.version, build.commit, world.size, world.size == 1 ? "" : "s",
+               arguments.scene);
   for (const std::string& note : scene.start.notes) spdlog::info("{}", note);
 
   coupling::RunSettings settings{.restart = arguments.restart, .trace = arguments.trace, .quiet = arguments.quiet};

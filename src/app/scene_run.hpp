@@ -10,6 +10,7 @@
 #include "src/coupling/machine.hpp"
 #include "src/coupling/start.hpp"
 #include "src/io/summary.hpp"
+#include "src/scene/document.hpp"
 
 namespace spindrift::app {
 
@@ -19,7 +20,8 @@ struct ReadyScene {
   std::unique_ptr<coupling::Machine> machine;
   coupling::Start start;
 };
-ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides);
+/// `overrider`: whose overrides they are; names of files in them start at its folder.
+ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider = scene::command_line());
 
 struct SceneRun {
   io::Summary summary;
@@ -27,6 +29,6 @@ struct SceneRun {
   bool writes = false;  ///< this rank is the one that writes
 };
 /// Runs into the run directory and writes everything but the report. Collective.
-SceneRun run_scene(const RunArguments& arguments, const runtime::World& world);
+SceneRun run_scene(const RunArguments& arguments, const runtime::World& world, const scene::Source& overrider = scene::command_line());
 
 }  // namespace spindrift::app

@@ -41,7 +41,7 @@ Outcome run_variant(const scene::Study& study, const scene::StudyRun& variant, c
   arguments.overrides = variant.overrides;
   arguments.out = (folder / variant.name).string();
   arguments.overwrite = arguments.quiet = true;
-  const SceneRun run = run_scene(arguments, world);
+  const SceneRun run = run_scene(arguments, world, {study.file, study.directory});
   return {.name = variant.name, .exit_code = run.summary.exit_code, .exit_reason = run.summary.exit_reason,
           .core_seconds = run.summary.wall_seconds * run.summary.ranks * run.summary.threads, .history = run.directory / "history.csv"};
 }
@@ -133,7 +133,7 @@ int study(const StudyArguments& arguments, const runtime::World& world) {
   const std::vector<scene::StudyRun> runs = expand(study);
   const std::filesystem::path folder =
       arguments.out.empty() ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem() : std::filesystem::path(arguments.out);
-  for (const scene::StudyRun& run : runs) read_scene(study.study.scene, run.overrides);  // every scene is right before the first runs
+  for (const scene::StudyRun& run : runs) read_scene(study.study.scene, run.overrides, {study.file, study.directory});  // every scene is right before the first runs
 
   std::vector<Outcome> outcomes;
   for (const scene::StudyRun& run : runs) {

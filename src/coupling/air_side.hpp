@@ -24,7 +24,8 @@ class AirSide {
  public:
   virtual ~AirSide() = default;
 
-  /// Load on the rotor at the start of the run, where it is in state `now`; what has to settle first, settles here. Collective.
+  /// Load on the rotor at the start of the run, where it is in state `now`; what has to settle first, settles here, unless
+  /// it has been restored. Collective.
   virtual aero::RotorLoad begin(double t, const aero::RotorState& now) = 0;
   /// What is to come: `dt` seconds, at whose end `t` the rotor is in this state.
   virtual void aim(double t, double dt, const aero::RotorState& at_end) = 0;

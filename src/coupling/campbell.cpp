@@ -11,6 +11,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/coupling/loose_limits.hpp"
+#include "src/aero/turbine.hpp"
 #include "src/scene/columns.hpp"
 
 namespace spindrift::coupling {
@@ -78,6 +79,24 @@ Campbell campbell(const Scenario& s, const bodies::Linearisation& linearisation,
   return c;
 }
 
+namespace {
+
+/// Of flat blades that move along the rotor's axis: pi/4 rho chord^2 per length across the chord, by strips (Theodorsen 1935).
+double blades_added_mass(const Scenario& s) {
+  if (s.rotor.turbine.empty()) return 0.0;
+  const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine);
+  const aero::Planform& p = turbine.planform;
+  const auto of_length = [&](std::size_t n) {
+    const double across = p.chord[n] * std::cos(p.twist[n] + s.rotor.blade_pitch);
+    return 0.25 * pi * s.environment.air_density_kg_m3 * across * across;
+  };
+  double mass = 0.0;
+  for (std::size_t n = 1; n < p.span.size(); ++n) mass += 0.5 * (of_length(n - 1) + of_length(n)) * (p.span[n] - p.span[n - 1]);
+  return turbine.blades * mass;
+}
+
+}  // namespace
+
 double missed_part(SchemeKind scheme, int order, double omega, double window) {
   using Phasor = std::complex<double>;
   const auto v = [&](double n) { return std::exp(Phasor(0.0, omega * window * n)); };  // at whole windows from now
@@ -136,15 +155,18 @@ LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, c
   verdict.fastest_Hz = std::max({verdict.fastest_Hz, campbell.rows.back().wave, campbell.rows.back().thrice});
 
   const double window = machine.timeline().window_s(), omega = 2 * pi * verdict.fastest_Hz;
-  const auto add = [&](const char* name, SchemeKind kind, int order, auto polynomial) {
+  const auto add = [&](const char* name, SchemeKind kind, int order, auto polynomial, auto mass_polynomial) {
+    const double mass_limit = stability_ratio(mass_polynomial);
     const double ratio = stability_ratio(polynomial);
     const double limit = verdict.slope_N_s_m > 0.0 ? ratio * verdict.hub_mass_kg / verdict.slope_N_s_m : std::numeric_limits<double>::infinity();
     const double missed = missed_part(kind, order, omega, window);
-    verdict.schemes.push_back({name, limit, missed, window <= 0.5 * limit && missed <= acceptable});
+    const bool stable = window <= 0.5 * limit && verdict.mass_ratio() <= 0.5 * mass_limit;
+    verdict.schemes.push_back({name, limit, missed, mass_limit, stable && missed <= acceptable});
   };
-  add("cps", SchemeKind::cps, 0, cps_damping_polynomial);
-  add("cps2", SchemeKind::cps2, 1, cps2_damping_polynomial);
-  add("css1", SchemeKind::css, 1, [](double s) { return css_damping_polynomial(1, s); });
+  verdict.air_mass_kg = blades_added_mass(machine.scenario());
+  add("cps", SchemeKind::cps, 0, cps_damping_polynomial, cps_polynomial);
+  add("cps2", SchemeKind::cps2, 1, cps2_damping_polynomial, cps2_polynomial);
+  add("css1", SchemeKind::css, 1, [](double s) { return css_damping_polynomial(1, s); }, [](double r) { return css_polynomial(1, r); });
   return verdict;
 }
 

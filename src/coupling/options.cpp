@@ -61,6 +61,9 @@ const scene::Section<StartOptions>& start_section() {
       scene::Section<StartOptions>("start", "State at t = 0.")
           .flag("equilibrium", &StartOptions::equilibrium,
                 "Start from the static equilibrium under all loads at their full value, instead of from the positions of the scene.")
+          .path("file", &StartOptions::file,
+                "Checkpoint (checkpoints/*.h5 of a run) of the same machine: bodies, water and air go on from its state at its time. Windows, steps, "
+                "scheme and the march of the air may be others; its time must be a whole number of windows.")
           .number("ramp_s", &StartOptions::ramp_s, "s",
                   "Rotor loads grow smoothly from nothing over this time; 0 applies them at once.", scene::between(0.0, 1e6))
           .integer("air_steps", &StartOptions::air_steps, "-",

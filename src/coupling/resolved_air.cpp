@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,6 +19,7 @@
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/saved_air.hpp"
+#include "src/io/progress.hpp"
 
 namespace spindrift::coupling {
 
@@ -56,95 +60,97 @@ class ResolvedAir final : public AirSide {
         world_(world),
         first_(upright(machine, now)),
         setup_(setup_at(machine, first_)),
-        rotor_(setup_, world.size, world.rank),
-        file_(rotor_.solver(), rotor_.store(), world.rank),
         state_(now),
-        felt_{{}, std::vector<aero::RotorLoad>(std::size_t(rotor_.grid_blades()))} {
-    rotor_.solver().start_uniform();
-    aero::RotorState before = now;
-    before.hub -= setup_.dt * now.hub_velocity, before.azimuth -= setup_.dt * now.speed;
-    rotor_.place(pose(before), pose(now));
-    runtime::Graph geometry(world.comm);
-    rotor_.solver().record_geometry(geometry);
-    runtime::Executor(std::move(geometry), {.threads = 1}).run();
-    news_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB", rotor_.solver().cells(), rotor_.store().tiling().size(),
-                                1e-6 * double(rotor_.solver().bytes() + rotor_.store().bytes()) * world.size));
-  }
+        blades_(aero::resolved_rotor_size(setup_).sectors),
+        felt_{{}, std::vector<aero::RotorLoad>(std::size_t(blades_))} {}
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     aim(t, 0.0, now);
+    if (rotor_) return load_ = ramped(leant(felt_.rotor));  // restored
     const StartOptions& start = machine_.scenario().start;
+    const TileStates settled = start.air_steps > 0 ? settle(start.air_steps) : TileStates();
+    make();
+    for (std::size_t n = 0; n < settled.size(); ++n) {
+      std::vector<double> values(rotor_->solver().saved_size(int(n)));  // the past stays empty: the first step is of first order
+      std::ranges::copy(settled[n], values.begin());
+      rotor_->solver().load(int(n), values);
+    }
     if (!start.air.empty()) take_up(start.air);
-    if (start.air_steps > 0) settle(start.air_steps);
     return load_ = ramped(leant(felt_.rotor));
   }
 
   void aim(double t, double dt, const aero::RotorState& at_end) override {
     t_ = t, state_ = at_end;
     if (dt == 0.0) return;
-    rotor_.solver().next_time_step(dt);
-    rotor_.move_to(pose(at_end));
-    rotor_.solver().clear_rows();
+    rotor_->solver().next_time_step(dt);
+    rotor_->move_to(pose(at_end));
+    rotor_->solver().clear_rows();
   }
 
   bool record(runtime::Graph& graph) override {
-    rotor_.solver().record(graph);
+    rotor_->solver().record(graph);
     return true;
   }
 
-  void forget_tasks() override { rotor_.solver().forget_graphs(); }
+  void forget_tasks() override { rotor_->solver().forget_graphs(); }
 
   aero::RotorLoad answer() override {
-    const aero::March& march = rotor_.solver().march();
+    const aero::March& march = rotor_->solver().march();
     if (march.verdict() == aero::Verdict::failed)
       throw NumericalFailure(
           fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
-                      march.steps(), march.cfl(), rotor_.solver().trouble(), setup_.flow.cfl_max),
-          "aero/rotor", long(rotor_.solver().time_steps()), t_);
-    felt_ = felt_by(rotor_);
+                      march.steps(), march.cfl(), rotor_->solver().trouble(), setup_.flow.cfl_max),
+          "aero/rotor", long(rotor_->solver().time_steps()), t_);
+    felt_ = felt_by(*rotor_);
     return load_ = ramped(leant(felt_.rotor));
   }
   const aero::RotorLoad* written() const override { return &load_; }
 
-  void keep(Note note) override { notes_[note].emplace(rotor_.snapshot(), load_, felt_); }
+  void keep(Note note) override { notes_[note].emplace(rotor_->snapshot(), load_, felt_); }
   void back(Note note) override {
-    rotor_.restore(notes_[note]->air);
+    rotor_->restore(notes_[note]->air);
     load_ = notes_[note]->load, felt_ = notes_[note]->felt;
   }
 
   std::vector<SavedArray> saved() const override {
-    std::vector<SavedArray> arrays = file_.arrays();
-    for (SavedArray& array : rotor_arrays(rotor_, felt_, world_.rank)) arrays.push_back(std::move(array));
+    std::vector<SavedArray> arrays = file_->arrays();
+    for (SavedArray& array : rotor_arrays(*rotor_, felt_, world_.rank)) arrays.push_back(std::move(array));
+    arrays.push_back(answer_array(load_, world_.rank));
     return arrays;
   }
-  void restore(const io::CheckpointReader& file) override { file_.read(file); }
+  void restore(const io::CheckpointReader& file) override {
+    make();
+    file_->read(file);
+    felt_ = felt_in(file, blades_), load_ = answer_in(file);
+  }
 
   std::vector<io::Column> columns() const override {
     std::vector<io::Column> columns{{"air.pseudo_steps", "-", "pseudo-steps of the window's last physical step"},
                                     {"air.density_residual", "kg/(m3 s)", "root mean square over the cells after them"},
                                     {"air.residual_drop", "-", "the same over its largest in that step"},
                                     {"air.cfl", "-", "CFL number of the last pseudo-step"}};
-    for (int b = 1; b <= rotor_.grid_blades(); ++b) {
+    for (int b = 1; b <= blades_; ++b) {
       columns.push_back({fmt::format("rotor.blade_{}.thrust_N", b), "N", "share of one blade, along the axis"});
       columns.push_back({fmt::format("rotor.blade_{}.torque_N_m", b), "N m", "share of one blade, about the axis"});
     }
     return columns;
   }
   std::vector<double> values() const override {
-    const aero::March& march = rotor_.solver().march();
-    std::vector<double> values{double(march.steps() - 1), march.density_residual(),
-                               march.first_density_residual() > 0.0 ? march.density_residual() / march.first_density_residual() : 0.0, march.cfl()};
+    const aero::March& march = rotor_->solver().march();
+    std::vector<double> values{
+        double(march.steps() - 1), march.density_residual(),
+        march.first_density_residual() > 0.0 ? march.density_residual() / march.first_density_residual() : 0.0, march.cfl()};
     for (const aero::RotorLoad& blade : felt_.blades) values.insert(values.end(), {blade.thrust, blade.torque});
     return values;
   }
 
   void open_output(const io::RunDirectory& directory, double resume_s) override {
     directory_ = &directory;
-    output_ = std::make_unique<AirOutput>(world_.comm, rotor_.solver(), rotor_.store(), directory.fields(),
+    output_ = std::make_unique<AirOutput>(world_.comm, rotor_->solver(), rotor_->store(), directory.fields(),
                                           AirOutput::Choice{.walls = setup_.flow.surfaces, .moves = true, .resume_s = resume_s});
   }
   void write_fields(std::int64_t number, double t) override { output_->write(number, t); }
-  void write_span() override { coupling::write_span(world_, rotor_, *directory_); }
+  void write_span() override { coupling::write_span(world_, *rotor_, *directory_); }
   std::vector<std::string> news() override { return std::exchange(news_, {}); }
 
  private:
@@ -155,11 +161,12 @@ class ResolvedAir final : public AirSide {
     FeltLoad felt;
   };
 
+  bool whole() const { return setup_.grid.sectors == "all"; }
   /// Where the grid is to be. One sector stays on the axis it has at the start.
   aero::RotorPose pose(const aero::RotorState& s) const {
     aero::RotorPose pose;
     pose.azimuth = s.azimuth, pose.speed = s.speed;
-    if (rotor_.whole()) {
+    if (whole()) {
       pose.hub.position = s.hub, pose.hub.attitude = hub_attitude(s);
     } else {
       pose.hub.position = first_.hub + (s.hub - first_.hub).dot(first_.axis) * first_.axis,
@@ -169,7 +176,7 @@ class ResolvedAir final : public AirSide {
   }
   /// Thrust and torque of one sector along the axis as it is now.
   aero::RotorLoad leant(aero::RotorLoad load) const {
-    if (!rotor_.whole()) load.force = load.thrust * state_.axis, load.moment = load.torque * state_.axis;
+    if (!whole()) load.force = load.thrust * state_.axis, load.moment = load.torque * state_.axis;
     return load;
   }
   aero::RotorLoad ramped(aero::RotorLoad load) const {
@@ -178,17 +185,37 @@ class ResolvedAir final : public AirSide {
     return load;
   }
 
+  /// Unknowns of this rank's tiles.
+  using TileStates = std::vector<std::vector<double>>;
+
   /// A steady march seen from the turning rotor, hub held where it starts, upright; the physical steps go on from its flow, which
-  /// does not know of a lean that an equilibrium gave the rotor.
-  void settle(int steps) {
+  /// does not know of a lean that an equilibrium gave the rotor. Its solver is gone before the moving one is made: two would not
+  /// fit where one does.
+  TileStates settle(int steps) {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
     steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 1e-9, steady.flow.load_change = 0.0;
-    aero::ResolvedRotor held(steady, world_.size, world_.rank);
+    // A large grid settles in pieces, so that the log shows life; how long they are follows from the grid alone, as the bits do.
+    constexpr double cells_of_a_piece = 2.5e6;  // half a minute of a core
+    const long cells = aero::resolved_rotor_size(steady).cells;
+    const int piece = std::clamp(int(cells_of_a_piece / double(cells)), std::min(10, steps), steps);
+    aero::ResolvedRotor held(steady, world_.size, world_.rank, piece);
+    spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held.solver().cells());
     held.solver().start_uniform();
     held.prepare(world_.comm);
-    held.run();
     const aero::March& march = held.solver().march();
+    const auto begin = std::chrono::steady_clock::now();
+    double said_s = 0.0;
+    for (int done = 0; done == 0 || (march.spent() && done < steps);) {
+      if (done > 0) held.solver().keep_last_row();
+      held.run();
+      done = march.steps() - 1;
+      const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      if (spent_s - said_s < 10.0 || done >= steps) continue;
+      said_s = spent_s;
+      spdlog::info("air settles: {} of {} pseudo-steps, thrust {:.4g} kN, about {} left", done, steps, 1e-3 * held.load().thrust,
+                   io::duration_text(spent_s / done * (steps - done)));
+    }
     if (march.verdict() == aero::Verdict::failed)
       throw NumericalFailure(fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}",
                                          march.why(), march.steps(), march.cfl(), held.solver().trouble()),
@@ -204,13 +231,31 @@ class ResolvedAir final : public AirSide {
     news_.push_back(fmt::format("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}",
                                 march.steps() - 1, 1e-3 * felt_.rotor.thrust, change,
                                 march.density_residual() / march.first_density_residual()));
-    rotor_.solver().start_from(held.solver());
+    TileStates states;
+    for (std::size_t n = 0; n < held.solver().tiles().size(); ++n)
+      held.solver().save(int(n), states.emplace_back(held.solver().saved_size(int(n))));
+    return states;
+  }
+
+  /// The rotor in the wind as it comes, placed for the first step.
+  void make() {
+    rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank);
+    file_.emplace(rotor_->solver(), rotor_->store(), world_.rank);
+    rotor_->solver().start_uniform();
+    aero::RotorState before = state_;
+    before.hub -= setup_.dt * state_.hub_velocity, before.azimuth -= setup_.dt * state_.speed;
+    rotor_->place(pose(before), pose(state_));
+    runtime::Graph geometry(world_.comm);
+    rotor_->solver().record_geometry(geometry);
+    runtime::Executor(std::move(geometry), {.threads = 1}).run();
+    news_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB", rotor_->solver().cells(), rotor_->store().tiling().size(),
+                                1e-6 * double(rotor_->solver().bytes() + rotor_->store().bytes()) * world_.size));
   }
 
   /// The flow that another run left, carried to where the blades start, upright.
   void take_up(const std::string& file) {
     const io::CheckpointReader saved = open_saved(world_.comm, file);
-    felt_ = start_from(saved, machine_.scenario(), rotor_, aero::hub_pose(setup_.rotor));
+    felt_ = start_from(saved, machine_.scenario(), *rotor_, aero::hub_pose(setup_.rotor));
     news_.push_back(fmt::format("air taken from {}: thrust {:.4g} kN", saved.path().string(), 1e-3 * felt_.rotor.thrust));
   }
 
@@ -218,10 +263,11 @@ class ResolvedAir final : public AirSide {
   const runtime::World world_;
   aero::RotorState first_;  ///< at the start, upright
   aero::ResolvedRotorSetup setup_;
-  aero::ResolvedRotor rotor_;
-  AirFile file_;
+  std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< made by begin() or restore()
+  std::optional<AirFile> file_;
   double t_ = 0.0;
   aero::RotorState state_;  ///< of the last aim
+  int blades_;              ///< of the grid
   FeltLoad felt_;           ///< after the last step, as it is
   aero::RotorLoad load_;    ///< the last answer: along the axis now, ramped
   std::array<std::optional<Noted>, 2> notes_;

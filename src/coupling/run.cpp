@@ -30,10 +30,11 @@ namespace spindrift::coupling {
 
 namespace {
 
-/// The window of a scene without fluid solvers: the bodies' steps in order, then a row of history. Recorded once, replayed per window.
+/// The window of a scene without fluid solvers: the bodies' steps in order, then a row of history. Recorded once, replayed per
+/// window.
 struct Window {
-  bodies::BodiesState start, state;  ///< at the window's start; now
-  bodies::StepReport trouble;        ///< of the first step that failed; `state` is then the last good one
+  bodies::BodiesState start, state;        ///< at the window's start; now
+  bodies::StepReport trouble;              ///< of the first step that failed; `state` is then the last good one
   std::int64_t steps = 0;                  ///< of all runs so far
   std::optional<CoupledWindow> coupled{};  ///< where the rotor is a part of its own
   std::unique_ptr<BodySide> side{};        ///< of a sea of particles that shares the window with no such part,
@@ -45,16 +46,18 @@ struct Window {
   const WindowTasks* shared_tasks() const { return coupled ? &coupled->tasks() : tasks.get(); }
 };
 
-/// A line of log.txt for a window: how it went, and core-seconds of each side on all ranks; not for loose windows of a machine without tasks,
-/// which are too short to be spoken of. Collective.
-void log_window(const Machine& machine, Window& window, const runtime::Parts& parts, const WindowReport& report, double end_s, double wall_s) {
+/// A line of log.txt for a window: how it went, and core-seconds of each side on all ranks; not for loose windows of a machine
+/// without tasks, which are too short to be spoken of. Collective.
+void log_window(const Machine& machine, Window& window, const runtime::Parts& parts, const WindowReport& report, double end_s,
+                double wall_s) {
   const bool tasked = machine.scenario().resolves_air() || machine.particle_plan();
   if (!tasked && window.coupled->loose()) return;
   const WindowTasks& tasks = window.coupled->tasks();
   const double bodies = parts.has(sea_part) ? 1e-9 * double(window.body_side().own_ns()) : 0.0;
   const double air = parts.has(air_part) ? 1e-9 * double(window.coupled->totals().answer_ns) : 0.0;
-  const std::vector<double> now = runtime::summed(
-      parts.world().comm, {machine.scenario().resolves_air() ? tasks.core_seconds("aero") : air, tasks.core_seconds("sea"), bodies, 1e-9 * double(parts.waited_ns())});
+  const std::vector<double> now =
+      runtime::summed(parts.world().comm, {machine.scenario().resolves_air() ? tasks.core_seconds("aero") : air,
+                                           tasks.core_seconds("sea"), bodies, 1e-9 * double(parts.waited_ns())});
   std::array<double, 4> spent;
   for (std::size_t n = 0; n < now.size(); ++n) spent[n] = now[n] - window.core_seconds[n], window.core_seconds[n] = now[n];
   // Bodies beside particles move within tasks of the sea.
@@ -62,9 +65,10 @@ void log_window(const Machine& machine, Window& window, const runtime::Parts& pa
   const WindowLog& log = report.log;
   std::string how = fmt::format("{} evaluations, mismatch {:.3g}", log.evaluations, report.mismatch);
   if (!window.coupled->loose())
-    how += fmt::format(", residual {:.3g} of {:.3g} at first, {} columns, {} retries, {} cuts, ended by {}", log.residual, log.first_residual, log.columns,
-                       log.retries, log.cuts, bound_name(log.bound));
-  spdlog::debug("window to t = {:g} s: {}; {:.3g} s; core-s: air {:.3g}, sea {:.3g}, bodies {:.3g}{}", end_s, how, wall_s, spent[0], sea, spent[2],
+    how += fmt::format(", residual {:.3g} of {:.3g} at first, {} columns, {} retries, {} cuts, ended by {}", log.residual,
+                       log.first_residual, log.columns, log.retries, log.cuts, bound_name(log.bound));
+  spdlog::debug("window to t = {:g} s: {}; {:.3g} s; core-s: air {:.3g}, sea {:.3g}, bodies {:.3g}{}", end_s, how, wall_s,
+                spent[0], sea, spent[2],
                 parts.split() ? fmt::format("; ranks waited {:.3g} s for the other side", spent[3]) : std::string());
 }
 
@@ -78,10 +82,11 @@ runtime::Graph record_coupled_window(Machine& machine, Window& window, const run
     WindowReport report = window.coupled->advance(window.state);
     const double end_s = double(window.start.tick) * machine.timeline().tick_s() + machine.timeline().window_s();
     log_window(machine, window, parts, report, end_s, seconds_since(begin));
-    if (report.ok()) window.steps += machine.particle_plan() ? window.coupled->bodies().steps() - steps : machine.timeline().steps_per_window();
+    if (report.ok())
+      window.steps += machine.particle_plan() ? window.coupled->bodies().steps() - steps : machine.timeline().steps_per_window();
     if (report.log.retries > 0)
-      spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}", end_s, report.log.retries,
-                   report.log.cuts, report.log.evaluations, bound_name(report.log.bound));
+      spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}", end_s,
+                   report.log.retries, report.log.cuts, report.log.evaluations, bound_name(report.log.bound));
     window.failure = std::move(report.failure);
   });
   return graph;
@@ -137,8 +142,8 @@ void restore_particles(const Machine& machine, const io::CheckpointReader& file)
   try {
     sea::ParticleState state = machine.particles()->room();
     if (file.size("sea/particles") != state.total)
-      throw std::invalid_argument("its sea has " + std::to_string(file.size("sea/particles")) + " values of particles, this one " +
-                                  std::to_string(state.total));
+      throw std::invalid_argument("its sea has " + std::to_string(file.size("sea/particles")) +
+                                  " values of particles, this one " + std::to_string(state.total));
     const io::Slice<double> mine{state.first, state.values};
     file.read<double>("sea/particles", std::span(&mine, 1));
     state.time_s = file.number("sea/time_s"), state.steps = file.integer("sea/steps");
@@ -149,7 +154,9 @@ void restore_particles(const Machine& machine, const io::CheckpointReader& file)
 class Checkpoints {
  public:
   Checkpoints(const runtime::Parts& parts, const Machine& machine, const io::RunDirectory& directory)
-      : parts_(parts), machine_(machine), series_(parts.world().comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
+      : parts_(parts),
+        machine_(machine),
+        series_(parts.world().comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
 
   void save(Window& window, std::int64_t number, int restarts) {
     const bodies::BodiesState& state = window.ok() ? window.state : window.start;  // a restart begins at a window's start
@@ -158,13 +165,17 @@ class Checkpoints {
     const double tick_s = machine_.timeline().tick_s();
     series_.save(state.tick - machine_.first_tick(), [&](io::CheckpointWriter& file) {
       file.set("window", number);
+      file.set("time_s", machine_.timeline().window_end_s(number));
       file.set("steps", window.steps);
       file.set("restarts", std::int64_t(restarts));
       file.write<double>("time/tick_s", std::span<const double>(&tick_s, 1));
       file.write<double>("bodies/state", packed);
-      if (window.coupled) file.write<double>("coupling/history", window.coupled->history());
-      if (window.coupled) write(file, parts_, air_part, window.coupled->air().saved());
-      if (window.coupled && machine_.scenario().resolves_air()) write_air_settings(file, machine_.scenario());
+      if (window.coupled) {
+        file.set("coupling/scheme", std::int64_t(machine_.scenario().coupling.scheme));
+        file.write<double>("coupling/history", window.coupled->history());
+        write(file, parts_, air_part, window.coupled->air().saved());
+        if (machine_.scenario().resolves_air()) write_air_settings(file, machine_.scenario());
+      }
       if (!machine_.particle_plan()) return;
       sea::ParticleState particles;
       if (parts_.has(sea_part)) particles = machine_.particles()->save();
@@ -182,8 +193,10 @@ class Checkpoints {
     if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
     if (file->has("time/tick_s"))
       if (const double theirs = file->read<double>("time/tick_s").at(0), ours = machine_.timeline().tick_s(); theirs != ours)
-        throw io::InputError(fmt::format("{}: its time is counted in units of {:.6g} s, this scene's in {:.6g} s: a restart keeps time.window_s and "
-                                         "time.step_s (given or not)", file->path().string(), theirs, ours));
+        throw io::InputError(fmt::format(
+            "{}: its time is counted in units of {:.6g} s, this scene's in {:.6g} s: a restart keeps time.window_s and "
+            "time.step_s (given or not)",
+            file->path().string(), theirs, ours));
     window.state.unpack(file->read<double>("bodies/state"));
     window.steps = file->integer("steps");
     restarts = int(file->integer("restarts")) + 1;
@@ -203,6 +216,38 @@ class Checkpoints {
   std::int64_t saved_ = -1;
 };
 
+/// start.file: the state that another run of the same machine left, whatever its windows and its march; the window to go on from.
+std::int64_t take_over(const Machine& machine, Window& window, const runtime::Parts& parts) {
+  const io::CheckpointReader file(parts.world().comm, machine.scenario().start.file);
+  const auto refuse = [&](const std::string& why) {
+    throw io::InputError(fmt::format("{} (start.file): {}", file.path().string(), why));
+  };
+
+  const Timeline& timeline = machine.timeline();
+  const double t = file.number("time_s");
+  const std::optional<std::int64_t> windows = t == 0.0 ? std::optional<std::int64_t>(0) : whole_ratio(t, timeline.window_s());
+  if (!windows)
+    refuse(fmt::format("its state is that of t = {:g} s, which is no whole number of windows of {:g} s", t, timeline.window_s()));
+  if (*windows >= timeline.windows())
+    refuse(fmt::format("its state is that of t = {:g} s, the run ends at {:g} s", t, timeline.window_end_s(timeline.windows())));
+  const std::vector<double> bodies = file.read<double>("bodies/state");
+  if (bodies.size() != window.state.packed_size()) refuse("its bodies and joints are not those of this scene");
+  window.state.unpack(bodies);
+  window.state.tick = timeline.tick_of_window(*windows);
+  io::together(parts.world().comm, [&] {
+    if (window.coupled) window.coupled->air().restore(file);
+    restore_particles(machine, file);
+  });
+  if (window.coupled) {
+    // What the scheme has learnt goes along where it is the same one; else it begins with the state alone.
+    const bool same =
+        file.has("coupling/history") && file.integer("coupling/scheme") == std::int64_t(machine.scenario().coupling.scheme);
+    if (!same || !window.coupled->restore(file.read<double>("coupling/history"))) window.coupled->begin(window.state);
+  }
+  spdlog::info("from t = {:g} s of {}", t, file.path().string());
+  return *windows;
+}
+
 /// What a restart must find unchanged, since otherwise the run would not be the one that was interrupted.
 std::int64_t windows_until(const Timeline& timeline, const std::optional<double>& until_s) {
   if (!until_s) return timeline.windows();
@@ -210,15 +255,17 @@ std::int64_t windows_until(const Timeline& timeline, const std::optional<double>
   return std::min<std::int64_t>(windows, timeline.windows());
 }
 
-/// Core-seconds of all ranks, and seconds as if they were shared out evenly. Sources of load are asked within the steps of the bodies, all of
-/// them within the windows; what is left of those is waiting and, where parts have tasks, the runtime's own work. Collective.
+/// Core-seconds of all ranks, and seconds as if they were shared out evenly. Sources of load are asked within the steps of the
+/// bodies, all of them within the windows; what is left of those is waiting and, where parts have tasks, the runtime's own work.
+/// Collective.
 std::vector<io::PartTime> part_times(Machine& machine, const Window& window, const runtime::Parts& parts, double window_seconds,
                                      double output_seconds) {
   const WindowTasks* tasks = window.shared_tasks();
   const bool in_tasks = machine.scenario().resolves_air() || machine.particle_plan();
   const int own_threads = tasks && tasks->executor() ? tasks->executor()->threads() : 1;
   // Bodies and the loads that they ask for are advanced alike by all ranks that have them; only particles are shared out.
-  std::vector<double> mine{double(own_threads), tasks ? tasks->core_seconds("aero") : 0.0, tasks ? tasks->core_seconds("sea") : 0.0};
+  std::vector<double> mine{double(own_threads), tasks ? tasks->core_seconds("aero") : 0.0,
+                           tasks ? tasks->core_seconds("sea") : 0.0};
   const auto clocks = machine.clocks();
   if (in_tasks) mine.push_back(parts.has(sea_part) ? 1e-9 * double(window.body_side().own_ns()) : 0.0);
   for (const SourceClock& clock : clocks) mine.push_back(1e-9 * double(clock.ns));
@@ -240,28 +287,36 @@ std::vector<io::PartTime> part_times(Machine& machine, const Window& window, con
   }
   for (std::size_t s = 0; s < clocks.size(); ++s) {
     const bool particles = machine.particle_plan() && machine.system().loads()[s].name == "sea";
-    add(machine.system().loads()[s].name, (particles ? all[2] - all[3] : 0.0) + asked[s], particles ? window.body_side().steps() : clocks[s].calls);
+    add(machine.system().loads()[s].name, (particles ? all[2] - all[3] : 0.0) + asked[s],
+        particles ? window.body_side().steps() : clocks[s].calls);
   }
-  if (threads > 1.0 || in_tasks) times.push_back({"idle_and_runtime", window_seconds - known, (window_seconds - known) * threads, 0});
+  if (threads > 1.0 || in_tasks)
+    times.push_back({"idle_and_runtime", window_seconds - known, (window_seconds - known) * threads, 0});
   times.push_back({"output", output_seconds, output_seconds, 0});
   return times;
 }
 
 /// Where the core-seconds of each side's ranks went, into the summary and as lines under the table. Collective; split runs.
-void tell_sides(const Window& window, const runtime::Parts& parts, std::int64_t waited_ns, double window_seconds, io::Summary& summary) {
+void tell_sides(const Window& window, const runtime::Parts& parts, std::int64_t waited_ns, double window_seconds,
+                io::Summary& summary) {
   const WindowTasks& tasks = window.coupled->tasks();
   const int threads = tasks.executor() ? tasks.executor()->threads() : 1;
-  const double busy = tasks.executor() ? tasks.core_seconds("aero") + tasks.core_seconds("sea") : 1e-9 * double(window.body_side().own_ns());
+  const double busy =
+      tasks.executor() ? tasks.core_seconds("aero") + tasks.core_seconds("sea") : 1e-9 * double(window.body_side().own_ns());
   std::vector<double> mine(8, 0.0);  // by part: ranks, core-seconds in all, busy, waiting for the other side
   double* at = mine.data() + 4 * parts.part();
   at[0] = 1.0, at[1] = threads * window_seconds, at[2] = busy, at[3] = 1e-9 * double(waited_ns) * threads;
   const std::vector<double> all = runtime::summed(parts.world().comm, mine);
   for (const auto& [part, name, other] : {std::tuple{air_part, "air", "sea"}, std::tuple{sea_part, "sea", "air"}}) {
     const double *of = all.data() + 4 * part, core_s = of[1];
-    spdlog::info("  {} on {} rank{}: {:5.1f} % busy, {:5.1f} % waiting for the {}, {:5.1f} % other idle and runtime; of {:.4g} core-s", name, of[0],
-                 of[0] == 1.0 ? "" : "s", 100.0 * of[2] / core_s, 100.0 * of[3] / core_s, other, 100.0 * (core_s - of[2] - of[3]) / core_s, core_s);
-    summary.efficiency.push_back({fmt::format("{} busy", name), of[2] / core_s, fmt::format("useful part of the core-seconds of the {}'s ranks", name)});
-    summary.efficiency.push_back({fmt::format("{} waiting", name), of[3] / core_s, fmt::format("part of them spent until the {} was done", other)});
+    spdlog::info(
+        "  {} on {} rank{}: {:5.1f} % busy, {:5.1f} % waiting for the {}, {:5.1f} % other idle and runtime; of {:.4g} core-s",
+        name, of[0], of[0] == 1.0 ? "" : "s", 100.0 * of[2] / core_s, 100.0 * of[3] / core_s, other,
+        100.0 * (core_s - of[2] - of[3]) / core_s, core_s);
+    summary.efficiency.push_back(
+        {fmt::format("{} busy", name), of[2] / core_s, fmt::format("useful part of the core-seconds of the {}'s ranks", name)});
+    summary.efficiency.push_back(
+        {fmt::format("{} waiting", name), of[3] / core_s, fmt::format("part of them spent until the {} was done", other)});
   }
 }
 
@@ -317,11 +372,12 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   fill_sea(machine, start.state.motions, parts);
   Recorder recorder(machine, history);
   std::int64_t first = -machine.held_windows();
+  const bool takes_over = !settings.restart && !machine.scenario().start.file.empty(), begins = !settings.restart && !takes_over;
   window.state = start.state;
   if (machine.rotor() && machine.scenario().coupling.scheme != SchemeKind::monolithic) {
-    window.coupled.emplace(machine, make_sides(machine, machine.rotor()->state(0.0, start.state.motions), parts), parts.mine().comm, records);
-    if (!settings.restart) window.coupled->begin(start.state);
-    for (const std::string& sentence : window.coupled->air().news()) spdlog::info("{}", sentence);
+    window.coupled.emplace(machine, make_sides(machine, machine.rotor()->state(0.0, start.state.motions), parts),
+                           parts.mine().comm, records);
+    if (begins) window.coupled->begin(start.state);
     window.coupled->declare(history);
   }
   if (machine.particles() && !window.coupled) {
@@ -334,7 +390,11 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   if (settings.restart) {
     first = checkpoints.resume(window, summary.restarts);
     spdlog::info("restart from t = {} s", timeline.window_end_s(first));
+  } else if (takes_over) {
+    first = take_over(machine, window, parts);
   }
+  if (window.coupled)
+    for (const std::string& sentence : window.coupled->air().news()) spdlog::info("{}", sentence);
   const bool writes = world.rank == 0;
   const auto write_row = [&](std::int64_t number) {  // where bodies and water are known
     if (parts.has(sea_part)) recorder.write(window.state, timeline.window_end_s(number), coupling_columns);
@@ -343,13 +403,16 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     history.resume(directory.history(), timeline.window_end_s(first));
   else if (writes)
     history.open(directory.history());
-  SeaOutput sea_output(machine, directory.fields(), parts.mine(), settings.restart ? timeline.window_end_s(first) : io::from_the_start);
+  SeaOutput sea_output(machine, directory.fields(), parts.mine(),
+                       settings.restart ? timeline.window_end_s(first) : io::from_the_start);
   const double air_every = machine.scenario().output.air_interval_s;
   const std::int64_t air_windows = air_every > 0.0 ? std::max<std::int64_t>(1, std::llround(air_every / timeline.window_s())) : 0;
   const auto write_air = [&](std::int64_t number) {
-    if (window.coupled) window.coupled->air().write_fields(timeline.tick_of_window(number) - machine.first_tick(), timeline.window_end_s(number));
+    if (window.coupled)
+      window.coupled->air().write_fields(timeline.tick_of_window(number) - machine.first_tick(), timeline.window_end_s(number));
   };
-  if (window.coupled) window.coupled->air().open_output(directory, settings.restart ? timeline.window_end_s(first) : io::from_the_start);
+  if (window.coupled)
+    window.coupled->air().open_output(directory, settings.restart ? timeline.window_end_s(first) : io::from_the_start);
   if (!settings.restart) {
     if (machine.particles()) evaluate_particles(machine, window.state);
     write_row(first);
@@ -361,7 +424,8 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   const std::int64_t save_every =
       checkpoint.interval_s > 0.0 ? std::max<std::int64_t>(1, std::llround(checkpoint.interval_s / timeline.window_s())) : 0;
   runtime::Executor executor(record_window(machine, window, parts), {.threads = 1, .records = records});
-  io::Progress progress(timeline.window_end_s(first), timeline.window_end_s(last), io::progress_style(world.rank, settings.quiet));
+  io::Progress progress(timeline.window_end_s(first), timeline.window_end_s(last),
+                        io::progress_style(world.rank, settings.quiet));
   machine.reset_clocks();
   window.core_seconds[3] = runtime::summed(world.comm, {1e-9 * double(parts.waited_ns())})[0];
 
@@ -375,7 +439,8 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     window_seconds += seconds_since(window_begin);
     waited_ns += parts.waited_ns() - waited_before;
     if (!window.ok()) {
-      if (window.failure.empty()) window.failure = machine.system().failure(window.trouble, window.state, timeline.tick_s()).what();
+      if (window.failure.empty())
+        window.failure = machine.system().failure(window.trouble, window.state, timeline.tick_s()).what();
       summary.exit_code = 3;
       summary.exit_reason = window.failure;
       summary.numerical_trouble.push_back(window.failure);
@@ -398,7 +463,8 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   if (window.coupled) window.coupled->air().write_span();
 
   if (summary.exit_code == 0)
-    summary.exit_reason = last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last)) : "done";
+    summary.exit_reason =
+        last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last)) : "done";
   summary.start_time_s = timeline.window_end_s(first);
   summary.end_time_s = double(window.state.tick) * timeline.tick_s();
   summary.window_s = timeline.window_s();
@@ -412,9 +478,11 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
     summary.counts.emplace_back("step_evaluations", totals.body_steps);
   }
   if (const sea::ParticleSea* sea = machine.particles())
-    for (const auto& [name, count] : std::initializer_list<std::pair<const char*, std::int64_t>>{
-             {"particles", std::int64_t(sea->particles())}, {"particle_evaluations", sea->evaluations()}, {"particle_sorts", sea->sorts()},
-             {"particles_lost", std::int64_t(sea->lost())}})
+    for (const auto& [name, count] :
+         std::initializer_list<std::pair<const char*, std::int64_t>>{{"particles", std::int64_t(sea->particles())},
+                                                                     {"particle_evaluations", sea->evaluations()},
+                                                                     {"particle_sorts", sea->sorts()},
+                                                                     {"particles_lost", std::int64_t(sea->lost())}})
       summary.counts.emplace_back(name, count);
   summary.wall_seconds = seconds_since(begin);
   summary.parts = part_times(machine, window, parts, window_seconds, summary.wall_seconds - window_seconds);

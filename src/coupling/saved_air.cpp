@@ -21,7 +21,8 @@ namespace spindrift::coupling {
 
 namespace {
 
-constexpr const char *settings_name = "air/settings", *pose_name = "air/pose", *load_name = "air/load", *grid_name = "air/grid";
+constexpr const char *settings_name = "air/settings", *pose_name = "air/pose", *load_name = "air/load",
+                     *answer_name = "air/answer", *grid_name = "air/grid";
 
 /// The parameters of a section as lines "heading.key = value"; of all keys where none are named.
 void add_lines(std::string& lines, const scene::SectionBase& section, const std::string& heading, const void* options,
@@ -114,6 +115,24 @@ std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const Fel
   return arrays;
 }
 
+FeltLoad felt_in(const io::CheckpointReader& file, int blades) {
+  std::vector<aero::RotorLoad> loads;
+  const std::vector<double> saved = file.read<double>(load_name);
+  for (std::size_t n = 0; n + load_numbers <= saved.size(); n += load_numbers) loads.push_back(load_at(saved.data() + n));
+  if (loads.size() != 1 + std::size_t(blades))
+    throw io::InputError(file.path().string() + ": has loads of another number of blades");
+  return {loads[0], {loads.begin() + 1, loads.end()}};
+}
+
+SavedArray answer_array(const aero::RotorLoad& load, int rank) {
+  std::vector<double> values;
+  append(values, load);
+  SavedArray array{answer_name, load_numbers, {}};
+  if (rank == 0) array.pieces.push_back({0, std::move(values)});
+  return array;
+}
+aero::RotorLoad answer_in(const io::CheckpointReader& file) { return load_at(file.read<double>(answer_name).data()); }
+
 FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
                     const aero::RotorPose& start) {
   const auto refuse = [&](const std::string& why) {
@@ -156,14 +175,12 @@ FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, 
     solver.load(n, values);
   }
   solver.forget();
-  std::vector<aero::RotorLoad> loads;
-  const std::vector<double> saved_loads = file.read<double>(load_name);
-  for (std::size_t n = 0; n + load_numbers <= saved_loads.size(); n += load_numbers)
-    loads.push_back(load_at(saved_loads.data() + n));
-  if (loads.size() != 1 + std::size_t(rotor.grid_blades())) refuse("has loads of another number of blades");
-  if (turned)
-    for (aero::RotorLoad& load : loads) load.force = by * load.force, load.moment = by * load.moment;
-  return {loads[0], {loads.begin() + 1, loads.end()}};
+  FeltLoad felt = felt_in(file, rotor.grid_blades());
+  if (turned) {
+    felt.rotor.force = by * felt.rotor.force, felt.rotor.moment = by * felt.rotor.moment;
+    for (aero::RotorLoad& blade : felt.blades) blade.force = by * blade.force, blade.moment = by * blade.moment;
+  }
+  return felt;
 }
 
 }  // namespace spindrift::coupling

@@ -28,7 +28,8 @@ void check_names(scene::Document& document, const Scenario& s) {
   const auto check = [&](const char* section, const std::vector<std::string>& all) {
     for (const std::string& name : all) {
       if (!seen.insert(name).second)
-        document.problem(fmt::format("{}.{}", section, name), fmt::format("\"{}\" is the name of another body, joint or line", name));
+        document.problem(fmt::format("{}.{}", section, name),
+                         fmt::format("\"{}\" is the name of another body, joint or line", name));
     }
   };
   check("bodies", names(s.bodies));
@@ -44,7 +45,8 @@ void check_particles(scene::Document& document, const Scenario& s) {
   if (s.start.equilibrium)
     for (const auto& [name, body] : s.bodies)
       if (!body.boxes.empty() || !body.spheres.empty())
-        document.problem("start.equilibrium", fmt::format("is found by hydrostatics of cylinders: bodies.{} has other shapes", name));
+        document.problem("start.equilibrium",
+                         fmt::format("is found by hydrostatics of cylinders: bodies.{} has other shapes", name));
   std::vector<std::string> columns;
   for (const sea::GaugeOptions& gauge : s.sea.gauges) columns.push_back(gauge.name);
   for (const sea::ProbeOptions& probe : s.sea.probes) columns.push_back(probe.name);
@@ -55,16 +57,31 @@ void check_particles(scene::Document& document, const Scenario& s) {
     document.problem("sea.initial.settle_s", fmt::format("must be a whole number of windows of {} s", s.time.window_s));
 }
 
+/// A saved state is the start: what would make another one has no effect.
+void check_saved_start(scene::Document& document, const Scenario& s) {
+  if (s.start.file.empty()) return;
+  if (s.has_flow()) return document.problem("start.file", "has no effect: there are no bodies");
+  const std::string why = "has no effect: start.file is the start";
+  if (s.start.equilibrium) document.problem("start.equilibrium", why);
+  if (s.start.air_steps > 0) document.problem("start.air_steps", why);
+  if (!s.start.air.empty()) document.problem("start.air", why);
+  if (s.sea.settle_s() > 0.0) document.problem("sea.initial.settle_s", why);
+  if (s.sea.initial && s.sea.initial->state == "file") document.problem("sea.initial.state", why);
+}
+
 /// Rules between a resolved rotor and the bodies that carry it.
 void check_resolved_air(scene::Document& document, const Scenario& s) {
-  if (!has_resolved_rotor(s)) return document.problem("bodies", "have no effect beside an air without a rotor: give [aero.grid], or leave them out");
+  if (!has_resolved_rotor(s))
+    return document.problem("bodies", "have no effect beside an air without a rotor: give [aero.grid], or leave them out");
   aero::RotorOptions rotor = s.rotor;
   for (const auto& [name, joint] : s.joints)
     if (name == s.rotor.joint) rotor.axis = joint.axis, rotor.speed = 1.0;  // the bearing's motion gives the speed
   aero::check_resolved_rotor(document, s.aero, rotor, flow_wind(s));
-  if (s.aero.flow->time == "steady") document.problem("aero.flow.time", "must be \"bdf1\" or \"bdf2\" where bodies carry the rotor: it moves with them");
+  if (s.aero.flow->time == "steady")
+    document.problem("aero.flow.time", "must be \"bdf1\" or \"bdf2\" where bodies carry the rotor: it moves with them");
   if (s.start.air_steps > 0 && rotor.axis.cross(flow_wind(s)).norm() > 1e-6 * rotor.axis.norm() * flow_wind(s).norm())
-    document.problem("start.air_steps", "needs the wind along the rotor's axis: seen from the turning rotor no other flow is steady");
+    document.problem("start.air_steps",
+                     "needs the wind along the rotor's axis: seen from the turning rotor no other flow is steady");
   if (s.coupling.scheme == SchemeKind::monolithic)
     document.problem("coupling.scheme", "must not be \"monolithic\": a resolved rotor answers once per window; take \"cps2\"");
 }
@@ -73,9 +90,9 @@ void check_resolved_air(scene::Document& document, const Scenario& s) {
 
 std::span<const scene::SectionBase* const> all_sections() {
   static const std::array<const scene::SectionBase*, 15> sections{
-      &time_section(),        &environment_section(), &aero::wind_section(),   &aero::aero_section(),
-      &aero::rotor_section(), &sea::sea_section(),    &sea::waves_section(),  &bodies::body_section(), &bodies::joint_section(),
-      &moorings::line_section(), &coupling_section(), &start_section(),    &runtime_section(),     &output_section(),  &checkpoint_section()};
+      &time_section(),     &environment_section(), &aero::wind_section(),   &aero::aero_section(),    &aero::rotor_section(),
+      &sea::sea_section(), &sea::waves_section(),  &bodies::body_section(), &bodies::joint_section(), &moorings::line_section(),
+      &coupling_section(), &start_section(),       &runtime_section(),      &output_section(),        &checkpoint_section()};
   return sections;
 }
 
@@ -85,7 +102,12 @@ Eigen::Vector3d flow_wind(const Scenario& s) {
 }
 
 aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
-  return {*s.aero.flow, *s.aero.grid, s.rotor, flow_wind(s), s.environment.air_density_kg_m3, s.aero.flow->time == "steady" ? 0.0 : s.time.window_s};
+  return {*s.aero.flow,
+          *s.aero.grid,
+          s.rotor,
+          flow_wind(s),
+          s.environment.air_density_kg_m3,
+          s.aero.flow->time == "steady" ? 0.0 : s.time.window_s};
 }
 
 std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies) {
@@ -136,27 +158,33 @@ Scenario read_scenario(scene::Document& document) {
   s.checkpoint = document.read(checkpoint_section());
 
   check_names(document, s);
+  check_saved_start(document, s);
   if (!(s.has_rotor() && s.resolves_air()) && s.start.air_steps > 0)
     document.problem("start.air_steps", "has no effect: there is no resolved rotor on a body");
-  for (const auto& [key, given] : {std::pair{"start.air", !s.start.air.empty()}, std::pair{"output.air_interval_s", s.output.air_interval_s > 0.0}})
-    if (!(s.has_rotor() && s.resolves_air()) && given) document.problem(key, "has no effect: there is no resolved rotor on a body");
+  for (const auto& [key, given] :
+       {std::pair{"start.air", !s.start.air.empty()}, std::pair{"output.air_interval_s", s.output.air_interval_s > 0.0}})
+    if (!(s.has_rotor() && s.resolves_air()) && given)
+      document.problem(key, "has no effect: there is no resolved rotor on a body");
   if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
   if (s.has_flow()) {
     if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s));
     if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
     if (has_resolved_rotor(s) && !s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
-    if (s.wind.speed_m_s <= 0.0 && !has_resolved_rotor(s)) document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
+    if (s.wind.speed_m_s <= 0.0 && !has_resolved_rotor(s))
+      document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
     document.finish();
     return s;
   }
   if (s.resolves_air()) check_resolved_air(document, s);
-  if (s.coupling.scheme == SchemeKind::automatic) s.coupling.scheme = s.resolves_air() ? SchemeKind::cps2 : SchemeKind::monolithic;
+  if (s.coupling.scheme == SchemeKind::automatic)
+    s.coupling.scheme = s.resolves_air() ? SchemeKind::cps2 : SchemeKind::monolithic;
   check_coupling(document, s.coupling, s.time);
   check_bodies(document, s.bodies, s.joints, s.has_particles());
   for (const auto& [name, body] : s.bodies)
     for (const auto& [shapes, any] : {std::pair{"boxes", !body.boxes.empty()}, std::pair{"spheres", !body.spheres.empty()}})
       if (!s.has_particles() && any)
-        document.problem(fmt::format("bodies.{}.{}", name, shapes), "has no effect: only sea.model = \"sph\" knows this shape, others cylinders");
+        document.problem(fmt::format("bodies.{}.{}", name, shapes),
+                         "has no effect: only sea.model = \"sph\" knows this shape, others cylinders");
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, bodies);
   if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
@@ -179,7 +207,8 @@ std::string describe_bodies(const Scenario& s) {
 }
 
 std::string describe_rotor(const Scenario& s) {
-  if (has_resolved_rotor(s)) return fmt::format("blade_resolved, {}{}", s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
+  if (has_resolved_rotor(s))
+    return fmt::format("blade_resolved, {}{}", s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
   return s.has_rotor() ? fmt::format("{} on body {}", s.aero.model, s.rotor.body) : "none";
 }
 
@@ -187,13 +216,16 @@ std::string describe_sea(const Scenario& s) {
   if (!s.has_sea()) return "none";
   if (s.has_particles()) {
     std::string text = fmt::format("particles in {}-D, spacing {} m", s.sea.particles->dimensions, s.sea.particles->spacing_m);
-    if (s.sea.wavemaker) text += fmt::format(", {} making {} waves (H {} m, T {} s)", s.sea.wavemaker->type, s.waves.model, s.waves.height_m, s.waves.period_s);
+    if (s.sea.wavemaker)
+      text += fmt::format(", {} making {} waves (H {} m, T {} s)", s.sea.wavemaker->type, s.waves.model, s.waves.height_m,
+                          s.waves.period_s);
     return text;
   }
   std::size_t cylinders = 0;
   for (const auto& body : s.bodies) cylinders += body.options.cylinders.size();
   std::string text = fmt::format("{}, {} cylinder{}", s.sea.model, cylinders, cylinders == 1 ? "" : "s");
-  text += s.has_waves() ? fmt::format(", waves {} (H {} m, T {} s)", s.waves.model, s.waves.height_m, s.waves.period_s) : ", calm";
+  text +=
+      s.has_waves() ? fmt::format(", waves {} (H {} m, T {} s)", s.waves.model, s.waves.height_m, s.waves.period_s) : ", calm";
   return text;
 }
 

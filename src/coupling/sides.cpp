@@ -131,7 +131,18 @@ class SharedAir final : public AirSide {
   }
   std::vector<SavedArray> saved() const override { return own_ ? own_->saved() : std::vector<SavedArray>(); }
   void restore(const io::CheckpointReader& file) override {
-    if (own_) own_->restore(file);
+    answer_of(
+        parts_, air_part,
+        [&](Packer& to) {
+          own_->restore(file);
+          put(to, own_->written() ? *own_->written() : aero::RotorLoad());
+          to.put(std::span<const double>(own_->values()));
+          for (const std::string& sentence : own_->news()) put(to, sentence);
+        },
+        [&](Unpacker& from) {
+          shown_.load = rotor_load(from), shown_.values = from.many<double>();
+          while (!from.done()) news_.push_back(text(from));
+        });
   }
   std::vector<io::Column> columns() const override { return columns_; }
   std::vector<double> values() const override { return shown_.values; }

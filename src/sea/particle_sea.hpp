@@ -56,6 +56,9 @@ ParticlePlan particle_plan(const SeaOptions& options, const WavesOptions& waves,
 std::vector<OptionProblem> particle_problems(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
                                              std::span<const ParticleBody> bodies);
 
+/// Of a particle in the note of a state, kept in memory to go back to [bytes]: saved.hpp.
+inline constexpr double bytes_of_note = 62.0;
+
 /// What a scene amounts to, without running it.
 struct ParticleCensus {
   std::size_t water = 0, walls = 0, bodies = 0;

@@ -204,6 +204,32 @@ class MachineRun(Machine):
         self.spindrift(ENGINEERING, "limited", "--restart", "--until", 0.1 * (done + 1), settings=["time.end_s=600.0"])
         self.assertEqual(len(self.rows("limited")), done + 2)
 
+    def test_a_saved_state_starts_another_run(self):
+        for text, name in ((ENGINEERING, "engineering"), (PARTICLES, "particles")):
+            until, settings = 0.2, ["time.end_s=0.4"]
+            self.spindrift(text, name, settings=settings)
+            self.spindrift(text, name + "_first", "--until", until, settings=settings)
+            (saved,) = (self.path / (name + "_first") / "checkpoints").glob("*.h5")
+            start = [*settings, f"start.file='{saved}'", "start.air_steps=0", *(["sea.initial.settle_s=0"] if text is PARTICLES else [])]
+            self.spindrift(text, name + "_second", settings=start, threads=2)
+            after = [row for row in self.rows(name) if row["time_s"] > until + 1e-9]
+            second = self.rows(name + "_second")
+            self.assertAlmostEqual(second[0]["time_s"], until, delta=1e-12)  # the row of the start itself
+            self.assertGreater(second[0]["rotor.thrust_N"], 3e5)
+            self.assertEqual(second[1:], after)  # the same windows: the same bits
+            # Another window, scheme and march from the same state: close, and not the same.
+            self.spindrift(text, name + "_third", settings=[*start, "time.window_s=0.05", "coupling.scheme='cps'", "aero.flow.cfl_max=10"])
+            third = self.rows(name + "_third")
+            self.assertEqual(len(third), 5)
+            self.assertAlmostEqual(third[-1]["platform.x_m"], after[-1]["platform.x_m"], delta=0.02 * abs(after[-1]["platform.x_m"]))
+            self.assertNotEqual(third[-1]["platform.x_m"], after[-1]["platform.x_m"])
+            for settings_, words in ((["time.window_s=0.03", "time.end_s=0.6"], "no whole number of windows"), (["time.end_s=0.2"], "the run ends at 0.2 s"),
+                                     (["start.equilibrium=true"], "start.file is the start"), (["start.file='nowhere.h5'"], "no such file"),
+                                     (["aero.grid.cells_downstream=7"], "its air has")):
+                settings_ = [s for s in settings_] + (["time.step_s=0.03"] if "0.03" in settings_[0] and text is ENGINEERING else [])
+                output = self.spindrift(text, "refused", "--overwrite", settings=[*start, *settings_], code=2)
+                self.assertIn(words, output)
+
     def test_what_cannot_be_is_refused(self):
         for setting, words in (("aero.flow.time='steady'", "where bodies carry the rotor"), ("coupling.scheme='monolithic'", "answers once per window"),
                                ("wind.direction_deg=10", "needs the wind along the rotor axis")):

@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -111,10 +112,28 @@ class Program(unittest.TestCase):
 
     def test_every_scene_of_inputs_passes_check(self):
         for scene in sorted((ROOT / "inputs").rglob("*.toml")):
-            if {"turbines", "studies", "grids"} & set(scene.parts) or scene.name == "platform.toml":  # parts of scenes, studies, grids alone
-                continue
+            if {"turbines", "studies", "grids"} & set(scene.parts) or scene.name in ("platform.toml", "paper_tank.toml", "tower_passage.toml"):
+                continue  # parts of scenes, studies, grids alone
             done = spindrift("check", scene)
             self.assertEqual(done.returncode, 0, f"{scene}: {done.stdout}{done.stderr}")
+            if "sph" in done.stdout or "particles" in done.stdout or "blade_resolved" in done.stdout:
+                for words in ("predicted core-hours", "wall time", "memory of a rank each"):
+                    self.assertIn(words, done.stdout, scene)
+
+    def test_check_predicts_the_cost_of_the_papers_case_at_three_sizes(self):
+        def cost(size, *arguments):
+            text = spindrift("check", ROOT / f"inputs/leble_barakos/case3_{size}.toml", *arguments).stdout
+            number = lambda pattern: float(re.search(pattern, text).group(1))
+            return {"cells": number(r"air +(\d+) cells"), "water": number(r"\((\d+) water"), "hours": number(r"predicted core-hours +(\S+) core-hours"),
+                    "rate": number(r"\((\S+) us per cell"), "memory": re.search(r"memory +(\S+) GB", text), "verdict": "A loose scheme will do." in text}
+        demo, workstation, paper = cost("demo"), cost("workstation"), cost("paper")
+        self.assertTrue(demo["hours"] < workstation["hours"] < paper["hours"])
+        self.assertLess(demo["hours"], 0.2)
+        self.assertAlmostEqual(paper["cells"] / 8e6, 1.0, delta=0.05)
+        self.assertAlmostEqual(paper["water"] / 5e6, 1.0, delta=0.02)
+        self.assertLess(float(paper["memory"].group(1)), 24.0)
+        self.assertTrue(paper["verdict"] and not demo["verdict"])  # windows of 0.02 and 0.1 s against 3P at 0.44 Hz
+        self.assertTrue(0.1 < cost("demo", "--calibrate")["rate"] / demo["rate"] < 10.0)
 
 
 if __name__ == "__main__":

@@ -148,16 +148,6 @@ void FlowSolver::start_uniform() {
   start([this](const Eigen::Vector3d&) { return setting_.stream; });
 }
 
-void FlowSolver::start_from(const FlowSolver& other) {
-  if (other.tiles_.size() != tiles_.size()) throw std::invalid_argument("flow: another solver's state is on other tiles");
-  for (std::size_t n = 0; n < tiles_.size(); ++n) {
-    if (tiles_[n].index != other.tiles_[n].index || tiles_[n].state.size() != other.tiles_[n].state.size())
-      throw std::invalid_argument("flow: another solver's state is on other tiles");
-    std::copy_n(other.tiles_[n].state.data(), tiles_[n].state.size(), tiles_[n].state.data());
-  }
-  forget();
-}
-
 void FlowSolver::forget() { time_steps_ = 0; }
 
 long FlowSolver::cells() const {

@@ -109,8 +109,6 @@ class FlowSolver {
           }
     }
   }
-  /// The state of another solver on the same tiles, a steady one say; no past.
-  void start_from(const FlowSolver& other);
   /// No past: the physical step that follows is the first.
   void forget();
 

@@ -191,3 +191,25 @@ TEST_CASE("a scene that no resolved rotor can be made of says what is wrong", "[
   CHECK_THAT(problems("turbine = 'dtu_10mw.toml'\n", bdf2, {0, 0, 0}), Contains("nothing would move"));
   CHECK_THAT(problems(dtu, bdf2 + "grid = 'dtu_10mw.toml'\nmap = 'dtu_10mw.toml'\n", {11, 0, 0}), Contains("beside [aero.grid]"));
 }
+
+TEST_CASE("the memory of a rotor is foretold within a tenth of what it takes", "[rotor][fast]") {
+  for (const std::string time : {"steady", "bdf2"})
+    for (const std::string turbulence : {"none", "sa", "sst"}) {
+      ResolvedRotorSetup s = tiny(time, true);
+      if (turbulence != "none") s.flow.viscous = "full", s.flow.turbulence = turbulence;
+      ResolvedRotor rotor(s);
+      const ResolvedRotorSize size = resolved_rotor_size(s);
+      CHECK(size.cells == rotor.solver().cells());
+      const double state = 8.0 * double(size.cells) * (turbulence == "none" ? 5 : turbulence == "sa" ? 6 : 7) * (time == "steady" ? 1 : 3);
+      CHECK(size.bytes_of_checkpoint == Approx(state));
+      const double nodes = 24.0 * double(size.cells), note = time == "steady" ? 0.0 : state;
+      CHECK(size.bytes - nodes - note == Approx(double(rotor.solver().bytes() + rotor.store().bytes())).epsilon(0.1));
+    }
+}
+
+TEST_CASE("a short march measures what a pseudo-step costs", "[rotor][fast]") {
+  const AirRate rate = measured_air_rate(tiny("bdf2", true));
+  CHECK(rate.pseudo_steps == 8);
+  CHECK(rate.core_seconds > 1e-7);
+  CHECK(rate.core_seconds < 1e-3);
+}

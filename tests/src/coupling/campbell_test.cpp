@@ -53,6 +53,12 @@ TEST_CASE("a loose scheme will do for the paper's machine at windows of 0.02 s, 
   CHECK(fine.schemes[1].will_do);
   CHECK(fine.schemes[1].missed < 0.1 * fine.schemes[0].missed);
   for (const auto& scheme : coarse.schemes) CHECK_FALSE(scheme.will_do);
+  // 258 m of blade of some 4 m chord carry 4 t of air: far below what any loose scheme bears.
+  CHECK(fine.air_mass_kg == Approx(4.0e3).epsilon(0.3));
+  CHECK(fine.mass_ratio() == Approx(fine.air_mass_kg / fine.hub_mass_kg));
+  CHECK(fine.schemes[0].mass_ratio_limit == Approx(1.0).epsilon(1e-6));
+  CHECK(fine.schemes[1].mass_ratio_limit == Approx(stability_ratio(cps2_polynomial)));
+  CHECK(fine.schemes[2].mass_ratio_limit == Approx(1.0 / 3.0).epsilon(1e-6));
 }
 
 TEST_CASE("what a scheme misses falls with its order in the window", "[coupling][fast]") {

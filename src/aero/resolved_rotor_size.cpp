@@ -1,0 +1,123 @@
+// How large a scene's rotor will be and what a pseudo-step of it costs, for `spindrift check`: bytes as store.cpp and
+// flow_solver.cpp allocate them, tile by tile of the sector's blocks; rates stated, or measured by a short march. Declared in
+// resolved_rotor_setup.hpp; tested against the solver's own count in tests/src/aero/resolved_rotor_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "kernels/linear/stencil_matrix.hpp"
+#include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow/sweep_gradients.hpp"
+#include "src/aero/resolved_rotor.hpp"
+#include "src/aero/resolved_rotor_setup.hpp"
+#include "src/aero/rotor_grid/layout.hpp"
+#include "src/aero/turbine.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+// Measured on one core of 50 GFLOP/s in double (docs/developer/rotor_resolved.md, machine.md): SA with 20 Krylov vectors;
+// inviscid.
+constexpr double viscous_seconds = 12e-6, inviscid_seconds = 7.5e-6;
+
+struct Kind {
+  int unknowns = 5, turbulence = 0, time_order = 0, krylov_steps = 20;
+  bool flexible = false;
+  bool moving() const { return time_order > 0; }
+};
+
+Kind kind_of(const FlowOptions& o) {
+  Kind kind;
+  if (o.viscous != "none") kind.turbulence = o.turbulence == "none" ? 0 : o.turbulence.starts_with("sst") ? 2 : 1;
+  kind.unknowns += kind.turbulence;
+  kind.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
+  kind.krylov_steps = o.krylov_steps, kind.flexible = o.krylov != KrylovMethod::gmres;
+  return kind;
+}
+
+/// Of a tile, its i across the walls.
+double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
+  constexpr double wide = sizeof(double), narrow = sizeof(float);
+  const auto box = [&](int i, int j, int k, int ghosts, int components) {
+    return double(BoxLayout(i, j, k, {ghosts, ghosts, ghosts}).size(components));
+  };
+  const linear::CellBox cells{ni, nj, nk};
+  double bytes = wide * (2.0 * box(ni, nj, nk, state_ghosts, kind.unknowns) +
+                         box(ni, nj, nk, gradient_ghosts, gradient_components(kind.turbulence)) +
+                         (1 + kind.time_order) * box(ni, nj, nk, 0, kind.unknowns) + box(ni, nj, nk, 0, 1));
+  double matrix = double(linear::StencilMatrix<5>::size(cells, 3)), vectors = kind.krylov_steps + 1;
+  if (kind.turbulence == 1) matrix += double(linear::StencilMatrix<1>::size(cells, 3));
+  if (kind.turbulence == 2) matrix += double(linear::StencilMatrix<2>::size(cells, 3));
+  if (kind.flexible) vectors += kind.krylov_steps;
+  bytes += narrow * (matrix + box(ni, nj, nk, gradient_ghosts, kind.unknowns) + vectors * double(cells.count()) * kind.unknowns);
+  // The grid: see store.hpp. Faces have a vector, speeds (also in a turning frame), and where nodes move two swept volumes.
+  bytes += wide * ((kind.moving() ? 4 : 1) * box(ni + 1, nj + 1, nk + 1, 0, 3) + box(ni, nj, nk, gradient_ghosts, 1) +
+                   box(ni, nj, nk, gradient_ghosts, 3) + (kind.moving() ? 3 : 1) * box(ni, nj, nk, 0, 1));
+  for (int d = 0; d < 3; ++d) bytes += wide * (kind.moving() ? 6 : 4) * box(ni + (d == 0), nj + (d == 1), nk + (d == 2), 0, 1);
+  return bytes;
+}
+
+/// Of a block cut as tiling.cpp does; which direction is i matters little.
+double block_bytes(const Kind& kind, std::array<int, 3> n) {
+  const TilingOptions most;
+  const std::array<int, 3> target{most.normal, most.across_j, most.across_k};
+  std::array<double, 3> parts;
+  std::array<int, 3> size;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const int pieces = std::max(1, (n[d] + target[d] - 1) / target[d]);
+    size[d] = (n[d] + pieces - 1) / pieces, parts[d] = double(n[d]) / size[d];
+  }
+  return parts[0] * parts[1] * parts[2] * tile_bytes(kind, size[0], size[1], size[2]);
+}
+
+double sector_bytes(const Kind& kind, const RotorGridSpec& spec) {
+  const auto kept = [&](int n) { return std::max(1, n >> spec.coarsen); };
+  const RotorGridSizes& z = spec.sizes;
+  const int radial = kept(z.radial());
+  double bytes = block_bytes(kind, {kept(z.layers), kept(z.round), radial}) +
+                 block_bytes(kind, {kept(z.edge), kept(z.chordwise()), kept(z.outboard)});
+  for (const int along : {z.upstream, z.downstream}) {
+    bytes += 2.0 * block_bytes(kind, {kept(along), kept(z.beside), radial});
+    bytes += block_bytes(kind, {kept(along), kept(z.box_chordwise()), radial});
+  }
+  return bytes + 2.0 * block_bytes(kind, {kept(z.beside), kept(z.box), radial});
+}
+
+}  // namespace
+
+ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
+  const Turbine turbine = read_turbine(setup.rotor.turbine);
+  const RotorGridSpec spec = rotor_grid_spec(setup.grid, turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
+  const Kind kind = kind_of(setup.flow);
+  ResolvedRotorSize size;
+  size.sectors = spec.whole ? turbine.blades : 1;
+  size.cells = size.sectors * spec.sizes.cells() >> (3 * spec.coarsen);
+  size.stations = spec.sizes.span >> spec.coarsen;
+  const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order),
+               nodes = sizeof(double) * 3.0 * double(size.cells);
+  size.bytes = size.sectors * sector_bytes(kind, spec) + nodes + (kind.moving() ? state : 0.0);
+  size.bytes_of_checkpoint = state;
+  size.core_seconds_per_pseudo_step = double(size.cells) * (setup.flow.viscous == "none" ? inviscid_seconds : viscous_seconds);
+  return size;
+}
+
+AirRate measured_air_rate(const ResolvedRotorSetup& scene) {
+  ResolvedRotorSetup setup = scene;
+  setup.grid = {};
+  setup.grid.resolution = 1.0, setup.grid.sectors = "one";
+  if (!setup.wind.isZero()) setup.rotor.axis = setup.wind.normalized();
+  setup.dt = 0.0;
+  setup.flow.time = "steady", setup.flow.max_pseudo_steps = 8, setup.flow.drop = 1e-12, setup.flow.load_change = 0.0;
+  ResolvedRotor rotor(setup);
+  rotor.solver().start_uniform();
+  rotor.prepare(MPI_COMM_SELF, {.threads = 1});
+  const std::clock_t begin = std::clock();
+  rotor.run();
+  AirRate rate{.cells = rotor.solver().cells(), .pseudo_steps = std::max(1, rotor.solver().march().steps() - 1)};
+  rate.core_seconds = double(std::clock() - begin) / CLOCKS_PER_SEC / (double(rate.cells) * rate.pseudo_steps);
+  return rate;
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/app/cost.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "src/io/progress.hpp"
+
+namespace spindrift::app {
+
+namespace {
+
+constexpr double program_bytes = 60e6;  // libraries and tables of a rank
+
+std::string bytes_text(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
+}
+
+}  // namespace
+
+void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks) {
+  double bytes = 0.0, checkpoint = 0.0, per_second = 0.0, before = 0.0;
+  fmt::print("\nPredicted cost\n");
+  for (const PartCost& p : parts) {
+    const double cost = p.work_per_second * p.core_seconds_per_work;
+    fmt::print("  {:<22}{:.0f} {}, {}\n", p.name, p.count, p.things, bytes_text(p.bytes));
+    fmt::print("  {:<22}{:.4g} {} per simulated second of {:.3g} core-s each ({}): {:.4g} core-s\n", "", p.work_per_second,
+               p.work, p.core_seconds_per_work, p.rate, cost);
+    if (p.work_before > 0.0)
+      fmt::print("  {:<22}{:.4g} {} before t = 0: {:.4g} core-s\n", "", p.work_before, p.work,
+                 p.work_before * p.core_seconds_per_work);
+    bytes += p.bytes, checkpoint += p.checkpoint_bytes, per_second += cost, before += p.work_before * p.core_seconds_per_work;
+  }
+  const double whole = before + per_second * simulated_s;
+  fmt::print("  {:<22}{} ({} more while a checkpoint is written); {} rank{}: {} each\n", "memory",
+             bytes_text(bytes + program_bytes * ranks), bytes_text(checkpoint), ranks, ranks == 1 ? "" : "s",
+             bytes_text(bytes / ranks + program_bytes));
+  fmt::print("  {:<22}{:.3g} core-hours for {:g} s ({:.4g} core-s per simulated second)\n", "predicted core-hours",
+             whole / 3600.0, simulated_s, per_second);
+  constexpr std::array cores{1, 2, 8, 16, 64, 128};
+  const auto row = [&](const char* what, auto&& text) {
+    fmt::print("  {:<22}", what);
+    for (const int n : cores) fmt::print("{:>12}", text(n));
+    fmt::print("\n");
+  };
+  row("cores", [](int n) { return fmt::format("{}", n); });
+  row("wall time", [&](int n) { return io::duration_text(whole / n); });
+  row("per simulated second", [&](int n) { return io::duration_text(per_second / n); });
+  row("memory of a rank each", [&](int n) { return bytes_text(bytes / n + program_bytes); });
+  fmt::print("  Wall times share the work out evenly, without loss to waiting; rates are those of one core alone.\n");
+}
+
+}  // namespace spindrift::app
