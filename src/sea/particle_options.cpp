@@ -177,7 +177,10 @@ const Section<InitialOptions>& initial_section() {
                    {"standing", "[waves] and its mirror image at half the height: highest crest at x = 0 at t = 0"},
                    {"file", "as a checkpoint of a run of the same sea left it"}},
                   "State of the water.")
-          .path("file", &InitialOptions::file, "Checkpoint (checkpoints/*.h5 of a run), or another file of that run's folder, which stands for its newest.").only_if("state", {"file"}).required()
+          .path("file", &InitialOptions::file,
+                "Checkpoint (checkpoints/*.h5 of a run), or another file of that run's folder, which stands for its newest.")
+          .only_if("state", {"file"})
+          .required()
           .number("settle_s", &InitialOptions::settle_s, "s",
                   "The sea runs this long before t = 0 with the bodies held where they start, then they are released (the paper's start).",
                   not_negative())
