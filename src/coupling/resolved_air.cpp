@@ -2,6 +2,7 @@
 #include "src/coupling/resolved_air.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
