@@ -74,6 +74,11 @@ settle_s = 0.1
 """ % CASES + AIR
 
 
+# As ci/mpirun has it: tests run as root, in containers, with more ranks than cores.
+MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+       "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+
+
 class Machine(unittest.TestCase):
     SPLIT = ["coupling.placement='split'"]
 
@@ -93,7 +98,8 @@ class Machine(unittest.TestCase):
                           code)
 
     def ended(self, command, threads, code):
-        done = subprocess.run(command, capture_output=True, text=True, timeout=900, env={**os.environ, "OMP_NUM_THREADS": str(threads)})
+        done = subprocess.run(command, capture_output=True, text=True, timeout=900,
+                              env={**os.environ, **MPI, "OMP_NUM_THREADS": str(threads)})
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
 
