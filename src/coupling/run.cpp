@@ -20,11 +20,9 @@
 #include "src/coupling/start.hpp"
 #include "src/coupling/window.hpp"
 #include "src/io/checkpoint.hpp"
-#include "src/io/collective.hpp"
 #include "src/io/history.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/io/progress.hpp"
-#include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
 
@@ -202,7 +200,7 @@ class Checkpoints {
     restarts = int(file->integer("restarts")) + 1;
     if (window.coupled && !window.coupled->restore(file->read<double>("coupling/history")))
       throw io::InputError(file->path().string() + ": its coupling history is that of another coupling.scheme");
-    io::together(parts_.world().comm, [&] {
+    on_parts(parts_, [&] {
       if (window.coupled) window.coupled->air().restore(*file);
       restore_particles(machine_, *file);
     });
@@ -343,15 +341,13 @@ void finish_trace(const runtime::Executor& executor, const io::RunDirectory& dir
 
 /// The particles that the scene starts from, on the ranks that have the sea. Collective; throws on all ranks alike.
 void fill_sea(Machine& machine, std::span<const Motion> start, const runtime::Parts& parts) {
-  io::together(parts.world().comm, [&] {
-    try {
-      if (parts.has(sea_part)) machine.fill_sea(start, parts.mine());
-    } catch (const scene::SceneError& e) { throw io::InputError(e.what()); }
+  on_parts(parts, [&] {
+    if (parts.has(sea_part)) machine.fill_sea(start, parts.mine());
   });
   const auto& initial = machine.scenario().sea.initial;
   if (!machine.particle_plan() || !initial || initial->state != "file") return;
   const io::CheckpointReader file = open_saved(parts.world().comm, initial->file);
-  io::together(parts.world().comm, [&] { restore_particles(machine, file); });
+  on_parts(parts, [&] { restore_particles(machine, file); });
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 
 #include "kernels/base/failure.hpp"
 #include "src/coupling/machine.hpp"
-#include "src/io/collective.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
 
@@ -221,13 +220,28 @@ std::unique_ptr<BodySide> share_bodies(const runtime::Parts& parts, std::unique_
   return std::make_unique<SharedBodies>(parts, std::move(own));
 }
 
+void on_parts(const runtime::Parts& parts, const std::function<void()>& work) {
+  if (!parts.split()) return work();
+  std::string why;
+  try {
+    work();
+  } catch (const scene::SceneError& e) { why = e.what(); } catch (const io::InputError& e) {
+    why = e.what();
+  }
+  for (const int part : {sea_part, air_part}) {
+    Packer parcel;
+    put(parcel, why);
+    const runtime::Bytes bytes = parts.share(part, parcel.take());
+    Unpacker from(bytes);
+    if (const std::string said = text(from); !said.empty()) throw io::InputError(said);
+  }
+}
+
 Sides make_sides(Machine& machine, const aero::RotorState& now, const runtime::Parts& parts) {
   Sides sides;
-  io::together(parts.world().comm, [&] {
-    try {
-      if (parts.has(air_part)) sides.air = make_air(machine, now, parts.mine());
-      if (parts.has(sea_part)) sides.bodies = make_body_side(machine);
-    } catch (const scene::SceneError& e) { throw io::InputError(e.what()); }
+  on_parts(parts, [&] {
+    if (parts.has(air_part)) sides.air = make_air(machine, now, parts.mine());
+    if (parts.has(sea_part)) sides.bodies = make_body_side(machine);
   });
   if (!parts.split()) return sides;
   return {share_air(parts, std::move(sides.air)), share_bodies(parts, std::move(sides.bodies))};

@@ -4,6 +4,7 @@
 // tests/coupled/machine_test.py and tests/src/coupling/sides_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "runtime/mpi/parts.hpp"
@@ -23,6 +24,11 @@ struct Sides {
 /// `now`: of the rotor at the start; of a machine with particles: after Machine::fill_sea on the sea's ranks. Both machine and
 /// parts outlive them. Collective; a failure is thrown on all ranks alike.
 Sides make_sides(Machine& machine, const aero::RotorState& now, const runtime::Parts& parts);
+
+/// Runs `work` on every rank, each for the parts it has. What is wrong with the user's scene or files (scene::SceneError,
+/// io::InputError, alike on all ranks of a part) is thrown on all ranks, as io::InputError; anything else ends the program.
+/// Collective.
+void on_parts(const runtime::Parts& parts, const std::function<void()>& work);
 
 /// A side that is asked where the part is and answers everywhere. `own` is null where this rank has not the part.
 std::unique_ptr<AirSide> share_air(const runtime::Parts& parts, std::unique_ptr<AirSide> own);

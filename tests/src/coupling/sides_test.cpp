@@ -6,6 +6,7 @@
 
 #include "kernels/base/failure.hpp"
 #include "src/io/machine_failure.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
 
@@ -97,6 +98,23 @@ TEST_CASE("the bodies' state and steps are on every rank, and so is the sea's fa
   CHECK((side->steps() == 3 && side->own_ns() == 11));
   side->aim(state, 101);
   CHECK_THROWS_AS(side->finish(), NumericalFailure);
+}
+
+TEST_CASE("what is wrong with the files of one side stops all ranks with the same words", "[coupling][mpi2]") {
+  const Parts parts = last_rank_has_the_air();
+  int done = 0;
+  on_parts(parts, [&] { ++done; });
+  CHECK(done == 1);
+  CHECK_THROWS_WITH(on_parts(parts,
+                             [&] {
+                               if (parts.has(air_part)) throw io::InputError("no such air");
+                             }),
+                    "no such air");
+  CHECK_THROWS_WITH(on_parts(parts,
+                             [&] {
+                               if (parts.has(sea_part)) throw scene::SceneError({{"a.toml", 3, "sea", "", "too small"}});
+                             }),
+                    Catch::Contains("too small"));
 }
 
 TEST_CASE("arrays of one side are written by its ranks into the file of all", "[coupling][mpi2]") {
