@@ -62,7 +62,10 @@ class ResolvedAir final : public AirSide {
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     aim(t, 0.0, now);
-    if (rotor_) return load_;  // restored
+    if (rotor_) {  // restored, for windows of another length or by another scheme: the grid stands where the last prediction had put it
+      place_at(state_, saved_dt_);
+      return load_;
+    }
     const int steps = machine_.scenario().start.air_steps;
     const TileStates settled = steps > 0 ? settle(steps) : TileStates();
     make();
@@ -110,7 +113,7 @@ class ResolvedAir final : public AirSide {
     file_->write(file);
     std::vector<double> load;
     for (const Eigen::Vector3d& v : {load_.force, load_.moment}) load.insert(load.end(), v.data(), v.data() + 3);
-    load.insert(load.end(), {load_.thrust, load_.torque, load_.power});
+    load.insert(load.end(), {load_.thrust, load_.torque, load_.power, setup_.dt});
     file.write<double>("flow/load", std::span<const double>(load));
   }
   void restore(const io::CheckpointReader& file) override {
@@ -119,6 +122,7 @@ class ResolvedAir final : public AirSide {
     const std::vector<double> load = file.read<double>("flow/load");
     load_.force = Eigen::Vector3d(load.data()), load_.moment = Eigen::Vector3d(load.data() + 3);
     load_.thrust = load[6], load_.torque = load[7], load_.power = load[8];
+    saved_dt_ = load[9];
   }
 
   void declare(io::History& history) override {
@@ -215,14 +219,19 @@ class ResolvedAir final : public AirSide {
     return states;
   }
 
+  /// The grid where the rotor is, with a last step of `dt` at its velocity.
+  void place_at(const aero::RotorState& now, double dt) {
+    aero::RotorState before = now;
+    before.hub -= dt * now.hub_velocity, before.azimuth -= dt * now.speed;
+    rotor_->place(pose(before), pose(now));
+  }
+
   /// The rotor in the wind as it comes, placed for the first step.
   void make() {
     rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank);
     file_.emplace(rotor_->solver(), rotor_->store());
     rotor_->solver().start_uniform();
-    aero::RotorState before = state_;
-    before.hub -= setup_.dt * state_.hub_velocity, before.azimuth -= setup_.dt * state_.speed;
-    rotor_->place(pose(before), pose(state_));
+    place_at(state_, setup_.dt);
     runtime::Graph geometry(world_.comm);
     rotor_->solver().record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
@@ -236,7 +245,7 @@ class ResolvedAir final : public AirSide {
   aero::ResolvedRotorSetup setup_;
   std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< made by begin() or restore()
   std::optional<AirFile> file_;
-  double t_ = 0.0;
+  double t_ = 0.0, saved_dt_ = 0.0;  ///< of the last aim; step of the run that left the restored state
   aero::RotorState state_;  ///< of the last aim
   aero::RotorLoad load_;    ///< the last answer
   std::array<std::optional<Noted>, 2> notes_;
