@@ -67,7 +67,10 @@ class ResolvedAir final : public AirSide {
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     aim(t, 0.0, now);
-    if (rotor_) return load_ = ramped(leant(felt_.rotor));  // restored
+    if (rotor_) {  // restored, for windows of another length or by another scheme: the grid stands where the last prediction had put it
+      place_at(state_, saved_dt_);
+      return load_;
+    }
     const StartOptions& start = machine_.scenario().start;
     const TileStates settled = start.air_steps > 0 ? settle(start.air_steps) : TileStates();
     make();
@@ -116,13 +119,15 @@ class ResolvedAir final : public AirSide {
   std::vector<SavedArray> saved() const override {
     std::vector<SavedArray> arrays = file_->arrays();
     for (SavedArray& array : rotor_arrays(*rotor_, felt_, world_.rank)) arrays.push_back(std::move(array));
-    arrays.push_back(answer_array(load_, world_.rank));
+    arrays.push_back(answer_array({load_, setup_.dt}, world_.rank));
     return arrays;
   }
   void restore(const io::CheckpointReader& file) override {
     make();
     file_->read(file);
-    felt_ = felt_in(file, blades_), load_ = answer_in(file);
+    felt_ = felt_in(file, blades_);
+    const SavedAnswer answer = answer_in(file);
+    load_ = answer.load, saved_dt_ = answer.dt;
   }
 
   std::vector<io::Column> columns() const override {
@@ -238,14 +243,19 @@ class ResolvedAir final : public AirSide {
     return states;
   }
 
+  /// The grid where the rotor is, with a last step of `dt` at its velocity.
+  void place_at(const aero::RotorState& now, double dt) {
+    aero::RotorState before = now;
+    before.hub -= dt * now.hub_velocity, before.azimuth -= dt * now.speed;
+    rotor_->place(pose(before), pose(now));
+  }
+
   /// The rotor in the wind as it comes, placed for the first step.
   void make() {
     rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank);
     file_.emplace(rotor_->solver(), rotor_->store(), world_.rank);
     rotor_->solver().start_uniform();
-    aero::RotorState before = state_;
-    before.hub -= setup_.dt * state_.hub_velocity, before.azimuth -= setup_.dt * state_.speed;
-    rotor_->place(pose(before), pose(state_));
+    place_at(state_, setup_.dt);
     runtime::Graph geometry(world_.comm);
     rotor_->solver().record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
@@ -266,7 +276,7 @@ class ResolvedAir final : public AirSide {
   aero::ResolvedRotorSetup setup_;
   std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< made by begin() or restore()
   std::optional<AirFile> file_;
-  double t_ = 0.0;
+  double t_ = 0.0, saved_dt_ = 0.0;  ///< of the last aim; step of the run that left the restored state
   aero::RotorState state_;  ///< of the last aim
   int blades_;              ///< of the grid
   FeltLoad felt_;           ///< after the last step, as it is

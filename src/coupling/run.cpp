@@ -164,6 +164,7 @@ class Checkpoints {
     series_.save(state.tick - machine_.first_tick(), [&](io::CheckpointWriter& file) {
       file.set("window", number);
       file.set("time_s", machine_.timeline().window_end_s(number));
+      file.set("window_s", machine_.timeline().window_s());
       file.set("steps", window.steps);
       file.set("restarts", std::int64_t(restarts));
       file.write<double>("time/tick_s", std::span<const double>(&tick_s, 1));
@@ -237,9 +238,10 @@ std::int64_t take_over(const Machine& machine, Window& window, const runtime::Pa
     restore_particles(machine, file);
   });
   if (window.coupled) {
-    // What the scheme has learnt goes along where it is the same one; else it begins with the state alone.
-    const bool same =
-        file.has("coupling/history") && file.integer("coupling/scheme") == std::int64_t(machine.scenario().coupling.scheme);
+    // What the scheme has learnt goes along where scheme and window are the same; else it begins with the state alone.
+    const bool same = file.has("coupling/history") &&
+                      file.integer("coupling/scheme") == std::int64_t(machine.scenario().coupling.scheme) &&
+                      file.number("window_s") == timeline.window_s();
     if (!same || !window.coupled->restore(file.read<double>("coupling/history"))) window.coupled->begin(window.state);
   }
   spdlog::info("from t = {:g} s of {}", t, file.path().string());

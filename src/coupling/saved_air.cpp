@@ -124,14 +124,18 @@ FeltLoad felt_in(const io::CheckpointReader& file, int blades) {
   return {loads[0], {loads.begin() + 1, loads.end()}};
 }
 
-SavedArray answer_array(const aero::RotorLoad& load, int rank) {
+SavedArray answer_array(const SavedAnswer& answer, int rank) {
   std::vector<double> values;
-  append(values, load);
-  SavedArray array{answer_name, load_numbers, {}};
+  append(values, answer.load);
+  values.push_back(answer.dt);
+  SavedArray array{answer_name, load_numbers + 1, {}};
   if (rank == 0) array.pieces.push_back({0, std::move(values)});
   return array;
 }
-aero::RotorLoad answer_in(const io::CheckpointReader& file) { return load_at(file.read<double>(answer_name).data()); }
+SavedAnswer answer_in(const io::CheckpointReader& file) {
+  const std::vector<double> values = file.read<double>(answer_name);
+  return {load_at(values.data()), values[load_numbers]};
+}
 
 FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
                     const aero::RotorPose& start) {

@@ -33,9 +33,13 @@ FeltLoad felt_by(const aero::ResolvedRotor& rotor);
 std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const FeltLoad& felt, int rank);
 
 FeltLoad felt_in(const io::CheckpointReader& file, int blades);
-/// What the air of a coupled run last answered, for a run that goes on from there.
-SavedArray answer_array(const aero::RotorLoad& load, int rank);
-aero::RotorLoad answer_in(const io::CheckpointReader& file);
+/// What the air of a coupled run last answered and its physical step [s], for a run that goes on from there.
+struct SavedAnswer {
+  aero::RotorLoad load;
+  double dt;
+};
+SavedArray answer_array(const SavedAnswer& answer, int rank);
+SavedAnswer answer_in(const io::CheckpointReader& file);
 
 /// Gives `rotor` the flow of the file, carried along with the blades to `start`, without a past. Returns what was felt,
 /// turned likewise. Throws io::InputError naming the key where the file's air is another one.
