@@ -158,6 +158,9 @@ class ResolvedAir final : public AirSide {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
     steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 1e-9, steady.flow.load_change = 0.0;
+    // A profile is no steady flow for turning blades: the march has the hub's wind, and the rest of the profile is added to its flow.
+    const double at_hub = setup_.profile.share(first_.hub.z());
+    steady.profile = {}, steady.wind *= at_hub;
     aero::ResolvedRotor held(steady, world_.size, world_.rank);
     held.solver().start_uniform();
     held.prepare(world_.comm);
@@ -178,6 +181,9 @@ class ResolvedAir final : public AirSide {
     spdlog::info("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}", march.steps() - 1,
                  1e-3 * load_.thrust, change, march.density_residual() / march.first_density_residual());
     rotor_.solver().start_from(held.solver());
+    if (!setup_.profile.uniform())
+      rotor_.solver().add_velocity(
+          [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return (setup_.profile.share(x.z()) - at_hub) * setup_.wind; });
   }
 
   const Machine& machine_;
