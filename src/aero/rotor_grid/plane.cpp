@@ -181,7 +181,8 @@ void fill_rays(const RotorLayout& layout, int k, Plane& plane) {
     length.push_back(rays.back().length());
     plane.ring_nodes[plane.ring.at(i, n.layers)] = out;
   }
-  const std::vector<double> even = smoothed_lengths(length);
+  // On few layers what is missing would show in their growth, and there nodes do not stand closer than layers.
+  const std::vector<double> even = n.round < 64 ? length : smoothed_lengths(length);
   for (int i = 0; i < n.round; ++i) {
     const double made = even[std::size_t(i)], more = length[std::size_t(i)] / made - 1.0;
     if (n.round < 64)
