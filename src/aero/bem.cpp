@@ -77,15 +77,15 @@ ElementState BladeElementMomentum::solve(std::size_t element, double normal_wind
       induction_);
 }
 
-DiscLoad BladeElementMomentum::operator()(const Eigen::Vector3d& wind, const DiscMotion& rotor) const {
+DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& rotor) const {
   return std::visit([&](const auto& induction) { return load(wind, rotor, induction); }, induction_);
 }
 
 template <class Induction>
-DiscLoad BladeElementMomentum::load(const Eigen::Vector3d& wind, const DiscMotion& rotor, const Induction& induction) const {
-  const Eigen::Vector3d relative = wind - rotor.hub_velocity, side = rotor.axis.cross(rotor.up);
-  const Eigen::Vector3d in_disc = relative - relative.dot(rotor.axis) * rotor.axis;
-  const double across = in_disc.norm(), skew = std::atan2(across, std::abs(relative.dot(rotor.axis)));
+DiscLoad BladeElementMomentum::load(const Wind& wind, const DiscMotion& rotor, const Induction& induction) const {
+  const Eigen::Vector3d at_hub = wind.at(rotor.hub) - rotor.hub_velocity, side = rotor.axis.cross(rotor.up);
+  const Eigen::Vector3d in_disc = at_hub - at_hub.dot(rotor.axis) * rotor.axis;
+  const double across = in_disc.norm(), skew = std::atan2(across, std::abs(at_hub.dot(rotor.axis)));
   const Eigen::Vector3d downstream = across > 0.0 ? Eigen::Vector3d(in_disc / across) : Eigen::Vector3d::Zero();
   DiscLoad sum;
   for (int b = 0; b < blades_; ++b) {
@@ -93,6 +93,7 @@ DiscLoad BladeElementMomentum::load(const Eigen::Vector3d& wind, const DiscMotio
     const Eigen::Vector3d out = std::cos(azimuth) * rotor.up + std::sin(azimuth) * side, ahead = rotor.axis.cross(out);
     for (const Element& e : elements_) {
       const Eigen::Vector3d arm = e.axial * rotor.axis + e.radius * out;
+      const Eigen::Vector3d relative = wind.at(rotor.hub + arm) - rotor.hub_velocity;
       const Eigen::Vector3d normal = e.normal_axial * rotor.axis + e.normal_radial * out, met = relative - rotor.omega.cross(arm);
       const double normal_wind = met.dot(normal), tangential_wind = -met.dot(ahead);
       const auto section = [&](double a) { return polar(e, a); };

@@ -11,6 +11,7 @@
 
 #include "kernels/rotor/blade_element.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/aero/wind.hpp"
 
 namespace spindrift::aero {
 
@@ -20,6 +21,7 @@ struct DiscMotion {
   Eigen::Vector3d omega;         ///< of the blades, spin included [rad/s]
   Eigen::Vector3d axis, up;      ///< unit, normal to each other; blade 1 points along `up` at azimuth zero
   double azimuth, blade_pitch;   ///< [rad]
+  Eigen::Vector3d hub = Eigen::Vector3d::Zero();  ///< [m], where the wind goes with height
 };
 
 struct DiscLoad {
@@ -32,7 +34,8 @@ class BladeElementMomentum {
   /// `induction`: "madsen" or "buhl".
   BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density_kg_m3);
 
-  DiscLoad operator()(const Eigen::Vector3d& wind, const DiscMotion& rotor) const;
+  DiscLoad operator()(const Wind& wind, const DiscMotion& rotor) const;
+  DiscLoad operator()(const Eigen::Vector3d& wind, const DiscMotion& rotor) const { return (*this)(Wind{wind}, rotor); }
 
   double radius(std::size_t element) const { return elements_[element].radius; }
   double chord(std::size_t element) const { return elements_[element].chord; }
@@ -49,7 +52,7 @@ class BladeElementMomentum {
   };
   SectionForce polar(const Element& e, double attack) const;
   template <class Induction>
-  DiscLoad load(const Eigen::Vector3d& wind, const DiscMotion& rotor, const Induction& induction) const;
+  DiscLoad load(const Wind& wind, const DiscMotion& rotor, const Induction& induction) const;
   Annulus annulus(const Element& e, double blade_pitch) const;
 
   std::variant<InductionMadsen, InductionBuhl> induction_;

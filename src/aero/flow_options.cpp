@@ -99,6 +99,10 @@ const scene::Section<FlowOptions>& flow_section() {
                   "Relative change of the force over 20 pseudo-steps that ends a march; 0: not looked at.", between(0.0, 1.0))
           .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.", between(1, 1e6))
           .only_if("time", {"bdf1", "bdf2"})
+          .integer("coarse_steps", &FlowOptions::coarse_steps, "-",
+                   "Pseudo-steps on a grid of half the resolution of [aero.grid], whose flow a steady march then begins with; 0: none.",
+                   between(0, 1e6))
+          .only_if("time", {"steady"})
           .choice("krylov", &FlowOptions::krylov,
                   {{"gmres", KrylovMethod::gmres, "GMRES, one set of vectors"},
                    {"fgmres", KrylovMethod::fgmres, "flexible GMRES: keeps the directions too, the preconditioner may change"},
@@ -142,12 +146,13 @@ const scene::Section<FlowOptions>& flow_section() {
   return section;
 }
 
-FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vector3d& wind, double dt) {
+FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vector3d& wind, double dt, const WindProfile& profile) {
   FlowSetting s;
   s.gas.temperature_reference = o.temperature_K;
   s.gas.pressure_reference = density * s.gas.gas_constant * o.temperature_K;
   s.gas.viscosity = {.mu0 = o.viscosity_Pa_s, .T0 = o.temperature_K, .S = 110.33};
   s.stream = {0.0, wind.x(), wind.y(), wind.z(), 0.0};
+  s.profile = profile;
   s.speed = wind.norm();
   s.flux = o.flux;
   s.limiter = o.limiter;

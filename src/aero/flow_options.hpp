@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "kernels/rotor/wind_profile.hpp"
 #include "src/aero/flow/flow_tile.hpp"
 #include "src/aero/flow_grid.hpp"
 
@@ -48,6 +49,7 @@ struct FlowOptions {
   KrylovMethod krylov{};  ///< GMRES
   std::string preconditioner = "block_ilu";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, load_change = 0.0;
+  int coarse_steps = 0;  ///< on a coarser rotor grid, before the march
   int max_pseudo_steps = 500, krylov_steps = 20, refresh_every = 1;
   double krylov_drop = 0.05, matrix_free_below = 1e-2;
   bool surfaces = true;
@@ -57,8 +59,8 @@ struct FlowOptions {
 
 const scene::Section<FlowOptions>& flow_section();
 
-/// The solver's own numbers: air of this density at this wind; a physical step of dt [s] where the scene is unsteady.
-FlowSetting flow_setting(const FlowOptions& options, double density, const Eigen::Vector3d& wind, double dt);
+/// The solver's own numbers: air of this density at this wind, over the height by `profile`; a physical step of dt [s] where the scene is unsteady.
+FlowSetting flow_setting(const FlowOptions& options, double density, const Eigen::Vector3d& wind, double dt, const WindProfile& profile = {});
 
 /// Conditions by patch of the tiling; a patch that no boundary names, or a name that no patch has, is a problem of the scene.
 std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling);

@@ -25,12 +25,26 @@ void check_aero(const AeroOptions& o, const scene::Report& report) {
     if (o.grid && (file || made)) report(file ? "flow.grid" : "flow.generate", "is given beside [aero.grid], the grid of a rotor: one of the two");
     if (!o.grid && !file && !made) report("flow.grid", "must be given, or [aero.flow.generate], or for a rotor [aero.grid]");
   }
+  if (o.flow && o.flow->coarse_steps > 0 && !o.grid) report("flow.coarse_steps", "has no effect without [aero.grid], whose grid is made twice");
+  constexpr double least = 2.0;  // half of it makes a grid within the limits of quality at any pitch
+  if (o.flow && o.flow->coarse_steps > 0 && o.grid && o.grid->resolution < least)
+    report("grid.resolution", fmt::format("= {} must be at least {} with flow.coarse_steps, whose grid has half of it", o.grid->resolution, least));
   if (o.model != "blade_resolved" && o.flow) report("flow", "has no effect: aero.model is not \"blade_resolved\"");
   const bool series = !o.thrust_cosine_N.empty() || !o.thrust_sine_N.empty() || !o.torque_cosine_N_m.empty() ||
                       !o.torque_sine_N_m.empty() || o.torque_N_m != 0.0;
   if (!o.table.empty() && series) report("table", "takes the place of torque_N_m and of all harmonics: give the table or those");
   if (!o.curve.empty() && o.torque_coefficient != 0.0)
     report("torque_coefficient", "has no effect beside a curve, which has its own");
+}
+
+void check_wind(const WindOptions& o, const scene::Report& report) {
+  if (o.law == WindLaw::uniform) return;
+  if (!o.reference_height_m) return report("reference_height_m", "must be given: a profile has speed_m_s at one height, the hub's say");
+  if (o.least_height_m > *o.reference_height_m)
+    report("least_height_m", fmt::format("= {} must not be above reference_height_m = {}", o.least_height_m, *o.reference_height_m));
+  if (o.law == WindLaw::logarithmic && !(o.roughness_m < o.least_height_m))
+    report("roughness_m", fmt::format("= {} must be below least_height_m = {}: the logarithmic law is zero at the roughness", o.roughness_m,
+                                      o.least_height_m));
 }
 
 void check_axis(const RotorOptions& o, const scene::Report& report) {
@@ -129,10 +143,32 @@ const scene::Section<RotorOptions>& rotor_section() {
 }
 
 const scene::Section<WindOptions>& wind_section() {
-  static const auto section = scene::Section<WindOptions>("wind", "The undisturbed wind: uniform and steady.")
-                                  .number("speed_m_s", &WindOptions::speed_m_s, "m/s", "Wind speed.", scene::between(0.0, 200.0))
-                                  .degrees("direction_deg", &WindOptions::direction,
-                                           "Where it blows to: 0 along +x, positive towards +y.", scene::between(-360.0, 360.0));
+  const std::vector<std::string> sheared{"power_law", "logarithmic"};
+  static const auto section =
+      scene::Section<WindOptions>("wind", "The undisturbed wind: steady, of one direction.")
+          .number("speed_m_s", &WindOptions::speed_m_s, "m/s", "Wind speed; with a profile, at reference_height_m.",
+                  scene::between(0.0, 200.0))
+          .degrees("direction_deg", &WindOptions::direction, "Where it blows to: 0 along +x, positive towards +y.",
+                   scene::between(-360.0, 360.0))
+          .choice("profile", &WindOptions::law,
+                  {{"uniform", WindLaw::uniform, "the same at every height"},
+                   {"power_law", WindLaw::power, "speed_m_s times (z / reference_height_m)^shear_exponent"},
+                   {"logarithmic", WindLaw::logarithmic, "speed_m_s times ln(z / roughness_m) / ln(reference_height_m / roughness_m)"}},
+                  "Speed over the height z above still water.")
+          .number("reference_height_m", &WindOptions::reference_height_m, "m", "Height above still water at which the wind has speed_m_s.",
+                  scene::above(0.0).up_to(1e4))
+          .only_if("profile", sheared)
+          .number("shear_exponent", &WindOptions::shear_exponent, "-", "Of the power law: .14 at sea, .2 on land (IEC 61400-3, 61400-1).",
+                  scene::between(-1.0, 1.0))
+          .only_if("profile", {"power_law"})
+          .number("roughness_m", &WindOptions::roughness_m, "m", "Of the surface, for the logarithmic law; 0.0002 for open sea.",
+                  scene::between(1e-6, 10.0))
+          .only_if("profile", {"logarithmic"})
+          .number("least_height_m", &WindOptions::least_height_m, "m",
+                  "Below this height, and below the water, which the grid of the air does not know, the wind is as at this height.",
+                  scene::above(0.0).up_to(1e4))
+          .only_if("profile", sheared)
+          .check(check_wind);
   return section;
 }
 

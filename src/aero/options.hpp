@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/rotor/wind_profile.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/rotor_grid/options.hpp"
 
@@ -55,8 +56,11 @@ struct RotorOptions {
 };
 
 struct WindOptions {
-  double speed_m_s = 0.0;
+  double speed_m_s = 0.0;  ///< at the reference height
   double direction = 0.0;  ///< where it blows to, from +x towards +y [rad]
+  WindLaw law = WindLaw::uniform;
+  std::optional<double> reference_height_m;
+  double least_height_m = 10.0, shear_exponent = 0.14, roughness_m = 2e-4;
 };
 
 const scene::Section<AeroOptions>& aero_section();

@@ -92,7 +92,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   const WallSurface surface = wall_surface(made, sticking);
   for (const int tile : store_->owned()) fill_wall_distance((*store_)[tile], surface);
 
-  FlowSetting setting = flow_setting(flow, setup.air_density, setup.wind, setup.dt);
+  FlowSetting setting = flow_setting(flow, setup.air_density, setup.wind, setup.dt, setup.profile);
   const double tip = turbine_.planform.span.back() * std::cos(turbine_.precone);
   setting.speed = std::hypot(setup.wind.norm(), rotor.speed * tip);
   if (steady()) {
@@ -157,7 +157,14 @@ RotorLoad ResolvedRotor::load(const PseudoRow& row) const {
 }
 
 RotorLoad ResolvedRotor::blade_load(int blade) const {
-  const PatchLoads p = solver_->loads(store_->tiling().patch(fmt::format("blade_{}", blade)));
+  return blade_load(solver_->loads(store_->tiling().patch(fmt::format("blade_{}", blade))));
+}
+
+RotorLoad ResolvedRotor::blade_load(int blade, const PseudoRow& row) const {
+  return blade_load(patch_loads(row.loads, store_->tiling().patch(fmt::format("blade_{}", blade))));
+}
+
+RotorLoad ResolvedRotor::blade_load(const PatchLoads& p) const {
   const auto vector = [](const std::array<double, 3>& v) { return Eigen::Vector3d(v[0], v[1], v[2]); };
   return about_hub(vector(p.pressure_force) + vector(p.viscous_force), vector(p.moment), false);
 }

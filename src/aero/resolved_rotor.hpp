@@ -43,6 +43,9 @@ class ResolvedRotor {
   const FlowSolver& solver() const { return *solver_; }
   GridStore& store() { return *store_; }
   const MultiBlockGrid& grid() const { return grid_; }
+  const Tiling& tiling() const { return store_->tiling(); }
+  int span_cells() const { return spec_.sizes.span >> spec_.coarsen; }      ///< from hub to tip
+  int radial_cells() const { return spec_.sizes.radial() >> spec_.coarsen; }  ///< from hub to outer radius
   bool steady() const { return setup_.dt == 0.0; }
   int blades() const { return turbine_.blades; }
   bool whole() const { return spec_.whole; }
@@ -62,8 +65,9 @@ class ResolvedRotor {
   RotorLoad load() const;
   /// From a row of the march, which has forces on all blades of the grid, about the origin.
   RotorLoad load(const PseudoRow& row) const;
-  /// Of one blade of the grid (1, 2, ...), about the hub.
+  /// Of one blade of the grid (1, 2, ...), about the hub; after the last march, or from a row of it.
   RotorLoad blade_load(int blade) const;
+  RotorLoad blade_load(int blade, const PseudoRow& row) const;
   int grid_blades() const { return int(stations_.size()); }
   /// Along the blades of the grid from root to tip, the same on every rank. Collective over `comm`.
   std::vector<SpanLoad> span_loads(MPI_Comm comm);
@@ -86,6 +90,7 @@ class ResolvedRotor {
 
  private:
   std::vector<BlockPose> block_poses(const RotorPose& pose, double pitch) const;
+  RotorLoad blade_load(const PatchLoads& loads) const;
   RotorLoad about_hub(const Eigen::Vector3d& force, const Eigen::Vector3d& moment, bool all) const;
 
   ResolvedRotorSetup setup_;

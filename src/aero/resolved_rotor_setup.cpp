@@ -23,7 +23,7 @@ double off_axis_degrees(const RotorOptions& rotor, const Eigen::Vector3d& wind) 
 }  // namespace
 
 void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor,
-                          const Eigen::Vector3d& wind) {
+                          const Eigen::Vector3d& wind, const WindProfile& profile) {
   if (rotor.turbine.empty()) {
     document.problem("rotor.turbine", "must name a turbine file: the grid of [aero.grid] is made round its blades");
     return;
@@ -43,6 +43,13 @@ void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, co
             "rotor.axis): {}",
             steady ? "\"steady\", a flow seen from the turning rotor," : "\"one\"", off,
             steady ? "take \"bdf2\"" : "take \"all\""));
+  if (!profile.uniform() && steady)
+    document.problem("aero.flow.time",
+                     "\"steady\", a flow seen from the turning rotor, needs a wind of one speed; wind.profile gives it one over height, which a "
+                     "turning blade meets as a wind that changes: take \"bdf2\"");
+  if (!profile.uniform() && one)
+    document.problem("aero.grid.sectors",
+                     "\"one\" stands for all sectors where all see the same; wind.profile gives each its own wind: take \"all\"");
   if (wind.norm() == 0.0 && rotor.speed == 0.0)
     document.problem("wind.speed_m_s", "must be > 0 where rotor.speed_rpm is 0: nothing would move");
   if (!steady && aero.flow->start != "wind" && aero.flow->start != "rest")

@@ -17,11 +17,12 @@ struct ResolvedRotorSetup {
   Eigen::Vector3d wind = Eigen::Vector3d::Zero();  ///< [m/s], earth frame
   double air_density = 1.225;                      ///< [kg/m3]
   double dt = 0.0;                                 ///< physical step [s]; steady scenes have none
+  WindProfile profile = {};                        ///< of the wind over height
 };
 
 /// Rules between [rotor], [aero.grid], [aero.flow] and the wind; problems go to the document.
 void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor,
-                          const Eigen::Vector3d& wind);
+                          const Eigen::Vector3d& wind, const WindProfile& profile = {});
 
 /// Size and cost of a scene's rotor before anything is made (resolved_rotor_size.cpp).
 struct ResolvedRotorSize {

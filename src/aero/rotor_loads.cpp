@@ -23,7 +23,7 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
       start_azimuth_(rotor.azimuth),
       speed_(rotor.speed),
       blade_pitch_(rotor.blade_pitch),
-      wind_(wind_velocity(wind)) {
+      wind_(wind_of(wind)) {
   const Motion& body = start[placement.body];
   const Eigen::Vector3d axis = placement.axis.normalized();
   hub_ = body.attitude.conjugate() * (placement.hub - body.position);
@@ -55,7 +55,7 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
   now.axis = body.attitude * axis_;
   now.up = support * support_up_;
   now.omega = body.omega_earth();
-  now.relative_wind = relative_wind(now.hub_velocity, now.axis);
+  now.relative_wind = relative_wind(now.hub, now.hub_velocity, now.axis);
   if (!placement_.support) {
     now.azimuth = whole_turns_off(start_azimuth_ + speed_ * t);
     now.speed = speed_;
@@ -72,7 +72,7 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
 RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
   RotorLoad load;
   if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) {
-    const DiscLoad disc = (*bem)(wind_, {now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_});
+    const DiscLoad disc = (*bem)(wind_, {now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_, now.hub});
     load.force = ramp * disc.force, load.moment = ramp * disc.moment;
     load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis);
   } else {

@@ -59,8 +59,10 @@ class RotorLoads {
                   const Eigen::Vector3d& moment) const;
 
   RotorState state(double t, std::span<const Motion> bodies) const;
-  /// Wind along the axis, seen from a hub that moves so [m/s].
-  double relative_wind(const Eigen::Vector3d& hub_velocity, const Eigen::Vector3d& axis) const { return (wind_ - hub_velocity).dot(axis); }
+  /// Wind along the axis, seen from a hub that is there and moves so [m/s].
+  double relative_wind(const Eigen::Vector3d& hub, const Eigen::Vector3d& hub_velocity, const Eigen::Vector3d& axis) const {
+    return (wind_.at(hub) - hub_velocity).dot(axis);
+  }
   RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const;
 
  private:
@@ -73,7 +75,7 @@ class RotorLoads {
   Eigen::Quaterniond start_turn_;              ///< attitude of the body seen from the support at the start
   std::optional<Eigen::Vector3d> thrust_direction_;  ///< earth frame, where the thrust does not follow the axis
   double start_azimuth_, speed_, blade_pitch_;
-  Eigen::Vector3d wind_;
+  Wind wind_;
   std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
 };
 

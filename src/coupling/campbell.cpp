@@ -147,7 +147,7 @@ LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, c
   for (int side = 0; side < 2; ++side) {
     aero::RotorState moved = hub;
     moved.hub_velocity += (side ? change : -change) * hub.axis;
-    moved.relative_wind = rotor.relative_wind(moved.hub_velocity, hub.axis);
+    moved.relative_wind = rotor.relative_wind(hub.hub, moved.hub_velocity, hub.axis);
     thrust[side] = rotor.load(0.0, moved).force.dot(hub.axis);
   }
   verdict.slope_N_s_m = (thrust[0] - thrust[1]) / (2 * change);

@@ -12,11 +12,13 @@
 #include "runtime/executor/executor.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
+#include "src/aero/coarse_start.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/wall_distance.hpp"
 #include "src/aero/resolved_rotor.hpp"
+#include "src/aero/wind.hpp"
 #include "src/coupling/air_file.hpp"
 #include "src/coupling/air_output.hpp"
 #include "src/coupling/flow_scene.hpp"
@@ -82,7 +84,7 @@ struct Air {
       if (aero::sticks(b.condition)) no_slip.push_back(b.patch);
     const aero::WallSurface surface = aero::wall_surface(grid, no_slip);
     for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
-    aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, flow_wind(s), s.time.window_s);
+    aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, flow_wind(s), s.time.window_s, aero::wind_profile(s.wind));
     if (setting.time_order == 0) setting.march.max_steps = steady_chunk;
     own_solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
     solver = own_solver.get();
@@ -96,7 +98,7 @@ struct FlowColumns {
   std::size_t force[3], lift, drag, residual, momentum, model, cfl, krylov, steps;
   const aero::ResolvedRotor* rotor;
   std::size_t thrust = 0, torque = 0, power = 0, azimuth = 0, rpm = 0;
-  std::vector<std::array<std::size_t, 2>> blades;  ///< thrust and torque, of unsteady scenes
+  std::vector<std::array<std::size_t, 2>> blades;  ///< thrust and torque
 
   FlowColumns(io::History& history, const aero::ResolvedRotor* of) : rotor(of) {
     if (rotor) add_rotor(history);
@@ -118,9 +120,9 @@ struct FlowColumns {
     power = history.add({"rotor.power_W", "W", "Torque times rotor speed."});
     azimuth = history.add({"rotor.azimuth_deg", "deg", "Of blade 1 from upright, 0 to 360."});
     rpm = history.add({"rotor.rpm", "rpm", "Rotor speed."});
-    for (int b = 1; b <= rotor->grid_blades() && !rotor->steady(); ++b)
-      blades.push_back({history.add({fmt::format("rotor.blade_{}.thrust_N", b), "N", "Share of one blade."}),
-                        history.add({fmt::format("rotor.blade_{}.torque_N_m", b), "N m", "Share of one blade."})});
+    for (int b = 1; b <= rotor->grid_blades(); ++b)
+      blades.push_back({history.add({fmt::format("rotor.blade_{}.thrust_N", b), "N", "Of one blade of the grid: its force along the axis."}),
+                        history.add({fmt::format("rotor.blade_{}.torque_N_m", b), "N m", "Of one blade of the grid: its moment about the axis."})});
   }
   void fill_rotor(std::span<double> row, const aero::PseudoRow& p) const {
     const aero::RotorLoad load = rotor->load(p);
@@ -128,7 +130,7 @@ struct FlowColumns {
     row[thrust] = load.thrust, row[torque] = load.torque, row[power] = load.power;
     row[azimuth] = 360.0 * (turns - std::floor(turns)), row[rpm] = rotor->pose().speed * 30.0 / pi;
     for (std::size_t b = 0; b < blades.size(); ++b) {
-      const aero::RotorLoad blade = rotor->blade_load(int(b) + 1);
+      const aero::RotorLoad blade = rotor->blade_load(int(b) + 1, p);
       row[blades[b][0]] = blade.thrust, row[blades[b][1]] = blade.torque;
     }
   }
@@ -194,6 +196,10 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     runtime::Graph geometry(world.comm);
     solver.record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
+  }
+  if (const int steps = s.aero.flow->coarse_steps; steps > 0 && !settings.restart) {
+    const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(s), steps, *air.rotor);
+    spdlog::info("air: {} pseudo-steps on a grid of half the resolution: thrust {:.4g} kN, power {:.4g} MW", steps, 1e-3 * load.thrust, 1e-6 * load.power);
   }
   runtime::Graph graph(world.comm);
   solver.record(graph);

@@ -79,6 +79,10 @@ class ResolvedAir final : public AirSide {
       std::ranges::copy(settled[n], values.begin());
       rotor_->solver().load(int(n), values);
     }
+    // A profile is no steady flow for turning blades: what settled has the hub's wind, and the rest of the profile is added to its flow.
+    if (!settled.empty() && !setup_.profile.uniform())
+      rotor_->solver().add_velocity(
+          [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return (setup_.profile.share(x.z()) - share_at_hub()) * setup_.wind; });
     if (!start.air.empty()) take_up(start.air);
     return load_ = ramped(leant(felt_.rotor));
   }
@@ -167,6 +171,7 @@ class ResolvedAir final : public AirSide {
     FeltLoad felt;
   };
 
+  double share_at_hub() const { return setup_.profile.share(first_.hub.z()); }
   bool whole() const { return setup_.grid.sectors == "all"; }
   /// Where the grid is to be. One sector stays on the axis it has at the start.
   aero::RotorPose pose(const aero::RotorState& s) const {
@@ -201,6 +206,7 @@ class ResolvedAir final : public AirSide {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
     steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 1e-9, steady.flow.load_change = 0.0;
+    steady.profile = {}, steady.wind *= share_at_hub();
     // A large grid settles in pieces, so that the log shows life; how long they are follows from the grid alone, as the bits do.
     constexpr double cells_of_a_piece = 2.5e6;  // half a minute of a core
     const long cells = aero::resolved_rotor_size(steady).cells;

@@ -50,7 +50,7 @@ aero::RotorState RotorInterface::state(const Vector& m) const {
   s.azimuth = 2 * pi * (turns - std::floor(turns));
   s.speed = m[16];
   s.omega = m.segment<3>(6) + s.speed * s.axis;
-  s.relative_wind = machine_.rotor()->relative_wind(s.hub_velocity, s.axis);
+  s.relative_wind = machine_.rotor()->relative_wind(s.hub, s.hub_velocity, s.axis);
   return s;
 }
 

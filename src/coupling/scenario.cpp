@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/timeline.hpp"
 
@@ -76,7 +77,7 @@ void check_resolved_air(scene::Document& document, const Scenario& s) {
   aero::RotorOptions rotor = s.rotor;
   for (const auto& [name, joint] : s.joints)
     if (name == s.rotor.joint) rotor.axis = joint.axis, rotor.speed = 1.0;  // the bearing's motion gives the speed
-  aero::check_resolved_rotor(document, s.aero, rotor, flow_wind(s));
+  aero::check_resolved_rotor(document, s.aero, rotor, flow_wind(s), aero::wind_profile(s.wind));
   if (s.aero.flow->time == "steady")
     document.problem("aero.flow.time", "must be \"bdf1\" or \"bdf2\" where bodies carry the rotor: it moves with them");
   if (s.start.air_steps > 0 && rotor.axis.cross(flow_wind(s)).norm() > 1e-6 * rotor.axis.norm() * flow_wind(s).norm())
@@ -107,7 +108,8 @@ aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
           s.rotor,
           flow_wind(s),
           s.environment.air_density_kg_m3,
-          s.aero.flow->time == "steady" ? 0.0 : s.time.window_s};
+          s.aero.flow->time == "steady" ? 0.0 : s.time.window_s,
+          aero::wind_profile(s.wind)};
 }
 
 std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies) {
@@ -167,7 +169,7 @@ Scenario read_scenario(scene::Document& document) {
       document.problem(key, "has no effect: there is no resolved rotor on a body");
   if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
   if (s.has_flow()) {
-    if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s));
+    if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s), aero::wind_profile(s.wind));
     if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
     if (has_resolved_rotor(s) && !s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
     if (s.wind.speed_m_s <= 0.0 && !has_resolved_rotor(s))

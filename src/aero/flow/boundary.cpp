@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/boundary.hpp"
 
+#include <cmath>
+
 #include "src/aero/flow/sweep.hpp"
 
 namespace spindrift::aero {
@@ -12,18 +14,18 @@ gas::Primitive<double> load(const FlowTile& tile, const double* state, std::ptrd
 }
 
 gas::Primitive<double> ghost_state(const FlowBoundary& boundary, const gas::Primitive<double>& inside, const gas::Face<double>& f,
-                                   const gas::Vector<double>& wall, const BoundarySetting& s) {
+                                   const gas::Vector<double>& wall, const gas::Primitive<double>& stream, const BoundarySetting& s) {
   switch (boundary.condition) {
     case Condition::wall_law:
     case Condition::no_slip: return gas::no_slip_ghost(inside, wall);
     case Condition::slip:
     case Condition::symmetry: return gas::mirrored(inside, f);
-    case Condition::inflow_velocity: return gas::inflow_velocity(inside, s.stream);
-    case Condition::inflow_stagnation: return gas::inflow_reservoir(s.gas, inside, s.reservoir);
-    case Condition::outflow_pressure: return gas::outflow_pressure(s.gas, inside, s.stream, f);
+    case Condition::inflow_velocity: return gas::inflow_velocity(inside, stream);
+    case Condition::inflow_stagnation: return gas::inflow_reservoir(s.gas, inside, s.profile.uniform() ? s.reservoir : reservoir_of(s.gas, stream));
+    case Condition::outflow_pressure: return gas::outflow_pressure(s.gas, inside, stream, f);
     case Condition::far_field: break;
   }
-  return gas::far_field(s.gas, inside, s.stream, f, s.reference_speed);
+  return gas::far_field(s.gas, inside, stream, f, s.reference_speed);
 }
 
 /// Behind a slip wall along which the flow turns, pressure and what moves along the wall vary across it: ghosts are the straight line through
@@ -55,6 +57,25 @@ SlipGhosts slip_ghosts(const gas::Primitive<double>& inside, const gas::Primitiv
 std::ptrdiff_t outward(const BoxLayout& box, Side side) { return (at_end(side) ? 1 : -1) * box.stride(direction_of(side)); }
 
 }  // namespace
+
+gas::Reservoir reservoir_of(const gas::IdealGas& gas, const gas::Primitive<double>& stream) {
+  const double T = gas::absolute_temperature(gas, stream), T0 = T + gas::kinetic(stream) / gas.cp();
+  const double speed = std::sqrt(2.0 * gas::kinetic(stream)), inverse = speed > 0.0 ? 1.0 / speed : 0.0;
+  return {gas::absolute_pressure(gas, stream) * std::pow(T0 / T, gas.gamma / (gas.gamma - 1.0)), T0, stream.u * inverse, stream.v * inverse,
+          stream.w * inverse};
+}
+
+Eigen::Vector3d face_centre(const TileGeometry& g, Side side, int k, int j, int i) {
+  const int d = direction_of(side);
+  const auto [a, b] = along(side);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int n = 0; n < 4; ++n) {
+    int at[3] = {i, j, k};
+    at[d] += at_end(side) ? 1 : 0, at[a] += n % 2, at[b] += n / 2;
+    for (int c = 0; c < 3; ++c) sum[c] += g.node_data.data()[c * g.node_box.component + g.node_box.at(at[2], at[1], at[0])];
+  }
+  return sum / 4.0;
+}
 
 gas::Vector<double> wall_velocity(const TileGeometry& g, Side side, int k, int j, int i, const BoundarySetting& s) {
   if (!g.moving() || (s.dt <= 0.0 && !s.turning)) return {0.0, 0.0, 0.0};
@@ -97,7 +118,10 @@ void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
         const double v = g.volume_data.data()[here], weight = v / (v + g.volume_data.data()[here + in]);
         ghosts = slip_ghosts(first, second, f, weight, s.inviscid);
       } else {
-        ghosts = {ghost_state(boundary, first, f, wall, s), ghost_state(boundary, second, f, wall, s)};
+        const gas::Primitive<double> stream = s.profile.uniform() || is_wall(boundary.condition)
+                                                  ? s.stream
+                                                  : stream_at(s.stream, s.profile, face_centre(g, side, k, j, i).z());
+        ghosts = {ghost_state(boundary, first, f, wall, stream, s), ghost_state(boundary, second, f, wall, stream, s)};
       }
       gas::store_primitive(state + cell + out, std::size_t(component), ghosts.first);
       gas::store_primitive(state + cell + 2 * out, std::size_t(component), ghosts.second);
@@ -147,14 +171,17 @@ void set_open_faces(FlowTile& tile) {
     const int d = direction_of(side);
     const auto [a, b] = along(side);
     const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk};
-    AlignedArray<double>& open = tile.open[std::size_t(side)];
     const std::ptrdiff_t row = open_row(tile.box, d);
-    if (open.size() == 0) {
-      open = AlignedArray<double>(std::size_t(row * extent[b] + row_lanes));
-      for (double& flag : open.span()) flag = 1.0;
-    }
-    for (int m = boundary.where.low[1]; m < boundary.where.high[1]; ++m)
-      for (int n = boundary.where.low[0]; n < boundary.where.high[0]; ++n) open.data()[m * row + n] = 0.0;
+    const auto mark = [&](AlignedArray<double>& flags, double elsewhere) {
+      if (flags.size() == 0) {
+        flags = AlignedArray<double>(std::size_t(row * extent[b] + row_lanes));
+        for (double& flag : flags.span()) flag = elsewhere;
+      }
+      for (int m = boundary.where.low[1]; m < boundary.where.high[1]; ++m)
+        for (int n = boundary.where.low[0]; n < boundary.where.high[0]; ++n) flags.data()[m * row + n] = 1.0 - elsewhere;
+    };
+    mark(tile.open[std::size_t(side)], 1.0);
+    if (boundary.law) mark(tile.law[std::size_t(side)], 0.0);
     static_cast<void>(a);
   }
 }

@@ -8,12 +8,14 @@
 
 #include "src/aero/flow/flow_tile.hpp"
 #include "kernels/gas/boundary.hpp"
+#include "kernels/rotor/wind_profile.hpp"
 
 namespace spindrift::aero {
 
 struct BoundarySetting {
   gas::IdealGas gas;
-  gas::Primitive<double> stream{};         ///< undisturbed flow, above the references
+  gas::Primitive<double> stream{};         ///< undisturbed flow, above the references; at the reference height of
+  WindProfile profile{};                   ///< its velocity over the height z
   gas::Reservoir reservoir{};              ///< that the undisturbed flow comes from
   std::array<double, 2> carried{};         ///< of the turbulence unknowns in it
   double reference_speed = 1e30;           ///< of the far field's waves [m/s]; beyond the sound speed: the physical ones
@@ -29,6 +31,18 @@ void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& setti
 void add_wall_pressure(FlowTile& tile, const double* state, double* residual);
 /// 1 where the flux scheme acts: sets FlowTile::open from its boundaries.
 void set_open_faces(FlowTile& tile);
+
+/// Where the undisturbed flow at this height comes to rest without loss.
+gas::Reservoir reservoir_of(const gas::IdealGas& gas, const gas::Primitive<double>& stream);
+/// Undisturbed flow whose velocity goes with the height z.
+inline gas::Primitive<double> stream_at(const gas::Primitive<double>& stream, const WindProfile& profile, double z) {
+  if (profile.uniform()) return stream;
+  const double share = profile.share(z);
+  return {stream.p, share * stream.u, share * stream.v, share * stream.w, stream.T};
+}
+
+/// Centre of a face of a tile's side [m].
+Eigen::Vector3d face_centre(const TileGeometry& g, Side side, int k, int j, int i);
 
 /// Pressure on a wall face (above the reference) and the velocity of the wall [m/s].
 double wall_pressure(const FlowTile& tile, const double* state, Side side, int k, int j, int i);

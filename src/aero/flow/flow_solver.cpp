@@ -22,14 +22,6 @@ Scales scales_of(const FlowSetting& s) {
   return scales;
 }
 
-/// Where the undisturbed flow comes to rest without loss.
-gas::Reservoir reservoir_of(const FlowSetting& s) {
-  const double T = gas::absolute_temperature(s.gas, s.stream), T0 = T + gas::kinetic(s.stream) / s.gas.cp();
-  const double speed = std::sqrt(2.0 * gas::kinetic(s.stream)), inverse = speed > 0.0 ? 1.0 / speed : 0.0;
-  return {gas::absolute_pressure(s.gas, s.stream) * std::pow(T0 / T, s.gas.gamma / (s.gas.gamma - 1.0)), T0, s.stream.u * inverse,
-          s.stream.v * inverse, s.stream.w * inverse};
-}
-
 }  // namespace
 
 std::size_t FlowTile::bytes() const {
@@ -38,6 +30,7 @@ std::size_t FlowTile::bytes() const {
   for (const auto& v : vectors) sum += v.bytes();
   for (const auto& v : directions_kept) sum += v.bytes();
   for (const auto& v : open) sum += v.bytes();
+  for (const auto& v : law) sum += v.bytes();
   return sum;
 }
 
@@ -51,13 +44,15 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   if (setting.smooth > 0.0) convective_.smooth = gas::smoothness(setting.gas, rho, setting.speed, 0.0, setting.smooth);
   convective_.reconstruct = reconstruction(setting.limiter);
   convective_.flux = row_flux(setting.flux);
+  convective_.law_slope = setting.limiter == "first_order" ? 0.0 : 0.5;
   convective_.upwinding = setting.upwinding;
   convective_.first_order_model = setting.first_order_model;
   viscous_.active = setting.viscous;
   viscous_.thin_layer = setting.thin_layer;
   boundary_.stream = setting.stream;
   boundary_.inviscid = !setting.viscous;
-  boundary_.reservoir = reservoir_of(setting);
+  boundary_.profile = setting.profile;
+  boundary_.reservoir = reservoir_of(setting.gas, setting.stream);
   boundary_.dt = setting.dt;
   if (setting.preconditioned && !setting.physical_far_field) boundary_.reference_speed = setting.speed;
   implicit_.scales = scales_of(setting);
@@ -87,6 +82,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     const Eigen::Vector3d u(setting.stream.u, setting.stream.v, setting.stream.w);
     if (setting.frame_omega.cross(u).norm() > 1e-9 * setting.frame_omega.norm() * setting.speed)
       throw std::invalid_argument("flow: a stream across the axis is not steady in a turning frame");
+    if (!setting.profile.uniform()) throw std::invalid_argument("flow: a wind that goes with height is not steady in a turning frame");
     boundary_.turning = true;
     for (std::size_t c = 0; c < 3; ++c) implicit_.omega[c] = setting.frame_omega[Eigen::Index(c)];
   }
@@ -145,7 +141,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
 }
 
 void FlowSolver::start_uniform() {
-  start([this](const Eigen::Vector3d&) { return setting_.stream; });
+  start([this](const Eigen::Vector3d& x) { return stream_at(setting_.stream, setting_.profile, x.z()); });
 }
 
 void FlowSolver::forget() { time_steps_ = 0; }
@@ -395,7 +391,8 @@ void FlowSolver::judge() {
                    .fraction = march_.fraction(),
                    .matrix_free = matrix_free_,
                    .force = {force[0], force[1], force[2]},
-                   .moment = {moment[0], moment[1], moment[2]}});
+                   .moment = {moment[0], moment[1], moment[2]},
+                   .loads = loads_});
   if (watcher_) watcher_(rows_.back());
   if (verdict == Verdict::failed) name_trouble();
   solving_ = verdict == Verdict::go_on;

@@ -37,7 +37,8 @@ struct PatchCondition {
 /// All that a scene may choose, in SI units; from FlowOptions or written by a test.
 struct FlowSetting {
   gas::IdealGas gas;               ///< with the references of the undisturbed flow
-  gas::Primitive<double> stream{};  ///< undisturbed flow above those references
+  gas::Primitive<double> stream{};  ///< undisturbed flow above those references; at the reference height of
+  WindProfile profile{};           ///< its velocity over the height z
   double speed = 0.0;              ///< scale of velocity [m/s]: that of the stream, or of what moves
   std::string flux = "roe_low_mach", limiter = "none", turbulence = "none";
   bool first_order_model = false;  ///< turbulence is carried by first-order upwind differences, as in CFL3D and FUN3D; else second order, limited
@@ -74,6 +75,7 @@ struct PseudoRow {
   bool matrix_free = false;
   std::array<double, 3> force{};   ///< of all patches with loads [N]
   std::array<double, 3> moment{};  ///< likewise, about the origin [N m]
+  std::vector<double> loads{};     ///< by patch: see patch_loads
 };
 
 class FlowSolver {
@@ -83,7 +85,7 @@ class FlowSolver {
   FlowSolver(const FlowSolver&) = delete;
   FlowSolver& operator=(const FlowSolver&) = delete;
 
-  /// Every cell as the undisturbed flow.
+  /// Every cell as the undisturbed flow there.
   void start_uniform();
   /// Any state: body(centre) gives the primitive values above the references, and those of the turbulence unknowns.
   template <class Body>
@@ -106,6 +108,21 @@ class FlowSolver {
             rate(Eigen::Vector3d(x[0], x[c], x[2 * c]), values);
             for (int n = 0; n < tile.unknowns(); ++n)
               tile.source.data()[tile.inner.at(k, j, i) + n * tile.inner.component] = values[std::size_t(n)];
+          }
+    }
+  }
+  /// Adds body(centre) [m/s] to the velocity of every cell.
+  template <class Body>
+  void add_velocity(Body&& body) {
+    for (FlowTile& tile : tiles_) {
+      const TileGeometry& g = *tile.geometry;
+      const std::ptrdiff_t c = g.cell_box.component;
+      for (int k = 0; k < tile.box.nk; ++k)
+        for (int j = 0; j < tile.box.nj; ++j)
+          for (int i = 0; i < tile.box.ni; ++i) {
+            const double* x = g.centre_data.data() + g.cell_box.at(k, j, i);
+            const Eigen::Vector3d more = body(Eigen::Vector3d(x[0], x[c], x[2 * c]));
+            for (int d = 0; d < 3; ++d) tile.state.data()[tile.cells.at(k, j, i) + (1 + d) * tile.cells.component] += more[d];
           }
     }
   }

@@ -7,19 +7,6 @@ namespace spindrift::aero {
 
 namespace {
 
-/// Centre of a wall face [m].
-Eigen::Vector3d face_centre(const TileGeometry& g, Side side, int k, int j, int i) {
-  const int d = direction_of(side);
-  const auto [a, b] = along(side);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int n = 0; n < 4; ++n) {
-    int at[3] = {i, j, k};
-    at[d] += at_end(side) ? 1 : 0, at[a] += n % 2, at[b] += n / 2;
-    for (int c = 0; c < 3; ++c) sum[c] += g.node_data.data()[c * g.node_box.component + g.node_box.at(at[2], at[1], at[0])];
-  }
-  return sum / 4.0;
-}
-
 /// Calls body(boundary, k, j, i, outward face, pressure, friction force) for the wall faces of a tile.
 template <class Body>
 void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& viscous, Body&& body) {

@@ -16,11 +16,42 @@ void draw_together(double share, int count, FacePiece& states) {
     }
 }
 
+/// Behind a wall with a wall function the ghost turns the velocity about, for the wall stands still: a kink that is there on a resolved
+/// sublayer only. A first cell in the logarithmic layer has the slope of the cells beyond it. Of one face: the state of the cell between
+/// the wall and the face, where `mask` is 1.
+void straighten(double* state_of_face, const double* cell, std::ptrdiff_t inward, double half, double mask) {
+  if (mask > 0.0) *state_of_face = *cell + half * (cell[inward] - *cell);
+}
+
+/// The same for the faces of a piece that lie one cell off a wall with a wall function.
+void straighten_at_walls(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, double half, FacePiece& states) {
+  const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk}, at[3] = {i, j, k};
+  const std::ptrdiff_t step = tile.cells.stride(d);
+  for (const int end : {0, 1}) {
+    const auto& law = tile.law[std::size_t(2 * d + end)];
+    const int face = end == 0 ? 1 : extent[d] - 1;
+    if (law.size() == 0 || extent[d] < 2) continue;
+    double(&side)[mean_unknowns + 2][piece] = end == 0 ? states.left : states.right;
+    const std::ptrdiff_t row = open_row(tile.box, d), to_cell = end == 0 ? -step : 0, inward = end == 0 ? step : -step;
+    for (int c = 1; c <= 3; ++c) {
+      const double* cell = state + c * tile.cells.component + tile.cells.at(k, j, i) + to_cell;
+      if (d == 0) {
+        if (face >= i && face < i + count)
+          straighten(&side[c][face - i], cell + (face - i), inward, half, law.data()[k * row + j]);
+      } else if (at[d] == face) {
+        const double* mask = law.data() + (d == 1 ? k : j) * row + i;
+        for (int n = 0; n < count; ++n) straighten(&side[c][n], cell + n, inward, half, mask[n]);
+      }
+    }
+  }
+}
+
 /// Fluxes of all unknowns through `count` faces from (k, j, i) on, into out[c stride + n].
 void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, const ConvectiveSetting& s, double* out,
             std::ptrdiff_t stride) {
   FacePiece states;
   s.reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component, tile.turbulence, count, states);
+  straighten_at_walls(tile, state, d, k, j, i, count, s.law_slope, states);
   if (s.upwinding < 1.0) draw_together(s.upwinding, count, states);
   s.flux(s.gas, *tile.geometry, d, k, j, i, count, states, out, stride);
   if (s.first_order_model) {

@@ -144,6 +144,20 @@ double arrival(const RotorGridSizes& n, int roll, int i) {
   return corner;
 }
 
+/// Lengths that the rays' sizes are made for: those of the rays, smoothed over a sixteenth of the way round. Rays to the box's
+/// corners are longer than their neighbours; in proportion to its own length the layers of each would leave the wall in spikes,
+/// which next to the nose, where nodes stand closer than layers, lie along the layers themselves.
+std::vector<double> smoothed_lengths(const std::vector<double>& length) {
+  const std::size_t n = length.size();
+  std::vector<double> smooth(length), last(n);
+  const int sweeps = std::max(2, int(std::lround(2.0 * std::pow(double(n) / 16.0, 2))));
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    smooth.swap(last);
+    for (std::size_t i = 0; i < n; ++i) smooth[i] = 0.5 * last[i] + 0.25 * (last[(i + 1) % n] + last[(i + n - 1) % n]);
+  }
+  return smooth;
+}
+
 void fill_rays(const RotorLayout& layout, int k, Plane& plane) {
   const RotorGridSizes& n = layout.spec().sizes;
   const std::vector<double> angle = normals(plane);
@@ -155,20 +169,32 @@ void fill_rays(const RotorLayout& layout, int k, Plane& plane) {
   const int J0 = n.beside, J1 = n.beside + n.box_chordwise(), I0 = n.upstream, I1 = n.upstream + n.box;
   const double h_cell = 0.25 * ((h(J0, I0) - h(J0 - 1, I0)).norm() + (h(J1 + 1, I0) - h(J1, I0)).norm() +
                                 (h(J0, I0) - h(J0, I0 - 1)).norm() + (h(J0, I1 + 1) - h(J0, I1)).norm());
+  std::vector<Ray> rays;
+  std::vector<double> length;
   for (int i = 0; i < n.round; ++i) {
     const Vector2d wall = plane.ring_nodes[plane.ring.at(i, 0)];
     const BoxNode b = box_node(n, layout.roll(), i);
     const Vector2d out = plane.h(b.J, b.I);
     const double apart = (out - wall).norm(), arrive = arrival(n, layout.roll(), i), leave = angle[std::size_t(i)];
-    const Ray ray({wall, wall + handle * apart * Vector2d(std::cos(leave), std::sin(leave)),
-                   out - handle * apart * Vector2d(std::cos(arrive), std::sin(arrive)), out});
-    if (n.round < 64)
-      geometric_sizes(first, ray.length(), size);
-    else
-      limited_sizes(first, std::max(3.0 * h_cell, 1.8 * ray.length() / n.layers), ray.length(), size);
-    double s = 0.0;
-    for (int j = 1; j < n.layers; ++j) plane.ring_nodes[plane.ring.at(i, j)] = ray.at_length(s += size[std::size_t(j) - 1]);
+    rays.emplace_back(std::array<Vector2d, 4>{wall, wall + handle * apart * Vector2d(std::cos(leave), std::sin(leave)),
+                                              out - handle * apart * Vector2d(std::cos(arrive), std::sin(arrive)), out});
+    length.push_back(rays.back().length());
     plane.ring_nodes[plane.ring.at(i, n.layers)] = out;
+  }
+  // On few layers what is missing would show in their growth, and there nodes do not stand closer than layers.
+  const std::vector<double> even = n.round < 64 ? length : smoothed_lengths(length);
+  for (int i = 0; i < n.round; ++i) {
+    const double made = even[std::size_t(i)], more = length[std::size_t(i)] / made - 1.0;
+    if (n.round < 64)
+      geometric_sizes(first, made, size);
+    else
+      limited_sizes(first, std::max(3.0 * h_cell, 1.8 * made / n.layers), made, size);
+    double s = 0.0;
+    for (int j = 1; j < n.layers; ++j) {
+      s += size[std::size_t(j) - 1];
+      plane.ring_nodes[plane.ring.at(i, j)] =
+          rays[std::size_t(i)].at_length(s * (1.0 + more * s / made));  // what is missing comes far off the wall
+    }
   }
 }
 

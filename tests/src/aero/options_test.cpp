@@ -65,6 +65,15 @@ TEST_CASE("a rotor that its model cannot use is refused with what is wrong", "[a
       Case{rotor + "[aero]\nmodel = 'bem'\n", "needs the blades"}, Case{rotor + "[aero]\ninduction = 'buhl'\n", "induction"},
       Case{rotor + "turbine = '" + table + "'\n[aero]\nmodel = 'bem'\n", "spindrift_aero_options.csv"},
       Case{"[rotor]\nbody = 'rotor'\naxis = [0, 0, 0]\n", "must not be zero"}, Case{"[wind]\nspeed_m_s = -1\n", "speed_m_s"},
-      Case{rotor + "[aero]\nmodel = 'prescribed'\nthrust_N = 1\nharmonic_step = 0\n", "harmonic_step"});
+      Case{rotor + "[aero]\nmodel = 'prescribed'\nthrust_N = 1\nharmonic_step = 0\n", "harmonic_step"},
+      Case{"[wind]\nspeed_m_s = 11\nprofile = 'power'\n", "power_law"},
+      Case{"[wind]\nspeed_m_s = 11\nprofile = 'power_law'\n", "reference_height_m"},
+      Case{"[wind]\nspeed_m_s = 11\nreference_height_m = 119\n", "reference_height_m"},
+      Case{"[wind]\nspeed_m_s = 11\nshear_exponent = 0.2\n", "shear_exponent"},
+      Case{"[wind]\nspeed_m_s = 11\nprofile = 'power_law'\nreference_height_m = 119\nshear_exponent = 3\n", "shear_exponent"},
+      Case{"[wind]\nspeed_m_s = 11\nprofile = 'power_law'\nreference_height_m = 119\nroughness_m = 0.1\n", "roughness_m"},
+      Case{"[wind]\nspeed_m_s = 11\nprofile = 'power_law'\nreference_height_m = 8\n", "= 10 must not be above reference_height_m = 8"},
+      Case{"[wind]\nspeed_m_s = 11\nprofile = 'logarithmic'\nreference_height_m = 119\nroughness_m = 10\n",
+           "= 10 must be below least_height_m = 10"});
   CHECK_THROWS_WITH(read_sections(c.text), Contains(c.message));
 }

@@ -78,6 +78,44 @@ TEST_CASE("a uniform stream stays one through a hundred steps of spin, surge, le
   CHECK(of_bound < 1.0);
 }
 
+namespace {
+/// Largest change of velocity over the reference wind's after three steps of a turning rotor grid whose every side lets air
+/// through.
+double sheared_stream(double resolution, WindLaw law) {
+  ResolvedRotorSetup s = tiny("bdf2", true);
+  s.grid.resolution = resolution;
+  s.grid.cells_round = s.grid.cells_layers = std::nullopt;
+  s.profile = {.law = law, .reference_height = 119.0, .least_height = 10.0};
+  for (const char* patch : {"blade_1", "blade_2", "blade_3", "hub", "inflow", "outflow", "far"})
+    s.flow.boundaries.push_back({patch, Condition::far_field, false});
+  s.flow.drop = 0.0, s.flow.max_pseudo_steps = 4;
+  ResolvedRotor rotor(s);
+  rotor.solver().start_uniform();
+  rotor.prepare(MPI_COMM_SELF, {.threads = 1});
+  for (int n = 1; n <= 3; ++n) rotor.advance(rotor.turned(n));
+  double squares = 0.0, volume = 0.0;
+  for (const FlowTile& tile : rotor.solver().tiles()) {
+    const TileGeometry& g = *tile.geometry;
+    for (int k = 0; k < tile.box.nk; ++k)
+      for (int j = 0; j < tile.box.nj; ++j)
+        for (int i = 0; i < tile.box.ni; ++i) {
+          const double* at = tile.state.data() + tile.cells.at(k, j, i) + tile.cells.component;
+          const double z = g.centre_data.data()[g.cell_box.at(k, j, i) + 2 * g.cell_box.component];
+          const double v = g.volume_data.data()[g.cell_box.at(k, j, i)];
+          const Vector3d off(at[0] - 11.0 * s.profile.share(z), at[tile.cells.component], at[2 * tile.cells.component]);
+          squares += v * off.squaredNorm(), volume += v;
+        }
+  }
+  return std::sqrt(squares / volume) / 11.0;
+}
+}  // namespace
+
+TEST_CASE("a wind profile stays what it is through a turning rotor grid to the error of its cells", "[rotor][fast]") {
+  const double coarse = sheared_stream(1.0, WindLaw::power);
+  CAPTURE(coarse);
+  CHECK(coarse < 5e-3);
+}
+
 TEST_CASE("one sector with rotational periodicity stands for the rotor, and rows of faces add up to blades", "[rotor][fast]") {
   RotorLoad loads[2];
   for (const bool whole : {false, true}) {
@@ -166,12 +204,12 @@ TEST_CASE("a window undone and done again leaves the bits of one done once", "[r
 }
 
 namespace {
-std::string problems(const std::string& rotor, const std::string& aero, const Vector3d& wind) {
+std::string problems(const std::string& rotor, const std::string& aero, const Vector3d& wind, const WindProfile& profile = {}) {
   scene::Document doc = scene::parse("[aero]\nmodel = 'blade_resolved'\n[aero.grid]\n" + aero + "\n[rotor]\n" + rotor,
                                      "test.toml", std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "inputs" / "turbines");
   const AeroOptions air = doc.read(aero_section());
   const RotorOptions options = doc.read(rotor_section());
-  check_resolved_rotor(doc, air, options, wind);
+  check_resolved_rotor(doc, air, options, wind, profile);
   try {
     doc.finish();
   } catch (const scene::SceneError& e) { return e.what(); }
@@ -188,6 +226,11 @@ TEST_CASE("a scene that no resolved rotor can be made of says what is wrong", "[
              Contains("rotor.turbine") && Contains("must name a turbine file"));
   CHECK_THAT(problems(dtu, steady, {10, 4, 0}), Contains("needs the wind along the rotor axis; it is 21.8 degrees off"));
   CHECK_THAT(problems(dtu, "sectors = 'one'\n" + bdf2, {10, 4, 0}), Contains("aero.grid.sectors") && Contains("take \"all\""));
+  const WindProfile power{.law = WindLaw::power, .reference_height = 119.0};
+  CHECK(problems(dtu, bdf2, {11, 0, 0}, power).empty());
+  CHECK_THAT(problems(dtu, steady, {11, 0, 0}, power), Contains("aero.flow.time") && Contains("needs a wind of one speed"));
+  CHECK_THAT(problems(dtu, "sectors = 'one'\n" + bdf2, {11, 0, 0}, power),
+             Contains("aero.grid.sectors") && Contains("gives each its own wind: take \"all\""));
   CHECK_THAT(problems("turbine = 'dtu_10mw.toml'\n", bdf2, {0, 0, 0}), Contains("nothing would move"));
   CHECK_THAT(problems(dtu, bdf2 + "grid = 'dtu_10mw.toml'\nmap = 'dtu_10mw.toml'\n", {11, 0, 0}), Contains("beside [aero.grid]"));
 }

@@ -7,23 +7,12 @@
 
 #include "kernels/base/constants.hpp"
 #include "src/aero/resolved_rotor.hpp"
+#include "tests/verification/rotor/bem_rows.hpp"
 
 using namespace spindrift;
 using namespace spindrift::aero;
 
 namespace {
-
-/// Radius [m], normal force [N/m].
-constexpr double bem[][2]{{26.551, 3873.5}, {30.869, 4489.1}, {35.187, 4815.0},  {39.506, 5328.3}, {43.824, 5934.9},
-                          {48.142, 6580.9}, {52.460, 7250.2}, {56.779, 7924.6},  {61.097, 8567.9}, {65.415, 9146.5},
-                          {69.734, 9614.8}, {74.052, 9953.7}, {78.370, 10125.0}, {80.5, 10100.0}};
-
-double bem_normal(double r) {
-  std::size_t n = 1;
-  while (n + 1 < std::size(bem) && bem[n][0] < r) ++n;
-  const double share = (r - bem[n - 1][0]) / (bem[n][0] - bem[n - 1][0]);
-  return (1.0 - share) * bem[n - 1][1] + share * bem[n][1];
-}
 
 ResolvedRotorSetup demo() {
   ResolvedRotorSetup s;
@@ -49,14 +38,15 @@ TEST_CASE("the demo rotor without friction has the thrust of blade element momen
   CHECK(load.thrust == Approx(1507e3).epsilon(0.15));
   double worst = 0.0;
   for (const SpanLoad& row : rotor.span_loads(MPI_COMM_SELF)) {
-    const double share = row.radius / 89.166, off = row.load.normal / bem_normal(row.radius) - 1.0;
+    const double share = row.radius / 89.166, off = row.load.normal / testing::bem_load(row.radius).normal - 1.0;
     UNSCOPED_INFO("r/R " << share << ": " << row.load.normal << " N/m, off " << off << ", tangential " << row.load.tangential);
     if (share > 0.3 && share < 0.9) worst = std::max(worst, std::abs(off));
   }
   CHECK(worst < 0.25);
 }
 
-TEST_CASE("the demo rotor's friction by the law of the wall takes power as a rotor's does, which walls that stick miss", "[rotor][nightly]") {
+TEST_CASE("the demo rotor's friction by the law of the wall takes power as a rotor's does, which walls that stick miss",
+          "[rotor][nightly]") {
   std::vector<double> share;
   for (const Condition blades : {Condition::no_slip, Condition::wall_law}) {
     ResolvedRotorSetup s = demo();
