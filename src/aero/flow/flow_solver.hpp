@@ -52,6 +52,7 @@ struct FlowSetting {
   MarchOptions march;
   KrylovMethod krylov = KrylovMethod::gmres;
   std::string preconditioner = "block_ilu";
+  PreconditionerOptions common;    ///< of preconditioners that have a common part
   int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
   double dt = 0.0;                 ///< physical step [s]
   /// Steady flow seen from a frame that turns about an axis through `centre` along the stream: velocities stay those in space, their
@@ -123,7 +124,10 @@ class FlowSolver {
   void place(std::vector<BlockPose> before, std::vector<BlockPose> now);
 
   /// In place of the one the setting names; before record().
-  void use(std::unique_ptr<Preconditioner> preconditioner) { preconditioner_ = std::move(preconditioner); }
+  void use(std::unique_ptr<Preconditioner> preconditioner) {
+    preconditioner_ = std::move(preconditioner);
+    preconditioner_->attach(grid_, tiles_);
+  }
   /// Records one march: the whole steady solution, or one physical step. See tasks.cpp.
   void record(runtime::Graph& graph);
   /// Records what fills ghost volumes and centres from other ranks; to be run once, and after each motion of the grid.
@@ -212,13 +216,12 @@ class FlowSolver {
   }
   void build_matrix(FlowTile& tile);
   bool refreshes() const { return solving_ && march_.refresh(); }
-  void refresh_preconditioner(std::span<FlowTile> tiles, MPI_Comm comm);
   void first_vector(FlowTile& tile);
   void make_vector(FlowTile& tile, int iteration);
-  void precondition_vectors(std::span<FlowTile> tiles, int iteration, MPI_Comm comm);
+  void precondition_vector(FlowTile& tile, int iteration);
   double spread_direction(FlowTile& tile, int iteration);
   void combine(FlowTile& tile);
-  void precondition_solution(std::span<FlowTile> tiles, MPI_Comm comm);
+  void precondition_solution(FlowTile& tile);
   void perturb(FlowTile& tile);
   void product(FlowTile& tile, int iteration, std::span<double> dots);
   double find_update(FlowTile& tile);
@@ -238,7 +241,7 @@ class FlowSolver {
   March march_;
   KrylovCycle cycle_;
   std::unique_ptr<Preconditioner> preconditioner_;
-  int matrices_ = 0, iteration_ = 0;
+  int matrices_ = 0;
   Norms norms_;
   std::vector<std::int64_t> parts_;
   std::vector<double> norm_partials_, load_partials_, dot_partials_, size_partials_, fraction_partials_;
