@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "runtime/mpi/exchange.hpp"
 
 namespace spindrift::aero {
 

@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <mpi.h>
+#include "runtime/mpi/exchange.hpp"
 
 #include <functional>
 #include <span>

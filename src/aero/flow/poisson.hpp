@@ -5,7 +5,7 @@
 // Called where a solver is set up; tested in tests/src/aero/flow/poisson_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <mpi.h>
+#include "runtime/mpi/exchange.hpp"
 
 #include <functional>
 #include <memory>

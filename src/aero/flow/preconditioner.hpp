@@ -15,7 +15,7 @@ namespace spindrift::aero {
 
 /// Of the preconditioners with a common part.
 struct PreconditionerOptions {
-  int group_cells = 0;     ///< coarse correction: longest side of a group of cells; 0: a group is a tile
+  int group_cells = 8;     ///< coarse correction: longest side of a group of cells; 0: a group is a tile
   int direct_groups = 512; ///< up to so many groups are solved by elimination, more by multigrid
   int common_every = 1;    ///< refreshes of the matrix that one set-up of the common part serves
 };

@@ -38,7 +38,7 @@ struct PressureAmg::Work {
   OutsideValues exchange;
   std::optional<Multigrid> multigrid;
   int refreshes = 0;
-  float schur = getenv("SCHUR") ? atof(getenv("SCHUR")) : 1.0f;
+
 
   PressureTile& of(const FlowTile& tile) { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
 
@@ -102,7 +102,7 @@ struct PressureAmg::Work {
         // A pressure there drives a velocity here, and that a mass flux: over two faces a stencil twice as wide, whose checkerboards multigrid
         // would coarsen apart; over one face the same Laplacian is four times the product.
         const Eigen::Vector3f by_velocity(combined(1), combined(2), combined(3)), by_pressure(block[1], block[2], block[3]);
-        const float driven = 4.0f * schur * by_velocity.dot(to_velocity * by_pressure);
+        const float driven = 4.0f * by_velocity.dot(to_velocity * by_pressure);
         *row++ = combined(0) - driven;
         *diagonal += driven;
       }

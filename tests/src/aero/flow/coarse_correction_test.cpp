@@ -74,7 +74,7 @@ TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterat
   const std::vector<double> before = state_of(*swirl(swirling("block_ilu")).solver);
   double change = 0.0;
   for (std::size_t n = 0; n < state.size(); ++n) change = std::max(change, std::abs(state[n] - before[n]));
-  for (const PreconditionerOptions& o : {PreconditionerOptions{}, PreconditionerOptions{.direct_groups = 0}, PreconditionerOptions{.group_cells = 2}}) {
+  for (const PreconditionerOptions& o : {PreconditionerOptions{.group_cells = 0}, PreconditionerOptions{.group_cells = 0, .direct_groups = 0}, PreconditionerOptions{.group_cells = 2}}) {
     const Case c = solved(swirling("coarse", o));
     CAPTURE(o.group_cells, o.direct_groups, alone);
     CHECK(c.solver->march().linear_drop() <= 1e-2);
@@ -87,7 +87,7 @@ TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterat
 }
 
 TEST_CASE("threads and reruns leave every bit of preconditioners with a common part", "[flow][fast]") {
-  for (const FlowSetting& s : {swirling("coarse"), swirling("coarse", {.group_cells = 2, .direct_groups = 0}), swirling("pressure_amg")}) {
+  for (const FlowSetting& s : {swirling("coarse", {.group_cells = 4}), swirling("coarse", {.group_cells = 2, .direct_groups = 0}), swirling("pressure_amg")}) {
     const Case one = solved(s), again = solved(s), three = solved(s, 3);
     CHECK(state_of(*one.solver) == state_of(*again.solver));
     CHECK(state_of(*one.solver) == state_of(*three.solver));
@@ -109,7 +109,7 @@ namespace {
 void coarse_on(int ranks) {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  for (const FlowSetting& s : {swirling("coarse"), swirling("coarse", {.group_cells = 2, .direct_groups = 0}), swirling("pressure_amg")}) {
+  for (const FlowSetting& s : {swirling("coarse", {.group_cells = 4}), swirling("coarse", {.group_cells = 2, .direct_groups = 0}), swirling("pressure_amg")}) {
     Case whole = swirl(s), part = swirl(s, 16, ranks, rank);
     whole.prepare();
     whole.run();
