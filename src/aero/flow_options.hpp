@@ -47,6 +47,8 @@ struct FlowOptions {
   std::string time = "steady";
   KrylovMethod krylov{};  ///< GMRES
   std::string preconditioner = "block_ilu";
+  int group_cells = 8, direct_groups = 512, common_every = 1;  ///< of preconditioners with a common part
+  std::string wall_distance = "exact";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, load_change = 0.0;
   int max_pseudo_steps = 500, krylov_steps = 20, refresh_every = 1;
   double krylov_drop = 0.05, matrix_free_below = 1e-2;

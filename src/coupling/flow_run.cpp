@@ -7,12 +7,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "kernels/base/constants.hpp"
 #include "runtime/executor/executor.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
+#include "src/aero/flow/choice.hpp"
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow/poisson.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/wall_distance.hpp"
@@ -80,8 +84,12 @@ struct Air {
     std::vector<std::string> no_slip;
     for (const aero::PatchOptions& b : o.boundaries)
       if (aero::sticks(b.condition)) no_slip.push_back(b.patch);
-    const aero::WallSurface surface = aero::wall_surface(grid, no_slip);
-    for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
+    if (o.wall_distance == "poisson") {
+      aero::fill_wall_distance_by_poisson(*store, no_slip, world.comm);
+    } else {
+      const aero::WallSurface surface = aero::wall_surface(grid, no_slip);
+      for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
+    }
     aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, flow_wind(s), s.time.window_s);
     if (setting.time_order == 0) setting.march.max_steps = steady_chunk;
     own_solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
@@ -157,8 +165,16 @@ class FlowCheckpoints {
     series_.save(tick, [&](io::CheckpointWriter& file) {
       file.set("window", window);
       file.set("restarts", std::int64_t(restarts));
+      if (!chosen_.empty()) file.set("preconditioner", chosen_);
       air_.write(file);
     });
+  }
+  /// What preconditioner = "auto" became; of a run before.
+  void choose(const std::string& name) { chosen_ = name; }
+  std::string chosen_before() {
+    const std::optional<io::CheckpointReader> file = series_.newest();
+    if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
+    return file->text("preconditioner");
   }
   std::int64_t resume(int& restarts) {
     const std::optional<io::CheckpointReader> file = series_.newest();
@@ -169,9 +185,31 @@ class FlowCheckpoints {
   }
 
  private:
+  std::string chosen_;
   io::CheckpointSeries series_;
   AirFile air_;
 };
+
+/// preconditioner = "auto": by trial, or as the run that goes on had it; scene.toml then names it, so that it runs alike.
+void choose_for(Air& air, FlowCheckpoints& checkpoints, const io::RunDirectory& directory, const runtime::World& world, bool restart) {
+  std::string name, reason = "as before the restart";
+  if (restart) {
+    name = checkpoints.chosen_before();
+  } else {
+    const aero::Choice choice = aero::choose_preconditioner(*air.solver, world.comm);
+    name = choice.preconditioner, reason = choice.reason;
+  }
+  air.solver->use(aero::make_preconditioner(name, air.solver->setting().common));
+  checkpoints.choose(name);
+  spdlog::info("air: preconditioner \"{}\" ({})", name, reason);
+  if (world.rank == 0) {
+    const std::string automatic = "preconditioner = \"auto\"";
+    std::ifstream in(directory.scene());
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    if (const std::size_t at = text.find(automatic); at != std::string::npos)
+      io::write_atomically(directory.scene(), text.replace(at, automatic.size(), fmt::format("preconditioner = \"{}\"", name)));
+  }
+}
 
 /// Pressure, velocity, temperature and eddy variables at cell centres for ParaView.
 void write_fields(MPI_Comm comm, const Air& air, const io::RunDirectory& directory, std::int64_t tick, double time_s) {
@@ -296,6 +334,8 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     solver.record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
   }
+  FlowCheckpoints checkpoints(world.comm, air, directory, s.checkpoint.keep);
+  if (s.aero.flow->preconditioner == "auto") choose_for(air, checkpoints, directory, world, settings.restart);
   runtime::Graph graph(world.comm);
   solver.record(graph);
   runtime::Executor executor(std::move(graph));
@@ -303,7 +343,6 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   io::Summary summary;
   io::History history;
   const FlowColumns columns(history, air.rotor.get());
-  FlowCheckpoints checkpoints(world.comm, air, directory, s.checkpoint.keep);
   std::int64_t number = 0, saved = -1;
   if (settings.restart) {
     number = checkpoints.resume(summary.restarts);

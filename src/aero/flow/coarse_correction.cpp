@@ -339,6 +339,7 @@ void CoarseCorrection::refresh(FlowTile& tile) {
   work_->ilu->refresh(tile);
   work_->fill(tile);
 }
+void CoarseCorrection::begin() { work_->refreshes = 0; }
 void CoarseCorrection::refresh_common(MPI_Comm comm) {
   if (work_->refreshes++ % work_->options.common_every == 0) work_->set_up(comm);
 }

@@ -24,6 +24,7 @@ class CoarseCorrection final : public Preconditioner {
   bool has_common() const override { return true; }
   void gather(FlowTile& tile, const float* v) override;
   void refresh_common(MPI_Comm comm) override;
+  void begin() override;
   void common(MPI_Comm comm) override;
   int groups() const;  ///< of all processes
 

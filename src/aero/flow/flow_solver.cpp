@@ -69,6 +69,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   }
   implicit_.preconditioned = setting.preconditioned;
   implicit_.floor_speed = setting.speed;
+  implicit_.physical_rate = setting.held_rate;
   model_ = &model_sweeps(setting.turbulence);
   if (model_->equations > 0) {
     const double nu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, setting.stream)) / rho;

@@ -55,6 +55,7 @@ struct FlowSetting {
   PreconditionerOptions common;    ///< of preconditioners that have a common part
   int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
   double dt = 0.0;                 ///< physical step [s]
+  double held_rate = 0.0;          ///< steady flow: added to the matrix as a physical step of this rate would [1/s]; trials (choice.hpp)
   /// Steady flow seen from a frame that turns about an axis through `centre` along the stream: velocities stay those in space, their
   /// components turn with the frame. Blades are at rest in the grid.
   Eigen::Vector3d frame_omega = Eigen::Vector3d::Zero(), frame_centre = Eigen::Vector3d::Zero();  ///< [rad/s], [m]

@@ -41,6 +41,8 @@ class Preconditioner {
   virtual bool has_common() const { return false; }
   /// What the common part needs of v.
   virtual void gather(FlowTile&, const float*) {}
+  /// A march or physical step begins: nothing of what came before it may be used, so that a restart has the same bits.
+  virtual void begin() {}
   /// Tasks that all ranks run together, as often, one at a time in a process.
   virtual void refresh_common(MPI_Comm) {}
   virtual void common(MPI_Comm) {}

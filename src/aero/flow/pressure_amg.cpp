@@ -202,6 +202,7 @@ void PressureAmg::refresh(FlowTile& tile) {
   work_->ilu->refresh(tile);
   work_->fill(tile);
 }
+void PressureAmg::begin() { work_->refreshes = 0; }
 void PressureAmg::refresh_common(MPI_Comm comm) {
   if (work_->refreshes++ % work_->options.common_every == 0) work_->set_up(comm);
 }
