@@ -55,6 +55,16 @@ FaceTerms face_terms(const PoissonTile& t, int d, int k, int j, int i) {
   return {coefficient, area - coefficient * step};
 }
 
+Eigen::Vector3d face_middle(const TileGeometry& g, int d, int k, int j, int i) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const int a : {0, 1})
+    for (const int b : {0, 1}) {
+      const int kn = k + (d == 2 ? 0 : b), jn = j + (d == 0 ? a : d == 2 ? b : 0), in = i + (d == 0 ? 0 : a);
+      sum += at_place(g.node_data.data(), g.node_box.at(kn, jn, in), g.node_box.component);
+    }
+  return 0.25 * sum;
+}
+
 template <class Body>
 void for_cells_of(const PoissonTile& t, Body&& body) {
   for (int k = 0; k < t.box.nk; ++k)
@@ -146,19 +156,23 @@ struct Poisson::Work {
       for (int c = 0; c < 3; ++c) t.gradient.data()[ghost + c * t.box.component] = t.gradient.data()[inside + c * t.box.component];
     });
   }
+  /// Green and Gauss, values on faces linear between the centres: near walls cells grow from one to the next.
   void slopes(PoissonTile& t) {
     const TileGeometry& g = *t.geometry;
     for_cells_of(t, [&](int k, int j, int i) {
       const std::ptrdiff_t here = t.box.at(k, j, i);
+      const Eigen::Vector3d centre = t.centre(g.cell_box.at(k, j, i));
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (int d = 0; d < directions; ++d) {
-        const BoxLayout& box = g.face_box[std::size_t(d)];
-        const double* faces = g.face_data[std::size_t(d)].data();
-        const std::ptrdiff_t step = t.box.stride(d);
-        sum += 0.5 * (t.phi.data()[here + step] - t.phi.data()[here]) *
-               at_place(faces, box.at(k + (d == 2), j + (d == 1), i + (d == 0)), box.component);
-        sum -= 0.5 * (t.phi.data()[here - step] - t.phi.data()[here]) * at_place(faces, box.at(k, j, i), box.component);
-      }
+      for (int d = 0; d < directions; ++d)
+        for (const int end : {0, 1}) {
+          const int kf = k + end * (d == 2), jf = j + end * (d == 1), fi = i + end * (d == 0);
+          const BoxLayout& box = g.face_box[std::size_t(d)];
+          const Eigen::Vector3d area = at_place(g.face_data[std::size_t(d)].data(), box.at(kf, jf, fi), box.component);
+          const std::ptrdiff_t step = (end ? 1 : -1) * t.box.stride(d);
+          const double across = area.dot(t.centre(g.cell_box.at(k, j, i) + (end ? 1 : -1) * g.cell_box.stride(d)) - centre);
+          const double share = across == 0.0 ? 0.5 : area.dot(face_middle(g, d, kf, jf, fi) - centre) / across;
+          sum += (end ? 1.0 : -1.0) * share * (t.phi.data()[here + step] - t.phi.data()[here]) * area;
+        }
       sum /= g.volume_data.data()[g.cell_box.at(k, j, i)];
       for (int c = 0; c < 3; ++c) t.gradient.data()[here + c * t.box.component] = sum[c];
     });

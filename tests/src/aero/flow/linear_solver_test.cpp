@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <map>
+#include <thread>
 
 #include "tests/src/aero/flow/flows.hpp"
 
@@ -135,6 +137,41 @@ TEST_CASE("block ILU through a common part of all tiles gives the bits of the sa
     CHECK(fingerprint(*by_tile.solver) == fingerprint(*at_once.solver));
     CHECK(state_of(*by_tile.solver) == state_of(*at_once.solver));
   }
+}
+
+TEST_CASE("while the common part of a preconditioner runs, other threads go on with the sea", "[flow][fast]") {
+  std::atomic<int> sea = 0, met = 0, calls = 0;
+  /// Block ILU whose first common parts last until a task of the sea has run beside them.
+  class Waiting final : public Preconditioner {
+   public:
+    Waiting(std::atomic<int>& sea, std::atomic<int>& met, std::atomic<int>& calls) : sea_(sea), met_(met), calls_(calls) {}
+    void refresh(FlowTile& tile) override { each_->refresh(tile); }
+    void apply(const Piece& piece) override { each_->apply(piece); }
+    bool has_common() const override { return true; }
+    void common(MPI_Comm) override {
+      if (calls_ == 5) return;
+      const int before = sea_;
+      const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+      while (sea_ == before && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+      met_ += sea_ > before, ++calls_;
+    }
+
+   private:
+    std::unique_ptr<Preconditioner> each_ = make_preconditioner("block_ilu");
+    std::atomic<int>&sea_, &met_, &calls_;
+  };
+  FlowSetting s = turbulent_air();
+  s.march.max_steps = 1;
+  Case c = leaving_bump(s, 1, 0, std::make_unique<Waiting>(sea, met, calls));
+  runtime::Graph graph;
+  c.solver->record(graph);
+  const runtime::Datum waves = graph.datum();
+  graph.loop("sea/steps", {.min = 1, .max = 1000000}, [&] {  // for as long as it is waited for
+    graph.task("sea/step", {runtime::updates(waves)}, [&sea] { std::this_thread::sleep_for(std::chrono::milliseconds(1)), ++sea; });
+    graph.until("sea/enough", {runtime::reads(waves)}, [&calls] { return calls == 5; });
+  });
+  runtime::Executor(std::move(graph), {.threads = 2}).run();
+  CHECK(met == 5);
 }
 
 TEST_CASE("matrices kept over some pseudo-steps are fewer and end in the same flow", "[flow][fast]") {

@@ -90,7 +90,9 @@ TEST_CASE("the distance of Poisson's kind is exact between plates, to second ord
   for (const int n : {8, 16}) {
     const BoxOptions box{.ni = n, .nj = 4, .nk = 1, .high = {2.0, 1.0, 1.0}};
     const std::vector<std::string> walls{"i_min", "i_max"};
-    GridStore store = store_of(planar_box(box), 1, 0, walls);
+    MultiBlockGrid grid = planar_box(box);
+    deform(grid, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x[0] - 0.2 * std::sin(pi * x[0]), x[1], x[2]); });  // thin at both walls
+    GridStore store = store_of(grid, 1, 0, walls);
     fill_wall_distance_by_poisson(store, walls, MPI_COMM_SELF);
     double largest = 0.0;
     for_cells(store, [&](int t, int k, int j, int i, const Eigen::Vector3d& x) {
