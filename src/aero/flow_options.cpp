@@ -63,6 +63,11 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"sst_vm", "k-omega SST with vorticity, without 2/3 k"}},
                   "Turbulence model.")
           .only_if("viscous", {"thin_layer", "full"})
+          .choice("wall_distance", &FlowOptions::wall_distance,
+                  {{"exact", "to the nearest point of all walls"},
+                   {"poisson", "from Poisson's equation (Spalding): smooth, larger than the exact one where walls are convex"}},
+                  "Distance from walls that the turbulence model sees.")
+          .only_if("turbulence", {"sa", "sa_neg", "sst", "sst_vm"})
           .choice("flux", &FlowOptions::flux,
                   {{"roe_low_mach", "Roe with Rieper's scaling: accurate at any Mach number below one and above"},
                    {"roe", "Roe"},
@@ -111,8 +116,20 @@ const scene::Section<FlowOptions>& flow_section() {
           .choice("preconditioner", &FlowOptions::preconditioner,
                   {{"block_ilu", "block ILU(0), tile by tile"},
                    {"block_jacobi", "each cell by itself"},
-                   {"identity", "none"}},
-                  "Approximate inverse that the linear solver works with.")
+                   {"identity", "none"},
+                   {"coarse", "block ILU(0) after a coarse correction: groups of cells move together, over all tiles"},
+                   {"pressure_amg", "block ILU(0) after pressure by algebraic multigrid (hypre)"},
+                   {"auto", "block_ilu or coarse, by trial at the start: iterations and a model of their cost; logged and written into scene.toml"}},
+                  "Approximate inverse that the linear solver works with; docs/user/air.md says which for what.")
+          .integer("group_cells", &FlowOptions::group_cells, "-",
+                   "Longest side of a group of cells of the coarse correction; 0: a group is a whole tile.", between(0, 64))
+          .only_if("preconditioner", {"coarse", "auto"})
+          .integer("direct_groups", &FlowOptions::direct_groups, "-",
+                   "Most groups that are solved by elimination, with bits that no number of ranks changes; more go to algebraic multigrid (hypre).", between(0, 4096))
+          .only_if("preconditioner", {"coarse", "auto"})
+          .integer("common_every", &FlowOptions::common_every, "-",
+                   "Matrices that one set-up of the coarse correction or of multigrid serves; each physical step begins with a new one.", between(1, 1000))
+          .only_if("preconditioner", {"coarse", "pressure_amg", "auto"})
           .integer("refresh_every", &FlowOptions::refresh_every, "-",
                    "Pseudo-steps that a matrix of the preconditioner serves where products are matrix-free; less where the CFL number changes by "
                    "a factor of two or the linear systems are solved worse.",
@@ -166,7 +183,8 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
   s.dt = s.time_order > 0 ? dt : 0.0;
   s.krylov = o.krylov;
-  s.preconditioner = o.preconditioner;
+  s.preconditioner = o.preconditioner == "auto" ? "block_ilu" : o.preconditioner;  // until chosen
+  s.common = {.group_cells = o.group_cells, .direct_groups = o.direct_groups, .common_every = o.common_every};
   s.march = {.cfl_start = o.cfl,
              .cfl_max = std::max(o.cfl, o.cfl_max),
              .drop = o.drop,

@@ -48,6 +48,8 @@ struct FlowOptions {
   std::string time = "steady";
   KrylovMethod krylov{};  ///< GMRES
   std::string preconditioner = "block_ilu";
+  int group_cells = 8, direct_groups = 512, common_every = 1;  ///< of preconditioners with a common part
+  std::string wall_distance = "exact";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, load_change = 0.0;
   int coarse_steps = 0;  ///< on a coarser rotor grid, before the march
   int max_pseudo_steps = 500, krylov_steps = 20, refresh_every = 1;

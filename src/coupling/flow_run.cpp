@@ -7,13 +7,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "kernels/base/constants.hpp"
 #include "runtime/executor/executor.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
 #include "src/aero/coarse_start.hpp"
+#include "src/aero/flow/choice.hpp"
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow/poisson.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/wall_distance.hpp"
@@ -82,8 +86,12 @@ struct Air {
     std::vector<std::string> no_slip;
     for (const aero::PatchOptions& b : o.boundaries)
       if (aero::sticks(b.condition)) no_slip.push_back(b.patch);
-    const aero::WallSurface surface = aero::wall_surface(grid, no_slip);
-    for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
+    if (o.wall_distance == "poisson") {
+      aero::fill_wall_distance_by_poisson(*store, no_slip, world.comm);
+    } else {
+      const aero::WallSurface surface = aero::wall_surface(grid, no_slip);
+      for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
+    }
     aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, flow_wind(s), s.time.window_s, aero::wind_profile(s.wind));
     if (setting.time_order == 0) setting.march.max_steps = steady_chunk;
     own_solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
@@ -160,11 +168,19 @@ class FlowCheckpoints {
     series_.save(tick, [&](io::CheckpointWriter& file) {
       file.set("window", window);
       file.set("restarts", std::int64_t(restarts));
+      if (!chosen_.empty()) file.set("preconditioner", chosen_);
       for (const SavedArray& array : file_.arrays()) write(file, array);
       if (!air_.rotor) return;
       write_air_settings(file, scenario_);
       for (const SavedArray& array : rotor_arrays(*air_.rotor, felt_by(*air_.rotor), rank_)) write(file, array);
     });
+  }
+  /// What preconditioner = "auto" became; of a run before.
+  void choose(const std::string& name) { chosen_ = name; }
+  std::string chosen_before() {
+    const std::optional<io::CheckpointReader> file = series_.newest();
+    if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
+    return file->text("preconditioner");
   }
   std::int64_t resume(int& restarts) {
     const std::optional<io::CheckpointReader> file = series_.newest();
@@ -175,12 +191,34 @@ class FlowCheckpoints {
   }
 
  private:
+  std::string chosen_;
   io::CheckpointSeries series_;
   AirFile file_;
   const Air& air_;
   const Scenario& scenario_;
   int rank_;
 };
+
+/// preconditioner = "auto": by trial, or as the run that goes on had it; scene.toml then names it, so that it runs alike.
+void choose_for(Air& air, FlowCheckpoints& checkpoints, const io::RunDirectory& directory, const runtime::World& world, bool restart) {
+  std::string name, reason = "as before the restart";
+  if (restart) {
+    name = checkpoints.chosen_before();
+  } else {
+    const aero::Choice choice = aero::choose_preconditioner(*air.solver, world.comm);
+    name = choice.preconditioner, reason = choice.reason;
+  }
+  air.solver->use(aero::make_preconditioner(name, air.solver->setting().common));
+  checkpoints.choose(name);
+  spdlog::info("air: preconditioner \"{}\" ({})", name, reason);
+  if (world.rank == 0) {
+    const std::string automatic = "preconditioner = \"auto\"";
+    std::ifstream in(directory.scene());
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    if (const std::size_t at = text.find(automatic); at != std::string::npos)
+      io::write_atomically(directory.scene(), text.replace(at, automatic.size(), fmt::format("preconditioner = \"{}\"", name)));
+  }
+}
 
 }  // namespace
 
@@ -197,6 +235,8 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     solver.record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
   }
+  FlowCheckpoints checkpoints(world, air, directory, s);
+  if (s.aero.flow->preconditioner == "auto") choose_for(air, checkpoints, directory, world, settings.restart);
   if (const int steps = s.aero.flow->coarse_steps; steps > 0 && !settings.restart) {
     const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(s), steps, *air.rotor);
     spdlog::info("air: {} pseudo-steps on a grid of half the resolution: thrust {:.4g} kN, power {:.4g} MW", steps, 1e-3 * load.thrust, 1e-6 * load.power);
@@ -208,7 +248,6 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   io::Summary summary;
   io::History history;
   const FlowColumns columns(history, air.rotor.get());
-  FlowCheckpoints checkpoints(world, air, directory, s);
   std::int64_t number = 0, saved = -1;
   if (settings.restart) {
     number = checkpoints.resume(summary.restarts);

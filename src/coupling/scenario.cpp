@@ -161,6 +161,8 @@ Scenario read_scenario(scene::Document& document) {
 
   check_names(document, s);
   check_saved_start(document, s);
+  if (has_resolved_rotor(s) && s.aero.flow->wall_distance == "poisson")
+    document.problem("aero.flow.wall_distance", "\"poisson\" is for grids that stand: with a resolved rotor it must be \"exact\"");
   if (!(s.has_rotor() && s.resolves_air()) && s.start.air_steps > 0)
     document.problem("start.air_steps", "has no effect: there is no resolved rotor on a body");
   for (const auto& [key, given] :
@@ -178,6 +180,8 @@ Scenario read_scenario(scene::Document& document) {
     return s;
   }
   if (s.resolves_air()) check_resolved_air(document, s);
+  if (s.resolves_air() && s.aero.flow->preconditioner == "auto")
+    document.problem("aero.flow.preconditioner", "\"auto\" is for scenes of the air alone; with bodies name one, \"block_ilu\" or \"coarse\"");
   if (s.coupling.scheme == SchemeKind::automatic)
     s.coupling.scheme = s.resolves_air() ? SchemeKind::cps2 : SchemeKind::monolithic;
   check_coupling(document, s.coupling, s.time);

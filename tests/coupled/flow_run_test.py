@@ -68,6 +68,29 @@ class FlowRun(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual((self.out / "history.csv").read_bytes(), (two / "history.csv").read_bytes())
 
+    def test_the_automatic_preconditioner_is_written_down_and_kept(self):
+        case = CASES / "cylinder_low_mach/cylinder.toml"
+        options = ["--no-report", "--set", "aero.flow.preconditioner='auto'"]
+        done = spindrift("run", case, "--out", self.out, *options, "--until", "20")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        chosen = [line for line in (self.out / "log.txt").read_text().splitlines() if "air: preconditioner" in line]
+        self.assertEqual(len(chosen), 1)
+        self.assertIn("us per cell by the model", chosen[0])
+        name = chosen[0].split('"')[1]
+        scene = (self.out / "scene.toml").read_text()
+        self.assertIn(f'preconditioner = "{name}"', scene)
+        self.assertNotIn('"auto"', scene.split("preconditioner = ")[1].splitlines()[0])
+        done = spindrift("run", case, "--out", self.out, *options, "--until", "40", "--restart")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn(f'air: preconditioner "{name}" (as before the restart)', (self.out / "log.txt").read_text())
+        self.assertIn(f'preconditioner = "{name}"', (self.out / "scene.toml").read_text())
+
+    def test_distances_by_poisson_leave_the_drag_of_a_plate(self):
+        done = spindrift("run", CASES / "flat_plate/flat_plate.toml", "--out", self.out, "--set", "aero.flow.generate.refinement=1",
+                         "--set", "aero.flow.drop=1e-4", "--set", "aero.flow.wall_distance='poisson'")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertAlmostEqual(self.history()[-1]["flow.drag_coefficient"], 0.00291, delta=0.00003)
+
     def test_a_vortex_between_mirrors_decays(self):
         done = spindrift("run", CASES / "taylor_green/taylor_green.toml", "--out", self.out, "--no-report", "--until", 0.01,
                          "--set", "aero.flow.generate.cells=[8, 8, 8]")

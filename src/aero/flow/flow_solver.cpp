@@ -36,7 +36,7 @@ std::size_t FlowTile::bytes() const {
 
 FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<PatchCondition> conditions)
     : grid_(grid), setting_(setting), conditions_(std::move(conditions)), march_(setting.march), cycle_(setting.krylov, setting.march.krylov_steps),
-      preconditioner_(make_preconditioner(setting.preconditioner)) {
+      preconditioner_(make_preconditioner(setting.preconditioner, setting.common)) {
   const Tiling& tiling = grid.tiling();
   if (setting.speed <= 0.0) throw std::invalid_argument("flow: the scale of velocity must be positive");
   convective_.gas = viscous_.gas = boundary_.gas = implicit_.gas = setting.gas;
@@ -64,6 +64,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   }
   implicit_.preconditioned = setting.preconditioned;
   implicit_.floor_speed = setting.speed;
+  implicit_.physical_rate = setting.held_rate;
   model_ = &model_sweeps(setting.turbulence);
   if (model_->equations > 0) {
     const double nu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, setting.stream)) / rho;
@@ -138,10 +139,21 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   loads_.resize(std::max<std::size_t>(1, conditions_.size()) * load_components);
   dots_.resize(std::size_t(columns + 1));
   rows_.reserve(1024);
+  preconditioner_->attach(grid_, tiles_);
 }
 
 void FlowSolver::start_uniform() {
   start([this](const Eigen::Vector3d& x) { return stream_at(setting_.stream, setting_.profile, x.z()); });
+}
+
+void FlowSolver::start_from(const FlowSolver& other) {
+  if (other.tiles_.size() != tiles_.size()) throw std::invalid_argument("flow: another solver's state is on other tiles");
+  for (std::size_t n = 0; n < tiles_.size(); ++n) {
+    if (tiles_[n].index != other.tiles_[n].index || tiles_[n].state.size() != other.tiles_[n].state.size())
+      throw std::invalid_argument("flow: another solver's state is on other tiles");
+    std::copy_n(other.tiles_[n].state.data(), tiles_[n].state.size(), tiles_[n].state.data());
+  }
+  forget();
 }
 
 void FlowSolver::forget() { time_steps_ = 0; }
@@ -420,13 +432,6 @@ void FlowSolver::build_matrix(FlowTile& tile) {
   if (tile.turbulence > 0) model_->matrix(tile, tile.state.data(), march_.cfl(), implicit_);
 }
 
-void FlowSolver::refresh_preconditioner(std::span<FlowTile> tiles, MPI_Comm comm) {
-  if (!refreshes()) return;
-  std::vector<FlowTile*> all;
-  for (FlowTile& tile : tiles) all.push_back(&tile);
-  preconditioner_->refresh(all, comm);
-}
-
 /// v_0: the scaled residual with its sign turned, of unit length.
 void FlowSolver::first_vector(FlowTile& tile) {
   const double norm = cycle_.first_norm(), scale = norm > 0.0 ? -1.0 / norm : 0.0;
@@ -451,15 +456,8 @@ void FlowSolver::make_vector(FlowTile& tile, int j) {
     cycle_.advance(tile, j);
 }
 
-void FlowSolver::precondition_vectors(std::span<FlowTile> tiles, int j, MPI_Comm comm) {
-  if (!solving_) return;
-  if (tiles.size() == 1) {
-    const Preconditioner::Piece piece{tiles.data(), cycle_.source(tiles[0], j), cycle_.direction(tiles[0], j)};
-    return preconditioner_->apply({&piece, 1}, comm);
-  }
-  std::vector<Preconditioner::Piece> pieces;
-  for (FlowTile& tile : tiles) pieces.push_back({&tile, cycle_.source(tile, j), cycle_.direction(tile, j)});
-  preconditioner_->apply(pieces, comm);
+void FlowSolver::precondition_vector(FlowTile& tile, int j) {
+  if (solving_) preconditioner_->apply({&tile, cycle_.source(tile, j), cycle_.direction(tile, j)});
 }
 
 /// Puts the direction M^-1 v_j where neighbours look for it; returns its largest component in the units of the unknowns.
@@ -554,11 +552,8 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
 void FlowSolver::combine(FlowTile& tile) {
   if (solving_) cycle_.combine(tile);
 }
-void FlowSolver::precondition_solution(std::span<FlowTile> tiles, MPI_Comm comm) {
-  if (!solving_ || !cycle_.precondition_at_end()) return;
-  std::vector<Preconditioner::Piece> pieces;
-  for (FlowTile& tile : tiles) pieces.push_back({&tile, KrylovCycle::solution(tile), KrylovCycle::solution(tile)});
-  preconditioner_->apply(pieces, comm);
+void FlowSolver::precondition_solution(FlowTile& tile) {
+  if (solving_ && cycle_.precondition_at_end()) preconditioner_->apply({&tile, KrylovCycle::solution(tile), KrylovCycle::solution(tile)});
 }
 
 /// Of the change of the unknowns: the fraction that keeps pressure and temperature positive.

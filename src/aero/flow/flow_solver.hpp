@@ -53,8 +53,10 @@ struct FlowSetting {
   MarchOptions march;
   KrylovMethod krylov = KrylovMethod::gmres;
   std::string preconditioner = "block_ilu";
+  PreconditionerOptions common;    ///< of preconditioners that have a common part
   int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
   double dt = 0.0;                 ///< physical step [s]
+  double held_rate = 0.0;          ///< steady flow: added to the matrix as a physical step of this rate would [1/s]; trials (choice.hpp)
   /// Steady flow seen from a frame that turns about an axis through `centre` along the stream: velocities stay those in space, their
   /// components turn with the frame. Blades are at rest in the grid.
   Eigen::Vector3d frame_omega = Eigen::Vector3d::Zero(), frame_centre = Eigen::Vector3d::Zero();  ///< [rad/s], [m]
@@ -111,6 +113,8 @@ class FlowSolver {
           }
     }
   }
+  /// The state of another solver on the same tiles, a steady one say; no past.
+  void start_from(const FlowSolver& other);
   /// Adds body(centre) [m/s] to the velocity of every cell.
   template <class Body>
   void add_velocity(Body&& body) {
@@ -138,7 +142,10 @@ class FlowSolver {
   void place(std::vector<BlockPose> before, std::vector<BlockPose> now);
 
   /// In place of the one the setting names; before record().
-  void use(std::unique_ptr<Preconditioner> preconditioner) { preconditioner_ = std::move(preconditioner); }
+  void use(std::unique_ptr<Preconditioner> preconditioner) {
+    preconditioner_ = std::move(preconditioner);
+    preconditioner_->attach(grid_, tiles_);
+  }
   /// Records one march: the whole steady solution, or one physical step. See tasks.cpp.
   void record(runtime::Graph& graph);
   /// Records what fills ghost volumes and centres from other ranks; to be run once, and after each motion of the grid.
@@ -227,13 +234,12 @@ class FlowSolver {
   }
   void build_matrix(FlowTile& tile);
   bool refreshes() const { return solving_ && march_.refresh(); }
-  void refresh_preconditioner(std::span<FlowTile> tiles, MPI_Comm comm);
   void first_vector(FlowTile& tile);
   void make_vector(FlowTile& tile, int iteration);
-  void precondition_vectors(std::span<FlowTile> tiles, int iteration, MPI_Comm comm);
+  void precondition_vector(FlowTile& tile, int iteration);
   double spread_direction(FlowTile& tile, int iteration);
   void combine(FlowTile& tile);
-  void precondition_solution(std::span<FlowTile> tiles, MPI_Comm comm);
+  void precondition_solution(FlowTile& tile);
   void perturb(FlowTile& tile);
   void product(FlowTile& tile, int iteration, std::span<double> dots);
   double find_update(FlowTile& tile);
@@ -253,7 +259,7 @@ class FlowSolver {
   March march_;
   KrylovCycle cycle_;
   std::unique_ptr<Preconditioner> preconditioner_;
-  int matrices_ = 0, iteration_ = 0;
+  int matrices_ = 0;
   Norms norms_;
   std::vector<std::int64_t> parts_;
   std::vector<double> norm_partials_, load_partials_, dot_partials_, size_partials_, fraction_partials_;

@@ -7,6 +7,8 @@
 
 #include "kernels/linear/block_ilu.hpp"
 #include "kernels/linear/block_jacobi.hpp"
+#include "src/aero/flow/coarse_correction.hpp"
+#include "src/aero/flow/pressure_amg.hpp"
 
 namespace spindrift::aero {
 
@@ -39,42 +41,42 @@ struct Jacobi {
 template <class Method>
 class ByBlocks final : public Preconditioner {
  public:
-  void refresh(std::span<FlowTile* const> tiles, MPI_Comm) override {
-    for (FlowTile* tile : tiles) {
-      std::ptrdiff_t cell = Method::factor(tile->mean());
-      if (cell < 0 && tile->turbulence == 1) cell = Method::factor(tile->model<1>());
-      if (cell < 0 && tile->turbulence == 2) cell = Method::factor(tile->model<2>());
-      if (cell >= 0)
-        throw std::runtime_error("singular pivot in tile " + std::to_string(tile->index) + ", cell " + std::to_string(cell));
-    }
+  void refresh(FlowTile& tile) override {
+    std::ptrdiff_t cell = Method::factor(tile.mean());
+    if (cell < 0 && tile.turbulence == 1) cell = Method::factor(tile.model<1>());
+    if (cell < 0 && tile.turbulence == 2) cell = Method::factor(tile.model<2>());
+    if (cell >= 0) throw std::runtime_error("singular pivot in tile " + std::to_string(tile.index) + ", cell " + std::to_string(cell));
   }
-  void apply(std::span<const Piece> pieces, MPI_Comm) override {
-    for (const Piece& piece : pieces) {
-      FlowTile& tile = *piece.tile;
-      Method::solve(tile.mean(), piece.v, piece.z);
-      const std::ptrdiff_t model = tile.box.count() * mean_unknowns;
-      if (tile.turbulence == 1) Method::solve(tile.model<1>(), piece.v + model, piece.z + model);
-      if (tile.turbulence == 2) Method::solve(tile.model<2>(), piece.v + model, piece.z + model);
-    }
+  void apply(const Piece& piece) override {
+    FlowTile& tile = *piece.tile;
+    Method::solve(tile.mean(), piece.v, piece.z);
+    const std::ptrdiff_t model = tile.box.count() * mean_unknowns;
+    if (tile.turbulence == 1) Method::solve(tile.model<1>(), piece.v + model, piece.z + model);
+    if (tile.turbulence == 2) Method::solve(tile.model<2>(), piece.v + model, piece.z + model);
   }
 };
 
 class Identity final : public Preconditioner {
  public:
-  void refresh(std::span<FlowTile* const>, MPI_Comm) override {}
-  void apply(std::span<const Piece> pieces, MPI_Comm) override {
-    for (const Piece& p : pieces)
-      if (p.z != p.v) std::copy_n(p.v, p.tile->vector_size(), p.z);
+  void refresh(FlowTile&) override {}
+  void apply(const Piece& p) override {
+    if (p.z != p.v) std::copy_n(p.v, p.tile->vector_size(), p.z);
   }
 };
 
 }  // namespace
 
-std::unique_ptr<Preconditioner> make_preconditioner(std::string_view name) {
+std::unique_ptr<Preconditioner> make_tile_preconditioner(std::string_view name) {
   if (name == Ilu::name) return std::make_unique<ByBlocks<Ilu>>();
   if (name == Jacobi::name) return std::make_unique<ByBlocks<Jacobi>>();
   if (name == "identity") return std::make_unique<Identity>();
   throw std::invalid_argument("flow: no preconditioner is called " + std::string(name));
+}
+
+std::unique_ptr<Preconditioner> make_preconditioner(std::string_view name, const PreconditionerOptions& options) {
+  if (name == "coarse") return std::make_unique<CoarseCorrection>(options);
+  if (name == "pressure_amg") return std::make_unique<PressureAmg>(options);
+  return make_tile_preconditioner(name);
 }
 
 }  // namespace spindrift::aero

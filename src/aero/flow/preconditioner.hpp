@@ -1,6 +1,6 @@
-// What approximates the inverse of a pseudo-step's matrix, behind one interface: by tile (block ILU, block-Jacobi, none), from
-// each tile's own tasks; or for all tiles of a process at once, from tasks that all ranks run together (a multigrid library, a
-// coarse correction). The Krylov cycle knows nothing else of it. Called by the tasks of src/aero/flow; tested in
+// What approximates the inverse of a pseudo-step's matrix, behind one interface: by tile (block ILU, block-Jacobi, none), from each
+// tile's own tasks; and, where it has one, a common part of all tiles and processes (coarse correction, multigrid) between two tasks
+// of each tile. The Krylov cycle knows nothing else of it. Called by the tasks of src/aero/flow; tested in
 // tests/src/aero/flow/linear_solver_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,6 +13,13 @@
 
 namespace spindrift::aero {
 
+/// Of the preconditioners with a common part.
+struct PreconditionerOptions {
+  int group_cells = 8;     ///< coarse correction: longest side of a group of cells; 0: a group is a tile
+  int direct_groups = 512; ///< up to so many groups are solved by elimination, more by multigrid
+  int common_every = 1;    ///< refreshes of the matrix that one set-up of the common part serves
+};
+
 class Preconditioner {
  public:
   /// z = M^-1 v in one tile, both [cell][5] then [cell][turbulence], scaled as rows and unknowns are (sweep_jacobian.hpp).
@@ -23,16 +30,27 @@ class Preconditioner {
   };
 
   virtual ~Preconditioner() = default;
-  /// True: refresh() and apply() get one tile at a time, tiles in any order and beside each other, without a communicator.
-  /// False: all tiles of the process in the order of the tiling, in one task at a time that every rank runs as often, with a
-  /// communicator.
-  virtual bool by_tile() const { return true; }
-  /// The blocks of these tiles were filled anew. A singular pivot throws, naming tile and cell.
-  virtual void refresh(std::span<FlowTile* const> tiles, MPI_Comm comm) = 0;
-  virtual void apply(std::span<const Piece> pieces, MPI_Comm comm) = 0;
+  /// Once, before all else: the grid and the tiles of this process.
+  virtual void attach(GridStore&, std::span<FlowTile>) {}
+  /// The blocks of this tile were filled anew. A singular pivot throws, naming tile and cell. Tiles come in any order and beside
+  /// each other, here as in gather() and apply().
+  virtual void refresh(FlowTile& tile) = 0;
+  virtual void apply(const Piece& piece) = 0;
+
+  /// Whether there is a common part. If so: refresh() of all tiles, then refresh_common(); gather() of all, common(), apply() of all.
+  virtual bool has_common() const { return false; }
+  /// What the common part needs of v.
+  virtual void gather(FlowTile&, const float*) {}
+  /// A march or physical step begins: nothing of what came before it may be used, so that a restart has the same bits.
+  virtual void begin() {}
+  /// Tasks that all ranks run together, as often, one at a time in a process.
+  virtual void refresh_common(MPI_Comm) {}
+  virtual void common(MPI_Comm) {}
 };
 
-/// By the name in the scene: block_ilu, block_jacobi, identity.
-std::unique_ptr<Preconditioner> make_preconditioner(std::string_view name);
+/// By the name in the scene: block_ilu, block_jacobi, identity, coarse, pressure_amg.
+std::unique_ptr<Preconditioner> make_preconditioner(std::string_view name, const PreconditionerOptions& options = {});
+/// The parts by tile alone: block_ilu, block_jacobi, identity.
+std::unique_ptr<Preconditioner> make_tile_preconditioner(std::string_view name);
 
 }  // namespace spindrift::aero

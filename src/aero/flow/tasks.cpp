@@ -18,9 +18,9 @@ class StepGraph {
  public:
   StepGraph(FlowSolver& solver, Graph& graph) : s_(solver), g_(graph), owned_(solver.tiles_.size()) {
     for (auto* data : {&state_, &state_ghosts_, &gradients_, &gradient_ghosts_, &residual_, &matrix_, &norms_, &vectors_, &direction_,
-                       &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &dots_, &fraction_, &past_})
+                       &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &dots_, &fraction_, &past_, &gathered_})
       *data = graph.data(owned_);
-    sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(), krylov_ = graph.datum(), built_ = graph.datum(),
+    sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(), krylov_ = graph.datum(), built_ = graph.datum(), common_ = graph.datum(),
     total_fraction_ = graph.datum();
   }
 
@@ -35,10 +35,14 @@ class StepGraph {
                        writes(matrix_[n])}; },
            [this](std::size_t n) {
              s_.build_matrix(s_.tiles_[n]);
-             if (by_tile()) s_.refresh_preconditioner(tile_at(n), MPI_COMM_NULL);
+             if (s_.refreshes()) s_.preconditioner_->refresh(s_.tiles_[n]);
            });
-      if (!by_tile()) {
-        g_.collective("aero/preconditioner", all({reads(decision_), updates(built_)}, {&matrix_}), [this](MPI_Comm comm) { s_.refresh_preconditioner(s_.tiles_, comm); });
+      if (common()) {
+        Uses uses{reads(decision_), writes(built_)};
+        uses.push_back(reads(matrix_));
+        g_.collective("aero/preconditioner", uses, [this](MPI_Comm comm) {
+          if (s_.refreshes()) s_.preconditioner_->refresh_common(comm);
+        });
       }
       g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = 1}, [&] { krylov_iteration(); });
       update();
@@ -51,15 +55,7 @@ class StepGraph {
 
  private:
   int columns() const { return s_.cycle_.most_columns(); }
-  bool by_tile() const { return s_.preconditioner_->by_tile(); }
-  std::span<FlowTile> tile_at(std::size_t n) { return std::span(s_.tiles_).subspan(n, 1); }
-  /// These uses, and the data of all tiles: read, or updated.
-  static Uses all(Uses uses, std::initializer_list<const std::vector<Datum>*> read, std::initializer_list<const std::vector<Datum>*> updated = {}) {
-    for (const auto* data : read) uses.push_back(reads(*data));
-    for (const auto* data : updated)
-      for (const Datum d : *data) uses.push_back(updates(d));
-    return uses;
-  }
+  bool common() const { return s_.preconditioner_->has_common(); }
   std::string of(const char* path, std::size_t n) const { return std::string(path) + "/" + std::to_string(s_.tiles_[n].index); }
   template <class UsesOf, class Work>
   void each(const char* path, UsesOf&& uses, Work work) {
@@ -80,6 +76,7 @@ class StepGraph {
       else
         s_.resume();
       s_.solving_ = true;
+      s_.preconditioner_->begin();
       if (s_.setting_.time_order > 0) {
         const bool second = s_.setting_.time_order > 1 && s_.time_steps_ > 0;
         s_.weights_ = second ? bdf2(s_.setting_.dt / s_.dt_before_) : bdf1;
@@ -127,27 +124,32 @@ class StepGraph {
 
   void krylov_iteration() {
     // v_j, and the direction z = M^-1 v_j.
-    if (by_tile()) {
-      for (std::size_t n = 0; n < owned_; ++n)
-        g_.task(of("aero/krylov/direction", n),
-                {reads(decision_), reads(krylov_), reads(residual_[n]), reads(matrix_[n]), updates(vectors_[n]), writes(direction_[n]), writes(size_[n])},
-                [this, n](const Context& c) {
-                  s_.make_vector(s_.tiles_[n], int(c.iteration));
-                  s_.precondition_vectors(tile_at(n), int(c.iteration), MPI_COMM_NULL);
-                  s_.size_partials_[n] = s_.spread_direction(s_.tiles_[n], int(c.iteration));
-                });
+    const auto vector_uses = [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), reads(residual_[n]), updates(vectors_[n])}; };
+    const auto direction_uses = [&](std::size_t n) { return Uses{reads(decision_), reads(matrix_[n]), updates(vectors_[n]), writes(direction_[n]), writes(size_[n])}; };
+    if (!common()) {
+      for (std::size_t n = 0; n < owned_; ++n) {
+        Uses uses = direction_uses(n);
+        uses.push_back(reads(krylov_)), uses.push_back(reads(residual_[n]));
+        g_.task(of("aero/krylov/direction", n), uses, [this, n](const Context& c) {
+          s_.make_vector(s_.tiles_[n], int(c.iteration));
+          direction(n, int(c.iteration));
+        });
+      }
     } else {
-      for (std::size_t n = 0; n < owned_; ++n)
-        g_.task(of("aero/krylov/vector", n), {reads(decision_), reads(krylov_), reads(residual_[n]), updates(vectors_[n])},
-                [this, n](const Context& c) {
-                  s_.make_vector(s_.tiles_[n], int(c.iteration));
-                  if (n == 0) s_.iteration_ = int(c.iteration);
-                });
-      g_.collective("aero/krylov/precondition", all({reads(decision_), reads(built_)}, {&matrix_}, {&vectors_}),
-                    [this](MPI_Comm comm) { s_.precondition_vectors(s_.tiles_, s_.iteration_, comm); });
-      for (std::size_t n = 0; n < owned_; ++n)
-        g_.task(of("aero/krylov/direction", n), {reads(decision_), reads(vectors_[n]), writes(direction_[n]), writes(size_[n])},
-                [this, n](const Context& c) { s_.size_partials_[n] = s_.spread_direction(s_.tiles_[n], int(c.iteration)); });
+      for (std::size_t n = 0; n < owned_; ++n) {
+        Uses uses = vector_uses(n);
+        uses.push_back(writes(gathered_[n])), uses.push_back(reads(built_));
+        g_.task(of("aero/krylov/vector", n), uses, [this, n](const Context& c) {
+          s_.make_vector(s_.tiles_[n], int(c.iteration));
+          if (s_.solving_) s_.preconditioner_->gather(s_.tiles_[n], s_.cycle_.source(s_.tiles_[n], int(c.iteration)));
+        });
+      }
+      common_part("aero/krylov/common");
+      for (std::size_t n = 0; n < owned_; ++n) {
+        Uses uses = direction_uses(n);
+        uses.push_back(reads(common_));
+        g_.task(of("aero/krylov/direction", n), uses, [this, n](const Context& c) { direction(n, int(c.iteration)); });
+      }
     }
     g_.reduce("aero/krylov/size", {reads(size_), writes(total_size_)},
               {Reduction::Operation::max, s_.parts_, s_.size_partials_, {&s_.direction_size_, 1}});
@@ -193,27 +195,46 @@ class StepGraph {
     });
   }
 
+  void direction(std::size_t n, int iteration) {
+    s_.precondition_vector(s_.tiles_[n], iteration);
+    s_.size_partials_[n] = s_.spread_direction(s_.tiles_[n], iteration);
+  }
+  /// Between what tiles gather and what they make of it; one task of all ranks, beside others of this rank that wait for none of it.
+  void common_part(const char* label) {
+    Uses uses{reads(decision_), reads(built_), writes(common_)};
+    uses.push_back(reads(gathered_));
+    g_.collective(label, uses, [this](MPI_Comm comm) {
+      if (s_.solving_) s_.preconditioner_->common(comm);
+    });
+  }
+
   void update() {
     g_.task("aero/solution", {reads(decision_), updates(krylov_)}, [this] {
       if (s_.solving_) s_.cycle_.finish();
     });
-    if (by_tile()) {
-      each("aero/update",
-           [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), reads(matrix_[n]), reads(state_[n]), updates(vectors_[n]), writes(fraction_[n])}; },
+    const auto update_uses = [&](std::size_t n) {
+      return Uses{reads(decision_), reads(krylov_), reads(matrix_[n]), reads(state_[n]), updates(vectors_[n]), writes(fraction_[n])};
+    };
+    const bool between = common() && s_.cycle_.precondition_at_end();
+    if (between) {
+      each("aero/combine", [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), reads(built_), updates(vectors_[n]), writes(gathered_[n])}; },
            [this](std::size_t n) {
              s_.combine(s_.tiles_[n]);
-             s_.precondition_solution(tile_at(n), MPI_COMM_NULL);
-             s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]);
+             if (s_.solving_) s_.preconditioner_->gather(s_.tiles_[n], KrylovCycle::solution(s_.tiles_[n]));
            });
-    } else {
-      each("aero/combine", [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), updates(vectors_[n])}; },
-           [this](std::size_t n) { s_.combine(s_.tiles_[n]); });
-      if (s_.cycle_.precondition_at_end())
-        g_.collective("aero/precondition", all({reads(decision_), reads(built_)}, {&matrix_}, {&vectors_}),
-                      [this](MPI_Comm comm) { s_.precondition_solution(s_.tiles_, comm); });
-      each("aero/update", [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(vectors_[n]), writes(fraction_[n])}; },
-           [this](std::size_t n) { s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]); });
+      common_part("aero/common");
     }
+    each("aero/update",
+         [&](std::size_t n) {
+           Uses uses = update_uses(n);
+           if (between) uses.push_back(reads(common_));
+           return uses;
+         },
+         [this, between](std::size_t n) {
+           if (!between) s_.combine(s_.tiles_[n]);
+           s_.precondition_solution(s_.tiles_[n]);
+           s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]);
+         });
     g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
               {Reduction::Operation::min, s_.parts_, s_.fraction_partials_, {&s_.fraction_, 1}});
     g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
@@ -283,8 +304,8 @@ class StepGraph {
   Graph& g_;
   std::size_t owned_;
   std::vector<Datum> state_, state_ghosts_, gradients_, gradient_ghosts_, residual_, matrix_, norms_, vectors_, direction_, direction_ghosts_,
-      size_, trial_, trial_ghosts_, dots_, fraction_, past_;
-  Datum sums_, decision_, total_size_, total_dots_, krylov_, built_, total_fraction_;
+      size_, trial_, trial_ghosts_, dots_, fraction_, past_, gathered_;
+  Datum sums_, decision_, total_size_, total_dots_, krylov_, built_, common_, total_fraction_;
 };
 
 void FlowSolver::record(Graph& graph) {

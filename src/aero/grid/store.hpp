@@ -104,6 +104,7 @@ class GridStore {
   GridStore(Tiling tiling, std::vector<int> rank_of_tile, int rank);
   const Tiling& tiling() const { return tiling_; }
   std::span<const int> rank_of_tile() const { return rank_of_tile_; }
+  int rank() const { return rank_; }
   const LinkPlan& plan() const { return plan_; }
   std::span<const int> owned() const { return owned_; }  ///< ascending
   bool owns(int tile) const { return rank_of_tile_[tile] == rank_; }

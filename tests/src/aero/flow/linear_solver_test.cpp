@@ -1,9 +1,13 @@
 // The linear solver's choices: the Krylov methods see the same residuals and end in the same flow, preconditioners change the way
-// and not the end, one for all tiles at once is the same as by tile, matrices kept over pseudo-steps are counted, and all of it
+// and not the end, one with a common part of all tiles is the same as by tile, matrices kept over pseudo-steps are counted, and all of it
 // to the bit on any threads and ranks. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
+#include <map>
+#include <thread>
 
 #include "tests/src/aero/flow/flows.hpp"
 
@@ -46,20 +50,27 @@ Case marched(const FlowSetting& setting, std::unique_ptr<Preconditioner> precond
   return c;
 }
 
-/// Block ILU of each tile, but for all tiles of a process at once, as a library's multigrid would come.
-class AllAtOnce final : public Preconditioner {
+/// Block ILU of each tile, its vectors carried through a common part as a library's multigrid would have them.
+class ThroughCommon final : public Preconditioner {
  public:
-  bool by_tile() const override { return false; }
-  void refresh(std::span<FlowTile* const> tiles, MPI_Comm comm) override {
+  void attach(GridStore&, std::span<FlowTile> tiles) override {
+    for (const FlowTile& tile : tiles) gathered_[tile.index].resize(tile.vector_size());
+  }
+  void refresh(FlowTile& tile) override { each_->refresh(tile), ++refreshed_; }
+  bool has_common() const override { return true; }
+  void refresh_common(MPI_Comm comm) override {
     CHECK(comm != MPI_COMM_NULL);
-    for (FlowTile* const& tile : tiles) each_->refresh({&tile, 1}, MPI_COMM_NULL);
+    CHECK(refreshed_ == int(gathered_.size()));
+    refreshed_ = 0;
   }
-  void apply(std::span<const Piece> pieces, MPI_Comm) override {
-    for (const Piece& piece : pieces) each_->apply({&piece, 1}, MPI_COMM_NULL);
-  }
+  void gather(FlowTile& tile, const float* v) override { std::copy_n(v, tile.vector_size(), gathered_.at(tile.index).data()); }
+  void common(MPI_Comm) override { handed_ = gathered_; }
+  void apply(const Piece& piece) override { each_->apply({piece.tile, handed_.at(piece.tile->index).data(), piece.z}); }
 
  private:
   std::unique_ptr<Preconditioner> each_ = make_preconditioner("block_ilu");
+  std::map<int, std::vector<float>> gathered_, handed_;
+  std::atomic<int> refreshed_ = 0;
 };
 
 }  // namespace
@@ -118,14 +129,49 @@ TEST_CASE("every method and preconditioner ends in the same flow, the better one
   }
 }
 
-TEST_CASE("a preconditioner for all tiles of a process at once gives the bits of the same one by tile", "[flow][fast]") {
+TEST_CASE("block ILU through a common part of all tiles gives the bits of the same one by tile", "[flow][fast]") {
   for (const KrylovMethod method : methods) {
     FlowSetting s = turbulent_air();
     s.krylov = method, s.march.max_steps = 6;
-    const Case by_tile = marched(s), at_once = marched(s, std::make_unique<AllAtOnce>());
+    const Case by_tile = marched(s), at_once = marched(s, std::make_unique<ThroughCommon>());
     CHECK(fingerprint(*by_tile.solver) == fingerprint(*at_once.solver));
     CHECK(state_of(*by_tile.solver) == state_of(*at_once.solver));
   }
+}
+
+TEST_CASE("while the common part of a preconditioner runs, other threads go on with the sea", "[flow][fast]") {
+  std::atomic<int> sea = 0, met = 0, calls = 0;
+  /// Block ILU whose first common parts last until a task of the sea has run beside them.
+  class Waiting final : public Preconditioner {
+   public:
+    Waiting(std::atomic<int>& sea, std::atomic<int>& met, std::atomic<int>& calls) : sea_(sea), met_(met), calls_(calls) {}
+    void refresh(FlowTile& tile) override { each_->refresh(tile); }
+    void apply(const Piece& piece) override { each_->apply(piece); }
+    bool has_common() const override { return true; }
+    void common(MPI_Comm) override {
+      if (calls_ == 5) return;
+      const int before = sea_;
+      const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+      while (sea_ == before && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+      met_ += sea_ > before, ++calls_;
+    }
+
+   private:
+    std::unique_ptr<Preconditioner> each_ = make_preconditioner("block_ilu");
+    std::atomic<int>&sea_, &met_, &calls_;
+  };
+  FlowSetting s = turbulent_air();
+  s.march.max_steps = 1;
+  Case c = leaving_bump(s, 1, 0, std::make_unique<Waiting>(sea, met, calls));
+  runtime::Graph graph;
+  c.solver->record(graph);
+  const runtime::Datum waves = graph.datum();
+  graph.loop("sea/steps", {.min = 1, .max = 1000000}, [&] {  // for as long as it is waited for
+    graph.task("sea/step", {runtime::updates(waves)}, [&sea] { std::this_thread::sleep_for(std::chrono::milliseconds(1)), ++sea; });
+    graph.until("sea/enough", {runtime::reads(waves)}, [&calls, &sea] { return calls == 5 || sea > 20000; });
+  });
+  runtime::Executor(std::move(graph), {.threads = 2}).run();
+  CHECK(met == 5);
 }
 
 TEST_CASE("matrices kept over some pseudo-steps are fewer and end in the same flow", "[flow][fast]") {
@@ -181,7 +227,7 @@ void same_bits_on(int ranks) {
     for (const bool at_once : {false, true}) {
       FlowSetting s = turbulent_air();
       s.krylov = method, s.march.refresh_every = 2, s.march.max_steps = 6;
-      const auto preconditioner = [&] { return at_once ? std::make_unique<AllAtOnce>() : nullptr; };
+      const auto preconditioner = [&] { return at_once ? std::make_unique<ThroughCommon>() : nullptr; };
       Case whole = leaving_bump(s, 1, 0, preconditioner()), part = leaving_bump(s, ranks, rank, preconditioner());
       whole.prepare();
       whole.run();
