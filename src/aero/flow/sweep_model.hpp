@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "src/aero/flow/sweep_jacobian.hpp"
@@ -13,7 +14,7 @@ namespace spindrift::aero {
 
 struct ModelSweeps {
   std::string_view name = "none";
-  int equations = 0;
+  int equations = 0;  ///< 0 with closures: an algebraic eddy viscosity
   std::array<double, 2> lowest{};  ///< bounds that updates respect
   std::array<double, 2> wall_spread{};  ///< diffusivity on a no-slip wall over the laminar viscosity
   void (*closures)(FlowTile& tile, const double* state, const ViscousSetting& s) = nullptr;
@@ -24,12 +25,15 @@ struct ModelSweeps {
   std::array<double, 2> (*far_field)(double nu, double speed, double sound_speed) = nullptr;
 };
 
-/// By the name in the scene: none, sa, sa_neg, sst, sst_vm.
+/// By the name in the scene; "none" has no functions. Throws where no model has the name.
 const ModelSweeps& model_sweeps(std::string_view name);
-const ModelSweeps& sweeps_sa();
-const ModelSweeps& sweeps_sa_neg();
-const ModelSweeps& sweeps_sst();
-const ModelSweeps& sweeps_sst_vm();
+/// The families of models, one model_*.cpp each.
+std::span<const ModelSweeps> sweeps_of_sa();
+std::span<const ModelSweeps> sweeps_of_sa_des();
+std::span<const ModelSweeps> sweeps_of_sst();
+std::span<const ModelSweeps> sweeps_of_sst_2003();
+std::span<const ModelSweeps> sweeps_of_k_omega();
+std::span<const ModelSweeps> sweeps_of_les();
 
 /// Components of FlowTile::gradients after those of gradients: what closures() leaves there.
 constexpr int eddy_component(int equations) { return 3 * (4 + equations); }
