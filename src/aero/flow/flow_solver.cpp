@@ -557,9 +557,10 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
           for (int t = 0; t < tile.turbulence; ++t) {
             const double unit = implicit_.scales.model_unknown[std::size_t(t)] / implicit_.scales.model_residual[std::size_t(t)];
             const float z = tile.direction.data()[(mean_unknowns + t) * tile.gradient_box.component + tile.gradient_box.at(k, row, i)];
-            const double slowed = tile.turbulence == 2 ? time + growth_damping(tile.residual.data()[tile.inner.at(k, row, i) + (mean_unknowns + t) * tile.inner.component],
-                                                                               tile.state.data()[tile.cells.at(k, row, i) + (mean_unknowns + t) * tile.cells.component])
-                                                       : time;
+            const bool of_k = tile.turbulence == 2 && t == 0;
+            const double slowed = of_k ? time + growth_damping(tile.residual.data()[tile.inner.at(k, row, i) + mean_unknowns * tile.inner.component],
+                                                               tile.state.data()[tile.cells.at(k, row, i) + mean_unknowns * tile.cells.component])
+                                       : time;
             *model++ += float(slowed * unit * double(z));
           }
         }

@@ -121,7 +121,8 @@ void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::Ide
       if (!tile.eddies) return;
       for (int m = eddy; m < components; ++m) ghost[m * c] = at[m * c];
       if (!sticks) return;
-      for (int m = eddy; m < eddy + 2; ++m) ghost[m * c] = -at[m * c];  // on the wall there is no eddy viscosity
+      ghost[eddy * c] = -at[eddy * c];  // on the wall there is no eddy viscosity
+      if (!free) ghost[(eddy + 1) * c] = -at[(eddy + 1) * c];
       const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
       const double mu = gas::viscosity(gas, gas::absolute_temperature(gas, q));
       if (boundary.law) {

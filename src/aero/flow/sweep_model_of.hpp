@@ -201,10 +201,9 @@ struct SweepsOf : ClosuresOf<Model> {
     if constexpr (n == 2)
       for_rows(box, [&](int k, int j) {
         for (int i = 0; i < box.ni; ++i)
-          for (int m = 0; m < n; ++m)
-            a.block((std::ptrdiff_t(k) * box.nj + j) * box.ni + i, 0)[m * n + m] +=
-                float(unit[m][m] * growth_damping(tile.residual.data()[tile.inner.at(k, j, i) + (mean_unknowns + m) * tile.inner.component],
-                                                  state[tile.cells.at(k, j, i) + (mean_unknowns + m) * tile.cells.component]));
+          a.block((std::ptrdiff_t(k) * box.nj + j) * box.ni + i, 0)[0] +=
+              float(unit[0][0] * growth_damping(tile.residual.data()[tile.inner.at(k, j, i) + mean_unknowns * tile.inner.component],
+                                                state[tile.cells.at(k, j, i) + mean_unknowns * tile.cells.component]));
       });
     const int extent[3] = {box.ni, box.nj, box.nk};
     const std::ptrdiff_t aux = tile.gradient_box.component;
