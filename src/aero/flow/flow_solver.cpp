@@ -67,6 +67,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     implicit_.preconditioned_waves = setting.preconditioned && !setting.matrix_mach_floor;
     implicit_.mach_floor = setting.matrix_mach_floor.value_or(1.0);
   }
+  implicit_.rusanov = setting.flux == "rusanov";
   implicit_.preconditioned = setting.preconditioned;
   implicit_.floor_speed = setting.speed;
   model_ = &model_sweeps(setting.turbulence);

@@ -1,6 +1,6 @@
 // What a turbulence model adds to the sweeps: closures in cells (eddy viscosity and diffusivities, exchanged with the gradients),
 // diffusion and sources in the residual, and a matrix of its own, solved beside that of the mean flow (docs/theory/air.md, "Turbulence").
-// One table of functions per model of kernels/turbulence, chosen once. Tested in tests/src/aero/flow/model_test.cpp.
+// One table of functions per model of kernels/turbulence, chosen once. Tested in tests/verification/air (closures, wall_function).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 // The sweeps of sweep_model.hpp written once for any model that meets the concept of kernels/turbulence/model.hpp.
-// Instantiated in model_*.cpp; tested in tests/src/aero/flow/model_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Instantiated in model_*.cpp; tested in tests/verification/air/closures_test.cpp and wall_function_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/gas/preconditioner.hpp"

@@ -19,13 +19,13 @@ struct Outcome {
   double lift, drag;
   int steps;
 };
-Outcome aerofoil(const char* flux, const char* model, double mach) {
+Outcome aerofoil(const char* flux, const char* model, double mach, const char* limiter = "none") {
   const double alpha = 10.0 * std::numbers::pi / 180.0;
   FlowSetting s = air(mach, {std::cos(alpha), 0.0, std::sin(alpha)});
   const double rho = gas::density(s.gas, s.stream);
   s.gas.viscosity = {.mu0 = rho * s.speed / 6e6, .T0 = 288.15, .S = 105.97};
   s.viscous = true;
-  s.flux = flux, s.turbulence = model;
+  s.flux = flux, s.turbulence = model, s.limiter = limiter;
   s.march.max_steps = 250, s.march.drop = 1e-6;
   Case c(tmr_c_grid(SPINDRIFT_SOURCE_DIR, "tmr_112x32"), s,
          {{"wall", {Condition::no_slip, true}}, {"far", {Condition::far_field, false}}});
@@ -58,4 +58,12 @@ TEST_CASE("the same aerofoil at Mach 0.01 needs no more steps with the same sett
   CAPTURE(plain.lift, plain.drag, plain.steps, slow.lift, slow.drag, slow.steps);
   CHECK(slow.steps <= 2 * plain.steps);
   CHECK(slow.lift == Approx(plain.lift).epsilon(0.03));
+}
+
+TEST_CASE("schemes probe", "[.probe]") {
+  for (const auto& [flux, model, limiter] : {std::tuple{"rusanov", "sa", "van_albada"}, {"rusanov", "sa", "none"}, {"osher", "sst_vm", "none"}, {"roe_low_mach", "k_omega", "none"}, {"osher", "sa", "none"}}) {
+    const Outcome o = aerofoil(flux, model, 0.15, limiter);
+    std::printf("%s %s %s CL %.4f CD %.5f steps %d\n", flux, model, limiter, o.lift, o.drag, o.steps);
+    std::fflush(stdout);
+  }
 }
