@@ -60,10 +60,12 @@ TEST_CASE("the same aerofoil at Mach 0.01 needs no more steps with the same sett
   CHECK(slow.lift == Approx(plain.lift).epsilon(0.03));
 }
 
-TEST_CASE("schemes probe", "[.probe]") {
-  for (const auto& [flux, model, limiter] : {std::tuple{"rusanov", "sa", "van_albada"}, {"rusanov", "sa", "none"}, {"osher", "sst_vm", "none"}, {"roe_low_mach", "k_omega", "none"}, {"osher", "sa", "none"}}) {
-    const Outcome o = aerofoil(flux, model, 0.15, limiter);
-    std::printf("%s %s %s CL %.4f CD %.5f steps %d\n", flux, model, limiter, o.lift, o.drag, o.steps);
-    std::fflush(stdout);
-  }
+// Where the matrix has less dissipation than the flux, only explicit steps stand: Rusanov's goes with its own. k-omega needs k not to be
+// driven to nothing on the way.
+TEST_CASE("Rusanov's flux, SST-Vm and k-omega converge by six orders too", "[flow][fast]") {
+  const Outcome dissipative = aerofoil("rusanov", "sa", 0.15, "van_albada");
+  CHECK(dissipative.steps < 110);
+  CHECK(dissipative.drag > 0.05);  // and is what its dissipation says: .080 against .016
+  CHECK(aerofoil("osher", "sst_vm", 0.15).steps < 180);
+  CHECK(aerofoil("roe_low_mach", "k_omega", 0.15).steps < 250);
 }
