@@ -17,19 +17,24 @@ namespace spindrift::turbulence {
 using gas::Vector;
 
 /// What a model sees of the flow in a cell: density [kg/m3], laminar viscosity [Pa s], distance to the nearest wall [m],
-/// gradients of velocity [1/s] and density [kg/m4].
+/// gradients of velocity [1/s] and density [kg/m4]; models that resolve eddies (`sees_grid`) also the cell's longest side and the
+/// cube root of its volume [m].
 template <class Real>
 struct Flow {
   Real rho, mu, distance;
   Vector<Real> u, v, w;
   Vector<Real> density_gradient{Real(0.0), Real(0.0), Real(0.0)};
+  Real longest_side = Real(0.0), width = Real(0.0);
 };
+
+/// Room for the quantities of a model; one that transports nothing has it unused.
+constexpr int room(int equations) { return equations > 0 ? equations : 1; }
 
 /// n transported quantities per mass in a cell and their gradients.
 template <class Real, int n>
 struct Turbulence {
-  Real q[n];
-  Vector<Real> gradient[n];
+  Real q[room(n)];
+  Vector<Real> gradient[room(n)];
 };
 
 /// What the model gives the flow and its own diffusion: eddy viscosity [Pa s], 2/3 rho k [Pa] (0 where the model carries no k or
@@ -37,33 +42,39 @@ struct Turbulence {
 template <class Real, int n>
 struct Closure {
   Real eddy_viscosity, pressure;
-  Real diffusivity[n];
+  Real diffusivity[room(n)];
 };
 
 /// Rate of rho q per volume and time.
 template <class Real, int n>
 struct Source {
-  Real rate[n];
+  Real rate[room(n)];
 };
 /// The part of d(rate)/dq that an implicit step may use: eigenvalues with no positive real part.
 template <class Real, int n>
 struct SourceJacobian {
-  Real m[n][n];
+  Real m[room(n)][room(n)];
 };
 
-/// A closure of n = M::equations transported quantities. `lowest` are bounds that updates must respect (an update is shortened,
-/// not cut); wall values are for a cell at `distance` from it (at the face); far_field values follow from the stream's
-/// properties.
+/// What a model of n = M::equations quantities per mass needs for their transport. `lowest` are bounds that updates must respect (an
+/// update is shortened, not cut); wall values are for a cell at `distance` from it (at the face); far_field values follow from the
+/// stream's properties.
 template <class M, class Real = double>
-concept TurbulenceModel = requires(const M model, const Flow<Real>& flow, const Turbulence<Real, M::equations>& q, Real x) {
-  { model.closure(flow, q) } -> std::same_as<Closure<Real, M::equations>>;
+concept Transporting = requires(const M model, const Flow<Real>& flow, const Turbulence<Real, M::equations>& q, Real x) {
   { model.source(flow, q) } -> std::same_as<Source<Real, M::equations>>;
   { model.source_jacobian(flow, q) } -> std::same_as<SourceJacobian<Real, M::equations>>;
   { model.wall(x, x) } -> std::same_as<std::array<Real, M::equations>>;
   { model.far_field(1.0, 1.0, 1.0) } -> std::same_as<std::array<double, M::equations>>;
   { M::lowest } -> std::convertible_to<std::array<double, M::equations>>;
-  { M::name } -> std::convertible_to<std::string_view>;
 };
+
+/// A closure: an eddy viscosity from the flow and, where there are any, from transported quantities.
+template <class M, class Real = double>
+concept TurbulenceModel = requires(const M model, const Flow<Real>& flow, const Turbulence<Real, M::equations>& q) {
+  { model.closure(flow, q) } -> std::same_as<Closure<Real, M::equations>>;
+  { M::name } -> std::convertible_to<std::string_view>;
+  { M::sees_grid } -> std::convertible_to<bool>;
+} && (M::equations == 0 || Transporting<M, Real>);
 
 /// |curl u| and sqrt(2 S:S) [1/s].
 template <class Real>
@@ -98,7 +109,7 @@ SourceJacobian<Real, Model::equations> exact_source_jacobian(const Model& model,
   using D = Dual<Real, n>;
   const auto held = [](const Vector<Real>& a) { return Vector<D>{D(a.x), D(a.y), D(a.z)}; };
   const Flow<D> f{D(flow.rho),  D(flow.mu),   D(flow.distance),           held(flow.u),
-                  held(flow.v), held(flow.w), held(flow.density_gradient)};
+                  held(flow.v), held(flow.w), held(flow.density_gradient), D(flow.longest_side), D(flow.width)};
   Turbulence<D, n> q;
   for (int k = 0; k < n; ++k) q.q[k] = D::variable(t.q[k], k), q.gradient[k] = held(t.gradient[k]);
   const Source<D, n> s = model.source(f, q);

@@ -10,16 +10,37 @@
 
 namespace spindrift::turbulence {
 
-/// negative: nu_tilde may pass below zero at the edge of layers that the grid does not resolve; the source brings it back.
-template <bool negative>
-struct SpalartAllmaras {
-  static constexpr int equations = 1;
-  static constexpr std::string_view name = negative ? "sa_neg" : "sa";
-  static constexpr std::array<double, 1> lowest{negative ? -std::numeric_limits<double>::max() : 0.0};
-
+/// Constants that the length of a detached-eddy variant shares with the model.
+struct SaConstants {
   static constexpr double cb1 = 0.1355, cb2 = 0.622, sigma = 2.0 / 3.0, kappa = 0.41, cw2 = 0.3, cw3 = 2.0, cv1 = 7.1, ct3 = 1.2,
                           ct4 = 0.5, c2 = 0.7, c3 = 0.9, cn1 = 16.0;
   static constexpr double cw1 = cb1 / (kappa * kappa) + (1.0 + cb2) / sigma;
+
+  template <class Real>
+  static SPINDRIFT_INLINE Real fv1(const Real& chi) {
+    const Real cube = chi * chi * chi;
+    return cube / (cube + cv1 * cv1 * cv1);
+  }
+};
+
+/// The length whose square destroys nu_tilde: the distance to the wall. Others (model_sa_des.hpp) see the grid too. `chi` may be a
+/// dual number while the flow is held.
+struct WallLength {
+  static constexpr std::string_view name = "sa";
+  static constexpr bool sees_grid = false;
+  template <class Real, class Number>
+  static SPINDRIFT_INLINE Number inverse_square(const Flow<Real>& f, const Number&) {
+    return Number(1.0 / (f.distance * f.distance));
+  }
+};
+
+/// negative: nu_tilde may pass below zero at the edge of layers that the grid does not resolve; the source brings it back.
+template <bool negative, class Length = WallLength>
+struct SpalartAllmaras : SaConstants {
+  static constexpr int equations = 1;
+  static constexpr std::string_view name = negative ? "sa_neg" : Length::name;
+  static constexpr bool sees_grid = Length::sees_grid;
+  static constexpr std::array<double, 1> lowest{negative ? -std::numeric_limits<double>::max() : 0.0};
 
   template <class Real>
   SPINDRIFT_INLINE Closure<Real, 1> closure(const Flow<Real>& f, const Turbulence<Real, 1>& t) const {
@@ -35,7 +56,7 @@ struct SpalartAllmaras {
     const Vector<Real>& g = t.gradient[0];
     const Real spread = (cb2 / sigma) * f.rho * dot(g, g) -
                         (1.0 / sigma) * laminar * (1.0 + chi * negative_factor(chi)) * dot(g, f.density_gradient);
-    return {{f.rho * balance(nu, chi, vorticity(f), 1.0 / (f.distance * f.distance)) + spread}};
+    return {{f.rho * balance(nu, chi, vorticity(f), Length::inverse_square(f, chi)) + spread}};
   }
 
   /// The exact slope where it is not positive.
@@ -43,7 +64,7 @@ struct SpalartAllmaras {
   SPINDRIFT_INLINE SourceJacobian<Real, 1> source_jacobian(const Flow<Real>& f, const Turbulence<Real, 1>& t) const {
     using D = Dual<Real, 1>;
     const D nu = D::variable(t.q[0], 0), chi = (f.rho / f.mu) * nu;
-    const D rate = balance(nu, chi, D(vorticity(f)), D(1.0 / (f.distance * f.distance)));
+    const D rate = balance(nu, chi, D(vorticity(f)), Length::inverse_square(f, chi));
     return {{{min(f.rho * rate.d[0], 0.0)}}};
   }
 
@@ -70,10 +91,10 @@ struct SpalartAllmaras {
     }
   }
 
-  /// Production less destruction per density [m2/s2]; `inverse_d2` = 1/d^2.
+  /// Production less destruction per density [m2/s2]; `inverse_d2` = 1/d^2, d being the model's length.
   template <class Real>
   static SPINDRIFT_INLINE Real balance(const Real& nu, const Real& chi, const Real& omega, const Real& inverse_d2) {
-    const Real cube = chi * chi * chi, fv1 = cube / (cube + cv1 * cv1 * cv1), fv2 = 1.0 - chi / (1.0 + chi * fv1);
+    const Real fv2 = 1.0 - chi / (1.0 + chi * fv1(chi));
     const Real by_wall = inverse_d2 * (1.0 / (kappa * kappa)), extra = nu * fv2 * by_wall;
     // Eqs. 11-12: stays positive where fv2 is negative.
     const Real modified = select(

@@ -1,8 +1,7 @@
-// k-omega SST: Menter, Kuntz & Langtry (2003), Turbulence, Heat and Mass Transfer 4, 625 (SST-2003), and the vorticity variant
-// without 2/3 rho k in the momentum that NASA's Turbulence Modeling Resource calls SST-Vm (Menter 1994, AIAA J. 32, 1598, with
-// production mu_t Omega^2 as in Menter 1992, NASA TM 103975), to which the TMR's flat-plate figures belong. Transported: k
-// [m2/s2], omega [1/s]. Called by src/aero/flow; tested in tests/kernels/turbulence/model_sst_test.cpp. SPDX-License-Identifier:
-// Apache-2.0
+// k-omega SST: Menter (1994), AIAA J. 32, 1598 (SST), Menter, Kuntz & Langtry (2003), Turbulence, Heat and Mass Transfer 4, 625
+// (SST-2003), and their variants on NASA's Turbulence Modeling Resource (TMR): production by vorticity (-V; Menter 1992, NASA TM
+// 103975), without 2/3 rho k in the momentum (-m). The TMR's flat-plate figures belong to SST-Vm. Transported: k [m2/s2], omega
+// [1/s]. Called by src/aero/flow; tested in tests/kernels/turbulence/model_sst_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/turbulence/model.hpp"
@@ -10,30 +9,40 @@
 namespace spindrift::turbulence {
 
 struct SstOptions {
-  std::string_view name = "sst";
-  bool vorticity = false;        ///< production by mu_t Omega^2 and the shear limiter by Omega; else by strain
-  bool carries_pressure = true;  ///< 2/3 rho k in momentum (and production, where the flow is compressed)
-  double limiter = 10.0;         ///< production at most this times the destruction of k
-  double gamma1 = 5.0 / 9.0, gamma2 = 0.44;
-  double least_cross = 1e-10;  ///< floor of the cross diffusion in F1 [kg/(m3 s2)]
+  std::string_view name;
+  bool made_by_vorticity = false;     ///< production mu_t Omega^2; else by strain
+  bool limited_by_vorticity = true;   ///< rate in the limiter of the shear stress; else the strain
+  bool carries_pressure = true;       ///< 2/3 rho k in momentum and in production where the flow is compressed
+  double limiter = 20.0;              ///< production of k at most this times its destruction
+  double gamma1 = 0.0, gamma2 = 0.0;
+  double least_cross = 1e-20;         ///< floor of the cross diffusion in F1 [kg/(m3 s2)]
 };
 inline constexpr double sst_beta_star = 0.09, sst_kappa = 0.41;
-inline constexpr SstOptions sst_2003{};
 /// gamma_i = beta_i / beta* - sigma_i kappa^2 / sqrt(beta*): the log layer is an exact solution.
-inline constexpr SstOptions sst_vm{.name = "sst_vm",
-                                   .vorticity = true,
-                                   .carries_pressure = false,
-                                   .limiter = 20.0,
-                                   .gamma1 = 0.075 / sst_beta_star - 0.5 * sst_kappa * sst_kappa / 0.3,
-                                   .gamma2 = 0.0828 / sst_beta_star - 0.856 * sst_kappa * sst_kappa / 0.3,
-                                   .least_cross = 1e-20};
+inline constexpr double sst_gamma1 = 0.075 / sst_beta_star - 0.5 * sst_kappa * sst_kappa / 0.3,
+                        sst_gamma2 = 0.0828 / sst_beta_star - 0.856 * sst_kappa * sst_kappa / 0.3;
+inline constexpr SstOptions sst_1994{.name = "sst_1994", .gamma1 = sst_gamma1, .gamma2 = sst_gamma2};
+inline constexpr SstOptions sst_v{.name = "sst_v", .made_by_vorticity = true, .gamma1 = sst_gamma1, .gamma2 = sst_gamma2};
+inline constexpr SstOptions sst_vm{
+    .name = "sst_vm", .made_by_vorticity = true, .carries_pressure = false, .gamma1 = sst_gamma1, .gamma2 = sst_gamma2};
+inline constexpr SstOptions sst_2003{
+    .name = "sst", .limited_by_vorticity = false, .limiter = 10.0, .gamma1 = 5.0 / 9.0, .gamma2 = 0.44, .least_cross = 1e-10};
+inline constexpr SstOptions sst_2003_vm{.name = "sst_2003_vm",
+                                        .made_by_vorticity = true,
+                                        .limited_by_vorticity = false,
+                                        .carries_pressure = false,
+                                        .limiter = 10.0,
+                                        .gamma1 = 5.0 / 9.0,
+                                        .gamma2 = 0.44,
+                                        .least_cross = 1e-10};
 
 template <const SstOptions& options>
 struct MenterSst {
   static constexpr int equations = 2;
   static constexpr std::string_view name = options.name;
+  static constexpr bool sees_grid = false;
   static constexpr std::array<double, 2> lowest{0.0, 0.0};
-  static constexpr double beta_star = sst_beta_star, a1 = 0.31, sigma_k1 = 0.85, sigma_k2 = 1.0, sigma_w1 = 0.5, sigma_w2 = 0.856,
+  static constexpr double beta_star = sst_beta_star, wall_beta = 0.075, a1 = 0.31, sigma_k1 = 0.85, sigma_k2 = 1.0, sigma_w1 = 0.5, sigma_w2 = 0.856,
                           beta1 = 0.075, beta2 = 0.0828;
 
   template <class Real>
@@ -50,12 +59,10 @@ struct MenterSst {
     const Blend<Real> b = blend(f, t);
     const Real k = t.q[0], omega = t.q[1], destruction = beta_star * f.rho * k * omega;
     // Production per eddy viscosity, and what dilatation adds to it.
-    Real rate2 = b.rate * b.rate, dilatation(0.0);
-    if constexpr (options.carries_pressure) {
-      const Real div = f.u.x + f.v.y + f.w.z;
-      rate2 -= (2.0 / 3.0) * div * div;
-      dilatation = (2.0 / 3.0) * f.rho * k * div;
-    }
+    const Real rate = options.made_by_vorticity ? vorticity(f) : strain(f), div = f.u.x + f.v.y + f.w.z;
+    Real rate2 = rate * rate, dilatation(0.0);
+    if constexpr (!options.made_by_vorticity) rate2 -= (2.0 / 3.0) * div * div;
+    if constexpr (options.carries_pressure) dilatation = (2.0 / 3.0) * f.rho * k * div;
     const Real production = min(f.rho * b.nu_t * rate2 - dilatation, options.limiter * destruction);
     return {{production - destruction, mix(b.f1, options.gamma1, options.gamma2) * f.rho * rate2 -
                                            mix(b.f1, beta1, beta2) * f.rho * omega * omega + (1.0 - b.f1) * b.cross}};
@@ -82,13 +89,13 @@ struct MenterSst {
  private:
   template <class Real>
   struct Blend {
-    Real f1, nu_t, rate, cross;
+    Real f1, nu_t, cross;
   };
   template <class Real>
   static SPINDRIFT_INLINE Real mix(const Real& f1, double inner, double outer) {
     return outer + f1 * (inner - outer);
   }
-  /// The blending function F1, eddy viscosity (limited by F2), the rate that makes turbulence, cross diffusion.
+  /// The blending function F1, eddy viscosity (limited by F2), cross diffusion.
   template <class Real>
   static SPINDRIFT_INLINE Blend<Real> blend(const Flow<Real>& f, const Turbulence<Real, 2>& t) {
     const Real k = max(t.q[0], 0.0), omega = t.q[1], inverse = 1.0 / (omega * f.distance), inverse_d = 1.0 / f.distance;
@@ -99,12 +106,16 @@ struct MenterSst {
     const Real a = argument * argument, argument2 = max(2.0 * large, viscous);
     // tanh is 1 to round-off from 20 on, and the fourth power of what stands above would overflow.
     const Real f1 = tanh(min(a, 100.0) * min(a, 100.0)), f2 = tanh(min(argument2, 10.0) * min(argument2, 10.0));
-    const Real rate = options.vorticity ? vorticity(f) : strain(f);
-    return {f1, a1 * k / max(a1 * omega, rate * f2), rate, cross};
+    const Real rate = options.limited_by_vorticity ? vorticity(f) : strain(f);
+    return {f1, a1 * k / max(a1 * omega, rate * f2), cross};
   }
 };
 using Sst = MenterSst<sst_2003>;
+using Sst2003Vm = MenterSst<sst_2003_vm>;
+using Sst1994 = MenterSst<sst_1994>;
+using SstV = MenterSst<sst_v>;
 using SstVm = MenterSst<sst_vm>;
-static_assert(TurbulenceModel<Sst> && TurbulenceModel<SstVm>);
+static_assert(TurbulenceModel<Sst> && TurbulenceModel<Sst2003Vm> && TurbulenceModel<Sst1994> && TurbulenceModel<SstV> &&
+              TurbulenceModel<SstVm>);
 
 }  // namespace spindrift::turbulence

@@ -15,6 +15,9 @@ namespace spindrift::aero {
 
 namespace {
 
+/// By an eddy viscosity of the grid's size alone.
+bool resolves_eddies(std::string_view turbulence) { return turbulence.starts_with("les_"); }
+
 const scene::Section<PatchOptions>& patch_section() {
   static const auto section =
       scene::Section<PatchOptions>("boundaries", "What acts on a patch of the grid.")
@@ -60,14 +63,23 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"sa", "Spalart-Allmaras"},
                    {"sa_neg", "Spalart-Allmaras, negative variant"},
                    {"sst", "k-omega SST 2003"},
-                   {"sst_vm", "k-omega SST with vorticity, without 2/3 k"}},
+                   {"sst_2003_vm", "SST 2003, production by vorticity, without 2/3 k"},
+                   {"sst_1994", "k-omega SST 1994"},
+                   {"sst_v", "SST 1994, production by vorticity"},
+                   {"sst_vm", "SST 1994, production by vorticity, without 2/3 k"},
+                   {"k_omega", "k-omega of Wilcox 2006"},
+                   {"k_omega_1988", "k-omega of Wilcox 1988; depends on the stream's omega"},
+                   {"des97", "detached eddies by Spalart-Allmaras, 1997"},
+                   {"ddes", "delayed detached eddies by Spalart-Allmaras, 2006: boundary layers stay modelled"},
+                   {"les_wale", "large eddies, WALE; three dimensions only"},
+                   {"les_smagorinsky", "large eddies, Smagorinsky; three dimensions only"}},
                   "Turbulence model.")
           .only_if("viscous", {"thin_layer", "full"})
           .choice("wall_distance", &FlowOptions::wall_distance,
                   {{"exact", "to the nearest point of all walls"},
                    {"poisson", "from Poisson's equation (Spalding): smooth, larger than the exact one where walls are convex"}},
                   "Distance from walls that the turbulence model sees.")
-          .only_if("turbulence", {"sa", "sa_neg", "sst", "sst_vm"})
+          .only_if("turbulence", {"sa", "sa_neg", "sst", "sst_2003_vm", "sst_1994", "sst_v", "sst_vm", "k_omega", "k_omega_1988", "des97", "ddes"})
           .choice("flux", &FlowOptions::flux,
                   {{"roe_low_mach", "Roe with Rieper's scaling: accurate at any Mach number below one and above"},
                    {"roe", "Roe"},
@@ -150,11 +162,12 @@ const scene::Section<FlowOptions>& flow_section() {
           .degrees("incidence_deg", &FlowOptions::incidence, "Angle by which the wind blows upwards.", between(-90.0, 90.0))
           .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2", "Area of the coefficients in history.csv.", above(0.0).up_to(1e9))
           .check([](const FlowOptions& o, const scene::Report& report) {
+            const bool transports = o.viscous != "none" && o.turbulence != "none" && !resolves_eddies(o.turbulence);
             for (const PatchOptions& b : o.boundaries)
-              if (b.condition == Condition::wall_law && (o.viscous == "none" || !o.turbulence.starts_with("sa")))
-                report("boundaries", fmt::format("patch \"{}\": \"wall_function\" goes with turbulence \"sa\" or \"sa_neg\"", b.patch));
-            if (o.blades == Condition::wall_law && (o.viscous == "none" || !o.turbulence.starts_with("sa")))
-              report("blades", "\"wall_function\" goes with turbulence \"sa\" or \"sa_neg\"");
+              if (b.condition == Condition::wall_law && !transports)
+                report("boundaries", fmt::format("patch \"{}\": \"wall_function\" goes with turbulence that is modelled, not \"{}\"", b.patch, o.turbulence));
+            if (o.blades == Condition::wall_law && !transports)
+              report("blades", fmt::format("\"wall_function\" goes with turbulence that is modelled, not \"{}\"", o.turbulence));
             const bool cgns = o.grid.ends_with(".cgns");
             if (o.generate && !o.grid.empty()) report("generate", "is given beside a grid file: one of the two");
             if (!o.generate && !o.grid.empty() && !cgns && o.map.empty()) report("map", "must be given: a Plot3D grid holds coordinates only");
@@ -205,6 +218,10 @@ std::vector<std::string> wall_patches(const FlowOptions& options) {
 }
 
 std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling) {
+  if (options.viscous != "none" && resolves_eddies(options.turbulence) && tiling.planar)
+    throw scene::SceneError({{.key = "aero.flow.turbulence",
+                              .value = fmt::format("\"{}\"", options.turbulence),
+                              .message = "resolves eddies: the grid must have three dimensions"}});
   std::vector<PatchCondition> conditions(tiling.patches.size());
   std::vector<int> given(tiling.patches.size());
   for (const PatchOptions& b : options.boundaries) {

@@ -128,7 +128,9 @@ void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
       if (tile.turbulence == 0) return;
       double inside[2], ghost[2];
       for (int t = 0; t < tile.turbulence; ++t) ghost[t] = inside[t] = state[cell + (mean_unknowns + t) * component];
-      if (boundary.condition == Condition::no_slip) {
+      if (boundary.condition == Condition::no_slip && boundary.law && tile.turbulence == 2) {
+        // As inside: no flux of k; omega of that cell is given by the law of the wall.
+      } else if (boundary.condition == Condition::no_slip) {
         const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, first)) / gas::density(s.gas, first);
         s.wall_carried(inside, nu, g.wall_distance_data.data()[g.inner_box.at(k, j, i)], ghost);
       } else if (!is_wall(boundary.condition) && gas::normal_velocity(first, f) < f.speed) {

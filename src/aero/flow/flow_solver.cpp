@@ -62,10 +62,13 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     implicit_.preconditioned_waves = setting.preconditioned && !setting.matrix_mach_floor;
     implicit_.mach_floor = setting.matrix_mach_floor.value_or(1.0);
   }
+  implicit_.rusanov = setting.flux == "rusanov";
   implicit_.preconditioned = setting.preconditioned;
   implicit_.floor_speed = setting.speed;
   implicit_.physical_rate = setting.held_rate;
   model_ = &model_sweeps(setting.turbulence);
+  if (model_->closures != nullptr && model_->equations == 0 && tiling.planar)
+    throw std::invalid_argument("flow: " + setting.turbulence + " resolves eddies: the grid must have three dimensions");
   if (model_->equations > 0) {
     const double nu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, setting.stream)) / rho;
     boundary_.carried = model_->far_field(nu, setting.speed, gas::sound_speed(setting.gas, setting.stream));
@@ -102,6 +105,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     if (turning) turn_frame(*t.geometry, setting.frame_omega, setting.frame_centre, tiling.planar);
     t.directions = tiling.planar ? 2 : 3;
     t.turbulence = model_->equations;
+    t.eddies = model_->closures != nullptr;
     t.cells = cell_layout(from, state_ghosts, tiling.planar);
     t.gradient_box = cell_layout(from, gradient_ghosts, tiling.planar);
     t.inner = BoxLayout(from.ni, from.nj, from.nk);
@@ -109,13 +113,13 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     for (const TileBoundary& where : tiling.boundary(index)) {
       const PatchCondition& c = conditions_.at(std::size_t(where.patch));
       const bool law = c.condition == Condition::wall_law;
-      if (law && model_->equations != 1) throw std::invalid_argument("flow: the law of the wall goes with Spalart-Allmaras models");
+      if (law && model_->equations == 0) throw std::invalid_argument("flow: the law of the wall goes with models that transport turbulence");
       t.boundaries.push_back({where, law ? Condition::no_slip : c.condition, c.loads, law});
     }
     const int unknowns = t.unknowns();
     t.state = AlignedArray<double>(t.cells.size(unknowns));
     t.trial = AlignedArray<double>(t.cells.size(unknowns));
-    t.gradients = AlignedArray<double>(t.gradient_box.size(gradient_components(t.turbulence)));
+    t.gradients = AlignedArray<double>(t.gradient_box.size(gradient_components(t.turbulence, t.eddies)));
     t.residual = AlignedArray<double>(t.inner.size(unknowns));
     t.rate = AlignedArray<double>(t.inner.size(1));
     if (setting.time_order > 0) t.before = AlignedArray<double>(t.inner.size(unknowns));
@@ -295,7 +299,7 @@ void FlowSolver::slopes(FlowTile& tile, const double* state) {
   if (!setting_.viscous) return;
   sweep_gradients(tile, state);
   set_wall_law_gradients(tile, state, setting_.gas);
-  if (tile.turbulence > 0) model_->closures(tile, state, viscous_);
+  if (tile.eddies) model_->closures(tile, state, viscous_);
 }
 
 /// Residual of a state whose ghosts and gradients are there: fluxes, sources, the physical time derivative.
@@ -427,7 +431,7 @@ void FlowSolver::build_matrix(FlowTile& tile) {
   sweep_rates(tile, tile.state.data(), implicit_);
   if (!refreshes()) return;  // the pseudo-time of matrix-free products follows the state all the same
   const double* eddy =
-      tile.turbulence > 0 ? tile.gradients.data() + eddy_component(tile.turbulence) * tile.gradient_box.component : nullptr;
+      tile.eddies ? tile.gradients.data() + eddy_component(tile.turbulence) * tile.gradient_box.component : nullptr;
   sweep_jacobian(tile, tile.state.data(), eddy, march_.cfl(), implicit_);
   if (tile.turbulence > 0) model_->matrix(tile, tile.state.data(), march_.cfl(), implicit_);
 }
@@ -539,7 +543,11 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
           for (int t = 0; t < tile.turbulence; ++t) {
             const double unit = implicit_.scales.model_unknown[std::size_t(t)] / implicit_.scales.model_residual[std::size_t(t)];
             const float z = tile.direction.data()[(mean_unknowns + t) * tile.gradient_box.component + tile.gradient_box.at(k, row, i)];
-            *model++ += float(time * unit * double(z));
+            const bool of_k = tile.turbulence == 2 && t == 0;
+            const double slowed = of_k ? time + growth_damping(tile.residual.data()[tile.inner.at(k, row, i) + mean_unknowns * tile.inner.component],
+                                                               tile.state.data()[tile.cells.at(k, row, i) + mean_unknowns * tile.cells.component])
+                                       : time;
+            *model++ += float(slowed * unit * double(z));
           }
         }
       });

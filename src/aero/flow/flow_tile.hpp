@@ -39,6 +39,7 @@ struct FlowTile {
   TileGeometry* geometry = nullptr;
   int index = 0;            ///< in the tiling
   int turbulence = 0;       ///< number of its unknowns
+  bool eddies = false;      ///< a closure gives an eddy viscosity; with or without unknowns
   int directions = 3;       ///< 2 where planar
   BoxLayout cells;          ///< of states: two ghosts
   BoxLayout gradient_box;   ///< one ghost
@@ -48,7 +49,7 @@ struct FlowTile {
 
   AlignedArray<double> state;          ///< unknowns
   AlignedArray<double> trial;          ///< perturbed state of matrix-free products; between pseudo-steps the state before the last one
-  AlignedArray<double> gradients;      ///< 3 each of u v w T and the turbulence unknowns
+  AlignedArray<double> gradients;      ///< 3 each of u v w T and the turbulence unknowns, then closures
   AlignedArray<double> residual;
   AlignedArray<double> before, before_that;  ///< conserved times volume one and two steps ago
   AlignedArray<double> source;         ///< added to the rate of change of conserved amounts per volume; empty but in manufactured solutions

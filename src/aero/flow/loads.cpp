@@ -64,7 +64,8 @@ void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting
               const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
               const double rho = gas::density(setting.gas, q), mu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, q));
               const double distance = tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)];
-              if (viscous.active) point.y_plus = std::sqrt(rho * friction.norm() / f.area) * distance / mu;
+              const Eigen::Vector3d n(f.nx, f.ny, f.nz), shear = friction - friction.dot(n) * n;  // 2/3 rho k pushes on walls with a wall function
+              if (viscous.active) point.y_plus = std::sqrt(rho * shear.norm() / f.area) * distance / mu;
               points.push_back(point);
             });
 }

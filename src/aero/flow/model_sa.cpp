@@ -5,13 +5,9 @@
 
 namespace spindrift::aero {
 
-const ModelSweeps& sweeps_sa() {
-  static const ModelSweeps table = SweepsOf<turbulence::Sa>::table();
-  return table;
-}
-const ModelSweeps& sweeps_sa_neg() {
-  static const ModelSweeps table = SweepsOf<turbulence::SaNeg>::table();
-  return table;
+std::span<const ModelSweeps> sweeps_of_sa() {
+  static const ModelSweeps models[]{SweepsOf<turbulence::Sa>::table(), SweepsOf<turbulence::SaNeg>::table()};
+  return models;
 }
 
 }  // namespace spindrift::aero

@@ -5,13 +5,9 @@
 
 namespace spindrift::aero {
 
-const ModelSweeps& sweeps_sst() {
-  static const ModelSweeps table = SweepsOf<turbulence::Sst>::table();
-  return table;
-}
-const ModelSweeps& sweeps_sst_vm() {
-  static const ModelSweeps table = SweepsOf<turbulence::SstVm>::table();
-  return table;
+std::span<const ModelSweeps> sweeps_of_sst() {
+  static const ModelSweeps models[]{SweepsOf<turbulence::Sst1994>::table(), SweepsOf<turbulence::SstV>::table(), SweepsOf<turbulence::SstVm>::table()};
+  return models;
 }
 
 }  // namespace spindrift::aero

@@ -52,24 +52,17 @@ void mirror(const double* from, std::ptrdiff_t c, double factor, const double (&
 
 }  // namespace
 
-namespace {
-
-/// The first cell of a wall with a wall function: velocity along the wall relative to it, distance, density and viscosity.
-struct FirstCell {
-  double u, v, w, speed, distance, rho, mu;
-};
-FirstCell first_cell(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Side side, const double (&n)[3], int k, int j, int i) {
+WallCell wall_cell(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Side side, int k, int j, int i) {
+  const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
   const std::ptrdiff_t at = tile.cells.at(k, j, i), out = (at_end(side) ? 1 : -1) * tile.cells.stride(direction_of(side));
   const auto q = gas::load_primitive<double>(state + at, std::size_t(tile.cells.component)),
              ghost = gas::load_primitive<double>(state + at + out, std::size_t(tile.cells.component));
   double u = 0.5 * (q.u - ghost.u), v = 0.5 * (q.v - ghost.v), w = 0.5 * (q.w - ghost.w);  // the wall has the mean of both
-  const double across = u * n[0] + v * n[1] + w * n[2];
-  u -= across * n[0], v -= across * n[1], w -= across * n[2];
+  const double across = u * f.nx + v * f.ny + w * f.nz;
+  u -= across * f.nx, v -= across * f.ny, w -= across * f.nz;
   return {u, v, w, std::sqrt(u * u + v * v + w * w), tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)],
           gas::density(gas, q), gas::viscosity(gas, gas::absolute_temperature(gas, q))};
 }
-
-}  // namespace
 
 void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas) {
   const std::ptrdiff_t c = tile.gradient_box.component;
@@ -79,7 +72,7 @@ void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::Idea
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
       const double n[3] = {f.nx, f.ny, f.nz};
-      const FirstCell cell = first_cell(tile, state, gas, side, n, k, j, i);
+      const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
       if (!(cell.speed > 0.0)) return;
       const double rate = turbulence::wall_law_rate(cell.speed, cell.distance, cell.mu / cell.rho) / cell.speed;
       double* at = tile.gradients.data() + tile.gradient_box.at(k, j, i);
@@ -97,7 +90,7 @@ void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::Idea
 
 void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas, const std::array<double, 2>& wall_spread) {
   const std::ptrdiff_t c = tile.gradient_box.component;
-  const int carried = tile.turbulence, eddy = 3 * (4 + carried), components = gradient_components(carried);
+  const int carried = tile.turbulence, eddy = 3 * (4 + carried), components = gradient_components(carried, tile.eddies);
   for (const FlowBoundary& boundary : tile.boundaries) {
     const Side side = boundary.where.side;
     const std::ptrdiff_t out = (at_end(side) ? 1 : -1) * tile.gradient_box.stride(direction_of(side));
@@ -114,25 +107,27 @@ void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::Ide
       // A wall at rest turns velocities and what turbulence carries about (of a moving one the velocity may vary along it: there the
       // cell's gradient is taken); a mirror turns the velocity's normal component.
       const bool moves = sticks && tile.geometry->moving();
+      const bool free = boundary.law && carried == 2;  // k does not pass such a wall
       for (int v = 0; v < 4 + carried; ++v)
         if (moves && v < 3)
           for (int d = 0; d < 3; ++d) ghost[(3 * v + d) * c] = at[(3 * v + d) * c];
         else
-          mirror(at + 3 * v * c, c, sticks && v != 3 ? -1.0 : 1.0, n, ghost + 3 * v * c);
+          mirror(at + 3 * v * c, c, sticks && v != 3 && !(free && v > 3) ? -1.0 : 1.0, n, ghost + 3 * v * c);
       if (!sticks)
         for (int d = 0; d < 3; ++d) {
           const double across = 2.0 * (ghost[d * c] * n[0] + ghost[(3 + d) * c] * n[1] + ghost[(6 + d) * c] * n[2]);
           for (int v = 0; v < 3; ++v) ghost[(3 * v + d) * c] -= across * n[v];
         }
-      if (carried == 0) return;
+      if (!tile.eddies) return;
       for (int m = eddy; m < components; ++m) ghost[m * c] = at[m * c];
       if (!sticks) return;
-      for (int m = eddy; m < eddy + 2; ++m) ghost[m * c] = -at[m * c];  // on the wall there is no eddy viscosity
+      ghost[eddy * c] = -at[eddy * c];  // on the wall there is no eddy viscosity
+      if (!free) ghost[(eddy + 1) * c] = -at[(eddy + 1) * c];
       const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
       const double mu = gas::viscosity(gas, gas::absolute_temperature(gas, q));
       if (boundary.law) {
         // The face's share is such that half the difference of cell and ghost over the distance gives the law's friction.
-        const FirstCell cell = first_cell(tile, state, gas, side, n, k, j, i);
+        const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
         ghost[eddy * c] += 2.0 * (turbulence::wall_viscosity(cell.speed, cell.distance, cell.rho, cell.mu) - cell.mu);
       }
       for (int t = 0; t < carried; ++t) ghost[(eddy + 2 + t) * c] = 2.0 * wall_spread[std::size_t(t)] * mu - at[(eddy + 2 + t) * c];

@@ -11,7 +11,13 @@
 namespace spindrift::aero {
 
 /// Of u, v, w, T and the turbulence unknowns, component 3 n + direction; then the closures of the model (sweep_model.hpp).
-constexpr int gradient_components(int turbulence) { return 3 * (4 + turbulence) + (turbulence > 0 ? 2 + turbulence : 0); }
+constexpr int gradient_components(int turbulence, bool eddies) { return 3 * (4 + turbulence) + (eddies ? 2 + turbulence : 0); }
+
+/// The first cell of a wall with a wall function: velocity along the wall relative to it, distance, density and viscosity.
+struct WallCell {
+  double u, v, w, speed, distance, rho, mu;
+};
+WallCell wall_cell(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Side side, int k, int j, int i);
 
 void sweep_gradients(FlowTile& tile, const double* state);
 /// In the first cells of walls with a wall function: how fast the velocity along the wall rises is what the law of the wall says of the

@@ -13,6 +13,7 @@ using Block = gas::Block5<Row>;
 /// Derivatives of the first-order flux through eight faces by the states on both sides.
 SPINDRIFT_INLINE gas::FluxJacobian<Row> convection(const ImplicitSetting& s, const gas::Primitive<Row>& l, const gas::Primitive<Row>& r,
                                                    const gas::Face<Row>& f) {
+  if (s.rusanov) return gas::flux_jacobian(gas::Rusanov{}, s.gas, l, r, f);
   if (s.preconditioned_waves) {
     // Waves at the reference speed U instead of c: a velocity jump pushes with rho U, a pressure jump drives a mass dp / U. So pressure and
     // velocity are as strong on the diagonal as beside it at any Mach number, and ILU is as good.

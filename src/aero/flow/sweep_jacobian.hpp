@@ -23,6 +23,7 @@ struct ImplicitSetting {
   Scales scales;
   bool viscous = false;
   double mach_floor = 1.0;       ///< least scaling of RoeLowMach's dissipation; 1: that of Roe
+  bool rusanov = false;          ///< dissipation of Rusanov's flux, whose shear waves are as fast as sound
   bool preconditioned_waves = false;  ///< dissipation of the preconditioned equations instead, with this many times floor_speed at least:
   static constexpr double wave_speeds_of_floor = 7.0;
   bool preconditioned = true;    ///< pseudo-time of Weiss & Smith

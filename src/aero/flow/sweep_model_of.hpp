@@ -1,17 +1,33 @@
 // The sweeps of sweep_model.hpp written once for any model that meets the concept of kernels/turbulence/model.hpp.
-// Instantiated in model_*.cpp; tested in tests/src/aero/flow/model_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Instantiated in model_*.cpp; tested in tests/verification/air/closures_test.cpp and wall_function_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/gas/preconditioner.hpp"
 #include "kernels/linear/stencil_matrix.hpp"
 #include "kernels/turbulence/model.hpp"
+#include "kernels/turbulence/wall_law.hpp"
 #include "src/aero/flow/boundary.hpp"
+#include "src/aero/flow/sweep_gradients.hpp"
 #include "src/aero/flow/sweep_model.hpp"
 
 namespace spindrift::aero {
 
+/// Longest side of eight cells and the cube root of their volume; sides as volume over the mean face across. A planar grid has its own
+/// two only.
+SPINDRIFT_INLINE void measure_cells(const FlowTile& tile, int k, int j, int i, Row& longest_side, Row& width) {
+  const TileGeometry& g = *tile.geometry;
+  const Row volume = max(Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)), Row(1e-280));
+  longest_side = 0.0;
+  for (int d = 0; d < tile.directions; ++d) {
+    const gas::Face<Row> low = load_face(g, d, k, j, i), high = load_face(g, d, k + (d == 2), j + (d == 1), i + (d == 0));
+    longest_side = max(longest_side, volume / (0.5 * (low.area + high.area)));
+  }
+  width = power(volume, 1.0 / 3.0);
+}
+
+/// What any model gives the flow; all that a model without transported quantities has.
 template <class Model>
-struct SweepsOf {
+struct ClosuresOf {
   static constexpr int n = Model::equations;
 
   struct Cell {
@@ -33,6 +49,7 @@ struct SweepsOf {
     const gas::Vector<Row> t = load_vector(slope + 9 * g, g);
     const Row factor = -cell.flow.rho / T;
     cell.flow.density_gradient = {factor * t.x, factor * t.y, factor * t.z};
+    if constexpr (Model::sees_grid) measure_cells(tile, k, j, i, cell.flow.longest_side, cell.flow.width);
     for (int m = 0; m < n; ++m) {
       cell.model.q[m] = Row::load(at + (mean_unknowns + m) * c);
       cell.model.gradient[m] = load_vector(slope + (12 + 3 * m) * g, g);
@@ -54,6 +71,17 @@ struct SweepsOf {
       }
     });
   }
+  static ModelSweeps table() {
+    ModelSweeps t;
+    t.name = Model::name, t.closures = closures;
+    return t;
+  }
+};
+
+template <class Model>
+struct SweepsOf : ClosuresOf<Model> {
+  using Base = ClosuresOf<Model>;
+  using Base::n, Base::load_cell, typename Base::Cell;
 
   /// Diffusive fluxes of the model's quantities through the eight faces below the cells at (k, j, i).
   static SPINDRIFT_INLINE void face_fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i, Row (&flux)[n]) {
@@ -115,6 +143,35 @@ struct SweepsOf {
           }
         }
     }
+    if constexpr (n == 2) hold_wall_cells(tile, state, residual, s);
+  }
+
+  /// Calls body(k, j, i, first cell, omega of the law) for the cells at walls with a wall function.
+  template <class Body>
+  static void for_law_cells(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Body&& body) {
+    for (const FlowBoundary& boundary : tile.boundaries) {
+      if (!boundary.law) continue;
+      const Side side = boundary.where.side;
+      for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
+        const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
+        const double nu = cell.mu / cell.rho, u = turbulence::friction_velocity(cell.speed, cell.distance, nu);
+        body(k, j, i, cell, u, turbulence::wall_omega(u, cell.distance, nu, Model::wall_beta));
+      });
+    }
+  }
+  /// In first cells of walls with a wall function omega is the law's, by a source that leaves nothing else, and k is made at the
+  /// law's rate: with the model's own, mu_t times the law's slope squared, any k would balance its destruction.
+  static void hold_wall_cells(FlowTile& tile, const double* state, double* residual, const ViscousSetting& s) {
+    for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, double u, double omega) {
+      const int row = i / row_lanes * row_lanes;
+      const Cell cell = load_cell(tile, state, s, k, j, row);
+      const double volume = tile.geometry->volume_data.data()[tile.geometry->cell_box.at(k, j, i)];
+      const double q[2] = {cell.model.q[0][i - row], cell.model.q[1][i - row]}, nu = wall.mu / wall.rho;
+      double* to = residual + tile.inner.at(k, j, i) + mean_unknowns * tile.inner.component;
+      const double made = wall.rho * turbulence::wall_law_production(u, wall.distance, nu);
+      to[0] += volume * (Model{}.source(cell.flow, cell.model).rate[0][i - row] - made + Model::beta_star * wall.rho * q[0] * q[1]);
+      to[tile.inner.component] = volume * wall.rho * omega * (q[1] - omega);
+    });
   }
 
   /// Upwind convection by the mean of both sides' mass flux, diffusion, source, time; one cell after the other, as it is not often made.
@@ -126,7 +183,7 @@ struct SweepsOf {
     double unit[2][2] = {{1, 1}, {1, 1}};
     for (int r = 0; r < n; ++r)
       for (int c = 0; c < n; ++c) unit[r][c] = s.scales.model_unknown[std::size_t(c)] / s.scales.model_residual[std::size_t(r)];
-    ViscousSetting viscous{.gas = s.gas};
+    const ViscousSetting viscous{.gas = s.gas};
     for_rows(box, [&](int k, int j) {
       for (int i = 0; i < box.ni; i += row_lanes) {
         const Cell cell = load_cell(tile, state, viscous, k, j, i);
@@ -141,6 +198,13 @@ struct SweepsOf {
         }
       }
     });
+    if constexpr (n == 2)
+      for_rows(box, [&](int k, int j) {
+        for (int i = 0; i < box.ni; ++i)
+          a.block((std::ptrdiff_t(k) * box.nj + j) * box.ni + i, 0)[0] +=
+              float(unit[0][0] * growth_damping(tile.residual.data()[tile.inner.at(k, j, i) + mean_unknowns * tile.inner.component],
+                                                state[tile.cells.at(k, j, i) + mean_unknowns * tile.cells.component]));
+      });
     const int extent[3] = {box.ni, box.nj, box.nk};
     const std::ptrdiff_t aux = tile.gradient_box.component;
     for (int d = 0; d < tile.directions; ++d)
@@ -182,11 +246,20 @@ struct SweepsOf {
       for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
         const std::ptrdiff_t cell = (std::ptrdiff_t(k) * box.nj + j) * box.ni + i;
         float *diagonal = a.block(cell, 0), *beyond = a.block(cell, 2 + int(side));
-        // A wall's ghost has the opposite sign; what an open boundary brings in is given.
-        const float follow = boundary.condition == Condition::no_slip ? -1.0f : is_wall(boundary.condition) ? 1.0f : 0.0f;
+        // A resolved wall's ghost has the opposite sign; what an open boundary brings in is given.
+        const bool sticks = boundary.condition == Condition::no_slip && !(n == 2 && boundary.law);
+        const float follow = sticks ? -1.0f : is_wall(boundary.condition) ? 1.0f : 0.0f;
         for (int e = 0; e < n * n; ++e) diagonal[e] += follow * beyond[e], beyond[e] = 0.0f;
       });
     }
+    if constexpr (n == 2)
+      for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, double, double omega) {
+        const std::ptrdiff_t cell = (std::ptrdiff_t(k) * box.nj + j) * box.ni + i;
+        for (int slot = 0; slot < 2 + 2 * tile.directions; ++slot) a.block(cell, slot)[1] = a.block(cell, slot)[3] = 0.0f;
+        const double volume = g.volume_data.data()[g.cell_box.at(k, j, i)];
+        const double time = tile.rate.data()[tile.inner.at(k, j, i)] / cfl + volume * s.physical_rate;
+        a.block(cell, 0)[3] = float(unit[1][1] * wall.rho * (time + volume * omega));
+      });
   }
 
   static void multiply(FlowTile& tile, const float* x, float* y) {
@@ -204,15 +277,14 @@ struct SweepsOf {
     return all;
   }
   static ModelSweeps table() {
-    std::array<double, 2> lowest{};
-    for (std::size_t m = 0; m < std::size_t(n); ++m) lowest[m] = Model::lowest[m];
+    ModelSweeps t = Base::table();
+    t.equations = n, t.residual = residual, t.matrix = matrix, t.multiply = multiply, t.wall = wall, t.far_field = far_field;
     const gas::Vector<double> none{0.0, 0.0, 0.0};
     turbulence::Turbulence<double, n> still{};  // on the wall: nothing but what makes the model's quotients defined
     if constexpr (n == 2) still.q[1] = 1.0;
     const auto closure = Model{}.closure(turbulence::Flow<double>{1.0, 1.0, 1.0, none, none, none}, still);
-    std::array<double, 2> spread{};
-    for (std::size_t m = 0; m < std::size_t(n); ++m) spread[m] = closure.diffusivity[m];
-    return {Model::name, n, lowest, spread, closures, residual, matrix, multiply, wall, far_field};
+    for (std::size_t m = 0; m < std::size_t(n); ++m) t.lowest[m] = Model::lowest[m], t.wall_spread[m] = closure.diffusivity[m];
+    return t;
   }
 };
 

@@ -35,7 +35,7 @@ SPINDRIFT_INLINE gas::Conserved<Real> face_flux(const FlowTile& tile, const Pair
   const gas::FaceLine<Real> line = gas::face_line(d, f);
   const gas::Primitive<Real> q = 0.5 * (l + r);
   Real eddy(0.0), pressure(0.0);
-  if (tile.turbulence > 0) {
+  if (tile.eddies) {
     const double* closure = p.gradients + eddy_component(tile.turbulence) * gradient_component;
     eddy = 0.5 * (gas::load_number<Real>(closure - p.gradient_step) + gas::load_number<Real>(closure));
     closure += gradient_component;

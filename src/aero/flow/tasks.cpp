@@ -267,7 +267,7 @@ class StepGraph {
   void gradient_ghosts(const char* label, std::function<bool()> active, bool trial, int tag) {
     std::vector<Quantity> quantities{Quantity::tensor, Quantity::vector};
     for (int t = 0; t < turbulence(); ++t) quantities.push_back(Quantity::vector);
-    if (turbulence() > 0) quantities.insert(quantities.end(), std::size_t(2 + turbulence()), Quantity::scalar);
+    if (!s_.tiles_.empty() && s_.tiles_[0].eddies) quantities.insert(quantities.end(), std::size_t(2 + turbulence()), Quantity::scalar);
     const HaloField<double> field{label,
                                   [this](int t) { return tile_of(t).gradient_view(); },
                                   [this](const Tile& t) { return cell_layout(t, gradient_ghosts_count, planar()); },
