@@ -9,6 +9,7 @@
 #include "kernels/linear/stencil_matrix.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
+#include "src/aero/flow/sweep_model.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/aero/rotor_grid/layout.hpp"
@@ -24,13 +25,14 @@ constexpr double viscous_seconds = 12e-6, inviscid_seconds = 7.5e-6;
 
 struct Kind {
   int unknowns = 5, turbulence = 0, time_order = 0, krylov_steps = 20;
-  bool flexible = false;
+  bool flexible = false, eddies = false;
   bool moving() const { return time_order > 0; }
 };
 
 Kind kind_of(const FlowOptions& o) {
   Kind kind;
-  if (o.viscous != "none") kind.turbulence = o.turbulence == "none" ? 0 : o.turbulence.starts_with("sst") ? 2 : 1;
+  kind.eddies = o.viscous != "none" && o.turbulence != "none";
+  if (kind.eddies) kind.turbulence = model_sweeps(o.turbulence).equations;
   kind.unknowns += kind.turbulence;
   kind.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
   kind.krylov_steps = o.krylov_steps, kind.flexible = o.krylov != KrylovMethod::gmres;
@@ -45,7 +47,7 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   };
   const linear::CellBox cells{ni, nj, nk};
   double bytes = wide * (2.0 * box(ni, nj, nk, state_ghosts, kind.unknowns) +
-                         box(ni, nj, nk, gradient_ghosts, gradient_components(kind.turbulence)) +
+                         box(ni, nj, nk, gradient_ghosts, gradient_components(kind.turbulence, kind.eddies)) +
                          (1 + kind.time_order) * box(ni, nj, nk, 0, kind.unknowns) + box(ni, nj, nk, 0, 1));
   double matrix = double(linear::StencilMatrix<5>::size(cells, 3)), vectors = kind.krylov_steps + 1;
   if (kind.turbulence == 1) matrix += double(linear::StencilMatrix<1>::size(cells, 3));

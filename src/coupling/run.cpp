@@ -233,7 +233,7 @@ std::int64_t take_over(const Machine& machine, Window& window, const runtime::Pa
   if (bodies.size() != window.state.packed_size()) refuse("its bodies and joints are not those of this scene");
   window.state.unpack(bodies);
   window.state.tick = timeline.tick_of_window(*windows);
-  io::together(parts.world().comm, [&] {
+  on_parts(parts, [&] {
     if (window.coupled) window.coupled->air().restore(file);
     restore_particles(machine, file);
   });
