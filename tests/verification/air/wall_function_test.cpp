@@ -83,19 +83,3 @@ TEST_CASE("a wall function gives friction also with two equations", "[flow][fast
       CHECK(law.friction == Approx(limit).epsilon(0.055));
     }
 }
-
-TEST_CASE("law probe", "[.probe]") {
-  for (const std::string model : {"sst_vm", "k_omega"}) {
-    for (const double y_plus : {30.0, 50.0, 100.0}) {
-      const PlateResult p = law_plate(4, y_plus, Condition::wall_law, model);
-      std::printf("%s 137x97 y+ %.1f (%.1f) cf %.7f cd %.7f steps %d drop %.1e\n", model.c_str(), y_plus, p.y_plus, p.friction, p.drag, p.steps, p.drop);
-      std::fflush(stdout);
-    }
-    for (const double y_plus : {0.4, 1.0, 2.0})
-      for (const auto wall : {Condition::wall_law, Condition::no_slip}) {
-        const PlateResult p = law_plate(2, y_plus, wall, model);
-        std::printf("%s law %d y+ %.1f (%.1f) cf %.7f cd %.7f steps %d drop %.1e\n", model.c_str(), int(wall == Condition::wall_law), y_plus, p.y_plus, p.friction, p.drag, p.steps, p.drop);
-        std::fflush(stdout);
-      }
-  }
-}
