@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/cgns.hpp"
 #include "src/aero/grid/generators/plane_cases.hpp"
