@@ -148,7 +148,7 @@ void cylinder(perf::Group& group) {
     if (alone == 0.0)
       alone = us;
     else
-      group.at_most(name + "_over_block_ilu", us / alone, "-", 1.0, perf::Ceiling::none, "same run");
+      group.figure(name + "_over_block_ilu", us / alone, "-", "same run");
   }
 }
 
