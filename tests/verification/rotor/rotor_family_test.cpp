@@ -27,15 +27,14 @@ constexpr double tip_radius = 89.166;
 ResolvedRotorSetup setup(double resolution, double wind, double rpm, int steps) {
   ResolvedRotorSetup s;
   s.grid.resolution = resolution, s.grid.sectors = "one", s.grid.first_cell_chords = 5.8e-4 / resolution;
-  // Far sides at twelve and ten tip radii: nearer, air that the rotor pushes aside comes back through it (docs/developer/rotor_resolved.md).
-  s.grid.radial_extent = 12.0, s.grid.upstream_extent = 10.0;
-  s.grid.cells_outboard = int(std::lround(8.8 * resolution)), s.grid.cells_upstream = int(std::lround(6.2 * resolution));
+  // Far sides at six and five tip radii: at three, air that the rotor pushes aside comes back through it (docs/developer/rotor_resolved.md).
+  s.grid.radial_extent = 6.0, s.grid.upstream_extent = 5.0;
+  s.grid.cells_outboard = int(std::lround(6.9 * resolution)), s.grid.cells_upstream = int(std::lround(5.0 * resolution));
   s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
   s.rotor.hub_m = {0.0, 0.0, 119.0}, s.rotor.speed = rpm * pi / 30.0;
   s.wind = {wind, 0.0, 0.0};
   s.flow.time = "steady", s.flow.turbulence = "sa", s.flow.blades = Condition::wall_law;
   s.flow.cfl = 2.0, s.flow.cfl_max = 1000.0, s.flow.drop = 0.0, s.flow.max_pseudo_steps = steps;
-  s.flow.matrix_free_below = 0.0;  // half the cost of a pseudo-step; loads swing no more
   return s;
 }
 
