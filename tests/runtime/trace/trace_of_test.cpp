@@ -62,9 +62,9 @@ TEST_CASE("a chain of data is the critical path of its run, through loops and re
   CHECK(e.critical_path_s == Approx(e.busy_s));  // every task waits for the one before
   CHECK(e.critical_path_s >= 3 * 8 * 200e-6);
   CHECK(e.recorded > 0.0);
-  CHECK(e.idle_s > 0.0);  // the second thread has nothing to do
   CHECK(e.modules.size() == 2);
   CHECK(e.parallel == Approx(e.busy_s / (2 * e.elapsed_s)));
+  CHECK(e.parallel <= 0.5);  // a second thread has nothing to do, if it comes to look for work at all
 }
 
 TEST_CASE("each execution in a loop follows exactly the one before it in the chain", "[trace][fast]") {
