@@ -3,8 +3,6 @@
 // Two density residuals are told apart: RMS over cells of R/V, and of the flux balance R itself, which is what CFL3D prints (l2norm.F
 // sums res^2, resp.F takes the mean and the root; no volume). Bars that come from CFL3D's runs are held against the latter.
 // Run by perf/run; bars and what was tried: docs/developer/air.md. SPDX-License-Identifier: Apache-2.0
-#include <sys/resource.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -19,12 +17,6 @@ using namespace spindrift::aero;
 using namespace spindrift::aero::testing;
 
 namespace {
-
-double user_seconds() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
-}
 
 constexpr double alpha = 10.0 * std::numbers::pi / 180.0;
 
@@ -66,10 +58,10 @@ void march(perf::Group& group, const std::string& name, double mach, double drop
   const WallSurface wall = wall_surface(c.grid, std::array<std::string, 1>{"wall"});
   for (FlowTile& tile : c.solver->tiles()) fill_wall_distance(*tile.geometry, wall);
   c.prepare();
-  const double cells = double(c.solver->cells()), begin = user_seconds();
+  const double cells = double(c.solver->cells()), begin = perf::user_seconds();
   History h;
   c.solver->watch([&](const PseudoRow& row) {
-    h.cost.push_back((user_seconds() - begin) / cells * 1e6);
+    h.cost.push_back((perf::user_seconds() - begin) / cells * 1e6);
     h.by_volume.push_back(row.density_residual), h.balance.push_back(row.mass_residual);
     h.drag.push_back(coefficients(s, row.force).drag);
   });
@@ -115,9 +107,9 @@ std::unique_ptr<Case> box(int n, int blocks, int threads, int pseudo_steps) {
 double cost(Case& c, int samples) {
   double least = 1e300;
   for (int n = 0; n < samples; ++n) {
-    const double begin = user_seconds();
+    const double begin = perf::user_seconds();
     c.run();
-    least = std::min(least, user_seconds() - begin);
+    least = std::min(least, perf::user_seconds() - begin);
   }
   return least / double(c.solver->cells()) * 1e6;
 }

@@ -3,13 +3,11 @@
 // six orders round a cylinder at Mach 1e-3. Forms: block ILU; coarse correction by groups of 8 cells a side, eliminated; by groups of 4, left to
 // BoomerAMG with ILU smoothing; pressure by BoomerAMG. What it says: docs/developer/air_linear.md. Run by perf/run.
 // SPDX-License-Identifier: Apache-2.0
-#include <sys/resource.h>
-
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "perf/harness.hpp"
+#include "src/aero/grid/generators/plane_cases.hpp"
 #include "tests/src/aero/flow/flows.hpp"
 
 using namespace spindrift;
@@ -17,12 +15,6 @@ using namespace spindrift::aero;
 using namespace spindrift::aero::testing;
 
 namespace {
-
-double user_seconds() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
-}
 
 struct Form {
   const char* name;
@@ -60,9 +52,9 @@ Solved solve(const Problem& p, const Form& form) {
     return q;
   });
   c.prepare();
-  const double begin = user_seconds();
+  const double begin = perf::user_seconds();
   c.run();
-  Solved r{.us = (user_seconds() - begin) / double(c.solver->cells()) * 1e6, .iterations = c.solver->march().krylov(), .drop = c.solver->march().linear_drop()};
+  Solved r{.us = (perf::user_seconds() - begin) / double(c.solver->cells()) * 1e6, .iterations = c.solver->march().krylov(), .drop = c.solver->march().linear_drop()};
   r.per_drop = r.us * std::max(1.0, std::log(p.drop) / std::log(r.drop));
   return r;
 }
@@ -107,26 +99,11 @@ void map(perf::Group& group) {
           std::printf(" %.1f, %s%d |", r.per_drop, r.drop > p.drop ? "more than " : "", r.iterations);
           if (r.per_drop < least) least = r.per_drop, best = form.name;
         }
-          std::printf(" %s |\n", best);
+        std::printf(" %s |\n", best);
         std::fflush(stdout);
         won += best != block_ilu.name, ++of;
       }
   group.figure("map_won_by_other_than_block_ilu", won, "-", "of " + std::to_string(of) + " rows; 32^3 cells, us per cell to 1e-2");
-}
-
-/// An O of cells round a circular cylinder, spacing growing with the radius.
-MultiBlockGrid o_grid(int around, int out, double far) {
-  MultiBlockGrid grid;
-  grid.planar = true;
-  grid.blocks.push_back(mapped_block("ring", around, out, 1, [&](double u, double v, double w) {
-    const double angle = 2 * std::numbers::pi * u, r = 0.5 * std::pow(2.0 * far, v);
-    return Eigen::Vector3d(r * std::cos(angle), w, r * std::sin(angle));
-  }));
-  grid.connections.push_back(
-      {.from = {0, Side::i_max, {0, 0}, {out, 1}}, .to = {0, Side::i_min, {0, 0}, {out, 1}}, .orientation = {1, 2, 3}});
-  grid.boundaries.push_back({{0, Side::j_min, {0, 0}, {around, 1}}, "wall"});
-  grid.boundaries.push_back({{0, Side::j_max, {0, 0}, {around, 1}}, "far"});
-  return grid;
 }
 
 /// The scene of inputs/validation/cylinder_low_mach on twice its cells a side.
@@ -136,11 +113,11 @@ void cylinder(perf::Group& group) {
     FlowSetting s = air(1e-3);
     s.preconditioner = form.preconditioner, s.common = form.common;
     s.march.drop = 1e-6, s.march.max_steps = 150;
-    Case c(o_grid(192, 96, 20.0), s, {{"wall", {Condition::slip, true}}, {"far", {Condition::far_field, false}}});
+    Case c(aero::cylinder({.around = 192, .outward = 96, .far = 20.0}), s, {{"wall", {Condition::slip, true}}, {"farfield", {Condition::far_field, false}}});
     c.prepare();
-    const double begin = user_seconds();
+    const double begin = perf::user_seconds();
     c.run();
-    const double us = (user_seconds() - begin) / double(c.solver->cells()) * 1e6;
+    const double us = (perf::user_seconds() - begin) / double(c.solver->cells()) * 1e6;
     const std::string name = std::string("cylinder_m0001_6_orders_") + form.name;
     group.figure(name, us, "us/cell", "192 x 96 cells, inviscid, default march");
     group.figure(name + "_steps", c.solver->march().steps(), "-");

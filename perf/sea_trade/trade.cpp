@@ -2,8 +2,6 @@
 // each choice varied alone, its error in frequency against linear theory, its decay and its price in processor seconds per second
 // of sea. Ratios to the first line, run in turn in one process, so that a busy machine matters little. Run by perf/run; read in
 // docs/developer/sea.md. SPDX-License-Identifier: Apache-2.0
-#include <sys/resource.h>
-
 #include <cmath>
 #include <string>
 
@@ -16,12 +14,6 @@ using namespace spindrift;
 using namespace spindrift::sph;
 
 namespace {
-
-double processor_s() {
-  rusage use;
-  getrusage(RUSAGE_SELF, &use);
-  return double(use.ru_utime.tv_sec) + 1e-6 * double(use.ru_utime.tv_usec);
-}
 
 struct Outcome {
   double frequency_error, decay_per_period, seconds_per_second, microseconds_per_evaluation;
@@ -50,7 +42,7 @@ Outcome standing_wave(const Parameters& given, double c0_over_wave_speed) {
   SeaSph<2, Real> sea(p, {{0, -0.5}, {columns * d, 2}, {true, false}}, seeds, {.threads = 1});
   std::vector<double> crossings, peaks;
   double before = 0.0, peak = 0.0;
-  const double dt = period / 100, start = processor_s();
+  const double dt = period / 100, start = perf::user_seconds();
   while (crossings.size() < 5) {
     sea.advance(dt);
     double mode = 0.0;
@@ -62,7 +54,7 @@ Outcome standing_wave(const Parameters& given, double c0_over_wave_speed) {
       crossings.push_back(sea.time() - dt * mode / (mode - before)), peaks.push_back(std::exchange(peak, 0.0));
     before = mode;
   }
-  const double seconds = processor_s() - start, halves = double(crossings.size()) - 2.0;  // the first half is starting noise
+  const double seconds = perf::user_seconds() - start, halves = double(crossings.size()) - 2.0;  // the first half is starting noise
   return {0.5 * halves * period / (crossings.back() - crossings[1]) - 1.0, 1.0 - std::pow(peaks.back() / peaks[1], 2.0 / halves),
           seconds / sea.time(), 1e6 * seconds / (double(sea.work().evaluations) * double(seeds.size()))};
 }

@@ -155,8 +155,7 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
 }
 
 /// Size and rate of a resolved rotor, with so many pseudo-steps at most per simulated second and before t = 0.
-PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, double per_second, double before, int notes, bool calibrate) {
-  const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
+PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, double per_second, double before, int notes, bool calibrate) {
   PartCost cost{.name = "air", .count = double(size.cells), .things = "cells", .bytes = size.bytes + (notes - 1) * size.bytes_of_checkpoint,
                 .checkpoint_bytes = size.bytes_of_checkpoint, .work_per_second = per_second, .work = "pseudo-steps at most",
                 .core_seconds_per_work = size.core_seconds_per_pseudo_step, .rate = {}, .work_before = before};
@@ -181,7 +180,7 @@ PartCost print_air(const Machine& machine, const coupling::Start& start, bool ca
              size.sectors == 1 ? ", which feels motion along the axis only" : "s", size.stations);
   const bool strong = is_strong(s.coupling.scheme);
   const double samples = strong ? s.coupling.samples : 1.0;
-  return cost_of_air(setup, samples * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps, strong ? 2 : 1, calibrate);
+  return cost_of_air(setup, size, samples * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps, strong ? 2 : 1, calibrate);
 }
 
 void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, bool calibrate, int ranks) {
@@ -192,7 +191,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, setup.flow.viscous == "none" ? "inviscid" : setup.flow.turbulence, setup.flow.flux);
   fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
   fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors, size.sectors == 1 ? ", periodic" : "s", size.stations);
-  const PartCost cost = cost_of_air(setup, (steady ? 1.0 : setup.flow.max_pseudo_steps) / s.time.window_s, 0.0, 1, calibrate);
+  const PartCost cost = cost_of_air(setup, size, (steady ? 1.0 : setup.flow.max_pseudo_steps) / s.time.window_s, 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks);
 }
 

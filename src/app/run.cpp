@@ -1,13 +1,15 @@
 // spindrift run: reads the scene, runs it into a run directory, writes summary and report.
 // SPDX-License-Identifier: Apache-2.0
-#include "src/coupling/run.hpp"
-#include "src/coupling/flow_run.hpp"
-#include "src/coupling/placement.hpp"
-
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <optional>
+#include <utility>
+
 #include "src/app/scene_run.hpp"
+#include "src/coupling/flow_run.hpp"
+#include "src/coupling/placement.hpp"
+#include "src/coupling/run.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/history_statistics.hpp"
 #include "src/io/log.hpp"
@@ -43,14 +45,22 @@ void print_summary(const io::Summary& summary, const io::RunDirectory& directory
 
 }  // namespace
 
-ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
-  scene::Document document = scene::load(path, overrides, overrider);
+namespace {
+/// Machine and start of a scene that is not of the air alone.
+ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
   ReadyScene ready;
-  ready.machine = std::make_unique<coupling::Machine>(coupling::read_scenario(document));
+  ready.machine = std::make_unique<coupling::Machine>(std::move(scenario));
   ready.start = make_start(*ready.machine);
   require_stable(*ready.machine, stability(*ready.machine, ready.start.state));
-  ready.echo = document.echo();
+  ready.echo = std::move(echo);
   return ready;
+}
+}  // namespace
+
+ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
+  scene::Document document = scene::load(path, overrides, overrider);
+  coupling::Scenario scenario = coupling::read_scenario(document);
+  return made_ready(std::move(scenario), document.echo());
 }
 
 namespace {
@@ -76,25 +86,23 @@ SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& e
 }
 }  // namespace
 
-/// What this rank was started with, in a form that compares.
-coupling::Started started_with(const RunArguments& a, const scene::Source& overrider) {
-  const std::string rest = fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n", a.out, a.until_s,
-                                       a.restart, a.overwrite, a.trace);
-  scene::Document document = scene::load(a.scene, a.overrides, overrider);
-  (void)coupling::read_scenario(document);
-  return {a.fluid, document.echo(), rest};
-}
-
 SceneRun run_scene(const RunArguments& arguments, const runtime::World& started, const scene::Source& overrider) {
   io::start_log(started.rank, arguments.quiet);
-  (void)coupling::agree(started, [&] { return started_with(arguments, overrider); });
-  scene::Document document = scene::load(arguments.scene, arguments.overrides, overrider);
-  const coupling::Scenario scenario = coupling::read_scenario(document);
-  const runtime::Parts parts = coupling::place(scenario, started, arguments.fluid);
+  std::optional<coupling::Scenario> scenario;
+  std::string echo;
+  coupling::agree(started, [&] {
+    scene::Document document = scene::load(arguments.scene, arguments.overrides, overrider);
+    scenario = coupling::read_scenario(document);
+    echo = document.echo();
+    return coupling::Started{arguments.fluid, echo,
+                             fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n", arguments.out,
+                                         arguments.until_s, arguments.restart, arguments.overwrite, arguments.trace)};
+  });
+  const runtime::Parts parts = coupling::place(*scenario, started, arguments.fluid);
   const runtime::World& world = parts.world();
   io::start_log(world.rank, arguments.quiet);
-  if (scenario.has_flow()) return run_flow_scene(scenario, document.echo(), arguments, world);
-  const ReadyScene scene = read_scene(arguments.scene, arguments.overrides, overrider);
+  if (scenario->has_flow()) return run_flow_scene(*scenario, echo, arguments, world);
+  const ReadyScene scene = made_ready(std::move(*scenario), std::move(echo));
   const io::RunDirectory directory = open_directory(arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
   directory.write_scene(world.comm, scene.echo);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <numeric>
 #include <sstream>
 
 #include "src/coupling/sides.hpp"
@@ -60,7 +59,7 @@ std::vector<std::string> from_all(const runtime::World& world, const std::string
 
 }  // namespace
 
-Started agree(const runtime::World& world, const std::function<Started()>& read) {
+void agree(const runtime::World& world, const std::function<Started()>& read) {
   Started mine;
   std::exception_ptr failure;
   std::string why;
@@ -69,7 +68,7 @@ Started agree(const runtime::World& world, const std::function<Started()>& read)
   } catch (const std::exception& e) { failure = std::current_exception(), why = e.what(); }
   if (world.size == 1) {
     if (failure) std::rethrow_exception(failure);
-    return mine;
+    return;
   }
   const std::vector<std::string> failures = from_all(world, failure ? "!" + why : "");
   std::vector<int> failing;
@@ -87,7 +86,6 @@ Started agree(const runtime::World& world, const std::function<Started()>& read)
                                      named(said), named(silent)));
   require_same(from_all(world, mine.scene), "scenes");
   require_same(from_all(world, mine.rest), "options");
-  return mine;
 }
 
 runtime::Parts place(const Scenario& s, const runtime::World& world, const std::string& fluid) {

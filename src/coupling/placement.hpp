@@ -22,7 +22,7 @@ struct Started {
 
 /// Runs `read` on every rank and compares what ranks were started with. Throws on all ranks alike, naming ranks: io::InputError
 /// where they differ or where `read` failed on others; what it threw on this one. Collective.
-Started agree(const runtime::World& world, const std::function<Started()>& read);
+void agree(const runtime::World& world, const std::function<Started()>& read);
 
 /// Throws scene::SceneError where the ranks of the run are not enough for what the scene asks. Collective.
 runtime::Parts place(const Scenario& scenario, const runtime::World& world, const std::string& fluid);

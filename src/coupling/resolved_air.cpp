@@ -62,8 +62,8 @@ class ResolvedAir final : public AirSide {
         first_(upright(machine, now)),
         setup_(setup_at(machine, first_)),
         state_(now),
-        blades_(aero::resolved_rotor_size(setup_).sectors),
-        felt_{{}, std::vector<aero::RotorLoad>(std::size_t(blades_))} {}
+        size_(aero::resolved_rotor_size(setup_)),
+        felt_{{}, std::vector<aero::RotorLoad>(std::size_t(size_.sectors))} {}
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     aim(t, 0.0, now);
@@ -129,7 +129,7 @@ class ResolvedAir final : public AirSide {
   void restore(const io::CheckpointReader& file) override {
     make();
     file_->read(file);
-    felt_ = felt_in(file, blades_);
+    felt_ = felt_in(file, size_.sectors);
     const SavedAnswer answer = answer_in(file);
     load_ = answer.load, saved_dt_ = answer.dt;
   }
@@ -139,7 +139,7 @@ class ResolvedAir final : public AirSide {
                                     {"air.density_residual", "kg/(m3 s)", "root mean square over the cells after them"},
                                     {"air.residual_drop", "-", "the same over its largest in that step"},
                                     {"air.cfl", "-", "CFL number of the last pseudo-step"}};
-    for (int b = 1; b <= blades_; ++b) {
+    for (int b = 1; b <= size_.sectors; ++b) {
       columns.push_back({fmt::format("rotor.blade_{}.thrust_N", b), "N", "share of one blade, along the axis"});
       columns.push_back({fmt::format("rotor.blade_{}.torque_N_m", b), "N m", "share of one blade, about the axis"});
     }
@@ -209,8 +209,7 @@ class ResolvedAir final : public AirSide {
     steady.profile = {}, steady.wind *= share_at_hub();
     // A large grid settles in pieces, so that the log shows life; how long they are follows from the grid alone, as the bits do.
     constexpr double cells_of_a_piece = 2.5e6;  // half a minute of a core
-    const long cells = aero::resolved_rotor_size(steady).cells;
-    const int piece = std::clamp(int(cells_of_a_piece / double(cells)), std::min(10, steps), steps);
+    const int piece = std::clamp(int(cells_of_a_piece / double(size_.cells)), std::min(10, steps), steps);
     aero::ResolvedRotor held(steady, world_.size, world_.rank, piece);
     spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held.solver().cells());
     held.solver().start_uniform();
@@ -284,7 +283,7 @@ class ResolvedAir final : public AirSide {
   std::optional<AirFile> file_;
   double t_ = 0.0, saved_dt_ = 0.0;  ///< of the last aim; step of the run that left the restored state
   aero::RotorState state_;  ///< of the last aim
-  int blades_;              ///< of the grid
+  aero::ResolvedRotorSize size_;
   FeltLoad felt_;           ///< after the last step, as it is
   aero::RotorLoad load_;    ///< the last answer: along the axis now, ramped
   std::array<std::optional<Noted>, 2> notes_;

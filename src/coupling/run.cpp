@@ -149,6 +149,14 @@ void restore_particles(const Machine& machine, const io::CheckpointReader& file)
   } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
 }
 
+/// Air and water of a checkpoint into the window and the machine. Collective.
+void restore_fluids(const runtime::Parts& parts, const Machine& machine, Window& window, const io::CheckpointReader& file) {
+  on_parts(parts, [&] {
+    if (window.coupled) window.coupled->air().restore(file);
+    restore_particles(machine, file);
+  });
+}
+
 class Checkpoints {
  public:
   Checkpoints(const runtime::Parts& parts, const Machine& machine, const io::RunDirectory& directory)
@@ -201,10 +209,7 @@ class Checkpoints {
     restarts = int(file->integer("restarts")) + 1;
     if (window.coupled && !window.coupled->restore(file->read<double>("coupling/history")))
       throw io::InputError(file->path().string() + ": its coupling history is that of another coupling.scheme");
-    on_parts(parts_, [&] {
-      if (window.coupled) window.coupled->air().restore(*file);
-      restore_particles(machine_, *file);
-    });
+    restore_fluids(parts_, machine_, window, *file);
     return saved_ = file->integer("window");
   }
 
@@ -233,10 +238,7 @@ std::int64_t take_over(const Machine& machine, Window& window, const runtime::Pa
   if (bodies.size() != window.state.packed_size()) refuse("its bodies and joints are not those of this scene");
   window.state.unpack(bodies);
   window.state.tick = timeline.tick_of_window(*windows);
-  on_parts(parts, [&] {
-    if (window.coupled) window.coupled->air().restore(file);
-    restore_particles(machine, file);
-  });
+  restore_fluids(parts, machine, window, file);
   if (window.coupled) {
     // What the scheme has learnt goes along where scheme and window are the same; else it begins with the state alone.
     const bool same = file.has("coupling/history") &&

@@ -88,18 +88,7 @@ class SharedAir final : public AirSide {
   }
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
-    answer_of(
-        parts_, air_part,
-        [&](Packer& to) {
-          put(to, own_->begin(t, now));
-          to.put(std::span<const double>(own_->values()));
-          for (const std::string& sentence : own_->news()) put(to, sentence);
-        },
-        [&](Unpacker& from) {
-          shown_.load = rotor_load(from), shown_.values = from.many<double>();
-          while (!from.done()) news_.push_back(text(from));
-        });
-    return shown_.load;
+    return show([&] { return own_->begin(t, now); });
   }
   void aim(double t, double dt, const aero::RotorState& at_end) override {
     if (own_) own_->aim(t, dt, at_end);
@@ -109,14 +98,7 @@ class SharedAir final : public AirSide {
     if (own_) own_->forget_tasks();
   }
   aero::RotorLoad answer() override {
-    answer_of(
-        parts_, air_part,
-        [&](Packer& to) {
-          put(to, own_->answer());
-          to.put(std::span<const double>(own_->values()));
-        },
-        [&](Unpacker& from) { shown_.load = rotor_load(from), shown_.values = from.many<double>(); });
-    return shown_.load;
+    return show([&] { return own_->answer(); });
   }
   const aero::RotorLoad* written() const override { return writes_ ? &shown_.load : nullptr; }
 
@@ -130,18 +112,10 @@ class SharedAir final : public AirSide {
   }
   std::vector<SavedArray> saved() const override { return own_ ? own_->saved() : std::vector<SavedArray>(); }
   void restore(const io::CheckpointReader& file) override {
-    answer_of(
-        parts_, air_part,
-        [&](Packer& to) {
-          own_->restore(file);
-          put(to, own_->written() ? *own_->written() : aero::RotorLoad());
-          to.put(std::span<const double>(own_->values()));
-          for (const std::string& sentence : own_->news()) put(to, sentence);
-        },
-        [&](Unpacker& from) {
-          shown_.load = rotor_load(from), shown_.values = from.many<double>();
-          while (!from.done()) news_.push_back(text(from));
-        });
+    show([&] {
+      own_->restore(file);
+      return own_->written() ? *own_->written() : aero::RotorLoad();
+    });
   }
   std::vector<io::Column> columns() const override { return columns_; }
   std::vector<double> values() const override { return shown_.values; }
@@ -161,6 +135,22 @@ class SharedAir final : public AirSide {
     aero::RotorLoad load;
     std::vector<double> values;
   };
+  /// Has the air's ranks do `work`, which gives a load, and all ranks know load, values and news after it.
+  template <class Work>
+  aero::RotorLoad show(Work&& work) {
+    answer_of(
+        parts_, air_part,
+        [&](Packer& to) {
+          put(to, work());
+          to.put(std::span<const double>(own_->values()));
+          for (const std::string& sentence : own_->news()) put(to, sentence);
+        },
+        [&](Unpacker& from) {
+          shown_.load = rotor_load(from), shown_.values = from.many<double>();
+          while (!from.done()) news_.push_back(text(from));
+        });
+    return shown_.load;
+  }
   const runtime::Parts& parts_;
   std::unique_ptr<AirSide> own_;
   bool writes_ = false;

@@ -8,6 +8,7 @@
 
 #include "runtime/mpi/exchange.hpp"
 #include "src/aero/flow/block_elimination.hpp"
+#include "src/aero/flow/ilu_after_common.hpp"
 #include "src/aero/flow/numbering.hpp"
 #include "src/aero/hypre/multigrid.hpp"
 
@@ -50,15 +51,11 @@ Index pieces_of(const Tile& tile, int side) {
 }
 int count_of(const Index& pieces) { return pieces[0] * pieces[1] * pieces[2]; }
 
-}  // namespace coarse_parts
-using namespace coarse_parts;
-
-struct CoarseCorrection::Work {
-  PreconditionerOptions options;
-  std::unique_ptr<Preconditioner> ilu = make_tile_preconditioner("block_ilu");
+struct CoarseCorrection final : IluAfterCommon {
+  using IluAfterCommon::IluAfterCommon;
   Numbering numbering;
   std::vector<int> canonical_first;  ///< by tile
-  int total = 0, refreshes = 0;
+  int total = 0;
   std::vector<int> local;
   std::vector<TileGroups> tiles;
   std::vector<int> canonical;         ///< of this process's groups
@@ -67,16 +64,16 @@ struct CoarseCorrection::Work {
   BlockElimination elimination;
   std::optional<Multigrid> multigrid;
 
-  bool direct() const { return total <= options.direct_groups; }
+  bool direct() const { return total <= options_.direct_groups; }
   const double* values_of(const GroupPlace& p) const {
     if (direct()) return all.data() + std::size_t(p.canonical) * width;
     return p.own >= 0 ? left.data() + std::size_t(p.own) * width : outside.data() + std::size_t(p.outside) * width;
   }
   TileGroups& of(const FlowTile& tile) { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
 
-  void attach(const GridStore& grid, std::span<FlowTile> flow) {
+  void attach(GridStore& grid, std::span<FlowTile> flow) override {
     const Tiling& tiling = grid.tiling();
-    const auto groups_of = [this](const Tile& t) { return count_of(pieces_of(t, options.group_cells)); };
+    const auto groups_of = [this](const Tile& t) { return count_of(pieces_of(t, options_.group_cells)); };
     numbering = number_points(grid, groups_of);
     total = 0;
     for (const Tile& t : tiling.tiles) canonical_first.push_back(total), total += groups_of(t);
@@ -92,7 +89,7 @@ struct CoarseCorrection::Work {
   void add_tile(const Tiling& tiling, const FlowTile& flow, TileGroups& t) {
     const Tile& tile = tiling.tiles[std::size_t(flow.index)];
     const Index cells = tile.cells();
-    t.pieces = pieces_of(tile, options.group_cells);
+    t.pieces = pieces_of(tile, options_.group_cells);
     t.first = numbering.first[std::size_t(flow.index)] - numbering.begin;
     std::array<std::vector<int>, 3> piece;
     const std::array<int, 3> stride{1, t.pieces[0], t.pieces[0] * t.pieces[1]};
@@ -136,7 +133,7 @@ struct CoarseCorrection::Work {
     }
     for_neighbours(tiling, flow.index, [&](const GhostLink& link, const Index& at, const Index& donor) {
       const Tile& from = tiling.tiles[std::size_t(link.from)];
-      const Index pieces = pieces_of(from, options.group_cells), n = from.cells();
+      const Index pieces = pieces_of(from, options_.group_cells), n = from.cells();
       int of_group = 0;
       for (std::size_t d = 3; d-- > 0;) of_group = of_group * pieces[d] + int(long(donor[d]) * pieces[d] / n[d]);
       const auto [a, b] = along(link.side);
@@ -176,7 +173,7 @@ struct CoarseCorrection::Work {
         }
   }
 
-  void fill(FlowTile& tile) {
+  void fill(FlowTile& tile) override {
     TileGroups& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();
     for (auto& v : t.values) v.fill(0.0);
@@ -212,7 +209,7 @@ struct CoarseCorrection::Work {
     }
   }
 
-  void set_up(MPI_Comm comm) {
+  void set_up(MPI_Comm comm) override {
     if (direct()) {
       runtime::Packer mine;
       std::vector<BlockElimination::Entry> entries;
@@ -262,7 +259,7 @@ struct CoarseCorrection::Work {
     return numbering.first[std::size_t(tile)] + p.canonical - canonical_first[std::size_t(tile)];
   }
 
-  void solve(MPI_Comm comm) {
+  void common(MPI_Comm comm) override {
     if (!direct()) {
       multigrid->cycle(right, left);
       exchange.fetch(numbering, left, width, outside, comm);
@@ -282,7 +279,17 @@ struct CoarseCorrection::Work {
     elimination.solve(all, all);
   }
 
-  void apply(const Piece& piece) {
+  void gather(FlowTile& tile, const float* v) override {
+    const TileGroups& t = of(tile);
+    double* sum = right.data() + std::size_t(t.first) * width;
+    std::fill_n(sum, count_of(t.pieces) * width, 0.0);
+    for (int k = 0; k < tile.box.nk; ++k)
+      for (int j = 0; j < tile.box.nj; ++j)
+        for (int i = 0; i < tile.box.ni; ++i, v += width)
+          for (int n = 0; n < width; ++n) sum[t.group(k, j, i) * width + n] += double(v[n]);
+  }
+
+  void apply(const Piece& piece) override {
     FlowTile& tile = *piece.tile;
     TileGroups& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();
@@ -319,7 +326,7 @@ struct CoarseCorrection::Work {
     finish();
     const std::size_t mean = std::size_t(tile.box.count()) * width;
     if (piece.z != piece.v) std::copy(piece.v + mean, piece.v + tile.vector_size(), piece.z + mean);
-    ilu->apply({&tile, piece.z, piece.z});
+    ilu_->apply({&tile, piece.z, piece.z});
     std::ptrdiff_t cell = 0;
     for (int k = 0; k < tile.box.nk; ++k)
       for (int j = 0; j < tile.box.nj; ++j)
@@ -330,29 +337,16 @@ struct CoarseCorrection::Work {
   }
 };
 
-CoarseCorrection::CoarseCorrection(const PreconditionerOptions& options) : work_(std::make_unique<Work>()) { work_->options = options; }
-CoarseCorrection::~CoarseCorrection() = default;
-int CoarseCorrection::groups() const { return work_->total; }
+}  // namespace coarse_parts
 
-void CoarseCorrection::attach(GridStore& grid, std::span<FlowTile> tiles) { work_->attach(grid, tiles); }
-void CoarseCorrection::refresh(FlowTile& tile) {
-  work_->ilu->refresh(tile);
-  work_->fill(tile);
+std::unique_ptr<Preconditioner> make_coarse_correction(const PreconditionerOptions& options) {
+  return std::make_unique<coarse_parts::CoarseCorrection>(options);
 }
-void CoarseCorrection::begin() { work_->refreshes = 0; }
-void CoarseCorrection::refresh_common(MPI_Comm comm) {
-  if (work_->refreshes++ % work_->options.common_every == 0) work_->set_up(comm);
+
+int coarse_groups(const Tiling& tiling, int group_cells) {
+  int groups = 0;
+  for (const Tile& tile : tiling.tiles) groups += coarse_parts::count_of(coarse_parts::pieces_of(tile, group_cells));
+  return groups;
 }
-void CoarseCorrection::gather(FlowTile& tile, const float* v) {
-  TileGroups& t = work_->of(tile);
-  double* sum = work_->right.data() + std::size_t(t.first) * width;
-  std::fill_n(sum, count_of(t.pieces) * width, 0.0);
-  for (int k = 0; k < tile.box.nk; ++k)
-    for (int j = 0; j < tile.box.nj; ++j)
-      for (int i = 0; i < tile.box.ni; ++i, v += width)
-        for (int n = 0; n < width; ++n) sum[t.group(k, j, i) * width + n] += double(v[n]);
-}
-void CoarseCorrection::common(MPI_Comm comm) { work_->solve(comm); }
-void CoarseCorrection::apply(const Piece& piece) { work_->apply(piece); }
 
 }  // namespace spindrift::aero

@@ -100,17 +100,12 @@ class FlowSolver {
   void set_source(Body&& rate) {
     for (FlowTile& tile : tiles_) {
       tile.source = AlignedArray<double>(tile.inner.size(tile.unknowns()));
-      const TileGeometry& g = *tile.geometry;
-      const std::ptrdiff_t c = g.cell_box.component;
-      for (int k = 0; k < tile.box.nk; ++k)
-        for (int j = 0; j < tile.box.nj; ++j)
-          for (int i = 0; i < tile.box.ni; ++i) {
-            const double* x = g.centre_data.data() + g.cell_box.at(k, j, i);
-            std::array<double, mean_unknowns + 2> values{};
-            rate(Eigen::Vector3d(x[0], x[c], x[2 * c]), values);
-            for (int n = 0; n < tile.unknowns(); ++n)
-              tile.source.data()[tile.inner.at(k, j, i) + n * tile.inner.component] = values[std::size_t(n)];
-          }
+      for_centres(tile, [&](int k, int j, int i, const Eigen::Vector3d& x) {
+        std::array<double, mean_unknowns + 2> values{};
+        rate(x, values);
+        for (int n = 0; n < tile.unknowns(); ++n)
+          tile.source.data()[tile.inner.at(k, j, i) + n * tile.inner.component] = values[std::size_t(n)];
+      });
     }
   }
   /// The state of another solver on the same tiles, a steady one say; no past.
@@ -118,17 +113,11 @@ class FlowSolver {
   /// Adds body(centre) [m/s] to the velocity of every cell.
   template <class Body>
   void add_velocity(Body&& body) {
-    for (FlowTile& tile : tiles_) {
-      const TileGeometry& g = *tile.geometry;
-      const std::ptrdiff_t c = g.cell_box.component;
-      for (int k = 0; k < tile.box.nk; ++k)
-        for (int j = 0; j < tile.box.nj; ++j)
-          for (int i = 0; i < tile.box.ni; ++i) {
-            const double* x = g.centre_data.data() + g.cell_box.at(k, j, i);
-            const Eigen::Vector3d more = body(Eigen::Vector3d(x[0], x[c], x[2 * c]));
-            for (int d = 0; d < 3; ++d) tile.state.data()[tile.cells.at(k, j, i) + (1 + d) * tile.cells.component] += more[d];
-          }
-    }
+    for (FlowTile& tile : tiles_)
+      for_centres(tile, [&](int k, int j, int i, const Eigen::Vector3d& x) {
+        const Eigen::Vector3d more = body(x);
+        for (int d = 0; d < 3; ++d) tile.state.data()[tile.cells.at(k, j, i) + (1 + d) * tile.cells.component] += more[d];
+      });
   }
   /// No past: the physical step that follows is the first.
   void forget();
@@ -198,20 +187,27 @@ class FlowSolver {
 
  private:
   friend class StepGraph;
+  /// body(k, j, i, centre) for every cell of a tile.
   template <class Body>
-  void start_tile(FlowTile& tile, Body& body) {
+  static void for_centres(const FlowTile& tile, Body&& body) {
     const TileGeometry& g = *tile.geometry;
+    const std::ptrdiff_t c = g.cell_box.component;
     for (int k = 0; k < tile.box.nk; ++k)
       for (int j = 0; j < tile.box.nj; ++j)
         for (int i = 0; i < tile.box.ni; ++i) {
-          const std::ptrdiff_t place = g.cell_box.at(k, j, i), c = g.cell_box.component;
-          const double* x = g.centre_data.data() + place;
-          const gas::Primitive<double> q = body(Eigen::Vector3d(x[0], x[c], x[2 * c]));
-          const std::ptrdiff_t at = tile.cells.at(k, j, i);
-          gas::store_primitive(tile.state.data() + at, std::size_t(tile.cells.component), q);
-          for (int t = 0; t < tile.turbulence; ++t)
-            tile.state.data()[at + (mean_unknowns + t) * tile.cells.component] = boundary_.carried[std::size_t(t)];
+          const double* x = g.centre_data.data() + g.cell_box.at(k, j, i);
+          body(k, j, i, Eigen::Vector3d(x[0], x[c], x[2 * c]));
         }
+  }
+  template <class Body>
+  void start_tile(FlowTile& tile, Body& body) {
+    for_centres(tile, [&](int k, int j, int i, const Eigen::Vector3d& x) {
+      const gas::Primitive<double> q = body(x);
+      const std::ptrdiff_t at = tile.cells.at(k, j, i);
+      gas::store_primitive(tile.state.data() + at, std::size_t(tile.cells.component), q);
+      for (int t = 0; t < tile.turbulence; ++t)
+        tile.state.data()[at + (mean_unknowns + t) * tile.cells.component] = boundary_.carried[std::size_t(t)];
+    });
   }
 
   // Work of single tasks.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/executor/executor.hpp"
+#include "src/aero/flow/boundary.hpp"
 #include "src/aero/flow/numbering.hpp"
 #include "src/aero/flow/tasks.hpp"
 #include "src/aero/hypre/multigrid.hpp"
@@ -53,16 +54,6 @@ FaceTerms face_terms(const PoissonTile& t, int d, int k, int j, int i) {
   }
   const double coefficient = area.squaredNorm() / along;
   return {coefficient, area - coefficient * step};
-}
-
-Eigen::Vector3d face_middle(const TileGeometry& g, int d, int k, int j, int i) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const int a : {0, 1})
-    for (const int b : {0, 1}) {
-      const int kn = k + (d == 2 ? 0 : b), jn = j + (d == 0 ? a : d == 2 ? b : 0), in = i + (d == 0 ? 0 : a);
-      sum += at_place(g.node_data.data(), g.node_box.at(kn, jn, in), g.node_box.component);
-    }
-  return 0.25 * sum;
 }
 
 template <class Body>
@@ -170,7 +161,7 @@ struct Poisson::Work {
           const Eigen::Vector3d area = at_place(g.face_data[std::size_t(d)].data(), box.at(kf, jf, fi), box.component);
           const std::ptrdiff_t step = (end ? 1 : -1) * t.box.stride(d);
           const double across = area.dot(t.centre(g.cell_box.at(k, j, i) + (end ? 1 : -1) * g.cell_box.stride(d)) - centre);
-          const double share = across == 0.0 ? 0.5 : area.dot(face_middle(g, d, kf, jf, fi) - centre) / across;
+          const double share = across == 0.0 ? 0.5 : area.dot(face_centre(g, Side(2 * d + end), k, j, i) - centre) / across;
           sum += (end ? 1.0 : -1.0) * share * (t.phi.data()[here + step] - t.phi.data()[here]) * area;
         }
       sum /= g.volume_data.data()[g.cell_box.at(k, j, i)];

@@ -74,8 +74,8 @@ std::unique_ptr<Preconditioner> make_tile_preconditioner(std::string_view name) 
 }
 
 std::unique_ptr<Preconditioner> make_preconditioner(std::string_view name, const PreconditionerOptions& options) {
-  if (name == "coarse") return std::make_unique<CoarseCorrection>(options);
-  if (name == "pressure_amg") return std::make_unique<PressureAmg>(options);
+  if (name == "coarse") return make_coarse_correction(options);
+  if (name == "pressure_amg") return make_pressure_amg(options);
   return make_tile_preconditioner(name);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/aero/flow/ilu_after_common.hpp"
 #include "src/aero/flow/numbering.hpp"
 #include "src/aero/hypre/multigrid.hpp"
 
@@ -24,12 +25,8 @@ struct PressureTile {
   std::vector<float> rows;                   ///< [cell][1 + sides]: the pressure equation
 };
 
-}  // namespace pressure_parts
-using namespace pressure_parts;
-
-struct PressureAmg::Work {
-  PreconditionerOptions options;
-  std::unique_ptr<Preconditioner> ilu = make_tile_preconditioner("block_ilu");
+struct PressureAmg final : IluAfterCommon {
+  using IluAfterCommon::IluAfterCommon;
   Numbering numbering;
   std::vector<int> local;
   std::vector<PressureTile> tiles;
@@ -37,12 +34,10 @@ struct PressureAmg::Work {
   std::vector<double> right, pressure, other;
   OutsideValues exchange;
   std::optional<Multigrid> multigrid;
-  int refreshes = 0;
-
 
   PressureTile& of(const FlowTile& tile) { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
 
-  void attach(const GridStore& grid, std::span<FlowTile> all) {
+  void attach(GridStore& grid, std::span<FlowTile> all) override {
     const Tiling& tiling = grid.tiling();
     numbering = number_points(grid, [](const Tile& t) { return int(t.count()); });
     local.assign(tiling.tiles.size(), -1);
@@ -74,7 +69,7 @@ struct PressureAmg::Work {
   }
 
   /// Weights w of each cell's rows: the pressure row of its inverted diagonal block, and the pressure equation they make.
-  void fill(FlowTile& tile) {
+  void fill(FlowTile& tile) override {
     PressureTile& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();
     const int sides = 2 * tile.directions;
@@ -126,7 +121,7 @@ struct PressureAmg::Work {
         }
   }
 
-  void set_up(MPI_Comm comm) {
+  void set_up(MPI_Comm comm) override {
     SparseRows rows;
     rows.first = numbering.begin;
     rows.begin.reserve(right.size() + 1), rows.columns.reserve(right.size() * 7), rows.values.reserve(right.size() * 7);
@@ -154,10 +149,10 @@ struct PressureAmg::Work {
       });
       rows.begin.push_back(int(rows.columns.size()));
     }
-    multigrid.emplace(rows, MultigridOptions{.strength = 0.25}, comm);
+    multigrid.emplace(rows, MultigridOptions{}, comm);
   }
 
-  void gather(FlowTile& tile, const float* v) {
+  void gather(FlowTile& tile, const float* v) override {
     const PressureTile& t = of(tile);
     const float* w = t.weights.data();
     double* r = right.data() + t.first;
@@ -168,7 +163,12 @@ struct PressureAmg::Work {
     }
   }
 
-  void apply(const Piece& piece) {
+  void common(MPI_Comm comm) override {
+    multigrid->cycle(right, pressure);
+    exchange.fetch(numbering, pressure, 1, other, comm);
+  }
+
+  void apply(const Piece& piece) override {
     FlowTile& tile = *piece.tile;
     const PressureTile& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();
@@ -190,27 +190,15 @@ struct PressureAmg::Work {
       }
       subtract(cell, a.block(cell, linear::StencilMatrix<5>::sides + side), value);
     });
-    ilu->apply({&tile, piece.z, piece.z});
+    ilu_->apply({&tile, piece.z, piece.z});
     for (std::ptrdiff_t cell = 0; cell < tile.box.count(); ++cell) piece.z[cell * mean_unknowns] += float(p[cell]);
   }
 };
 
-PressureAmg::PressureAmg(const PreconditionerOptions& options) : work_(std::make_unique<Work>()) { work_->options = options; }
-PressureAmg::~PressureAmg() = default;
-void PressureAmg::attach(GridStore& grid, std::span<FlowTile> tiles) { work_->attach(grid, tiles); }
-void PressureAmg::refresh(FlowTile& tile) {
-  work_->ilu->refresh(tile);
-  work_->fill(tile);
+}  // namespace pressure_parts
+
+std::unique_ptr<Preconditioner> make_pressure_amg(const PreconditionerOptions& options) {
+  return std::make_unique<pressure_parts::PressureAmg>(options);
 }
-void PressureAmg::begin() { work_->refreshes = 0; }
-void PressureAmg::refresh_common(MPI_Comm comm) {
-  if (work_->refreshes++ % work_->options.common_every == 0) work_->set_up(comm);
-}
-void PressureAmg::gather(FlowTile& tile, const float* v) { work_->gather(tile, v); }
-void PressureAmg::common(MPI_Comm comm) {
-  work_->multigrid->cycle(work_->right, work_->pressure);
-  work_->exchange.fetch(work_->numbering, work_->pressure, 1, work_->other, comm);
-}
-void PressureAmg::apply(const Piece& piece) { work_->apply(piece); }
 
 }  // namespace spindrift::aero

@@ -1,10 +1,10 @@
 // Two stages: pressure by algebraic multigrid, then block ILU of each tile for what is left,
 //   z = p + ILU^-1 (v - A p),   p = AMG(A_pp)^-1 (w . v)
 // with the pressure equation of a cell made by that combination w of its five rows which the inverse of its diagonal block gives:
-// velocities and temperature of the cell are eliminated (SIMPLE's Schur complement cell by cell; "alternate block factorisation" of
-// Bank et al. 1989, "constrained pressure residual" of Wallis 1983). What is elliptic in a flow at low Mach numbers is global and
-// goes to multigrid, what is carried by the flow is local and goes to ILU. Turbulence unknowns stay with ILU.
-// Made by make_preconditioner(); tested in tests/src/aero/flow/pressure_amg_test.cpp. SPDX-License-Identifier: Apache-2.0
+// velocities and temperature of the cell are eliminated (SIMPLE's Schur complement cell by cell; "alternate block factorisation"
+// of Bank et al. 1989, "constrained pressure residual" of Wallis 1983). What is elliptic in a flow at low Mach numbers is global
+// and goes to multigrid, what is carried by the flow is local and goes to ILU. Turbulence unknowns stay with ILU. Called by
+// make_preconditioner(); tested in tests/src/aero/flow/coarse_correction_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -13,22 +13,6 @@
 
 namespace spindrift::aero {
 
-class PressureAmg final : public Preconditioner {
- public:
-  explicit PressureAmg(const PreconditionerOptions& options);
-  ~PressureAmg() override;
-  void attach(GridStore& grid, std::span<FlowTile> tiles) override;
-  void refresh(FlowTile& tile) override;
-  void apply(const Piece& piece) override;
-  bool has_common() const override { return true; }
-  void gather(FlowTile& tile, const float* v) override;
-  void refresh_common(MPI_Comm comm) override;
-  void begin() override;
-  void common(MPI_Comm comm) override;
-
- private:
-  struct Work;
-  std::unique_ptr<Work> work_;
-};
+std::unique_ptr<Preconditioner> make_pressure_amg(const PreconditionerOptions& options);
 
 }  // namespace spindrift::aero

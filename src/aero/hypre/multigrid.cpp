@@ -122,9 +122,8 @@ Multigrid::Multigrid(const SparseRows& rows, const MultigridOptions& o, MPI_Comm
   HYPRE_BoomerAMGSetCoarsenType(h.amg, 10);  // HMIS
   HYPRE_BoomerAMGSetInterpType(h.amg, 6);    // extended+i: what HMIS needs
   HYPRE_BoomerAMGSetPMaxElmts(h.amg, 4);
-  HYPRE_BoomerAMGSetStrongThreshold(h.amg, o.strength);
-  HYPRE_BoomerAMGSetAggNumLevels(h.amg, o.aggressive_levels);
-  HYPRE_BoomerAMGSetNumSweeps(h.amg, o.sweeps);
+  HYPRE_BoomerAMGSetStrongThreshold(h.amg, 0.25);
+  HYPRE_BoomerAMGSetNumSweeps(h.amg, 1);
   HYPRE_BoomerAMGSetRelaxType(h.amg, 6);  // hybrid symmetric Gauss-Seidel; the coarsest level by elimination
   HYPRE_BoomerAMGSetCycleRelaxType(h.amg, 9, 3);
   HYPRE_BoomerAMGSetRelaxOrder(h.amg, 0);
@@ -132,7 +131,7 @@ Multigrid::Multigrid(const SparseRows& rows, const MultigridOptions& o, MPI_Comm
   if (o.smoother == MultigridOptions::Smoother::ilu) {
     HYPRE_BoomerAMGSetSmoothType(h.amg, 5);
     HYPRE_BoomerAMGSetSmoothNumLevels(h.amg, 25);
-    HYPRE_BoomerAMGSetSmoothNumSweeps(h.amg, o.sweeps);
+    HYPRE_BoomerAMGSetSmoothNumSweeps(h.amg, 1);
     HYPRE_BoomerAMGSetILUType(h.amg, 0);  // of each process's own rows
     HYPRE_BoomerAMGSetILULevel(h.amg, 0);
     HYPRE_BoomerAMGSetILUMaxIter(h.amg, 1);

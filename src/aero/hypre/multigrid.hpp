@@ -2,7 +2,7 @@
 // elliptic problem. The one place that hands a communicator to hypre; nothing of hypre is seen in this header.
 // hypre keeps global state: one call at a time in a process, from collective tasks or between runs. Its coarse grids depend on the
 // number of processes, so results are equal across ranks to tolerance, and to the bit across threads and reruns.
-// Called by src/aero/flow; tested in tests/src/aero/hypre/multigrid_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Called by src/aero/flow; tested in tests/src/aero/flow (poisson_test, coarse_correction_test). SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <mpi.h>
@@ -27,11 +27,8 @@ struct MultigridOptions {
     gauss_seidel,  ///< hybrid symmetric: Gauss-Seidel within a process, Jacobi between
     ilu            ///< ILU(0) of each process's rows: for systems that are no M-matrices
   };
-  int functions = 1;       ///< unknowns of a point, one after the other in the rows; above 1 each is coarsened for itself
-  double strength = 0.25;  ///< couplings weaker than this share of a row's largest are not coarsened along
-  Smoother smoother = Smoother::gauss_seidel;
-  int sweeps = 1;          ///< of the smoother, before and after each coarser level
-  int aggressive_levels = 0;  ///< on so many of the finest levels two steps of coarsening at once: cheaper, weaker
+  int functions = 1;  ///< unknowns of a point, one after the other in the rows; above 1 each is coarsened for itself
+  Smoother smoother = Smoother::gauss_seidel;  ///< once before and once after each coarser level
 };
 
 class Multigrid {
