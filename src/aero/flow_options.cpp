@@ -117,8 +117,12 @@ const scene::Section<FlowOptions>& flow_section() {
           .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.", between(1, 1e6))
           .only_if("time", {"bdf1", "bdf2"})
           .integer("coarse_steps", &FlowOptions::coarse_steps, "-",
-                   "Pseudo-steps on a grid of half the resolution of [aero.grid], whose flow a steady march then begins with; 0: none.",
+                   "Pseudo-steps on a coarser grid, whose flow a steady march then begins with: of half the resolution of [aero.grid]; else of every second "
+                   "node, and there the drop still counts from the wind's residual on the fine grid. 0: none.",
                    between(0, 1e6))
+          .only_if("time", {"steady"})
+          .number("coarse_drop", &FlowOptions::coarse_drop, "-", "Drop of the density residual that ends the march on every second node sooner.",
+                  between(0.0, 1.0))
           .only_if("time", {"steady"})
           .choice("krylov", &FlowOptions::krylov,
                   {{"gmres", KrylovMethod::gmres, "GMRES, one set of vectors"},

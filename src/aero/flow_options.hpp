@@ -51,7 +51,8 @@ struct FlowOptions {
   int group_cells = 8, direct_groups = 512, common_every = 1;  ///< of preconditioners with a common part
   std::string wall_distance = "exact";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, load_change = 0.0;
-  int coarse_steps = 0;  ///< on a coarser rotor grid, before the march
+  int coarse_steps = 0;  ///< on a coarser grid, before the march
+  double coarse_drop = 1e-5;
   int max_pseudo_steps = 500, krylov_steps = 20, refresh_every = 1;
   double krylov_drop = 0.05, matrix_free_below = 1e-2;
   bool surfaces = true;

@@ -25,7 +25,6 @@ void check_aero(const AeroOptions& o, const scene::Report& report) {
     if (o.grid && (file || made)) report(file ? "flow.grid" : "flow.generate", "is given beside [aero.grid], the grid of a rotor: one of the two");
     if (!o.grid && !file && !made) report("flow.grid", "must be given, or [aero.flow.generate], or for a rotor [aero.grid]");
   }
-  if (o.flow && o.flow->coarse_steps > 0 && !o.grid) report("flow.coarse_steps", "has no effect without [aero.grid], whose grid is made twice");
   constexpr double least = 2.0;  // half of it makes a grid within the limits of quality at any pitch
   if (o.flow && o.flow->coarse_steps > 0 && o.grid && o.grid->resolution < least)
     report("grid.resolution", fmt::format("= {} must be at least {} with flow.coarse_steps, whose grid has half of it", o.grid->resolution, least));

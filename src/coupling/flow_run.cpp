@@ -18,8 +18,10 @@
 #include "src/aero/flow/choice.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow/poisson.hpp"
+#include "src/aero/flow/transfer.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
+#include "src/aero/grid/coarsen.hpp"
 #include "src/aero/grid/wall_distance.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/aero/wind.hpp"
@@ -32,6 +34,7 @@
 #include "src/io/history.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/io/progress.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
 
@@ -73,33 +76,75 @@ struct Air {
       begin(o.start);
       return;
     }
-    aero::MultiBlockGrid& grid = own_grid;
-    grid = aero::flow_grid(o);
+    solve_on(aero::flow_grid(o), s, world);
+    const std::string why = o.coarse_steps > 0 ? aero::why_not_halved(own_grid) : std::string();
+    if (!why.empty())
+      throw scene::SceneError({{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", o.coarse_steps),
+                                fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
+  }
+  /// On the grid of every second node, all of it on this rank.
+  Air(const Air& fine, const Scenario& s) {
+    Scenario coarse = s;
+    aero::FlowOptions& o = *coarse.aero.flow;
+    o.drop = o.coarse_drop;
+    if (o.preconditioner == "auto") o.preconditioner = aero::FlowOptions().preconditioner;
+    solve_on(aero::halved(fine.own_grid), coarse, {.comm = MPI_COMM_SELF, .rank = 0, .size = 1}, o.coarse_steps);
+  }
+  void solve_on(aero::MultiBlockGrid grid, const Scenario& s, const runtime::World& world, int steps = steady_chunk) {
+    const aero::FlowOptions& o = *s.aero.flow;
+    own_grid = std::move(grid);
     const std::vector<std::string> walls = aero::wall_patches(o);
-    aero::Tiling tiling = aero::make_tiling(grid, walls);
+    aero::Tiling tiling = aero::make_tiling(own_grid, walls);
     std::vector<aero::PatchCondition> conditions = aero::patch_conditions(o, tiling);
     std::vector<int> ranks(std::size_t(tiling.size()), 0);
     if (world.size > 1) ranks = runtime::partition_blocks(aero::tile_graph(tiling), {.ranks = world.size}).rank_of_block;
     own_store = std::make_unique<aero::GridStore>(std::move(tiling), std::move(ranks), world.rank);
     store = own_store.get();
-    store->build_all(grid);
+    store->build_all(own_grid);
     std::vector<std::string> no_slip;
     for (const aero::PatchOptions& b : o.boundaries)
       if (aero::sticks(b.condition)) no_slip.push_back(b.patch);
     if (o.wall_distance == "poisson") {
       aero::fill_wall_distance_by_poisson(*store, no_slip, world.comm);
     } else {
-      const aero::WallSurface surface = aero::wall_surface(grid, no_slip);
+      const aero::WallSurface surface = aero::wall_surface(own_grid, no_slip);
       for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
     }
     aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, flow_wind(s), s.time.window_s, aero::wind_profile(s.wind));
-    if (setting.time_order == 0) setting.march.max_steps = steady_chunk;
+    if (setting.time_order == 0) setting.march.max_steps = steps;
     own_solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
     solver = own_solver.get();
     begin(o.start);
   }
   bool steady() const { return solver->setting().time_order == 0; }
 };
+
+void fill_geometry(FlowSolver& solver, MPI_Comm comm) {
+  runtime::Graph geometry(comm);
+  solver.record_geometry(geometry);
+  runtime::Executor(std::move(geometry), {.threads = 1}).run();
+}
+
+/// Grid sequencing of grids that are no rotor's: the flow settles on every second node first; what the drop is counted from stays the
+/// residual of the undisturbed flow on the fine grid. `march` is the fine one's. Every rank makes the same coarse flow for itself.
+void start_on_coarser_grid(const Scenario& s, Air& air, runtime::Executor& march) {
+  air.solver->march().look();
+  march.run();
+  air.solver->clear_rows();
+  Air coarse(air, s);
+  fill_geometry(*coarse.solver, MPI_COMM_SELF);
+  runtime::Graph graph(MPI_COMM_SELF);
+  coarse.solver->record(graph);
+  runtime::Executor(std::move(graph)).run();
+  const aero::March& done = coarse.solver->march();
+  if (done.verdict() == aero::Verdict::failed)
+    throw NumericalFailure(fmt::format("aero: on the coarser grid of the start (aero.flow.coarse_steps): {} (pseudo-step {}, CFL {:.3g}){}",
+                                       done.why(), done.steps(), done.cfl(), coarse.solver->trouble()),
+                           "aero", done.steps(), 0.0);
+  spdlog::info("air: {} pseudo-steps on every second node, {} cells: {}", done.steps(), coarse.solver->cells(), done.why());
+  aero::transfer(*coarse.solver, *air.solver);
+  air.solver->march().begin_after_look();
+}
 
 /// Columns of history.csv and how a row fills them.
 struct FlowColumns {
@@ -230,20 +275,18 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   FlowSolver& solver = *air.solver;
   spdlog::info("air: {} cells in {} tiles of {} blocks, {:.0f} bytes per cell", solver.cells(), air.store->tiling().size(),
                air.blocks(), double(solver.bytes() + air.store->bytes()) / double(std::max(1L, solver.cells())) * world.size);
-  {
-    runtime::Graph geometry(world.comm);
-    solver.record_geometry(geometry);
-    runtime::Executor(std::move(geometry), {.threads = 1}).run();
-  }
+  fill_geometry(solver, world.comm);
   FlowCheckpoints checkpoints(world, air, directory, s);
   if (s.aero.flow->preconditioner == "auto") choose_for(air, checkpoints, directory, world, settings.restart);
-  if (const int steps = s.aero.flow->coarse_steps; steps > 0 && !settings.restart) {
-    const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(s), steps, *air.rotor);
-    spdlog::info("air: {} pseudo-steps on a grid of half the resolution: thrust {:.4g} kN, power {:.4g} MW", steps, 1e-3 * load.thrust, 1e-6 * load.power);
+  const int coarse_steps = settings.restart ? 0 : s.aero.flow->coarse_steps;
+  if (coarse_steps > 0 && air.rotor) {
+    const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(s), coarse_steps, *air.rotor);
+    spdlog::info("air: {} pseudo-steps on a grid of half the resolution: thrust {:.4g} kN, power {:.4g} MW", coarse_steps, 1e-3 * load.thrust, 1e-6 * load.power);
   }
   runtime::Graph graph(world.comm);
   solver.record(graph);
   runtime::Executor executor(std::move(graph));
+  if (coarse_steps > 0 && !air.rotor) start_on_coarser_grid(s, air, executor);
 
   io::Summary summary;
   io::History history;

@@ -68,6 +68,19 @@ class FlowRun(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual((self.out / "history.csv").read_bytes(), (two / "history.csv").read_bytes())
 
+    def test_a_coarser_start_is_logged_and_a_restarted_march_has_the_same_digits(self):
+        scene = CASES / "cylinder_low_mach/cylinder.toml"
+        options = ["--no-report", "--set", "aero.flow.coarse_steps=40", "--set", "checkpoint.interval_s=20.0"]
+        done = spindrift("run", scene, "--out", self.out, *options, "--until", 60)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("pseudo-steps on every second node", (self.out / "log.txt").read_text())
+        parts = self.out.parent / "parts"
+        spindrift("run", scene, "--out", parts, *options, "--until", 20)
+        done = spindrift("run", scene, "--out", parts, *options, "--until", 60, "--restart")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual((self.out / "history.csv").read_bytes(), (parts / "history.csv").read_bytes())
+        self.assertGreater(len(self.history()), 21)
+
     def test_the_automatic_preconditioner_is_written_down_and_kept(self):
         case = CASES / "cylinder_low_mach/cylinder.toml"
         options = ["--no-report", "--set", "aero.flow.preconditioner='auto'"]
@@ -102,6 +115,11 @@ class FlowRun(unittest.TestCase):
         self.assertIn("flat_plate", done.stdout + done.stderr)
         done = spindrift("run", CASES / "cylinder_low_mach/cylinder.toml", "--out", self.out, "--set", "aero.flow.generate.kind='bump'")
         self.assertEqual(done.returncode, 2)
+        done = spindrift("run", CASES / "cylinder_low_mach/cylinder.toml", "--out", self.out, "--set", "aero.flow.coarse_steps=9",
+                         "--set", "aero.flow.generate.outward=33")
+        self.assertEqual(done.returncode, 2)
+        for words in ("aero.flow.coarse_steps", "every second node", "33 cells"):
+            self.assertIn(words, done.stdout + done.stderr)
 
 
 if __name__ == "__main__":

@@ -8,12 +8,49 @@ namespace spindrift::aero {
 
 void March::begin_step() {
   steps_ = rejections_ = in_a_row_ = 0;
-  last_step_ = o_.max_steps;
+  last_step_ = looking_ ? 0 : o_.max_steps;
   first_ = before_ = 0.0;
   matrix_free_ = retry_ = spent_ = false;
   fraction_ = 1.0, linear_drop_ = 0.0;
   loads_.clear();
   cfl_of_matrix_ = 0.0;
+}
+
+void March::begin_after_look() {
+  reference_ = density_;
+  looking_ = false;
+  begin_step();
+  verdict_ = Verdict::go_on;
+}
+
+std::vector<double> March::save() const {
+  std::vector<double> all{cfl_,
+                          density_,
+                          mass_,
+                          first_,
+                          before_,
+                          fraction_,
+                          linear_drop_,
+                          double(steps_),
+                          double(rejections_),
+                          double(in_a_row_),
+                          double(krylov_),
+                          double(since_refresh_),
+                          drop_of_matrix_,
+                          double(matrix_free_),
+                          double(loads_.size())};
+  all.insert(all.end(), loads_.begin(), loads_.end());
+  all.resize(all.size() + std::size_t(o_.load_window) + 1 - loads_.size(), 0.0);
+  return all;
+}
+
+void March::load(std::span<const double> from) {
+  cfl_ = from[0], density_ = from[1], mass_ = from[2], first_ = from[3], before_ = from[4], fraction_ = from[5],
+  linear_drop_ = from[6];
+  steps_ = int(from[7]), rejections_ = int(from[8]), in_a_row_ = int(from[9]), krylov_ = int(from[10]),
+  since_refresh_ = int(from[11]);
+  drop_of_matrix_ = from[12], matrix_free_ = from[13] != 0.0;
+  loads_.assign(from.begin() + 15, from.begin() + 15 + std::ptrdiff_t(from[14]));
 }
 
 void March::resume(int more_steps) {
@@ -46,7 +83,10 @@ Verdict March::judge(const Norms& n, double load) {
     return verdict_ = Verdict::rejected;
   }
   density_ = density, mass_ = std::sqrt(n.mass / n.cells);
-  if (fresh) first_ = density, before_ = total;
+  if (fresh) {
+    first_ = std::max(density, reference_), before_ = total;
+    if (reference_ > 0.0) cfl_ = std::clamp(o_.cfl_start * first_ / density, cfl_, std::max(cfl_, o_.cfl_max));
+  }
   first_ = std::max(first_, density);  // what an impulsive start stirs up counts as the start
   if (!fresh && !retry_) {
     in_a_row_ = 0;
@@ -72,6 +112,7 @@ Verdict March::judge(const Norms& n, double load) {
     why_ = why;
     return verdict_ = Verdict::converged;
   };
+  if (int(loads_.size()) > o_.load_window) loads_.erase(loads_.begin());
   loads_.push_back(load);
   if (steps_ > o_.min_steps) {
     if (density <= o_.drop * first_) return done("the density residual fell by the drop asked for");

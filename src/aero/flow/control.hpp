@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,13 @@ class March {
   /// A steady march goes on where it was, for at most so many more steps.
   void resume(int more_steps);
   void set_drop(double drop) { o_.drop = drop; }
+  /// The next run judges the state it finds and makes no step ...
+  void look() { looking_ = true; }
+  /// ... and the one after it begins anew with another state, but what its residual was then counts as the start of its drop.
+  void begin_after_look();
+  /// All that decisions follow from, for a restart of a steady march.
+  std::vector<double> save() const;
+  void load(std::span<const double> from);
   /// After each residual.
   Verdict judge(const Norms& norms, double load);
   /// After each update: the fraction of it that was applied, and the Krylov iterations it took.
@@ -70,7 +78,6 @@ class March {
   long krylov_total() const { return krylov_total_; }
   double fraction() const { return fraction_; }
   double linear_drop() const { return linear_drop_; }
-  void set_cfl(double cfl) { cfl_ = cfl; }
   const MarchOptions& options() const { return o_; }
 
  private:
@@ -80,7 +87,8 @@ class March {
   long krylov_total_ = 0;
   int since_refresh_ = 0;
   double cfl_of_matrix_ = 0.0, drop_of_matrix_ = 0.0;
-  bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false;
+  double reference_ = 0.0;  ///< least density residual that counts as that of the start
+  bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false, looking_ = false;
   Verdict verdict_ = Verdict::go_on;
   const char* why_ = "";
   std::vector<double> loads_;

@@ -651,7 +651,8 @@ void FlowSolver::load(int owned, std::span<const double> from) {
   for_saved(tiles_[std::size_t(owned)], setting_.time_order, [&](double& value) { value = from[n++]; });
 }
 std::vector<double> FlowSolver::save_march() const {
-  std::vector<double> all{march_.cfl(), double(time_steps_), dt_before_};
+  std::vector<double> all = march_.save();
+  all.insert(all.end(), {double(time_steps_), dt_before_});
   if (!moves()) return all;
   all.push_back(double(poses_before_.size()));
   for (const auto* poses : {&poses_before_, &poses_})
@@ -662,15 +663,16 @@ std::vector<double> FlowSolver::save_march() const {
   return all;
 }
 void FlowSolver::load_march(std::span<const double> from) {
-  march_.set_cfl(from[0]);
-  time_steps_ = std::int64_t(from[1]);
-  dt_before_ = from[2];
+  march_.load(from);
+  from = from.subspan(march_.save().size());
+  time_steps_ = std::int64_t(from[0]);
+  dt_before_ = from[1];
   if (!moves()) return;
   constexpr std::size_t numbers = 12;
-  const std::size_t first = std::size_t(from[3]), given = (from.size() - 4) / numbers;
+  const std::size_t first = std::size_t(from[2]), given = (from.size() - 3) / numbers;
   std::vector<BlockPose> all(given);
   for (std::size_t n = 0; n < given; ++n) {
-    const double* at = from.data() + 4 + n * numbers;
+    const double* at = from.data() + 3 + n * numbers;
     all[n].map.rotation = Eigen::Map<const Eigen::Matrix3d>(at);
     all[n].map.translation = Eigen::Map<const Eigen::Vector3d>(at + 9);
   }
