@@ -1,7 +1,8 @@
-// The law of the wall as a table over the logarithm of the distance in wall units, and what it makes of a first cell that stands in it.
-// Each closure has its own law, found by wall_layer.hpp: laws of other closures or of measurements stand up to 1 u_tau beside it, which is
-// 8 % of the friction (docs/developer/air.md). Called by src/aero/flow (sweep_gradients, sweep_viscous, sweep_model_of) for walls with a
-// wall function; tested in tests/kernels/turbulence/wall_law_test.cpp. SPDX-License-Identifier: Apache-2.0
+// The law of the wall as a table over the logarithm of the distance in wall units, and what it makes of a first cell that stands
+// in it. Each closure has its own law, found by wall_layer.hpp: laws of other closures or of measurements stand up to 1 u_tau
+// beside it, which is 8 % of the friction (docs/developer/air.md). Called by src/aero/flow (sweep_gradients, sweep_viscous,
+// sweep_model_of) for walls with a wall function; tested in tests/kernels/turbulence/wall_law_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <array>
@@ -9,7 +10,8 @@
 
 namespace spindrift::turbulence {
 
-/// In wall units: lengths over nu/u_tau, velocities over u_tau, k over u_tau^2, omega over u_tau^2/nu. Points at `lowest` exp(n step).
+/// In wall units: lengths over nu/u_tau, velocities over u_tau, k over u_tau^2, omega over u_tau^2/nu. Points at `lowest` exp(n
+/// step).
 struct WallLaw {
   static constexpr int points = 400;
   static constexpr double lowest = 0.05, highest = 1e4;
@@ -25,7 +27,8 @@ struct WallLaw {
     const At a = at(y);
     if (a.n == points - 1) return velocity_at[points - 1] + rise_at[points - 1] * std::log(y / highest);
     const double s = a.share, h = step(), left = velocity_at[a.n], right = velocity_at[a.n + 1];
-    return left + s * s * (3.0 - 2.0 * s) * (right - left) + s * (1.0 - s) * h * ((1.0 - s) * rise_at[a.n] - s * rise_at[a.n + 1]);
+    return left + s * s * (3.0 - 2.0 * s) * (right - left) +
+           s * (1.0 - s) * h * ((1.0 - s) * rise_at[a.n] - s * rise_at[a.n + 1]);
   }
   /// d u+ / d y+: that of velocity().
   double slope(double y) const {
@@ -34,9 +37,11 @@ struct WallLaw {
     if (a.n == points - 1) return rise_at[points - 1] / y;
     const double s = a.share, h = step();
     const double chord = (velocity_at[a.n + 1] - velocity_at[a.n]) / h;
-    return (6.0 * s * (1.0 - s) * chord + (1.0 - s) * (1.0 - 3.0 * s) * rise_at[a.n] - s * (2.0 - 3.0 * s) * rise_at[a.n + 1]) / y;
+    return (6.0 * s * (1.0 - s) * chord + (1.0 - s) * (1.0 - 3.0 * s) * rise_at[a.n] - s * (2.0 - 3.0 * s) * rise_at[a.n + 1]) /
+           y;
   }
-  /// k falls with the cube of the distance below the table, omega rises with its inverse square; above it k stays, omega goes as 1/y.
+  /// k falls with the cube of the distance below the table, omega rises with its inverse square; above it k stays, omega goes as
+  /// 1/y.
   double k(double y) const {
     if (y <= lowest) return std::exp(log_k[0]) * (y / lowest) * (y / lowest) * (y / lowest);
     return std::exp(between(log_k, at(y)));

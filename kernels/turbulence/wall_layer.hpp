@@ -1,10 +1,10 @@
-// A closure's own law of the wall: the layer of constant stress, (1 + nu_t+) du+/dy+ = 1, with the closure's transport equations in wall
-// units, solved on points that are equally far apart in log y+ (0.05 to 1e4). A wall function that is to give the friction of the
-// resolved wall must hold that law (Kalitzin, Medic, Iaccarino & Durbin 2005, J. Comput. Phys. 204, 265, who tabulate it likewise).
-// Conditions: nu_tilde = 0, omega = 6 / (beta y+^2) (Wilcox 1988) and no flux of k at the wall; above, the logarithmic layer: nu_tilde ~ y, k
-// constant, omega ~ 1/y. Called by src/aero/flow (sweep_model_of) once per closure that a wall function goes with; tested in
-// tests/kernels/turbulence/wall_law_test.cpp against the solution of Allmaras, Johnson & Spalart (2012) for Spalart-Allmaras and the profile
-// of NASA's flat plate for SST. SPDX-License-Identifier: Apache-2.0
+// A closure's own law of the wall: the layer of constant stress, (1 + nu_t+) du+/dy+ = 1, with the closure's transport equations
+// in wall units, solved on points that are equally far apart in log y+ (0.05 to 1e4). A wall function that is to give the
+// friction of the resolved wall must hold that law (Kalitzin, Medic, Iaccarino & Durbin 2005, J. Comput. Phys. 204, 265, who
+// tabulate it likewise). Conditions: nu_tilde = 0, omega = 6 / (beta y+^2) (Wilcox 1988) and no flux of k at the wall; above, the
+// logarithmic layer: nu_tilde ~ y, k constant, omega ~ 1/y. Called by src/aero/flow (sweep_model_of) once per closure that a wall
+// function goes with; tested in tests/kernels/turbulence/wall_law_test.cpp against the solution of Allmaras, Johnson & Spalart
+// (2012) for Spalart-Allmaras and the profile of NASA's flat plate for SST. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/turbulence/model.hpp"
@@ -33,7 +33,8 @@ struct WallLayer {
     for (int i = 0; i < points; ++i) {
       const auto at = std::size_t(i);
       y[at] = WallLaw::place(i);
-      const double damping = 1.0 - std::exp(-y[at] / 26.0), eddy = 0.41 * y[at] * damping * damping;  // van Driest's, to start from
+      const double damping = 1.0 - std::exp(-y[at] / 26.0),
+                   eddy = 0.41 * y[at] * damping * damping;  // van Driest's, to start from
       slope[at] = 1.0 / (1.0 + eddy);
       if constexpr (n == 1) {
         q[0][at] = 0.41 * y[at];
@@ -98,7 +99,8 @@ struct WallLayer {
     for (int m = 0; m < n; ++m) {
       const auto c = std::size_t(m);
       Column diagonal, above, right;
-      double spread_below = n == 1 ? diffusivity[0][c] / y[0] : 0.0;  // of the first point: nu_tilde = 0 on the wall, no flux of k
+      double spread_below =
+          n == 1 ? diffusivity[0][c] / y[0] : 0.0;  // of the first point: nu_tilde = 0 on the wall, no flux of k
       for (std::size_t i = 0; i < points; ++i) {
         const double width = y[i] * (half - 1.0 / half), J = jacobian[i].m[m][m], time = rate_of_time * slope[i];
         // Above the last point the turbulent part of the diffusivity goes on as y.

@@ -1,5 +1,5 @@
-// Closures' own laws of the wall: against what is published of them, linear at the wall, logarithmic away from it, inverted to rounding.
-// SPDX-License-Identifier: Apache-2.0
+// Closures' own laws of the wall: against what is published of them, linear at the wall, logarithmic away from it, inverted to
+// rounding. SPDX-License-Identifier: Apache-2.0
 #include "kernels/turbulence/wall_law.hpp"
 
 #include <catch2/catch.hpp>
@@ -47,18 +47,20 @@ TEMPLATE_LIST_TEST_CASE("Spalart-Allmaras and its kin have the published law of 
   }
 }
 
-// NASA's Turbulence Modeling Resource, flat plate, SST-V, x = 0.97 (flatplate_u+y+_sstv.dat, 545 x 385 nodes). The plate's stress falls away
-// from the wall, by some per cent at y+ 100: the layer of constant stress lies below by as much.
+// NASA's Turbulence Modeling Resource, flat plate, SST-V, x = 0.97 (flatplate_u+y+_sstv.dat, 545 x 385 nodes). The plate's stress
+// falls away from the wall, by some per cent at y+ 100: the layer of constant stress lies below by as much.
 TEST_CASE("SST has the law of the wall that codes find on a flat plate", "[turbulence][fast]") {
-  const std::pair<double, double> published[]{{0.92, .922642}, {2.15, 2.15143}, {4.95, 4.85054}, {8.48, 7.42862}, {15.94, 10.2625},
-                                              {29.51, 12.5261}, {48.15, 14.0888}, {69.47, 15.1748}, {100.19, 16.2138}};
+  const std::pair<double, double> published[]{{0.92, .922642},  {2.15, 2.15143},  {4.95, 4.85054},
+                                              {8.48, 7.42862},  {15.94, 10.2625}, {29.51, 12.5261},
+                                              {48.15, 14.0888}, {69.47, 15.1748}, {100.19, 16.2138}};
   for (const auto [y, u] : published) {
     CAPTURE(y);
     CHECK(law<SstV>().velocity(y) == Approx(u).epsilon(0.01));
   }
 }
 
-TEMPLATE_LIST_TEST_CASE("every closure's layer converges and is logarithmic away from the wall", "[turbulence][fast]", Transported) {
+TEMPLATE_LIST_TEST_CASE("every closure's layer converges and is logarithmic away from the wall", "[turbulence][fast]",
+                        Transported) {
   const WallLaw& w = law<TestType>();
   CAPTURE(TestType::name, layer<TestType>().health.steps);
   CHECK(layer<TestType>().health.change < 1e-10);
@@ -73,7 +75,8 @@ TEMPLATE_LIST_TEST_CASE("every closure's layer converges and is logarithmic away
   }
 }
 
-TEMPLATE_LIST_TEST_CASE("k and omega of the logarithmic layer and of the sublayer are the known ones", "[turbulence][fast]", TwoEquations) {
+TEMPLATE_LIST_TEST_CASE("k and omega of the logarithmic layer and of the sublayer are the known ones", "[turbulence][fast]",
+                        TwoEquations) {
   const WallLaw& w = law<TestType>();
   CAPTURE(TestType::name);
   for (const double y : {1e3, 1e4, 1e5}) {
