@@ -114,6 +114,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
       const PatchCondition& c = conditions_.at(std::size_t(where.patch));
       const bool law = c.condition == Condition::wall_law;
       if (law && model_->equations == 0) throw std::invalid_argument("flow: the law of the wall goes with models that transport turbulence");
+      if (law) t.wall_law = &model_->wall_law();
       t.boundaries.push_back({where, law ? Condition::no_slip : c.condition, c.loads, law});
     }
     const int unknowns = t.unknowns();

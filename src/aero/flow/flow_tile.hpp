@@ -10,6 +10,7 @@
 
 #include "kernels/grid/layout.hpp"
 #include "kernels/linear/stencil_matrix.hpp"
+#include "kernels/turbulence/wall_law.hpp"
 #include "src/aero/grid/aligned.hpp"
 #include "src/aero/grid/store.hpp"
 #include "src/aero/grid/tiling.hpp"
@@ -46,6 +47,7 @@ struct FlowTile {
   BoxLayout inner;          ///< no ghosts
   linear::CellBox box;
   std::vector<FlowBoundary> boundaries;
+  const turbulence::WallLaw* wall_law = nullptr;  ///< of the closure; where a boundary has `law`
 
   AlignedArray<double> state;          ///< unknowns
   AlignedArray<double> trial;          ///< perturbed state of matrix-free products; between pseudo-steps the state before the last one

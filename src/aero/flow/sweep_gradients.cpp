@@ -74,7 +74,7 @@ void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::Idea
       const double n[3] = {f.nx, f.ny, f.nz};
       const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
       if (!(cell.speed > 0.0)) return;
-      const double rate = turbulence::wall_law_rate(cell.speed, cell.distance, cell.mu / cell.rho) / cell.speed;
+      const double rate = turbulence::wall_law_rate(*tile.wall_law, cell.speed, cell.distance, cell.mu / cell.rho) / cell.speed;
       double* at = tile.gradients.data() + tile.gradient_box.at(k, j, i);
       double now[3], along_wall = 0.0;
       for (int v = 0; v < 3; ++v) {
@@ -128,7 +128,7 @@ void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::Ide
       if (boundary.law) {
         // The face's share is such that half the difference of cell and ghost over the distance gives the law's friction.
         const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
-        ghost[eddy * c] += 2.0 * (turbulence::wall_viscosity(cell.speed, cell.distance, cell.rho, cell.mu) - cell.mu);
+        ghost[eddy * c] += 2.0 * (turbulence::wall_viscosity(*tile.wall_law, cell.speed, cell.distance, cell.rho, cell.mu) - cell.mu);
       }
       for (int t = 0; t < carried; ++t) ghost[(eddy + 2 + t) * c] = 2.0 * wall_spread[std::size_t(t)] * mu - at[(eddy + 2 + t) * c];
     });

@@ -23,6 +23,7 @@ struct ModelSweeps {
   void (*multiply)(FlowTile& tile, const float* x, float* y) = nullptr;
   void (*wall)(const double* inside, double nu, double distance, double* ghost) = nullptr;
   std::array<double, 2> (*far_field)(double nu, double speed, double sound_speed) = nullptr;
+  const turbulence::WallLaw& (*wall_law)() = nullptr;  ///< the closure's own law of the wall, solved for when first asked for
 };
 
 /// By the name in the scene; "none" has no functions. Throws where no model has the name.

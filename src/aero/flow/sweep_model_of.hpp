@@ -5,7 +5,7 @@
 #include "kernels/gas/preconditioner.hpp"
 #include "kernels/linear/stencil_matrix.hpp"
 #include "kernels/turbulence/model.hpp"
-#include "kernels/turbulence/wall_law.hpp"
+#include "kernels/turbulence/wall_layer.hpp"
 #include "src/aero/flow/boundary.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
 #include "src/aero/flow/sweep_model.hpp"
@@ -146,7 +146,17 @@ struct SweepsOf : ClosuresOf<Model> {
     if constexpr (n == 2) hold_wall_cells(tile, state, residual, s);
   }
 
-  /// Calls body(k, j, i, first cell, omega of the law) for the cells at walls with a wall function.
+  /// k [m2/s2] and omega [1/s] of the closure's own layer at a distance.
+  struct LawTurbulence {
+    double k, omega;
+    /// A wall where nothing moves has the sublayer's omega.
+    static LawTurbulence of(const turbulence::WallLaw& law, double u, double distance, double nu) {
+      if (!(u > 0.0)) return {0.0, 6.0 * nu / (Model::wall_beta * distance * distance)};
+      const double y_plus = u * distance / nu;
+      return {u * u * law.k(y_plus), u * u / nu * law.omega(y_plus)};
+    }
+  };
+  /// Calls body(k, j, i, first cell, turbulence of the law) for the cells at walls with a wall function.
   template <class Body>
   static void for_law_cells(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Body&& body) {
     for (const FlowBoundary& boundary : tile.boundaries) {
@@ -154,23 +164,24 @@ struct SweepsOf : ClosuresOf<Model> {
       const Side side = boundary.where.side;
       for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
         const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
-        const double nu = cell.mu / cell.rho, u = turbulence::friction_velocity(cell.speed, cell.distance, nu);
-        body(k, j, i, cell, u, turbulence::wall_omega(u, cell.distance, nu, Model::wall_beta));
+        const double nu = cell.mu / cell.rho, u = turbulence::friction_velocity(*tile.wall_law, cell.speed, cell.distance, nu);
+        body(k, j, i, cell, LawTurbulence::of(*tile.wall_law, u, cell.distance, nu));
       });
     }
   }
   /// In first cells of walls with a wall function omega is the law's, by a source that leaves nothing else, and k is made at the
-  /// law's rate: with the model's own, mu_t times the law's slope squared, any k would balance its destruction.
+  /// rate at which the law's own layer destroys it: in the logarithmic layer that is its production, below it diffusion's share too, so that k
+  /// is the law's there. With the model's own production, mu_t times the law's slope squared, any k would balance its destruction.
   static void hold_wall_cells(FlowTile& tile, const double* state, double* residual, const ViscousSetting& s) {
-    for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, double u, double omega) {
+    for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, const LawTurbulence& law) {
       const int row = i / row_lanes * row_lanes;
       const Cell cell = load_cell(tile, state, s, k, j, row);
       const double volume = tile.geometry->volume_data.data()[tile.geometry->cell_box.at(k, j, i)];
-      const double q[2] = {cell.model.q[0][i - row], cell.model.q[1][i - row]}, nu = wall.mu / wall.rho;
+      const double q[2] = {cell.model.q[0][i - row], cell.model.q[1][i - row]};
       double* to = residual + tile.inner.at(k, j, i) + mean_unknowns * tile.inner.component;
-      const double made = wall.rho * turbulence::wall_law_production(u, wall.distance, nu);
-      to[0] += volume * (Model{}.source(cell.flow, cell.model).rate[0][i - row] - made + Model::beta_star * wall.rho * q[0] * q[1]);
-      to[tile.inner.component] = volume * wall.rho * omega * (q[1] - omega);
+      const double destroyed = Model::beta_star * wall.rho * (q[0] * q[1] - law.k * law.omega);
+      to[0] += volume * (Model{}.source(cell.flow, cell.model).rate[0][i - row] + destroyed);
+      to[tile.inner.component] = volume * wall.rho * law.omega * (q[1] - law.omega);
     });
   }
 
@@ -253,12 +264,12 @@ struct SweepsOf : ClosuresOf<Model> {
       });
     }
     if constexpr (n == 2)
-      for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, double, double omega) {
+      for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, const LawTurbulence& law) {
         const std::ptrdiff_t cell = (std::ptrdiff_t(k) * box.nj + j) * box.ni + i;
         for (int slot = 0; slot < 2 + 2 * tile.directions; ++slot) a.block(cell, slot)[1] = a.block(cell, slot)[3] = 0.0f;
         const double volume = g.volume_data.data()[g.cell_box.at(k, j, i)];
         const double time = tile.rate.data()[tile.inner.at(k, j, i)] / cfl + volume * s.physical_rate;
-        a.block(cell, 0)[3] = float(unit[1][1] * wall.rho * (time + volume * omega));
+        a.block(cell, 0)[3] = float(unit[1][1] * wall.rho * (time + volume * law.omega));
       });
   }
 
@@ -276,9 +287,13 @@ struct SweepsOf : ClosuresOf<Model> {
     for (std::size_t m = 0; m < std::size_t(n); ++m) all[m] = values[m];
     return all;
   }
+  static const turbulence::WallLaw& wall_law() {
+    static const turbulence::WallLaw law = turbulence::WallLayer<Model>().law();
+    return law;
+  }
   static ModelSweeps table() {
     ModelSweeps t = Base::table();
-    t.equations = n, t.residual = residual, t.matrix = matrix, t.multiply = multiply, t.wall = wall, t.far_field = far_field;
+    t.equations = n, t.residual = residual, t.matrix = matrix, t.multiply = multiply, t.wall = wall, t.far_field = far_field, t.wall_law = wall_law;
     const gas::Vector<double> none{0.0, 0.0, 0.0};
     turbulence::Turbulence<double, n> still{};  // on the wall: nothing but what makes the model's quotients defined
     if constexpr (n == 2) still.q[1] = 1.0;

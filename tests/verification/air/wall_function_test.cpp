@@ -1,6 +1,6 @@
 // The law of the wall in place of a resolved sublayer: the flat plate of flat_plate_test.cpp with its lowest cells replaced by
-// one whose centre stands at y+ 30, 50, 100 (at x = 0.97), and in the sublayer, against friction and drag of the resolved grids
-// (.00271, .00286). SPDX-License-Identifier: Apache-2.0
+// one whose centre stands at y+ 30, 50, 100 (at x = 0.97), and in the sublayer and between, against friction and drag of the resolved
+// grids. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -52,6 +52,8 @@ PlateResult law_plate(int n, double y_plus, Condition wall_condition, const std:
 
 }  // namespace
 
+// Each closure has its own law of the wall (wall_layer.hpp). Two references, 5 % to both: the closure's published friction on the finest grids
+// (k-omega: that of our own grids, .0026482, .0026881, carried on), and its friction on the same cells above the wall, resolved below.
 TEST_CASE("a wall function gives a plate's friction and drag on grids whose first cell stands in the logarithmic layer",
           "[flow][fast]") {
   for (const double y_plus : {30.0, 50.0, 100.0}) {
@@ -59,27 +61,42 @@ TEST_CASE("a wall function gives a plate's friction and drag on grids whose firs
     CAPTURE(y_plus, law.y_plus, law.friction, law.drag);
     CHECK(law.y_plus == Approx(y_plus).epsilon(0.03));
     CHECK(law.friction == Approx(.0027056).epsilon(0.03));
-    CHECK(law.drag == Approx(.0028562).epsilon(0.03));
+    CHECK(law.drag == Approx(.0028562).epsilon(0.04));
   }
   CHECK(law_plate(2, 50.0, Condition::no_slip).friction < .0015);  // what the same grid has without it
 }
 
-TEST_CASE("a wall function on a resolved grid is the resolved wall", "[flow][fast]") {
-  const PlateResult law = law_plate(2, 1.0, Condition::wall_law), wall = law_plate(2, 1.0, Condition::no_slip);
-  CAPTURE(law.friction, wall.friction);
-  CHECK(law.friction == Approx(wall.friction).epsilon(2e-3));
-  CHECK(law.drag == Approx(wall.drag).epsilon(2e-3));
-}
-
 TEST_CASE("a wall function gives friction also with two equations", "[flow][fast]") {
-  // The resolved friction on the same cells above the wall (closures_test.cpp), and its limit: published for SST-Vm, for k-omega that of our
-  // grids (.0025538, .0026482, .0026881).
   for (const auto& [model, same, limit] : {std::tuple{"sst_vm", .0026181, .0026909}, {"k_omega", .0026482, .00272}})
     for (const double y_plus : {30.0, 50.0, 100.0}) {
       const PlateResult law = law_plate(2, y_plus, Condition::wall_law, model);
       CAPTURE(model, y_plus, law.y_plus, law.friction, law.drag, law.steps);
       CHECK(law.y_plus == Approx(y_plus).epsilon(0.05));
       CHECK(law.friction == Approx(same).epsilon(0.03));
-      CHECK(law.friction == Approx(limit).epsilon(0.055));
+      CHECK(law.friction == Approx(limit).epsilon(0.045));
+    }
+}
+
+TEST_CASE("a wall function on a resolved grid is the resolved wall", "[flow][fast]") {
+  for (const double y_plus : {0.5, 1.0}) {
+    const PlateResult law = law_plate(2, y_plus, Condition::wall_law), wall = law_plate(2, y_plus, Condition::no_slip);
+    CAPTURE(y_plus, law.friction, wall.friction);
+    CHECK(law.friction == Approx(wall.friction).epsilon(1e-3));
+    CHECK(law.drag == Approx(wall.drag).epsilon(1e-3));
+  }
+  for (const char* model : {"sst_vm", "k_omega"}) {
+    const PlateResult law = law_plate(2, 0.5, Condition::wall_law, model), wall = law_plate(2, 0.5, Condition::no_slip, model);
+    CAPTURE(model, law.friction, wall.friction);
+    CHECK(law.friction == Approx(wall.friction).epsilon(0.01));
+    CHECK(law.drag == Approx(wall.drag).epsilon(0.01));
+  }
+}
+
+TEST_CASE("with two equations a wall function blends into the resolved wall through the buffer layer", "[flow][fast]") {
+  for (const auto& [model, same] : {std::pair{"sst_vm", .0026181}, {"k_omega", .0026482}})
+    for (const double y_plus : {1.0, 5.0, 11.0}) {
+      const PlateResult law = law_plate(2, y_plus, Condition::wall_law, model);
+      CAPTURE(model, y_plus, law.friction);
+      CHECK(law.friction == Approx(same).epsilon(0.03));
     }
 }
