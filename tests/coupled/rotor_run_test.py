@@ -46,7 +46,7 @@ class RotorRun(unittest.TestCase):
         rows = self.table("spanwise.csv")
         self.assertGreater(len(rows), 8)
         thrusts = [row["rotor.thrust_N"] for row in self.table("history.csv")][-13:]  # the last third, as the summary's means
-        self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in rows) / (sum(thrusts) / len(thrusts)), 1.0, places=9)
+        self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in rows) / (sum(thrusts) / len(thrusts)), 1.0, places=5)  # lengths have six digits
 
     def test_a_turning_rotor_has_columns_by_blade_and_restarts_with_the_same_digits(self):
         whole = [*TINY, *TURNING, "aero.grid.sectors=all"]
