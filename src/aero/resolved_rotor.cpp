@@ -19,8 +19,6 @@ namespace spindrift::aero {
 
 namespace {
 
-constexpr int span_components = 6;  // force by pressure, by friction
-
 RigidMap map_of(const RotorPose& pose) { return {pose.attitude().toRotationMatrix(), pose.hub.position}; }
 
 /// Patches that the scene does not name: blades are as asked for (slip without friction), the hub slips, the rest is the far field.
@@ -101,6 +99,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
     setting.frame_centre = rotor.hub_m;
   }
   solver_ = std::make_unique<FlowSolver>(*store_, setting, std::move(conditions));
+  solver_->gather_bands(rows_of_faces());
   if (!steady()) place(turned(-1), turned(0));
 }
 
@@ -178,51 +177,41 @@ RotorLoad ResolvedRotor::load() const {
   return about_hub(force, moment + pose_.hub.position.cross(force), true);
 }
 
-std::vector<SpanLoad> ResolvedRotor::span_loads(MPI_Comm comm) {
-  std::vector<const BladeStation*> all;
+LoadBands ResolvedRotor::rows_of_faces() const {
+  int count = 0;
   std::vector<int> first_of_block(grid_.blocks.size(), -1);  // station of k = 0
   for (const auto& blade : stations_)
     for (const BladeStation& s : blade) {
-      if (first_of_block[std::size_t(s.block)] < 0) first_of_block[std::size_t(s.block)] = int(all.size()) - s.k;
-      all.push_back(&s);
+      if (first_of_block[std::size_t(s.block)] < 0) first_of_block[std::size_t(s.block)] = count - s.k;
+      ++count;
     }
-  const std::size_t width = all.size() * span_components;
-  if (!sums_) {  // ordered over tiles: the same bits on any ranks
-    span_partials_.resize(solver_->tiles().size() * width), span_sums_.resize(width);
-    for (const FlowTile& tile : solver_->tiles()) parts_.push_back(tile.index);
-    runtime::Graph graph(comm);
-    const runtime::Datum partials = graph.datum(), sums = graph.datum();
-    graph.task("aero/rotor/span", {runtime::writes(partials)}, [this, first_of_block, width] {
-      std::fill(span_partials_.begin(), span_partials_.end(), 0.0);
-      for (std::size_t n = 0; n < solver_->tiles().size(); ++n) {
-        const FlowTile& tile = solver_->tiles()[n];
-        const Tile& from = store_->tiling().tiles[std::size_t(tile.index)];
-        const int first = first_of_block[std::size_t(from.block)];
-        if (first < 0) continue;
-        solver_->wall_forces(tile, [&](const FlowBoundary& b, int k, int j, int i, const Eigen::Vector3d& pressure,
-                                       const Eigen::Vector3d& friction) {
-          if (!b.loads) return;
-          double* at = span_partials_.data() + n * width + std::size_t(first + from.to_block({i, j, k})[2]) * span_components;
-          for (int c = 0; c < 3; ++c) at[c] += pressure[c], at[3 + c] += friction[c];
-        });
-      }
-    });
-    graph.reduce("aero/rotor/span_sums", {runtime::reads(partials), runtime::writes(sums)},
-                 {.parts = parts_, .partials = span_partials_, .result = span_sums_});
-    sums_ = std::make_unique<runtime::Executor>(std::move(graph), runtime::ExecutorOptions{.threads = 1});
-  }
-  sums_->run();
+  return {count, [&tiling = store_->tiling(), first_of_block](const FlowTile& tile, int k, int j, int i) {
+            const Tile& from = tiling.tiles[std::size_t(tile.index)];
+            const int first = first_of_block[std::size_t(from.block)];
+            return first < 0 ? -1 : first + from.to_block({i, j, k})[2];
+          }};
+}
+
+std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const double> sums) const {
+  int count = 0;
+  for (const auto& blade : stations_) count += int(blade.size());
   std::vector<SpanLoad> loads;
   const Eigen::Matrix3d to_rotor = pose_.attitude().toRotationMatrix().transpose();
-  std::size_t n = 0;
   for (std::size_t blade = 0; blade < stations_.size(); ++blade)
     for (const BladeStation& s : stations_[blade]) {
-      const double* at = span_sums_.data() + n++ * span_components;
-      const Eigen::Vector3d pressure = to_rotor * Eigen::Vector3d(at[0], at[1], at[2]),
-                            friction = to_rotor * Eigen::Vector3d(at[3], at[4], at[5]);
+      const BandLoads band = band_loads(sums, count, int(loads.size()));
+      const Eigen::Vector3d pressure = to_rotor * Eigen::Map<const Eigen::Vector3d>(band.pressure_force.data()),
+                            friction = to_rotor * Eigen::Map<const Eigen::Vector3d>(band.viscous_force.data());
       loads.push_back({int(blade) + 1, s.radius, s.length, s.chord, load_at(s, pressure + friction), load_at(s, friction)});
     }
   return loads;
+}
+
+std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const PseudoRow> rows) const {
+  std::vector<double> mean(solver_->load_sums().size(), 0.0);
+  for (const PseudoRow& row : rows)
+    for (std::size_t n = 0; n < mean.size(); ++n) mean[n] += row.loads[n] / double(rows.size());
+  return span_loads(std::span<const double>(mean));
 }
 
 // ---- windows

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,8 +70,9 @@ class ResolvedRotor {
   RotorLoad blade_load(int blade) const;
   RotorLoad blade_load(int blade, const PseudoRow& row) const;
   int grid_blades() const { return int(stations_.size()); }
-  /// Along the blades of the grid from root to tip, the same on every rank. Collective over `comm`.
-  std::vector<SpanLoad> span_loads(MPI_Comm comm);
+  /// Along the blades of the grid from root to tip, the same on every rank: after the last march, or the mean over rows of it.
+  std::vector<SpanLoad> span_loads() const { return span_loads(solver_->load_sums()); }
+  std::vector<SpanLoad> span_loads(std::span<const PseudoRow> rows) const;
 
   // For whoever couples: a window may be tried, undone and tried again.
   /// Records the march on the ranks of `comm`; needed by advance().
@@ -89,6 +91,8 @@ class ResolvedRotor {
   void restore(const Snapshot& from);
 
  private:
+  LoadBands rows_of_faces() const;
+  std::vector<SpanLoad> span_loads(std::span<const double> sums) const;
   std::vector<BlockPose> block_poses(const RotorPose& pose, double pitch) const;
   RotorLoad blade_load(const PatchLoads& loads) const;
   RotorLoad about_hub(const Eigen::Vector3d& force, const Eigen::Vector3d& moment, bool all) const;
@@ -101,9 +105,7 @@ class ResolvedRotor {
   std::unique_ptr<BladePitching> pitching_;
   std::unique_ptr<GridStore> store_;
   std::unique_ptr<FlowSolver> solver_;
-  std::unique_ptr<runtime::Executor> march_, sums_;
-  std::vector<double> span_partials_, span_sums_;
-  std::vector<std::int64_t> parts_;
+  std::unique_ptr<runtime::Executor> march_;
   RotorPose start_, pose_, pose_before_;
   double pitch_ = 0.0, pitch_before_ = 0.0;
 };

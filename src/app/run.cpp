@@ -31,7 +31,7 @@ io::RunDirectory open_directory(const RunArguments& arguments, MPI_Comm world) {
 
 /// Over which the summary gives means: the whole run, and (the one that the report shows) the end of it.
 std::vector<io::TimeRange> mean_ranges(const coupling::Scenario& scenario, double end_s) {
-  const double length = scenario.output.means_over_s > 0.0 ? std::min(scenario.output.means_over_s, end_s) : end_s / 3.0;
+  const double length = scenario.output.mean_length(end_s);
   return {{"whole_run", 0.0, end_s}, {fmt::format("last_{:g}_s", length), end_s - length, end_s}};
 }
 

@@ -127,8 +127,7 @@ void AirOutput::write_walls(std::int64_t number, double time_s) {
   walls_->write(number, time_s, values);
 }
 
-void write_span(const runtime::World& world, aero::ResolvedRotor& rotor, const io::RunDirectory& directory) {
-  const std::vector<aero::SpanLoad> loads = rotor.span_loads(world.comm);
+void write_span(const runtime::World& world, const std::vector<aero::SpanLoad>& loads, const io::RunDirectory& directory) {
   if (world.rank != 0) return;
   std::string text = "blade,radius_m,length_m,chord_m,normal_N_m,tangential_N_m,friction_normal_N_m,friction_tangential_N_m\n";
   for (const aero::SpanLoad& s : loads)

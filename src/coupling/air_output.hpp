@@ -36,7 +36,7 @@ class AirOutput {
   std::vector<int> first_block_;  ///< of walls_, by tile
 };
 
-/// Loads along the blades as they are: spanwise.csv. Collective over `world`.
-void write_span(const runtime::World& world, aero::ResolvedRotor& rotor, const io::RunDirectory& directory);
+/// Loads along the blades: spanwise.csv.
+void write_span(const runtime::World& world, const std::vector<aero::SpanLoad>& loads, const io::RunDirectory& directory);
 
 }  // namespace spindrift::coupling

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <fstream>
 #include <iterator>
 
@@ -313,6 +314,13 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     history.write();
   };
 
+  // A steady flow that separates somewhere goes on swinging: its loads along the span are means over the steps of the summary's means.
+  std::deque<aero::PseudoRow> last_rows;
+  const auto averaged = [&](std::int64_t windows) {
+    return std::size_t(std::max(1.0, std::round(s.output.mean_length(timeline.window_end_s(windows)) / s.time.window_s)));
+  };
+  const std::size_t most_rows = averaged(last);
+
   double march_seconds = 0.0;
   bool settled = false;
   while (number < last && summary.exit_code == 0 && !settled) {
@@ -324,7 +332,11 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     if (air.steady()) {
       // The last row of a chunk that goes on is judged, and written, by the next.
       const std::size_t count = solver.rows().size() - (march.spent() ? 1 : 0);
-      for (std::size_t n = 0; n < count && number < last; ++n) write_row(solver.rows()[n], timeline.window_end_s(++number));
+      for (std::size_t n = 0; n < count && number < last; ++n) {
+        write_row(solver.rows()[n], timeline.window_end_s(++number));
+        last_rows.push_back(solver.rows()[n]);
+        if (last_rows.size() > most_rows) last_rows.pop_front();
+      }
       settled = march.verdict() == aero::Verdict::converged && !march.spent();
       solver.keep_last_row();
     } else {
@@ -345,7 +357,11 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   history.flush();
   if (saved != number) checkpoints.save(number, number, summary.restarts);
   AirOutput(world.comm, solver, *air.store, directory.fields(), {.walls = s.aero.flow->surfaces}).write(number, timeline.window_end_s(number));
-  if (air.rotor) write_span(world, *air.rotor, directory);
+  if (air.rotor && number > first) {  // a restart that has nothing left to do leaves what there is
+    while (last_rows.size() > averaged(number)) last_rows.pop_front();
+    const std::vector<aero::PseudoRow> rows(last_rows.begin(), last_rows.end());
+    write_span(world, rows.empty() ? air.rotor->span_loads() : air.rotor->span_loads(rows), directory);
+  }
 
   if (summary.exit_code == 0)
     summary.exit_reason = !air.steady() ? "done" : settled ? fmt::format("done: {}", solver.march().why()) : "done: the pseudo-steps of the scene are spent";

@@ -87,7 +87,7 @@ const scene::Section<OutputOptions>& output_section() {
           .integer("history_every", &OutputOptions::history_every, "-", "Windows from one row of history.csv to the next.",
                    scene::between(1, 1e9))
           .number("means_over_s", &OutputOptions::means_over_s, "s",
-                  "Length of the time before the end over which summary.json gives means; 0: the last third of the run.",
+                  "Length of the time before the end over which summary.json, and spanwise.csv of a steady flow, give means; 0: the last third of the run.",
                   scene::between(0.0, 1e6))
           .number("air_interval_s", &OutputOptions::air_interval_s, "s",
                   "Resolved rotor on a body: simulated time between fields of its air; 0: at the end alone.", scene::between(0.0, 1e6));

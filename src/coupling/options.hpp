@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -44,6 +45,8 @@ struct OutputOptions {
   std::string title;
   int history_every = 1;
   double means_over_s = 0.0;  ///< 0: the last third of the run
+  /// Length of the end of a run over which means are taken [s].
+  double mean_length(double end_s) const { return means_over_s > 0.0 ? std::min(means_over_s, end_s) : end_s / 3.0; }
   double air_interval_s = 0.0;  ///< between fields of the resolved air; 0: at the end alone
 };
 

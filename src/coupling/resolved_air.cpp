@@ -160,7 +160,7 @@ class ResolvedAir final : public AirSide {
                                           AirOutput::Choice{.walls = setup_.flow.surfaces, .moves = true, .resume_s = resume_s});
   }
   void write_fields(std::int64_t number, double t) override { output_->write(number, t); }
-  void write_span() override { coupling::write_span(world_, *rotor_, *directory_); }
+  void write_span() override { coupling::write_span(world_, rotor_->span_loads(), *directory_); }
   std::vector<std::string> news() override { return std::exchange(news_, {}); }
 
  private:

@@ -130,6 +130,32 @@ TEST_CASE("what the air answers is what the bodies feel, and its motion from a f
   CHECK(count == heard.answers.size());
 }
 
+TEST_CASE("wind that grows with height tilts a rotor whose air has settled in the wind of its hub", "[coupled][air][fast]") {
+  // The settled flow is that of the hub's wind; the rest of the profile is added to it, and from the first window on the upper blade has more load.
+  double tilt[2], thrust[2];
+  for (const bool grows : {false, true}) {
+    std::vector<std::string> settings = quick;
+    if (grows) settings.insert(settings.end(), {"wind.profile='power_law'", "wind.shear_exponent=0.2", "wind.reference_height_m=119.0"});
+    Machine machine(on_platform(tiny + "sectors = \"all\"\n", settings));
+    const aero::RotorState first = machine.rotor()->state(0.0, make_start(machine).state.motions);
+    const std::unique_ptr<AirSide> air = make_air(machine, first, alone);
+    air->begin(0.0, first);
+    runtime::Graph graph;
+    REQUIRE(air->record(graph));
+    runtime::Executor executor(std::move(graph));
+    aero::RotorState s = first;
+    s.azimuth += 0.1 * s.speed;
+    air->aim(0.1, 0.1, s);
+    executor.run();
+    const aero::RotorLoad load = air->answer();
+    tilt[grows] = load.moment.y(), thrust[grows] = load.thrust;
+  }
+  CAPTURE(tilt[0], tilt[1], thrust[0], thrust[1]);
+  CHECK(tilt[1] - tilt[0] > 0.01 * thrust[0] * 89.0);
+  CHECK(tilt[1] - tilt[0] < 0.15 * thrust[0] * 89.0);
+  CHECK(thrust[1] == Approx(thrust[0]).epsilon(0.05));
+}
+
 TEST_CASE("thrust falls as the hub of the demo's rotor moves downwind", "[coupled][air][nightly]") {
   // Hub at -1 and +1 m/s from t = 0 on, after the air has settled. The first second sees the wake of the hub at rest.
   Machine machine(on_platform("sectors = \"one\"\n", {"aero.flow.cfl_max=100.0", "aero.flow.drop=1e-2",

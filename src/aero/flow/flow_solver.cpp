@@ -147,6 +147,13 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   preconditioner_->attach(grid_, tiles_);
 }
 
+void FlowSolver::gather_bands(LoadBands bands) {
+  if (!pieces_.empty()) throw std::logic_error("flow: bands of loads come before the march is recorded");
+  bands_ = std::move(bands);
+  const std::size_t sums = std::max<std::size_t>(1, conditions_.size()) * load_components + std::size_t(bands_.count) * band_components;
+  load_partials_.resize(tiles_.size() * sums), loads_.resize(sums);
+}
+
 void FlowSolver::start_uniform() {
   start([this](const Eigen::Vector3d& x) { return stream_at(setting_.stream, setting_.profile, x.z()); });
 }
@@ -380,7 +387,7 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
     partial[0] += density, partial[1] += mean, partial[2] += model, partial[4] += mass;
   });
   std::fill(loads.begin(), loads.end(), 0.0);
-  add_loads(tile, tile.state.data(), viscous_, boundary_, loads);
+  add_loads(tile, tile.state.data(), viscous_, bands_, loads);
 }
 
 /// One place where the march goes on, back, or ends: after the sums over all cells.

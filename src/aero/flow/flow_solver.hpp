@@ -77,7 +77,7 @@ struct PseudoRow {
   bool matrix_free = false;
   std::array<double, 3> force{};   ///< of all patches with loads [N]
   std::array<double, 3> moment{};  ///< likewise, about the origin [N m]
-  std::vector<double> loads{};     ///< by patch: see patch_loads
+  std::vector<double> loads{};     ///< by patch, see patch_loads, then by band, see band_loads
 };
 
 class FlowSolver {
@@ -135,6 +135,8 @@ class FlowSolver {
     preconditioner_ = std::move(preconditioner);
     preconditioner_->attach(grid_, tiles_);
   }
+  /// Bands whose loads each judgement sums beside those of the patches; before record().
+  void gather_bands(LoadBands bands);
   /// Records one march: the whole steady solution, or one physical step. See tasks.cpp.
   void record(runtime::Graph& graph);
   /// Records what fills ghost volumes and centres from other ranks; to be run once, and after each motion of the grid.
@@ -158,7 +160,8 @@ class FlowSolver {
   }
   /// Where a march failed on this rank: block, cell and the limit that bound there; empty where none did.
   const std::string& trouble() const { return trouble_; }
-  /// Loads by patch, the same on every rank.
+  /// Loads by patch and by band as last judged, the same on every rank.
+  std::span<const double> load_sums() const { return loads_; }
   PatchLoads loads(int patch) const { return patch_loads(loads_, patch); }
   const std::vector<PatchCondition>& conditions() const { return conditions_; }
   /// What is seen on the walls of a tile of this rank.
@@ -167,8 +170,6 @@ class FlowSolver {
     gather_wall(tile, tile.state.data(), viscous_, boundary_, points);
     return points;
   }
-  /// Force of the flow on each wall face of a tile of this rank, see for_wall_forces.
-  void wall_forces(const FlowTile& tile, const WallForceFunction& body) const { for_wall_forces(tile, tile.state.data(), viscous_, body); }
   /// Physical steps since the start.
   std::int64_t time_steps() const { return time_steps_; }
   void set_time_step(double dt, double dt_before);
@@ -263,6 +264,7 @@ class FlowSolver {
   double direction_size_ = 0.0, fraction_ = 1.0;
   bool solving_ = false, matrix_free_ = false;
   std::vector<PseudoRow> rows_;
+  LoadBands bands_;
   std::function<void(const PseudoRow&)> watcher_;
   /// The cell of each tile that limits its update most, and by what.
   struct Limit {

@@ -34,8 +34,15 @@ PatchLoads patch_loads(std::span<const double> sums, int patch) {
   return loads;
 }
 
-void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting&,
-               std::span<double> partial) {
+BandLoads band_loads(std::span<const double> sums, int bands, int band) {
+  BandLoads loads;
+  const double* at = sums.data() + sums.size() - std::size_t(bands - band) * band_components;
+  for (std::size_t c = 0; c < 3; ++c) loads.pressure_force[c] = at[c], loads.viscous_force[c] = at[3 + c];
+  return loads;
+}
+
+void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands, std::span<double> partial) {
+  double* first_band = partial.data() + partial.size() - std::size_t(bands.count) * band_components;
   for_walls(tile, state, viscous,
             [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p, const Eigen::Vector3d& friction) {
               if (!boundary.loads) return;
@@ -44,13 +51,10 @@ void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& 
               const Eigen::Vector3d moment = face_centre(*tile.geometry, boundary.where.side, k, j, i).cross(push + friction);
               double* at = partial.data() + std::size_t(boundary.where.patch) * load_components;
               for (int c = 0; c < 3; ++c) at[c] += push[c], at[3 + c] += friction[c], at[6 + c] += moment[c];
-            });
-}
-
-void for_wall_forces(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const WallForceFunction& body) {
-  for_walls(tile, state, viscous,
-            [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p, const Eigen::Vector3d& friction) {
-              body(boundary, k, j, i, p * f.area * Eigen::Vector3d(f.nx, f.ny, f.nz), friction);
+              const int band = bands.count > 0 ? bands.of(tile, k, j, i) : -1;
+              if (band < 0) return;
+              at = first_band + band * band_components;
+              for (int c = 0; c < 3; ++c) at[c] += push[c], at[3 + c] += friction[c];
             });
 }
 

@@ -20,15 +20,21 @@ struct PatchLoads {
 inline constexpr int load_components = 9;
 PatchLoads patch_loads(std::span<const double> sums, int patch);
 
-/// Adds the loads on a tile's walls to partial[patch][component].
-void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting& boundary,
-               std::span<double> partial);
+/// Wall faces gathered into bands that cross patches or divide them: the rows of faces along a blade.
+struct LoadBands {
+  int count = 0;
+  std::function<int(const FlowTile&, int k, int j, int i)> of;  ///< of the cell at a wall face of a patch with loads; -1: none
+};
+/// On a band, earth axes.
+struct BandLoads {
+  std::array<double, 3> pressure_force{}, viscous_force{};
+};
+inline constexpr int band_components = 6;
+/// `sums`: of the patches, then of the bands, as add_loads fills them.
+BandLoads band_loads(std::span<const double> sums, int bands, int band);
 
-/// Calls body(window, k, j, i, force by pressure, by friction [N]) for each wall face of a tile, its cell (k, j, i); order of the windows,
-/// low directions innermost.
-using WallForceFunction =
-    std::function<void(const FlowBoundary&, int k, int j, int i, const Eigen::Vector3d& pressure, const Eigen::Vector3d& friction)>;
-void for_wall_forces(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const WallForceFunction& body);
+/// Adds the loads on a tile's walls to partial[patch][component] and, behind the patches, to those of the bands.
+void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands, std::span<double> partial);
 
 /// A wall face.
 struct WallPoint {

@@ -37,7 +37,7 @@ TEST_CASE("the demo rotor without friction has the thrust of blade element momen
   CHECK(rotor.solver().march().verdict() == Verdict::converged);
   CHECK(load.thrust == Approx(1507e3).epsilon(0.15));
   double worst = 0.0;
-  for (const SpanLoad& row : rotor.span_loads(MPI_COMM_SELF)) {
+  for (const SpanLoad& row : rotor.span_loads()) {
     const double share = row.radius / 89.166, off = row.load.normal / testing::bem_load(row.radius).normal - 1.0;
     UNSCOPED_INFO("r/R " << share << ": " << row.load.normal << " N/m, off " << off << ", tangential " << row.load.tangential);
     if (share > 0.3 && share < 0.9) worst = std::max(worst, std::abs(off));
@@ -58,7 +58,7 @@ TEST_CASE("the demo rotor's friction by the law of the wall takes power as a rot
     rotor.run();
     const RotorLoad load = rotor.load();
     double friction = 0.0, tangential = 0.0;
-    for (const SpanLoad& row : rotor.span_loads(MPI_COMM_SELF))
+    for (const SpanLoad& row : rotor.span_loads())
       friction += row.friction.tangential * row.length * row.radius, tangential += row.load.tangential * row.length * row.radius;
     share.push_back(friction / tangential);
     CAPTURE(int(blades), load.thrust, load.power, share.back(), rotor.solver().march().steps());
