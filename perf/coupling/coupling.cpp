@@ -11,11 +11,11 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "perf/coupling/alone.hpp"
 #include "perf/harness.hpp"
 #include "runtime/mpi/environment.hpp"
 #include "runtime/trace/efficiency.hpp"
 #include "runtime/trace/trace_of.hpp"
-#include "src/coupling/start.hpp"
 #include "src/coupling/window.hpp"
 #include "src/scene/document.hpp"
 
@@ -23,33 +23,6 @@ using namespace spindrift;
 using namespace spindrift::coupling;
 
 namespace {
-
-/// The sides of a machine, advanced by whole windows with the rotor going on as it does and bodies under the water's loads alone.
-struct Alone {
-  explicit Alone(Machine& m)
-      : machine(m),
-        state(make_start(m).state),
-        air(make_air(m, m.rotor()->state(0.0, state.motions), {MPI_COMM_SELF, 0, 1})),
-        bodies(make_body_side(m)) {
-    air->begin(0.0, m.rotor()->state(0.0, state.motions));
-    rotor = m.rotor()->state(0.0, state.motions);
-  }
-  double window(WindowTasks& tasks, bool with_air, bool with_bodies) {
-    const double dt = machine.timeline().window_s();
-    if (with_air) rotor.azimuth += rotor.speed * dt, air->aim(air_time += dt, dt, rotor);
-    if (with_bodies) bodies->keep(0), bodies->aim(state, state.tick + machine.timeline().steps_per_window());
-    const double s = perf::seconds([&] { tasks.run(with_air, with_bodies); });
-    if (with_air) air->answer();
-    if (with_bodies) state = bodies->finish();
-    return s;
-  }
-  Machine& machine;
-  bodies::BodiesState state;
-  std::unique_ptr<AirSide> air;
-  std::unique_ptr<BodySide> bodies;
-  aero::RotorState rotor;
-  double air_time = 0.0;
-};
 
 /// All ranks come together; who waits leaves the core to the others.
 void meet() {

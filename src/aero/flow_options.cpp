@@ -47,6 +47,7 @@ const scene::Section<FlowOptions>& flow_section() {
                 "Grid file: CGNS (.cgns), or Plot3D, formatted or binary; a two-dimensional one lies in the x-z plane.")
           .path("map", &FlowOptions::map, "Neutral map file of a Plot3D grid: which sides of its blocks meet, which are patches.")
           .table("generate", &FlowOptions::generate, generate_section(), "A grid made by the program, in place of a file.")
+          .table("motion", &FlowOptions::motion, grid_motion_section(), "Walls that turn and heave, in a scene of the air alone.")
           .number("width_m", &FlowOptions::width_m, "m", "Width of a two-dimensional grid.", above(0.0).up_to(1e6))
           .tables("boundaries", &FlowOptions::boundaries, patch_section(), "Conditions by patch; each patch of the grid once.")
           .choice("blades", &FlowOptions::blades,
@@ -144,8 +145,13 @@ const scene::Section<FlowOptions>& flow_section() {
                    "Most groups that are solved by elimination, with bits that no number of ranks changes; more go to algebraic multigrid (hypre).", between(0, 4096))
           .only_if("preconditioner", {"coarse", "auto"})
           .integer("common_every", &FlowOptions::common_every, "-",
-                   "Matrices that one set-up of the coarse correction or of multigrid serves; each physical step begins with a new one.", between(1, 1000))
+                   "Matrices of a physical step, or of a steady march, that one set-up of the coarse correction or of multigrid serves.", between(1, 1000))
           .only_if("preconditioner", {"coarse", "pressure_amg", "auto"})
+          .integer("common_steps", &FlowOptions::common_steps, "-",
+                   "Physical steps whose first common_every matrices one set-up serves: it is made anew in every so many-th step, whatever the restarts. "
+                   "Above 1 it needs common_every of at least max_pseudo_steps (or 1000).",
+                   between(1, 1e6))
+          .only_if("time", {"bdf1", "bdf2"})
           .integer("refresh_every", &FlowOptions::refresh_every, "-",
                    "Pseudo-steps that a matrix of the preconditioner serves where products are matrix-free; less where the CFL number changes by "
                    "a factor of two or the linear systems are solved worse.",
@@ -172,6 +178,13 @@ const scene::Section<FlowOptions>& flow_section() {
                 report("boundaries", fmt::format("patch \"{}\": \"wall_function\" goes with turbulence that is modelled, not \"{}\"", b.patch, o.turbulence));
             if (o.blades == Condition::wall_law && !transports)
               report("blades", fmt::format("\"wall_function\" goes with turbulence that is modelled, not \"{}\"", o.turbulence));
+            if (o.motion && o.time == "steady" && o.motion->oscillates())
+              report("motion", "oscillates, which steady flow cannot follow: take time = \"bdf2\", or pitch_deg alone");
+            const bool common = o.preconditioner == "coarse" || o.preconditioner == "pressure_amg" || o.preconditioner == "auto";
+            if (o.common_steps > 1 && !common) report("common_steps", fmt::format("has no effect with preconditioner \"{}\"", o.preconditioner));
+            if (const int needed = std::min(o.max_pseudo_steps, 1000); common && o.common_steps > 1 && o.common_every < needed)
+              report("common_steps", fmt::format("is {} but common_every {}: later matrices of a step would have set-ups of their own; set common_every to {}", o.common_steps,
+                                                 o.common_every, needed));
             const bool cgns = o.grid.ends_with(".cgns");
             if (o.generate && !o.grid.empty()) report("generate", "is given beside a grid file: one of the two");
             if (!o.generate && !o.grid.empty() && !cgns && o.map.empty()) report("map", "must be given: a Plot3D grid holds coordinates only");
@@ -201,7 +214,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.dt = s.time_order > 0 ? dt : 0.0;
   s.krylov = o.krylov;
   s.preconditioner = o.preconditioner == "auto" ? "block_ilu" : o.preconditioner;  // until chosen
-  s.common = {.group_cells = o.group_cells, .direct_groups = o.direct_groups, .common_every = o.common_every};
+  s.common = {.group_cells = o.group_cells, .direct_groups = o.direct_groups, .common_every = o.common_every, .common_steps = o.time == "steady" ? 1 : o.common_steps};
   s.march = {.cfl_start = o.cfl,
              .cfl_max = std::max(o.cfl, o.cfl_max),
              .drop = o.drop,

@@ -12,6 +12,7 @@
 #include "kernels/rotor/wind_profile.hpp"
 #include "src/aero/flow/flow_tile.hpp"
 #include "src/aero/flow_grid.hpp"
+#include "src/aero/grid_motion_options.hpp"
 
 namespace spindrift::scene {
 template <class Options>
@@ -34,6 +35,7 @@ struct PatchOptions {
 struct FlowOptions {
   std::string grid, map;  ///< paths: Plot3D or CGNS; neutral map of the former
   std::optional<GenerateOptions> generate;
+  std::optional<GridMotionOptions> motion;
   double width_m = 1.0;   ///< of planar grids
   std::vector<PatchOptions> boundaries;
   double temperature_K = 288.15;
@@ -48,7 +50,7 @@ struct FlowOptions {
   std::string time = "steady";
   KrylovMethod krylov{};  ///< GMRES
   std::string preconditioner = "block_ilu";
-  int group_cells = 8, direct_groups = 512, common_every = 1;  ///< of preconditioners with a common part
+  int group_cells = 8, direct_groups = 512, common_every = 1, common_steps = 1;  ///< of preconditioners with a common part
   std::string wall_distance = "exact";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, load_change = 0.0;
   int coarse_steps = 0;  ///< on a coarser grid, before the march

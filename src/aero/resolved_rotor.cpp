@@ -261,6 +261,7 @@ RotorLoad ResolvedRotor::advance(const RotorPose& end, double pitch) {
 ResolvedRotor::Snapshot ResolvedRotor::snapshot() const {
   Snapshot s{.tiles = {},
              .march = solver_->save_march(),
+             .set_up = solver_->save_set_up(),
              .before = pose_before_,
              .now = pose_,
              .pitch_before = pitch_before_,
@@ -272,6 +273,7 @@ ResolvedRotor::Snapshot ResolvedRotor::snapshot() const {
 void ResolvedRotor::restore(const Snapshot& s) {
   for (int n = 0; n < int(s.tiles.size()); ++n) solver_->load(n, s.tiles[std::size_t(n)]);
   solver_->load_march(s.march);
+  solver_->load_set_up(s.set_up);
   pose_before_ = s.before, pose_ = s.now, pitch_before_ = s.pitch_before, pitch_ = s.pitch;
   if (s.pitch_before != 0.0 || s.pitch != 0.0) place(s.before, s.now, s.pitch_before, s.pitch);
 }

@@ -98,6 +98,7 @@ class ResolvedRotor {
   struct Snapshot {
     std::vector<std::vector<double>> tiles;
     std::vector<double> march;
+    FlowSolver::SetUpNote set_up;
     RotorPose before, now;
     double pitch_before = 0.0, pitch = 0.0;
   };

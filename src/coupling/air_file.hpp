@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/mpi/environment.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/coupling/saved_array.hpp"
 
@@ -12,15 +13,18 @@ namespace spindrift::coupling {
 
 class AirFile {
  public:
-  /// Both are to outlive it. `rank`: among those that have the air.
-  AirFile(aero::FlowSolver& solver, const aero::GridStore& store, int rank);
+  /// Both are to outlive it. `world`: of those that have the air; all members are for all of them together.
+  AirFile(aero::FlowSolver& solver, const aero::GridStore& store, const runtime::World& world);
   std::vector<SavedArray> arrays() const;
   /// Throws io::InputError where the file's air has another size.
   void read(const io::CheckpointReader& file) const;
 
  private:
+  /// By tile, and their end: where what the preconditioner's set-up was made of begins; its sizes are known to the owners alone.
+  std::vector<std::int64_t> set_up_starts() const;
+
   aero::FlowSolver& solver_;
-  int rank_;
+  runtime::World world_;
   std::vector<std::int64_t> starts_;  ///< by tile of the tiling
   std::int64_t total_ = 0;
 };

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "src/io/atomic_file.hpp"
@@ -125,6 +127,14 @@ void AirOutput::write_walls(std::int64_t number, double time_s) {
     values.push_back({numbers[m], corners, {pressure, cp, cf, y_plus}});
   }
   walls_->write(number, time_s, values);
+}
+
+void write_choice(const io::RunDirectory& directory, const std::string& preconditioner) {
+  const std::string automatic = "preconditioner = \"auto\"";
+  std::ifstream in(directory.scene());
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (const std::size_t at = text.find(automatic); at != std::string::npos)
+    io::write_atomically(directory.scene(), text.replace(at, automatic.size(), fmt::format("preconditioner = \"{}\"", preconditioner)));
 }
 
 void write_span(const runtime::World& world, const std::vector<aero::SpanLoad>& loads, const io::RunDirectory& directory) {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "src/aero/resolved_rotor.hpp"
@@ -35,6 +36,9 @@ class AirOutput {
   std::unique_ptr<io::GridFields> volume_, walls_;
   std::vector<int> first_block_;  ///< of walls_, by tile
 };
+
+/// scene.toml names what preconditioner = "auto" became, so that it runs alike. By one rank.
+void write_choice(const io::RunDirectory& directory, const std::string& preconditioner);
 
 /// Loads along the blades: spanwise.csv.
 void write_span(const runtime::World& world, const std::vector<aero::SpanLoad>& loads, const io::RunDirectory& directory);

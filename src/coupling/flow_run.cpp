@@ -8,8 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
-#include <fstream>
-#include <iterator>
+#include <optional>
 
 #include "kernels/base/constants.hpp"
 #include "runtime/executor/executor.hpp"
@@ -24,6 +23,7 @@
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/coarsen.hpp"
 #include "src/aero/grid/wall_distance.hpp"
+#include "src/aero/grid_motion.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/aero/wind.hpp"
 #include "src/coupling/air_file.hpp"
@@ -65,6 +65,7 @@ struct Air {
   aero::MultiBlockGrid own_grid;
   std::unique_ptr<aero::GridStore> own_store;
   std::unique_ptr<FlowSolver> own_solver;
+  std::optional<aero::GridMotion> motion;  ///< of an unsteady flow
   aero::GridStore* store = nullptr;
   FlowSolver* solver = nullptr;
 
@@ -78,11 +79,12 @@ struct Air {
       begin(o.start);
       return;
     }
-    solve_on(aero::flow_grid(o), s, world);
-    const std::string why = o.coarse_steps > 0 ? aero::why_not_halved(own_grid) : std::string();
-    if (!why.empty())
+    own_grid = aero::flow_grid(o);
+    if (const std::string why = o.coarse_steps > 0 ? aero::why_not_halved(own_grid) : std::string(); !why.empty())
       throw scene::SceneError({{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", o.coarse_steps),
                                 fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
+    if (o.motion) follow(o);
+    solve(s, world, steady_chunk);
   }
   /// On the grid of every second node, all of it on this rank.
   Air(const Air& fine, const Scenario& s) {
@@ -90,11 +92,12 @@ struct Air {
     aero::FlowOptions& o = *coarse.aero.flow;
     o.drop = o.coarse_drop;
     if (o.preconditioner == "auto") o.preconditioner = aero::FlowOptions().preconditioner;
-    solve_on(aero::halved(fine.own_grid), coarse, {.comm = MPI_COMM_SELF, .rank = 0, .size = 1}, o.coarse_steps);
+    own_grid = aero::halved(fine.own_grid);
+    solve(coarse, {.comm = MPI_COMM_SELF, .rank = 0, .size = 1}, o.coarse_steps);
   }
-  void solve_on(aero::MultiBlockGrid grid, const Scenario& s, const runtime::World& world, int steps = steady_chunk) {
+  /// Tiles and solver on own_grid; at most `steps` pseudo-steps a run where the flow is steady.
+  void solve(const Scenario& s, const runtime::World& world, int steps) {
     const aero::FlowOptions& o = *s.aero.flow;
-    own_grid = std::move(grid);
     const std::vector<std::string> walls = aero::wall_patches(o);
     aero::Tiling tiling = aero::make_tiling(own_grid, walls);
     std::vector<aero::PatchCondition> conditions = aero::patch_conditions(o, tiling);
@@ -102,7 +105,7 @@ struct Air {
     if (world.size > 1) ranks = runtime::partition_blocks(aero::tile_graph(tiling), {.ranks = world.size}).rank_of_block;
     own_store = std::make_unique<aero::GridStore>(std::move(tiling), std::move(ranks), world.rank);
     store = own_store.get();
-    store->build_all(own_grid);
+    store->build_all(own_grid, motion.has_value());
     std::vector<std::string> no_slip;
     for (const aero::PatchOptions& b : o.boundaries)
       if (aero::sticks(b.condition)) no_slip.push_back(b.patch);
@@ -117,6 +120,25 @@ struct Air {
     own_solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
     solver = own_solver.get();
     begin(o.start);
+    if (motion) place(0, s.time.window_s);
+  }
+  /// The grid follows the walls that move: in steady flow at once, else from step to step.
+  void follow(const aero::FlowOptions& o) {
+    std::vector<std::string> held, sliding;
+    for (const aero::PatchOptions& b : o.boundaries) {
+      if (std::ranges::find(o.motion->patches, b.patch) != o.motion->patches.end()) continue;
+      (b.condition == aero::Condition::symmetry ? sliding : held).push_back(b.patch);
+    }
+    motion.emplace(own_grid, *o.motion, held, sliding);
+    spdlog::info("air: {}", motion->description());
+    if (o.time != "steady") return;
+    aero::MultiBlockGrid placed = motion->moved_grid(0.0);
+    motion.reset();
+    own_grid = std::move(placed);
+  }
+  /// Where the walls are after so many windows.
+  void place(std::int64_t number, double window_s) {
+    solver->place(motion->poses(double(number - 1) * window_s), motion->poses(double(number) * window_s));
   }
   bool steady() const { return solver->setting().time_order == 0; }
 };
@@ -152,11 +174,14 @@ void start_on_coarser_grid(const Scenario& s, Air& air, runtime::Executor& march
 struct FlowColumns {
   std::size_t force[3], lift, drag, residual, momentum, model, cfl, krylov, steps;
   const aero::ResolvedRotor* rotor;
+  const aero::GridMotion* motion;
+  std::size_t pitch = 0, heave[3] = {0, 0, 0};
   std::size_t thrust = 0, torque = 0, power = 0, azimuth = 0, rpm = 0;
   std::vector<std::array<std::size_t, 2>> blades;  ///< thrust and torque
 
-  FlowColumns(io::History& history, const aero::ResolvedRotor* of) : rotor(of) {
+  FlowColumns(io::History& history, const aero::ResolvedRotor* of, const aero::GridMotion* moving) : rotor(of), motion(moving) {
     if (rotor) add_rotor(history);
+    if (motion) add_motion(history);
     const char* axes[3] = {"x", "y", "z"};
     for (std::size_t d = 0; d < 3; ++d)
       force[d] = history.add({fmt::format("flow.f{}_N", axes[d]), "N", "Force of the air on the patches with loads, pressure above the undisturbed one."});
@@ -189,7 +214,18 @@ struct FlowColumns {
       row[blades[b][0]] = blade.thrust, row[blades[b][1]] = blade.torque;
     }
   }
-  void fill(std::span<double> row, const FlowSolver& solver, const aero::PseudoRow& p, const aero::FlowOptions& o, const Eigen::Vector3d& wind) const {
+  void add_motion(io::History& history) {
+    pitch = history.add({"flow.pitch_deg", "deg", "Angle of the walls that move, about their axis."});
+    for (std::size_t d = 0; d < 3; ++d)
+      heave[d] = history.add({fmt::format("flow.heave_{}_m", "xyz"[d]), "m", "Their shift."});
+  }
+  void fill_motion(std::span<double> row, double time) const {
+    const aero::TurnAndShift now = motion->at(time);
+    row[pitch] = now.turn.dot(motion->axis()) / radians_per_degree;
+    for (std::size_t d = 0; d < 3; ++d) row[heave[d]] = now.shift[Eigen::Index(d)];
+  }
+  void fill(std::span<double> row, double time, const FlowSolver& solver, const aero::PseudoRow& p, const aero::FlowOptions& o, const Eigen::Vector3d& wind) const {
+    if (motion) fill_motion(row, time);
     const aero::FlowSetting& s = solver.setting();
     const Eigen::Vector3d f(p.force[0], p.force[1], p.force[2]), along = wind.normalized();
     Eigen::Vector3d across = Eigen::Vector3d::UnitZ() - along.z() * along;
@@ -209,7 +245,7 @@ struct FlowColumns {
 class FlowCheckpoints {
  public:
   FlowCheckpoints(const runtime::World& world, const Air& air, const io::RunDirectory& directory, const Scenario& scenario)
-      : series_(world.comm, directory.checkpoints(), scenario.checkpoint.keep), file_(*air.solver, *air.store, world.rank), air_(air), scenario_(scenario),
+      : series_(world.comm, directory.checkpoints(), scenario.checkpoint.keep), file_(*air.solver, *air.store, world), air_(air), scenario_(scenario),
         rank_(world.rank) {}
   void save(std::int64_t tick, std::int64_t window, int restarts) {
     series_.save(tick, [&](io::CheckpointWriter& file) {
@@ -258,13 +294,7 @@ void choose_for(Air& air, FlowCheckpoints& checkpoints, const io::RunDirectory& 
   air.solver->use(aero::make_preconditioner(name, air.solver->setting().common));
   checkpoints.choose(name);
   spdlog::info("air: preconditioner \"{}\" ({})", name, reason);
-  if (world.rank == 0) {
-    const std::string automatic = "preconditioner = \"auto\"";
-    std::ifstream in(directory.scene());
-    std::string text(std::istreambuf_iterator<char>(in), {});
-    if (const std::size_t at = text.find(automatic); at != std::string::npos)
-      io::write_atomically(directory.scene(), text.replace(at, automatic.size(), fmt::format("preconditioner = \"{}\"", name)));
-  }
+  if (world.rank == 0) write_choice(directory, name);
 }
 
 }  // namespace
@@ -292,12 +322,13 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
 
   io::Summary summary;
   io::History history;
-  const FlowColumns columns(history, air.rotor.get());
+  const FlowColumns columns(history, air.rotor.get(), air.motion ? &*air.motion : nullptr);
   std::int64_t number = 0, saved = -1;
   if (settings.restart) {
     number = checkpoints.resume(summary.restarts);
     solver.set_time_step(s.time.window_s, s.time.window_s);
     if (air.rotor && !air.steady()) air.rotor->placed_at(number);
+    if (air.motion) air.place(number, s.time.window_s);
   }
   if (world.rank == 0 && settings.restart)
     history.resume(directory.history(), timeline.window_end_s(number));
@@ -311,7 +342,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   const Eigen::Vector3d wind = flow_wind(s);
   io::Progress progress(timeline.window_end_s(number), timeline.window_end_s(last), io::progress_style(world.rank, settings.quiet));
   const auto write_row = [&](const aero::PseudoRow& row, double time) {
-    columns.fill(history.row(time), solver, row, *s.aero.flow, wind);
+    columns.fill(history.row(time), time, solver, row, *s.aero.flow, wind);
     history.write();
   };
 
@@ -327,6 +358,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   while (number < last && summary.exit_code == 0 && !settled) {
     const auto march_begin = std::chrono::steady_clock::now();
     if (air.rotor && !air.steady()) air.rotor->move_to(air.rotor->turned(number + 1));
+    if (air.motion) solver.move_to(air.motion->poses(double(number + 1) * s.time.window_s));
     executor.run();
     march_seconds += seconds_since(march_begin);
     const aero::March& march = solver.march();

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kernels/base/failure.hpp"
+#include "src/aero/flow/choice.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/coupling/air_file.hpp"
 #include "src/coupling/air_output.hpp"
@@ -55,6 +56,10 @@ aero::ResolvedRotorSetup setup_at(const Machine& machine, const aero::RotorState
   return setup;
 }
 
+/// What preconditioner = "auto" may become, by number in checkpoints.
+constexpr std::array<const char*, 2> choices{"block_ilu", "coarse"};
+constexpr const char* choice_name = "air/preconditioner";
+
 class ResolvedAir final : public AirSide {
  public:
   ResolvedAir(const Machine& machine, const aero::RotorState& now, const runtime::World& world)
@@ -73,8 +78,10 @@ class ResolvedAir final : public AirSide {
       return load_;
     }
     const StartOptions& start = machine_.scenario().start;
+    if (automatic()) choose(start.air_steps > 0);
     const TileStates settled = start.air_steps > 0 ? settle(start.air_steps) : TileStates();
-    make();
+    if (!rotor_) make();
+    tell_size();
     for (std::size_t n = 0; n < settled.size(); ++n) {
       std::vector<double> values(rotor_->solver().saved_size(int(n)));  // the past stays empty: the first step is of first order
       std::ranges::copy(settled[n], values.begin());
@@ -125,11 +132,22 @@ class ResolvedAir final : public AirSide {
     std::vector<SavedArray> arrays = file_->arrays();
     for (SavedArray& array : rotor_arrays(*rotor_, felt_, world_.rank)) arrays.push_back(std::move(array));
     arrays.push_back(answer_array({load_, setup_.dt}, world_.rank));
+    if (machine_.scenario().aero.flow->preconditioner == "auto") {
+      const double number = double(std::ranges::find(choices, setup_.flow.preconditioner) - choices.begin());
+      arrays.push_back({choice_name, 1, {}});
+      if (world_.rank == 0) arrays.back().pieces.push_back({0, {number}});
+    }
     return arrays;
   }
   void restore(const io::CheckpointReader& file) override {
+    if (automatic() && file.has(choice_name)) {
+      setup_.flow.preconditioner = choices.at(std::size_t(file.read<double>(choice_name).at(0)));
+      news_.push_back(fmt::format("air: preconditioner \"{}\" (as before the restart)", setup_.flow.preconditioner));
+    }
     make();
+    tell_size();
     file_->read(file);
+    if (automatic()) choose_for_rotor();  // the run that left it had named one
     felt_ = felt_in(file, size_.sectors);
     const SavedAnswer answer = answer_in(file);
     load_ = answer.load, saved_dt_ = answer.dt;
@@ -157,6 +175,7 @@ class ResolvedAir final : public AirSide {
 
   void open_output(const io::RunDirectory& directory, double resume_s) override {
     directory_ = &directory;
+    if (machine_.scenario().aero.flow->preconditioner == "auto" && world_.rank == 0) write_choice(directory, setup_.flow.preconditioner);
     output_ = std::make_unique<AirOutput>(world_.comm, rotor_->solver(), rotor_->store(), directory.fields(),
                                           AirOutput::Choice{.walls = setup_.flow.surfaces, .moves = true, .resume_s = resume_s});
   }
@@ -171,6 +190,23 @@ class ResolvedAir final : public AirSide {
     aero::RotorLoad load;
     FeltLoad felt;
   };
+
+  /// Whether the preconditioner is still to be chosen.
+  bool automatic() const { return setup_.flow.preconditioner == "auto"; }
+  /// By trial on the flow of the moving rotor as it is.
+  void choose_for_rotor() {
+    const aero::Choice choice = aero::choose_preconditioner(rotor_->solver(), world_.comm);
+    setup_.flow.preconditioner = choice.preconditioner;
+    rotor_->solver().use(aero::make_preconditioner(choice.preconditioner, rotor_->solver().setting().common));
+    news_.push_back(fmt::format("air: preconditioner \"{}\" ({})", choice.preconditioner, choice.reason));
+  }
+  /// In the wind as it comes, before anything settles: so a scene that names the outcome runs alike. The rotor stays unless one is to settle first.
+  void choose(bool settles) {
+    const std::shared_ptr<const aero::MadeRotorGrid> made = grid();
+    make();
+    choose_for_rotor();
+    if (settles) file_.reset(), rotor_.reset(), grid_ = made;
+  }
 
   double share_at_hub() const { return setup_.profile.share(first_.hub.z()); }
   bool whole() const { return setup_.grid.sectors == "all"; }
@@ -266,12 +302,14 @@ class ResolvedAir final : public AirSide {
   void make() {
     rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank, 0, grid(), grid_progress());
     grid_.reset();
-    file_.emplace(rotor_->solver(), rotor_->store(), world_.rank);
+    file_.emplace(rotor_->solver(), rotor_->store(), world_);
     rotor_->solver().start_uniform();
     place_at(state_, setup_.dt);
     runtime::Graph geometry(world_.comm);
     rotor_->solver().record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
+  }
+  void tell_size() {
     news_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB", rotor_->solver().cells(), rotor_->store().tiling().size(),
                                 1e-6 * double(rotor_->solver().bytes() + rotor_->store().bytes()) * world_.size));
   }

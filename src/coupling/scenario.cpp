@@ -170,6 +170,8 @@ Scenario read_scenario(scene::Document& document) {
     if (!(s.has_rotor() && s.resolves_air()) && given)
       document.problem(key, "has no effect: there is no resolved rotor on a body");
   if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
+  if (s.resolves_air() && s.aero.grid && s.aero.flow->motion)
+    document.problem("aero.flow.motion", "has no effect: the grid of a rotor goes with the rotor");
   if (s.has_flow()) {
     if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s), aero::wind_profile(s.wind));
     if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
@@ -180,8 +182,6 @@ Scenario read_scenario(scene::Document& document) {
     return s;
   }
   if (s.resolves_air()) check_resolved_air(document, s);
-  if (s.resolves_air() && s.aero.flow->preconditioner == "auto")
-    document.problem("aero.flow.preconditioner", "\"auto\" is for scenes of the air alone; with bodies name one, \"block_ilu\" or \"coarse\"");
   if (s.coupling.scheme == SchemeKind::automatic)
     s.coupling.scheme = s.resolves_air() ? SchemeKind::cps2 : SchemeKind::monolithic;
   check_coupling(document, s.coupling, s.time);

@@ -98,6 +98,37 @@ class FlowRun(unittest.TestCase):
         self.assertIn(f'air: preconditioner "{name}" (as before the restart)', (self.out / "log.txt").read_text())
         self.assertIn(f'preconditioner = "{name}"', (self.out / "scene.toml").read_text())
 
+    def test_a_grid_that_follows_a_pitching_aerofoil_gives_the_lift_of_one_that_pitches_as_a_whole(self):
+        case, quick = CASES / "pitching_naca0012/pitching.toml", ["--no-report", "--until", "0.0923148"]
+        lifts = {}
+        for grid in ("elliptic", "rigid"):
+            out = self.out.parent / grid
+            done = spindrift("run", case, "--out", out, *quick, "--set", f"aero.flow.motion.grid='{grid}'")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            rows = self.history(out)
+            self.assertEqual(len(rows), 12)
+            self.assertAlmostEqual(rows[9]["flow.pitch_deg"], 2.5, delta=1e-3)
+            lifts[grid] = [row["flow.lift_coefficient"] for row in rows]
+        largest = max(map(abs, lifts["rigid"][2:]))
+        self.assertGreater(largest, 0.1)
+        for one, other in zip(lifts["rigid"][2:], lifts["elliptic"][2:]):
+            self.assertAlmostEqual(one, other, delta=0.02 * largest)
+        # In parts and on two ranks: the same bits.
+        parts = self.out.parent / "parts"
+        done = spindrift("run", case, "--out", parts, "--no-report", "--until", "0.0461574")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        done = spindrift("run", case, "--out", parts, *quick, "--restart", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual((parts / "history.csv").read_bytes(), (self.out.parent / "elliptic/history.csv").read_bytes())
+
+    def test_a_motion_that_cannot_be_is_refused(self):
+        case = CASES / "pitching_naca0012/pitching.toml"
+        for setting, words in (("aero.flow.motion.patches=['blade']", 'no patch "blade"'), ("aero.flow.time='steady'", "oscillates"),
+                               ("aero.flow.motion.heave_amplitude_m=[0.0, 0.0, 40.0]", "cells fold")):
+            done = spindrift("run", case, "--out", self.out, "--set", setting)
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertIn(words, done.stdout + done.stderr)
+
     def test_distances_by_poisson_leave_the_drag_of_a_plate(self):
         done = spindrift("run", CASES / "flat_plate/flat_plate.toml", "--out", self.out, "--set", "aero.flow.generate.refinement=1",
                          "--set", "aero.flow.drop=1e-4", "--set", "aero.flow.wall_distance='poisson'")

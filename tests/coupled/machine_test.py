@@ -189,6 +189,37 @@ class MachineRun(Machine):
             self.spindrift(ENGINEERING, scheme + "_parts", "--restart", settings=settings, threads=3)
             self.assertEqual(self.text(scheme), self.text(scheme + "_parts"))
 
+    # A set-up of the preconditioner's common part serves two windows of three pseudo-steps; stopped in the middle of its life.
+    KEPT = ["aero.flow.common_every=3", "aero.flow.common_steps=2", "time.end_s=0.5"]
+
+    def test_a_coarse_correction_kept_over_windows_gives_the_same_bits_however_it_is_run(self):
+        self.check_bits(ENGINEERING, ["aero.flow.preconditioner='coarse'", "aero.flow.group_cells=4", *self.KEPT], 0.3)
+
+    def test_multigrid_kept_over_windows_gives_the_same_bits_on_threads_and_after_restarts(self):
+        coarse = ["aero.flow.preconditioner='coarse'", "aero.flow.group_cells=4", "aero.flow.direct_groups=0"]
+        for n, form in enumerate([coarse, ["aero.flow.preconditioner='pressure_amg'"]]):
+            for scheme in ("cps2", "aitken"):  # which repeats windows
+                name, settings = f"{scheme}_{n}", [*form, *self.KEPT, f"coupling.scheme='{scheme}'"]
+                self.spindrift(ENGINEERING, name, settings=settings, threads=3)
+                self.spindrift(ENGINEERING, name + "_parts", "--until", 0.3, settings=settings)
+                self.spindrift(ENGINEERING, name + "_parts", "--restart", settings=settings, threads=2)
+                self.assertEqual(self.text(name), self.text(name + "_parts"))
+
+    def test_the_automatic_preconditioner_is_chosen_once_and_kept(self):
+        auto = ["aero.flow.preconditioner='auto'"]
+        self.spindrift(ENGINEERING, "auto", "--until", 0.3, settings=auto, threads=2)
+        chosen = [line for line in (self.path / "auto/log.txt").read_text().splitlines() if "air: preconditioner" in line]
+        self.assertEqual(len(chosen), 1)
+        self.assertIn("us per cell by the model", chosen[0])
+        name = chosen[0].split('"')[1]
+        named = f'preconditioner = "{name}"'
+        self.assertIn(named, (self.path / "auto/scene.toml").read_text())
+        self.spindrift(ENGINEERING, "auto", "--restart", settings=auto)
+        self.assertIn(f'air: preconditioner "{name}" (as before the restart)', (self.path / "auto/log.txt").read_text())
+        self.assertIn(named, (self.path / "auto/scene.toml").read_text())
+        self.spindrift((self.path / "auto/scene.toml").read_text(), "again", threads=3)  # what the run wrote down runs alike
+        self.assertEqual(self.text("auto"), self.text("again"))
+
     def test_a_sea_of_particles_gives_the_same_bits_however_it_is_run(self):
         self.check_bits(PARTICLES, [], 0.2)
 

@@ -31,6 +31,10 @@ double cost_of(const Trial& t, const CostModel& m, long cells, int groups, bool 
 
 Choice choose_preconditioner(FlowSolver& solver, MPI_Comm comm, int threads) {
   Choice choice;
+  // A grid that is about to move: faces sweep what they swept on the way to where they were put. The first step overwrites this.
+  for (FlowTile& tile : solver.tiles())
+    if (tile.geometry->moving() && solver.setting().time_order > 0)
+      update_speeds(*tile.geometry, bdf1, solver.setting().dt, solver.grid().tiling().planar);
   for (const char* name : {"block_ilu", "coarse"}) {
     FlowSetting s = solver.setting();
     s.preconditioner = name;

@@ -1,6 +1,6 @@
 // preconditioner = "auto": one linear system of the flow as it starts is solved with each candidate, and that with the least cost by a
 // stated model of iterations is taken. No clock decides, so that any number of threads, ranks and another day choose alike.
-// Called by src/coupling/flow_run.cpp; tested in tests/src/aero/flow/choice_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Called by src/coupling (flow_run.cpp, resolved_air.cpp); tested in tests/src/aero/flow/choice_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ struct Choice {
   std::string preconditioner, reason;
   std::vector<Trial> trials;
 };
-/// From the state of a solver that has started and whose ghost geometry is filled. Collective. Each trial needs the memory of another
+/// From the state of a solver that has started (on a moving grid: been placed) and whose ghost geometry is filled. Collective. Each trial needs the memory of another
 /// solver while it lasts.
 Choice choose_preconditioner(FlowSolver& solver, MPI_Comm comm, int threads = 0);
 

@@ -70,6 +70,7 @@ struct CoarseCorrection final : IluAfterCommon {
     return p.own >= 0 ? left.data() + std::size_t(p.own) * width : outside.data() + std::size_t(p.outside) * width;
   }
   TileGroups& of(const FlowTile& tile) { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
+  const TileGroups& of(const FlowTile& tile) const { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
 
   void attach(GridStore& grid, std::span<FlowTile> flow) override {
     const Tiling& tiling = grid.tiling();
@@ -173,10 +174,11 @@ struct CoarseCorrection final : IluAfterCommon {
         }
   }
 
-  void fill(FlowTile& tile) override {
+  void fill(FlowTile& tile, bool anew) override {
     TileGroups& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();
-    for (auto& v : t.values) v.fill(0.0);
+    if (anew)
+      for (auto& v : t.values) v.fill(0.0);
     walk(
         tile, t,
         [&](std::ptrdiff_t cell, int group, const std::array<int, 6>& entries) {
@@ -187,14 +189,17 @@ struct CoarseCorrection final : IluAfterCommon {
             const float* block = a.block(cell, linear::StencilMatrix<5>::sides + side);
             for (int e = 0; e < block_size; ++e) sum[e] += block[e];
           }
+          if (!anew) return;
           auto& value = t.values[std::size_t(t.inside[std::size_t(group)][0])];
           for (int e = 0; e < block_size; ++e) value[std::size_t(e)] += double(sum[e]);
         },
         [&](std::ptrdiff_t cell, int side, int entry) {
+          if (!anew) return;
           const float* block = a.block(cell, linear::StencilMatrix<5>::sides + side);
           auto& value = t.values[std::size_t(entry)];
           for (int e = 0; e < block_size; ++e) value[std::size_t(e)] += double(block[e]);
         });
+    if (!anew) return;
     // Neighbours through a rotational period: their velocities turn before the block acts.
     for (std::size_t n = 0; n < t.entries.size(); ++n) {
       const Eigen::Matrix3d* turn = t.columns[std::size_t(t.entries[n].second)].turn;
@@ -207,6 +212,16 @@ struct CoarseCorrection final : IluAfterCommon {
           t.values[n][std::size_t((c + 1) * width + r)] = sum;
         }
     }
+  }
+
+  std::size_t matrix_size(const FlowTile& tile) const override { return of(tile).values.size() * block_size; }
+  void save_matrix(const FlowTile& tile, std::span<double> to) const override {
+    double* at = to.data();
+    for (const auto& block : of(tile).values) at = std::copy(block.begin(), block.end(), at);
+  }
+  void load_matrix(FlowTile& tile, std::span<const double> from) override {
+    const double* at = from.data();
+    for (auto& block : of(tile).values) std::copy_n(at, block_size, block.begin()), at += block_size;
   }
 
   void set_up(MPI_Comm comm) override {

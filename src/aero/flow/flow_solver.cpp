@@ -53,7 +53,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   boundary_.inviscid = !setting.viscous;
   boundary_.profile = setting.profile;
   boundary_.reservoir = reservoir_of(setting.gas, setting.stream);
-  boundary_.dt = setting.dt;
+  boundary_.dt = setting.dt, boundary_.weights = bdf1;  // until a step begins
   if (setting.preconditioned && !setting.physical_far_field) boundary_.reference_speed = setting.speed;
   implicit_.scales = scales_of(setting);
   implicit_.inflow = {boundary_.reservoir.x, boundary_.reservoir.y, boundary_.reservoir.z};
@@ -657,6 +657,19 @@ void FlowSolver::save(int owned, std::span<double> to) const {
 void FlowSolver::load(int owned, std::span<const double> from) {
   std::size_t n = 0;
   for_saved(tiles_[std::size_t(owned)], setting_.time_order, [&](double& value) { value = from[n++]; });
+}
+FlowSolver::SetUpNote FlowSolver::save_set_up() const {
+  SetUpNote note;
+  if (!keeps_set_up()) return note;
+  note.number = preconditioner_->kept_number();
+  for (const FlowTile& tile : tiles_) preconditioner_->save_kept(tile, note.tiles.emplace_back(preconditioner_->kept_size(tile)));
+  return note;
+}
+void FlowSolver::load_set_up(const SetUpNote& from) {
+  if (!keeps_set_up() || from.tiles.size() != tiles_.size()) return;
+  if (from.number > 0 && from.number == preconditioner_->kept_number()) return;  // it stands
+  for (std::size_t n = 0; n < tiles_.size(); ++n) preconditioner_->load_kept(tiles_[n], from.tiles[n]);
+  preconditioner_->set_kept_number(from.number);
 }
 std::vector<double> FlowSolver::save_march() const {
   std::vector<double> all = march_.save();

@@ -182,6 +182,15 @@ class FlowSolver {
   void load(int owned, std::span<const double> from);
   std::vector<double> save_march() const;
   void load_march(std::span<const double> from);
+  /// Where a set-up of the preconditioner outlives a physical step (PreconditionerOptions::common_steps), what it was made of, by owned tile.
+  bool keeps_set_up() const { return setting_.common.common_steps > 1 && preconditioner_->has_common(); }
+  struct SetUpNote {
+    std::uint64_t number = 0;  ///< of this solver's set-ups; 0: of another solver
+    std::vector<std::vector<double>> tiles;
+  };
+  SetUpNote save_set_up() const;
+  std::size_t set_up_size(int owned) const { return preconditioner_->kept_size(tiles_[std::size_t(owned)]); }
+  void load_set_up(const SetUpNote& from);
 
   std::size_t bytes() const;
   long cells() const;  ///< of all ranks

@@ -1,6 +1,7 @@
 // What preconditioners share that solve something common to all tiles first and leave the rest to block ILU tile by tile: when
-// ILU and the common part are made anew. Base of coarse_correction.cpp and pressure_amg.cpp; tested in
-// tests/src/aero/flow/coarse_correction_test.cpp. SPDX-License-Identifier: Apache-2.0
+// ILU and the common part are made anew, and how a common part goes on over physical steps, snapshots and restarts. Base of
+// coarse_correction.cpp and pressure_amg.cpp; tested in tests/src/aero/flow/coarse_correction_test.cpp, kept_set_up_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -14,25 +15,52 @@ class IluAfterCommon : public Preconditioner {
   explicit IluAfterCommon(const PreconditionerOptions& options) : options_(options) {}
   void refresh(FlowTile& tile) final {
     ilu_->refresh(tile);
-    fill(tile);
+    fill(tile, due());
   }
   bool has_common() const final { return true; }
-  void begin() final { refreshes_ = 0; }
+  void begin(std::int64_t step) final { refreshes_ = 0, tick_ = step % options_.common_steps == 0; }
   void refresh_common(MPI_Comm comm) final {
-    if (refreshes_++ % options_.common_every == 0) set_up(comm);
+    const bool anew = due();
+    if (anew || outdated_) set_up(comm);
+    if (anew) number_ = ++numbers_;
+    have_ = true, outdated_ = false;
+    ++refreshes_;
   }
 
+  std::size_t kept_size(const FlowTile& tile) const final { return options_.common_steps > 1 ? 1 + matrix_size(tile) : 0; }
+  void save_kept(const FlowTile& tile, std::span<double> to) const final {
+    to[0] = have_ ? 1.0 : 0.0;
+    save_matrix(tile, to.subspan(1));
+  }
+  void load_kept(FlowTile& tile, std::span<const double> from) final {
+    have_ = outdated_ = from[0] != 0.0;
+    load_matrix(tile, from.subspan(1));
+  }
+  std::uint64_t kept_number() const final { return number_; }
+  void set_kept_number(std::uint64_t number) final { number_ = number > 0 ? number : ++numbers_; }
+
  protected:
-  /// What the common part needs of a tile's blocks.
-  virtual void fill(FlowTile& tile) = 0;
+  /// What the common part needs of a tile's blocks; `anew`: also what the next set_up() is made of, which otherwise stays.
+  virtual void fill(FlowTile& tile, bool anew) = 0;
   /// The common part's matrix and its solver, of all tiles. Collective.
   virtual void set_up(MPI_Comm comm) = 0;
+  // A tile's part of that matrix.
+  virtual std::size_t matrix_size(const FlowTile& tile) const = 0;
+  virtual void save_matrix(const FlowTile& tile, std::span<double> to) const = 0;
+  virtual void load_matrix(FlowTile& tile, std::span<const double> from) = 0;
 
   const PreconditionerOptions options_;
   const std::unique_ptr<Preconditioner> ilu_ = make_tile_preconditioner("block_ilu");
 
  private:
-  int refreshes_ = 0;
+  /// Whether the next set-up is made of the matrix as it is then. No task changes what this reads while tiles are refreshed.
+  bool due() const { return !have_ || (refreshes_ % options_.common_every == 0 && (refreshes_ > 0 || tick_)); }
+
+  int refreshes_ = 0;      ///< in this physical step
+  bool tick_ = true;       ///< this step begins with a new set-up
+  bool have_ = false;      ///< there is a set-up, or what it was made of
+  bool outdated_ = false;  ///< only the latter
+  std::uint64_t number_ = 0, numbers_ = 0;
 };
 
 }  // namespace spindrift::aero

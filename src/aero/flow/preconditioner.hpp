@@ -4,6 +4,7 @@
 // tests/src/aero/flow/linear_solver_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -17,7 +18,8 @@ namespace spindrift::aero {
 struct PreconditionerOptions {
   int group_cells = 8;     ///< coarse correction: longest side of a group of cells; 0: a group is a tile
   int direct_groups = 512; ///< up to so many groups are solved by elimination, more by multigrid
-  int common_every = 1;    ///< refreshes of the matrix that one set-up of the common part serves
+  int common_every = 1;    ///< refreshes of the matrix within a physical step (or march) that one set-up of the common part serves
+  int common_steps = 1;    ///< physical steps whose first matrices one set-up serves: made anew at steps 0, n, 2n, ...
 };
 
 class Preconditioner {
@@ -41,11 +43,23 @@ class Preconditioner {
   virtual bool has_common() const { return false; }
   /// What the common part needs of v.
   virtual void gather(FlowTile&, const float*) {}
-  /// A march or physical step begins: nothing of what came before it may be used, so that a restart has the same bits.
-  virtual void begin() {}
+  /// A march begins, or this physical step: of what came before nothing may be used but what save_kept() saves, so that a restart has the
+  /// same bits.
+  virtual void begin(std::int64_t /*step*/) {}
   /// Tasks that all ranks run together, as often, one at a time in a process.
   virtual void refresh_common(MPI_Comm) {}
   virtual void common(MPI_Comm) {}
+
+  // A set-up that outlives a physical step: what it was made of in each tile goes into snapshots and checkpoints; the same set-up is made of it
+  // again when it is next needed.
+  virtual std::size_t kept_size(const FlowTile&) const { return 0; }
+  virtual void save_kept(const FlowTile&, std::span<double>) const {}
+  /// Of all tiles, one after the other.
+  virtual void load_kept(FlowTile&, std::span<const double>) {}
+  /// Of the set-up that would be saved now; no other of this object has had it.
+  virtual std::uint64_t kept_number() const { return 0; }
+  /// What was loaded is that one; 0: of another object.
+  virtual void set_kept_number(std::uint64_t) {}
 };
 
 /// By the name in the scene: block_ilu, block_jacobi, identity, coarse, pressure_amg.

@@ -36,6 +36,7 @@ struct PressureAmg final : IluAfterCommon {
   std::optional<Multigrid> multigrid;
 
   PressureTile& of(const FlowTile& tile) { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
+  const PressureTile& of(const FlowTile& tile) const { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
 
   void attach(GridStore& grid, std::span<FlowTile> all) override {
     const Tiling& tiling = grid.tiling();
@@ -69,7 +70,7 @@ struct PressureAmg final : IluAfterCommon {
   }
 
   /// Weights w of each cell's rows: the pressure row of its inverted diagonal block, and the pressure equation they make.
-  void fill(FlowTile& tile) override {
+  void fill(FlowTile& tile, bool anew) override {
     PressureTile& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();
     const int sides = 2 * tile.directions;
@@ -80,6 +81,7 @@ struct PressureAmg final : IluAfterCommon {
         throw std::runtime_error("singular diagonal block in tile " + std::to_string(tile.index) + ", cell " + std::to_string(cell));
       float* w = t.weights.data() + cell * mean_unknowns;
       for (int r = 0; r < mean_unknowns; ++r) w[r] = inverse[r * mean_unknowns];
+      if (!anew) continue;
       // Momentum by velocity in this cell.
       Eigen::Matrix3f momentum;
       for (int c = 0; c < 3; ++c)
@@ -119,6 +121,12 @@ struct PressureAmg final : IluAfterCommon {
             body(cell, side, out ? at[b] * extent[a] + at[a] : -1, cell + (side % 2 ? 1 : -1) * tile.box.stride(d));
           }
         }
+  }
+
+  std::size_t matrix_size(const FlowTile& tile) const override { return of(tile).rows.size(); }
+  void save_matrix(const FlowTile& tile, std::span<double> to) const override { std::ranges::copy(of(tile).rows, to.begin()); }
+  void load_matrix(FlowTile& tile, std::span<const double> from) override {
+    std::ranges::transform(from, of(tile).rows.begin(), [](double v) { return float(v); });
   }
 
   void set_up(MPI_Comm comm) override {

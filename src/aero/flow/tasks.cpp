@@ -76,7 +76,7 @@ class StepGraph {
       else
         s_.resume();
       s_.solving_ = true;
-      s_.preconditioner_->begin();
+      s_.preconditioner_->begin(s_.time_steps_);
       if (s_.setting_.time_order > 0) {
         const bool second = s_.setting_.time_order > 1 && s_.time_steps_ > 0;
         s_.weights_ = second ? bdf2(s_.setting_.dt / s_.dt_before_) : bdf1;

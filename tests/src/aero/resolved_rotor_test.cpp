@@ -210,6 +210,75 @@ TEST_CASE("a window undone and done again leaves the bits of one done once", "[r
 }
 
 namespace {
+/// One sector with rotational periodicity, its common part of the preconditioner by elimination, by multigrid, or pressure alone.
+ResolvedRotorSetup preconditioned(const std::string& time, const std::string& name, int direct_groups = 512) {
+  ResolvedRotorSetup s = tiny(time, false);
+  s.flow.preconditioner = name, s.flow.group_cells = 4, s.flow.direct_groups = direct_groups;
+  s.flow.cfl = 50.0, s.flow.cfl_max = 50.0, s.flow.drop = 0.0, s.flow.max_pseudo_steps = 2;
+  return s;
+}
+const std::pair<const char*, int> common_parts[]{{"coarse", 4096}, {"coarse", 0}, {"pressure_amg", 0}};
+}  // namespace
+
+TEST_CASE("preconditioners with a common part end in block ILU's flow round a periodic sector, the coarse ones in fewer iterations", "[rotor][fast]") {
+  const auto marched = [](ResolvedRotorSetup s) {
+    s.flow.krylov_steps = 40, s.flow.krylov_drop = 1e-5;
+    ResolvedRotor rotor(s);
+    rotor.solver().start_uniform();
+    rotor.prepare(MPI_COMM_SELF, {.threads = 1});
+    rotor.run();
+    struct {
+      RotorLoad load;
+      long iterations;
+      double drop;
+    } end{rotor.load(), rotor.solver().march().krylov_total(), rotor.solver().march().linear_drop()};
+    return end;
+  };
+  const auto ilu = marched(preconditioned("steady", "block_ilu"));
+  REQUIRE(ilu.drop <= 1e-5);
+  for (const auto& [name, direct] : common_parts) {
+    const auto with = marched(preconditioned("steady", name, direct));
+    CAPTURE(name, direct, ilu.iterations, with.iterations, with.drop, ilu.load.thrust, with.load.thrust);
+    CHECK(with.drop <= 1e-5);
+    CHECK(with.load.thrust == Approx(ilu.load.thrust).epsilon(1e-4));
+    CHECK(with.load.torque == Approx(ilu.load.torque).epsilon(1e-4));
+    if (std::string(name) == "coarse") CHECK(with.iterations < ilu.iterations);
+  }
+}
+
+TEST_CASE("a turning periodic sector with a common part kept over steps: same bits on any threads and after a restart", "[rotor][fast]") {
+  for (const auto& [name, direct] : common_parts) {
+    CAPTURE(name, direct);
+    ResolvedRotorSetup s = preconditioned("bdf2", name, direct);
+    s.flow.common_every = 2, s.flow.common_steps = 2;
+    ResolvedRotor one(s), three(s), again(s);
+    one.solver().start_uniform(), three.solver().start_uniform();
+    one.prepare(MPI_COMM_SELF, {.threads = 1}), three.prepare(MPI_COMM_SELF, {.threads = 3}), again.prepare(MPI_COMM_SELF, {.threads = 2});
+    for (int n = 1; n <= 3; ++n) one.advance(one.turned(n)), three.advance(three.turned(n));
+    CHECK(testing::state_of(one.solver()) == testing::state_of(three.solver()));
+    ResolvedRotor::Snapshot saved = three.snapshot();  // step 4 goes on with the set-up of step 3
+    saved.set_up.number = 0;                           // another rotor's
+    again.restore(saved);
+    one.advance(one.turned(4)), again.advance(again.turned(4));
+    CHECK(testing::state_of(one.solver()) == testing::state_of(again.solver()));
+  }
+}
+
+TEST_CASE("two ranks give a periodic sector with an eliminated coarse correction the bits of one", "[rotor][mpi2]") {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const ResolvedRotorSetup s = preconditioned("bdf2", "coarse", 4096);
+  ResolvedRotor whole(s), part(s, 2, rank);
+  whole.solver().start_uniform(), part.solver().start_uniform();
+  whole.prepare(MPI_COMM_SELF, {.threads = 1}), part.prepare(MPI_COMM_WORLD, {.threads = 1});
+  for (int n = 1; n <= 2; ++n) {
+    const RotorLoad a = whole.advance(whole.turned(n)), b = part.advance(part.turned(n));
+    CHECK(a.force == b.force);
+    CHECK(a.moment == b.moment);
+  }
+}
+
+namespace {
 std::string problems(const std::string& rotor, const std::string& aero, const Vector3d& wind, const WindProfile& profile = {}) {
   scene::Document doc = scene::parse("[aero]\nmodel = 'blade_resolved'\n[aero.grid]\n" + aero + "\n[rotor]\n" + rotor,
                                      "test.toml", std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "inputs" / "turbines");
