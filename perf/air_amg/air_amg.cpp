@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 #include "perf/harness.hpp"
 #include "src/aero/grid/generators/plane_cases.hpp"
@@ -106,6 +107,39 @@ void map(perf::Group& group) {
   group.figure("map_won_by_other_than_block_ilu", won, "-", "of " + std::to_string(of) + " rows; 32^3 cells, us per cell to 1e-2");
 }
 
+/// Ten physical steps of two cells' passage, three pseudo-steps each, one set-up for each matrix, for each step, for all ten.
+void kept(perf::Group& group) {
+  for (const Form& form : {multigrid, pressure}) {
+    double each = 0.0;
+    for (const auto& [name, every, steps] : {std::tuple{"each_matrix", 1, 1}, {"each_step", 3, 1}, {"ten_steps", 3, 10}}) {
+      FlowSetting s = air(0.05, {1.0, 0.4, 0.2});
+      s.preconditioner = form.preconditioner, s.common = form.common;
+      s.common.common_every = every, s.common.common_steps = steps;
+      s.time_order = 2, s.dt = 2.0 / 32.0 / s.speed;
+      s.march = {.cfl_start = 100.0, .cfl_max = 100.0, .drop = 0.0, .max_steps = 3, .krylov_steps = 20, .krylov_drop = 0.1, .matrix_free_below = 0.0};
+      const BoxOptions box{.ni = 32, .nj = 32, .nk = 32};
+      Case c(perturbed(cartesian_box(box), box, 0.03), s, {}, {.across_j = 16, .across_k = 8, .normal = 32});
+      c.solver->start([&](const Eigen::Vector3d& x) {
+        gas::Primitive<double> q = s.stream;
+        q.u += 0.3 * s.speed * std::sin(6.0 * x[1] + 2.0 * x[2]), q.v += 0.3 * s.speed * std::cos(5.0 * x[0]);
+        return q;
+      });
+      c.prepare();
+      const double begin = perf::user_seconds();
+      c.run(10);
+      const double us = (perf::user_seconds() - begin) / double(c.solver->cells()) * 1e5;
+      long iterations = 0;
+      for (const PseudoRow& row : c.solver->rows()) iterations += row.krylov;
+      const std::string figure = std::string("set_up_for_") + name + "_" + form.name;
+      group.figure(figure, us, "us/cell/step", std::to_string(iterations) + " iterations in 10 steps of 3 pseudo-steps, 32^3 cells");
+      if (every == 1)
+        each = us;
+      else if (steps > 1)
+        group.at_most(figure + "_over_each_matrix", us / each, "-", 1.0, perf::Ceiling::none, "user CPU, same run");
+    }
+  }
+}
+
 /// The scene of inputs/validation/cylinder_low_mach on twice its cells a side.
 void cylinder(perf::Group& group) {
   double alone = 0.0;
@@ -135,6 +169,7 @@ int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);  // hypre asks for its rank
   {
     perf::Group group("air_amg", argc, argv);
+    kept(group);
     many_tiles(group);
     map(group);
     cylinder(group);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "perf/harness.hpp"
+#include "src/coupling/machine.hpp"
 #include "src/coupling/sides.hpp"
 #include "src/coupling/start.hpp"
 #include "src/coupling/window_tasks.hpp"

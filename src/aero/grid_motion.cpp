@@ -93,7 +93,8 @@ void GridMotion::check_patches(const std::vector<std::string>& sliding) const {
   const bool turns = options_.pitch != 0.0 || options_.pitch_amplitude != 0.0;
   for (const Boundary& b : grid_.boundaries) {
     if (std::ranges::find(sliding, b.patch) == sliding.end()) continue;
-    for (const WallSurface::Face& f : wall_surface(grid_, std::vector<std::string>{b.patch}).faces()) {
+    const WallSurface surface = wall_surface(grid_, std::vector<std::string>{b.patch});
+    for (const WallSurface::Face& f : surface.faces()) {
       const Eigen::Vector3d normal = (f[2] - f[0]).cross(f[3] - f[1]).normalized();
       if ((turns && normal.cross(axis).norm() > 1e-6) || std::abs(normal.dot(heave)) > 1e-6 * heave.norm())
         refuse(".patches", fmt::format("the motion would take patch \"{}\" out of its plane, which its condition \"symmetry\" does not allow", b.patch));

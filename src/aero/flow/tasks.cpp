@@ -28,7 +28,9 @@ class StepGraph {
     if (s_.setting_.time_order > 0) begin_time_step();
     begin();
     if (s_.moves()) move_grid();
-    g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(s_.march_.options().max_steps) + 2}, [&] {
+    // A common part is one thread's work: the air comes to it early, while there is a sea (urgency 1) for the others to go on with.
+    const int urgency = common() ? 2 : 0;
+    g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(s_.march_.options().max_steps) + 2, .urgency = urgency}, [&] {
       residual_of_state();
       judge();
       each("aero/matrix", [&](std::size_t n) { return Uses{reads(decision_),    reads(state_[n]),     reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]),
@@ -44,7 +46,7 @@ class StepGraph {
           if (s_.refreshes()) s_.preconditioner_->refresh_common(comm);
         });
       }
-      g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = 1}, [&] { krylov_iteration(); });
+      g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = urgency + 1}, [&] { krylov_iteration(); });
       update();
       g_.until("aero/converged", {reads(decision_)}, [this] {
         const Verdict v = s_.march_.verdict();
