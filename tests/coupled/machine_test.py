@@ -141,6 +141,39 @@ class MachineRun(Machine):
             self.assertAlmostEqual(force / row["rotor.thrust_N"], 1.0, delta=1e-9)
             self.assertGreater(row["rotor.rotor.fx_N"], 0.999 * force)
 
+    def test_with_multigrid_the_same_bits_over_threads_and_reruns(self):
+        settings = ["time.end_s=0.3", "aero.flow.preconditioner='pressure_amg'"]
+        self.spindrift(ENGINEERING, "once", settings=settings)
+        self.spindrift(ENGINEERING, "plain", settings=settings[:1])
+        self.assertNotEqual(self.text("once"), self.text("plain"))
+        for name, threads in (("again", 1), ("threads", 3)):
+            self.spindrift(ENGINEERING, name, settings=settings, threads=threads)
+            self.assertEqual(self.text("once"), self.text(name))
+
+    def columns(self, name):
+        return set(self.text(name).split("\n", 1)[0].split(","))
+
+    def test_without_a_sea_or_without_a_rotor_the_same_window_runs_with_nothing_missing(self):
+        end = ["time.end_s=0.3"]
+        self.spindrift(PARTICLES, "both", settings=end)
+        dry = PARTICLES.split("[sea]")[0].replace('integrator = "symplectic"', "step_s = 0.05") + AIR
+        calm = 'without = "rotor"' + PARTICLES.split("[wind]")[0]
+        for text, name, gone in ((dry, "dry", (".sea.", ".contact.")), (calm, "calm", ("rotor.", "bearing.", "air.", "coupling."))):
+            self.spindrift(text, name, settings=end)
+            missing = self.columns("both") - self.columns(name)
+            self.assertEqual(self.columns(name) - self.columns("both"), set())
+            self.assertEqual({column for column in missing if not any(part in column for part in gone) and not column.startswith("sea.")}, set())
+            self.spindrift(text, name + "_threads", settings=end, threads=3)
+            self.spindrift(text, name + "_ranks", settings=end, ranks=2)
+            self.spindrift(text, name + "_parts", "--until", 0.1, settings=end)
+            self.spindrift(text, name + "_parts", "--restart", settings=end)
+            for other in ("_threads", "_ranks", "_parts"):
+                self.assertEqual(self.text(name), self.text(name + other))
+        # Without water the machine falls, but for its lines; the air does its work on it all the same.
+        last = self.rows("dry")[-1]
+        self.assertAlmostEqual(last["platform.z_m"], -0.5 * 9.81 * 0.09, delta=0.01)
+        self.assertGreater(last["rotor.thrust_N"], 1e6)
+
     def test_all_sectors_move_in_six_freedoms(self):
         self.spindrift(ENGINEERING, "all", settings=["time.end_s=0.3", 'aero.grid.sectors="all"'])
         rows = self.rows("all")
@@ -166,6 +199,54 @@ class MachineRun(Machine):
         self.spindrift(PARTICLES, "strong_parts", "--until", 0.2, settings=settings)
         self.spindrift(PARTICLES, "strong_parts", "--restart", settings=settings)
         self.assertEqual(self.text("strong"), self.text("strong_parts"))
+
+    def test_every_strong_scheme_finds_the_same_windows_of_resolved_air(self):
+        settings = ["coupling.tolerance=1e-6", "time.end_s=0.2"]
+        self.spindrift(ENGINEERING, "reference", settings=[*settings, "coupling.scheme='newton'", "coupling.tolerance=1e-8"])
+        reference = self.rows("reference")
+        self.assertEqual(reference[-1]["coupling.columns"], 6)  # full rank
+        both = [(scheme, "parallel") for scheme in ("aitken", "iqn_ils", "interface_gmres", "newton")]
+        for scheme, composition in [(s, "serial") for s in ("relaxation", "aitken", "steepest_descent", "iqn_ils", "ibqn_ls", "interface_gmres")] + both:
+            how = [*settings, f"coupling.scheme='{scheme}'"] + ([] if scheme == "ibqn_ls" else [f"coupling.composition='{composition}'"])
+            self.spindrift(ENGINEERING, "strong", "--overwrite", settings=how)
+            for row, other in zip(self.rows("strong")[1:], reference[1:]):
+                with self.subTest(scheme=scheme, composition=composition, t=row["time_s"]):
+                    self.assertAlmostEqual(row["rotor.thrust_N"] / other["rotor.thrust_N"], 1.0, delta=5e-6)
+                    self.assertAlmostEqual(row["platform.pitch_deg"] / other["platform.pitch_deg"], 1.0, delta=5e-6)
+                    self.assertEqual(row["coupling.retries"], 0)
+
+    def test_waveforms_of_several_samples_iterate_over_resolved_air(self):
+        # 40 steps of the air, exchanged one by one, against windows of four of them: the same steps, and what the bodies see between them.
+        whole = ["coupling.scheme='iqn_ils'", "coupling.tolerance=1e-6", "time.end_s=0.8", "time.window_s=0.4", "time.step_s=0.05"]
+        self.spindrift(ENGINEERING, "single", settings=[*whole, "time.window_s=0.1"])
+        single = self.rows("single")[-1]
+        for interpolation, near in (("linear", 1e-6), ("cubic", 1e-3)):
+            self.spindrift(ENGINEERING, interpolation, settings=[*whole, "coupling.samples=4", f"coupling.interpolation='{interpolation}'"])
+            last = self.rows(interpolation)[-1]
+            self.assertAlmostEqual(last["platform.pitch_deg"] / single["platform.pitch_deg"], 1.0, delta=10 * near)
+            self.assertAlmostEqual(last["rotor.thrust_N"] / single["rotor.thrust_N"], 1.0, delta=near)
+            self.assertEqual(last["coupling.retries"], 0)
+            self.spindrift(ENGINEERING, interpolation + "_parts", "--until", 0.4,
+                           settings=[*whole, "coupling.samples=4", f"coupling.interpolation='{interpolation}'"])
+            self.spindrift(ENGINEERING, interpolation + "_parts", "--restart",
+                           settings=[*whole, "coupling.samples=4", f"coupling.interpolation='{interpolation}'"], threads=2)
+            self.assertEqual(self.text(interpolation), self.text(interpolation + "_parts"))
+
+    def test_a_window_of_resolved_air_that_stalls_is_cleared_relaxed_and_tried_again_or_cut(self):
+        long = ["time.end_s=0.8", "time.window_s=0.8", "coupling.scheme='relaxation'"]
+        # The plain fixed point of one evaluation too few: five relaxed ones first are enough.
+        retried = [*long, "coupling.relaxation=0.5", "coupling.max_evaluations=6", "coupling.tolerance=3.6e-3"]
+        self.spindrift(ENGINEERING, "retried", settings=retried)
+        row = self.rows("retried")[-1]
+        self.assertEqual((row["coupling.retries"], row["coupling.cuts"], row["coupling.evaluations"]), (1, 0, 17))
+        # Two evaluations do not do for 0.8 s; each half they solve, as windows of that length are.
+        cut = [*long, "coupling.relaxation=1.0", "coupling.max_evaluations=2", "coupling.tolerance=1e-3"]
+        self.spindrift(ENGINEERING, "cut", settings=cut)
+        self.spindrift(ENGINEERING, "halves", settings=["time.end_s=0.8", "time.window_s=0.4", "coupling.scheme='aitken'", "coupling.tolerance=1e-8"])
+        row, halves = self.rows("cut")[-1], self.rows("halves")[-1]
+        self.assertEqual(row["coupling.cuts"], 1)
+        self.assertAlmostEqual(row["rotor.thrust_N"] / halves["rotor.thrust_N"], 1.0, delta=2e-4)
+        self.assertAlmostEqual(row["platform.pitch_deg"] / halves["platform.pitch_deg"], 1.0, delta=2e-3)
 
     def test_a_rotor_that_an_equilibrium_leans_starts_too(self):
         for sectors in ("one", "all"):
@@ -268,6 +349,15 @@ class Placement(Machine):
 
     def test_split_ranks_give_the_same_bits_with_an_engineering_sea_and_a_strong_scheme(self):
         self.check_split(ENGINEERING, ["coupling.scheme='aitken'", "coupling.tolerance=1e-4", "time.end_s=0.4"], 0.2)
+
+    def test_split_ranks_give_the_same_bits_by_quasi_newton_in_turn_and_at_once(self):
+        quasi_newton = ["coupling.scheme='iqn_ils'", "coupling.tolerance=1e-4", "time.end_s=0.4"]
+        self.check_split(ENGINEERING, quasi_newton, 0.2)
+        self.assertGreater(max(row["coupling.columns"] for row in self.rows("split")), 0)
+        at_once = [*quasi_newton, "coupling.composition='parallel'"]
+        self.spindrift(ENGINEERING, "at_once", settings=at_once)
+        self.spindrift(ENGINEERING, "at_once_split", settings=[*at_once, *self.SPLIT], ranks=2)
+        self.assertEqual(self.text("at_once"), self.text("at_once_split"))
 
     def test_program_sections_give_the_same_bits_and_must_agree(self):
         end = ["--set", "time.end_s=0.2"]

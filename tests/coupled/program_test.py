@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -90,6 +91,12 @@ class Program(unittest.TestCase):
         self.assertEqual(self.run_case("--until", 1, "--overwrite").returncode, 0)
 
     def test_a_signal_ends_the_run_with_5_and_it_goes_on_from_there(self):
+        for number in (signal.SIGTERM, signal.SIGUSR1):
+            with self.subTest(signal=number):
+                self.ends_with_5(number)
+                shutil.rmtree(self.out)
+
+    def ends_with_5(self, number):
         long_run = ["--set", "time.end_s=20000.0", "--set", "output.history_every=100"]
         process = subprocess.Popen([PROGRAM, "run", CASE1, "--out", self.out, "--no-report", *long_run],
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -97,7 +104,7 @@ class Program(unittest.TestCase):
         while not (self.out / "history.csv").exists() and time.time() < deadline:
             time.sleep(0.05)
         time.sleep(0.5)
-        process.send_signal(signal.SIGUSR1)
+        process.send_signal(number)
         output, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 5, output)
         summary = json.loads((self.out / "summary.json").read_text())
