@@ -21,7 +21,8 @@ namespace {
 
 RigidMap map_of(const RotorPose& pose) { return {pose.attitude().toRotationMatrix(), pose.hub.position}; }
 
-/// Patches that the scene does not name: blades are as asked for (slip without friction), the hub slips, the rest is the far field.
+/// Patches that the scene does not name: blades are as asked for (slip without friction), the hub slips, the rest is the far
+/// field.
 FlowOptions with_default_patches(FlowOptions o, const Tiling& tiling) {
   for (const std::string& patch : tiling.patches) {
     if (std::ranges::any_of(o.boundaries, [&](const PatchOptions& b) { return b.patch == patch; })) continue;

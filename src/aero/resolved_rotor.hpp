@@ -59,7 +59,7 @@ class ResolvedRotor {
   GridStore& store() { return *store_; }
   const MultiBlockGrid& grid() const { return grid_; }
   const Tiling& tiling() const { return store_->tiling(); }
-  int span_cells() const { return spec_.sizes.span >> spec_.coarsen; }      ///< from hub to tip
+  int span_cells() const { return spec_.sizes.span >> spec_.coarsen; }        ///< from hub to tip
   int radial_cells() const { return spec_.sizes.radial() >> spec_.coarsen; }  ///< from hub to outer radius
   bool steady() const { return setup_.dt == 0.0; }
   int blades() const { return turbine_.blades; }

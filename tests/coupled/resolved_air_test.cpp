@@ -131,11 +131,13 @@ TEST_CASE("what the air answers is what the bodies feel, and its motion from a f
 }
 
 TEST_CASE("wind that grows with height tilts a rotor whose air has settled in the wind of its hub", "[coupled][air][fast]") {
-  // The settled flow is that of the hub's wind; the rest of the profile is added to it, and the blade that points up has more load.
+  // The settled flow is that of the hub's wind; the rest of the profile is added to it, and the blade that points up has more
+  // load.
   double tilt[2], thrust[2];
   for (const bool grows : {false, true}) {
     std::vector<std::string> settings = quick;
-    if (grows) settings.insert(settings.end(), {"wind.profile='power_law'", "wind.shear_exponent=0.2", "wind.reference_height_m=119.0"});
+    if (grows)
+      settings.insert(settings.end(), {"wind.profile='power_law'", "wind.shear_exponent=0.2", "wind.reference_height_m=119.0"});
     Machine machine(on_platform(tiny + "sectors = \"all\"\n", settings));
     const aero::RotorState first = machine.rotor()->state(0.0, make_start(machine).state.motions);
     const std::unique_ptr<AirSide> air = make_air(machine, first, alone);

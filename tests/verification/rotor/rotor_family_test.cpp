@@ -39,7 +39,8 @@ ResolvedRotorSetup setup(double resolution, double wind, double rpm, int steps) 
   s.wind = {wind, 0.0, 0.0};
   s.flow.time = "steady", s.flow.turbulence = "sa", s.flow.blades = Condition::wall_law;
   s.flow.cfl = 2.0, s.flow.cfl_max = 1000.0, s.flow.drop = 0.0, s.flow.max_pseudo_steps = steps;
-  s.flow.preconditioner = "coarse", s.flow.group_cells = 16;  // tile by tile alone, air between far sides that far goes on swaying to and fro
+  s.flow.preconditioner = "coarse",
+  s.flow.group_cells = 16;  // tile by tile alone, air between far sides that far goes on swaying to and fro
   return s;
 }
 
@@ -63,8 +64,8 @@ Point march(ResolvedRotor& rotor, double wind, const std::string& name) {
   rotor.prepare(MPI_COMM_SELF);
   rotor.solver().watch([&](const PseudoRow& row) {  // hours may pass
     if (row.step % 10 != 0) return;
-    fmt::print("  {} step {}: CFL {:.0f}, density residual {:.3g}, thrust {:.1f} kN\n", name, row.step, row.cfl, row.density_residual,
-               1e-3 * rotor.load(row).thrust);
+    fmt::print("  {} step {}: CFL {:.0f}, density residual {:.3g}, thrust {:.1f} kN\n", name, row.step, row.cfl,
+               row.density_residual, 1e-3 * rotor.load(row).thrust);
     std::fflush(stdout);
   });
   rotor.run();
@@ -119,8 +120,8 @@ struct Member {
   std::unique_ptr<ResolvedRotor> rotor;
 };
 
-/// The coarsest grid begins with the wind, the next with the flow of the coarsest, the finest, whose case is to run by itself, with that
-/// of a grid of half its resolution; 8 m/s with the flow of 11 m/s scaled to it.
+/// The coarsest grid begins with the wind, the next with the flow of the coarsest, the finest, whose case is to run by itself,
+/// with that of a grid of half its resolution; 8 m/s with the flow of 11 m/s scaled to it.
 Member& member(std::size_t n) {
   static std::array<std::optional<Member>, 3> family;
   if (family[n]) return *family[n];
@@ -157,9 +158,10 @@ Limit richardson(double coarse, double medium, double fine) {
 
 }  // namespace
 
-TEST_CASE("the rotor with friction on the finest grid of the family has the published thrust and power at 11 and 8 m/s, and the loads "
-          "of blade elements along the span",
-          "[rotor][long]") {
+TEST_CASE(
+    "the rotor with friction on the finest grid of the family has the published thrust and power at 11 and 8 m/s, and the loads "
+    "of blade elements along the span",
+    "[rotor][long]") {
   const Member& m = member(2);
   CHECK(m.at11.thrust == Approx(1507.4e3).epsilon(0.05));
   CHECK(m.at11.power == Approx(9698e3).epsilon(0.08));
