@@ -60,37 +60,56 @@ RotorPose hub_pose(const RotorOptions& rotor) {
   return pose;
 }
 
-ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk)
-    : setup_(setup), turbine_(read_turbine(setup.rotor.turbine)), start_(hub_pose(setup.rotor)) {
-  const RotorOptions& rotor = setup.rotor;
-  spec_ = rotor_grid_spec(setup.grid, turbine_, rotor.blade_pitch, rotor.speed, setup.wind.norm());
-  grid_ = make_rotor_grid(turbine_, spec_);
-  require_quality(grid_, rotor_grid_quality(grid_, {"blade_"}),
+std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told) {
+  auto made = std::make_shared<MadeRotorGrid>();
+  made->turbine = read_turbine(setup.rotor.turbine);
+  made->spec = rotor_grid_spec(setup.grid, made->turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
+  made->grid = make_rotor_grid(made->turbine, made->spec, told);
+  if (told) told("quality of the grid", 0.0);
+  require_quality(made->grid, rotor_grid_quality(made->grid, {"blade_"}),
                   {.scaled_jacobian = setup.grid.least_scaled_jacobian, .non_orthogonality = setup.grid.most_off_orthogonal_deg});
-  require_sound(grid_, "aero.grid");
-  stations_ = blade_stations(grid_);
+  require_sound(made->grid, "aero.grid");
+  made->stations = blade_stations(made->grid);
+  return made;
+}
+
+ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk, std::shared_ptr<const MadeRotorGrid> made,
+                             const GridProgress& told)
+    : setup_(setup),
+      made_(made ? std::move(made) : made_rotor_grid(setup, told)),
+      turbine_(made_->turbine),
+      spec_(made_->spec),
+      grid_(made_->grid),
+      stations_(made_->stations),
+      start_(hub_pose(setup.rotor)) {
+  const RotorOptions& rotor = setup.rotor;
   pitching_ = std::make_unique<BladePitching>(grid_, turbine_, spec_);
 
   // Seen from the rotor a steady flow stands still: nodes rest in the earth where the rotor is at the start, and only their frame
   // turns.
   pose_ = pose_before_ = start_;
   const MultiBlockGrid placed = steady() ? carried(grid_, map_of(start_)) : MultiBlockGrid();
-  const MultiBlockGrid& made = steady() ? placed : grid_;
+  const MultiBlockGrid& solved_on = steady() ? placed : grid_;
   std::vector<std::string> blades;
   for (const Boundary& b : grid_.boundaries)
     if (b.patch.starts_with("blade_")) blades.push_back(b.patch);
-  Tiling tiling = make_tiling(made, blades);
+  if (told) told("tiles", 0.0);
+  Tiling tiling = make_tiling(solved_on, blades);
   const FlowOptions flow = with_default_patches(setup.flow, tiling);
   std::vector<PatchCondition> conditions = patch_conditions(flow, tiling);
   std::vector<int> rank_of_tile(std::size_t(tiling.size()), 0);
   if (ranks > 1) rank_of_tile = runtime::partition_blocks(tile_graph(tiling), {.ranks = ranks}).rank_of_block;
   store_ = std::make_unique<GridStore>(std::move(tiling), std::move(rank_of_tile), rank);
-  store_->build_all(made, !steady());
+  store_->build_all(solved_on, !steady());
   std::vector<std::string> sticking;
   for (const PatchOptions& b : flow.boundaries)
     if (sticks(b.condition)) sticking.push_back(b.patch);
-  const WallSurface surface = wall_surface(made, sticking);
-  for (const int tile : store_->owned()) fill_wall_distance((*store_)[tile], surface);
+  const WallSurface surface = wall_surface(solved_on, sticking);
+  int filled = 0;
+  for (const int tile : store_->owned()) {
+    fill_wall_distance((*store_)[tile], surface);
+    if (told) told("wall distances", double(++filled) / double(store_->owned().size()));
+  }
 
   FlowSetting setting = flow_setting(flow, setup.air_density, setup.wind, setup.dt, setup.profile);
   const double tip = turbine_.planform.span.back() * std::cos(turbine_.precone);

@@ -17,6 +17,7 @@
 #include "src/aero/rotor_grid/layout.hpp"
 #include "src/aero/rotor_grid/motion.hpp"
 #include "src/aero/rotor_grid/pitching.hpp"
+#include "src/aero/rotor_grid/rotor_grid.hpp"
 #include "src/aero/rotor_grid/stations.hpp"
 #include "src/aero/rotor_loads.hpp"
 
@@ -33,11 +34,24 @@ struct SpanLoad {
   StationLoad friction;  ///< friction's part [N/m]
 };
 
+/// The grid that a scene's rotor turns with, in the rotor's frame: what making it costs is spent once for all solvers on it.
+struct MadeRotorGrid {
+  Turbine turbine;
+  RotorGridSpec spec;
+  MultiBlockGrid grid;
+  std::vector<std::vector<BladeStation>> stations;
+};
+/// Throws scene::SceneError or NumericalFailure where the scene does not make a grid fit for use.
+std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told = {});
+
 class ResolvedRotor {
  public:
-  /// Throws scene::SceneError or NumericalFailure where the scene does not make a grid fit for use.
   /// `chunk`: pseudo-steps that one run of a steady march takes at most; 0: as many as the scene allows.
-  explicit ResolvedRotor(const ResolvedRotorSetup& setup, int ranks = 1, int rank = 0, int chunk = 0);
+  /// `made`: the grid of this scene; made here where there is none.
+  explicit ResolvedRotor(const ResolvedRotorSetup& setup, int ranks = 1, int rank = 0, int chunk = 0,
+                         std::shared_ptr<const MadeRotorGrid> made = nullptr, const GridProgress& told = {});
+  ResolvedRotor(const ResolvedRotor&) = delete;
+  ResolvedRotor& operator=(const ResolvedRotor&) = delete;
 
   FlowSolver& solver() { return *solver_; }
   const FlowSolver& solver() const { return *solver_; }
@@ -94,10 +108,11 @@ class ResolvedRotor {
   RotorLoad about_hub(const Eigen::Vector3d& force, const Eigen::Vector3d& moment, bool all) const;
 
   ResolvedRotorSetup setup_;
-  Turbine turbine_;
-  RotorGridSpec spec_;
-  MultiBlockGrid grid_;                              ///< rotor frame
-  std::vector<std::vector<BladeStation>> stations_;  ///< rotor frame
+  std::shared_ptr<const MadeRotorGrid> made_;
+  const Turbine& turbine_;
+  const RotorGridSpec& spec_;
+  const MultiBlockGrid& grid_;
+  const std::vector<std::vector<BladeStation>>& stations_;
   std::unique_ptr<BladePitching> pitching_;
   std::unique_ptr<GridStore> store_;
   std::unique_ptr<FlowSolver> solver_;

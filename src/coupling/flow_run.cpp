@@ -26,6 +26,7 @@
 #include "src/coupling/air_file.hpp"
 #include "src/coupling/air_output.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/grid_progress.hpp"
 #include "src/coupling/saved_air.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/io/checkpoint.hpp"
@@ -68,7 +69,7 @@ struct Air {
   Air(const Scenario& s, const runtime::World& world) {
     const aero::FlowOptions& o = *s.aero.flow;
     if (has_resolved_rotor(s)) {
-      rotor = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, steady_chunk);
+      rotor = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, steady_chunk, nullptr, grid_progress());
       store = &rotor->store(), solver = &rotor->solver();
       begin(o.start);
       return;

@@ -18,6 +18,7 @@
 #include "src/coupling/air_file.hpp"
 #include "src/coupling/air_output.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/grid_progress.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/saved_air.hpp"
 #include "src/io/progress.hpp"
@@ -199,6 +200,12 @@ class ResolvedAir final : public AirSide {
   /// Unknowns of this rank's tiles.
   using TileStates = std::vector<std::vector<double>>;
 
+  /// Made once for the solver that settles and the one that moves: minutes at the paper's size.
+  const std::shared_ptr<const aero::MadeRotorGrid>& grid() {
+    if (!grid_) grid_ = made_rotor_grid(setup_, grid_progress());
+    return grid_;
+  }
+
   /// A steady march seen from the turning rotor, hub held where it starts, upright; the physical steps go on from its flow, which
   /// does not know of a lean that an equilibrium gave the rotor. Its solver is gone before the moving one is made: two would not
   /// fit where one does.
@@ -210,7 +217,7 @@ class ResolvedAir final : public AirSide {
     // A large grid settles in pieces, so that the log shows life; how long they are follows from the grid alone, as the bits do.
     constexpr double cells_of_a_piece = 2.5e6;  // half a minute of a core
     const int piece = std::clamp(int(cells_of_a_piece / double(size_.cells)), std::min(10, steps), steps);
-    aero::ResolvedRotor held(steady, world_.size, world_.rank, piece);
+    aero::ResolvedRotor held(steady, world_.size, world_.rank, piece, grid(), grid_progress());
     spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held.solver().cells());
     held.solver().start_uniform();
     held.prepare(world_.comm);
@@ -257,7 +264,8 @@ class ResolvedAir final : public AirSide {
 
   /// The rotor in the wind as it comes, placed for the first step.
   void make() {
-    rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank);
+    rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank, 0, grid(), grid_progress());
+    grid_.reset();
     file_.emplace(rotor_->solver(), rotor_->store(), world_.rank);
     rotor_->solver().start_uniform();
     place_at(state_, setup_.dt);
@@ -279,6 +287,7 @@ class ResolvedAir final : public AirSide {
   const runtime::World world_;
   aero::RotorState first_;  ///< at the start, upright
   aero::ResolvedRotorSetup setup_;
+  std::shared_ptr<const aero::MadeRotorGrid> grid_;  ///< until rotor_ has it
   std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< made by begin() or restore()
   std::optional<AirFile> file_;
   double t_ = 0.0, saved_dt_ = 0.0;  ///< of the last aim; step of the run that left the restored state

@@ -54,7 +54,7 @@ namespace {
 
 class ParticleSide final : public BodySide, sea::WindowDriver {
  public:
-  explicit ParticleSide(Machine& machine) : machine_(machine), sea_(*machine.particles()) {}
+  ParticleSide(Machine& machine, DriverFunction between) : machine_(machine), sea_(*machine.particles()), between_(std::move(between)) {}
 
   void aim(const bodies::BodiesState& from, std::int64_t end_tick) override {
     state_ = from, end_ = end_tick, held_ = from.tick < 0;
@@ -64,7 +64,7 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
   }
   bool record(runtime::Graph& graph) override {
     constexpr int first_tag = 64;  // those of the air are below
-    sea_.record(graph, *this, first_tag);
+    sea_.record(graph, between_ ? between_(*this) : *this, first_tag);
     return true;
   }
   bodies::BodiesState finish() override {
@@ -110,6 +110,7 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
 
   Machine& machine_;
   sea::ParticleSea& sea_;
+  DriverFunction between_;
   bodies::BodiesState state_, next_;
   std::vector<Motion> held_motions_;
   std::int64_t end_ = 0, ticks_ = 0;
@@ -118,6 +119,8 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
 
 }  // namespace
 
-std::unique_ptr<BodySide> make_particle_side(Machine& machine) { return std::make_unique<ParticleSide>(machine); }
+std::unique_ptr<BodySide> make_particle_side(Machine& machine, DriverFunction between) {
+  return std::make_unique<ParticleSide>(machine, std::move(between));
+}
 
 }  // namespace spindrift::coupling

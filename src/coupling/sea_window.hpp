@@ -5,13 +5,20 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "src/coupling/body_side.hpp"
 
+namespace spindrift::sea {
+class WindowDriver;
+}
+
 namespace spindrift::coupling {
 
-/// Before t = 0 it holds the bodies where they start.
-std::unique_ptr<BodySide> make_particle_side(Machine& machine);
+/// Before t = 0 it holds the bodies where they start. `between` returns what the sea is driven by in place of the bodies it is given, for those
+/// who want to hear what passes between the two.
+using DriverFunction = std::function<sea::WindowDriver&(sea::WindowDriver& bodies)>;
+std::unique_ptr<BodySide> make_particle_side(Machine& machine, DriverFunction between = {});
 
 /// Evaluates the water's loads on the bodies as they stand.
 void evaluate_particles(Machine& machine, const bodies::BodiesState& state);

@@ -40,8 +40,8 @@ std::array<Part, 8> parts(const RotorGridSizes& z) {
 /// Blocks and connections of one sector after another; windows are given as whole sides or parts of them.
 class Assembly {
  public:
-  Assembly(const Turbine& turbine, const RotorGridSpec& spec, const RotorLayout& layout)
-      : spec_(spec), z_(spec.sizes), layout_(layout), blades_(turbine.blades), sectors_(spec.whole ? turbine.blades : 1) {}
+  Assembly(const Turbine& turbine, const RotorGridSpec& spec, const RotorLayout& layout, const GridProgress& told)
+      : spec_(spec), z_(spec.sizes), layout_(layout), told_(told), blades_(turbine.blades), sectors_(spec.whole ? turbine.blades : 1) {}
 
   MultiBlockGrid make(const BladeSurface& blade) {
     make_first_sector(blade);
@@ -69,8 +69,14 @@ class Assembly {
     grid_.blocks.push_back(empty("ring_1", z_.layers, z_.round, nk));
     grid_.blocks.push_back(empty("plug_1", z_.chordwise(), z_.edge, z_.outboard));
     for (const Part& p : parts(z_)) grid_.blocks.push_back(empty(fmt::format("{}_1", p.name), p.J1 - p.J0, p.I1 - p.I0, nk));
+    int made = 0;
 #pragma omp parallel for schedule(dynamic)
-    for (int k = 0; k <= nk; ++k) fill_plane(make_plane(blade, layout_, k), k);
+    for (int k = 0; k <= nk; ++k) {
+      fill_plane(make_plane(blade, layout_, k), k);
+      if (!told_) continue;
+#pragma omp critical(rotor_grid_progress)
+      told_("rotor grid", double(++made) / double(nk + 1));
+    }
   }
 
   void fill_plane(const Plane& plane, int k) {
@@ -207,13 +213,14 @@ class Assembly {
   const RotorGridSpec& spec_;
   const RotorGridSizes& z_;
   const RotorLayout& layout_;
+  const GridProgress& told_;
   int blades_, sectors_;
   MultiBlockGrid grid_;
 };
 
 }  // namespace
 
-MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec) {
+MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec, const GridProgress& told) {
   if (turbine.aerofoils.empty())
     throw NumericalFailure("rotor grid: the turbine file has no turbine.aerofoils, the outlines that a surface is made from",
                            "turbine", 0, 0.0);
@@ -225,7 +232,7 @@ MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec
   settings.hub_radius = spec.hub_radius_m, settings.pitch = spec.pitch, settings.roll = 2.0 * pi * roll / round;
   const BladeSurface blade(turbine, settings);
   const RotorLayout layout(blade, spec, turbine.blades, roll);
-  MultiBlockGrid grid = Assembly(turbine, spec, layout).make(blade);
+  MultiBlockGrid grid = Assembly(turbine, spec, layout, told).make(blade);
   for (int m = 0; m < spec.coarsen; ++m) grid = coarsened(grid);
   return grid;
 }

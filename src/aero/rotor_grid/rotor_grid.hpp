@@ -3,17 +3,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <string_view>
+
 #include "src/aero/grid/multi_block.hpp"
 #include "src/aero/rotor_grid/layout.hpp"
 #include "src/aero/turbine.hpp"
 
 namespace spindrift::aero {
 
+/// Told now and then how far something long has come: what is being made, and the share of it that is. One call at a time, from any thread.
+using GridProgress = std::function<void(std::string_view what, double share)>;
+
 /// Blocks of each blade's sector, in this order, their indices (i, j, k): O (outward, round from the trailing edge along the
 /// pressure side, radially outward); plug (towards the leading edge, towards the suction side, radial); eight H blocks (along the
 /// turning direction, axial, radial), named by the compass with upstream in the west and the turning direction in the north.
 /// Patches: blade_1 ... blade_B (walls), hub, inflow, outflow, far. Same bits for any number of threads.
 /// Throws NumericalFailure where the surface folds.
-MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec);
+MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec, const GridProgress& told = {});
 
 }  // namespace spindrift::aero
