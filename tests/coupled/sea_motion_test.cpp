@@ -1,5 +1,6 @@
-// The paper's check of its communication, on the side of the water (the air's is in resolved_air_test.cpp): a sea of particles driven by bodies
-// whose motion was read from a file gives bit for bit what it gave when the bodies moved under its loads. SPDX-License-Identifier: Apache-2.0
+// The paper's check of its communication, on the side of the water (the air's is in resolved_air_test.cpp): a sea of particles
+// driven by bodies whose motion was read from a file gives bit for bit what it gave when the bodies moved under its loads.
+// SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
 #include <iomanip>
@@ -93,7 +94,7 @@ Seen seen(const sea::ParticleSea& sea) { return {{sea.loads().begin(), sea.loads
 
 std::unique_ptr<Machine> platform() {
   scene::Document document = scene::load(test::input("leble_barakos/case1_demo.toml"),
-                                         {"sea.particles.spacing_m=4.0", "sea.tank.x_m=[-70.0, 90.0]", "sea.initial.settle_s=0.1", "time.end_s=0.3"});
+                                         {"sea.particles.spacing_m=4.0", "sea.initial.settle_s=0.1", "time.end_s=0.3"});
   return std::make_unique<Machine>(read_scenario(document));
 }
 
@@ -117,7 +118,8 @@ TEST_CASE("bodies' motion from a file gives the sea's bits of moving bodies", "[
     runtime::Executor executor(std::move(graph), {.threads = 2});
     for (int n = 0; n < 4; ++n) {
       REQUIRE_FALSE(side->outdated());
-      write(file, double(state.tick) * machine->timeline().tick_s()), write(file, double(state.tick < 0)), write(file, state.motions);
+      write(file, double(state.tick) * machine->timeline().tick_s()), write(file, double(state.tick < 0)),
+          write(file, state.motions);
       side->aim(state, state.tick + machine->timeline().steps_per_window());
       executor.run();
       state = side->finish();
