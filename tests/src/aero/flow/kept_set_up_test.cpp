@@ -25,7 +25,7 @@ FlowSetting unsteady(const char* preconditioner, PreconditionerOptions common) {
 const FlowSetting settings[]{unsteady("coarse", {.group_cells = 4}), unsteady("coarse", {.group_cells = 2, .direct_groups = 0}),
                              unsteady("pressure_amg", {})};
 
-Case swirl(const FlowSetting& setting, int threads = 1, int ranks = 1, int rank = 0) {
+Case carried_swirl(const FlowSetting& setting, int threads = 1, int ranks = 1, int rank = 0) {
   const BoxOptions box{.ni = 12, .nj = 12, .nk = 12};
   Case c(perturbed(cartesian_box(box), box, 0.03), setting, {}, {.across_j = 4, .across_k = 4, .normal = 4}, ranks, rank);
   c.solver->start([&](const Eigen::Vector3d& x) {
@@ -47,7 +47,7 @@ TEST_CASE("a set-up kept over physical steps goes on over a restart with the sam
   for (const FlowSetting& s : settings) {
     CAPTURE(s.preconditioner, s.common.direct_groups);
     for (const int before : {every + 1, 2 * every}) {  // in the middle of a set-up's life, and where a new one is due
-      Case whole = swirl(s), first = swirl(s), second = swirl(s, 3), forgetful = swirl(s);
+      Case whole = carried_swirl(s), first = carried_swirl(s), second = carried_swirl(s, 3), forgetful = carried_swirl(s);
       whole.run(std::uint32_t(before + 2));
       first.run(std::uint32_t(before));
       carry_over(*first.solver, *second.solver);
@@ -64,7 +64,7 @@ TEST_CASE("a set-up kept over physical steps goes on over a restart with the sam
 TEST_CASE("windows undone and done again, with or without a new set-up in them, leave the bits of one done once", "[flow][fast]") {
   for (const FlowSetting& s : settings) {
     CAPTURE(s.preconditioner, s.common.direct_groups);
-    Case once = swirl(s), twice = swirl(s);
+    Case once = carried_swirl(s), twice = carried_swirl(s);
     once.run(2 * every + 1);
     for (int step = 0; step < 2 * every + 1; ++step) {
       const FlowSolver& from = *twice.solver;
@@ -89,10 +89,10 @@ TEST_CASE("windows undone and done again, with or without a new set-up in them, 
 
 TEST_CASE("a set-up kept over steps takes hardly more iterations than one for each matrix", "[flow][fast]") {
   for (FlowSetting s : settings) {
-    Case kept = swirl(s);
+    Case kept = carried_swirl(s);
     kept.run(2 * every);
     s.common.common_every = 1, s.common.common_steps = 1;
-    Case each = swirl(s);
+    Case each = carried_swirl(s);
     each.run(2 * every);
     const auto iterations = [](const Case& c) {
       long sum = 0;
@@ -107,7 +107,7 @@ TEST_CASE("a set-up kept over steps takes hardly more iterations than one for ea
 TEST_CASE("two ranks give a kept set-up that is eliminated the bits of one", "[flow][mpi2]") {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  Case whole = swirl(settings[0]), part = swirl(settings[0], 2, 2, rank);
+  Case whole = carried_swirl(settings[0]), part = carried_swirl(settings[0], 2, 2, rank);
   whole.run(every + 2), part.run(every + 2);
   CHECK(fingerprint(*whole.solver) == fingerprint(*part.solver));
 }
