@@ -24,12 +24,20 @@ class StepGraph {
     total_fraction_ = graph.datum();
   }
 
+  /// A common part is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while the others still have a sea to go on
+  /// with. The round of one gives what stands outside the march's own loops that urgency too.
   void record() {
+    if (common())
+      g_.loop("aero/step", {.min = 1, .max = 1, .urgency = 2}, [&] { record_march(2); });
+    else
+      record_march(0);
+  }
+
+ private:
+  void record_march(int urgency) {
     if (s_.setting_.time_order > 0) begin_time_step();
     begin();
     if (s_.moves()) move_grid();
-    // A common part is one thread's work: the air comes to it early, while there is a sea (urgency 1) for the others to go on with.
-    const int urgency = common() ? 2 : 0;
     g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(s_.march_.options().max_steps) + 2, .urgency = urgency}, [&] {
       residual_of_state();
       judge();
@@ -55,7 +63,6 @@ class StepGraph {
     });
   }
 
- private:
   int columns() const { return s_.cycle_.most_columns(); }
   bool common() const { return s_.preconditioner_->has_common(); }
   std::string of(const char* path, std::size_t n) const { return std::string(path) + "/" + std::to_string(s_.tiles_[n].index); }

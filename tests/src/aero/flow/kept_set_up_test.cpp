@@ -13,7 +13,7 @@ namespace {
 
 constexpr int every = 3;  // physical steps that a set-up serves
 
-/// A swirling_box carried through a skewed box of 27 tiles in steps of two cells' passage.
+/// A swirl carried through a skewed box of 27 tiles in steps of two cells' passage.
 FlowSetting unsteady(const char* preconditioner, PreconditionerOptions common) {
   FlowSetting s = air(0.05, {1.0, 0.4, 0.2});
   s.preconditioner = preconditioner;
@@ -25,7 +25,7 @@ FlowSetting unsteady(const char* preconditioner, PreconditionerOptions common) {
 const FlowSetting settings[]{unsteady("coarse", {.group_cells = 4}), unsteady("coarse", {.group_cells = 2, .direct_groups = 0}),
                              unsteady("pressure_amg", {})};
 
-Case swirling_box(const FlowSetting& setting, int threads = 1, int ranks = 1, int rank = 0) {
+Case carried_swirl(const FlowSetting& setting, int threads = 1, int ranks = 1, int rank = 0) {
   const BoxOptions box{.ni = 12, .nj = 12, .nk = 12};
   Case c(perturbed(cartesian_box(box), box, 0.03), setting, {}, {.across_j = 4, .across_k = 4, .normal = 4}, ranks, rank);
   c.solver->start([&](const Eigen::Vector3d& x) {
@@ -47,7 +47,7 @@ TEST_CASE("a set-up kept over physical steps goes on over a restart with the sam
   for (const FlowSetting& s : settings) {
     CAPTURE(s.preconditioner, s.common.direct_groups);
     for (const int before : {every + 1, 2 * every}) {  // in the middle of a set-up's life, and where a new one is due
-      Case whole = swirling_box(s), first = swirling_box(s), second = swirling_box(s, 3), forgetful = swirling_box(s);
+      Case whole = carried_swirl(s), first = carried_swirl(s), second = carried_swirl(s, 3), forgetful = carried_swirl(s);
       whole.run(std::uint32_t(before + 2));
       first.run(std::uint32_t(before));
       carry_over(*first.solver, *second.solver);
@@ -64,7 +64,7 @@ TEST_CASE("a set-up kept over physical steps goes on over a restart with the sam
 TEST_CASE("windows undone and done again, with or without a new set-up in them, leave the bits of one done once", "[flow][fast]") {
   for (const FlowSetting& s : settings) {
     CAPTURE(s.preconditioner, s.common.direct_groups);
-    Case once = swirling_box(s), twice = swirling_box(s);
+    Case once = carried_swirl(s), twice = carried_swirl(s);
     once.run(2 * every + 1);
     for (int step = 0; step < 2 * every + 1; ++step) {
       const FlowSolver& from = *twice.solver;
@@ -89,10 +89,10 @@ TEST_CASE("windows undone and done again, with or without a new set-up in them, 
 
 TEST_CASE("a set-up kept over steps takes hardly more iterations than one for each matrix", "[flow][fast]") {
   for (FlowSetting s : settings) {
-    Case kept = swirling_box(s);
+    Case kept = carried_swirl(s);
     kept.run(2 * every);
     s.common.common_every = 1, s.common.common_steps = 1;
-    Case each = swirling_box(s);
+    Case each = carried_swirl(s);
     each.run(2 * every);
     const auto iterations = [](const Case& c) {
       long sum = 0;
@@ -107,7 +107,7 @@ TEST_CASE("a set-up kept over steps takes hardly more iterations than one for ea
 TEST_CASE("two ranks give a kept set-up that is eliminated the bits of one", "[flow][mpi2]") {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  Case whole = swirling_box(settings[0]), part = swirling_box(settings[0], 2, 2, rank);
+  Case whole = carried_swirl(settings[0]), part = carried_swirl(settings[0], 2, 2, rank);
   whole.run(every + 2), part.run(every + 2);
   CHECK(fingerprint(*whole.solver) == fingerprint(*part.solver));
 }
