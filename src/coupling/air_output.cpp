@@ -5,7 +5,6 @@
 
 #include <array>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "src/io/atomic_file.hpp"
@@ -130,11 +129,18 @@ void AirOutput::write_walls(std::int64_t number, double time_s) {
 }
 
 void write_choice(const io::RunDirectory& directory, const std::string& preconditioner) {
-  const std::string automatic = "preconditioner = \"auto\"";
   std::ifstream in(directory.scene());
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (const std::size_t at = text.find(automatic); at != std::string::npos)
-    io::write_atomically(directory.scene(), text.replace(at, automatic.size(), fmt::format("preconditioner = \"{}\"", preconditioner)));
+  std::string text, line;
+  while (std::getline(in, line)) {
+    const std::string automatic = "preconditioner = \"auto\"";
+    if (const std::size_t at = line.find(automatic); at != std::string::npos)
+      line.replace(at, automatic.size(), fmt::format("preconditioner = \"{}\"", preconditioner));
+    // Keys that "auto" knows and block ILU does not would be refused.
+    const bool has_none = preconditioner == "block_ilu" && (line.starts_with("group_cells =") || line.starts_with("direct_groups =") ||
+                                                            line.starts_with("common_every =") || line.starts_with("common_steps ="));
+    if (!has_none) text += line + "\n";
+  }
+  io::write_atomically(directory.scene(), text);
 }
 
 void write_span(const runtime::World& world, const std::vector<aero::SpanLoad>& loads, const io::RunDirectory& directory) {

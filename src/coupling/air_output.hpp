@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/mpi/environment.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/io/fields.hpp"
 #include "src/io/run_directory.hpp"
