@@ -24,11 +24,11 @@ gas::Primitive<double> vortex(const FlowSetting& s, const Eigen::Vector3d& x) {
 }
 
 /// Box of length pi between mirrors, or of 2 pi that repeats; n cells a side; dt in units of length over speed.
-Case box(bool octant, int n, double dt, const MarchOptions& march) {
+Case box(bool octant, int n, double dt, const MarchOptions& march, double upwinding) {
   FlowSetting s = air(0.1);
   s.stream = {};
   s.viscous = true;
-  s.upwinding = 0.25;
+  s.upwinding = upwinding;
   const double rho = gas::density(s.gas, s.stream);
   s.gas.viscosity = {.mu0 = rho * s.speed / 1600.0, .T0 = 288.15, .S = 110.33};
   s.time_order = 2, s.dt = dt / s.speed;
@@ -74,7 +74,7 @@ struct Decay {
   int steps = 0;
 };
 Decay decay(int n, double dt, double end, const MarchOptions& march) {
-  Case c = box(true, n, dt, march);
+  Case c = box(true, n, dt, march, 0.05);  // with 0.25 the flux takes so much at the cells' own scale that the peak is 7 to 17 % early
   Decay d;
   while (d.time.empty() || d.time.back() < end - 0.5 * dt) {
     c.run();
@@ -96,7 +96,7 @@ Decay decay(int n, double dt, double end, const MarchOptions& march) {
 
 TEST_CASE("an eighth of Taylor and Green's vortex between mirrors is the whole one cell by cell", "[flow][fast]") {
   const MarchOptions march{.cfl_start = 1e3, .drop = 1e-9, .max_steps = 60, .krylov_drop = 1e-3, .matrix_free_below = 2.0};
-  Case eighth = box(true, 6, 0.1, march), whole = box(false, 12, 0.1, march);
+  Case eighth = box(true, 6, 0.1, march, 0.25), whole = box(false, 12, 0.1, march, 0.25);
   eighth.run(), whole.run();  // ghosts are filled from here on
   const double start = energy(whole);
   CHECK(energy(eighth) == Approx(start).epsilon(1e-10));
