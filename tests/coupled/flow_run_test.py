@@ -125,7 +125,7 @@ class FlowRun(unittest.TestCase):
         case = CASES / "pitching_naca0012/pitching.toml"
         for setting, words in (("aero.flow.motion.patches=['blade']", 'no patch "blade"'),
                                ("aero.flow.motion.heave_amplitude_m=[0.0, 0.0, 40.0]", "cells fold")):
-            done = spindrift("run", case, "--out", self.out, "--set", setting)
+            done = spindrift("run", case, "--out", self.out, "--overwrite", "--set", setting)
             self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
             self.assertIn(words, done.stdout + done.stderr)
 
