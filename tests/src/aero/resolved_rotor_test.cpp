@@ -220,29 +220,30 @@ ResolvedRotorSetup preconditioned(const std::string& time, const std::string& na
 const std::pair<const char*, int> common_parts[]{{"coarse", 4096}, {"coarse", 0}, {"pressure_amg", 0}};
 }  // namespace
 
-TEST_CASE("preconditioners with a common part end in block ILU's flow round a periodic sector, the coarse ones in fewer iterations", "[rotor][fast]") {
-  const auto marched = [](ResolvedRotorSetup s) {
-    s.flow.krylov_steps = 40, s.flow.krylov_drop = 1e-5;
+TEST_CASE("preconditioners with a common part end in block ILU's flow round a periodic sector; the coarse ones solve more at long steps", "[rotor][fast]") {
+  struct Marched {
+    RotorLoad load;
+    double drop;  // of the linear residual, by at most 40 iterations
+  };
+  const auto marched = [](ResolvedRotorSetup s, double cfl) {
+    s.flow.krylov_steps = 40, s.flow.krylov_drop = 1e-4, s.flow.cfl = s.flow.cfl_max = cfl;
     ResolvedRotor rotor(s);
     rotor.solver().start_uniform();
     rotor.prepare(MPI_COMM_SELF, {.threads = 1});
     rotor.run();
-    struct {
-      RotorLoad load;
-      long iterations;
-      double drop;
-    } end{rotor.load(), rotor.solver().march().krylov_total(), rotor.solver().march().linear_drop()};
-    return end;
+    return Marched{rotor.load(), rotor.solver().march().linear_drop()};
   };
-  const auto ilu = marched(preconditioned("steady", "block_ilu"));
-  REQUIRE(ilu.drop <= 1e-5);
+  const ResolvedRotorSetup plain = preconditioned("steady", "block_ilu");
+  const Marched ilu = marched(plain, 10.0), ilu_long = marched(plain, 50.0);
+  REQUIRE(ilu.drop <= 1e-3);
   for (const auto& [name, direct] : common_parts) {
-    const auto with = marched(preconditioned("steady", name, direct));
-    CAPTURE(name, direct, ilu.iterations, with.iterations, with.drop, ilu.load.thrust, with.load.thrust);
-    CHECK(with.drop <= 1e-5);
-    CHECK(with.load.thrust == Approx(ilu.load.thrust).epsilon(1e-4));
-    CHECK(with.load.torque == Approx(ilu.load.torque).epsilon(1e-4));
-    if (std::string(name) == "coarse") CHECK(with.iterations < ilu.iterations);
+    const ResolvedRotorSetup s = preconditioned("steady", name, direct);
+    const Marched with = marched(s, 10.0), with_long = marched(s, 50.0);
+    CAPTURE(name, direct, with.drop, ilu_long.drop, with_long.drop, ilu.load.thrust, with.load.thrust);
+    CHECK(with.drop <= 1e-3);
+    CHECK(with.load.thrust == Approx(ilu.load.thrust).epsilon(1e-3));
+    CHECK(with.load.torque == Approx(ilu.load.torque).epsilon(1e-3));
+    if (std::string(name) == "coarse") CHECK(with_long.drop < 0.7 * ilu_long.drop);
   }
 }
 
