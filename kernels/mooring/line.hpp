@@ -1,5 +1,5 @@
 // What makes two mooring-line models interchangeable: the vector between their ends in, the forces on both ends out.
-// Used by src/moorings/store.hpp; each model is tested in tests/kernels/mooring.
+// Used by src/moorings/moorings.cpp; each model is tested in tests/kernels/mooring.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,7 +2,7 @@
 // rk4, explicit_euler: |R(lambda h)| <= 1 with the stability polynomial R (Hairer & Wanner 1996, Solving ODEs II, chapter IV.2).
 // symplectic: spectral radius of the step of the damped oscillator x'' = -|lambda|^2 x + 2 Re(lambda) x' <= 1; without damping
 // omega h <= 2. Growth that the system itself has (Re lambda > 0) is not the integrator's: such a mode counts as undamped.
-// Used by src/bodies/linearise.cpp; tested at 0.95 and 1.05 of the limit in tests/kernels/rigid/stability_test.cpp.
+// Used by src/bodies/linearise.cpp; tested at 0.95 and 1.05 of the limit in tests/kernels/rigid/integrators_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,6 +1,6 @@
 // How a task says which data it touches. A datum is a name for something that tasks share (a tile's state, a halo, a residual);
 // the runtime never sees its bytes. Order follows from the accesses alone (graph/edges.hpp).
-// Used by every tasks.cpp; tested in tests/runtime/edges_test.cpp.
+// Used by every tasks.cpp; tested in tests/runtime/graph_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

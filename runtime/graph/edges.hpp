@@ -2,7 +2,7 @@
 // all readers since the last write. Walking the body twice gives the edges into the next iteration as well: distance 1 at most,
 // because every datum of the body is touched in every iteration.
 // Any two nodes that touch a datum, one of them writing, are thereby ordered in every pair of iterations; the executor counts on
-// it (executor/program.hpp). Called by Graph::edges; tested in tests/runtime/edges_test.cpp. SPDX-License-Identifier: Apache-2.0
+// it (executor/program.hpp). Called by Graph::edges; tested in tests/runtime/graph_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>

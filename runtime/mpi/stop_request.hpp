@@ -1,5 +1,5 @@
 // "Finish the window, save, stop": SIGTERM, SIGINT or SIGUSR1 sent to any rank, or a limit on wall time, agreed on by all ranks.
-// Used by src/coupling between windows; tested in tests/runtime/stop_request_test.cpp.
+// Used by src/coupling between windows; tested in tests/coupled/program_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 // Options of the resolved air: [aero.flow] with its grid, its schemes, its march and what acts on the patches of the grid.
-// Declared in flow_options.cpp; read as part of [aero]; tested in tests/src/aero/flow_options_test.cpp.
+// Declared in flow_options.cpp; read as part of [aero]; tested in tests/src/aero/flow_grid_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

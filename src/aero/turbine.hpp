@@ -1,5 +1,5 @@
 // A rotor's blades as data: sections along the span and their polars, from a turbine file (inputs/turbines).
-// Read by turbine.cpp; used by bem.cpp and rotor_grid; tested in tests/src/aero/turbine_test.cpp.
+// Read by turbine.cpp; used by bem.cpp and rotor_grid; tested in tests/src/aero/bem_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

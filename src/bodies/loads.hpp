@@ -1,6 +1,6 @@
 // Loads that belong to the bodies themselves: weight, and constant forces and moments at points.
 // Springs and dampers between bodies are mooring lines (src/moorings, model spring_damper with anchor_body).
-// Used by src/coupling; tested in tests/src/bodies/loads_test.cpp.
+// Used by src/coupling; tested in tests/src/bodies/system_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 // Everything that a step carries to the next one, as plain values: saved and restored bit for bit.
-// Used by system.hpp and by checkpoints; tested in tests/src/bodies/state_test.cpp.
+// Used by system.hpp and by checkpoints; tested in tests/src/bodies/system_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,7 +1,7 @@
 // The air's side of a coupled window: told how the rotor is to move, it answers with the rotor's load. One interface for the
 // engineering models, which answer at once, and for resolved air, whose work is tasks of a graph that may run beside those of the
 // sea. Its state can be kept and gone back to, so that windows repeat, and goes into checkpoints. Used by window.cpp; implemented
-// here and in resolved_air.cpp; tested in tests/src/coupling/window_test.cpp and tests/coupled/machine_test.cpp.
+// here and in resolved_air.cpp; tested in tests/src/coupling/window_test.cpp and tests/coupled/resolved_air_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 // Files that are whole or absent: written beside their place, forced to disk, then renamed over it.
-// Used for summary.json, scene.toml and, by the same steps, checkpoints. Tested in tests/src/io/atomic_file_test.cpp.
+// Used for summary.json, scene.toml and, by the same steps, checkpoints. Tested in tests/src/io/run_files_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

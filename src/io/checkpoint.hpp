@@ -1,6 +1,6 @@
 // Checkpoints: one HDF5 file of named arrays (double, 64-bit integer, byte) and values, whole or not there, verified before it is trusted.
 // The arrays are global: their layout in the file knows no ranks, so that a run goes on with any number of them.
-// Written by the coupling at window ends, read by it at a restart. Tested in tests/src/io/checkpoint_test.cpp and tests/faults.
+// Written by the coupling at window ends, read by it at a restart. Tested in tests/src/io/checkpoint_test.cpp and checkpoint_faults_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 // Errors that all ranks share: where one rank fails, every rank throws the same exception, so that none is left waiting in MPI.
-// Used by every collective operation of src/io. Tested in tests/src/io/collective_test.cpp.
+// Used by every collective operation of src/io. Tested in tests/src/io/run_files_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 // Set-up of the log: spdlog's default logger writes to the console and, from rank 0, to log.txt; warnings are counted.
-// Modules just say spdlog::info("..."), spdlog::warn("..."). Called by src/app. Tested in tests/src/io/log_test.cpp.
+// Modules just say spdlog::info("..."), spdlog::warn("..."). Called by src/app. Tested in tests/src/io/run_files_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

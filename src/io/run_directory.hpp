@@ -1,5 +1,5 @@
 // The folder of one run: where it is, that nothing in it is lost by accident, and the names of the files in it.
-// Made once by `spindrift run` before anything else is written. Contents: docs/user/outputs.md. Tested in tests/src/io/run_directory_test.cpp.
+// Made once by `spindrift run` before anything else is written. Contents: docs/user/outputs.md. Tested in tests/src/io/run_files_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 """The page of a study, from its study.json: error against cost of every run, the front, the cheapest run within the targets.
-Called by spindrift_report.py; tested in tests/src/report/study_page_test.py. SPDX-License-Identifier: Apache-2.0"""
+Called by spindrift_report.py; tested in tests/src/report/report_test.py. SPDX-License-Identifier: Apache-2.0"""
 import json
 import math
 import pathlib

@@ -1,6 +1,6 @@
 // What a scene may say about a sea of particles (sea.model = "sph"): [sea.particles], [sea.tank], [[sea.water]], [[sea.obstacles]],
 // [sea.wavemaker], [[sea.damping_zones]], [sea.initial], [[sea.gauges]], [[sea.probes]], [sea.fields]. Part of SeaOptions.
-// Used by src/sea/particle_sea.cpp and src/sea/sph; tested in tests/src/sea/particle_options_test.cpp.
+// Used by src/sea/particle_sea.cpp and src/sea/sph; tested in tests/coupled/particle_sea_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

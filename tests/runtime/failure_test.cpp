@@ -1,5 +1,5 @@
 // How runs fail: a throwing task, on one rank or another; a hang. In each case every rank ends within seconds with the reason.
-// A killed rank: tests/runtime/killed_rank.sh.
+// A killed rank: tests/runtime/killed_rank.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <chrono>

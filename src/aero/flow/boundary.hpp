@@ -1,6 +1,6 @@
 // Ghost cells behind boundary windows and the pressure of walls. Ghosts serve gradients, viscous faces and open boundaries; through
 // wall faces no flux scheme is called: the pressure there is extrapolated along the line of cells and nothing else passes.
-// Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/boundary_test.cpp.
+// Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/solver_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

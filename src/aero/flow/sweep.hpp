@@ -1,5 +1,5 @@
 // What sweeps over a tile share: eight cells of a row at once, faces of a row, and the parameters of a solver that do not change.
-// Called by sweep_*.cpp; tested in tests/src/aero/flow/sweep_test.cpp.
+// Called by sweep_*.cpp; tested in tests/src/aero/flow/solver_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,7 +2,7 @@
 // mass flux; rows of eight cells. Faces of walls are left out (FlowTile::open): boundary.cpp adds their pressure.
 // Limiters and schemes are functions over a piece of a row, put together when the solver is made: their sum and not their product is
 // compiled, and the states between them stay in the first cache. docs/theory/air.md, "Convection".
-// Tested in tests/src/aero/flow/sweep_test.cpp.
+// Tested in tests/src/aero/flow/solver_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,7 +1,7 @@
 // Gradients in the cells of a tile by Green-Gauss over its faces, the value on a face being the mean of both sides: of velocity,
 // temperature and what the turbulence model carries. Ghost gradients: mirror images behind walls and planes of symmetry (so that on a
 // no-slip wall nothing varies along it, on a plane of symmetry no shear remains), those of the cell inside behind open boundaries.
-// Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/sweep_test.cpp.
+// Called by the tasks of src/aero/flow; tested in tests/verification/air/manufactured_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,7 +2,7 @@
 // ILU and for products with stored operators. Convection by Roe's dissipation of the mean states held fixed, viscosity in thin-layer
 // form, walls and open boundaries folded into the diagonal (docs/theory/air.md, "Linearisation").
 // Rows and columns are scaled (Scales) so that floats hold them. Called by the tasks of src/aero/flow; tested in
-// tests/src/aero/flow/jacobian_test.cpp.
+// tests/src/aero/flow/solver_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

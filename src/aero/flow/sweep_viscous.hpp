@@ -1,6 +1,6 @@
 // The diffusive part of a tile's residual: stresses and heat flux, diffusion and sources of the turbulence model.
 // Full gradients (cell gradients, corrected along the line of centres) or thin layer. docs/theory/air.md, "Viscous terms".
-// Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/sweep_test.cpp.
+// Called by the tasks of src/aero/flow; tested in tests/verification/air/manufactured_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,6 +1,6 @@
 // What a rotor grid is made to: its numbers of cells, distances and first cells; and the laws of the radius that follow from
 // them: coaxial surfaces, box round the section, first cell. Recipe: docs/theory/rotor_grid.md. Used by plane.cpp and
-// rotor_grid.cpp; tested in tests/src/aero/rotor_grid/layout_test.cpp. SPDX-License-Identifier: Apache-2.0
+// rotor_grid.cpp; tested in tests/src/aero/rotor_grid/rotor_grid_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // Sections of a blade, all with the same number of nodes: aerofoil outlines resampled once, blended node by node in relative
 // thickness. Recipe: docs/theory/rotor_grid.md. Used by blade_surface.cpp and wing.cpp; tested in
-// tests/src/aero/rotor_grid/sections_test.cpp.
+// tests/src/aero/rotor_grid/rotor_grid_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,6 +1,6 @@
 // Where loads along a blade are taken from a rotor grid: one station for each row of wall faces, with its directions. What the
 // solver sums over the faces of a row becomes newtons per metre here. Used by the loads of a resolved rotor; tested in
-// tests/src/aero/rotor_grid/stations_test.cpp.
+// tests/src/aero/rotor_grid/pitching_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

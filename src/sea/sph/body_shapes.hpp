@@ -1,6 +1,6 @@
 // The particles of a body that is a union of cylinders, boxes and spheres, and how far a point is from its surface. Each shape is
 // filled so that its particles displace its volume (shapes.hpp); where shapes overlap, the later one leaves the earlier one's
-// room. Called by particle_sea.cpp; tested in tests/src/sea/sph/body_shapes_test.cpp. SPDX-License-Identifier: Apache-2.0
+// room. Called by particle_sea.cpp; tested in tests/src/sea/sph/shapes_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
