@@ -10,8 +10,8 @@ namespace spindrift::aero {
 /// The same rotor on a grid of half the resolution: numbers of cells halved, first cells twice as high.
 ResolvedRotorSetup coarser(const ResolvedRotorSetup& setup);
 
-/// The flow of `from` as the state of `to`, whose grid has the same blocks with other numbers of cells: trilinear in the blocks'
-/// own coordinates, hub to tip and tip to outer radius each by itself. `from` must be whole on this process, `to` may be a part.
+/// The flow of `from` as the state of `to` (transfer.hpp), whose grid has the same blocks with other numbers of cells: hub to tip
+/// and tip to outer radius each by its own share. `from` must be whole on this process, `to` may be a part.
 void interpolate(const ResolvedRotor& from, ResolvedRotor& to);
 
 /// Marches the coarser rotor `steps` pseudo-steps and hands its flow to `fine`. Every rank makes the same coarse flow for itself:

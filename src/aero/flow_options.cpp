@@ -122,7 +122,7 @@ const scene::Section<FlowOptions>& flow_section() {
                    "node, and there the drop still counts from the wind's residual on the fine grid. 0: none.",
                    between(0, 1e6))
           .only_if("time", {"steady"})
-          .number("coarse_drop", &FlowOptions::coarse_drop, "-", "Drop of the density residual that ends the march on every second node sooner.",
+          .number("coarse_drop", &FlowOptions::coarse_drop, "-", "Drop of the density residual that ends the march on the coarser grid sooner.",
                   between(0.0, 1.0))
           .only_if("time", {"steady"})
           .choice("krylov", &FlowOptions::krylov,

@@ -161,12 +161,8 @@ void start_on_coarser_grid(const Scenario& s, Air& air, runtime::Executor& march
   coarse.solver->record(graph);
   runtime::Executor(std::move(graph)).run();
   const aero::March& done = coarse.solver->march();
-  if (done.verdict() == aero::Verdict::failed)
-    throw NumericalFailure(fmt::format("aero: on the coarser grid of the start (aero.flow.coarse_steps): {} (pseudo-step {}, CFL {:.3g}){}",
-                                       done.why(), done.steps(), done.cfl(), coarse.solver->trouble()),
-                           "aero", done.steps(), 0.0);
+  aero::begin_with(*coarse.solver, *air.solver);
   spdlog::info("air: {} pseudo-steps on every second node, {} cells: {}", done.steps(), coarse.solver->cells(), done.why());
-  aero::transfer(*coarse.solver, *air.solver);
   air.solver->march().begin_after_look();
 }
 

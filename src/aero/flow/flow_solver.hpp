@@ -146,6 +146,7 @@ class FlowSolver {
 
   const FlowSetting& setting() const { return setting_; }
   GridStore& grid() { return grid_; }
+  const GridStore& grid() const { return grid_; }
   std::span<FlowTile> tiles() { return tiles_; }
   std::span<const FlowTile> tiles() const { return tiles_; }
   const March& march() const { return march_; }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/transfer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
+
+#include "kernels/base/failure.hpp"
 
 namespace spindrift::aero {
 
@@ -14,14 +18,11 @@ struct Between {
   double share = 0.0;
 };
 
-std::vector<Between> places(int fine, int coarse) {
-  std::vector<Between> all;
-  for (int n = 0; n < fine; ++n) {
-    const double at = (n + 0.5) * coarse / fine - 0.5;
-    const int low = std::clamp(int(std::floor(at)), 0, std::max(0, coarse - 2));
-    all.push_back({low, std::min(low + 1, coarse - 1), coarse > 1 ? at - low : 0.0});
-  }
-  return all;
+/// `at`: in cells from the first node.
+Between between(double at, int cells) {
+  at -= 0.5;
+  const int low = std::clamp(int(std::floor(at)), 0, std::max(0, cells - 2));
+  return {low, std::min(low + 1, cells - 1), cells > 1 ? at - low : 0.0};
 }
 
 /// Cell values of a block, component by component.
@@ -46,15 +47,19 @@ void for_cells(const Tiling& tiling, const FlowTile& tile, Body&& body) {
 
 }  // namespace
 
-void transfer(FlowSolver& from, FlowSolver& to) {
+void transfer(const FlowSolver& from, FlowSolver& to, const CellPlace& place) {
   const Tiling &coarse = from.grid().tiling(), &fine = to.grid().tiling();
   const int unknowns = from.tiles().empty() ? 0 : from.tiles()[0].unknowns();
   std::vector<BlockValues> values(coarse.block_cells.size());
-  std::vector<std::array<std::vector<Between>, 3>> between(values.size());
+  std::vector<std::array<std::vector<Between>, 3>> neighbours(values.size());
   for (std::size_t b = 0; b < values.size(); ++b) {
     const Index& n = values[b].cells = coarse.block_cells[b];
     values[b].data.resize(std::size_t(unknowns) * std::size_t(n[0]) * std::size_t(n[1]) * std::size_t(n[2]));
-    for (std::size_t d = 0; d < 3; ++d) between[b][d] = places(fine.block_cells[b][d], n[d]);
+    for (std::size_t d = 0; d < 3; ++d) {
+      const int cells = fine.block_cells[b][d];
+      for (int i = 0; i < cells; ++i)
+        neighbours[b][d].push_back(between(place ? place(int(b), int(d), i) : (i + 0.5) * n[d] / cells, n[d]));
+    }
   }
   for (const FlowTile& tile : from.tiles())
     for_cells(coarse, tile, [&](int block, const Index& cell, std::ptrdiff_t at) {
@@ -65,7 +70,7 @@ void transfer(FlowSolver& from, FlowSolver& to) {
     for_cells(fine, tile, [&](int block, const Index& cell, std::ptrdiff_t at) {
       const BlockValues& v = values[std::size_t(block)];
       std::array<Between, 3> b;
-      for (std::size_t d = 0; d < 3; ++d) b[d] = between[std::size_t(block)][d][std::size_t(cell[d])];
+      for (std::size_t d = 0; d < 3; ++d) b[d] = neighbours[std::size_t(block)][d][std::size_t(cell[d])];
       const auto nearest = [](const Between& x) { return x.share < 0.5 ? x.low : x.high; };
       for (int c = 0; c < unknowns; ++c) {
         const auto along_i = [&](int k, int j) {
@@ -80,6 +85,15 @@ void transfer(FlowSolver& from, FlowSolver& to) {
       }
     });
   to.forget();
+}
+
+void begin_with(const FlowSolver& coarse, FlowSolver& fine, const CellPlace& place) {
+  const March& march = coarse.march();
+  if (march.verdict() == Verdict::failed)
+    throw NumericalFailure(fmt::format("aero: on the coarser grid of the start (aero.flow.coarse_steps): {} (pseudo-step {}, CFL {:.3g}){}",
+                                       march.why(), march.steps(), march.cfl(), coarse.trouble()),
+                           "aero", march.steps(), 0.0);
+  transfer(coarse, fine, place);
 }
 
 }  // namespace spindrift::aero

@@ -59,7 +59,7 @@ TEST_CASE("a flow goes from a coarse rotor grid to a fine one: uniform to the bi
   }
   const double error = std::sqrt(squares / volume) / 100.0;
   CAPTURE(error);
-  CHECK(error < 0.08);  // most of it in the outermost fine cells: beyond the middles of coarse ones they take those values
+  CHECK(error < 0.05);  // cells beside the far field are hundreds of metres long
 }
 
 TEST_CASE("a march that begins with a coarser grid's flow is nearer its end after as many steps", "[rotor][fast]") {
