@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/executor/priority.hpp"
 
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "runtime/executor/executor.hpp"
 
@@ -45,4 +50,36 @@ TEST_CASE("ready tasks run by urgency, then by cost-to-go", "[runtime][fast]") {
   Executor(std::move(g), {.threads = 1}).run();
   REQUIRE(ran.size() == 5);
   CHECK(std::string(ran.begin(), ran.begin() + 3) == "ull");  // the last of the long ones goes as far as the short one
+}
+
+TEST_CASE("a task that a thread kept for itself can be taken by others once a more urgent one runs first", "[runtime][fast]") {
+  // The first thread completes "hands on", keeps "kept" and gives out tokens for a while; meanwhile the other makes "urgent" ready there.
+  std::atomic<bool> there, hands_on, kept;
+  int run = 0, missed = 0;
+  Graph g;
+  const Datum first = g.datum(0.0F), other = g.datum(0.5F), urgent = g.datum(0.0F);
+  g.task("hands on", {writes(first)}, [&] {
+    while (!there) {}
+    hands_on = true;
+  });
+  g.task("kept", {reads(first), writes(g.datum(0.0F))}, [&] { kept = true; });
+  g.task("makes ready", {writes(other)}, [&] {
+    there = true;
+    while (!hands_on) {}
+    for (std::atomic<int> n = 0; n < 10 * (run % 50); ++n) {}
+  });
+  g.loop("urgent", {.min = 1, .max = 1, .urgency = 1}, [&] {
+    g.task("urgent/waits", {reads(other), writes(urgent)}, [&] {
+      const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+      while (!kept && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+      if (!kept) ++missed;
+    });
+  });
+  for (int n = 0; n < 400; ++n) g.task("later", {reads(first), reads(urgent)}, [] {});
+  Executor executor(std::move(g), {.threads = 2});
+  for (; run < 200 && missed == 0; ++run) {
+    there = hands_on = kept = false;
+    executor.run();
+  }
+  CHECK(missed == 0);
 }
