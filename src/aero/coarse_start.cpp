@@ -30,10 +30,12 @@ ResolvedRotorSetup coarser(const ResolvedRotorSetup& setup) {
 void interpolate(const ResolvedRotor& from, ResolvedRotor& to) {
   // Blocks from the hub on have the tip at the same share of their own cells only; those of the plug begin there.
   const auto place = [&](int block, int direction, int cell) {
-    const Index coarse = from.solver().grid().tiling().block_cells[std::size_t(block)], fine = to.solver().grid().tiling().block_cells[std::size_t(block)];
+    const Index coarse = from.solver().grid().tiling().block_cells[std::size_t(block)],
+                fine = to.solver().grid().tiling().block_cells[std::size_t(block)];
     const std::size_t d = std::size_t(direction);
     const int tip = d == 2 && fine[2] == to.radial_cells() ? to.span_cells() : 0, coarse_tip = tip > 0 ? from.span_cells() : 0;
-    return cell < tip ? (cell + 0.5) * coarse_tip / tip : coarse_tip + (cell - tip + 0.5) * (coarse[d] - coarse_tip) / (fine[d] - tip);
+    return cell < tip ? (cell + 0.5) * coarse_tip / tip
+                      : coarse_tip + (cell - tip + 0.5) * (coarse[d] - coarse_tip) / (fine[d] - tip);
   };
   begin_with(from.solver(), to.solver(), place);
 }

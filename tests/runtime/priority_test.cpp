@@ -53,7 +53,8 @@ TEST_CASE("ready tasks run by urgency, then by cost-to-go", "[runtime][fast]") {
 }
 
 TEST_CASE("a task that a thread kept for itself can be taken by others once a more urgent one runs first", "[runtime][fast]") {
-  // The first thread completes "hands on", keeps "kept" and gives out tokens for a while; meanwhile the other makes "urgent" ready there.
+  // The first thread completes "hands on", keeps "kept" and gives out tokens for a while; meanwhile the other makes "urgent"
+  // ready there.
   std::atomic<bool> there, hands_on, kept;
   int run = 0, missed = 0;
   Graph g;
