@@ -56,4 +56,20 @@ void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, co
     document.problem("aero.flow.start", "must be \"wind\" or \"rest\" with a rotor");
 }
 
+double far_side_excess(const RotorGridOptions& grid) {
+  constexpr double thrust_coefficient = 0.8;
+  const double blocked = 1.0 / (grid.radial_extent * grid.radial_extent);
+  return blocked * thrust_coefficient / (4.0 * std::sqrt(1.0 - thrust_coefficient));
+}
+
+std::string far_side_note(const RotorGridOptions& grid) {
+  const double excess = far_side_excess(grid);
+  if (excess < 0.01) return {};
+  // Powers of the wind at fixed speed of rotation by blade elements (docs/theory/rotor_resolved.md).
+  return fmt::format("far sides at {:g} tip radii (aero.grid.radial_extent) raise the wind through the rotor by some {:.1f} % (Glauert, thrust coefficient .8): "
+                     "about {:.0f} % of thrust and {:.0f} % of power; at 12 radii {:.1f} %",
+                     grid.radial_extent, 100.0 * excess, 100.0 * (std::pow(1.0 + excess, 1.2) - 1.0), 100.0 * (std::pow(1.0 + excess, 2.9) - 1.0),
+                     100.0 * far_side_excess({.radial_extent = 12.0}));
+}
+
 }  // namespace spindrift::aero

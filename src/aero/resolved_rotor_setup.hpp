@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "src/aero/options.hpp"
 
@@ -23,6 +24,12 @@ struct ResolvedRotorSetup {
 /// Rules between [rotor], [aero.grid], [aero.flow] and the wind; problems go to the document.
 void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor,
                           const Eigen::Vector3d& wind, const WindProfile& profile = {});
+
+/// Share by which the outer radius of the grid raises the wind through the rotor, as the walls of a wind tunnel would (Glauert 1935;
+/// docs/theory/rotor_resolved.md), at a thrust coefficient of .8.
+double far_side_excess(const RotorGridOptions& grid);
+/// A sentence about it where it is above one per cent; else empty.
+std::string far_side_note(const RotorGridOptions& grid);
 
 /// Size and cost of a scene's rotor before anything is made (resolved_rotor_size.cpp).
 struct ResolvedRotorSize {

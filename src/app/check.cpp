@@ -169,6 +169,10 @@ PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::Resolved
   return cost;
 }
 
+void print_far_sides(const aero::RotorGridOptions& grid) {
+  if (const std::string note = far_side_note(grid); !note.empty()) fmt::print("  note: {}\n", note);
+}
+
 /// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
 PartCost print_air(const Machine& machine, const coupling::Start& start, bool calibrate) {
   const coupling::Scenario& s = machine.scenario();
@@ -178,6 +182,7 @@ PartCost print_air(const Machine& machine, const coupling::Start& start, bool ca
   fmt::print("\nResolved air (estimates above take the rotor's load from blade elements)\n");
   fmt::print("  {:<22}{} in {} sector{}, {} rows of faces along each blade\n", "cells", size.cells, size.sectors,
              size.sectors == 1 ? ", which feels motion along the axis only" : "s", size.stations);
+  print_far_sides(setup.grid);
   const bool strong = is_strong(s.coupling.scheme);
   const double samples = strong ? s.coupling.samples : 1.0;
   return cost_of_air(setup, size, samples * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps, strong ? 2 : 1, calibrate);
@@ -191,6 +196,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, setup.flow.viscous == "none" ? "inviscid" : setup.flow.turbulence, setup.flow.flux);
   fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
   fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors, size.sectors == 1 ? ", periodic" : "s", size.stations);
+  print_far_sides(setup.grid);
   const PartCost cost = cost_of_air(setup, size, (steady ? 1.0 : setup.flow.max_pseudo_steps) / s.time.window_s, 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks);
 }

@@ -303,6 +303,8 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   FlowSolver& solver = *air.solver;
   spdlog::info("air: {} cells in {} tiles of {} blocks, {:.0f} bytes per cell", solver.cells(), air.store->tiling().size(),
                air.blocks(), double(solver.bytes() + air.store->bytes()) / double(std::max(1L, solver.cells())) * world.size);
+  if (air.rotor)
+    if (const std::string note = aero::far_side_note(*s.aero.grid); !note.empty()) spdlog::warn("air: {}", note);
   fill_geometry(solver, world.comm);
   FlowCheckpoints checkpoints(world, air, directory, s);
   if (s.aero.flow->preconditioner == "auto") choose_for(air, checkpoints, directory, world, settings.restart);

@@ -312,6 +312,7 @@ class ResolvedAir final : public AirSide {
   void tell_size() {
     news_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB", rotor_->solver().cells(), rotor_->store().tiling().size(),
                                 1e-6 * double(rotor_->solver().bytes() + rotor_->store().bytes()) * world_.size));
+    if (const std::string note = aero::far_side_note(setup_.grid); !note.empty()) news_.push_back("air: " + note);
   }
 
   /// The flow that another run left, carried to where the blades start, upright.

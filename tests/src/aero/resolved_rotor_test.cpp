@@ -326,6 +326,13 @@ TEST_CASE("the memory of a rotor is foretold within a tenth of what it takes", "
     }
 }
 
+TEST_CASE("far sides that act like a wind tunnel's walls are said to, with what they add", "[rotor][fast]") {
+  CHECK(far_side_excess({.radial_extent = 3.0}) == Approx(0.0497).margin(1e-4));
+  CHECK_THAT(far_side_note({.radial_extent = 3.0}), Contains("at 3 tip radii") && Contains("some 5.0 %") && Contains("6 % of thrust and 15 % of power"));
+  CHECK_THAT(far_side_note({.radial_extent = 6.0}), Contains("some 1.2 %"));
+  CHECK(far_side_note({.radial_extent = 12.0}).empty());
+}
+
 TEST_CASE("a short march measures what a pseudo-step costs", "[rotor][fast]") {
   const AirRate rate = measured_air_rate(tiny("bdf2", true));
   CHECK(rate.pseudo_steps == 8);
