@@ -339,13 +339,16 @@ ParticleCensus census_of(const ParticlePlan& plan, std::span<const Motion> start
   census.water = tank.water, census.walls = tank.seeds.size() - tank.water;
   census.step_s = sph::step_limits(p.cfl, p.h(), p.eos.c0, 0.0, p.gravity, 0.0).smallest(), census.step_set_by = "sound";
   std::size_t shaped = 0;
-  for (const ParticleBody& body : plan.bodies) {
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const ParticleBody& body = plan.bodies[b];
     if (body.shapes.empty()) continue;
     const std::size_t count = tank.body_particles[shaped++];
     census.bodies += count, census.walls -= count;
-    const double cell = std::pow(p.spacing, dim) * tank.cell_volume * (dim == 2 ? plan.options.width_m : 1.0);
-    census.displaced_m3.push_back({body.name, double(count) * cell});
-    const auto points = sph::fill_body(body.shapes, p.spacing, dim == 2 ? sph::Cut::plane : sph::Cut::space);
+    const double width = dim == 2 ? plan.options.width_m : 1.0, cell = std::pow(p.spacing, dim) * tank.cell_volume;
+    const double edge = std::pow(cell, 1.0 / dim);
+    const auto points = sph::fill_body(body.shapes, edge, dim == 2 ? sph::Cut::plane : sph::Cut::space);
+    census.floats.push_back({body.name, double(count) * cell * width, sph::wetted_volume(points, start[b], cell, edge) * width,
+                             sph::rise_to_float(points, start[b], cell, edge, body.mass / (p.eos.rho0 * width))});
     const double limit = body_step_limit<dim>(body, points, p, dim == 2 ? plan.options.width_m : 1.0);
     if (limit < census.step_s) census.step_s = limit, census.step_set_by = "body " + body.name;
   }

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,7 +67,12 @@ struct ParticleCensus {
   double step_s = 0.0;                           ///< largest step at rest
   std::string step_set_by;                       ///< "sound", "body NAME"
   double evaluations_per_second = 0.0;           ///< measured now on a small sea of the same schemes, one thread
-  std::vector<std::pair<std::string, double>> displaced_m3;   ///< by body: volume that its particles stand for
+  struct Body {
+    std::string name;
+    double volume_m3 = 0.0, wetted_m3 = 0.0;     ///< that its particles stand for: in all, and under z = 0 at the start
+    std::optional<double> rise_m;                ///< from there to its static draft by its own weight; none where it sinks
+  };
+  std::vector<Body> floats;
   std::size_t particles() const { return water + walls + bodies; }
 };
 ParticleCensus particle_census(const ParticlePlan& plan, std::span<const Motion> start);

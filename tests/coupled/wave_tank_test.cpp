@@ -1,5 +1,5 @@
 // Waves that a paddle makes in a tank of particles: height near the paddle by Biesel, phase speed of linear theory, loss and what the
-// far end reflects, from harmonics of gauges. The long tank is the paper's wave at five particles per height.
+// far end reflects, from harmonics of gauges. The long tanks are the paper's wave at five and ten particles per height.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <complex>
@@ -75,14 +75,15 @@ TEST_CASE("a piston in a small tank makes waves of Biesel's height that travel a
   CHECK(w.reflection < 0.05);
 }
 
-TEST_CASE("the paper's wave at five particles per height: Biesel's height near the paddle, phase speed, loss, reflection",
+TEST_CASE("the paper's wave at five and ten particles per height: Biesel's height near the paddle, phase speed, loss, reflection",
           "[.][coupled][sea][long]") {
-  const test::Folder folder("wave_tank");
-  test::run_scene(test::input("validation/wave_tank/wave_tank.toml"), {}, folder.path());
+  const std::string name = GENERATE("wave_tank", "wave_tank_fine");
+  const test::Folder folder(name);
+  test::run_scene(test::input("validation/wave_tank/" + name + ".toml"), {}, folder.path());
   const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
   const Waves w = analyse(history, {{"g26", 25.7}, {"g39", 38.5}, {"g51", 51.4}, {"g64", 64.2}, {"g77", 77.1}, {"g90", 89.9}, {"g103", 102.8}},
                           1.88, 8.8, 20.6, 1);
-  INFO("height " << w.height << ", speed " << w.speed_ratio << ", loss " << w.loss << ", reflection " << w.reflection);
+  INFO(name << ": height " << w.height << ", speed " << w.speed_ratio << ", loss " << w.loss << ", reflection " << w.reflection);
   CHECK(w.height == Approx(1.0).margin(0.03));
   CHECK(w.speed_ratio == Approx(1.0).margin(0.01));
   CHECK(w.loss < 0.05);  // what its reflection leaves of it; measured without one in travelling_wave_test.cpp

@@ -91,6 +91,25 @@ Points fill_body(std::span<const BodyShape> shapes, double spacing, Cut cut) {
   return all;
 }
 
+double wetted_volume(const Points& points, const Motion& motion, double cell, double edge) {
+  double wetted = 0.0;
+  for (const Eigen::Vector3d& x : points) wetted += cell * std::clamp(0.5 - motion.point(x)[2] / edge, 0.0, 1.0);
+  return wetted;
+}
+
+std::optional<double> rise_to_float(const Points& points, const Motion& motion, double cell, double edge, double volume) {
+  if (double(points.size()) * cell < volume) return std::nullopt;
+  double lowest = 1e300, highest = -1e300;
+  for (const Eigen::Vector3d& x : points) lowest = std::min(lowest, motion.point(x)[2]), highest = std::max(highest, motion.point(x)[2]);
+  double under = -highest - edge, over = edge - lowest;  // all of it in the water; none
+  for (int halving = 0; halving < 60; ++halving) {
+    Motion moved = motion;
+    moved.position[2] += 0.5 * (under + over);
+    (wetted_volume(points, moved, cell, edge) > volume ? under : over) = 0.5 * (under + over);
+  }
+  return 0.5 * (under + over);
+}
+
 double signed_distance(std::span<const BodyShape> shapes, const Eigen::Vector3d& x, Cut cut) {
   double nearest = 1e300;
   for (const BodyShape& shape : shapes) nearest = std::min(nearest, signed_distance(shape, x, cut));

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
 
+#include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/shapes.hpp"
 #include "src/sea/sph/shapes.hpp"
 
@@ -33,5 +35,11 @@ Points fill_shape(const BodyShape& shape, double spacing, Cut cut);
 
 /// The particles of the union, body axes.
 Points fill_body(std::span<const BodyShape> shapes, double spacing, Cut cut);
+
+// The static draft of the discrete body: each particle is a cell of `cell` [m3, m2], a level slab `edge` high round its place.
+/// What is under z = 0 of a body in `motion` [m3, m2].
+double wetted_volume(const Points& points, const Motion& motion, double cell, double edge);
+/// How far up from `motion`, kept in its attitude, it displaces `volume` in still water [m]; none where all of it displaces less.
+std::optional<double> rise_to_float(const Points& points, const Motion& motion, double cell, double edge, double volume);
 
 }  // namespace spindrift::sph

@@ -104,6 +104,23 @@ TEST_CASE("a union of shapes displaces its volume, and water leaves it room", "[
   });
 }
 
+TEST_CASE("the static draft of a discrete body is Archimedes' within a hundredth of its height, to round-off for a box", "[sea][sph][fast]") {
+  const auto rise = [](const BodyShape& shape, double height, double share) {
+    const double d = 0.1;
+    const std::vector<BodyShape> shapes{shape};
+    const Points points = fill_body(shapes, d, Cut::space);
+    const Motion start{.position = {0.0, 0.0, height}};
+    return rise_to_float(points, start, d * d * d, d, share * volume_of(shape, Cut::space));
+  };
+  for (double share : {0.1, 0.5, 0.9}) {
+    CHECK(rise(Box{.centre = {0, 0, 0}, .size = {1.0, 0.7, 0.6}}, 0.02, share).value() == Approx(0.3 - 0.6 * share - 0.02).margin(1e-9));
+    const Cylinder upright{.start = {0, 0, -1}, .end = {0, 0, 1}, .start_radius = 0.55, .end_radius = 0.55};
+    CHECK(rise(upright, 0.0, share).value() == Approx(1.0 - 2.0 * share).margin(0.02));
+  }
+  CHECK(rise(Sphere{.centre = {0, 0, 0}, .radius = 0.5}, 0.3, 0.5).value() == Approx(-0.3).margin(0.01));
+  CHECK_FALSE(rise(Box{.centre = {0, 0, 0}, .size = {1.0, 0.7, 0.6}}, 0.0, 1.1).has_value());
+}
+
 TEST_CASE("in a 2-D scene a cylinder across the plane is a disc and one in it a rectangle", "[sea][sph][fast]") {
   const Cylinder across{.start = {0, -1, 0}, .end = {0, 1, 0}, .start_radius = 0.5, .end_radius = 0.5};
   const Cylinder upright{.start = {0, 0, -1}, .end = {0, 0, 1}, .start_radius = 0.5, .end_radius = 0.5};

@@ -1,0 +1,70 @@
+"""Wavemakers in a tank of particles beside the piston of wave_tank_test.cpp: a flap makes Biesel's height, a sea state has its significant
+height at the gauges, and its seed decides it. Runs the program on inputs/validation/wave_tank/small_tank.toml, three particles per height.
+
+    python3 particle_waves_test.py PATH_TO_SPINDRIFT
+"""
+import csv
+import importlib.machinery
+import importlib.util
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SPINDRIFT = sys.argv.pop(1)
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = ROOT / "inputs/validation/wave_tank/small_tank.toml"
+HEIGHT, PERIOD = 0.12, 1.5
+COARSE = [f"waves.height_m={HEIGHT}", "sea.particles.spacing_m=0.04", "sea.particles.smoothing_over_spacing=2.0"]
+
+sys.dont_write_bytecode = True  # none beside the script
+loader = importlib.machinery.SourceFileLoader("wave_analysis", str(ROOT / "ci/wave_analysis"))
+wave_analysis = importlib.util.module_from_spec(importlib.util.spec_from_loader("wave_analysis", loader))
+loader.exec_module(wave_analysis)
+
+
+class ParticleWaves(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def run_scene(self, name, *changes):
+        out = pathlib.Path(self.folder.name) / name
+        command = [SPINDRIFT, "run", str(SCENE), "--out", str(out), "--no-report", "--quiet"]
+        for change in COARSE + list(changes):
+            command += ["--set", change]
+        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return out
+
+    def series(self, out, column):
+        with open(out / "history.csv") as file:
+            return [(float(row["time_s"]), float(row[column])) for row in csv.DictReader(file)]
+
+    def test_a_flap_makes_biesels_height_and_the_speed_of_linear_theory(self):
+        out = self.run_scene("flap", "waves.model=airy", "sea.wavemaker.type=flap", "time.end_s=7.5")
+        found = wave_analysis.analyse(out, 6.0, 7.5)
+        self.assertAlmostEqual(found["height_ratio"], 1.0, delta=0.03)
+        self.assertAlmostEqual(found["phase_speed_ratio"], 1.0, delta=0.02)
+        self.assertLess(found["reflection"], 0.03)
+
+    def test_a_sea_state_has_its_significant_height_and_its_seed_decides_it(self):
+        long = self.run_scene("seven", "waves.model=jonswap", "waves.seed=7", "time.end_s=15.0")
+        for gauge in ("g1", "g3", "g5"):  # seven peak periods: the sample itself scatters by more than the gauges do
+            eta = [e for t, e in self.series(long, f"{gauge}.elevation_m") if t > 4.0]
+            self.assertAlmostEqual(4.0 * statistics.pstdev(eta) / HEIGHT, 1.0, delta=0.2)
+        paddle = {}
+        for name, seed, model in (("again", 7, "jonswap"), ("eight", 8, "jonswap"), ("full", 7, "pierson_moskowitz")):
+            out = self.run_scene(name, f"waves.model={model}", f"waves.seed={seed}", "time.end_s=1.5")
+            paddle[name] = self.series(out, "wavemaker.displacement_m")
+        first = [row for row in self.series(long, "wavemaker.displacement_m") if row[0] <= 1.5 + 1e-9]
+        self.assertEqual(paddle["again"], first)
+        for other in ("eight", "full"):
+            self.assertGreater(max(abs(a[1] - b[1]) for a, b in zip(paddle[other], first)), 0.001)
+
+
+if __name__ == "__main__":
+    unittest.main()
