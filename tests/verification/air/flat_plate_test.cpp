@@ -46,6 +46,7 @@ constexpr Published sst_vm[]{{1, {.00255183387, .00251561563}, {.00270623102, .0
 void compare(const Published& grid, const std::string& model, double drop, double friction_limit, double drag_limit, bool first_order = false) {
   const PlateResult p = plate(grid.n, model, drop, first_order);
   CAPTURE(model, grid.n, p.friction, p.drag, p.drop, p.steps, p.y_plus);
+  std::printf("%s, %d x %d nodes: cf %.7f, CD %.7f, drop %.1e in %d steps\n", model.c_str(), 34 * grid.n + 1, 24 * grid.n + 1, p.friction, p.drag, p.drop, p.steps);
   CHECK(p.drop <= drop);
   CHECK(as_good(p.friction, grid.friction, friction_limit));
   CHECK(as_good(p.drag, grid.drag, drag_limit));
