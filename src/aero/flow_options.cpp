@@ -113,6 +113,8 @@ const scene::Section<FlowOptions>& flow_section() {
           .number("cfl", &FlowOptions::cfl, "-", "CFL number of the first pseudo-step.", above(0.0).up_to(1e6))
           .number("cfl_max", &FlowOptions::cfl_max, "-", "Largest CFL number.", above(0.0).up_to(1e8))
           .number("drop", &FlowOptions::drop, "-", "Drop of the density residual that ends a march.", between(0.0, 1.0))
+          .number("residual_kg_m3_s", &FlowOptions::residual_kg_m3_s, "kg/(m3 s)", "Density residual (as flow.density_residual) that ends a march whatever its drop; 0: not looked at.",
+                  between(0.0, 1e6))
           .number("load_change", &FlowOptions::load_change, "-",
                   "Relative change of the force over 20 pseudo-steps that ends a march; 0: not looked at.", between(0.0, 1.0))
           .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.", between(1, 1e6))
@@ -218,6 +220,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.march = {.cfl_start = o.cfl,
              .cfl_max = std::max(o.cfl, o.cfl_max),
              .drop = o.drop,
+             .absolute = o.residual_kg_m3_s,
              .load_change = o.load_change,
              .max_steps = o.max_pseudo_steps,
              .krylov_steps = o.krylov_steps,

@@ -24,7 +24,7 @@ namespace {
 constexpr double viscous_seconds = 12e-6, inviscid_seconds = 7.5e-6;
 
 struct Kind {
-  int unknowns = 5, turbulence = 0, time_order = 0, krylov_steps = 20;
+  int unknowns = 5, turbulence = 0, time_order = 0, krylov_steps = 0;
   bool flexible = false, eddies = false;
   bool moving() const { return time_order > 0; }
 };

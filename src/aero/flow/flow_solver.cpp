@@ -569,13 +569,13 @@ void FlowSolver::combine(FlowTile& tile) {
   if (solving_) cycle_.combine(tile);
 }
 void FlowSolver::precondition_solution(FlowTile& tile) {
-  if (solving_ && cycle_.precondition_at_end()) preconditioner_->apply({&tile, KrylovCycle::solution(tile), KrylovCycle::solution(tile)});
+  if (solving_ && cycle_.precondition_at_end()) preconditioner_->apply({&tile, cycle_.solution(tile), cycle_.solution(tile)});
 }
 
 /// Of the change of the unknowns: the fraction that keeps pressure and temperature positive.
 double FlowSolver::find_update(FlowTile& tile) {
   if (!solving_) return 1.0;
-  const float* x = KrylovCycle::solution(tile);
+  const float* x = cycle_.solution(tile);
   constexpr double most = 0.2;  // of the absolute value, in one pseudo-step
   double fraction = 1.0;
   Limit& limit_of_tile = limits_[std::size_t(&tile - tiles_.data())];
@@ -608,7 +608,7 @@ void FlowSolver::apply_update(FlowTile& tile) {
     return;
   }
   std::copy_n(tile.state.data(), tile.state.size(), tile.trial.data());
-  const float* d = KrylovCycle::solution(tile);
+  const float* d = cycle_.solution(tile);
   const Scales& s = implicit_.scales;
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; ++i) {

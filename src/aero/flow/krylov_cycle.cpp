@@ -12,10 +12,13 @@ KrylovCycle::KrylovCycle(KrylovMethod method, int most_columns)
     : method_(method), most_(std::min(most_columns, linear::max_krylov)), factors_(std::size_t(most_)) {}
 
 void KrylovCycle::allocate(FlowTile& tile) const {
-  const std::size_t size = padded(tile.vector_size());
-  for (int n = 0; n <= most_; ++n) tile.vectors.emplace_back(size);
-  if (method_ == KrylovMethod::gmres) return;
-  for (int n = 0; n < most_; ++n) tile.directions_kept.emplace_back(size);
+  tile.vectors.resize(std::size_t(most_) + 1);
+  if (method_ != KrylovMethod::gmres) tile.directions_kept.resize(std::size_t(most_));
+}
+
+float* KrylovCycle::made(const FlowTile& tile, AlignedArray<float>& vector) {
+  if (vector.size() == 0) vector = AlignedArray<float>(padded(tile.vector_size()));
+  return vector.data();
 }
 
 void KrylovCycle::start(double residual_norm) {
@@ -40,7 +43,7 @@ void KrylovCycle::finish() {
 }
 
 float* KrylovCycle::first(FlowTile& tile) const {
-  return method_ == KrylovMethod::gcg ? tile.vectors.back().data() : tile.vectors[0].data();
+  return made(tile, method_ == KrylovMethod::gcg ? tile.vectors.back() : tile.vectors[0]);
 }
 
 void KrylovCycle::advance(FlowTile& tile, int j) const {
@@ -61,10 +64,10 @@ const float* KrylovCycle::source(const FlowTile& tile, int j) const {
 }
 float* KrylovCycle::direction(FlowTile& tile, int j) const {
   // GMRES keeps none: the place of the product is free until that comes.
-  return method_ == KrylovMethod::gmres ? tile.vectors[std::size_t(j) + 1].data() : tile.directions_kept[std::size_t(j)].data();
+  return made(tile, method_ == KrylovMethod::gmres ? tile.vectors[std::size_t(j) + 1] : tile.directions_kept[std::size_t(j)]);
 }
 float* KrylovCycle::product(FlowTile& tile, int j) const {
-  return tile.vectors[std::size_t(j) + (method_ == KrylovMethod::gcg ? 0 : 1)].data();
+  return made(tile, tile.vectors[std::size_t(j) + (method_ == KrylovMethod::gcg ? 0 : 1)]);
 }
 
 void KrylovCycle::dots(const FlowTile& tile, int j, std::span<double> to) const {
@@ -79,13 +82,18 @@ void KrylovCycle::dots(const FlowTile& tile, int j, std::span<double> to) const 
   dot_products(w, std::span(with).first(count + 2), padded(tile.vector_size()), to);
 }
 
+/// The last product, or GCG's residual: in no combination.
+float* KrylovCycle::solution(FlowTile& tile) const {
+  return method_ == KrylovMethod::gcg ? tile.vectors.back().data() : made(tile, tile.vectors[std::size_t(columns())]);
+}
+
 void KrylovCycle::combine(FlowTile& tile) const {
   const std::size_t size = padded(tile.vector_size()), columns_made = std::size_t(columns());
   if (method_ == KrylovMethod::gcg && columns_made > 0)
     orthogonalise(tile.directions_kept[columns_made - 1].data(), std::span(tile.directions_kept).first(columns_made - 1),
                   gcg_.projections(), gcg_.scale(), size);
   float* x = solution(tile);
-  std::fill_n(x, size, 0.0f);  // the last vector is in no combination
+  std::fill_n(x, size, 0.0f);
   const auto& basis = method_ == KrylovMethod::gmres ? tile.vectors : tile.directions_kept;
   for (std::size_t n = 0; n < columns_made; ++n) add_scaled(x, factors_[n], basis[n].data(), size);
 }

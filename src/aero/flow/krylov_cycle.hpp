@@ -20,6 +20,7 @@ class KrylovCycle {
  public:
   KrylovCycle(KrylovMethod method, int most_columns);
   int most_columns() const { return most_; }
+  /// Room for the vectors; each is made when an iteration first comes to it, so that systems that need few hold few.
   void allocate(FlowTile& tile) const;
   /// GMRES: what combine() leaves is preconditioned once more to be the solution.
   bool precondition_at_end() const { return method_ == KrylovMethod::gmres; }
@@ -47,9 +48,10 @@ class KrylovCycle {
   void dots(const FlowTile& tile, int j, std::span<double> to) const;
   /// The solution (GMRES: before its last preconditioning), in solution(tile).
   void combine(FlowTile& tile) const;
-  static float* solution(FlowTile& tile) { return tile.vectors.back().data(); }
+  float* solution(FlowTile& tile) const;
 
  private:
+  static float* made(const FlowTile& tile, AlignedArray<float>& vector);
   KrylovMethod method_;
   int most_;
   double norm_ = 0.0;

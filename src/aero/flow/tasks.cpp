@@ -229,7 +229,7 @@ class StepGraph {
       each("aero/combine", [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), reads(built_), updates(vectors_[n]), writes(gathered_[n])}; },
            [this](std::size_t n) {
              s_.combine(s_.tiles_[n]);
-             if (s_.solving_) s_.preconditioner_->gather(s_.tiles_[n], KrylovCycle::solution(s_.tiles_[n]));
+             if (s_.solving_) s_.preconditioner_->gather(s_.tiles_[n], s_.cycle_.solution(s_.tiles_[n]));
            });
       common_part("aero/common");
     }

@@ -96,6 +96,14 @@ TEST_CASE("Wilcox's k-omega models have the friction of Karman and Schoenherr wi
   CHECK(p.friction == Approx(karman_schoenherr(p.reynolds_theta)).epsilon(0.05));
 }
 
+TEST_CASE("Wilcox's k-omega of 2006 comes nearer to Karman and Schoenherr on 137 x 97 nodes", "[flow][nightly]") {
+  const PlateResult p = closure_plate(4, "k_omega");
+  std::printf("k_omega, 137 x 97: cf %.7f, CD %.7f, Re_theta %.0f, Karman-Schoenherr %.7f, drop %.1e in %d steps\n", p.friction, p.drag, p.reynolds_theta,
+              karman_schoenherr(p.reynolds_theta), p.drop, p.steps);
+  CHECK(p.drop <= 1e-5);
+  CHECK(p.friction == Approx(karman_schoenherr(p.reynolds_theta)).epsilon(0.035));
+}
+
 TEST_CASE("detached eddies leave a boundary layer to Spalart-Allmaras where cells are longer than it is thick", "[flow][fast]") {
   const PlateResult sa = closure_plate(1, "sa");
   for (const std::string model : {"des97", "ddes"}) {

@@ -63,6 +63,16 @@ TEST_CASE("linear systems that were hardly solved lower the CFL number, shortene
   CHECK(march.cfl() == Approx(6.0));
 }
 
+TEST_CASE("a density residual below the absolute limit ends a march whatever its drop", "[flow][fast]") {
+  March march({.drop = 0.0, .absolute = 1e-2});
+  march.begin_step();
+  double residual = 1.0;
+  while (march.judge(of(residual), 0.0) == Verdict::go_on) march.updated(1.0, 5, 0.1), residual *= 0.5;
+  CHECK(march.verdict() == Verdict::converged);
+  CHECK_FALSE(march.spent());
+  CHECK(residual == 1.0 / 128);
+}
+
 TEST_CASE("loads that have settled end a march where asked", "[flow][fast]") {
   March march({.drop = 0.0, .load_change = 1e-3, .load_window = 5});
   march.begin_step();

@@ -134,13 +134,31 @@ TEST_CASE("a state without a finite residual is refused by name, not marched on"
   CHECK(c.solver->trouble().find("no finite residual in the row of block 0 cell (") != std::string::npos);
 }
 
-TEST_CASE("memory stays below 2 kB per cell with the turbulence model and all of the implicit solver, 14 Krylov steps", "[flow][fast]") {
-  FlowSetting setting = viscous_air();
-  setting.time_order = 2, setting.dt = 1e-3;
-  setting.march.krylov_steps = 14;
-  const BoxOptions box{.ni = 64, .nj = 16, .nk = 8};
-  Case c(cartesian_box(box), setting, {}, {.across_j = 16, .across_k = 8, .normal = 64});
-  const double per_cell = double(c.solver->bytes() + c.store->bytes()) / double(c.solver->cells());
-  CAPTURE(per_cell);
-  CHECK(per_cell < 2000.0);
+// The vectors of the linear solver are made as iterations come to them. Steady marches come to all of them; a physical step keeps two more
+// states of the past and comes to few.
+TEST_CASE("memory stays below 2 kB per cell with a turbulence model, the implicit solver and block ILU, all at defaults", "[flow][fast]") {
+  for (const int order : {0, 2}) {
+    FlowSetting setting = air(0.3, {1.0, 0.4, 0.2});
+    setting.viscous = true, setting.turbulence = "sa", setting.gas.viscosity.mu0 = 1e-2;
+    setting.time_order = order, setting.dt = 1e-3;
+    if (order == 0) setting.march.drop = 0.0, setting.march.krylov_drop = 0.0, setting.march.cfl_start = 1e4, setting.march.max_steps = 1;
+    const BoxOptions box{.ni = 64, .nj = 16, .nk = 8};
+    Case c(perturbed(cartesian_box(box), box, 0.005), setting, {}, {.across_j = 16, .across_k = 8, .normal = 64});
+    for (FlowTile& tile : c.solver->tiles()) std::ranges::fill(tile.geometry->wall_distance_data.span(), 0.1);
+    c.solver->start([&](const Eigen::Vector3d& x) {
+      gas::Primitive<double> q = setting.stream;
+      q.v += 5.0 * std::sin(6.0 * x[0]);
+      return q;
+    });
+    c.prepare();
+    c.run(order == 0 ? 1 : 3);
+    int most = 0;
+    for (const PseudoRow& row : c.solver->rows()) most = std::max(most, row.krylov);
+    CHECK(c.solver->march().verdict() == Verdict::converged);
+    CHECK((order == 0 ? most == setting.march.krylov_steps : most >= 3));
+    const double per_cell = double(c.solver->bytes() + c.store->bytes()) / double(c.solver->cells());
+    CAPTURE(order, most, per_cell);
+    CHECK(per_cell < 2000.0);
+    std::printf("memory, order %d: %d iterations, %.0f B per cell\n", order, most, per_cell);
+  }
 }
