@@ -100,7 +100,8 @@ double wetted_volume(const Points& points, const Motion& motion, double cell, do
 std::optional<double> rise_to_float(const Points& points, const Motion& motion, double cell, double edge, double volume) {
   if (double(points.size()) * cell < volume) return std::nullopt;
   double lowest = 1e300, highest = -1e300;
-  for (const Eigen::Vector3d& x : points) lowest = std::min(lowest, motion.point(x)[2]), highest = std::max(highest, motion.point(x)[2]);
+  for (const Eigen::Vector3d& x : points)
+    lowest = std::min(lowest, motion.point(x)[2]), highest = std::max(highest, motion.point(x)[2]);
   double under = -highest - edge, over = edge - lowest;  // all of it in the water; none
   for (int halving = 0; halving < 60; ++halving) {
     Motion moved = motion;

@@ -1,7 +1,8 @@
 // A column of water, 0.6 m wide and 0.3 m high, breaks and runs 1.01 m along a dry bed to a wall: when it arrives and how hard it
 // presses on sensor 1 of Lobovsky et al. (2014), J. Fluids Struct. 48, 407: 4.2 mm across, 3 mm above the bed, arrival at
-// t sqrt(g/H) = 2.43, peak 2.84 rho g H. Pressure is the force on the rows of wall particles that the sensor covers, over their area: what
-// single particles say depends on the speed of sound (rho c0 u is 39 rho g H). docs/developer/sea_physics.md. SPDX-License-Identifier: Apache-2.0
+// t sqrt(g/H) = 2.43, peak 2.84 rho g H. Pressure is the force on the rows of wall particles that the sensor covers, over their
+// area: what single particles say depends on the speed of sound (rho c0 u is 39 rho g H). docs/developer/sea_physics.md.
+// SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <deque>
 
@@ -38,14 +39,17 @@ Impact impact(const Broken& dam) {
   add_tank<2>(seeds, {0, 0}, spacing, {0, 0}, {length, 2 * tank.rows}, layers, tank.p.eos, tank.p.gravity, 0.0);
   std::vector<double> shares;  // of the sensor, by row of wall particles: owner 2, 3, ...
   for (int row = 0; row * spacing < sensor_high; ++row)
-    shares.push_back((std::min(sensor_high, (row + 1) * spacing) - std::max(sensor_low, row * spacing)) / (sensor_high - sensor_low));
+    shares.push_back((std::min(sensor_high, (row + 1) * spacing) - std::max(sensor_low, row * spacing)) /
+                     (sensor_high - sensor_low));
   for (std::size_t n = first; n < seeds.size(); ++n) {
     Seed<2>& seed = seeds[n];
-    if (dam.modified) seed.ghost = mirror_in_box<2>(seed.position, {tank.bottom(), tank.bottom()}, {(length - 0.5) * spacing, 1e300});
+    if (dam.modified)
+      seed.ghost = mirror_in_box<2>(seed.position, {tank.bottom(), tank.bottom()}, {(length - 0.5) * spacing, 1e300});
   }
   for (std::size_t row = 0; row < shares.size(); ++row)
     for (std::size_t n = first; n < seeds.size(); ++n)
-      if (seeds[n].position[0] > (length - 0.5) * spacing && std::abs(seeds[n].position[1] - double(row) * spacing) < 0.5 * spacing)
+      if (seeds[n].position[0] > (length - 0.5) * spacing &&
+          std::abs(seeds[n].position[1] - double(row) * spacing) < 0.5 * spacing)
         seeds[n].owner = std::uint16_t(2 + row);
   SeaSph<2> sea(tank.p, {{-1, -1}, {3, 3}}, seeds);
   const double unit = tank.p.eos.rho0 * tank.p.gravity * depth, scale = std::sqrt(tank.p.gravity / depth);
@@ -85,9 +89,11 @@ Impact impact(const Broken& dam) {
 }  // namespace
 
 // The experiment's own record gives 2.80, 2.75, 2.70 and 2.61 for the greatest means over 1, 2, 3 and 5 ms.
-TEST_CASE("water from a broken dam arrives at the far wall when measured, where the bed is without friction; the force on the sensor, as a mean "
-          "over 2 ms, peaks as measured at 6 mm, and sharper the finer the particles",
-          "[verification][sea][nightly]") {
+TEST_CASE(
+    "water from a broken dam arrives at the far wall when measured, where the bed is without friction; the force on the sensor, "
+    "as a mean "
+    "over 2 ms, peaks as measured at 6 mm, and sharper the finer the particles",
+    "[verification][sea][nightly]") {
   const Impact coarse = impact({0.006}), fine = impact({0.004});
   CAPTURE(coarse.arrival, coarse.peaks[0], coarse.peaks[1], coarse.peaks[2], coarse.peaks[3], coarse.after);
   CAPTURE(fine.arrival, fine.peaks[0], fine.peaks[1], fine.peaks[2], fine.peaks[3], fine.after);
