@@ -16,7 +16,7 @@ namespace {
 /// The program's O grid with its lines gathered behind the cylinder, where they are (1 - gather) of the mean distance apart: it is the street
 /// that asks for cells.
 MultiBlockGrid ring(int around, double gather) {
-  MultiBlockGrid grid = cylinder({.around = around, .outward = around * 4 / 7, .radius = 0.5, .far = 30.0, .first_cell = 0.03});
+  MultiBlockGrid grid = aero::cylinder({.around = around, .outward = around * 4 / 7, .radius = 0.5, .far = 30.0, .first_cell = 0.03});
   for (Eigen::Vector3d& x : grid.blocks[0].nodes) {
     const double r = std::hypot(x[0], x[2]), even = std::atan2(x[2], x[0]), angle = even - gather * std::sin(even);
     x[0] = r * std::cos(angle), x[2] = r * std::sin(angle);
