@@ -37,10 +37,10 @@ MultiBlockGrid coarse_at_wall(MultiBlockGrid grid, double height) {
 }
 
 /// First centre at this y+ of the resolved friction; the free stream has Re 5e6 per metre.
-PlateResult law_plate(int n, double y_plus, Condition wall_condition, const std::string& model = "sa") {
+PlateResult law_plate(int n, double y_plus, Condition wall_condition, const std::string& model = "sa", double drop = 1e-5) {
   const double height = 2.0 * y_plus / (5e6 * std::sqrt(0.5 * .0027056));
   FlowSetting s = plate_air(model);
-  s.march.drop = 1e-5, s.march.max_steps = 300;
+  s.march.drop = drop, s.march.max_steps = 600;
   if (model != "sa") s.first_order_model = true, s.march.matrix_free_below = 2.0;
   Case c = plate_case(coarse_at_wall(flat_plate(n), height), s, wall_condition);
   c.run();
@@ -85,7 +85,8 @@ TEST_CASE("a wall function on a resolved grid is the resolved wall", "[flow][fas
     CHECK(law.drag == Approx(wall.drag).epsilon(1e-3));
   }
   for (const char* model : {"sst_vm", "k_omega"}) {
-    const PlateResult law = law_plate(2, 0.5, Condition::wall_law, model), wall = law_plate(2, 0.5, Condition::no_slip, model);
+    // At a drop of 1e-5 turbulence may still grow near the leading edge, with a hundredth of the drag to come.
+    const PlateResult law = law_plate(2, 0.5, Condition::wall_law, model, 1e-7), wall = law_plate(2, 0.5, Condition::no_slip, model, 1e-7);
     CAPTURE(model, law.friction, wall.friction);
     CHECK(law.friction == Approx(wall.friction).epsilon(0.01));
     CHECK(law.drag == Approx(wall.drag).epsilon(0.01));
