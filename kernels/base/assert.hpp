@@ -7,12 +7,12 @@
 #include <cstdlib>
 
 #ifdef SPINDRIFT_ASSERTIONS
-#define SPINDRIFT_ASSERT(condition, what)                                                            \
-  do {                                                                                               \
-    if (!(condition)) {                                                                              \
+#define SPINDRIFT_ASSERT(condition, what)                                                               \
+  do {                                                                                                  \
+    if (!(condition)) {                                                                                 \
       std::fprintf(stderr, "%s:%d: assertion failed: %s (%s)\n", __FILE__, __LINE__, what, #condition); \
-      std::abort();                                                                                  \
-    }                                                                                                \
+      std::abort();                                                                                     \
+    }                                                                                                   \
   } while (false)
 #else
 #define SPINDRIFT_ASSERT(condition, what) ((void)sizeof(!(condition)))

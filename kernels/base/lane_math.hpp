@@ -1,10 +1,10 @@
 // Eight doubles at once, and their sine, cosine and exponential in plain arithmetic: within 2 ulp of libm over the stated ranges.
-// Needed because the C library's versions are scalar calls under our compile flags (no -ffast-math). Lanes is the compiler's vector
-// type (gcc, clang): each lane is rounded by itself, so results do not depend on how wide the processor's registers are.
+// Needed because the C library's versions are scalar calls under our compile flags (no -ffast-math). Lanes is the compiler's
+// vector type (gcc, clang): each lane is rounded by itself, so results do not depend on how wide the processor's registers are.
 // (The same over std::array was vectorised only in part: 40 ns for eight waves at a point where this takes 15.)
-// Reduction and polynomials after Cody & Waite (1980) and fdlibm (Sun Microsystems 1993, k_sin.c, k_cos.c); exp by its Taylor series.
-// Used by kernels/waves/components.hpp; tested in tests/kernels/base/lane_math_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Reduction and polynomials after Cody & Waite (1980) and fdlibm (Sun Microsystems 1993, k_sin.c, k_cos.c); exp by its Taylor
+// series. Used by kernels/waves/components.hpp; tested in tests/kernels/base/lane_math_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <bit>
@@ -25,9 +25,9 @@ inline constexpr double round_shift = 6755399441055744.0;
 
 /// For |x| < 1e6 [rad]; either result may be x itself.
 inline void lane_sincos(const Lanes& x, Lanes& sine, Lanes& cosine) {
-  const Lanes shifted = x * 0.63661977236758134308 + round_shift, n = shifted - round_shift;   // quarter turns
-  const auto quarter = reinterpret_cast<IntegerLanes>(shifted);   // of vector types: the same bits
-  Lanes r = x - n * 1.57079632673412561417e+00;            // pi/2 in three parts of 33, 33 and 53 bits
+  const Lanes shifted = x * 0.63661977236758134308 + round_shift, n = shifted - round_shift;  // quarter turns
+  const auto quarter = reinterpret_cast<IntegerLanes>(shifted);                               // of vector types: the same bits
+  Lanes r = x - n * 1.57079632673412561417e+00;  // pi/2 in three parts of 33, 33 and 53 bits
   r -= n * 6.07710050630396597660e-11;
   r -= n * 2.02226624879595063154e-21;
   const Lanes q = r * r;
@@ -53,7 +53,7 @@ inline void lane_sincos(const Lanes& x, Lanes& sine, Lanes& cosine) {
 inline void lane_exp(const Lanes& x, Lanes& result) {
   const Lanes bounded = x < -700.0 ? Lanes{} - 700.0 : x;
   const Lanes shifted = bounded * 1.44269504088896338700 + round_shift, n = shifted - round_shift;
-  Lanes r = bounded - n * 6.93147180369123816490e-01;      // ln 2 in two parts
+  Lanes r = bounded - n * 6.93147180369123816490e-01;  // ln 2 in two parts
   r -= n * 1.90821492927058770002e-10;
   Lanes p = r * (1.0 / 6227020800.0) + 1.0 / 479001600.0;  // 1/13!, 1/12! ...; |r| <= 0.347, next term 4e-18
   for (const double coefficient : {1.0 / 39916800.0, 1.0 / 3628800.0, 1.0 / 362880.0, 1.0 / 40320.0, 1.0 / 5040.0, 1.0 / 720.0,

@@ -1,7 +1,7 @@
-// Pairs of differences (v, w), newest first, of this window and some before it, and the least-squares map v -> w that they span: what
-// the quasi-Newton schemes learn from. Columns that add nothing new are dropped by a QR filter from the newest to the oldest: v is kept
-// where its part across the newer ones exceeds `filter` |v| ("QR2" of Haelterman, Bogaers, Scheufele, Uekermann & Mehl 2016, Comput.
-// Struct. 171). Used by iqn_ils.hpp, ibqn_ls.hpp, interface_gmres.hpp; tested in tests/kernels/coupling.
+// Pairs of differences (v, w), newest first, of this window and some before it, and the least-squares map v -> w that they span:
+// what the quasi-Newton schemes learn from. Columns that add nothing new are dropped by a QR filter from the newest to the
+// oldest: v is kept where its part across the newer ones exceeds `filter` |v| ("QR2" of Haelterman, Bogaers, Scheufele, Uekermann
+// & Mehl 2016, Comput. Struct. 171). Used by iqn_ils.hpp, ibqn_ls.hpp, interface_gmres.hpp; tested in tests/kernels/coupling.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,8 +12,8 @@
 namespace spindrift::coupling {
 
 struct LearningOptions {
-  int reuse = 0;          ///< windows before this one whose columns stay
-  double filter = 1e-6;   ///< least new part of a column over its size
+  int reuse = 0;         ///< windows before this one whose columns stay
+  double filter = 1e-6;  ///< least new part of a column over its size
 };
 
 class Differences {
@@ -43,9 +43,7 @@ class Differences {
   }
 
   /// c with V c nearest to `target`.
-  Vector fit(const Vector& target) const {
-    return r_.triangularView<Eigen::Upper>().solve(q_.transpose() * target);
-  }
+  Vector fit(const Vector& target) const { return r_.triangularView<Eigen::Upper>().solve(q_.transpose() * target); }
   /// The map from a change of v to a change of w: W fit(change).
   Vector map(const Vector& change) const { return w_ * fit(change); }
   /// V c.

@@ -1,9 +1,10 @@
-// Interface block quasi-Newton with approximate Jacobians from least-squares models of both parts (Vierendeels, Lanoye, Degroote &
-// Verdonck 2007, Comput. Struct. 85), IBQN-LS. Parts: y~ = F(x), x~ = S(y), with models M_F, M_S of their derivatives. In turn
-//   dx: (I - M_S M_F) dx = (x~ - x) + M_S (y~ - y),  y~ = F(x + dx),  dy: (I - M_F M_S) dy = (y~ - y) + M_F (x~ - x),  x~ = S(y + dy).
-// The systems are solved in the span of the columns (Woodbury), whose number is small. F and S see different steps, so this scheme
-// evaluates the parts itself (`answer`). Used by solve_window.hpp; tested in tests/kernels/coupling and tests/verification/coupling.
-// SPDX-License-Identifier: Apache-2.0
+// Interface block quasi-Newton with approximate Jacobians from least-squares models of both parts (Vierendeels, Lanoye, Degroote
+// & Verdonck 2007, Comput. Struct. 85), IBQN-LS. Parts: y~ = F(x), x~ = S(y), with models M_F, M_S of their derivatives. In turn
+//   dx: (I - M_S M_F) dx = (x~ - x) + M_S (y~ - y),  y~ = F(x + dx),  dy: (I - M_F M_S) dy = (y~ - y) + M_F (x~ - x),  x~ = S(y +
+//   dy).
+// The systems are solved in the span of the columns (Woodbury), whose number is small. F and S see different steps, so this
+// scheme evaluates the parts itself (`answer`). Used by solve_window.hpp; tested in tests/kernels/coupling and
+// tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/LU>
@@ -26,8 +27,7 @@ class IbqnLs {
     if (!y_answer.allFinite()) return Vector::Constant(x.size(), y_answer.sum());  // not finite: for the driver to see
     if (x_.size() > 0) first_.add(x - x_, y_answer - y_answer_);
     Vector y = y_answer;
-    if (x_.size() > 0 && both_know())
-      y = y_ + solve(first_, second_, (y_answer - y_) + first_.map(x_answer_ - x));
+    if (x_.size() > 0 && both_know()) y = y_ + solve(first_, second_, (y_answer - y_) + first_.map(x_answer_ - x));
     const Vector x_answer = window.second(y);
     if (x_.size() > 0) second_.add(y - y_, x_answer - x_answer_);
     x_ = x, y_ = y, y_answer_ = y_answer, x_answer_ = x_answer;

@@ -1,8 +1,9 @@
-// Interface-GMRES (Michler, van Brummelen & de Borst 2005, Int. J. Numer. Meth. Fluids 47): Newton iteration on r(x) = 0 whose linear
-// problem is solved by a Krylov method on the interface, each vector costing one evaluation at x plus a finite step along it. The next
-// direction is what is left of the linear residual; steps and the changes of r they cause are kept through the window and
-// as many windows on as asked for ("reuse of Krylov vectors"). Newton steps when the linear residual is below `forcing`.
-// Used by solve_window.hpp; tested in tests/kernels/coupling and tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
+// Interface-GMRES (Michler, van Brummelen & de Borst 2005, Int. J. Numer. Meth. Fluids 47): Newton iteration on r(x) = 0 whose
+// linear problem is solved by a Krylov method on the interface, each vector costing one evaluation at x plus a finite step along
+// it. The next direction is what is left of the linear residual; steps and the changes of r they cause are kept through the
+// window and as many windows on as asked for ("reuse of Krylov vectors"). Newton steps when the linear residual is below
+// `forcing`. Used by solve_window.hpp; tested in tests/kernels/coupling and tests/verification/coupling. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include "kernels/coupling/differences.hpp"

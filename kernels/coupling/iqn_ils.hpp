@@ -1,7 +1,7 @@
-// Interface quasi-Newton with the inverse Jacobian from a least-squares model (Degroote, Bathe & Vierendeels 2009, Comput. Struct. 87),
-// IQN-ILS: with V = [changes of r], W = [changes of x~], x_next = x~ + W c where V c is nearest to -r. The first step of a
-// window without columns is relaxed. Columns of earlier windows stay as long as asked for.
-// Used by solve_window.hpp; tested in tests/kernels/coupling and tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
+// Interface quasi-Newton with the inverse Jacobian from a least-squares model (Degroote, Bathe & Vierendeels 2009, Comput.
+// Struct. 87), IQN-ILS: with V = [changes of r], W = [changes of x~], x_next = x~ + W c where V c is nearest to -r. The first
+// step of a window without columns is relaxed. Columns of earlier windows stay as long as asked for. Used by solve_window.hpp;
+// tested in tests/kernels/coupling and tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/coupling/differences.hpp"

@@ -1,6 +1,6 @@
-// Largest ratio r = fluid's added mass / structural mass at which loose coupling is stable, at any step: the added mass acts as the load
-// y = -r a that F finds from the velocities it was given, backward Euler both. Growth per window is the largest root of the scheme's
-// characteristic polynomial, which does not know the step once stiffness and damping are small against m / dt^2.
+// Largest ratio r = fluid's added mass / structural mass at which loose coupling is stable, at any step: the added mass acts as
+// the load y = -r a that F finds from the velocities it was given, backward Euler both. Growth per window is the largest root of
+// the scheme's characteristic polynomial, which does not know the step once stiffness and damping are small against m / dt^2.
 // Causin, Gerbeau & Nobile (2005); Foerster, Wall & Ramm (2007): extrapolation of order 0, 1, 2 gives 1, 1/3, 1/7 (derived in
 // docs/theory/coupling.md). Used by src/coupling/campbell.cpp; tested against marched windows in tests/verification/coupling.
 // SPDX-License-Identifier: Apache-2.0
@@ -24,15 +24,19 @@ inline double largest_root(std::vector<double> c) {
   return Eigen::EigenSolver<Matrix>(companion, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
-// Characteristic polynomials of the acceleration under loads of ratio r, by rising power of the growth z; stable when every root is
-// within 1. S answers a_{n+1} = the load it is given (per mass), F answers y_{n+1} = -r (given velocity_{n+1} - given velocity_n) / dt.
+// Characteristic polynomials of the acceleration under loads of ratio r, by rising power of the growth z; stable when every root
+// is within 1. S answers a_{n+1} = the load it is given (per mass), F answers y_{n+1} = -r (given velocity_{n+1} - given
+// velocity_n) / dt.
 
 /// css: S takes y extrapolated to the order, F the new velocity: y_n = -r a_n.
 inline std::vector<double> css_polynomial(int order, double r) {
   switch (order) {
-    case 0: return {r, 1.0};
-    case 1: return {-r, 2.0 * r, 1.0};
-    default: return {r, -3.0 * r, 3.0 * r, 1.0};
+    case 0:
+      return {r, 1.0};
+    case 1:
+      return {-r, 2.0 * r, 1.0};
+    default:
+      return {r, -3.0 * r, 3.0 * r, 1.0};
   }
 }
 /// cps: F is given v_n for the window n to n+1, so y_{n+1} = -r a_n; a_{n+1} = y_n.
@@ -52,9 +56,12 @@ inline std::vector<double> cps2_damping_polynomial(double s) { return {0.5 * s, 
 /// css: y_n = -c v_n; averages of the extrapolation are the weights of Adams and Bashforth.
 inline std::vector<double> css_damping_polynomial(int order, double s) {
   switch (order) {
-    case 0: return {s - 1.0, 1.0};
-    case 1: return {-0.5 * s, 1.5 * s - 1.0, 1.0};
-    default: return {5.0 / 12.0 * s, -16.0 / 12.0 * s, 23.0 / 12.0 * s - 1.0, 1.0};
+    case 0:
+      return {s - 1.0, 1.0};
+    case 1:
+      return {-0.5 * s, 1.5 * s - 1.0, 1.0};
+    default:
+      return {5.0 / 12.0 * s, -16.0 / 12.0 * s, 23.0 / 12.0 * s - 1.0, 1.0};
   }
 }
 

@@ -1,7 +1,7 @@
-// Newton's method on r(x) = 0 with the Jacobian by forward differences, one evaluation per row of the interface (Fernandez & Moubachir
-// 2005 use the exact one; for a few rows differences are cheaper to have). The Jacobian is formed at the first iterate of a window and
-// again wherever a step reduced the residual by less than a factor of ten.
-// Used by solve_window.hpp; tested in tests/kernels/coupling and tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
+// Newton's method on r(x) = 0 with the Jacobian by forward differences, one evaluation per row of the interface (Fernandez &
+// Moubachir 2005 use the exact one; for a few rows differences are cheaper to have). The Jacobian is formed at the first iterate
+// of a window and again wherever a step reduced the residual by less than a factor of ten. Used by solve_window.hpp; tested in
+// tests/kernels/coupling and tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/LU>

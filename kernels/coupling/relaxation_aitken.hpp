@@ -1,7 +1,7 @@
 // Aitken's dynamic relaxation for vectors (Irons & Tuck 1969; Kuettler & Wall 2008, Comput. Mech. 43, eq. 44):
-// omega_k = -omega_{k-1} r_{k-1} . (r_k - r_{k-1}) / |r_k - r_{k-1}|^2. A window starts with the last factor of the one before, in
-// size at most the first factor given.
-// Used by solve_window.hpp; tested in tests/kernels/coupling. SPDX-License-Identifier: Apache-2.0
+// omega_k = -omega_{k-1} r_{k-1} . (r_k - r_{k-1}) / |r_k - r_{k-1}|^2. A window starts with the last factor of the one before,
+// in size at most the first factor given. Used by solve_window.hpp; tested in tests/kernels/coupling. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <algorithm>

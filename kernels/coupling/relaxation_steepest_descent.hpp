@@ -1,5 +1,5 @@
-// Relaxation by steepest descent (Kuettler & Wall 2008, section 3.4): along r the factor omega = -r.r / (r . J r), J = dr/dx, makes
-// the residual orthogonal to the step. J r comes from one more evaluation at x + delta r, so that an iteration costs two.
+// Relaxation by steepest descent (Kuettler & Wall 2008, section 3.4): along r the factor omega = -r.r / (r . J r), J = dr/dx,
+// makes the residual orthogonal to the step. J r comes from one more evaluation at x + delta r, so that an iteration costs two.
 // Used by solve_window.hpp; tested in tests/kernels/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

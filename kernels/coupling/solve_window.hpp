@@ -1,6 +1,6 @@
-// A window iterated until its parts agree, and what is done where they do not. Fallback, in order: clear what the scheme has learned and
-// relax (a few evaluations with a small constant factor), retry the scheme from there, then cut what is left of the window in halves. The
-// window is abstract: a pure function of a snapshot and of interface data, which can therefore be repeated.
+// A window iterated until its parts agree, and what is done where they do not. Fallback, in order: clear what the scheme has
+// learned and relax (a few evaluations with a small constant factor), retry the scheme from there, then cut what is left of the
+// window in halves. The window is abstract: a pure function of a snapshot and of interface data, which can therefore be repeated.
 // Used by src/coupling/window.cpp; tested in tests/kernels/coupling, tests/verification/coupling and tests/extremes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -26,13 +26,13 @@ concept RepeatableWindow = requires(W window, const Vector& x) {
 };
 
 struct IterationLimits {
-  double relative = 1e-6;          ///< of the piece's first residual
-  double absolute = 0.0;           ///< in units of x
-  int max_evaluations = 50;        ///< of one attempt, probes included
-  double diverged = 1e4;           ///< times the first residual, or the first x where that is more: given up
+  double relative = 1e-6;    ///< of the piece's first residual
+  double absolute = 0.0;     ///< in units of x
+  int max_evaluations = 50;  ///< of one attempt, probes included
+  double diverged = 1e4;     ///< times the first residual, or the first x where that is more: given up
   double fallback_relaxation = 0.05;
   int fallback_steps = 5;
-  int max_cuts = 3;                ///< halvings of a window
+  int max_cuts = 3;  ///< halvings of a window
 };
 
 /// What ended the iteration of a piece: a tolerance that was met, or the limit that was hit.
@@ -48,9 +48,9 @@ inline constexpr bool converged(Bound b) { return b == Bound::relative || b == B
 struct WindowLog {
   int evaluations = 0;  ///< of the coupled window, probes included
   int probes = 0;
-  int retries = 0;      ///< attempts after clearing and relaxing
+  int retries = 0;  ///< attempts after clearing and relaxing
   int cuts = 0;
-  int columns = 0;      ///< kept at the end
+  int columns = 0;                              ///< kept at the end
   double first_residual = 0.0, residual = 0.0;  ///< of the last attempt
   Bound bound = Bound::relative;                ///< of the last attempt
   bool ok() const { return converged(bound); }
@@ -90,8 +90,8 @@ Bound attempt(Window& window, S& scheme, Vector& x, const IterationLimits& limit
 
 }  // namespace detail
 
-/// Solves the whole window. On return with log.ok() every piece has been accepted; else the pieces before the failing one have, and
-/// the caller goes back to its own snapshot.
+/// Solves the whole window. On return with log.ok() every piece has been accepted; else the pieces before the failing one have,
+/// and the caller goes back to its own snapshot.
 template <RepeatableWindow Window, Scheme S>
 WindowLog solve_window(Window& window, S& scheme, const IterationLimits& limits) {
   WindowLog log;
@@ -128,8 +128,8 @@ Vector serial_answer(Parts& parts, const Vector& x) {
   return y.allFinite() ? Vector(parts.second(y)) : Vector(Vector::Constant(x.size(), std::numeric_limits<double>::quiet_NaN()));
 }
 
-/// Jacobi: both at once on z = (x, y), of which x has `rows` rows: (S(y), F(x)). Parts that can advance at once have both(x, y), which
-/// returns (F(x), S(y)).
+/// Jacobi: both at once on z = (x, y), of which x has `rows` rows: (S(y), F(x)). Parts that can advance at once have both(x, y),
+/// which returns (F(x), S(y)).
 template <class Parts>
 Vector parallel_answer(Parts& parts, const Vector& z, Eigen::Index rows) {
   Vector x, y;

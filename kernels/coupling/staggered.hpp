@@ -1,9 +1,10 @@
 // Loose coupling: one evaluation of each part per window. F takes motion x and returns loads y, S takes loads and returns motion.
 //   cps   both at once, each on what the other had at the window's start (Leble & Barakos 2016, section 2.5): order 1
 //   cps2  both at once, each on data of the other extrapolated linearly from its last two windows: order 2
-//   css   S first, on loads extrapolated to order 0, 1 or 2, then F on the new motion (Farhat & Lesoinne 2000; Piperno & Farhat 2001)
-// Limits of stability with added mass: loose_limits.hpp. Used by src/coupling/window.cpp; orders tested in tests/verification/coupling.
-// SPDX-License-Identifier: Apache-2.0
+//   css   S first, on loads extrapolated to order 0, 1 or 2, then F on the new motion (Farhat & Lesoinne 2000; Piperno & Farhat
+//   2001)
+// Limits of stability with added mass: loose_limits.hpp. Used by src/coupling/window.cpp; orders tested in
+// tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <tuple>
@@ -13,9 +14,9 @@
 namespace spindrift::coupling {
 
 struct Staggering {
-  bool serial = false;  ///< S first, then F on its result
-  int load_order = 0;   ///< of the loads that S sees
-  int motion_order = 0; ///< of the motion that F sees; serial: the new motion, no prediction
+  bool serial = false;   ///< S first, then F on its result
+  int load_order = 0;    ///< of the loads that S sees
+  int motion_order = 0;  ///< of the motion that F sees; serial: the new motion, no prediction
 
   static Staggering cps() { return {false, 0, 0}; }
   static Staggering cps2() { return {false, 1, 1}; }
@@ -43,8 +44,9 @@ class Staggered {
       if (!x.allFinite()) return false;
       y = parts.load(Waveform(Interpolation::linear, {begin, end}, {x_start, x}), begin, end);
     } else {
-      const Waveform motion = scheme_.motion_order == 0 ? Waveform::held(x_start)
-                                                        : Waveform(Interpolation::linear, {begin, end}, {x_start, motion_.at(end)});
+      const Waveform motion = scheme_.motion_order == 0
+                                  ? Waveform::held(x_start)
+                                  : Waveform(Interpolation::linear, {begin, end}, {x_start, motion_.at(end)});
       if constexpr (requires { parts.both(load_, motion, begin, end); })
         std::tie(x, y) = parts.both(load_, motion, begin, end);
       else

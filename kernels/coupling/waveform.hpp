@@ -1,6 +1,6 @@
-// Interface data over a window from samples at a few times: constant (the value at the end of each piece), linear, or cubic through
-// the four samples nearest to the piece. With data converged at the samples the coupling is of order 1, 2, 4 (Ruesch, Birken,
-// Monge & Mehl 2021 on waveform iteration; the preCICE oscillator). Polynomials through unequal times are Lagrange's.
+// Interface data over a window from samples at a few times: constant (the value at the end of each piece), linear, or cubic
+// through the four samples nearest to the piece. With data converged at the samples the coupling is of order 1, 2, 4 (Ruesch,
+// Birken, Monge & Mehl 2021 on waveform iteration; the preCICE oscillator). Polynomials through unequal times are Lagrange's.
 // Used by extrapolation.hpp, src/coupling/window.cpp; tested in tests/kernels/coupling and tests/verification/coupling.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

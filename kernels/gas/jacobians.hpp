@@ -58,8 +58,8 @@ SPINDRIFT_INLINE Block5<Real> physical_jacobian(const IdealGas& gas, const Primi
   return J;
 }
 
-/// The matrix of wave_dissipation(), with the waves of the mean state held. `pressure` scales the mass that a pressure jump drives
-/// through the face: 1 is Roe's, c over the preconditioner's reference speed that of the preconditioned equations.
+/// The matrix of wave_dissipation(), with the waves of the mean state held. `pressure` scales the mass that a pressure jump
+/// drives through the face: 1 is Roe's, c over the preconditioner's reference speed that of the preconditioned equations.
 template <class Real>
 SPINDRIFT_INLINE Block5<Real> dissipation_jacobian(const IdealGas& gas, const RoeMean<Real>& m, const Face<Real>& f,
                                                    const Real& slow, const Real& middle, const Real& fast, const Real& scale,

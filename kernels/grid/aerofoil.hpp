@@ -13,8 +13,8 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
-#include "kernels/grid/spline.hpp"
 #include "kernels/grid/spacing.hpp"
+#include "kernels/grid/spline.hpp"
 
 namespace spindrift {
 

@@ -41,8 +41,8 @@ class SinhLaw {
   double k2_, k_;
 };
 
-/// From 0 to 1 with given slopes (size over length times the number of cells) at both ends. Its error of discretisation goes with the
-/// square of the number of cells, so that one law at 1, 2, 4 ... times as many cells gives similar grids.
+/// From 0 to 1 with given slopes (size over length times the number of cells) at both ends. Its error of discretisation goes with
+/// the square of the number of cells, so that one law at 1, 2, 4 ... times as many cells gives similar grids.
 class VinokurLaw {
  public:
   VinokurLaw(double slope_start, double slope_end)

@@ -1,7 +1,7 @@
-// Block ILU(0) of a box of cells (Meijerink & van der Vorst 1977 in blocks): on a structured 7-point stencil it changes the diagonal
-// only, so that factors are the inverted pivots beside the matrix itself. Neighbours outside the box take no part: each box is factored
-// by itself, and the result depends on how a grid is cut into boxes, not on who works on them.
-// i is fastest and is to be the direction of strongest coupling (across walls). Called by src/aero/flow; tested in
+// Block ILU(0) of a box of cells (Meijerink & van der Vorst 1977 in blocks): on a structured 7-point stencil it changes the
+// diagonal only, so that factors are the inverted pivots beside the matrix itself. Neighbours outside the box take no part: each
+// box is factored by itself, and the result depends on how a grid is cut into boxes, not on who works on them. i is fastest and
+// is to be the direction of strongest coupling (across walls). Called by src/aero/flow; tested in
 // tests/kernels/linear/block_ilu_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -10,7 +10,8 @@
 
 namespace spindrift::linear {
 
-/// Fills the pivots: inverse of D_c - sum over lower neighbours m of A_cm P_m A_mc. Returns the first cell whose pivot is singular, or -1.
+/// Fills the pivots: inverse of D_c - sum over lower neighbours m of A_cm P_m A_mc. Returns the first cell whose pivot is
+/// singular, or -1.
 template <int n>
 std::ptrdiff_t factor(const StencilMatrix<n>& a) {
   std::ptrdiff_t cell = 0;

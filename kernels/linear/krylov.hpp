@@ -1,5 +1,5 @@
-// The small dense part of the Krylov methods: coefficients from dot products, without a vector in sight. Vectors live in tiles; the
-// tasks of src/aero/flow make them, reduce their dot products once per iteration and ask these structs what to do with them.
+// The small dense part of the Krylov methods: coefficients from dot products, without a vector in sight. Vectors live in tiles;
+// the tasks of src/aero/flow make them, reduce their dot products once per iteration and ask these structs what to do with them.
 // GMRES: Saad & Schultz (1986), right-preconditioned; flexible: Saad (1993). GCG: Eisenstat, Elman & Schultz (1983).
 // Tested in tests/kernels/linear/krylov_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
@@ -15,8 +15,8 @@ namespace spindrift::linear {
 inline constexpr int max_krylov = 40;  ///< most vectors of a cycle
 
 /// The Hessenberg matrix of GMRES, reduced by rotations as it grows.
-/// Classical Gram-Schmidt with one reduction: (w, v_0) ... (w, v_j) and (w, w) together; the norm of what remains follows by Pythagoras.
-/// Loses digits where w lies nearly among the v; then `breakdown` says that the cycle should end here.
+/// Classical Gram-Schmidt with one reduction: (w, v_0) ... (w, v_j) and (w, w) together; the norm of what remains follows by
+/// Pythagoras. Loses digits where w lies nearly among the v; then `breakdown` says that the cycle should end here.
 class Gmres {
  public:
   void start(double residual_norm) {
@@ -72,8 +72,9 @@ class Gmres {
   std::array<double, max_krylov> c_{}, s_{};
 };
 
-/// Generalised conjugate gradients with all directions of a cycle kept: p = z + sum beta_r p_r with A p orthogonal to all A p_r, then
-/// x += alpha p, r -= alpha A p. One reduction: with w = A z, (w, q_0) ... (w, q_{j-1}), (w, w), (r, w); q = A p of unit length.
+/// Generalised conjugate gradients with all directions of a cycle kept: p = z + sum beta_r p_r with A p orthogonal to all A p_r,
+/// then x += alpha p, r -= alpha A p. One reduction: with w = A z, (w, q_0) ... (w, q_{j-1}), (w, w), (r, w); q = A p of unit
+/// length.
 class Gcg {
  public:
   void start(double residual_norm) { columns_ = 0, square_ = residual_norm * residual_norm, breakdown_ = false; }
@@ -81,7 +82,8 @@ class Gcg {
   bool breakdown() const { return breakdown_; }
   double residual_norm() const { return std::sqrt(std::max(0.0, square_)); }
 
-  /// After it: p_j = (z - sum projections[r] p_r) scale, q_j = (w - sum projections[r] q_r) scale, x += alpha p_j, r -= alpha q_j.
+  /// After it: p_j = (z - sum projections[r] p_r) scale, q_j = (w - sum projections[r] q_r) scale, x += alpha p_j, r -= alpha
+  /// q_j.
   void append(std::span<const double> dots) {
     const int j = columns_;
     double rest = dots[j];

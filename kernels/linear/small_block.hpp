@@ -1,8 +1,7 @@
-// Products and the inverse of small dense blocks, n x n floats stored column by column. For n = 5 a column is read as eight floats: the
-// three lanes beyond it hold numbers of what follows, are multiplied along and never stored; no padding, 100 bytes per block.
-// Measured (docs/developer/air.md): this order against rows of many cells per register. Called by block_ilu.hpp, stencil_matrix.hpp;
-// tested in tests/kernels/linear/small_block_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Products and the inverse of small dense blocks, n x n floats stored column by column. For n = 5 a column is read as eight
+// floats: the three lanes beyond it hold numbers of what follows, are multiplied along and never stored; no padding, 100 bytes
+// per block. Measured (docs/developer/air.md): this order against rows of many cells per register. Called by block_ilu.hpp,
+// stencil_matrix.hpp; tested in tests/kernels/linear/small_block_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -89,8 +88,8 @@ SPINDRIFT_INLINE void subtract_product(const float* a, const float* b, float* c)
   }
 }
 
-/// D -= A P U, what a neighbour takes from a pivot; D may not be one of the others. Products stay in registers: through memory the narrow
-/// stores of a column are read back as wide loads, which costs more than the arithmetic.
+/// D -= A P U, what a neighbour takes from a pivot; D may not be one of the others. Products stay in registers: through memory
+/// the narrow stores of a column are read back as wide loads, which costs more than the arithmetic.
 template <int n>
 SPINDRIFT_INLINE void subtract_product(const float* a, const float* p, const float* u, float* d) {
   if constexpr (n > 2) {
@@ -115,8 +114,8 @@ SPINDRIFT_INLINE void subtract_product(const float* a, const float* p, const flo
   }
 }
 
-/// B = A^-1 by Gauss-Jordan in place with the largest pivot of each column, in double. False where A is singular or not finite (B is then not
-/// set). Rows here are the block's columns, as the inverse of the transpose is the transpose of the inverse.
+/// B = A^-1 by Gauss-Jordan in place with the largest pivot of each column, in double. False where A is singular or not finite (B
+/// is then not set). Rows here are the block's columns, as the inverse of the transpose is the transpose of the inverse.
 template <int n>
 bool invert(const float* block, float* inverse) {
   constexpr int width = n > 4 ? 8 : n > 2 ? 4 : n;

@@ -1,7 +1,6 @@
-// The matrix of a box of cells that couple with themselves and their six (planar: four) neighbours: n x n blocks of floats, all blocks
-// of a cell together, since the sweeps of block_ilu.hpp use them together. Rows of the matrix are cells, i fastest.
-// Called by src/aero/flow; tested in tests/kernels/linear/block_ilu_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// The matrix of a box of cells that couple with themselves and their six (planar: four) neighbours: n x n blocks of floats, all
+// blocks of a cell together, since the sweeps of block_ilu.hpp use them together. Rows of the matrix are cells, i fastest. Called
+// by src/aero/flow; tested in tests/kernels/linear/block_ilu_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>

@@ -11,10 +11,10 @@ namespace spindrift {
 
 /// State of one rigid body. Earth frame: right-handed, x downwind, z up, origin at still water.
 struct Motion {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< centre of mass, earth frame [m]
-  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();     ///< turns body axes into earth axes, unit norm
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< of the centre of mass, earth frame [m/s]
-  Eigen::Vector3d omega = Eigen::Vector3d::Zero();                  ///< angular velocity, BODY axes [rad/s]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< centre of mass, earth frame [m]
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< turns body axes into earth axes, unit norm
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< of the centre of mass, earth frame [m/s]
+  Eigen::Vector3d omega = Eigen::Vector3d::Zero();               ///< angular velocity, BODY axes [rad/s]
 
   /// Earth position [m] of a point given in body axes from the centre of mass [m].
   Eigen::Vector3d point(const Eigen::Vector3d& body_point) const { return position + attitude * body_point; }

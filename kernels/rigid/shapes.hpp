@@ -1,6 +1,6 @@
 // The simple solids that a floating body is made of, in body axes from its centre of mass.
-// Filled from [[bodies.NAME.cylinders]]; read by every sea model (wetted volume, strips, particles); tested in tests/kernels/waves.
-// SPDX-License-Identifier: Apache-2.0
+// Filled from [[bodies.NAME.cylinders]]; read by every sea model (wetted volume, strips, particles); tested in
+// tests/kernels/waves. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@ namespace spindrift {
 
 /// Circular cylinder with flat ends, or a cone frustum where the two radii differ. Body axes from the centre of mass [m].
 struct Cylinder {
-  Eigen::Vector3d start = Eigen::Vector3d::Zero();   ///< centre of the first end disc
-  Eigen::Vector3d end = Eigen::Vector3d::UnitZ();    ///< centre of the other
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< centre of the first end disc
+  Eigen::Vector3d end = Eigen::Vector3d::UnitZ();   ///< centre of the other
   double start_radius = 1.0;
   double end_radius = 1.0;
 

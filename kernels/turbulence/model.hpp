@@ -56,9 +56,9 @@ struct SourceJacobian {
   Real m[room(n)][room(n)];
 };
 
-/// What a model of n = M::equations quantities per mass needs for their transport. `lowest` are bounds that updates must respect (an
-/// update is shortened, not cut); wall values are for a cell at `distance` from it (at the face); far_field values follow from the
-/// stream's properties.
+/// What a model of n = M::equations quantities per mass needs for their transport. `lowest` are bounds that updates must respect
+/// (an update is shortened, not cut); wall values are for a cell at `distance` from it (at the face); far_field values follow
+/// from the stream's properties.
 template <class M, class Real = double>
 concept Transporting = requires(const M model, const Flow<Real>& flow, const Turbulence<Real, M::equations>& q, Real x) {
   { model.source(flow, q) } -> std::same_as<Source<Real, M::equations>>;
@@ -74,7 +74,8 @@ concept TurbulenceModel = requires(const M model, const Flow<Real>& flow, const 
   { model.closure(flow, q) } -> std::same_as<Closure<Real, M::equations>>;
   { M::name } -> std::convertible_to<std::string_view>;
   { M::sees_grid } -> std::convertible_to<bool>;
-} && (M::equations == 0 || Transporting<M, Real>);
+}
+&&(M::equations == 0 || Transporting<M, Real>);
 
 /// |curl u| and sqrt(2 S:S) [1/s].
 template <class Real>
@@ -108,8 +109,9 @@ SourceJacobian<Real, Model::equations> exact_source_jacobian(const Model& model,
   constexpr int n = Model::equations;
   using D = Dual<Real, n>;
   const auto held = [](const Vector<Real>& a) { return Vector<D>{D(a.x), D(a.y), D(a.z)}; };
-  const Flow<D> f{D(flow.rho),  D(flow.mu),   D(flow.distance),           held(flow.u),
-                  held(flow.v), held(flow.w), held(flow.density_gradient), D(flow.longest_side), D(flow.width)};
+  const Flow<D> f{
+      D(flow.rho),          D(flow.mu),   D(flow.distance), held(flow.u), held(flow.v), held(flow.w), held(flow.density_gradient),
+      D(flow.longest_side), D(flow.width)};
   Turbulence<D, n> q;
   for (int k = 0; k < n; ++k) q.q[k] = D::variable(t.q[k], k), q.gradient[k] = held(t.gradient[k]);
   const Source<D, n> s = model.source(f, q);

@@ -1,6 +1,6 @@
-// k-omega: Wilcox (1988), AIAA J. 26, 1299, and Wilcox (2006), Turbulence Modeling for CFD, 3rd ed. (also AIAA J. 46, 2823, 2008), with
-// cross diffusion, a stress limiter and the round-jet term; as on NASA's Turbulence Modeling Resource. Transported: k [m2/s2],
-// omega [1/s]. Called by src/aero/flow; tested in tests/kernels/turbulence/model_k_omega_test.cpp.
+// k-omega: Wilcox (1988), AIAA J. 26, 1299, and Wilcox (2006), Turbulence Modeling for CFD, 3rd ed. (also AIAA J. 46, 2823,
+// 2008), with cross diffusion, a stress limiter and the round-jet term; as on NASA's Turbulence Modeling Resource. Transported: k
+// [m2/s2], omega [1/s]. Called by src/aero/flow; tested in tests/kernels/turbulence/model_k_omega_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,9 +11,9 @@ namespace spindrift::turbulence {
 struct KOmegaOptions {
   std::string_view name;
   double gamma, beta, sigma_k, sigma_w;
-  double cross = 0.0;         ///< sigma_d, of grad k . grad omega where that is positive
-  double stress = 0.0;        ///< C_lim: the eddy viscosity's omega is at least this times sqrt(2 S:S / beta*)
-  bool stretching = false;    ///< beta falls where vortices are stretched (f_beta)
+  double cross = 0.0;       ///< sigma_d, of grad k . grad omega where that is positive
+  double stress = 0.0;      ///< C_lim: the eddy viscosity's omega is at least this times sqrt(2 S:S / beta*)
+  bool stretching = false;  ///< beta falls where vortices are stretched (f_beta)
 };
 inline constexpr KOmegaOptions wilcox_1988{
     .name = "k_omega_1988", .gamma = 5.0 / 9.0, .beta = 0.075, .sigma_k = 0.5, .sigma_w = 0.5};
@@ -38,7 +38,8 @@ struct WilcoxKOmega {
   template <class Real>
   SPINDRIFT_INLINE Closure<Real, 2> closure(const Flow<Real>& f, const Turbulence<Real, 2>& t) const {
     const Real k = max(t.q[0], 0.0), spread = f.rho * k / t.q[1];
-    return {f.rho * k / limited(t.q[1], rate_squared(f)), (2.0 / 3.0) * f.rho * t.q[0],
+    return {f.rho * k / limited(t.q[1], rate_squared(f)),
+            (2.0 / 3.0) * f.rho * t.q[0],
             {f.mu + options.sigma_k * spread, f.mu + options.sigma_w * spread}};
   }
 

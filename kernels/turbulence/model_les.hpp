@@ -1,7 +1,7 @@
-// Eddy viscosities of large-eddy simulation, from the resolved velocity gradient and the cell's width: Smagorinsky (1963), Mon. Weather
-// Rev. 91, 99, and WALE (Nicoud & Ducros 1999, Flow Turbul. Combust. 62, 183, eq. 13), which vanishes in pure shear and as the cube of
-// the distance at walls. Nothing is transported. Called by src/aero/flow; tested in tests/kernels/turbulence/model_les_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Eddy viscosities of large-eddy simulation, from the resolved velocity gradient and the cell's width: Smagorinsky (1963), Mon.
+// Weather Rev. 91, 99, and WALE (Nicoud & Ducros 1999, Flow Turbul. Combust. 62, 183, eq. 13), which vanishes in pure shear and
+// as the cube of the distance at walls. Nothing is transported. Called by src/aero/flow; tested in
+// tests/kernels/turbulence/model_les_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/turbulence/model.hpp"
@@ -22,12 +22,14 @@ struct Smagorinsky {
   }
 };
 
-/// nu_t = (Cw Delta)^2 (Sd:Sd)^(3/2) / ((S:S)^(5/2) + (Sd:Sd)^(5/4)), Sd the symmetric part of the squared gradient without trace.
+/// nu_t = (Cw Delta)^2 (Sd:Sd)^(3/2) / ((S:S)^(5/2) + (Sd:Sd)^(5/4)), Sd the symmetric part of the squared gradient without
+/// trace.
 struct Wale {
   static constexpr int equations = 0;
   static constexpr std::string_view name = "les_wale";
   static constexpr bool sees_grid = true;
-  static constexpr double constant = 0.5;  ///< their choice for isotropic turbulence: 0.55 to 0.60 with Cs 0.18; 0.5 in their tests
+  static constexpr double constant =
+      0.5;  ///< their choice for isotropic turbulence: 0.55 to 0.60 with Cs 0.18; 0.5 in their tests
 
   template <class Real>
   SPINDRIFT_INLINE Closure<Real, 0> closure(const Flow<Real>& f, const Turbulence<Real, 0>&) const {

@@ -23,8 +23,8 @@ struct SaConstants {
   }
 };
 
-/// The length whose square destroys nu_tilde: the distance to the wall. Others (model_sa_des.hpp) see the grid too. `chi` may be a
-/// dual number while the flow is held.
+/// The length whose square destroys nu_tilde: the distance to the wall. Others (model_sa_des.hpp) see the grid too. `chi` may be
+/// a dual number while the flow is held.
 struct WallLength {
   static constexpr std::string_view name = "sa";
   static constexpr bool sees_grid = false;

@@ -1,7 +1,7 @@
-// Detached eddies after Spalart-Allmaras, by the length of its destruction: DES97 (Spalart, Jou, Strelets & Allmaras 1997, Advances in
-// DNS/LES, 137), min(d, C_DES Delta), and DDES (Spalart et al. 2006, Theor. Comput. Fluid Dyn. 20, 181, eqs. 4-7), which keeps the
-// distance d inside boundary layers whatever the grid, Delta being the cell's longest side. Called by src/aero/flow; tested in
-// tests/kernels/turbulence/model_sa_des_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Detached eddies after Spalart-Allmaras, by the length of its destruction: DES97 (Spalart, Jou, Strelets & Allmaras 1997,
+// Advances in DNS/LES, 137), min(d, C_DES Delta), and DDES (Spalart et al. 2006, Theor. Comput. Fluid Dyn. 20, 181, eqs. 4-7),
+// which keeps the distance d inside boundary layers whatever the grid, Delta being the cell's longest side. Called by
+// src/aero/flow; tested in tests/kernels/turbulence/model_sa_des_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/turbulence/model_sa.hpp"

@@ -10,12 +10,12 @@ namespace spindrift::turbulence {
 
 struct SstOptions {
   std::string_view name;
-  bool made_by_vorticity = false;     ///< production mu_t Omega^2; else by strain
-  bool limited_by_vorticity = true;   ///< rate in the limiter of the shear stress; else the strain
-  bool carries_pressure = true;       ///< 2/3 rho k in momentum and in production where the flow is compressed
-  double limiter = 20.0;              ///< production of k at most this times its destruction
+  bool made_by_vorticity = false;    ///< production mu_t Omega^2; else by strain
+  bool limited_by_vorticity = true;  ///< rate in the limiter of the shear stress; else the strain
+  bool carries_pressure = true;      ///< 2/3 rho k in momentum and in production where the flow is compressed
+  double limiter = 20.0;             ///< production of k at most this times its destruction
   double gamma1 = 0.0, gamma2 = 0.0;
-  double least_cross = 1e-20;         ///< floor of the cross diffusion in F1 [kg/(m3 s2)]
+  double least_cross = 1e-20;  ///< floor of the cross diffusion in F1 [kg/(m3 s2)]
 };
 inline constexpr double sst_beta_star = 0.09, sst_kappa = 0.41;
 /// gamma_i = beta_i / beta* - sigma_i kappa^2 / sqrt(beta*): the log layer is an exact solution.
@@ -42,8 +42,8 @@ struct MenterSst {
   static constexpr std::string_view name = options.name;
   static constexpr bool sees_grid = false;
   static constexpr std::array<double, 2> lowest{0.0, 0.0};
-  static constexpr double beta_star = sst_beta_star, wall_beta = 0.075, a1 = 0.31, sigma_k1 = 0.85, sigma_k2 = 1.0, sigma_w1 = 0.5, sigma_w2 = 0.856,
-                          beta1 = 0.075, beta2 = 0.0828;
+  static constexpr double beta_star = sst_beta_star, wall_beta = 0.075, a1 = 0.31, sigma_k1 = 0.85, sigma_k2 = 1.0,
+                          sigma_w1 = 0.5, sigma_w2 = 0.856, beta1 = 0.075, beta2 = 0.0828;
 
   template <class Real>
   SPINDRIFT_INLINE Closure<Real, 2> closure(const Flow<Real>& f, const Turbulence<Real, 2>& t) const {

@@ -2,10 +2,9 @@
 // Each harmonic, with psi = k (x cos b + y sin b) - omega t + phase and z up from still water, is
 //   eta = a cos psi,  horizontal u = U C(z) cos psi,  vertical w = U S(z) sin psi,  p = rho (omega/k) U C(z) cos psi,
 //   C = cosh k(z+h) / sinh kh,  S = sinh k(z+h) / sinh kh
-// (Airy: U = a omega; docs/theory/waves.md, sections 1 and 2). A second-order Stokes wave is two such harmonics (stokes.hpp), a sea
-// state some hundred (spectra.hpp). Sums run over fixed groups of eight lanes, so their order does not depend on the processor.
-// Called by src/sea/wave_field; tested in tests/kernels/waves.
-// SPDX-License-Identifier: Apache-2.0
+// (Airy: U = a omega; docs/theory/waves.md, sections 1 and 2). A second-order Stokes wave is two such harmonics (stokes.hpp), a
+// sea state some hundred (spectra.hpp). Sums run over fixed groups of eight lanes, so their order does not depend on the
+// processor. Called by src/sea/wave_field; tested in tests/kernels/waves. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -18,19 +17,19 @@ namespace spindrift::waves {
 
 /// One harmonic of the sea.
 struct Component {
-  double wave_number = 0.0;          ///< k [rad/m]
-  double angular_frequency = 0.0;    ///< omega [rad/s]
-  double amplitude = 0.0;            ///< a, of the elevation [m]
-  double speed_amplitude = 0.0;      ///< U, of the horizontal velocity is U C(z) [m/s]
-  double phase = 0.0;                ///< [rad]
-  double direction = 0.0;            ///< b, towards which it travels, from the x axis [rad]
+  double wave_number = 0.0;        ///< k [rad/m]
+  double angular_frequency = 0.0;  ///< omega [rad/s]
+  double amplitude = 0.0;          ///< a, of the elevation [m]
+  double speed_amplitude = 0.0;    ///< U, of the horizontal velocity is U C(z) [m/s]
+  double phase = 0.0;              ///< [rad]
+  double direction = 0.0;          ///< b, towards which it travels, from the x axis [rad]
 };
 
 /// Eight harmonics side by side; unused lanes have amplitude zero.
 struct ComponentGroup {
   Lanes kx{}, ky{}, k{}, omega{}, phase{}, amplitude{}, speed{}, cos_b{}, sin_b{};
-  Lanes bottom{};                    ///< exp(-2 k h), 0 in deep water
-  Lanes phase_speed{};               ///< omega / k
+  Lanes bottom{};       ///< exp(-2 k h), 0 in deep water
+  Lanes phase_speed{};  ///< omega / k
 };
 
 inline void set_lane(ComponentGroup& g, int lane, const Component& c, double depth) {
@@ -44,12 +43,12 @@ inline void set_lane(ComponentGroup& g, int lane, const Component& c, double dep
 }
 
 struct Surface {
-  double elevation = 0.0, slope_x = 0.0, slope_y = 0.0;        ///< [m], [-], [-]
+  double elevation = 0.0, slope_x = 0.0, slope_y = 0.0;  ///< [m], [-], [-]
 };
 struct Kinematics {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< [m/s]
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();      ///< local, d/dt at a fixed point [m/s2]
-  double pressure_over_density = 0.0;                          ///< linear dynamic pressure / rho [m2/s2]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< [m/s]
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< local, d/dt at a fixed point [m/s2]
+  double pressure_over_density = 0.0;                      ///< linear dynamic pressure / rho [m2/s2]
 };
 
 inline Surface surface(std::span<const ComponentGroup> sea, double t, double x, double y) {

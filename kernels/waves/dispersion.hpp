@@ -1,5 +1,5 @@
-// The linear dispersion relation of gravity waves, omega^2 = g k tanh(k h), and what follows from it (Dean & Dalrymple 1991, ch. 3).
-// Called wherever a wave is built from its period; tested in tests/kernels/waves/wave_kernels_test.cpp.
+// The linear dispersion relation of gravity waves, omega^2 = g k tanh(k h), and what follows from it (Dean & Dalrymple 1991, ch.
+// 3). Called wherever a wave is built from its period; tested in tests/kernels/waves/wave_kernels_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ inline double wave_number(double omega, double depth, double gravity) {
 
 /// A regular wave in numbers; angular frequency [rad/s], wave number [rad/m], lengths [m], speeds [m/s].
 struct WaveProperties {
-  double angular_frequency, wave_number, length, phase_speed, group_speed, relative_depth;   ///< relative depth: k h [-]
+  double angular_frequency, wave_number, length, phase_speed, group_speed, relative_depth;  ///< relative depth: k h [-]
 };
 inline WaveProperties wave_properties(double period, double depth, double gravity) {
   const double omega = 2.0 * pi / period, k = wave_number(omega, depth, gravity), kh = k * depth, c = omega / k;

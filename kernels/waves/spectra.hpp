@@ -11,9 +11,9 @@
 namespace spindrift::waves {
 
 struct SeaState {
-  double significant_height = 1.0;   ///< Hs [m], four times the standard deviation of the elevation
-  double peak_period = 8.0;          ///< Tp [s]
-  double peak_enhancement = 3.3;     ///< gamma [-]; 1 is Pierson-Moskowitz
+  double significant_height = 1.0;  ///< Hs [m], four times the standard deviation of the elevation
+  double peak_period = 8.0;         ///< Tp [s]
+  double peak_enhancement = 3.3;    ///< gamma [-]; 1 is Pierson-Moskowitz
 };
 
 /// S(omega) [m2 s/rad]. The Pierson-Moskowitz form integrates to Hs^2/16; gamma > 1 is brought back to that only within 1 %

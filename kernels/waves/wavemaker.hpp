@@ -12,16 +12,18 @@ namespace spindrift::waves {
 inline double piston_transfer(double kh) {
   if (kh > 300.0) return 2.0;
   const double s = std::sinh(kh);
-  return 4.0 * s * s / (std::sinh(2.0 * kh) + 2.0 * kh);       // 2 (cosh 2kh - 1) without its cancellation
+  return 4.0 * s * s / (std::sinh(2.0 * kh) + 2.0 * kh);  // 2 (cosh 2kh - 1) without its cancellation
 }
 
 /// Height / stroke at still water of a flap hinged at the bottom.
 inline double flap_transfer(double kh) {
   if (kh > 300.0) return 2.0 * (1.0 - 1.0 / kh);
   // kh sinh kh - cosh kh + 1 cancels for small kh: its series is sum over n of (2n-1) kh^2n / (2n)!
-  const double lever = kh < 0.5 ? kh * kh * (0.5 + kh * kh * (3.0 / 24.0 + kh * kh * (5.0 / 720.0 + kh * kh * (7.0 / 40320.0 +
-                                  kh * kh * 9.0 / 3628800.0))))
-                                : kh * std::sinh(kh) - std::cosh(kh) + 1.0;
+  const double lever =
+      kh < 0.5
+          ? kh * kh *
+                (0.5 + kh * kh * (3.0 / 24.0 + kh * kh * (5.0 / 720.0 + kh * kh * (7.0 / 40320.0 + kh * kh * 9.0 / 3628800.0))))
+          : kh * std::sinh(kh) - std::cosh(kh) + 1.0;
   return 4.0 * std::sinh(kh) / kh * lever / (std::sinh(2.0 * kh) + 2.0 * kh);
 }
 

@@ -13,7 +13,7 @@ namespace spindrift::waves {
 /// A plane water surface; `normal` is a unit vector that points out of the water.
 struct WaterPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  double offset = 0.0;   ///< normal . x of the points x of the surface [m]
+  double offset = 0.0;  ///< normal . x of the points x of the surface [m]
 
   /// Distance of a point above the surface [m], negative under water.
   double height(const Eigen::Vector3d& point) const { return normal.dot(point) - offset; }
@@ -21,7 +21,8 @@ struct WaterPlane {
 
 /// The plane through (x, y, elevation) that rises by slope_x, slope_y [-] per metre of x and y.
 inline WaterPlane tangent_plane(double x, double y, double elevation, double slope_x, double slope_y) {
-  const Eigen::Vector3d normal = Eigen::Vector3d(-slope_x, -slope_y, 1.0) / std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y);
+  const Eigen::Vector3d normal =
+      Eigen::Vector3d(-slope_x, -slope_y, 1.0) / std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y);
   return {normal, normal.dot(Eigen::Vector3d(x, y, elevation))};
 }
 
@@ -46,8 +47,8 @@ inline RimPoint rim_point(double distance, double radius) {
   return {std::atan2(sine, cosine), sine, cosine};
 }
 
-/// Integrals over the part of the unit disc at x < cosine of the rim point, i.e. angles from it to pi (x = cos, dA = 2 sin^2 d(angle)):
-/// area, first and second moment in x.
+/// Integrals over the part of the unit disc at x < cosine of the rim point, i.e. angles from it to pi (x = cos, dA = 2 sin^2
+/// d(angle)): area, first and second moment in x.
 struct SegmentMoments {
   double area, first, second;
 };

@@ -1,8 +1,7 @@
 // Wetted volume and centre of a circular cylinder with flat ends, cut by a plane at any draft and attitude, exactly.
-// Method: the length of each axis-parallel chord under water, clamp((surface - point)/alpha, 0, L), integrated over the disc by the
-// moments of circular segments (docs/theory/sea_engineering.md, section 1); no case distinction between cut ends and cut sides.
-// Called by src/sea/strips; tested in tests/kernels/waves/wetted_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Method: the length of each axis-parallel chord under water, clamp((surface - point)/alpha, 0, L), integrated over the disc by
+// the moments of circular segments (docs/theory/sea_engineering.md, section 1); no case distinction between cut ends and cut
+// sides. Called by src/sea/strips; tested in tests/kernels/waves/wetted_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -52,14 +51,15 @@ inline ChordIntegrals chord_integrals(const RimPoint& a, const RimPoint& b, doub
 }
 
 /// Start and end: centres of the end discs [m]. Continuous through every change of what is cut.
-inline Wetted wetted_cylinder(const Eigen::Vector3d& start, const Eigen::Vector3d& end, double radius, const WaterPlane& surface) {
+inline Wetted wetted_cylinder(const Eigen::Vector3d& start, const Eigen::Vector3d& end, double radius,
+                              const WaterPlane& surface) {
   Eigen::Vector3d base = start, axis = end - start;
   const double length = axis.norm();
   axis /= length;
   double rise = surface.normal.dot(axis);                      // height gained per metre along the axis: alpha
   if (rise < 0.0) { base = end, axis = -axis, rise = -rise; }  // measured from the lower end
   const Eigen::Vector3d across = surface.normal - rise * axis;
-  const double lean = across.norm();                           // height gained per metre across the axis: beta
+  const double lean = across.norm();  // height gained per metre across the axis: beta
   const double low = surface.height(base), high = low + rise * length, reach = lean * radius;
   const double disc = radius * radius;
   if (low >= reach) return {};
@@ -68,7 +68,7 @@ inline Wetted wetted_cylinder(const Eigen::Vector3d& start, const Eigen::Vector3
     return {volume, volume * (base + 0.5 * length * axis)};
   }
   const RimPoint dry_to_cut = rim_point(-low, reach), cut_to_wet = rim_point(-high, reach);
-  const SegmentMoments wet = segment_moments(cut_to_wet);      // chords under water over their whole length
+  const SegmentMoments wet = segment_moments(cut_to_wet);  // chords under water over their whole length
   ChordIntegrals chords{length * wet.area, length * wet.first, 0.5 * length * length * wet.area};
   if (cut_to_wet.angle > dry_to_cut.angle) {
     const ChordIntegrals cut = chord_integrals(dry_to_cut, cut_to_wet, -low / rise, reach / rise);

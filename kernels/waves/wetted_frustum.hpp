@@ -1,9 +1,9 @@
 // Wetted volume and centre of a cone frustum (also a full cone, also a cylinder) cut by a plane at any draft and attitude.
-// Method: divergence theorem about a point O of the surface plane, V = 1/3 sum of (x . n) dA and int x dV = 1/4 sum of x (x . n) dA, to
-// which the water plane itself adds nothing. End discs: moments of circular segments, closed form. Cone: exact along each generator,
-// sixteen Gauss points over each arc of generators that are cut alike (docs/theory/sea_engineering.md, section 1). Near the tip of a
-// pointed cone that converges slowly, so there it is cut into pieces of at most fourfold taper: 3e-5 before, 1e-10 of the whole after.
-// Called by src/sea/strips for tapered members; tested in tests/kernels/waves/wetted_test.cpp.
+// Method: divergence theorem about a point O of the surface plane, V = 1/3 sum of (x . n) dA and int x dV = 1/4 sum of x (x . n)
+// dA, to which the water plane itself adds nothing. End discs: moments of circular segments, closed form. Cone: exact along each
+// generator, sixteen Gauss points over each arc of generators that are cut alike (docs/theory/sea_engineering.md, section 1).
+// Near the tip of a pointed cone that converges slowly, so there it is cut into pieces of at most fourfold taper: 3e-5 before,
+// 1e-10 of the whole after. Called by src/sea/strips for tapered members; tested in tests/kernels/waves/wetted_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -25,8 +25,8 @@ inline constexpr std::array<double, 8> gauss16_weight = {0.189450610455068496, 0
 
 /// In the frame of the frustum: s along the axis from the start, x across it up the surface normal, both from the start centre.
 struct FrustumFrame {
-  double length, start_radius, taper;   ///< radius(s) = start_radius + taper s
-  double height, rise, lean;            ///< height over the surface = height + rise s + lean x
+  double length, start_radius, taper;  ///< radius(s) = start_radius + taper s
+  double height, rise, lean;           ///< height over the surface = height + rise s + lean x
 };
 /// Volume and first moments along s and x, about the start centre.
 struct FrustumSums {
@@ -38,7 +38,7 @@ inline void add_end(const FrustumFrame& f, double s, double sign, FrustumSums& s
   const double r = f.start_radius + f.taper * s;
   const SegmentMoments wet = segment_moments(rim_point(-(f.height + f.rise * s), f.lean * r));
   const double area = r * r * wet.area, first = r * r * r * wet.first;
-  const double along_o = s + f.height * f.rise, across_o = f.height * f.lean;   // of the disc's centre from O
+  const double along_o = s + f.height * f.rise, across_o = f.height * f.lean;  // of the disc's centre from O
   const double out = sign * along_o;
   sum.volume += out * area / 3.0;
   sum.along += 0.25 * out * along_o * area;
@@ -74,8 +74,8 @@ inline void add_cone_arc(const FrustumFrame& f, double a, double b, FrustumSums&
 }
 
 /// Start and end: centres of the end discs [m]; the radii differ at most fourfold for full accuracy.
-inline Wetted wetted_frustum_piece(const Eigen::Vector3d& start, const Eigen::Vector3d& end, double start_radius, double end_radius,
-                                   const WaterPlane& surface) {
+inline Wetted wetted_frustum_piece(const Eigen::Vector3d& start, const Eigen::Vector3d& end, double start_radius,
+                                   double end_radius, const WaterPlane& surface) {
   Eigen::Vector3d axis = end - start;
   const double length = axis.norm();
   axis /= length;
@@ -97,7 +97,7 @@ inline Wetted wetted_frustum_piece(const Eigen::Vector3d& start, const Eigen::Ve
     const std::array<double, 4> arc = {0.0, std::min(first, second), std::max(first, second), pi};
     for (std::size_t i = 0; i + 1 < arc.size(); ++i)
       if (arc[i + 1] > arc[i]) add_cone_arc(f, arc[i], arc[i + 1], sum);
-    sum.along -= sum.volume * f.height * rise;           // from O to the start centre
+    sum.along -= sum.volume * f.height * rise;  // from O to the start centre
     sum.across -= sum.volume * f.height * f.lean;
   }
   Eigen::Vector3d moment = sum.volume * start + sum.along * axis;
@@ -110,7 +110,7 @@ inline Wetted wetted_frustum(Eigen::Vector3d start, Eigen::Vector3d end, double 
                              const WaterPlane& surface) {
   if (start_radius < end_radius) std::swap(start, end), std::swap(start_radius, end_radius);
   Wetted sum;
-  const double tip = 1e-4 * start_radius;                // beyond this the rest holds less than 1e-12 of the volume
+  const double tip = 1e-4 * start_radius;  // beyond this the rest holds less than 1e-12 of the volume
   while (end_radius < 0.25 * start_radius && start_radius > tip) {
     const Eigen::Vector3d cut = start + 0.75 * start_radius / (start_radius - end_radius) * (end - start);
     const Wetted piece = wetted_frustum_piece(start, cut, start_radius, 0.25 * start_radius, surface);

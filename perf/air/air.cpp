@@ -63,7 +63,8 @@ Case aerofoil_case(const MultiBlockGrid& grid, const FlowSetting& s) {
 
 /// From the undisturbed stream, or from the flow on every second node, whose cost counts (as a scene's coarse_steps does it).
 /// Drops are those from the undisturbed stream on this grid in either case.
-void march(perf::Group& group, const std::string& name, double mach, bool sequenced, double bar_2, double bar_6, const std::string& flux = "roe_low_mach") {
+void march(perf::Group& group, const std::string& name, double mach, bool sequenced, double bar_2, double bar_6,
+           const std::string& flux = "roe_low_mach") {
   FlowSetting s = aerofoil(mach, flux);
   s.march.drop = 1e-6;
   const MultiBlockGrid grid = tmr_c_grid(SPINDRIFT_SOURCE_DIR, "tmr_224x64");

@@ -1,8 +1,8 @@
 // Preconditioners of the implicit air against each other, each row measured in turn in one run, user CPU of one thread per cell:
-// what 256 tiles cost over one; the map of one pseudo-step's linear system over Mach number, CFL number and tiles, with the winner; a march to
-// six orders round a cylinder at Mach 1e-3. Forms: block ILU; coarse correction by groups of 8 cells a side, eliminated; by groups of 4, left to
-// BoomerAMG with ILU smoothing; pressure by BoomerAMG. What it says: docs/developer/air_linear.md. Run by perf/run.
-// SPDX-License-Identifier: Apache-2.0
+// what 256 tiles cost over one; the map of one pseudo-step's linear system over Mach number, CFL number and tiles, with the
+// winner; a march to six orders round a cylinder at Mach 1e-3. Forms: block ILU; coarse correction by groups of 8 cells a side,
+// eliminated; by groups of 4, left to BoomerAMG with ILU smoothing; pressure by BoomerAMG. What it says:
+// docs/developer/air_linear.md. Run by perf/run. SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdio>
 #include <tuple>
@@ -23,8 +23,8 @@ struct Form {
   PreconditionerOptions common;
 };
 const Form block_ilu{"block_ilu", "block_ilu", {}}, by_tile{"coarse_by_tile", "coarse", {.group_cells = 0}},
-    eliminated{"coarse_8", "coarse", {.group_cells = 8}}, multigrid{"coarse_4_amg", "coarse", {.group_cells = 4, .direct_groups = 0}},
-    pressure{"pressure_amg", "pressure_amg", {}};
+    eliminated{"coarse_8", "coarse", {.group_cells = 8}},
+    multigrid{"coarse_4_amg", "coarse", {.group_cells = 4, .direct_groups = 0}}, pressure{"pressure_amg", "pressure_amg", {}};
 
 struct Problem {
   int n = 32, nk = 32;
@@ -32,8 +32,8 @@ struct Problem {
   double mach = 0.05, cfl = 1e3, drop = 1e-2;
 };
 struct Solved {
-  double us = 0.0;       ///< per cell: residual, matrix, set-up and solution of one pseudo-step
-  double per_drop = 0.0; ///< the same for the drop asked for, by the mean rate where 40 iterations were not enough
+  double us = 0.0;        ///< per cell: residual, matrix, set-up and solution of one pseudo-step
+  double per_drop = 0.0;  ///< the same for the drop asked for, by the mean rate where 40 iterations were not enough
   int iterations = 0;
   double drop = 0.0;
 };
@@ -42,7 +42,13 @@ struct Solved {
 Solved solve(const Problem& p, const Form& form) {
   FlowSetting s = air(p.mach, {1.0, 0.4, 0.2});
   s.preconditioner = form.preconditioner, s.common = form.common;
-  s.march = {.cfl_start = p.cfl, .cfl_max = p.cfl, .drop = 0.0, .max_steps = 1, .krylov_steps = 40, .krylov_drop = p.drop, .matrix_free_below = 0.0};
+  s.march = {.cfl_start = p.cfl,
+             .cfl_max = p.cfl,
+             .drop = 0.0,
+             .max_steps = 1,
+             .krylov_steps = 40,
+             .krylov_drop = p.drop,
+             .matrix_free_below = 0.0};
   const BoxOptions box{.ni = p.n, .nj = p.n, .nk = p.nk};
   Case c(perturbed(cartesian_box(box), box, 0.03), s, {},
          {.across_j = p.tile[1], .across_k = p.tile[2], .normal = p.tile[0], .max_cells = 1 << 24});
@@ -55,7 +61,9 @@ Solved solve(const Problem& p, const Form& form) {
   c.prepare();
   const double begin = perf::user_seconds();
   c.run();
-  Solved r{.us = (perf::user_seconds() - begin) / double(c.solver->cells()) * 1e6, .iterations = c.solver->march().krylov(), .drop = c.solver->march().linear_drop()};
+  Solved r{.us = (perf::user_seconds() - begin) / double(c.solver->cells()) * 1e6,
+           .iterations = c.solver->march().krylov(),
+           .drop = c.solver->march().linear_drop()};
   r.per_drop = r.us * std::max(1.0, std::log(p.drop) / std::log(r.drop));
   return r;
 }
@@ -69,24 +77,28 @@ void many_tiles(perf::Group& group) {
   const Problem whole{.n = 64, .nk = 32, .tile = {64, 64, 64}}, cut{.n = 64, .nk = 32, .tile = {8, 8, 8}};
   const Solved one = solve_twice(whole, block_ilu), without = solve_twice(cut, block_ilu);
   group.figure("one_tile_iterations", one.iterations, "-", "64 x 64 x 32 cells, CFL 1000, Mach 0.05, to 1e-2");
-  group.figure("256_tiles_block_ilu_iterations", without.iterations * without.per_drop / without.us, "-", "extended by the mean rate beyond 40");
+  group.figure("256_tiles_block_ilu_iterations", without.iterations * without.per_drop / without.us, "-",
+               "extended by the mean rate beyond 40");
   for (const Form& form : {by_tile, eliminated, multigrid}) {
     const Solved with = solve_twice(cut, form);
     const std::string name = std::string("256_tiles_") + form.name;
     group.at_most(name + "_iterations_over_one_tile", double(with.iterations) / one.iterations, "-", 1.3);
-    group.at_most(name + "_time_over_block_ilu", with.us / without.per_drop, "-", 1.0, perf::Ceiling::none, "user CPU to 1e-2, same run");
+    group.at_most(name + "_time_over_block_ilu", with.us / without.per_drop, "-", 1.0, perf::Ceiling::none,
+                  "user CPU to 1e-2, same run");
   }
   // More cells in tiles as the program cuts them.
   const Problem large{.n = 64, .nk = 64};
   const Solved alone = solve(large, block_ilu);
   group.figure("262k_cells_block_ilu", alone.per_drop, "us/cell", "32 tiles of 64 x 16 x 8");
   for (const Form& form : {eliminated, Form{"coarse_8_amg", "coarse", {.group_cells = 8, .direct_groups = 0}}})
-    group.at_most(std::string("262k_cells_") + form.name + "_time_over_block_ilu", solve(large, form).us / alone.per_drop, "-", 1.0, perf::Ceiling::none,
-                  "512 groups");
+    group.at_most(std::string("262k_cells_") + form.name + "_time_over_block_ilu", solve(large, form).us / alone.per_drop, "-",
+                  1.0, perf::Ceiling::none, "512 groups");
 }
 
 void map(perf::Group& group) {
-  std::printf("\n| Mach | CFL | tiles | block ILU | coarse, 8 | coarse, 4, AMG | pressure AMG | winner |\n|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "\n| Mach | CFL | tiles | block ILU | coarse, 8 | coarse, 4, AMG | pressure AMG | winner "
+      "|\n|---|---|---|---|---|---|---|---|\n");
   int won = 0, of = 0;
   for (const double mach : {0.3, 0.05, 1e-3})
     for (const double cfl : {10.0, 100.0, 1e3, 1e4})
@@ -104,7 +116,8 @@ void map(perf::Group& group) {
         std::fflush(stdout);
         won += best != block_ilu.name, ++of;
       }
-  group.figure("map_won_by_other_than_block_ilu", won, "-", "of " + std::to_string(of) + " rows; 32^3 cells, us per cell to 1e-2");
+  group.figure("map_won_by_other_than_block_ilu", won, "-",
+               "of " + std::to_string(of) + " rows; 32^3 cells, us per cell to 1e-2");
 }
 
 /// Ten physical steps of two cells' passage, three pseudo-steps each, one set-up for each matrix, for each step, for all ten.
@@ -116,7 +129,13 @@ void kept(perf::Group& group) {
       s.preconditioner = form.preconditioner, s.common = form.common;
       s.common.common_every = every, s.common.common_steps = steps;
       s.time_order = 2, s.dt = 2.0 / 32.0 / s.speed;
-      s.march = {.cfl_start = 100.0, .cfl_max = 100.0, .drop = 0.0, .max_steps = 3, .krylov_steps = 20, .krylov_drop = 0.1, .matrix_free_below = 0.0};
+      s.march = {.cfl_start = 100.0,
+                 .cfl_max = 100.0,
+                 .drop = 0.0,
+                 .max_steps = 3,
+                 .krylov_steps = 20,
+                 .krylov_drop = 0.1,
+                 .matrix_free_below = 0.0};
       const BoxOptions box{.ni = 32, .nj = 32, .nk = 32};
       Case c(perturbed(cartesian_box(box), box, 0.03), s, {}, {.across_j = 16, .across_k = 8, .normal = 32});
       c.solver->start([&](const Eigen::Vector3d& x) {
@@ -131,7 +150,8 @@ void kept(perf::Group& group) {
       long iterations = 0;
       for (const PseudoRow& row : c.solver->rows()) iterations += row.krylov;
       const std::string figure = std::string("set_up_for_") + name + "_" + form.name;
-      group.figure(figure, us, "us/cell/step", std::to_string(iterations) + " iterations in 10 steps of 3 pseudo-steps, 32^3 cells");
+      group.figure(figure, us, "us/cell/step",
+                   std::to_string(iterations) + " iterations in 10 steps of 3 pseudo-steps, 32^3 cells");
       if (every == 1)
         each = us;
       else if (steps > 1)
@@ -147,7 +167,8 @@ void cylinder(perf::Group& group) {
     FlowSetting s = air(1e-3);
     s.preconditioner = form.preconditioner, s.common = form.common;
     s.march.drop = 1e-6, s.march.max_steps = 150;
-    Case c(aero::cylinder({.around = 192, .outward = 96, .far = 20.0}), s, {{"wall", {Condition::slip, true}}, {"farfield", {Condition::far_field, false}}});
+    Case c(aero::cylinder({.around = 192, .outward = 96, .far = 20.0}), s,
+           {{"wall", {Condition::slip, true}}, {"farfield", {Condition::far_field, false}}});
     c.prepare();
     const double begin = perf::user_seconds();
     c.run();

@@ -1,8 +1,8 @@
-// What a thread that is inside hypre leaves to the others: case 3 of the paper as a demo, air whose preconditioner is an algebraic multigrid
-// and a sea of particles as one graph on two threads. Of the time of all calls of hypre (set-up and cycles: the collective tasks of the
-// air), the part in which the other thread ran no task; runtime and polling count as idle. Windows need more work of the sea than hypre takes: the
-// figure beside says how much more there is. Threads whatever OMP_NUM_THREADS says. Run by perf/run; what was measured: docs/developer/air_linear.md.
-// SPDX-License-Identifier: Apache-2.0
+// What a thread that is inside hypre leaves to the others: case 3 of the paper as a demo, air whose preconditioner is an
+// algebraic multigrid and a sea of particles as one graph on two threads. Of the time of all calls of hypre (set-up and cycles:
+// the collective tasks of the air), the part in which the other thread ran no task; runtime and polling count as idle. Windows
+// need more work of the sea than hypre takes: the figure beside says how much more there is. Threads whatever OMP_NUM_THREADS
+// says. Run by perf/run; what was measured: docs/developer/air_linear.md. SPDX-License-Identifier: Apache-2.0
 #include <omp.h>
 
 #include <map>
@@ -36,7 +36,8 @@ Seen seen_in(const runtime::RankTrace& trace, std::int64_t from) {
     tasks[r.thread].push_back({r.begin_ns, r.end_ns});
     const std::string_view module = runtime::module_of(node.label);
     if (module == "sea") seen.sea_s += 1e-9 * double(r.end_ns - r.begin_ns);
-    if (module == "aero" && node.kind == runtime::NodeKind::collective) calls.emplace_back(r.thread, runtime::Interval{r.begin_ns, r.end_ns});
+    if (module == "aero" && node.kind == runtime::NodeKind::collective)
+      calls.emplace_back(r.thread, runtime::Interval{r.begin_ns, r.end_ns});
   }
   for (auto& of_thread : tasks) of_thread = runtime::united(std::move(of_thread));
   for (const auto& [thread, call] : calls) {
@@ -62,8 +63,10 @@ void measure(perf::Group& group, const std::string& form, const std::vector<std:
   const Seen seen = seen_in(runtime::trace_of(*tasks.executor()), from);
   const std::string note = "2 threads, case3_demo, " + std::to_string(windows) + " windows";
   group.figure(form + "_calls", double(seen.calls) / windows, "per window", "of hypre, longer than 10 us");
-  group.figure(form + "_hypre", 1e3 * seen.hypre_s / windows, "ms/window", "inside them, of " + std::to_string(int(1e3 * wall_s / windows)) + " ms by the clock");
-  group.figure(form + "_sea_over_hypre", seen.sea_s / seen.hypre_s, "-", "core-seconds of the sea's tasks over seconds inside hypre");
+  group.figure(form + "_hypre", 1e3 * seen.hypre_s / windows, "ms/window",
+               "inside them, of " + std::to_string(int(1e3 * wall_s / windows)) + " ms by the clock");
+  group.figure(form + "_sea_over_hypre", seen.sea_s / seen.hypre_s, "-",
+               "core-seconds of the sea's tasks over seconds inside hypre");
   group.at_most(form + "_idle_beside_hypre", 100.0 * seen.idle_s / seen.hypre_s, "%", 5.0, perf::Ceiling::none, note);
 }
 
@@ -76,5 +79,6 @@ int main(int argc, char** argv) {
   omp_set_num_threads(threads);
   perf::Group group("air_beside_sea", argc, argv);
   measure(group, "coarse_amg", {"aero.flow.preconditioner='coarse'", "aero.flow.group_cells=4", "aero.flow.direct_groups=0"});
-  measure(group, "pressure_amg", {"aero.flow.preconditioner='pressure_amg'", "aero.flow.krylov_steps=8", "aero.flow.max_pseudo_steps=3"});
+  measure(group, "pressure_amg",
+          {"aero.flow.preconditioner='pressure_amg'", "aero.flow.krylov_steps=8", "aero.flow.max_pseudo_steps=3"});
 }

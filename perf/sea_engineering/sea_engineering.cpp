@@ -1,6 +1,6 @@
 // Cost of exact buoyancy and of one evaluation of the engineering sea on the paper's platform (three floats, four strips each).
-// Bars: 0.3 us per cylinder at any attitude; a few microseconds per evaluation, so that hundreds of times real time stay possible.
-// SPDX-License-Identifier: Apache-2.0
+// Bars: 0.3 us per cylinder at any attitude; a few microseconds per evaluation, so that hundreds of times real time stay
+// possible. SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <string>
 #include <vector>
@@ -38,8 +38,8 @@ template <class Kernel>
 double nanoseconds(const std::vector<Axis>& set, Kernel&& kernel) {
   double sum = 0.0;
   const double time = measure([&] {
-    for (const Axis& a : set) sum += kernel(a).volume;
-  }).median;
+                        for (const Axis& a : set) sum += kernel(a).volume;
+                      }).median;
   keep(sum);
   return 1e9 * time / double(set.size());
 }

@@ -54,7 +54,8 @@ Outcome standing_wave(const Parameters& given, double c0_over_wave_speed) {
       crossings.push_back(sea.time() - dt * mode / (mode - before)), peaks.push_back(std::exchange(peak, 0.0));
     before = mode;
   }
-  const double seconds = perf::user_seconds() - start, halves = double(crossings.size()) - 2.0;  // the first half is starting noise
+  const double seconds = perf::user_seconds() - start,
+               halves = double(crossings.size()) - 2.0;  // the first half is starting noise
   return {0.5 * halves * period / (crossings.back() - crossings[1]) - 1.0, 1.0 - std::pow(peaks.back() / peaks[1], 2.0 / halves),
           seconds / sea.time(), 1e6 * seconds / (double(sea.work().evaluations) * double(seeds.size()))};
 }

@@ -316,7 +316,8 @@ std::uint32_t Worker::take() {
     if (team_.levels > 1)
       if (const int top = queue.top(); top > int(slots_[next_].level))
         if (const std::uint32_t better = queue.pop(top); better != ReadyQueue::none) {
-          // What is in the pocket nobody can take from there; `better` may be long, and the other task what a whole module waits for.
+          // What is in the pocket nobody can take from there; `better` may be long, and the other task what a whole module waits
+          // for.
           const std::uint32_t put_back = std::exchange(next_, no_node);
           queue.push(slots_[put_back].level, put_back);
           team_.sleepers.wake_one();

@@ -93,8 +93,8 @@ std::uint32_t Graph::collective(std::string label, const Uses& uses, std::functi
     g.collective_order = datum();
   }
   Uses ordered = uses;
-  // Ranks would wait for each other if they took two collective calls in different orders. One rank waits for nobody: there the order would only tie the loops of
-  // two modules together, whole loop after whole loop.
+  // Ranks would wait for each other if they took two collective calls in different orders. One rank waits for nobody: there the
+  // order would only tie the loops of two modules together, whole loop after whole loop.
   if (g.comm.size() > 1) ordered.push_back(updates(g.collective_order));
   return add_work(NodeKind::collective, std::move(label), ordered,
                   [comm = g.collectives.get(), work = std::move(work)](const Context&) { work(comm); });

@@ -97,7 +97,8 @@ class Graph {
     return add_work(NodeKind::task, std::move(label), uses, as_work(std::forward<F>(work)));
   }
   /// A blocking library call that all ranks make together: one task on a communicator of its own. On several ranks all
-  /// collective tasks of a graph run in the order of recording, and so do the loops that they are in; on one rank data order them alone.
+  /// collective tasks of a graph run in the order of recording, and so do the loops that they are in; on one rank data order them
+  /// alone.
   std::uint32_t collective(std::string label, const Uses& uses, std::function<void(MPI_Comm)> work);
 
   std::uint32_t send(std::string label, const Uses& uses, Message message);

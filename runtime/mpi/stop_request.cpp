@@ -21,11 +21,16 @@ extern "C" void note_signal(int signal) {
 
 std::string reason(int cause) {
   switch (cause) {
-    case 0: return "";
-    case SIGTERM: return "stopped on request (SIGTERM)";
-    case SIGINT: return "stopped on request (SIGINT)";
-    case SIGUSR1: return "stopped on request (SIGUSR1)";
-    default: return "the limit on wall time is reached (runtime.wall_limit_s)";
+    case 0:
+      return "";
+    case SIGTERM:
+      return "stopped on request (SIGTERM)";
+    case SIGINT:
+      return "stopped on request (SIGINT)";
+    case SIGUSR1:
+      return "stopped on request (SIGUSR1)";
+    default:
+      return "the limit on wall time is reached (runtime.wall_limit_s)";
   }
 }
 

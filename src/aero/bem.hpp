@@ -17,10 +17,10 @@ namespace spindrift::aero {
 
 /// The rotor as its blades see it; earth frame.
 struct DiscMotion {
-  Eigen::Vector3d hub_velocity;  ///< [m/s]
-  Eigen::Vector3d omega;         ///< of the blades, spin included [rad/s]
-  Eigen::Vector3d axis, up;      ///< unit, normal to each other; blade 1 points along `up` at azimuth zero
-  double azimuth, blade_pitch;   ///< [rad]
+  Eigen::Vector3d hub_velocity;                   ///< [m/s]
+  Eigen::Vector3d omega;                          ///< of the blades, spin included [rad/s]
+  Eigen::Vector3d axis, up;                       ///< unit, normal to each other; blade 1 points along `up` at azimuth zero
+  double azimuth, blade_pitch;                    ///< [rad]
   Eigen::Vector3d hub = Eigen::Vector3d::Zero();  ///< [m], where the wind goes with height
 };
 

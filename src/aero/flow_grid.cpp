@@ -25,16 +25,21 @@ void check_box(const GenerateOptions& o, const scene::Report& report) {
   if (o.kind != "box") return;
   for (std::size_t d = 0; d < 3; ++d) {
     if (o.cells[d] != std::floor(o.cells[d])) report("cells", fmt::format("must be whole numbers; found {}", o.cells[d]));
-    if (o.high_m[d] <= o.low_m[d]) report("high_m", fmt::format("must be above low_m along each axis; along {} it is {} and {}", "xyz"[d], o.high_m[d], o.low_m[d]));
+    if (o.high_m[d] <= o.low_m[d])
+      report("high_m",
+             fmt::format("must be above low_m along each axis; along {} it is {} and {}", "xyz"[d], o.high_m[d], o.low_m[d]));
   }
   for (const std::string& axis : o.periodic) {
-    if (axis != "x" && axis != "y" && axis != "z") report("periodic", fmt::format("names axes: \"x\", \"y\", \"z\"; found \"{}\"", axis));
+    if (axis != "x" && axis != "y" && axis != "z")
+      report("periodic", fmt::format("names axes: \"x\", \"y\", \"z\"; found \"{}\"", axis));
     if (axis == "y" && o.cells[1] == 1.0) report("periodic", "\"y\" has no meaning in a planar box (one cell along y)");
   }
 }
 
 MultiBlockGrid make_box(const GenerateOptions& g) {
-  const auto repeats = [&](const char* axis) { return std::find(g.periodic.begin(), g.periodic.end(), axis) != g.periodic.end(); };
+  const auto repeats = [&](const char* axis) {
+    return std::find(g.periodic.begin(), g.periodic.end(), axis) != g.periodic.end();
+  };
   const auto point = [](const std::array<double, 3>& a) { return Eigen::Vector3d(a[0], a[1], a[2]); };
   BoxOptions box{.low = point(g.low_m), .high = point(g.high_m)};
   const int x = int(g.cells[0]), y = int(g.cells[1]), z = int(g.cells[2]);
@@ -66,7 +71,12 @@ MultiBlockGrid generated(const GenerateOptions& g, double width) {
     if (g.first_cell_m > 0.0) o.first_cell = g.first_cell_m;
     return bump_channel(o);
   }
-  return cylinder({.around = g.around, .outward = g.outward, .radius = g.radius_m, .far = g.far_m, .first_cell = g.first_cell_m, .width = width});
+  return cylinder({.around = g.around,
+                   .outward = g.outward,
+                   .radius = g.radius_m,
+                   .far = g.far_m,
+                   .first_cell = g.first_cell_m,
+                   .width = width});
 }
 
 bool is_cgns(const std::string& file) { return std::filesystem::path(file).extension() == ".cgns"; }
@@ -87,7 +97,8 @@ const scene::Section<GenerateOptions>& generate_section() {
                   "Shape.")
           .required()
           .integer("refinement", &GenerateOptions::refinement, "-",
-                   "Member of the family: 34 n x 24 n cells (flat_plate), 112 n x 32 n (naca0012, wing), 44 n x 20 n (bump).", between(1, 32))
+                   "Member of the family: 34 n x 24 n cells (flat_plate), 112 n x 32 n (naca0012, wing), 44 n x 20 n (bump).",
+                   between(1, 32))
           .only_if("kind", {"flat_plate", "naca0012", "wing", "bump"})
           .integer("around", &GenerateOptions::around, "-", "Cells round the cylinder.", between(8, 1e5))
           .only_if("kind", {"cylinder"})
@@ -95,10 +106,12 @@ const scene::Section<GenerateOptions>& generate_section() {
           .only_if("kind", {"cylinder"})
           .number("radius_m", &GenerateOptions::radius_m, "m", "Radius of the cylinder.", above(0.0).up_to(1e4))
           .only_if("kind", {"cylinder"})
-          .number("far_m", &GenerateOptions::far_m, "m", "Distance of the far field (cylinder: its radius).", above(0.0).up_to(1e6))
+          .number("far_m", &GenerateOptions::far_m, "m", "Distance of the far field (cylinder: its radius).",
+                  above(0.0).up_to(1e6))
           .only_if("kind", {"cylinder", "naca0012", "wing"})
           .number("first_cell_m", &GenerateOptions::first_cell_m, "m",
-                  "Height of the first cell at the wall, of refinement 2 or 64 cells around and in proportion for others; 0: the generator's own "
+                  "Height of the first cell at the wall, of refinement 2 or 64 cells around and in proportion for others; 0: the "
+                  "generator's own "
                   "(aerofoil 3.6e-6, bump 1e-5, cylinder: radii in geometric progression).",
                   between(0.0, 1e3))
           .only_if("kind", {"cylinder", "naca0012", "wing", "bump"})
@@ -106,7 +119,8 @@ const scene::Section<GenerateOptions>& generate_section() {
           .only_if("kind", {"wing"})
           .integer("span_cells", &GenerateOptions::span_cells, "-", "Cells along the span.", between(2, 1e4))
           .only_if("kind", {"wing"})
-          .vector("cells", &GenerateOptions::cells, "-", "Cells of the box along x, y, z; one along y makes it planar.", between(1, 4096))
+          .vector("cells", &GenerateOptions::cells, "-", "Cells of the box along x, y, z; one along y makes it planar.",
+                  between(1, 4096))
           .only_if("kind", {"box"})
           .vector("low_m", &GenerateOptions::low_m, "m", "Lowest corner of the box.")
           .only_if("kind", {"box"})

@@ -21,15 +21,15 @@ struct FlowOptions;
 /// [aero.flow.generate]
 struct GenerateOptions {
   std::string kind = "box";
-  int refinement = 2;                                    ///< flat plate, aerofoil, wing, bump
-  int around = 96, outward = 64;                         ///< cylinder
-  double radius_m = 0.5, far_m = 50.0;                   ///< cylinder; far_m also of the aerofoil
-  double first_cell_m = 0.0;                             ///< 0: the generator's own
-  double span_m = 1.0;                                   ///< wing
+  int refinement = 2;                   ///< flat plate, aerofoil, wing, bump
+  int around = 96, outward = 64;        ///< cylinder
+  double radius_m = 0.5, far_m = 50.0;  ///< cylinder; far_m also of the aerofoil
+  double first_cell_m = 0.0;            ///< 0: the generator's own
+  double span_m = 1.0;                  ///< wing
   int span_cells = 8;
-  std::array<double, 3> cells{32.0, 1.0, 32.0};          ///< box, along x, y, z; one along y: planar
+  std::array<double, 3> cells{32.0, 1.0, 32.0};  ///< box, along x, y, z; one along y: planar
   std::array<double, 3> low_m{0.0, 0.0, 0.0}, high_m{1.0, 1.0, 1.0};
-  std::vector<std::string> periodic;                     ///< axes of a box
+  std::vector<std::string> periodic;  ///< axes of a box
 };
 const scene::Section<GenerateOptions>& generate_section();
 

@@ -26,11 +26,13 @@ const scene::Section<PatchOptions>& patch_section() {
           .choice("condition", &PatchOptions::condition,
                   {{"far_field", Condition::far_field, "characteristic: the undisturbed wind outside"},
                    {"no_slip", Condition::no_slip, "adiabatic wall"},
-                   {"wall_function", Condition::wall_law, "adiabatic wall on a grid whose first cells stand in the logarithmic layer: friction by the law of the wall"},
+                   {"wall_function", Condition::wall_law,
+                    "adiabatic wall on a grid whose first cells stand in the logarithmic layer: friction by the law of the wall"},
                    {"slip", Condition::slip, "wall without friction"},
                    {"symmetry", Condition::symmetry, "plane of symmetry"},
                    {"inflow", Condition::inflow_velocity, "wind and temperature given, pressure from inside"},
-                   {"reservoir", Condition::inflow_stagnation, "stagnation pressure and temperature of the wind and its direction given, speed from inside"},
+                   {"reservoir", Condition::inflow_stagnation,
+                    "stagnation pressure and temperature of the wind and its direction given, speed from inside"},
                    {"outflow", Condition::outflow_pressure, "pressure given, all else from inside"}},
                   "Boundary condition.")
           .flag("loads", &PatchOptions::loads, "Whether the force on it (of a wall) is summed into the flow's columns.");
@@ -50,15 +52,17 @@ const scene::Section<FlowOptions>& flow_section() {
           .table("motion", &FlowOptions::motion, grid_motion_section(), "Walls that turn and heave, in a scene of the air alone.")
           .number("width_m", &FlowOptions::width_m, "m", "Width of a two-dimensional grid.", above(0.0).up_to(1e6))
           .tables("boundaries", &FlowOptions::boundaries, patch_section(), "Conditions by patch; each patch of the grid once.")
-          .choice("blades", &FlowOptions::blades,
-                  {{"no_slip", Condition::no_slip, "resolved to the wall"},
-                   {"wall_function", Condition::wall_law, "friction by the law of the wall: first cells in the logarithmic layer"}},
-                  "Blades of a resolved rotor in viscous air that no boundary names.")
+          .choice(
+              "blades", &FlowOptions::blades,
+              {{"no_slip", Condition::no_slip, "resolved to the wall"},
+               {"wall_function", Condition::wall_law, "friction by the law of the wall: first cells in the logarithmic layer"}},
+              "Blades of a resolved rotor in viscous air that no boundary names.")
           .number("temperature_K", &FlowOptions::temperature_K, "K", "Temperature of the undisturbed air.", between(50.0, 2000.0))
-          .number("viscosity_Pa_s", &FlowOptions::viscosity_Pa_s, "Pa s", "Dynamic viscosity at that temperature (Sutherland's law around it).",
-                  above(0.0).up_to(1e3))
+          .number("viscosity_Pa_s", &FlowOptions::viscosity_Pa_s, "Pa s",
+                  "Dynamic viscosity at that temperature (Sutherland's law around it).", above(0.0).up_to(1e3))
           .choice("viscous", &FlowOptions::viscous,
-                  {{"none", "inviscid"}, {"thin_layer", "differences across faces only"}, {"full", "all gradients"}}, "Viscous terms.")
+                  {{"none", "inviscid"}, {"thin_layer", "differences across faces only"}, {"full", "all gradients"}},
+                  "Viscous terms.")
           .choice("turbulence", &FlowOptions::turbulence,
                   {{"none", "laminar"},
                    {"sa", "Spalart-Allmaras"},
@@ -80,7 +84,8 @@ const scene::Section<FlowOptions>& flow_section() {
                   {{"exact", "to the nearest point of all walls"},
                    {"poisson", "from Poisson's equation (Spalding): smooth, larger than the exact one where walls are convex"}},
                   "Distance from walls that the turbulence model sees.")
-          .only_if("turbulence", {"sa", "sa_neg", "sst", "sst_2003_vm", "sst_1994", "sst_v", "sst_vm", "k_omega", "k_omega_1988", "des97", "ddes"})
+          .only_if("turbulence", {"sa", "sa_neg", "sst", "sst_2003_vm", "sst_1994", "sst_v", "sst_vm", "k_omega", "k_omega_1988",
+                                  "des97", "ddes"})
           .choice("flux", &FlowOptions::flux,
                   {{"roe_low_mach", "Roe with Rieper's scaling: accurate at any Mach number below one and above"},
                    {"roe", "Roe"},
@@ -95,15 +100,19 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"minmod", "the most dissipative"},
                    {"first_order", "no reconstruction"}},
                   "Limiter of the reconstruction.")
-          .number("upwinding", &FlowOptions::upwinding, "-",
-                  "Share of the jump between reconstructed states that the flux sees; below 1 less dissipation, for resolved eddies.",
-                  above(0.0).up_to(1.0))
+          .number(
+              "upwinding", &FlowOptions::upwinding, "-",
+              "Share of the jump between reconstructed states that the flux sees; below 1 less dissipation, for resolved eddies.",
+              above(0.0).up_to(1.0))
           .flag("first_order_turbulence", &FlowOptions::first_order_turbulence,
-                "Whether what the turbulence model transports is carried by first-order upwind differences, as in CFL3D and FUN3D, and not by limited "
+                "Whether what the turbulence model transports is carried by first-order upwind differences, as in CFL3D and "
+                "FUN3D, and not by limited "
                 "second-order ones: converges sooner with two equations.")
-          .flag("low_mach", &FlowOptions::low_mach, "Low-Mach preconditioning of the pseudo-time; the solution does not depend on it.")
+          .flag("low_mach", &FlowOptions::low_mach,
+                "Low-Mach preconditioning of the pseudo-time; the solution does not depend on it.")
           .flag("physical_far_field", &FlowOptions::physical_far_field,
-                "Whether the far field's characteristic conditions take the waves at their physical speeds also with low_mach: as most codes do; "
+                "Whether the far field's characteristic conditions take the waves at their physical speeds also with low_mach: "
+                "as most codes do; "
                 "reflects more, and holds a displaced flow back with the pressure rho c v.")
           .choice("time", &FlowOptions::time,
                   {{"steady", "one march to the steady state; a window is at most one pseudo-step, its length a count"},
@@ -113,19 +122,22 @@ const scene::Section<FlowOptions>& flow_section() {
           .number("cfl", &FlowOptions::cfl, "-", "CFL number of the first pseudo-step.", above(0.0).up_to(1e6))
           .number("cfl_max", &FlowOptions::cfl_max, "-", "Largest CFL number.", above(0.0).up_to(1e8))
           .number("drop", &FlowOptions::drop, "-", "Drop of the density residual that ends a march.", between(0.0, 1.0))
-          .number("residual_kg_m3_s", &FlowOptions::residual_kg_m3_s, "kg/(m3 s)", "Density residual (as flow.density_residual) that ends a march whatever its drop; 0: not looked at.",
+          .number("residual_kg_m3_s", &FlowOptions::residual_kg_m3_s, "kg/(m3 s)",
+                  "Density residual (as flow.density_residual) that ends a march whatever its drop; 0: not looked at.",
                   between(0.0, 1e6))
           .number("load_change", &FlowOptions::load_change, "-",
                   "Relative change of the force over 20 pseudo-steps that ends a march; 0: not looked at.", between(0.0, 1.0))
-          .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.", between(1, 1e6))
+          .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.",
+                   between(1, 1e6))
           .only_if("time", {"bdf1", "bdf2"})
           .integer("coarse_steps", &FlowOptions::coarse_steps, "-",
-                   "Pseudo-steps on a coarser grid, whose flow a steady march then begins with: of half the resolution of [aero.grid]; else of every second "
+                   "Pseudo-steps on a coarser grid, whose flow a steady march then begins with: of half the resolution of "
+                   "[aero.grid]; else of every second "
                    "node, and there the drop still counts from the wind's residual on the fine grid. 0: none.",
                    between(0, 1e6))
           .only_if("time", {"steady"})
-          .number("coarse_drop", &FlowOptions::coarse_drop, "-", "Drop of the density residual that ends the march on the coarser grid sooner.",
-                  between(0.0, 1.0))
+          .number("coarse_drop", &FlowOptions::coarse_drop, "-",
+                  "Drop of the density residual that ends the march on the coarser grid sooner.", between(0.0, 1.0))
           .only_if("time", {"steady"})
           .choice("krylov", &FlowOptions::krylov,
                   {{"gmres", KrylovMethod::gmres, "GMRES, one set of vectors"},
@@ -138,31 +150,41 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"identity", "none"},
                    {"coarse", "block ILU(0) after a coarse correction: groups of cells move together, over all tiles"},
                    {"pressure_amg", "block ILU(0) after pressure by algebraic multigrid (hypre)"},
-                   {"auto", "block_ilu or coarse, by trial at the start: iterations and a model of their cost; logged and written into scene.toml"}},
+                   {"auto",
+                    "block_ilu or coarse, by trial at the start: iterations and a model of their cost; logged and written into "
+                    "scene.toml"}},
                   "Approximate inverse that the linear solver works with; docs/user/air.md says which for what.")
           .integer("group_cells", &FlowOptions::group_cells, "-",
                    "Longest side of a group of cells of the coarse correction; 0: a group is a whole tile.", between(0, 64))
           .only_if("preconditioner", {"coarse", "auto"})
           .integer("direct_groups", &FlowOptions::direct_groups, "-",
-                   "Most groups that are solved by elimination, with bits that no number of ranks changes; more go to algebraic multigrid (hypre).", between(0, 4096))
+                   "Most groups that are solved by elimination, with bits that no number of ranks changes; more go to algebraic "
+                   "multigrid (hypre).",
+                   between(0, 4096))
           .only_if("preconditioner", {"coarse", "auto"})
           .integer("common_every", &FlowOptions::common_every, "-",
-                   "Matrices of a physical step, or of a steady march, that one set-up of the coarse correction or of multigrid serves.", between(1, 1000))
+                   "Matrices of a physical step, or of a steady march, that one set-up of the coarse correction or of multigrid "
+                   "serves.",
+                   between(1, 1000))
           .only_if("preconditioner", {"coarse", "pressure_amg", "auto"})
           .integer("common_steps", &FlowOptions::common_steps, "-",
-                   "Physical steps whose first common_every matrices one set-up serves: it is made anew in every so many-th step, whatever the restarts. "
+                   "Physical steps whose first common_every matrices one set-up serves: it is made anew in every so many-th "
+                   "step, whatever the restarts. "
                    "Above 1 it needs common_every of at least max_pseudo_steps (or 1000).",
                    between(1, 1e6))
           .only_if("time", {"bdf1", "bdf2"})
           .integer("refresh_every", &FlowOptions::refresh_every, "-",
-                   "Pseudo-steps that a matrix of the preconditioner serves where products are matrix-free; less where the CFL number changes by "
+                   "Pseudo-steps that a matrix of the preconditioner serves where products are matrix-free; less where the CFL "
+                   "number changes by "
                    "a factor of two or the linear systems are solved worse.",
                    between(1, 1000))
-          .integer("krylov_steps", &FlowOptions::krylov_steps, "-", "Most iterations of the linear solver in a pseudo-step; memory grows with it.",
-                   between(2, 40))
-          .number("krylov_drop", &FlowOptions::krylov_drop, "-", "Drop of the linear residual that is enough.", above(0.0).up_to(1.0))
+          .integer("krylov_steps", &FlowOptions::krylov_steps, "-",
+                   "Most iterations of the linear solver in a pseudo-step; memory grows with it.", between(2, 40))
+          .number("krylov_drop", &FlowOptions::krylov_drop, "-", "Drop of the linear residual that is enough.",
+                  above(0.0).up_to(1.0))
           .number("matrix_free_below", &FlowOptions::matrix_free_below, "-",
-                  "Drop of the density residual from which on the operator is the linearised residual itself (Newton), not the stored "
+                  "Drop of the density residual from which on the operator is the linearised residual itself (Newton), not the "
+                  "stored "
                   "first-order matrix; 0: never.",
                   between(0.0, 1.0))
           .choice("start", &FlowOptions::start,
@@ -172,30 +194,37 @@ const scene::Section<FlowOptions>& flow_section() {
                   "State at the beginning.")
           .flag("surfaces", &FlowOptions::surfaces, "Whether walls are written to fields/walls.xdmf: pressure, friction, y+.")
           .degrees("incidence_deg", &FlowOptions::incidence, "Angle by which the wind blows upwards.", between(-90.0, 90.0))
-          .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2", "Area of the coefficients in history.csv.", above(0.0).up_to(1e9))
+          .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2", "Area of the coefficients in history.csv.",
+                  above(0.0).up_to(1e9))
           .check([](const FlowOptions& o, const scene::Report& report) {
             const bool transports = o.viscous != "none" && o.turbulence != "none" && !resolves_eddies(o.turbulence);
             for (const PatchOptions& b : o.boundaries)
               if (b.condition == Condition::wall_law && !transports)
-                report("boundaries", fmt::format("patch \"{}\": \"wall_function\" goes with turbulence that is modelled, not \"{}\"", b.patch, o.turbulence));
+                report("boundaries",
+                       fmt::format("patch \"{}\": \"wall_function\" goes with turbulence that is modelled, not \"{}\"", b.patch,
+                                   o.turbulence));
             if (o.blades == Condition::wall_law && !transports)
               report("blades", fmt::format("\"wall_function\" goes with turbulence that is modelled, not \"{}\"", o.turbulence));
             if (o.motion && o.time == "steady" && o.motion->oscillates())
               report("motion", "oscillates, which steady flow cannot follow: take time = \"bdf2\", or pitch_deg alone");
             const bool common = o.preconditioner == "coarse" || o.preconditioner == "pressure_amg" || o.preconditioner == "auto";
-            if (o.common_steps > 1 && !common) report("common_steps", fmt::format("has no effect with preconditioner \"{}\"", o.preconditioner));
+            if (o.common_steps > 1 && !common)
+              report("common_steps", fmt::format("has no effect with preconditioner \"{}\"", o.preconditioner));
             if (const int needed = std::min(o.max_pseudo_steps, 1000); common && o.common_steps > 1 && o.common_every < needed)
-              report("common_steps", fmt::format("is {} but common_every {}: later matrices of a step would have set-ups of their own; set common_every to {}", o.common_steps,
-                                                 o.common_every, needed));
+              report("common_steps", fmt::format("is {} but common_every {}: later matrices of a step would have set-ups of "
+                                                 "their own; set common_every to {}",
+                                                 o.common_steps, o.common_every, needed));
             const bool cgns = o.grid.ends_with(".cgns");
             if (o.generate && !o.grid.empty()) report("generate", "is given beside a grid file: one of the two");
-            if (!o.generate && !o.grid.empty() && !cgns && o.map.empty()) report("map", "must be given: a Plot3D grid holds coordinates only");
+            if (!o.generate && !o.grid.empty() && !cgns && o.map.empty())
+              report("map", "must be given: a Plot3D grid holds coordinates only");
             if ((o.generate || cgns) && !o.map.empty()) report("map", "has no effect: it belongs to Plot3D grids");
           });
   return section;
 }
 
-FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vector3d& wind, double dt, const WindProfile& profile) {
+FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vector3d& wind, double dt,
+                         const WindProfile& profile) {
   FlowSetting s;
   s.gas.temperature_reference = o.temperature_K;
   s.gas.pressure_reference = density * s.gas.gas_constant * o.temperature_K;
@@ -216,7 +245,10 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.dt = s.time_order > 0 ? dt : 0.0;
   s.krylov = o.krylov;
   s.preconditioner = o.preconditioner == "auto" ? "block_ilu" : o.preconditioner;  // until chosen
-  s.common = {.group_cells = o.group_cells, .direct_groups = o.direct_groups, .common_every = o.common_every, .common_steps = o.time == "steady" ? 1 : o.common_steps};
+  s.common = {.group_cells = o.group_cells,
+              .direct_groups = o.direct_groups,
+              .common_every = o.common_every,
+              .common_steps = o.time == "steady" ? 1 : o.common_steps};
   s.march = {.cfl_start = o.cfl,
              .cfl_max = std::max(o.cfl, o.cfl_max),
              .drop = o.drop,
@@ -247,14 +279,17 @@ std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const T
   for (const PatchOptions& b : options.boundaries) {
     const int patch = tiling.patch(b.patch);
     if (patch < 0)
-      throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("the grid has no patch \"{}\"; it has: {}", b.patch, fmt::join(tiling.patches, ", "))}});
+      throw scene::SceneError(
+          {{.key = "aero.flow.boundaries",
+            .message = fmt::format("the grid has no patch \"{}\"; it has: {}", b.patch, fmt::join(tiling.patches, ", "))}});
     if (given[std::size_t(patch)]++ > 0)
       throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("patch \"{}\" is given twice", b.patch)}});
     conditions[std::size_t(patch)] = {b.condition, b.loads && is_closed(b.condition)};
   }
   for (std::size_t p = 0; p < given.size(); ++p)
     if (given[p] == 0)
-      throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("patch \"{}\" of the grid has no condition", tiling.patches[p])}});
+      throw scene::SceneError({{.key = "aero.flow.boundaries",
+                                .message = fmt::format("patch \"{}\" of the grid has no condition", tiling.patches[p])}});
   return conditions;
 }
 

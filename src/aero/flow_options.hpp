@@ -36,7 +36,7 @@ struct FlowOptions {
   std::string grid, map;  ///< paths: Plot3D or CGNS; neutral map of the former
   std::optional<GenerateOptions> generate;
   std::optional<GridMotionOptions> motion;
-  double width_m = 1.0;   ///< of planar grids
+  double width_m = 1.0;  ///< of planar grids
   std::vector<PatchOptions> boundaries;
   double temperature_K = 288.15;
   double viscosity_Pa_s = 1.8e-5;
@@ -64,8 +64,10 @@ struct FlowOptions {
 
 const scene::Section<FlowOptions>& flow_section();
 
-/// The solver's own numbers: air of this density at this wind, over the height by `profile`; a physical step of dt [s] where the scene is unsteady.
-FlowSetting flow_setting(const FlowOptions& options, double density, const Eigen::Vector3d& wind, double dt, const WindProfile& profile = {});
+/// The solver's own numbers: air of this density at this wind, over the height by `profile`; a physical step of dt [s] where the
+/// scene is unsteady.
+FlowSetting flow_setting(const FlowOptions& options, double density, const Eigen::Vector3d& wind, double dt,
+                         const WindProfile& profile = {});
 
 /// Conditions by patch of the tiling; a patch that no boundary names, or a name that no patch has, is a problem of the scene.
 std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling);

@@ -21,30 +21,40 @@ namespace spindrift::aero {
 namespace {
 
 Eigen::Vector3d vector_of(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
-[[noreturn]] void refuse(const std::string& key, const std::string& why) { throw scene::SceneError({{.key = "aero.flow.motion" + key, .message = why}}); }
+[[noreturn]] void refuse(const std::string& key, const std::string& why) {
+  throw scene::SceneError({{.key = "aero.flow.motion" + key, .message = why}});
+}
 
 }  // namespace
 
 const scene::Section<GridMotionOptions>& grid_motion_section() {
   using scene::above, scene::between;
   static const auto section =
-      scene::Section<GridMotionOptions>("motion", "Walls that turn about an axis and heave, and the grid with them: pitch_deg + pitch_amplitude_deg sin(2 pi t / period_s) about "
-                                                  "centre_m, heave_amplitude_m sin(2 pi t / period_s + heave_phase_deg). In steady flow pitch_deg alone.")
+      scene::Section<GridMotionOptions>(
+          "motion",
+          "Walls that turn about an axis and heave, and the grid with them: pitch_deg + pitch_amplitude_deg sin(2 pi t / "
+          "period_s) about "
+          "centre_m, heave_amplitude_m sin(2 pi t / period_s + heave_phase_deg). In steady flow pitch_deg alone.")
           .texts("patches", &GridMotionOptions::patches, "Patches that move.")
           .required()
           .choice("grid", &GridMotionOptions::grid,
-                  {{"elliptic", "nodes take a share of the motion: 1 on what moves, 0 on what is held, an elliptic problem between (multigrid by hypre)"},
+                  {{"elliptic",
+                    "nodes take a share of the motion: 1 on what moves, 0 on what is held, an elliptic problem between "
+                    "(multigrid by hypre)"},
                    {"rigid", "all of the grid moves as one"}},
-                  "How nodes follow. Held are the patches with conditions that let air through and walls that do not move; those of symmetry keep to their plane.")
+                  "How nodes follow. Held are the patches with conditions that let air through and walls that do not move; those "
+                  "of symmetry keep to their plane.")
           .number("stiffness", &GridMotionOptions::stiffness, "-",
-                  "Power of the inverse distance from what moves by which the share keeps to 1 near it; 0: the same everywhere.", between(0.0, 3.0))
+                  "Power of the inverse distance from what moves by which the share keeps to 1 near it; 0: the same everywhere.",
+                  between(0.0, 3.0))
           .only_if("grid", {"elliptic"})
           .vector("centre_m", &GridMotionOptions::centre_m, "m", "A point of the axis, before heaving.")
           .vector("axis", &GridMotionOptions::axis, "-", "Direction of the axis; about y positive angles lift what is upwind.")
           .degrees("pitch_deg", &GridMotionOptions::pitch, "Mean angle.", between(-180.0, 180.0))
           .degrees("pitch_amplitude_deg", &GridMotionOptions::pitch_amplitude, "Amplitude of the angle.", between(0.0, 180.0))
           .vector("heave_amplitude_m", &GridMotionOptions::heave_m, "m", "Amplitude of the shift.")
-          .degrees("heave_phase_deg", &GridMotionOptions::heave_phase, "Phase of the shift before the angle.", between(-360.0, 360.0))
+          .degrees("heave_phase_deg", &GridMotionOptions::heave_phase, "Phase of the shift before the angle.",
+                   between(-360.0, 360.0))
           .number("period_s", &GridMotionOptions::period_s, "s", "Period of both.", above(0.0).up_to(1e6))
           .check([](const GridMotionOptions& o, const scene::Report& report) {
             if (o.patches.empty()) report("patches", "must name a patch at least");
@@ -61,13 +71,15 @@ Eigen::Vector3d moved(const TurnAndShift& m, double share, const Eigen::Vector3d
   return to + share * m.shift;
 }
 
-GridMotion::GridMotion(const MultiBlockGrid& grid, const GridMotionOptions& options, const std::vector<std::string>& held, const std::vector<std::string>& sliding)
+GridMotion::GridMotion(const MultiBlockGrid& grid, const GridMotionOptions& options, const std::vector<std::string>& held,
+                       const std::vector<std::string>& sliding)
     : grid_(grid), options_(options) {
   std::vector<std::string> known;
   for (const Boundary& b : grid.boundaries)
     if (std::ranges::find(known, b.patch) == known.end()) known.push_back(b.patch);
   for (const std::string& p : options.patches)
-    if (std::ranges::find(known, p) == known.end()) refuse(".patches", fmt::format("the grid has no patch \"{}\"; it has: {}", p, fmt::join(known, ", ")));
+    if (std::ranges::find(known, p) == known.end())
+      refuse(".patches", fmt::format("the grid has no patch \"{}\"; it has: {}", p, fmt::join(known, ", ")));
   if (std::ranges::any_of(grid.connections, [](const Connection& c) { return c.periodic.has_value(); }))
     refuse("", "does not go with a grid that repeats itself: its periods would have to move with it");
   if (options.grid == "rigid") return;
@@ -97,7 +109,9 @@ void GridMotion::check_patches(const std::vector<std::string>& sliding) const {
     for (const WallSurface::Face& f : surface.faces()) {
       const Eigen::Vector3d normal = (f[2] - f[0]).cross(f[3] - f[1]).normalized();
       if ((turns && normal.cross(axis).norm() > 1e-6) || std::abs(normal.dot(heave)) > 1e-6 * heave.norm())
-        refuse(".patches", fmt::format("the motion would take patch \"{}\" out of its plane, which its condition \"symmetry\" does not allow", b.patch));
+        refuse(".patches",
+               fmt::format("the motion would take patch \"{}\" out of its plane, which its condition \"symmetry\" does not allow",
+                           b.patch));
     }
   }
 }
@@ -106,7 +120,8 @@ void GridMotion::check_cells(double t) const {
   const std::vector<std::string> faults = grid_faults(moved_grid(t), {.examples = 1});
   if (faults.empty()) return;
   const TurnAndShift m = at(t);
-  refuse("", fmt::format("cells fold at an angle of {:.4g} deg and a shift of {:.4g} m: {}; hold patches further away, change stiffness (now {:g}) or take grid = \"rigid\"",
+  refuse("", fmt::format("cells fold at an angle of {:.4g} deg and a shift of {:.4g} m: {}; hold patches further away, change "
+                         "stiffness (now {:g}) or take grid = \"rigid\"",
                          m.turn.norm() / radians_per_degree, m.shift.norm(), faults[0], options_.stiffness));
 }
 
@@ -148,7 +163,8 @@ MultiBlockGrid GridMotion::moved_grid(double t) const {
 
 std::string GridMotion::description() const {
   if (shares_.empty()) return "the grid moves as one";
-  return fmt::format("the grid follows {}: {} nodes by {} cycles of multigrid", fmt::join(options_.patches, ", "), unknowns_, cycles_);
+  return fmt::format("the grid follows {}: {} nodes by {} cycles of multigrid", fmt::join(options_.patches, ", "), unknowns_,
+                     cycles_);
 }
 
 }  // namespace spindrift::aero

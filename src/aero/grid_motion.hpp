@@ -1,7 +1,8 @@
-// A resolved flow's grid that follows walls which turn and heave: [aero.flow.motion]. The whole grid moves as the walls do, or each node takes a share of
-// their motion that an elliptic problem spreads between what moves and what is held (grid/node_field.hpp). Rigid motions taken in part, not displacements: cells near the
-// walls turn with them and keep their shape. Options declared in grid_motion.cpp; used by src/coupling/flow_run.cpp; tested in
-// tests/src/aero/grid_motion_test.cpp. SPDX-License-Identifier: Apache-2.0
+// A resolved flow's grid that follows walls which turn and heave: [aero.flow.motion]. The whole grid moves as the walls do, or
+// each node takes a share of their motion that an elliptic problem spreads between what moves and what is held
+// (grid/node_field.hpp). Rigid motions taken in part, not displacements: cells near the walls turn with them and keep their
+// shape. Options declared in grid_motion.cpp; used by src/coupling/flow_run.cpp; tested in tests/src/aero/grid_motion_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -22,9 +23,10 @@ Eigen::Vector3d moved(const TurnAndShift& motion, double share, const Eigen::Vec
 
 class GridMotion {
  public:
-  /// `grid` as made; it must outlive this. `held` and `sliding`: patches that stay, and that keep to their plane; all others move. Throws
-  /// scene::SceneError where a patch cannot do so, or cells fold at an extreme of the motion.
-  GridMotion(const MultiBlockGrid& grid, const GridMotionOptions& options, const std::vector<std::string>& held, const std::vector<std::string>& sliding);
+  /// `grid` as made; it must outlive this. `held` and `sliding`: patches that stay, and that keep to their plane; all others
+  /// move. Throws scene::SceneError where a patch cannot do so, or cells fold at an extreme of the motion.
+  GridMotion(const MultiBlockGrid& grid, const GridMotionOptions& options, const std::vector<std::string>& held,
+             const std::vector<std::string>& sliding);
 
   TurnAndShift at(double t) const;
   Eigen::Vector3d axis() const;

@@ -13,13 +13,13 @@ class Section;
 namespace spindrift::aero {
 
 struct GridMotionOptions {
-  std::vector<std::string> patches;                  ///< that move
-  std::string grid = "elliptic";                     ///< or "rigid"
+  std::vector<std::string> patches;  ///< that move
+  std::string grid = "elliptic";     ///< or "rigid"
   double stiffness = 1.0;
   std::array<double, 3> centre_m{0.0, 0.0, 0.0}, axis{0.0, 1.0, 0.0};
-  double pitch = 0.0, pitch_amplitude = 0.0;         ///< [rad]
-  std::array<double, 3> heave_m{0.0, 0.0, 0.0};      ///< amplitude
-  double heave_phase = 0.0;                          ///< [rad] of heave before pitch
+  double pitch = 0.0, pitch_amplitude = 0.0;     ///< [rad]
+  std::array<double, 3> heave_m{0.0, 0.0, 0.0};  ///< amplitude
+  double heave_phase = 0.0;                      ///< [rad] of heave before pitch
   double period_s = 1.0;
   bool oscillates() const { return pitch_amplitude != 0.0 || heave_m != std::array<double, 3>{}; }
 };

@@ -19,15 +19,18 @@ namespace {
 const std::vector<std::string> prescribed{"prescribed"}, curves{"thrust_curve"}, tabulated{"prescribed", "thrust_curve"};
 
 void check_aero(const AeroOptions& o, const scene::Report& report) {
-  if (o.model == "blade_resolved" && !o.flow) report("flow", "must be given: aero.model \"blade_resolved\" needs a grid and its boundaries");
+  if (o.model == "blade_resolved" && !o.flow)
+    report("flow", "must be given: aero.model \"blade_resolved\" needs a grid and its boundaries");
   if (o.flow) {
     const bool file = !o.flow->grid.empty(), made = o.flow->generate.has_value();
-    if (o.grid && (file || made)) report(file ? "flow.grid" : "flow.generate", "is given beside [aero.grid], the grid of a rotor: one of the two");
+    if (o.grid && (file || made))
+      report(file ? "flow.grid" : "flow.generate", "is given beside [aero.grid], the grid of a rotor: one of the two");
     if (!o.grid && !file && !made) report("flow.grid", "must be given, or [aero.flow.generate], or for a rotor [aero.grid]");
   }
   constexpr double least = 2.0;  // half of it makes a grid within the limits of quality at any pitch
   if (o.flow && o.flow->coarse_steps > 0 && o.grid && o.grid->resolution < least)
-    report("grid.resolution", fmt::format("= {} must be at least {} with flow.coarse_steps, whose grid has half of it", o.grid->resolution, least));
+    report("grid.resolution",
+           fmt::format("= {} must be at least {} with flow.coarse_steps, whose grid has half of it", o.grid->resolution, least));
   if (o.model != "blade_resolved" && o.flow) report("flow", "has no effect: aero.model is not \"blade_resolved\"");
   const bool series = !o.thrust_cosine_N.empty() || !o.thrust_sine_N.empty() || !o.torque_cosine_N_m.empty() ||
                       !o.torque_sine_N_m.empty() || o.torque_N_m != 0.0;
@@ -38,12 +41,14 @@ void check_aero(const AeroOptions& o, const scene::Report& report) {
 
 void check_wind(const WindOptions& o, const scene::Report& report) {
   if (o.law == WindLaw::uniform) return;
-  if (!o.reference_height_m) return report("reference_height_m", "must be given: a profile has speed_m_s at one height, the hub's say");
+  if (!o.reference_height_m)
+    return report("reference_height_m", "must be given: a profile has speed_m_s at one height, the hub's say");
   if (o.least_height_m > *o.reference_height_m)
-    report("least_height_m", fmt::format("= {} must not be above reference_height_m = {}", o.least_height_m, *o.reference_height_m));
+    report("least_height_m",
+           fmt::format("= {} must not be above reference_height_m = {}", o.least_height_m, *o.reference_height_m));
   if (o.law == WindLaw::logarithmic && !(o.roughness_m < o.least_height_m))
-    report("roughness_m", fmt::format("= {} must be below least_height_m = {}: the logarithmic law is zero at the roughness", o.roughness_m,
-                                      o.least_height_m));
+    report("roughness_m", fmt::format("= {} must be below least_height_m = {}: the logarithmic law is zero at the roughness",
+                                      o.roughness_m, o.least_height_m));
 }
 
 void check_axis(const RotorOptions& o, const scene::Report& report) {
@@ -135,7 +140,8 @@ const scene::Section<RotorOptions>& rotor_section() {
           .number("diameter_m", &RotorOptions::diameter_m, "m", "Rotor diameter.", scene::positive())
           .path("turbine", &RotorOptions::turbine, "Turbine file: blades as section tables (inputs/turbines).")
           .path("operation", &RotorOptions::operation,
-                "CSV file with wind_m_s and speed_rpm: steady operation, for the frequencies that `check` compares; without it the rotor "
+                "CSV file with wind_m_s and speed_rpm: steady operation, for the frequencies that `check` compares; without it "
+                "the rotor "
                 "speed of the scene stands for every wind.")
           .check(check_axis);
   return section;
@@ -152,20 +158,22 @@ const scene::Section<WindOptions>& wind_section() {
           .choice("profile", &WindOptions::law,
                   {{"uniform", WindLaw::uniform, "the same at every height"},
                    {"power_law", WindLaw::power, "speed_m_s times (z / reference_height_m)^shear_exponent"},
-                   {"logarithmic", WindLaw::logarithmic, "speed_m_s times ln(z / roughness_m) / ln(reference_height_m / roughness_m)"}},
+                   {"logarithmic", WindLaw::logarithmic,
+                    "speed_m_s times ln(z / roughness_m) / ln(reference_height_m / roughness_m)"}},
                   "Speed over the height z above still water.")
-          .number("reference_height_m", &WindOptions::reference_height_m, "m", "Height above still water at which the wind has speed_m_s.",
-                  scene::above(0.0).up_to(1e4))
+          .number("reference_height_m", &WindOptions::reference_height_m, "m",
+                  "Height above still water at which the wind has speed_m_s.", scene::above(0.0).up_to(1e4))
           .only_if("profile", sheared)
-          .number("shear_exponent", &WindOptions::shear_exponent, "-", "Of the power law: .14 at sea, .2 on land (IEC 61400-3, 61400-1).",
-                  scene::between(-1.0, 1.0))
+          .number("shear_exponent", &WindOptions::shear_exponent, "-",
+                  "Of the power law: .14 at sea, .2 on land (IEC 61400-3, 61400-1).", scene::between(-1.0, 1.0))
           .only_if("profile", {"power_law"})
           .number("roughness_m", &WindOptions::roughness_m, "m", "Of the surface, for the logarithmic law; 0.0002 for open sea.",
                   scene::between(1e-6, 10.0))
           .only_if("profile", {"logarithmic"})
-          .number("least_height_m", &WindOptions::least_height_m, "m",
-                  "Below this height, and below the water, which the grid of the air does not know, the wind is as at this height.",
-                  scene::above(0.0).up_to(1e4))
+          .number(
+              "least_height_m", &WindOptions::least_height_m, "m",
+              "Below this height, and below the water, which the grid of the air does not know, the wind is as at this height.",
+              scene::above(0.0).up_to(1e4))
           .only_if("profile", sheared)
           .check(check_wind);
   return section;

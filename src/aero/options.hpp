@@ -38,7 +38,7 @@ struct AeroOptions {
   std::string interpolation = "linear";
   // bem
   std::string induction = "madsen";
-  std::optional<FlowOptions> flow;  ///< blade_resolved
+  std::optional<FlowOptions> flow;       ///< blade_resolved
   std::optional<RotorGridOptions> grid;  ///< resolved rotor
 };
 
@@ -51,7 +51,7 @@ struct RotorOptions {
   double azimuth = 0.0;      ///< at the start [rad]
   double blade_pitch = 0.0;  ///< [rad], positive nose into the wind
   std::optional<double> diameter_m;
-  std::string turbine;  ///< path: blades as data
+  std::string turbine;    ///< path: blades as data
   std::string operation;  ///< path: rotor speed against wind
 };
 

@@ -72,8 +72,8 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
   return made;
 }
 
-ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk, std::shared_ptr<const MadeRotorGrid> made,
-                             const GridProgress& told)
+ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk,
+                             std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told)
     : setup_(setup),
       made_(made ? std::move(made) : made_rotor_grid(setup, told)),
       turbine_(made_->turbine),

@@ -45,7 +45,8 @@ void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, co
             steady ? "take \"bdf2\"" : "take \"all\""));
   if (!profile.uniform() && steady)
     document.problem("aero.flow.time",
-                     "\"steady\", a flow seen from the turning rotor, needs a wind of one speed; wind.profile gives it one over height, which a "
+                     "\"steady\", a flow seen from the turning rotor, needs a wind of one speed; wind.profile gives it one over "
+                     "height, which a "
                      "turning blade meets as a wind that changes: take \"bdf2\"");
   if (!profile.uniform() && one)
     document.problem("aero.grid.sectors",
@@ -66,10 +67,12 @@ std::string far_side_note(const RotorGridOptions& grid) {
   const double excess = far_side_excess(grid);
   if (excess < 0.01) return {};
   // Powers of the wind at fixed speed of rotation by blade elements (docs/theory/rotor_resolved.md).
-  return fmt::format("far sides at {:g} tip radii (aero.grid.radial_extent) raise the wind through the rotor by some {:.1f} % (Glauert, thrust coefficient .8): "
-                     "about {:.0f} % of thrust and {:.0f} % of power; at 12 radii {:.1f} %",
-                     grid.radial_extent, 100.0 * excess, 100.0 * (std::pow(1.0 + excess, 1.2) - 1.0), 100.0 * (std::pow(1.0 + excess, 2.9) - 1.0),
-                     100.0 * far_side_excess({.radial_extent = 12.0}));
+  return fmt::format(
+      "far sides at {:g} tip radii (aero.grid.radial_extent) raise the wind through the rotor by some {:.1f} % (Glauert, thrust "
+      "coefficient .8): "
+      "about {:.0f} % of thrust and {:.0f} % of power; at 12 radii {:.1f} %",
+      grid.radial_extent, 100.0 * excess, 100.0 * (std::pow(1.0 + excess, 1.2) - 1.0),
+      100.0 * (std::pow(1.0 + excess, 2.9) - 1.0), 100.0 * far_side_excess({.radial_extent = 12.0}));
 }
 
 }  // namespace spindrift::aero

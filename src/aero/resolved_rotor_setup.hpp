@@ -25,8 +25,8 @@ struct ResolvedRotorSetup {
 void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor,
                           const Eigen::Vector3d& wind, const WindProfile& profile = {});
 
-/// Share by which the outer radius of the grid raises the wind through the rotor, as the walls of a wind tunnel would (Glauert 1935;
-/// docs/theory/rotor_resolved.md), at a thrust coefficient of .8.
+/// Share by which the outer radius of the grid raises the wind through the rotor, as the walls of a wind tunnel would (Glauert
+/// 1935; docs/theory/rotor_resolved.md), at a thrust coefficient of .8.
 double far_side_excess(const RotorGridOptions& grid);
 /// A sentence about it where it is above one per cent; else empty.
 std::string far_side_note(const RotorGridOptions& grid);
@@ -35,13 +35,14 @@ std::string far_side_note(const RotorGridOptions& grid);
 struct ResolvedRotorSize {
   long cells = 0;
   int sectors = 1, stations = 0;
-  double bytes = 0.0;                         ///< of solver, grid and the note of a window's start; of one note more per iterated window
-  double bytes_of_checkpoint = 0.0;           ///< while one is written
+  double bytes = 0.0;                ///< of solver, grid and the note of a window's start; of one note more per iterated window
+  double bytes_of_checkpoint = 0.0;  ///< while one is written
   double core_seconds_per_pseudo_step = 0.0;  ///< by the stated rate
 };
 ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup);
 
-/// Processor seconds per cell and pseudo-step of this scene's schemes on this machine now: a short march on some thousand cells, one thread.
+/// Processor seconds per cell and pseudo-step of this scene's schemes on this machine now: a short march on some thousand cells,
+/// one thread.
 struct AirRate {
   double core_seconds = 0.0;
   long cells = 0;

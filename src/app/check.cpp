@@ -49,21 +49,28 @@ PartCost print_particles(const Machine& machine, const coupling::Start& start) {
   const coupling::Scenario& s = machine.scenario();
   const sea::ParticleCensus census = particle_census(*machine.particle_plan(), start.state.motions);
   const sph::Parameters& p = machine.particle_plan()->parameters;
-  const double step = std::min({s.time.step_s.value_or(census.step_s), machine.body_step_limit(), census.step_s, s.time.window_s});
+  const double step =
+      std::min({s.time.step_s.value_or(census.step_s), machine.body_step_limit(), census.step_s, s.time.window_s});
   const double steps_per_window = std::ceil(s.time.window_s / step * (1.0 - 1e-9));
   fmt::print("\nSea of particles\n");
-  fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls, census.bodies);
+  fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls,
+             census.bodies);
   for (const sea::ParticleCensus::Body& body : census.floats)
-    fmt::print("  {:<22}{:.6g} m3 displaced by its particles, {:.6g} m3 at the start; {}\n", body.name, body.volume_m3, body.wetted_m3,
+    fmt::print("  {:<22}{:.6g} m3 displaced by its particles, {:.6g} m3 at the start; {}\n", body.name, body.volume_m3,
+               body.wetted_m3,
                body.rise_m ? fmt::format("by its own weight alone it floats {:+.4g} m from there", *body.rise_m) : "it sinks");
   fmt::print("  {:<22}{:.4g} m/s, {:.3g} m spacing, support {:.3g} m\n", "speed of sound", p.eos.c0, p.spacing, p.reach());
   fmt::print("  {:<22}{:.4g} s at rest, set by {}{}; {:.0f} to a window\n", "largest step", census.step_s, census.step_set_by,
              s.time.step_s ? fmt::format("; the scene asks for {} s", *s.time.step_s) : "", steps_per_window);
   const double evaluations = steps_per_window / s.time.window_s * (p.step == sph::StepChoice::verlet ? 1.0 : 2.0);
   const int notes = machine.rotor() && is_strong(s.coupling.scheme) ? 2 : 1;
-  return {.name = "sea", .count = double(census.particles()), .things = "particles",
+  return {.name = "sea",
+          .count = double(census.particles()),
+          .things = "particles",
           .bytes = census.bytes + notes * sea::bytes_of_note * double(census.particles()),
-          .checkpoint_bytes = sea::bytes_of_note * double(census.particles()), .work_per_second = evaluations, .work = "evaluations of all",
+          .checkpoint_bytes = sea::bytes_of_note * double(census.particles()),
+          .work_per_second = evaluations,
+          .work = "evaluations of all",
           .core_seconds_per_work = double(census.particles()) / census.evaluations_per_second,
           .rate = fmt::format("{:.3g} M particles per core-s, measured now on a small sea", 1e-6 * census.evaluations_per_second),
           .work_before = s.sea.settle_s() * evaluations};
@@ -87,8 +94,8 @@ void print_equilibrium(Machine& machine, const bodies::BodiesState& state) {
   const auto bodies = machine.system().bodies();
   fmt::print("\nStatic equilibrium under the full loads of t = 0 (displacements of the reference points)\n");
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const coupling::ReferenceMotion m = coupling::reference_motion(state.motions[b], bodies[b].initial, machine.reference_point(b),
-                                                                   Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    const coupling::ReferenceMotion m = coupling::reference_motion(
+        state.motions[b], bodies[b].initial, machine.reference_point(b), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     const Eigen::Vector3d degrees = m.angles / radians_per_degree;
     fmt::print("  {:<16}x {:+.3f}  y {:+.3f}  z {:+.3f} m   roll {:+.3f}  pitch {:+.3f}  yaw {:+.3f} deg\n", bodies[b].name,
                m.displacement.x(), m.displacement.y(), m.displacement.z(), degrees.x(), degrees.y(), degrees.z());
@@ -108,7 +115,8 @@ void print_modes(const Machine& machine, const bodies::Linearisation& linearisat
     else
       fmt::print("  {:<34}rate {:+.3g} 1/s\n", mode.name, mode.eigenvalue.real());
   const coupling::TimeOptions& time = machine.scenario().time;
-  const std::string asked = machine.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());
+  const std::string asked =
+      machine.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());
   fmt::print("\nLargest stable step (the scene {}, with {})\n", asked, name(time.integrator));
   for (const Integrator integrator : {Integrator::rk4, Integrator::symplectic, Integrator::explicit_euler}) {
     const bodies::StepLimit limit = step_limit(integrator, linearisation);
@@ -128,10 +136,11 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
   const double speed = machine.rotor()->state(0.0, start.state.motions).speed;
   const coupling::Campbell c = campbell(machine.scenario(), linearisation, speed);
   fmt::print("\nFrequencies [Hz]: rotor, waves and platform (wind and most probable waves by sea state after Lee et al. 1985)\n");
-  fmt::print("  {:<14}{:>10}{:>10}{:>10}{:>10}{:>10}   within {:.0f} %\n", "", "wind m/s", "height m", "waves", "1P", "3P", 100.0 * coupling::close);
+  fmt::print("  {:<14}{:>10}{:>10}{:>10}{:>10}{:>10}   within {:.0f} %\n", "", "wind m/s", "height m", "waves", "1P", "3P",
+             100.0 * coupling::close);
   for (const coupling::CampbellRow& row : c.rows) {
-    fmt::print("  {:<14}{:>10.2f}{:>10.2f}{:>10}{:>10}{:>10}   ", row.name, row.wind_m_s, row.wave_height_m, hertz(row.wave), hertz(row.once),
-               hertz(row.thrice));
+    fmt::print("  {:<14}{:>10.2f}{:>10.2f}{:>10}{:>10}{:>10}   ", row.name, row.wind_m_s, row.wave_height_m, hertz(row.wave),
+               hertz(row.once), hertz(row.thrice));
     for (std::size_t i = 0; i < row.together.size(); ++i) fmt::print("{}{}", i ? ", " : "", row.together[i]);
     fmt::print("\n");
   }
@@ -140,27 +149,40 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
   machine.use_full_loads(true);
   const coupling::LooseVerdict verdict = loose_verdict(machine, start.state, c);
   machine.use_full_loads(false);
-  fmt::print("\nCoupling of rotor and platform (window {} s): mass at the hub {:.3g} kg, thrust falls {:.4g} kN per m/s, fastest {:.3g} Hz\n",
-             machine.timeline().window_s(), verdict.hub_mass_kg, 1e-3 * verdict.slope_N_s_m, verdict.fastest_Hz);
-  fmt::print("  1P {} Hz, 3P {} Hz; added mass of the blades' air {:.3g} kg, {:.2g} of the mass at the hub\n", hertz(c.rows.back().once),
-             hertz(c.rows.back().thrice), verdict.air_mass_kg, verdict.mass_ratio());
+  fmt::print(
+      "\nCoupling of rotor and platform (window {} s): mass at the hub {:.3g} kg, thrust falls {:.4g} kN per m/s, fastest {:.3g} "
+      "Hz\n",
+      machine.timeline().window_s(), verdict.hub_mass_kg, 1e-3 * verdict.slope_N_s_m, verdict.fastest_Hz);
+  fmt::print("  1P {} Hz, 3P {} Hz; added mass of the blades' air {:.3g} kg, {:.2g} of the mass at the hub\n",
+             hertz(c.rows.back().once), hertz(c.rows.back().thrice), verdict.air_mass_kg, verdict.mass_ratio());
   bool will_do = false;
   for (const auto& scheme : verdict.schemes) {
     will_do = will_do || scheme.will_do;
-    fmt::print("  {:<6}stable for windows {} and added mass up to {:.3g} of the mass; misses {:.2g} % of a load at that frequency: {}\n", scheme.name,
-               std::isinf(scheme.window_limit_s) ? std::string("of any length") : fmt::format("up to {:.3g} s", scheme.window_limit_s),
-               scheme.mass_ratio_limit, 100.0 * scheme.missed, scheme.will_do ? "will do" : "will not do");
+    fmt::print(
+        "  {:<6}stable for windows {} and added mass up to {:.3g} of the mass; misses {:.2g} % of a load at that frequency: {}\n",
+        scheme.name,
+        std::isinf(scheme.window_limit_s) ? std::string("of any length") : fmt::format("up to {:.3g} s", scheme.window_limit_s),
+        scheme.mass_ratio_limit, 100.0 * scheme.missed, scheme.will_do ? "will do" : "will not do");
   }
-  fmt::print("  {}\n", will_do ? "A loose scheme will do." : "No loose scheme will do at this window: iterate (coupling.scheme) or shorten it.");
+  fmt::print("  {}\n", will_do ? "A loose scheme will do."
+                               : "No loose scheme will do at this window: iterate (coupling.scheme) or shorten it.");
   if (!c.rows.back().together.empty())
     fmt::print("  Frequencies of this scene lie together: response there is sensitive to phase; compare with a strong scheme.\n");
 }
 
 /// Size and rate of a resolved rotor, with so many pseudo-steps at most per simulated second and before t = 0.
-PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, double per_second, double before, int notes, bool calibrate) {
-  PartCost cost{.name = "air", .count = double(size.cells), .things = "cells", .bytes = size.bytes + (notes - 1) * size.bytes_of_checkpoint,
-                .checkpoint_bytes = size.bytes_of_checkpoint, .work_per_second = per_second, .work = "pseudo-steps at most",
-                .core_seconds_per_work = size.core_seconds_per_pseudo_step, .rate = {}, .work_before = before};
+PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, double per_second, double before,
+                     int notes, bool calibrate) {
+  PartCost cost{.name = "air",
+                .count = double(size.cells),
+                .things = "cells",
+                .bytes = size.bytes + (notes - 1) * size.bytes_of_checkpoint,
+                .checkpoint_bytes = size.bytes_of_checkpoint,
+                .work_per_second = per_second,
+                .work = "pseudo-steps at most",
+                .core_seconds_per_work = size.core_seconds_per_pseudo_step,
+                .rate = {},
+                .work_before = before};
   std::string source = "stated; --calibrate measures it";
   if (calibrate) {
     const aero::AirRate rate = aero::measured_air_rate(setup);
@@ -187,7 +209,8 @@ PartCost print_air(const Machine& machine, const coupling::Start& start, bool ca
   print_far_sides(setup.grid);
   const bool strong = is_strong(s.coupling.scheme);
   const double samples = strong ? s.coupling.samples : 1.0;
-  return cost_of_air(setup, size, samples * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps, strong ? 2 : 1, calibrate);
+  return cost_of_air(setup, size, samples * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps, strong ? 2 : 1,
+                     calibrate);
 }
 
 void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, bool calibrate, int ranks) {
@@ -195,11 +218,14 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
   const bool steady = setup.dt == 0.0;
   fmt::print("{}: valid\n\nWhat will be modelled\n", source);
-  fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, setup.flow.viscous == "none" ? "inviscid" : setup.flow.turbulence, setup.flow.flux);
+  fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, setup.flow.viscous == "none" ? "inviscid" : setup.flow.turbulence,
+             setup.flow.flux);
   fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
-  fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors, size.sectors == 1 ? ", periodic" : "s", size.stations);
+  fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors,
+             size.sectors == 1 ? ", periodic" : "s", size.stations);
   print_far_sides(setup.grid);
-  const PartCost cost = cost_of_air(setup, size, (steady ? 1.0 : setup.flow.max_pseudo_steps) / s.time.window_s, 0.0, 1, calibrate);
+  const PartCost cost =
+      cost_of_air(setup, size, (steady ? 1.0 : setup.flow.max_pseudo_steps) / s.time.window_s, 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks);
 }
 
@@ -214,8 +240,9 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   }
   if (scenario.has_flow()) {
     if (world.rank == 0)
-      fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
-                 scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence, aero::describe_flow_grid(*scenario.aero.flow));
+      fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air",
+                 scenario.aero.flow->time, scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
+                 aero::describe_flow_grid(*scenario.aero.flow));
     return done;
   }
   Machine machine(std::move(scenario));

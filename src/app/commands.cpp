@@ -34,7 +34,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
   }
   {
     auto arguments = std::make_shared<CheckArguments>();
-    CLI::App* command = cli.add_subcommand("check", "Validate a scene, say what will be modelled, at what cost and at which limits; runs nothing");
+    CLI::App* command = cli.add_subcommand(
+        "check", "Validate a scene, say what will be modelled, at what cost and at which limits; runs nothing");
     add_scene(*command, *arguments);
     command->add_flag("--calibrate", arguments->calibrate, "Measure what a resolved rotor costs on this machine (some seconds)");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return check(*arguments, world); }; });
@@ -43,13 +44,16 @@ void add_commands(CLI::App& cli, Command& chosen) {
     auto arguments = std::make_shared<GridArguments>();
     CLI::App* command = cli.add_subcommand("grid", "Make the rotor's grid, print its quality, write it as Plot3D or CGNS");
     add_scene(*command, *arguments);
-    command->add_option("-o,--output", arguments->files, "File: .cgns; .p3d or .xyz (binary Plot3D) or .p3dfmt, with a .nmf beside it")
+    command
+        ->add_option("-o,--output", arguments->files,
+                     "File: .cgns; .p3d or .xyz (binary Plot3D) or .p3dfmt, with a .nmf beside it")
         ->allow_extra_args(false);
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return grid(*arguments, world); }; });
   }
   {
     auto arguments = std::make_shared<StudyArguments>();
-    CLI::App* command = cli.add_subcommand("study", "Run the variants of a study; error against cost, the front, the cheapest that will do");
+    CLI::App* command =
+        cli.add_subcommand("study", "Run the variants of a study; error against cost, the front, the cheapest that will do");
     command->add_option("study", arguments->file, "Study file (TOML)")->required();
     command->add_option("--set", arguments->overrides, "Override a key of the study file")->allow_extra_args(false);
     command->add_option("--out", arguments->out, "Folder of the runs (default: runs/STUDY)");

@@ -28,9 +28,9 @@ struct SceneArguments {
 };
 
 struct RunArguments : SceneArguments {
-  std::string out;                     ///< empty: a name from scene and time
-  std::string fluid;                   ///< "air", "sea": what this program section works on; empty: as the scene says
-  double until_s = -1.0;               ///< < 0: the scene's end
+  std::string out;        ///< empty: a name from scene and time
+  std::string fluid;      ///< "air", "sea": what this program section works on; empty: as the scene says
+  double until_s = -1.0;  ///< < 0: the scene's end
   bool restart = false, overwrite = false, trace = false, quiet = false, no_report = false;
 };
 

@@ -1,9 +1,9 @@
 // spindrift: the program. Parses the command line, starts MPI, calls a command, turns failures into exit codes
 // (docs/developer/errors.md): 0 done, 2 bad input, 3 numerical failure, 4 machine failure, 5 stopped on request.
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/environment.hpp"
@@ -49,9 +49,7 @@ int main(int argc, char** argv) {
   app::add_commands(cli, command);
   try {
     cli.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return cli.exit(e) == 0 ? 0 : app::bad_input;
-  }
+  } catch (const CLI::ParseError& e) { return cli.exit(e) == 0 ? 0 : app::bad_input; }
   try {
     const runtime::MpiEnvironment mpi(argc, argv);
     io::start_log(mpi.rank(), false);

@@ -21,7 +21,8 @@ struct ReadyScene {
   coupling::Start start;
 };
 /// `overrider`: whose overrides they are; names of files in them start at its folder.
-ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider = scene::command_line());
+ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides,
+                      const scene::Source& overrider = scene::command_line());
 
 struct SceneRun {
   io::Summary summary;
@@ -29,6 +30,7 @@ struct SceneRun {
   bool writes = false;  ///< this rank is the one that writes
 };
 /// Runs into the run directory and writes everything but the report. Collective.
-SceneRun run_scene(const RunArguments& arguments, const runtime::World& world, const scene::Source& overrider = scene::command_line());
+SceneRun run_scene(const RunArguments& arguments, const runtime::World& world,
+                   const scene::Source& overrider = scene::command_line());
 
 }  // namespace spindrift::app

@@ -1,5 +1,5 @@
-// spindrift study: runs the variants of a study, measures their error against their cost, prints the front and the cheapest run that
-// meets the targets, and writes study.json and study.html. What a study file says: docs/user/scenes.md.
+// spindrift study: runs the variants of a study, measures their error against their cost, prints the front and the cheapest run
+// that meets the targets, and writes study.json and study.html. What a study file says: docs/user/scenes.md.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/scene/study.hpp"
 
@@ -30,8 +30,8 @@ struct Outcome {
   std::string exit_reason;
   double core_seconds = 0.0;
   std::filesystem::path history;
-  Errors errors;                     ///< by metric
-  std::optional<double> shortfall;   ///< largest error over its target; at most 1 is good enough
+  Errors errors;                    ///< by metric
+  std::optional<double> shortfall;  ///< largest error over its target; at most 1 is good enough
 };
 
 Outcome run_variant(const scene::Study& study, const scene::StudyRun& variant, const std::filesystem::path& folder,
@@ -42,8 +42,11 @@ Outcome run_variant(const scene::Study& study, const scene::StudyRun& variant, c
   arguments.out = (folder / variant.name).string();
   arguments.overwrite = arguments.quiet = true;
   const SceneRun run = run_scene(arguments, world, {study.file, study.directory});
-  return {.name = variant.name, .exit_code = run.summary.exit_code, .exit_reason = run.summary.exit_reason,
-          .core_seconds = run.summary.wall_seconds * run.summary.ranks * run.summary.threads, .history = run.directory / "history.csv"};
+  return {.name = variant.name,
+          .exit_code = run.summary.exit_code,
+          .exit_reason = run.summary.exit_reason,
+          .core_seconds = run.summary.wall_seconds * run.summary.ranks * run.summary.threads,
+          .history = run.directory / "history.csv"};
 }
 
 /// Errors of all runs against the reference, metric by metric. A run that failed has none.
@@ -72,8 +75,8 @@ std::optional<double> overall(const Outcome& o) {
 }
 
 struct Verdict {
-  std::vector<std::string> front;        ///< cheapest first
-  std::optional<std::string> cheapest;   ///< that meets every target
+  std::vector<std::string> front;       ///< cheapest first
+  std::optional<std::string> cheapest;  ///< that meets every target
 };
 
 Verdict verdict(const scene::Study& study, const std::vector<Outcome>& outcomes) {
@@ -86,7 +89,8 @@ Verdict verdict(const scene::Study& study, const std::vector<Outcome>& outcomes)
   }
   Verdict v;
   for (const std::size_t i : scene::front(judged)) v.front.push_back(names[i]);
-  const bool targets = std::any_of(study.metrics.begin(), study.metrics.end(), [](const auto& m) { return m.options.target.has_value(); });
+  const bool targets =
+      std::any_of(study.metrics.begin(), study.metrics.end(), [](const auto& m) { return m.options.target.has_value(); });
   if (targets)
     if (const auto best = scene::cheapest(judged, 1.0)) v.cheapest = names[*best];
   return v;
@@ -108,16 +112,22 @@ void print(const scene::Study& study, const std::vector<Outcome>& outcomes, cons
   if (v.cheapest) fmt::print("\ncheapest run that meets every target: {}\n", *v.cheapest);
 }
 
-void write_json(const scene::Study& study, const std::vector<Outcome>& outcomes, const Verdict& v, const std::filesystem::path& file) {
+void write_json(const scene::Study& study, const std::vector<Outcome>& outcomes, const Verdict& v,
+                const std::filesystem::path& file) {
   nlohmann::ordered_json json;
   json["study"] = study.file;
-  json["reference"] = study.reference ? (study.reference->variant.empty() ? study.reference->history : study.reference->variant) : "";
+  json["reference"] =
+      study.reference ? (study.reference->variant.empty() ? study.reference->history : study.reference->variant) : "";
   for (const auto& metric : study.metrics)
-    json["metrics"].push_back({{"name", metric.name}, {"column", metric.options.column},
+    json["metrics"].push_back({{"name", metric.name},
+                               {"column", metric.options.column},
                                {"target", metric.options.target ? nlohmann::ordered_json(*metric.options.target) : nullptr}});
   for (const Outcome& o : outcomes) {
-    nlohmann::ordered_json run{{"name", o.name}, {"exit_code", o.exit_code}, {"exit_reason", o.exit_reason},
-                               {"core_seconds", o.core_seconds}, {"on_front", on(v.front, o.name)}};
+    nlohmann::ordered_json run{{"name", o.name},
+                               {"exit_code", o.exit_code},
+                               {"exit_reason", o.exit_reason},
+                               {"core_seconds", o.core_seconds},
+                               {"on_front", on(v.front, o.name)}};
     for (std::size_t m = 0; m < o.errors.size(); ++m)
       run["errors"][study.metrics[m].name] = o.errors[m] ? nlohmann::ordered_json(*o.errors[m]) : nullptr;
     json["runs"].push_back(run);
@@ -131,9 +141,11 @@ void write_json(const scene::Study& study, const std::vector<Outcome>& outcomes,
 int study(const StudyArguments& arguments, const runtime::World& world) {
   const scene::Study study = scene::read_study(arguments.file, arguments.overrides);
   const std::vector<scene::StudyRun> runs = expand(study);
-  const std::filesystem::path folder =
-      arguments.out.empty() ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem() : std::filesystem::path(arguments.out);
-  for (const scene::StudyRun& run : runs) read_scene(study.study.scene, run.overrides, {study.file, study.directory});  // every scene is right before the first runs
+  const std::filesystem::path folder = arguments.out.empty()
+                                           ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem()
+                                           : std::filesystem::path(arguments.out);
+  for (const scene::StudyRun& run : runs)
+    read_scene(study.study.scene, run.overrides, {study.file, study.directory});  // every scene is right before the first runs
 
   std::vector<Outcome> outcomes;
   for (const scene::StudyRun& run : runs) {

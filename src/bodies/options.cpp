@@ -31,7 +31,8 @@ const Section<CylinderOptions>& cylinder_section() {
           .required()
           .number("diameter_m", &CylinderOptions::diameter_m, "m", "Diameter, of a frustum at its start.", positive())
           .required()
-          .number("end_diameter_m", &CylinderOptions::end_diameter_m, "m", "Diameter at the end, where it differs.", not_negative())
+          .number("end_diameter_m", &CylinderOptions::end_diameter_m, "m", "Diameter at the end, where it differs.",
+                  not_negative())
           .check([](const CylinderOptions& o, const scene::Report& report) {
             if (o.start_m == o.end_m) report("end_m", "is where start_m is: the cylinder has no length");
           });
@@ -40,30 +41,37 @@ const Section<CylinderOptions>& cylinder_section() {
 
 const Section<BoxOptions>& box_section() {
   static const auto section =
-      Section<BoxOptions>("boxes", "A box of the body's wetted shape, for a sea of particles; edges along the earth's axes at the start.")
-          .text("name", &BoxOptions::name, "Name, for messages.").required()
-          .vector("centre_m", &BoxOptions::centre_m, "m", "Its centre, initial earth coordinates.").required()
-          .vector("size_m", &BoxOptions::size_m, "m", "Its edges.", positive()).required();
+      Section<BoxOptions>("boxes",
+                          "A box of the body's wetted shape, for a sea of particles; edges along the earth's axes at the start.")
+          .text("name", &BoxOptions::name, "Name, for messages.")
+          .required()
+          .vector("centre_m", &BoxOptions::centre_m, "m", "Its centre, initial earth coordinates.")
+          .required()
+          .vector("size_m", &BoxOptions::size_m, "m", "Its edges.", positive())
+          .required();
   return section;
 }
 
 const Section<SphereOptions>& sphere_section() {
-  static const auto section =
-      Section<SphereOptions>("spheres", "A sphere of the body's wetted shape, for a sea of particles.")
-          .text("name", &SphereOptions::name, "Name, for messages.").required()
-          .vector("centre_m", &SphereOptions::centre_m, "m", "Its centre, initial earth coordinates.").required()
-          .number("diameter_m", &SphereOptions::diameter_m, "m", "Its diameter.", positive()).required();
+  static const auto section = Section<SphereOptions>("spheres", "A sphere of the body's wetted shape, for a sea of particles.")
+                                  .text("name", &SphereOptions::name, "Name, for messages.")
+                                  .required()
+                                  .vector("centre_m", &SphereOptions::centre_m, "m", "Its centre, initial earth coordinates.")
+                                  .required()
+                                  .number("diameter_m", &SphereOptions::diameter_m, "m", "Its diameter.", positive())
+                                  .required();
   return section;
 }
 
 const Section<ForceOptions>& force_section() {
-  static const auto section =
-      Section<ForceOptions>("forces", "A constant force and moment on the body.")
-          .vector("point_m", &ForceOptions::point_m, "m", "Where the force acts, initial earth coordinates; it moves with the body.")
-          .required()
-          .vector("force_N", &ForceOptions::force_N, "N", "Force.")
-          .vector("moment_N_m", &ForceOptions::moment_N_m, "N m", "Moment.")
-          .flag("follows_body", &ForceOptions::follows_body, "Force and moment turn with the body instead of keeping earth axes.");
+  static const auto section = Section<ForceOptions>("forces", "A constant force and moment on the body.")
+                                  .vector("point_m", &ForceOptions::point_m, "m",
+                                          "Where the force acts, initial earth coordinates; it moves with the body.")
+                                  .required()
+                                  .vector("force_N", &ForceOptions::force_N, "N", "Force.")
+                                  .vector("moment_N_m", &ForceOptions::moment_N_m, "N m", "Moment.")
+                                  .flag("follows_body", &ForceOptions::follows_body,
+                                        "Force and moment turn with the body instead of keeping earth axes.");
   return section;
 }
 
@@ -73,7 +81,8 @@ void check_inertia(const BodyOptions& o, const scene::Report& report) {
   if (d.minCoeff() <= 0.0 || i(0, 0) * i(1, 1) - i(0, 1) * i(0, 1) <= 0.0 || i.determinant() <= 0.0)
     return report("inertia_kg_m2", "must be positive definite");
   if (2.0 * d.maxCoeff() > d.sum() * (1.0 + 1e-9))
-    report("inertia_kg_m2", fmt::format("no mass can have it: the largest diagonal term, {}, exceeds the sum of the other two", d.maxCoeff()));
+    report("inertia_kg_m2",
+           fmt::format("no mass can have it: the largest diagonal term, {}, exceeds the sum of the other two", d.maxCoeff()));
 }
 
 template <class Rate, class Amplitude>
@@ -118,7 +127,8 @@ void check_joint(const JointOptions& o, const scene::Report& report) {
   if (o.type == JointType::universal && o.axis.cross(o.second_axis).norm() <= 1e-9 * o.axis.norm() * o.second_axis.norm())
     report("second_axis", "must not be zero or parallel to axis");
   if (o.rotation && !turns(o.type)) report("rotation", "only a revolute or cylindrical joint can be driven in rotation");
-  if (o.translation && !slides(o.type)) report("translation", "only a translational or cylindrical joint can be driven in translation");
+  if (o.translation && !slides(o.type))
+    report("translation", "only a translational or cylindrical joint can be driven in translation");
 }
 
 PrescribedMotion make_driver(const DriverOptions& o, const char* column, double unit) {
@@ -152,8 +162,9 @@ const Section<BodyOptions>& body_section() {
           .named()
           .number("mass_kg", &BodyOptions::mass_kg, "kg", "Mass.", positive())
           .required()
-          .symmetric("inertia_kg_m2", &BodyOptions::inertia_kg_m2, "kg m2",
-                     "Inertia about the centre of mass, axes parallel to the earth's at the start: [Ixx, Iyy, Izz] or three rows.")
+          .symmetric(
+              "inertia_kg_m2", &BodyOptions::inertia_kg_m2, "kg m2",
+              "Inertia about the centre of mass, axes parallel to the earth's at the start: [Ixx, Iyy, Izz] or three rows.")
           .required()
           .vector("centre_m", &BodyOptions::centre_m, "m", "Centre of mass, initial earth coordinates.")
           .required()
@@ -178,14 +189,15 @@ const Section<JointOptions>& joint_section() {
   static const auto section =
       Section<JointOptions>("joints", "An ideal joint between two bodies, or a body and the earth, with its drivers.")
           .named()
-          .choice("type", &JointOptions::type,
-                  {{"fixed", JointType::fixed, "no relative motion"},
-                   {"revolute", JointType::revolute, "turns about the axis"},
-                   {"spherical", JointType::spherical, "turns about the point"},
-                   {"universal", JointType::universal, "turns about the axis of the first body and the second axis of the second"},
-                   {"translational", JointType::translational, "slides along the axis"},
-                   {"cylindrical", JointType::cylindrical, "slides along the axis and turns about it"}},
-                  "Kind of the joint.")
+          .choice(
+              "type", &JointOptions::type,
+              {{"fixed", JointType::fixed, "no relative motion"},
+               {"revolute", JointType::revolute, "turns about the axis"},
+               {"spherical", JointType::spherical, "turns about the point"},
+               {"universal", JointType::universal, "turns about the axis of the first body and the second axis of the second"},
+               {"translational", JointType::translational, "slides along the axis"},
+               {"cylindrical", JointType::cylindrical, "slides along the axis and turns about it"}},
+              "Kind of the joint.")
           .texts("bodies", &JointOptions::bodies, "First and second body; \"earth\" is the fixed frame.")
           .required()
           .size(2, 2)
@@ -217,8 +229,9 @@ void check_bodies(scene::Document& document, const NamedBodies& bodies, const Na
   for (const auto& [name, joint] : joints) {
     for (const std::string& body : joint.bodies)
       if (body != "earth" && std::find(names.begin(), names.end(), body) == names.end())
-        document.problem("joints." + name + ".bodies",
-                         fmt::format("names body \"{}\", which is not in [bodies]; known: {}, earth", body, fmt::join(names, ", ")));
+        document.problem(
+            "joints." + name + ".bodies",
+            fmt::format("names body \"{}\", which is not in [bodies]; known: {}, earth", body, fmt::join(names, ", ")));
     const auto check_table = [&, &name = name](const std::optional<DriverOptions>& driver, const char* which, auto make) {
       if (!driver || driver->table.empty()) return;
       try {
@@ -244,7 +257,10 @@ Motion start_motion(const BodyOptions& body) {
 std::vector<Body> make_bodies(const NamedBodies& bodies) {
   std::vector<Body> result;
   for (const auto& [name, o] : bodies)
-    result.push_back({.name = name, .mass = o.mass_kg, .inertia = o.inertia_kg_m2, .gyroscopic = o.gyroscopic,
+    result.push_back({.name = name,
+                      .mass = o.mass_kg,
+                      .inertia = o.inertia_kg_m2,
+                      .gyroscopic = o.gyroscopic,
                       .initial = described_motion(o)});
   return result;
 }
@@ -252,8 +268,8 @@ std::vector<Body> make_bodies(const NamedBodies& bodies) {
 std::vector<Joint> make_joints(const NamedJoints& joints, const NamedBodies& bodies) {
   std::vector<Joint> result;
   for (const auto& [name, o] : joints) {
-    Joint joint{.name = name, .type = o.type, .i = index_of(bodies, o.bodies[0]), .j = index_of(bodies, o.bodies[1]),
-                .point = o.point_m};
+    Joint joint{
+        .name = name, .type = o.type, .i = index_of(bodies, o.bodies[0]), .j = index_of(bodies, o.bodies[1]), .point = o.point_m};
     if (o.axis.norm() > 0.0) joint.axis = o.axis.normalized();
     if (o.second_axis.norm() > 0.0) joint.second_axis = o.second_axis.normalized();
     if (o.rotation) joint.rotation = make_rotation(*o.rotation);
@@ -267,13 +283,18 @@ std::vector<PointLoad> make_point_loads(const NamedBodies& bodies) {
   std::vector<PointLoad> result;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (const ForceOptions& f : bodies[b].options.forces)
-      result.push_back({.body = int(b), .point = f.point_m - bodies[b].options.centre_m, .force = f.force_N, .moment = f.moment_N_m,
+      result.push_back({.body = int(b),
+                        .point = f.point_m - bodies[b].options.centre_m,
+                        .force = f.force_N,
+                        .moment = f.moment_N_m,
                         .follows_body = f.follows_body});
   return result;
 }
 
 Cylinder make_cylinder(const CylinderOptions& c, const BodyOptions& body) {
-  return {.start = c.start_m - body.centre_m, .end = c.end_m - body.centre_m, .start_radius = 0.5 * c.diameter_m,
+  return {.start = c.start_m - body.centre_m,
+          .end = c.end_m - body.centre_m,
+          .start_radius = 0.5 * c.diameter_m,
           .end_radius = 0.5 * c.end_diameter_m.value_or(c.diameter_m)};
 }
 Box make_box(const BoxOptions& b, const BodyOptions& body) { return {.centre = b.centre_m - body.centre_m, .size = b.size_m}; }

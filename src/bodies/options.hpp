@@ -94,7 +94,8 @@ using NamedJoints = std::vector<scene::Named<JointOptions>>;
 const scene::Section<BodyOptions>& body_section();
 const scene::Section<JointOptions>& joint_section();
 
-/// Rules between sections: at least one body (unless water alone is what the scene is about), joints between bodies that exist, readable tables, unique cylinder names.
+/// Rules between sections: at least one body (unless water alone is what the scene is about), joints between bodies that exist,
+/// readable tables, unique cylinder names.
 void check_bodies(scene::Document& document, const NamedBodies& bodies, const NamedJoints& joints, bool water_alone = false);
 
 /// The position that the scene describes: axes parallel to the earth's, at rest.

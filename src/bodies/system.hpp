@@ -100,8 +100,9 @@ class System {
   const Eigen::VectorXd& chart_velocity() const;  ///< u of the state
   /// dx/dt and du/dt at chart point (x, u).
   bool rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate, Eigen::VectorXd& u_rate);
-  /// Generalised forces of the loads at x with everything at rest but what drivers turn (a rotor has its thrust while it spins), and the mass matrix (added mass included), both in chart coordinates.
-  /// all_loads: sum over sources and bodies of |force| / sqrt(mass), to measure a balance against [sqrt(kg) m/s2 over L].
+  /// Generalised forces of the loads at x with everything at rest but what drivers turn (a rotor has its thrust while it spins),
+  /// and the mass matrix (added mass included), both in chart coordinates. all_loads: sum over sources and bodies of |force| /
+  /// sqrt(mass), to measure a balance against [sqrt(kg) m/s2 over L].
   bool forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorXd& force, Eigen::MatrixXd& mass,
                       double* all_loads = nullptr);
   /// The state at chart point (x, u); false when the position equations fail (then chart_report()).

@@ -14,7 +14,8 @@ namespace {
 constexpr const char* set_up_name = "flow/set_up";
 }
 
-AirFile::AirFile(aero::FlowSolver& solver, const aero::GridStore& store, const runtime::World& world) : solver_(solver), world_(world) {
+AirFile::AirFile(aero::FlowSolver& solver, const aero::GridStore& store, const runtime::World& world)
+    : solver_(solver), world_(world) {
   const std::int64_t per_cell = solver.tiles().empty() ? 0 : std::int64_t(solver.saved_size(0)) / solver.tiles()[0].box.count();
   for (const aero::Tile& tile : store.tiling().tiles) starts_.push_back(total_), total_ += tile.count() * per_cell;
 }
@@ -25,7 +26,8 @@ std::vector<SavedArray> AirFile::arrays() const {
   march.total = std::int64_t(values.size());
   if (world_.rank == 0) march.pieces.push_back({0, std::move(values)});
   for (int n = 0; n < int(solver_.tiles().size()); ++n) {
-    tiles.pieces.push_back({starts_[std::size_t(solver_.tiles()[std::size_t(n)].index)], std::vector<double>(solver_.saved_size(n))});
+    tiles.pieces.push_back(
+        {starts_[std::size_t(solver_.tiles()[std::size_t(n)].index)], std::vector<double>(solver_.saved_size(n))});
     solver_.save(n, tiles.pieces.back().values);
   }
   std::vector<SavedArray> arrays{std::move(march), std::move(tiles)};

@@ -136,8 +136,9 @@ void write_choice(const io::RunDirectory& directory, const std::string& precondi
     if (const std::size_t at = line.find(automatic); at != std::string::npos)
       line.replace(at, automatic.size(), fmt::format("preconditioner = \"{}\"", preconditioner));
     // Keys that "auto" knows and block ILU does not would be refused.
-    const bool has_none = preconditioner == "block_ilu" && (line.starts_with("group_cells =") || line.starts_with("direct_groups =") ||
-                                                            line.starts_with("common_every =") || line.starts_with("common_steps ="));
+    const bool has_none =
+        preconditioner == "block_ilu" && (line.starts_with("group_cells =") || line.starts_with("direct_groups =") ||
+                                          line.starts_with("common_every =") || line.starts_with("common_steps ="));
     if (!has_none) text += line + "\n";
   }
   io::write_atomically(directory.scene(), text);

@@ -54,7 +54,8 @@ double Operation::at(double wind) const {
 Campbell campbell(const Scenario& s, const bodies::Linearisation& linearisation, double speed) {
   Campbell c;
   for (const bodies::Mode& mode : linearisation.modes)
-    if (std::abs(mode.eigenvalue.imag()) > 1e-6 && mode.damping_ratio() < 1.0) c.platform.emplace_back(mode.name, 1.0 / mode.period_s());
+    if (std::abs(mode.eigenvalue.imag()) > 1e-6 && mode.damping_ratio() < 1.0)
+      c.platform.emplace_back(mode.name, 1.0 / mode.period_s());
   Operation operation;
   if (!s.rotor.operation.empty()) {
     const scene::Columns table = scene::read_columns(s.rotor.operation);
@@ -63,11 +64,21 @@ Campbell campbell(const Scenario& s, const bodies::Linearisation& linearisation,
   }
   const auto once = [&](double wind) { return std::abs(operation.speed.empty() ? speed : operation.at(wind)) / (2 * pi); };
   for (const SeaState& sea : sea_states)
-    c.rows.push_back({fmt::format("sea state {}", sea.number), sea.wind_m_s, sea.height_m, 1.0 / sea.period_s, once(sea.wind_m_s),
-                      3.0 * once(sea.wind_m_s), {}});
+    c.rows.push_back({fmt::format("sea state {}", sea.number),
+                      sea.wind_m_s,
+                      sea.height_m,
+                      1.0 / sea.period_s,
+                      once(sea.wind_m_s),
+                      3.0 * once(sea.wind_m_s),
+                      {}});
   const double own = std::abs(speed) / (2 * pi);
-  c.rows.push_back({"this scene", s.wind.speed_m_s, s.has_waves() ? s.waves.height_m : 0.0, s.has_waves() ? 1.0 / s.waves.period_s : 0.0, own,
-                    3.0 * own, {}});
+  c.rows.push_back({"this scene",
+                    s.wind.speed_m_s,
+                    s.has_waves() ? s.waves.height_m : 0.0,
+                    s.has_waves() ? 1.0 / s.waves.period_s : 0.0,
+                    own,
+                    3.0 * own,
+                    {}});
   for (CampbellRow& row : c.rows) find_pairs(row, c);
   double before = 0.0;
   constexpr double step = 0.05;
@@ -158,7 +169,8 @@ LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, c
   const auto add = [&](const char* name, SchemeKind kind, int order, auto polynomial, auto mass_polynomial) {
     const double mass_limit = stability_ratio(mass_polynomial);
     const double ratio = stability_ratio(polynomial);
-    const double limit = verdict.slope_N_s_m > 0.0 ? ratio * verdict.hub_mass_kg / verdict.slope_N_s_m : std::numeric_limits<double>::infinity();
+    const double limit =
+        verdict.slope_N_s_m > 0.0 ? ratio * verdict.hub_mass_kg / verdict.slope_N_s_m : std::numeric_limits<double>::infinity();
     const double missed = missed_part(kind, order, omega, window);
     const bool stable = window <= 0.5 * limit && verdict.mass_ratio() <= 0.5 * mass_limit;
     verdict.schemes.push_back({name, limit, missed, mass_limit, stable && missed <= acceptable});
@@ -166,7 +178,9 @@ LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, c
   verdict.air_mass_kg = blades_added_mass(machine.scenario());
   add("cps", SchemeKind::cps, 0, cps_damping_polynomial, cps_polynomial);
   add("cps2", SchemeKind::cps2, 1, cps2_damping_polynomial, cps2_polynomial);
-  add("css1", SchemeKind::css, 1, [](double s) { return css_damping_polynomial(1, s); }, [](double r) { return css_polynomial(1, r); });
+  add(
+      "css1", SchemeKind::css, 1, [](double s) { return css_damping_polynomial(1, s); },
+      [](double r) { return css_polynomial(1, r); });
   return verdict;
 }
 

@@ -1,8 +1,8 @@
-// Frequencies of rotor, waves and platform side by side, and whether a loose scheme will do: the "Campbell" diagram of Leble & Barakos
-// (2016), section 2.4, with the most probable wind and waves by sea state after Lee, Bales & Sowby (1985). A loose scheme is judged by its
-// stability with the air's added mass and with the rotor's aerodynamic damping, and by the part of a load that it misses at the fastest frequency at work.
-// Printed by `spindrift check`; tested in tests/src/coupling/campbell_test.cpp. Theory: docs/theory/coupling.md.
-// SPDX-License-Identifier: Apache-2.0
+// Frequencies of rotor, waves and platform side by side, and whether a loose scheme will do: the "Campbell" diagram of Leble &
+// Barakos (2016), section 2.4, with the most probable wind and waves by sea state after Lee, Bales & Sowby (1985). A loose scheme
+// is judged by its stability with the air's added mass and with the rotor's aerodynamic damping, and by the part of a load that
+// it misses at the fastest frequency at work. Printed by `spindrift check`; tested in tests/src/coupling/campbell_test.cpp.
+// Theory: docs/theory/coupling.md. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -28,10 +28,10 @@ inline constexpr std::array<SeaState, 5> sea_states{{{2, 8.5 * m_s_per_knot, 0.3
 
 /// One operating point: what turns and what shakes [Hz].
 struct CampbellRow {
-  std::string name;                    ///< "sea state 4", "this scene"
-  double wind_m_s, wave_height_m;      ///< 0 where there is none
-  double wave, once, thrice;           ///< waves, 1P, 3P; 0 where there is none
-  std::vector<std::string> together;   ///< pairs within `close` of each other: "1P and waves"
+  std::string name;                   ///< "sea state 4", "this scene"
+  double wind_m_s, wave_height_m;     ///< 0 where there is none
+  double wave, once, thrice;          ///< waves, 1P, 3P; 0 where there is none
+  std::vector<std::string> together;  ///< pairs within `close` of each other: "1P and waves"
 };
 inline constexpr double close = 0.1;
 
@@ -54,19 +54,19 @@ double missed_part(SchemeKind scheme, int order, double omega, double window);
 
 /// How a loose scheme fares on the machine.
 struct LooseVerdict {
-  double hub_mass_kg = 0.0;           ///< that the hub's axial motion feels, the water's included
-  double air_mass_kg = 0.0;           ///< that blades moving across their chords carry along, where a turbine file tells
-  double slope_N_s_m = 0.0;           ///< thrust lost per m/s downwind
+  double hub_mass_kg = 0.0;  ///< that the hub's axial motion feels, the water's included
+  double air_mass_kg = 0.0;  ///< that blades moving across their chords carry along, where a turbine file tells
+  double slope_N_s_m = 0.0;  ///< thrust lost per m/s downwind
   double mass_ratio() const { return hub_mass_kg > 0.0 ? air_mass_kg / hub_mass_kg : 0.0; }
-  double fastest_Hz = 0.0;            ///< of waves, 3P and platform modes that oscillate
+  double fastest_Hz = 0.0;  ///< of waves, 3P and platform modes that oscillate
   struct Scheme {
     std::string name;
-    double window_limit_s;            ///< above it the rotor's damping turns into growth; infinite where there is none
-    double missed;                    ///< at the scene's window
-    double mass_ratio_limit;          ///< of added mass over mass; above it no window is short enough
-    bool will_do;                     ///< below half of both limits, and less than `acceptable` missed
+    double window_limit_s;    ///< above it the rotor's damping turns into growth; infinite where there is none
+    double missed;            ///< at the scene's window
+    double mass_ratio_limit;  ///< of added mass over mass; above it no window is short enough
+    bool will_do;             ///< below half of both limits, and less than `acceptable` missed
   };
-  std::vector<Scheme> schemes;        ///< cps, cps2, css1
+  std::vector<Scheme> schemes;  ///< cps, cps2, css1
 };
 inline constexpr double acceptable = 0.02;
 LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, const Campbell& campbell);

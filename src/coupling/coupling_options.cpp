@@ -14,8 +14,8 @@ using Strings = std::vector<std::string>;
 
 void check_section(const CouplingOptions& o, const scene::Report& report) {
   if (o.interpolation == Interpolation::cubic && is_strong(o.scheme) && o.samples < 3)
-    report("interpolation", fmt::format("cubic needs samples of at least 3 (and the window's start); there {} {}", o.samples == 1 ? "is" : "are",
-                                        o.samples));
+    report("interpolation", fmt::format("cubic needs samples of at least 3 (and the window's start); there {} {}",
+                                        o.samples == 1 ? "is" : "are", o.samples));
 }
 
 }  // namespace
@@ -23,7 +23,8 @@ void check_section(const CouplingOptions& o, const scene::Report& report) {
 const scene::Section<CouplingOptions>& coupling_section() {
   using scene::above, scene::between;
   static const Strings strong{"relaxation", "aitken", "steepest_descent", "iqn_ils", "ibqn_ls", "interface_gmres", "newton"},
-      stacked{"relaxation", "aitken", "steepest_descent", "iqn_ils", "interface_gmres", "newton"}, learning{"iqn_ils", "ibqn_ls", "interface_gmres"},
+      stacked{"relaxation", "aitken", "steepest_descent", "iqn_ils", "interface_gmres", "newton"},
+      learning{"iqn_ils", "ibqn_ls", "interface_gmres"},
       relaxed{"relaxation", "aitken", "steepest_descent", "iqn_ils", "ibqn_ls", "interface_gmres"};
   static const Strings predicted = [] {
     Strings all = strong;
@@ -34,46 +35,56 @@ const scene::Section<CouplingOptions>& coupling_section() {
       scene::Section<CouplingOptions>("coupling", "How the rotor and the rest of the machine share a window.")
           .choice("scheme", &CouplingOptions::scheme,
                   {{"automatic", SchemeKind::automatic, "cps2 for a resolved rotor, monolithic for others"},
-                   {"monolithic", SchemeKind::monolithic, "the rotor is asked in every evaluation of the bodies: exact, no window between them"},
-                   {"cps", SchemeKind::cps, "both at once on what they had at the window's start, as in Leble & Barakos (2016): first order"},
+                   {"monolithic", SchemeKind::monolithic,
+                    "the rotor is asked in every evaluation of the bodies: exact, no window between them"},
+                   {"cps", SchemeKind::cps,
+                    "both at once on what they had at the window's start, as in Leble & Barakos (2016): first order"},
                    {"cps2", SchemeKind::cps2, "both at once on data extrapolated linearly: second order at the same cost"},
-                   {"css", SchemeKind::css, "bodies first on extrapolated loads, then the rotor on their motion: order predictor_order + 1"},
+                   {"css", SchemeKind::css,
+                    "bodies first on extrapolated loads, then the rotor on their motion: order predictor_order + 1"},
                    {"relaxation", SchemeKind::relaxation, "iterated with a constant factor; 1 is the plain fixed point"},
                    {"aitken", SchemeKind::aitken, "iterated with Aitken's factor"},
-                   {"steepest_descent", SchemeKind::steepest_descent, "iterated with the factor of steepest descent, two evaluations each"},
+                   {"steepest_descent", SchemeKind::steepest_descent,
+                    "iterated with the factor of steepest descent, two evaluations each"},
                    {"iqn_ils", SchemeKind::iqn_ils, "interface quasi-Newton, inverse Jacobian by least squares"},
                    {"ibqn_ls", SchemeKind::ibqn_ls, "interface block quasi-Newton, a model of each part by least squares"},
                    {"interface_gmres", SchemeKind::interface_gmres, "Newton with a Krylov method on the interface"},
                    {"newton", SchemeKind::newton, "Newton with a Jacobian by differences, one evaluation per row"}},
-                  "Monolithic, loose (cps, cps2, css: one evaluation of the rotor per window), or strong (iterated until both agree).")
+                  "Monolithic, loose (cps, cps2, css: one evaluation of the rotor per window), or strong (iterated until both "
+                  "agree).")
           .choice("composition", &CouplingOptions::composition,
                   {{"serial", Composition::serial, "bodies on the loads, then the rotor on their motion (Gauss-Seidel)"},
-                   {"parallel", Composition::parallel, "both at once on loads and motion (Jacobi): more evaluations, each of which overlaps"}},
+                   {"parallel", Composition::parallel,
+                    "both at once on loads and motion (Jacobi): more evaluations, each of which overlaps"}},
                   "Order of the parts in an evaluation.")
           .only_if("scheme", stacked)
           .integer("predictor_order", &CouplingOptions::predictor_order, "-",
-                   "Order of the polynomial in time that extrapolates loads: what css bodies see, where strong schemes begin.", between(0, 2))
+                   "Order of the polynomial in time that extrapolates loads: what css bodies see, where strong schemes begin.",
+                   between(0, 2))
           .only_if("scheme", predicted)
           .number("relaxation", &CouplingOptions::relaxation, "-",
                   "Factor of the scheme, or of its first step. A fluid r times as heavy as the body needs less than 2 / (1 + r).",
                   above(0.0).up_to(1.0))
           .only_if("scheme", relaxed)
           .number("tolerance", &CouplingOptions::tolerance, "-",
-                  "The window is solved when the loads that went in and came out differ by less than this part of them.", above(0.0).up_to(0.1))
+                  "The window is solved when the loads that went in and came out differ by less than this part of them.",
+                  above(0.0).up_to(0.1))
           .only_if("scheme", strong)
           .integer("max_evaluations", &CouplingOptions::max_evaluations, "-",
-                   "Evaluations of a window before the fallback: clear what was learned, relax, retry, then cut the window.", between(1, 100000))
+                   "Evaluations of a window before the fallback: clear what was learned, relax, retry, then cut the window.",
+                   between(1, 100000))
           .only_if("scheme", strong)
-          .integer("max_cuts", &CouplingOptions::max_cuts, "-", "How often what is left of a window may be halved; after that the run stops.",
-                   between(0, 20))
+          .integer("max_cuts", &CouplingOptions::max_cuts, "-",
+                   "How often what is left of a window may be halved; after that the run stops.", between(0, 20))
           .only_if("scheme", strong)
-          .integer("reuse_windows", &CouplingOptions::reuse_windows, "-", "Windows before this one whose differences are kept.", between(0, 1000))
+          .integer("reuse_windows", &CouplingOptions::reuse_windows, "-", "Windows before this one whose differences are kept.",
+                   between(0, 1000))
           .only_if("scheme", learning)
           .number("filter", &CouplingOptions::filter, "-", "Differences are dropped where less than this part of them is new.",
                   above(0.0).up_to(0.5))
           .only_if("scheme", learning)
-          .integer("samples", &CouplingOptions::samples, "-", "Loads and motion exchanged at this many equal parts of the window.",
-                   between(1, 100))
+          .integer("samples", &CouplingOptions::samples, "-",
+                   "Loads and motion exchanged at this many equal parts of the window.", between(1, 100))
           .only_if("scheme", strong)
           .choice("interpolation", &CouplingOptions::interpolation,
                   {{"constant", Interpolation::constant, "the value at the end of each part: first order"},
@@ -81,13 +92,14 @@ const scene::Section<CouplingOptions>& coupling_section() {
                    {"cubic", Interpolation::cubic, "through the four nearest samples: fourth order"}},
                   "Loads between samples.")
           .only_if("scheme", strong)
-          .choice("placement", &CouplingOptions::placement,
-                  {{"shared", Placing::shared, "air and sea share all ranks and threads: what one leaves idle the other fills"},
-                   {"split", Placing::split, "ranks of its own for each, as in Leble & Barakos (2016); same results"}},
-                  "Which ranks work on the rotor's air and which on the sea, bodies and moorings. Ranks started as `--fluid air` and "
-                  "`--fluid sea` are split whatever this says.")
-          .integer("air_ranks", &CouplingOptions::air_ranks, "-", "Ranks of the air, the last ones of the run; the others have the sea.",
-                   between(1, 1e6))
+          .choice(
+              "placement", &CouplingOptions::placement,
+              {{"shared", Placing::shared, "air and sea share all ranks and threads: what one leaves idle the other fills"},
+               {"split", Placing::split, "ranks of its own for each, as in Leble & Barakos (2016); same results"}},
+              "Which ranks work on the rotor's air and which on the sea, bodies and moorings. Ranks started as `--fluid air` and "
+              "`--fluid sea` are split whatever this says.")
+          .integer("air_ranks", &CouplingOptions::air_ranks, "-",
+                   "Ranks of the air, the last ones of the run; the others have the sea.", between(1, 1e6))
           .only_if("placement", {"split"})
           .check(check_section);
   return section;
@@ -98,8 +110,9 @@ void check_coupling(scene::Document& document, const CouplingOptions& o, const T
   if (is_strong(o.scheme) && steps && *steps % o.samples != 0)
     document.problem("coupling.samples", fmt::format("must divide the window's {} steps", *steps));
   if (o.placement == Placing::split && o.scheme == SchemeKind::monolithic)
-    document.problem("coupling.placement", "has nothing to split: with coupling.scheme = \"monolithic\" the rotor is asked by the bodies; take "
-                                           "\"cps2\", say");
+    document.problem("coupling.placement",
+                     "has nothing to split: with coupling.scheme = \"monolithic\" the rotor is asked by the bodies; take "
+                     "\"cps2\", say");
 }
 
 }  // namespace spindrift::coupling

@@ -74,15 +74,17 @@ struct Air {
   Air(const Scenario& s, const runtime::World& world) {
     const aero::FlowOptions& o = *s.aero.flow;
     if (has_resolved_rotor(s)) {
-      rotor = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, steady_chunk, nullptr, grid_progress());
+      rotor = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, steady_chunk, nullptr,
+                                                    grid_progress());
       store = &rotor->store(), solver = &rotor->solver();
       begin(o.start);
       return;
     }
     own_grid = aero::flow_grid(o);
     if (const std::string why = o.coarse_steps > 0 ? aero::why_not_halved(own_grid) : std::string(); !why.empty())
-      throw scene::SceneError({{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", o.coarse_steps),
-                                fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
+      throw scene::SceneError(
+          {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", o.coarse_steps),
+            fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
     if (o.motion) follow(o);
     solve(s, world, steady_chunk);
   }
@@ -115,7 +117,8 @@ struct Air {
       const aero::WallSurface surface = aero::wall_surface(own_grid, no_slip);
       for (const int tile : store->owned()) aero::fill_wall_distance((*store)[tile], surface);
     }
-    aero::FlowSetting setting = aero::flow_setting(o, s.environment.air_density_kg_m3, flow_wind(s), s.time.window_s, aero::wind_profile(s.wind));
+    aero::FlowSetting setting =
+        aero::flow_setting(o, s.environment.air_density_kg_m3, flow_wind(s), s.time.window_s, aero::wind_profile(s.wind));
     if (setting.time_order == 0) setting.march.max_steps = steps;
     own_solver = std::make_unique<FlowSolver>(*store, setting, std::move(conditions));
     solver = own_solver.get();
@@ -149,8 +152,9 @@ void fill_geometry(FlowSolver& solver, MPI_Comm comm) {
   runtime::Executor(std::move(geometry), {.threads = 1}).run();
 }
 
-/// Grid sequencing of grids that are no rotor's: the flow settles on every second node first; what the drop is counted from stays the
-/// residual of the undisturbed flow on the fine grid. `march` is the fine one's. Every rank makes the same coarse flow for itself.
+/// Grid sequencing of grids that are no rotor's: the flow settles on every second node first; what the drop is counted from stays
+/// the residual of the undisturbed flow on the fine grid. `march` is the fine one's. Every rank makes the same coarse flow for
+/// itself.
 void start_on_coarser_grid(const Scenario& s, Air& air, runtime::Executor& march) {
   air.solver->march().look();
   march.run();
@@ -180,11 +184,15 @@ struct FlowColumns {
     if (motion) add_motion(history);
     const char* axes[3] = {"x", "y", "z"};
     for (std::size_t d = 0; d < 3; ++d)
-      force[d] = history.add({fmt::format("flow.f{}_N", axes[d]), "N", "Force of the air on the patches with loads, pressure above the undisturbed one."});
-    if (!rotor) lift = history.add({"flow.lift_coefficient", "-", "Force across the wind in its vertical plane, on dynamic pressure and aero.flow.reference_area_m2."});
+      force[d] = history.add({fmt::format("flow.f{}_N", axes[d]), "N",
+                              "Force of the air on the patches with loads, pressure above the undisturbed one."});
+    if (!rotor)
+      lift = history.add({"flow.lift_coefficient", "-",
+                          "Force across the wind in its vertical plane, on dynamic pressure and aero.flow.reference_area_m2."});
     if (!rotor) drag = history.add({"flow.drag_coefficient", "-", "Force along the wind, likewise."});
     residual = history.add({"flow.density_residual", "kg/(m3 s)", "Root mean square over the cells."});
-    momentum = history.add({"flow.scaled_residual", "-", "Norm of the residual of the mean flow in units of the undisturbed one."});
+    momentum =
+        history.add({"flow.scaled_residual", "-", "Norm of the residual of the mean flow in units of the undisturbed one."});
     model = history.add({"flow.turbulence_residual", "-", "The same of the turbulence model."});
     cfl = history.add({"flow.cfl", "-", "CFL number of the pseudo-step."});
     krylov = history.add({"flow.krylov_steps", "-", "Iterations of the linear solver in the pseudo-step before."});
@@ -192,13 +200,16 @@ struct FlowColumns {
   }
   void add_rotor(io::History& history) {
     thrust = history.add({"rotor.thrust_N", "N", "Force of the air on the blades along the rotor axis, positive downwind."});
-    torque = history.add({"rotor.torque_N_m", "N m", "Moment of the air on the blades about the rotor axis, positive where it drives the rotor."});
+    torque = history.add(
+        {"rotor.torque_N_m", "N m", "Moment of the air on the blades about the rotor axis, positive where it drives the rotor."});
     power = history.add({"rotor.power_W", "W", "Torque times rotor speed."});
     azimuth = history.add({"rotor.azimuth_deg", "deg", "Of blade 1 from upright, 0 to 360."});
     rpm = history.add({"rotor.rpm", "rpm", "Rotor speed."});
     for (int b = 1; b <= rotor->grid_blades(); ++b)
-      blades.push_back({history.add({fmt::format("rotor.blade_{}.thrust_N", b), "N", "Of one blade of the grid: its force along the axis."}),
-                        history.add({fmt::format("rotor.blade_{}.torque_N_m", b), "N m", "Of one blade of the grid: its moment about the axis."})});
+      blades.push_back(
+          {history.add({fmt::format("rotor.blade_{}.thrust_N", b), "N", "Of one blade of the grid: its force along the axis."}),
+           history.add(
+               {fmt::format("rotor.blade_{}.torque_N_m", b), "N m", "Of one blade of the grid: its moment about the axis."})});
   }
   void fill_rotor(std::span<double> row, const aero::PseudoRow& p) const {
     const aero::RotorLoad load = rotor->load(p);
@@ -212,15 +223,15 @@ struct FlowColumns {
   }
   void add_motion(io::History& history) {
     pitch = history.add({"flow.pitch_deg", "deg", "Angle of the walls that move, about their axis."});
-    for (std::size_t d = 0; d < 3; ++d)
-      heave[d] = history.add({fmt::format("flow.heave_{}_m", "xyz"[d]), "m", "Their shift."});
+    for (std::size_t d = 0; d < 3; ++d) heave[d] = history.add({fmt::format("flow.heave_{}_m", "xyz"[d]), "m", "Their shift."});
   }
   void fill_motion(std::span<double> row, double time) const {
     const aero::TurnAndShift now = motion->at(time);
     row[pitch] = now.turn.dot(motion->axis()) / radians_per_degree;
     for (std::size_t d = 0; d < 3; ++d) row[heave[d]] = now.shift[Eigen::Index(d)];
   }
-  void fill(std::span<double> row, double time, const FlowSolver& solver, const aero::PseudoRow& p, const aero::FlowOptions& o, const Eigen::Vector3d& wind) const {
+  void fill(std::span<double> row, double time, const FlowSolver& solver, const aero::PseudoRow& p, const aero::FlowOptions& o,
+            const Eigen::Vector3d& wind) const {
     if (motion) fill_motion(row, time);
     const aero::FlowSetting& s = solver.setting();
     const Eigen::Vector3d f(p.force[0], p.force[1], p.force[2]), along = wind.normalized();
@@ -241,7 +252,10 @@ struct FlowColumns {
 class FlowCheckpoints {
  public:
   FlowCheckpoints(const runtime::World& world, const Air& air, const io::RunDirectory& directory, const Scenario& scenario)
-      : series_(world.comm, directory.checkpoints(), scenario.checkpoint.keep), file_(*air.solver, *air.store, world), air_(air), scenario_(scenario),
+      : series_(world.comm, directory.checkpoints(), scenario.checkpoint.keep),
+        file_(*air.solver, *air.store, world),
+        air_(air),
+        scenario_(scenario),
         rank_(world.rank) {}
   void save(std::int64_t tick, std::int64_t window, int restarts) {
     series_.save(tick, [&](io::CheckpointWriter& file) {
@@ -279,7 +293,8 @@ class FlowCheckpoints {
 };
 
 /// preconditioner = "auto": by trial, or as the run that goes on had it; scene.toml then names it, so that it runs alike.
-void choose_for(Air& air, FlowCheckpoints& checkpoints, const io::RunDirectory& directory, const runtime::World& world, bool restart) {
+void choose_for(Air& air, FlowCheckpoints& checkpoints, const io::RunDirectory& directory, const runtime::World& world,
+                bool restart) {
   std::string name, reason = "as before the restart";
   if (restart) {
     name = checkpoints.chosen_before();
@@ -295,7 +310,8 @@ void choose_for(Air& air, FlowCheckpoints& checkpoints, const io::RunDirectory& 
 
 }  // namespace
 
-io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const runtime::World& world, const RunSettings& settings) {
+io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const runtime::World& world,
+                     const RunSettings& settings) {
   const auto begin = std::chrono::steady_clock::now();
   const Timeline timeline(s.time.window_s, s.time.window_s, s.time.end_s);
   const runtime::StopRequest stop(s.runtime.wall_limit_s);
@@ -311,7 +327,8 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   const int coarse_steps = settings.restart ? 0 : s.aero.flow->coarse_steps;
   if (coarse_steps > 0 && air.rotor) {
     const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(s), coarse_steps, *air.rotor);
-    spdlog::info("air: {} pseudo-steps on a grid of half the resolution: thrust {:.4g} kN, power {:.4g} MW", coarse_steps, 1e-3 * load.thrust, 1e-6 * load.power);
+    spdlog::info("air: {} pseudo-steps on a grid of half the resolution: thrust {:.4g} kN, power {:.4g} MW", coarse_steps,
+                 1e-3 * load.thrust, 1e-6 * load.power);
   }
   runtime::Graph graph(world.comm);
   solver.record(graph);
@@ -334,17 +351,20 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     history.open(directory.history());
   const std::int64_t first = number;
   std::int64_t last = timeline.windows();
-  if (settings.until_s) last = std::min<std::int64_t>(last, std::int64_t(std::ceil(*settings.until_s / s.time.window_s * (1.0 - 1e-12))));
+  if (settings.until_s)
+    last = std::min<std::int64_t>(last, std::int64_t(std::ceil(*settings.until_s / s.time.window_s * (1.0 - 1e-12))));
   const std::int64_t save_every =
       s.checkpoint.interval_s > 0.0 ? std::max<std::int64_t>(1, std::llround(s.checkpoint.interval_s / s.time.window_s)) : 0;
   const Eigen::Vector3d wind = flow_wind(s);
-  io::Progress progress(timeline.window_end_s(number), timeline.window_end_s(last), io::progress_style(world.rank, settings.quiet));
+  io::Progress progress(timeline.window_end_s(number), timeline.window_end_s(last),
+                        io::progress_style(world.rank, settings.quiet));
   const auto write_row = [&](const aero::PseudoRow& row, double time) {
     columns.fill(history.row(time), time, solver, row, *s.aero.flow, wind);
     history.write();
   };
 
-  // A steady flow that separates somewhere goes on swinging: its loads along the span are means over the steps of the summary's means.
+  // A steady flow that separates somewhere goes on swinging: its loads along the span are means over the steps of the summary's
+  // means.
   std::deque<aero::PseudoRow> last_rows;
   const auto averaged = [&](std::int64_t windows) {
     return std::size_t(std::max(1.0, std::round(s.output.mean_length(timeline.window_end_s(windows)) / s.time.window_s)));
@@ -376,18 +396,21 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     }
     if (march.verdict() == aero::Verdict::failed) {
       summary.exit_code = 3;
-      summary.exit_reason = fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}", march.why(),
-                                        march.steps(), march.cfl(), march.density_residual(), march.first_density_residual(), solver.trouble());
+      summary.exit_reason =
+          fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}", march.why(),
+                      march.steps(), march.cfl(), march.density_residual(), march.first_density_residual(), solver.trouble());
       summary.numerical_trouble.push_back(summary.exit_reason);
     }
     progress.update(timeline.window_end_s(number));
     if (std::string why = stop.agreed(world.comm); !why.empty() && number < last && !settled && summary.exit_code == 0)
       summary.exit_code = 5, summary.exit_reason = why;
-    if (save_every > 0 && number / save_every != saved / save_every) history.flush(), checkpoints.save(saved = number, number, summary.restarts);
+    if (save_every > 0 && number / save_every != saved / save_every)
+      history.flush(), checkpoints.save(saved = number, number, summary.restarts);
   }
   history.flush();
   if (saved != number) checkpoints.save(number, number, summary.restarts);
-  AirOutput(world.comm, solver, *air.store, directory.fields(), {.walls = s.aero.flow->surfaces}).write(number, timeline.window_end_s(number));
+  AirOutput(world.comm, solver, *air.store, directory.fields(), {.walls = s.aero.flow->surfaces})
+      .write(number, timeline.window_end_s(number));
   if (air.rotor && number > first) {  // a restart that has nothing left to do leaves what there is
     while (last_rows.size() > averaged(number)) last_rows.pop_front();
     const std::vector<aero::PseudoRow> rows(last_rows.begin(), last_rows.end());
@@ -395,7 +418,9 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   }
 
   if (summary.exit_code == 0)
-    summary.exit_reason = !air.steady() ? "done" : settled ? fmt::format("done: {}", solver.march().why()) : "done: the pseudo-steps of the scene are spent";
+    summary.exit_reason = !air.steady() ? "done"
+                          : settled     ? fmt::format("done: {}", solver.march().why())
+                                        : "done: the pseudo-steps of the scene are spent";
   summary.start_time_s = timeline.window_end_s(first);
   summary.end_time_s = timeline.window_end_s(number);
   summary.window_s = timeline.window_s();

@@ -24,7 +24,8 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
 
 /// From the bearing, whose second body is the one that turns, or from [rotor] itself where it names none.
 aero::RotorPlacement place_rotor(const Scenario& s, const std::vector<std::string>& bodies) {
-  aero::RotorPlacement placement{.body = index_of(bodies, s.rotor.body), .support = {}, .hub = s.rotor.hub_m, .axis = s.rotor.axis};
+  aero::RotorPlacement placement{
+      .body = index_of(bodies, s.rotor.body), .support = {}, .hub = s.rotor.hub_m, .axis = s.rotor.axis};
   for (const auto& [name, joint] : s.joints)
     if (name == s.rotor.joint) {
       const bool second = joint.bodies[1] == s.rotor.body;
@@ -71,9 +72,10 @@ Machine::Machine(Scenario scenario)
       for (const std::string& body : {line.body, line.anchor_body})
         if (const int b = index_of(names, body); b >= 0) on[std::size_t(b)] = true;
     }
-    add_source(sources,
-               {"moorings", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { moorings_->add_loads(t, m, w); }, {}},
-               on);
+    add_source(
+        sources,
+        {"moorings", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { moorings_->add_loads(t, m, w); }, {}},
+        on);
   }
   if (s.has_particles()) {
     const std::vector<sea::ParticleBody> shaped = particle_bodies(s.bodies);
@@ -116,7 +118,9 @@ Machine::Machine(Scenario scenario)
     bodies::LoadSource source{
         "sea", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { sea_->add_loads(t, m, w); }, {}};
     if (sea_->has_added_mass())
-      source.added_mass = [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) { sea_->add_added_mass(t, m, a); };
+      source.added_mass = [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
+        sea_->add_added_mass(t, m, a);
+      };
     add_source(sources, std::move(source), on);
   }
   if (s.has_rotor()) {
@@ -135,7 +139,8 @@ Machine::Machine(Scenario scenario)
                on);
   }
   clocks_.resize(sources.size());
-  system_ = std::make_unique<bodies::System>(std::move(bodies), make_joints(s.joints, s.bodies), std::move(sources), s.time.integrator);
+  system_ =
+      std::make_unique<bodies::System>(std::move(bodies), make_joints(s.joints, s.bodies), std::move(sources), s.time.integrator);
 }
 
 /// Wraps the source so that its time is counted; two readings of the clock, 16 ns, per evaluation.

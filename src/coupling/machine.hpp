@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "src/aero/rotor_loads.hpp"
 #include "src/bodies/system.hpp"
 #include "src/coupling/scenario.hpp"
 #include "src/coupling/timeline.hpp"
-#include "src/aero/rotor_loads.hpp"
 #include "src/moorings/moorings.hpp"
 #include "src/sea/engineering_sea.hpp"
 #include "src/sea/particle_sea.hpp"
@@ -41,11 +41,12 @@ class Machine {
   const std::optional<moorings::Moorings>& moorings() const { return moorings_; }
   /// Of a scene with particles: its hydrostatics, which statics and linearisation use, where its shapes are cylinders.
   const std::optional<sea::EngineeringSea>& sea() const { return sea_; }
-  /// Where the rotor is, and its loads by the engineering model; of a resolved rotor by blade element momentum on the same blades, for
-  /// estimates (static equilibrium, linearisation, `check`).
+  /// Where the rotor is, and its loads by the engineering model; of a resolved rotor by blade element momentum on the same
+  /// blades, for estimates (static equilibrium, linearisation, `check`).
   const std::optional<aero::RotorLoads>& rotor() const { return rotor_; }
 
-  /// Bodies take the rotor's load from `loads` instead of asking the rotor as they go; an empty one undoes it. For coupling windows.
+  /// Bodies take the rotor's load from `loads` instead of asking the rotor as they go; an empty one undoes it. For coupling
+  /// windows.
   using RotorLoadFunction = std::function<void(double, std::span<const Motion>, std::span<Wrench>)>;
   void replace_rotor_loads(RotorLoadFunction loads) { rotor_elsewhere_ = std::move(loads); }
   /// The rotor's load as history has it: what a coupling window wrote here, else that of its state.

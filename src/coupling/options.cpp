@@ -14,8 +14,7 @@ void check_time(const TimeOptions& o, const scene::Report& report) {
   if (!whole_ratio(o.window_s, o.step()))
     report("step_s", fmt::format("must divide the window of {} s into whole steps (nearest: {} s)", o.window_s,
                                  nearest_divisor(o.window_s, o.step())));
-  if (!whole_ratio(o.end_s, o.window_s))
-    report("end_s", fmt::format("must be a whole number of windows of {} s", o.window_s));
+  if (!whole_ratio(o.end_s, o.window_s)) report("end_s", fmt::format("must be a whole number of windows of {} s", o.window_s));
 }
 
 }  // namespace
@@ -60,20 +59,25 @@ const scene::Section<StartOptions>& start_section() {
   static const auto section =
       scene::Section<StartOptions>("start", "State at t = 0.")
           .flag("equilibrium", &StartOptions::equilibrium,
-                "Start from the static equilibrium under all loads at their full value, instead of from the positions of the scene.")
+                "Start from the static equilibrium under all loads at their full value, instead of from the positions of the "
+                "scene.")
           .path("file", &StartOptions::file,
-                "Checkpoint (checkpoints/*.h5 of a run) of the same machine: bodies, water and air go on from its state at its time. Windows, steps, "
+                "Checkpoint (checkpoints/*.h5 of a run) of the same machine: bodies, water and air go on from its state at its "
+                "time. Windows, steps, "
                 "scheme and the march of the air may be others; its time must be a whole number of windows.")
           .number("ramp_s", &StartOptions::ramp_s, "s",
                   "Rotor loads grow smoothly from nothing over this time; 0 applies them at once.", scene::between(0.0, 1e6))
           .integer("air_steps", &StartOptions::air_steps, "-",
-                   "Resolved rotor on a body: pseudo-steps by which its air settles before t = 0, seen from the turning rotor, hub held. 0: "
+                   "Resolved rotor on a body: pseudo-steps by which its air settles before t = 0, seen from the turning rotor, "
+                   "hub held. 0: "
                    "the undisturbed wind everywhere, and no load on the bodies in the first window.",
                    scene::between(0, 1e6))
-          .path("air", &StartOptions::air,
-                "Resolved rotor on a body: its air as another run left it, alone or coupled, on the same grid and with the same models. A "
-                "checkpoint, or another file of that run's folder (its scene.toml), which stands for its newest one. Blades may be "
-                "elsewhere: the flow is turned with them. For the sea: sea.initial.file.")
+          .path(
+              "air", &StartOptions::air,
+              "Resolved rotor on a body: its air as another run left it, alone or coupled, on the same grid and with the same "
+              "models. A "
+              "checkpoint, or another file of that run's folder (its scene.toml), which stands for its newest one. Blades may be "
+              "elsewhere: the flow is turned with them. For the sea: sea.initial.file.")
           .check([](const StartOptions& o, const scene::Report& report) {
             if (!o.air.empty() && o.air_steps > 0) report("air_steps", "must be 0 where start.air gives the air");
           });
@@ -87,10 +91,12 @@ const scene::Section<OutputOptions>& output_section() {
           .integer("history_every", &OutputOptions::history_every, "-", "Windows from one row of history.csv to the next.",
                    scene::between(1, 1e9))
           .number("means_over_s", &OutputOptions::means_over_s, "s",
-                  "Length of the time before the end over which summary.json, and spanwise.csv of a steady flow, give means; 0: the last third of the run.",
+                  "Length of the time before the end over which summary.json, and spanwise.csv of a steady flow, give means; 0: "
+                  "the last third of the run.",
                   scene::between(0.0, 1e6))
           .number("air_interval_s", &OutputOptions::air_interval_s, "s",
-                  "Resolved rotor on a body: simulated time between fields of its air; 0: at the end alone.", scene::between(0.0, 1e6));
+                  "Resolved rotor on a body: simulated time between fields of its air; 0: at the end alone.",
+                  scene::between(0.0, 1e6));
   return section;
 }
 

@@ -117,8 +117,10 @@ void Recorder::declare_particles() {
                               {"z_max_m", "m", "highest water"},
                               {"kinetic_energy_J", "J", "of the water"}});
   if (plan.wavemaker)
-    declare(history_, "wavemaker.", {{"displacement_m", "m", "of the paddle's face at still water"}, {"velocity_m_s", "m/s", "of the same"}});
-  for (const sea::GaugeOptions& gauge : plan.gauges) history_.add({gauge.name + ".elevation_m", "m", "height of the water's surface; the bed where there is none"});
+    declare(history_, "wavemaker.",
+            {{"displacement_m", "m", "of the paddle's face at still water"}, {"velocity_m_s", "m/s", "of the same"}});
+  for (const sea::GaugeOptions& gauge : plan.gauges)
+    history_.add({gauge.name + ".elevation_m", "m", "height of the water's surface; the bed where there is none"});
   for (const sea::ProbeOptions& probe : plan.probes)
     declare(history_, probe.name + ".",
             {{"pressure_Pa", "Pa", "pressure of the water, zero where there is none"},
@@ -141,7 +143,8 @@ void Recorder::put_particles(std::span<double> row, double t) const {
   for (const sea::GaugeOptions& gauge : plan.gauges) places.push_back(gauge.point_m);
   // Where there is no water the surface is the bed and nothing moves: no column holds what is not a number.
   const std::vector<double> heights = sea.surface(places);
-  for (std::size_t n = 0; n < places.size(); ++n) row[column++] = std::isfinite(heights[n]) ? heights[n] : plan.tank.bed_at(places[n][0]);
+  for (std::size_t n = 0; n < places.size(); ++n)
+    row[column++] = std::isfinite(heights[n]) ? heights[n] : plan.tank.bed_at(places[n][0]);
   for (const sea::ProbeOptions& probe : plan.probes) {
     const auto reading = sea.probe(probe.point_m);
     row[column++] = reading.pressure;
@@ -156,8 +159,8 @@ void Recorder::write(const bodies::BodiesState& state, double t, const std::func
   const auto bodies = machine_.system().bodies();
   const std::span<double> row = history_.row(t);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const ReferenceMotion m = reference_motion(state.motions[b], bodies[b].initial, machine_.reference_point(b), now.acceleration[b],
-                                               now.angular_acceleration[b]);
+    const ReferenceMotion m = reference_motion(state.motions[b], bodies[b].initial, machine_.reference_point(b),
+                                               now.acceleration[b], now.angular_acceleration[b]);
     std::size_t column = body_columns_[b];
     put(row, column, m.displacement);
     put(row, column, m.angles, 1.0 / radians_per_degree);

@@ -17,9 +17,9 @@ namespace spindrift::coupling {
 
 /// Motion of the reference point of a body and of the body round it, as it is written.
 struct ReferenceMotion {
-  Eigen::Vector3d displacement, velocity, acceleration;   ///< of the point, earth axes [m], [m/s], [m/s2]
-  Eigen::Vector3d angles;                                 ///< roll, pitch, yaw since the start [rad]
-  Eigen::Vector3d omega, omega_rate;                      ///< earth axes [rad/s], [rad/s2]
+  Eigen::Vector3d displacement, velocity, acceleration;  ///< of the point, earth axes [m], [m/s], [m/s2]
+  Eigen::Vector3d angles;                                ///< roll, pitch, yaw since the start [rad]
+  Eigen::Vector3d omega, omega_rate;                     ///< earth axes [rad/s], [rad/s2]
 };
 
 /// `point`: the reference point in body axes from the centre of mass; accelerations as System::evaluate gives them.

@@ -73,7 +73,8 @@ class ResolvedAir final : public AirSide {
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     aim(t, 0.0, now);
-    if (rotor_) {  // restored, for windows of another length or by another scheme: the grid stands where the last prediction had put it
+    if (rotor_) {  // restored, for windows of another length or by another scheme: the grid stands where the last prediction had
+                   // put it
       place_at(state_, saved_dt_);
       return load_;
     }
@@ -87,10 +88,12 @@ class ResolvedAir final : public AirSide {
       std::ranges::copy(settled[n], values.begin());
       rotor_->solver().load(int(n), values);
     }
-    // A profile is no steady flow for turning blades: what settled has the hub's wind, and the rest of the profile is added to its flow.
+    // A profile is no steady flow for turning blades: what settled has the hub's wind, and the rest of the profile is added to
+    // its flow.
     if (!settled.empty() && !setup_.profile.uniform())
-      rotor_->solver().add_velocity(
-          [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return (setup_.profile.share(x.z()) - share_at_hub()) * setup_.wind; });
+      rotor_->solver().add_velocity([&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+        return (setup_.profile.share(x.z()) - share_at_hub()) * setup_.wind;
+      });
     if (!start.air.empty()) take_up(start.air);
     return load_ = ramped(leant(felt_.rotor));
   }
@@ -175,7 +178,8 @@ class ResolvedAir final : public AirSide {
 
   void open_output(const io::RunDirectory& directory, double resume_s) override {
     directory_ = &directory;
-    if (machine_.scenario().aero.flow->preconditioner == "auto" && world_.rank == 0) write_choice(directory, setup_.flow.preconditioner);
+    if (machine_.scenario().aero.flow->preconditioner == "auto" && world_.rank == 0)
+      write_choice(directory, setup_.flow.preconditioner);
     output_ = std::make_unique<AirOutput>(world_.comm, rotor_->solver(), rotor_->store(), directory.fields(),
                                           AirOutput::Choice{.walls = setup_.flow.surfaces, .moves = true, .resume_s = resume_s});
   }
@@ -200,7 +204,8 @@ class ResolvedAir final : public AirSide {
     rotor_->solver().use(aero::make_preconditioner(choice.preconditioner, rotor_->solver().setting().common));
     news_.push_back(fmt::format("air: preconditioner \"{}\" ({})", choice.preconditioner, choice.reason));
   }
-  /// In the wind as it comes, before anything settles: so a scene that names the outcome runs alike. The rotor stays unless one is to settle first.
+  /// In the wind as it comes, before anything settles: so a scene that names the outcome runs alike. The rotor stays unless one
+  /// is to settle first.
   void choose(bool settles) {
     const std::shared_ptr<const aero::MadeRotorGrid> made = grid();
     make();
@@ -327,13 +332,13 @@ class ResolvedAir final : public AirSide {
   aero::RotorState first_;  ///< at the start, upright
   aero::ResolvedRotorSetup setup_;
   std::shared_ptr<const aero::MadeRotorGrid> grid_;  ///< until rotor_ has it
-  std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< made by begin() or restore()
+  std::unique_ptr<aero::ResolvedRotor> rotor_;       ///< made by begin() or restore()
   std::optional<AirFile> file_;
   double t_ = 0.0, saved_dt_ = 0.0;  ///< of the last aim; step of the run that left the restored state
-  aero::RotorState state_;  ///< of the last aim
+  aero::RotorState state_;           ///< of the last aim
   aero::ResolvedRotorSize size_;
-  FeltLoad felt_;           ///< after the last step, as it is
-  aero::RotorLoad load_;    ///< the last answer: along the axis now, ramped
+  FeltLoad felt_;         ///< after the last step, as it is
+  aero::RotorLoad load_;  ///< the last answer: along the axis now, ramped
   std::array<std::optional<Noted>, 2> notes_;
   std::vector<std::string> news_;
   const io::RunDirectory* directory_ = nullptr;

@@ -23,8 +23,8 @@ RotorInterface::RotorInterface(const Machine& machine) : machine_(machine) {
 Vector RotorInterface::motion(double t, std::span<const Motion> bodies, double near) const {
   const aero::RotorState s = machine_.rotor()->state(t, bodies);
   Vector m(motion_rows);
-  m << s.hub / length_, s.hub_velocity / length_, s.omega - s.speed * s.axis, s.axis, s.up, near + std::remainder(s.azimuth - near, 2 * pi),
-      s.speed;
+  m << s.hub / length_, s.hub_velocity / length_, s.omega - s.speed * s.axis, s.axis, s.up,
+      near + std::remainder(s.azimuth - near, 2 * pi), s.speed;
   return m;
 }
 

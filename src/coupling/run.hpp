@@ -21,7 +21,7 @@ struct RunSettings {
   std::optional<double> until_s;  ///< stop there, with a checkpoint, to be continued by restart
   bool restart = false;           ///< from the newest checkpoint of the directory
   bool trace = false;
-  bool quiet = false;             ///< no progress
+  bool quiet = false;  ///< no progress
 };
 
 /// By the clock on the wall.
@@ -30,8 +30,8 @@ inline double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 /// Runs the machine into the directory and writes everything but report and summary.json; returns the summary with the exit code
-/// (0 done, 3 numerical failure with the state saved, 5 stopped on request with a checkpoint). `parts`: a world, on which all ranks
-/// have both sides, or what place() made of it. The directory is one of parts.world(). Collective.
+/// (0 done, 3 numerical failure with the state saved, 5 stopped on request with a checkpoint). `parts`: a world, on which all
+/// ranks have both sides, or what place() made of it. The directory is one of parts.world(). Collective.
 io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& directory, const runtime::Parts& parts,
                 const RunSettings& settings);
 

@@ -162,7 +162,8 @@ Scenario read_scenario(scene::Document& document) {
   check_names(document, s);
   check_saved_start(document, s);
   if (has_resolved_rotor(s) && s.aero.flow->wall_distance == "poisson")
-    document.problem("aero.flow.wall_distance", "\"poisson\" is for grids that stand: with a resolved rotor it must be \"exact\"");
+    document.problem("aero.flow.wall_distance",
+                     "\"poisson\" is for grids that stand: with a resolved rotor it must be \"exact\"");
   if (!(s.has_rotor() && s.resolves_air()) && s.start.air_steps > 0)
     document.problem("start.air_steps", "has no effect: there is no resolved rotor on a body");
   for (const auto& [key, given] :

@@ -45,8 +45,8 @@ struct Scenario {
   bool has_waves() const { return has_sea() && waves.model != "none"; }
   bool has_particles() const { return sea.has_particles(); }
 
-  /// The unit of time that steps are counted in. Substeps of a sea of particles are even numbers of ticks (bodies are evaluated at
-  /// their middle); where its step is not given, a window has enough ticks that rounding a step to them does not show.
+  /// The unit of time that steps are counted in. Substeps of a sea of particles are even numbers of ticks (bodies are evaluated
+  /// at their middle); where its step is not given, a window has enough ticks that rounding a step to them does not show.
   double tick_s() const {
     if (!has_particles()) return time.step();
     return time.step_s ? 0.5 * *time.step_s : time.window_s / ticks_per_free_window;

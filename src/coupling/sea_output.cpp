@@ -57,7 +57,10 @@ void SeaOutput::write_particles(std::int64_t tick, double t) {
   const sea::ParticleSample sample = machine_.particles()->sample(options.low_m, options.high_m, options.solids);
   std::vector<std::span<const double>> fields;
   for (const std::string& name : options.particles)
-    fields.push_back(name == "velocity" ? sample.velocity : name == "pressure" ? sample.pressure : name == "density" ? sample.density : sample.owner);
+    fields.push_back(name == "velocity"   ? sample.velocity
+                     : name == "pressure" ? sample.pressure
+                     : name == "density"  ? sample.density
+                                          : sample.owner);
   particles_->write(tick, t, sample.id, sample.position, fields);
 }
 
@@ -76,7 +79,8 @@ void SeaOutput::write_surface(std::int64_t tick, double t) {
   std::vector<double> points;
   for (int k = 0; k <= 1; ++k)
     for (std::size_t n = 0; n < corners.size(); ++n)
-      points.insert(points.end(), {corners[n][0], corners[n][1], k == 0 ? tank.bed_at(corners[n][0]) : wet(heights[n], corners[n][0])});
+      points.insert(points.end(),
+                    {corners[n][0], corners[n][1], k == 0 ? tank.bed_at(corners[n][0]) : wet(heights[n], corners[n][0])});
   for (std::size_t n = 0; n < middles.size(); ++n) elevation[n] = wet(elevation[n], middles[n][0]);
   const io::GridFields::Values values{0, points, {elevation}};
   surface_->write(tick, t, std::span(&values, 1));

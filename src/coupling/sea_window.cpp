@@ -23,16 +23,18 @@ std::int64_t choose_substep(const Machine& machine, std::int64_t tick, std::int6
   const double tick_s = machine.timeline().tick_s(), t = double(tick) * tick_s;
   if (const std::optional<double>& step = machine.scenario().time.step_s) {
     if (*step > limit)
-      throw NumericalFailure(fmt::format("t = {:.6g} s: sea: the step of {:.4g} s is above what is stable now, {:.4g} s; leave out time.step_s, "
-                                         "or give a smaller one",
-                                         t, *step, limit),
-                             "sea", long(tick), t, limit);
+      throw NumericalFailure(
+          fmt::format("t = {:.6g} s: sea: the step of {:.4g} s is above what is stable now, {:.4g} s; leave out time.step_s, "
+                      "or give a smaller one",
+                      t, *step, limit),
+          "sea", long(tick), t, limit);
     return 2;
   }
   const std::int64_t ticks = substep_ticks(left, limit / tick_s);
   if (ticks == 0)
-    throw NumericalFailure(fmt::format("t = {:.6g} s: sea: the stable step fell to {:.3g} s, less than a ten-millionth of the window", t, limit),
-                           "sea", long(tick), t, limit);
+    throw NumericalFailure(
+        fmt::format("t = {:.6g} s: sea: the stable step fell to {:.3g} s, less than a ten-millionth of the window", t, limit),
+        "sea", long(tick), t, limit);
   return ticks;
 }
 
@@ -54,7 +56,8 @@ namespace {
 
 class ParticleSide final : public BodySide, sea::WindowDriver {
  public:
-  ParticleSide(Machine& machine, DriverFunction between) : machine_(machine), sea_(*machine.particles()), between_(std::move(between)) {}
+  ParticleSide(Machine& machine, DriverFunction between)
+      : machine_(machine), sea_(*machine.particles()), between_(std::move(between)) {}
 
   void aim(const bodies::BodiesState& from, std::int64_t end_tick) override {
     state_ = from, end_ = end_tick, held_ = from.tick < 0;

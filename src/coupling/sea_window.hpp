@@ -1,7 +1,7 @@
 // A window of a scene with a sea of particles: substeps in which water, bodies and moorings go on together (Leble & Barakos 2016,
-// section 2.5), recorded as tasks. The bodies see the water's load of t over the first half of a substep, that of its middle over the whole
-// of it: second order, with any of their integrators. Made by make_body_side(); tested in tests/coupled/particle_sea_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// section 2.5), recorded as tasks. The bodies see the water's load of t over the first half of a substep, that of its middle over
+// the whole of it: second order, with any of their integrators. Made by make_body_side(); tested in
+// tests/coupled/particle_sea_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ class WindowDriver;
 
 namespace spindrift::coupling {
 
-/// Before t = 0 it holds the bodies where they start. `between` returns what the sea is driven by in place of the bodies it is given, for those
-/// who want to hear what passes between the two.
+/// Before t = 0 it holds the bodies where they start. `between` returns what the sea is driven by in place of the bodies it is
+/// given, for those who want to hear what passes between the two.
 using DriverFunction = std::function<sea::WindowDriver&(sea::WindowDriver& bodies)>;
 std::unique_ptr<BodySide> make_particle_side(Machine& machine, DriverFunction between = {});
 

@@ -22,7 +22,8 @@ void move_to_start(Machine& machine, bodies::BodiesState& state) {
   bool moved = false;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const bodies::BodyOptions& o = bodies[b].options;
-    if (o.displacement_m.isZero(0.0) && o.rotation.isZero(0.0) && o.velocity_m_s.isZero(0.0) && o.omega_rad_s.isZero(0.0)) continue;
+    if (o.displacement_m.isZero(0.0) && o.rotation.isZero(0.0) && o.velocity_m_s.isZero(0.0) && o.omega_rad_s.isZero(0.0))
+      continue;
     state.motions[b] = start_motion(o);
     moved = true;
   }
@@ -59,7 +60,8 @@ Start make_start(Machine& machine) {
   const bodies::Equilibrium& found = *start.equilibrium;
   if (!found.problem.empty()) refuse(machine, "start.equilibrium", "true", found.problem);
   for (const std::string& direction : found.free_directions)
-    start.notes.push_back(fmt::format("{}: neither load nor stiffness; the equilibrium leaves it where the scene puts it", direction));
+    start.notes.push_back(
+        fmt::format("{}: neither load nor stiffness; the equilibrium leaves it where the scene puts it", direction));
   if (!found.unstable.empty()) start.notes.push_back(fmt::format("the equilibrium is unstable: {}", found.unstable));
   start.state = found.state;
   return start;
@@ -90,11 +92,15 @@ void require_stable_particles(Machine& machine, const Stability& stability) {
   const sph::Parameters& p = machine.particle_plan()->parameters;
   const double sound = p.cfl * p.h() / p.eos.c0;
   if (*step > sound)
+    refuse(
+        machine, "time.step_s", fmt::format("{}", *step),
+        fmt::format(
+            "is above the limit of {:.4g} s that the speed of sound of {:.4g} m/s sets (sea.particles.cfl {}); leave it out and "
+            "the sea takes the largest step that is stable",
+            sound, p.eos.c0, p.cfl));
+  if (*step > bodies)
     refuse(machine, "time.step_s", fmt::format("{}", *step),
-           fmt::format("is above the limit of {:.4g} s that the speed of sound of {:.4g} m/s sets (sea.particles.cfl {}); leave it out and "
-                       "the sea takes the largest step that is stable",
-                       sound, p.eos.c0, p.cfl));
-  if (*step > bodies) refuse(machine, "time.step_s", fmt::format("{}", *step), fmt::format("is above the limit of {:.4g} s of {}", bodies, stability.limit.mode));
+           fmt::format("is above the limit of {:.4g} s of {}", bodies, stability.limit.mode));
 }
 
 }  // namespace
@@ -112,8 +118,8 @@ void require_stable(Machine& machine, const Stability& stability) {
            fmt::format("is unstable at any step for {}, which is undamped (eigenvalue {:.3g}{:+.3g}i 1/s); use rk4 or symplectic",
                        limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));
   refuse(machine, "time.step_s", fmt::format("{}", step),
-         fmt::format("is above the limit of {:.4g} s that {} has for {} (eigenvalue {:.3g}{:+.3g}i 1/s)", limit.step_s, integrator,
-                     limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));
+         fmt::format("is above the limit of {:.4g} s that {} has for {} (eigenvalue {:.3g}{:+.3g}i 1/s)", limit.step_s,
+                     integrator, limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));
 }
 
 }  // namespace spindrift::coupling

@@ -1,6 +1,5 @@
-// The state at t = 0: constraints met, and where the scene asks for it in static equilibrium. What is wrong is said by joint and body.
-// Used by run.cpp and by `spindrift check`; tested in tests/src/coupling.
-// SPDX-License-Identifier: Apache-2.0
+// The state at t = 0: constraints met, and where the scene asks for it in static equilibrium. What is wrong is said by joint and
+// body. Used by run.cpp and by `spindrift check`; tested in tests/src/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -16,8 +15,8 @@ namespace spindrift::coupling {
 struct Start {
   bodies::BodiesState state;
   int degrees_of_freedom = 0;
-  std::vector<std::string> notes;                     ///< redundant constraints, free directions
-  std::optional<bodies::Equilibrium> equilibrium;     ///< where start.equilibrium asks for it
+  std::vector<std::string> notes;                  ///< redundant constraints, free directions
+  std::optional<bodies::Equilibrium> equilibrium;  ///< where start.equilibrium asks for it
 };
 
 /// Throws scene::SceneError where joints contradict each other or no equilibrium exists.

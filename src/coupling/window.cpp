@@ -25,20 +25,32 @@ Vector not_finite(Eigen::Index rows) { return Vector::Constant(rows, std::numeri
 CoupledWindow::AnyScheme CoupledWindow::make_scheme(const CouplingOptions& o) {
   const LearningOptions learning{o.reuse_windows, o.filter};
   switch (o.scheme) {
-    case SchemeKind::aitken: return RelaxationAitken(o.relaxation);
-    case SchemeKind::steepest_descent: return RelaxationSteepestDescent(o.relaxation);
-    case SchemeKind::iqn_ils: return IqnIls(o.relaxation, learning);
-    case SchemeKind::ibqn_ls: return IbqnLs(o.relaxation, learning);
-    case SchemeKind::interface_gmres: return InterfaceGmres(o.relaxation, learning);
-    case SchemeKind::newton: return Newton(1e-9);
-    default: return RelaxationConstant(o.relaxation);
+    case SchemeKind::aitken:
+      return RelaxationAitken(o.relaxation);
+    case SchemeKind::steepest_descent:
+      return RelaxationSteepestDescent(o.relaxation);
+    case SchemeKind::iqn_ils:
+      return IqnIls(o.relaxation, learning);
+    case SchemeKind::ibqn_ls:
+      return IbqnLs(o.relaxation, learning);
+    case SchemeKind::interface_gmres:
+      return InterfaceGmres(o.relaxation, learning);
+    case SchemeKind::newton:
+      return Newton(1e-9);
+    default:
+      return RelaxationConstant(o.relaxation);
   }
 }
 
 CoupledWindow::CoupledWindow(Machine& machine, Sides sides, MPI_Comm comm, std::size_t records)
-    : machine_(machine), options_(machine.scenario().coupling), interface_(machine),
+    : machine_(machine),
+      options_(machine.scenario().coupling),
+      interface_(machine),
       air_(sides.air ? std::move(sides.air) : make_engineering_air(machine)),
-      bodies_(sides.bodies ? std::move(sides.bodies) : make_body_side(machine)), tasks_(air_.get(), *bodies_, comm, records), loads_(options_.predictor_order), motions_(1),
+      bodies_(sides.bodies ? std::move(sides.bodies) : make_body_side(machine)),
+      tasks_(air_.get(), *bodies_, comm, records),
+      loads_(options_.predictor_order),
+      motions_(1),
       load_now_(RotorInterface::load_rows) {
   if (is_loose(options_.scheme))
     loose_.emplace(staggering(options_));
@@ -134,11 +146,13 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
     std::int64_t end;
     Vector start;  // motion at the window's start
     Vector motion_at(double begin, double end_s) const {
-      return w.interface_.motion(end_s, state.motions, RotorInterface::azimuth(start) + (end_s - begin) * RotorInterface::rate(start));
+      return w.interface_.motion(end_s, state.motions,
+                                 RotorInterface::azimuth(start) + (end_s - begin) * RotorInterface::rate(start));
     }
     Vector shown(const Waveform& motion, double begin, double end_s) const {
       // One window is no line to extrapolate: a rotor that stood still for it would jump.
-      if (w.loose_->motion().windows() == 1 && w.options_.scheme == SchemeKind::cps2) return RotorInterface::carried_on(start, end_s - begin);
+      if (w.loose_->motion().windows() == 1 && w.options_.scheme == SchemeKind::cps2)
+        return RotorInterface::carried_on(start, end_s - begin);
       const Vector given = motion.at(end_s);
       // Motion may be held, the rotor turns on.
       return w.options_.scheme == SchemeKind::cps ? RotorInterface::turned(given, end_s - begin) : given;
@@ -175,7 +189,8 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
   return report;
 }
 
-/// The strong window, or the piece of it that is next. x holds the loads at the samples; composed in parallel, the motions as well.
+/// The strong window, or the piece of it that is next. x holds the loads at the samples; composed in parallel, the motions as
+/// well.
 class CoupledWindow::Pieces {
  public:
   Pieces(CoupledWindow& window, const bodies::BodiesState& start)
@@ -204,7 +219,8 @@ class CoupledWindow::Pieces {
     go_back(true, false);
     Vector loads(load_rows());
     for (int s = 1; s <= samples(); ++s)
-      if (!put_load(s, w_.air_load(w_.time(tick(s)), dt(), part(motions, s, RotorInterface::motion_rows)), loads)) return not_finite(loads.size());
+      if (!put_load(s, w_.air_load(w_.time(tick(s)), dt(), part(motions, s, RotorInterface::motion_rows)), loads))
+        return not_finite(loads.size());
     end_load_ = part(loads, samples(), RotorInterface::load_rows);
     return loads;
   }
@@ -221,7 +237,8 @@ class CoupledWindow::Pieces {
       if (!moved || !loaded) return {not_finite(motions.size()), not_finite(loads.size())};
       put_motion(s, motions);
     }
-    end_motion_ = part(motions, samples(), RotorInterface::motion_rows), end_load_ = part(loads, samples(), RotorInterface::load_rows);
+    end_motion_ = part(motions, samples(), RotorInterface::motion_rows),
+    end_load_ = part(loads, samples(), RotorInterface::load_rows);
     return {motions, loads};
   }
   Vector guess() const {
@@ -230,7 +247,8 @@ class CoupledWindow::Pieces {
     for (int s = 1; s <= samples(); ++s) {
       x.segment((s - 1) * RotorInterface::load_rows, RotorInterface::load_rows) = w_.loads_.at(w_.time(tick(s)));
       if (both)
-        x.segment(load_rows() + (s - 1) * RotorInterface::motion_rows, RotorInterface::motion_rows) = w_.motions_.at(w_.time(tick(s)));
+        x.segment(load_rows() + (s - 1) * RotorInterface::motion_rows, RotorInterface::motion_rows) =
+            w_.motions_.at(w_.time(tick(s)));
     }
     return x;
   }
@@ -260,7 +278,8 @@ class CoupledWindow::Pieces {
   void show(const Vector& loads) {
     std::vector<double> times{w_.time(start_.tick)};
     std::vector<Vector> values{w_.loads_.last()};
-    for (int s = 1; s <= samples(); ++s) times.push_back(w_.time(tick(s))), values.push_back(part(loads, s, RotorInterface::load_rows));
+    for (int s = 1; s <= samples(); ++s)
+      times.push_back(w_.time(tick(s))), values.push_back(part(loads, s, RotorInterface::load_rows));
     w_.signal_ = Waveform(w_.options_.interpolation, std::move(times), std::move(values));
     w_.feel(w_.signal_);
   }
@@ -310,11 +329,14 @@ WindowReport CoupledWindow::advance_strong(bodies::BodiesState& state) {
 std::string CoupledWindow::describe(const WindowLog& log, const bodies::BodiesState& state) const {
   const double begin = time(state.tick), window = machine_.timeline().window_s();
   if (log.bound == Bound::not_finite && !trouble_.empty()) return trouble_;
-  if (log.bound == Bound::not_finite) return fmt::format("t = {:g} s: the rotor's load over the window of {:g} s is not a finite number", begin, window);
+  if (log.bound == Bound::not_finite)
+    return fmt::format("t = {:g} s: the rotor's load over the window of {:g} s is not a finite number", begin, window);
   return fmt::format(
-      "t = {:g} s: rotor and bodies do not agree over the window of {:g} s: {} hit after {} evaluations, {} retries and {} cuts (residual {:.3g} of "
+      "t = {:g} s: rotor and bodies do not agree over the window of {:g} s: {} hit after {} evaluations, {} retries and {} cuts "
+      "(residual {:.3g} of "
       "{:.3g} at first); try a smaller coupling.relaxation (now {:g}), another coupling.scheme or a shorter time.window_s",
-      begin, window, bound_name(log.bound), log.evaluations, log.retries, log.cuts, log.residual, log.first_residual, options_.relaxation);
+      begin, window, bound_name(log.bound), log.evaluations, log.retries, log.cuts, log.residual, log.first_residual,
+      options_.relaxation);
 }
 
 void CoupledWindow::visit(auto& v) {

@@ -1,8 +1,8 @@
-// A window shared by the rotor and the rest of the machine (bodies, sea, moorings, advanced in their own steps): the rotor is asked once
-// per window and sample, and the bodies see its loads as a signal in time, by a loose scheme or iterated until both agree. What iterates is
-// a pure function of a snapshot in memory, so a window may be repeated, cut, or begun again after a restart.
-// Schemes: kernels/coupling. Called by run.cpp; tested in tests/src/coupling/window_test.cpp and tests/coupled/schemes_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// A window shared by the rotor and the rest of the machine (bodies, sea, moorings, advanced in their own steps): the rotor is
+// asked once per window and sample, and the bodies see its loads as a signal in time, by a loose scheme or iterated until both
+// agree. What iterates is a pure function of a snapshot in memory, so a window may be repeated, cut, or begun again after a
+// restart. Schemes: kernels/coupling. Called by run.cpp; tested in tests/src/coupling/window_test.cpp and
+// tests/coupled/schemes_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>
@@ -39,8 +39,8 @@ struct WindowReport {
 
 class CoupledWindow {
  public:
-  /// The machine has a rotor, its scheme is not monolithic, and it outlives the window; its bodies take the rotor's loads from here on.
-  /// `sides`: the engineering rotor, and the bodies, where none are given. `comm`: of the ranks that share its tasks.
+  /// The machine has a rotor, its scheme is not monolithic, and it outlives the window; its bodies take the rotor's loads from
+  /// here on. `sides`: the engineering rotor, and the bodies, where none are given. `comm`: of the ranks that share its tasks.
   explicit CoupledWindow(Machine& machine, Sides sides = {}, MPI_Comm comm = MPI_COMM_SELF, std::size_t records = 0);
   ~CoupledWindow();
   CoupledWindow(const CoupledWindow&) = delete;
@@ -75,7 +75,8 @@ class CoupledWindow {
  private:
   class Pieces;
   friend class Pieces;
-  using AnyScheme = std::variant<RelaxationConstant, RelaxationAitken, RelaxationSteepestDescent, IqnIls, IbqnLs, InterfaceGmres, Newton>;
+  using AnyScheme =
+      std::variant<RelaxationConstant, RelaxationAitken, RelaxationSteepestDescent, IqnIls, IbqnLs, InterfaceGmres, Newton>;
   static AnyScheme make_scheme(const CouplingOptions& options);
 
   double time(std::int64_t tick) const { return double(tick) * machine_.timeline().tick_s(); }
@@ -104,8 +105,8 @@ class CoupledWindow {
   Extrapolation loads_, motions_;  ///< strong: at the ends of the last pieces
   Waveform signal_;                ///< strong: loads over the piece
   std::function<void(double, Vector&)> felt_;
-  Vector load_now_;                ///< scratch of the right-hand side
-  std::string trouble_;            ///< of the side that failed last
+  Vector load_now_;      ///< scratch of the right-hand side
+  std::string trouble_;  ///< of the side that failed last
   WindowReport last_;
   Totals totals_;
   std::size_t column_ = 0, air_column_ = 0;

@@ -10,11 +10,11 @@
 namespace spindrift::io {
 
 struct BuildInfo {
-  std::string version;       ///< of Spindrift
-  std::string commit;        ///< hash of the sources, "-modified" where they differ from it, "unknown" outside a repository
-  std::string compiler;      ///< name and version
-  std::string flags;         ///< as passed for this build type
-  std::string build_type;    ///< Release, Debug, ...
+  std::string version;     ///< of Spindrift
+  std::string commit;      ///< hash of the sources, "-modified" where they differ from it, "unknown" outside a repository
+  std::string compiler;    ///< name and version
+  std::string flags;       ///< as passed for this build type
+  std::string build_type;  ///< Release, Debug, ...
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
 };
 

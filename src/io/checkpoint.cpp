@@ -62,7 +62,8 @@ void CheckpointWriter::write(const std::string& name, std::int64_t total, std::s
   }
   MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, comm);
   if (count != total)
-    throw std::logic_error("checkpoint array " + name + ": slices hold " + std::to_string(count) + " of " + std::to_string(total));
+    throw std::logic_error("checkpoint array " + name + ": slices hold " + std::to_string(count) + " of " +
+                           std::to_string(total));
   sum = summed(comm, sum);
 
   const hdf5::SharedFile::Array array{name, type_of<T>(), {static_cast<hsize_t>(total)}, [&](hid_t dataset) {
@@ -174,8 +175,7 @@ void CheckpointReader::Impl::verify_all() const {
   }
 }
 
-CheckpointReader::CheckpointReader(MPI_Comm comm, const fs::path& path)
-    : impl_(std::make_unique<Impl>(Impl{comm, path, {}})) {
+CheckpointReader::CheckpointReader(MPI_Comm comm, const fs::path& path) : impl_(std::make_unique<Impl>(Impl{comm, path, {}})) {
   together(comm, [&] { impl_->file = hdf5::open(path); });
   try {
     impl_->verify_all();
@@ -192,9 +192,7 @@ bool CheckpointReader::has(const std::string& name) const {
   try {
     impl_->dataset(name);
     return true;
-  } catch (const InputError&) {
-    return false;
-  }
+  } catch (const InputError&) { return false; }
 }
 
 std::int64_t CheckpointReader::size(const std::string& name) const { return size_of_dataset(impl_->dataset(name)); }
@@ -207,8 +205,9 @@ void CheckpointReader::read(const std::string& name, std::span<const Slice<T>> s
   for (const auto& slice : slices) {
     const auto count = static_cast<std::int64_t>(slice.values.size());
     if (slice.offset < 0 || slice.offset + count > total)
-      throw InputError(impl_->path.string() + ": array " + name + " has " + std::to_string(total) + " values, this run asks for " +
-                       std::to_string(slice.offset + count) + "; restart with the scene of the first run");
+      throw InputError(impl_->path.string() + ": array " + name + " has " + std::to_string(total) +
+                       " values, this run asks for " + std::to_string(slice.offset + count) +
+                       "; restart with the scene of the first run");
     hdf5::read(data.get(), type_of<T>(), slice.offset, count, slice.values.data(), impl_->path.string());
   }
 }
@@ -235,10 +234,10 @@ std::string CheckpointReader::text(const std::string& name) const {
   return hdf5::get_text_attribute(impl_->file.get(), name.c_str());
 }
 
-#define SPINDRIFT_CHECKPOINT_TYPE(T)                                                                                     \
-  template void CheckpointWriter::write<T>(const std::string&, std::int64_t, std::span<const Slice<const T>>);           \
-  template void CheckpointWriter::write<T>(const std::string&, std::span<const T>);                                      \
-  template void CheckpointReader::read<T>(const std::string&, std::span<const Slice<T>>) const;                          \
+#define SPINDRIFT_CHECKPOINT_TYPE(T)                                                                           \
+  template void CheckpointWriter::write<T>(const std::string&, std::int64_t, std::span<const Slice<const T>>); \
+  template void CheckpointWriter::write<T>(const std::string&, std::span<const T>);                            \
+  template void CheckpointReader::read<T>(const std::string&, std::span<const Slice<T>>) const;                \
   template std::vector<T> CheckpointReader::read<T>(const std::string&) const;
 SPINDRIFT_CHECKPOINT_TYPE(double)
 SPINDRIFT_CHECKPOINT_TYPE(std::int64_t)

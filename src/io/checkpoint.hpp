@@ -1,7 +1,7 @@
-// Checkpoints: one HDF5 file of named arrays (double, 64-bit integer, byte) and values, whole or not there, verified before it is trusted.
-// The arrays are global: their layout in the file knows no ranks, so that a run goes on with any number of them.
-// Written by the coupling at window ends, read by it at a restart. Tested in tests/src/io/checkpoint_test.cpp and checkpoint_faults_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Checkpoints: one HDF5 file of named arrays (double, 64-bit integer, byte) and values, whole or not there, verified before it is
+// trusted. The arrays are global: their layout in the file knows no ranks, so that a run goes on with any number of them. Written
+// by the coupling at window ends, read by it at a restart. Tested in tests/src/io/checkpoint_test.cpp and
+// checkpoint_faults_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <mpi.h>
@@ -54,7 +54,8 @@ class CheckpointWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A checkpoint whose every checksum was right when it was opened. What the file has not is an InputError (another scene wrote it).
+/// A checkpoint whose every checksum was right when it was opened. What the file has not is an InputError (another scene wrote
+/// it).
 class CheckpointReader {
  public:
   /// Collective; reads all of it once. Throws MachineFailure where it is truncated, damaged, incomplete or of an unknown version.

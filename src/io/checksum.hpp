@@ -1,7 +1,7 @@
-// A checksum of a distributed array that does not depend on how it is distributed: a sum over elements of a mix of index and bits, so that
-// ranks add up their parts. Any one changed element changes it for certain (the mix is a bijection of the bits); several, but for 2^-64.
-// The mix is splitmix64's finaliser (Steele, Lea & Flood 2014). Called by checkpoint.cpp; tested in tests/src/io/checkpoint_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// A checksum of a distributed array that does not depend on how it is distributed: a sum over elements of a mix of index and
+// bits, so that ranks add up their parts. Any one changed element changes it for certain (the mix is a bijection of the bits);
+// several, but for 2^-64. The mix is splitmix64's finaliser (Steele, Lea & Flood 2014). Called by checkpoint.cpp; tested in
+// tests/src/io/checkpoint_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <bit>

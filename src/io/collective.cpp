@@ -26,9 +26,12 @@ void throw_everywhere(MPI_Comm comm, Failure mine, std::string message) {
   message.resize(static_cast<std::size_t>(length));
   MPI_Bcast(message.data(), length, MPI_CHAR, failing, comm);
   switch (static_cast<Failure>(kind)) {
-    case Failure::input: throw InputError(message);
-    case Failure::machine: throw MachineFailure(message);
-    default: throw std::runtime_error(message);
+    case Failure::input:
+      throw InputError(message);
+    case Failure::machine:
+      throw MachineFailure(message);
+    default:
+      throw std::runtime_error(message);
   }
 }
 
@@ -37,13 +40,9 @@ void guarded(MPI_Comm comm, bool takes_part, const std::function<void()>& work) 
   std::string message;
   try {
     if (takes_part) work();
-  } catch (const InputError& error) {
-    failure = Failure::input, message = error.what();
-  } catch (const MachineFailure& error) {
+  } catch (const InputError& error) { failure = Failure::input, message = error.what(); } catch (const MachineFailure& error) {
     failure = Failure::machine, message = error.what();
-  } catch (const std::exception& error) {
-    failure = Failure::other, message = error.what();
-  }
+  } catch (const std::exception& error) { failure = Failure::other, message = error.what(); }
   throw_everywhere(comm, failure, std::move(message));
 }
 

@@ -38,13 +38,16 @@ struct Series {
 };
 
 std::string item(const std::string& dimensions, const char* type, int bytes, const std::string& file, const std::string& path) {
-  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:/{}</DataItem>", dimensions, type,
-                     bytes, file, path);
+  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:/{}</DataItem>",
+                     dimensions, type, bytes, file, path);
 }
 
 std::string attribute(const Field& field, const std::string& dimensions, const char* centre, const std::string& file,
                       const std::string& path) {
-  const char* type = field.components == 1 ? "Scalar" : field.components == 3 ? "Vector" : field.components == 6 ? "Tensor6" : "Tensor";
+  const char* type = field.components == 1   ? "Scalar"
+                     : field.components == 3 ? "Vector"
+                     : field.components == 6 ? "Tensor6"
+                                             : "Tensor";
   const std::string shape = field.components == 1 ? dimensions : fmt::format("{} {}", dimensions, field.components);
   return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", field.name, type, centre,
                      item(shape, "Float", 4, file, path));
@@ -89,7 +92,8 @@ struct GridFields::Impl {
     std::vector<SharedFile::Array> list;
     for (const GridBlock& b : blocks) {
       const auto extent = [](int n) { return static_cast<hsize_t>(n); };
-      std::vector<hsize_t> points{extent(b.nk + 1), extent(b.nj + 1), extent(b.ni + 1), 3}, cells{extent(b.nk), extent(b.nj), extent(b.ni)};
+      std::vector<hsize_t> points{extent(b.nk + 1), extent(b.nj + 1), extent(b.ni + 1), 3},
+          cells{extent(b.nk), extent(b.nj), extent(b.ni)};
       if (b.nk == 0) points.erase(points.begin()), cells.erase(cells.begin());
       if (with_points) list.push_back({b.name + "/points", H5T_NATIVE_DOUBLE, points, {}});
       for (const Field& field : series.fields) list.push_back(field_array(b.name + "/" + field.name, cells, field));
@@ -98,15 +102,17 @@ struct GridFields::Impl {
   }
 
   std::string grid(double time_s, const std::string& file) const {
-    std::string text = fmt::format("<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{}\"/>\n",
-                                   series.name, time_s);
+    std::string text = fmt::format(
+        "<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{}\"/>\n", series.name, time_s);
     for (const GridBlock& b : blocks) {
       const bool surface = b.nk == 0;
-      const std::string corners = surface ? fmt::format("{} {}", b.nj + 1, b.ni + 1) : fmt::format("{} {} {}", b.nk + 1, b.nj + 1, b.ni + 1),
+      const std::string corners = surface ? fmt::format("{} {}", b.nj + 1, b.ni + 1)
+                                          : fmt::format("{} {} {}", b.nk + 1, b.nj + 1, b.ni + 1),
                         cells = surface ? fmt::format("{} {}", b.nj, b.ni) : fmt::format("{} {} {}", b.nk, b.nj, b.ni);
-      text += fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\"><Topology TopologyType=\"{}DSMesh\" Dimensions=\"{}\"/>\n", b.name,
-                          surface ? 2 : 3, corners);
-      text += "<Geometry GeometryType=\"XYZ\">" + item(corners + " 3", "Float", 8, points_file, b.name + "/points") + "</Geometry>\n";
+      text += fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\"><Topology TopologyType=\"{}DSMesh\" Dimensions=\"{}\"/>\n",
+                          b.name, surface ? 2 : 3, corners);
+      text +=
+          "<Geometry GeometryType=\"XYZ\">" + item(corners + " 3", "Float", 8, points_file, b.name + "/points") + "</Geometry>\n";
       for (const Field& field : series.fields) text += attribute(field, cells, "Cell", file, b.name + "/" + field.name);
       text += "</Grid>\n";
     }
@@ -114,8 +120,8 @@ struct GridFields::Impl {
   }
 };
 
-GridFields::GridFields(MPI_Comm comm, fs::path folder, std::string name, std::vector<GridBlock> blocks, std::vector<Field> fields, bool moves,
-                       double resume_s)
+GridFields::GridFields(MPI_Comm comm, fs::path folder, std::string name, std::vector<GridBlock> blocks, std::vector<Field> fields,
+                       bool moves, double resume_s)
     : impl_(new Impl{{comm, std::move(folder), std::move(name), std::move(fields)}, std::move(blocks), moves}) {
   impl_->series.open(resume_s);
 }
@@ -184,7 +190,8 @@ void ParticleFields::write(std::int64_t tick, double time_s, std::span<const std
   SharedFile file(series.comm, series.folder / name);
   set_time(file, time_s);
   const auto extent = static_cast<hsize_t>(total);
-  std::vector<SharedFile::Array> arrays = {{"position", H5T_NATIVE_DOUBLE, {extent, 3}, {}}, {"id", H5T_NATIVE_INT64, {extent}, {}}};
+  std::vector<SharedFile::Array> arrays = {{"position", H5T_NATIVE_DOUBLE, {extent, 3}, {}},
+                                           {"id", H5T_NATIVE_INT64, {extent}, {}}};
   for (const Field& field : series.fields) arrays.push_back(field_array(field.name, {extent}, field));
   const std::vector<std::int64_t> places = file.add(arrays);
   together(series.comm, [&] {
@@ -195,7 +202,8 @@ void ParticleFields::write(std::int64_t tick, double time_s, std::span<const std
     std::vector<float> buffer;
     for (std::size_t f = 0; f < fields.size(); ++f) {
       const int components = series.fields[f].components;
-      require_size(fields[f].size(), ids.size() * static_cast<std::size_t>(components), series.name + "/" + series.fields[f].name);
+      require_size(fields[f].size(), ids.size() * static_cast<std::size_t>(components),
+                   series.name + "/" + series.fields[f].name);
       write_single(file, places[2 + f] + before * components * 4, fields[f], buffer);
     }
   });

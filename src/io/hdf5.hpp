@@ -52,8 +52,8 @@ File create(const std::filesystem::path& path);
 File open(const std::filesystem::path& path);
 /// To disk, then closed; where that fails the file is abandoned.
 void finish(File file, const std::filesystem::path& path);
-/// Closes a file that is not wanted any more, also one on a disk that takes nothing: HDF5 1.10 keeps the id of a file that it cannot flush
-/// and ends in a segmentation fault at MPI_Finalize. So its last writes go to memory instead.
+/// Closes a file that is not wanted any more, also one on a disk that takes nothing: HDF5 1.10 keeps the id of a file that it
+/// cannot flush and ends in a segmentation fault at MPI_Finalize. So its last writes go to memory instead.
 void abandon(File file) noexcept;
 
 /// Reads `count` values of a one-dimensional dataset from index `offset` on.

@@ -54,8 +54,7 @@ History::History() { add({"time_s", "s", "Simulated time at the end of the windo
 History::~History() {
   try {
     drain();
-  } catch (const MachineFailure&) {
-  }
+  } catch (const MachineFailure&) {}
 }
 
 std::size_t History::add(Column column) {

@@ -1,7 +1,6 @@
 // history.csv: named columns, one row per coupling window, every number with the digits that give the same double back.
-// Columns are declared by whoever has the values; rows are written by the coupling. Statistics of a finished file: history_statistics.hpp.
-// Tested in tests/src/io/history_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Columns are declared by whoever has the values; rows are written by the coupling. Statistics of a finished file:
+// history_statistics.hpp. Tested in tests/src/io/history_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <chrono>

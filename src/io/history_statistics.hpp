@@ -20,7 +20,7 @@ struct ColumnStatistics {
   std::string name;
   double final, min, max, min_time_s, max_time_s;  ///< over finite values; nan where there are none
   long long not_finite;                            ///< rows with nan or infinity
-  std::vector<double> means;                       ///< one per range: the trapezoidal mean over time; nan where a value is not finite
+  std::vector<double> means;  ///< one per range: the trapezoidal mean over time; nan where a value is not finite
 };
 
 struct HistoryStatistics {

@@ -63,8 +63,8 @@ void start_log(int rank, bool quiet) {
   auto sink = std::make_shared<ConsoleSink>();
   sink->set_formatter(std::make_unique<ConsoleFormatter>(rank == 0 ? "" : "rank " + std::to_string(rank) + ": "));
   sink->set_level(rank != 0 ? spdlog::level::err : quiet ? spdlog::level::warn : spdlog::level::info);
-  auto logger = std::make_shared<spdlog::logger>(
-      "spindrift", spdlog::sinks_init_list{std::move(sink), std::make_shared<CountingSink>()});
+  auto logger =
+      std::make_shared<spdlog::logger>("spindrift", spdlog::sinks_init_list{std::move(sink), std::make_shared<CountingSink>()});
   spdlog::set_default_logger(std::move(logger));
 }
 
@@ -77,9 +77,7 @@ void log_to_file(int rank, const std::filesystem::path& path) {
     spdlog::default_logger()->set_level(spdlog::level::debug);  // to the file alone: the console has a level of its own
     // Line by line: what a killed run said last is what is wanted.
     spdlog::default_logger()->flush_on(spdlog::level::info);
-  } catch (const spdlog::spdlog_ex& error) {
-    throw MachineFailure("cannot open the log: " + std::string(error.what()));
-  }
+  } catch (const spdlog::spdlog_ex& error) { throw MachineFailure("cannot open the log: " + std::string(error.what())); }
 }
 
 std::int64_t warnings_logged() { return warnings; }

@@ -1,6 +1,6 @@
-// The two kinds of failure that files bring: the machine's (disk, MPI: exit code 4) and the user's (a run directory in the way: exit code 2).
-// Thrown by all of src/io, caught in src/app; the other kinds are in docs/developer/errors.md. Tested in tests/src/io.
-// SPDX-License-Identifier: Apache-2.0
+// The two kinds of failure that files bring: the machine's (disk, MPI: exit code 4) and the user's (a run directory in the way:
+// exit code 2). Thrown by all of src/io, caught in src/app; the other kinds are in docs/developer/errors.md. Tested in
+// tests/src/io. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <stdexcept>

@@ -14,15 +14,13 @@ namespace spindrift::io {
 
 namespace {
 
-constexpr double redraw_s = 0.2;        // on a terminal
-constexpr double line_min_s = 10.0;     // between plain lines
-constexpr double line_max_s = 120.0;    // a job's output shows life at least this often
+constexpr double redraw_s = 0.2;      // on a terminal
+constexpr double line_min_s = 10.0;   // between plain lines
+constexpr double line_max_s = 120.0;  // a job's output shows life at least this often
 constexpr double line_fraction = 0.05;
-constexpr double stretch_s = 5.0;       // over which the speed is taken
+constexpr double stretch_s = 5.0;  // over which the speed is taken
 
-double steady_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double steady_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
@@ -32,8 +30,14 @@ ProgressStyle progress_style(int rank, bool quiet) {
 }
 
 Progress::Progress(double start_s, double end_s, ProgressStyle style, std::function<double()> clock)
-    : start_s_(start_s), end_s_(end_s), style_(style), clock_(clock ? std::move(clock) : steady_seconds), started_(clock_()),
-      said_at_(started_), mark_wall_(started_), mark_time_(start_s) {}
+    : start_s_(start_s),
+      end_s_(end_s),
+      style_(style),
+      clock_(clock ? std::move(clock) : steady_seconds),
+      started_(clock_()),
+      said_at_(started_),
+      mark_wall_(started_),
+      mark_time_(start_s) {}
 
 Progress::~Progress() {
   if (style_ == ProgressStyle::line) console::set_status("");
@@ -77,8 +81,8 @@ std::string progress_text(double time_s, double start_s, double end_s, double sp
   const int decimals = end_s - start_s < 10.0 ? 3 : end_s - start_s < 100.0 ? 2 : 1;
   std::string text = fmt::format("t = {:.{}f} of {:.{}f} s   {:3.0f} %", time_s, decimals, end_s, decimals, std::floor(percent));
   if (speed > 0.0) {
-    text += speed >= 0.1 ? fmt::format("   {:.3g} x real time", speed)
-                         : fmt::format("   {:.3g} wall s per simulated s", 1.0 / speed);
+    text +=
+        speed >= 0.1 ? fmt::format("   {:.3g} x real time", speed) : fmt::format("   {:.3g} wall s per simulated s", 1.0 / speed);
     text += fmt::format("   {} to go", duration_text((end_s - time_s) / speed));
   }
   return text;

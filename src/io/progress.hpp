@@ -1,6 +1,6 @@
-// Progress of a run: simulated time, fraction, speed against real time, time to go. On a terminal one line that is rewritten, elsewhere
-// (a job's output file) a line now and then through the log. Called by the coupling, on rank 0. Tested in tests/src/io/run_files_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Progress of a run: simulated time, fraction, speed against real time, time to go. On a terminal one line that is rewritten,
+// elsewhere (a job's output file) a line now and then through the log. Called by the coupling, on rank 0. Tested in
+// tests/src/io/run_files_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // The folder of one run: where it is, that nothing in it is lost by accident, and the names of the files in it.
-// Made once by `spindrift run` before anything else is written. Contents: docs/user/outputs.md. Tested in tests/src/io/run_files_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Made once by `spindrift run` before anything else is written. Contents: docs/user/outputs.md. Tested in
+// tests/src/io/run_files_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <mpi.h>
@@ -23,7 +23,8 @@ class RunDirectory {
   /// Collective. Makes the folder and its parents. Throws on all ranks alike.
   RunDirectory(MPI_Comm comm, std::filesystem::path path, Existing existing);
 
-  /// runs/SCENE_2026-11-21_14-03-59 in the current folder; a number is added where that exists. Collective: rank 0's clock counts.
+  /// runs/SCENE_2026-11-21_14-03-59 in the current folder; a number is added where that exists. Collective: rank 0's clock
+  /// counts.
   static std::filesystem::path default_path(MPI_Comm comm, const std::filesystem::path& scene);
 
   const std::filesystem::path& path() const { return path_; }

@@ -1,9 +1,8 @@
 // An HDF5 file that all ranks fill: rank 0 lays it out, each rank writes its values to their places in it.
-// Only rank 0 calls the HDF5 library; the others (and it) write by plain file operations at the offsets that the layout gives. The file is
-// ordinary HDF5. Why not HDF5 over MPI-IO: with HDF5 1.10 and Open MPI 4.1 a full disk leaves ranks waiting for each other for ever, in
-// collective transfers as in the flush of metadata; here each rank has its own error and all of them share it (collective.hpp).
-// Used by checkpoint.cpp and fields.cpp. Tested through them.
-// SPDX-License-Identifier: Apache-2.0
+// Only rank 0 calls the HDF5 library; the others (and it) write by plain file operations at the offsets that the layout gives.
+// The file is ordinary HDF5. Why not HDF5 over MPI-IO: with HDF5 1.10 and Open MPI 4.1 a full disk leaves ranks waiting for each
+// other for ever, in collective transfers as in the flush of metadata; here each rank has its own error and all of them share it
+// (collective.hpp). Used by checkpoint.cpp and fields.cpp. Tested through them. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <mpi.h>

@@ -19,8 +19,11 @@ using Json = nlohmann::ordered_json;  // readers see the order written here
 Json of_statistics(const HistoryStatistics& statistics) {
   Json columns = Json::object();
   for (const ColumnStatistics& column : statistics.columns) {
-    Json entry = {{"final", column.final}, {"min", column.min}, {"min_time_s", column.min_time_s},
-                  {"max", column.max},     {"max_time_s", column.max_time_s}};
+    Json entry = {{"final", column.final},
+                  {"min", column.min},
+                  {"min_time_s", column.min_time_s},
+                  {"max", column.max},
+                  {"max_time_s", column.max_time_s}};
     if (column.not_finite > 0) entry["not_finite"] = column.not_finite;
     Json means = Json::object();
     for (std::size_t r = 0; r < column.means.size(); ++r) means[statistics.ranges[r].name] = column.means[r];
@@ -46,7 +49,7 @@ Json of_build() {
   const BuildInfo& build = build_info();
   Json libraries = Json::object();
   for (const auto& [name, version] : build.libraries) libraries[name] = version;
-  return {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler},
+  return {{"version", build.version}, {"commit", build.commit},   {"compiler", build.compiler},
           {"flags", build.flags},     {"type", build.build_type}, {"libraries", libraries}};
 }
 

@@ -1,5 +1,5 @@
-// The XDMF 2 text that makes a row of HDF5 files a time series in ParaView (5.11). Grows by one entry per output and is whole at any time.
-// Rank 0 of fields.cpp keeps one per grid or particle set. Tested in tests/src/io/fields_test.cpp.
+// The XDMF 2 text that makes a row of HDF5 files a time series in ParaView (5.11). Grows by one entry per output and is whole at
+// any time. Rank 0 of fields.cpp keeps one per grid or particle set. Tested in tests/src/io/fields_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

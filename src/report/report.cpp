@@ -29,7 +29,8 @@ std::string interpreter() {
 /// Beside an installed program, else in the sources it was built from.
 fs::path program() {
   std::error_code none;
-  const fs::path installed = fs::read_symlink("/proc/self/exe", none).parent_path() / SPINDRIFT_REPORT_FROM_BINARY / "spindrift_report.py";
+  const fs::path installed =
+      fs::read_symlink("/proc/self/exe", none).parent_path() / SPINDRIFT_REPORT_FROM_BINARY / "spindrift_report.py";
   return fs::exists(installed, none) ? installed : fs::path(SPINDRIFT_REPORT_SOURCE_DIR) / "spindrift_report.py";
 }
 
@@ -93,11 +94,11 @@ std::optional<std::string> write(const Request& request) {
   const std::string said = error == 0 ? read_all(ends[0]) : "";
   ::close(ends[0]);
   if (error != 0)
-    return "no report: cannot start " + words[0] + ": " + std::strerror(error) + "; install python3 (ci/setup does) or set SPINDRIFT_PYTHON";
+    return "no report: cannot start " + words[0] + ": " + std::strerror(error) +
+           "; install python3 (ci/setup does) or set SPINDRIFT_PYTHON";
 
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
   if (WIFSIGNALED(status)) return "no report: " + words[0] + " was ended by signal " + std::to_string(WTERMSIG(status));
   return "no report: " + (said.empty() ? words[0] + " says nothing" : last_line(said));

@@ -1,6 +1,6 @@
 // report.html of a run, or of several side by side: starts the Python program of this folder on run directories.
-// Called by `spindrift run` at its end and by `spindrift report`. A report that cannot be made never fails a run: the caller logs the reason.
-// Tested in tests/src/report/wrapper_test.cpp; the page itself in tests/src/report/report_test.py.
+// Called by `spindrift run` at its end and by `spindrift report`. A report that cannot be made never fails a run: the caller logs
+// the reason. Tested in tests/src/report/wrapper_test.cpp; the page itself in tests/src/report/report_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -91,7 +91,7 @@ class Document {
   void read_into(const SectionBase& section, void* options);
   void read_named_into(const SectionBase& section, const std::string& name, void* options);
   bool is_section(const SectionBase& section) const;  ///< false where the scene gives its name something else
-  bool announce(const SectionBase& section);  ///< notes the section as known; true where the scene names it
+  bool announce(const SectionBase& section);          ///< notes the section as known; true where the scene names it
   std::vector<std::string> names(const SectionBase& section);
   std::pair<const Value*, bool> locate(std::string_view key) const;  ///< the deepest value on the way; is it the key itself?
   void add(const Value* at, std::string key, std::string value, std::string message);

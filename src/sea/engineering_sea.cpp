@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/engineering_sea.hpp"
 
-
 #include "kernels/waves/morison.hpp"
 
 namespace spindrift::sea {
@@ -31,7 +30,8 @@ std::vector<Strip> strips_of(const SeaBody& body, const SeaOptions& options) {
     const double touching = 1e-6 * shape.length();
     // The hydrostatic rung needs the exact volume only: one strip.
     const double longest = options.model == "morison" ? options.strip_length_m : shape.length();
-    append_strips(shape, coefficients_of(body.cylinders[i].name, options), exposed_area(shape.start, shape.start_radius, others, touching),
+    append_strips(shape, coefficients_of(body.cylinders[i].name, options),
+                  exposed_area(shape.start, shape.start_radius, others, touching),
                   exposed_area(shape.end, shape.end_radius, others, touching), longest, strips);
   }
   return strips;
@@ -58,7 +58,7 @@ struct Water {
   const WaveField& waves;
   const Eigen::Vector3d& current;
   const Frame& body;
-  const waves::WaterPlane& surface;          ///< about the centre of mass
+  const waves::WaterPlane& surface;  ///< about the centre of mass
   double t;
   waves::Kinematics at(const Eigen::Vector3d& arm) const {
     if (waves.still()) return {current, Eigen::Vector3d::Zero(), 0.0};
@@ -87,7 +87,8 @@ void add_morison(const WettedStrip& strip, const Coefficients& c, double density
     const waves::Kinematics k = water.at(e.arm);
     const double disc = pi * e.radius * e.radius;
     const double added = waves::added_mass_end(density, c.axial_added_mass, e.radius) * e.exposed_area / disc;
-    add_at(loads.drag, waves::drag_end(density, c.axial_drag, e.exposed_area, k.velocity - body.velocity_at(e.arm), strip.axis), e.arm);
+    add_at(loads.drag, waves::drag_end(density, c.axial_drag, e.exposed_area, k.velocity - body.velocity_at(e.arm), strip.axis),
+           e.arm);
     add_at(loads.inertia, added * along * (k.acceleration - body.centripetal_at(e.arm)), e.arm);
     if (mass) waves::add_point_inertia(added * along, e.arm, *mass);
   }
@@ -104,8 +105,8 @@ EngineeringSea::EngineeringSea(const SeaOptions& options, const WavesOptions& wa
     for (const DampingOptions& damping : options.damping) {
       if (damping.body != body.name) continue;
       const Eigen::Vector3d point = damping.point_m.value_or(body.initial.position);
-      own.damping.push_back({body.initial.attitude.conjugate() * (point - body.initial.position), damping.force_N_s_m,
-                             damping.moment_N_m_s});
+      own.damping.push_back(
+          {body.initial.attitude.conjugate() * (point - body.initial.position), damping.force_N_s_m, damping.moment_N_m_s});
     }
     bodies_.push_back(std::move(own));
   }

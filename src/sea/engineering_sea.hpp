@@ -21,22 +21,22 @@ namespace spindrift::sea {
 
 struct NamedCylinder {
   std::string name;
-  Cylinder shape;                    ///< body axes from the centre of mass
+  Cylinder shape;  ///< body axes from the centre of mass
 };
 
 /// A body as the sea sees it; in the order of the motions. A body without cylinders costs nothing.
 struct SeaBody {
   std::string name;
-  Motion initial;                    ///< as the scene states it: turns initial earth coordinates into body axes
+  Motion initial;  ///< as the scene states it: turns initial earth coordinates into body axes
   std::vector<NamedCylinder> cylinders;
 };
 
 /// Loads on one body by physical part, each about its centre of mass, earth axes.
 struct SeaLoads {
-  Wrench buoyancy;                   ///< rho g V, up to the local surface
-  Wrench inertia;                    ///< Froude-Krylov and wave part of the added mass
-  Wrench drag;                       ///< transverse and of the ends
-  Wrench damping;                    ///< linear, [[sea.damping]]
+  Wrench buoyancy;  ///< rho g V, up to the local surface
+  Wrench inertia;   ///< Froude-Krylov and wave part of the added mass
+  Wrench drag;      ///< transverse and of the ends
+  Wrench damping;   ///< linear, [[sea.damping]]
 };
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -62,7 +62,7 @@ class EngineeringSea {
 
  private:
   struct Damping {
-    Eigen::Vector3d arm, force, moment;          ///< body axes
+    Eigen::Vector3d arm, force, moment;  ///< body axes
   };
   struct BodyStrips {
     std::vector<Strip> strips;

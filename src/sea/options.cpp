@@ -1,5 +1,5 @@
-// Declarations of [waves] and [sea]: see options.hpp. Why the defaults are what they are: docs/theory/sea_engineering.md, section 5.
-// SPDX-License-Identifier: Apache-2.0
+// Declarations of [waves] and [sea]: see options.hpp. Why the defaults are what they are: docs/theory/sea_engineering.md,
+// section 5. SPDX-License-Identifier: Apache-2.0
 #include "src/sea/options.hpp"
 
 namespace spindrift::sea {
@@ -10,7 +10,8 @@ using scene::Section;
 const Section<CoefficientsOptions>& coefficients_section() {
   static const auto section =
       Section<CoefficientsOptions>("coefficients", "Coefficients of one cylinder in place of those of [sea].")
-          .text("cylinder", &CoefficientsOptions::cylinder, "Name of a cylinder in [[bodies.NAME.cylinders]].").required()
+          .text("cylinder", &CoefficientsOptions::cylinder, "Name of a cylinder in [[bodies.NAME.cylinders]].")
+          .required()
           .number("drag_coefficient", &CoefficientsOptions::drag_coefficient, "-", "Transverse drag.", scene::between(0.0, 20.0))
           .number("added_mass_coefficient", &CoefficientsOptions::added_mass_coefficient, "-", "Transverse added mass.",
                   scene::between(0.0, 20.0))
@@ -24,7 +25,8 @@ const Section<CoefficientsOptions>& coefficients_section() {
 const Section<DampingOptions>& damping_section() {
   static const auto section =
       Section<DampingOptions>("damping", "Linear damping of one body in its own axes, of radiation or fitted to decay tests.")
-          .text("body", &DampingOptions::body, "Name of a body.").required()
+          .text("body", &DampingOptions::body, "Name of a body.")
+          .required()
           .vector("force_N_s_m", &DampingOptions::force_N_s_m, "N s/m", "Force per velocity in surge, sway and heave.",
                   scene::not_negative())
           .vector("moment_N_m_s", &DampingOptions::moment_N_m_s, "N m s", "Moment per angular velocity in roll, pitch and yaw.",
@@ -48,33 +50,42 @@ const Section<WavesOptions>& waves_section() {
                    {"jonswap", "irregular, growing sea with a narrow peak"},
                    {"pierson_moskowitz", "irregular, fully developed sea"}},
                   "Kind of waves.")
-          .number("height_m", &WavesOptions::height_m, "m", "Crest to trough; of a sea state, the significant height.", scene::positive())
-              .required().only_if("model", any_wave)
+          .number("height_m", &WavesOptions::height_m, "m", "Crest to trough; of a sea state, the significant height.",
+                  scene::positive())
+          .required()
+          .only_if("model", any_wave)
           .number("period_s", &WavesOptions::period_s, "s", "Period; of a sea state, the peak period.", scene::positive())
-              .required().only_if("model", any_wave)
+          .required()
+          .only_if("model", any_wave)
           .degrees("direction_deg", &WavesOptions::direction, "Towards which the waves travel: 0 along x, 90 along y.",
-                   scene::between(-360.0, 360.0)).only_if("model", any_wave)
-          .degrees("phase_deg", &WavesOptions::phase, "Phase at the origin at time 0; 0 is a crest.", scene::between(-360.0, 360.0))
-              .only_if("model", regular)
-          .number("ramp_s", &WavesOptions::ramp_s, "s", "Time over which the waves grow smoothly from nothing.", scene::not_negative())
-              .only_if("model", any_wave)
+                   scene::between(-360.0, 360.0))
+          .only_if("model", any_wave)
+          .degrees("phase_deg", &WavesOptions::phase, "Phase at the origin at time 0; 0 is a crest.",
+                   scene::between(-360.0, 360.0))
+          .only_if("model", regular)
+          .number("ramp_s", &WavesOptions::ramp_s, "s", "Time over which the waves grow smoothly from nothing.",
+                  scene::not_negative())
+          .only_if("model", any_wave)
           .choice("stretching", &WavesOptions::stretching,
                   {{"wheeler", "profiles are squeezed or stretched to the surface"},
                    {"vertical", "constant above still water"},
                    {"extrapolated", "the formula is used up to the surface"}},
                   "How linear kinematics reach the moving surface; a Stokes wave is always extrapolated.")
-              .only_if("model", {"airy", "jonswap", "pierson_moskowitz"})
-          .integer("seed", &WavesOptions::seed, "-", "Seed of the random phases; the same seed gives the same sea on every machine.",
-                   scene::not_negative()).only_if("model", irregular)
+          .only_if("model", {"airy", "jonswap", "pierson_moskowitz"})
+          .integer("seed", &WavesOptions::seed, "-",
+                   "Seed of the random phases; the same seed gives the same sea on every machine.", scene::not_negative())
+          .only_if("model", irregular)
           .integer("components", &WavesOptions::components, "-", "Number of harmonics.", scene::between(8, 20000))
-              .only_if("model", irregular)
+          .only_if("model", irregular)
           .choice("spacing", &WavesOptions::spacing,
                   {{"equal_energy", "each harmonic carries the same energy; the sea does not repeat"},
                    {"equal_frequency", "equal steps of frequency; the sea repeats after 2 pi / step"}},
-                  "How the frequencies of the harmonics are chosen.").only_if("model", irregular)
+                  "How the frequencies of the harmonics are chosen.")
+          .only_if("model", irregular)
           .number("peak_enhancement", &WavesOptions::peak_enhancement, "-",
-                  "Gamma of the JONSWAP spectrum; where not given, from height and period after DNV-RP-C205.", scene::between(1.0, 7.0))
-              .only_if("model", {"jonswap"});
+                  "Gamma of the JONSWAP spectrum; where not given, from height and period after DNV-RP-C205.",
+                  scene::between(1.0, 7.0))
+          .only_if("model", {"jonswap"});
   return section;
 }
 
@@ -89,32 +100,49 @@ const Section<SeaOptions>& sea_section() {
                    {"sph", "a tank of particles (weakly compressible SPH): waves, breaking, green water, any motion"}},
                   "Rung of the ladder.")
           .number("drag_coefficient", &SeaOptions::drag_coefficient, "-", "Transverse drag of the cylinders, on the diameter.",
-                  scene::between(0.0, 20.0)).only_if("model", strips)
+                  scene::between(0.0, 20.0))
+          .only_if("model", strips)
           .number("added_mass_coefficient", &SeaOptions::added_mass_coefficient, "-",
-                  "Transverse added mass of the cylinders, on the displaced mass.", scene::between(0.0, 20.0)).only_if("model", strips)
+                  "Transverse added mass of the cylinders, on the displaced mass.", scene::between(0.0, 20.0))
+          .only_if("model", strips)
           .number("axial_drag_coefficient", &SeaOptions::axial_drag_coefficient, "-", "Drag of each exposed end, on its area.",
-                  scene::between(0.0, 100.0)).only_if("model", strips)
+                  scene::between(0.0, 100.0))
+          .only_if("model", strips)
           .number("axial_added_mass_coefficient", &SeaOptions::axial_added_mass_coefficient, "-",
                   "Added mass of each exposed end, on the water in a hemisphere over it.", scene::between(0.0, 100.0))
-              .only_if("model", strips)
-          .number("strip_length_m", &SeaOptions::strip_length_m, "m", "Longest strip of a cylinder; each has two points of integration.",
-                  scene::positive()).only_if("model", strips)
+          .only_if("model", strips)
+          .number("strip_length_m", &SeaOptions::strip_length_m, "m",
+                  "Longest strip of a cylinder; each has two points of integration.", scene::positive())
+          .only_if("model", strips)
           .vector("current_m_s", &SeaOptions::current_m_s, "m/s", "Uniform current, earth axes.", scene::between(-20.0, 20.0))
-              .only_if("model", strips)
+          .only_if("model", strips)
           .tables("coefficients", &SeaOptions::coefficients, coefficients_section(), "Coefficients of single cylinders.")
-              .only_if("model", strips)
-          .tables("damping", &SeaOptions::damping, damping_section(), "Linear damping of bodies.").only_if("model", wet)
-          .table("particles", &SeaOptions::particles, particle_section(), "Resolution and schemes.").only_if("model", particles).required()
-          .table("tank", &SeaOptions::tank, tank_section(), "Where water may be.").only_if("model", particles).required()
-          .tables("water", &SeaOptions::water, water_section(), "Boxes of water; where there are none the tank is filled to z = 0.")
-              .only_if("model", particles)
-          .tables("obstacles", &SeaOptions::obstacles, obstacle_section(), "Fixed boxes.").only_if("model", particles)
-          .table("wavemaker", &SeaOptions::wavemaker, wavemaker_section(), "A paddle.").only_if("model", particles)
-          .tables("damping_zones", &SeaOptions::damping_zones, damping_zone_section(), "Where waves die away.").only_if("model", particles)
-          .table("initial", &SeaOptions::initial, initial_section(), "How the sea starts.").only_if("model", particles)
-          .tables("gauges", &SeaOptions::gauges, gauge_section(), "Wave gauges.").only_if("model", particles)
-          .tables("probes", &SeaOptions::probes, probe_section(), "Pressure and velocity probes.").only_if("model", particles)
-          .table("fields", &SeaOptions::fields, fields_section(), "Output for ParaView.").only_if("model", particles);
+          .only_if("model", strips)
+          .tables("damping", &SeaOptions::damping, damping_section(), "Linear damping of bodies.")
+          .only_if("model", wet)
+          .table("particles", &SeaOptions::particles, particle_section(), "Resolution and schemes.")
+          .only_if("model", particles)
+          .required()
+          .table("tank", &SeaOptions::tank, tank_section(), "Where water may be.")
+          .only_if("model", particles)
+          .required()
+          .tables("water", &SeaOptions::water, water_section(),
+                  "Boxes of water; where there are none the tank is filled to z = 0.")
+          .only_if("model", particles)
+          .tables("obstacles", &SeaOptions::obstacles, obstacle_section(), "Fixed boxes.")
+          .only_if("model", particles)
+          .table("wavemaker", &SeaOptions::wavemaker, wavemaker_section(), "A paddle.")
+          .only_if("model", particles)
+          .tables("damping_zones", &SeaOptions::damping_zones, damping_zone_section(), "Where waves die away.")
+          .only_if("model", particles)
+          .table("initial", &SeaOptions::initial, initial_section(), "How the sea starts.")
+          .only_if("model", particles)
+          .tables("gauges", &SeaOptions::gauges, gauge_section(), "Wave gauges.")
+          .only_if("model", particles)
+          .tables("probes", &SeaOptions::probes, probe_section(), "Pressure and velocity probes.")
+          .only_if("model", particles)
+          .table("fields", &SeaOptions::fields, fields_section(), "Output for ParaView.")
+          .only_if("model", particles);
   return section;
 }
 

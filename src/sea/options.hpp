@@ -1,5 +1,5 @@
-// What a scene may say about waves and about the engineering rungs of the sea: [waves], [sea], [[sea.coefficients]], [[sea.damping]].
-// Read by the coupling, which builds an EngineeringSea from them; tested in tests/src/sea.
+// What a scene may say about waves and about the engineering rungs of the sea: [waves], [sea], [[sea.coefficients]],
+// [[sea.damping]]. Read by the coupling, which builds an EngineeringSea from them; tested in tests/src/sea.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,17 +16,17 @@ namespace spindrift::sea {
 
 /// [waves]
 struct WavesOptions {
-  std::string model = "none";                    ///< none, airy, stokes2, jonswap, pierson_moskowitz
-  double height_m = 0.0;                         ///< crest to trough; of a sea state, the significant height
-  double period_s = 0.0;                         ///< of a sea state, the peak period
-  double direction = 0.0;                        ///< towards which the waves travel, from x to y [rad]
-  double phase = 0.0;                            ///< of a regular wave at the origin at t = 0; 0: a crest [rad]
-  double ramp_s = 0.0;                           ///< the waves grow from nothing over this time
-  std::string stretching = "wheeler";            ///< wheeler, vertical, extrapolated (stokes2 is always extrapolated)
-  std::int64_t seed = 1;                         ///< of the random phases
-  int components = 200;                          ///< harmonics of a sea state
-  std::string spacing = "equal_energy";          ///< equal_energy, equal_frequency
-  std::optional<double> peak_enhancement;        ///< gamma of JONSWAP; from height and period where absent (DNV-RP-C205)
+  std::string model = "none";              ///< none, airy, stokes2, jonswap, pierson_moskowitz
+  double height_m = 0.0;                   ///< crest to trough; of a sea state, the significant height
+  double period_s = 0.0;                   ///< of a sea state, the peak period
+  double direction = 0.0;                  ///< towards which the waves travel, from x to y [rad]
+  double phase = 0.0;                      ///< of a regular wave at the origin at t = 0; 0: a crest [rad]
+  double ramp_s = 0.0;                     ///< the waves grow from nothing over this time
+  std::string stretching = "wheeler";      ///< wheeler, vertical, extrapolated (stokes2 is always extrapolated)
+  std::int64_t seed = 1;                   ///< of the random phases
+  int components = 200;                    ///< harmonics of a sea state
+  std::string spacing = "equal_energy";    ///< equal_energy, equal_frequency
+  std::optional<double> peak_enhancement;  ///< gamma of JONSWAP; from height and period where absent (DNV-RP-C205)
 };
 
 /// [[sea.coefficients]]: what one cylinder has instead of the values of [sea].
@@ -38,20 +38,20 @@ struct CoefficientsOptions {
 /// [[sea.damping]]: linear damping of one body in its own axes, e.g. radiation damping or one fitted to decay tests.
 struct DampingOptions {
   std::string body;
-  Eigen::Vector3d force_N_s_m = Eigen::Vector3d::Zero();     ///< surge, sway, heave
-  Eigen::Vector3d moment_N_m_s = Eigen::Vector3d::Zero();    ///< roll, pitch, yaw
-  std::optional<Eigen::Vector3d> point_m;        ///< initial earth position where the force acts; the centre of mass where absent
+  Eigen::Vector3d force_N_s_m = Eigen::Vector3d::Zero();   ///< surge, sway, heave
+  Eigen::Vector3d moment_N_m_s = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw
+  std::optional<Eigen::Vector3d> point_m;  ///< initial earth position where the force acts; the centre of mass where absent
 };
 
 /// [sea]
 struct SeaOptions {
-  std::string model = "none";                    ///< none, hydrostatic, morison, sph
-  double drag_coefficient = 1.0;                 ///< transverse, on the diameter
-  double added_mass_coefficient = 1.0;           ///< transverse, on the displaced mass
-  double axial_drag_coefficient = 1.0;           ///< of each exposed end, on its area
-  double axial_added_mass_coefficient = 0.64;    ///< of each exposed end, on the hemisphere 2/3 pi R^3; 2/pi: one side of a disc
-  double strip_length_m = 5.0;                   ///< longest strip of a cylinder
-  Eigen::Vector3d current_m_s = Eigen::Vector3d::Zero();     ///< uniform, earth axes
+  std::string model = "none";                  ///< none, hydrostatic, morison, sph
+  double drag_coefficient = 1.0;               ///< transverse, on the diameter
+  double added_mass_coefficient = 1.0;         ///< transverse, on the displaced mass
+  double axial_drag_coefficient = 1.0;         ///< of each exposed end, on its area
+  double axial_added_mass_coefficient = 0.64;  ///< of each exposed end, on the hemisphere 2/3 pi R^3; 2/pi: one side of a disc
+  double strip_length_m = 5.0;                 ///< longest strip of a cylinder
+  Eigen::Vector3d current_m_s = Eigen::Vector3d::Zero();  ///< uniform, earth axes
   std::vector<CoefficientsOptions> coefficients;
   std::vector<DampingOptions> damping;
   // of "sph"
@@ -74,9 +74,9 @@ const scene::Section<SeaOptions>& sea_section();
 
 /// What [environment] and the still-water level mean for the sea.
 struct SeaEnvironment {
-  double water_density = 1025.0;                 ///< [kg/m3]
-  double water_depth = 100.0;                    ///< [m]
-  double gravity = 9.80665;                      ///< [m/s2]
+  double water_density = 1025.0;  ///< [kg/m3]
+  double water_depth = 100.0;     ///< [m]
+  double gravity = 9.80665;       ///< [m/s2]
 };
 
 }  // namespace spindrift::sea

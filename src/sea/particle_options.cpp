@@ -16,8 +16,10 @@ namespace {
 
 Section<BoxOptions> box(const char* name, const char* help) {
   return Section<BoxOptions>(name, help)
-      .vector("low_m", &BoxOptions::low_m, "m", "Lowest corner.").required()
-      .vector("high_m", &BoxOptions::high_m, "m", "Highest corner.").required()
+      .vector("low_m", &BoxOptions::low_m, "m", "Lowest corner.")
+      .required()
+      .vector("high_m", &BoxOptions::high_m, "m", "Highest corner.")
+      .required()
       .check([](const BoxOptions& o, const scene::Report& report) {
         for (int k = 0; k < 3; ++k)
           if (!(o.high_m[k] > o.low_m[k])) return report("high_m", "must be above low_m along every axis");
@@ -33,9 +35,11 @@ void check_span(const std::array<double, 2>& span, const char* key, const scene:
 const Section<ParticleOptions>& particle_section() {
   static const auto section =
       Section<ParticleOptions>("particles", "Resolution and schemes of the sea of particles (docs/theory/sph.md).")
-          .number("spacing_m", &ParticleOptions::spacing_m, "m", "Distance d between particles at the start.", positive()).required()
+          .number("spacing_m", &ParticleOptions::spacing_m, "m", "Distance d between particles at the start.", positive())
+          .required()
           .choice("dimensions", &ParticleOptions::dimensions,
-                  {{"2", "the plane of x and z; loads on bodies are those of width_m"}, {"3", "space"}}, "Dimensions of the scene.")
+                  {{"2", "the plane of x and z; loads on bodies are those of width_m"}, {"3", "space"}},
+                  "Dimensions of the scene.")
           .number("width_m", &ParticleOptions::width_m, "m", "Width of sea that a 2-D scene stands for.", positive())
           .only_if("dimensions", {"2"})
           .number("smoothing_over_spacing", &ParticleOptions::smoothing_over_spacing, "-",
@@ -44,9 +48,11 @@ const Section<ParticleOptions>& particle_section() {
                   {{"wendland", sph::KernelChoice::wendland, "quintic C2; particles do not clump"},
                    {"cubic_spline", sph::KernelChoice::cubic, "cubic B-spline"}},
                   "Smoothing kernel.")
-          .number("sound_speed_factor", &ParticleOptions::sound_speed_factor, "-",
-                  "Speed of sound over sqrt(gravity x water depth): 10 where neither this nor sound_speed_m_s is given, which keeps "
-                  "density within 1 %.", between(5.0, 400.0))
+          .number(
+              "sound_speed_factor", &ParticleOptions::sound_speed_factor, "-",
+              "Speed of sound over sqrt(gravity x water depth): 10 where neither this nor sound_speed_m_s is given, which keeps "
+              "density within 1 %.",
+              between(5.0, 400.0))
           .number("sound_speed_m_s", &ParticleOptions::sound_speed_m_s, "m/s", "Speed of sound itself.", positive())
           .choice("viscosity_model", &ParticleOptions::viscosity_model,
                   {{"artificial", sph::ViscosityChoice::artificial, "Monaghan's, on approaching pairs: steadies and dissipates"},
@@ -57,8 +63,10 @@ const Section<ParticleOptions>& particle_section() {
           .only_if("viscosity_model", {"artificial"})
           .number("solid_viscosity", &ParticleOptions::solid_viscosity, "-",
                   "The same between water and walls or bodies; the paper neglects it (0). That of the water where absent.",
-                  between(0.0, 2.0)).only_if("viscosity_model", {"artificial"})
-          .number("kinematic_viscosity_m2_s", &ParticleOptions::kinematic_viscosity_m2_s, "m2/s", "Kinematic viscosity.", not_negative())
+                  between(0.0, 2.0))
+          .only_if("viscosity_model", {"artificial"})
+          .number("kinematic_viscosity_m2_s", &ParticleOptions::kinematic_viscosity_m2_s, "m2/s", "Kinematic viscosity.",
+                  not_negative())
           .only_if("viscosity_model", {"laminar", "laminar_sps"})
           .number("solid_kinematic_viscosity_m2_s", &ParticleOptions::solid_kinematic_viscosity_m2_s, "m2/s",
                   "The same between water and walls or bodies; that of the water where absent.", not_negative())
@@ -71,10 +79,13 @@ const Section<ParticleOptions>& particle_section() {
                   "What walls and bodies do to the water beside them; modified ones need a level bed.")
           .flag("contact", &ParticleOptions::contact, "Bodies touch walls and each other; the loads are columns BODY.contact.")
           .number("contact_stiffness", &ParticleOptions::contact_stiffness, "-", "Stiffness of contact over that of the water.",
-                  between(0.01, 1.0)).only_if("contact", {"true"})
+                  between(0.01, 1.0))
+          .only_if("contact", {"true"})
           .number("contact_damping", &ParticleOptions::contact_damping, "-", "Damping of contact, as a share of critical.",
-                  between(0.0, 1.0)).only_if("contact", {"true"})
-          .number("contact_friction", &ParticleOptions::contact_friction, "-", "Coulomb's coefficient of friction.", between(0.0, 2.0))
+                  between(0.0, 1.0))
+          .only_if("contact", {"true"})
+          .number("contact_friction", &ParticleOptions::contact_friction, "-", "Coulomb's coefficient of friction.",
+                  between(0.0, 2.0))
           .only_if("contact", {"true"})
           .choice("density_diffusion", &ParticleOptions::density_diffusion,
                   {{"none", sph::DiffusionChoice::none, "pressure may be noisy"},
@@ -82,7 +93,8 @@ const Section<ParticleOptions>& particle_section() {
                    {"fourtakas", sph::DiffusionChoice::fourtakas, "Fourtakas et al. (2019), hydrostatic part taken out"}},
                   "Diffusion of density, which smooths the pressure.")
           .number("diffusion_strength", &ParticleOptions::diffusion_strength, "-", "Delta of the density diffusion.",
-                  between(0.0, 0.5)).only_if("density_diffusion", {"molteni", "fourtakas"})
+                  between(0.0, 0.5))
+          .only_if("density_diffusion", {"molteni", "fourtakas"})
           .choice("density_filter", &ParticleOptions::density_filter,
                   {{"none", sph::FilterChoice::none, "density is what continuity makes it"},
                    {"shepard", sph::FilterChoice::shepard, "zeroth order"},
@@ -91,14 +103,19 @@ const Section<ParticleOptions>& particle_section() {
           .integer("filter_every", &ParticleOptions::filter_every, "-", "Steps from one filter to the next.", between(1, 1e6))
           .only_if("density_filter", {"shepard", "mls"})
           .number("shifting", &ParticleOptions::shifting, "-",
-                  "Strength of particle shifting, 1 to 6; 0: none. Keeps particles even in violent flow; not for waves.", between(0.0, 6.0))
+                  "Strength of particle shifting, 1 to 6; 0: none. Keeps particles even in violent flow; not for waves.",
+                  between(0.0, 6.0))
           .choice("step", &ParticleOptions::step,
                   {{"symplectic", sph::StepChoice::symplectic, "two evaluations, second order (the paper's)"},
                    {"verlet", sph::StepChoice::verlet, "one evaluation, half the cost, half the accuracy"}},
                   "Time step of the particles.")
-          .integer("verlet_join_every", &ParticleOptions::verlet_join_every, "-", "Steps from one that ties the two chains of Verlet's "
-                   "step together to the next.", between(2, 1000)).only_if("step", {"verlet"})
-          .number("cfl", &ParticleOptions::cfl, "-", "Courant number of the acoustic, force and viscous limits.", above(0.0).up_to(0.6))
+          .integer("verlet_join_every", &ParticleOptions::verlet_join_every, "-",
+                   "Steps from one that ties the two chains of Verlet's "
+                   "step together to the next.",
+                   between(2, 1000))
+          .only_if("step", {"verlet"})
+          .number("cfl", &ParticleOptions::cfl, "-", "Courant number of the acoustic, force and viscous limits.",
+                  above(0.0).up_to(0.6))
           .choice("precision", &ParticleOptions::precision,
                   {{"single", "pairs in float, state in double"}, {"double", "everything in double, about twice the time"}},
                   "Arithmetic of the pairs.")
@@ -109,16 +126,21 @@ const Section<ParticleOptions>& particle_section() {
 }
 
 const Section<TankOptions>& tank_section() {
-  static const std::vector<scene::Choice> sides = {{"wall", "walls of particles"}, {"periodic", "what leaves on one side enters on the other"}};
+  static const std::vector<scene::Choice> sides = {{"wall", "walls of particles"},
+                                                   {"periodic", "what leaves on one side enters on the other"}};
   static const auto section =
-      Section<TankOptions>("tank", "The tank: walls, bed and open sides. Still water stands at z = 0, the flat bed at the water depth.")
-          .vector("x_m", &TankOptions::x_m, "m", "From and to along x; a wavemaker stands at the lower end.").required()
+      Section<TankOptions>("tank",
+                           "The tank: walls, bed and open sides. Still water stands at z = 0, the flat bed at the water depth.")
+          .vector("x_m", &TankOptions::x_m, "m", "From and to along x; a wavemaker stands at the lower end.")
+          .required()
           .vector("y_m", &TankOptions::y_m, "m", "From and to along y; not used in 2-D.")
-          .number("top_m", &TankOptions::top_m, "m", "Height of the walls' upper edge.").required()
+          .number("top_m", &TankOptions::top_m, "m", "Height of the walls' upper edge.")
+          .required()
           .choice("sides_x", &TankOptions::sides_x, sides, "The two ends.")
           .choice("sides_y", &TankOptions::sides_y, sides, "The two long sides.")
           .rows("bed_m", &TankOptions::bed_m, "m",
-                "Slopes and beaches: rows [x, z] of the bed's height, straight between them and level beyond; level at the water depth "
+                "Slopes and beaches: rows [x, z] of the bed's height, straight between them and level beyond; level at the water "
+                "depth "
                 "where there are none.")
           .check([](const TankOptions& o, const scene::Report& report) {
             check_span(o.x_m, "x_m", report);
@@ -139,14 +161,16 @@ const Section<BoxOptions>& obstacle_section() {
 
 const Section<WavemakerOptions>& wavemaker_section() {
   static const auto section =
-      Section<WavemakerOptions>("wavemaker",
-                                "A paddle at the lower x end that makes the waves of [waves] by linear theory (Biesel); stokes2 adds "
-                                "Madsen's second-order motion, sea states are sums of their harmonics.")
-          .choice("type", &WavemakerOptions::type, {{"piston", "moves as a whole"}, {"flap", "turns about a hinge"}}, "Kind of paddle.")
+      Section<WavemakerOptions>(
+          "wavemaker",
+          "A paddle at the lower x end that makes the waves of [waves] by linear theory (Biesel); stokes2 adds "
+          "Madsen's second-order motion, sea states are sums of their harmonics.")
+          .choice("type", &WavemakerOptions::type, {{"piston", "moves as a whole"}, {"flap", "turns about a hinge"}},
+                  "Kind of paddle.")
           .number("ramp_s", &WavemakerOptions::ramp_s, "s", "Time over which the paddle's motion grows smoothly from nothing.",
                   not_negative())
-          .number("start_s", &WavemakerOptions::start_s, "s", "When the paddle starts; negative: while the bodies are still held.",
-                  between(-1e6, 1e6))
+          .number("start_s", &WavemakerOptions::start_s, "s",
+                  "When the paddle starts; negative: while the bodies are still held.", between(-1e6, 1e6))
           .number("hinge_m", &WavemakerOptions::hinge_m, "m", "Height of the flap's hinge; the bed where absent.")
           .only_if("type", {"flap"})
           .number("stroke_m", &WavemakerOptions::stroke_m, "m",
@@ -156,12 +180,16 @@ const Section<WavemakerOptions>& wavemaker_section() {
 
 const Section<DampingZoneOptions>& damping_zone_section() {
   static const auto section =
-      Section<DampingZoneOptions>("damping_zones", "A stretch of x where the water is brought to rest: dv/dt = -rate s^2 v, s from 0 to 1.")
-          .number("from_m", &DampingZoneOptions::from_m, "m", "x where the damping begins.").required()
-          .number("to_m", &DampingZoneOptions::to_m, "m", "x where it has its full rate; below from_m for a zone at the lower end.")
+      Section<DampingZoneOptions>("damping_zones",
+                                  "A stretch of x where the water is brought to rest: dv/dt = -rate s^2 v, s from 0 to 1.")
+          .number("from_m", &DampingZoneOptions::from_m, "m", "x where the damping begins.")
+          .required()
+          .number("to_m", &DampingZoneOptions::to_m, "m",
+                  "x where it has its full rate; below from_m for a zone at the lower end.")
           .required()
           .number("rate_1_s", &DampingZoneOptions::rate_1_s, "1/s", "Full rate; about the waves' angular frequency times 2 to 5.",
-                  positive()).required()
+                  positive())
+          .required()
           .check([](const DampingZoneOptions& o, const scene::Report& report) {
             if (o.from_m == o.to_m) report("to_m", "is where from_m is");
           });
@@ -182,7 +210,8 @@ const Section<InitialOptions>& initial_section() {
           .only_if("state", {"file"})
           .required()
           .number("settle_s", &InitialOptions::settle_s, "s",
-                  "The sea runs this long before t = 0 with the bodies held where they start, then they are released (the paper's start).",
+                  "The sea runs this long before t = 0 with the bodies held where they start, then they are released (the "
+                  "paper's start).",
                   not_negative())
           .number("settle_damping_1_s", &InitialOptions::settle_damping_1_s, "1/s",
                   "Until t = 0 the water's velocity decays at this rate, which calms particles that settle; not for waves.",
@@ -192,30 +221,37 @@ const Section<InitialOptions>& initial_section() {
 
 const Section<GaugeOptions>& gauge_section() {
   static const auto section = Section<GaugeOptions>("gauges", "A wave gauge: height of the water's surface at a place.")
-                                  .text("name", &GaugeOptions::name, "Name of the columns.").required()
-                                  .vector("point_m", &GaugeOptions::point_m, "m", "x and y.").required();
+                                  .text("name", &GaugeOptions::name, "Name of the columns.")
+                                  .required()
+                                  .vector("point_m", &GaugeOptions::point_m, "m", "x and y.")
+                                  .required();
   return section;
 }
 
 const Section<ProbeOptions>& probe_section() {
   static const auto section = Section<ProbeOptions>("probes", "Pressure and velocity of the water at a point.")
-                                  .text("name", &ProbeOptions::name, "Name of the columns.").required()
-                                  .vector("point_m", &ProbeOptions::point_m, "m", "The point.").required();
+                                  .text("name", &ProbeOptions::name, "Name of the columns.")
+                                  .required()
+                                  .vector("point_m", &ProbeOptions::point_m, "m", "The point.")
+                                  .required();
   return section;
 }
 
 const Section<FieldsOptions>& fields_section() {
   static const auto section =
       Section<FieldsOptions>("fields", "Particles and the water's surface, written for ParaView.")
-          .number("interval_s", &FieldsOptions::interval_s, "s", "Simulated time between outputs, rounded to windows.", positive()).required()
+          .number("interval_s", &FieldsOptions::interval_s, "s", "Simulated time between outputs, rounded to windows.",
+                  positive())
+          .required()
           .number("from_s", &FieldsOptions::from_s, "s", "First output.", between(-1e6, 1e6))
           .number("to_s", &FieldsOptions::to_s, "s", "Last output; the end where absent.", between(-1e6, 1e6))
-          .texts("particles", &FieldsOptions::particles, "Fields of the particles: velocity, pressure, density, owner; none: no particles.")
+          .texts("particles", &FieldsOptions::particles,
+                 "Fields of the particles: velocity, pressure, density, owner; none: no particles.")
           .vector("low_m", &FieldsOptions::low_m, "m", "Only particles above this corner.")
           .vector("high_m", &FieldsOptions::high_m, "m", "Only particles below this corner.")
           .flag("solids", &FieldsOptions::solids, "Walls and bodies are written too.")
-          .number("surface_spacing_m", &FieldsOptions::surface_spacing_m, "m", "Mesh of the height field of the surface; 0: none.",
-                  not_negative())
+          .number("surface_spacing_m", &FieldsOptions::surface_spacing_m, "m",
+                  "Mesh of the height field of the surface; 0: none.", not_negative())
           .check([](const FieldsOptions& o, const scene::Report& report) {
             for (const std::string& name : o.particles)
               if (name != "velocity" && name != "pressure" && name != "density" && name != "owner")

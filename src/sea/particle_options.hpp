@@ -1,6 +1,6 @@
-// What a scene may say about a sea of particles (sea.model = "sph"): [sea.particles], [sea.tank], [[sea.water]], [[sea.obstacles]],
-// [sea.wavemaker], [[sea.damping_zones]], [sea.initial], [[sea.gauges]], [[sea.probes]], [sea.fields]. Part of SeaOptions.
-// Used by src/sea/particle_sea.cpp and src/sea/sph; tested in tests/coupled/particle_sea_test.cpp.
+// What a scene may say about a sea of particles (sea.model = "sph"): [sea.particles], [sea.tank], [[sea.water]],
+// [[sea.obstacles]], [sea.wavemaker], [[sea.damping_zones]], [sea.initial], [[sea.gauges]], [[sea.probes]], [sea.fields]. Part of
+// SeaOptions. Used by src/sea/particle_sea.cpp and src/sea/sph; tested in tests/coupled/particle_sea_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,18 +23,18 @@ namespace spindrift::sea {
 struct ParticleOptions {
   double spacing_m = 0.0;
   std::string dimensions = "3";
-  double width_m = 1.0;                        ///< 2-D: loads are those of this width of sea
+  double width_m = 1.0;  ///< 2-D: loads are those of this width of sea
   double smoothing_over_spacing = 1.5;
   sph::KernelChoice kernel = sph::KernelChoice::wendland;
-  std::optional<double> sound_speed_factor;    ///< times sqrt(g depth); 10 where neither is given
+  std::optional<double> sound_speed_factor;  ///< times sqrt(g depth); 10 where neither is given
   std::optional<double> sound_speed_m_s;
   sph::ViscosityChoice viscosity_model = sph::ViscosityChoice::artificial;
-  double viscosity = 0.02;                     ///< alpha of the artificial viscosity
-  std::optional<double> solid_viscosity;       ///< with walls and bodies; that of the water where absent
-  double kinematic_viscosity_m2_s = 1e-6;      ///< of the laminar models
+  double viscosity = 0.02;                 ///< alpha of the artificial viscosity
+  std::optional<double> solid_viscosity;   ///< with walls and bodies; that of the water where absent
+  double kinematic_viscosity_m2_s = 1e-6;  ///< of the laminar models
   std::optional<double> solid_kinematic_viscosity_m2_s;
-  std::string walls = "dynamic";               ///< dynamic, modified, modified_no_slip, modified_free_slip
-  bool contact = true;                         ///< of bodies with walls and each other
+  std::string walls = "dynamic";  ///< dynamic, modified, modified_no_slip, modified_free_slip
+  bool contact = true;            ///< of bodies with walls and each other
   double contact_stiffness = 1.0, contact_damping = 0.2, contact_friction = 0.0;
   sph::DiffusionChoice density_diffusion = sph::DiffusionChoice::fourtakas;
   double diffusion_strength = 0.1;
@@ -54,9 +54,9 @@ struct ParticleOptions {
 /// [sea.tank]: where water may be.
 struct TankOptions {
   std::array<double, 2> x_m{}, y_m{};
-  double top_m = 0.0;                          ///< of the walls; above it is open
+  double top_m = 0.0;  ///< of the walls; above it is open
   std::string sides_x = "wall", sides_y = "wall";
-  std::vector<std::array<double, 2>> bed_m;    ///< [x, z]: height of the bed along x; flat at the water depth where empty
+  std::vector<std::array<double, 2>> bed_m;  ///< [x, z]: height of the bed along x; flat at the water depth where empty
 };
 
 /// [[sea.water]], [[sea.obstacles]]
@@ -69,19 +69,19 @@ struct WavemakerOptions {
   std::string type = "piston";
   double ramp_s = 0.0;
   double start_s = 0.0;
-  std::optional<double> hinge_m;               ///< flap: height of its hinge; the bed where absent
-  std::optional<double> stroke_m;              ///< of a regular wave, instead of what linear theory asks for
+  std::optional<double> hinge_m;   ///< flap: height of its hinge; the bed where absent
+  std::optional<double> stroke_m;  ///< of a regular wave, instead of what linear theory asks for
 };
 
 /// [[sea.damping_zones]]
 struct DampingZoneOptions {
-  double from_m = 0.0, to_m = 0.0;             ///< x: no damping there; full damping there
+  double from_m = 0.0, to_m = 0.0;  ///< x: no damping there; full damping there
   double rate_1_s = 0.0;
 };
 
 /// [sea.initial]
 struct InitialOptions {
-  std::string state = "still";                 ///< still, waves, standing, file
+  std::string state = "still";  ///< still, waves, standing, file
   std::string file;
   double settle_s = 0.0;
   double settle_damping_1_s = 0.0;
@@ -104,9 +104,9 @@ struct FieldsOptions {
   double from_s = 0.0;
   std::optional<double> to_s;
   std::vector<std::string> particles{"velocity", "pressure"};
-  std::optional<Eigen::Vector3d> low_m, high_m;     ///< only particles inside
+  std::optional<Eigen::Vector3d> low_m, high_m;  ///< only particles inside
   bool solids = true;
-  double surface_spacing_m = 0.0;              ///< 0: no height field
+  double surface_spacing_m = 0.0;  ///< 0: no height field
 };
 
 const scene::Section<ParticleOptions>& particle_section();

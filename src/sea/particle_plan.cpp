@@ -97,7 +97,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (!(t.top_m > -depth)) wrong("sea.tank.top_m", fmt::format("is below the bed at {} m", -depth));
   if (o.water.empty() && t.top_m < 0.0) wrong("sea.tank.top_m", "is below the still water at 0 m");
   if (deepest_water(o, depth) < 4.0 * d)
-    wrong("sea.particles.spacing_m", fmt::format("leaves fewer than 4 particles over the depth of {} m", deepest_water(o, depth)));
+    wrong("sea.particles.spacing_m",
+          fmt::format("leaves fewer than 4 particles over the depth of {} m", deepest_water(o, depth)));
   for (int axis = 0; axis < (planar ? 1 : 2); ++axis) {
     const auto& span = axis == 0 ? t.x_m : t.y_m;
     const bool periodic = (axis == 0 ? t.sides_x : t.sides_y) == "periodic";
@@ -108,7 +109,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   }
   for (std::size_t n = 0; n < t.bed_m.size(); ++n)
     if (t.bed_m[n][1] < -depth - 1e-9 * depth)
-      wrong(fmt::format("sea.tank.bed_m[{}]", n), fmt::format("is deeper than environment.water_depth_m = {} m, which is the deepest", depth));
+      wrong(fmt::format("sea.tank.bed_m[{}]", n),
+            fmt::format("is deeper than environment.water_depth_m = {} m, which is the deepest", depth));
   if (t.sides_x == "periodic" && o.wavemaker) wrong("sea.wavemaker", "needs walls at the ends: sea.tank.sides_x is periodic");
   if (t.sides_x == "periodic" && !t.bed_m.empty() && t.bed_m.front()[1] != t.bed_m.back()[1])
     wrong("sea.tank.bed_m", "must end at the height it begins with: sea.tank.sides_x is periodic");
@@ -122,7 +124,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (waved && waves.ramp_s > 0.0) wrong("waves.ramp_s", "has no effect in a sea of particles: give sea.wavemaker.ramp_s");
   if (waved && std::abs(std::sin(waves.direction)) > 1e-9 && (planar || o.wavemaker))
     wrong("waves.direction_deg", "must be 0: the paddle, or the plane of the scene, makes waves along x");
-  if (waved && o.wavemaker && std::cos(waves.direction) < 0.0) wrong("waves.direction_deg", "must be 0: the paddle stands at the lower end");
+  if (waved && o.wavemaker && std::cos(waves.direction) < 0.0)
+    wrong("waves.direction_deg", "must be 0: the paddle stands at the lower end");
   if (starts_in_waves(o) && !waved) wrong("sea.initial.state", "needs [waves]");
   if (starts_in_waves(o) && !o.water.empty()) wrong("sea.initial.state", "fills the tank: no [[sea.water]]");
   if (o.initial && o.initial->settle_damping_1_s > 0.0 && o.initial->settle_s == 0.0)
@@ -130,33 +133,42 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (o.wavemaker) {
     const WavemakerOptions& w = *o.wavemaker;
     const double bed = t.bed_m.empty() ? -depth : t.bed_m.front()[1];
-    if (w.type == "flap" && waves.model == "stokes2") wrong("sea.wavemaker.type", "a flap makes waves of first order: use a piston for stokes2");
-    if (w.stroke_m && waves.model != "airy" && waves.model != "stokes2") wrong("sea.wavemaker.stroke_m", "is that of a regular wave (airy, stokes2)");
-    if (w.hinge_m && !(*w.hinge_m >= bed && *w.hinge_m < 0.0)) wrong("sea.wavemaker.hinge_m", fmt::format("must lie between the bed at {} m and still water", bed));
-    if (o.initial && w.start_s < -o.initial->settle_s) wrong("sea.wavemaker.start_s", fmt::format("is before the sea starts at {} s", -o.initial->settle_s));
+    if (w.type == "flap" && waves.model == "stokes2")
+      wrong("sea.wavemaker.type", "a flap makes waves of first order: use a piston for stokes2");
+    if (w.stroke_m && waves.model != "airy" && waves.model != "stokes2")
+      wrong("sea.wavemaker.stroke_m", "is that of a regular wave (airy, stokes2)");
+    if (w.hinge_m && !(*w.hinge_m >= bed && *w.hinge_m < 0.0))
+      wrong("sea.wavemaker.hinge_m", fmt::format("must lie between the bed at {} m and still water", bed));
+    if (o.initial && w.start_s < -o.initial->settle_s)
+      wrong("sea.wavemaker.start_s", fmt::format("is before the sea starts at {} s", -o.initial->settle_s));
     if (!o.initial && w.start_s < 0.0) wrong("sea.wavemaker.start_s", "is before the sea starts: give sea.initial.settle_s");
   }
 
   std::set<std::string> names;
   const auto name = [&](const std::string& key, const std::string& value) {
-    if (value.empty() || value.find_first_of(" ,\"\t\n") != std::string::npos) wrong(key, "must be a name without spaces, commas and quotes");
+    if (value.empty() || value.find_first_of(" ,\"\t\n") != std::string::npos)
+      wrong(key, "must be a name without spaces, commas and quotes");
     if (!names.insert(value).second) wrong(key, "is the name of another gauge or probe");
   };
   for (std::size_t n = 0; n < o.gauges.size(); ++n) {
     const std::string key = fmt::format("sea.gauges[{}]", n);
     name(key + ".name", o.gauges[n].name);
-    if (!(o.gauges[n].point_m[0] >= t.x_m[0] && o.gauges[n].point_m[0] <= t.x_m[1])) wrong(key + ".point_m", "is outside the tank");
-    if (!planar && !(o.gauges[n].point_m[1] >= t.y_m[0] && o.gauges[n].point_m[1] <= t.y_m[1])) wrong(key + ".point_m", "is outside the tank");
+    if (!(o.gauges[n].point_m[0] >= t.x_m[0] && o.gauges[n].point_m[0] <= t.x_m[1]))
+      wrong(key + ".point_m", "is outside the tank");
+    if (!planar && !(o.gauges[n].point_m[1] >= t.y_m[0] && o.gauges[n].point_m[1] <= t.y_m[1]))
+      wrong(key + ".point_m", "is outside the tank");
   }
   for (std::size_t n = 0; n < o.probes.size(); ++n) {
     const std::string key = fmt::format("sea.probes[{}]", n);
     name(key + ".name", o.probes[n].name);
     const Eigen::Vector3d& x = o.probes[n].point_m;
-    if (!(x[0] >= t.x_m[0] && x[0] <= t.x_m[1]) || (!planar && !(x[1] >= t.y_m[0] && x[1] <= t.y_m[1]))) wrong(key + ".point_m", "is outside the tank");
+    if (!(x[0] >= t.x_m[0] && x[0] <= t.x_m[1]) || (!planar && !(x[1] >= t.y_m[0] && x[1] <= t.y_m[1])))
+      wrong(key + ".point_m", "is outside the tank");
   }
   for (std::size_t n = 0; n < o.damping_zones.size(); ++n)
     for (const double x : {o.damping_zones[n].from_m, o.damping_zones[n].to_m})
-      if (!(x >= t.x_m[0] && x <= t.x_m[1])) wrong(fmt::format("sea.damping_zones[{}]", n), fmt::format("reaches x = {} m, outside the tank", x));
+      if (!(x >= t.x_m[0] && x <= t.x_m[1]))
+        wrong(fmt::format("sea.damping_zones[{}]", n), fmt::format("reaches x = {} m, outside the tank", x));
   for (std::size_t n = 0; n < o.water.size(); ++n)
     if (o.water[n].high_m[2] <= -depth) wrong(fmt::format("sea.water[{}]", n), fmt::format("lies below the bed at {} m", -depth));
 
@@ -165,9 +177,12 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     for (const sph::BodyShape& shape : body.shapes) {
       const auto points = sph::fill_shape(shape, d, cut);
       const std::string key = "bodies." + body.name;
-      if (points.size() < (planar ? 4u : 8u)) wrong(key, fmt::format("has a shape of {} particle{} at a spacing of {} m: too coarse", points.size(), points.size() == 1 ? "" : "s", d));
+      if (points.size() < (planar ? 4u : 8u))
+        wrong(key, fmt::format("has a shape of {} particle{} at a spacing of {} m: too coarse", points.size(),
+                               points.size() == 1 ? "" : "s", d));
       Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-      for (const Eigen::Vector3d& x : points) low = low.cwiseMin(body.described.point(x)), high = high.cwiseMax(body.described.point(x));
+      for (const Eigen::Vector3d& x : points)
+        low = low.cwiseMin(body.described.point(x)), high = high.cwiseMax(body.described.point(x));
       const double bed = [&] {
         double highest = -depth;
         for (const auto& point : t.bed_m)

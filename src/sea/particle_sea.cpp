@@ -32,7 +32,12 @@ sph::TankPlan tank_with_bodies(const ParticlePlan& plan, std::span<const Motion>
 sph::Paddle paddle_of(const ParticlePlan& plan) {
   const WavemakerOptions& w = *plan.wavemaker;
   const double bed = plan.tank.bed_at(plan.tank.x[0]);
-  return {.flap = w.type == "flap", .x = plan.tank.x[0], .hinge = w.hinge_m.value_or(bed), .bed = bed, .start_s = w.start_s, .ramp_s = w.ramp_s};
+  return {.flap = w.type == "flap",
+          .x = plan.tank.x[0],
+          .hinge = w.hinge_m.value_or(bed),
+          .bed = bed,
+          .start_s = w.start_s,
+          .ramp_s = w.ramp_s};
 }
 sph::Wavemaker wavemaker_of(const ParticlePlan& plan) {
   return {paddle_of(plan), plan.waves, plan.second_order, plan.wavemaker->stroke_m.value_or(0.0)};
@@ -42,7 +47,8 @@ sph::Wavemaker wavemaker_of(const ParticlePlan& plan) {
 template <int dim>
 double body_step_limit(const ParticleBody& body, const sph::Points& points, const sph::Parameters& p, double width) {
   sph::Solid solid;
-  for (const Eigen::Vector3d& x : points) solid.local.push_back(x), solid.low = solid.low.cwiseMin(x), solid.high = solid.high.cwiseMax(x);
+  for (const Eigen::Vector3d& x : points)
+    solid.local.push_back(x), solid.low = solid.low.cwiseMin(x), solid.high = solid.high.cwiseMax(x);
   return sph::body_step_limit(solid, body.mass / width, p, dim);
 }
 
@@ -65,7 +71,8 @@ class Sea final : public ParticleSea {
     if (!zones_.empty() || settle_damping_ > 0.0)
       sea_.state().after_step = [this](int group, double dt) {
         const sph::Group& g = sea_.store().groups[std::size_t(group)];
-        sph::damp(sea_.store(), std::span<const sph::DampingZone>(zones_), settling_ ? settle_damping_ : 0.0, dt, g.fluid, g.solid);
+        sph::damp(sea_.store(), std::span<const sph::DampingZone>(zones_), settling_ ? settle_damping_ : 0.0, dt, g.fluid,
+                  g.solid);
       };
     if (tank.paddle) {
       wavemaker_.emplace(wavemaker_of(plan)), paddle_ = *tank.paddle;
@@ -105,7 +112,9 @@ class Sea final : public ParticleSea {
       return sph::Pace::Choice{step.dt, step.last};
     }};
     if (moves_solids())
-      state.move_bodies = [this](const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) { move(half, loads, motions); };
+      state.move_bodies = [this](const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) {
+        move(half, loads, motions);
+      };
     tasks_.push_back(std::make_unique<sph::StepTasks<dim, Real>>(state, graph, omp_get_max_threads(), first_tag));
     tasks_.back()->window();
     moved_ = false;
@@ -119,8 +128,8 @@ class Sea final : public ParticleSea {
     settling_ = settling;
     place(t, bodies);
     sph::Plan& plan = sea_.state().plan;
-    plan.left = 1.0;                                 // until the driver calls a step the last
-    plan.drift = 2.0 * sea_.parameters().drift();    // sorts first: what follows depends on the state alone
+    plan.left = 1.0;                               // until the driver calls a step the last
+    plan.drift = 2.0 * sea_.parameters().drift();  // sorts first: what follows depends on the state alone
     plan.failure.reset();
   }
   void close() override {
@@ -144,14 +153,18 @@ class Sea final : public ParticleSea {
         horizontal.push_back(place);
     }
     const auto& domain = sea_.columns().domain();
-    return sph::surface_heights<dim>(sea_.store(), sea_.parameters(), domain, std::span<const std::array<double, dim - 1>>(horizontal),
+    return sph::surface_heights<dim>(sea_.store(), sea_.parameters(), domain,
+                                     std::span<const std::array<double, dim - 1>>(horizontal),
                                      std::numeric_limits<double>::quiet_NaN(), comm_);
   }
   Reading probe(const Eigen::Vector3d& at) const override {
-    const auto reading = sph::probe<dim>(sea_.store(), sea_.parameters(), sea_.columns().domain(), sph::from_earth<dim>(at), comm_);
+    const auto reading =
+        sph::probe<dim>(sea_.store(), sea_.parameters(), sea_.columns().domain(), sph::from_earth<dim>(at), comm_);
     return {reading.pressure, sph::to_earth<dim>(reading.velocity)};
   }
-  sph::Wavemaker::Stroke paddle(double t) const override { return wavemaker_ ? wavemaker_->stroke(t) : sph::Wavemaker::Stroke{0.0, 0.0}; }
+  sph::Wavemaker::Stroke paddle(double t) const override {
+    return wavemaker_ ? wavemaker_->stroke(t) : sph::Wavemaker::Stroke{0.0, 0.0};
+  }
 
   Extent extent() const override {
     struct Part {
@@ -163,7 +176,8 @@ class Sea final : public ParticleSea {
     for (const int g : sea_.territory().own) {
       Part part{g, -1e300, -1e300, 0.0};
       const sph::Group& group = store.groups[std::size_t(g)];
-      for (std::size_t slot = std::size_t(group.fluid) * sph::cluster_size; slot < std::size_t(group.solid) * sph::cluster_size; ++slot) {
+      for (std::size_t slot = std::size_t(group.fluid) * sph::cluster_size; slot < std::size_t(group.solid) * sph::cluster_size;
+           ++slot) {
         if (store.id[slot] == sph::no_particle) continue;
         part.x_max = std::max(part.x_max, store.x[0][slot]), part.z_max = std::max(part.z_max, store.x[dim - 1][slot]);
         for (int k = 0; k < dim; ++k) part.speed2 += store.v[k][slot] * store.v[k][slot];
@@ -185,7 +199,8 @@ class Sea final : public ParticleSea {
     return {all.x_max + half, all.z_max + half, 0.5 * sea_.parameters().mass(dim) * width_ * all.speed2};
   }
 
-  ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high, bool solids) const override {
+  ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high,
+                        bool solids) const override {
     const sph::EosTait& eos = sea_.parameters().eos;
     const auto mine = sph::by_identity(sea_, particles_, comm_);
     const std::size_t size = sph::values_per_particle<dim>(sea_.parameters());
@@ -214,12 +229,12 @@ class Sea final : public ParticleSea {
   ParticleState room() const override {
     const std::size_t size = sph::values_per_particle<dim>(sea_.parameters());
     const auto mine = sph::identities_of(particles_, runtime::rank_in(comm_), ranks_);
-    return {std::int64_t(mine.first * size), std::int64_t(particles_ * size), std::vector<double>((mine.last - mine.first) * size), sea_.time(),
-            sea_.work().steps};
+    return {std::int64_t(mine.first * size), std::int64_t(particles_ * size),
+            std::vector<double>((mine.last - mine.first) * size), sea_.time(), sea_.work().steps};
   }
   void restore(const ParticleState& state) override {
-    sph::set_by_identity<dim, Real>(sea_, sph::identities_of(particles_, runtime::rank_in(comm_), ranks_), state.values, owner_, state.time_s,
-                                    long(state.steps));
+    sph::set_by_identity<dim, Real>(sea_, sph::identities_of(particles_, runtime::rank_in(comm_), ranks_), state.values, owner_,
+                                    state.time_s, long(state.steps));
   }
 
   std::size_t particles() const override { return particles_; }
@@ -278,11 +293,11 @@ class Sea final : public ParticleSea {
   int ranks_;
   sph::SeaSph<dim, Real> sea_;
   std::size_t particles_;
-  std::vector<std::uint16_t> owner_;             ///< of this rank's run of identities
+  std::vector<std::uint16_t> owner_;  ///< of this rank's run of identities
   std::optional<sph::Wavemaker> wavemaker_;
   std::uint16_t paddle_ = 0;
   std::vector<sph::DampingZone> zones_;
-  std::vector<std::uint16_t> owner_of_body_;     ///< 0: it has no particles
+  std::vector<std::uint16_t> owner_of_body_;  ///< 0: it has no particles
   std::vector<Wrench> loads_, contacts_;
   std::vector<Motion> motions_;
   bool settling_ = false;
@@ -305,8 +320,8 @@ std::unique_ptr<ParticleSea> make_sea(const ParticlePlan& plan, std::span<const 
   return std::make_unique<Sea<dim, Real>>(plan, start, parameters, tank, world);
 }
 
-/// Evaluations per core-second (processor time, so that a busy machine does not count) and bytes per particle of a small sea of the
-/// same schemes.
+/// Evaluations per core-second (processor time, so that a busy machine does not count) and bytes per particle of a small sea of
+/// the same schemes.
 template <int dim, class Real>
 void measure(const sph::Parameters& scene, ParticleCensus& census) {
   sph::Parameters p = scene;
@@ -364,10 +379,12 @@ void ParticleSea::add_loads(std::span<const Motion> bodies, std::span<Wrench> wr
 }
 
 void ParticleSea::add_contacts(std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
-  for (std::size_t b = 0; b < bodies.size(); ++b) wrenches[b].force += contacts()[b].force, wrenches[b].moment += contacts()[b].moment;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    wrenches[b].force += contacts()[b].force, wrenches[b].moment += contacts()[b].moment;
 }
 
-std::unique_ptr<ParticleSea> ParticleSea::make(const ParticlePlan& plan, std::span<const Motion> start, const runtime::World& world) {
+std::unique_ptr<ParticleSea> ParticleSea::make(const ParticlePlan& plan, std::span<const Motion> start,
+                                               const runtime::World& world) {
   const bool single = plan.options.precision == "single";
   if (plan.options.planar()) return single ? make_sea<2, float>(plan, start, world) : make_sea<2, double>(plan, start, world);
   return single ? make_sea<3, float>(plan, start, world) : make_sea<3, double>(plan, start, world);

@@ -1,11 +1,12 @@
 // The sea of particles as the coupling sees it: bodies held or moving in a tank, advanced in substeps between which the coupling
 // moves them, with instruments, output and a state that can be saved and put back. Hides dimensions and precision.
-// Called by src/coupling (sea_window.cpp, run.cpp, recorder.cpp); tested in tests/coupled/particle_sea_test.cpp and tests/coupled.
+// Called by src/coupling (sea_window.cpp, run.cpp, recorder.cpp); tested in tests/coupled/particle_sea_test.cpp and
+// tests/coupled.
 //
 //   ParticleSea::Plan plan = plan_of(options, waves, environment, bodies);   // checked before; cheap
 //   auto sea = ParticleSea::make(plan, motions at the start, world);   // this and all that follows on all ranks alike
-//   sea->evaluate(t, motions);                              // loads() are those at t: for what is written before the first window
-//   sea->record(graph, driver, first_tag);                  // a window's steps as tasks; the driver moves the bodies
+//   sea->evaluate(t, motions);                              // loads() are those at t: for what is written before the first
+//   window sea->record(graph, driver, first_tag);                  // a window's steps as tasks; the driver moves the bodies
 //   sea->balance(), sea->open(t, motions, settling);        // before each run of the tasks,
 //   sea->close();                                           // and after it
 // SPDX-License-Identifier: Apache-2.0
@@ -32,7 +33,7 @@ namespace spindrift::sea {
 struct ParticleBody {
   std::string name;
   double mass = 0.0;
-  Motion described;                              ///< where the scene describes it
+  Motion described;  ///< where the scene describes it
   std::vector<sph::BodyShape> shapes;
 };
 
@@ -40,9 +41,9 @@ struct ParticleBody {
 struct ParticlePlan {
   ParticleOptions options;
   sph::Parameters parameters;
-  sph::TankPlan tank;                            ///< without the bodies
-  std::vector<ParticleBody> bodies;              ///< by body of the scene
-  std::vector<waves::Component> waves;           ///< of [waves]
+  sph::TankPlan tank;                   ///< without the bodies
+  std::vector<ParticleBody> bodies;     ///< by body of the scene
+  std::vector<waves::Component> waves;  ///< of [waves]
   bool second_order = false;
   std::optional<WavemakerOptions> wavemaker;
   std::vector<DampingZoneOptions> damping_zones;
@@ -54,8 +55,8 @@ ParticlePlan particle_plan(const SeaOptions& options, const WavesOptions& waves,
                            std::vector<ParticleBody> bodies);
 
 /// What is wrong with a sea of particles beyond what one section sees.
-std::vector<OptionProblem> particle_problems(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
-                                             std::span<const ParticleBody> bodies);
+std::vector<OptionProblem> particle_problems(const SeaOptions& options, const WavesOptions& waves,
+                                             const SeaEnvironment& environment, std::span<const ParticleBody> bodies);
 
 /// Of a particle in the note of a state, kept in memory to go back to [bytes]: saved.hpp.
 inline constexpr double bytes_of_note = 62.0;
@@ -63,28 +64,29 @@ inline constexpr double bytes_of_note = 62.0;
 /// What a scene amounts to, without running it.
 struct ParticleCensus {
   std::size_t water = 0, walls = 0, bodies = 0;
-  double bytes = 0.0;                            ///< of the particles in memory
-  double step_s = 0.0;                           ///< largest step at rest
-  std::string step_set_by;                       ///< "sound", "body NAME"
-  double evaluations_per_second = 0.0;           ///< measured now on a small sea of the same schemes, one thread
+  double bytes = 0.0;                   ///< of the particles in memory
+  double step_s = 0.0;                  ///< largest step at rest
+  std::string step_set_by;              ///< "sound", "body NAME"
+  double evaluations_per_second = 0.0;  ///< measured now on a small sea of the same schemes, one thread
   struct Body {
     std::string name;
-    double volume_m3 = 0.0, wetted_m3 = 0.0;     ///< that its particles stand for: in all, and under z = 0 at the start
-    std::optional<double> rise_m;                ///< from there to its static draft by its own weight; none where it sinks
+    double volume_m3 = 0.0, wetted_m3 = 0.0;  ///< that its particles stand for: in all, and under z = 0 at the start
+    std::optional<double> rise_m;             ///< from there to its static draft by its own weight; none where it sinks
   };
   std::vector<Body> floats;
   std::size_t particles() const { return water + walls + bodies; }
 };
 ParticleCensus particle_census(const ParticlePlan& plan, std::span<const Motion> start);
 
-/// Particles for output, of this rank's run of identities (the ranks' samples one after the other are in the order of identities);
-/// vectors have three components (y zero in 2-D).
+/// Particles for output, of this rank's run of identities (the ranks' samples one after the other are in the order of
+/// identities); vectors have three components (y zero in 2-D).
 struct ParticleSample {
   std::vector<std::int64_t> id;
   std::vector<double> position, velocity, pressure, density, owner;
 };
 
-/// State of this rank's run of identities: x, v, deviation (and those one step earlier where the step is Verlet's), time and steps.
+/// State of this rank's run of identities: x, v, deviation (and those one step earlier where the step is Verlet's), time and
+/// steps.
 struct ParticleState {
   std::int64_t first = 0, total = 0;  ///< of `values` among those of all ranks
   std::vector<double> values;
@@ -102,8 +104,8 @@ class WindowDriver {
     bool last;  ///< of the window
   };
   virtual Step choose(double limit) = 0;
-  /// The sea's loads() are those of the step's begin, or (to_end, but for Verlet's step) of its middle. Sets where the bodies are at the
-  /// middle of the step, or at its end, and returns that time [s].
+  /// The sea's loads() are those of the step's begin, or (to_end, but for Verlet's step) of its middle. Sets where the bodies are
+  /// at the middle of the step, or at its end, and returns that time [s].
   virtual double move(bool to_end, std::vector<Motion>& bodies) = 0;
 };
 
@@ -133,7 +135,8 @@ class ParticleSea {
   virtual void keep(int note) = 0;
   virtual void back(int note) = 0;
 
-  /// Of the last evaluation, by body of the scene, each about the place of its centre of mass then; zero for bodies without shapes.
+  /// Of the last evaluation, by body of the scene, each about the place of its centre of mass then; zero for bodies without
+  /// shapes.
   virtual std::span<const Wrench> loads() const = 0;
   /// The same of contact with walls and other bodies, which is not in loads().
   virtual std::span<const Wrench> contacts() const = 0;
@@ -155,7 +158,8 @@ class ParticleSea {
     double x_max, z_max, kinetic_energy;
   };
   virtual Extent extent() const = 0;
-  virtual ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high, bool solids) const = 0;
+  virtual ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high,
+                                bool solids) const = 0;
 
   virtual ParticleState save() const = 0;
   /// Which values restore() wants on this rank.

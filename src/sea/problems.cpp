@@ -1,5 +1,5 @@
-// What is wrong with the sea of a scene, beyond what each section sees by itself: declared in engineering_sea.hpp and wave_field.hpp.
-// SPDX-License-Identifier: Apache-2.0
+// What is wrong with the sea of a scene, beyond what each section sees by itself: declared in engineering_sea.hpp and
+// wave_field.hpp. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -45,7 +45,8 @@ void check_shapes(const SeaBody& body, double depth, std::vector<OptionProblem>&
 
 }  // namespace
 
-std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves, const std::vector<SeaBody>& bodies) {
+std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves,
+                                        const std::vector<SeaBody>& bodies) {
   if (options.model == "none" || options.has_particles()) return {};  // particles: particle_problems
   std::vector<OptionProblem> problems;
   std::string cylinders, names;
@@ -54,9 +55,11 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
     for (const NamedCylinder& c : body.cylinders) cylinders = listed(cylinders, c.name);
   }
   if (cylinders.empty())
-    problems.push_back({"sea.model", "is '" + options.model + "', but no body has [[bodies.NAME.cylinders]] for the water to act on"});
+    problems.push_back(
+        {"sea.model", "is '" + options.model + "', but no body has [[bodies.NAME.cylinders]] for the water to act on"});
   if (options.model == "hydrostatic" && waves.model != "none")
-    problems.push_back({"waves.model", "is '" + waves.model + "', but sea.model 'hydrostatic' knows still water only; use 'morison'"});
+    problems.push_back(
+        {"waves.model", "is '" + waves.model + "', but sea.model 'hydrostatic' knows still water only; use 'morison'"});
   for (std::size_t i = 0; i < options.coefficients.size(); ++i) {
     const std::string& name = options.coefficients[i].cylinder;
     if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return has_cylinder(b, name); }))
@@ -66,8 +69,8 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
   for (std::size_t i = 0; i < options.damping.size(); ++i) {
     const std::string& name = options.damping[i].body;
     if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return b.name == name; }))
-      problems.push_back({"sea.damping[" + std::to_string(i) + "].body",
-                          "names '" + name + "', which is not in [bodies]; known: " + names});
+      problems.push_back(
+          {"sea.damping[" + std::to_string(i) + "].body", "names '" + name + "', which is not in [bodies]; known: " + names});
   }
   return problems;
 }
@@ -89,13 +92,17 @@ std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaE
   const bool regular = options.model == "airy" || options.model == "stokes2";
   const double breaking = 0.142 * wave.length * std::tanh(wave.relative_depth), most = regular ? breaking : 0.5 * breaking;
   if (options.height_m > most)
-    problems.push_back({"waves.height_m", text("is %.4g m, but a wave of this period breaks above %.4g m in this depth (Miche 1944; "
-                                               "a sea state: half of that)", options.height_m, most)});
+    problems.push_back(
+        {"waves.height_m", text("is %.4g m, but a wave of this period breaks above %.4g m in this depth (Miche 1944; "
+                                "a sea state: half of that)",
+                                options.height_m, most)});
   if (options.model == "stokes2") {
     const double ratio = waves::stokes_ratio(options.height_m, wave.wave_number, environment.water_depth);
     if (ratio > 0.25)
-      problems.push_back({"waves.model", text("stokes2 fails for this wave: its second harmonic is %.3g of the first (limit %.3g, a "
-                                              "second crest in the trough); use a lower or shorter wave", ratio, 0.25)});
+      problems.push_back(
+          {"waves.model", text("stokes2 fails for this wave: its second harmonic is %.3g of the first (limit %.3g, a "
+                               "second crest in the trough); use a lower or shorter wave",
+                               ratio, 0.25)});
   }
   return problems;
 }

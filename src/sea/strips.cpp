@@ -69,8 +69,8 @@ WettedStrip wetted_strip(const Strip& strip, const Eigen::Vector3d& start, const
   out.ends[0] = {start, strip.start_exposed_area * wet_share(start_height, lean, start_radius), start_radius};
   out.ends[1] = {end, strip.end_exposed_area * wet_share(end_height, lean, end_radius), end_radius};
 
-  // Two Gauss points where cross-sections are wholly wet and two where they are partly wet share the exact volume in proportion to
-  // their wet cross-sections. (Two over both together put the points of an upright float 0.15 m too high in the paper's wave.)
+  // Two Gauss points where cross-sections are wholly wet and two where they are partly wet share the exact volume in proportion
+  // to their wet cross-sections. (Two over both together put the points of an upright float 0.15 m too high in the paper's wave.)
   const Interval wet = below_water(start_height - lean * start_radius, end_height - lean * end_radius);
   const Interval full = below_water(start_height + lean * start_radius, end_height + lean * end_radius);
   const Interval part = full.empty() ? wet : full.from > wet.from ? Interval{wet.from, full.from} : Interval{full.to, wet.to};

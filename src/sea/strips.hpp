@@ -20,7 +20,7 @@ struct Coefficients {
 struct Strip {
   Cylinder shape;
   Coefficients coefficients;
-  double start_exposed_area = 0.0, end_exposed_area = 0.0;   ///< [m2]
+  double start_exposed_area = 0.0, end_exposed_area = 0.0;  ///< [m2]
 };
 
 /// Cuts a cylinder into strips no longer than `longest` [m]; the exposed areas belong to its own two ends.
@@ -37,12 +37,12 @@ struct Station {
 };
 struct End {
   Eigen::Vector3d arm;
-  double exposed_area, radius;       ///< wetted part of the exposed area [m2]
+  double exposed_area, radius;  ///< wetted part of the exposed area [m2]
 };
 struct WettedStrip {
   Eigen::Vector3d axis;
-  waves::Wetted wetted;              ///< first moment about the centre of mass
-  std::array<Station, 4> stations;   ///< the first `count`; their volumes add to the wetted volume
+  waves::Wetted wetted;             ///< first moment about the centre of mass
+  std::array<Station, 4> stations;  ///< the first `count`; their volumes add to the wetted volume
   std::size_t count = 0;
   std::array<End, 2> ends;
 };

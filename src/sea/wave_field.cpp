@@ -28,10 +28,12 @@ std::vector<waves::Component> irregular_sea(const WavesOptions& options, const S
   if (options.model == "jonswap")
     sea.peak_enhancement = options.peak_enhancement.value_or(waves::peak_enhancement(options.height_m, options.period_s));
   std::vector<waves::Component> components(std::size_t(options.components));
-  if (options.spacing == "equal_energy") waves::equal_energy(sea, components);
-  else waves::equal_frequency(sea, components);
-  waves::finish_realisation(sea, std::uint64_t(options.seed), options.direction, environment.water_depth,
-                            environment.gravity, components);
+  if (options.spacing == "equal_energy")
+    waves::equal_energy(sea, components);
+  else
+    waves::equal_frequency(sea, components);
+  waves::finish_realisation(sea, std::uint64_t(options.seed), options.direction, environment.water_depth, environment.gravity,
+                            components);
   return components;
 }
 
@@ -46,8 +48,10 @@ WaveField::WaveField(const WavesOptions& options, const SeaEnvironment& environm
   for (std::size_t i = 0; i < components_.size(); ++i)
     waves::set_lane(groups_[i / lanes], int(i % lanes), components_[i], depth_);
   // A Stokes wave is an expansion about still water that holds up to the crest: stretching it would undo its second order.
-  if (options.model == "stokes2" || options.stretching == "extrapolated") stretching_ = Stretching::extrapolated;
-  else if (options.stretching == "vertical") stretching_ = Stretching::vertical;
+  if (options.model == "stokes2" || options.stretching == "extrapolated")
+    stretching_ = Stretching::extrapolated;
+  else if (options.stretching == "vertical")
+    stretching_ = Stretching::vertical;
 }
 
 double WaveField::ramp(double t) const {
@@ -64,8 +68,10 @@ waves::Surface WaveField::surface(double t, double x, double y) const {
 
 waves::Kinematics WaveField::kinematics(double t, const Eigen::Vector3d& point, double elevation) const {
   double z = std::min(point.z(), elevation);
-  if (stretching_ == Stretching::wheeler) z = (z - elevation) * depth_ / (depth_ + elevation);
-  else if (stretching_ == Stretching::vertical) z = std::min(z, 0.0);
+  if (stretching_ == Stretching::wheeler)
+    z = (z - elevation) * depth_ / (depth_ + elevation);
+  else if (stretching_ == Stretching::vertical)
+    z = std::min(z, 0.0);
   waves::Kinematics k = waves::kinematics(groups_, t, point.x(), point.y(), std::max(z, -depth_));
   const double r = ramp(t);
   k.velocity *= r, k.acceleration *= r, k.pressure_over_density *= r;

@@ -14,7 +14,7 @@ namespace spindrift::sea {
 
 class WaveField {
  public:
-  WaveField() = default;                                            ///< still water
+  WaveField() = default;  ///< still water
   WaveField(const WavesOptions& options, const SeaEnvironment& environment);
 
   bool still() const { return groups_.empty(); }

@@ -1,6 +1,5 @@
-// Scenes with a sea of particles as a user runs them: a dam breaks, a box floats, bodies are held and released, a run is interrupted
-// and goes on bit for bit, fields are written, bad input is refused.
-// SPDX-License-Identifier: Apache-2.0
+// Scenes with a sea of particles as a user runs them: a dam breaks, a box floats, bodies are held and released, a run is
+// interrupted and goes on bit for bit, fields are written, bad input is refused. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
 #include "src/coupling/sea_window.hpp"
@@ -24,11 +23,13 @@ std::string refusal(const std::string& file, const std::vector<std::string>& ove
 
 const std::string dam = "validation/dam_break/koshizuka_oka.toml", box = "validation/floating_box/floating_box.toml";
 /// A box small and coarse enough for a test, in seconds.
-const std::vector<std::string> small_box{"sea.particles.spacing_m=0.08", "time.end_s=0.4", "time.window_s=0.04", "sea.initial.settle_s=0.2"};
+const std::vector<std::string> small_box{"sea.particles.spacing_m=0.08", "time.end_s=0.4", "time.window_s=0.04",
+                                         "sea.initial.settle_s=0.2"};
 
 }  // namespace
 
-TEST_CASE("a dam breaks from a scene file: its front runs ahead of the measured one by less than a quarter of a metre", "[coupled][sea][fast]") {
+TEST_CASE("a dam breaks from a scene file: its front runs ahead of the measured one by less than a quarter of a metre",
+          "[coupled][sea][fast]") {
   const test::Folder folder("dam");
   const io::Summary summary = test::run_scene(test::input(dam), {"sea.particles.spacing_m=0.1", "time.end_s=0.6"}, folder.path());
   CHECK(summary.exit_code == 0);
@@ -68,10 +69,11 @@ TEST_CASE("a body is held while the water settles, then released", "[coupled][se
 
 TEST_CASE("every scheme runs from a scene file", "[coupled][sea][fast]") {
   using Overrides = std::vector<std::string>;
-  const Overrides schemes = GENERATE(Overrides{"sea.particles.walls='modified_no_slip'", "sea.particles.viscosity_model='laminar_sps'"},
-                                     Overrides{"sea.particles.step='verlet'", "sea.particles.verlet_join_every=20"},
-                                     Overrides{"sea.particles.precision='double'", "sea.particles.density_filter='mls'"},
-                                     Overrides{"sea.particles.shifting=2.0", "sea.particles.kernel='cubic_spline'"});
+  const Overrides schemes =
+      GENERATE(Overrides{"sea.particles.walls='modified_no_slip'", "sea.particles.viscosity_model='laminar_sps'"},
+               Overrides{"sea.particles.step='verlet'", "sea.particles.verlet_join_every=20"},
+               Overrides{"sea.particles.precision='double'", "sea.particles.density_filter='mls'"},
+               Overrides{"sea.particles.shifting=2.0", "sea.particles.kernel='cubic_spline'"});
   const test::Folder folder("scheme");
   Overrides overrides = small_box;
   overrides.insert(overrides.end(), schemes.begin(), schemes.end());
@@ -83,11 +85,13 @@ TEST_CASE("every scheme runs from a scene file", "[coupled][sea][fast]") {
 }
 
 TEST_CASE("a body that comes to lie on the bed is carried by its contact, named in the output", "[coupled][sea][fast]") {
-  // 400 kg in the room of 160 kg of water: at rest the bed carries at least the difference, more where no water is left underneath.
+  // 400 kg in the room of 160 kg of water: at rest the bed carries at least the difference, more where no water is left
+  // underneath.
   const test::Folder folder("sunk");
-  test::run_scene(test::input(box), {"sea.particles.spacing_m=0.08", "time.end_s=3.0", "time.window_s=0.04", "bodies.box.mass_kg=400.0",
-                                     "bodies.box.inertia_kg_m2=[10.7, 10.7, 10.7]", "bodies.box.displacement_m=[0.0, 0.0, -0.36]",
-                                     "sea.initial.settle_s=0.2", "sea.tank.top_m=0.6"},
+  test::run_scene(test::input(box),
+                  {"sea.particles.spacing_m=0.08", "time.end_s=3.0", "time.window_s=0.04", "bodies.box.mass_kg=400.0",
+                   "bodies.box.inertia_kg_m2=[10.7, 10.7, 10.7]", "bodies.box.displacement_m=[0.0, 0.0, -0.36]",
+                   "sea.initial.settle_s=0.2", "sea.tank.top_m=0.6"},
                   folder.path());
   const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
   CHECK(test::mean_of_last(history, "box.contact.fz_N", 1.0) > 0.9 * 240.0 * 9.81);
@@ -110,8 +114,10 @@ TEST_CASE("a sea starts from the state of another run", "[coupled][sea][fast]") 
   const std::string file = (first.path() / "checkpoints").string();
   std::string checkpoint;
   for (const auto& entry : std::filesystem::directory_iterator(file)) checkpoint = entry.path().string();
-  test::run_scene(test::input(dam), {"sea.particles.spacing_m=0.1", "time.end_s=0.04", "sea.initial.state='file'", "sea.initial.file='" + checkpoint + "'"},
-                  second.path());
+  test::run_scene(
+      test::input(dam),
+      {"sea.particles.spacing_m=0.1", "time.end_s=0.04", "sea.initial.state='file'", "sea.initial.file='" + checkpoint + "'"},
+      second.path());
   const scene::Columns before = scene::read_columns((first.path() / "history.csv").string());
   const scene::Columns after = scene::read_columns((second.path() / "history.csv").string());
   CHECK(after["sea.x_max_m"].front() == before["sea.x_max_m"].back());
@@ -136,15 +142,18 @@ TEST_CASE("substeps share out what is left of a window and never exceed the limi
 TEST_CASE("bad seas of particles are refused by key before anything is made", "[coupled][sea][fast]") {
   CHECK_THAT(refusal(dam, {"sea.particles.spacing_m=1.0"}), Contains("sea.particles.spacing_m") && Contains("fewer than 4"));
   CHECK_THAT(refusal(dam, {"sea.tank.x_m=[4.0, 0.0]"}), Contains("sea.tank.x_m"));
-  CHECK_THAT(refusal(dam, {"sea.probes[0].point_m=[9.0, 0.0, 0.0]"}), Contains("sea.probes[0].point_m") && Contains("outside the tank"));
+  CHECK_THAT(refusal(dam, {"sea.probes[0].point_m=[9.0, 0.0, 0.0]"}),
+             Contains("sea.probes[0].point_m") && Contains("outside the tank"));
   CHECK_THAT(refusal(dam, {"time.step_s=0.01"}), Contains("time.step_s") && Contains("speed of sound"));
-  CHECK_THAT(refusal(dam, {"waves.model='airy'", "waves.height_m=0.1", "waves.period_s=2.0"}), Contains("waves.model") && Contains("wavemaker"));
+  CHECK_THAT(refusal(dam, {"waves.model='airy'", "waves.height_m=0.1", "waves.period_s=2.0"}),
+             Contains("waves.model") && Contains("wavemaker"));
   CHECK_THAT(refusal(dam, {"sea.wavemaker.ramp_s=1.0"}), Contains("sea.wavemaker") && Contains("no wave"));
   CHECK_THAT(refusal(box, {"sea.particles.dimensions='3'"}), Contains("sea.tank.y_m"));
   CHECK_THAT(refusal(dam, {"sea.particles.walls='modified'", "sea.tank.bed_m=[[0.0, -2.0], [4.0, -1.5]]"}),
              Contains("sea.particles.walls") && Contains("slopes"));
   CHECK_THAT(refusal(dam, {"sea.particles.kinematic_viscosity_m2_s=1e-5"}), Contains("kinematic_viscosity_m2_s"));
-  CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.0, 0.0, -0.5]"}), Contains("bodies.box") && Contains("below the bed"));
+  CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.0, 0.0, -0.5]"}),
+             Contains("bodies.box") && Contains("below the bed"));
   CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.9, 0.0, 0.0]"}), Contains("in a wall"));
   CHECK_THAT(refusal(box, {"start.equilibrium=true"}), Contains("start.equilibrium"));
   CHECK_THAT(refusal(box, {"sea.model='hydrostatic'"}), Contains("has no effect"));

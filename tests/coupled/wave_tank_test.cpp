@@ -1,5 +1,5 @@
-// Waves that a paddle makes in a tank of particles: height near the paddle by Biesel, phase speed of linear theory, loss and what the
-// far end reflects, from harmonics of gauges. The long tanks are the paper's wave at five and ten particles per height.
+// Waves that a paddle makes in a tank of particles: height near the paddle by Biesel, phase speed of linear theory, loss and what
+// the far end reflects, from harmonics of gauges. The long tanks are the paper's wave at five and ten particles per height.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <complex>
@@ -28,8 +28,8 @@ struct Waves {
 };
 
 /// Least squares over the gauges of an incident wave with a free wave number and decay, and a reflected one.
-Waves analyse(const scene::Columns& history, const std::vector<std::pair<std::string, double>>& gauges, double height, double period,
-              double depth, int periods) {
+Waves analyse(const scene::Columns& history, const std::vector<std::pair<std::string, double>>& gauges, double height,
+              double period, double depth, int periods) {
   const double k = waves::wave_properties(period, depth, 9.81).wave_number;
   std::vector<std::complex<double>> amplitude;
   for (const auto& [name, x] : gauges) amplitude.push_back(harmonic(history, name, period, periods));
@@ -43,7 +43,8 @@ Waves analyse(const scene::Columns& history, const std::vector<std::pair<std::st
       const auto out = [&](double x) { return std::exp(std::complex<double>(decay * x, -ratio * k * x)); };
       for (std::size_t n = 0; n < gauges.size(); ++n) {
         const auto a = in(gauges[n].second), b = out(gauges[n].second);
-        aa += std::conj(a) * a, ab += std::conj(a) * b, bb += std::conj(b) * b, ay += std::conj(a) * amplitude[n], by += std::conj(b) * amplitude[n];
+        aa += std::conj(a) * a, ab += std::conj(a) * b, bb += std::conj(b) * b, ay += std::conj(a) * amplitude[n],
+            by += std::conj(b) * amplitude[n];
       }
       const auto determinant = aa * bb - ab * std::conj(ab);
       const auto a = (bb * ay - ab * by) / determinant, b = (aa * by - std::conj(ab) * ay) / determinant;
@@ -61,7 +62,8 @@ Waves analyse(const scene::Columns& history, const std::vector<std::pair<std::st
 
 }  // namespace
 
-TEST_CASE("a piston in a small tank makes waves of Biesel's height that travel at the speed of linear theory", "[coupled][sea][nightly]") {
+TEST_CASE("a piston in a small tank makes waves of Biesel's height that travel at the speed of linear theory",
+          "[coupled][sea][nightly]") {
   const test::Folder folder("small_tank");
   test::run_scene(test::input("validation/wave_tank/small_tank.toml"), {}, folder.path());
   const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
@@ -81,8 +83,9 @@ TEST_CASE("the paper's wave at five and ten particles per height: Biesel's heigh
   const test::Folder folder(name);
   test::run_scene(test::input("validation/wave_tank/" + name + ".toml"), {}, folder.path());
   const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
-  const Waves w = analyse(history, {{"g26", 25.7}, {"g39", 38.5}, {"g51", 51.4}, {"g64", 64.2}, {"g77", 77.1}, {"g90", 89.9}, {"g103", 102.8}},
-                          1.88, 8.8, 20.6, 1);
+  const Waves w = analyse(
+      history, {{"g26", 25.7}, {"g39", 38.5}, {"g51", 51.4}, {"g64", 64.2}, {"g77", 77.1}, {"g90", 89.9}, {"g103", 102.8}}, 1.88,
+      8.8, 20.6, 1);
   INFO(name << ": height " << w.height << ", speed " << w.speed_ratio << ", loss " << w.loss << ", reflection " << w.reflection);
   CHECK(w.height == Approx(1.0).margin(0.03));
   CHECK(w.speed_ratio == Approx(1.0).margin(0.01));

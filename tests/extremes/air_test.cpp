@@ -1,5 +1,5 @@
-// The air at its extremes: impulsive starts, CFL numbers of seven orders of magnitude. Each march converges, or goes on slowly, or gives
-// up with a sentence; whatever it leaves is finite, with positive pressure, temperature and turbulence.
+// The air at its extremes: impulsive starts, CFL numbers of seven orders of magnitude. Each march converges, or goes on slowly,
+// or gives up with a sentence; whatever it leaves is finite, with positive pressure, temperature and turbulence.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -22,7 +22,8 @@ struct Left {
   std::string why;
 };
 
-/// A wing (planar: its section) at 10 degrees in a wind of this Mach number, from the wind or from rest; CFL number as given from the start.
+/// A wing (planar: its section) at 10 degrees in a wind of this Mach number, from the wind or from rest; CFL number as given from
+/// the start.
 Left march(const MultiBlockGrid& grid, double mach, bool from_rest, double cfl, int steps, const std::string& model = "sa") {
   const double alpha = 10.0 * 3.14159265358979 / 180.0;
   FlowSetting s = air(mach, {std::cos(alpha), 0.0, std::sin(alpha)});
@@ -50,7 +51,8 @@ Left march(const MultiBlockGrid& grid, double mach, bool from_rest, double cfl, 
         const auto q = gas::load_primitive<double>(at, std::size_t(tile.cells.component));
         left.sound = left.sound && gas::absolute_pressure(s.gas, q) > 0.0 && gas::absolute_temperature(s.gas, q) > 0.0 &&
                      std::isfinite(q.u + q.v + q.w);
-        for (int t = 0; t < tile.turbulence; ++t) left.sound = left.sound && at[(mean_unknowns + t) * tile.cells.component] >= 0.0;
+        for (int t = 0; t < tile.turbulence; ++t)
+          left.sound = left.sound && at[(mean_unknowns + t) * tile.cells.component] >= 0.0;
       }
     });
   return left;

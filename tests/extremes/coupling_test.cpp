@@ -37,7 +37,8 @@ struct Odd {
 
 }  // namespace
 
-TEST_CASE("added mass from a thousandth to a hundred times the structure's: every scheme converges or names its limit", "[extremes][fast]") {
+TEST_CASE("added mass from a thousandth to a hundred times the structure's: every scheme converges or names its limit",
+          "[extremes][fast]") {
   const double r = GENERATE(1e-3, 0.1, 1.0, 10.0, 100.0);
   with_each_scheme([r](auto scheme) {
     INFO(scheme.name << " at r = " << r);
@@ -64,7 +65,9 @@ TEST_CASE("a part that returns NaN is named and nothing of it is accepted", "[ex
 }
 
 TEST_CASE("a part that returns NaN once is retried", "[extremes][fast]") {
-  Odd part{[](const Vector& x, int call) { return Vector(call == 2 ? Vector::Constant(6, std::nan("")) : Vector(Vector::Constant(6, 1.0) - 5.0 * x)); }};
+  Odd part{[](const Vector& x, int call) {
+    return Vector(call == 2 ? Vector::Constant(6, std::nan("")) : Vector(Vector::Constant(6, 1.0) - 5.0 * x));
+  }};
   IqnIls scheme(0.1, {});
   const WindowLog log = solve_window(part, scheme, {});
   CHECK(log.ok());
@@ -125,10 +128,12 @@ TEST_CASE("one part a thousand times slower or faster than the other, windows of
   }
 }
 
-TEST_CASE("wave, three times the rotor's turn and pitch at one frequency: the scheme's error grows with the motion alone", "[extremes][fast]") {
+TEST_CASE("wave, three times the rotor's turn and pitch at one frequency: the scheme's error grows with the motion alone",
+          "[extremes][fast]") {
   Fowt resonant;
   resonant.wave_period = resonant.pitch_period;
-  const double cps = loose_error(resonant, Staggering::cps(), 0.02, 120.0), cps2 = loose_error(resonant, Staggering::cps2(), 0.02, 120.0);
+  const double cps = loose_error(resonant, Staggering::cps(), 0.02, 120.0),
+               cps2 = loose_error(resonant, Staggering::cps2(), 0.02, 120.0);
   CHECK(std::isfinite(cps));
   CHECK(cps < 0.1);
   CHECK(cps > 50.0 * cps2);

@@ -24,7 +24,9 @@ std::vector<int> order_rows(int rows, std::span<const BlockElimination::Entry> e
     std::ranges::sort(list);
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
-  const auto fewer = [&](int a, int b) { return std::pair(near[std::size_t(a)].size(), a) < std::pair(near[std::size_t(b)].size(), b); };
+  const auto fewer = [&](int a, int b) {
+    return std::pair(near[std::size_t(a)].size(), a) < std::pair(near[std::size_t(b)].size(), b);
+  };
   std::vector<int> by_degree(std::size_t(rows), 0), order;
   std::iota(by_degree.begin(), by_degree.end(), 0);
   std::ranges::sort(by_degree, fewer);
@@ -96,7 +98,8 @@ BlockElimination::BlockElimination(int rows, std::span<const Entry> entries) : p
       for (int a = 0; a < n; ++a)
         for (int b = 0; b < n; ++b) {
           const std::size_t block = std::size_t(n * (j - first));
-          l(a, b) = lower_[at(i, a) + block + std::size_t(b)] - inner(&lower_[at(i, a) + own], &upper_[at(j, b) + others], length);
+          l(a, b) =
+              lower_[at(i, a) + block + std::size_t(b)] - inner(&lower_[at(i, a) + own], &upper_[at(j, b) + others], length);
           // Here a is the column of the upper part, b its row.
           upper_[at(i, a) + block + std::size_t(b)] -= inner(&lower_[at(j, b) + others], &upper_[at(i, a) + own], length);
         }
@@ -109,7 +112,8 @@ BlockElimination::BlockElimination(int rows, std::span<const Entry> entries) : p
       for (int b = 0; b < n; ++b)
         pivot(a, b) -= i > first ? inner(&lower_[at(i, a)], &upper_[at(i, b)], std::ptrdiff_t(n) * (i - first)) : 0.0;
     const Block inverse = pivot.partialPivLu().inverse();
-    if (!inverse.allFinite()) throw std::runtime_error("flow: the coarse matrix is singular in row " + std::to_string(i) + " of its elimination");
+    if (!inverse.allFinite())
+      throw std::runtime_error("flow: the coarse matrix is singular in row " + std::to_string(i) + " of its elimination");
     pivot = inverse;
   }
 }

@@ -19,16 +19,19 @@ class BlockElimination {
     std::array<double, 25> block;  ///< column by column
   };
   BlockElimination() = default;
-  /// Entries of the same place add up; the pattern must be symmetric after that, with a diagonal. Throws std::runtime_error naming the
-  /// row of a singular pivot.
+  /// Entries of the same place add up; the pattern must be symmetric after that, with a diagonal. Throws std::runtime_error
+  /// naming the row of a singular pivot.
   BlockElimination(int rows, std::span<const Entry> entries);
   /// x = A^-1 b; both [row][5], may be the same.
   void solve(std::span<const double> b, std::span<double> x) const;
   std::size_t bytes() const { return (lower_.size() + upper_.size() + pivots_.size()) * sizeof(double); }
 
  private:
-  /// Row i of the lower part and column i of the upper one: [5][blocks of the envelope][5], the inner index running along the sum.
-  std::size_t at(int i, int part) const { return begin_[std::size_t(i)] + std::size_t(part) * std::size_t(n) * std::size_t(i - low_[std::size_t(i)]); }
+  /// Row i of the lower part and column i of the upper one: [5][blocks of the envelope][5], the inner index running along the
+  /// sum.
+  std::size_t at(int i, int part) const {
+    return begin_[std::size_t(i)] + std::size_t(part) * std::size_t(n) * std::size_t(i - low_[std::size_t(i)]);
+  }
   std::vector<int> place_, low_;  ///< number of a row in the elimination; first column of its envelope
   std::vector<std::size_t> begin_;
   std::vector<double> lower_, upper_, pivots_;  ///< pivots: inverted diagonal blocks, by rows

@@ -14,38 +14,48 @@ gas::Primitive<double> load(const FlowTile& tile, const double* state, std::ptrd
 }
 
 gas::Primitive<double> ghost_state(const FlowBoundary& boundary, const gas::Primitive<double>& inside, const gas::Face<double>& f,
-                                   const gas::Vector<double>& wall, const gas::Primitive<double>& stream, const BoundarySetting& s) {
+                                   const gas::Vector<double>& wall, const gas::Primitive<double>& stream,
+                                   const BoundarySetting& s) {
   switch (boundary.condition) {
     case Condition::wall_law:
-    case Condition::no_slip: return gas::no_slip_ghost(inside, wall);
+    case Condition::no_slip:
+      return gas::no_slip_ghost(inside, wall);
     case Condition::slip:
-    case Condition::symmetry: return gas::mirrored(inside, f);
-    case Condition::inflow_velocity: return gas::inflow_velocity(inside, stream);
-    case Condition::inflow_stagnation: return gas::inflow_reservoir(s.gas, inside, s.profile.uniform() ? s.reservoir : reservoir_of(s.gas, stream));
-    case Condition::outflow_pressure: return gas::outflow_pressure(s.gas, inside, stream, f);
-    case Condition::far_field: break;
+    case Condition::symmetry:
+      return gas::mirrored(inside, f);
+    case Condition::inflow_velocity:
+      return gas::inflow_velocity(inside, stream);
+    case Condition::inflow_stagnation:
+      return gas::inflow_reservoir(s.gas, inside, s.profile.uniform() ? s.reservoir : reservoir_of(s.gas, stream));
+    case Condition::outflow_pressure:
+      return gas::outflow_pressure(s.gas, inside, stream, f);
+    case Condition::far_field:
+      break;
   }
   return gas::far_field(s.gas, inside, stream, f, s.reference_speed);
 }
 
-/// Behind a slip wall along which the flow turns, pressure and what moves along the wall vary across it: ghosts are the straight line through
-/// the two cells inside. Mirror images have a kink at the wall, which the reconstruction of the next face answers with a jump.
+/// Behind a slip wall along which the flow turns, pressure and what moves along the wall vary across it: ghosts are the straight
+/// line through the two cells inside. Mirror images have a kink at the wall, which the reconstruction of the next face answers
+/// with a jump.
 struct SlipGhosts {
   gas::Primitive<double> first, second;
 };
-SlipGhosts slip_ghosts(const gas::Primitive<double>& inside, const gas::Primitive<double>& next, const gas::Face<double>& f, double weight, bool all) {
+SlipGhosts slip_ghosts(const gas::Primitive<double>& inside, const gas::Primitive<double>& next, const gas::Face<double>& f,
+                       double weight, bool all) {
   const gas::Primitive<double> mirror = gas::mirrored(inside, f), mirror_next = gas::mirrored(next, f);
   const double slope = 2.0 * weight;  // from the cell to its ghost, over the difference of both cells
   SlipGhosts g{mirror, mirror_next};
   g.first.p = inside.p + slope * (inside.p - next.p), g.second.p = g.first.p + (inside.p - next.p);
   if (!all) return g;
   const double un = gas::normal_velocity(inside, f), un_next = gas::normal_velocity(next, f), du = un - un_next;
-  const gas::Primitive<double> d{0.0, inside.u - next.u - du * f.nx, inside.v - next.v - du * f.ny, inside.w - next.w - du * f.nz, inside.T - next.T};
+  const gas::Primitive<double> d{0.0, inside.u - next.u - du * f.nx, inside.v - next.v - du * f.ny, inside.w - next.w - du * f.nz,
+                                 inside.T - next.T};
   const double ghost = 2.0 * f.speed - un, ghost_next = 2.0 * f.speed - un_next;
   const auto along = [&](double share, double normal) {
     const double shift = normal - un;
-    return gas::Primitive<double>{0.0, inside.u + share * d.u + shift * f.nx, inside.v + share * d.v + shift * f.ny, inside.w + share * d.w + shift * f.nz,
-                                  inside.T + share * d.T};
+    return gas::Primitive<double>{0.0, inside.u + share * d.u + shift * f.nx, inside.v + share * d.v + shift * f.ny,
+                                  inside.w + share * d.w + shift * f.nz, inside.T + share * d.T};
   };
   const double p = g.first.p, p_next = g.second.p;
   g.first = along(slope, ghost), g.second = along(slope + 1.0, ghost_next);
@@ -61,8 +71,8 @@ std::ptrdiff_t outward(const BoxLayout& box, Side side) { return (at_end(side) ?
 gas::Reservoir reservoir_of(const gas::IdealGas& gas, const gas::Primitive<double>& stream) {
   const double T = gas::absolute_temperature(gas, stream), T0 = T + gas::kinetic(stream) / gas.cp();
   const double speed = std::sqrt(2.0 * gas::kinetic(stream)), inverse = speed > 0.0 ? 1.0 / speed : 0.0;
-  return {gas::absolute_pressure(gas, stream) * std::pow(T0 / T, gas.gamma / (gas.gamma - 1.0)), T0, stream.u * inverse, stream.v * inverse,
-          stream.w * inverse};
+  return {gas::absolute_pressure(gas, stream) * std::pow(T0 / T, gas.gamma / (gas.gamma - 1.0)), T0, stream.u * inverse,
+          stream.v * inverse, stream.w * inverse};
 }
 
 Eigen::Vector3d face_centre(const TileGeometry& g, Side side, int k, int j, int i) {
@@ -101,9 +111,7 @@ void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
   for (const FlowBoundary& boundary : tile.boundaries) {
     const Side side = boundary.where.side;
     const std::ptrdiff_t out = outward(tile.cells, side), component = tile.cells.component;
-    const bool deep = (direction_of(side) == 0   ? tile.box.ni
-                       : direction_of(side) == 1 ? tile.box.nj
-                                                 : tile.box.nk) > 1;
+    const bool deep = (direction_of(side) == 0 ? tile.box.ni : direction_of(side) == 1 ? tile.box.nj : tile.box.nk) > 1;
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const std::ptrdiff_t cell = tile.cells.at(k, j, i);
       const gas::Face<double> f = outward_face(g, side, k, j, i);

@@ -1,29 +1,30 @@
-// Ghost cells behind boundary windows and the pressure of walls. Ghosts serve gradients, viscous faces and open boundaries; through
-// wall faces no flux scheme is called: the pressure there is extrapolated along the line of cells and nothing else passes.
-// Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/solver_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Ghost cells behind boundary windows and the pressure of walls. Ghosts serve gradients, viscous faces and open boundaries;
+// through wall faces no flux scheme is called: the pressure there is extrapolated along the line of cells and nothing else
+// passes. Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/solver_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 
-#include "src/aero/flow/flow_tile.hpp"
 #include "kernels/gas/boundary.hpp"
 #include "kernels/rotor/wind_profile.hpp"
+#include "src/aero/flow/flow_tile.hpp"
 
 namespace spindrift::aero {
 
 struct BoundarySetting {
   gas::IdealGas gas;
-  gas::Primitive<double> stream{};         ///< undisturbed flow, above the references; at the reference height of
-  WindProfile profile{};                   ///< its velocity over the height z
-  gas::Reservoir reservoir{};              ///< that the undisturbed flow comes from
-  std::array<double, 2> carried{};         ///< of the turbulence unknowns in it
-  double reference_speed = 1e30;           ///< of the far field's waves [m/s]; beyond the sound speed: the physical ones
-  double dt = 0.0;                         ///< of a moving grid, for the speed of its walls, with
-  TimeWeights weights{};                   ///< those of the physical step
-  bool inviscid = false;                   ///< behind slip walls all is extrapolated; else pressure alone, and nothing rubs
-  bool turning = false;                    ///< walls at rest in a frame that turns: their speed follows from TileGeometry's own
-  /// Ghost value of the turbulence unknowns behind a no-slip wall, of those inside, the laminar nu and the wall distance; null: none.
+  gas::Primitive<double> stream{};  ///< undisturbed flow, above the references; at the reference height of
+  WindProfile profile{};            ///< its velocity over the height z
+  gas::Reservoir reservoir{};       ///< that the undisturbed flow comes from
+  std::array<double, 2> carried{};  ///< of the turbulence unknowns in it
+  double reference_speed = 1e30;    ///< of the far field's waves [m/s]; beyond the sound speed: the physical ones
+  double dt = 0.0;                  ///< of a moving grid, for the speed of its walls, with
+  TimeWeights weights{};            ///< those of the physical step
+  bool inviscid = false;            ///< behind slip walls all is extrapolated; else pressure alone, and nothing rubs
+  bool turning = false;             ///< walls at rest in a frame that turns: their speed follows from TileGeometry's own
+  /// Ghost value of the turbulence unknowns behind a no-slip wall, of those inside, the laminar nu and the wall distance; null:
+  /// none.
   void (*wall_carried)(const double* inside, double nu, double distance, double* ghost) = nullptr;
 };
 

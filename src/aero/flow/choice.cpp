@@ -57,7 +57,8 @@ Choice choose_preconditioner(FlowSolver& solver, MPI_Comm comm, int threads) {
   const auto best = std::ranges::min_element(choice.trials, {}, &Trial::cost);  // equal ones: the first
   choice.preconditioner = best->preconditioner;
   for (const Trial& t : choice.trials)
-    choice.reason += (choice.reason.empty() ? "" : "; ") + one_line("%s: %.0f iterations, %.2f us per cell by the model", t.preconditioner.c_str(), t.needed, t.cost);
+    choice.reason += (choice.reason.empty() ? "" : "; ") +
+                     one_line("%s: %.0f iterations, %.2f us per cell by the model", t.preconditioner.c_str(), t.needed, t.cost);
   return choice;
 }
 

@@ -34,12 +34,14 @@ struct TileGroups {
     const Eigen::Matrix3d* turn = nullptr;  ///< of velocities met through a rotational period
   };
   std::vector<Column> columns;
-  std::vector<std::pair<int, int>> entries;        ///< group of this tile, column
+  std::vector<std::pair<int, int>> entries;  ///< group of this tile, column
   std::vector<std::array<double, block_size>> values;
-  std::vector<std::array<int, 7>> inside;          ///< by group: entry of itself, then of the group across each side, where of this tile
-  std::array<std::vector<int>, 6> beyond;          ///< by face of a side of the tile: entry; -1 where a boundary
-  std::vector<float> sums;                         ///< [cell][25]: diagonal and all blocks to cells of the same group
-  int group(int k, int j, int i) const { return piece_of[0][std::size_t(i)] + piece_of[1][std::size_t(j)] + piece_of[2][std::size_t(k)]; }
+  std::vector<std::array<int, 7>> inside;  ///< by group: entry of itself, then of the group across each side, where of this tile
+  std::array<std::vector<int>, 6> beyond;  ///< by face of a side of the tile: entry; -1 where a boundary
+  std::vector<float> sums;                 ///< [cell][25]: diagonal and all blocks to cells of the same group
+  int group(int k, int j, int i) const {
+    return piece_of[0][std::size_t(i)] + piece_of[1][std::size_t(j)] + piece_of[2][std::size_t(k)];
+  }
 };
 
 Index pieces_of(const Tile& tile, int side) {
@@ -58,7 +60,7 @@ struct CoarseCorrection final : IluAfterCommon {
   int total = 0;
   std::vector<int> local;
   std::vector<TileGroups> tiles;
-  std::vector<int> canonical;         ///< of this process's groups
+  std::vector<int> canonical;  ///< of this process's groups
   std::vector<double> right, left, outside, all;
   OutsideValues exchange;
   BlockElimination elimination;
@@ -107,7 +109,8 @@ struct CoarseCorrection final : IluAfterCommon {
           c.place.own = number - numbering.begin;
         else
           c.place.outside = exchange.want(number);
-        if (period >= 0 && !tiling.periodic[std::size_t(period)].rotation.isIdentity(1e-14)) c.turn = &tiling.periodic[std::size_t(period)].rotation;
+        if (period >= 0 && !tiling.periodic[std::size_t(period)].rotation.isIdentity(1e-14))
+          c.turn = &tiling.periodic[std::size_t(period)].rotation;
         t.entries.emplace_back(group, int(t.columns.size()));
         t.columns.push_back(c);
       }
@@ -138,8 +141,8 @@ struct CoarseCorrection final : IluAfterCommon {
       int of_group = 0;
       for (std::size_t d = 3; d-- > 0;) of_group = of_group * pieces[d] + int(long(donor[d]) * pieces[d] / n[d]);
       const auto [a, b] = along(link.side);
-      t.beyond[std::size_t(link.side)][std::size_t(at[std::size_t(b)] * cells[std::size_t(a)] + at[std::size_t(a)])] =
-          entry(t.group(at[2], at[1], at[0]), numbering.first[std::size_t(link.from)] + of_group, link.from, of_group, link.periodic);
+      t.beyond[std::size_t(link.side)][std::size_t(at[std::size_t(b)] * cells[std::size_t(a)] + at[std::size_t(a)])] = entry(
+          t.group(at[2], at[1], at[0]), numbering.first[std::size_t(link.from)] + of_group, link.from, of_group, link.periodic);
     });
     t.values.resize(t.entries.size());
     t.sums.resize(std::size_t(flow.box.count()) * block_size + linear::block_overrun);
@@ -165,7 +168,8 @@ struct CoarseCorrection final : IluAfterCommon {
                 e = t.beyond[std::size_t(side)][std::size_t(at[b] * extent[a] + at[a])];
               } else {
                 const auto& piece = t.piece_of[std::size_t(d)];
-                e = piece[std::size_t(at[d])] == piece[std::size_t(next)] ? -2 : t.inside[std::size_t(group)][std::size_t(side) + 1];
+                e = piece[std::size_t(at[d])] == piece[std::size_t(next)] ? -2
+                                                                          : t.inside[std::size_t(group)][std::size_t(side) + 1];
               }
             }
           body(cell, group, entries);
@@ -230,7 +234,8 @@ struct CoarseCorrection final : IluAfterCommon {
       std::vector<BlockElimination::Entry> entries;
       for (const TileGroups& t : tiles)
         for (std::size_t n = 0; n < t.entries.size(); ++n)
-          entries.push_back({canonical[std::size_t(t.first + t.entries[n].first)], t.columns[std::size_t(t.entries[n].second)].place.canonical, t.values[n]});
+          entries.push_back({canonical[std::size_t(t.first + t.entries[n].first)],
+                             t.columns[std::size_t(t.entries[n].second)].place.canonical, t.values[n]});
       if (runtime::ranks_in(comm) > 1) {
         mine.put(std::span<const BlockElimination::Entry>(entries));
         entries.clear();
@@ -262,7 +267,8 @@ struct CoarseCorrection final : IluAfterCommon {
         rows.columns.push_back(own * width + r), rows.values.push_back(row[own][std::size_t(r * width + r)]);
         for (const auto& [number, block] : row)
           for (int c = 0; c < width; ++c)
-            if (number != own || c != r) rows.columns.push_back(number * width + c), rows.values.push_back(block[std::size_t(c * width + r)]);
+            if (number != own || c != r)
+              rows.columns.push_back(number * width + c), rows.values.push_back(block[std::size_t(c * width + r)]);
         rows.begin.push_back(int(rows.columns.size()));
       }
     }
@@ -270,7 +276,8 @@ struct CoarseCorrection final : IluAfterCommon {
   }
   int number_of(const GroupPlace& p) const {
     // Canonical to global: the tile whose range has it.
-    const int tile = int(std::upper_bound(canonical_first.begin(), canonical_first.end(), p.canonical) - canonical_first.begin()) - 1;
+    const int tile =
+        int(std::upper_bound(canonical_first.begin(), canonical_first.end(), p.canonical) - canonical_first.begin()) - 1;
     return numbering.first[std::size_t(tile)] + p.canonical - canonical_first[std::size_t(tile)];
   }
 
@@ -280,7 +287,8 @@ struct CoarseCorrection final : IluAfterCommon {
       exchange.fetch(numbering, left, width, outside, comm);
       return;
     }
-    for (std::size_t n = 0; n < canonical.size(); ++n) std::copy_n(&right[n * width], width, &all[std::size_t(canonical[n]) * width]);
+    for (std::size_t n = 0; n < canonical.size(); ++n)
+      std::copy_n(&right[n * width], width, &all[std::size_t(canonical[n]) * width]);
     if (runtime::ranks_in(comm) > 1) {
       runtime::Packer mine;
       mine.put(std::span<const int>(canonical)), mine.put(std::span<const double>(right));
@@ -288,7 +296,8 @@ struct CoarseCorrection final : IluAfterCommon {
         runtime::Unpacker from(bytes);
         const auto groups = from.many<int>();
         const auto values = from.many<double>();
-        for (std::size_t n = 0; n < groups.size(); ++n) std::copy_n(&values[n * width], width, &all[std::size_t(groups[n]) * width]);
+        for (std::size_t n = 0; n < groups.size(); ++n)
+          std::copy_n(&values[n * width], width, &all[std::size_t(groups[n]) * width]);
       }
     }
     elimination.solve(all, all);

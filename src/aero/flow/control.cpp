@@ -91,8 +91,8 @@ Verdict March::judge(const Norms& n, double load) {
   if (!fresh && !retry_) {
     in_a_row_ = 0;
     const double ratio = before_ > 0.0 ? total / before_ : 1.0;
-    // Full steps let the number grow by what the residual fell, and by a little where it did not rise much; shortened ones hold it.
-    // So does a linear system that was hardly solved: its solution is no Newton step, and larger ones would be worse.
+    // Full steps let the number grow by what the residual fell, and by a little where it did not rise much; shortened ones hold
+    // it. So does a linear system that was hardly solved: its solution is no Newton step, and larger ones would be worse.
     if (linear_drop_ > 0.9)
       cfl_ *= 0.6;
     else if (fraction_ > 0.99 && linear_drop_ < 0.7)

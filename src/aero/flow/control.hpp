@@ -1,8 +1,7 @@
-// The decisions of a pseudo-time march: when a step is good, how large the next may be, when to stop and when to give up. Numbers in,
-// decisions out; the same on every rank, as all its numbers are ordered reductions.
-// CFL: switched evolution relaxation (Mulder & van Leer 1985, J. Comput. Phys. 59, 232) between bounds, with back-off.
-// Called by tasks.cpp; tested in tests/src/aero/flow/control_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// The decisions of a pseudo-time march: when a step is good, how large the next may be, when to stop and when to give up. Numbers
+// in, decisions out; the same on every rank, as all its numbers are ordered reductions. CFL: switched evolution relaxation
+// (Mulder & van Leer 1985, J. Comput. Phys. 59, 232) between bounds, with back-off. Called by tasks.cpp; tested in
+// tests/src/aero/flow/control_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -14,28 +13,28 @@ namespace spindrift::aero {
 
 struct MarchOptions {
   double cfl_start = 5.0, cfl_max = 1e4, cfl_least = 1e-3;
-  double growth = 2.0;           ///< most that the CFL number grows in a step
-  double back_off = 0.2;         ///< what it is multiplied by after a rejected step
-  double rise_limit = 10.0;      ///< of the residual in one step; beyond it the step is rejected
-  double drop = 1e-2;            ///< of the density residual since the start of the (physical) step: done
-  double absolute = 0.0;         ///< density residual [kg/(m3 s)] below which all is done
-  double load_change = 0.0;      ///< relative change of the loads over load_window steps: done; 0: not looked at
+  double growth = 2.0;       ///< most that the CFL number grows in a step
+  double back_off = 0.2;     ///< what it is multiplied by after a rejected step
+  double rise_limit = 10.0;  ///< of the residual in one step; beyond it the step is rejected
+  double drop = 1e-2;        ///< of the density residual since the start of the (physical) step: done
+  double absolute = 0.0;     ///< density residual [kg/(m3 s)] below which all is done
+  double load_change = 0.0;  ///< relative change of the loads over load_window steps: done; 0: not looked at
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
-  int krylov_steps = 18;         ///< most Krylov iterations of a pseudo-step
-  double krylov_drop = 0.05;     ///< of the linear residual: enough
-  int refresh_every = 1;         ///< pseudo-steps between two matrices of the preconditioner, where products are matrix-free
+  int krylov_steps = 18;            ///< most Krylov iterations of a pseudo-step
+  double krylov_drop = 0.05;        ///< of the linear residual: enough
+  int refresh_every = 1;            ///< pseudo-steps between two matrices of the preconditioner, where products are matrix-free
   double matrix_free_below = 0.01;  ///< drop of the residual from which on products are matrix-free; 0: never
 };
 
 /// What the tiles report of a state, summed over all cells.
 struct Norms {
-  double density = 0.0;     ///< sum of squared density rates
-  double mass = 0.0;        ///< of squared mass balances: not divided by volumes
-  double mean = 0.0;        ///< of squared scaled residuals of the mean flow
-  double model = 0.0;       ///< of the turbulence unknowns
+  double density = 0.0;  ///< sum of squared density rates
+  double mass = 0.0;     ///< of squared mass balances: not divided by volumes
+  double mean = 0.0;     ///< of squared scaled residuals of the mean flow
+  double model = 0.0;    ///< of the turbulence unknowns
   double cells = 1.0;
-  double broken = 0.0;      ///< cells whose residual is not finite
+  double broken = 0.0;  ///< cells whose residual is not finite
 };
 
 enum class Verdict : std::uint8_t { go_on, rejected, converged, failed };
@@ -70,8 +69,8 @@ class March {
   double first_density_residual() const { return first_; }
   Verdict verdict() const { return verdict_; }
   bool spent() const { return spent_; }  ///< ended for want of steps
-  /// Whether the matrix is to be made anew: always where it is the operator; else after refresh_every steps, or sooner where the CFL number
-  /// has left a factor of two, a step was rejected, or a linear system was solved worse than with the fresh matrix.
+  /// Whether the matrix is to be made anew: always where it is the operator; else after refresh_every steps, or sooner where the
+  /// CFL number has left a factor of two, a step was rejected, or a linear system was solved worse than with the fresh matrix.
   bool refresh() const { return refresh_; }
   const char* why() const { return why_; }
   int krylov() const { return krylov_; }

@@ -35,7 +35,11 @@ std::size_t FlowTile::bytes() const {
 }
 
 FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<PatchCondition> conditions)
-    : grid_(grid), setting_(setting), conditions_(std::move(conditions)), march_(setting.march), cycle_(setting.krylov, setting.march.krylov_steps),
+    : grid_(grid),
+      setting_(setting),
+      conditions_(std::move(conditions)),
+      march_(setting.march),
+      cycle_(setting.krylov, setting.march.krylov_steps),
       preconditioner_(make_preconditioner(setting.preconditioner, setting.common)) {
   const Tiling& tiling = grid.tiling();
   if (setting.speed <= 0.0) throw std::invalid_argument("flow: the scale of velocity must be positive");
@@ -76,7 +80,8 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     // SA: nu tilde of a boundary layer. SST: k, and the omega that goes with both.
     const double eddy = 100.0 * nu, k = 1e-2 * setting.speed * setting.speed;
     implicit_.scales.model_unknown = model_->equations == 1 ? std::array{eddy, 1.0} : std::array{k, k / eddy};
-    for (std::size_t t = 0; t < 2; ++t) implicit_.scales.model_residual[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
+    for (std::size_t t = 0; t < 2; ++t)
+      implicit_.scales.model_residual[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
   }
 
   periodic_ = tiling.periodic;
@@ -86,7 +91,8 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     const Eigen::Vector3d u(setting.stream.u, setting.stream.v, setting.stream.w);
     if (setting.frame_omega.cross(u).norm() > 1e-9 * setting.frame_omega.norm() * setting.speed)
       throw std::invalid_argument("flow: a stream across the axis is not steady in a turning frame");
-    if (!setting.profile.uniform()) throw std::invalid_argument("flow: a wind that goes with height is not steady in a turning frame");
+    if (!setting.profile.uniform())
+      throw std::invalid_argument("flow: a wind that goes with height is not steady in a turning frame");
     boundary_.turning = true;
     for (std::size_t c = 0; c < 3; ++c) implicit_.omega[c] = setting.frame_omega[Eigen::Index(c)];
   }
@@ -113,7 +119,8 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     for (const TileBoundary& where : tiling.boundary(index)) {
       const PatchCondition& c = conditions_.at(std::size_t(where.patch));
       const bool law = c.condition == Condition::wall_law;
-      if (law && model_->equations == 0) throw std::invalid_argument("flow: the law of the wall goes with models that transport turbulence");
+      if (law && model_->equations == 0)
+        throw std::invalid_argument("flow: the law of the wall goes with models that transport turbulence");
       if (law) t.wall_law = &model_->wall_law();
       t.boundaries.push_back({where, law ? Condition::no_slip : c.condition, c.loads, law});
     }
@@ -150,7 +157,8 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
 void FlowSolver::gather_bands(LoadBands bands) {
   if (!pieces_.empty()) throw std::logic_error("flow: bands of loads come before the march is recorded");
   bands_ = std::move(bands);
-  const std::size_t sums = std::max<std::size_t>(1, conditions_.size()) * load_components + std::size_t(bands_.count) * band_components;
+  const std::size_t sums =
+      std::max<std::size_t>(1, conditions_.size()) * load_components + std::size_t(bands_.count) * band_components;
   load_partials_.resize(tiles_.size() * sums), loads_.resize(sums);
 }
 
@@ -216,14 +224,16 @@ void FlowSolver::check_poses(const std::vector<BlockPose>& poses) const {
   if (setting_.time_order == 0 || (!tiles_.empty() && !tiles_[0].geometry->moving()))
     throw std::invalid_argument("flow: only grids built as moving, in unsteady flow, move");
   if (poses.size() != 1 && poses.size() != tiling.block_cells.size())
-    throw std::invalid_argument("flow: " + std::to_string(poses.size()) + " poses for " + std::to_string(tiling.block_cells.size()) + " blocks");
+    throw std::invalid_argument("flow: " + std::to_string(poses.size()) + " poses for " +
+                                std::to_string(tiling.block_cells.size()) + " blocks");
   if (tiling.periodic.empty()) return;
   // Across a periodic link both sides must see the same motion: only along the period, or about and along its axis.
   for (const BlockPose& p : poses) {
     const std::vector<RigidMap> maps = moved_maps(tiling.periodic, p.map);
     for (std::size_t n = 0; n < maps.size(); ++n) {
       const double size = 1.0 + p.map.translation.norm() + periodic_[n].translation.norm();
-      if ((maps[n].rotation - periodic_[n].rotation).norm() > 1e-9 || (maps[n].translation - periodic_[n].translation).norm() > 1e-9 * size)
+      if ((maps[n].rotation - periodic_[n].rotation).norm() > 1e-9 ||
+          (maps[n].translation - periodic_[n].translation).norm() > 1e-9 * size)
         throw std::invalid_argument("flow: this motion does not keep the periodicity of the grid; a turn must be about its axis");
     }
   }
@@ -256,7 +266,8 @@ void set_nodes(TileGeometry& g, const Tile& tile, const BlockPose& pose) {
     return;
   }
   if (!pose.shape) return move_rigidly(g, pose.map);
-  move_nodes(g, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return pose.map.rotation * pose.shape(x) + pose.map.translation; });
+  move_nodes(
+      g, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return pose.map.rotation * pose.shape(x) + pose.map.translation; });
 }
 /// From one pose to another: displacement at the origin and turn, those of the middle of the step to second order.
 TileGeometry::RigidRate change(const RigidMap& from, const RigidMap& to) {
@@ -327,11 +338,14 @@ void FlowSolver::evaluate(FlowTile& tile, double* state, double* residual) {
   }
   const TileGeometry& g = *tile.geometry;
   if (boundary_.turning) {  // in axes that turn with the frame, the components of a constant momentum change
-    const double x = implicit_.omega[0], y = implicit_.omega[1], z = implicit_.omega[2];  // no binding: clang with OpenMP captures none
+    const double x = implicit_.omega[0], y = implicit_.omega[1],
+                 z = implicit_.omega[2];  // no binding: clang with OpenMP captures none
     for_rows(tile.box, [&](int k, int j) {
       for (int i = 0; i < tile.box.ni; i += row_lanes) {
-        const auto w = gas::conserved(setting_.gas, gas::load_primitive<Row>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component)));
-        const Row v = Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)), across[3] = {y * w.mz - z * w.my, z * w.mx - x * w.mz, x * w.my - y * w.mx};
+        const auto w = gas::conserved(
+            setting_.gas, gas::load_primitive<Row>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component)));
+        const Row v = Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)),
+                  across[3] = {y * w.mz - z * w.my, z * w.mx - x * w.mz, x * w.my - y * w.mx};
         for (int c = 0; c < 3; ++c) {
           double* to = residual + tile.inner.at(k, j, i) + (c + 1) * tile.inner.component;
           (Row::load(to) + v * across[c]).store(to);
@@ -392,7 +406,12 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
 
 /// One place where the march goes on, back, or ends: after the sums over all cells.
 void FlowSolver::judge() {
-  norms_ = {.density = norm_sums_[0], .mass = norm_sums_[4], .mean = norm_sums_[1], .model = norm_sums_[2], .cells = double(cells()), .broken = norm_sums_[3]};
+  norms_ = {.density = norm_sums_[0],
+            .mass = norm_sums_[4],
+            .mean = norm_sums_[1],
+            .model = norm_sums_[2],
+            .cells = double(cells()),
+            .broken = norm_sums_[3]};
   double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
   for (std::size_t p = 0; p < conditions_.size(); ++p)
     if (conditions_[p].loads)
@@ -426,7 +445,8 @@ void FlowSolver::judge() {
 }
 
 void FlowSolver::name_trouble() {
-  const auto worst = std::min_element(limits_.begin(), limits_.end(), [](const Limit& a, const Limit& b) { return a.fraction < b.fraction; });
+  const auto worst =
+      std::min_element(limits_.begin(), limits_.end(), [](const Limit& a, const Limit& b) { return a.fraction < b.fraction; });
   if (worst == limits_.end() || worst->fraction >= 1.0) return;
   const Tile& tile = grid_.tiling().tiles[std::size_t(tiles_[std::size_t(worst - limits_.begin())].index)];
   const Index at = tile.to_block(worst->cell);
@@ -538,7 +558,8 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
           return float((scratch.data()[place] - tile.residual.data()[place]) * inverse / unit);
         };
         for (int c = 0; c < mean_unknowns; ++c) *to++ = difference(c, implicit_.scales.residual[std::size_t(c)]);
-        for (int t = 0; t < tile.turbulence; ++t) *model++ = difference(mean_unknowns + t, implicit_.scales.model_residual[std::size_t(t)]);
+        for (int t = 0; t < tile.turbulence; ++t)
+          *model++ = difference(mean_unknowns + t, implicit_.scales.model_residual[std::size_t(t)]);
       }
     });
     add_pseudo_time(tile, tile.state.data(), march_.cfl(), implicit_, tile.direction.data(), w);
@@ -546,15 +567,19 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
       model = w + tile.box.count() * mean_unknowns;
       for_rows(tile.box, [&](int k, int row) {
         for (int i = 0; i < tile.box.ni; ++i) {
-          const auto q = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, row, i), std::size_t(tile.cells.component));
+          const auto q =
+              gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, row, i), std::size_t(tile.cells.component));
           const double time = gas::density(setting_.gas, q) * tile.rate.data()[tile.inner.at(k, row, i)] / march_.cfl();
           for (int t = 0; t < tile.turbulence; ++t) {
             const double unit = implicit_.scales.model_unknown[std::size_t(t)] / implicit_.scales.model_residual[std::size_t(t)];
-            const float z = tile.direction.data()[(mean_unknowns + t) * tile.gradient_box.component + tile.gradient_box.at(k, row, i)];
+            const float z =
+                tile.direction.data()[(mean_unknowns + t) * tile.gradient_box.component + tile.gradient_box.at(k, row, i)];
             const bool of_k = tile.turbulence == 2 && t == 0;
-            const double slowed = of_k ? time + growth_damping(tile.residual.data()[tile.inner.at(k, row, i) + mean_unknowns * tile.inner.component],
-                                                               tile.state.data()[tile.cells.at(k, row, i) + mean_unknowns * tile.cells.component])
-                                       : time;
+            const double slowed =
+                of_k
+                    ? time + growth_damping(tile.residual.data()[tile.inner.at(k, row, i) + mean_unknowns * tile.inner.component],
+                                            tile.state.data()[tile.cells.at(k, row, i) + mean_unknowns * tile.cells.component])
+                    : time;
             *model++ += float(slowed * unit * double(z));
           }
         }
@@ -613,7 +638,8 @@ void FlowSolver::apply_update(FlowTile& tile) {
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; ++i) {
       double* at = tile.state.data() + tile.cells.at(k, j, i);
-      for (int c = 0; c < mean_unknowns; ++c) at[c * tile.cells.component] += fraction_ * s.unknown[std::size_t(c)] * double(*d++);
+      for (int c = 0; c < mean_unknowns; ++c)
+        at[c * tile.cells.component] += fraction_ * s.unknown[std::size_t(c)] * double(*d++);
     }
   });
   if (tile.turbulence == 0) return;

@@ -1,7 +1,6 @@
-// The air: a compressible flow on the tiles of this rank, one implicit (pseudo-)time march as tasks. Owns all arrays of the solver and
-// the decisions between tasks; the graph itself is tasks.cpp, the method docs/theory/air.md.
-// Built by blade_resolved.cpp and by tests; tested in tests/src/aero/flow and tests/verification/air.
-// SPDX-License-Identifier: Apache-2.0
+// The air: a compressible flow on the tiles of this rank, one implicit (pseudo-)time march as tasks. Owns all arrays of the
+// solver and the decisions between tasks; the graph itself is tasks.cpp, the method docs/theory/air.md. Built by
+// blade_resolved.cpp and by tests; tested in tests/src/aero/flow and tests/verification/air. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -36,33 +35,35 @@ struct PatchCondition {
 
 /// All that a scene may choose, in SI units; from FlowOptions or written by a test.
 struct FlowSetting {
-  gas::IdealGas gas;               ///< with the references of the undisturbed flow
+  gas::IdealGas gas;                ///< with the references of the undisturbed flow
   gas::Primitive<double> stream{};  ///< undisturbed flow above those references; at the reference height of
-  WindProfile profile{};           ///< its velocity over the height z
-  double speed = 0.0;              ///< scale of velocity [m/s]: that of the stream, or of what moves
+  WindProfile profile{};            ///< its velocity over the height z
+  double speed = 0.0;               ///< scale of velocity [m/s]: that of the stream, or of what moves
   std::string flux = "roe_low_mach", limiter = "none", turbulence = "none";
-  bool first_order_model = false;  ///< turbulence is carried by first-order upwind differences, as in CFL3D and FUN3D; else second order, limited
-  double upwinding = 1.0;          ///< share of the jump between reconstructed states that the flux sees
+  bool first_order_model =
+      false;  ///< turbulence is carried by first-order upwind differences, as in CFL3D and FUN3D; else second order, limited
+  double upwinding = 1.0;  ///< share of the jump between reconstructed states that the flux sees
   bool viscous = false, thin_layer = false;
-  double smooth = 0.0;             ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
+  double smooth = 0.0;  ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
   bool preconditioned = true;
   bool physical_far_field = false;  ///< its waves at their own speeds also where the pseudo-time is preconditioned
-  /// Dissipation in the matrix where the flux is low-Mach Roe. Empty: that of the preconditioned equations, good at any Mach number;
-  /// else Rieper's with at least this scaling, 1 being Roe's.
+  /// Dissipation in the matrix where the flux is low-Mach Roe. Empty: that of the preconditioned equations, good at any Mach
+  /// number; else Rieper's with at least this scaling, 1 being Roe's.
   std::optional<double> matrix_mach_floor;
   MarchOptions march;
   KrylovMethod krylov = KrylovMethod::gmres;
   std::string preconditioner = "block_ilu";
-  PreconditionerOptions common;    ///< of preconditioners that have a common part
-  int time_order = 0;              ///< 0 steady, 1 BDF1, 2 BDF2
-  double dt = 0.0;                 ///< physical step [s]
-  double held_rate = 0.0;          ///< steady flow: added to the matrix as a physical step of this rate would [1/s]; trials (choice.hpp)
-  /// Steady flow seen from a frame that turns about an axis through `centre` along the stream: velocities stay those in space, their
-  /// components turn with the frame. Blades are at rest in the grid.
+  PreconditionerOptions common;  ///< of preconditioners that have a common part
+  int time_order = 0;            ///< 0 steady, 1 BDF1, 2 BDF2
+  double dt = 0.0;               ///< physical step [s]
+  double held_rate = 0.0;  ///< steady flow: added to the matrix as a physical step of this rate would [1/s]; trials (choice.hpp)
+  /// Steady flow seen from a frame that turns about an axis through `centre` along the stream: velocities stay those in space,
+  /// their components turn with the frame. Blades are at rest in the grid.
   Eigen::Vector3d frame_omega = Eigen::Vector3d::Zero(), frame_centre = Eigen::Vector3d::Zero();  ///< [rad/s], [m]
 };
 
-/// Where a block of the grid is at the end of a step: its nodes as made, changed by `shape` where there is one, then carried by `map`.
+/// Where a block of the grid is at the end of a step: its nodes as made, changed by `shape` where there is one, then carried by
+/// `map`.
 struct BlockPose {
   RigidMap map;
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> shape;
@@ -122,12 +123,12 @@ class FlowSolver {
   /// No past: the physical step that follows is the first.
   void forget();
 
-  /// Moving grids (built with `moving`; time_order 1 or 2): where the blocks are at the end of the next physical step, by block, or one
-  /// pose for all. To be called before each step; a step without it leaves the grid where it is. Face speeds follow from positions, so
-  /// that any motion keeps a uniform stream.
+  /// Moving grids (built with `moving`; time_order 1 or 2): where the blocks are at the end of the next physical step, by block,
+  /// or one pose for all. To be called before each step; a step without it leaves the grid where it is. Face speeds follow from
+  /// positions, so that any motion keeps a uniform stream.
   void move_to(std::vector<BlockPose> poses);
-  /// Puts the blocks where the last step left them and, one step before it, `before`: starts and restarts away from the nodes as made.
-  /// What save_march() keeps of rigid poses is placed by load_march(); of shapes it keeps nothing, place them after it.
+  /// Puts the blocks where the last step left them and, one step before it, `before`: starts and restarts away from the nodes as
+  /// made. What save_march() keeps of rigid poses is placed by load_march(); of shapes it keeps nothing, place them after it.
   void place(std::vector<BlockPose> before, std::vector<BlockPose> now);
 
   /// In place of the one the setting names; before record().
@@ -183,7 +184,8 @@ class FlowSolver {
   void load(int owned, std::span<const double> from);
   std::vector<double> save_march() const;
   void load_march(std::span<const double> from);
-  /// Where a set-up of the preconditioner outlives a physical step (PreconditionerOptions::common_steps), what it was made of, by owned tile.
+  /// Where a set-up of the preconditioner outlives a physical step (PreconditionerOptions::common_steps), what it was made of, by
+  /// owned tile.
   bool keeps_set_up() const { return setting_.common.common_steps > 1 && preconditioner_->has_common(); }
   struct SetUpNote {
     std::uint64_t number = 0;  ///< of this solver's set-ups; 0: of another solver

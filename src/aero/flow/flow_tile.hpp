@@ -1,8 +1,7 @@
-// What the solver keeps for one tile: state, residual, gradients, the past, the matrix and the Krylov vectors, each allocated only
-// where the scene needs it. Bytes per cell are added up in docs/developer/air.md.
-// Unknowns are p u v w T above the references of the gas, then those of the turbulence model; residuals in the order rho mx my mz E.
-// Called by the sweeps and tasks of src/aero/flow; tested through tests/src/aero/flow.
-// SPDX-License-Identifier: Apache-2.0
+// What the solver keeps for one tile: state, residual, gradients, the past, the matrix and the Krylov vectors, each allocated
+// only where the scene needs it. Bytes per cell are added up in docs/developer/air.md. Unknowns are p u v w T above the
+// references of the gas, then those of the turbulence model; residuals in the order rho mx my mz E. Called by the sweeps and
+// tasks of src/aero/flow; tested through tests/src/aero/flow. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -20,7 +19,16 @@ namespace spindrift::aero {
 inline constexpr int mean_unknowns = 5;
 
 /// How the faces of a window behave; from the scene's boundaries by patch name.
-enum class Condition : unsigned char { far_field, inflow_velocity, inflow_stagnation, outflow_pressure, slip, no_slip, symmetry, wall_law };
+enum class Condition : unsigned char {
+  far_field,
+  inflow_velocity,
+  inflow_stagnation,
+  outflow_pressure,
+  slip,
+  no_slip,
+  symmetry,
+  wall_law
+};
 /// In the solver a wall with the law of the wall is `no_slip` with FlowBoundary::law.
 inline bool sticks(Condition c) { return c == Condition::no_slip || c == Condition::wall_law; }
 /// Through walls goes pressure alone. On a plane of symmetry the scheme acts between mirror images, so that half a flow is the
@@ -38,30 +46,31 @@ struct FlowBoundary {
 
 struct FlowTile {
   TileGeometry* geometry = nullptr;
-  int index = 0;            ///< in the tiling
-  int turbulence = 0;       ///< number of its unknowns
-  bool eddies = false;      ///< a closure gives an eddy viscosity; with or without unknowns
-  int directions = 3;       ///< 2 where planar
-  BoxLayout cells;          ///< of states: two ghosts
-  BoxLayout gradient_box;   ///< one ghost
-  BoxLayout inner;          ///< no ghosts
+  int index = 0;           ///< in the tiling
+  int turbulence = 0;      ///< number of its unknowns
+  bool eddies = false;     ///< a closure gives an eddy viscosity; with or without unknowns
+  int directions = 3;      ///< 2 where planar
+  BoxLayout cells;         ///< of states: two ghosts
+  BoxLayout gradient_box;  ///< one ghost
+  BoxLayout inner;         ///< no ghosts
   linear::CellBox box;
   std::vector<FlowBoundary> boundaries;
   const turbulence::WallLaw* wall_law = nullptr;  ///< of the closure; where a boundary has `law`
 
-  AlignedArray<double> state;          ///< unknowns
-  AlignedArray<double> trial;          ///< perturbed state of matrix-free products; between pseudo-steps the state before the last one
-  AlignedArray<double> gradients;      ///< 3 each of u v w T and the turbulence unknowns, then closures
+  AlignedArray<double> state;  ///< unknowns
+  AlignedArray<double> trial;  ///< perturbed state of matrix-free products; between pseudo-steps the state before the last one
+  AlignedArray<double> gradients;  ///< 3 each of u v w T and the turbulence unknowns, then closures
   AlignedArray<double> residual;
   AlignedArray<double> before, before_that;  ///< conserved times volume one and two steps ago
-  AlignedArray<double> source;         ///< added to the rate of change of conserved amounts per volume; empty but in manufactured solutions
-  AlignedArray<double> rate;           ///< V / pseudo-time step [m3/s]
+  AlignedArray<double>
+      source;  ///< added to the rate of change of conserved amounts per volume; empty but in manufactured solutions
+  AlignedArray<double> rate;                 ///< V / pseudo-time step [m3/s]
   std::array<AlignedArray<double>, 6> open;  ///< per side with walls: 1 where the flux scheme acts, 0 on wall faces; else empty
   std::array<AlignedArray<double>, 6> law;   ///< likewise: 1 on faces of walls with a wall function; empty where there are none
 
   AlignedArray<float> mean_matrix, turbulence_matrix;
-  AlignedArray<float> direction;             ///< with one ghost: what the operator is applied to
-  std::vector<AlignedArray<float>> vectors;  ///< of the Krylov cycle: [cell][5], then [cell][turbulence]
+  AlignedArray<float> direction;                     ///< with one ghost: what the operator is applied to
+  std::vector<AlignedArray<float>> vectors;          ///< of the Krylov cycle: [cell][5], then [cell][turbulence]
   std::vector<AlignedArray<float>> directions_kept;  ///< of flexible GMRES and GCG
 
   int unknowns() const { return mean_unknowns + turbulence; }

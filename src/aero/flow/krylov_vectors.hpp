@@ -1,7 +1,6 @@
-// The vectors of a Krylov cycle in one tile: linear combinations and dot products over floats, summed in double. One pass over memory
-// for all dot products of an iteration. Deterministic: the order of additions is that of the cells.
-// Called by krylov_cycle.cpp; tested in tests/src/aero/flow/linear_solver_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// The vectors of a Krylov cycle in one tile: linear combinations and dot products over floats, summed in double. One pass over
+// memory for all dot products of an iteration. Deterministic: the order of additions is that of the cells. Called by
+// krylov_cycle.cpp; tested in tests/src/aero/flow/linear_solver_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>

@@ -30,7 +30,8 @@ void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& 
 PatchLoads patch_loads(std::span<const double> sums, int patch) {
   PatchLoads loads;
   const double* at = sums.data() + std::size_t(patch) * load_components;
-  for (std::size_t c = 0; c < 3; ++c) loads.pressure_force[c] = at[c], loads.viscous_force[c] = at[3 + c], loads.moment[c] = at[6 + c];
+  for (std::size_t c = 0; c < 3; ++c)
+    loads.pressure_force[c] = at[c], loads.viscous_force[c] = at[3 + c], loads.moment[c] = at[6 + c];
   return loads;
 }
 
@@ -41,10 +42,12 @@ BandLoads band_loads(std::span<const double> sums, int bands, int band) {
   return loads;
 }
 
-void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands, std::span<double> partial) {
+void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands,
+               std::span<double> partial) {
   double* first_band = partial.data() + partial.size() - std::size_t(bands.count) * band_components;
   for_walls(tile, state, viscous,
-            [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p, const Eigen::Vector3d& friction) {
+            [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p,
+                const Eigen::Vector3d& friction) {
               if (!boundary.loads) return;
               // What flows out of the gas through the wall is what the wall receives.
               const Eigen::Vector3d push = p * f.area * Eigen::Vector3d(f.nx, f.ny, f.nz);
@@ -61,14 +64,17 @@ void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& 
 void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting& setting,
                  std::vector<WallPoint>& points) {
   for_walls(tile, state, viscous,
-            [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p, const Eigen::Vector3d& friction) {
+            [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p,
+                const Eigen::Vector3d& friction) {
               const Eigen::Vector3d x = face_centre(*tile.geometry, boundary.where.side, k, j, i);
               WallPoint point{.patch = boundary.where.patch, .place = {x[0], x[1], x[2]}, .pressure = p, .area = f.area};
               for (int c = 0; c < 3; ++c) point.traction[std::size_t(c)] = friction[c] / f.area;
               const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
-              const double rho = gas::density(setting.gas, q), mu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, q));
+              const double rho = gas::density(setting.gas, q),
+                           mu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, q));
               const double distance = tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)];
-              const Eigen::Vector3d n(f.nx, f.ny, f.nz), shear = friction - friction.dot(n) * n;  // 2/3 rho k pushes on walls with a wall function
+              const Eigen::Vector3d n(f.nx, f.ny, f.nz),
+                  shear = friction - friction.dot(n) * n;  // 2/3 rho k pushes on walls with a wall function
               if (viscous.active) point.y_plus = std::sqrt(rho * shear.norm() / f.area) * distance / mu;
               points.push_back(point);
             });

@@ -34,14 +34,15 @@ inline constexpr int band_components = 6;
 BandLoads band_loads(std::span<const double> sums, int bands, int band);
 
 /// Adds the loads on a tile's walls to partial[patch][component] and, behind the patches, to those of the bands.
-void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands, std::span<double> partial);
+void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands,
+               std::span<double> partial);
 
 /// A wall face.
 struct WallPoint {
   int patch = 0;
-  std::array<double, 3> place{};  ///< [m] centre of the face
+  std::array<double, 3> place{};     ///< [m] centre of the face
   std::array<double, 3> traction{};  ///< viscous, of the flow on the wall [Pa]
-  double pressure = 0.0;          ///< above the reference [Pa]
+  double pressure = 0.0;             ///< above the reference [Pa]
   double area = 0.0, y_plus = 0.0;
 };
 void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting& boundary,

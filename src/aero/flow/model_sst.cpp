@@ -6,7 +6,8 @@
 namespace spindrift::aero {
 
 std::span<const ModelSweeps> sweeps_of_sst() {
-  static const ModelSweeps models[]{SweepsOf<turbulence::Sst1994>::table(), SweepsOf<turbulence::SstV>::table(), SweepsOf<turbulence::SstVm>::table()};
+  static const ModelSweeps models[]{SweepsOf<turbulence::Sst1994>::table(), SweepsOf<turbulence::SstV>::table(),
+                                    SweepsOf<turbulence::SstVm>::table()};
   return models;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-
 namespace spindrift::aero {
 
 int Numbering::rank_of(int number) const {
@@ -35,7 +34,8 @@ int OutsideValues::want(int number) {
   return count_++;
 }
 
-void OutsideValues::fetch(const Numbering& numbering, std::span<const double> mine, int width, std::vector<double>& values, MPI_Comm comm) {
+void OutsideValues::fetch(const Numbering& numbering, std::span<const double> mine, int width, std::vector<double>& values,
+                          MPI_Comm comm) {
   const int ranks = runtime::ranks_in(comm);
   if (ranks == 1) return;
   if (!agreed_) {

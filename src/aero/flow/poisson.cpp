@@ -29,10 +29,13 @@ struct PoissonTile {
   int index = 0;
   BoxLayout box;
   AlignedArray<double> phi, gradient, source;
-  std::array<AlignedArray<double>, 6> given;  ///< by side, in the order of the window's cells: twice the value on the face; NaN where none
+  std::array<AlignedArray<double>, 6>
+      given;  ///< by side, in the order of the window's cells: twice the value on the face; NaN where none
   int across(Side side, int u) const { return u * extent(along(side)[0]); }
   int extent(int d) const { return d == 0 ? box.ni : d == 1 ? box.nj : box.nk; }
-  Eigen::Vector3d centre(std::ptrdiff_t place) const { return at_place(geometry->centre_data.data(), place, geometry->cell_box.component); }
+  Eigen::Vector3d centre(std::ptrdiff_t place) const {
+    return at_place(geometry->centre_data.data(), place, geometry->cell_box.component);
+  }
 };
 
 /// A face between the cells `low` and `high` of one direction: area vector, two-point coefficient, what leans.
@@ -49,8 +52,9 @@ FaceTerms face_terms(const PoissonTile& t, int d, int k, int j, int i) {
   const double along = area.dot(step);
   if (!(along > 0.0)) {
     if (area.isZero()) return {0.0, Eigen::Vector3d::Zero()};  // a face closed to a line
-    throw std::runtime_error("poisson: block " + std::to_string(t.from->block) + ", tile cell (" + std::to_string(i) + ", " + std::to_string(j) +
-                             ", " + std::to_string(k) + "): the centres on both sides of a face do not lie across it");
+    throw std::runtime_error("poisson: block " + std::to_string(t.from->block) + ", tile cell (" + std::to_string(i) + ", " +
+                             std::to_string(j) + ", " + std::to_string(k) +
+                             "): the centres on both sides of a face do not lie across it");
   }
   const double coefficient = area.squaredNorm() / along;
   return {coefficient, area - coefficient * step};
@@ -94,7 +98,8 @@ struct Poisson::Work {
       t.geometry = &grid[index];
       t.index = index;
       t.box = cell_layout(*t.from, gradient_ghosts, tiling.planar);
-      t.phi = AlignedArray<double>(t.box.size(1)), t.gradient = AlignedArray<double>(t.box.size(3)), t.source = AlignedArray<double>(t.box.size(1));
+      t.phi = AlignedArray<double>(t.box.size(1)), t.gradient = AlignedArray<double>(t.box.size(3)),
+      t.source = AlignedArray<double>(t.box.size(1));
       for (const TileBoundary& b : tiling.boundary(index)) {
         if (!given[std::size_t(b.patch)]) continue;
         auto& side = t.given[std::size_t(b.side)];
@@ -121,7 +126,8 @@ struct Poisson::Work {
     for (int v = b.low[1]; v < b.high[1]; ++v)
       for (int u = b.low[0]; u < b.high[0]; ++u) {
         Index inside{};
-        inside[std::size_t(first)] = u, inside[std::size_t(second)] = v, inside[std::size_t(d)] = at_end(b.side) ? t.extent(d) - 1 : 0;
+        inside[std::size_t(first)] = u, inside[std::size_t(second)] = v,
+        inside[std::size_t(d)] = at_end(b.side) ? t.extent(d) - 1 : 0;
         Index ghost = inside;
         ghost[std::size_t(d)] += at_end(b.side) ? 1 : -1;
         body(inside, ghost, side.size() > 0 ? side.data()[v * t.extent(first) + u] : none);
@@ -131,7 +137,8 @@ struct Poisson::Work {
   void for_boundaries(PoissonTile& t, Body&& body) {
     for (const TileBoundary& b : grid.tiling().boundary(t.index))
       for_boundary(t, b, [&](const Index& inside, const Index& ghost, double& value) {
-        body(given[std::size_t(b.patch)], t.box.at(inside[2], inside[1], inside[0]), t.box.at(ghost[2], ghost[1], ghost[0]), value, b.side, inside);
+        body(given[std::size_t(b.patch)], t.box.at(inside[2], inside[1], inside[0]), t.box.at(ghost[2], ghost[1], ghost[0]),
+             value, b.side, inside);
       });
   }
 
@@ -144,7 +151,8 @@ struct Poisson::Work {
   }
   void fill_gradients(PoissonTile& t) {
     for_boundaries(t, [&](bool, std::ptrdiff_t inside, std::ptrdiff_t ghost, double, Side, const Index&) {
-      for (int c = 0; c < 3; ++c) t.gradient.data()[ghost + c * t.box.component] = t.gradient.data()[inside + c * t.box.component];
+      for (int c = 0; c < 3; ++c)
+        t.gradient.data()[ghost + c * t.box.component] = t.gradient.data()[inside + c * t.box.component];
     });
   }
   /// Green and Gauss, values on faces linear between the centres: near walls cells grow from one to the next.
@@ -178,7 +186,8 @@ struct Poisson::Work {
       const auto flux = [&](int d, int kf, int jf, int if_) {
         const FaceTerms f = face_terms(t, d, kf, jf, if_);
         const std::ptrdiff_t high = t.box.at(kf, jf, if_), low = high - t.box.stride(d);
-        const Eigen::Vector3d slope = 0.5 * (at_place(t.gradient.data(), low, t.box.component) + at_place(t.gradient.data(), high, t.box.component));
+        const Eigen::Vector3d slope =
+            0.5 * (at_place(t.gradient.data(), low, t.box.component) + at_place(t.gradient.data(), high, t.box.component));
         return f.coefficient * (t.phi.data()[high] - t.phi.data()[low]) + f.leaning.dot(slope);
       };
       const double volume = g.volume_data.data()[g.cell_box.at(k, j, i)];
@@ -232,7 +241,8 @@ struct Poisson::Work {
           rows.values[diagonal] += column == -2 ? 2.0 * c : c;
           if (column < 0) continue;
           // Two faces to the same cell (a period of one or two cells) are one entry.
-          const auto first = rows.columns.begin() + std::ptrdiff_t(diagonal), found = std::find(first, rows.columns.end(), column);
+          const auto first = rows.columns.begin() + std::ptrdiff_t(diagonal),
+                     found = std::find(first, rows.columns.end(), column);
           if (found != rows.columns.end())
             rows.values[std::size_t(found - rows.columns.begin())] -= c;
           else
@@ -253,23 +263,47 @@ struct Poisson::Work {
     const auto layout = [this](const Tile& t) { return cell_layout(t, gradient_ghosts, grid.tiling().planar); };
     const auto tile_at = [this](int t) -> PoissonTile& { return tiles[std::size_t(local[std::size_t(t)])]; };
     const auto always = [] { return true; };
-    const HaloField<double> centres{"aero/poisson/centres", [this](int t) { return grid[t].centre(); }, layout, {Quantity::point}, 1, &phi, &ghosts, 31,
-                                    &grid.tiling().periodic};
+    const HaloField<double> centres{
+        "aero/poisson/centres", [this](int t) { return grid[t].centre(); }, layout, {Quantity::point}, 1, &phi, &ghosts, 31,
+        &grid.tiling().periodic};
     record_halo<double>(graph, grid, local, centres, buffers, always, [](int) {}, {});
-    graph.collective("aero/poisson/multigrid", [&] {
-      Uses uses{writes(change)};
-      uses.push_back(reads(ghosts));
-      return uses;
-    }(), [this](MPI_Comm comm) { multigrid.emplace(matrix(), MultigridOptions{}, comm); });
+    graph.collective(
+        "aero/poisson/multigrid",
+        [&] {
+          Uses uses{writes(change)};
+          uses.push_back(reads(ghosts));
+          return uses;
+        }(),
+        [this](MPI_Comm comm) { multigrid.emplace(matrix(), MultigridOptions{}, comm); });
     graph.loop("aero/poisson/corrections", {.min = 1, .max = std::uint32_t(o.most) + 1}, [&] {
-      const HaloField<double> values{"aero/poisson/ghosts", [tile_at](int t) { return BoxView<double>{tile_at(t).phi.data(), tile_at(t).box}; }, layout,
-                                     {Quantity::scalar}, 1, &phi, &ghosts, 32, &grid.tiling().periodic};
+      const HaloField<double> values{"aero/poisson/ghosts",
+                                     [tile_at](int t) {
+                                       return BoxView<double>{tile_at(t).phi.data(), tile_at(t).box};
+                                     },
+                                     layout,
+                                     {Quantity::scalar},
+                                     1,
+                                     &phi,
+                                     &ghosts,
+                                     32,
+                                     &grid.tiling().periodic};
       record_halo<double>(graph, grid, local, values, buffers, always, [this](int n) { fill_values(tiles[std::size_t(n)]); }, {});
       for (std::size_t n = 0; n < tiles.size(); ++n)
-        graph.task(of("aero/poisson/gradient", n), {reads(phi[n]), reads(ghosts[n]), writes(gradients[n])}, [this, n] { slopes(tiles[n]); });
-      const HaloField<double> slope{"aero/poisson/gradient_ghosts", [tile_at](int t) { return BoxView<double>{tile_at(t).gradient.data(), tile_at(t).box}; },
-                                    layout, {Quantity::vector}, 1, &gradients, &gradient_ghosts_of, 33, &grid.tiling().periodic};
-      record_halo<double>(graph, grid, local, slope, buffers, always, [this](int n) { fill_gradients(tiles[std::size_t(n)]); }, {});
+        graph.task(of("aero/poisson/gradient", n), {reads(phi[n]), reads(ghosts[n]), writes(gradients[n])},
+                   [this, n] { slopes(tiles[n]); });
+      const HaloField<double> slope{"aero/poisson/gradient_ghosts",
+                                    [tile_at](int t) {
+                                      return BoxView<double>{tile_at(t).gradient.data(), tile_at(t).box};
+                                    },
+                                    layout,
+                                    {Quantity::vector},
+                                    1,
+                                    &gradients,
+                                    &gradient_ghosts_of,
+                                    33,
+                                    &grid.tiling().periodic};
+      record_halo<double>(graph, grid, local, slope, buffers, always, [this](int n) { fill_gradients(tiles[std::size_t(n)]); },
+                          {});
       for (std::size_t n = 0; n < tiles.size(); ++n)
         graph.task(of("aero/poisson/residual", n),
                    {reads(phi[n]), reads(ghosts[n]), reads(gradients[n]), reads(gradient_ghosts_of[n]), writes(residuals[n])},
@@ -308,7 +342,8 @@ Poisson::~Poisson() = default;
 
 void Poisson::set_source(const Field& source) {
   for (PoissonTile& t : work_->tiles)
-    for_cells_of(t, [&](int k, int j, int i) { t.source.data()[t.box.at(k, j, i)] = source(t.centre(t.geometry->cell_box.at(k, j, i))); });
+    for_cells_of(
+        t, [&](int k, int j, int i) { t.source.data()[t.box.at(k, j, i)] = source(t.centre(t.geometry->cell_box.at(k, j, i))); });
 }
 void Poisson::set_boundary(const Field& phi) {
   for (PoissonTile& t : work_->tiles)
@@ -325,8 +360,9 @@ void Poisson::solve(const PoissonOptions& options, MPI_Comm comm, int threads) {
   w.multigrid.reset();
   w.buffers.clear();
   if (w.failed)
-    throw std::runtime_error("poisson: the residual fell by " + std::to_string(w.reached) + " only (asked for " + std::to_string(options.drop) + ") in " +
-                             std::to_string(w.corrections) + " corrections; cells may lean too much");
+    throw std::runtime_error("poisson: the residual fell by " + std::to_string(w.reached) + " only (asked for " +
+                             std::to_string(options.drop) + ") in " + std::to_string(w.corrections) +
+                             " corrections; cells may lean too much");
 }
 int Poisson::corrections() const { return work_->corrections; }
 double Poisson::residual_drop() const { return work_->reached; }
@@ -356,8 +392,9 @@ void fill_wall_distance_by_poisson(GridStore& grid, std::span<const std::string>
         for (int i = 0; i < distance.layout.ni; ++i) {
           const double phi = problem.phi(tile, k, j, i), slope = problem.gradient(tile, k, j, i).norm();
           if (!(phi > 0.0))
-            throw std::runtime_error("poisson: no distance from walls in tile " + std::to_string(tile) + ", cell (" + std::to_string(i) + ", " +
-                                     std::to_string(j) + ", " + std::to_string(k) + "); the exact one has no such limit");
+            throw std::runtime_error("poisson: no distance from walls in tile " + std::to_string(tile) + ", cell (" +
+                                     std::to_string(i) + ", " + std::to_string(j) + ", " + std::to_string(k) +
+                                     "); the exact one has no such limit");
           distance(0, k, j, i) = 2.0 * phi / (std::sqrt(slope * slope + 2.0 * phi) + slope);  // no difference of near numbers
         }
   }

@@ -45,7 +45,8 @@ class ByBlocks final : public Preconditioner {
     std::ptrdiff_t cell = Method::factor(tile.mean());
     if (cell < 0 && tile.turbulence == 1) cell = Method::factor(tile.model<1>());
     if (cell < 0 && tile.turbulence == 2) cell = Method::factor(tile.model<2>());
-    if (cell >= 0) throw std::runtime_error("singular pivot in tile " + std::to_string(tile.index) + ", cell " + std::to_string(cell));
+    if (cell >= 0)
+      throw std::runtime_error("singular pivot in tile " + std::to_string(tile.index) + ", cell " + std::to_string(cell));
   }
   void apply(const Piece& piece) override {
     FlowTile& tile = *piece.tile;

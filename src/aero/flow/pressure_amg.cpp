@@ -18,11 +18,11 @@ namespace spindrift::aero {
 namespace pressure_parts {
 
 struct PressureTile {
-  int first = 0;                             ///< offset of the first cell among this process's
-  std::array<std::vector<int>, 6> beyond;    ///< by face of a side: global number of the cell there; -1 where a boundary
-  std::array<std::vector<int>, 6> outside;   ///< likewise: its position among values of other processes; -1 where here
-  std::vector<float> weights;                ///< [cell][5]
-  std::vector<float> rows;                   ///< [cell][1 + sides]: the pressure equation
+  int first = 0;                            ///< offset of the first cell among this process's
+  std::array<std::vector<int>, 6> beyond;   ///< by face of a side: global number of the cell there; -1 where a boundary
+  std::array<std::vector<int>, 6> outside;  ///< likewise: its position among values of other processes; -1 where here
+  std::vector<float> weights;               ///< [cell][5]
+  std::vector<float> rows;                  ///< [cell][1 + sides]: the pressure equation
 };
 
 struct PressureAmg final : IluAfterCommon {
@@ -78,7 +78,8 @@ struct PressureAmg final : IluAfterCommon {
     for (std::ptrdiff_t cell = 0; cell < tile.box.count(); ++cell) {
       float inverse[25 + linear::block_overrun];
       if (!linear::invert<5>(a.block(cell, 0), inverse))
-        throw std::runtime_error("singular diagonal block in tile " + std::to_string(tile.index) + ", cell " + std::to_string(cell));
+        throw std::runtime_error("singular diagonal block in tile " + std::to_string(tile.index) + ", cell " +
+                                 std::to_string(cell));
       float* w = t.weights.data() + cell * mean_unknowns;
       for (int r = 0; r < mean_unknowns; ++r) w[r] = inverse[r * mean_unknowns];
       if (!anew) continue;
@@ -96,8 +97,8 @@ struct PressureAmg final : IluAfterCommon {
           for (int r = 0; r < mean_unknowns; ++r) sum += w[r] * block[column * mean_unknowns + r];
           return sum;
         };
-        // A pressure there drives a velocity here, and that a mass flux: over two faces a stencil twice as wide, whose checkerboards multigrid
-        // would coarsen apart; over one face the same Laplacian is four times the product.
+        // A pressure there drives a velocity here, and that a mass flux: over two faces a stencil twice as wide, whose
+        // checkerboards multigrid would coarsen apart; over one face the same Laplacian is four times the product.
         const Eigen::Vector3f by_velocity(combined(1), combined(2), combined(3)), by_pressure(block[1], block[2], block[3]);
         const float driven = 4.0f * by_velocity.dot(to_velocity * by_pressure);
         *row++ = combined(0) - driven;
@@ -192,7 +193,8 @@ struct PressureAmg final : IluAfterCommon {
       if (face < 0) {
         value = p[neighbour];
       } else {
-        const int number = t.beyond[std::size_t(side)][std::size_t(face)], position = t.outside[std::size_t(side)][std::size_t(face)];
+        const int number = t.beyond[std::size_t(side)][std::size_t(face)],
+                  position = t.outside[std::size_t(side)][std::size_t(face)];
         if (number < 0) return;
         value = position < 0 ? pressure[std::size_t(number - numbering.begin)] : other[std::size_t(position)];
       }

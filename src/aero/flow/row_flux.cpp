@@ -10,8 +10,8 @@ namespace spindrift::aero {
 namespace {
 
 template <class Flux>
-void flux_row(const gas::IdealGas& gas, const TileGeometry& geometry, int d, int k, int j, int i, int count, const FacePiece& states,
-              double* out, std::ptrdiff_t stride) {
+void flux_row(const gas::IdealGas& gas, const TileGeometry& geometry, int d, int k, int j, int i, int count,
+              const FacePiece& states, double* out, std::ptrdiff_t stride) {
   constexpr bool tangential = requires { Flux::sees_tangential_speed; };
   const bool moving = tangential && geometry.moving();
   for (int n = 0; n < count; n += row_lanes) {

@@ -13,7 +13,8 @@ using Row = Wide<double, 8>;  ///< eight cells along i: the whole row of lanes i
 
 inline constexpr int longest_row = 512;  ///< cells in i that the buffers of a sweep hold
 
-/// Area vector and, on moving grids, speed of eight faces from (k, j, i) on. Lanes beyond the row have no area and harmless numbers.
+/// Area vector and, on moving grids, speed of eight faces from (k, j, i) on. Lanes beyond the row have no area and harmless
+/// numbers.
 SPINDRIFT_INLINE gas::Face<Row> load_face(const TileGeometry& g, int direction, int k, int j, int i) {
   const BoxLayout& box = g.face_box[direction];
   const double* at = g.face_data[direction].data() + box.at(k, j, i);

@@ -16,15 +16,16 @@ void draw_together(double share, int count, FacePiece& states) {
     }
 }
 
-/// Behind a wall with a wall function the ghost turns the velocity about, for the wall stands still: a kink that is there on a resolved
-/// sublayer only. A first cell in the logarithmic layer has the slope of the cells beyond it. Of one face: the state of the cell between
-/// the wall and the face, where `mask` is 1.
+/// Behind a wall with a wall function the ghost turns the velocity about, for the wall stands still: a kink that is there on a
+/// resolved sublayer only. A first cell in the logarithmic layer has the slope of the cells beyond it. Of one face: the state of
+/// the cell between the wall and the face, where `mask` is 1.
 void straighten(double* state_of_face, const double* cell, std::ptrdiff_t inward, double half, double mask) {
   if (mask > 0.0) *state_of_face = *cell + half * (cell[inward] - *cell);
 }
 
 /// The same for the faces of a piece that lie one cell off a wall with a wall function.
-void straighten_at_walls(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, double half, FacePiece& states) {
+void straighten_at_walls(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, double half,
+                         FacePiece& states) {
   const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk}, at[3] = {i, j, k};
   const std::ptrdiff_t step = tile.cells.stride(d);
   for (const int end : {0, 1}) {
@@ -47,10 +48,11 @@ void straighten_at_walls(const FlowTile& tile, const double* state, int d, int k
 }
 
 /// Fluxes of all unknowns through `count` faces from (k, j, i) on, into out[c stride + n].
-void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, const ConvectiveSetting& s, double* out,
-            std::ptrdiff_t stride) {
+void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, const ConvectiveSetting& s,
+            double* out, std::ptrdiff_t stride) {
   FacePiece states;
-  s.reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component, tile.turbulence, count, states);
+  s.reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component, tile.turbulence,
+                count, states);
   straighten_at_walls(tile, state, d, k, j, i, count, s.law_slope, states);
   if (s.upwinding < 1.0) draw_together(s.upwinding, count, states);
   s.flux(s.gas, *tile.geometry, d, k, j, i, count, states, out, stride);
@@ -68,7 +70,8 @@ void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int 
   for (int t = mean_unknowns; t < mean_unknowns + tile.turbulence; ++t)
     for (int n = 0; n < count; n += row_lanes) {
       const Row mass = Row::load(out + n), zero(0.0);
-      (max(mass, zero) * Row::load(states.left[t] + n) + min(mass, zero) * Row::load(states.right[t] + n)).store(out + t * stride + n);
+      (max(mass, zero) * Row::load(states.left[t] + n) + min(mass, zero) * Row::load(states.right[t] + n))
+          .store(out + t * stride + n);
     }
 }
 
@@ -81,7 +84,8 @@ void sweep_convective(FlowTile& tile, const double* state, double* residual, con
   constexpr std::ptrdiff_t stride = longest_row + 2 * row_lanes;
   alignas(64) double row[mean_unknowns + 2][stride];
   for_rows(box, [&](int k, int j) {  // faces across i: the flux of a row, then its differences
-    for (int i = 0; i <= box.ni; i += piece) fluxes(tile, state, 0, k, j, i, std::min(piece, box.ni + 1 - i), s, row[0] + i, stride);
+    for (int i = 0; i <= box.ni; i += piece)
+      fluxes(tile, state, 0, k, j, i, std::min(piece, box.ni + 1 - i), s, row[0] + i, stride);
     const std::ptrdiff_t place = k * open_row(box, 0) + j;
     for (const int end : {0, 1})
       if (const auto& open = tile.open[std::size_t(end)]; open.size() > 0)

@@ -1,6 +1,6 @@
-// The convective part of a tile's residual: MUSCL states, the flux scheme, and what the turbulence model's unknowns are carried by the
-// mass flux; rows of eight cells. Faces of walls are left out (FlowTile::open): boundary.cpp adds their pressure.
-// Limiters and schemes are functions over a piece of a row, put together when the solver is made: their sum and not their product is
+// The convective part of a tile's residual: MUSCL states, the flux scheme, and what the turbulence model's unknowns are carried
+// by the mass flux; rows of eight cells. Faces of walls are left out (FlowTile::open): boundary.cpp adds their pressure. Limiters
+// and schemes are functions over a piece of a row, put together when the solver is made: their sum and not their product is
 // compiled, and the states between them stay in the first cache. docs/theory/air.md, "Convection".
 // Tested in tests/src/aero/flow/solver_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
@@ -20,8 +20,8 @@ struct FacePiece {
 };
 
 /// Fills `states` for `count` faces; the cell right of the first face is at `at`, left of it one `step` back.
-using Reconstruction = void (*)(const gas::IdealGas& gas, const gas::Primitive<double>& smooth, const double* at, std::ptrdiff_t step,
-                                std::ptrdiff_t component, int turbulence, int count, FacePiece& states);
+using Reconstruction = void (*)(const gas::IdealGas& gas, const gas::Primitive<double>& smooth, const double* at,
+                                std::ptrdiff_t step, std::ptrdiff_t component, int turbulence, int count, FacePiece& states);
 /// Flux through `count` faces from (k, j, i) on: component c of face n at out[c stride + n].
 using RowFlux = void (*)(const gas::IdealGas& gas, const TileGeometry& geometry, int direction, int k, int j, int i, int count,
                          const FacePiece& states, double* out, std::ptrdiff_t stride);
@@ -36,7 +36,8 @@ struct ConvectiveSetting {
   Reconstruction reconstruct = nullptr;
   RowFlux flux = nullptr;
   bool first_order_model = false;  ///< what turbulence carries by its upwind cell, unreconstructed
-  double law_slope = 0.5;  ///< of a first cell at a wall with a wall function: what of the difference ahead is its state at the face
+  double law_slope =
+      0.5;  ///< of a first cell at a wall with a wall function: what of the difference ahead is its state at the face
   double upwinding = 1.0;  ///< share of the jump between both states that the flux sees
 };
 

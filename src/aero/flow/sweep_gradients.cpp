@@ -60,8 +60,13 @@ WallCell wall_cell(const FlowTile& tile, const double* state, const gas::IdealGa
   double u = 0.5 * (q.u - ghost.u), v = 0.5 * (q.v - ghost.v), w = 0.5 * (q.w - ghost.w);  // the wall has the mean of both
   const double across = u * f.nx + v * f.ny + w * f.nz;
   u -= across * f.nx, v -= across * f.ny, w -= across * f.nz;
-  return {u, v, w, std::sqrt(u * u + v * v + w * w), tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)],
-          gas::density(gas, q), gas::viscosity(gas, gas::absolute_temperature(gas, q))};
+  return {u,
+          v,
+          w,
+          std::sqrt(u * u + v * v + w * w),
+          tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)],
+          gas::density(gas, q),
+          gas::viscosity(gas, gas::absolute_temperature(gas, q))};
 }
 
 void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas) {
@@ -88,7 +93,8 @@ void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::Idea
   }
 }
 
-void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas, const std::array<double, 2>& wall_spread) {
+void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas,
+                             const std::array<double, 2>& wall_spread) {
   const std::ptrdiff_t c = tile.gradient_box.component;
   const int carried = tile.turbulence, eddy = 3 * (4 + carried), components = gradient_components(carried, tile.eddies);
   for (const FlowBoundary& boundary : tile.boundaries) {
@@ -104,8 +110,8 @@ void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::Ide
       const bool sticks = boundary.condition == Condition::no_slip;
       const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
       const double n[3] = {f.nx, f.ny, f.nz};
-      // A wall at rest turns velocities and what turbulence carries about (of a moving one the velocity may vary along it: there the
-      // cell's gradient is taken); a mirror turns the velocity's normal component.
+      // A wall at rest turns velocities and what turbulence carries about (of a moving one the velocity may vary along it: there
+      // the cell's gradient is taken); a mirror turns the velocity's normal component.
       const bool moves = sticks && tile.geometry->moving();
       const bool free = boundary.law && carried == 2;  // k does not pass such a wall
       for (int v = 0; v < 4 + carried; ++v)
@@ -128,9 +134,11 @@ void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::Ide
       if (boundary.law) {
         // The face's share is such that half the difference of cell and ghost over the distance gives the law's friction.
         const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
-        ghost[eddy * c] += 2.0 * (turbulence::wall_viscosity(*tile.wall_law, cell.speed, cell.distance, cell.rho, cell.mu) - cell.mu);
+        ghost[eddy * c] +=
+            2.0 * (turbulence::wall_viscosity(*tile.wall_law, cell.speed, cell.distance, cell.rho, cell.mu) - cell.mu);
       }
-      for (int t = 0; t < carried; ++t) ghost[(eddy + 2 + t) * c] = 2.0 * wall_spread[std::size_t(t)] * mu - at[(eddy + 2 + t) * c];
+      for (int t = 0; t < carried; ++t)
+        ghost[(eddy + 2 + t) * c] = 2.0 * wall_spread[std::size_t(t)] * mu - at[(eddy + 2 + t) * c];
     });
   }
 }

@@ -1,7 +1,7 @@
 // Gradients in the cells of a tile by Green-Gauss over its faces, the value on a face being the mean of both sides: of velocity,
-// temperature and what the turbulence model carries. Ghost gradients: mirror images behind walls and planes of symmetry (so that on a
-// no-slip wall nothing varies along it, on a plane of symmetry no shear remains), those of the cell inside behind open boundaries.
-// Called by the tasks of src/aero/flow; tested in tests/verification/air/manufactured_test.cpp.
+// temperature and what the turbulence model carries. Ghost gradients: mirror images behind walls and planes of symmetry (so that
+// on a no-slip wall nothing varies along it, on a plane of symmetry no shear remains), those of the cell inside behind open
+// boundaries. Called by the tasks of src/aero/flow; tested in tests/verification/air/manufactured_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,10 +20,12 @@ struct WallCell {
 WallCell wall_cell(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Side side, int k, int j, int i);
 
 void sweep_gradients(FlowTile& tile, const double* state);
-/// In the first cells of walls with a wall function: how fast the velocity along the wall rises is what the law of the wall says of the
-/// cell's own velocity. A difference over the cell would be three to four times that, and as much production of turbulence.
+/// In the first cells of walls with a wall function: how fast the velocity along the wall rises is what the law of the wall says
+/// of the cell's own velocity. A difference over the cell would be three to four times that, and as much production of
+/// turbulence.
 void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas);
 /// `wall_spread`: diffusivity of the turbulence unknowns on a no-slip wall over the laminar viscosity.
-void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas, const std::array<double, 2>& wall_spread);
+void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas,
+                             const std::array<double, 2>& wall_spread);
 
 }  // namespace spindrift::aero

@@ -11,18 +11,19 @@ namespace {
 using Block = gas::Block5<Row>;
 
 /// Derivatives of the first-order flux through eight faces by the states on both sides.
-SPINDRIFT_INLINE gas::FluxJacobian<Row> convection(const ImplicitSetting& s, const gas::Primitive<Row>& l, const gas::Primitive<Row>& r,
-                                                   const gas::Face<Row>& f) {
+SPINDRIFT_INLINE gas::FluxJacobian<Row> convection(const ImplicitSetting& s, const gas::Primitive<Row>& l,
+                                                   const gas::Primitive<Row>& r, const gas::Face<Row>& f) {
   if (s.rusanov) return gas::flux_jacobian(gas::Rusanov{}, s.gas, l, r, f);
   if (s.preconditioned_waves) {
-    // Waves at the reference speed U instead of c: a velocity jump pushes with rho U, a pressure jump drives a mass dp / U. So pressure and
-    // velocity are as strong on the diagonal as beside it at any Mach number, and ILU is as good.
+    // Waves at the reference speed U instead of c: a velocity jump pushes with rho U, a pressure jump drives a mass dp / U. So
+    // pressure and velocity are as strong on the diagonal as beside it at any Mach number, and ILU is as good.
     const gas::RoeMean<Row> m = gas::roe_mean(s.gas, l, r, f);
     const gas::WaveSpeeds<Row> w = gas::wave_speeds(m, f, gas::Roe{}.entropy_fix);
     const Row u = m.u - f.vx, v = m.v - f.vy, z = m.w - f.vz;
     const Row scale = min(max(Row(s.wave_speeds_of_floor * s.floor_speed), sqrt(u * u + v * v + z * z)) * m.inverse_c, Row(1.0));
     const Block D = gas::dissipation_jacobian(s.gas, m, f, w.slow, w.middle, w.fast, scale, 1.0 / scale);
-    return {gas::combine(gas::physical_jacobian(s.gas, l, f, Row(0.5)), 0.5, D), gas::combine(gas::physical_jacobian(s.gas, r, f, Row(0.5)), -0.5, D)};
+    return {gas::combine(gas::physical_jacobian(s.gas, l, f, Row(0.5)), 0.5, D),
+            gas::combine(gas::physical_jacobian(s.gas, r, f, Row(0.5)), -0.5, D)};
   }
   if (s.mach_floor >= 1.0) return gas::flux_jacobian(gas::Roe{}, s.gas, l, r, f);
   return gas::flux_jacobian(gas::RoeLowMach{.mach_floor = s.mach_floor}, s.gas, l, r, f);
@@ -39,7 +40,8 @@ SPINDRIFT_INLINE void add_viscosity(gas::FluxJacobian<Row>& b, const ImplicitSet
 
 /// Puts the lanes of a block into column-major float blocks of consecutive cells: to[cell] = sign * block, or += where asked.
 template <bool accumulate>
-SPINDRIFT_INLINE void scatter(const float (&lanes)[25][8], int first, int last, float sign, float* to, std::ptrdiff_t cell_stride) {
+SPINDRIFT_INLINE void scatter(const float (&lanes)[25][8], int first, int last, float sign, float* to,
+                              std::ptrdiff_t cell_stride) {
   for (int lane = first; lane < last; ++lane) {
     float* at = to + lane * cell_stride;
     for (int e = 0; e < 25; ++e) at[e] = (accumulate ? at[e] : 0.0f) + sign * lanes[e][lane];
@@ -75,7 +77,8 @@ void add_faces(FlowTile& tile, const double* state, const double* eddy, int d, c
     for (int j = 0; j < nj; ++j)
       for (int i = 0; i < ni; i += row_lanes) {
         const double* at = state + tile.cells.at(k, j, i);
-        const gas::Primitive<Row> ql = gas::load_primitive<Row>(at - step, component), qr = gas::load_primitive<Row>(at, component);
+        const gas::Primitive<Row> ql = gas::load_primitive<Row>(at - step, component),
+                                  qr = gas::load_primitive<Row>(at, component);
         gas::Face<Row> f = load_face(g, d, k, j, i);
         if ((s.mach_floor < 1.0 || s.preconditioned_waves) && g.moving()) add_grid_velocity(g, d, k, j, i, f);
         gas::FluxJacobian<Row> b = convection(s, ql, qr, f);
@@ -143,13 +146,15 @@ void fold_boundaries(FlowTile& tile, const Entries& entries, const std::array<do
           if (boundary.condition == Condition::no_slip) add_column(c + 1, -1.0f, c + 1);
           if (boundary.condition != Condition::no_slip)
             for (int r = 0; r < 3; ++r) add_column(c + 1, float((r == c ? 1.0 : 0.0) - 2.0 * n[r] * n[c]), r + 1);
-          if (is_closed(boundary.condition)) diagonal[c + 1] += float(n[c] * f.area * entries.scale[c + 1][0]);  // pressure of the cell on the wall
+          if (is_closed(boundary.condition))
+            diagonal[c + 1] += float(n[c] * f.area * entries.scale[c + 1][0]);  // pressure of the cell on the wall
         }
         if (is_closed(boundary.condition)) diagonal[4] += float(f.speed * f.area * entries.scale[4][0]);
       } else if (boundary.condition == Condition::inflow_velocity) {
         add_column(0, 1.0f, 0);
       } else if (boundary.condition == Condition::inflow_stagnation) {
-        // At constant entropy and total enthalpy dh = dp / rho = -u du; in scaled unknowns at the stream's speed the factors are these.
+        // At constant entropy and total enthalpy dh = dp / rho = -u du; in scaled unknowns at the stream's speed the factors are
+        // these.
         add_column(0, 1.0f, 0), add_column(0, 1.0f, 4);
         for (int c = 0; c < 3; ++c) add_column(0, float(-inflow[std::size_t(c)]), c + 1);
       } else if (boundary.condition == Condition::outflow_pressure) {
@@ -224,8 +229,8 @@ void sweep_jacobian(FlowTile& tile, const double* state, const double* eddy, dou
       gas::Block5<Row> block = time_block(s, q, pseudo, physical);
       if (s.omega != std::array<double, 3>{}) add_turning(block, s, q, Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)));
       to_lanes(block, entries.scale, lanes);
-      scatter<false>(lanes, 0, std::min(8, tile.box.ni - i), 1.0f, a.block((std::ptrdiff_t(k) * tile.box.nj + j) * tile.box.ni + i, 0),
-                     a.cell_stride());
+      scatter<false>(lanes, 0, std::min(8, tile.box.ni - i), 1.0f,
+                     a.block((std::ptrdiff_t(k) * tile.box.nj + j) * tile.box.ni + i, 0), a.cell_stride());
     }
   });
   for (int d = 0; d < tile.directions; ++d) add_faces(tile, state, eddy, d, s, entries);
@@ -241,11 +246,13 @@ void add_pseudo_time(const FlowTile& tile, const double* state, double cfl, cons
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; i += row_lanes) {
       const gas::Primitive<Row> q = gas::load_primitive<Row>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
-      const auto block = time_block<Row>(pseudo_only, q, Row::load(tile.rate.data() + tile.inner.at(k, j, i)) * (1.0 / cfl), Row(0.0));
+      const auto block =
+          time_block<Row>(pseudo_only, q, Row::load(tile.rate.data() + tile.inner.at(k, j, i)) * (1.0 / cfl), Row(0.0));
       const int used = std::min(int(row_lanes), tile.box.ni - i);
       alignas(64) double direction[5][row_lanes] = {}, sum[row_lanes];
       for (int c = 0; c < 5; ++c)
-        for (int lane = 0; lane < used; ++lane) direction[c][lane] = double(z[tile.gradient_box.at(k, j, i) + c * component + lane]);
+        for (int lane = 0; lane < used; ++lane)
+          direction[c][lane] = double(z[tile.gradient_box.at(k, j, i) + c * component + lane]);
       for (int r = 0; r < 5; ++r) {
         Row row = 0.0;
         for (int c = 0; c < 5; ++c) row += block.m[r][c] * (Row(entries.scale[r][c]) * Row::load(direction[c]));

@@ -1,8 +1,7 @@
-// The matrix of the mean flow: first-order linearisation of a tile's residual plus what the (pseudo-)time step adds, as blocks for
-// ILU and for products with stored operators. Convection by Roe's dissipation of the mean states held fixed, viscosity in thin-layer
-// form, walls and open boundaries folded into the diagonal (docs/theory/air.md, "Linearisation").
-// Rows and columns are scaled (Scales) so that floats hold them. Called by the tasks of src/aero/flow; tested in
-// tests/src/aero/flow/solver_test.cpp.
+// The matrix of the mean flow: first-order linearisation of a tile's residual plus what the (pseudo-)time step adds, as blocks
+// for ILU and for products with stored operators. Convection by Roe's dissipation of the mean states held fixed, viscosity in
+// thin-layer form, walls and open boundaries folded into the diagonal (docs/theory/air.md, "Linearisation"). Rows and columns are
+// scaled (Scales) so that floats hold them. Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/solver_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,18 +21,20 @@ struct ImplicitSetting {
   gas::IdealGas gas;
   Scales scales;
   bool viscous = false;
-  double mach_floor = 1.0;       ///< least scaling of RoeLowMach's dissipation; 1: that of Roe
-  bool rusanov = false;          ///< dissipation of Rusanov's flux, whose shear waves are as fast as sound
-  bool preconditioned_waves = false;  ///< dissipation of the preconditioned equations instead, with this many times floor_speed at least:
+  double mach_floor = 1.0;  ///< least scaling of RoeLowMach's dissipation; 1: that of Roe
+  bool rusanov = false;     ///< dissipation of Rusanov's flux, whose shear waves are as fast as sound
+  bool preconditioned_waves =
+      false;  ///< dissipation of the preconditioned equations instead, with this many times floor_speed at least:
   static constexpr double wave_speeds_of_floor = 7.0;
-  bool preconditioned = true;    ///< pseudo-time of Weiss & Smith
-  double floor_speed = 0.0;      ///< least reference speed of the preconditioner [m/s]
+  bool preconditioned = true;      ///< pseudo-time of Weiss & Smith
+  double floor_speed = 0.0;        ///< least reference speed of the preconditioner [m/s]
   std::array<double, 3> inflow{};  ///< direction of what enters from a reservoir
-  double physical_rate = 0.0;    ///< a0 / dt of the physical step [1/s]; 0 steady
-  std::array<double, 3> omega{}; ///< of a frame that turns steadily [rad/s]
+  double physical_rate = 0.0;      ///< a0 / dt of the physical step [1/s]; 0 steady
+  std::array<double, 3> omega{};   ///< of a frame that turns steadily [rad/s]
 };
 
-/// FlowTile::rate: sum of the (preconditioned) spectral radii of a cell's faces, halved, viscous ones added: V / pseudo-step at CFL 1.
+/// FlowTile::rate: sum of the (preconditioned) spectral radii of a cell's faces, halved, viscous ones added: V / pseudo-step at
+/// CFL 1.
 void sweep_rates(FlowTile& tile, const double* state, const ImplicitSetting& setting);
 
 /// Square of the preconditioner's reference speed in a cell, from its state alone.

@@ -1,7 +1,7 @@
 // What a turbulence model adds to the sweeps: closures in cells (eddy viscosity and diffusivities, exchanged with the gradients),
-// diffusion and sources in the residual, and a matrix of its own, solved beside that of the mean flow (docs/theory/air.md, "Turbulence").
-// One table of functions per model of kernels/turbulence, chosen once. Tested in tests/verification/air (closures, wall_function).
-// SPDX-License-Identifier: Apache-2.0
+// diffusion and sources in the residual, and a matrix of its own, solved beside that of the mean flow (docs/theory/air.md,
+// "Turbulence"). One table of functions per model of kernels/turbulence, chosen once. Tested in tests/verification/air (closures,
+// wall_function). SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@ namespace spindrift::aero {
 
 struct ModelSweeps {
   std::string_view name = "none";
-  int equations = 0;  ///< 0 with closures: an algebraic eddy viscosity
-  std::array<double, 2> lowest{};  ///< bounds that updates respect
+  int equations = 0;                    ///< 0 with closures: an algebraic eddy viscosity
+  std::array<double, 2> lowest{};       ///< bounds that updates respect
   std::array<double, 2> wall_spread{};  ///< diffusivity on a no-slip wall over the laminar viscosity
   void (*closures)(FlowTile& tile, const double* state, const ViscousSetting& s) = nullptr;
   void (*residual)(FlowTile& tile, const double* state, double* residual, const ViscousSetting& s) = nullptr;
@@ -36,9 +36,10 @@ std::span<const ModelSweeps> sweeps_of_sst_2003();
 std::span<const ModelSweeps> sweeps_of_k_omega();
 std::span<const ModelSweeps> sweeps_of_les();
 
-/// Added to the pseudo-time [kg/s] of k where its residual makes it grow: 1.1 times the rate of growth, so that an implicit update grows it
-/// at most elevenfold. A Newton step longer than the time in which k grows points to k = 0 instead, the laminar solution, and stays there.
-/// It goes with the residual, so that the end of a march is Newton's. (Twice the rate, and omega too, took up to three times the steps.)
+/// Added to the pseudo-time [kg/s] of k where its residual makes it grow: 1.1 times the rate of growth, so that an implicit
+/// update grows it at most elevenfold. A Newton step longer than the time in which k grows points to k = 0 instead, the laminar
+/// solution, and stays there. It goes with the residual, so that the end of a march is Newton's. (Twice the rate, and omega too,
+/// took up to three times the steps.)
 constexpr double growth_damping(double residual, double k) { return residual < 0.0 ? -1.1 * residual / k : 0.0; }
 
 /// Components of FlowTile::gradients after those of gradients: what closures() leaves there.

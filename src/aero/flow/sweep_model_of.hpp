@@ -1,5 +1,6 @@
 // The sweeps of sweep_model.hpp written once for any model that meets the concept of kernels/turbulence/model.hpp.
-// Instantiated in model_*.cpp; tested in tests/verification/air/closures_test.cpp and wall_function_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Instantiated in model_*.cpp; tested in tests/verification/air/closures_test.cpp and wall_function_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/gas/preconditioner.hpp"
@@ -12,8 +13,8 @@
 
 namespace spindrift::aero {
 
-/// Longest side of eight cells and the cube root of their volume; sides as volume over the mean face across. A planar grid has its own
-/// two only.
+/// Longest side of eight cells and the cube root of their volume; sides as volume over the mean face across. A planar grid has
+/// its own two only.
 SPINDRIFT_INLINE void measure_cells(const FlowTile& tile, int k, int j, int i, Row& longest_side, Row& width) {
   const TileGeometry& g = *tile.geometry;
   const Row volume = max(Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)), Row(1e-280));
@@ -34,7 +35,8 @@ struct ClosuresOf {
     turbulence::Flow<Row> flow;
     turbulence::Turbulence<Row, n> model;
   };
-  static SPINDRIFT_INLINE Cell load_cell(const FlowTile& tile, const double* state, const ViscousSetting& s, int k, int j, int i) {
+  static SPINDRIFT_INLINE Cell load_cell(const FlowTile& tile, const double* state, const ViscousSetting& s, int k, int j,
+                                         int i) {
     const std::ptrdiff_t c = tile.cells.component, g = tile.gradient_box.component;
     const double* at = state + tile.cells.at(k, j, i);
     const double* slope = tile.gradients.data() + tile.gradient_box.at(k, j, i);
@@ -42,7 +44,8 @@ struct ClosuresOf {
     Cell cell;
     const Row T = gas::absolute_temperature(s.gas, q);
     // Lanes beyond the row have no distance; where a grid has no wall it is infinite.
-    const Row distance = min(max(Row::load(tile.geometry->wall_distance_data.data() + tile.geometry->inner_box.at(k, j, i)), Row(1e-12)), Row(1e12));
+    const Row distance = min(
+        max(Row::load(tile.geometry->wall_distance_data.data() + tile.geometry->inner_box.at(k, j, i)), Row(1e-12)), Row(1e12));
     cell.flow.rho = gas::density(s.gas, q), cell.flow.mu = gas::viscosity(s.gas, T), cell.flow.distance = distance;
     cell.flow.u = load_vector(slope, g), cell.flow.v = load_vector(slope + 3 * g, g), cell.flow.w = load_vector(slope + 6 * g, g);
     // Of the pressure's gradient, gamma M^2 times smaller, nothing is kept.
@@ -84,7 +87,8 @@ struct SweepsOf : ClosuresOf<Model> {
   using Base::n, Base::load_cell, typename Base::Cell;
 
   /// Diffusive fluxes of the model's quantities through the eight faces below the cells at (k, j, i).
-  static SPINDRIFT_INLINE void face_fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i, Row (&flux)[n]) {
+  static SPINDRIFT_INLINE void face_fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i,
+                                           Row (&flux)[n]) {
     const TileGeometry& geometry = *tile.geometry;
     const gas::Face<Row> f = load_face(geometry, d, k, j, i);
     const double* x = geometry.centre_data.data() + geometry.cell_box.at(k, j, i);
@@ -170,8 +174,9 @@ struct SweepsOf : ClosuresOf<Model> {
     }
   }
   /// In first cells of walls with a wall function omega is the law's, by a source that leaves nothing else, and k is made at the
-  /// rate at which the law's own layer destroys it: in the logarithmic layer that is its production, below it diffusion's share too, so that k
-  /// is the law's there. With the model's own production, mu_t times the law's slope squared, any k would balance its destruction.
+  /// rate at which the law's own layer destroys it: in the logarithmic layer that is its production, below it diffusion's share
+  /// too, so that k is the law's there. With the model's own production, mu_t times the law's slope squared, any k would balance
+  /// its destruction.
   static void hold_wall_cells(FlowTile& tile, const double* state, double* residual, const ViscousSetting& s) {
     for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, const LawTurbulence& law) {
       const int row = i / row_lanes * row_lanes;
@@ -185,7 +190,8 @@ struct SweepsOf : ClosuresOf<Model> {
     });
   }
 
-  /// Upwind convection by the mean of both sides' mass flux, diffusion, source, time; one cell after the other, as it is not often made.
+  /// Upwind convection by the mean of both sides' mass flux, diffusion, source, time; one cell after the other, as it is not
+  /// often made.
   static void matrix(FlowTile& tile, const double* state, double cfl, const ImplicitSetting& s) {
     const linear::StencilMatrix<n> a = tile.model<n>();
     const linear::CellBox& box = tile.box;
@@ -200,7 +206,8 @@ struct SweepsOf : ClosuresOf<Model> {
         const Cell cell = load_cell(tile, state, viscous, k, j, i);
         const turbulence::SourceJacobian<Row, n> source = Model{}.source_jacobian(cell.flow, cell.model);
         const Row volume = Row::load(g.volume_data.data() + g.cell_box.at(k, j, i));
-        const Row time = cell.flow.rho * (Row::load(tile.rate.data() + tile.inner.at(k, j, i)) * (1.0 / cfl) + volume * s.physical_rate);
+        const Row time =
+            cell.flow.rho * (Row::load(tile.rate.data() + tile.inner.at(k, j, i)) * (1.0 / cfl) + volume * s.physical_rate);
         for (int lane = 0; lane < std::min(8, box.ni - i); ++lane) {
           float* block = a.block((std::ptrdiff_t(k) * box.nj + j) * box.ni + i + lane, 0);
           for (int r = 0; r < n; ++r)
@@ -212,9 +219,9 @@ struct SweepsOf : ClosuresOf<Model> {
     if constexpr (n == 2)
       for_rows(box, [&](int k, int j) {
         for (int i = 0; i < box.ni; ++i)
-          a.block((std::ptrdiff_t(k) * box.nj + j) * box.ni + i, 0)[0] +=
-              float(unit[0][0] * growth_damping(tile.residual.data()[tile.inner.at(k, j, i) + mean_unknowns * tile.inner.component],
-                                                state[tile.cells.at(k, j, i) + mean_unknowns * tile.cells.component]));
+          a.block((std::ptrdiff_t(k) * box.nj + j) * box.ni + i, 0)[0] += float(
+              unit[0][0] * growth_damping(tile.residual.data()[tile.inner.at(k, j, i) + mean_unknowns * tile.inner.component],
+                                          state[tile.cells.at(k, j, i) + mean_unknowns * tile.cells.component]));
       });
     const int extent[3] = {box.ni, box.nj, box.nk};
     const std::ptrdiff_t aux = tile.gradient_box.component;
@@ -227,10 +234,12 @@ struct SweepsOf : ClosuresOf<Model> {
             const std::ptrdiff_t step = tile.cells.stride(d), back = tile.gradient_box.stride(d);
             const auto l = gas::load_primitive<Row>(at - step, std::size_t(tile.cells.component)),
                        r = gas::load_primitive<Row>(at, std::size_t(tile.cells.component));
-            const Row mass = 0.5 * f.area * (gas::density(s.gas, l) * (gas::normal_velocity(l, f) - f.speed) +
-                                             gas::density(s.gas, r) * (gas::normal_velocity(r, f) - f.speed));
+            const Row mass = 0.5 * f.area *
+                             (gas::density(s.gas, l) * (gas::normal_velocity(l, f) - f.speed) +
+                              gas::density(s.gas, r) * (gas::normal_velocity(r, f) - f.speed));
             const double* x = g.centre_data.data() + g.cell_box.at(k, j, i);
-            const auto xl = load_vector(x - g.cell_box.stride(d), g.cell_box.component), xr = load_vector(x, g.cell_box.component);
+            const auto xl = load_vector(x - g.cell_box.stride(d), g.cell_box.component),
+                       xr = load_vector(x, g.cell_box.component);
             const Row across = max((xr.x - xl.x) * f.nx + (xr.y - xl.y) * f.ny + (xr.z - xl.z) * f.nz, Row(1e-280));
             const double* diffusivity = tile.gradients.data() + tile.gradient_box.at(k, j, i) + (eddy_component(n) + 2) * aux;
             const int along = d == 0 ? i : d == 1 ? j : k;
@@ -293,7 +302,8 @@ struct SweepsOf : ClosuresOf<Model> {
   }
   static ModelSweeps table() {
     ModelSweeps t = Base::table();
-    t.equations = n, t.residual = residual, t.matrix = matrix, t.multiply = multiply, t.wall = wall, t.far_field = far_field, t.wall_law = wall_law;
+    t.equations = n, t.residual = residual, t.matrix = matrix, t.multiply = multiply, t.wall = wall, t.far_field = far_field,
+    t.wall_law = wall_law;
     const gas::Vector<double> none{0.0, 0.0, 0.0};
     turbulence::Turbulence<double, n> still{};  // on the wall: nothing but what makes the model's quotients defined
     if constexpr (n == 2) still.q[1] = 1.0;

@@ -28,8 +28,10 @@ SPINDRIFT_INLINE gas::Conserved<Real> face_flux(const FlowTile& tile, const Pair
                                                 const ViscousSetting& s) {
   const std::size_t component = std::size_t(tile.cells.component);
   const std::ptrdiff_t centre_component = tile.geometry->cell_box.component, gradient_component = tile.gradient_box.component;
-  const gas::Primitive<Real> l = gas::load_primitive<Real>(p.state - p.step, component), r = gas::load_primitive<Real>(p.state, component);
-  const gas::Vector<Real> xl = load3<Real>(p.centres - p.centre_step, centre_component), xr = load3<Real>(p.centres, centre_component);
+  const gas::Primitive<Real> l = gas::load_primitive<Real>(p.state - p.step, component),
+                             r = gas::load_primitive<Real>(p.state, component);
+  const gas::Vector<Real> xl = load3<Real>(p.centres - p.centre_step, centre_component),
+                          xr = load3<Real>(p.centres, centre_component);
   gas::Vector<Real> d{xr.x - xl.x, xr.y - xl.y, xr.z - xl.z};
   if constexpr (!std::is_arithmetic_v<Real>) d.x = select(abs(d.x * f.nx + d.y * f.ny + d.z * f.nz) <= Real(0.0), Real(1.0), d.x);
   const gas::FaceLine<Real> line = gas::face_line(d, f);
@@ -104,7 +106,8 @@ gas::Conserved<double> wall_friction(const FlowTile& tile, const double* state, 
                                      int i) {
   const int d = direction_of(side), end = at_end(side) ? 1 : 0;
   const int fk = k + end * (d == 2), fj = j + end * (d == 1), fi = i + end * (d == 0);
-  const gas::Conserved<double> flux = face_flux(tile, pair_at<double>(tile, state, d, fk, fj, fi), face_at(*tile.geometry, d, fk, fj, fi), s);
+  const gas::Conserved<double> flux =
+      face_flux(tile, pair_at<double>(tile, state, d, fk, fj, fi), face_at(*tile.geometry, d, fk, fj, fi), s);
   return end == 1 ? flux : -1.0 * flux;  // out of the flow
 }
 

@@ -12,7 +12,7 @@ namespace spindrift::aero {
 
 struct ViscousSetting {
   gas::IdealGas gas;
-  bool active = false;      ///< viscous at all
+  bool active = false;  ///< viscous at all
   bool thin_layer = false;
 };
 
@@ -20,7 +20,7 @@ struct ViscousSetting {
 void sweep_viscous(FlowTile& tile, const double* state, double* residual, const ViscousSetting& setting);
 
 /// Stress of the flow on a wall face times its area [N], `f` pointing out of the flow.
-gas::Conserved<double> wall_friction(const FlowTile& tile, const double* state, const ViscousSetting& setting, Side side, int k, int j,
-                                     int i);
+gas::Conserved<double> wall_friction(const FlowTile& tile, const double* state, const ViscousSetting& setting, Side side, int k,
+                                     int j, int i);
 
 }  // namespace spindrift::aero

@@ -17,15 +17,16 @@ using namespace runtime;
 class StepGraph {
  public:
   StepGraph(FlowSolver& solver, Graph& graph) : s_(solver), g_(graph), owned_(solver.tiles_.size()) {
-    for (auto* data : {&state_, &state_ghosts_, &gradients_, &gradient_ghosts_, &residual_, &matrix_, &norms_, &vectors_, &direction_,
-                       &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &dots_, &fraction_, &past_, &gathered_})
+    for (auto* data : {&state_, &state_ghosts_, &gradients_, &gradient_ghosts_, &residual_, &matrix_, &norms_, &vectors_,
+                       &direction_, &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &dots_, &fraction_, &past_, &gathered_})
       *data = graph.data(owned_);
-    sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(), krylov_ = graph.datum(), built_ = graph.datum(), common_ = graph.datum(),
-    total_fraction_ = graph.datum();
+    sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(),
+    krylov_ = graph.datum(), built_ = graph.datum(), common_ = graph.datum(), total_fraction_ = graph.datum();
   }
 
-  /// A common part is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while the others still have a sea to go on
-  /// with. The round of one gives what stands outside the march's own loops that urgency too.
+  /// A common part is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while
+  /// the others still have a sea to go on with. The round of one gives what stands outside the march's own loops that urgency
+  /// too.
   void record() {
     if (common())
       g_.loop("aero/step", {.min = 1, .max = 1, .urgency = 2}, [&] { record_march(2); });
@@ -41,12 +42,16 @@ class StepGraph {
     g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(s_.march_.options().max_steps) + 2, .urgency = urgency}, [&] {
       residual_of_state();
       judge();
-      each("aero/matrix", [&](std::size_t n) { return Uses{reads(decision_),    reads(state_[n]),     reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]),
-                       writes(matrix_[n])}; },
-           [this](std::size_t n) {
-             s_.build_matrix(s_.tiles_[n]);
-             if (s_.refreshes()) s_.preconditioner_->refresh(s_.tiles_[n]);
-           });
+      each(
+          "aero/matrix",
+          [&](std::size_t n) {
+            return Uses{reads(decision_),     reads(state_[n]),           reads(state_ghosts_[n]),
+                        reads(gradients_[n]), reads(gradient_ghosts_[n]), writes(matrix_[n])};
+          },
+          [this](std::size_t n) {
+            s_.build_matrix(s_.tiles_[n]);
+            if (s_.refreshes()) s_.preconditioner_->refresh(s_.tiles_[n]);
+          });
       if (common()) {
         Uses uses{reads(decision_), writes(built_)};
         uses.push_back(reads(matrix_));
@@ -73,8 +78,12 @@ class StepGraph {
 
   /// The past moves back by one step; ordered before all that reads the state.
   void begin_time_step() {
-    each("aero/past", [&](std::size_t n) { return Uses{reads(state_[n]), updates(past_[n])}; },
-         [this](std::size_t n) { s_.begin_time_step(s_.tiles_[n]); });
+    each(
+        "aero/past",
+        [&](std::size_t n) {
+          return Uses{reads(state_[n]), updates(past_[n])};
+        },
+        [this](std::size_t n) { s_.begin_time_step(s_.tiles_[n]); });
   }
   void begin() {
     Uses uses{updates(decision_)};
@@ -100,27 +109,38 @@ class StepGraph {
 
   /// Nodes, metrics and face speeds of the new time level; what follows waits through the states.
   void move_grid() {
-    each("aero/move", [&](std::size_t n) { return Uses{reads(decision_), reads(past_[n]), updates(state_[n])}; },
-         [this](std::size_t n) { s_.move_tile(s_.tiles_[n]); });
+    each(
+        "aero/move",
+        [&](std::size_t n) {
+          return Uses{reads(decision_), reads(past_[n]), updates(state_[n])};
+        },
+        [this](std::size_t n) { s_.move_tile(s_.tiles_[n]); });
     s_.record_centres(g_, state_, state_ghosts_, {reads(decision_)});
   }
 
   void residual_of_state() {
     ghosts_of("aero/ghosts", state_, state_ghosts_, false, 1);
-    each("aero/gradients", [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(state_ghosts_[n]), writes(gradients_[n])}; },
-         [this](std::size_t n) { s_.slopes(s_.tiles_[n], s_.tiles_[n].state.data()); });
-    gradient_ghosts("aero/gradient_ghosts", [this] { return s_.setting_.viscous; }, false, 2);
-    each("aero/residual",
-         [&](std::size_t n) {
-           return Uses{reads(state_[n]),     reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(past_[n]), reads(decision_),
-                       writes(residual_[n]), writes(norms_[n])};
-         },
-         [this](std::size_t n) {
-           FlowTile& tile = s_.tiles_[n];
-           s_.evaluate(tile, tile.state.data(), tile.residual.data());
-           const std::size_t loads = s_.loads_.size();
-           s_.measure(tile, std::span(s_.norm_partials_).subspan(n * s_.norm_sums_.size(), s_.norm_sums_.size()), std::span(s_.load_partials_).subspan(n * loads, loads));
-         });
+    each(
+        "aero/gradients",
+        [&](std::size_t n) {
+          return Uses{reads(decision_), reads(state_[n]), reads(state_ghosts_[n]), writes(gradients_[n])};
+        },
+        [this](std::size_t n) { s_.slopes(s_.tiles_[n], s_.tiles_[n].state.data()); });
+    gradient_ghosts(
+        "aero/gradient_ghosts", [this] { return s_.setting_.viscous; }, false, 2);
+    each(
+        "aero/residual",
+        [&](std::size_t n) {
+          return Uses{reads(state_[n]), reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]),
+                      reads(past_[n]),  reads(decision_),        writes(residual_[n]), writes(norms_[n])};
+        },
+        [this](std::size_t n) {
+          FlowTile& tile = s_.tiles_[n];
+          s_.evaluate(tile, tile.state.data(), tile.residual.data());
+          const std::size_t loads = s_.loads_.size();
+          s_.measure(tile, std::span(s_.norm_partials_).subspan(n * s_.norm_sums_.size(), s_.norm_sums_.size()),
+                     std::span(s_.load_partials_).subspan(n * loads, loads));
+        });
   }
   void judge() {
     g_.reduce("aero/norms", {reads(norms_), writes(sums_)},
@@ -133,8 +153,12 @@ class StepGraph {
 
   void krylov_iteration() {
     // v_j, and the direction z = M^-1 v_j.
-    const auto vector_uses = [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), reads(residual_[n]), updates(vectors_[n])}; };
-    const auto direction_uses = [&](std::size_t n) { return Uses{reads(decision_), reads(matrix_[n]), updates(vectors_[n]), writes(direction_[n]), writes(size_[n])}; };
+    const auto vector_uses = [&](std::size_t n) {
+      return Uses{reads(decision_), reads(krylov_), reads(residual_[n]), updates(vectors_[n])};
+    };
+    const auto direction_uses = [&](std::size_t n) {
+      return Uses{reads(decision_), reads(matrix_[n]), updates(vectors_[n]), writes(direction_[n]), writes(size_[n])};
+    };
     if (!common()) {
       for (std::size_t n = 0; n < owned_; ++n) {
         Uses uses = direction_uses(n);
@@ -172,27 +196,34 @@ class StepGraph {
                                      &direction_ghosts_,
                                      3,
                                      &s_.periodic_};
-    record_halo<float>(g_, s_.grid_, s_.local_, direction, s_.float_buffers_, [this] { return s_.solving_ && !s_.matrix_free_; },
-                       [](int) {}, {reads(decision_)});
-    each("aero/krylov/perturb",
-         [&](std::size_t n) { return Uses{reads(decision_), reads(state_[n]), reads(total_size_), reads(direction_[n]), writes(trial_[n])}; },
-         [this](std::size_t n) {
-           if (perturbs()) s_.perturb(s_.tiles_[n]);
-         });
+    record_halo<float>(
+        g_, s_.grid_, s_.local_, direction, s_.float_buffers_, [this] { return s_.solving_ && !s_.matrix_free_; }, [](int) {},
+        {reads(decision_)});
+    each(
+        "aero/krylov/perturb",
+        [&](std::size_t n) {
+          return Uses{reads(decision_), reads(state_[n]), reads(total_size_), reads(direction_[n]), writes(trial_[n])};
+        },
+        [this](std::size_t n) {
+          if (perturbs()) s_.perturb(s_.tiles_[n]);
+        });
     ghosts_of("aero/krylov/trial_ghosts", trial_, trial_ghosts_, true, 4);
-    each("aero/krylov/gradients",
-         [&](std::size_t n) { return Uses{reads(decision_), reads(trial_[n]), reads(trial_ghosts_[n]), writes(gradients_[n])}; },
-         [this](std::size_t n) {
-           if (perturbs()) s_.slopes(s_.tiles_[n], s_.tiles_[n].trial.data());
-         });
-    gradient_ghosts("aero/krylov/gradient_ghosts", [this] { return perturbs() && s_.setting_.viscous; }, true, 5);
+    each(
+        "aero/krylov/gradients",
+        [&](std::size_t n) {
+          return Uses{reads(decision_), reads(trial_[n]), reads(trial_ghosts_[n]), writes(gradients_[n])};
+        },
+        [this](std::size_t n) {
+          if (perturbs()) s_.slopes(s_.tiles_[n], s_.tiles_[n].trial.data());
+        });
+    gradient_ghosts(
+        "aero/krylov/gradient_ghosts", [this] { return perturbs() && s_.setting_.viscous; }, true, 5);
     for (std::size_t n = 0; n < owned_; ++n)
       g_.task(of("aero/krylov/product", n),
-              {reads(decision_), reads(direction_[n]), reads(direction_ghosts_[n]), reads(total_size_), reads(trial_[n]), reads(trial_ghosts_[n]),
-               reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(matrix_[n]), reads(past_[n]), reads(residual_[n]), updates(vectors_[n]), writes(dots_[n])},
-              [this, n](const Context& c) {
-                s_.product(s_.tiles_[n], int(c.iteration), dots_of(n));
-              });
+              {reads(decision_), reads(direction_[n]), reads(direction_ghosts_[n]), reads(total_size_), reads(trial_[n]),
+               reads(trial_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(matrix_[n]), reads(past_[n]),
+               reads(residual_[n]), updates(vectors_[n]), writes(dots_[n])},
+              [this, n](const Context& c) { s_.product(s_.tiles_[n], int(c.iteration), dots_of(n)); });
     g_.reduce("aero/krylov/dots", {reads(dots_), writes(total_dots_)},
               {.parts = s_.parts_, .partials = s_.dot_partials_, .result = s_.dots_});
     g_.task("aero/krylov/append", {reads(total_dots_), reads(decision_), updates(krylov_)}, [this] {
@@ -208,7 +239,8 @@ class StepGraph {
     s_.precondition_vector(s_.tiles_[n], iteration);
     s_.size_partials_[n] = s_.spread_direction(s_.tiles_[n], iteration);
   }
-  /// Between what tiles gather and what they make of it; one task of all ranks, beside others of this rank that wait for none of it.
+  /// Between what tiles gather and what they make of it; one task of all ranks, beside others of this rank that wait for none of
+  /// it.
   void common_part(const char* label) {
     Uses uses{reads(decision_), reads(built_), writes(common_)};
     uses.push_back(reads(gathered_));
@@ -222,36 +254,47 @@ class StepGraph {
       if (s_.solving_) s_.cycle_.finish();
     });
     const auto update_uses = [&](std::size_t n) {
-      return Uses{reads(decision_), reads(krylov_), reads(matrix_[n]), reads(state_[n]), updates(vectors_[n]), writes(fraction_[n])};
+      return Uses{reads(decision_), reads(krylov_),       reads(matrix_[n]),
+                  reads(state_[n]), updates(vectors_[n]), writes(fraction_[n])};
     };
     const bool between = common() && s_.cycle_.precondition_at_end();
     if (between) {
-      each("aero/combine", [&](std::size_t n) { return Uses{reads(decision_), reads(krylov_), reads(built_), updates(vectors_[n]), writes(gathered_[n])}; },
-           [this](std::size_t n) {
-             s_.combine(s_.tiles_[n]);
-             if (s_.solving_) s_.preconditioner_->gather(s_.tiles_[n], s_.cycle_.solution(s_.tiles_[n]));
-           });
+      each(
+          "aero/combine",
+          [&](std::size_t n) {
+            return Uses{reads(decision_), reads(krylov_), reads(built_), updates(vectors_[n]), writes(gathered_[n])};
+          },
+          [this](std::size_t n) {
+            s_.combine(s_.tiles_[n]);
+            if (s_.solving_) s_.preconditioner_->gather(s_.tiles_[n], s_.cycle_.solution(s_.tiles_[n]));
+          });
       common_part("aero/common");
     }
-    each("aero/update",
-         [&](std::size_t n) {
-           Uses uses = update_uses(n);
-           if (between) uses.push_back(reads(common_));
-           return uses;
-         },
-         [this, between](std::size_t n) {
-           if (!between) s_.combine(s_.tiles_[n]);
-           s_.precondition_solution(s_.tiles_[n]);
-           s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]);
-         });
+    each(
+        "aero/update",
+        [&](std::size_t n) {
+          Uses uses = update_uses(n);
+          if (between) uses.push_back(reads(common_));
+          return uses;
+        },
+        [this, between](std::size_t n) {
+          if (!between) s_.combine(s_.tiles_[n]);
+          s_.precondition_solution(s_.tiles_[n]);
+          s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]);
+        });
     g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
               {Reduction::Operation::min, s_.parts_, s_.fraction_partials_, {&s_.fraction_, 1}});
     g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
-      if (s_.solving_) s_.march_.updated(s_.fraction_, s_.cycle_.columns(), s_.cycle_.residual_norm() / std::sqrt(s_.norms_.mean + s_.norms_.model));
+      if (s_.solving_)
+        s_.march_.updated(s_.fraction_, s_.cycle_.columns(),
+                          s_.cycle_.residual_norm() / std::sqrt(s_.norms_.mean + s_.norms_.model));
     });
-    each("aero/apply",
-         [&](std::size_t n) { return Uses{reads(decision_), reads(total_fraction_), reads(vectors_[n]), updates(state_[n]), updates(trial_[n])}; },
-         [this](std::size_t n) { s_.apply_update(s_.tiles_[n]); });
+    each(
+        "aero/apply",
+        [&](std::size_t n) {
+          return Uses{reads(decision_), reads(total_fraction_), reads(vectors_[n]), updates(state_[n]), updates(trial_[n])};
+        },
+        [this](std::size_t n) { s_.apply_update(s_.tiles_[n]); });
   }
 
   // ---- ghosts
@@ -266,17 +309,19 @@ class StepGraph {
                                   &ghosts,
                                   tag,
                                   &s_.periodic_};
-    record_halo<double>(g_, s_.grid_, s_.local_, field, s_.double_buffers_, [this, trial] { return !trial || perturbs(); },
-                        [this, trial](int n) {
-                          FlowTile& tile = s_.tiles_[std::size_t(n)];
-                          fill_boundaries(tile, trial ? tile.trial.data() : tile.state.data(), s_.boundary_);
-                        },
-                        {reads(decision_)});
+    record_halo<double>(
+        g_, s_.grid_, s_.local_, field, s_.double_buffers_, [this, trial] { return !trial || perturbs(); },
+        [this, trial](int n) {
+          FlowTile& tile = s_.tiles_[std::size_t(n)];
+          fill_boundaries(tile, trial ? tile.trial.data() : tile.state.data(), s_.boundary_);
+        },
+        {reads(decision_)});
   }
   void gradient_ghosts(const char* label, std::function<bool()> active, bool trial, int tag) {
     std::vector<Quantity> quantities{Quantity::tensor, Quantity::vector};
     for (int t = 0; t < turbulence(); ++t) quantities.push_back(Quantity::vector);
-    if (!s_.tiles_.empty() && s_.tiles_[0].eddies) quantities.insert(quantities.end(), std::size_t(2 + turbulence()), Quantity::scalar);
+    if (!s_.tiles_.empty() && s_.tiles_[0].eddies)
+      quantities.insert(quantities.end(), std::size_t(2 + turbulence()), Quantity::scalar);
     const HaloField<double> field{label,
                                   [this](int t) { return tile_of(t).gradient_view(); },
                                   [this](const Tile& t) { return cell_layout(t, gradient_ghosts_count, planar()); },
@@ -289,7 +334,8 @@ class StepGraph {
     record_halo<double>(g_, s_.grid_, s_.local_, field, s_.double_buffers_, active,
                         [this, trial](int n) {
                           FlowTile& tile = s_.tiles_[std::size_t(n)];
-                          fill_boundary_gradients(tile, trial ? tile.trial.data() : tile.state.data(), s_.setting_.gas, s_.model_->wall_spread);
+                          fill_boundary_gradients(tile, trial ? tile.trial.data() : tile.state.data(), s_.setting_.gas,
+                                                  s_.model_->wall_spread);
                         },
                         {reads(decision_)});
   }
@@ -312,8 +358,8 @@ class StepGraph {
   FlowSolver& s_;
   Graph& g_;
   std::size_t owned_;
-  std::vector<Datum> state_, state_ghosts_, gradients_, gradient_ghosts_, residual_, matrix_, norms_, vectors_, direction_, direction_ghosts_,
-      size_, trial_, trial_ghosts_, dots_, fraction_, past_, gathered_;
+  std::vector<Datum> state_, state_ghosts_, gradients_, gradient_ghosts_, residual_, matrix_, norms_, vectors_, direction_,
+      direction_ghosts_, size_, trial_, trial_ghosts_, dots_, fraction_, past_, gathered_;
   Datum sums_, decision_, total_size_, total_dots_, krylov_, built_, common_, total_fraction_;
 };
 
@@ -326,19 +372,25 @@ void FlowSolver::record(Graph& graph) {
 
 void FlowSolver::record_geometry(Graph& graph) {
   const std::vector<Datum> nodes = graph.data(tiles_.size()), ghosts = graph.data(tiles_.size());
-  for (std::size_t n = 0; n < tiles_.size(); ++n) graph.task("aero/geometry/" + std::to_string(tiles_[n].index), {writes(nodes[n])}, [] {});
+  for (std::size_t n = 0; n < tiles_.size(); ++n)
+    graph.task("aero/geometry/" + std::to_string(tiles_[n].index), {writes(nodes[n])}, [] {});
   record_centres(graph, nodes, ghosts, {});
 }
 
 /// Ghosts of centres and volumes, from tiles here and on other ranks.
-void FlowSolver::record_centres(Graph& graph, const std::vector<Datum>& nodes, const std::vector<Datum>& ghosts, const std::vector<Use>& control) {
+void FlowSolver::record_centres(Graph& graph, const std::vector<Datum>& nodes, const std::vector<Datum>& ghosts,
+                                const std::vector<Use>& control) {
   const auto view = [this](int t) -> TileGeometry& { return grid_[t]; };
   const auto layout = [this](const Tile& t) { return cell_layout(t, gradient_ghosts, grid_.tiling().planar); };
-  const HaloField<double> centre{"aero/centres", [view](int t) { return view(t).centre(); }, layout, {Quantity::point}, 1, &nodes, &ghosts, 6, &periodic_};
-  const HaloField<double> volume{"aero/volumes", [view](int t) { return view(t).volume(); }, layout, {Quantity::scalar}, 1, &nodes, &ghosts, 7, &periodic_};
+  const HaloField<double> centre{
+      "aero/centres", [view](int t) { return view(t).centre(); }, layout, {Quantity::point}, 1, &nodes, &ghosts, 6, &periodic_};
+  const HaloField<double> volume{
+      "aero/volumes", [view](int t) { return view(t).volume(); }, layout, {Quantity::scalar}, 1, &nodes, &ghosts, 7, &periodic_};
   const auto always = [] { return true; };
-  record_halo<double>(graph, grid_, local_, centre, double_buffers_, always, [](int) {}, control);
-  record_halo<double>(graph, grid_, local_, volume, double_buffers_, always, [](int) {}, control);
+  record_halo<double>(
+      graph, grid_, local_, centre, double_buffers_, always, [](int) {}, control);
+  record_halo<double>(
+      graph, grid_, local_, volume, double_buffers_, always, [](int) {}, control);
 }
 
 }  // namespace spindrift::aero

@@ -1,5 +1,5 @@
-// Recording of halos: which task of which tile waits for which ghosts, by copies on one rank and by one message per pair of ranks.
-// Used by tasks.cpp alone; tested through tests/src/aero/flow/solver_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Recording of halos: which task of which tile waits for which ghosts, by copies on one rank and by one message per pair of
+// ranks. Used by tasks.cpp alone; tested through tests/src/aero/flow/solver_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <deque>
@@ -15,14 +15,14 @@ namespace spindrift::aero {
 /// A field of the tiles with ghosts: where it is, what its components mean, and the data that stand for it in the graph.
 template <class T>
 struct HaloField {
-  std::string label;                                 ///< path of its tasks
-  std::function<BoxView<T>(int tile)> view;          ///< of an owned tile, asked when the task runs (arrays may be swapped)
-  std::function<BoxLayout(const Tile&)> layout;      ///< of any tile
+  std::string label;                             ///< path of its tasks
+  std::function<BoxView<T>(int tile)> view;      ///< of an owned tile, asked when the task runs (arrays may be swapped)
+  std::function<BoxLayout(const Tile&)> layout;  ///< of any tile
   std::vector<Quantity> quantities;
   int layers = 1;
   const std::vector<runtime::Datum>*inside = nullptr, *ghosts = nullptr;  ///< by owned tile
-  int tag = 0;                                       ///< of its messages; one per field and place in the graph
-  const std::vector<RigidMap>* periodic = nullptr;   ///< of the grid where it is when the task runs
+  int tag = 0;                                      ///< of its messages; one per field and place in the graph
+  const std::vector<RigidMap>* periodic = nullptr;  ///< of the grid where it is when the task runs
 };
 
 /// Records what fills the ghosts of all owned tiles: packing, messages, and one task per tile that copies, unpacks and then calls
@@ -55,7 +55,8 @@ void record_halo(runtime::Graph& graph, const GridStore& grid, const std::vector
                  T* at = buffer.data();
                  for (const int l : links) {
                    const GhostLink& link = tiling.links[std::size_t(l)];
-                   at = pack<T>(link, components, field.layers, field.view(link.from), field.layout(tiling.tiles[std::size_t(link.to)]), at);
+                   at = pack<T>(link, components, field.layers, field.view(link.from),
+                                field.layout(tiling.tiles[std::size_t(link.to)]), at);
                  }
                });
     graph.send(field.label + "/send/" + std::to_string(message.rank), {reads(datum)},
@@ -82,15 +83,17 @@ void record_halo(runtime::Graph& graph, const GridStore& grid, const std::vector
     for (const GhostLink& link : tiling.into(tile))
       if (grid.owns(link.from)) uses.push_back(reads((*field.inside)[std::size_t(local[std::size_t(link.from)])]));
     for (const Incoming& in : incoming[n]) uses.push_back(reads(in.datum));
-    graph.task(field.label + "/" + std::to_string(tile), uses, [field, &grid, &tiling, tile, n, from = incoming[n], active, boundaries] {
-      if (!active()) return;
-      for (const GhostLink& link : tiling.into(tile))
-        if (grid.owns(link.from))
-          copy_ghosts<T>(link, *field.periodic, field.quantities, field.layers, field.view(link.from), field.view(tile));
-      for (const Incoming& in : from)
-        unpack<T>(tiling.links[std::size_t(in.link)], *field.periodic, field.quantities, field.layers, in.buffer, field.view(tile));
-      boundaries(int(n));
-    });
+    graph.task(
+        field.label + "/" + std::to_string(tile), uses, [field, &grid, &tiling, tile, n, from = incoming[n], active, boundaries] {
+          if (!active()) return;
+          for (const GhostLink& link : tiling.into(tile))
+            if (grid.owns(link.from))
+              copy_ghosts<T>(link, *field.periodic, field.quantities, field.layers, field.view(link.from), field.view(tile));
+          for (const Incoming& in : from)
+            unpack<T>(tiling.links[std::size_t(in.link)], *field.periodic, field.quantities, field.layers, in.buffer,
+                      field.view(tile));
+          boundaries(int(n));
+        });
   }
 }
 

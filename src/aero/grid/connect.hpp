@@ -12,8 +12,8 @@ namespace spindrift::aero {
 /// are replaced.
 void connect_by_coordinates(MultiBlockGrid& grid, double tolerance = 1e-3);
 
-/// Sets the periodic map of a connection whose windows do not lie on one another: a translation, else the rigid motion of least squares
-/// (Kabsch 1976). Returns 0, or how far nodes lie apart under the best motion where none fits.
+/// Sets the periodic map of a connection whose windows do not lie on one another: a translation, else the rigid motion of least
+/// squares (Kabsch 1976). Returns 0, or how far nodes lie apart under the best motion where none fits.
 double find_periodic_map(const MultiBlockGrid& grid, Connection& connection);
 
 }  // namespace spindrift::aero

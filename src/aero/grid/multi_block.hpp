@@ -15,8 +15,8 @@
 
 namespace spindrift::aero {
 
-/// ni x nj x nk cells between (ni+1)(nj+1)(nk+1) nodes; i fastest, then j, then k. (i, j, k) is right-handed: every cell's volume is
-/// positive.
+/// ni x nj x nk cells between (ni+1)(nj+1)(nk+1) nodes; i fastest, then j, then k. (i, j, k) is right-handed: every cell's volume
+/// is positive.
 struct Block {
   std::string name;
   int ni = 0, nj = 0, nk = 0;
@@ -30,7 +30,8 @@ enum class Side : std::uint8_t { i_min, i_max, j_min, j_max, k_min, k_max };
 inline int direction_of(Side side) { return int(side) / 2; }
 inline bool at_end(Side side) { return int(side) % 2 == 1; }
 
-/// A rectangle of cell faces on one side of a block: cells [low, high) in the two directions along the side, lower direction first.
+/// A rectangle of cell faces on one side of a block: cells [low, high) in the two directions along the side, lower direction
+/// first.
 struct Window {
   int block = 0;
   Side side = Side::i_min;
@@ -58,8 +59,8 @@ struct Boundary {
   std::string patch;
 };
 
-/// Each face of each block's sides is in exactly one connection or boundary; in a planar grid (one cell in k, flow in the x-z plane,
-/// k along -y or y so that volumes are positive) the sides of k are in none.
+/// Each face of each block's sides is in exactly one connection or boundary; in a planar grid (one cell in k, flow in the x-z
+/// plane, k along -y or y so that volumes are positive) the sides of k are in none.
 struct MultiBlockGrid {
   std::vector<Block> blocks;
   std::vector<Connection> connections;

@@ -119,7 +119,8 @@ struct NodeField::Work {
   int free = 0, first = 0, last = 0, cycles = 0;
   std::optional<Multigrid> multigrid;
 
-  Work(const MultiBlockGrid& g, std::vector<std::string> p, std::span<const std::string> stiff, const NodeFieldOptions& o, MPI_Comm c)
+  Work(const MultiBlockGrid& g, std::vector<std::string> p, std::span<const std::string> stiff, const NodeFieldOptions& o,
+       MPI_Comm c)
       : grid(g), given(std::move(p)), options(o), comm(c), same(g) {
     mark_given();
     add_edges(stiff);
@@ -232,7 +233,8 @@ struct NodeField::Work {
     rows.first = first;
     for (int u = first; u < last; ++u) {
       rows.columns.push_back(u), rows.values.push_back(diagonal[std::size_t(u)]);
-      for (const auto& [column, value] : row[std::size_t(u - first)]) rows.columns.push_back(column), rows.values.push_back(value);
+      for (const auto& [column, value] : row[std::size_t(u - first)])
+        rows.columns.push_back(column), rows.values.push_back(value);
       rows.begin.push_back(int(rows.columns.size()));
     }
     multigrid.emplace(rows, MultigridOptions{}, comm);
@@ -247,12 +249,14 @@ struct NodeField::Work {
     runtime::Packer parcel;
     parcel.put(mine);
     auto to = all.begin();
-    for (const runtime::Bytes& bytes : runtime::exchange_all(comm, parcel.take())) to = std::ranges::copy(runtime::Unpacker(bytes).many<double>(), to).out;
+    for (const runtime::Bytes& bytes : runtime::exchange_all(comm, parcel.take()))
+      to = std::ranges::copy(runtime::Unpacker(bytes).many<double>(), to).out;
   }
 
   /// By number.
   std::vector<double> solve(const std::function<double(int, const Eigen::Vector3d&)>& value) {
-    std::vector<double> f(patch.size(), 0.0), residual(static_cast<std::size_t>(free)), change(static_cast<std::size_t>(free)), step(std::size_t(last - first));
+    std::vector<double> f(patch.size(), 0.0), residual(static_cast<std::size_t>(free)), change(static_cast<std::size_t>(free)),
+        step(std::size_t(last - first));
     double low = 0.0, high = 0.0, sum = 0.0;
     long count = 0;
     for (std::size_t n = 0; n < f.size(); ++n) {
@@ -276,7 +280,8 @@ struct NodeField::Work {
       for (std::size_t u = 0; u < residual.size(); ++u) largest = std::max(largest, std::abs(residual[u]) / diagonal[u]);
       if (largest <= wanted) return f;
       if (cycles == options.most)
-        throw std::runtime_error("node field: after " + std::to_string(cycles) + " cycles of multigrid a node would still move by " + std::to_string(largest / (high - low)) +
+        throw std::runtime_error("node field: after " + std::to_string(cycles) +
+                                 " cycles of multigrid a node would still move by " + std::to_string(largest / (high - low)) +
                                  " of the range given");
       multigrid->cycle(std::span<const double>(residual).subspan(std::size_t(first), step.size()), step);
       spread(step, change);
@@ -286,7 +291,8 @@ struct NodeField::Work {
   }
 };
 
-NodeField::NodeField(const MultiBlockGrid& grid, std::vector<std::string> given, std::span<const std::string> stiff, const NodeFieldOptions& options, MPI_Comm comm)
+NodeField::NodeField(const MultiBlockGrid& grid, std::vector<std::string> given, std::span<const std::string> stiff,
+                     const NodeFieldOptions& options, MPI_Comm comm)
     : work_(std::make_unique<Work>(grid, std::move(given), stiff, options, comm)) {}
 NodeField::~NodeField() = default;
 

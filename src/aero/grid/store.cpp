@@ -205,7 +205,8 @@ void turn_frame(TileGeometry& g, const Eigen::Vector3d& omega, const Eigen::Vect
     if (g.speed_data[d].size() == 0) g.speed_data[d] = AlignedArray<double>(g.face_box[d].size(1));
   for (int d = 0; d < flow_directions(planar); ++d) {
     BoxView<double> speed = g.speed(d);
-    for_box(g.face_box[d], [&](int k, int j, int i) { speed(0, k, j, i) = turned_volume(face_at(x, d, k, j, i), omega, centre); });
+    for_box(g.face_box[d],
+            [&](int k, int j, int i) { speed(0, k, j, i) = turned_volume(face_at(x, d, k, j, i), omega, centre); });
   }
 }
 

@@ -39,7 +39,8 @@ struct TileGeometry {
   std::array<AlignedArray<double>, 3> swept_data, old_swept_data;  ///< [m3] in this step and in the one before
   std::array<AlignedArray<double>, 3> speed_data;                  ///< [m3/s] volume per time swept, see swept_rate
   AlignedArray<double> old_volume_data, older_volume_data;         ///< [m3] interior, one and two steps ago
-  /// The rigid part of a motion: velocity at the origin [m/s] and rate of turn [rad/s] now, or what they came to over the last step.
+  /// The rigid part of a motion: velocity at the origin [m/s] and rate of turn [rad/s] now, or what they came to over the last
+  /// step.
   struct RigidRate {
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), omega = Eigen::Vector3d::Zero();
   };
@@ -94,8 +95,8 @@ void update_speeds(TileGeometry& geometry, TimeWeights weights, double dt, bool 
 /// Velocity of a node under the same weights [m/s].
 Eigen::Vector3d node_velocity(const TileGeometry& geometry, TimeWeights weights, double dt, int k, int j, int i);
 
-/// A frame that turns steadily about `centre` with the nodes at rest in it: speeds of the faces, exact integrals of (omega x r) . n, so
-/// that they sum to zero over a cell. Makes room for them where the grid does not move otherwise.
+/// A frame that turns steadily about `centre` with the nodes at rest in it: speeds of the faces, exact integrals of (omega x r) .
+/// n, so that they sum to zero over a cell. Makes room for them where the grid does not move otherwise.
 void turn_frame(TileGeometry& geometry, const Eigen::Vector3d& omega, const Eigen::Vector3d& centre, bool planar);
 
 /// The tiles of one rank; a tile that lives elsewhere has no geometry.

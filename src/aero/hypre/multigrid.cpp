@@ -150,6 +150,8 @@ void Multigrid::cycle(std::span<const double> b, std::span<double> x) {
   std::fill(x.begin(), x.end(), 0.0);
   hypre_->run(b, x, 0.0, 1);
 }
-int Multigrid::solve(std::span<const double> b, std::span<double> x, double drop, int most) { return hypre_->run(b, x, drop, most); }
+int Multigrid::solve(std::span<const double> b, std::span<double> x, double drop, int most) {
+  return hypre_->run(b, x, drop, most);
+}
 
 }  // namespace spindrift::aero

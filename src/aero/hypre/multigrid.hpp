@@ -1,8 +1,8 @@
 // Algebraic multigrid of a sparse matrix whose rows are spread over processes: hypre's BoomerAMG (Henson & Yang 2002), for any
 // elliptic problem. The one place that hands a communicator to hypre; nothing of hypre is seen in this header.
-// hypre keeps global state: one call at a time in a process, from collective tasks or between runs. Its coarse grids depend on the
-// number of processes, so results are equal across ranks to tolerance, and to the bit across threads and reruns.
-// Called by src/aero/flow; tested in tests/src/aero/flow (poisson_test, coarse_correction_test). SPDX-License-Identifier: Apache-2.0
+// hypre keeps global state: one call at a time in a process, from collective tasks or between runs. Its coarse grids depend on
+// the number of processes, so results are equal across ranks to tolerance, and to the bit across threads and reruns. Called by
+// src/aero/flow; tested in tests/src/aero/flow (poisson_test, coarse_correction_test). SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <mpi.h>
@@ -41,7 +41,8 @@ class Multigrid {
 
   /// x = a V-cycle on b, begun at zero. Collective.
   void cycle(std::span<const double> b, std::span<double> x);
-  /// V-cycles from x on until the residual has fallen by `drop`; returns how many, or -1 where `most` were not enough. Collective.
+  /// V-cycles from x on until the residual has fallen by `drop`; returns how many, or -1 where `most` were not enough.
+  /// Collective.
   int solve(std::span<const double> b, std::span<double> x, double drop, int most);
 
  private:

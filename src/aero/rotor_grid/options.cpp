@@ -67,7 +67,9 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
                   scene::positive())
           .number("hub_radius_m", &RotorGridOptions::hub_radius_m, "m",
                   "Radius of the slip cylinder that the blades end on; default 0.93 root chords.", scene::positive())
-          .number("radial_extent", &RotorGridOptions::radial_extent, "-", "Outer radius over the tip radius. At 3 it acts like a wind tunnel whose walls raise the rotor's wind by 5 %, at 12 by 0.3 %.",
+          .number("radial_extent", &RotorGridOptions::radial_extent, "-",
+                  "Outer radius over the tip radius. At 3 it acts like a wind tunnel whose walls raise the rotor's wind by 5 %, "
+                  "at 12 by 0.3 %.",
                   scene::between(1.2, 50.0))
           .number("upstream_extent", &RotorGridOptions::upstream_extent, "-",
                   "Distance of the inflow from the hub over the tip radius.", scene::between(0.5, 50.0))

@@ -22,8 +22,8 @@ class BladePitching {
 
   /// Only ring and plug of a sector move.
   bool moves(int block) const { return block % blocks_of_sector < 2; }
-  /// A node, or all nodes, of a block when its blade's pitch has changed by `change` [rad] from the grid's, nose into the wind positive. Good for
-  /// changes up to about 20 deg (docs/theory/rotor_grid.md); beyond, make a grid at a pitch nearby.
+  /// A node, or all nodes, of a block when its blade's pitch has changed by `change` [rad] from the grid's, nose into the wind
+  /// positive. Good for changes up to about 20 deg (docs/theory/rotor_grid.md); beyond, make a grid at a pitch nearby.
   Eigen::Vector3d node(int block, int k, int j, int i, double change) const;
   void nodes(int block, double change, std::span<Eigen::Vector3d> moved) const;
   /// Share of the turn that node (k, j, i) of a moving block takes: 1 at the blade, 0 at the box.

@@ -41,7 +41,12 @@ std::array<Part, 8> parts(const RotorGridSizes& z) {
 class Assembly {
  public:
   Assembly(const Turbine& turbine, const RotorGridSpec& spec, const RotorLayout& layout, const GridProgress& told)
-      : spec_(spec), z_(spec.sizes), layout_(layout), told_(told), blades_(turbine.blades), sectors_(spec.whole ? turbine.blades : 1) {}
+      : spec_(spec),
+        z_(spec.sizes),
+        layout_(layout),
+        told_(told),
+        blades_(turbine.blades),
+        sectors_(spec.whole ? turbine.blades : 1) {}
 
   MultiBlockGrid make(const BladeSurface& blade) {
     make_first_sector(blade);

@@ -12,7 +12,8 @@
 
 namespace spindrift::aero {
 
-/// Told now and then how far something long has come: what is being made, and the share of it that is. One call at a time, from any thread.
+/// Told now and then how far something long has come: what is being made, and the share of it that is. One call at a time, from
+/// any thread.
 using GridProgress = std::function<void(std::string_view what, double share)>;
 
 /// Blocks of each blade's sector, in this order, their indices (i, j, k): O (outward, round from the trailing edge along the

@@ -1,7 +1,6 @@
-// The state of a sea by identity, dealt out to ranks in runs of identities: what output and checkpoints hold, the same for any number
-// of ranks. Rank r of n has the identities from N r/n on, whoever has their particles in its groups.
-// Called by particle_sea.cpp; tested in tests/src/sea/sph/by_identity_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// The state of a sea by identity, dealt out to ranks in runs of identities: what output and checkpoints hold, the same for any
+// number of ranks. Rank r of n has the identities from N r/n on, whoever has their particles in its groups. Called by
+// particle_sea.cpp; tested in tests/src/sea/sph/by_identity_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -32,7 +31,8 @@ std::size_t values_per_particle(const Parameters& p) {
   return p.step == StepChoice::verlet ? 3 * dim + 2 : 2 * dim + 1;
 }
 
-/// This rank's run of identities: values, owners, and which of them are in the sea (the others are lost, and are where they left it).
+/// This rank's run of identities: values, owners, and which of them are in the sea (the others are lost, and are where they left
+/// it).
 template <int dim>
 struct ByIdentity {
   IdentityRange range{};
@@ -98,8 +98,8 @@ ByIdentity<dim> by_identity(const SeaSph<dim, Real>& sea, std::size_t particles,
   return mine;
 }
 
-/// Puts a state back: `values` of this rank's run, `owner` as the sea was laid out. Particles go to their groups with the sort that
-/// ends this; those outside the domain are lost again. Collective.
+/// Puts a state back: `values` of this rank's run, `owner` as the sea was laid out. Particles go to their groups with the sort
+/// that ends this; those outside the domain are lost again. Collective.
 template <int dim, class Real>
 void set_by_identity(SeaSph<dim, Real>& sea, const IdentityRange& range, std::span<const double> values,
                      std::span<const std::uint16_t> owner, double time, long steps) {

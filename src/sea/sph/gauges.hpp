@@ -1,9 +1,9 @@
 // What instruments in the tank read: height of the surface at a place, pressure and velocity at a point.
 // Surface: the share of a neighbourhood that water fills, sum of V W, falls through one half there (of its value below, so that
-// walls nearby do not matter). Pressure: weighted mean with the hydrostatic part taken to the probe's height, velocity: weighted mean.
-// On several ranks all functions are collective: what lies near an instrument is gathered and summed in one order, so a reading has
-// the same bits for any number of ranks. Called by particle_sea.cpp between windows; tested in tests/src/sea/sph/gauges_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// walls nearby do not matter). Pressure: weighted mean with the hydrostatic part taken to the probe's height, velocity: weighted
+// mean. On several ranks all functions are collective: what lies near an instrument is gathered and summed in one order, so a
+// reading has the same bits for any number of ranks. Called by particle_sea.cpp between windows; tested in
+// tests/src/sea/sph/gauges_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -49,8 +49,7 @@ double surface_height(std::span<const NearWater> water, double h) {
   for (int n = 0; n < depth; ++n) share[n] = filled(top + 2.0 * h - n * step), most = std::max(most, share[n]);
   if (most < 0.3) return dry;  // spray
   for (int n = 1; n < depth; ++n)
-    if (share[n] >= 0.5 * most)
-      return top + 2.0 * h - step * (n - (share[n] - 0.5 * most) / (share[n] - share[n - 1]));
+    if (share[n] >= 0.5 * most) return top + 2.0 * h - step * (n - (share[n] - 0.5 * most) / (share[n] - share[n - 1]));
   return dry;
 }
 
@@ -81,7 +80,8 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
   const auto cell_of = [&](double x) { return int(std::floor((x - domain.low[0]) / reach)); };
   const int cells = cell_of(domain.high[0]) + 1;
   std::vector<std::vector<std::uint32_t>> in_cell(std::size_t(std::max(cells, 1)));
-  for (std::uint32_t n = 0; n < places.size(); ++n) in_cell[std::size_t(std::clamp(cell_of(places[n][0]), 0, cells - 1))].push_back(n);
+  for (std::uint32_t n = 0; n < places.size(); ++n)
+    in_cell[std::size_t(std::clamp(cell_of(places[n][0]), 0, cells - 1))].push_back(n);
   const auto for_near = [&](std::size_t slot, auto&& visit) {
     const int home = std::clamp(cell_of(store.x[0][slot]), 0, cells - 1);
     for (int step = -1; step <= 1; ++step) {
@@ -139,9 +139,8 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
   std::vector<double> heights(places.size());
   for (std::size_t n = rank; n < places.size(); n += ranks) {
     // The order of terms must not depend on where particles lie in memory.
-    std::sort(water[n].begin(), water[n].end(), [](const NearWater& a, const NearWater& b) {
-      return a.z != b.z ? a.z < b.z : a.distance2 < b.distance2;
-    });
+    std::sort(water[n].begin(), water[n].end(),
+              [](const NearWater& a, const NearWater& b) { return a.z != b.z ? a.z < b.z : a.distance2 < b.distance2; });
     const double z = surface_height<dim>(water[n], p.h());
     heights[n] = std::isfinite(z) ? z : dry;
   }
@@ -182,8 +181,10 @@ ProbeReading<dim> probe(const Store<dim, Real>& store, const Parameters& p, cons
     }
     if (distance2 >= p.reach() * p.reach()) return;
     const double rho = p.eos.rho0 + store.deviation[slot];
-    Term term{store.id[slot], p.mass(dim) / rho * kernel.value(distance2),
-              p.eos.pressure(store.deviation[slot]) + rho * p.gravity * (store.x[dim - 1][slot] - at[dim - 1]), {}};
+    Term term{store.id[slot],
+              p.mass(dim) / rho * kernel.value(distance2),
+              p.eos.pressure(store.deviation[slot]) + rho * p.gravity * (store.x[dim - 1][slot] - at[dim - 1]),
+              {}};
     for (int k = 0; k < dim; ++k) term.velocity[k] = store.v[k][slot];
     terms.push_back(term);
   });
@@ -202,7 +203,8 @@ ProbeReading<dim> probe(const Store<dim, Real>& store, const Parameters& p, cons
     weight += t.weight, reading.pressure += t.weight * t.pressure;
     for (int k = 0; k < dim; ++k) reading.velocity[k] += t.weight * t.velocity[k];
   }
-  constexpr double least = 0.02;  // of a full neighbourhood: at a wall half, in a corner, which water keeps a spacing from, a tenth
+  constexpr double least =
+      0.02;  // of a full neighbourhood: at a wall half, in a corner, which water keeps a spacing from, a tenth
   if (weight < least) {
     reading.pressure = 0.0;
     reading.velocity.fill(std::numeric_limits<double>::quiet_NaN());

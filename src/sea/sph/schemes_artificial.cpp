@@ -30,7 +30,8 @@ GroupSweep<dim, Real> Schemes<dim, Real>::artificial() const {
   });
 }
 
-// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for each.
+// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for
+// each.
 template GroupSweep<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::artificial() const;
 
 }  // namespace spindrift::sph

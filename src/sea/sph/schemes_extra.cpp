@@ -46,9 +46,11 @@ GroupSweep<dim, Real> Schemes<dim, Real>::shifting() const {
   });
 }
 
-// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for each.
+// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for
+// each.
 template GroupSweep<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::strain() const;
-template GroupBoundary<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::boundary(const Ghosts<SPINDRIFT_SPH_DIM>&) const;
+template GroupBoundary<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::boundary(
+    const Ghosts<SPINDRIFT_SPH_DIM>&) const;
 template GroupSweep<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::filter() const;
 template GroupSweep<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::shifting() const;
 

@@ -12,8 +12,8 @@ namespace spindrift::sph {
 
 namespace {
 
-/// Ghost nodes may see no farther than two columns: so far reach the uses of tasks and the halos of ranks. Widens columns for those
-/// that lie far in.
+/// Ghost nodes may see no farther than two columns: so far reach the uses of tasks and the halos of ranks. Widens columns for
+/// those that lie far in.
 template <int dim>
 Parameters with_room_for_ghosts(Parameters p, std::span<const Seed<dim>> seeds) {
   double farthest = 0.0;
@@ -29,7 +29,10 @@ Parameters with_room_for_ghosts(Parameters p, std::span<const Seed<dim>> seeds) 
 template <int dim, class Real>
 SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds,
                           Machine machine)
-    : machine_(std::move(machine)), comm_(machine_.comm), s_(with_room_for_ghosts(parameters, seeds), domain), particles_(seeds.size()) {
+    : machine_(std::move(machine)),
+      comm_(machine_.comm),
+      s_(with_room_for_ghosts(parameters, seeds), domain),
+      particles_(seeds.size()) {
   if (machine_.threads <= 0) machine_.threads = omp_get_max_threads();
   std::vector<int> rank_of_group = machine_.rank_of_group;
   if (rank_of_group.empty()) {
@@ -317,7 +320,8 @@ bool SeaSph<dim, Real>::repartition(std::vector<int> rank_of_group) {
   return true;
 }
 
-// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for each.
+// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for
+// each.
 template class SeaSph<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>;
 
 }  // namespace spindrift::sph

@@ -12,8 +12,8 @@
 
 #include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/wrench.hpp"
-#include "runtime/mpi/exchange.hpp"
 #include "kernels/sph/time_step.hpp"
+#include "runtime/mpi/exchange.hpp"
 #include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/store.hpp"
 
@@ -61,8 +61,8 @@ struct Solid {
   }
 };
 
-/// Largest step of a floating body of this mass [kg], in 2-D per metre of width: half of what is stable for a body pressed from one
-/// side, since it is wet all round, and turns.
+/// Largest step of a floating body of this mass [kg], in 2-D per metre of width: half of what is stable for a body pressed from
+/// one side, since it is wet all round, and turns.
 inline double body_step_limit(const Solid& solid, double mass, const Parameters& p, int dim) {
   const double relative_weight = mass / (double(solid.local.size()) * p.mass(dim));
   return 0.5 * step_limit_body(relative_weight, solid.layers(p.spacing, dim), p.spacing, p.eos.c0);

@@ -40,7 +40,8 @@ struct Pace {
     double dt;
     bool last;
   };
-  /// With steps_per_look 1: asked before each step for one not above the limit [s], on all ranks alike; may throw NumericalFailure.
+  /// With steps_per_look 1: asked before each step for one not above the limit [s], on all ranks alike; may throw
+  /// NumericalFailure.
   std::function<Choice(double limit)> choose = {};
 };
 
@@ -165,8 +166,9 @@ struct SeaState {
     }
   }
   void finish_steps() {
-    const bool last =
-        pace.choose ? plan.last : pace.dt > 0.0 ? std::round(plan.left / pace.dt) <= plan.planned : plan.dt * plan.planned >= plan.left * (1.0 - 1e-12);
+    const bool last = pace.choose     ? plan.last
+                      : pace.dt > 0.0 ? std::round(plan.left / pace.dt) <= plan.planned
+                                      : plan.dt * plan.planned >= plan.left * (1.0 - 1e-12);
     for (int n = 0; n < plan.planned; ++n) plan.time += plan.dt;
     plan.steps += plan.planned, work.steps = plan.steps;
     work.evaluations += plan.planned * (p.step == StepChoice::symplectic ? 2 : 1);

@@ -27,7 +27,7 @@ namespace {
 template <int dim>
 struct Lattice {
   std::array<double, dim> corner, edge;
-  std::array<int, dim> count;                       ///< inside the walls; along z up to their top
+  std::array<int, dim> count;  ///< inside the walls; along z up to their top
 
   Lattice(const TankPlan& plan, double spacing) {
     const auto cells = [&](int axis, double low, double high, double whole) {
@@ -78,7 +78,8 @@ void set_in_motion(Seed<dim>& seed, std::span<const waves::Component> waves, dou
 template <int dim>
 class Builder {
  public:
-  Builder(const TankPlan& plan, Parameters& p) : plan_(plan), p_(p), lattice_(plan, p.spacing), layers_(int(std::ceil(p.reach() / p.spacing - 1e-9))) {
+  Builder(const TankPlan& plan, Parameters& p)
+      : plan_(plan), p_(p), lattice_(plan, p.spacing), layers_(int(std::ceil(p.reach() / p.spacing - 1e-9))) {
     const bool heavy = p.gravity > 0.0;
     p.mass_factor = lattice_.cell() / std::pow(p.spacing, dim) * (heavy ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0);
     row_mass_ = p.eos.rho0 * lattice_.edge[dim - 1] * (heavy ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0);
@@ -149,7 +150,8 @@ class Builder {
         seed.deviation = p_.eos.hydrostatic_deviation(below, p_.gravity);
       }
       if (!plan_.waves.empty()) set_in_motion<dim>(seed, plan_.waves, plan_.depth);
-      const bool in_tank = plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
+      const bool in_tank =
+          plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
       if (in_tank && !is_body(to_earth<dim>(seed.position))) result_.seeds.push_back(seed);
     });
   }
@@ -169,8 +171,8 @@ class Builder {
     result_.seeds.push_back(seed);
   }
 
-  /// Mirror image in the faces that a wall particle lies beyond; of an obstacle's particle in its nearest face, as far in as water sees.
-  /// Behind a paddle the bed is mirrored upwards only: water comes there as the paddle retreats.
+  /// Mirror image in the faces that a wall particle lies beyond; of an obstacle's particle in its nearest face, as far in as
+  /// water sees. Behind a paddle the bed is mirrored upwards only: water comes there as the paddle retreats.
   std::array<double, dim> ghost_of_wall(const std::array<double, dim>& x, std::uint16_t owner) const {
     std::array<double, dim> low, high;
     low.fill(-1e300), high.fill(1e300);
@@ -223,7 +225,8 @@ class Builder {
     std::vector<double> bed, lowest_near;
     for (int i = low[0]; i < high[0]; ++i) {
       bed.push_back(bed_of_column(i)), lowest_near.push_back(bed.back());
-      for (int near = i - layers_; near <= i + layers_; ++near) lowest_near.back() = std::min(lowest_near.back(), bed_of_column(near));
+      for (int near = i - layers_; near <= i + layers_; ++near)
+        lowest_near.back() = std::min(lowest_near.back(), bed_of_column(near));
     }
     for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
       const std::array<double, dim> x = lattice_.at(index);
@@ -269,10 +272,12 @@ class Builder {
   void set_domain() {
     Domain<dim>& domain = result_.domain;
     const double margin = (layers_ + 2) * p_.spacing;
-    domain.low[0] = plan_.x[0] - margin - (plan_.paddle ? plan_.paddle_reach + margin : 0.0), domain.high[0] = plan_.x[1] + margin;
+    domain.low[0] = plan_.x[0] - margin - (plan_.paddle ? plan_.paddle_reach + margin : 0.0),
+    domain.high[0] = plan_.x[1] + margin;
     if constexpr (dim == 3) domain.low[1] = plan_.y[0] - margin, domain.high[1] = plan_.y[1] + margin;
     for (int k = 0; k < dim - 1; ++k)
-      if ((domain.periodic[k] = plan_.periodic[std::size_t(k)])) domain.low[k] = (k == 0 ? plan_.x : plan_.y)[0], domain.high[k] = (k == 0 ? plan_.x : plan_.y)[1];
+      if ((domain.periodic[k] = plan_.periodic[std::size_t(k)]))
+        domain.low[k] = (k == 0 ? plan_.x : plan_.y)[0], domain.high[k] = (k == 0 ? plan_.x : plan_.y)[1];
     double lowest = 1e300, highest = plan_.top;
     for (const Seed<dim>& seed : result_.seeds) {
       lowest = std::min(lowest, seed.position[dim - 1]);
@@ -286,7 +291,7 @@ class Builder {
   Parameters& p_;
   Lattice<dim> lattice_;
   int layers_;
-  double row_mass_;                                 ///< mass per area of a row of water [kg/m2]
+  double row_mass_;  ///< mass per area of a row of water [kg/m2]
   std::vector<Points> points_;
   std::vector<double> extent_;
   TankParticles<dim> result_;

@@ -1,5 +1,5 @@
-// The particles a scene starts with: water on a lattice, walls and bed, obstacles, a paddle, bodies. The lattice fills the depth and
-// the sides of the tank in whole cells, each nearly a cube of the spacing; water is compressed by its own weight as at rest.
+// The particles a scene starts with: water on a lattice, walls and bed, obstacles, a paddle, bodies. The lattice fills the depth
+// and the sides of the tank in whole cells, each nearly a cube of the spacing; water is compressed by its own weight as at rest.
 // Slopes are stairs of lattice cells, rounded to half a cell. Called by particle_sea.cpp and `spindrift check`; tested in
 // tests/src/sea/sph/tank_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,26 +21,26 @@ namespace spindrift::sph {
 /// What a scene's tank is made of, in plain numbers.
 struct TankPlan {
   std::array<double, 2> x{}, y{};
-  double depth = 0.0;                               ///< bed at -depth, still water at 0 [m]
-  double top = 0.0;                                 ///< of the walls [m]
-  std::array<bool, 2> periodic{};                   ///< sides along x, along y
-  std::vector<std::array<double, 2>> bed;           ///< (x, z), x increasing; empty: flat
+  double depth = 0.0;                      ///< bed at -depth, still water at 0 [m]
+  double top = 0.0;                        ///< of the walls [m]
+  std::array<bool, 2> periodic{};          ///< sides along x, along y
+  std::vector<std::array<double, 2>> bed;  ///< (x, z), x increasing; empty: flat
   struct Block {
     Eigen::Vector3d low, high;
   };
-  std::vector<Block> water, obstacles;              ///< water empty: the tank up to z = 0
+  std::vector<Block> water, obstacles;  ///< water empty: the tank up to z = 0
   std::optional<Paddle> paddle;
-  double paddle_reach = 0.0;                        ///< farthest way of the paddle's upper edge [m]
+  double paddle_reach = 0.0;  ///< farthest way of the paddle's upper edge [m]
   struct Body {
     std::string name;
     std::vector<BodyShape> shapes;
-    Motion motion;                                  ///< at the start
+    Motion motion;  ///< at the start
   };
-  std::vector<Body> bodies;                         ///< those with shapes
-  bool modified_walls = false;                      ///< wall particles have ghost nodes; the bed must be flat
-  std::vector<waves::Component> waves;              ///< the start is in their motion at t = 0; empty: still
+  std::vector<Body> bodies;             ///< those with shapes
+  bool modified_walls = false;          ///< wall particles have ghost nodes; the bed must be flat
+  std::vector<waves::Component> waves;  ///< the start is in their motion at t = 0; empty: still
 
-  double bed_at(double at) const;                   ///< height of the bed [m]
+  double bed_at(double at) const;  ///< height of the bed [m]
 };
 
 inline constexpr std::uint16_t water_owner = 0, wall_owner = 1;
@@ -51,10 +51,10 @@ struct TankParticles {
   std::vector<Seed<dim>> seeds;
   Domain<dim> domain;
   std::size_t water = 0, walls = 0;
-  std::optional<std::uint16_t> paddle;              ///< owner
-  std::vector<std::uint16_t> bodies;                ///< owners, in the plan's order
+  std::optional<std::uint16_t> paddle;  ///< owner
+  std::vector<std::uint16_t> bodies;    ///< owners, in the plan's order
   std::vector<std::size_t> body_particles;
-  double cell_volume = 0.0;                         ///< of the lattice over spacing^dim: the share of a particle's mass it stands for
+  double cell_volume = 0.0;  ///< of the lattice over spacing^dim: the share of a particle's mass it stands for
 };
 
 /// p.mass_factor is set from the lattice; everything else of p is given.

@@ -594,7 +594,8 @@ bool StepTasks<dim, Real>::outdated() const {
   return sea_.move_bodies && sea_.plan.solid_path > path_ + 0.5 * (path_limit() - path_);
 }
 
-// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for each.
+// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for
+// each.
 template class StepTasks<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>;
 
 }  // namespace spindrift::sph

@@ -14,7 +14,8 @@ Wavemaker::Wavemaker(const Paddle& paddle, std::span<const waves::Component> com
   const double depth = -paddle.bed;
   for (const waves::Component& c : components) {
     const double kh = c.wave_number * depth;
-    const double transfer = paddle.flap ? waves::flap_transfer(kh, c.wave_number * (paddle.hinge - paddle.bed)) : waves::piston_transfer(kh);
+    const double transfer =
+        paddle.flap ? waves::flap_transfer(kh, c.wave_number * (paddle.hinge - paddle.bed)) : waves::piston_transfer(kh);
     // a cos(k x - omega t + phase) comes from S/2 sin(omega t - k x_paddle - phase): the wave is in step with the paddle's speed.
     const double phase = -c.wave_number * paddle.x - c.phase;
     const double amplitude = stroke > 0.0 ? 0.5 * stroke : c.amplitude / transfer;

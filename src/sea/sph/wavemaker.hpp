@@ -14,9 +14,9 @@ namespace spindrift::sph {
 
 struct Paddle {
   bool flap = false;
-  double x = 0.0;        ///< of its wet face at rest [m]
-  double hinge = 0.0;    ///< height of a flap's hinge [m]
-  double bed = 0.0;      ///< height of the bed at the paddle, minus the depth [m]
+  double x = 0.0;      ///< of its wet face at rest [m]
+  double hinge = 0.0;  ///< height of a flap's hinge [m]
+  double bed = 0.0;    ///< height of the bed at the paddle, minus the depth [m]
   double start_s = 0.0, ramp_s = 0.0;
 };
 
@@ -26,8 +26,8 @@ class Wavemaker {
   struct Harmonic {
     double amplitude, omega, phase;
   };
-  /// Makes the free waves among `components` (those that travel along x); second_order: the first one is a regular wave whose bound
-  /// harmonic is to come out bound. stroke > 0 replaces that of the first harmonic [m].
+  /// Makes the free waves among `components` (those that travel along x); second_order: the first one is a regular wave whose
+  /// bound harmonic is to come out bound. stroke > 0 replaces that of the first harmonic [m].
   Wavemaker(const Paddle& paddle, std::span<const waves::Component> components, bool second_order, double stroke = 0.0);
 
   /// Displacement and velocity at still water [m], [m/s].

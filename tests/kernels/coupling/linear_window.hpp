@@ -1,5 +1,5 @@
-// Six rows that answer linearly: loads of a rigid body whose fluid weighs r times as much, seen by any scheme. Used by tests of schemes.
-// SPDX-License-Identifier: Apache-2.0
+// Six rows that answer linearly: loads of a rigid body whose fluid weighs r times as much, seen by any scheme. Used by tests of
+// schemes. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/LU>

@@ -74,7 +74,8 @@ TEST_CASE("clearing and relaxing rescues a scheme that learned from a part in tr
   };
   Troubled window(5.0);
   IqnIls scheme(0.1, {});
-  const WindowLog log = solve_window(window, scheme, {.relative = 1e-6, .max_evaluations = 9, .fallback_relaxation = 0.1, .fallback_steps = 3});
+  const WindowLog log =
+      solve_window(window, scheme, {.relative = 1e-6, .max_evaluations = 9, .fallback_relaxation = 0.1, .fallback_steps = 3});
   CHECK(log.ok());
   CHECK(log.retries == 1);
 }

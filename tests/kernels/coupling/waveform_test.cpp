@@ -12,7 +12,8 @@ Vector power(double t, int degree) { return Vector{{std::pow(t, degree), 2.0 - s
 
 }  // namespace
 
-TEST_CASE("a waveform of degree p carries polynomials of degree p exactly, between unequal samples and beyond them", "[coupling][fast]") {
+TEST_CASE("a waveform of degree p carries polynomials of degree p exactly, between unequal samples and beyond them",
+          "[coupling][fast]") {
   const std::vector<double> times{0.5, 0.7, 1.2, 1.3, 2.0};
   for (const auto& [kind, degree] : {std::pair{Interpolation::linear, 1}, std::pair{Interpolation::cubic, 3}}) {
     std::vector<Vector> values;
@@ -28,7 +29,8 @@ TEST_CASE("a waveform of degree p carries polynomials of degree p exactly, betwe
   CHECK(Waveform::held(power(3, 1)).at(17.0)[0] == 3.0);
 }
 
-TEST_CASE("a predictor of order k is exact for polynomials of degree k on unequal windows, and lower while young", "[coupling][fast]") {
+TEST_CASE("a predictor of order k is exact for polynomials of degree k on unequal windows, and lower while young",
+          "[coupling][fast]") {
   for (int order : {0, 1, 2}) {
     Extrapolation e(order);
     e.add(0.0, power(0.0, order));

@@ -1,6 +1,6 @@
-// What a lattice of particles under pressure does against a shear that changes no volume. Pressure acts along the gradient of the sum
-// of kernels: where that sum changes under shear the lattice holds an energy of beta strain^2 times the pressure, as an elastic
-// body would; water has none. By energy it raises the frequency of waves by about (beta_pure + beta_simple)/4
+// What a lattice of particles under pressure does against a shear that changes no volume. Pressure acts along the gradient of the
+// sum of kernels: where that sum changes under shear the lattice holds an energy of beta strain^2 times the pressure, as an
+// elastic body would; water has none. By energy it raises the frequency of waves by about (beta_pure + beta_simple)/4
 // (docs/developer/sea_physics.md). SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -28,7 +28,8 @@ struct Stiffness {
 };
 Stiffness stiffness(double h_over_d, double strain) {
   const double rest = filled(h_over_d, 1.0, 0.0, 1.0), c = std::cosh(strain), s = std::sinh(strain);
-  return {(filled(h_over_d, c + s, 0.0, c - s) - rest) / (strain * strain), (filled(h_over_d, c, s, c) - rest) / (strain * strain)};
+  return {(filled(h_over_d, c + s, 0.0, c - s) - rest) / (strain * strain),
+          (filled(h_over_d, c, s, c) - rest) / (strain * strain)};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Wilcox's k-omega models: exact balances of the logarithmic layer, the sublayer and free decay; limiter, cross diffusion, stretching.
-// SPDX-License-Identifier: Apache-2.0
+// Wilcox's k-omega models: exact balances of the logarithmic layer, the sublayer and free decay; limiter, cross diffusion,
+// stretching. SPDX-License-Identifier: Apache-2.0
 #include "kernels/turbulence/model_k_omega.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,8 @@ const Vector<double> flat{0, 0, 0};
 }
 
 // nu_t = kappa u y, k = u^2 / sqrt(beta*), omega = u / (sqrt(beta*) kappa y) solve both equations for one kappa:
-// kappa^2 = sqrt(beta*) (beta / beta* - gamma) / sigma. It is .408 (1988) and .4000 (2006: no cross diffusion, as k does not vary).
+// kappa^2 = sqrt(beta*) (beta / beta* - gamma) / sigma. It is .408 (1988) and .4000 (2006: no cross diffusion, as k does not
+// vary).
 TEMPLATE_TEST_CASE("the logarithmic layer of k-omega has von Karman's constant", "[turbulence][fast]", KOmega1988, KOmega) {
   const bool old = std::is_same_v<TestType, KOmega1988>;
   const double beta = old ? 0.075 : 0.0708, gamma = old ? 5.0 / 9.0 : 0.52, u = 0.5, y = 0.01, nu = 1e-8;
@@ -53,13 +54,15 @@ TEST_CASE("the stress of Wilcox 2006 is limited, that of 1988 is not", "[turbule
   const Turbulence<double, 2> t{{0.1, 50.0}, {flat, flat}};
   CHECK(KOmega1988{}.closure(flow, t).eddy_viscosity == Approx(1.2 * 0.1 / 50.0));
   const auto c = KOmega{}.closure(flow, t);
-  CHECK(c.eddy_viscosity * 1000.0 == Approx(0.3 / 0.875 * 1.2 * 0.1));       // of the shear stress: .343 rho k
-  CHECK(c.diffusivity[0] == Approx(1.8e-5 + 0.6 * 1.2 * 0.1 / 50.0));       // k and omega spread unlimited
+  CHECK(c.eddy_viscosity * 1000.0 == Approx(0.3 / 0.875 * 1.2 * 0.1));  // of the shear stress: .343 rho k
+  CHECK(c.diffusivity[0] == Approx(1.8e-5 + 0.6 * 1.2 * 0.1 / 50.0));   // k and omega spread unlimited
 }
 
 TEST_CASE("cross diffusion of Wilcox 2006 acts where k and omega rise together", "[turbulence][fast]") {
   const Flow<double> flow{1.2, 1.8e-5, 1.0, flat, flat, flat};
-  const auto rate = [&](double slope) { return KOmega{}.source(flow, {{0.1, 50.0}, {{0.0, 2.0, 0.0}, {0.0, slope, 0.0}}}).rate[1]; };
+  const auto rate = [&](double slope) {
+    return KOmega{}.source(flow, {{0.1, 50.0}, {{0.0, 2.0, 0.0}, {0.0, slope, 0.0}}}).rate[1];
+  };
   CHECK(rate(300.0) - rate(0.0) == Approx(0.125 * 1.2 * 2.0 * 300.0 / 50.0));
   CHECK(rate(-300.0) == rate(0.0));
 }

@@ -1,5 +1,5 @@
-// Eddy viscosities of large-eddy simulation: Smagorinsky's drains what the inertial range brings, WALE's knows walls and rotation.
-// SPDX-License-Identifier: Apache-2.0
+// Eddy viscosities of large-eddy simulation: Smagorinsky's drains what the inertial range brings, WALE's knows walls and
+// rotation. SPDX-License-Identifier: Apache-2.0
 #include "kernels/turbulence/model_les.hpp"
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,8 @@ double eddy(const Flow<double>& f) {
 }
 }  // namespace
 
-// Lilly (1967): with E = C eps^(2/3) k^(-5/3) up to pi / Delta, 2 S:S = 3/2 C eps^(2/3) (pi / Delta)^(4/3), and nu_t 2 S:S is eps.
+// Lilly (1967): with E = C eps^(2/3) k^(-5/3) up to pi / Delta, 2 S:S = 3/2 C eps^(2/3) (pi / Delta)^(4/3), and nu_t 2 S:S is
+// eps.
 TEST_CASE("Smagorinsky's eddy viscosity drains the inertial range at the rate it is fed", "[turbulence][fast]") {
   for (const double eps : {1e-2, 1.0, 50.0})
     for (const double width : {1e-3, 0.1}) {

@@ -1,5 +1,5 @@
-// Detached eddies: the length of DES97 and DDES, the shield of DDES, and the equilibrium that makes both Smagorinsky-like far from walls.
-// SPDX-License-Identifier: Apache-2.0
+// Detached eddies: the length of DES97 and DDES, the shield of DDES, and the equilibrium that makes both Smagorinsky-like far
+// from walls. SPDX-License-Identifier: Apache-2.0
 #include "kernels/turbulence/model_sa_des.hpp"
 
 #include <catch2/catch.hpp>
@@ -60,8 +60,8 @@ TEST_CASE("the shield of DDES goes from 0 to 1", "[turbulence][fast]") {
   CHECK(DdesLength::outside(1.0 / 8.0) == Approx(1.0 - std::tanh(1.0)));  // eq. 5
 }
 
-// Production balances destruction far from walls: cb1 S nu~ = cw1 fw (nu~/l)^2 with r = nu~ / (S l^2 kappa^2) and fw as of that r: r = 1 is
-// not the balance; the root gives nu_t = (C l)^2 S with a constant, as Smagorinsky's.
+// Production balances destruction far from walls: cb1 S nu~ = cw1 fw (nu~/l)^2 with r = nu~ / (S l^2 kappa^2) and fw as of that
+// r: r = 1 is not the balance; the root gives nu_t = (C l)^2 S with a constant, as Smagorinsky's.
 TEST_CASE("detached eddies in balance have an eddy viscosity of Smagorinsky's form", "[turbulence][fast]") {
   const auto balanced = [](double rate, double side) {
     double low = 1e-8, high = 1e3;

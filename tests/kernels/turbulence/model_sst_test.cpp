@@ -15,7 +15,8 @@ template <class Model>
 constexpr bool newer = std::is_same_v<Model, Sst> || std::is_same_v<Model, Sst2003Vm>;
 }  // namespace
 
-TEMPLATE_TEST_CASE("the log layer balances production and destruction of k", "[turbulence][fast]", Sst, Sst2003Vm, Sst1994, SstV, SstVm) {
+TEMPLATE_TEST_CASE("the log layer balances production and destruction of k", "[turbulence][fast]", Sst, Sst2003Vm, Sst1994, SstV,
+                   SstVm) {
   const double u_tau = 0.5, y = 0.01, nu = 1e-8, kappa = 0.41, root = 0.3;  // sqrt(beta*)
   const double k = u_tau * u_tau / root, omega = u_tau / (root * kappa * y);
   const Flow<double> flow{1.2, 1.2 * nu, y, {0.0, u_tau / (kappa * y), 0.0}, no_gradient, no_gradient};
@@ -34,7 +35,8 @@ TEMPLATE_TEST_CASE("the log layer balances production and destruction of k", "[t
 }
 
 // Decay of free turbulence: k ~ t^(-beta*/beta2), so d(k)/k over d(omega)/omega is beta*/beta2.
-TEMPLATE_TEST_CASE("free turbulence decays with the outer constants", "[turbulence][fast]", Sst, Sst2003Vm, Sst1994, SstV, SstVm) {
+TEMPLATE_TEST_CASE("free turbulence decays with the outer constants", "[turbulence][fast]", Sst, Sst2003Vm, Sst1994, SstV,
+                   SstVm) {
   const Flow<double> flow{1.2, 1.8e-5, 1e3, no_gradient, no_gradient, no_gradient};
   const Turbulence<double, 2> t{{0.1, 50.0}, {no_gradient, no_gradient}};
   const auto s = TestType{}.source(flow, t);
@@ -43,7 +45,8 @@ TEMPLATE_TEST_CASE("free turbulence decays with the outer constants", "[turbulen
   CHECK(s.rate[1] == Approx(-0.0828 * 1.2 * 2500.0).epsilon(1e-3));
 }
 
-TEMPLATE_TEST_CASE("production of k is at most the limiter times its destruction", "[turbulence][fast]", Sst, Sst2003Vm, Sst1994, SstV, SstVm) {
+TEMPLATE_TEST_CASE("production of k is at most the limiter times its destruction", "[turbulence][fast]", Sst, Sst2003Vm, Sst1994,
+                   SstV, SstVm) {
   const double limiter = newer<TestType> ? 10.0 : 20.0;
   const Flow<double> flow{1.2, 1.8e-5, 1e3, {0.0, 3e4, 0.0}, no_gradient, no_gradient};
   const auto s = TestType{}.source(flow, {{0.1, 50.0}, {no_gradient, no_gradient}});
@@ -67,7 +70,8 @@ TEST_CASE("variants of SST differ in what makes turbulence, what limits the stre
   const Turbulence<double, 2> t{{0.1, 500.0}, {no_gradient, no_gradient}};
   const double omega = 200.0, strain2 = 2.0 * (400.0 + 25.0) + 400.0 * 400.0, div = -15.0, k = 0.1, d = 0.09 * 1.2 * k * 500.0;
   const double by_strain = strain2 - 2.0 / 3.0 * div * div, pressed = -2.0 / 3.0 * 1.2 * k * div;
-  const double limit_vorticity = 1.2 * 0.31 * k / std::max(0.31 * 500.0, omega), limit_strain = 1.2 * 0.31 * k / std::max(0.31 * 500.0, std::sqrt(strain2));
+  const double limit_vorticity = 1.2 * 0.31 * k / std::max(0.31 * 500.0, omega),
+               limit_strain = 1.2 * 0.31 * k / std::max(0.31 * 500.0, std::sqrt(strain2));
   const auto check = [&](const auto& model, double eddy, double rate2, double pressure) {
     const auto c = model.closure(flow, t);
     CHECK(c.eddy_viscosity == Approx(eddy).epsilon(1e-6));  // F2 is 1 here
@@ -88,5 +92,6 @@ TEST_CASE("SST values on walls and in the far field are Menter's and the TMR's",
   const auto far = SstVm{}.far_field(nu, 50.0, 340.0);
   CHECK(far[0] / far[1] == Approx(0.009 * nu));
   const Flow<double> flow{1.2, 1.2 * nu, 1e3, no_gradient, no_gradient, no_gradient};
-  CHECK(SstVm{}.closure(flow, {{far[0], far[1]}, {no_gradient, no_gradient}}).eddy_viscosity / flow.mu == Approx(0.009).epsilon(1e-6));
+  CHECK(SstVm{}.closure(flow, {{far[0], far[1]}, {no_gradient, no_gradient}}).eddy_viscosity / flow.mu ==
+        Approx(0.009).epsilon(1e-6));
 }

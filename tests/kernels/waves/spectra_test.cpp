@@ -15,8 +15,10 @@ namespace {
 
 std::vector<Component> realise(const SeaState& sea, bool equal_energy_shares, std::size_t count, std::uint64_t seed) {
   std::vector<Component> components(count);
-  if (equal_energy_shares) equal_energy(sea, components);
-  else equal_frequency(sea, components);
+  if (equal_energy_shares)
+    equal_energy(sea, components);
+  else
+    equal_frequency(sea, components);
   finish_realisation(sea, seed, 0.0, 100.0, 9.81, components);
   return components;
 }

@@ -64,8 +64,8 @@ TEST_CASE("the dispersion relation is solved to round-off in any depth", "[waves
       const double omega = 2.0 * pi / period, k = wave_number(omega, depth, gravity);
       CHECK(gravity * k * std::tanh(k * depth) == Approx(omega * omega).epsilon(2e-15));
     }
-  CHECK(wave_number(2.0, 1e4, gravity) == Approx(4.0 / gravity));                          // deep: omega^2 / g
-  CHECK(wave_number(0.01, 1.0, gravity) == Approx(0.01 / std::sqrt(gravity)).epsilon(1e-4));   // shallow: omega / sqrt(g h)
+  CHECK(wave_number(2.0, 1e4, gravity) == Approx(4.0 / gravity));                             // deep: omega^2 / g
+  CHECK(wave_number(0.01, 1.0, gravity) == Approx(0.01 / std::sqrt(gravity)).epsilon(1e-4));  // shallow: omega / sqrt(g h)
 }
 
 TEST_CASE("the wave of Leble and Barakos in their tank has its known length, speeds and numbers", "[waves][fast]") {
@@ -75,7 +75,7 @@ TEST_CASE("the wave of Leble and Barakos in their tank has its known length, spe
   CHECK(w.group_speed == Approx(8.2).margin(0.05));
   CHECK(w.relative_depth == Approx(1.26).margin(0.005));
   CHECK(ursell_number(1.88, w.length, 20.6) == Approx(2.3).margin(0.05));
-  CHECK(1.88 / piston_transfer(w.relative_depth) == Approx(1.56).margin(0.01));            // stroke of the piston
+  CHECK(1.88 / piston_transfer(w.relative_depth) == Approx(1.56).margin(0.01));  // stroke of the piston
 }
 
 TEST_CASE("group speed is the derivative of frequency by wave number", "[waves][fast]") {
@@ -87,7 +87,8 @@ TEST_CASE("group speed is the derivative of frequency by wave number", "[waves][
   }
 }
 
-TEST_CASE("the flow under waves is irrotational and solenoidal, stands still at the bottom and obeys Euler's equation", "[waves][fast]") {
+TEST_CASE("the flow under waves is irrotational and solenoidal, stands still at the bottom and obeys Euler's equation",
+          "[waves][fast]") {
   const double depth = 20.6, d = 1e-3;
   const bool second = GENERATE(false, true);
   std::vector<Component> components = {airy(0.94, 8.8, depth, 0.4), airy(0.5, 5.0, depth, -1.0)};
@@ -96,7 +97,7 @@ TEST_CASE("the flow under waves is irrotational and solenoidal, stands still at 
   const auto velocity = [&](double t, const Eigen::Vector3d& p) { return kinematics(sea, t, p.x(), p.y(), p.z()).velocity; };
   const auto pressure = [&](const Eigen::Vector3d& p) { return kinematics(sea, 3.0, p.x(), p.y(), p.z()).pressure_over_density; };
   for (const Eigen::Vector3d& p : {Eigen::Vector3d(4, -7, -0.1), Eigen::Vector3d(-30, 11, -9), Eigen::Vector3d(60, 2, -19)}) {
-    Eigen::Matrix3d gradient;                                                              // column j: d velocity / d x_j
+    Eigen::Matrix3d gradient;  // column j: d velocity / d x_j
     Eigen::Vector3d pressure_gradient;
     for (int j = 0; j < 3; ++j) {
       const Eigen::Vector3d step = d * Eigen::Vector3d::Unit(j);
@@ -129,7 +130,7 @@ TEST_CASE("a Stokes wave has high crests, flat troughs and its linear height", "
   const double depth = 20.6, period = 8.8, a = 0.94;
   const Component first = airy(a, period, depth), second = stokes_second(first, depth);
   const auto sea = groups({first, second}, depth);
-  const double at_crest = 0.3 / first.angular_frequency, at_trough = at_crest + 0.5 * period;   // phase 0.3 - omega t
+  const double at_crest = 0.3 / first.angular_frequency, at_trough = at_crest + 0.5 * period;  // phase 0.3 - omega t
   const double crest = surface(sea, at_crest, 0, 0).elevation, trough = surface(sea, at_trough, 0, 0).elevation;
   CHECK(crest - trough == Approx(2.0 * a).epsilon(1e-14));
   CHECK(crest + trough == Approx(2.0 * second.amplitude).epsilon(1e-12));
@@ -138,7 +139,7 @@ TEST_CASE("a Stokes wave has high crests, flat troughs and its linear height", "
   CHECK(second.amplitude == Approx(4.0 * a * a * first.wave_number / 16.0 * std::cosh(kh) * (2.0 + std::cosh(2.0 * kh)) /
                                    std::pow(std::sinh(kh), 3)));
   const Component deep = airy(1.0, 5.0, 400.0);
-  CHECK(stokes_second(deep, 400.0).amplitude == Approx(0.5 * deep.wave_number));             // deep water: k a^2 / 2, no second flow
+  CHECK(stokes_second(deep, 400.0).amplitude == Approx(0.5 * deep.wave_number));  // deep water: k a^2 / 2, no second flow
   CHECK(stokes_second(deep, 400.0).speed_amplitude < 1e-15);
   CHECK(stokes_ratio(2.0 * a, first.wave_number, depth) == Approx(second.amplitude / a));
 }
@@ -147,11 +148,12 @@ TEST_CASE("wavemaker transfer follows Biesel and its limits", "[waves][fast]") {
   for (double kh : {0.01, 0.3, 0.4999, 0.5001, 1.26, 5.0, 40.0}) {
     CHECK(piston_transfer(kh) == Approx(2.0 * (std::cosh(2 * kh) - 1.0) / (std::sinh(2 * kh) + 2 * kh)).epsilon(1e-9));
     if (kh > 0.1)
-      CHECK(flap_transfer(kh) == Approx(4.0 * std::sinh(kh) / kh * (kh * std::sinh(kh) - std::cosh(kh) + 1.0) /
-                                        (std::sinh(2 * kh) + 2 * kh)).epsilon(1e-10));
+      CHECK(flap_transfer(kh) ==
+            Approx(4.0 * std::sinh(kh) / kh * (kh * std::sinh(kh) - std::cosh(kh) + 1.0) / (std::sinh(2 * kh) + 2 * kh))
+                .epsilon(1e-10));
   }
-  CHECK(piston_transfer(1e-3) == Approx(1e-3).epsilon(1e-5));                                // Galvin: H/S = kh
-  CHECK(flap_transfer(1e-3) == Approx(0.5e-3).epsilon(1e-5));                                // half of a piston's
+  CHECK(piston_transfer(1e-3) == Approx(1e-3).epsilon(1e-5));  // Galvin: H/S = kh
+  CHECK(flap_transfer(1e-3) == Approx(0.5e-3).epsilon(1e-5));  // half of a piston's
   CHECK(piston_transfer(299.0) == Approx(2.0));
   CHECK(piston_transfer(1000.0) == 2.0);
   CHECK(flap_transfer(301.0) == Approx(flap_transfer(299.9)).epsilon(1e-4));

@@ -38,8 +38,8 @@ struct Rule {
   }
 };
 
-/// Wetted part by quadrature over cross-sections: each slice is a circular segment, the pieces between slices that change kind are
-/// integrated with t = sin^2 u substitution so that the square roots at their ends do no harm.
+/// Wetted part by quadrature over cross-sections: each slice is a circular segment, the pieces between slices that change kind
+/// are integrated with t = sin^2 u substitution so that the square roots at their ends do no harm.
 Wetted by_slices(const Vector3d& start, const Vector3d& end, double r0, double r1, const WaterPlane& surface) {
   static const Rule rule(60);
   const Vector3d axis = (end - start).normalized();
@@ -59,8 +59,9 @@ Wetted by_slices(const Vector3d& start, const Vector3d& end, double r0, double r
       const double f = cuts[c] + (cuts[c + 1] - cuts[c]) * s * s;
       const double df = (cuts[c + 1] - cuts[c]) * 2.0 * s * std::cos(u) * 0.25 * pi * rule.weight[i];
       const double r = r0 + f * (r1 - r0), h = h0 + f * (h1 - h0);
-      double area = 0.0, first = 0.0;                    // of the part of the disc with lean x < -h
-      if (h <= -lean * r) area = pi * r * r;
+      double area = 0.0, first = 0.0;  // of the part of the disc with lean x < -h
+      if (h <= -lean * r)
+        area = pi * r * r;
       else if (h < lean * r) {
         const double d = std::clamp(-h / lean, -r, r), half = std::sqrt(std::max(0.0, r * r - d * d));
         area = r * r * std::acos(-d / r) + d * half;
@@ -106,13 +107,12 @@ Attitude random_attitude(Random& random, bool tapered) {
 Wetted cylinder(const Attitude& a) { return wetted_cylinder(a.start, a.end, a.r0, a.surface); }
 Wetted frustum(const Attitude& a) { return wetted_frustum(a.start, a.end, a.r0, a.r1, a.surface); }
 Wetted slices(const Attitude& a) { return by_slices(a.start, a.end, a.r0, a.r1, a.surface); }
-double full_volume(const Attitude& a) {
-  return pi / 3.0 * (a.end - a.start).norm() * (a.r0 * a.r0 + a.r0 * a.r1 + a.r1 * a.r1);
-}
+double full_volume(const Attitude& a) { return pi / 3.0 * (a.end - a.start).norm() * (a.r0 * a.r0 + a.r0 * a.r1 + a.r1 * a.r1); }
 
 /// Largest error of volume and first moment in units of the whole solid's.
 double error(const Attitude& a, const Wetted& is, const Wetted& should) {
-  const double volume = full_volume(a), size = std::max((a.end - a.start).norm(), std::max(a.r0, a.r1)) + a.start.norm() + a.end.norm();
+  const double volume = full_volume(a),
+               size = std::max((a.end - a.start).norm(), std::max(a.r0, a.r1)) + a.start.norm() + a.end.norm();
   return std::max(std::abs(is.volume - should.volume) / volume, (is.first_moment - should.first_moment).norm() / (volume * size));
 }
 
@@ -174,7 +174,7 @@ TEST_CASE("volume and centre are continuous where the kind of cut changes", "[wa
     };
     const double edge = std::atan2(2.0 * radius, length);
     std::vector<double> angles = {0.0, pi / 2, pi, edge, pi - edge};
-    for (double top : {-1.0, 1.0})                                   // a rim point touches the surface
+    for (double top : {-1.0, 1.0})  // a rim point touches the surface
       for (double side : {-1.0, 1.0}) {
         const double c = -depth / std::hypot(0.5 * length, radius);
         if (std::abs(c) <= 1.0) angles.push_back(std::acos(c) * top + std::atan2(radius, 0.5 * length) * side);
@@ -190,7 +190,8 @@ TEST_CASE("volume and centre are continuous where the kind of cut changes", "[wa
 }
 
 TEST_CASE("buoyancy is the gradient of the potential energy of the displaced water", "[waves][fast]") {
-  // U = -int z dV over the wetted part; dU/dz = -V and dU/d(rotation) = -(first moment x z), for force and moment in units of rho g.
+  // U = -int z dV over the wetted part; dU/dz = -V and dU/d(rotation) = -(first moment x z), for force and moment in units of rho
+  // g.
   Random random(4);
   const auto energy = [](const Attitude& a) { return -(a.r0 == a.r1 ? cylinder(a) : frustum(a)).first_moment.z(); };
   for (int i = 0; i < 400; ++i) {
@@ -216,11 +217,11 @@ TEST_CASE("buoyancy is the gradient of the potential energy of the displaced wat
 
 TEST_CASE("an upright cylinder has the metacentric height of the textbook and lies down when that is negative", "[waves][fast]") {
   const double radius = 2.0, draft = 3.0, freeboard = 2.0;
-  const auto righting_arm = [&](double heel, double gravity_centre) {   // centre of gravity on the axis, above the keel
+  const auto righting_arm = [&](double heel, double gravity_centre) {  // centre of gravity on the axis, above the keel
     const Vector3d axis(std::sin(heel), 0, std::cos(heel)), keel = -draft * axis;
     const Wetted w = wetted_cylinder(keel, keel + (draft + freeboard) * axis, radius, {});
     const Vector3d g = keel + gravity_centre * axis;
-    return w.first_moment.x() / w.volume - g.x();                       // positive: turns back
+    return w.first_moment.x() / w.volume - g.x();  // positive: turns back
   };
   const double metacentre = draft / 2 + radius * radius / (4 * draft);  // KB + I/V
   const double heel = 1e-6;
@@ -228,14 +229,15 @@ TEST_CASE("an upright cylinder has the metacentric height of the textbook and li
   CHECK(righting_arm(heel, metacentre + 0.01) / heel == Approx(-0.01).epsilon(1e-4));
   // Wall-sided formula (Scribanti): GZ = sin(heel) (GM + BM tan^2(heel) / 2), exact until an end is cut.
   const double big = 0.6, bm = radius * radius / (4 * draft);
-  CHECK(righting_arm(big, 1.0) == Approx(std::sin(big) * (metacentre - 1.0 + 0.5 * bm * std::pow(std::tan(big), 2))).epsilon(1e-12));
+  CHECK(righting_arm(big, 1.0) ==
+        Approx(std::sin(big) * (metacentre - 1.0 + 0.5 * bm * std::pow(std::tan(big), 2))).epsilon(1e-12));
 }
 
 TEST_CASE("a full cone and a drowned or dry solid have their textbook volumes", "[waves][fast]") {
-  const Wetted cone = wetted_frustum({0, 0, -3}, {0, 0, 0}, 0.0, 1.5, {});       // apex down, just drowned
+  const Wetted cone = wetted_frustum({0, 0, -3}, {0, 0, 0}, 0.0, 1.5, {});  // apex down, just drowned
   CHECK(cone.volume == Approx(pi * 2.25));
   CHECK(cone.first_moment.z() / cone.volume == Approx(-0.75));
-  const Wetted part = wetted_frustum({0, 0, -1}, {0, 0, 2}, 0.0, 1.5, {});       // apex one metre down
+  const Wetted part = wetted_frustum({0, 0, -1}, {0, 0, 2}, 0.0, 1.5, {});  // apex one metre down
   CHECK(part.volume == Approx(pi * 0.25 / 3.0));
   CHECK(wetted_cylinder({0, 0, 0}, {0, 0, 2}, 1.0, {}).volume == 0.0);
   CHECK(wetted_cylinder({0, 0, 1}, {4, 0, 1}, 1.0, {}).volume == Approx(0.0).margin(1e-15));

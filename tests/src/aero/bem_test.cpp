@@ -74,7 +74,8 @@ TEST_CASE("thrust and power follow the rigid HAWCStab2 table of the DTU 10-MW tu
   CHECK(got.power == Approx(row.power).epsilon(within));
 }
 
-TEST_CASE("at a tip-speed ratio of 14 Buhl's correction follows that table too; Madsen's polynomial is 8 per cent off in power", "[aero][fast]") {
+TEST_CASE("at a tip-speed ratio of 14 Buhl's correction follows that table too; Madsen's polynomial is 8 per cent off in power",
+          "[aero][fast]") {
   const auto at4 = [](const char* induction) {
     return run(BladeElementMomentum(dtu(), induction, 1.225), 4.0, 6.0, 2.88, 5 * radians_per_degree);
   };

@@ -19,7 +19,8 @@ using Catch::Matchers::Contains;
 namespace {
 
 FlowOptions read(const std::string& flow) {
-  scene::Document doc = scene::parse("[aero]\nmodel = 'blade_resolved'\n[aero.flow]\n" + flow, "test.toml", std::filesystem::temp_directory_path());
+  scene::Document doc =
+      scene::parse("[aero]\nmodel = 'blade_resolved'\n[aero.flow]\n" + flow, "test.toml", std::filesystem::temp_directory_path());
   const AeroOptions air = doc.read(aero_section());
   doc.finish();
   return *air.flow;
@@ -81,12 +82,16 @@ TEST_CASE("a grid that is not said, or said twice, or said wrongly is refused wi
 }
 
 TEST_CASE("closures are chosen by name, and refused with what is allowed", "[flow][fast]") {
-  const std::string grid = "[aero.flow.generate]\nkind = 'cylinder'\n", wall = "[[aero.flow.boundaries]]\npatch = 'wall'\ncondition = 'wall_function'\n";
-  for (const char* name : {"sst_1994", "sst_v", "sst_2003_vm", "k_omega", "k_omega_1988", "des97", "ddes", "les_wale", "les_smagorinsky"})
+  const std::string grid = "[aero.flow.generate]\nkind = 'cylinder'\n",
+                    wall = "[[aero.flow.boundaries]]\npatch = 'wall'\ncondition = 'wall_function'\n";
+  for (const char* name :
+       {"sst_1994", "sst_v", "sst_2003_vm", "k_omega", "k_omega_1988", "des97", "ddes", "les_wale", "les_smagorinsky"})
     CHECK(read("turbulence = '" + std::string(name) + "'\n" + grid).turbulence == name);
-  CHECK_THROWS_WITH(read("turbulence = 'k_epsilon'\n" + grid), Contains("aero.flow.turbulence") && Contains("k_epsilon") && Contains("k_omega_1988"));
+  CHECK_THROWS_WITH(read("turbulence = 'k_epsilon'\n" + grid),
+                    Contains("aero.flow.turbulence") && Contains("k_epsilon") && Contains("k_omega_1988"));
   CHECK_NOTHROW(read("turbulence = 'k_omega'\n" + grid + wall));
   CHECK_THROWS_WITH(read("turbulence = 'les_wale'\n" + grid + wall), Contains("wall_function") && Contains("les_wale"));
   const FlowOptions plane = read("turbulence = 'les_wale'\n" + grid);
-  CHECK_THROWS_WITH(patch_conditions(plane, make_tiling(flow_grid(plane), {}, {})), Contains("les_wale") && Contains("three dimensions"));
+  CHECK_THROWS_WITH(patch_conditions(plane, make_tiling(flow_grid(plane), {}, {})),
+                    Contains("les_wale") && Contains("three dimensions"));
 }

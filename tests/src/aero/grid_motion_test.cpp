@@ -1,5 +1,5 @@
-// Grids that follow walls: rigid motions to round-off, no fold where other ways fold or lean, a uniform stream stays one, lift by a turned aerofoil is lift by
-// a turned wind. SPDX-License-Identifier: Apache-2.0
+// Grids that follow walls: rigid motions to round-off, no fold where other ways fold or lean, a uniform stream stays one, lift by
+// a turned aerofoil is lift by a turned wind. SPDX-License-Identifier: Apache-2.0
 #include "src/aero/grid_motion.hpp"
 
 #include <catch2/catch.hpp>
@@ -50,7 +50,8 @@ MultiBlockGrid transfinite(const MultiBlockGrid& made, const TurnAndShift& motio
       const Vector3d from = on_wall(start) ? start : edge + Vector3d(0.0, start[1], 0.0);
       const Vector3d displacement = fades * (moved(motion, 1.0, from) - from);
       std::vector<double> arc(1, 0.0);
-      for (int j = 1; j <= b.nj; ++j) arc.push_back(arc.back() + (made.blocks[0].nodes[b.node(k, j, i)] - made.blocks[0].nodes[b.node(k, j - 1, i)]).norm());
+      for (int j = 1; j <= b.nj; ++j)
+        arc.push_back(arc.back() + (made.blocks[0].nodes[b.node(k, j, i)] - made.blocks[0].nodes[b.node(k, j - 1, i)]).norm());
       for (int j = 0; j <= b.nj; ++j) b.nodes[b.node(k, j, i)] += (1.0 - arc[std::size_t(j)] / arc.back()) * displacement;
     }
   return grid;
@@ -60,7 +61,8 @@ MultiBlockGrid by_components(const MultiBlockGrid& made, const TurnAndShift& mot
   MultiBlockGrid grid = made;
   NodeField field(made, {"wall", "farfield", "outflow"}, std::vector<std::string>{"wall"});
   for (const int d : {0, 2}) {
-    const NodeField::Values f = field.solve([&](int patch, const Vector3d& x) { return patch == 0 ? (moved(motion, 1.0, x) - x)[d] : 0.0; });
+    const NodeField::Values f =
+        field.solve([&](int patch, const Vector3d& x) { return patch == 0 ? (moved(motion, 1.0, x) - x)[d] : 0.0; });
     for (std::size_t n = 0; n < f[0].size(); ++n) grid.blocks[0].nodes[n][d] += f[0][n];
   }
   return grid;
@@ -68,7 +70,8 @@ MultiBlockGrid by_components(const MultiBlockGrid& made, const TurnAndShift& mot
 
 }  // namespace
 
-TEST_CASE("a grid all of whose patches move, moves rigidly to round-off; one that is held keeps what is held to the bit", "[grid][fast]") {
+TEST_CASE("a grid all of whose patches move, moves rigidly to round-off; one that is held keeps what is held to the bit",
+          "[grid][fast]") {
   const MultiBlockGrid grid = naca0012({.n = 1, .far = 20.0});
   GridMotionOptions o = pitching(25.0);
   o.patches = {"wall", "farfield", "outflow"};
@@ -90,19 +93,26 @@ TEST_CASE("a grid all of whose patches move, moves rigidly to round-off; one tha
   const Block &b = grid.blocks[0], &c = to.blocks[0];
   for (int i = 0; i <= b.ni; ++i) CHECK(c.nodes[c.node(0, b.nj, i)] == b.nodes[b.node(0, b.nj, i)]);
   const int nose = b.ni / 2;
-  CHECK((c.nodes[c.node(0, 0, nose)] - Vector3d(0.25 - 0.25 * std::cos(25.0 * radians_per_degree), 0.0, 0.25 * std::sin(25.0 * radians_per_degree))).norm() < 1e-12);
+  CHECK((c.nodes[c.node(0, 0, nose)] -
+         Vector3d(0.25 - 0.25 * std::cos(25.0 * radians_per_degree), 0.0, 0.25 * std::sin(25.0 * radians_per_degree)))
+            .norm() < 1e-12);
 }
 
-TEST_CASE("an aerofoil turned inside a grid that is held: no cell folds, and cells at the wall keep their shape better than by displacements", "[grid][fast]") {
+TEST_CASE(
+    "an aerofoil turned inside a grid that is held: no cell folds, and cells at the wall keep their shape better than by "
+    "displacements",
+    "[grid][fast]") {
   const MultiBlockGrid grid = naca0012({.n = 2, .far = 20.0});
   const Judged before = judged(grid);
   std::cout << "turned aerofoil, 224 x 64: scaled Jacobian " << before.jacobian << " as made\n";
   for (const double degrees : {15.0, 30.0, 45.0}) {
     const TurnAndShift motion = {Vector3d(0.0, degrees * radians_per_degree, 0.0), {0.25, 0.0, 0.0}, Vector3d::Zero()};
     const GridMotion by_shares(grid, pitching(degrees), outer, {});
-    const Judged shares = judged(by_shares.moved_grid(0.0)), components = judged(by_components(grid, motion)), algebraic = judged(transfinite(grid, motion));
-    std::cout << "  " << degrees << " deg: shares " << shares.jacobian << ", components " << components.jacobian << " (" << components.faults << " faults), transfinite "
-              << algebraic.jacobian << " (" << algebraic.faults << " faults); " << by_shares.description() << "\n";
+    const Judged shares = judged(by_shares.moved_grid(0.0)), components = judged(by_components(grid, motion)),
+                 algebraic = judged(transfinite(grid, motion));
+    std::cout << "  " << degrees << " deg: shares " << shares.jacobian << ", components " << components.jacobian << " ("
+              << components.faults << " faults), transfinite " << algebraic.jacobian << " (" << algebraic.faults << " faults); "
+              << by_shares.description() << "\n";
     CHECK(shares.faults == 0);
     CHECK(shares.jacobian > algebraic.jacobian);
     CHECK(shares.jacobian > components.jacobian);

@@ -41,9 +41,11 @@ TEST_CASE("the declarations of rotor, air and wind are sound in themselves", "[a
 TEST_CASE("a scene without a rotor is legal, and so is each model with what it needs", "[aero][fast]") {
   CHECK(read_sections("").aero.model == "none");
   CHECK(read_sections(rotor + "[aero]\nmodel = 'prescribed'\nthrust_N = 1.5e6\n").aero.thrust_N == 1.5e6);
-  CHECK(read_sections(rotor + "[aero]\nmodel = 'thrust_curve'\nthrust_coefficient = 0.8\n[wind]\nspeed_m_s = 11\ndirection_deg = 90\n")
+  CHECK(read_sections(rotor +
+                      "[aero]\nmodel = 'thrust_curve'\nthrust_coefficient = 0.8\n[wind]\nspeed_m_s = 11\ndirection_deg = 90\n")
             .wind.direction == Approx(1.5707963));
-  CHECK(read_sections("[rotor]\nbody = 'platform'\nhub_m = [0, 0, 119]\nspeed_rpm = 9.549296585513721\n").rotor.speed == Approx(1.0));
+  CHECK(read_sections("[rotor]\nbody = 'platform'\nhub_m = [0, 0, 119]\nspeed_rpm = 9.549296585513721\n").rotor.speed ==
+        Approx(1.0));
 }
 
 TEST_CASE("a rotor that its model cannot use is refused with what is wrong", "[aero][fast]") {
@@ -72,7 +74,8 @@ TEST_CASE("a rotor that its model cannot use is refused with what is wrong", "[a
       Case{"[wind]\nspeed_m_s = 11\nshear_exponent = 0.2\n", "shear_exponent"},
       Case{"[wind]\nspeed_m_s = 11\nprofile = 'power_law'\nreference_height_m = 119\nshear_exponent = 3\n", "shear_exponent"},
       Case{"[wind]\nspeed_m_s = 11\nprofile = 'power_law'\nreference_height_m = 119\nroughness_m = 0.1\n", "roughness_m"},
-      Case{"[wind]\nspeed_m_s = 11\nprofile = 'power_law'\nreference_height_m = 8\n", "= 10 must not be above reference_height_m = 8"},
+      Case{"[wind]\nspeed_m_s = 11\nprofile = 'power_law'\nreference_height_m = 8\n",
+           "= 10 must not be above reference_height_m = 8"},
       Case{"[wind]\nspeed_m_s = 11\nprofile = 'logarithmic'\nreference_height_m = 119\nroughness_m = 10\n",
            "= 10 must be below least_height_m = 10"});
   CHECK_THROWS_WITH(read_sections(c.text), Contains(c.message));

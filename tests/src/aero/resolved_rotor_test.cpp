@@ -220,7 +220,10 @@ ResolvedRotorSetup preconditioned(const std::string& time, const std::string& na
 const std::pair<const char*, int> common_parts[]{{"coarse", 4096}, {"coarse", 0}, {"pressure_amg", 0}};
 }  // namespace
 
-TEST_CASE("preconditioners with a common part end in block ILU's flow round a periodic sector; the coarse ones solve more at long steps", "[rotor][fast]") {
+TEST_CASE(
+    "preconditioners with a common part end in block ILU's flow round a periodic sector; the coarse ones solve more at long "
+    "steps",
+    "[rotor][fast]") {
   struct Marched {
     RotorLoad load;
     double drop;  // of the linear residual, by at most 40 iterations
@@ -247,14 +250,16 @@ TEST_CASE("preconditioners with a common part end in block ILU's flow round a pe
   }
 }
 
-TEST_CASE("a turning periodic sector with a common part kept over steps: same bits on any threads and after a restart", "[rotor][fast]") {
+TEST_CASE("a turning periodic sector with a common part kept over steps: same bits on any threads and after a restart",
+          "[rotor][fast]") {
   for (const auto& [name, direct] : common_parts) {
     CAPTURE(name, direct);
     ResolvedRotorSetup s = preconditioned("bdf2", name, direct);
     s.flow.common_every = 2, s.flow.common_steps = 2;
     ResolvedRotor one(s), three(s), again(s);
     one.solver().start_uniform(), three.solver().start_uniform();
-    one.prepare(MPI_COMM_SELF, {.threads = 1}), three.prepare(MPI_COMM_SELF, {.threads = 3}), again.prepare(MPI_COMM_SELF, {.threads = 2});
+    one.prepare(MPI_COMM_SELF, {.threads = 1}), three.prepare(MPI_COMM_SELF, {.threads = 3}),
+        again.prepare(MPI_COMM_SELF, {.threads = 2});
     for (int n = 1; n <= 3; ++n) one.advance(one.turned(n)), three.advance(three.turned(n));
     CHECK(testing::state_of(one.solver()) == testing::state_of(three.solver()));
     ResolvedRotor::Snapshot saved = three.snapshot();  // step 4 goes on with the set-up of step 3
@@ -319,7 +324,11 @@ TEST_CASE("the memory of a rotor is foretold within a tenth of what it takes", "
       ResolvedRotor rotor(s);
       const ResolvedRotorSize size = resolved_rotor_size(s);
       CHECK(size.cells == rotor.solver().cells());
-      const double state = 8.0 * double(size.cells) * (turbulence == "none" ? 5 : turbulence == "sa" ? 6 : 7) * (time == "steady" ? 1 : 3);
+      const double state = 8.0 * double(size.cells) *
+                           (turbulence == "none" ? 5
+                            : turbulence == "sa" ? 6
+                                                 : 7) *
+                           (time == "steady" ? 1 : 3);
       CHECK(size.bytes_of_checkpoint == Approx(state));
       const double nodes = 24.0 * double(size.cells), note = time == "steady" ? 0.0 : state;
       CHECK(size.bytes - nodes - note == Approx(double(rotor.solver().bytes() + rotor.store().bytes())).epsilon(0.1));
@@ -328,7 +337,8 @@ TEST_CASE("the memory of a rotor is foretold within a tenth of what it takes", "
 
 TEST_CASE("far sides that act like a wind tunnel's walls are said to, with what they add", "[rotor][fast]") {
   CHECK(far_side_excess({.radial_extent = 3.0}) == Approx(0.0497).margin(1e-4));
-  CHECK_THAT(far_side_note({.radial_extent = 3.0}), Contains("at 3 tip radii") && Contains("some 5.0 %") && Contains("6 % of thrust and 15 % of power"));
+  CHECK_THAT(far_side_note({.radial_extent = 3.0}),
+             Contains("at 3 tip radii") && Contains("some 5.0 %") && Contains("6 % of thrust and 15 % of power"));
   CHECK_THAT(far_side_note({.radial_extent = 6.0}), Contains("some 1.2 %"));
   CHECK(far_side_note({.radial_extent = 12.0}).empty());
 }

@@ -128,7 +128,8 @@ TEST_CASE("a hub feels the wind of its height, and blades that of theirs: shear 
   low.law = GENERATE(WindLaw::power, WindLaw::logarithmic), low.reference_height_m = 30.0;
   const double share = wind_profile(low).share(119.0);
   CHECK(share > 1.05);
-  CHECK(RotorLoads(analytic_law(), turbine(), low, 1.225, bearing, start()).state(0.0, start()).relative_wind == Approx(11.0 * share));
+  CHECK(RotorLoads(analytic_law(), turbine(), low, 1.225, bearing, start()).state(0.0, start()).relative_wind ==
+        Approx(11.0 * share));
 
   AeroOptions aero;
   aero.model = "bem";
@@ -136,7 +137,8 @@ TEST_CASE("a hub feels the wind of its height, and blades that of theirs: shear 
   options.turbine = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml";
   WindOptions sheared{.speed_m_s = 11.0};
   sheared.law = low.law, sheared.reference_height_m = 119.0;
-  const RotorLoads even(aero, options, uniform, 1.225, bearing, start()), over_height(aero, options, sheared, 1.225, bearing, start());
+  const RotorLoads even(aero, options, uniform, 1.225, bearing, start()),
+      over_height(aero, options, sheared, 1.225, bearing, start());
   Vector3d force[2] = {Vector3d::Zero(), Vector3d::Zero()}, moment[2] = {Vector3d::Zero(), Vector3d::Zero()};
   constexpr int azimuths = 8;
   for (int n = 0; n < azimuths; ++n) {
@@ -148,8 +150,8 @@ TEST_CASE("a hub feels the wind of its height, and blades that of theirs: shear 
     }
   }
   CHECK(std::abs(moment[0].y()) < 1e-3 * moment[0].x());
-  CHECK(moment[1].y() > 0.02 * moment[1].x());                      // more wind above the hub: a moment that pitches the nose up
-  CHECK(force[1].x() == Approx(force[0].x()).epsilon(0.03));        // what the top gains the bottom loses
+  CHECK(moment[1].y() > 0.02 * moment[1].x());                // more wind above the hub: a moment that pitches the nose up
+  CHECK(force[1].x() == Approx(force[0].x()).epsilon(0.03));  // what the top gains the bottom loses
 }
 
 TEST_CASE("a ramp scales load and power, and no model means no load", "[aero][fast]") {

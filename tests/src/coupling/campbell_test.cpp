@@ -30,7 +30,8 @@ TEST_CASE("1P of the DTU rotor and the sea states are the paper's, and meet near
   CHECK(c.rows.back().once == Approx(8.8 / 60));
   CHECK(c.rows.back().wave == Approx(1 / 8.8));
   REQUIRE(c.meets_waves_m_s.size() == 1);
-  CHECK(c.meets_waves_m_s[0] == Approx(9.0).margin(0.3));  // "for sea states between 3 and 4 (or wind speed about 9m/s) resonances may occur"
+  CHECK(c.meets_waves_m_s[0] ==
+        Approx(9.0).margin(0.3));  // "for sea states between 3 and 4 (or wind speed about 9m/s) resonances may occur"
   const auto& pairs = c.rows.back().together;
   CHECK(std::any_of(pairs.begin(), pairs.end(), [](const std::string& p) { return p.rfind("waves and heave", 0) == 0; }));
 
@@ -62,9 +63,10 @@ TEST_CASE("a loose scheme will do for the paper's machine at windows of 0.02 s, 
 }
 
 TEST_CASE("no loose scheme will do where the air weighs as much as the machine", "[coupling][fast]") {
-  const auto machine = machine_of(case3, {"time.end_s=10.0", "time.window_s=0.02", "time.step_s=0.02", "environment.air_density_kg_m3=99.0",
-                                          "bodies.platform.mass_kg=2000", "bodies.rotor.mass_kg=1000", "bodies.platform.inertia_kg_m2=[1e7, 1e7, 1e7]",
-                                          "bodies.rotor.inertia_kg_m2=[1e6, 1e6, 1e6]", "start.equilibrium=false", "sea.added_mass_coefficient=0.0"});
+  const auto machine = machine_of(
+      case3, {"time.end_s=10.0", "time.window_s=0.02", "time.step_s=0.02", "environment.air_density_kg_m3=99.0",
+              "bodies.platform.mass_kg=2000", "bodies.rotor.mass_kg=1000", "bodies.platform.inertia_kg_m2=[1e7, 1e7, 1e7]",
+              "bodies.rotor.inertia_kg_m2=[1e6, 1e6, 1e6]", "start.equilibrium=false", "sea.added_mass_coefficient=0.0"});
   const Start start = make_start(*machine);
   const Campbell c = campbell(machine->scenario(), stability(*machine, start.state).linearisation, 8.8 * rad_s_per_rpm);
   const LooseVerdict verdict = loose_verdict(*machine, start.state, c);
@@ -74,15 +76,20 @@ TEST_CASE("no loose scheme will do where the air weighs as much as the machine",
 
 TEST_CASE("what a scheme misses falls with its order in the window", "[coupling][fast]") {
   const double omega = 1.0;
-  for (const auto& [kind, order, p] : {std::tuple{SchemeKind::cps, 0, 1}, {SchemeKind::css, 0, 1}, {SchemeKind::cps2, 1, 2},
-                                       {SchemeKind::css, 1, 2}, {SchemeKind::css, 2, 3}})
-    CHECK(missed_part(kind, order, omega, 0.02) / missed_part(kind, order, omega, 0.01) == Approx(std::pow(2.0, p)).epsilon(0.03));
+  for (const auto& [kind, order, p] : {std::tuple{SchemeKind::cps, 0, 1},
+                                       {SchemeKind::css, 0, 1},
+                                       {SchemeKind::cps2, 1, 2},
+                                       {SchemeKind::css, 1, 2},
+                                       {SchemeKind::css, 2, 3}})
+    CHECK(missed_part(kind, order, omega, 0.02) / missed_part(kind, order, omega, 0.01) ==
+          Approx(std::pow(2.0, p)).epsilon(0.03));
   CHECK(missed_part(SchemeKind::cps, 0, omega, 0.01) == Approx(0.02).epsilon(0.01));  // two windows late at its end
 }
 
 TEST_CASE("a load that damps has its own limits under loose coupling", "[coupling][fast]") {
   CHECK(stability_ratio(cps_damping_polynomial) == Approx(1.0).epsilon(1e-6));
   CHECK(stability_ratio([](double s) { return css_damping_polynomial(0, s); }) == Approx(2.0).epsilon(1e-6));
-  CHECK(stability_ratio([](double s) { return css_damping_polynomial(1, s); }) == Approx(1.0).epsilon(1e-6));      // Adams-Bashforth 2
+  CHECK(stability_ratio([](double s) { return css_damping_polynomial(1, s); }) ==
+        Approx(1.0).epsilon(1e-6));  // Adams-Bashforth 2
   CHECK(stability_ratio([](double s) { return css_damping_polynomial(2, s); }) == Approx(6.0 / 11.0).epsilon(1e-6));  // and 3
 }

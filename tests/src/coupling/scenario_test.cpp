@@ -49,7 +49,8 @@ TEST_CASE("what has no effect or contradicts itself is refused by name", "[coupl
 }
 
 TEST_CASE("waves that break and shapes below the bed are refused", "[coupling][fast]") {
-  CHECK_THAT(refusal({"sea.model='morison'", "waves.model='airy'", "waves.height_m=30.0", "waves.period_s=6.0"}), Contains("waves"));
+  CHECK_THAT(refusal({"sea.model='morison'", "waves.model='airy'", "waves.height_m=30.0", "waves.period_s=6.0"}),
+             Contains("waves"));
   CHECK_THAT(refusal({"environment.water_depth_m=1.5"}), Contains("buoy") || Contains("hull"));
   CHECK(refusal({"sea.model='morison'", "waves.model='airy'", "waves.height_m=1.0", "waves.period_s=8.0"}).empty());
 }

@@ -19,14 +19,17 @@ TEST_CASE("the buoy rests where weight, buoyancy and chain balance", "[coupling]
   CHECK(start.state.motions[0].position.z() == Approx(-1.5).margin(1e-7));
 
   // A force of 4.1416e4 N downwards sinks it by 1 m against both springs.
-  Machine pressed(test::scenario(std::string(test::buoy) + "[[bodies.buoy.forces]]\npoint_m=[0.0,0.0,-1.5]\nforce_N=[0.0,0.0,-31415.926535897932]\n",
-                                 {"start.equilibrium=true"}));
+  Machine pressed(test::scenario(
+      std::string(test::buoy) + "[[bodies.buoy.forces]]\npoint_m=[0.0,0.0,-1.5]\nforce_N=[0.0,0.0,-31415.926535897932]\n",
+      {"start.equilibrium=true"}));
   // The chain goes up by what the buoy goes down: k_water z + k_chain z = -F.
-  CHECK(make_start(pressed).state.motions[0].position.z() == Approx(-1.5 - 31415.926535897932 / (31415.926535897932 + 1e4)).epsilon(1e-6));
+  CHECK(make_start(pressed).state.motions[0].position.z() ==
+        Approx(-1.5 - 31415.926535897932 / (31415.926535897932 + 1e4)).epsilon(1e-6));
 }
 
 TEST_CASE("a displaced start is the described position moved and turned about the reference point", "[coupling][fast]") {
-  Machine machine(test::scenario(test::buoy, {"bodies.buoy.displacement_m=[0.0,0.0,0.5]", "bodies.buoy.velocity_m_s=[0.1,0.0,0.0]"}));
+  Machine machine(
+      test::scenario(test::buoy, {"bodies.buoy.displacement_m=[0.0,0.0,0.5]", "bodies.buoy.velocity_m_s=[0.1,0.0,0.0]"}));
   const Start start = make_start(machine);
   CHECK(start.state.motions[0].position.z() == Approx(-1.0).margin(1e-14));
   CHECK(start.state.motions[0].velocity.x() == Approx(0.1));
@@ -42,7 +45,8 @@ TEST_CASE("a step above the limit of the integrator is refused with limit and mo
   CHECK_NOTHROW(require_stable(machine, s));
 
   Machine bold(test::scenario(test::buoy, {"time.integrator='symplectic'", "time.window_s=1.0", "time.step_s=1.0"}));
-  CHECK_THROWS_WITH(require_stable(bold, stability(bold, make_start(bold).state)), Contains("time.step_s") && Contains("heave of buoy"));
+  CHECK_THROWS_WITH(require_stable(bold, stability(bold, make_start(bold).state)),
+                    Contains("time.step_s") && Contains("heave of buoy"));
   Machine naive(test::scenario(test::buoy, {"time.integrator='explicit_euler'"}));
   CHECK_THROWS_WITH(require_stable(naive, stability(naive, make_start(naive).state)), Contains("undamped"));
 }

@@ -1,5 +1,5 @@
-// The coupled window on a small machine: what a scene may ask for, repeatability, failure that leaves the state where it was, cutting.
-// SPDX-License-Identifier: Apache-2.0
+// The coupled window on a small machine: what a scene may ask for, repeatability, failure that leaves the state where it was,
+// cutting. SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/window.hpp"
 
 #include <catch2/catch.hpp>
@@ -40,15 +40,19 @@ TEST_CASE("options of [coupling] act where they stand, and are refused elsewhere
   CHECK(problem_of({"coupling.scheme=cps2"}) == "");
   CHECK(problem_of({"coupling.scheme=cps2", "coupling.tolerance=1e-3"}).find("coupling.tolerance") != std::string::npos);
   CHECK(problem_of({"coupling.scheme=aitken", "coupling.reuse_windows=2"}).find("coupling.reuse_windows") != std::string::npos);
-  CHECK(problem_of({"coupling.scheme=ibqn_ls", "coupling.composition=parallel"}).find("coupling.composition") != std::string::npos);
-  CHECK(problem_of({"coupling.scheme=aitken", "coupling.samples=2"}).find("must divide the window's 5 steps") != std::string::npos);
+  CHECK(problem_of({"coupling.scheme=ibqn_ls", "coupling.composition=parallel"}).find("coupling.composition") !=
+        std::string::npos);
+  CHECK(problem_of({"coupling.scheme=aitken", "coupling.samples=2"}).find("must divide the window's 5 steps") !=
+        std::string::npos);
   CHECK(problem_of({"coupling.scheme=aitken", "coupling.samples=5", "coupling.interpolation=cubic"}) == "");
-  CHECK(problem_of({"coupling.scheme=aitken", "coupling.interpolation=cubic"}).find("coupling.interpolation") != std::string::npos);
+  CHECK(problem_of({"coupling.scheme=aitken", "coupling.interpolation=cubic"}).find("coupling.interpolation") !=
+        std::string::npos);
   CHECK(problem_of({"coupling.scheme=cps"}, buoy).find("aero.model is none") != std::string::npos);
 }
 
 TEST_CASE("a window is a pure function of state and history", "[coupling][fast]") {
-  const std::string scheme = GENERATE("cps", "cps2", "css", "aitken", "iqn_ils", "ibqn_ls", "interface_gmres", "newton", "steepest_descent");
+  const std::string scheme =
+      GENERATE("cps", "cps2", "css", "aitken", "iqn_ils", "ibqn_ls", "interface_gmres", "newton", "steepest_descent");
   INFO(scheme);
   Machine machine(scenario(floater, {"coupling.scheme=" + scheme}));
   CoupledWindow window(machine);
@@ -69,8 +73,8 @@ TEST_CASE("a window is a pure function of state and history", "[coupling][fast]"
 }
 
 TEST_CASE("a window that fails says why and leaves state and history as they were", "[coupling][fast]") {
-  Machine machine(scenario(floater, {"coupling.scheme=relaxation", "coupling.relaxation=0.01", "coupling.max_evaluations=3", "coupling.max_cuts=0",
-                                     "coupling.tolerance=1e-12"}));
+  Machine machine(scenario(floater, {"coupling.scheme=relaxation", "coupling.relaxation=0.01", "coupling.max_evaluations=3",
+                                     "coupling.max_cuts=0", "coupling.tolerance=1e-12"}));
   CoupledWindow window(machine);
   bodies::BodiesState state = make_start(machine).state;
   window.begin(state);
@@ -96,7 +100,8 @@ TEST_CASE("the rotor is asked once per window by loose schemes, and its load bal
   CHECK(window.totals().rotor_calls == 3);
   CHECK(window.totals().body_steps == 15);
   CHECK(first.thrust > 0.0);
-  // What the bodies feel at the end of the window is what the rotor answered: same force, moment about the centre of mass from the hub.
+  // What the bodies feel at the end of the window is what the rotor answered: same force, moment about the centre of mass from
+  // the hub.
   const bodies::Evaluation& now = machine.system().evaluate(state, 0.3);
   const std::size_t rotor = machine.system().loads().size() - 1;
   REQUIRE(machine.system().loads()[rotor].name == "rotor");

@@ -14,7 +14,7 @@ namespace spindrift::coupling::test {
 struct March {
   std::vector<double> pitch;  ///< [rad] of the first body at window ends
   CoupledWindow::Totals totals;
-  double mismatch = 0.0;      ///< mean
+  double mismatch = 0.0;  ///< mean
   int columns = 0;
   std::string failure;
 };

@@ -1,5 +1,5 @@
-// Checkpoints that went wrong: cut short, changed, incomplete, interrupted, no room. None may be trusted, none may stop a restart from an older one.
-// SPDX-License-Identifier: Apache-2.0
+// Checkpoints that went wrong: cut short, changed, incomplete, interrupted, no room. None may be trusted, none may stop a restart
+// from an older one. SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
 #include <hdf5.h>
 #include <sys/mount.h>
@@ -97,9 +97,7 @@ TEST_CASE("whichever byte of a checkpoint is changed, it is refused or its conte
       CHECK(reader.read<std::int64_t>("sea/id") == std::vector<std::int64_t>(10, 1));
       CHECK(reader.number("time_s") == 0.5);
       CHECK(reader.integer("tick") == 1);
-    } catch (const io::MachineFailure&) {
-      ++refused;
-    }
+    } catch (const io::MachineFailure&) { ++refused; }
   }
   CHECK(refused > tried / 2);  // the rest of the bytes carry nothing
 }
@@ -154,7 +152,8 @@ TEST_CASE("a file that is no checkpoint, or of a later format, is refused by nam
   H5Awrite(version, H5T_NATIVE_INT64, &later);
   H5Aclose(version);
   H5Fclose(file);
-  CHECK_THROWS_WITH(io::CheckpointReader(MPI_COMM_SELF, folder / "later.h5"), Contains("format version 2") && Contains("reads 1"));
+  CHECK_THROWS_WITH(io::CheckpointReader(MPI_COMM_SELF, folder / "later.h5"),
+                    Contains("format version 2") && Contains("reads 1"));
 }
 
 TEST_CASE("a run killed while it writes, or just before the rename, restarts from the checkpoint before", "[io][faults][fast]") {
@@ -195,9 +194,7 @@ TEST_CASE("without room a checkpoint fails with the system's words and the ones 
         writer.write<double>("sea/position", large);
         writer.write<double>("sea/velocity", large);
       });
-    } catch (const io::MachineFailure& failure) {
-      message = failure.what();
-    }
+    } catch (const io::MachineFailure& failure) { message = failure.what(); }
   }
   CHECK_THAT(message, Contains("ulimit") && Contains("checkpoint_000000000000000002.h5.tmp"));
   CHECK_FALSE(fs::exists(series.path(2)));

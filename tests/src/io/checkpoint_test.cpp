@@ -114,7 +114,8 @@ TEST_CASE("the checksum does not depend on how an array is cut, and sees every c
   const std::span<const double> all(values);
   const auto whole = io::checksum<double>(0, all);
   for (const std::size_t cut : {0u, 1u, 50u, 100u})
-    CHECK(io::checksum<double>(0, all.first(cut)) + io::checksum<double>(static_cast<std::int64_t>(cut), all.subspan(cut)) == whole);
+    CHECK(io::checksum<double>(0, all.first(cut)) + io::checksum<double>(static_cast<std::int64_t>(cut), all.subspan(cut)) ==
+          whole);
   std::swap(values[3], values[4]);
   CHECK(io::checksum<double>(0, all) != whole);
   std::swap(values[3], values[4]);

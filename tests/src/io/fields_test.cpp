@@ -1,5 +1,5 @@
-// src/io/fields.hpp: what is written is read back by h5py through the XDMF file, as ParaView would (read_fields.py), on one and two ranks.
-// SPDX-License-Identifier: Apache-2.0
+// src/io/fields.hpp: what is written is read back by h5py through the XDMF file, as ParaView would (read_fields.py), on one and
+// two ranks. SPDX-License-Identifier: Apache-2.0
 #include "src/io/fields.hpp"
 
 #include <catch2/catch.hpp>
@@ -67,7 +67,8 @@ void write_particles(MPI_Comm comm, const std::filesystem::path& folder, int per
 
 /// Runs the checks of read_fields.py on a folder.
 void check_by_python(const std::string& arguments) {
-  const std::string command = "/usr/bin/env -i /usr/bin/python3 " SPINDRIFT_SOURCE_DIR "/tests/src/io/read_fields.py " + arguments;
+  const std::string command =
+      "/usr/bin/env -i /usr/bin/python3 " SPINDRIFT_SOURCE_DIR "/tests/src/io/read_fields.py " + arguments;
   INFO(command);
   CHECK(std::system(command.c_str()) == 0);
 }

@@ -147,9 +147,7 @@ TEST_CASE("when the disk is full the history says so and still ends with a whole
   }
   try {
     history.flush();
-  } catch (const io::MachineFailure& failure) {
-    message = failure.what();
-  }
+  } catch (const io::MachineFailure& failure) { message = failure.what(); }
   setrlimit(RLIMIT_FSIZE, &before);
   CHECK_THAT(message, Contains("h.csv") && Contains("File too large"));
   const std::string text = io::read_file(folder / "h.csv");

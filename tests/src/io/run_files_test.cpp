@@ -142,7 +142,8 @@ TEST_CASE("progress in words: time, fraction, speed, time to go", "[io][fast]") 
   CHECK(io::duration_text(std::numeric_limits<double>::infinity()) == "?");
 }
 
-TEST_CASE("plain progress speaks now and then: not often in a short run, at least every two minutes in a long one", "[io][fast]") {
+TEST_CASE("plain progress speaks now and then: not often in a short run, at least every two minutes in a long one",
+          "[io][fast]") {
   const auto count_lines = [](double end_s, double wall_per_simulated) {
     const test::Scratch folder("progress");
     io::start_log(0, true);
@@ -154,9 +155,9 @@ TEST_CASE("plain progress speaks now and then: not often in a short run, at leas
     const std::string text = io::read_file(folder / "log.txt");
     return std::count(text.begin(), text.end(), '\n');
   };
-  CHECK(count_lines(150, 0.005) == 0);    // 0.75 s
-  CHECK(count_lines(150, 2) == 19);       // 5 minutes: each 5 %, every 15 s
-  CHECK(count_lines(150, 100) >= 110);    // 4 h: every 2 minutes
+  CHECK(count_lines(150, 0.005) == 0);  // 0.75 s
+  CHECK(count_lines(150, 2) == 19);     // 5 minutes: each 5 %, every 15 s
+  CHECK(count_lines(150, 100) >= 110);  // 4 h: every 2 minutes
   CHECK(count_lines(150, 100) <= 150);
 }
 

@@ -1,5 +1,5 @@
-// src/report/report.hpp: the call of the Python program, what it says when that fails, and that a run's own MPI does not reach it.
-// SPDX-License-Identifier: Apache-2.0
+// src/report/report.hpp: the call of the Python program, what it says when that fails, and that a run's own MPI does not reach
+// it. SPDX-License-Identifier: Apache-2.0
 #include "src/report/report.hpp"
 
 #include <unistd.h>
@@ -52,7 +52,8 @@ TEST_CASE("a report and a picture are written where asked", "[report][fast]") {
 TEST_CASE("why there is no report is said in one sentence", "[report][fast]") {
   const RunFolder run;
   CHECK_THAT(report::write({{run.path / "absent"}, {}, {}}).value_or(""), Contains("absent is not a run directory"));
-  CHECK_THAT(report::write({{run.path}, run.path / "no/such/folder.html", {}}).value_or(""), Contains("No such file or directory"));
+  CHECK_THAT(report::write({{run.path}, run.path / "no/such/folder.html", {}}).value_or(""),
+             Contains("No such file or directory"));
   {
     const Interpreter none("/nowhere/python3");
     CHECK_THAT(report::write({{run.path}, {}, {}}).value_or(""), Contains("/nowhere/python3") && Contains("ci/setup"));
@@ -63,7 +64,8 @@ TEST_CASE("why there is no report is said in one sentence", "[report][fast]") {
   }
   {  // the distribution's Python that finds no packages: -S leaves site-packages out
     const Interpreter bare(script(run.path / "bare", "exec /usr/bin/python3 -S \"$@\""));
-    CHECK_THAT(report::write({{run.path}, {}, {}}).value_or(""), Contains("no module") && Contains("python3-numpy") && Contains("ci/setup"));
+    CHECK_THAT(report::write({{run.path}, {}, {}}).value_or(""),
+               Contains("no module") && Contains("python3-numpy") && Contains("ci/setup"));
   }
   CHECK_FALSE(fs::exists(run.path / "report.html"));
 }

@@ -28,13 +28,14 @@ SeaBody spar(double keel, double top, double radius) {
   return {"spar", {}, {{"column", {{0, 0, keel}, {0, 0, top}, radius, radius}}}};
 }
 
-/// The paper's platform (Leble & Barakos 2016, Table 3 and derived geometry): centre of mass of the whole turbine z above the keel.
+/// The paper's platform (Leble & Barakos 2016, Table 3 and derived geometry): centre of mass of the whole turbine z above the
+/// keel.
 SeaBody platform(double centre_above_keel) {
   SeaBody body{"platform", {}, {}};
   for (int i = 0; i < 3; ++i) {
     const double angle = 2.0 * pi / 3.0 * i, x = 46.7 * std::cos(angle), y = 46.7 * std::sin(angle);
-    body.cylinders.push_back({"float_" + std::to_string(i + 1),
-                              {{x, y, -centre_above_keel}, {x, y, 20.0 - centre_above_keel}, 5.625, 5.625}});
+    body.cylinders.push_back(
+        {"float_" + std::to_string(i + 1), {{x, y, -centre_above_keel}, {x, y, 20.0 - centre_above_keel}, 5.625, 5.625}});
   }
   return body;
 }
@@ -66,7 +67,7 @@ Motion at(double x, double y, double z) {
 TEST_CASE("the paper's platform floats at a draft of 14.565 m with its textbook stiffness in heave and pitch", "[sea][fast]") {
   const double mass = 4451900.0, radius = 5.625, waterplane = 3.0 * pi * radius * radius, centre = 14.565 + 21.795;
   const EngineeringSea sea(model("hydrostatic"), {}, tank, {platform(centre)});
-  double low = 0.0, high = centre;                            // of the centre of mass over still water: draft = centre - z
+  double low = 0.0, high = centre;  // of the centre of mass over still water: draft = centre - z
   for (int i = 0; i < 60; ++i) {
     const double z = 0.5 * (low + high);
     (load(sea, at(0, 0, z)).force.z() > mass * 9.81 ? low : high) = z;
@@ -107,7 +108,8 @@ TEST_CASE("a scene without water or without cylinders feels nothing", "[sea][fas
 }
 
 TEST_CASE("both rungs agree on a body at rest in still water, at any attitude", "[sea][fast]") {
-  const EngineeringSea hydrostatic(model("hydrostatic"), {}, tank, {platform(30.0)}), morison(model("morison"), {}, tank, {platform(30.0)});
+  const EngineeringSea hydrostatic(model("hydrostatic"), {}, tank, {platform(30.0)}),
+      morison(model("morison"), {}, tank, {platform(30.0)});
   for (int i = 0; i < 50; ++i) {
     Motion m = at(1.0 * i, -2.0, 25.0 - i);
     m.attitude = Eigen::AngleAxisd(0.13 * i, Vector3d(1, 0.3 * i, -0.2).normalized());
@@ -121,12 +123,12 @@ TEST_CASE("linear damping opposes the velocity of its point, in body axes", "[se
   SeaOptions options = model("hydrostatic");
   options.damping.push_back({"spar", {1e5, 2e5, 3e5}, {4e6, 5e6, 6e6}, Vector3d(0, 0, 10)});
   SeaBody body = spar(-10, 5, 2);
-  body.initial.position = {0, 0, 2};                          // the point is 8 m above the centre of mass
+  body.initial.position = {0, 0, 2};  // the point is 8 m above the centre of mass
   const EngineeringSea sea(options, {}, tank, {body});
   Motion m = at(50, 60, 2);
-  m.attitude = Eigen::AngleAxisd(pi / 2, Vector3d::UnitZ()); // body x is earth y
+  m.attitude = Eigen::AngleAxisd(pi / 2, Vector3d::UnitZ());  // body x is earth y
   m.velocity = {0, 1, 0};
-  m.omega = {0, 0.1, 0};                                      // the point moves 0.8 m/s more along body x
+  m.omega = {0, 0.1, 0};  // the point moves 0.8 m/s more along body x
   const Wrench w = parts(sea, m).damping;
   CHECK((w.force - Vector3d(0, -1.8e5, 0)).norm() < 1e-6);
   CHECK((w.moment - Vector3d(8.0 * 1.8e5 + 5e5, 0, 0)).norm() < 1e-5);
@@ -140,15 +142,15 @@ TEST_CASE("a column in a current feels drag on its wetted side, and none when it
   const double drag = 0.5 * 1025.0 * 0.7 * 4.0 * 10.0 * 1.5 * 1.5;
   const SeaLoads fixed = parts(sea, at(0, 0, 0));
   CHECK(fixed.drag.force.x() == Approx(drag));
-  CHECK(fixed.drag.moment.y() == Approx(-5.0 * drag));        // at half draft
-  CHECK(fixed.drag.force.z() == Approx(0.0).margin(1e-9));    // the keel is parallel to the current
+  CHECK(fixed.drag.moment.y() == Approx(-5.0 * drag));      // at half draft
+  CHECK(fixed.drag.force.z() == Approx(0.0).margin(1e-9));  // the keel is parallel to the current
   CHECK(fixed.inertia.force.norm() == Approx(0.0).margin(1e-9));
   Motion drifting = at(0, 0, 0);
   drifting.velocity = {1.5, 0, 0};
   CHECK(parts(sea, drifting).drag.force.norm() == Approx(0.0).margin(1e-9));
   Motion sinking = at(0, 0, 0);
   sinking.velocity = {1.5, 0, -0.8};
-  CHECK(parts(sea, sinking).drag.force.z() == Approx(0.5 * 1025.0 * 1.0 * 4.0 * pi * 0.64));   // one end, axial coefficient 1
+  CHECK(parts(sea, sinking).drag.force.z() == Approx(0.5 * 1025.0 * 1.0 * 4.0 * pi * 0.64));  // one end, axial coefficient 1
 }
 
 TEST_CASE("added mass of an upright column is that of the textbook, symmetric and never negative", "[sea][fast]") {
@@ -161,8 +163,8 @@ TEST_CASE("added mass of an upright column is that of the textbook, symmetric an
   CHECK(a(0, 0) == Approx(0.9 * m));
   CHECK(a(1, 1) == Approx(0.9 * m));
   CHECK(a(2, 2) == Approx(0.64 * 1025.0 * 2.0 / 3.0 * pi * 8.0));
-  CHECK(a(0, 4) == Approx(-0.5 * draft * 0.9 * m));           // surge force of pitch acceleration: arm to mid-draft
-  CHECK(a(4, 4) == Approx(0.9 * m * draft * draft / 3.0));    // two Gauss points per strip are exact
+  CHECK(a(0, 4) == Approx(-0.5 * draft * 0.9 * m));         // surge force of pitch acceleration: arm to mid-draft
+  CHECK(a(4, 4) == Approx(0.9 * m * draft * draft / 3.0));  // two Gauss points per strip are exact
   CHECK(a(5, 5) == Approx(0.0).margin(1e-6));
   CHECK((a - a.transpose()).norm() < 1e-9 * a.norm());
   Motion tilted = at(0, 0, -1);
@@ -173,7 +175,7 @@ TEST_CASE("added mass of an upright column is that of the textbook, symmetric an
   for (int i = 0; i < 200; ++i) {
     Eigen::Matrix<double, 6, 1> q;
     for (double& x : q) x = random.uniform() - 0.5;
-    REQUIRE(q.dot(b * q) > 0.0);                              // kinetic energy of the water
+    REQUIRE(q.dot(b * q) > 0.0);  // kinetic energy of the water
   }
 }
 
@@ -187,7 +189,7 @@ TEST_CASE("a joint between members is no end, and coefficients may differ by mem
   CHECK(added_mass(sea, at(0, 0, 0))(0, 0) == Approx(1025.0 * pi * 9.0 * (2.0 * 12.0 + 8.0)));
   Motion m = at(0, 0, 0);
   m.velocity = {1, 0, 0};
-  CHECK(parts(sea, m).drag.force.x() == Approx(-0.5 * 1025.0 * 6.0 * 8.0));          // of the upper member alone
+  CHECK(parts(sea, m).drag.force.x() == Approx(-0.5 * 1025.0 * 6.0 * 8.0));  // of the upper member alone
   // A wider member below leaves a ring open: 4^2 - 3^2 of 4^2 of the disc.
   body.cylinders[0].shape.start_radius = body.cylinders[0].shape.end_radius = 4.0;
   options.coefficients.clear();
@@ -237,7 +239,8 @@ TEST_CASE("a slender pile standing on the bottom feels Morison's inertia force",
   waves.model = "airy", waves.height_m = height, waves.period_s = 8.8;
   const EngineeringSea sea(model("morison"), waves, tank, {spar(-20.6, 5, radius)});
   const auto w = waves::wave_properties(8.8, 20.6, 9.81);
-  const double amplitude = 2.0 * 1025.0 * pi * radius * radius * 0.5 * height * w.angular_frequency * w.angular_frequency / w.wave_number;
+  const double amplitude =
+      2.0 * 1025.0 * pi * radius * radius * 0.5 * height * w.angular_frequency * w.angular_frequency / w.wave_number;
   CHECK(parts(sea, at(0, 0, 0), -2.2).inertia.force.x() == Approx(amplitude).epsilon(2e-3));  // a quarter period before the crest
   CHECK(parts(sea, at(0, 0, 0), 0.0).inertia.force.x() == Approx(0.0).margin(1e-3 * amplitude));
 }
@@ -254,11 +257,12 @@ TEST_CASE("heave force on a float is the pressure on its keel: buoyancy and Frou
   const double still = 1025.0 * 9.81 * area * draft;
   CHECK(load(sea, at(0, 0, 0), 0.0).force.z() - still == Approx(expected).epsilon(0.01));
   CHECK(load(sea, at(0, 0, 0), 3.0).force.z() - still == Approx(-expected).epsilon(0.01));
-  CHECK(expected < 0.5 * 1025.0 * 9.81 * a * area);           // well below the rise of the surface alone
+  CHECK(expected < 0.5 * 1025.0 * 9.81 * a * area);  // well below the rise of the surface alone
 }
 
 TEST_CASE("in long waves a float follows the surface: the loads give it just the acceleration of the water", "[sea][fast]") {
-  // A buoy that moves and leans with the water needs force = mass (g + a) and no moment. Relative residual: of the order of k T and k R.
+  // A buoy that moves and leans with the water needs force = mass (g + a) and no moment. Relative residual: of the order of k T
+  // and k R.
   const double radius = 1.0, draft = 2.0, a = 0.5;
   for (const double period : {20.0, 40.0}) {
     WavesOptions waves;
@@ -270,13 +274,14 @@ TEST_CASE("in long waves a float follows the surface: the loads give it just the
       const waves::Surface s = sea.waves().surface(t, 0, 0);
       const waves::Kinematics water = sea.waves().kinematics(t, {0, 0, s.elevation}, s.elevation);
       Motion m = at(0, 0, s.elevation);
-      m.attitude = Eigen::AngleAxisd(-std::atan(s.slope_x), Vector3d::UnitY());         // the axis along the surface normal
+      m.attitude = Eigen::AngleAxisd(-std::atan(s.slope_x), Vector3d::UnitY());  // the axis along the surface normal
       m.velocity = water.velocity;
       Eigen::Matrix<double, 6, 1> acceleration = Eigen::Matrix<double, 6, 1>::Zero();
       acceleration.head<3>() = water.acceleration;
       const Eigen::Matrix<double, 6, 1> water_inertia = added_mass(sea, m, t) * acceleration;
-      const Vector3d residual = load(sea, m, t).force - water_inertia.head<3>() - mass * (water.acceleration + Vector3d(0, 0, 9.81));
-      CHECK(residual.norm() < 4.0 * k * draft * mass * k * a * 9.81);      // against the wave force itself, rho V g k a
+      const Vector3d residual =
+          load(sea, m, t).force - water_inertia.head<3>() - mass * (water.acceleration + Vector3d(0, 0, 9.81));
+      CHECK(residual.norm() < 4.0 * k * draft * mass * k * a * 9.81);  // against the wave force itself, rho V g k a
     }
   }
 }
@@ -290,7 +295,7 @@ TEST_CASE("wave loads do not depend on the strip length to a ten-thousandth", "[
     return load(EngineeringSea(options, waves, tank, {platform(30.0)}), at(3, 0, 16), 2.0);
   };
   const Wrench exact = with(0.25);
-  for (const double strip : {2.5, 5.0, 10.0}) CHECK((with(strip).force - exact.force).norm() < 1e-4 * 1e6);   // wave force: 1 MN
+  for (const double strip : {2.5, 5.0, 10.0}) CHECK((with(strip).force - exact.force).norm() < 1e-4 * 1e6);  // wave force: 1 MN
 }
 
 TEST_CASE("the parts add to the whole, and loads and added mass are the same together and apart", "[sea][fast]") {
@@ -316,7 +321,8 @@ TEST_CASE("the parts add to the whole, and loads and added mass are the same tog
 }
 
 TEST_CASE("a pontoon rises out of the water without a jump in its loads", "[sea][fast]") {
-  // Lying, then nearly lying: every kind of cut is passed; steps of 1 mm may change the load by no more than a smooth change would.
+  // Lying, then nearly lying: every kind of cut is passed; steps of 1 mm may change the load by no more than a smooth change
+  // would.
   for (const double tilt : {0.0, 1e-6, 0.01, 0.3}) {
     const Vector3d axis(std::cos(tilt), 0, std::sin(tilt));
     SeaOptions options = model("morison");
@@ -355,7 +361,7 @@ TEST_CASE("a cylinder below the sea bed or without length is told", "[sea][fast]
   const SeaEnvironment deep{1025.0, 40.0, 9.81};
   SeaBody floating = platform(14.0);
   CHECK(shape_problems(tank, {floating}).empty());
-  floating.initial.position.z() = -8.0;                       // keel at -22 m in 20.6 m of water
+  floating.initial.position.z() = -8.0;  // keel at -22 m in 20.6 m of water
   REQUIRE(shape_problems(tank, {floating}).size() == 3);
   CHECK(shape_problems(tank, {floating})[2].key == "bodies.platform.cylinders[2]");
   CHECK(shape_problems(deep, {floating}).empty());

@@ -15,8 +15,8 @@ using namespace spindrift::sea;
 namespace {
 
 constexpr double gravity = 9.80665, density = 1025.0;
-// Platform, tower (integrated from its table), nacelle, hub, three blades: the deck's masses, the blades summed over the seventeen
-// elements that OpenFAST cuts them into (the 17,740 kg of the definition would lower the rest position by 18 mm).
+// Platform, tower (integrated from its table), nacelle, hub, three blades: the deck's masses, the blades summed over the
+// seventeen elements that OpenFAST cuts them into (the 17,740 kg of the definition would lower the rest position by 18 mm).
 constexpr double mass = 7466330.0 + 249718.0 + 240000.0 + 56780.0 + 3 * 17536.6;
 
 /// The spar in axes whose origin is its point at still water; heave does not ask for the centre of mass.
@@ -27,10 +27,12 @@ EngineeringSea oc3_sea() {
   options.axial_drag_coefficient = 0.0;
   // Added mass in heave at the natural period, WAMIT file of the deck: 245.2 m3 x density, on the hemisphere of the keel.
   options.axial_added_mass_coefficient = 245.2 / (2.0 / 3.0 * pi * 4.7 * 4.7 * 4.7);
-  options.damping.push_back({"spar", {1e5, 1e5, 1.3e5}, {0, 0, 1.3e7}, {}});     // AddBLin of the deck
-  const SeaBody spar{"spar", {}, {{"lower", {{0, 0, -120}, {0, 0, -12}, 4.7, 4.7}},
-                                  {"taper", {{0, 0, -12}, {0, 0, -4}, 4.7, 3.25}},
-                                  {"upper", {{0, 0, -4}, {0, 0, 10}, 3.25, 3.25}}}};
+  options.damping.push_back({"spar", {1e5, 1e5, 1.3e5}, {0, 0, 1.3e7}, {}});  // AddBLin of the deck
+  const SeaBody spar{"spar",
+                     {},
+                     {{"lower", {{0, 0, -120}, {0, 0, -12}, 4.7, 4.7}},
+                      {"taper", {{0, 0, -12}, {0, 0, -4}, 4.7, 3.25}},
+                      {"upper", {{0, 0, -4}, {0, 0, 10}, 3.25, 3.25}}}};
   return EngineeringSea(options, {}, {density, 320.0, gravity}, {spar});
 }
 

@@ -47,7 +47,7 @@ TEST_CASE("the surface slope is the derivative of the elevation", "[sea][fast]")
 
 TEST_CASE("an irregular sea is the plain sum of its harmonics", "[sea][fast]") {
   WavesOptions options = regular("jonswap");
-  options.components = 101;                                   // a part-filled group of lanes
+  options.components = 101;  // a part-filled group of lanes
   options.stretching = "extrapolated";
   options.direction = -0.4;
   const WaveField sea(options, water);
@@ -101,9 +101,10 @@ TEST_CASE("waves grow smoothly from nothing over the ramp", "[sea][fast]") {
   CHECK(sea.elevation(0.0, 0, 0) == 0.0);
   CHECK(sea.elevation(-1.0, 0, 0) == 0.0);
   CHECK(sea.elevation(5.0, 0, 0) == Approx(0.5 * full.elevation(5.0, 0, 0)));
-  CHECK(sea.kinematics(5.0, {0, 0, -3}, 0).acceleration.x() == Approx(0.5 * full.kinematics(5.0, {0, 0, -3}, 0).acceleration.x()));
+  CHECK(sea.kinematics(5.0, {0, 0, -3}, 0).acceleration.x() ==
+        Approx(0.5 * full.kinematics(5.0, {0, 0, -3}, 0).acceleration.x()));
   CHECK(sea.elevation(10.0, 0, 0) == full.elevation(10.0, 0, 0));
-  CHECK(full.elevation(0.0, 0, 0) > 0.94);                     // Stokes crest
+  CHECK(full.elevation(0.0, 0, 0) > 0.94);  // Stokes crest
 }
 
 TEST_CASE("no waves are still water", "[sea][fast]") {

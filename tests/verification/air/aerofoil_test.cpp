@@ -50,7 +50,11 @@ Result result(const Case& c) {
   const auto drag = [&](const PseudoRow& row) { return (row.force[0] * std::cos(alpha) + row.force[2] * std::sin(alpha)) / q; };
   const std::array<double, 3>& f = rows.back().force;
   const March& m = c.solver->march();
-  return {(f[2] * std::cos(alpha) - f[0] * std::sin(alpha)) / q, drag(rows.back()), m.density_residual() / m.first_density_residual(), m.verdict(), m.steps(),
+  return {(f[2] * std::cos(alpha) - f[0] * std::sin(alpha)) / q,
+          drag(rows.back()),
+          m.density_residual() / m.first_density_residual(),
+          m.verdict(),
+          m.steps(),
           drag(rows.back()) / drag(rows[rows.size() - std::min<std::size_t>(rows.size(), 11)]) - 1.0};
 }
 Result aerofoil(MultiBlockGrid grid, double mach, double drop, int steps = 250) {
@@ -59,7 +63,8 @@ Result aerofoil(MultiBlockGrid grid, double mach, double drop, int steps = 250) 
   return result(c);
 }
 
-/// Our own family, 112 x 32 cells and finer: each grid begins with the flow on the one before it, which is every second node of it.
+/// Our own family, 112 x 32 cells and finer: each grid begins with the flow on the one before it, which is every second node of
+/// it.
 std::vector<Result> family(int members, double drop) {
   std::vector<Result> all;
   std::optional<Case> coarse;
@@ -75,8 +80,8 @@ std::vector<Result> family(int members, double drop) {
     fine.run();
     all.push_back(result(fine));
     const Result& r = all.back();
-    std::printf("NACA 0012, %d x %d cells: CL %.5f CD %.6f, drop %.1e in %d steps, drag over the last ten %+.1e\n", 112 << m, 32 << m, r.lift, r.drag,
-                r.drop, r.steps, r.drift);
+    std::printf("NACA 0012, %d x %d cells: CL %.5f CD %.6f, drop %.1e in %d steps, drag over the last ten %+.1e\n", 112 << m,
+                32 << m, r.lift, r.drag, r.drop, r.steps, r.drift);
     std::fflush(stdout);
     CHECK(r.drop <= drop);
     CHECK(std::abs(r.drift) < 5e-4);

@@ -1,8 +1,8 @@
-// Closures on the flat plate of flat_plate_test.cpp (Mach 0.2, Re 5e6 per metre). SST variants against the published cf of SST-Vm at x =
-// 0.970084 m (NASA's Turbulence Modeling Resource: the variants differ little on a plate); k-omega against the relation of Karman and
-// Schoenherr between cf and the momentum thickness, cf = 1 / (17.08 l^2 + 25.11 l + 6.012), l = log10 Re_theta, which the same resource
-// uses for validation ("2D Zero Pressure Gradient Flat Plate Validation Case"); DDES against the SA it must keep.
-// SPDX-License-Identifier: Apache-2.0
+// Closures on the flat plate of flat_plate_test.cpp (Mach 0.2, Re 5e6 per metre). SST variants against the published cf of SST-Vm
+// at x = 0.970084 m (NASA's Turbulence Modeling Resource: the variants differ little on a plate); k-omega against the relation of
+// Karman and Schoenherr between cf and the momentum thickness, cf = 1 / (17.08 l^2 + 25.11 l + 6.012), l = log10 Re_theta, which
+// the same resource uses for validation ("2D Zero Pressure Gradient Flat Plate Validation Case"); DDES against the SA it must
+// keep. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -64,7 +64,8 @@ double eddies_at_station(const Case& c) {
           const double off = std::abs(tile.geometry->centre_data.data()[tile.geometry->cell_box.at(k, j, i)] - plate_station);
           if (!measure) nearest = std::min(nearest, off);
           if (measure && off < nearest + 1e-9)
-            largest = std::max(largest, tile.gradients.data()[tile.gradient_box.at(k, j, i) + eddy_component(1) * tile.gradient_box.component]);
+            largest = std::max(
+                largest, tile.gradients.data()[tile.gradient_box.at(k, j, i) + eddy_component(1) * tile.gradient_box.component]);
         }
       });
   return largest / c.solver->setting().gas.viscosity.mu0;
@@ -98,8 +99,8 @@ TEST_CASE("Wilcox's k-omega models have the friction of Karman and Schoenherr wi
 
 TEST_CASE("Wilcox's k-omega of 2006 comes nearer to Karman and Schoenherr on 137 x 97 nodes", "[flow][nightly]") {
   const PlateResult p = closure_plate(4, "k_omega");
-  std::printf("k_omega, 137 x 97: cf %.7f, CD %.7f, Re_theta %.0f, Karman-Schoenherr %.7f, drop %.1e in %d steps\n", p.friction, p.drag, p.reynolds_theta,
-              karman_schoenherr(p.reynolds_theta), p.drop, p.steps);
+  std::printf("k_omega, 137 x 97: cf %.7f, CD %.7f, Re_theta %.0f, Karman-Schoenherr %.7f, drop %.1e in %d steps\n", p.friction,
+              p.drag, p.reynolds_theta, karman_schoenherr(p.reynolds_theta), p.drop, p.steps);
   CHECK(p.drop <= 1e-5);
   CHECK(p.friction == Approx(karman_schoenherr(p.reynolds_theta)).epsilon(0.035));
 }
@@ -114,8 +115,8 @@ TEST_CASE("detached eddies leave a boundary layer to Spalart-Allmaras where cell
   }
 }
 
-// Cells of a fifth of the layer's thickness: DES97 takes the outer layer for resolved eddies and thins the modelled ones out, which none
-// replace; the shield of DDES is made to prevent that.
+// Cells of a fifth of the layer's thickness: DES97 takes the outer layer for resolved eddies and thins the modelled ones out,
+// which none replace; the shield of DDES is made to prevent that.
 TEST_CASE("DDES shields a boundary layer on a grid where DES97 does not", "[flow][fast]") {
   const auto run = [](const char* model) {
     FlowSetting s = plate_air(model);
@@ -129,7 +130,8 @@ TEST_CASE("DDES shields a boundary layer on a grid where DES97 does not", "[flow
   const auto [sa, sa_friction] = run("sa");
   const auto [ddes, ddes_friction] = run("ddes");
   const auto [des, des_friction] = run("des97");
-  std::printf("shield: eddies sa %.2f ddes %.2f des97 %.2f; cf %.7f %.7f %.7f\n", sa, ddes, des, sa_friction, ddes_friction, des_friction);
+  std::printf("shield: eddies sa %.2f ddes %.2f des97 %.2f; cf %.7f %.7f %.7f\n", sa, ddes, des, sa_friction, ddes_friction,
+              des_friction);
   CAPTURE(sa, ddes, des, sa_friction, ddes_friction, des_friction);
   CHECK(ddes == Approx(sa).epsilon(0.05));
   CHECK(ddes_friction == Approx(sa_friction).epsilon(0.01));

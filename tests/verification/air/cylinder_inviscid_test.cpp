@@ -66,7 +66,8 @@ Outcome cylinder(double mach, const std::string& flux, int around = 96) {
 
 }  // namespace
 
-TEST_CASE("a cylinder in inviscid flow with default settings: pressure with the square of the Mach number, drag without it", "[air][nightly]") {
+TEST_CASE("a cylinder in inviscid flow with default settings: pressure with the square of the Mach number, drag without it",
+          "[air][nightly]") {
   const std::vector<double> mach{1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
   std::vector<double> range, drag;
   std::vector<int> steps;
@@ -89,10 +90,12 @@ TEST_CASE("a cylinder in inviscid flow with default settings: pressure with the 
   for (const int n : steps) CHECK(n <= 2 * steps[0]);
 }
 
-// Beside rho u the mass flux has the jump of the pressure over c: M of it. That is why the drag at 0.1 is above that of the limit, by 0.05 % of
-// what cp spans; third-order differences of the pressure take it away as the grid is refined.
+// Beside rho u the mass flux has the jump of the pressure over c: M of it. That is why the drag at 0.1 is above that of the
+// limit, by 0.05 % of what cp spans; third-order differences of the pressure take it away as the grid is refined.
 TEST_CASE("what drag an inviscid cylinder has above its low-Mach limit at Mach 0.1 falls with the cells", "[air][nightly]") {
-  const auto above = [](int around) { return cylinder(1e-1, "roe_low_mach", around).drag - cylinder(1e-3, "roe_low_mach", around).drag; };
+  const auto above = [](int around) {
+    return cylinder(1e-1, "roe_low_mach", around).drag - cylinder(1e-3, "roe_low_mach", around).drag;
+  };
   const double coarse = above(96), fine = above(192);
   CAPTURE(coarse, fine);
   CHECK(std::abs(coarse) < 0.002);

@@ -1,6 +1,6 @@
-// Vortex shedding of a circular cylinder at Re 100: frequency after Williamson (1996), Annu. Rev. Fluid Mech. 28, 477: St = 0.2665 -
-// 1.018 / sqrt(Re) = 0.1647 (0.164 to 0.166 in the literature); mean drag 1.32 to 1.38 and lift of amplitude 0.31 to 0.35 in computations.
-// SPDX-License-Identifier: Apache-2.0
+// Vortex shedding of a circular cylinder at Re 100: frequency after Williamson (1996), Annu. Rev. Fluid Mech. 28, 477: St =
+// 0.2665 - 1.018 / sqrt(Re) = 0.1647 (0.164 to 0.166 in the literature); mean drag 1.32 to 1.38 and lift of amplitude 0.31 to
+// 0.35 in computations. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -13,10 +13,11 @@ using namespace spindrift::aero::testing;
 
 namespace {
 
-/// The program's O grid with its lines gathered behind the cylinder, where they are (1 - gather) of the mean distance apart: it is the street
-/// that asks for cells.
+/// The program's O grid with its lines gathered behind the cylinder, where they are (1 - gather) of the mean distance apart: it
+/// is the street that asks for cells.
 MultiBlockGrid ring(int around, double gather) {
-  MultiBlockGrid grid = aero::cylinder({.around = around, .outward = around * 4 / 7, .radius = 0.5, .far = 30.0, .first_cell = 0.03});
+  MultiBlockGrid grid =
+      aero::cylinder({.around = around, .outward = around * 4 / 7, .radius = 0.5, .far = 30.0, .first_cell = 0.03});
   for (Eigen::Vector3d& x : grid.blocks[0].nodes) {
     const double r = std::hypot(x[0], x[2]), even = std::atan2(x[2], x[0]), angle = even - gather * std::sin(even);
     x[0] = r * std::cos(angle), x[2] = r * std::sin(angle);
@@ -68,7 +69,8 @@ TEST_CASE("a cylinder at Re 100 sheds vortices at Strouhal number 0.164 to 0.166
       crossings.push_back(time[n - 1] + (time[n] - time[n - 1]) * lift[n - 1] / (lift[n - 1] - lift[n]));
   REQUIRE(crossings.size() >= 4);
   for (std::size_t n = 0; n < time.size(); ++n)
-    if (time[n] >= crossings.front() && time[n] < crossings.back()) mean += drag[n], weight += 1.0, largest = std::max(largest, std::abs(lift[n]));
+    if (time[n] >= crossings.front() && time[n] < crossings.back())
+      mean += drag[n], weight += 1.0, largest = std::max(largest, std::abs(lift[n]));
   mean /= weight;
   const double period = (crossings.back() - crossings.front()) / double(crossings.size() - 1);
   const double strouhal = 1.0 / (period * s.speed);

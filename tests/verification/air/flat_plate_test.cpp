@@ -1,7 +1,7 @@
 // Turbulent flat plate at Mach 0.2, Re 5e6 per metre, on the grids of NASA's Turbulence Modeling Resource (rebuilt from their own
-// clustering): skin friction at x = 0.970084 m and drag against the codes CFL3D and FUN3D on the same grids, turbmodels.larc.nasa.gov,
-// "2D Zero Pressure Gradient Flat Plate Verification Case", files cf_convergence*.dat and drag_convergence*.dat.
-// SPDX-License-Identifier: Apache-2.0
+// clustering): skin friction at x = 0.970084 m and drag against the codes CFL3D and FUN3D on the same grids,
+// turbmodels.larc.nasa.gov, "2D Zero Pressure Gradient Flat Plate Verification Case", files cf_convergence*.dat and
+// drag_convergence*.dat. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -19,7 +19,8 @@ PlateResult plate(int n, const std::string& model, double drop, bool first_order
   s.march.drop = drop, s.march.max_steps = 400;
   s.first_order_model = first_order;  // as both codes
   s.thin_layer = thin_layer;
-  if (model != "sa") s.march.matrix_free_below = 2.0;  // two equations: the stored operator alone may go round in circles before it is left
+  if (model != "sa")
+    s.march.matrix_free_below = 2.0;  // two equations: the stored operator alone may go round in circles before it is left
   Case c = plate_case(flat_plate(n), s, Condition::no_slip);
   c.run();
   return plate_result(c);
@@ -44,10 +45,12 @@ constexpr Published sst_vm[]{{1, {.00255183387, .00251561563}, {.00270623102, .0
                              {2, {.00262624887, .00260951403}, {.00278506994, .00267868400}},
                              {4, {.00266477116, .00265845195}, {.00282596960, .00277332900}}};
 
-void compare(const Published& grid, const std::string& model, double drop, double friction_limit, double drag_limit, bool first_order = false) {
+void compare(const Published& grid, const std::string& model, double drop, double friction_limit, double drag_limit,
+             bool first_order = false) {
   const PlateResult p = plate(grid.n, model, drop, first_order);
   CAPTURE(model, grid.n, p.friction, p.drag, p.drop, p.steps, p.y_plus);
-  std::printf("%s, %d x %d nodes: cf %.7f, CD %.7f, drop %.1e in %d steps\n", model.c_str(), 34 * grid.n + 1, 24 * grid.n + 1, p.friction, p.drag, p.drop, p.steps);
+  std::printf("%s, %d x %d nodes: cf %.7f, CD %.7f, drop %.1e in %d steps\n", model.c_str(), 34 * grid.n + 1, 24 * grid.n + 1,
+              p.friction, p.drag, p.drop, p.steps);
   CHECK(p.drop <= drop);
   CHECK(as_good(p.friction, grid.friction, friction_limit));
   CHECK(as_good(p.drag, grid.drag, drag_limit));
@@ -71,6 +74,7 @@ TEST_CASE("a plate's friction is that of differences across its layer alone", "[
 
 TEST_CASE("friction and drag of a flat plate converge to the published values", "[flow][nightly]") {
   for (const Published& grid : sa) compare(grid, "sa", 1e-6, .0027056, .0028562);
-  // With two equations the order of the turbulence's differences shows: second-order ones give cf 0.17 % below both codes on 69 x 49 nodes.
+  // With two equations the order of the turbulence's differences shows: second-order ones give cf 0.17 % below both codes on 69 x
+  // 49 nodes.
   for (const Published& grid : sst_vm) compare(grid, "sst_vm", 1e-5, .0026909, .0028488, true);
 }

@@ -1,7 +1,7 @@
-// Decaying isotropic turbulence behind a grid, Comte-Bellot & Corrsin 1971, J. Fluid Mech. 48, 273: spectra of their table 3 (M = 5.08 cm, U0 =
-// 10 m/s) at t U0 / M = 42, 98 and 171. A box of 9 x 2 pi cm starts from random modes with the first spectrum; the energy that 32^3 cells
-// hold (wave numbers up to pi over their width) must fall as that of the experiment's same wave numbers, with a closure for what they do
-// not hold. SPDX-License-Identifier: Apache-2.0
+// Decaying isotropic turbulence behind a grid, Comte-Bellot & Corrsin 1971, J. Fluid Mech. 48, 273: spectra of their table 3 (M
+// = 5.08 cm, U0 = 10 m/s) at t U0 / M = 42, 98 and 171. A box of 9 x 2 pi cm starts from random modes with the first spectrum;
+// the energy that 32^3 cells hold (wave numbers up to pi over their width) must fall as that of the experiment's same wave
+// numbers, with a closure for what they do not hold. SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -22,9 +22,10 @@ constexpr double pi = std::numbers::pi, box_side = 0.18 * pi;  // m
 struct Spectrum {
   double k, at_42, at_98, at_171;  // 1/cm; cm3/s2
 };
-constexpr Spectrum measured[]{{.15, 0, 0, 49.7},      {.2, 129, 106, 92},     {.25, 230, 196, 120},   {.3, 322, 195, 125},    {.4, 435, 202, 98},
-                              {.5, 457, 168, 81.5},   {.7, 380, 127, 60.2},   {1, 270, 79.2, 39.4},   {1.5, 168, 47.8, 24.1}, {2, 120, 34.6, 16.5},
-                              {2.5, 89, 28.6, 12.5},  {3, 70.3, 23.1, 9.12},  {4, 47, 14.3, 5.62},    {6, 24.7, 5.95, 1.69}};
+constexpr Spectrum measured[]{{.15, 0, 0, 49.7},      {.2, 129, 106, 92},   {.25, 230, 196, 120},  {.3, 322, 195, 125},
+                              {.4, 435, 202, 98},     {.5, 457, 168, 81.5}, {.7, 380, 127, 60.2},  {1, 270, 79.2, 39.4},
+                              {1.5, 168, 47.8, 24.1}, {2, 120, 34.6, 16.5}, {2.5, 89, 28.6, 12.5}, {3, 70.3, 23.1, 9.12},
+                              {4, 47, 14.3, 5.62},    {6, 24.7, 5.95, 1.69}};
 
 /// Straight between the points in logarithms [m3/s2] of k [1/m]; below the first of them as k^2.
 double spectrum(double k, double Spectrum::*when) {
@@ -72,7 +73,8 @@ std::vector<std::array<double, 3>> modes(int n) {
         C along = 0.0;
         for (int d = 0; d < 3; ++d) m.a[d] = C(normal(random), normal(random)), along += m.a[d] * double(m.k[d]) / size;
         for (int d = 0; d < 3; ++d) m.a[d] -= along * double(m.k[d]) / size;
-        for (int d = 0; d < 3; ++d) energy[std::size_t(shell)] += std::norm(m.a[d]);  // of 2 Re(a e^ikx): mean square 2 |a|^2, half of it
+        for (int d = 0; d < 3; ++d)
+          energy[std::size_t(shell)] += std::norm(m.a[d]);  // of 2 Re(a e^ikx): mean square 2 |a|^2, half of it
         all.push_back(m);
       }
   const double unit = 2.0 * pi / box_side;
@@ -97,7 +99,8 @@ std::vector<std::array<double, 3>> modes(int n) {
       for (int j = 0; j < n; ++j) {
         const C p = phase(y, j);
         for (int z = 0; z < wide; ++z)
-          for (std::size_t d = 0; d < 3; ++d) by_xy[std::size_t((i * n + j) * wide + z)][d] += p * by_x[std::size_t((i * wide + y + top) * wide + z)][d];
+          for (std::size_t d = 0; d < 3; ++d)
+            by_xy[std::size_t((i * n + j) * wide + z)][d] += p * by_x[std::size_t((i * wide + y + top) * wide + z)][d];
       }
   std::vector<std::array<double, 3>> u(std::size_t(n * n * n));
   for (int i = 0; i < n; ++i)
@@ -105,13 +108,14 @@ std::vector<std::array<double, 3>> modes(int n) {
       for (int z = -top; z <= top; ++z)
         for (int k = 0; k < n; ++k) {
           const C p = phase(z, k);
-          for (std::size_t d = 0; d < 3; ++d) u[std::size_t((k * n + j) * n + i)][d] += 2.0 * (p * by_xy[std::size_t((i * n + j) * wide + z + top)][d]).real();
+          for (std::size_t d = 0; d < 3; ++d)
+            u[std::size_t((k * n + j) * n + i)][d] += 2.0 * (p * by_xy[std::size_t((i * n + j) * wide + z + top)][d]).real();
         }
   return u;
 }
 
-/// Energy and what drained it between two stations [m2/s2]: the closure and the laminar viscosity by their fluxes through the faces, the rest is the
-/// scheme's (its flux, its step).
+/// Energy and what drained it between two stations [m2/s2]: the closure and the laminar viscosity by their fluxes through the
+/// faces, the rest is the scheme's (its flux, its step).
 struct Fall {
   double energy = 0.0, lost = 0.0, closure = 0.0, viscous = 0.0;
   double scheme() const { return lost - closure - viscous; }
@@ -145,12 +149,14 @@ Decay decay_of(const std::string& closure, int n, double upwinding) {
   const auto for_cells = [&](FlowTile& tile, auto&& body) {
     for_rows(tile.box, [&](int k, int j) {
       for (int i = 0; i < tile.box.ni; ++i)
-        body(gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component)), tile.inner.at(k, j, i));
+        body(gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component)),
+             tile.inner.at(k, j, i));
     });
   };
   const auto energy = [&] {
     double sum = 0.0, cells = 0.0;
-    for (FlowTile& tile : c.solver->tiles()) for_cells(tile, [&](const auto& q, std::ptrdiff_t) { sum += gas::kinetic(q), cells += 1.0; });
+    for (FlowTile& tile : c.solver->tiles())
+      for_cells(tile, [&](const auto& q, std::ptrdiff_t) { sum += gas::kinetic(q), cells += 1.0; });
     return sum / cells / (faster * faster);
   };
   // Per time of the experiment: velocity times the force of all friction, and of the laminar one alone.
@@ -216,14 +222,16 @@ TEST_CASE("a closure for large eddies drains isotropic turbulence at the rate of
   CHECK(d.to_171.energy / d.to_98.energy == Approx(third / second).epsilon(0.05));
 }
 
-// Which part of the drain is whose: with a twentieth of the flux's dissipation left the scheme alone drains far too little, and what the closure
-// adds is what was missing. The closure's and the viscous part are those of their fluxes, cell by cell; the scheme's is the rest.
+// Which part of the drain is whose: with a twentieth of the flux's dissipation left the scheme alone drains far too little, and
+// what the closure adds is what was missing. The closure's and the viscous part are those of their fluxes, cell by cell; the
+// scheme's is the rest.
 TEST_CASE("what drains isotropic turbulence is the closure and not the scheme", "[flow][nightly]") {
   constexpr int n = 24;
   const double kept = held(n, &Spectrum::at_171) / held(n, &Spectrum::at_98);  // by the experiment
   const Decay with = decay_of("les_wale", n, 0.05), without = decay_of("none", n, 0.05);
   const Fall &f = with.to_171, &g = without.to_171;
-  CAPTURE(kept, f.energy / with.to_98.energy, g.energy / without.to_98.energy, f.closure / f.lost, f.viscous / f.lost, f.scheme() / f.lost, g.viscous / g.lost);
+  CAPTURE(kept, f.energy / with.to_98.energy, g.energy / without.to_98.energy, f.closure / f.lost, f.viscous / f.lost,
+          f.scheme() / f.lost, g.viscous / g.lost);
   CHECK(f.energy / with.to_98.energy == Approx(kept).epsilon(0.03));
   CHECK(f.closure > 0.75 * f.lost);
   CHECK(f.scheme() > 0.0);

@@ -1,7 +1,7 @@
-// Manufactured solutions (Roache 2002, J. Fluids Eng. 124, 4; for Spalart-Allmaras as Eca, Hoekstra, Hay & Pelletier 2007, Int. J.
-// Numer. Meth. Fluids 54, 119): a smooth periodic flow at Reynolds number 10 is made a solution by a source; the source follows from
-// the equations, written out here, by differences of sixth order. Curvilinear cells, two and three dimensions. One implicit step as
-// long as the flow takes through the box lets the errors of the fluxes spread and keeps the problem regular.
+// Manufactured solutions (Roache 2002, J. Fluids Eng. 124, 4; for Spalart-Allmaras as Eca, Hoekstra, Hay & Pelletier 2007, Int.
+// J. Numer. Meth. Fluids 54, 119): a smooth periodic flow at Reynolds number 10 is made a solution by a source; the source
+// follows from the equations, written out here, by differences of sixth order. Curvilinear cells, two and three dimensions. One
+// implicit step as long as the flow takes through the box lets the errors of the fluxes spread and keeps the problem regular.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -41,14 +41,18 @@ struct Manufactured {
   Fields at(const Point& x) const {
     const double k = 2.0 * std::numbers::pi, X = k * x[0], Y = planar ? 0.0 : k * x[1], Z = k * x[2], U = s.speed;
     const double rho = gas::density(s.gas, s.stream), nu = s.gas.viscosity.mu0 / rho;
-    // SA: some nu. Two equations: k and omega rise together (cross diffusion keeps its sign) and omega is beyond what limits stresses.
+    // SA: some nu. Two equations: k and omega rise together (cross diffusion keeps its sign) and omega is beyond what limits
+    // stresses.
     const double wave = 2.0 * std::cos(X) * std::cos(Z + 0.2) + std::sin(Y + 0.1);
     return {{U * (1.0 + 0.2 * std::sin(X + 0.3) * std::cos(Z) + 0.1 * std::cos(Y + X)),
              planar ? 0.0 : U * (0.3 + 0.2 * std::cos(X) * std::sin(Y + 0.5) + 0.1 * std::sin(Z)),
              U * (0.6 + 0.2 * std::cos(X) * std::sin(Z + 0.4) - 0.1 * std::sin(Y)),
              rho * U * U * (0.3 * std::cos(X + 0.2) * std::sin(Z) + 0.1 * std::sin(Y)),
              8.0 * std::sin(X) * std::cos(Z + 0.1) + 4.0 * std::cos(Y),
-             carried == 0 ? 0.0 : carried == 1 ? nu * (6.0 + wave) : U * U * (2.0 + 0.3 * wave), carried == 2 ? U * (20.0 + 2.0 * wave) : 0.0}};
+             carried == 0   ? 0.0
+             : carried == 1 ? nu * (6.0 + wave)
+                            : U * U * (2.0 + 0.3 * wave),
+             carried == 2 ? U * (20.0 + 2.0 * wave) : 0.0}};
   }
   double distance(const Point& x) const {
     return 0.4 + 0.1 * std::sin(2.0 * std::numbers::pi * x[0]) * std::sin(2.0 * std::numbers::pi * x[2]);
@@ -107,7 +111,8 @@ struct Manufactured {
     std::array<double, 7> f{mass};
     double work = heat;
     for (int c = 0; c < 3; ++c) {
-      const double stress = mu * (l.gradient[c][d] + l.gradient[d][c] - (c == d ? 2.0 / 3.0 * div : 0.0)) - (c == d ? l.pressure : 0.0);
+      const double stress =
+          mu * (l.gradient[c][d] + l.gradient[d][c] - (c == d ? 2.0 / 3.0 * div : 0.0)) - (c == d ? l.pressure : 0.0);
       f[std::size_t(c + 1)] = mass * u[c] + (c == d ? p : 0.0) - stress;
       work += stress * u[c];
     }
@@ -143,8 +148,15 @@ Errors errors(int n, bool planar) {
   s.viscous = true;
   s.turbulence = Model::name;
   s.time_order = 1, s.dt = 1.0 / s.speed;
-  s.preconditioned = false;  // in a closed box the mean pressure follows the preconditioned pseudo-time slowly, by 4 % a step at CFL 200
-  s.march = {.cfl_start = 100.0, .cfl_max = 1e4, .drop = 1e-6, .max_steps = 150, .krylov_steps = 40, .krylov_drop = 3e-2, .matrix_free_below = 2.0};
+  s.preconditioned =
+      false;  // in a closed box the mean pressure follows the preconditioned pseudo-time slowly, by 4 % a step at CFL 200
+  s.march = {.cfl_start = 100.0,
+             .cfl_max = 1e4,
+             .drop = 1e-6,
+             .max_steps = 150,
+             .krylov_steps = 40,
+             .krylov_drop = 3e-2,
+             .matrix_free_below = 2.0};
   BoxOptions box{.ni = n, .nj = n, .nk = planar ? 1 : n};
   box.periodic = {true, true, !planar};
   Case c(perturbed(planar ? planar_box(box) : cartesian_box(box), box, 0.03), s, {}, {.planar_across = 32, .planar_normal = 64});
@@ -161,7 +173,8 @@ Errors errors(int n, bool planar) {
   };
   each([&](FlowTile& tile, int k, int j, int i, const Point& x) {
     tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)] = m.distance(x);
-    for (int t = 0; t < carried; ++t) tile.state.data()[tile.cells.at(k, j, i) + (mean_unknowns + t) * tile.cells.component] = m.at(x).value[5 + t];
+    for (int t = 0; t < carried; ++t)
+      tile.state.data()[tile.cells.at(k, j, i) + (mean_unknowns + t) * tile.cells.component] = m.at(x).value[5 + t];
   });
   c.solver->set_source([&](const Point& x, std::array<double, 7>& values) { m.source(x, values); });
   c.prepare();
@@ -204,7 +217,8 @@ TEST_CASE("Spalart-Allmaras on curvilinear cells is solved at second order", "[f
   check_orders<turbulence::Sa>({16, 24, 32}, true);
 }
 
-TEST_CASE("viscous and turbulent flow on curvilinear cells in three dimensions is solved at second order", "[flow][order][nightly]") {
+TEST_CASE("viscous and turbulent flow on curvilinear cells in three dimensions is solved at second order",
+          "[flow][order][nightly]") {
   check_orders<turbulence::Sa>({32, 48, 64}, true);
   check_orders<turbulence::Sa>({12, 16, 24}, false);
 }

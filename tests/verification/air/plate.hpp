@@ -20,7 +20,8 @@ inline FlowSetting plate_air(const std::string& model) {
   s.gas.viscosity = {.mu0 = gas::density(s.gas, s.stream) * s.speed / 5e6, .T0 = 300.0, .S = 110.33};
   s.viscous = true;
   s.turbulence = model;
-  s.physical_far_field = true;  // the codes' upper boundary is the physical Riemann condition, which holds the displaced flow back
+  s.physical_far_field =
+      true;  // the codes' upper boundary is the physical Riemann condition, which holds the displaced flow back
   return s;
 }
 
@@ -62,7 +63,8 @@ inline PlateResult plate_result(const Case& c) {
       for (int i = 0; i < tile.box.ni; ++i) {
         const double* x = tile.geometry->centre_data.data() + tile.geometry->cell_box.at(k, j, i);
         const auto w = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
-        samples.push_back({x[0], x[2 * tile.geometry->cell_box.component], gas::density(s.gas, w) * w.u / (rho * s.speed), w.u / s.speed});
+        samples.push_back(
+            {x[0], x[2 * tile.geometry->cell_box.component], gas::density(s.gas, w) * w.u / (rho * s.speed), w.u / s.speed});
       }
     });
   }
@@ -84,8 +86,12 @@ inline PlateResult plate_result(const Case& c) {
     const double deficit = a.mass / edge * (1.0 - a.u / edge);
     theta += 0.5 * (a.z - z) * (before + deficit), z = a.z, before = deficit;
   }
-  return {friction, c.solver->rows().back().force[0] / (2.0 * q), points[m].y_plus, 5e6 * edge * theta,
-          c.solver->march().density_residual() / c.solver->march().first_density_residual(), c.solver->march().steps()};
+  return {friction,
+          c.solver->rows().back().force[0] / (2.0 * q),
+          points[m].y_plus,
+          5e6 * edge * theta,
+          c.solver->march().density_residual() / c.solver->march().first_density_residual(),
+          c.solver->march().steps()};
 }
 
 }  // namespace spindrift::aero::testing

@@ -1,5 +1,5 @@
-// The march with other fluxes and turbulence models than the default ones: NACA 0012 at 10 degrees, Re 6e6, 112 x 32 cells of the TMR's
-// family, six orders of the density residual each, and lifts that agree as far as such a grid lets them.
+// The march with other fluxes and turbulence models than the default ones: NACA 0012 at 10 degrees, Re 6e6, 112 x 32 cells of the
+// TMR's family, six orders of the density residual each, and lifts that agree as far as such a grid lets them.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -38,14 +38,16 @@ Outcome aerofoil(const char* flux, const char* model, double mach, const char* l
   CHECK_FALSE(c.solver->march().spent());
   const std::array<double, 3>& f = c.solver->rows().back().force;
   const double q = 0.5 * rho * s.speed * s.speed;
-  return {(f[2] * std::cos(alpha) - f[0] * std::sin(alpha)) / q, (f[0] * std::cos(alpha) + f[2] * std::sin(alpha)) / q, c.solver->march().steps()};
+  return {(f[2] * std::cos(alpha) - f[0] * std::sin(alpha)) / q, (f[0] * std::cos(alpha) + f[2] * std::sin(alpha)) / q,
+          c.solver->march().steps()};
 }
 
 }  // namespace
 
 TEST_CASE("Osher's flux and SST converge by six orders as the default schemes do", "[flow][nightly]") {
   const Outcome plain = aerofoil("roe_low_mach", "sa", 0.15);
-  for (const auto& [flux, model] : {std::pair{"osher", "sa"}, {"roe_low_mach", "sst"}, {"roe_low_mach", "sa_neg"}, {"osher", "sst"}}) {
+  for (const auto& [flux, model] :
+       {std::pair{"osher", "sa"}, {"roe_low_mach", "sst"}, {"roe_low_mach", "sa_neg"}, {"osher", "sst"}}) {
     const Outcome other = aerofoil(flux, model, 0.15);
     CAPTURE(flux, model, plain.lift, plain.drag, plain.steps, other.lift, other.drag, other.steps);
     CHECK(other.lift == Approx(plain.lift).epsilon(0.02));
@@ -60,8 +62,8 @@ TEST_CASE("the same aerofoil at Mach 0.01 needs no more steps with the same sett
   CHECK(slow.lift == Approx(plain.lift).epsilon(0.03));
 }
 
-// Where the matrix has less dissipation than the flux, only explicit steps stand: Rusanov's goes with its own. k-omega needs k not to be
-// driven to nothing on the way.
+// Where the matrix has less dissipation than the flux, only explicit steps stand: Rusanov's goes with its own. k-omega needs k
+// not to be driven to nothing on the way.
 TEST_CASE("Rusanov's flux, SST-Vm and k-omega converge by six orders too", "[flow][fast]") {
   const Outcome dissipative = aerofoil("rusanov", "sa", 0.15, "van_albada");
   CHECK(dissipative.steps < 110);

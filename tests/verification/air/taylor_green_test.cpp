@@ -1,6 +1,6 @@
 // Taylor and Green's vortex at Re 1600, Mach 0.1: decay and transition against a spectral solution on 512^3 points (1st
-// International Workshop on High-Order CFD Methods, case C3.5). The flow keeps its mirror planes, so that a box of half the length
-// between planes of symmetry holds it cell by cell: n^3 cells stand for (2n)^3, which the first test shows.
+// International Workshop on High-Order CFD Methods, case C3.5). The flow keeps its mirror planes, so that a box of half the
+// length between planes of symmetry holds it cell by cell: n^3 cells stand for (2n)^3, which the first test shows.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -43,9 +43,9 @@ Case box(bool octant, int n, double dt, const MarchOptions& march, double upwind
   return c;
 }
 
-/// Kinetic energy per mass of the undisturbed density, in units of speed squared; mean over the box. With what varies within cells (as linear
-/// functions): cell means alone hold less by h^2 / 12 of the enstrophy, which grows fourfold on the way to the peak and would be taken for
-/// dissipation before it.
+/// Kinetic energy per mass of the undisturbed density, in units of speed squared; mean over the box. With what varies within
+/// cells (as linear functions): cell means alone hold less by h^2 / 12 of the enstrophy, which grows fourfold on the way to the
+/// peak and would be taken for dissipation before it.
 double energy(const Case& c) {
   double sum = 0, volume = 0;
   const FlowSetting& s = c.solver->setting();
@@ -74,7 +74,8 @@ struct Decay {
   int steps = 0;
 };
 Decay decay(int n, double dt, double end, const MarchOptions& march) {
-  Case c = box(true, n, dt, march, 0.05);  // with 0.25 the flux takes so much at the cells' own scale that the peak is 7 to 17 % early
+  Case c =
+      box(true, n, dt, march, 0.05);  // with 0.25 the flux takes so much at the cells' own scale that the peak is 7 to 17 % early
   Decay d;
   while (d.time.empty() || d.time.back() < end - 0.5 * dt) {
     c.run();
@@ -111,7 +112,8 @@ TEST_CASE("Taylor and Green's vortex dissipates as a spectral solution says", "[
   const MarchOptions march{.cfl_start = 1e3, .drop = 1e-2, .max_steps = 40, .matrix_free_below = 2.0};
   const int n = GENERATE(32, 48);  // 64^3 and 96^3 of the whole box
   const Decay d = decay(n, 2.0 / n, 10.5, march);
-  std::printf("Taylor-Green, %d^3 of the whole: peak %.6f at %.3f, %d pseudo-steps in %zu steps\n", 2 * n, d.peak, d.peak_time, d.steps, d.time.size());
+  std::printf("Taylor-Green, %d^3 of the whole: peak %.6f at %.3f, %d pseudo-steps in %zu steps\n", 2 * n, d.peak, d.peak_time,
+              d.steps, d.time.size());
   CAPTURE(n, d.peak, d.peak_time, d.largest_rise, d.steps);
   CHECK(d.largest_rise < 0.0);
   CHECK(d.peak == Approx(.012858).epsilon(n < 48 ? 0.15 : 0.10));

@@ -1,5 +1,5 @@
-// An isentropic vortex carried through a periodic box (Shu 1998, ICASE 97-65; Hu & Shu 1999, J. Comput. Phys. 150, 97): an exact solution
-// of the Euler equations. Space and time are refined together; the scheme claims second order in both.
+// An isentropic vortex carried through a periodic box (Shu 1998, ICASE 97-65; Hu & Shu 1999, J. Comput. Phys. 150, 97): an exact
+// solution of the Euler equations. Space and time are refined together; the scheme claims second order in both.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -67,7 +67,8 @@ double error(int n, int steps, bool skewed) {
 
 TEST_CASE("a vortex carried by the stream keeps its shape at second order in space and time", "[flow][order][nightly]") {
   for (const bool skewed : {false, true}) {
-    const std::vector<double> h{1.0 / 64, 1.0 / 96, 1.0 / 128}, errors{error(64, 24, skewed), error(96, 36, skewed), error(128, 48, skewed)};
+    const std::vector<double> h{1.0 / 64, 1.0 / 96, 1.0 / 128},
+        errors{error(64, 24, skewed), error(96, 36, skewed), error(128, 48, skewed)};
     CAPTURE(skewed, errors[0], errors[1], errors[2]);
     CHECK(observed_order(h, errors) > 1.9);
   }

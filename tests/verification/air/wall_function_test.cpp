@@ -1,6 +1,6 @@
 // The law of the wall in place of a resolved sublayer: the flat plate of flat_plate_test.cpp with its lowest cells replaced by
-// one whose centre stands at y+ 30, 50, 100 (at x = 0.97), and in the sublayer and between, against friction and drag of the resolved
-// grids. SPDX-License-Identifier: Apache-2.0
+// one whose centre stands at y+ 30, 50, 100 (at x = 0.97), and in the sublayer and between, against friction and drag of the
+// resolved grids. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -52,8 +52,9 @@ PlateResult law_plate(int n, double y_plus, Condition wall_condition, const std:
 
 }  // namespace
 
-// Each closure has its own law of the wall (wall_layer.hpp). Two references, 5 % to both: the closure's published friction on the finest grids
-// (k-omega: that of our own grids, .0026482, .0026881, carried on), and its friction on the same cells above the wall, resolved below.
+// Each closure has its own law of the wall (wall_layer.hpp). Two references, 5 % to both: the closure's published friction on the
+// finest grids (k-omega: that of our own grids, .0026482, .0026881, carried on), and its friction on the same cells above the
+// wall, resolved below.
 TEST_CASE("a wall function gives a plate's friction and drag on grids whose first cell stands in the logarithmic layer",
           "[flow][fast]") {
   for (const double y_plus : {30.0, 50.0, 100.0}) {
@@ -86,7 +87,8 @@ TEST_CASE("a wall function on a resolved grid is the resolved wall", "[flow][fas
   }
   for (const char* model : {"sst_vm", "k_omega"}) {
     // At a drop of 1e-5 turbulence may still grow near the leading edge, with a hundredth of the drag to come.
-    const PlateResult law = law_plate(2, 0.5, Condition::wall_law, model, 1e-7), wall = law_plate(2, 0.5, Condition::no_slip, model, 1e-7);
+    const PlateResult law = law_plate(2, 0.5, Condition::wall_law, model, 1e-7),
+                      wall = law_plate(2, 0.5, Condition::no_slip, model, 1e-7);
     CAPTURE(model, law.friction, wall.friction);
     CHECK(law.friction == Approx(wall.friction).epsilon(0.01));
     CHECK(law.drag == Approx(wall.drag).epsilon(0.01));

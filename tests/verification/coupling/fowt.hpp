@@ -1,7 +1,7 @@
-// A floating turbine of two degrees of freedom, surge and pitch, with a rotor that follows its quasi-steady thrust with a lag: the
-// smallest machine on which coupling schemes show their order. Masses, thrust and slope of Leble & Barakos (2016) and of the DTU 10-MW
-// tables; stiffness from the periods of the moored platform (8.3 s and 22.6 s), 5 % of critical damping, waves of 8.8 s.
-// Used by fowt_test.cpp and tests/extremes. SPDX-License-Identifier: Apache-2.0
+// A floating turbine of two degrees of freedom, surge and pitch, with a rotor that follows its quasi-steady thrust with a lag:
+// the smallest machine on which coupling schemes show their order. Masses, thrust and slope of Leble & Barakos (2016) and of the
+// DTU 10-MW tables; stiffness from the periods of the moored platform (8.3 s and 22.6 s), 5 % of critical damping, waves of 8.8
+// s. Used by fowt_test.cpp and tests/extremes. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
@@ -13,19 +13,18 @@
 namespace spindrift::coupling::test {
 
 struct Fowt {
-  double mass = 8.85e6, inertia = 2.6e10;           // kg, kg m2, with the water's
+  double mass = 8.85e6, inertia = 2.6e10;  // kg, kg m2, with the water's
   double surge_period = 8.3, pitch_period = 22.6, wave_period = 8.8, damping_ratio = 0.05;
   double arm = 125.0, thrust = 1.5e6, slope = 162.5e3;  // m, N, N per m/s
-  double lag = 1.0;                                 // s
-  double wave_force = 1.0e6, wave_moment = 2.0e7;   // N, N m
-  double step = 2e-3;                               // s of both parts, RK4: its error is far below the coupling's
+  double lag = 1.0;                                     // s
+  double wave_force = 1.0e6, wave_moment = 2.0e7;       // N, N m
+  double step = 2e-3;                                   // s of both parts, RK4: its error is far below the coupling's
 
   /// (surge, pitch, rates) under thrust T.
   Vector body_rates(double t, const Vector& s, double T) const {
     const double w1 = 2 * pi / surge_period, w2 = 2 * pi / pitch_period, w = 2 * pi / wave_period;
     Vector rate(4);
-    rate << s[2], s[3],
-        (T + wave_force * std::sin(w * t)) / mass - w1 * w1 * s[0] - 2 * damping_ratio * w1 * s[2],
+    rate << s[2], s[3], (T + wave_force * std::sin(w * t)) / mass - w1 * w1 * s[0] - 2 * damping_ratio * w1 * s[2],
         (T * arm + wave_moment * std::cos(w * t)) / inertia - w2 * w2 * s[1] - 2 * damping_ratio * w2 * s[3];
     return rate;
   }
@@ -39,7 +38,8 @@ void march_rk4(Vector& s, double begin, double end, double step, const Rates& ra
   const double h = (end - begin) / double(steps);
   for (long n = 0; n < steps; ++n) {
     const double t = begin + double(n) * h;
-    const Vector a = rates(t, s), b = rates(t + h / 2, s + h / 2 * a), c = rates(t + h / 2, s + h / 2 * b), d = rates(t + h, s + h * c);
+    const Vector a = rates(t, s), b = rates(t + h / 2, s + h / 2 * a), c = rates(t + h / 2, s + h / 2 * b),
+                 d = rates(t + h, s + h * c);
     s += h / 6 * (a + 2 * b + 2 * c + d);
   }
 }
@@ -139,7 +139,8 @@ double strong_error(const Fowt& f, S scheme, double window, double relative, dou
   std::vector<double> pitch;
   for (long n = 0; n < std::lround(end / window); ++n) {
     parts.next();
-    if (!solve_window(parts, scheme, {.relative = relative, .absolute = 1e-13}).ok()) return std::numeric_limits<double>::infinity();
+    if (!solve_window(parts, scheme, {.relative = relative, .absolute = 1e-13}).ok())
+      return std::numeric_limits<double>::infinity();
     pitch.push_back(parts.pitch());
   }
   return rms_difference(pitch, monolithic_pitch(f, end, window)) / radians_per_degree;

@@ -1,5 +1,6 @@
-// Added-mass limits of loose coupling, marched with the schemes themselves, against the roots of their characteristic polynomials and the
-// published 1, 1/3, 1/7, 1/5. Relaxation on a linear interface converges below 2 / (1 + r). SPDX-License-Identifier: Apache-2.0
+// Added-mass limits of loose coupling, marched with the schemes themselves, against the roots of their characteristic polynomials
+// and the published 1, 1/3, 1/7, 1/5. Relaxation on a linear interface converges below 2 / (1 + r). SPDX-License-Identifier:
+// Apache-2.0
 #include <catch2/catch.hpp>
 
 #include "kernels/coupling/loose_limits.hpp"
@@ -76,7 +77,10 @@ TEST_CASE("a predictor of positions with F differencing them is stable up to 1/5
       p[0] = p[1], p[1] = p[2], p[2] = predicted;
       const double a = -r * (p[2] - 2.0 * p[1] + p[0]);
       v_old = v, v += a, x += v;
-      (n < 2000 ? early : late) = n < 1900 ? early : n < 2000 ? std::max(early, std::abs(a)) : n < 3900 ? late : std::max(late, std::abs(a));
+      (n < 2000 ? early : late) = n < 1900   ? early
+                                  : n < 2000 ? std::max(early, std::abs(a))
+                                  : n < 3900 ? late
+                                             : std::max(late, std::abs(a));
     }
     return late > early;
   };

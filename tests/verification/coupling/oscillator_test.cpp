@@ -1,6 +1,6 @@
-// Two masses on three springs, a mass each to a part (the partitioned oscillator of the preCICE tutorials: m = 1, k = 4 pi^2, 16 pi^2,
-// 4 pi^2, u0 = (1, 0)): constant, linear and cubic waveforms give order 1, 2, 4, judged over all window ends. At t = 1, a whole
-// period, errors cancel. SPDX-License-Identifier: Apache-2.0
+// Two masses on three springs, a mass each to a part (the partitioned oscillator of the preCICE tutorials: m = 1, k = 4 pi^2, 16
+// pi^2, 4 pi^2, u0 = (1, 0)): constant, linear and cubic waveforms give order 1, 2, 4, judged over all window ends. At t = 1, a
+// whole period, errors cancel. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
 #include "kernels/coupling/iqn_ils.hpp"
@@ -45,8 +45,12 @@ struct Oscillator {
       times.push_back(times[0] + window * (s + 1) / samples), values.push_back(Vector::Constant(1, x[s]));
     return Waveform(kind, times, values);
   }
-  Vector first(const Vector& x) { return swing(left_now = left, waveform(right[0], x), number * window, (number + 1) * window, samples); }
-  Vector second(const Vector& y) { return swing(right_now = right, waveform(left[0], y), number * window, (number + 1) * window, samples); }
+  Vector first(const Vector& x) {
+    return swing(left_now = left, waveform(right[0], x), number * window, (number + 1) * window, samples);
+  }
+  Vector second(const Vector& y) {
+    return swing(right_now = right, waveform(left[0], y), number * window, (number + 1) * window, samples);
+  }
   Vector evaluate(const Vector& x) { return serial_answer(*this, x); }
   Vector guess() const { return Vector::Constant(samples, right[0]); }
   void accept() {

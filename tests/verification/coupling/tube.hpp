@@ -1,7 +1,8 @@
-// The flexible tube of Degroote, Bruggeman, Haelterman & Vierendeels (2008), the benchmark of strongly coupled schemes: a pressure pulse
-// runs through a tube whose wall is light beside the fluid. Flow: one-dimensional, incompressible, collocated, first-order upwind momentum
-// with pressure stabilisation; wall: a ring with bending and inertia; both backward Euler; discretised as the solvers tube_flow and
-// tube_structure of the public code pyfsi/coconut (own implementation). Used by tube_test.cpp. SPDX-License-Identifier: Apache-2.0
+// The flexible tube of Degroote, Bruggeman, Haelterman & Vierendeels (2008), the benchmark of strongly coupled schemes: a
+// pressure pulse runs through a tube whose wall is light beside the fluid. Flow: one-dimensional, incompressible, collocated,
+// first-order upwind momentum with pressure stabilisation; wall: a ring with bending and inertia; both backward Euler;
+// discretised as the solvers tube_flow and tube_structure of the public code pyfsi/coconut (own implementation). Used by
+// tube_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/LU>
@@ -138,7 +139,8 @@ class TubeFlow {
 
 class TubeWall {
  public:
-  explicit TubeWall(const TubeProblem& problem) : p_(problem), m_(problem.cells), displacement_(Vector::Zero(m_)), rate_(displacement_) {
+  explicit TubeWall(const TubeProblem& problem)
+      : p_(problem), m_(problem.cells), displacement_(Vector::Zero(m_)), rate_(displacement_) {
     const double dz = p_.length / m_, radius = 0.5 * p_.diameter;
     const double plate = p_.thickness * p_.youngs_modulus / (1.0 - p_.poisson * p_.poisson);
     const double bending = plate * p_.thickness * p_.thickness / 12.0, b1 = bending / std::pow(dz, 4);
@@ -205,8 +207,8 @@ class TubeWindow {
 struct TubeRun {
   double mean_evaluations = 0.0;  ///< iterates, probes apart
   double mean_with_probes = 0.0;
-  double largest = 0.0;           ///< displacement [m] at the end
-  int steps = 0;                  ///< done
+  double largest = 0.0;  ///< displacement [m] at the end
+  int steps = 0;         ///< done
   Bound bound = Bound::relative;
 };
 

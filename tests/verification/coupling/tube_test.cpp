@@ -1,5 +1,5 @@
-// The flexible tube against computed references (VALIDATION of the project, section 7): displacement after 100 steps, evaluations by scheme.
-// SPDX-License-Identifier: Apache-2.0
+// The flexible tube against computed references (VALIDATION of the project, section 7): displacement after 100 steps, evaluations
+// by scheme. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
 #include "kernels/coupling/ibqn_ls.hpp"
@@ -58,7 +58,8 @@ TEST_CASE("a light wall and a short step leave the tube's displacement where it 
   CHECK(fine.largest == Approx(reference_fine).epsilon(1e-6));
 }
 
-TEST_CASE("the undamped fixed point diverges on the tube and is reported; a factor of 0.05 never converges, 0.02 does", "[coupling][fast]") {
+TEST_CASE("the undamped fixed point diverges on the tube and is reported; a factor of 0.05 never converges, 0.02 does",
+          "[coupling][fast]") {
   const TubeRun undamped = run_tube({}, RelaxationConstant(1.0), 2);
   CHECK(undamped.steps < 2);
   CHECK((undamped.bound == Bound::divergence || undamped.bound == Bound::not_finite));
@@ -72,7 +73,8 @@ TEST_CASE("the undamped fixed point diverges on the tube and is reported; a fact
 
 TEST_CASE("slow schemes reach the same displacement of the tube", "[coupling][nightly]") {
   const TubeRun constant = run_tube({}, RelaxationConstant(0.02), 100, 1000);
-  const TubeRun descent = run_tube({}, RelaxationSteepestDescent(0.02), 100, 1000), newton = run_tube({}, Newton(1e-9), 100, 1000);
+  const TubeRun descent = run_tube({}, RelaxationSteepestDescent(0.02), 100, 1000),
+                newton = run_tube({}, Newton(1e-9), 100, 1000);
   for (const TubeRun& run : {constant, descent, newton}) {
     CHECK(run.steps == 100);
     CHECK(run.largest == Approx(reference).epsilon(tolerance));

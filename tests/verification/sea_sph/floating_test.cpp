@@ -94,15 +94,17 @@ TEST_CASE("a cylinder with modified walls rests a tenth of a spacing from Archim
   CHECK(std::abs(way / time) < (modified ? 0.1 : 0.5) * scene.tank.p.spacing);
 }
 
-TEST_CASE("a cylinder let go above its rest swings with the period of theory with added mass, at any resolution and with either wall",
-          "[verification][sea][nightly]") {
+TEST_CASE(
+    "a cylinder let go above its rest swings with the period of theory with added mass, at any resolution and with either wall",
+    "[verification][sea][nightly]") {
   // Linear potential theory, deep water: added mass and damping from multipoles (Ursell 1949; at omega^2 a/g 0.8 added mass 0.60
   // and damping 0.52 of the displaced mass), then the response to a step as the Fourier integral of the transfer function: first
   // lowest point at 3.72 sqrt(a/g), next highest one at 7.22. Evaluated for this test with two cut-offs and resolutions.
   // The viscosity must be small: with alpha 0.05 at the body too the Reynolds number is 46 and later turns come late or never.
   constexpr double lowest = 3.72, next_highest = 7.22;
-  // The turns are at -0.64 and 0.30 of the start's height. What the body displaces more at rest than at the start lifts the water between
-  // these walls and the body with it, so amplitudes are judged by the rise from the lowest point over the fall to it, 0.94/1.64.
+  // The turns are at -0.64 and 0.30 of the start's height. What the body displaces more at rest than at the start lifts the water
+  // between these walls and the body with it, so amplitudes are judged by the rise from the lowest point over the fall to it,
+  // 0.94/1.64.
   constexpr double rise_over_fall = 0.573;
   const double particles_per_radius = GENERATE(8.0, 10.0, 14.0);
   const bool modified = GENERATE(false, true);
@@ -133,8 +135,9 @@ TEST_CASE("a cylinder let go above its rest swings with the period of theory wit
 
 TEST_CASE("water lifts a held cylinder by Archimedes' force within a quarter of a spacing of depth, at any spacing",
           "[verification][sea][nightly]") {
-  // The paper's Table 4 in the plane: a body that is held, half out of the water. What is too much or too little is a layer of water as
-  // wide as the chord and a share of the spacing thick, of either sign: it falls with the spacing, but not from one run to the next.
+  // The paper's Table 4 in the plane: a body that is held, half out of the water. What is too much or too little is a layer of
+  // water as wide as the chord and a share of the spacing thick, of either sign: it falls with the spacing, but not from one run
+  // to the next.
   const bool modified = GENERATE(false, true);
   const double particles_per_radius = GENERATE(4.5, 9.0), radius = cylinder_radius, u = 0.25;
   const CylinderAfloat scene(particles_per_radius, modified, 0.1, 0.1);

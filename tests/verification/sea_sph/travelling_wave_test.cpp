@@ -1,7 +1,7 @@
-// A wave of the paper's proportions (depth 0.6 m, period 1.5 s, height 0.055 m) that travels between periodic sides: phase speed and
-// loss per wave length, without a paddle. The support of the kernel decides both: as we explain it, a lattice of particles under pressure
-// resists shear where its sums are coarse (tests/kernels/sph/lattice_stiffness_test.cpp), and a stiff sea is a fast one.
-// Equations: docs/theory/waves.md; figures: docs/developer/sea_physics.md. SPDX-License-Identifier: Apache-2.0
+// A wave of the paper's proportions (depth 0.6 m, period 1.5 s, height 0.055 m) that travels between periodic sides: phase speed
+// and loss per wave length, without a paddle. The support of the kernel decides both: as we explain it, a lattice of particles
+// under pressure resists shear where its sums are coarse (tests/kernels/sph/lattice_stiffness_test.cpp), and a stiff sea is a
+// fast one. Equations: docs/theory/waves.md; figures: docs/developer/sea_physics.md. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <complex>
 
@@ -69,9 +69,10 @@ Travel travel(double particles_per_height, double h_over_d, double alpha) {
 
 }  // namespace
 
-TEST_CASE("a travelling wave has the speed of linear theory and the loss of the viscosity where the support is 2.5 x 2 spacings; "
-          "with 1.5 x 2 it runs ahead",
-          "[verification][sea][nightly]") {
+TEST_CASE(
+    "a travelling wave has the speed of linear theory and the loss of the viscosity where the support is 2.5 x 2 spacings; "
+    "with 1.5 x 2 it runs ahead",
+    "[verification][sea][nightly]") {
   const double alpha = 0.01, particles_per_height = 2.5;
   const Travel wide = travel(particles_per_height, 2.5, alpha), narrow = travel(particles_per_height, 1.5, alpha);
   CAPTURE(wide.speed_ratio, wide.viscosity, wide.loss, narrow.speed_ratio, narrow.viscosity, narrow.loss);

@@ -1,5 +1,5 @@
-// Preconditioners with a common part: elimination and groups against dense algebra, the same flow as block ILU in fewer iterations,
-// bits on threads, reruns and ranks, tolerance where multigrid depends on ranks. SPDX-License-Identifier: Apache-2.0
+// Preconditioners with a common part: elimination and groups against dense algebra, the same flow as block ILU in fewer
+// iterations, bits on threads, reruns and ranks, tolerance where multigrid depends on ranks. SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/coarse_correction.hpp"
 
 #include <Eigen/LU>
@@ -66,7 +66,8 @@ TEST_CASE("elimination of block rows gives what dense algebra gives, in any orde
   CHECK_THROWS_WITH(BlockElimination(rows, entries), Catch::Contains("singular"));
 }
 
-TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterations, by elimination or multigrid", "[flow][fast]") {
+TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterations, by elimination or multigrid",
+          "[flow][fast]") {
   const Case ilu = solved(swirling("block_ilu"));
   REQUIRE(ilu.solver->tiles().size() == 64);
   const std::vector<double> state = state_of(*ilu.solver);
@@ -74,7 +75,9 @@ TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterat
   const std::vector<double> before = state_of(*swirl(swirling("block_ilu")).solver);
   double change = 0.0;
   for (std::size_t n = 0; n < state.size(); ++n) change = std::max(change, std::abs(state[n] - before[n]));
-  for (const PreconditionerOptions& o : {PreconditionerOptions{.group_cells = 0}, PreconditionerOptions{.group_cells = 0, .direct_groups = 0}, PreconditionerOptions{.group_cells = 2}}) {
+  for (const PreconditionerOptions& o :
+       {PreconditionerOptions{.group_cells = 0}, PreconditionerOptions{.group_cells = 0, .direct_groups = 0},
+        PreconditionerOptions{.group_cells = 2}}) {
     const Case c = solved(swirling("coarse", o));
     CAPTURE(o.group_cells, o.direct_groups, alone);
     CHECK(c.solver->march().linear_drop() <= 1e-2);
@@ -87,7 +90,8 @@ TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterat
 }
 
 TEST_CASE("threads and reruns leave every bit of preconditioners with a common part", "[flow][fast]") {
-  for (const FlowSetting& s : {swirling("coarse", {.group_cells = 4}), swirling("coarse", {.group_cells = 2, .direct_groups = 0}), swirling("pressure_amg")}) {
+  for (const FlowSetting& s : {swirling("coarse", {.group_cells = 4}), swirling("coarse", {.group_cells = 2, .direct_groups = 0}),
+                               swirling("pressure_amg")}) {
     const Case one = solved(s), again = solved(s), three = solved(s, 3);
     CHECK(state_of(*one.solver) == state_of(*again.solver));
     CHECK(state_of(*one.solver) == state_of(*three.solver));
@@ -99,9 +103,11 @@ TEST_CASE("pressure by multigrid ends in the solution of block ILU", "[flow][fas
   const Case ilu = solved(swirling("block_ilu")), amg = solved(swirling("pressure_amg"));
   CAPTURE(ilu.solver->march().krylov(), amg.solver->march().krylov());
   CHECK(amg.solver->march().linear_drop() <= 1e-2);
-  const std::vector<double> a = state_of(*ilu.solver), b = state_of(*amg.solver), before = state_of(*swirl(swirling("block_ilu")).solver);
+  const std::vector<double> a = state_of(*ilu.solver), b = state_of(*amg.solver),
+                            before = state_of(*swirl(swirling("block_ilu")).solver);
   double change = 0.0, apart = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n) change = std::max(change, std::abs(a[n] - before[n])), apart = std::max(apart, std::abs(a[n] - b[n]));
+  for (std::size_t n = 0; n < a.size(); ++n)
+    change = std::max(change, std::abs(a[n] - before[n])), apart = std::max(apart, std::abs(a[n] - b[n]));
   CHECK(apart < 0.05 * change);
 }
 
@@ -109,7 +115,8 @@ namespace {
 void coarse_on(int ranks) {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  for (const FlowSetting& s : {swirling("coarse", {.group_cells = 4}), swirling("coarse", {.group_cells = 2, .direct_groups = 0}), swirling("pressure_amg")}) {
+  for (const FlowSetting& s : {swirling("coarse", {.group_cells = 4}), swirling("coarse", {.group_cells = 2, .direct_groups = 0}),
+                               swirling("pressure_amg")}) {
     Case whole = swirl(s), part = swirl(s, 16, ranks, rank);
     whole.prepare();
     whole.run();
@@ -126,5 +133,9 @@ void coarse_on(int ranks) {
 }
 }  // namespace
 
-TEST_CASE("two ranks give an eliminated coarse correction the bits of one, multigrid its tolerance", "[flow][mpi2]") { coarse_on(2); }
-TEST_CASE("four ranks give an eliminated coarse correction the bits of one, multigrid its tolerance", "[flow][mpi4]") { coarse_on(4); }
+TEST_CASE("two ranks give an eliminated coarse correction the bits of one, multigrid its tolerance", "[flow][mpi2]") {
+  coarse_on(2);
+}
+TEST_CASE("four ranks give an eliminated coarse correction the bits of one, multigrid its tolerance", "[flow][mpi4]") {
+  coarse_on(4);
+}

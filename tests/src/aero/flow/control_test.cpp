@@ -8,7 +8,9 @@
 using namespace spindrift::aero;
 
 namespace {
-Norms of(double residual) { return {.density = residual * residual, .mass = 4.0 * residual * residual, .mean = residual * residual, .cells = 1.0}; }
+Norms of(double residual) {
+  return {.density = residual * residual, .mass = 4.0 * residual * residual, .mean = residual * residual, .cells = 1.0};
+}
 }  // namespace
 
 TEST_CASE("a falling residual raises the CFL number up to its limit and ends at the drop asked for", "[flow][fast]") {
@@ -77,7 +79,8 @@ TEST_CASE("loads that have settled end a march where asked", "[flow][fast]") {
   March march({.drop = 0.0, .load_change = 1e-3, .load_window = 5});
   march.begin_step();
   int steps = 0;
-  for (double load = 1.0; steps < 100 && march.judge(of(1.0), 10.0 + load) == Verdict::go_on; ++steps) march.updated(1.0, 5, 0.1), load *= 0.5;
+  for (double load = 1.0; steps < 100 && march.judge(of(1.0), 10.0 + load) == Verdict::go_on; ++steps)
+    march.updated(1.0, 5, 0.1), load *= 0.5;
   CHECK(steps > 5);
   CHECK(steps < 20);
 }

@@ -25,8 +25,8 @@ inline FlowSetting air(double mach, Eigen::Vector3d direction = Eigen::Vector3d:
   return s;
 }
 
-/// Largest deviation of the flow from its uniform stream: pressure and temperature over the air's, velocity over the scale of speed.
-/// A number that is none deviates without bound.
+/// Largest deviation of the flow from its uniform stream: pressure and temperature over the air's, velocity over the scale of
+/// speed. A number that is none deviates without bound.
 inline double stream_deviation(const FlowSolver& solver) {
   const FlowSetting& f = solver.setting();
   const double stream[5] = {f.stream.p, f.stream.u, f.stream.v, f.stream.w, f.stream.T};

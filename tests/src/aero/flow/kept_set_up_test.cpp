@@ -1,5 +1,5 @@
-// A set-up of the coarse correction or of multigrid that outlives physical steps: made at fixed steps, carried by snapshots and restarts, so that a march
-// goes on with the same bits; repeated windows leave none behind. SPDX-License-Identifier: Apache-2.0
+// A set-up of the coarse correction or of multigrid that outlives physical steps: made at fixed steps, carried by snapshots and
+// restarts, so that a march goes on with the same bits; repeated windows leave none behind. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -19,7 +19,13 @@ FlowSetting unsteady(const char* preconditioner, PreconditionerOptions common) {
   s.preconditioner = preconditioner;
   s.common = common, s.common.common_every = 1000, s.common.common_steps = every;
   s.time_order = 2, s.dt = 2.0 / 12.0 / s.speed;
-  s.march = {.cfl_start = 100.0, .cfl_max = 100.0, .drop = 1e-2, .max_steps = 3, .krylov_steps = 8, .krylov_drop = 0.1, .matrix_free_below = 0.0};
+  s.march = {.cfl_start = 100.0,
+             .cfl_max = 100.0,
+             .drop = 1e-2,
+             .max_steps = 3,
+             .krylov_steps = 8,
+             .krylov_drop = 0.1,
+             .matrix_free_below = 0.0};
   return s;
 }
 const FlowSetting settings[]{unsteady("coarse", {.group_cells = 4}), unsteady("coarse", {.group_cells = 2, .direct_groups = 0}),
@@ -61,7 +67,8 @@ TEST_CASE("a set-up kept over physical steps goes on over a restart with the sam
   }
 }
 
-TEST_CASE("windows undone and done again, with or without a new set-up in them, leave the bits of one done once", "[flow][fast]") {
+TEST_CASE("windows undone and done again, with or without a new set-up in them, leave the bits of one done once",
+          "[flow][fast]") {
   for (const FlowSetting& s : settings) {
     CAPTURE(s.preconditioner, s.common.direct_groups);
     Case once = carried_swirl(s), twice = carried_swirl(s);

@@ -1,6 +1,6 @@
 // The linear solver's choices: the Krylov methods see the same residuals and end in the same flow, preconditioners change the way
-// and not the end, one with a common part of all tiles is the same as by tile, matrices kept over pseudo-steps are counted, and all of it
-// to the bit on any threads and ranks. SPDX-License-Identifier: Apache-2.0
+// and not the end, one with a common part of all tiles is the same as by tile, matrices kept over pseudo-steps are counted, and
+// all of it to the bit on any threads and ranks. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -30,7 +30,8 @@ FlowSetting turbulent_air() {
 }
 
 /// A bump in a skewed box of eight tiles, that leaves.
-Case leaving_bump(const FlowSetting& setting, int ranks = 1, int rank = 0, std::unique_ptr<Preconditioner> preconditioner = nullptr) {
+Case leaving_bump(const FlowSetting& setting, int ranks = 1, int rank = 0,
+                  std::unique_ptr<Preconditioner> preconditioner = nullptr) {
   const BoxOptions box{.ni = 8, .nj = 8, .nk = 8};
   Case c(perturbed(cartesian_box(box), box, 0.04), setting, {}, {.across_j = 4, .across_k = 4, .normal = 8}, ranks, rank);
   if (preconditioner) c.solver->use(std::move(preconditioner));
@@ -167,7 +168,8 @@ TEST_CASE("while the common part of a preconditioner runs, other threads go on w
   c.solver->record(graph);
   const runtime::Datum waves = graph.datum();
   graph.loop("sea/steps", {.min = 1, .max = 1000000}, [&] {  // for as long as it is waited for
-    graph.task("sea/step", {runtime::updates(waves)}, [&sea] { std::this_thread::sleep_for(std::chrono::milliseconds(1)), ++sea; });
+    graph.task("sea/step", {runtime::updates(waves)},
+               [&sea] { std::this_thread::sleep_for(std::chrono::milliseconds(1)), ++sea; });
     graph.until("sea/enough", {runtime::reads(waves)}, [&calls, &sea] { return calls == 3 || sea > 20000; });
   });
   runtime::Executor(std::move(graph), {.threads = 2}).run();

@@ -1,5 +1,6 @@
-// With the settings a user starts from, an inviscid march takes as many pseudo-steps at Mach 1e-4 as at 0.1: the matrix has the waves of the
-// preconditioned equations. Flow round a cylinder, where the stream stands still at two points. SPDX-License-Identifier: Apache-2.0
+// With the settings a user starts from, an inviscid march takes as many pseudo-steps at Mach 1e-4 as at 0.1: the matrix has the
+// waves of the preconditioned equations. Flow round a cylinder, where the stream stands still at two points.
+// SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -26,7 +27,8 @@ March3 cylinder(double mach) {
     const double angle = 2.0 * std::numbers::pi * u, r = 0.5 * std::pow(40.0, v);
     return Eigen::Vector3d(r * std::cos(angle), w, r * std::sin(angle));
   }));
-  grid.connections.push_back({.from = {0, Side::i_max, {0, 0}, {out, 1}}, .to = {0, Side::i_min, {0, 0}, {out, 1}}, .orientation = {1, 2, 3}});
+  grid.connections.push_back(
+      {.from = {0, Side::i_max, {0, 0}, {out, 1}}, .to = {0, Side::i_min, {0, 0}, {out, 1}}, .orientation = {1, 2, 3}});
   grid.boundaries.push_back({{0, Side::j_min, {0, 0}, {around, 1}}, "wall"});
   grid.boundaries.push_back({{0, Side::j_max, {0, 0}, {around, 1}}, "far"});
   Case c(grid, s, {{"wall", {Condition::slip, true}}, {"far", {Condition::far_field, false}}});

@@ -1,5 +1,5 @@
-// Moving grids in the march: a uniform stream stays one whatever the grid does, also where cells are 1e5 times longer than high; BDF2
-// keeps its order; a frame that turns sees the flow that a turning grid sees; restarts keep every bit.
+// Moving grids in the march: a uniform stream stays one whatever the grid does, also where cells are 1e5 times longer than high;
+// BDF2 keeps its order; a frame that turns sees the flow that a turning grid sees; restarts keep every bit.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -31,8 +31,8 @@ MultiBlockGrid thin_box(double ratio) {
   return grid;
 }
 
-/// A uniform stream for so many steps of a grid that turns, flies and (where asked) deforms: its deviation over the bound, which is
-/// 1e-12 times the larger of one and a thousandth of the acoustic CFL number.
+/// A uniform stream for so many steps of a grid that turns, flies and (where asked) deforms: its deviation over the bound, which
+/// is 1e-12 times the larger of one and a thousandth of the acoustic CFL number.
 double free_stream(double ratio, double acoustic_cfl, int steps, bool deforms) {
   FlowSetting s = air(0.3, {0.3, -0.5, 0.8});
   const double c = s.speed / 0.3, height = ratio / 6.0;
@@ -46,7 +46,8 @@ double free_stream(double ratio, double acoustic_cfl, int steps, bool deforms) {
     BlockPose pose = turned(Vector3d(0.3, 0.1, -0.5) * (0.3 * c * t), Vector3d(0.1, 0.2, -0.05) * (c * t));
     if (deforms)
       pose.shape = [t, c, ratio](const Vector3d& x) -> Vector3d {
-        return x + Vector3d(0.03 * std::sin(c * t + 3.0 * x[1]), 0.03 * std::sin(2.0 * x[0] - c * t), ratio * 0.05 * std::sin(c * t + 2.0 * x[0]));
+        return x + Vector3d(0.03 * std::sin(c * t + 3.0 * x[1]), 0.03 * std::sin(2.0 * x[0] - c * t),
+                            ratio * 0.05 * std::sin(c * t + 2.0 * x[0]));
       };
     run.solver->move_to({pose});
     run.run();
@@ -87,7 +88,8 @@ std::vector<double> vortex_on_moving_grid(int steps, int order, bool moving) {
   const BoxOptions box{.ni = 24, .nj = 24, .nk = 1};
   Case c(planar_box(box), s, {}, {.planar_across = 24, .planar_normal = 24}, 1, 0, true);
   c.solver->start([&](const Vector3d& x) {
-    const double dx = (x[0] - 0.5) / 0.15, dz = (x[2] - 0.5) / 0.15, swirl = 0.5 * s.speed * std::exp(0.5 * (1.0 - dx * dx - dz * dz));
+    const double dx = (x[0] - 0.5) / 0.15, dz = (x[2] - 0.5) / 0.15,
+                 swirl = 0.5 * s.speed * std::exp(0.5 * (1.0 - dx * dx - dz * dz));
     gas::Primitive<double> q = s.stream;
     q.u += swirl * dz, q.w -= swirl * dx;
     q.T = -0.5 * swirl * swirl / s.gas.cp();
@@ -125,7 +127,8 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 }  // namespace
 
 TEST_CASE("BDF2 keeps its order on a grid that turns, flies and deforms", "[flow][order][fast]") {
-  const auto coarse = vortex_on_moving_grid(40, 2, true), middle = vortex_on_moving_grid(80, 2, true), fine = vortex_on_moving_grid(160, 2, true);
+  const auto coarse = vortex_on_moving_grid(40, 2, true), middle = vortex_on_moving_grid(80, 2, true),
+             fine = vortex_on_moving_grid(160, 2, true);
   const double order = std::log2(distance(coarse, middle) / distance(middle, fine));
   CAPTURE(order, distance(coarse, middle), distance(middle, fine));
   CHECK(order > 1.9);
@@ -160,7 +163,8 @@ TEST_CASE("a frame that turns sees a vortex that turns with another rate at rest
         for (int i = 3; i < n - 3; ++i)
           for (int r = 0; r < 4; ++r) {
             const double unit = r == 0 ? momentum / s.speed : momentum;
-            largest = std::max(largest, std::abs(tile.residual.data()[tile.inner.at(0, j, i) + r * tile.inner.component]) * n * n / unit);
+            largest = std::max(largest,
+                               std::abs(tile.residual.data()[tile.inner.at(0, j, i) + r * tile.inner.component]) * n * n / unit);
           }
     h.push_back(1.0 / n), errors.push_back(largest);
   }

@@ -1,5 +1,5 @@
-// The elliptic problem on tiles: second order on curvilinear blocks, exact distance between plates, refusals, the same bits on any
-// threads and in reruns, the same solution on two ranks. SPDX-License-Identifier: Apache-2.0
+// The elliptic problem on tiles: second order on curvilinear blocks, exact distance between plates, refusals, the same bits on
+// any threads and in reruns, the same solution on two ranks. SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/poisson.hpp"
 
 #include <catch2/catch.hpp>
@@ -16,8 +16,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-GridStore store_of(const MultiBlockGrid& grid, int ranks = 1, int rank = 0, const std::vector<std::string>& walls = {}, int across = 8) {
-  Tiling tiling = make_tiling(grid, walls, {.across_j = across, .across_k = across, .planar_across = across, .normal = 16, .planar_normal = 16});
+GridStore store_of(const MultiBlockGrid& grid, int ranks = 1, int rank = 0, const std::vector<std::string>& walls = {},
+                   int across = 8) {
+  Tiling tiling = make_tiling(
+      grid, walls, {.across_j = across, .across_k = across, .planar_across = across, .normal = 16, .planar_normal = 16});
   std::vector<int> rank_of_tile(std::size_t(tiling.size()), 0);
   for (std::size_t t = 0; t < rank_of_tile.size(); ++t) rank_of_tile[t] = int(t) * ranks / int(rank_of_tile.size());
   GridStore store(std::move(tiling), std::move(rank_of_tile), rank);
@@ -26,7 +28,9 @@ GridStore store_of(const MultiBlockGrid& grid, int ranks = 1, int rank = 0, cons
 }
 
 /// sin sin cos: no flux through the sides across z, given on the others.
-double exact(const Eigen::Vector3d& x) { return std::sin(pi * x[0] + 0.3) * std::sin(2.0 * pi * x[1] + 0.2) * std::cos(pi * x[2]); }
+double exact(const Eigen::Vector3d& x) {
+  return std::sin(pi * x[0] + 0.3) * std::sin(2.0 * pi * x[1] + 0.2) * std::cos(pi * x[2]);
+}
 
 template <class Body>
 void for_cells(const GridStore& store, Body&& body) {
@@ -35,7 +39,8 @@ void for_cells(const GridStore& store, Body&& body) {
     for (int k = 0; k < box.nk; ++k)
       for (int j = 0; j < box.nj; ++j)
         for (int i = 0; i < box.ni; ++i)
-          body(t, k, j, i, Eigen::Vector3d(store[t].centre()(0, k, j, i), store[t].centre()(1, k, j, i), store[t].centre()(2, k, j, i)));
+          body(t, k, j, i,
+               Eigen::Vector3d(store[t].centre()(0, k, j, i), store[t].centre()(1, k, j, i), store[t].centre()(2, k, j, i)));
   }
 }
 
@@ -91,7 +96,9 @@ TEST_CASE("the distance of Poisson's kind is exact between plates, to second ord
     const BoxOptions box{.ni = n, .nj = 4, .nk = 1, .high = {2.0, 1.0, 1.0}};
     const std::vector<std::string> walls{"i_min", "i_max"};
     MultiBlockGrid grid = planar_box(box);
-    deform(grid, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x[0] - 0.2 * std::sin(pi * x[0]), x[1], x[2]); });  // thin at both walls
+    deform(grid, [](const Eigen::Vector3d& x) {
+      return Eigen::Vector3d(x[0] - 0.2 * std::sin(pi * x[0]), x[1], x[2]);
+    });  // thin at both walls
     GridStore store = store_of(grid, 1, 0, walls);
     fill_wall_distance_by_poisson(store, walls, MPI_COMM_SELF);
     double largest = 0.0;
@@ -108,12 +115,14 @@ TEST_CASE("the distance of Poisson's kind is exact between plates, to second ord
 
 TEST_CASE("Poisson problems without a given value, or not solved in the corrections allowed, are refused", "[poisson][fast]") {
   GridStore store = store_of(curved_box(8));
-  CHECK_THROWS_WITH(Poisson(store, std::vector<bool>(store.tiling().patches.size(), false)), Catch::Contains("no boundary has a given value"));
+  CHECK_THROWS_WITH(Poisson(store, std::vector<bool>(store.tiling().patches.size(), false)),
+                    Catch::Contains("no boundary has a given value"));
   Poisson problem(store, all_but_z(store));
   problem.set_source([](const Eigen::Vector3d&) { return 1.0; });
   CHECK_THROWS_WITH(problem.solve({.drop = 1e-12, .most = 2}, MPI_COMM_SELF), Catch::Contains("in 2 corrections"));
   fill_wall_distance_by_poisson(store, {}, MPI_COMM_SELF);
-  for_cells(store, [&](int t, int k, int j, int i, const Eigen::Vector3d&) { CHECK(std::isinf(store[t].wall_distance()(0, k, j, i))); });
+  for_cells(store,
+            [&](int t, int k, int j, int i, const Eigen::Vector3d&) { CHECK(std::isinf(store[t].wall_distance()(0, k, j, i))); });
 }
 
 TEST_CASE("Poisson's solution on two ranks is that on one to tolerance", "[poisson][mpi2]") {

@@ -1,6 +1,5 @@
-// The march as a whole: a uniform stream stays one, a disturbed one becomes one, and the bits are the same for any threads, ranks and
-// schedules.
-// SPDX-License-Identifier: Apache-2.0
+// The march as a whole: a uniform stream stays one, a disturbed one becomes one, and the bits are the same for any threads, ranks
+// and schedules. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -134,14 +133,16 @@ TEST_CASE("a state without a finite residual is refused by name, not marched on"
   CHECK(c.solver->trouble().find("no finite residual in the row of block 0 cell (") != std::string::npos);
 }
 
-// The vectors of the linear solver are made as iterations come to them. Steady marches come to all of them; a physical step keeps two more
-// states of the past and comes to few.
-TEST_CASE("memory stays below 2 kB per cell with a turbulence model, the implicit solver and block ILU, all at defaults", "[flow][fast]") {
+// The vectors of the linear solver are made as iterations come to them. Steady marches come to all of them; a physical step keeps
+// two more states of the past and comes to few.
+TEST_CASE("memory stays below 2 kB per cell with a turbulence model, the implicit solver and block ILU, all at defaults",
+          "[flow][fast]") {
   for (const int order : {0, 2}) {
     FlowSetting setting = air(0.3, {1.0, 0.4, 0.2});
     setting.viscous = true, setting.turbulence = "sa", setting.gas.viscosity.mu0 = 1e-2;
     setting.time_order = order, setting.dt = 1e-3;
-    if (order == 0) setting.march.drop = 0.0, setting.march.krylov_drop = 0.0, setting.march.cfl_start = 1e4, setting.march.max_steps = 1;
+    if (order == 0)
+      setting.march.drop = 0.0, setting.march.krylov_drop = 0.0, setting.march.cfl_start = 1e4, setting.march.max_steps = 1;
     const BoxOptions box{.ni = 64, .nj = 16, .nk = 8};
     Case c(perturbed(cartesian_box(box), box, 0.005), setting, {}, {.across_j = 16, .across_k = 8, .normal = 64});
     for (FlowTile& tile : c.solver->tiles()) std::ranges::fill(tile.geometry->wall_distance_data.span(), 0.1);

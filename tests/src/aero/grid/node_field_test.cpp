@@ -1,5 +1,5 @@
-// Fields on the nodes of a grid: second order where the solution is known, no extremes between what is given, one value for nodes that are one, refusals, the
-// same on two ranks to tolerance. SPDX-License-Identifier: Apache-2.0
+// Fields on the nodes of a grid: second order where the solution is known, no extremes between what is given, one value for nodes
+// that are one, refusals, the same on two ranks to tolerance. SPDX-License-Identifier: Apache-2.0
 #include "src/aero/grid/node_field.hpp"
 
 #include <catch2/catch.hpp>
@@ -24,12 +24,14 @@ const std::vector<std::string> all_sides{"i_min", "i_max", "j_min", "j_max", "k_
 
 }  // namespace
 
-TEST_CASE("a field between two circles is the logarithm of the radius, to second order; stiff near the inner one, its known law", "[grid][fast]") {
+TEST_CASE("a field between two circles is the logarithm of the radius, to second order; stiff near the inner one, its known law",
+          "[grid][fast]") {
   for (const double stiffness : {0.0, 1.0}) {
     std::vector<double> h, error;
     for (const int n : {32, 64, 128}) {
       const double a = 0.5, far = 4.0;
-      const MultiBlockGrid grid = cylinder({.around = n, .outward = int(n * std::log(far / a) / 6.283), .radius = a, .far = far, .first_cell = 0.02});
+      const MultiBlockGrid grid =
+          cylinder({.around = n, .outward = int(n * std::log(far / a) / 6.283), .radius = a, .far = far, .first_cell = 0.02});
       const std::vector<std::string> wall{"wall"};
       NodeField field(grid, {"wall", "farfield"}, wall, {.stiffness = stiffness});
       const NodeField::Values f = field.solve([](int patch, const Vector3d&) { return patch == 0 ? 1.0 : 0.0; });
@@ -49,7 +51,8 @@ TEST_CASE("a field between two circles is the logarithm of the radius, to second
   }
 }
 
-TEST_CASE("a field on leaning cells has no extremes between what is given, and what is the same everywhere stays so", "[grid][fast]") {
+TEST_CASE("a field on leaning cells has no extremes between what is given, and what is the same everywhere stays so",
+          "[grid][fast]") {
   const MultiBlockGrid grid = skewed_box(10);
   NodeField field(grid, all_sides, std::vector<std::string>{"i_min"});
   const auto wavy = [](int, const Vector3d& x) { return std::sin(7.0 * x[0]) * std::cos(5.0 * x[1] + 3.0 * x[2]); };
@@ -62,7 +65,8 @@ TEST_CASE("a field on leaning cells has no extremes between what is given, and w
         const bool side = i == 0 || j == 0 || k == 0 || i == b.ni || j == b.nj || k == b.nk;
         const double value = f[0][b.node(k, j, i)];
         if (side) CHECK(value == wavy(0, b.nodes[b.node(k, j, i)]));
-        (side ? low : inner_low) = std::min(side ? low : inner_low, value), (side ? high : inner_high) = std::max(side ? high : inner_high, value);
+        (side ? low : inner_low) = std::min(side ? low : inner_low, value),
+                      (side ? high : inner_high) = std::max(side ? high : inner_high, value);
       }
   CHECK(inner_low > low);
   CHECK(inner_high < high);

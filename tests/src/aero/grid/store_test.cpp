@@ -13,7 +13,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-
 GridStore make_store(const MultiBlockGrid& grid, bool moving) {
   Tiling tiling = make_tiling(grid, {}, small_tiles);
   GridStore store(tiling, std::vector<int>(tiling.size(), 0), 0);

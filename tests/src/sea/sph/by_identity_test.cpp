@@ -101,8 +101,8 @@ TEST_CASE("on two ranks the state by identity and all instruments have the bits 
   for (int n = 0; n < 20; ++n) places.push_back({0.1 + 0.2 * n});
   places.push_back({4.8});  // dry
   CHECK(surface_heights<2>(sea.store(), sea.parameters(), scene.domain, std::span<const std::array<double, 1>>(places), -9.0,
-                           MPI_COMM_WORLD) ==
-        surface_heights<2>(alone.store(), alone.parameters(), scene.domain, std::span<const std::array<double, 1>>(places), -9.0));
+                           MPI_COMM_WORLD) == surface_heights<2>(alone.store(), alone.parameters(), scene.domain,
+                                                                 std::span<const std::array<double, 1>>(places), -9.0));
   for (const double x : {0.3, 1.9, 2.0, 2.1, 3.5}) {
     const auto one = probe<2>(alone.store(), alone.parameters(), scene.domain, {x, 0.5});
     const auto two = probe<2>(sea.store(), sea.parameters(), scene.domain, {x, 0.5}, MPI_COMM_WORLD);

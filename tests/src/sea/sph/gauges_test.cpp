@@ -43,20 +43,23 @@ struct Water {
 
 }  // namespace
 
-TEST_CASE("a gauge reads a level surface within a twentieth of a spacing, in 2-D and 3-D, beside a wall too", "[sea][sph][fast]") {
+TEST_CASE("a gauge reads a level surface within a twentieth of a spacing, in 2-D and 3-D, beside a wall too",
+          "[sea][sph][fast]") {
   const Water<2> plane(0.05, 0.0);
   for (double x : {0.02, 0.4, 1.0, 1.013}) CHECK(plane.height(x) == Approx(1.0).margin(0.0025));
   const Water<3> space(0.1, 0.0);
   for (double x : {0.7, 1.0, 1.03}) CHECK(space.height(x) == Approx(1.0).margin(0.005));
 }
 
-TEST_CASE("a gauge reads a slope of lattice stairs within half a spacing and nothing where there is no water", "[sea][sph][fast]") {
+TEST_CASE("a gauge reads a slope of lattice stairs within half a spacing and nothing where there is no water",
+          "[sea][sph][fast]") {
   const Water<2> plane(0.05, 0.2);
   for (double x : {0.4, 0.8, 1.2, 1.6}) CHECK(plane.height(x) == Approx(1.0 + 0.2 * (x - 1.0)).margin(0.025));
   CHECK(plane.height(2.6) == -9.0);
 }
 
-TEST_CASE("a probe reads hydrostatic pressure within 1 % of the depth's, also at a wall, and the flow's velocity", "[sea][sph][fast]") {
+TEST_CASE("a probe reads hydrostatic pressure within 1 % of the depth's, also at a wall, and the flow's velocity",
+          "[sea][sph][fast]") {
   const Water<2> water(0.05, 0.0, {0.7, -0.2});
   for (const std::array<double, 2> at : {std::array{1.0, 0.5}, {0.0, 0.3}, {1.02, 0.97}}) {
     const auto reading = probe<2>(water.store, water.p, water.domain, at);

@@ -95,7 +95,8 @@ TEST_CASE("a union of shapes displaces its volume, and water leaves it room", "[
   Parameters p = particles(d, 3.0);
   const auto t = lay_out<3>(plan, p);
   // The box of 0.192 m3 reaches 0.2 m into the cylinder along its axis; its cross-section there is nearly inside it as a whole.
-  const double overlap = 0.4 * 0.4 * 0.2 - 0.4 * (0.5 * 0.5 * std::asin(0.4) - 0.2 * std::sqrt(0.21) - 0.4 * (0.5 - std::sqrt(0.21)));
+  const double overlap =
+      0.4 * 0.4 * 0.2 - 0.4 * (0.5 * 0.5 * std::asin(0.4) - 0.2 * std::sqrt(0.21) - 0.4 * (0.5 - std::sqrt(0.21)));
   const double volume = pi * 0.25 * 2.0 + 0.192 - overlap;
   CHECK(double(t.body_particles[0]) * d * d * d * t.cell_volume == Approx(volume).epsilon(0.02));
   for_owner(t, water_owner, [&](const Seed<3>& s) {
@@ -104,7 +105,8 @@ TEST_CASE("a union of shapes displaces its volume, and water leaves it room", "[
   });
 }
 
-TEST_CASE("the static draft of a discrete body is Archimedes' within a hundredth of its height, to round-off for a box", "[sea][sph][fast]") {
+TEST_CASE("the static draft of a discrete body is Archimedes' within a hundredth of its height, to round-off for a box",
+          "[sea][sph][fast]") {
   const auto rise = [](const BodyShape& shape, double height, double share) {
     const double d = 0.1;
     const std::vector<BodyShape> shapes{shape};
@@ -113,7 +115,8 @@ TEST_CASE("the static draft of a discrete body is Archimedes' within a hundredth
     return rise_to_float(points, start, d * d * d, d, share * volume_of(shape, Cut::space));
   };
   for (double share : {0.1, 0.5, 0.9}) {
-    CHECK(rise(Box{.centre = {0, 0, 0}, .size = {1.0, 0.7, 0.6}}, 0.02, share).value() == Approx(0.3 - 0.6 * share - 0.02).margin(1e-9));
+    CHECK(rise(Box{.centre = {0, 0, 0}, .size = {1.0, 0.7, 0.6}}, 0.02, share).value() ==
+          Approx(0.3 - 0.6 * share - 0.02).margin(1e-9));
     const Cylinder upright{.start = {0, 0, -1}, .end = {0, 0, 1}, .start_radius = 0.55, .end_radius = 0.55};
     CHECK(rise(upright, 0.0, share).value() == Approx(1.0 - 2.0 * share).margin(0.02));
   }
@@ -135,7 +138,12 @@ TEST_CASE("water that starts in a wave follows its surface and its velocity", "[
   TankPlan plan = tank(10.0, 0.0, 2.0);
   plan.periodic = {true, false};
   const double k = 2.0 * pi / 10.0, omega = std::sqrt(9.81 * k * std::tanh(k * 2.0)), a = 0.1;
-  plan.waves = {{.wave_number = k, .angular_frequency = omega, .amplitude = a, .speed_amplitude = a * omega, .phase = 0.0, .direction = 0.0}};
+  plan.waves = {{.wave_number = k,
+                 .angular_frequency = omega,
+                 .amplitude = a,
+                 .speed_amplitude = a * omega,
+                 .phase = 0.0,
+                 .direction = 0.0}};
   Parameters p = particles(0.1, 2.0);
   const auto t = lay_out<2>(plan, p);
   double crest = -1e9, trough_top = -1e9, fastest = 0.0;

@@ -17,8 +17,12 @@ constexpr double depth = 20.6, period = 8.8, height = 1.88;  // the paper's wave
 
 waves::Component regular() {
   const double omega = 2.0 * pi / period;
-  return {.wave_number = waves::wave_number(omega, depth, 9.81), .angular_frequency = omega, .amplitude = 0.5 * height,
-          .speed_amplitude = 0.5 * height * omega, .phase = 0.0, .direction = 0.0};
+  return {.wave_number = waves::wave_number(omega, depth, 9.81),
+          .angular_frequency = omega,
+          .amplitude = 0.5 * height,
+          .speed_amplitude = 0.5 * height * omega,
+          .phase = 0.0,
+          .direction = 0.0};
 }
 double stroke_of(const Wavemaker& maker, double from = 100.0) {
   double low = 1e9, high = -1e9;
@@ -42,10 +46,12 @@ TEST_CASE("a piston has the stroke of Biesel, 1.56 m for the paper's wave", "[se
 TEST_CASE("the paddle's velocity is the rate of its displacement, through the ramp too", "[sea][sph][fast]") {
   const waves::Component wave = regular();
   const bool flap = GENERATE(false, true);
-  const Wavemaker maker({.flap = flap, .x = 3.0, .hinge = -depth, .bed = -depth, .start_s = 1.0, .ramp_s = 12.0}, std::span(&wave, 1), !flap);
+  const Wavemaker maker({.flap = flap, .x = 3.0, .hinge = -depth, .bed = -depth, .start_s = 1.0, .ramp_s = 12.0},
+                        std::span(&wave, 1), !flap);
   for (double t : {0.5, 1.5, 6.0, 12.9, 14.0, 30.0}) {
     const double e = 1e-5;
-    CHECK(maker.stroke(t).velocity == Approx((maker.stroke(t + e).displacement - maker.stroke(t - e).displacement) / (2 * e)).margin(1e-7));
+    CHECK(maker.stroke(t).velocity ==
+          Approx((maker.stroke(t + e).displacement - maker.stroke(t - e).displacement) / (2 * e)).margin(1e-7));
     const Motion a = maker.motion(t - e), b = maker.motion(t + e), now = maker.motion(t);
     const Eigen::Vector3d top(0.0, 0.0, flap ? depth : 0.0);
     CHECK((now.point_velocity(top) - (b.point(top) - a.point(top)) / (2 * e)).norm() < 1e-6);
@@ -53,15 +59,16 @@ TEST_CASE("the paddle's velocity is the rate of its displacement, through the ra
   CHECK(maker.stroke(0.9).displacement == 0.0);
 }
 
-TEST_CASE("Madsen's second-order piston adds a tenth of the first harmonic or less where the wave is Stokes'", "[sea][sph][fast]") {
+TEST_CASE("Madsen's second-order piston adds a tenth of the first harmonic or less where the wave is Stokes'",
+          "[sea][sph][fast]") {
   const waves::Component wave = regular();
   const Wavemaker maker({.x = 0.0, .bed = -depth}, std::span(&wave, 1), true);
   REQUIRE(maker.harmonics().size() == 2);
   CHECK(maker.harmonics()[1].omega == 2.0 * maker.harmonics()[0].omega);
   // By hand at kh = 1.2588: 3 cosh/sinh^3 = 1.3593, 2/m1 = 1.6575, H^2/(32 h) = 5.3616e-3 m.
   const double kh = wave.wave_number * depth;
-  const double by_hand = height * height / (32.0 * depth) *
-                         (3.0 * std::cosh(kh) / std::pow(std::sinh(kh), 3) - 2.0 / waves::piston_transfer(kh));
+  const double by_hand =
+      height * height / (32.0 * depth) * (3.0 * std::cosh(kh) / std::pow(std::sinh(kh), 3) - 2.0 / waves::piston_transfer(kh));
   CHECK(maker.harmonics()[1].amplitude == Approx(by_hand).epsilon(1e-12));
   CHECK(std::abs(maker.harmonics()[1].amplitude) < 0.1 * maker.harmonics()[0].amplitude);
 }
@@ -75,7 +82,8 @@ TEST_CASE("a flap hinged at the bottom is the limit of raised hinges, and short 
 
 TEST_CASE("a damped velocity decays exactly and only in the zone and in the water", "[sea][sph][fast]") {
   std::vector<Seed<2>> seeds;
-  for (int n = 0; n < 40; ++n) seeds.push_back({.position = {0.25 * n, 0.0}, .velocity = {1.0, -2.0}, .owner = std::uint16_t(n >= 36)});
+  for (int n = 0; n < 40; ++n)
+    seeds.push_back({.position = {0.25 * n, 0.0}, .velocity = {1.0, -2.0}, .owner = std::uint16_t(n >= 36)});
   const Domain<2> domain{{-1.0, -1.0}, {11.0, 1.0}};
   Store<2, float> store;
   fill<2, float>(store, seeds, Columns<2>(domain, 1.0, 1.0), 0.25);
