@@ -2,8 +2,8 @@
 """Writes a ctest file with an entry for each test case of a Catch2 executable: discover_tests.py PROGRAM OUT MPIRUN ENVIRONMENT [RANKS...].
 
 An entry is called FILE: CASE (the source file's name without _test.cpp), so that `ctest -R osher` finds both. A case tagged [nightly]
-or [long] has that label instead of `fast`, and the executable's name as another; one tagged [mpiN] runs by mpirun on N ranks. A rank count without a case is an error, so that
-no entry runs nothing. Run by the build after each link (tests/CMakeLists.txt).
+or [long] has that label instead of `fast`; the executable's name is another. One tagged [mpiN] runs by mpirun on N ranks. A rank count
+without a case is an error, so that no entry runs nothing. Run by the build after each link (tests/CMakeLists.txt).
 """
 import pathlib
 import re
@@ -31,8 +31,9 @@ def quoted(text):
 def entry(command, stem, name, ranks, label, properties):
     only = re.sub(r"([,\[\]\\])", r"\\\1", name)
     title = quoted(f"{stem}: {name}" + (f" ({ranks} ranks)" if ranks > 1 else ""))
+    labels = quoted(f"{label};{pathlib.Path(command[-1]).name}")
     return (f"add_test({title} {' '.join(map(quoted, command))} {quoted(only)})\n"
-            f"set_tests_properties({title} PROPERTIES LABELS {quoted(f"{label};{pathlib.Path(command[-1]).name}")} TIMEOUT {TIMEOUT_S[label]} {properties})\n")
+            f"set_tests_properties({title} PROPERTIES LABELS {labels} TIMEOUT {TIMEOUT_S[label]} {properties})\n")
 
 
 def main():
