@@ -28,9 +28,10 @@ struct SceneArguments {
 };
 
 struct RunArguments : SceneArguments {
-  std::string out;        ///< empty: a name from scene and time
-  std::string fluid;      ///< "air", "sea": what this program section works on; empty: as the scene says
-  double until_s = -1.0;  ///< < 0: the scene's end
+  std::string out;                   ///< empty: a name from scene and time
+  std::string fluid;                 ///< "air", "sea": what this program section works on; empty: as the scene says
+  double until_s = -1.0;             ///< < 0: the scene's end
+  std::vector<std::string> allowed;  ///< keys and files that a restart may have changed
   bool restart = false, overwrite = false, trace = false, quiet = false, no_report = false;
 };
 

@@ -38,6 +38,7 @@ std::vector<double> March::save() const {
                           double(since_refresh_),
                           drop_of_matrix_,
                           double(matrix_free_),
+                          reference_,
                           double(loads_.size())};
   all.insert(all.end(), loads_.begin(), loads_.end());
   all.resize(all.size() + std::size_t(o_.load_window) + 1 - loads_.size(), 0.0);
@@ -50,7 +51,8 @@ void March::load(std::span<const double> from) {
   steps_ = int(from[7]), rejections_ = int(from[8]), in_a_row_ = int(from[9]), krylov_ = int(from[10]),
   since_refresh_ = int(from[11]);
   drop_of_matrix_ = from[12], matrix_free_ = from[13] != 0.0;
-  loads_.assign(from.begin() + 15, from.begin() + 15 + std::ptrdiff_t(from[14]));
+  reference_ = from[14];
+  loads_.assign(from.begin() + 16, from.begin() + 16 + std::ptrdiff_t(from[15]));
 }
 
 void March::resume(int more_steps) {
