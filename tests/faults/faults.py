@@ -1,0 +1,159 @@
+"""What machines do to runs: kills, full disks, flipped and missing bytes, second jobs. Nothing may be lost, nothing wrong accepted, and no
+hand be needed. Usage: faults.py SPINDRIFT FAULT [COUNT [SEED]], where FAULT is one of the functions below. A failure prints the seed."""
+import os
+import pathlib
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+INPUTS = ROOT / "inputs"
+# A floating turbine of engineering models, long enough to be met anywhere: start, windows, checkpoints, end.
+SCENE = [INPUTS / "leble_barakos/case3_engineering.toml", "--set", "time.end_s=60.0", "--set", "checkpoint.interval_s=5.0"]
+QUIET = ["--no-report", "--quiet"]
+
+
+def start(scene, out, *more, **options):
+    return subprocess.Popen([PROGRAM, "run", *map(str, scene), "--out", str(out), *QUIET, *map(str, more)], stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True, errors="replace", **options)
+
+
+def job(scene, out, *more, code=0, **options):
+    """One job of the README's script."""
+    process = start(scene, out, "--restart", *more, **options)
+    said = process.communicate(timeout=600)[0]
+    if code is not None:
+        assert process.returncode == code, f"exit code {process.returncode} for {code}\n{said[-2000:]}"
+    return process.returncode, said
+
+
+def whole(folder, scene=SCENE):
+    """The unbroken run."""
+    begin = time.time()
+    job(scene, folder / "whole")
+    return (folder / "whole/history.csv").read_bytes(), time.time() - begin
+
+
+def history(out):
+    return (out / "history.csv").read_bytes()
+
+
+def kill(folder, count, pick):
+    """kill -9 at any time, also before the first checkpoint; the same command again until the run is done."""
+    expected, seconds = whole(folder)
+    kills = rounds = 0
+    while kills < count:
+        out, rounds = folder / f"killed_{rounds}", rounds + 1
+        for attempt in range(1000):
+            process = start(SCENE, out, "--restart")
+            try:
+                process.wait(pick.uniform(0.0, 1.2 * seconds if attempt % 3 else 0.3) if kills < count else 600)
+            except subprocess.TimeoutExpired:
+                process.send_signal(signal.SIGKILL)
+                kills += 1
+                if pick.random() < 0.5:
+                    process.wait()  # else the next job meets a process of which only the exit code is left
+                continue
+            assert process.returncode == 0, process.communicate()[0]
+            break
+        assert history(out) == expected, f"{out}: another history after {kills} kills"
+    return f"{kills} kills in {rounds} runs"
+
+
+def broken_off(folder):
+    """A run that ended half way, to be damaged; and the unbroken one's history."""
+    expected, _ = whole(folder)
+    job(SCENE, folder / "half", "--until", 30)
+    return expected
+
+
+def damaged(folder, count, pick, damage):
+    expected, aside = broken_off(folder), 0
+    for n in range(count):
+        out = folder / "damaged"
+        shutil.copytree(folder / "half", out)
+        newest = max((out / "checkpoints").glob("*.h5"))
+        newest.write_bytes(damage(newest.read_bytes()))
+        job(SCENE, out)
+        assert history(out) == expected, f"another history after damage {n}"
+        aside += len(list((out / "checkpoints").glob("*.damaged")))
+        shutil.rmtree(out)
+    return f"{count} times, {aside} checkpoints set aside"
+
+
+def flip(folder, count, pick):
+    """One bit of the newest checkpoint."""
+    def damage(data):
+        at = pick.randrange(8 * len(data))
+        return data[:at // 8] + bytes([data[at // 8] ^ 1 << at % 8]) + data[at // 8 + 1:]
+    return damaged(folder, count, pick, damage)
+
+
+def truncate(folder, count, pick):
+    """The newest checkpoint cut short."""
+    return damaged(folder, count, pick, lambda data: data[:pick.randrange(len(data))])
+
+
+def full_disk(folder, count, pick):
+    """No file may grow beyond a limit: the job fails in words, and the next one, with room, goes on to the same end."""
+    expected, _ = whole(folder)
+    failed = 0
+    for n in range(count):
+        out, most = folder / f"full_{n}", int(2 ** pick.uniform(10.0, 20.0))
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+
+        code, said = job(SCENE, out, code=None, preexec_fn=limit, env={**os.environ, "OMPI_MCA_btl": "self"})  # MPI itself writes no large file
+        assert code in (0, 4), f"{most} bytes: exit code {code}\n{said[-2000:]}"
+        assert code == 0 or "File too large" in said or "room" in said or "space" in said, said[-2000:]
+        failed += code == 4
+        job(SCENE, out)
+        assert history(out) == expected, f"another history after a disk of {most} bytes"
+    return f"{count} sizes, {failed} runs stopped by them"
+
+
+def two_jobs(folder, count, pick):
+    """Of jobs started together in one folder one runs, the others end with 2, and the history is that of one."""
+    expected, seconds = whole(folder)
+    refused = 0
+    for n in range(count):
+        out = folder / f"two_{n}"
+        first = start(SCENE, out, "--restart")
+        time.sleep(pick.uniform(0.0, 0.8 * seconds))
+        second = start(SCENE, out, pick.choice(["--restart", "--overwrite", "--restart"]))
+        said = [p.communicate(timeout=600)[0] for p in (first, second)]
+        codes = sorted([first.returncode, second.returncode])
+        if codes == [0, 0]:  # the first was done
+            assert history(out) == expected
+            continue
+        assert codes == [0, 2], f"exit codes {codes}\n{said}"
+        assert "a run is at work in it" in said[0] + said[1], said
+        assert history(out) == expected, "two jobs wrote one history"
+        refused += 1
+    return f"{count} pairs, {refused} refused"
+
+
+def main():
+    fault = {f.__name__: f for f in (kill, flip, truncate, full_disk, two_jobs)}[sys.argv[2]]
+    count = int(sys.argv[3]) if len(sys.argv) > 3 else 3
+    seed = int(sys.argv[4]) if len(sys.argv) > 4 else random.randrange(10**6)
+    os.environ["OMP_NUM_THREADS"] = "1"
+    with tempfile.TemporaryDirectory(prefix="spindrift_faults_") as folder:
+        begin = time.time()
+        try:
+            said = fault(pathlib.Path(folder), count, random.Random(seed))
+        except BaseException:
+            print(f"{fault.__name__} failed; again with seed {seed}")
+            raise
+    print(f"{fault.__name__}: {said}, in {time.time() - begin:.0f} s")
+
+
+main()
