@@ -1,0 +1,239 @@
+"""Scenes that cannot be run: each must be refused by `check` within two seconds and by `run` in the same words, with the key that must be named, and
+nothing that `check` calls valid may be refused by `run`. Usage: refused_scenes.py SPINDRIFT [--all]
+
+A line of TABLE is a scene of inputs/, then overrides of it, one case each: KEY=VALUE, and after " : " the key that must be named where it is not KEY;
+several overrides of one case are joined by " & ". Without --all only `check` is asked, and `run` of every tenth case."""
+import concurrent.futures
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+EVERY = """
+time.end_s=-1.0
+time.end_s=0.0
+time.end_s="long"
+time.end_s=1e300
+time.window_s=0.0
+time.window_s=-0.1
+time.window_s=nan
+time.window_s=1e9
+time.integrator="euler"
+time.colour="red"
+environment.gravity_m_s2=-9.81
+environment.gravity_m_s2=inf
+output.history_every=0
+output.history_every=1.5
+output.means_over_s=-1.0
+checkpoint.keep=0
+checkpoint.wall_interval_s=-1.0
+checkpoint.interval_s="often"
+runtime.wall_limit_s=-5.0
+start.ramp_s=-1.0
+start.equilibrium="yes"
+start.file="nowhere.h5"
+unknown.key=1
+"""
+WATER = """
+environment.water_density_kg_m3=0.0
+environment.water_depth_m=-20.0
+environment.water_depth_m=1e9
+"""
+BODIES = """
+bodies.platform.mass_kg=0.0
+bodies.platform.mass_kg=-1e6
+bodies.platform.mass_kg="heavy"
+bodies.platform.inertia_kg_m2=[1.0]
+bodies.platform.inertia_kg_m2=[1.0, 1.0, 1e9]
+bodies.platform.inertia_kg_m2=[-1e9, 1e9, 1e9]
+bodies.platform.centre_m=[0.0, 0.0]
+bodies.platform.colour="red"
+bodies.platform.cylinders[0].diameter_m=0.0
+bodies.platform.cylinders[0].diameter_m=-1.0
+bodies.platform.cylinders[0].end_m=[46.7, 0.0, -14.0] : bodies.platform.cylinders[0]
+bodies.platform.cylinders[0].start_m=[46.7, 0.0, -400.0] : bodies.platform.cylinders[0]
+bodies.platform.cylinders[7].diameter_m=1.0
+joints.bearing.type="ball joint"
+joints.bearing.bodies=["platform"]
+joints.bearing.bodies=["platform", "nobody"]
+joints.bearing.bodies=["platform", "platform"]
+joints.bearing.axis=[0.0, 0.0, 0.0]
+joints.bearing.rotation.speed_rpm="fast"
+moorings.line_downwind.body="nobody"
+moorings.line_downwind.rest_length_m=0.0
+moorings.line_downwind.rest_length_m=-1.0
+moorings.line_downwind.model="rope"
+moorings.line_downwind.axial_stiffness_N=0.0
+moorings.line_downwind.stiffness_N_m=1e6
+moorings.line_downwind.anchor_m=[46.7, 0.0, -7.0]
+moorings.line_downwind.damping_N_s_m=-1.0
+moorings.line_downwind.table="/dev/zero"
+time.step_s=0.03
+time.step_s=-0.05
+time.step_s=0.0
+"""
+ROTOR = """
+wind.speed_m_s=-11.0
+wind.speed_m_s=nan
+wind.direction_deg="north"
+rotor.turbine="nothing.toml"
+rotor.turbine="/dev/zero"
+rotor.turbine="/etc/hostname"
+rotor.body="nobody"
+rotor.joint="nothing"
+rotor.operation="/dev/zero"
+aero.model="lifting_line"
+coupling.scheme="loose"
+coupling.scheme="css" & coupling.predictor_order=7 : coupling.predictor_order
+coupling.scheme="aitken" & coupling.relaxation=2.0 : coupling.relaxation
+coupling.scheme="aitken" & coupling.tolerance=0.0 : coupling.tolerance
+coupling.scheme="iqn_ils" & coupling.samples=3 : coupling.samples
+coupling.scheme="cps2" & coupling.tolerance=1e-4 : coupling.tolerance
+coupling.air_ranks=2
+"""
+TABLE = {
+    "leble_barakos/case1_engineering.toml": EVERY + WATER + BODIES + """
+time.step_s=5.0 & time.window_s=5.0 : time.step_s
+time.integrator="explicit_euler" : time.integrator
+aero.thrust_N="large"
+sea.model="ocean"
+""",
+    "leble_barakos/case3_engineering.toml": EVERY + WATER + BODIES + ROTOR + """
+sea.strip_length_m=0.0
+sea.drag_coefficient=-1.0
+sea.damping[0].body="nobody"
+waves.height_m=-1.0
+waves.height_m=30.0 & waves.model="stokes2" : waves
+waves.period_s=0.0
+waves.model="tsunami"
+waves.components=3
+""",
+    "leble_barakos/case1_demo.toml": EVERY + WATER + """
+sea.particles.spacing_m=0.0
+sea.particles.spacing_m=1e3
+sea.particles.cfl=5.0
+sea.particles.kernel="gauss"
+sea.tank.top_m=-100.0
+sea.tank.x_m=[10.0, -10.0]
+sea.tank.x_m=[0.0]
+sea.tank.y_m=[0.0, 0.0]
+sea.tank.sides_x="open"
+sea.fields.interval_s=-1.0
+sea.initial.state="calm"
+""",
+    "leble_barakos/rotor_demo.toml": EVERY + """
+wind.speed_m_s=-11.0
+rotor.turbine="nothing.toml"
+rotor.speed_rpm="fast"
+rotor.axis=[0.0, 0.0, 0.0]
+rotor.body="platform"
+aero.grid.resolution=0.0
+aero.grid.resolution=1e6
+aero.grid.sectors="two"
+aero.grid.cells_round=-4
+aero.flow.time="implicit"
+aero.flow.flux="central"
+aero.flow.limiter="sharp"
+aero.flow.cfl=-1.0
+aero.flow.drop=2.0
+aero.flow.krylov_steps=0
+aero.flow.turbulence="magic"
+aero.flow.preconditioner="magic"
+sea.model="sph" : sea.particles
+""",
+    "validation/cylinder_low_mach/cylinder.toml": """
+aero.flow.generate.around=0
+aero.flow.generate.outward=1
+aero.flow.generate.far_m=0.1
+aero.flow.generate.kind="sphere"
+aero.flow.generate.kind="box"
+aero.flow.generate.refinement=2
+aero.flow.boundaries[0].condition="wet"
+aero.flow.coarse_steps=-1
+wind.speed_m_s=0.0
+aero.flow.temperature_K=-1.0
+aero.flow.map="/etc/hostname"
+""",
+    "validation/naca0012/naca0012.toml": """
+aero.flow.grid="nothing.p3d"
+aero.flow.grid="/dev/zero"
+aero.flow.map="/dev/zero"
+aero.flow.turbulence="magic"
+aero.flow.incidence_deg="up"
+""",
+    "validation/dam_break/koshizuka_oka.toml": """
+sea.particles.dimensions="4"
+sea.particles.spacing_m=-1.0
+sea.tank.y_m=[0.0, 1.0]
+sea.water[0].low_m=[0.0, 0.0]
+sea.gauges[0].name=""
+sea.probes[0].point_m=[0.0]
+""",
+}
+
+
+def cases():
+    for base, lines in TABLE.items():
+        for line in filter(None, (line.strip() for line in lines.splitlines())):
+            overrides, _, key = line.partition(" : ")
+            overrides = [o.strip() for o in overrides.split(" & ")]
+            yield base, overrides, key.strip() or overrides[0].split("=", 1)[0]
+
+
+def ended(words, folder):
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+
+    begin = time.time()
+    try:
+        done = subprocess.run(words, capture_output=True, text=True, errors="replace", cwd=folder, timeout=30, preexec_fn=limit,
+                              env={**os.environ, "TMPDIR": folder})  # Open MPI keeps files of its own there, which side by side get in each other's way
+    except subprocess.TimeoutExpired:
+        return None, "still at work after 30 s", time.time() - begin
+    return done.returncode, done.stdout + done.stderr, time.time() - begin
+
+
+def named(key, said):
+    """The key, or one around it or in it, in a problem's line."""
+    around = {key} | {key[:m.start()] for m in re.finditer(r"[.\[]", key)} - {key.split(".")[0].split("[")[0]}
+    return any(one in said for one in around) or key.split(".")[0] == "unknown" and "unknown" in said
+
+
+def main():
+    program, everything = str(pathlib.Path(sys.argv[1]).resolve()), "--all" in sys.argv
+    faults, slowest = [], 0.0
+
+    def one(numbered):
+        number, (base, overrides, key) = numbered
+        scene = ROOT / "inputs" / base
+        words = [str(scene)] + [w for o in overrides for w in ("--set", o)]
+        with tempfile.TemporaryDirectory(prefix="spindrift_refused_") as folder:
+            code, said, seconds = ended([program, "check", *words], folder)
+            where = f"{base} --set {' --set '.join(overrides)}"
+            if code != 2 or not named(key, said):
+                return seconds, f"{where}\n  check ended with {code}, must name {key}:\n  " + said.strip()[-600:]
+            if everything or number % 10 == 0:
+                code, again, _ = ended([program, "run", *words, "--out", "out", "--no-report", "--quiet", "--until", "0"], folder)
+                if code != 2 or not named(key, again):
+                    return seconds, f"{where}\n  check refuses it, run ended with {code}:\n  " + again.strip()[-600:]
+        return seconds, None
+
+    all_cases = list(enumerate(cases()))
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        for seconds, fault in pool.map(one, all_cases):
+            slowest = max(slowest, seconds)
+            if fault:
+                faults.append(fault)
+    print("\n".join(faults))
+    print(f"refused scenes: {len(all_cases) - len(faults)} of {len(all_cases)} as expected; the slowest check took {slowest:.1f} s")
+    if len(all_cases) < 200:
+        faults.append("fewer than 200 cases")
+    sys.exit(1 if faults else 0)
+
+
+main()
