@@ -12,6 +12,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "runtime/executor/executor.hpp"
+#include "runtime/mpi/exchange.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
 #include "src/aero/coarse_start.hpp"
@@ -202,6 +203,39 @@ void start_on_coarser_grids(const Scenario& s, Air& air, runtime::Executor& marc
   }
   if (coarser) aero::begin_with(*coarser->solver, *air.solver, {}, world.comm);
   air.solver->march().begin_after_look();
+}
+
+/// Says where first cells stand in another part of the layer than their wall is made for: nine tenths of the walls' area by y+ of
+/// their centres. Resolved walls want about 1, the law of the wall the logarithmic layer.
+void tell_first_cells(const FlowSolver& solver, const runtime::World& world) {
+  struct Face {
+    double area, y_plus;
+  };
+  std::array<std::vector<Face>, 2> walls;  // resolved, by the law of the wall
+  for (const aero::FlowTile& tile : solver.tiles())
+    for (const aero::WallPoint& p : solver.wall_points(tile)) {
+      const aero::Condition c = solver.conditions()[std::size_t(p.patch)].condition;
+      if (aero::sticks(c)) walls[c == aero::Condition::wall_law].push_back({p.area, p.y_plus});
+    }
+  constexpr std::array<double, 2> least{0.0, 15.0}, most{5.0, 1000.0};
+  constexpr double share = 0.9;
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    runtime::Packer mine;
+    mine.put(std::span<const Face>(walls[kind]));
+    std::vector<Face> all;
+    for (const runtime::Bytes& bytes : runtime::exchange_all(world.comm, mine.take()))
+      for (const Face& face : runtime::Unpacker(bytes).many<Face>()) all.push_back(face);
+    if (all.empty()) continue;
+    std::ranges::sort(all, {}, &Face::y_plus);
+    double area = 0.0, off = 0.0;
+    for (const Face& f : all) area += f.area, off += f.y_plus < least[kind] || f.y_plus > most[kind] ? f.area : 0.0;
+    if (off <= (1.0 - share) * area) continue;
+    spdlog::warn(
+        "air: y+ of first cells is {:.3g} in the middle, {:.3g} at most; {} walls want {:g} to {:g}, which {:.0f} % of their "
+        "area does not have: friction is not to be trusted",
+        all[all.size() / 2].y_plus, all.back().y_plus, kind == 0 ? "resolved" : "wall-function", least[kind], most[kind],
+        100.0 * off / area);
+  }
 }
 
 /// Columns of history.csv and how a row fills them.
@@ -481,6 +515,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   if (saved != number) checkpoints.save(number, number, summary.restarts);
   AirOutput(world.comm, solver, *air.store, directory.fields(), {.walls = s.aero.flow->surfaces})
       .write(number, timeline.window_end_s(number));
+  if (solver.setting().viscous && solver.setting().turbulence != "none") tell_first_cells(solver, world);
   if (air.rotor && number > first) {  // a restart that has nothing left to do leaves what there is
     while (last_rows.size() > averaged(number)) last_rows.pop_front();
     const std::vector<aero::PseudoRow> rows(last_rows.begin(), last_rows.end());

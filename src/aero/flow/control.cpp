@@ -70,7 +70,7 @@ void March::load(std::span<const double> from) {
 void March::resume(int more_steps) {
   // The last step of the run before was judged and not solved: it is judged again.
   last_step_ = --steps_ + more_steps;
-  if (spent_) --ended_, --unconverged_;
+  if (spent_) --ended_, unconverged_ -= o_.drop > 0.0;
   verdict_ = Verdict::go_on;
   spent_ = false;
   retry_ = true;
@@ -174,7 +174,8 @@ Verdict March::judge(const Norms& n, double load) {
       return done("the loads have settled");
   }
   if (steps_ > last_step_) {
-    spent_ = true, ++unconverged_;
+    spent_ = true;
+    if (o_.drop > 0.0) ++unconverged_;  // with none asked for all steps are meant
     return done("the number of pseudo-steps is spent");
   }
   return verdict_ = Verdict::go_on;
