@@ -62,7 +62,7 @@ template <class Kernel, int dim, class Real>
 Vec<double, BoundaryModified<dim>::planes> sums_at_node(const Store<dim, Real>& store, const Candidates<dim, Real>& water,
                                                         int chosen, const Vec<Real, dim>& node, const Kernel& kernel, double mass,
                                                         double rho0) {
-  using V = NativeWide<Real>;
+  using V = LineWide<Real>;
   constexpr int planes = BoundaryModified<dim>::planes;
   const auto near = water.view();
   Vec<V, planes> sums{};
@@ -78,7 +78,7 @@ Vec<double, BoundaryModified<dim>::planes> sums_at_node(const Store<dim, Real>& 
       Vec<V, dim + 1> fields;
       fields[0] = j.deviation;
       for (int k = 0; k < dim; ++k) fields[k + 1] = j.v[k];
-      const V volume = V(Real(mass)) * reciprocal(V(Real(rho0)) + j.deviation);
+      const V volume = V(Real(mass)) / (V(Real(rho0)) + j.deviation);
       sums += BoundaryModified<dim>::pair_terms(x, kernel.value(r2), kernel.slope(r2), volume, fields, V(Real(kernel.h())),
                                                 V(Real(1.0 / kernel.h())));
     }

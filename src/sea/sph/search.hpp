@@ -24,7 +24,7 @@ inline constexpr auto places_of_ones = [] {
 }();
 #endif
 
-/// A register of boxes is tested at once.
+/// A register of boxes is tested at once: how many changes neither the boxes found nor their order.
 using Boxes = NativeWide<float>;
 
 /// Writes first + lane to `to` for every lane with value < bound among the first `valid`; returns how many. Writes up to a
