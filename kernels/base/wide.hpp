@@ -1,8 +1,12 @@
 // Wide<T, n>: n numbers side by side in vector registers (its lanes) with the arithmetic of one number, so that a kernel
 // templated on Real serves a test (Real = double) and a sweep (Real = Wide<float, 16>) with one source. Selections are min(),
 // max() and select() on a comparison. Built on the compilers' vector extension; AVX-512 and AVX2 instructions where the portable
-// form compiles badly (min, max, sqrt, comparisons, reciprocals). Called by src/sea/sph sweeps and by kernels/gas,
-// kernels/turbulence; tested in tests/kernels/base/wide_test.cpp. SPDX-License-Identifier: Apache-2.0
+// form compiles badly (min, max, sqrt, comparisons, fma).
+// The same bits on every processor, whatever its registers: n says how the arithmetic goes, not how many lanes the processor
+// takes at once; lanes meet in sum() only, in a fixed order; a product that is added is fused because its type says so
+// (WideProduct), never because the compiler chose to; no instruction whose digits are the processor's choice (estimates of 1/a
+// and 1/sqrt(a)). Called by src/sea/sph sweeps and by kernels/gas, kernels/turbulence; tested in
+// tests/kernels/base/wide_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
@@ -73,6 +77,9 @@ requires(sizeof(T) * n > register_bytes) struct WideMask<T, n> {
 };
 
 template <class T, int n>
+struct WideProduct;
+
+template <class T, int n>
 struct Wide {
   typedef T Vector __attribute__((vector_size(sizeof(T) * n)));
   typedef T Unaligned __attribute__((vector_size(sizeof(T) * n), aligned(alignof(T)), may_alias));
@@ -93,7 +100,7 @@ struct Wide {
 
   friend Wide operator+(Wide a, Wide b) { return a.v + b.v; }
   friend Wide operator-(Wide a, Wide b) { return a.v - b.v; }
-  friend Wide operator*(Wide a, Wide b) { return a.v * b.v; }
+  SPINDRIFT_INLINE friend WideProduct<T, n> operator*(Wide a, Wide b) { return {a, b}; }
   friend Wide operator/(Wide a, Wide b) { return a.v / b.v; }
   friend WideMask<T, n> operator<(Wide a, Wide b) {
 #ifdef __AVX512F__
@@ -112,8 +119,14 @@ struct Wide {
   friend WideMask<T, n> operator>(Wide a, Wide b) { return b < a; }
   friend WideMask<T, n> operator>=(Wide a, Wide b) { return b <= a; }
   Wide operator-() const { return -v; }
-  Wide& operator+=(Wide b) { return v += b.v, *this; }
-  Wide& operator-=(Wide b) { return v -= b.v, *this; }
+  template <class B>
+  Wide& operator+=(const B& b) {
+    return *this = *this + b;
+  }
+  template <class B>
+  Wide& operator-=(const B& b) {
+    return *this = *this - b;
+  }
   Wide& operator*=(Wide b) { return v *= b.v, *this; }
 };
 
@@ -150,19 +163,84 @@ requires(sizeof(T) * n > register_bytes) struct Wide<T, n> {
 
   friend Wide operator+(Wide a, Wide b) { return {a.v.low + b.v.low, a.v.high + b.v.high}; }
   friend Wide operator-(Wide a, Wide b) { return {a.v.low - b.v.low, a.v.high - b.v.high}; }
-  friend Wide operator*(Wide a, Wide b) { return {a.v.low * b.v.low, a.v.high * b.v.high}; }
+  SPINDRIFT_INLINE friend WideProduct<T, n> operator*(Wide a, Wide b) { return {a, b}; }
   friend Wide operator/(Wide a, Wide b) { return {a.v.low / b.v.low, a.v.high / b.v.high}; }
   friend WideMask<T, n> operator<(Wide a, Wide b) { return {a.v.low < b.v.low, a.v.high < b.v.high}; }
   friend WideMask<T, n> operator<=(Wide a, Wide b) { return {a.v.low <= b.v.low, a.v.high <= b.v.high}; }
   friend WideMask<T, n> operator>(Wide a, Wide b) { return b < a; }
   friend WideMask<T, n> operator>=(Wide a, Wide b) { return b <= a; }
   Wide operator-() const { return {-v.low, -v.high}; }
-  Wide& operator+=(Wide b) { return *this = *this + b; }
-  Wide& operator-=(Wide b) { return *this = *this - b; }
-  Wide& operator*=(Wide b) { return *this = *this * b; }
+  template <class B>
+  Wide& operator+=(const B& b) {
+    return *this = *this + b;
+  }
+  template <class B>
+  Wide& operator-=(const B& b) {
+    return *this = *this - b;
+  }
+  Wide& operator*=(Wide b) { return v.low *= b.v.low, v.high *= b.v.high, *this; }
 };
 template <class T, int n>
 inline constexpr bool in_halves = sizeof(T) * n > register_bytes;
+
+/// a b + c and c - a b, rounded once. (Written with instructions: a loop over std::fma stays a loop.)
+template <class T, int n>
+SPINDRIFT_INLINE Wide<T, n> fma(Wide<T, n> a, std::type_identity_t<Wide<T, n>> b, std::type_identity_t<Wide<T, n>> c) {
+  if constexpr (in_halves<T, n>) {
+    return {fma(a.v.low, b.v.low, c.v.low), fma(a.v.high, b.v.high, c.v.high)};
+  } else {
+#ifdef __AVX512F__
+    if constexpr (std::same_as<T, float> && n == 16) return _mm512_fmadd_ps(a.v, b.v, c.v);
+    if constexpr (std::same_as<T, double> && n == 8) return _mm512_fmadd_pd(a.v, b.v, c.v);
+#endif
+#ifdef __FMA__
+    if constexpr (std::same_as<T, float> && n == 8) return _mm256_fmadd_ps(a.v, b.v, c.v);
+    if constexpr (std::same_as<T, double> && n == 4) return _mm256_fmadd_pd(a.v, b.v, c.v);
+    if constexpr (std::same_as<T, float> && n == 4) return _mm_fmadd_ps(a.v, b.v, c.v);
+    if constexpr (std::same_as<T, double> && n == 2) return _mm_fmadd_pd(a.v, b.v, c.v);
+#endif
+    Wide<T, n> result;
+    for (int lane = 0; lane < n; ++lane) result.v[lane] = std::fma(a.v[lane], b.v[lane], c.v[lane]);
+    return result;
+  }
+}
+template <class T, int n>
+SPINDRIFT_INLINE Wide<T, n> fma_of_minus(Wide<T, n> a, std::type_identity_t<Wide<T, n>> b, std::type_identity_t<Wide<T, n>> c) {
+  if constexpr (in_halves<T, n>) {
+    return {fma_of_minus(a.v.low, b.v.low, c.v.low), fma_of_minus(a.v.high, b.v.high, c.v.high)};
+  } else {
+#ifdef __AVX512F__
+    if constexpr (std::same_as<T, float> && n == 16) return _mm512_fnmadd_ps(a.v, b.v, c.v);
+    if constexpr (std::same_as<T, double> && n == 8) return _mm512_fnmadd_pd(a.v, b.v, c.v);
+#endif
+    return fma(-a, b, c);
+  }
+}
+
+/// What a * b is: its rounded value, which it serves as everywhere, and beside it the factors, with which the next addition
+/// or subtraction is fused: a * b + c is fma(a, b, c). Of two products the left one is fused, a * b + c * d = fma(a, b, c * d).
+template <class T, int n>
+struct WideProduct : Wide<T, n> {
+  using W = Wide<T, n>;
+  W a, b;
+
+  SPINDRIFT_INLINE WideProduct(W a_, W b_) : W(rounded(a_, b_)), a(a_), b(b_) {}
+  SPINDRIFT_INLINE friend W operator+(const WideProduct& p, W c) { return fma(p.a, p.b, c); }
+  SPINDRIFT_INLINE friend W operator+(W c, const WideProduct& p) { return fma(p.a, p.b, c); }
+  SPINDRIFT_INLINE friend W operator+(const WideProduct& p, const WideProduct& q) { return fma(p.a, p.b, W(q)); }
+  SPINDRIFT_INLINE friend W operator-(const WideProduct& p, W c) { return fma(p.a, p.b, -c); }
+  SPINDRIFT_INLINE friend W operator-(W c, const WideProduct& p) { return fma_of_minus(p.a, p.b, c); }
+  SPINDRIFT_INLINE friend W operator-(const WideProduct& p, const WideProduct& q) { return fma(p.a, p.b, -W(q)); }
+  SPINDRIFT_INLINE WideProduct operator-() const { return {-a, b}; }
+
+ private:
+  SPINDRIFT_INLINE static W rounded(W a, W b) {
+    if constexpr (in_halves<T, n>)
+      return {typename W::Half(a.v.low * b.v.low), typename W::Half(a.v.high * b.v.high)};
+    else
+      return a.v * b.v;
+  }
+};
 
 template <class T, int n>
 Wide<T, n> max(Wide<T, n> a, Wide<T, n> b) {
@@ -274,41 +352,10 @@ T abs(T a) {
   return std::abs(a);
 }
 
-/// 1/a of a positive number, and 1/sqrt(a): correctly rounded operations for one number; for a register of floats an estimate of
-/// 12 (AVX2) or 14 bits and a Newton step, within 3 units in the last place, at a third of the cost of the divider (perf/sea,
-/// docs/developer/sea.md).
-template <class Real>
-Real reciprocal(Real a) {
-#ifdef __AVX512F__
-  if constexpr (std::same_as<Real, Wide<float, 16>>) {
-    const Real y = Real(_mm512_maskz_rcp14_ps(0xffff, a.v));
-    return y + y * (Real(1.0f) - a * y);
-  }
-#endif
-#ifdef __AVX2__
-  if constexpr (std::same_as<Real, Wide<float, 8>>) {
-    const Real y = Real(_mm256_rcp_ps(a.v));
-    return y + y * (Real(1.0f) - a * y);
-  }
-#endif
-  return Real(1) / a;
-}
-template <class Real>
-Real inverse_sqrt(Real a) {
-  using std::sqrt;
-#ifdef __AVX512F__
-  if constexpr (std::same_as<Real, Wide<float, 16>>) {
-    const Real y = Real(_mm512_maskz_rsqrt14_ps(0xffff, a.v));
-    return y + (Real(0.5f) * y) * (Real(1.0f) - (a * y) * y);
-  }
-#endif
-#ifdef __AVX2__
-  if constexpr (std::same_as<Real, Wide<float, 8>>) {
-    const Real y = Real(_mm256_rsqrt_ps(a.v));
-    return y + (Real(0.5f) * y) * (Real(1.0f) - (a * y) * y);
-  }
-#endif
-  return Real(1) / sqrt(a);
+/// a b + c of one number, rounded once.
+template <std::floating_point T>
+T fma(T a, std::type_identity_t<T> b, std::type_identity_t<T> c) {
+  return std::fma(a, b, c);
 }
 
 /// Sum of all lanes by halves: a fixed order of additions.
@@ -339,7 +386,11 @@ struct ScalarOf<Wide<T, n>> {
 template <class Real>
 using scalar_of = typename ScalarOf<Real>::type;
 
-/// Wide of one vector register of the processor compiled for.
+/// A line of 64 bytes: lanes for sums, a register of AVX-512 or two of AVX2.
+template <class T>
+using LineWide = Wide<T, 64 / int(sizeof(T))>;
+
+/// Wide of one vector register of the processor compiled for: its lane count is the processor's choice, so never for sums.
 template <class T>
 using NativeWide = Wide<T, register_bytes / int(sizeof(T))>;
 

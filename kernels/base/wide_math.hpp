@@ -35,6 +35,15 @@ inline constexpr double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821
 // Adding 1.5 x 2^52 rounds to the nearest integer and leaves that integer in the low bits.
 inline constexpr double round_shift = 6755399441055744.0;
 
+/// a b + c, rounded once: of one number and of vectors, each factor a vector or one number for all lanes.
+SPINDRIFT_INLINE double fma(double a, double b, double c) { return std::fma(a, b, c); }
+template <class V, class B, class C>
+requires requires(V v) { v[0]; }
+SPINDRIFT_INLINE V fma(const V& a, const B& b, const C& c) {
+  using W = Wide<double, int(sizeof(V) / sizeof(double))>;
+  return spindrift::fma(W(a), W(b), W(c)).v;
+}
+
 /// x = 2^exponent m with m in [sqrt(1/2), sqrt(2)).
 template <class V>
 SPINDRIFT_INLINE V mantissa(const V& x, V& exponent) {
@@ -50,13 +59,14 @@ template <class V>
 SPINDRIFT_INLINE V log_of_parts(const V& k, const V& f, const V& c) {
   const V s = f / (2.0 + f), z = s * s, half = 0.5 * f * f;
   const V z2 = z * z;  // even and odd powers apart: half the latency of one chain
-  V odd = z2 * 1.479819860511658591e-01 + 1.818357216161805012e-01;
-  odd = odd * z2 + 2.857142874366239149e-01;
-  odd = odd * z2 + 6.666666666666735130e-01;
-  V even = z2 * 1.531383769920937332e-01 + 2.222219843214978396e-01;
-  even = even * z2 + 3.999999999940941908e-01;
-  const V r = (even * z + odd) * z;
-  return k * ln2_high - ((half - (s * (half + r) + (k * ln2_low + c))) - f);
+  V odd = fma(z2, 1.479819860511658591e-01, 1.818357216161805012e-01);
+  odd = fma(odd, z2, 2.857142874366239149e-01);
+  odd = fma(odd, z2, 6.666666666666735130e-01);
+  V even = fma(z2, 1.531383769920937332e-01, 2.222219843214978396e-01);
+  even = fma(even, z2, 3.999999999940941908e-01);
+  const V r = fma(even, z, odd) * z;
+  const V rest = (half - fma(s, half + r, fma(k, ln2_low, c))) - f;
+  return fma(k, ln2_high, -rest);
 }
 
 template <class V>
@@ -79,35 +89,35 @@ SPINDRIFT_INLINE V exp_parts(const V& argument, V& power) {
   using I = integers<V>;
   V x = argument > 700.0 ? V(V{} + 700.0) : argument;
   x = x < -700.0 ? V(V{} - 700.0) : x;
-  const V shifted = x * 1.44269504088896338700 + round_shift, n = shifted - round_shift;
-  const V r = (x - n * ln2_high) - n * ln2_low;
+  const V shifted = fma(x, 1.44269504088896338700, round_shift), n = shifted - round_shift;
+  const V r = fma(n, -ln2_low, fma(n, -ln2_high, x));
   const V r2 = r * r;  // even and odd powers apart
-  V odd = r2 * (1.0 / 6227020800.0) + 1.0 / 39916800.0;
-  odd = odd * r2 + 1.0 / 362880.0;
-  odd = odd * r2 + 1.0 / 5040.0;
-  odd = odd * r2 + 1.0 / 120.0;
-  odd = odd * r2 + 1.0 / 6.0;
-  V even = r2 * (1.0 / 479001600.0) + 1.0 / 3628800.0;
-  even = even * r2 + 1.0 / 40320.0;
-  even = even * r2 + 1.0 / 720.0;
-  even = even * r2 + 1.0 / 24.0;
-  even = even * r2 + 0.5;
-  const V p = odd * r + even;
+  V odd = fma(r2, 1.0 / 6227020800.0, 1.0 / 39916800.0);
+  odd = fma(odd, r2, 1.0 / 362880.0);
+  odd = fma(odd, r2, 1.0 / 5040.0);
+  odd = fma(odd, r2, 1.0 / 120.0);
+  odd = fma(odd, r2, 1.0 / 6.0);
+  V even = fma(r2, 1.0 / 479001600.0, 1.0 / 3628800.0);
+  even = fma(even, r2, 1.0 / 40320.0);
+  even = fma(even, r2, 1.0 / 720.0);
+  even = fma(even, r2, 1.0 / 24.0);
+  even = fma(even, r2, 0.5);
+  const V p = fma(odd, r, even);
   const I exponent = bits_as<I>(shifted) - std::bit_cast<std::int64_t>(round_shift) + 1023;
   power = bits_as<V>(exponent << 52);
-  return r + r2 * p;
+  return fma(r2, p, r);
 }
 template <class V>
 SPINDRIFT_INLINE V exp_of(const V& x) {
   V power;
   const V p = exp_parts(x, power);
-  return power + power * p;
+  return fma(power, p, power);
 }
 template <class V>
 SPINDRIFT_INLINE V expm1_of(const V& x) {
   V power;
   const V p = exp_parts(x, power);
-  return power * p + (power - 1.0);
+  return fma(power, p, power - 1.0);
 }
 
 }  // namespace wide_math
@@ -168,6 +178,10 @@ template <class Real>
 SPINDRIFT_INLINE Real tanh(const Real& x) {
   const Real e = expm1(2.0 * x);
   return e / (e + 2.0);
+}
+template <int n>
+SPINDRIFT_INLINE Wide<double, n> tanh(const WideProduct<double, n>& x) {
+  return tanh<Wide<double, n>>(x);
 }
 
 }  // namespace spindrift

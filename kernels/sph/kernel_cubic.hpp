@@ -26,22 +26,34 @@ class KernelCubic {
 
   template <class Real>
   SPINDRIFT_INLINE Real value(Real r2) const {
-    using std::max;
-    const Real q = r2 * inverse_sqrt(r2) * Real(inverse_h_);
+    using std::max, std::sqrt;
+    const Real q = sqrt(r2) * Real(inverse_h_);
     const Real outer = max(Real(2) - q, Real(0)), inner = max(Real(1) - q, Real(0));
     return Real(value_) * (outer * outer * outer - Real(4) * (inner * inner * inner));
   }
   template <class Real>
   SPINDRIFT_INLINE Real slope(Real r2) const {
-    using std::max;
-    const Real inverse_r = inverse_sqrt(r2);
-    const Real q = r2 * inverse_r * Real(inverse_h_);
-    const Real outer = max(Real(2) - q, Real(0)), inner = max(Real(1) - q, Real(0));
-    return Real(slope_) * inverse_r * (outer * outer - Real(4) * (inner * inner));
+    using std::sqrt;
+    const Real r = sqrt(r2);
+    return slope_times_r(r) / r;
+  }
+  template <class Real>
+  SPINDRIFT_INLINE SlopeAndReciprocal<Real> slope_and_reciprocal(Real r2, Real a) const {
+    using std::sqrt;
+    const Real r = sqrt(r2), both = Real(1) / (r * a);  // one division for two
+    return {slope_times_r(r) * (a * both), r * both};
   }
   double h() const { return double(h_); }
 
  private:
+  template <class Real>
+  SPINDRIFT_INLINE Real slope_times_r(Real r) const {
+    using std::max;
+    const Real q = r * Real(inverse_h_);
+    const Real outer = max(Real(2) - q, Real(0)), inner = max(Real(1) - q, Real(0));
+    return Real(slope_) * (outer * outer - Real(4) * (inner * inner));
+  }
+
   Scalar h_, inverse_h_, value_, slope_;
 };
 static_assert(SmoothingKernel<KernelCubic<2>> && SmoothingKernel<KernelCubic<3>>);

@@ -26,16 +26,20 @@ class KernelWendland {
 
   template <class Real>
   SPINDRIFT_INLINE Real value(Real r2) const {
-    using std::max;
-    const Real q = r2 * inverse_sqrt(r2) * Real(inverse_h_);
+    using std::max, std::sqrt;
+    const Real q = sqrt(r2) * Real(inverse_h_);
     const Real t = max(Real(1) - Real(0.5) * q, Real(0));
     return Real(value_) * (t * t) * (t * t) * (Real(1) + Real(2) * q);
   }
   template <class Real>
   SPINDRIFT_INLINE Real slope(Real r2) const {
-    using std::max;
-    const Real t = max(Real(1) - (r2 * inverse_sqrt(r2)) * Real(Scalar(0.5) * inverse_h_), Real(0));
+    using std::max, std::sqrt;
+    const Real t = max(Real(1) - sqrt(r2) * Real(Scalar(0.5) * inverse_h_), Real(0));
     return (Real(slope_) * t) * (t * t);
+  }
+  template <class Real>
+  SPINDRIFT_INLINE SlopeAndReciprocal<Real> slope_and_reciprocal(Real r2, Real a) const {
+    return {slope(r2), Real(1) / a};
   }
   double h() const { return double(h_); }
 

@@ -60,4 +60,16 @@ constexpr Scalar softening(Scalar h) {
   return Scalar(0.01) * h * h;
 }
 
+/// The same, and `inverse` 1 / ((rho_i + rho_j)(r^2 + 0.01 h^2)), which viscosities and density diffusions share.
+template <class Kernel, class Real, int dim>
+SPINDRIFT_INLINE Pair<Real, dim> make_pair(const Kernel& kernel, const Vec<Real, dim>& x_ij, const Vec<Real, dim>& v_ij,
+                                           const Real& density_sum, Real& inverse) {
+  using std::max;
+  const Real r2 = max(dot(x_ij, x_ij), Real(1e-30));
+  const Real softened = r2 + Real(softening(scalar_of<Real>(kernel.h())));
+  const auto both = kernel.slope_and_reciprocal(r2, Real(density_sum * softened));
+  inverse = both.reciprocal;
+  return {x_ij, v_ij, r2, dot(v_ij, x_ij), both.slope};
+}
+
 }  // namespace spindrift::sph

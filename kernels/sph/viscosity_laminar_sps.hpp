@@ -18,9 +18,10 @@ struct ViscosityLaminar {
   Scalar nu;  ///< kinematic viscosity [m2/s]
 
   /// Factor f of the acceleration of i per unit mass of j, f * v_ij; that of j is -f * v_ij.
+  /// `inverse_density_sum` is 1 / (rho_i + rho_j).
   template <class Real, int dim>
-  SPINDRIFT_INLINE Real operator()(const Pair<Real, dim>& pair, Real density_sum) const {
-    return Real(Scalar(4) * nu) * pair.slope * reciprocal(density_sum);
+  SPINDRIFT_INLINE Real operator()(const Pair<Real, dim>& pair, Real inverse_density_sum) const {
+    return Real(Scalar(4) * nu) * pair.slope * inverse_density_sum;
   }
 };
 

@@ -33,13 +33,14 @@ struct ComponentGroup {
 };
 
 inline void set_lane(ComponentGroup& g, int lane, const Component& c, double depth) {
-  g.k[lane] = c.wave_number, g.omega[lane] = c.angular_frequency, g.phase[lane] = c.phase;
-  g.cos_b[lane] = std::cos(c.direction), g.sin_b[lane] = std::sin(c.direction);
-  g.kx[lane] = c.wave_number * g.cos_b[lane], g.ky[lane] = c.wave_number * g.sin_b[lane];
-  g.amplitude[lane] = c.amplitude;
-  g.bottom[lane] = std::exp(-2.0 * c.wave_number * depth);
-  g.phase_speed[lane] = c.angular_frequency / c.wave_number;
-  g.speed[lane] = c.speed_amplitude / (1.0 - g.bottom[lane]);  // C = (e^kz + e^-2kh e^-kz) / (1 - e^-2kh): no overflow
+  g.k.v[lane] = c.wave_number, g.omega.v[lane] = c.angular_frequency, g.phase.v[lane] = c.phase;
+  g.cos_b.v[lane] = std::cos(c.direction), g.sin_b.v[lane] = std::sin(c.direction);
+  g.kx.v[lane] = c.wave_number * std::cos(c.direction), g.ky.v[lane] = c.wave_number * std::sin(c.direction);
+  g.amplitude.v[lane] = c.amplitude;
+  const double bottom = std::exp(-2.0 * c.wave_number * depth);
+  g.bottom.v[lane] = bottom;
+  g.phase_speed.v[lane] = c.angular_frequency / c.wave_number;
+  g.speed.v[lane] = c.speed_amplitude / (1.0 - bottom);  // C = (e^kz + e^-2kh e^-kz) / (1 - e^-2kh): no overflow
 }
 
 struct Surface {
@@ -60,24 +61,23 @@ inline Surface surface(std::span<const ComponentGroup> sea, double t, double x, 
     sx -= g.amplitude * g.kx * sine;
     sy -= g.amplitude * g.ky * sine;
   }
-  return {lane_sum(eta), lane_sum(sx), lane_sum(sy)};
+  return {sum(eta), sum(sx), sum(sy)};
 }
 
 /// At the height z [m] where the profiles C and S are evaluated: the caller has applied its stretching rule.
 inline Kinematics kinematics(std::span<const ComponentGroup> sea, double t, double x, double y, double z) {
   Lanes vx{}, vy{}, vz{}, ax{}, ay{}, az{}, pressure{};
   for (const ComponentGroup& g : sea) {
-    Lanes sine, cosine, up;
+    Lanes sine, cosine;
     lane_sincos(g.kx * x + g.ky * y - g.omega * t + g.phase, sine, cosine);
-    lane_exp(g.k * z, up);
-    const Lanes down = g.bottom / up;
+    const Lanes up = exp(Lanes(g.k * z)), down = g.bottom / up;
     const Lanes horizontal = g.speed * (up + down), vertical = g.speed * (up - down);
     const Lanes u = horizontal * cosine, du = g.omega * horizontal * sine;
     vx += u * g.cos_b, vy += u * g.sin_b, vz += vertical * sine;
     ax += du * g.cos_b, ay += du * g.sin_b, az -= g.omega * vertical * cosine;
     pressure += g.phase_speed * u;
   }
-  return {{lane_sum(vx), lane_sum(vy), lane_sum(vz)}, {lane_sum(ax), lane_sum(ay), lane_sum(az)}, lane_sum(pressure)};
+  return {{sum(vx), sum(vy), sum(vz)}, {sum(ax), sum(ay), sum(az)}, sum(pressure)};
 }
 
 }  // namespace spindrift::waves

@@ -95,7 +95,7 @@ double ceiling() {
   const double seconds = processor_seconds([&] {
     perf::keep(factor), perf::keep(term);
     for (int round = 0; round < rounds; ++round)
-      for (int n = 0; n < chains; ++n) sum[n] = sum[n] * factor + term;
+      for (int n = 0; n < chains; ++n) sum[n] = fma(sum[n], factor, term);
     for (int n = 0; n < chains; ++n) perf::keep(sum[n]);
   });
   return 2.0 * Register::size * chains * rounds / seconds;

@@ -26,6 +26,11 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->add_option("--fluid", arguments->fluid, "Which fluid the ranks of this section of mpirun have; the others the other")
         ->check(CLI::IsMember({"air", "sea"}));
     command->add_flag("--restart", arguments->restart, "Go on from the newest checkpoint in the run directory")->needs("--out");
+    command
+        ->add_option("--allow-change", arguments->allowed,
+                     "With --restart: a key (or section, or file) that may differ from the run's, given once for each")
+        ->allow_extra_args(false)
+        ->needs("--restart");
     command->add_flag("--overwrite", arguments->overwrite, "Replace the run in the run directory");
     command->add_flag("--trace", arguments->trace, "Write trace.json (open with Perfetto or chrome://tracing)");
     command->add_flag("--quiet", arguments->quiet, "Warnings and errors only");

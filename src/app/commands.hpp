@@ -28,9 +28,10 @@ struct SceneArguments {
 };
 
 struct RunArguments : SceneArguments {
-  std::string out;        ///< empty: a name from scene and time
-  std::string fluid;      ///< "air", "sea": what this program section works on; empty: as the scene says
-  double until_s = -1.0;  ///< < 0: the scene's end
+  std::string out;                   ///< empty: a name from scene and time
+  std::string fluid;                 ///< "air", "sea": what this program section works on; empty: as the scene says
+  double until_s = -1.0;             ///< < 0: the scene's end
+  std::vector<std::string> allowed;  ///< keys and files that a restart may have changed
   bool restart = false, overwrite = false, trace = false, quiet = false, no_report = false;
 };
 
@@ -59,6 +60,8 @@ int check(const CheckArguments& arguments, const runtime::World& world);
 /// All of the reference, or what `topic` names (a section or a key); as Markdown for inputs/REFERENCE.md.
 int reference(const std::string& topic, bool markdown, const runtime::World& world);
 int study(const StudyArguments& arguments, const runtime::World& world);
+/// One line; `verbose`: all that the speed of this program depends on.
+std::string version(bool verbose);
 int report(const ReportArguments& arguments, const runtime::World& world);
 
 }  // namespace spindrift::app

@@ -8,7 +8,6 @@
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/environment.hpp"
 #include "src/app/commands.hpp"
-#include "src/io/build_info.hpp"
 #include "src/io/log.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
@@ -40,10 +39,9 @@ int guarded(const std::function<int()>& command) {
 
 int main(int argc, char** argv) {
   CLI::App cli{"Coupled simulation of floating offshore wind turbines.", "spindrift"};
-  cli.set_version_flag("--version", [] {
-    const io::BuildInfo& build = io::build_info();
-    return fmt::format("spindrift {} ({}, {})", build.version, build.commit, build.compiler);
-  });
+  bool verbose = false;  // parsed before --version is answered
+  cli.add_flag("--verbose", verbose, "With --version: compiler, flags, vector width, libraries, processors of this process");
+  cli.set_version_flag("--version", [&verbose] { return app::version(verbose); });
   cli.require_subcommand(1);
   app::Command command;
   app::add_commands(cli, command);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -11,10 +13,13 @@
 #include "src/coupling/placement.hpp"
 #include "src/coupling/run.hpp"
 #include "src/io/build_info.hpp"
+#include "src/io/checkpoint.hpp"
 #include "src/io/history_statistics.hpp"
 #include "src/io/log.hpp"
+#include "src/io/machine_failure.hpp"
 #include "src/report/report.hpp"
 #include "src/scene/document.hpp"
+#include "src/scene/identity.hpp"
 
 namespace spindrift::app {
 
@@ -27,6 +32,26 @@ io::RunDirectory open_directory(const RunArguments& arguments, MPI_Comm world) {
                                 : arguments.overwrite ? io::Existing::overwrite
                                                       : io::Existing::refuse;
   return io::RunDirectory(world, path, existing);
+}
+
+/// What a restart may change without being told so: how long the run is, what it writes, and where it is computed.
+constexpr const char* free_at_restart[] = {"time.end_s",         "output",     "checkpoint",         "runtime",
+                                           "coupling.placement", "sea.fields", "aero.flow.surfaces", "coupling.air_ranks"};
+
+/// A restart goes on with the run that the checkpoint is of: refused before anything is written where it would be another one.
+void require_same_run(io::RunDirectory& directory, const scene::Identity& now, const RunArguments& arguments, MPI_Comm world) {
+  directory.identify(now.text());
+  if (!directory.resumes()) return;
+  const std::string saved = io::CheckpointSeries(world, directory.checkpoints(), 1).newest_identity();
+  if (saved.empty()) return;  // every checkpoint is damaged, which reading them will tell
+  std::vector<std::string> free(std::begin(free_at_restart), std::end(free_at_restart));
+  free.insert(free.end(), arguments.allowed.begin(), arguments.allowed.end());
+  const std::vector<scene::Difference> all = differences(scene::Identity::parsed(saved), now, free);
+  if (all.empty()) return;
+  std::string text = fmt::format("--restart: {} of this scene {} not as in the run in {}:", all.size() == 1 ? "a part" : "parts",
+                                 all.size() == 1 ? "is" : "are", directory.path().string());
+  for (const scene::Difference& d : all) text += fmt::format("\n  {}: was {}, is {}", d.what, d.before, d.now);
+  throw io::InputError(text + "\ngo on with the scene of the first run, or say --allow-change KEY for each key or file above");
 }
 
 /// Over which the summary gives means: the whole run, and (the one that the report shows) the end of it.
@@ -65,12 +90,14 @@ ReadyScene read_scene(const std::string& path, const std::vector<std::string>& o
 
 namespace {
 /// A scene of the air alone has no machine of bodies.
-SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& echo, const RunArguments& arguments,
-                        const runtime::World& world) {
-  const io::RunDirectory directory = open_directory(arguments, world.comm);
+SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& echo, const std::vector<std::string>& files,
+                        const RunArguments& arguments, const runtime::World& world) {
+  io::RunDirectory directory = open_directory(arguments, world.comm);
+  require_same_run(directory, scene::Identity::of(echo, files), arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
   directory.write_scene(world.comm, echo);
-  coupling::RunSettings settings{.restart = arguments.restart, .trace = arguments.trace, .quiet = arguments.quiet};
+  coupling::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
+  settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
   if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
   io::Summary summary = coupling::run_flow(scenario, directory, world, settings);
   summary.title = scenario.output.title.empty() ? std::filesystem::path(arguments.scene).stem().string() : scenario.output.title;
@@ -90,8 +117,10 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   io::start_log(started.rank, arguments.quiet);
   std::optional<coupling::Scenario> scenario;
   std::string echo;
+  std::optional<scene::FileRecord> read;
   coupling::agree(started, [&] {
     scene::Document document = scene::load(arguments.scene, arguments.overrides, overrider);
+    read.emplace();
     scenario = coupling::read_scenario(document);
     echo = document.echo();
     return coupling::Started{arguments.fluid, echo,
@@ -101,9 +130,10 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   const runtime::Parts parts = coupling::place(*scenario, started, arguments.fluid);
   const runtime::World& world = parts.world();
   io::start_log(world.rank, arguments.quiet);
-  if (scenario->has_flow()) return run_flow_scene(*scenario, echo, arguments, world);
+  if (scenario->has_flow()) return run_flow_scene(*scenario, echo, read->files(), arguments, world);
   const ReadyScene scene = made_ready(std::move(*scenario), std::move(echo));
-  const io::RunDirectory directory = open_directory(arguments, world.comm);
+  io::RunDirectory directory = open_directory(arguments, world.comm);
+  require_same_run(directory, scene::Identity::of(scene.echo, read->files()), arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
   directory.write_scene(world.comm, scene.echo);
   const io::BuildInfo& build = io::build_info();
@@ -111,7 +141,8 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
                arguments.scene);
   for (const std::string& note : scene.start.notes) spdlog::info("{}", note);
 
-  coupling::RunSettings settings{.restart = arguments.restart, .trace = arguments.trace, .quiet = arguments.quiet};
+  coupling::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
+  settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
   if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
   io::Summary summary = coupling::run(*scene.machine, scene.start, directory, parts, settings);
   const std::string& title = scene.machine->scenario().output.title;

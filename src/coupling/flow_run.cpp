@@ -32,8 +32,10 @@
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/grid_progress.hpp"
 #include "src/coupling/saved_air.hpp"
+#include "src/coupling/saved_history.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/io/checkpoint_plan.hpp"
 #include "src/io/history.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/io/progress.hpp"
@@ -326,17 +328,20 @@ struct FlowColumns {
 /// The checkpoints of a run of the air alone.
 class FlowCheckpoints {
  public:
-  FlowCheckpoints(const runtime::World& world, const Air& air, const io::RunDirectory& directory, const Scenario& scenario)
-      : series_(world.comm, directory.checkpoints(), scenario.checkpoint.keep),
+  FlowCheckpoints(const runtime::World& world, const Air& air, const io::RunDirectory& directory, const Scenario& scenario,
+                  const io::History& history)
+      : series_(world.comm, directory.checkpoints(), scenario.checkpoint.keep, directory.identity()),
         file_(*air.solver, *air.store, world),
         air_(air),
         scenario_(scenario),
+        history_(history),
         rank_(world.rank) {}
   void save(std::int64_t tick, std::int64_t window, int restarts) {
     series_.save(tick, [&](io::CheckpointWriter& file) {
       file.set("window", window);
       file.set("restarts", std::int64_t(restarts));
       if (!chosen_.empty()) file.set("preconditioner", chosen_);
+      write(file, history_.extent());
       for (const SavedArray& array : file_.arrays()) write(file, array);
       if (!air_.rotor) return;
       write_air_settings(file, scenario_);
@@ -355,8 +360,11 @@ class FlowCheckpoints {
     if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
     file_.read(*file);
     restarts = int(file->integer("restarts")) + 1;
+    rows_ = extent_in(*file);
     return file->integer("window");
   }
+  /// Of history.csv, when the checkpoint that was resumed was written.
+  const std::optional<io::History::Extent>& rows() const { return rows_; }
 
  private:
   std::string chosen_;
@@ -364,6 +372,8 @@ class FlowCheckpoints {
   AirFile file_;
   const Air& air_;
   const Scenario& scenario_;
+  const io::History& history_;
+  std::optional<io::History::Extent> rows_;
   int rank_;
 };
 
@@ -397,7 +407,8 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   if (air.rotor)
     if (const std::string note = aero::far_side_note(*s.aero.grid); !note.empty()) spdlog::warn("air: {}", note);
   fill_geometry(solver, world.comm);
-  FlowCheckpoints checkpoints(world, air, directory, s);
+  io::History history;
+  FlowCheckpoints checkpoints(world, air, directory, s, history);
   if (s.aero.flow->preconditioner == "auto") choose_for(air, checkpoints, directory, world, settings.restart);
   const bool begins = air.steady() && !settings.restart;
   if (const int coarse_steps = s.aero.flow->coarse_steps.value_or(0); begins && coarse_steps > 0 && air.rotor) {
@@ -412,7 +423,6 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     start_on_coarser_grids(s, air, executor, world);
 
   io::Summary summary;
-  io::History history;
   const FlowColumns columns(history, air.rotor.get(), air.motion ? &*air.motion : nullptr, air.steady());
   std::int64_t number = 0, saved = -1;
   if (settings.restart) {
@@ -421,16 +431,18 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     if (air.rotor && !air.steady()) air.rotor->placed_at(number);
     if (air.motion) air.place(number, s.time.window_s);
   }
-  if (world.rank == 0 && settings.restart)
-    history.resume(directory.history(), timeline.window_end_s(number));
-  else if (world.rank == 0)
-    history.open(directory.history());
+  open_history(world.comm, history, directory, settings, timeline.window_end_s(number), checkpoints.rows());
   const std::int64_t first = number;
   std::int64_t last = timeline.windows();
   if (settings.until_s)
     last = std::min<std::int64_t>(last, std::int64_t(std::ceil(*settings.until_s / s.time.window_s * (1.0 - 1e-12))));
-  const std::int64_t save_every =
-      s.checkpoint.interval_s > 0.0 ? std::max<std::int64_t>(1, std::llround(s.checkpoint.interval_s / s.time.window_s)) : 0;
+  io::CheckpointPlan plan(s.checkpoint.interval_s, s.time.window_s, s.checkpoint.wall_interval_s);
+  const auto save = [&] {
+    const auto save_begin = io::CheckpointPlan::Clock::now();
+    history.flush(), checkpoints.save(saved = number, number, summary.restarts);
+    plan.saved(save_begin);
+  };
+  if (plan.at_start() && !settings.restart) save();
   const Eigen::Vector3d wind = flow_wind(s);
   io::Progress progress(timeline.window_end_s(number), timeline.window_end_s(last),
                         io::progress_style(world.rank, settings.quiet));
@@ -451,6 +463,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   bool settled = false;
   while (number < last && summary.exit_code == 0 && !settled) {
     const auto march_begin = std::chrono::steady_clock::now();
+    const std::int64_t before = number;
     if (air.rotor && !air.steady()) air.rotor->move_to(air.rotor->turned(number + 1));
     if (air.motion) solver.move_to(air.motion->poses(double(number + 1) * s.time.window_s));
     executor.run();
@@ -496,8 +509,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     progress.update(timeline.window_end_s(number));
     if (std::string why = stop.agreed(world.comm); !why.empty() && number < last && !settled && summary.exit_code == 0)
       summary.exit_code = 5, summary.exit_reason = why;
-    if (save_every > 0 && number / save_every != saved / save_every)
-      history.flush(), checkpoints.save(saved = number, number, summary.restarts);
+    if (plan.due(world.comm, before, number)) save();
   }
   if (air.steady() && summary.exit_code == 0 && !settled && number == timeline.windows() && s.aero.flow->drop > 0.0) {
     const aero::March& march = solver.march();

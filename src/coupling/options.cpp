@@ -104,8 +104,12 @@ const scene::Section<CheckpointOptions>& checkpoint_section() {
   static const auto section =
       scene::Section<CheckpointOptions>("checkpoint", "Saved states, from which --restart goes on bit for bit.")
           .number("interval_s", &CheckpointOptions::interval_s, "s",
-                  "Simulated time between checkpoints; 0: only at the end, on a stop, and on numerical failure.",
-                  scene::between(0.0, 1e6))
+                  "Simulated time between checkpoints, besides those by the clock; 0: none.", scene::between(0.0, 1e6))
+          .number(
+              "wall_interval_s", &CheckpointOptions::wall_interval_s, "s",
+              "Wall time between checkpoints, longer where saving would take more than a hundredth of it; 0: none. With any "
+              "of the two, the first is saved at the start; the last, at the end, on a stop and on numerical failure, always.",
+              scene::between(0.0, 1e6))
           .integer("keep", &CheckpointOptions::keep, "-", "How many of the last checkpoints are kept.", scene::between(1, 1000));
   return section;
 }

@@ -51,7 +51,8 @@ struct OutputOptions {
 };
 
 struct CheckpointOptions {
-  double interval_s = 0.0;  ///< 0: only at the end
+  double interval_s = 0.0;         ///< simulated; 0: not by simulated time
+  double wall_interval_s = 600.0;  ///< on the wall; 0: not by the clock
   int keep = 2;
 };
 

@@ -15,11 +15,13 @@
 #include "runtime/trace/trace_of.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/saved_air.hpp"
+#include "src/coupling/saved_history.hpp"
 #include "src/coupling/sea_output.hpp"
 #include "src/coupling/sea_window.hpp"
 #include "src/coupling/start.hpp"
 #include "src/coupling/window.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/io/checkpoint_plan.hpp"
 #include "src/io/history.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/io/progress.hpp"
@@ -159,10 +161,11 @@ void restore_fluids(const runtime::Parts& parts, const Machine& machine, Window&
 
 class Checkpoints {
  public:
-  Checkpoints(const runtime::Parts& parts, const Machine& machine, const io::RunDirectory& directory)
+  Checkpoints(const runtime::Parts& parts, const Machine& machine, const io::RunDirectory& directory, const io::History& history)
       : parts_(parts),
         machine_(machine),
-        series_(parts.world().comm, directory.checkpoints(), machine.scenario().checkpoint.keep) {}
+        history_(history),
+        series_(parts.world().comm, directory.checkpoints(), machine.scenario().checkpoint.keep, directory.identity()) {}
 
   void save(Window& window, std::int64_t number, int restarts) {
     const bodies::BodiesState& state = window.ok() ? window.state : window.start;  // a restart begins at a window's start
@@ -177,6 +180,7 @@ class Checkpoints {
       file.set("restarts", std::int64_t(restarts));
       file.write<double>("time/tick_s", std::span<const double>(&tick_s, 1));
       file.write<double>("bodies/state", packed);
+      write(file, history_.extent());
       if (window.coupled) {
         file.set("coupling/scheme", std::int64_t(machine_.scenario().coupling.scheme));
         file.write<double>("coupling/history", window.coupled->history());
@@ -193,6 +197,8 @@ class Checkpoints {
     saved_ = number;
   }
   bool is_saved(std::int64_t number) const { return saved_ == number; }
+  /// Of history.csv, when the checkpoint that was resumed was written.
+  const std::optional<io::History::Extent>& rows() const { return rows_; }
 
   /// The window to go on from.
   std::int64_t resume(Window& window, int& restarts) {
@@ -210,13 +216,16 @@ class Checkpoints {
     if (window.coupled && !window.coupled->restore(file->read<double>("coupling/history")))
       throw io::InputError(file->path().string() + ": its coupling history is that of another coupling.scheme");
     restore_fluids(parts_, machine_, window, *file);
+    rows_ = extent_in(*file);
     return saved_ = file->integer("window");
   }
 
  private:
   const runtime::Parts& parts_;
   const Machine& machine_;
+  const io::History& history_;
   io::CheckpointSeries series_;
+  std::optional<io::History::Extent> rows_;
   std::int64_t saved_ = -1;
 };
 
@@ -367,8 +376,8 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   io::Summary summary;
   Window window;
   const std::size_t records = settings.trace ? std::size_t(1) << 20 : 0;
-  Checkpoints checkpoints(parts, machine, directory);
   io::History history;
+  Checkpoints checkpoints(parts, machine, directory, history);
   fill_sea(machine, start.state.motions, parts);
   Recorder recorder(machine, history);
   std::int64_t first = -machine.held_windows();
@@ -395,14 +404,10 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   }
   if (window.coupled)
     for (const std::string& sentence : window.coupled->air().news()) spdlog::info("{}", sentence);
-  const bool writes = world.rank == 0;
   const auto write_row = [&](std::int64_t number) {  // where bodies and water are known
     if (parts.has(sea_part)) recorder.write(window.state, timeline.window_end_s(number), coupling_columns);
   };
-  if (writes && settings.restart)
-    history.resume(directory.history(), timeline.window_end_s(first));
-  else if (writes)
-    history.open(directory.history());
+  open_history(world.comm, history, directory, settings, timeline.window_end_s(first), checkpoints.rows());
   SeaOutput sea_output(machine, directory.fields(), parts.mine(),
                        settings.restart ? timeline.window_end_s(first) : io::from_the_start);
   const double air_every = machine.scenario().output.air_interval_s;
@@ -421,8 +426,13 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
 
   const std::int64_t last = windows_until(timeline, settings.until_s);
   const int every = machine.scenario().output.history_every;
-  const std::int64_t save_every =
-      checkpoint.interval_s > 0.0 ? std::max<std::int64_t>(1, std::llround(checkpoint.interval_s / timeline.window_s())) : 0;
+  io::CheckpointPlan plan(checkpoint.interval_s, timeline.window_s(), checkpoint.wall_interval_s);
+  const auto save = [&](std::int64_t number) {
+    const auto save_begin = io::CheckpointPlan::Clock::now();
+    history.flush(), checkpoints.save(window, number, summary.restarts);
+    plan.saved(save_begin);
+  };
+  if (plan.at_start() && !settings.restart) save(first);
   runtime::Executor executor(record_window(machine, window, parts), {.threads = 1, .records = records});
   io::Progress progress(timeline.window_end_s(first), timeline.window_end_s(last),
                         io::progress_style(world.rank, settings.quiet));
@@ -455,7 +465,7 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
       summary.exit_code = 5;
       summary.exit_reason = why;
     }
-    if (save_every > 0 && number % save_every == 0) history.flush(), checkpoints.save(window, number, summary.restarts);
+    if (plan.due(world.comm, number - 1, number)) save(number);
   }
   history.flush();
   if (!checkpoints.is_saved(number)) checkpoints.save(window, number, summary.restarts);

@@ -21,7 +21,8 @@ struct RunSettings {
   std::optional<double> until_s;  ///< stop there, with a checkpoint, to be continued by restart
   bool restart = false;           ///< from the newest checkpoint of the directory
   bool trace = false;
-  bool quiet = false;  ///< no progress
+  bool quiet = false;           ///< no progress
+  bool accept_history = false;  ///< a restart goes on with rows of history.csv missing or changed
 };
 
 /// By the clock on the wall.

@@ -84,7 +84,8 @@ void turn(std::span<double> state, std::size_t cells, const Eigen::Matrix3d& by)
 
 io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file) {
   if (file.extension() == ".h5") return io::CheckpointReader(comm, file);
-  std::optional<io::CheckpointReader> newest = io::CheckpointSeries(comm, file.parent_path() / "checkpoints", 1).newest();
+  std::optional<io::CheckpointReader> newest =
+      io::CheckpointSeries(comm, file.parent_path() / "checkpoints", 1).newest(io::CheckpointSeries::Damaged::leave);
   if (!newest) throw io::InputError(fmt::format("{}: there is no checkpoint of a run beside it", file.string()));
   return std::move(*newest);
 }

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/io/checkpoint.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <type_traits>
 
 #include "src/io/checksum.hpp"
@@ -144,18 +149,13 @@ void CheckpointReader::Impl::verify(const std::string& name) const {
       sum += checksum<T>(from, values);
     }
   });
-  if (summed(comm, sum) != stored) throw MachineFailure(path.string() + ": array " + name + " is damaged (checksum differs)");
+  if (summed(comm, sum) != stored) throw DamagedFile(path.string() + ": array " + name + " is damaged (checksum differs)");
 }
 
 void CheckpointReader::Impl::verify_all() const {
   together(comm, [&] {
     if (hdf5::get_text_attribute(file.get(), "format") != format_name)
       throw MachineFailure(path.string() + " is not a checkpoint of Spindrift");
-    std::int64_t version = 0;
-    hdf5::get_attribute(file.get(), "format_version", H5T_NATIVE_INT64, &version);
-    if (version != format_version)
-      throw MachineFailure(path.string() + " has format version " + std::to_string(version) + ", this program reads " +
-                           std::to_string(format_version));
   });
   verify<std::byte>(manifest_name);
   const hdf5::Dataset manifest = dataset(manifest_name);
@@ -175,13 +175,42 @@ void CheckpointReader::Impl::verify_all() const {
   }
 }
 
-CheckpointReader::CheckpointReader(MPI_Comm comm, const fs::path& path) : impl_(std::make_unique<Impl>(Impl{comm, path, {}})) {
-  together(comm, [&] { impl_->file = hdf5::open(path); });
-  try {
-    impl_->verify_all();
-  } catch (const InputError& error) {  // a listed array that is not there: damage, not another scene
-    throw MachineFailure(error.what());
+namespace {
+
+/// Whether this process may read the file at all says nothing of what is in it.
+void require_readable(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor >= 0) {
+    ::close(descriptor);
+    return;
   }
+  if (errno != EACCES && errno != EPERM) throw_errno("cannot open", path, errno);
+  throw InputError(path.string() + ": " + std::strerror(errno) + "; give this user the right to read it");
+}
+
+/// HDF5 guards attributes by checksums of its own: what it reads is what was written.
+void require_version(hid_t file, const fs::path& path) {
+  std::int64_t version = 0;
+  hdf5::get_attribute(file, "format_version", H5T_NATIVE_INT64, &version);
+  if (version != format_version)
+    throw InputError(path.string() + ": has format version " + std::to_string(version) + ", this program reads " +
+                     std::to_string(format_version) + "; go on with the version of the program that wrote it");
+}
+
+}  // namespace
+
+CheckpointReader::CheckpointReader(MPI_Comm comm, const fs::path& path) : impl_(std::make_unique<Impl>(Impl{comm, path, {}})) {
+  together(comm, [&] { require_readable(path); });
+  const auto damage = [](auto&& look) {
+    try {
+      look();
+    } catch (const DamagedFile&) { throw; } catch (const std::exception& error) {
+      throw DamagedFile(error.what());  // also a listed array that is not there: damage, not another scene
+    }
+  };
+  damage([&] { together(comm, [&] { impl_->file = hdf5::open(path); }); });
+  together(comm, [&] { require_version(impl_->file.get(), path); });
+  damage([&] { impl_->verify_all(); });
 }
 CheckpointReader::CheckpointReader(CheckpointReader&&) noexcept = default;
 CheckpointReader::~CheckpointReader() = default;

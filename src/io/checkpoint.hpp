@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "src/io/machine_failure.hpp"
+
 namespace spindrift::io {
 
 /// This rank's values of a global array from index `offset` on.
@@ -54,11 +56,18 @@ class CheckpointWriter {
   std::unique_ptr<Impl> impl_;
 };
 
+/// A file that is no whole checkpoint: truncated, changed, or something else. Other failures to read one say nothing of the file.
+class DamagedFile : public MachineFailure {
+ public:
+  using MachineFailure::MachineFailure;
+};
+
 /// A checkpoint whose every checksum was right when it was opened. What the file has not is an InputError (another scene wrote
 /// it).
 class CheckpointReader {
  public:
-  /// Collective; reads all of it once. Throws MachineFailure where it is truncated, damaged, incomplete or of an unknown version.
+  /// Collective; reads all of it once. Throws DamagedFile where it is truncated, damaged or incomplete, InputError where this
+  /// process may not read it or another version of the program wrote it.
   CheckpointReader(MPI_Comm comm, const std::filesystem::path& path);
   CheckpointReader(CheckpointReader&&) noexcept;
   ~CheckpointReader();
@@ -86,13 +95,19 @@ class CheckpointReader {
 /// The checkpoints of a run: a folder of files named by tick, of which the last few are kept.
 class CheckpointSeries {
  public:
-  CheckpointSeries(MPI_Comm comm, std::filesystem::path folder, int keep);
+  /// `identity`: what the run is made of, kept in each checkpoint; empty: none.
+  CheckpointSeries(MPI_Comm comm, std::filesystem::path folder, int keep, std::string identity = {});
 
   /// Collective. Has `fill` write a checkpoint of this tick of simulated time, commits it, then removes those beyond `keep`.
   void save(std::int64_t tick, const std::function<void(CheckpointWriter&)>& fill);
 
-  /// Collective. The newest that verifies; one that does not is renamed to *.damaged with a warning. Empty where none is left.
-  std::optional<CheckpointReader> newest();
+  /// Collective. The newest that verifies; damaged ones are renamed to *.damaged with a warning (or, in the folder of another
+  /// run, left alone). Empty where none is left.
+  enum class Damaged { set_aside, leave };
+  std::optional<CheckpointReader> newest(Damaged damaged = Damaged::set_aside);
+
+  /// Collective. The identity of the newest checkpoint that has a whole one, without verifying the rest; empty where none has.
+  std::string newest_identity() const;
 
   std::filesystem::path path(std::int64_t tick) const;
 
@@ -100,6 +115,7 @@ class CheckpointSeries {
   MPI_Comm comm_;
   std::filesystem::path folder_;
   int keep_;
+  std::string identity_;
 };
 
 }  // namespace spindrift::io

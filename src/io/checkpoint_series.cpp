@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "src/io/checkpoint.hpp"
+#include "src/io/checksum.hpp"
 #include "src/io/collective.hpp"
+#include "src/io/hdf5.hpp"
 #include "src/io/machine_failure.hpp"
 
 namespace spindrift::io {
@@ -14,6 +16,8 @@ namespace spindrift::io {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* identity_name = "identity";
 
 /// Names of the folder's checkpoints, oldest first: ticks are written with all their zeros.
 std::vector<std::string> listed(const fs::path& folder) {
@@ -26,16 +30,32 @@ std::vector<std::string> listed(const fs::path& folder) {
   return names;
 }
 
+/// Of one file; empty where it has none that is whole, whatever the reason.
+std::string identity_in(const fs::path& path) {
+  try {
+    const hdf5::File file = hdf5::open(path);
+    const hdf5::Dataset data(hdf5::checked(H5Dopen2(file.get(), identity_name, H5P_DEFAULT), identity_name));
+    const hdf5::Space space(H5Dget_space(data.get()));
+    std::vector<std::byte> bytes(std::size_t(H5Sget_simple_extent_npoints(space.get())));
+    hdf5::read(data.get(), H5T_NATIVE_UINT8, 0, std::int64_t(bytes.size()), bytes.data(), path.string());
+    std::uint64_t stored = 0;
+    hdf5::get_attribute(data.get(), "checksum", H5T_NATIVE_UINT64, &stored);
+    if (checksum<std::byte>(0, bytes) != stored) return "";
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  } catch (const MachineFailure&) { return ""; }
+}
+
 }  // namespace
 
-CheckpointSeries::CheckpointSeries(MPI_Comm comm, fs::path folder, int keep)
-    : comm_(comm), folder_(std::move(folder)), keep_(std::max(keep, 1)) {}
+CheckpointSeries::CheckpointSeries(MPI_Comm comm, fs::path folder, int keep, std::string identity)
+    : comm_(comm), folder_(std::move(folder)), keep_(std::max(keep, 1)), identity_(std::move(identity)) {}
 
 fs::path CheckpointSeries::path(std::int64_t tick) const { return folder_ / fmt::format("checkpoint_{:018}.h5", tick); }
 
 void CheckpointSeries::save(std::int64_t tick, const std::function<void(CheckpointWriter&)>& fill) {
   CheckpointWriter writer(comm_, path(tick));
   writer.set("tick", tick);
+  if (!identity_.empty()) writer.write<std::byte>(identity_name, std::as_bytes(std::span(identity_)));
   fill(writer);
   writer.commit();
   if (rank_of(comm_) != 0) return;
@@ -44,18 +64,24 @@ void CheckpointSeries::save(std::int64_t tick, const std::function<void(Checkpoi
   for (std::size_t i = 0; i + static_cast<std::size_t>(keep_) < names.size(); ++i) fs::remove(folder_ / names[i], ignored);
 }
 
-std::optional<CheckpointReader> CheckpointSeries::newest() {
+std::optional<CheckpointReader> CheckpointSeries::newest(Damaged damaged) {
+  std::size_t passed = 0;  // damaged ones that were left
   for (;;) {
     std::string name;
     if (rank_of(comm_) == 0) {
       const auto names = listed(folder_);
-      if (!names.empty()) name = names.back();
+      if (names.size() > passed) name = names[names.size() - 1 - passed];
     }
     name = from_root(comm_, name);
     if (name.empty()) return std::nullopt;
     try {
       return CheckpointReader(comm_, folder_ / name);
-    } catch (const MachineFailure& failure) {
+    } catch (const DamagedFile& failure) {
+      if (damaged == Damaged::leave) {
+        spdlog::warn("{}; trying the checkpoint before", failure.what());
+        ++passed;
+        continue;
+      }
       spdlog::warn("{}; set aside as {}.damaged, trying the checkpoint before", failure.what(), name);
       on_root(comm_, [&] {
         std::error_code error;
@@ -64,6 +90,15 @@ std::optional<CheckpointReader> CheckpointSeries::newest() {
       });
     }
   }
+}
+
+std::string CheckpointSeries::newest_identity() const {
+  std::string identity;
+  if (rank_of(comm_) == 0) {
+    std::vector<std::string> names = listed(folder_);
+    for (; identity.empty() && !names.empty(); names.pop_back()) identity = identity_in(folder_ / names.back());
+  }
+  return from_root(comm_, identity);
 }
 
 }  // namespace spindrift::io

@@ -51,6 +51,7 @@ File create(const std::filesystem::path& path) {
 
 File open(const std::filesystem::path& path) {
   const Properties properties = access();
+  H5Pset_file_locking(properties.get(), false, true);  // who looks at the file meanwhile does not make it unreadable
   return File(checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, properties.get()), "cannot open " + path.string()));
 }
 

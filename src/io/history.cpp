@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/io/history.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -8,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
 #include "src/io/machine_failure.hpp"
 
@@ -17,6 +20,13 @@ namespace {
 
 constexpr std::size_t buffer_bytes = 1 << 16;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// FNV-1a, 64 bits, going on from `digest`.
+constexpr std::uint64_t digest_start = 0xcbf29ce484222325ULL;
+std::uint64_t digest_of(std::uint64_t digest, std::string_view text) {
+  for (const char byte : text) digest = (digest ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
+  return digest;
+}
 
 /// Shortest text that reads back as the same double; sign and payload of a nan are dropped so that equal runs give equal bytes.
 void append_number(std::string& out, double value) {
@@ -73,11 +83,14 @@ void History::open(const std::filesystem::path& path) {
   buffer_ = header_of(columns_) + "\n";
   buffer_.reserve(buffer_bytes + columns_.size() * 26);
   bytes_ = rows_ = 0;
+  digest_ = digest_start;
   drain();
 }
 
-double History::resume(const std::filesystem::path& path, double time_s) {
+double History::resume(const std::filesystem::path& path, double time_s, const std::optional<Extent>& written) {
   std::ifstream in(path, std::ios::binary);
+  if (!in && !std::filesystem::exists(path))
+    throw InputError(path.string() + " is gone; put a copy of it back, or go on from start.file in a new run directory");
   if (!in) throw_errno("cannot read", path, errno);
   std::string line;
   std::getline(in, line);
@@ -90,22 +103,36 @@ double History::resume(const std::filesystem::path& path, double time_s) {
   const double last_kept = time_s + 1e-12 * std::max(1.0, std::abs(time_s));
   double last = nan;
   rows_ = 0;
+  digest_ = digest_of(digest_of(digest_start, line), "\n");
   while (std::getline(in, line) && !in.eof()) {  // at the end of file: a line without its newline, half written
     double time = nan;
     std::from_chars(line.data(), line.data() + line.size(), time);
     if (!(time <= last_kept)) break;
     kept_bytes += static_cast<long long>(line.size()) + 1;
+    digest_ = digest_of(digest_of(digest_, line), "\n");
     last = time;
     ++rows_;
   }
   in.close();
+  bytes_ = kept_bytes;
+  if (written) require_whole(*written, time_s, last);
   buffer_.clear();
   buffer_.reserve(buffer_bytes + columns_.size() * 26);
   file_ = OutputFile(path, OutputFile::Start::end);
   file_.cut(kept_bytes);
-  bytes_ = kept_bytes;
   drained_ = std::chrono::steady_clock::now();
   return last;
+}
+
+void History::require_whole(const Extent& written, double time_s, double last_s) const {
+  if (bytes_ == written.bytes && rows_ == written.rows && std::int64_t(digest_) == written.digest) return;
+  const std::string text =
+      rows_ == written.rows
+          ? fmt::format("its {} rows are not those that the run wrote: they were changed", rows_)
+          : fmt::format("it has {} rows up to t = {:g} s (the last of t = {:g} s), the run had written {}: rows are missing",
+                        rows_, time_s, last_s, written.rows);
+  throw InputError("history.csv: " + text +
+                   "; put a whole copy of it back, or say --allow-change history.csv to go on with it as it is");
 }
 
 std::span<double> History::row(double time_s) {
@@ -142,6 +169,7 @@ void History::drain() {
     throw;
   }
   bytes_ += static_cast<long long>(buffer_.size());
+  digest_ = digest_of(digest_, buffer_);
   buffer_.clear();
 }
 

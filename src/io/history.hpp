@@ -5,7 +5,9 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,9 +42,16 @@ class History {
   /// Starts a new file.
   void open(const std::filesystem::path& path);
 
-  /// Goes on with the file of an interrupted run: removes the rows after `time_s` and a half-written last line.
-  /// Throws InputError where the file's columns are not those declared. Returns the time of the last row kept (nan: none).
-  double resume(const std::filesystem::path& path, double time_s);
+  /// What is on disk after flush(), as a checkpoint keeps it.
+  struct Extent {
+    std::int64_t bytes = 0, rows = 0, digest = 0;
+  };
+  Extent extent() const { return {bytes_, rows_, std::int64_t(digest_)}; }
+
+  /// Goes on with the file of an interrupted run: removes the rows after `time_s` and a half-written last line. With `written`,
+  /// what the checkpoint says was there, rows that are missing or changed are an InputError that says what mends them; without,
+  /// gaps are accepted. So are other columns than those declared, never. Returns the time of the last row kept (nan: none).
+  double resume(const std::filesystem::path& path, double time_s, const std::optional<Extent>& written = {});
 
   /// Begins the row of time `time_s` [s] and gives its values to fill, all nan but the first.
   std::span<double> row(double time_s);
@@ -56,12 +65,14 @@ class History {
 
  private:
   void drain();
+  void require_whole(const Extent& written, double time_s, double last_s) const;
 
   std::vector<Column> columns_;
   std::vector<double> values_;
   std::string buffer_;
   OutputFile file_;
   long long bytes_ = 0, rows_ = 0;
+  std::uint64_t digest_ = 0;  ///< of these bytes
   std::chrono::steady_clock::time_point drained_;
 };
 

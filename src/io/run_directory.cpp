@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/io/run_directory.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <ctime>
 
 #include "src/io/atomic_file.hpp"
@@ -14,34 +16,65 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Everything a run writes; --overwrite removes these and leaves a user's own files alone.
-constexpr std::string_view files_of_a_run[] = {"scene.toml", "history.csv", "summary.json", "log.txt",
-                                               "trace.json", "report.html", "checkpoints",  "fields"};
+constexpr std::string_view files_of_a_run[] = {"scene.toml",  "history.csv", "summary.json", "log.txt",     "trace.json",
+                                               "report.html", "checkpoints", "fields",       "spanwise.csv"};
 
-bool holds_a_checkpoint(const fs::path& folder) {
+bool holds(const fs::path& folder, std::string_view extension) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.path().extension() == ".h5") return true;
+    if (entry.path().extension() == extension) return true;
   return false;
 }
 
-void prepare(const fs::path& path, Existing existing) {
+/// Whether something is there besides locks.
+bool is_used(const fs::path& path) {
+  if (!fs::exists(path)) return false;
+  for (const auto& entry : fs::directory_iterator(path))
+    if (!entry.path().filename().string().starts_with(RunLock::file_name)) return true;
+  return false;
+}
+
+/// Rows of a run that came to no checkpoint.
+constexpr std::string_view rows_before = "history_before_restart.csv";
+
+void remove_run(const fs::path& path) {
+  for (const auto name : files_of_a_run) fs::remove_all(path / name);
+}
+
+/// A folder that --restart finds without a checkpoint: a run that never came that far left nothing worth keeping but its rows.
+void begin_anew(const fs::path& path) {
+  const fs::path checkpoints = path / "checkpoints";
+  if (holds(checkpoints, ".damaged"))
+    throw InputError("run directory " + path.string() + ": --restart finds damaged checkpoints only in " + checkpoints.string() +
+                     "; put a copy of one back, or say --overwrite to begin anew");
+  const fs::path history = path / "history.csv", kept = path / rows_before;
+  spdlog::warn("--restart: no run in {} came as far as a checkpoint: THIS RUN BEGINS ANEW, at the scene's start{}", path.string(),
+               fs::exists(history) ? "; the rows that are there are kept as " + kept.filename().string() : std::string());
+  if (fs::exists(history)) fs::rename(history, kept);
+  remove_run(path);
+}
+
+/// Before anything is changed.
+void refuse_early(const fs::path& path, Existing existing) {
   if (fs::exists(path) && !fs::is_directory(path))
     throw InputError("run directory " + path.string() + ": a file of that name exists; choose another with --out");
-  const bool used = fs::exists(path) && !fs::is_empty(path);
-  if (existing == Existing::resume && !holds_a_checkpoint(path / "checkpoints"))
-    throw InputError("run directory " + path.string() + ": --restart finds no checkpoint in " + (path / "checkpoints").string() +
-                     "; give the directory of the interrupted run with --out, or run without --restart");
-  if (existing == Existing::refuse && used)
+  if (existing == Existing::refuse && is_used(path))
     throw InputError("run directory " + path.string() +
                      " is not empty; choose another with --out, or say --restart to go on from its last checkpoint or " +
                      "--overwrite to replace its results");
-  if (existing == Existing::overwrite && used)
-    for (const auto name : files_of_a_run) fs::remove_all(path / name);
-  fs::create_directories(path);
+}
+
+/// With the lock held; whether there is a checkpoint to go on from.
+bool prepare(const fs::path& path, Existing existing) {
+  refuse_early(path, existing);  // another run may have been here and gone since
+  const bool resumes = existing == Existing::resume && holds(path / "checkpoints", ".h5");
+  if (existing == Existing::resume && !resumes) begin_anew(path);
+  if (existing == Existing::overwrite) remove_run(path), fs::remove(path / rows_before);
   // Find out now, not after an hour, that nothing can be written here.
   const fs::path probe = path / ".writable";
   write_atomically(probe, "");
   fs::remove(probe);
+  return resumes;
 }
 
 }  // namespace
@@ -49,11 +82,15 @@ void prepare(const fs::path& path, Existing existing) {
 RunDirectory::RunDirectory(MPI_Comm comm, fs::path path, Existing existing) : path_(std::move(path)) {
   on_root(comm, [&] {
     try {
-      prepare(path_, existing);
+      refuse_early(path_, existing);
+      fs::create_directories(path_);
+      lock_ = std::make_unique<RunLock>(path_);
+      resumes_ = prepare(path_, existing);
     } catch (const fs::filesystem_error& error) {
       throw MachineFailure("run directory " + path_.string() + ": " + error.code().message());
     }
   });
+  resumes_ = from_root(comm, resumes_ ? "resumes" : "") == "resumes";
 }
 
 fs::path RunDirectory::default_path(MPI_Comm comm, const fs::path& scene) {

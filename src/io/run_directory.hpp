@@ -6,8 +6,11 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
+
+#include "src/io/run_lock.hpp"
 
 namespace spindrift::io {
 
@@ -15,13 +18,21 @@ namespace spindrift::io {
 enum class Existing {
   refuse,     ///< throw InputError unless it is empty
   overwrite,  ///< remove the files of the run in it, and only those
-  resume      ///< keep everything; throw InputError where there is no checkpoint to go on from
+  resume      ///< keep everything where there is a checkpoint to go on from; where no run came that far, begin anew
 };
 
 class RunDirectory {
  public:
-  /// Collective. Makes the folder and its parents. Throws on all ranks alike.
+  /// Collective. Makes the folder and its parents and holds its lock (run_lock.hpp) for the object's life. Throws on all ranks
+  /// alike, then with the folder as it was.
   RunDirectory(MPI_Comm comm, std::filesystem::path path, Existing existing);
+
+  /// Whether there is a checkpoint to go on from: with Existing::resume alone, and not where the run begins anew.
+  bool resumes() const { return resumes_; }
+
+  /// What the run is made of, as checkpoints keep it to compare a restart with (src/scene/identity.hpp).
+  void identify(std::string identity) { identity_ = std::move(identity); }
+  const std::string& identity() const { return identity_; }
 
   /// runs/SCENE_2026-11-21_14-03-59 in the current folder; a number is added where that exists. Collective: rank 0's clock
   /// counts.
@@ -42,6 +53,9 @@ class RunDirectory {
 
  private:
   std::filesystem::path path_;
+  std::unique_ptr<RunLock> lock_;  ///< on rank 0
+  bool resumes_ = false;
+  std::string identity_;
 };
 
 }  // namespace spindrift::io

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "src/scene/identity.hpp"
 #include "src/scene/reader.hpp"
 
 namespace spindrift::scene {
@@ -149,8 +150,11 @@ void Reader::path(const Parameter& p, const Value& value, const std::string& key
   if (!fs::exists(path, error)) return wrong(value, key, fmt::format("no such file: {}{}", path.string(), aside(p)));
   if (fs::is_directory(path, error))
     return wrong(value, key, fmt::format("is a directory, not a file: {}{}", path.string(), aside(p)));
+  if (!fs::is_regular_file(path, error))
+    return wrong(value, key, fmt::format("is a device or a pipe, not a file: {}{}", path.string(), aside(p)));
   if (!std::ifstream(path)) return wrong(value, key, fmt::format("cannot be read: {}{}", path.string(), aside(p)));
   out = path.string();
+  FileRecord::note(out);
 }
 
 void Reader::symmetric(const Parameter& p, const Value& value, const std::string& key, std::span<double> out) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "kernels/base/binned_sum.hpp"
 #include "kernels/sph/time_step.hpp"
 #include "src/sea/sph/by_identity.hpp"
 #include "src/sea/sph/damping.hpp"
@@ -166,37 +167,30 @@ class Sea final : public ParticleSea {
     return wavemaker_ ? wavemaker_->stroke(t) : sph::Wavemaker::Stroke{0.0, 0.0};
   }
 
+  /// Of all ranks. The energy has the same bits wherever particles lie in memory, which depends on when they were last sorted.
   Extent extent() const override {
     struct Part {
-      int group;
-      double x_max, z_max, speed2;
+      double x_max = -1e300, z_max = -1e300;
+      BinnedSum speed2;
     };
     const Store<dim, Real>& store = sea_.store();
-    std::vector<Part> parts;
-    for (const int g : sea_.territory().own) {
-      Part part{g, -1e300, -1e300, 0.0};
-      const sph::Group& group = store.groups[std::size_t(g)];
-      for (std::size_t slot = std::size_t(group.fluid) * sph::cluster_size; slot < std::size_t(group.solid) * sph::cluster_size;
-           ++slot) {
-        if (store.id[slot] == sph::no_particle) continue;
-        part.x_max = std::max(part.x_max, store.x[0][slot]), part.z_max = std::max(part.z_max, store.x[dim - 1][slot]);
-        for (int k = 0; k < dim; ++k) part.speed2 += store.v[k][slot] * store.v[k][slot];
-      }
-      if (group.solid > group.fluid) parts.push_back(part);
-    }
+    Part all;
+    sph::for_water_particles(store, [&](std::size_t slot) {
+      all.x_max = std::max(all.x_max, store.x[0][slot]), all.z_max = std::max(all.z_max, store.x[dim - 1][slot]);
+      double speed2 = 0.0;
+      for (int k = 0; k < dim; ++k) speed2 += store.v[k][slot] * store.v[k][slot];
+      all.speed2.add(speed2);
+    });
     if (ranks_ > 1) {
       runtime::Packer mine;
-      mine.put(std::span<const Part>(parts));
-      parts.clear();
-      for (const runtime::Bytes& bytes : runtime::exchange_all(comm_, mine.take()))
-        for (const Part& part : runtime::Unpacker(bytes).template many<Part>()) parts.push_back(part);
+      mine.put_one(std::exchange(all, {}));
+      for (const runtime::Bytes& bytes : runtime::exchange_all(comm_, mine.take())) {
+        const Part part = runtime::Unpacker(bytes).template one<Part>();
+        all.x_max = std::max(all.x_max, part.x_max), all.z_max = std::max(all.z_max, part.z_max), all.speed2.add(part.speed2);
+      }
     }
-    std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.group < b.group; });
-    Part all{0, -1e300, -1e300, 0.0};
-    for (const Part& part : parts)
-      all.x_max = std::max(all.x_max, part.x_max), all.z_max = std::max(all.z_max, part.z_max), all.speed2 += part.speed2;
     const double half = 0.5 * sea_.parameters().spacing;
-    return {all.x_max + half, all.z_max + half, 0.5 * sea_.parameters().mass(dim) * width_ * all.speed2};
+    return {all.x_max + half, all.z_max + half, 0.5 * sea_.parameters().mass(dim) * width_ * all.speed2.value()};
   }
 
   ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high,

@@ -52,6 +52,9 @@ std::vector<double> March::save() const {
                           double(ended_),
                           double(unconverged_),
                           double(spent_),
+                          reference_,
+                          reference_mean_,
+                          reference_model_,
                           double(loads_.size())};
   all.insert(all.end(), loads_.begin(), loads_.end());
   all.resize(all.size() + std::size_t(o_.load_window) + 1 - loads_.size(), 0.0);
@@ -67,7 +70,8 @@ void March::load(std::span<const double> from) {
   cap_ = from[14], low_ = from[15], since_low_ = int(from[16]), first_mean_ = from[17], first_model_ = from[18], mean_ = from[19],
   model_ = from[20];
   ended_ = long(from[21]), unconverged_ = long(from[22]), spent_ = from[23] != 0.0;
-  loads_.assign(from.begin() + 25, from.begin() + 25 + std::ptrdiff_t(from[24]));
+  reference_ = from[24], reference_mean_ = from[25], reference_model_ = from[26];
+  loads_.assign(from.begin() + 28, from.begin() + 28 + std::ptrdiff_t(from[27]));
 }
 
 void March::resume(int more_steps) {

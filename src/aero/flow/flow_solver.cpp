@@ -300,8 +300,23 @@ TileGeometry::RigidRate change(const RigidMap& from, const RigidMap& to) {
 }
 }  // namespace
 
+namespace {
+/// Up to round-off.
+bool alike(const std::vector<RigidMap>& a, const std::vector<RigidMap>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t n = 0; n < a.size(); ++n)
+    if ((a[n].rotation - b[n].rotation).norm() > 1e-9 ||
+        (a[n].translation - b[n].translation).norm() > 1e-9 * (1.0 + a[n].translation.norm()))
+      return false;
+  return true;
+}
+}  // namespace
+
 void FlowSolver::place(std::vector<BlockPose> before, std::vector<BlockPose> now) {
-  periodic_ = moved_maps(grid_.tiling().periodic, now[0].map);
+  // A motion about the axis of the period leaves the maps as they are but for round-off: those of the first place stay, so that
+  // a restart, which places the grid somewhere else, has their bits.
+  if (std::vector<RigidMap> maps = moved_maps(grid_.tiling().periodic, now[0].map); !alike(maps, periodic_))
+    periodic_ = std::move(maps);
   check_poses(before), check_poses(now);
   const bool planar = grid_.tiling().planar;
   for (FlowTile& tile : tiles_) {
@@ -797,11 +812,13 @@ std::vector<double> FlowSolver::save_march() const {
   all.insert(all.end(), {double(time_steps_), dt_before_});
   if (!moves()) return all;
   all.push_back(double(poses_before_.size()));
+  const auto add = [&](const RigidMap& map) {
+    all.insert(all.end(), map.rotation.data(), map.rotation.data() + 9);
+    all.insert(all.end(), map.translation.data(), map.translation.data() + 3);
+  };
+  for (const RigidMap& map : periodic_) add(map);
   for (const auto* poses : {&poses_before_, &poses_})
-    for (const BlockPose& p : *poses) {
-      all.insert(all.end(), p.map.rotation.data(), p.map.rotation.data() + 9);
-      all.insert(all.end(), p.map.translation.data(), p.map.translation.data() + 3);
-    }
+    for (const BlockPose& p : *poses) add(p.map);
   return all;
 }
 void FlowSolver::load_march(std::span<const double> from) {
@@ -811,13 +828,19 @@ void FlowSolver::load_march(std::span<const double> from) {
   dt_before_ = from[1];
   if (!moves()) return;
   constexpr std::size_t numbers = 12;
-  const std::size_t first = std::size_t(from[2]), given = (from.size() - 3) / numbers;
-  std::vector<BlockPose> all(given);
-  for (std::size_t n = 0; n < given; ++n) {
-    const double* at = from.data() + 3 + n * numbers;
-    all[n].map.rotation = Eigen::Map<const Eigen::Matrix3d>(at);
-    all[n].map.translation = Eigen::Map<const Eigen::Vector3d>(at + 9);
-  }
+  const std::size_t first = std::size_t(from[2]);
+  from = from.subspan(3);
+  const auto next = [&from] {
+    RigidMap map;
+    map.rotation = Eigen::Map<const Eigen::Matrix3d>(from.data());
+    map.translation = Eigen::Map<const Eigen::Vector3d>(from.data() + 9);
+    from = from.subspan(numbers);
+    return map;
+  };
+  periodic_.resize(grid_.tiling().periodic.size());
+  for (RigidMap& map : periodic_) map = next();
+  std::vector<BlockPose> all;
+  while (!from.empty()) all.push_back({.map = next(), .shape = {}});
   place({all.begin(), all.begin() + std::ptrdiff_t(first)}, {all.begin() + std::ptrdiff_t(first), all.end()});
 }
 

@@ -25,8 +25,8 @@ struct LawShepard {
   SPINDRIFT_INLINE void operator()(const PairState<Real, dim>& i, const PairState<Real, dim>& j, Vec<Real, sum_planes>& to_i,
                                    Vec<Real, sum_planes>& to_j) const {
     const Real w = kernel.value(make_pair(kernel, i.x - j.x, i.v - j.v).r2);
-    to_i += FilterShepard::pair_terms(w, reciprocal(Real(rho0) + j.deviation), j.deviation);
-    to_j += FilterShepard::pair_terms(w, reciprocal(Real(rho0) + i.deviation), i.deviation);
+    to_i += FilterShepard::pair_terms(w, Real(Real(1) / (Real(rho0) + j.deviation)), j.deviation);
+    to_j += FilterShepard::pair_terms(w, Real(Real(1) / (Real(rho0) + i.deviation)), i.deviation);
   }
 };
 
@@ -41,8 +41,8 @@ struct LawMls {
                                    Vec<Real, sum_planes>& to_j) const {
     const Pair<Real, dim> pair = make_pair(kernel, i.x - j.x, i.v - j.v);
     const Real w = kernel.value(pair.r2), inverse_h = Real(Scalar(1.0 / kernel.h()));
-    to_i += FilterMls<dim>::pair_terms(w, reciprocal(Real(rho0) + j.deviation), j.deviation, pair.x, inverse_h);
-    to_j += FilterMls<dim>::pair_terms(w, reciprocal(Real(rho0) + i.deviation), i.deviation, Real(-1) * pair.x, inverse_h);
+    to_i += FilterMls<dim>::pair_terms(w, Real(Real(1) / (Real(rho0) + j.deviation)), j.deviation, pair.x, inverse_h);
+    to_j += FilterMls<dim>::pair_terms(w, Real(Real(1) / (Real(rho0) + i.deviation)), i.deviation, Real(-1) * pair.x, inverse_h);
   }
 };
 

@@ -34,9 +34,9 @@ struct LawMotion {
   template <class Real>
   SPINDRIFT_INLINE void operator()(const PairState<Real, dim>& i, const PairState<Real, dim>& j, Vec<Real, sum_planes>& to_i,
                                    Vec<Real, sum_planes>& to_j) const {
-    const Pair<Real, dim> pair = make_pair(kernel, i.x - j.x, i.v - j.v);
     const Real density_sum = (i.deviation + Real(Scalar(2) * rho0)) + j.deviation;
-    const Real inverse = reciprocal(density_sum * (pair.r2 + Real(softening(Scalar(kernel.h())))));
+    Real inverse;
+    const Pair<Real, dim> pair = make_pair(kernel, i.x - j.x, i.v - j.v, density_sum, inverse);
     const Real factor = momentum_symmetric(pair, i.p_rho2, j.p_rho2, viscosity(pair, inverse));
     const Real rate = continuity(pair), flow = diffusion(pair, i.deviation, j.deviation, inverse);
     for (int k = 0; k < dim; ++k) {
@@ -63,16 +63,18 @@ struct LawLaminar {
   template <class Real>
   SPINDRIFT_INLINE void operator()(const PairState<Real, dim>& i, const PairState<Real, dim>& j, Vec<Real, sum_planes>& to_i,
                                    Vec<Real, sum_planes>& to_j) const {
-    const Pair<Real, dim> pair = make_pair(kernel, i.x - j.x, i.v - j.v);
-    add(pair, i, j, terms(pair, i, j), to_i, to_j);
+    Real inverse;
+    const Pair<Real, dim> pair = make_pair(kernel, i.x - j.x, i.v - j.v, density_sum(i, j), inverse);
+    add(pair, i, j, inverse, terms(pair, i, j, inverse), to_i, to_j);
   }
   template <class Real>
   SPINDRIFT_INLINE void operator()(const PairState<Real, dim>& i, const PairState<Real, dim>& j,
                                    const SymmetricTensor<Real, dim>& tau_i, const SymmetricTensor<Real, dim>& tau_j,
                                    Vec<Real, sum_planes>& to_i, Vec<Real, sum_planes>& to_j) const {
-    const Pair<Real, dim> pair = make_pair(kernel, i.x - j.x, i.v - j.v);
+    Real inverse;
+    const Pair<Real, dim> pair = make_pair(kernel, i.x - j.x, i.v - j.v, density_sum(i, j), inverse);
     const SymmetricTensor<Real, dim> tau_sum{tau_i.c + tau_j.c};
-    add(pair, i, j, terms(pair, i, j) + ViscositySps::acceleration(pair, tau_sum), to_i, to_j);
+    add(pair, i, j, inverse, terms(pair, i, j, inverse) + ViscositySps::acceleration(pair, tau_sum), to_i, to_j);
   }
 
  private:
@@ -82,15 +84,16 @@ struct LawLaminar {
   }
   /// Acceleration of i: pressure along x_ij, viscosity along v_ij.
   template <class Real>
-  SPINDRIFT_INLINE Vec<Real, dim> terms(const Pair<Real, dim>& pair, const PairState<Real, dim>& i,
-                                        const PairState<Real, dim>& j) const {
-    const Real pressure = momentum_symmetric(pair, i.p_rho2, j.p_rho2, Real(0)), drag = viscosity(pair, density_sum(i, j));
+  SPINDRIFT_INLINE Vec<Real, dim> terms(const Pair<Real, dim>& pair, const PairState<Real, dim>& i, const PairState<Real, dim>& j,
+                                        const Real& inverse) const {
+    const Real inverse_density = inverse * (pair.r2 + Real(softening(Scalar(kernel.h()))));
+    const Real pressure = momentum_symmetric(pair, i.p_rho2, j.p_rho2, Real(0)), drag = viscosity(pair, inverse_density);
     return pressure * pair.x + drag * pair.v;
   }
   template <class Real>
   SPINDRIFT_INLINE void add(const Pair<Real, dim>& pair, const PairState<Real, dim>& i, const PairState<Real, dim>& j,
-                            const Vec<Real, dim>& acceleration, Vec<Real, sum_planes>& to_i, Vec<Real, sum_planes>& to_j) const {
-    const Real inverse = reciprocal(density_sum(i, j) * (pair.r2 + Real(softening(Scalar(kernel.h())))));
+                            const Real& inverse, const Vec<Real, dim>& acceleration, Vec<Real, sum_planes>& to_i,
+                            Vec<Real, sum_planes>& to_j) const {
     const Real rate = continuity(pair), flow = diffusion(pair, i.deviation, j.deviation, inverse);
     for (int k = 0; k < dim; ++k) to_i[k] += acceleration[k], to_j[k] -= acceleration[k];
     to_i[dim] += rate + flow;
@@ -109,8 +112,8 @@ struct LawStrain {
   SPINDRIFT_INLINE void operator()(const PairState<Real, dim>& i, const PairState<Real, dim>& j, Vec<Real, sum_planes>& to_i,
                                    Vec<Real, sum_planes>& to_j) const {
     const SymmetricTensor<Real, dim> strain = ViscositySps::strain_terms(make_pair(kernel, i.x - j.x, i.v - j.v));
-    to_i += reciprocal(Real(rho0) + j.deviation) * strain.c;
-    to_j += reciprocal(Real(rho0) + i.deviation) * strain.c;
+    to_i += (Real(1) / (Real(rho0) + j.deviation)) * strain.c;
+    to_j += (Real(1) / (Real(rho0) + i.deviation)) * strain.c;
   }
 };
 

@@ -24,7 +24,7 @@ inline constexpr auto places_of_ones = [] {
 }();
 #endif
 
-/// A register of boxes is tested at once.
+/// A register of boxes is tested at once: how many changes neither the boxes found nor their order.
 using Boxes = NativeWide<float>;
 
 /// Writes first + lane to `to` for every lane with value < bound among the first `valid`; returns how many. Writes up to a
@@ -124,6 +124,16 @@ class Candidates {
       found += append_where_below(to + found, gap2<dim>(low, high, std::uint32_t(from), point, point), reach * reach,
                                   std::uint32_t(from), count_ - from);
     return found;
+  }
+  /// The clusters themselves and their shifts, all of them.
+  struct All {
+    const std::uint32_t* cluster;
+    std::array<const Real*, dim> shift;
+  };
+  All all() const {
+    All a{cluster_.data(), {}};
+    for (int k = 0; k < dim; ++k) a.shift[k] = shift_[k].data();
+    return a;
   }
   /// Plain pointers for the inner loop.
   struct View {

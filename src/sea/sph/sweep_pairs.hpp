@@ -107,7 +107,7 @@ struct Meetings {
 template <bool is_water, class LawWater, class LawSolid, int dim, class Real>
 void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t mine, Meetings<dim, Real>& meets, float reach,
                    bool inside, const LawWater& water, const LawSolid& solid) {
-  using V = NativeWide<Real>;
+  using V = LineWide<Real>;
   const Real* state = store.pack_of(mine);
   constexpr int planes = LawWater::sum_planes;
   static_assert(planes == LawSolid::sum_planes && stress_planes<LawWater> == stress_planes<LawSolid>);

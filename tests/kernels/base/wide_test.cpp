@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/base/wide.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 using namespace spindrift;
@@ -22,18 +24,49 @@ TEMPLATE_TEST_CASE("lanes compute what one number computes", "[wide][fast]", flo
     CHECK(max(va, vb)[n] == std::max(a[n], b[n]));
     CHECK(sqrt(vb)[n] == std::sqrt(b[n]));
   }
+  const TestType nan = std::numeric_limits<TestType>::quiet_NaN();
+  CHECK(max(V(nan), V(TestType(1)))[2] == TestType(1));  // the second of the two where they do not compare
+  CHECK(std::isnan(max(V(TestType(1)), V(nan))[2]));
+  CHECK(min(V(nan), V(TestType(1)))[2] == TestType(1));
+  CHECK(std::signbit(max(V(TestType(0.0)), V(TestType(-0.0)))[2]));
+  CHECK_FALSE(std::signbit(min(V(TestType(-0.0)), V(TestType(0.0)))[2]));
   CHECK(V(TestType(-0.0))[3] == TestType(0));
   CHECK(std::signbit(V(TestType(-0.0))[3]));
 }
 
-TEMPLATE_TEST_CASE("reciprocals of lanes are right within three units in the last place", "[wide][fast]", float, double) {
-  using V = NativeWide<TestType>;
-  const TestType unit = std::numeric_limits<TestType>::epsilon();
-  for (double x = 1e-12; x < 1e12; x *= 1.37) {
-    const TestType exact = TestType(1) / TestType(x), root = TestType(1 / std::sqrt(double(TestType(x))));
-    CHECK(std::abs(reciprocal(V(x))[1] - exact) <= 3 * unit * exact);
-    CHECK(std::abs(inverse_sqrt(V(x))[1] - root) <= 3 * unit * root);
-  }
+TEMPLATE_TEST_CASE("a product that is added is rounded once, in whole registers and in halves", "[wide][fast]", float, double) {
+  const auto check = []<class V>(V) {
+    using T = typename V::Scalar;
+    const T unit = std::numeric_limits<T>::epsilon();
+    // a b = 1 - unit^2: rounded it is 1, so that only a fused operation sees the rest.
+    const T a = T(1) + unit, b = T(1) - unit;
+    const V va(a), vb(b), one(T(1)), two(T(2));
+    const auto all = [](V v, T expected) {
+      for (int lane = 0; lane < V::size; ++lane) CHECK(v[lane] == expected);
+    };
+    all(va * vb, T(1));
+    all(va * vb - one, -unit * unit);
+    all(one - va * vb, unit * unit);
+    all(-(va * vb) + one, unit * unit);
+    all(one + -(va * vb), unit * unit);
+    all(fma(va, vb, -one), -unit * unit);
+    all(fma_of_minus(va, vb, one), unit * unit);
+    V sum = one;
+    sum -= va * vb;
+    all(sum, unit * unit);
+    sum = -one;
+    sum += va * vb;
+    all(sum, -unit * unit);
+    all(va * vb - two * V(T(0.5)), -unit * unit);  // of two products the left one
+    all(two * V(T(0.5)) - va * vb, T(0));
+    all((va * vb) * two, T(2));  // a product of a product takes the rounded one
+    all(max(va * vb, T(0)), T(1));
+    all(sqrt(va * vb), T(1));
+    all(select(va > vb, va * vb, one), T(1));
+  };
+  check(Wide<TestType, 16>());
+  check(Wide<TestType, 8>());
+  check(NativeWide<TestType>());
 }
 
 TEST_CASE("the sum of lanes adds halves", "[wide][fast]") {
@@ -42,6 +75,14 @@ TEST_CASE("the sum of lanes adds halves", "[wide][fast]") {
   CHECK(sum(Wide<float, 16>::load(a)) == 1240.0f);
   CHECK(sum(Wide<double, 4>(2.5)) == 10.0);
   CHECK(sum(Wide<double, 16>(2.5)) == 40.0);
+  // The order of additions, by numbers that lose digits in any other: of 16 lanes n meets n + 8, then n + 4, n + 2, n + 1.
+  double b[16];
+  for (int n = 0; n < 16; ++n) b[n] = std::sin(1.0 + 7.0 * n) * std::pow(10.0, n % 5);
+  double expected[16];
+  std::copy(b, b + 16, expected);
+  for (int half = 8; half > 0; half /= 2)
+    for (int n = 0; n < half; ++n) expected[n] += expected[n + half];
+  CHECK(sum(Wide<double, 16>::load(b)) == expected[0]);
 }
 
 TEMPLATE_TEST_CASE("comparisons of lanes select lane by lane", "[wide][fast]", float, double) {

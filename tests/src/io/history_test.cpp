@@ -188,3 +188,40 @@ TEST_CASE("statistics of a history without rows are nan, and the file must be th
   CHECK(std::isnan(s.columns[1].means[0]));
   CHECK_THROWS_AS(io::history_statistics(folder / "absent.csv", {}), io::MachineFailure);
 }
+
+TEST_CASE("a history that lost rows or changed since the checkpoint is not gone on with", "[io][faults][fast]") {
+  const test::Scratch folder("history");
+  const auto path = folder / "h.csv";
+  const auto declared = [](io::History& h) { h.add({"x_m", "m", "A number."}); };
+  io::History::Extent extent;
+  {
+    io::History h;
+    declared(h);
+    h.open(path);
+    for (int n = 0; n < 20; ++n) {
+      h.row(0.1 * n)[1] = n * n, h.write();
+      if (n == 10) h.flush(), extent = h.extent();
+    }
+  }
+  const std::string whole = io::read_file(path);
+  const auto resume = [&](const std::string& text) {
+    io::write_atomically(path, text);
+    io::History h;
+    declared(h);
+    h.resume(path, 1.0, extent);
+    h.row(1.1)[1] = 121, h.write();
+  };
+  resume(whole);
+  const std::string until_11 = whole.substr(0, whole.find("\n1.2") + 1);
+  CHECK(io::read_file(path) == until_11);
+  const std::size_t row = whole.find("\n0.5") + 1, next = whole.find('\n', row) + 1;
+  std::string changed = whole;
+  changed[next - 2] = '7';
+  CHECK_THROWS_WITH(resume(whole.substr(0, row)), Contains("rows are missing") && Contains("--allow-change history.csv"));
+  CHECK_THROWS_WITH(resume(whole.substr(0, row) + whole.substr(next)), Contains("had written 11: rows are missing"));
+  CHECK_THROWS_WITH(resume(changed), Contains("were changed"));
+  std::filesystem::remove(path);
+  io::History h;
+  declared(h);
+  CHECK_THROWS_AS(h.resume(path, 1.0, extent), io::InputError);
+}

@@ -23,22 +23,50 @@ namespace fs = std::filesystem;
 TEST_CASE("a run directory with something in it is not touched unless told to", "[io][fast]") {
   const test::Scratch folder("run_directory");
   const fs::path path = folder / "deep/run";
-  const io::RunDirectory directory(MPI_COMM_SELF, path, io::Existing::refuse);
-  directory.write_scene(MPI_COMM_SELF, "[time]\n");
-  CHECK(io::read_file(directory.scene()) == "[time]\n");
+  const fs::path scene = path / "scene.toml", checkpoints = path / "checkpoints";
+  {
+    const io::RunDirectory directory(MPI_COMM_SELF, path, io::Existing::refuse);
+    CHECK_FALSE(directory.resumes());
+    directory.write_scene(MPI_COMM_SELF, "[time]\n");
+    CHECK(io::read_file(scene) == "[time]\n");
+    for (const auto existing : {io::Existing::overwrite, io::Existing::resume, io::Existing::refuse})  // while it is at work
+      CHECK_THROWS_AS(io::RunDirectory(MPI_COMM_SELF, path, existing), io::InputError);
+    CHECK(io::read_file(scene) == "[time]\n");
+  }
   io::write_atomically(path / "notes.txt", "mine");
-  const auto make = [&](io::Existing existing) { io::RunDirectory(MPI_COMM_SELF, path, existing); };
+  const auto make = [&](io::Existing existing) { return io::RunDirectory(MPI_COMM_SELF, path, existing).resumes(); };
   CHECK_THROWS_AS(make(io::Existing::refuse), io::InputError);
   CHECK_THROWS_WITH(make(io::Existing::refuse), Contains("--restart") && Contains("--overwrite") && Contains("--out"));
-  CHECK_THROWS_WITH(make(io::Existing::resume), Contains("no checkpoint"));
-  fs::create_directories(directory.checkpoints());
-  io::write_atomically(directory.checkpoints() / "checkpoint_1.h5", "");
-  make(io::Existing::resume);
-  CHECK(fs::exists(directory.scene()));
-  make(io::Existing::overwrite);
-  CHECK_FALSE(fs::exists(directory.scene()));
-  CHECK_FALSE(fs::exists(directory.checkpoints()));
+  fs::create_directories(checkpoints);
+  io::write_atomically(checkpoints / "checkpoint_1.h5", "");
+  CHECK(make(io::Existing::resume));
+  CHECK(fs::exists(scene));
+  CHECK_FALSE(make(io::Existing::overwrite));
+  CHECK_FALSE(fs::exists(scene));
+  CHECK_FALSE(fs::exists(checkpoints));
   CHECK(io::read_file(path / "notes.txt") == "mine");  // not the run's
+}
+
+TEST_CASE("a restart where no run came as far as a checkpoint begins anew and keeps the rows", "[io][faults][fast]") {
+  const test::Scratch folder("run_directory");
+  const auto resumes = [&](const fs::path& path) {
+    return io::RunDirectory(MPI_COMM_SELF, path, io::Existing::resume).resumes();
+  };
+  CHECK_FALSE(resumes(folder / "unborn"));
+  CHECK_FALSE(resumes(folder / "unborn"));  // now empty
+  const fs::path killed = folder / "killed";
+  fs::create_directories(killed / "checkpoints");
+  io::write_atomically(killed / "history.csv", "time_s\n0\n");
+  io::write_atomically(killed / "checkpoints/checkpoint_1.h5.tmp", "half");
+  io::write_atomically(killed / "slurm-1.out", "the queue's");
+  CHECK_FALSE(resumes(killed));
+  CHECK(io::read_file(killed / "history_before_restart.csv") == "time_s\n0\n");
+  CHECK_FALSE(fs::exists(killed / "history.csv"));
+  CHECK_FALSE(fs::exists(killed / "checkpoints"));
+  CHECK(fs::exists(killed / "slurm-1.out"));
+  fs::create_directories(killed / "checkpoints");
+  io::write_atomically(killed / "checkpoints/checkpoint_1.h5.damaged", "bits");
+  CHECK_THROWS_WITH(resumes(killed), Contains("damaged") && Contains("--overwrite"));
 }
 
 TEST_CASE("a run directory that cannot be is refused in words", "[io][faults][fast]") {

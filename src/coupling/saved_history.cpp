@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/saved_history.hpp"
+
+#include <array>
+
+#include "src/io/collective.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+constexpr const char* extent_name = "history/extent";
+}
+
+void write(io::CheckpointWriter& file, const io::History::Extent& extent) {
+  const std::array<std::int64_t, 3> values{extent.bytes, extent.rows, extent.digest};
+  file.write<std::int64_t>(extent_name, values);
+}
+
+std::optional<io::History::Extent> extent_in(const io::CheckpointReader& file) {
+  if (!file.has(extent_name)) return std::nullopt;
+  const std::vector<std::int64_t> values = file.read<std::int64_t>(extent_name);
+  return io::History::Extent{values.at(0), values.at(1), values.at(2)};
+}
+
+void open_history(MPI_Comm comm, io::History& history, const io::RunDirectory& directory, const RunSettings& settings,
+                  double time_s, const std::optional<io::History::Extent>& written) {
+  io::on_root(comm, [&] {
+    if (!settings.restart)
+      history.open(directory.history());
+    else
+      history.resume(directory.history(), time_s, settings.accept_history ? std::nullopt : written);
+  });
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,149 @@
+"""Restarts as a user meets them: what may differ from the run before and what is refused by name, a history that lost rows, folders where no run
+came as far as a checkpoint, two runs in one folder. Usage: restart_test.py SPINDRIFT [CLASS...]"""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CASE3 = ROOT / "inputs/leble_barakos/case3_engineering.toml"
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_restart_")
+        self.path = pathlib.Path(self.folder.name)
+        self.out = self.path / "run"
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_case(self, *more, scene=CASE3, code=0, out=None):
+        done = subprocess.run([PROGRAM, "run", scene, "--out", out or self.out, "--no-report", "--quiet", *map(str, more)], capture_output=True, text=True,
+                              timeout=300)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def files(self):
+        return {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()}
+
+    def history(self, out=None):
+        return ((out or self.out) / "history.csv").read_text()
+
+
+class Identity(Runs):
+    # Of every kind of section; the key that must be named where it is not the one that is set.
+    CHANGES = ["wind.speed_m_s=20.0", "wind.direction_deg=5.0", "environment.water_density_kg_m3=1000.0", "environment.water_depth_m=30.0",
+               "environment.gravity_m_s2=9.8", "environment.air_density_kg_m3=1.2", "bodies.platform.mass_kg=4.3e6", "bodies.rotor.inertia_kg_m2=[1.6e8, 8e7, 8e7]",
+               "joints.bearing.rotation.speed_rpm=9.0", "moorings.line_downwind.axial_stiffness_N=5e8", "moorings.line_upwind_left.anchor_m=[-81.0, 140.0, -20.6]",
+               "sea.drag_coefficient=0.9", "sea.added_mass_coefficient=0.9", "waves.height_m=2.0", "waves.model='airy'", "waves.ramp_s=5.0",
+               "time.integrator='symplectic'", "rotor.blade_pitch_deg=1.0", "start.ramp_s=1.0"]
+
+    def test_every_changed_key_is_refused_by_name_with_both_values_and_nothing_is_written(self):
+        self.run_case("--until", 1.0)
+        before = self.files()
+        for change in self.CHANGES:
+            key = change.split("=", 1)[0]
+            with self.subTest(key=key):
+                said = self.run_case("--restart", "--until", 1.1, "--set", change, code=2)
+                line = [line for line in said.splitlines() if line.strip().startswith(key)]
+                self.assertEqual(len(line), 1, said)
+                self.assertIn("was ", line[0])
+                self.assertIn(", is ", line[0])
+                self.assertIn("--allow-change", said)
+                self.assertEqual(self.files(), before)
+
+    def test_a_changed_file_and_another_scene_are_refused_and_what_is_allowed_goes_on(self):
+        for name in ("leble_barakos", "turbines"):
+            shutil.copytree(ROOT / "inputs" / name, self.path / name)
+        scene, table = self.path / "leble_barakos/case3_engineering.toml", self.path / "turbines/dtu_10mw_operation.csv"
+        self.run_case("--until", 1.0, scene=scene)
+        self.run_case("--restart", "--until", 1.1, scene=CASE3)  # the same scene and the same files elsewhere
+        self.run_case("--restart", "--until", 1.2, scene=scene)  # and back
+        text = table.read_text()
+        table.write_text(text + "# a remark\n")
+        said = self.run_case("--restart", "--until", 1.3, scene=scene, code=2)
+        self.assertIn(f"{table}: was {len(text)} bytes", said)
+        self.run_case("--restart", "--until", 1.3, "--allow-change", table, scene=scene)
+        said = self.run_case("--restart", "--until", 1.4, scene=ROOT / "inputs/leble_barakos/case1_engineering.toml", code=2)
+        self.assertIn("aero.model", said)
+        self.assertIn("waves", said)
+        said = self.run_case("--restart", "--until", 1.4, "--set", "wind.speed_m_s=12.0", "--set", "waves.height_m=1.9", "--allow-change", "wind", scene=scene, code=2)
+        self.assertIn("waves.height_m", said)
+        self.assertNotIn("wind.speed_m_s", said)
+        self.run_case("--restart", "--until", 1.4, "--set", "wind.speed_m_s=12.0", "--allow-change", "wind.speed_m_s", scene=scene)
+        self.run_case("--restart", "--until", 1.5, "--set", "wind.speed_m_s=12.0", scene=scene)  # it is that run now
+
+    def test_end_output_and_checkpoints_may_change(self):
+        self.run_case("--until", 1.0)
+        self.run_case("--restart", "--set", "time.end_s=2.0", "--set", "output.means_over_s=1.0", "--set", "checkpoint.keep=5", "--set", "runtime.wall_limit_s=100.0")
+        self.assertEqual(json.loads((self.out / "summary.json").read_text())["exit_code"], 0)
+
+
+class History(Runs):
+    def test_rows_that_are_missing_are_refused_by_name_and_accepted_when_told(self):
+        self.run_case("--until", 2.0)
+        whole = self.history()
+        lines = whole.splitlines(keepends=True)
+        changed = lines[6][:-2] + ("1" if lines[6][-2] != "1" else "2") + "\n"
+        for text in ("".join(lines[:-3]), "".join(lines[:5] + lines[7:]), "".join(lines[:6] + [changed] + lines[7:])):
+            (self.out / "history.csv").write_text(text)
+            said = self.run_case("--restart", "--until", 2.5, code=2)
+            self.assertIn("history.csv", said)
+            self.assertIn("--allow-change history.csv", said)
+            self.assertEqual(self.history(), text)
+        (self.out / "history.csv").write_text("".join(lines[:5] + lines[7:]))
+        self.run_case("--restart", "--until", 2.5, "--allow-change", "history.csv")
+        self.run_case("--restart", "--until", 3.0)  # the gap is known now
+        self.assertEqual(len(self.history().splitlines()), 1 + 31 - 2)
+
+
+class Folders(Runs):
+    def test_one_command_for_the_first_and_for_every_further_job(self):
+        other = self.path / "once"
+        self.run_case("--until", 1.0, out=other)
+        said = self.run_case("--restart", "--until", 0.5)
+        self.assertIn("BEGINS ANEW", said)
+        self.run_case("--restart", "--until", 1.0)
+        self.assertEqual(self.history(), self.history(other))
+
+    def test_the_second_run_in_a_folder_ends_with_2_whatever_it_asks_for(self):
+        long_run = ["--set", "time.end_s=200000.0", "--set", "output.history_every=1000"]
+        first = subprocess.Popen([PROGRAM, "run", CASE3, "--out", self.out, "--no-report", "--quiet", *long_run], stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.DEVNULL)
+        try:
+            deadline = time.time() + 60
+            while not (self.out / "history.csv").exists() and time.time() < deadline:
+                time.sleep(0.02)
+            for word in ("--restart", "--overwrite", "--quiet"):
+                said = self.run_case(*[word] if word != "--quiet" else [], *long_run, code=2)
+                self.assertIn(f"process {first.pid} on" if word != "--quiet" else "not empty", said)
+            self.assertTrue((self.out / "history.csv").exists())
+        finally:
+            first.send_signal(signal.SIGTERM)
+            self.assertEqual(first.wait(60), 5)
+        self.run_case("--restart", "--until", json.loads((self.out / "summary.json").read_text())["time"]["end_s"] + 100.0, *long_run)
+
+    def test_a_checkpoint_that_may_not_be_read_or_is_of_another_version_stays_where_it_is(self):
+        self.run_case("--until", 1.0)
+        newest = max((self.out / "checkpoints").glob("*.h5"))
+        if os.geteuid() != 0:  # root may read everything
+            newest.chmod(0)
+            self.assertIn("right to read", self.run_case("--restart", "--until", 1.1, code=2))
+            newest.chmod(0o644)
+        self.run_case("--restart", "--until", 1.1)
+        newest = max((self.out / "checkpoints").glob("*.h5"))
+        newest.write_bytes(newest.read_bytes()[:5000])
+        self.run_case("--restart", "--until", 1.2)
+        self.assertTrue(newest.with_name(newest.name + ".damaged").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[1:]])
