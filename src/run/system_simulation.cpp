@@ -110,9 +110,7 @@ SystemSimulation::SystemSimulation(coupling::Machine& machine, bodies::BodiesSta
     : machine_(machine),
       parts_(parts),
       state_(std::move(start)),
-      window_(machine, sides_in_filled_sea(machine, state_.motions, parts), parts.mine().comm, records) {
-  state_.tick = machine.first_tick();
-}
+      window_(machine, sides_in_filled_sea(machine, state_.motions, parts), parts.mine().comm, records) {}
 
 std::int64_t SystemSimulation::file_number(std::int64_t window) const {
   return machine_.timeline().tick_of_window(window) - machine_.first_tick();
@@ -120,10 +118,12 @@ std::int64_t SystemSimulation::file_number(std::int64_t window) const {
 
 std::int64_t SystemSimulation::begin() {
   std::int64_t window = -machine_.held_windows();
-  if (machine_.scenario().start.file.empty())
-    window_.begin(state_);
-  else
+  if (machine_.scenario().start.file.empty()) {
+    window_.begin(state_);  // rotor and bodies begin at t = 0, whatever is held before
+    state_.tick = machine_.first_tick();
+  } else {
     window = take_over();
+  }
   log_news();
   if (machine_.particles()) {
     const runtime::Span span("sea/start");
