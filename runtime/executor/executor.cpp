@@ -8,11 +8,18 @@
 #include "runtime/executor/priority.hpp"
 #include "runtime/executor/watchdog.hpp"
 #include "runtime/executor/worker.hpp"
+#include "runtime/trace/clock.hpp"
+#include "runtime/trace/ledger.hpp"
 
 namespace spindrift::runtime {
 
 struct Executor::State {
-  State(Graph graph, ExecutorOptions options) : team(std::move(graph), options) {}
+  State(Graph graph, ExecutorOptions options) : team(std::move(graph), options) {
+    if (Ledger* ledger = Ledger::current()) ledger->opened(team);
+  }
+  ~State() {
+    if (Ledger* ledger = Ledger::current()) ledger->closed(team);
+  }
   Team team;
   std::unique_ptr<Watchdog> watchdog;
   std::uint64_t runs = 0;
@@ -74,6 +81,7 @@ void Executor::run(std::uint32_t n) {
   if (team.options.watchdog_s > 0 && !state_->watchdog) state_->watchdog = std::make_unique<Watchdog>(team);
   if (state_->watchdog) state_->watchdog->run_starts();
   team.ended.store(false, std::memory_order_relaxed);
+  const std::int64_t begin_ns = Clock::now_ns();
 #pragma omp parallel num_threads(team.options.threads)
   {
     Worker& worker = *team.workers[std::size_t(omp_get_thread_num())];
@@ -81,6 +89,7 @@ void Executor::run(std::uint32_t n) {
     if (omp_get_thread_num() == 0) worker.enter(0, n);
     worker.work();
   }
+  if (Ledger* ledger = Ledger::current()) ledger->ran(team, Clock::now_ns() - begin_ns);
   if (state_->watchdog) state_->watchdog->run_ends();
   if (!team.failure) return;
   const bool ours = team.failure->rank == team.graph.recorded().comm.rank();
@@ -88,6 +97,7 @@ void Executor::run(std::uint32_t n) {
   throw_failure(*team.failure);
 }
 
+const Team& Executor::team() const { return state_->team; }
 int Executor::threads() const { return state_->team.options.threads; }
 const Graph& Executor::graph() const { return state_->team.graph; }
 std::span<const Record> Executor::records(int thread) const {

@@ -26,6 +26,8 @@ struct ExecutorOptions {
   std::optional<std::uint64_t> random_schedule = {};  ///< tests: run ready tasks in an order drawn from this seed
 };
 
+struct Team;
+
 class Executor {
  public:
   Executor(Graph graph, ExecutorOptions options = {});
@@ -48,6 +50,7 @@ class Executor {
   std::uint64_t bytes(std::uint32_t node) const;     ///< sent or received by a message node in all, 8 per value for reductions
 
   struct State;
+  const Team& team() const;  ///< for the trace
 
  private:
   std::unique_ptr<State> state_;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "runtime/trace/clock.hpp"
+#include "runtime/trace/ledger.hpp"
 
 namespace spindrift::runtime {
 
@@ -27,6 +28,7 @@ Parts::Parts(const World& world, int parts, int part) : part_(part) {
 
 Bytes Parts::share(int part, Bytes parcel) const {
   if (!split()) return parcel;
+  const Span span("run/other part", Span::Kind::wait);
   const std::int64_t begin = Clock::now_ns();
   const int root = first_rank_.at(std::size_t(part));
   unsigned long long size = parcel.size();

@@ -127,6 +127,7 @@ Efficiency totals(std::span<const RankTrace> traces, Lane& busiest) {
       ++e.threads;
       sum += times.task_ns;
       elapsed = std::max(elapsed, times.wall_ns);
+      e.wall_s += seconds(times.wall_ns);
       e.idle_s += seconds(times.idle_ns);
       e.poll_s += seconds(times.poll_ns);
       e.overhead_s += seconds(times.overhead_ns());
@@ -141,13 +142,15 @@ Efficiency totals(std::span<const RankTrace> traces, Lane& busiest) {
   return e;
 }
 
-/// Busy time of each module over the whole run, from the nodes' costs.
-std::map<std::string, double, std::less<>> busy_times(std::span<const RankTrace> traces) {
-  std::map<std::string, double, std::less<>> busy;
+/// Busy time [s] and executions of each module over the whole run, from the nodes' costs.
+std::map<std::string, std::pair<double, std::int64_t>, std::less<>> busy_times(std::span<const RankTrace> traces) {
+  std::map<std::string, std::pair<double, std::int64_t>, std::less<>> busy;
   for (const RankTrace& trace : traces)
     for (const TraceNode& node : trace.nodes)
-      if (node.kind == NodeKind::task || node.kind == NodeKind::until || node.kind == NodeKind::collective)
-        busy[std::string(module_of(node.label))] += seconds(node.cost.total_ns);
+      if (node.kind == NodeKind::task || node.kind == NodeKind::until || node.kind == NodeKind::collective) {
+        auto& [time, calls] = busy[std::string(module_of(node.label))];
+        time += seconds(node.cost.total_ns), calls += std::int64_t(node.cost.count);
+      }
   return busy;
 }
 
@@ -166,7 +169,7 @@ std::int64_t recorded_span(std::span<const RankTrace> traces) {
 Efficiency efficiency_of(std::span<const RankTrace> traces) {
   Lane busiest{};
   Efficiency e = totals(traces, busiest);
-  for (const auto& [module, busy] : busy_times(traces)) e.modules.push_back({module, busy});
+  for (const auto& [module, busy] : busy_times(traces)) e.modules.push_back({module, busy.first, busy.second});
   std::ranges::stable_sort(e.modules, [](const auto& a, const auto& b) { return a.busy_s > b.busy_s; });
 
   const Occurrences occurrences = occurrences_of(traces);

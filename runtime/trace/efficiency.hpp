@@ -20,6 +20,7 @@ inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///
 struct ModuleTimes {
   std::string module;
   double busy_s = 0.0;
+  std::int64_t calls = 0;      ///< executions of its tasks
   double idle_s = unknown;     ///< idle time that ended when one of its tasks could begin
   double exposed_s = unknown;  ///< idle time while one of its messages was under way
   double alone_s = unknown;    ///< wall time it would take at least if it ran by itself, window by window (recorded part)
@@ -36,6 +37,7 @@ struct Efficiency {
 
   // Core-seconds, together threads x elapsed_s but for threads that came later or left earlier.
   double busy_s = 0.0, idle_s = 0.0, poll_s = 0.0, overhead_s = 0.0;
+  double wall_s = 0.0;               ///< of all threads together
   double exposed_s = unknown;        ///< of idle_s: a message of the rank was under way
   double partner_wait_s = unknown;   ///< of idle_s: a message was posted here, its other end not yet
   double overlap_gain = unknown;     ///< sum of the modules' alone_s over the time taken together, at least

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "runtime/executor/executor.hpp"
+#include "runtime/executor/worker.hpp"
 #include "runtime/graph/recorded.hpp"
 #include "runtime/trace/clock.hpp"
 
@@ -109,27 +110,30 @@ void shift(RankTrace& trace, std::int64_t by) {
 
 }  // namespace
 
-RankTrace trace_of(const Executor& executor, int rank) {
+RankTrace trace_of(const Executor& executor, int rank) { return trace_of(executor.team(), rank); }
+
+RankTrace trace_of(const Team& team, int rank) {
   RankTrace trace;
   trace.rank = rank;
-  const Graph& graph = executor.graph();
+  const Graph& graph = team.graph;
   const auto edges = graph.edges();
   trace.edges.assign(edges.begin(), edges.end());
   const auto& recorded = graph.recorded();
   for (std::uint32_t n = 0; n < graph.nodes().size(); ++n) {
     const Node& node = graph.nodes()[n];
-    TraceNode of{node.label, node.kind, node.loop, -1, -1, executor.cost(n)};
+    const Slot& slot = team.program.slots[n];
+    TraceNode of{node.label, node.kind, node.loop, -1, -1, TaskCost{slot.cost_ns, slot.step}};
     if (node.kind == NodeKind::send || node.kind == NodeKind::receive) {
       const Message& message = recorded.messages[recorded.payload[n]];
       of.peer = message.peer, of.tag = message.tag;
     }
     trace.nodes.push_back(std::move(of));
   }
-  for (int thread = 0; thread < executor.threads(); ++thread) {
-    const auto records = executor.records(thread);
+  for (const auto& worker : team.workers) {
+    const auto records = worker->records.records();
     trace.records.insert(trace.records.end(), records.begin(), records.end());
-    trace.threads.push_back(executor.times(thread));
-    if (executor.lost_records(thread) > 0)
+    trace.threads.push_back(worker->times);
+    if (worker->records.lost() > 0)
       trace.complete_until = std::min(trace.complete_until, records.empty() ? 0 : records.back().end_ns);
   }
   return trace;

@@ -12,9 +12,11 @@
 namespace spindrift::runtime {
 
 class Executor;
+struct Team;
 
 /// What an executor wrote down so far.
 RankTrace trace_of(const Executor& executor, int rank = 0);
+RankTrace trace_of(const Team& team, int rank = 0);
 
 /// All ranks' traces on rank 0 of `comm` (elsewhere nothing), times on the clock of its rank 0. Collective.
 /// The clocks are compared by the fastest of 20 round trips: good to half of it, about 1 us within a machine.

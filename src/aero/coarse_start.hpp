@@ -1,5 +1,5 @@
 // Grid sequencing: a steady march of a resolved rotor begins with the flow of a grid of half the resolution, where the wake and
-// what it induces settle for an eighth of the cost a pseudo-step. Called by src/coupling/flow_run.cpp; tested in
+// what it induces settle for an eighth of the cost a pseudo-step. Called by src/run/flow_simulation.cpp; tested in
 // tests/src/aero/coarse_start_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 // The grid of a resolved flow: a file (Plot3D with its neutral map, CGNS) or one of the generators of src/aero/grid, chosen in
-// [aero.flow]. Options declared in flow_grid.cpp; called by src/coupling/flow_run.cpp and `spindrift check`.
+// [aero.flow]. Options declared in flow_grid.cpp; called by src/run/flow_case.cpp and `spindrift check`.
 // Tested in tests/src/aero/flow_grid_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

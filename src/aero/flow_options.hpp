@@ -32,6 +32,9 @@ struct PatchOptions {
   bool loads = true;  ///< of walls
 };
 
+/// Pseudo-steps on each coarser grid of a grid that is no rotor's, where the scene does not say.
+inline constexpr int usual_coarse_steps = 100;
+
 struct FlowOptions {
   std::string grid, map;  ///< paths: Plot3D or CGNS; neutral map of the former
   std::optional<GenerateOptions> generate;

@@ -1,7 +1,7 @@
 // A resolved flow's grid that follows walls which turn and heave: [aero.flow.motion]. The whole grid moves as the walls do, or
 // each node takes a share of their motion that an elliptic problem spreads between what moves and what is held
 // (grid/node_field.hpp). Rigid motions taken in part, not displacements: cells near the walls turn with them and keep their
-// shape. Options declared in grid_motion.cpp; used by src/coupling/flow_run.cpp; tested in tests/src/aero/grid_motion_test.cpp.
+// shape. Options declared in grid_motion.cpp; used by src/run/flow_case.cpp; tested in tests/src/aero/grid_motion_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

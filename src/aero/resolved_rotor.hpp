@@ -1,6 +1,6 @@
 // The blade-resolved rung of the rotor: a turbine's blades turning in compressible air. Grid, tiles, solver and poses put
 // together from a scene's options; thrust, torque, loads by blade and along the span handed out. Frames and signs:
-// docs/user/conventions.md; method: docs/theory/rotor_resolved.md. Built by src/coupling/flow_run.cpp; tested in
+// docs/user/conventions.md; method: docs/theory/rotor_resolved.md. Built by src/run/flow_case.cpp; tested in
 // tests/src/aero/resolved_rotor_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -12,15 +12,14 @@
 #include "src/app/forecast.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/coupling/doubts.hpp"
-#include "src/coupling/flow_run.hpp"
 #include "src/coupling/placement.hpp"
-#include "src/coupling/run.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/history_statistics.hpp"
 #include "src/io/log.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/report/report.hpp"
+#include "src/run/driver.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/identity.hpp"
 
@@ -98,32 +97,6 @@ ReadyScene read_scene(const std::string& path, const std::vector<std::string>& o
   return made_ready(std::move(scenario), document.echo());
 }
 
-namespace {
-/// A scene of the air alone has no machine of bodies.
-SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& echo, const std::vector<std::string>& files,
-                        const RunArguments& arguments, const runtime::World& world, double since) {
-  io::RunDirectory directory = open_directory(arguments, world.comm);
-  require_same_run(directory, scene::Identity::of(echo, files), arguments, world.comm);
-  io::log_to_file(world.rank, directory.log());
-  directory.write_scene(world.comm, echo);
-  coupling::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
-  settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
-  if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
-  io::Summary summary = coupling::run_flow(scenario, directory, world, settings);
-  summary.title = scenario.output.title.empty() ? std::filesystem::path(arguments.scene).stem().string() : scenario.output.title;
-  summary.scene = arguments.scene;
-  take_stock(summary, since, world);
-  if (world.rank == 0) {
-    for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
-    summary.warnings = io::warnings_logged();
-    write_summary(directory.summary(), summary,
-                  io::history_statistics(directory.history(), mean_ranges(scenario, summary.end_time_s)));
-    print_summary(summary, directory);
-  }
-  return {std::move(summary), directory.path(), world.rank == 0};
-}
-}  // namespace
-
 SceneRun run_scene(const RunArguments& arguments, const runtime::World& started, const scene::Source& overrider) {
   const double since = processor_seconds();
   io::start_log(started.rank, arguments.quiet);
@@ -142,23 +115,27 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   const runtime::Parts parts = coupling::place(*scenario, started, arguments.fluid);
   const runtime::World& world = parts.world();
   io::start_log(world.rank, arguments.quiet);
-  if (scenario->has_flow()) return run_flow_scene(*scenario, echo, read->files(), arguments, world, since);
-  const ReadyScene scene = made_ready(std::move(*scenario), std::move(echo));
+  // Every check has passed before the run directory is made.
+  std::optional<ReadyScene> system;
+  if (!scenario->has_flow()) system = made_ready(*scenario, echo);
   io::RunDirectory directory = open_directory(arguments, world.comm);
-  require_same_run(directory, scene::Identity::of(scene.echo, read->files()), arguments, world.comm);
+  require_same_run(directory, scene::Identity::of(echo, read->files()), arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
-  directory.write_scene(world.comm, scene.echo);
+  directory.write_scene(world.comm, echo);
   const io::BuildInfo& build = io::build_info();
   spdlog::info("spindrift {} ({}), {} rank{}: {}", build.version, build.commit, world.size, world.size == 1 ? "" : "s",
                arguments.scene);
-  for (const std::string& note : scene.start.notes) spdlog::info("{}", note);
-  for (const scene::Doubt& doubt : scene.doubts) spdlog::warn("{}", text(doubt));
 
-  coupling::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
+  run::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
   settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
   if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
-  io::Summary summary = coupling::run(*scene.machine, scene.start, directory, parts, settings);
-  const std::string& title = scene.machine->scenario().output.title;
+  if (system)
+    for (const std::string& note : system->start.notes) spdlog::info("{}", note);
+  if (system)
+    for (const scene::Doubt& doubt : system->doubts) spdlog::warn("{}", text(doubt));
+  io::Summary summary = system ? run::run(*system->machine, system->start, directory, parts, settings)
+                               : run::run_flow(*scenario, directory, parts, settings);
+  const std::string& title = scenario->output.title;
   summary.title = title.empty() ? std::filesystem::path(arguments.scene).stem().string() : title;
   summary.scene = arguments.scene;
   take_stock(summary, since, world);
@@ -166,7 +143,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
     summary.warnings = io::warnings_logged();
     write_summary(directory.summary(), summary,
-                  io::history_statistics(directory.history(), mean_ranges(scene.machine->scenario(), summary.end_time_s)));
+                  io::history_statistics(directory.history(), mean_ranges(*scenario, summary.end_time_s)));
     print_summary(summary, directory);
   }
   return {std::move(summary), directory.path(), world.rank == 0};

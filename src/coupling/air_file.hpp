@@ -1,5 +1,5 @@
 // The state of the resolved air in a checkpoint: tiles one after the other in the order of the tiling, whatever rank has them,
-// and the march. Used by flow_run.cpp and resolved_air.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
+// and the march. Used by src/run and resolved_air.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

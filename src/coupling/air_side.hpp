@@ -13,6 +13,7 @@
 #include "runtime/mpi/environment.hpp"
 #include "src/aero/rotor_loads.hpp"
 #include "src/coupling/saved_array.hpp"
+#include "src/coupling/tasks.hpp"
 #include "src/io/history.hpp"
 #include "src/io/run_directory.hpp"
 
@@ -29,8 +30,8 @@ class AirSide {
   virtual aero::RotorLoad begin(double t, const aero::RotorState& now) = 0;
   /// What is to come: `dt` seconds, at whose end `t` the rotor is in this state.
   virtual void aim(double t, double dt, const aero::RotorState& at_end) = 0;
-  /// Records the tasks that do it; false where there are none.
-  virtual bool record(runtime::Graph&) { return false; }
+  /// Records the tasks that do it.
+  virtual Tasks record(runtime::Graph&) { return Tasks::none; }
   /// Their executors are gone.
   virtual void forget_tasks() {}
   /// To be called once they have run: the load at the end, ramped as the scene asks. Throws NumericalFailure.
@@ -60,6 +61,8 @@ class AirSide {
 
 /// Resolved where the scene resolves it, else an engineering one. The machine outlives it. `now`: of the rotor at the start.
 std::unique_ptr<AirSide> make_air(const Machine& machine, const aero::RotorState& now, const runtime::World& world);
+/// Of a machine whose rotor, if it has one, loads the bodies as they go: nothing to do.
+std::unique_ptr<AirSide> make_no_air();
 /// Answers by the machine's engineering rotor.
 std::unique_ptr<AirSide> make_engineering_air(const Machine& machine);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/body_side.hpp"
 
+#include <optional>
+
+#include "kernels/base/failure.hpp"
 #include "runtime/trace/clock.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/sea_window.hpp"
@@ -14,20 +17,32 @@ class Steps final : public BodySide {
  public:
   explicit Steps(Machine& machine) : machine_(machine) {}
   void aim(const bodies::BodiesState& from, std::int64_t end_tick) override { state_ = from, end_ = end_tick; }
+  Tasks record(runtime::Graph& graph) override {
+    graph.task("bodies/steps", {runtime::updates(graph.datum())}, [this] { advance(); });
+    return Tasks::single;
+  }
   bodies::BodiesState finish() override {
-    const std::int64_t begin = runtime::Clock::now_ns();
-    const double tick_s = machine_.timeline().tick_s();
-    while (state_.tick < end_) {
-      const bodies::StepReport report = machine_.system().advance(state_, tick_s, 1);
-      if (!report.ok()) throw machine_.system().failure(report, state_, tick_s);
-      ++steps_;
-    }
-    own_ns_ += runtime::Clock::now_ns() - begin;
+    if (failure_) throw *failure_;
     return state_;
   }
 
  private:
+  void advance() {
+    const std::int64_t begin = runtime::Clock::now_ns();
+    const double tick_s = machine_.timeline().tick_s();
+    failure_.reset();
+    while (state_.tick < end_ && !failure_) {
+      const bodies::StepReport report = machine_.system().advance(state_, tick_s, 1);
+      if (report.ok())
+        ++steps_;
+      else
+        failure_ = machine_.system().failure(report, state_, tick_s);
+    }
+    own_ns_ += runtime::Clock::now_ns() - begin;
+  }
+
   Machine& machine_;
+  std::optional<NumericalFailure> failure_;
   bodies::BodiesState state_;
   std::int64_t end_ = 0;
 };

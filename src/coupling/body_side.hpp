@@ -1,6 +1,6 @@
 // The bodies' side of a window: bodies and moorings in their own steps, with an engineering sea, which they ask as they go, or
 // with one of particles, whose substeps are tasks that may run beside those of the air. A pure function of the state at its
-// start. Used by window_tasks.cpp, window.cpp and run.cpp; implemented here and in sea_window.cpp; tested in tests/coupled.
+// start. Used by window_tasks.cpp and window.cpp; implemented here and in sea_window.cpp; tested in tests/coupled.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "runtime/graph/graph.hpp"
 #include "src/bodies/state.hpp"
+#include "src/coupling/tasks.hpp"
 
 namespace spindrift::coupling {
 
@@ -20,8 +21,8 @@ class BodySide {
 
   /// What is to come: from this state to the end tick.
   virtual void aim(const bodies::BodiesState& from, std::int64_t end_tick) = 0;
-  /// Records the tasks that do it; false where there are none.
-  virtual bool record(runtime::Graph&) { return false; }
+  /// Records the tasks that do it.
+  virtual Tasks record(runtime::Graph&) = 0;
   /// Once they have run: the state at the end. Throws NumericalFailure.
   virtual bodies::BodiesState finish() = 0;
   /// Whether what was recorded no longer serves; once its executors are gone, forget_tasks() and record again.

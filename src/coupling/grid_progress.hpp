@@ -1,6 +1,6 @@
 // Lines in the log while a large rotor grid, its tiles and its wall distances are made, which takes minutes at the paper's size.
-// Used by resolved_air.cpp and flow_run.cpp; tested in tests/src/coupling/grid_progress_test.cpp. SPDX-License-Identifier:
-// Apache-2.0
+// Used by resolved_air.cpp and src/run/flow_case.cpp; tested in tests/src/coupling/grid_progress_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "src/aero/rotor_grid/rotor_grid.hpp"

@@ -1,5 +1,5 @@
 // The machine that a scene describes: bodies with every source of load that the scene names, and nothing else.
-// Built by src/app from a Scenario; advanced by run.cpp; tested in tests/src/coupling.
+// Built by src/app from a Scenario; advanced by src/run; tested in tests/src/coupling.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -45,6 +45,10 @@ class Machine {
   /// blades, for estimates (static equilibrium, linearisation, `check`).
   const std::optional<aero::RotorLoads>& rotor() const { return rotor_; }
 
+  /// Whether rotor and bodies are parts of a window that exchange data by a scheme; else the rotor, if there is one, loads the
+  /// bodies as they go.
+  bool has_interface() const { return rotor_.has_value() && scenario_.coupling.scheme != SchemeKind::monolithic; }
+
   /// Bodies take the rotor's load from `loads` instead of asking the rotor as they go; an empty one undoes it. For coupling
   /// windows.
   using RotorLoadFunction = std::function<void(double, std::span<const Motion>, std::span<Wrench>)>;
@@ -79,6 +83,7 @@ class Machine {
   /// By source, in the order of system().loads().
   std::span<const SourceClock> clocks() const { return clocks_; }
   void reset_clocks() { clocks_.assign(clocks_.size(), {}); }
+  void set_clocks(std::span<const SourceClock> clocks) { clocks_.assign(clocks.begin(), clocks.end()); }
 
   /// Factor on the rotor's loads at time t [s] (start.ramp_s): 0 at the start, 1 after the ramp, with a continuous rate.
   double ramp(double t) const;

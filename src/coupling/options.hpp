@@ -1,5 +1,5 @@
 // What a scene says about time, surroundings, start, output and checkpoints: the sections that belong to the run as a whole.
-// Declared in options.cpp, read by scenario.cpp, used by run.cpp. Tested in tests/src/coupling.
+// Declared in options.cpp, read by scenario.cpp, used by src/run. Tested in tests/src/coupling.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

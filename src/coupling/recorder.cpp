@@ -77,7 +77,7 @@ ReferenceMotion reference_motion(const Motion& now, const Motion& initial, const
           .omega_rate = omega_rate};
 }
 
-Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine), history_(history) {
+Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine) {
   const auto bodies = machine.system().bodies();
   const auto loads = machine.system().loads();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -114,23 +114,23 @@ Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine), 
     }
   if (machine.has_waves())
     wave_column_ = history.add({"waves.elevation_m", "m", "surface elevation of the undisturbed waves at the earth origin"});
-  if (machine.particle_plan()) declare_particles();
+  if (machine.particle_plan()) declare_particles(history);
 }
 
-void Recorder::declare_particles() {
+void Recorder::declare_particles(io::History& history) {
   const sea::ParticlePlan& plan = *machine_.particle_plan();
-  particle_column_ = declare(history_, "sea.",
+  particle_column_ = declare(history, "sea.",
                              {{"lost_particles", "-", "particles that left the tank so far"},
                               {"x_max_m", "m", "farthest water along x: the front of a broken dam"},
                               {"z_max_m", "m", "highest water"},
                               {"kinetic_energy_J", "J", "of the water"}});
   if (plan.wavemaker)
-    declare(history_, "wavemaker.",
+    declare(history, "wavemaker.",
             {{"displacement_m", "m", "of the paddle's face at still water"}, {"velocity_m_s", "m/s", "of the same"}});
   for (const sea::GaugeOptions& gauge : plan.gauges)
-    history_.add({gauge.name + ".elevation_m", "m", "height of the water's surface; the bed where there is none"});
+    history.add({gauge.name + ".elevation_m", "m", "height of the water's surface; the bed where there is none"});
   for (const sea::ProbeOptions& probe : plan.probes)
-    declare(history_, probe.name + ".",
+    declare(history, probe.name + ".",
             {{"pressure_Pa", "Pa", "pressure of the water, zero where there is none"},
              {"vx_m_s", "m/s", "velocity of the water along x, zero where there is none"},
              {"vy_m_s", "m/s", "along y"},
@@ -160,12 +160,11 @@ void Recorder::put_particles(std::span<double> row, double t) const {
   }
 }
 
-void Recorder::write(const bodies::BodiesState& state, double t, const std::function<void(std::span<double>)>& others) {
+void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, double t) {
   // Bodies that are held before t = 0 are as they start: drivers and loads that depend on time begin there.
   static const bodies::Evaluation nothing;
   const bodies::Evaluation& now = state.motions.empty() ? nothing : machine_.system().evaluate(state, std::max(t, 0.0));
   const auto bodies = machine_.system().bodies();
-  const std::span<double> row = history_.row(t);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const ReferenceMotion m = reference_motion(state.motions[b], bodies[b].initial, machine_.reference_point(b),
                                                now.acceleration[b], now.angular_acceleration[b]);
@@ -200,8 +199,6 @@ void Recorder::write(const bodies::BodiesState& state, double t, const std::func
       row[mooring_column_ + line] = machine_.moorings()->tension(line, state.motions).fairlead;
   if (machine_.particles()) put_particles(row, t);
   if (machine_.has_waves()) row[wave_column_] = machine_.sea()->elevation(0.0, 0.0, t);
-  if (others) others(row);
-  history_.write();
 }
 
 }  // namespace spindrift::coupling

@@ -1,10 +1,9 @@
 // What a run writes down at the end of each window: columns of history.csv for the bodies, their loads by source, the joints, the
 // rotor, the moorings and the waves that a scene has. Names and signs: docs/user/outputs.md and conventions.md.
-// Used by run.cpp; tested in tests/src/coupling/recorder_test.cpp.
+// Used by src/run; tested in tests/src/coupling/recorder_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,22 +27,21 @@ ReferenceMotion reference_motion(const Motion& now, const Motion& initial, const
 
 class Recorder {
  public:
-  /// Declares the columns in `history`; both must outlive the recorder.
+  /// Declares the columns in `history`. The machine outlives the recorder.
   Recorder(Machine& machine, io::History& history);
 
-  /// Appends the row of time t [s]; `others` fills columns that it does not know.
-  void write(const bodies::BodiesState& state, double t, const std::function<void(std::span<double>)>& others = {});
+  /// Fills the row of time t [s].
+  void fill(std::span<double> row, const bodies::BodiesState& state, double t);
 
  private:
   struct Load {
     std::size_t source, body, column;
   };
   Machine& machine_;
-  io::History& history_;
   std::vector<std::size_t> body_columns_;  ///< first of each body
   std::vector<Load> loads_;
   std::vector<std::size_t> joint_columns_;
-  void declare_particles();
+  void declare_particles(io::History& history);
   void put_particles(std::span<double> row, double t) const;
   std::size_t rotor_column_ = 0, control_column_ = 0, mooring_column_ = 0, wave_column_ = 0, particle_column_ = 0;
 };

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/trace/ledger.hpp"
 #include "src/aero/flow/choice.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/coupling/air_file.hpp"
@@ -72,6 +73,7 @@ class ResolvedAir final : public AirSide {
         felt_{{}, std::vector<aero::RotorLoad>(std::size_t(size_.sectors))} {}
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
+    const runtime::Span span("aero/start");
     aim(t, 0.0, now);
     if (rotor_) {  // restored, for windows of another length or by another scheme: the grid stands where the last prediction had
                    // put it
@@ -106,9 +108,9 @@ class ResolvedAir final : public AirSide {
     rotor_->solver().clear_rows();
   }
 
-  bool record(runtime::Graph& graph) override {
+  Tasks record(runtime::Graph& graph) override {
     rotor_->solver().record(graph);
-    return true;
+    return Tasks::many;
   }
 
   void forget_tasks() override { rotor_->solver().forget_graphs(); }
@@ -157,6 +159,7 @@ class ResolvedAir final : public AirSide {
     return arrays;
   }
   void restore(const io::CheckpointReader& file) override {
+    const runtime::Span span("aero/start");
     if (automatic() && file.has(choice_name)) {
       setup_.flow.preconditioner = choices.at(std::size_t(file.read<double>(choice_name).at(0)));
       news_.push_back(fmt::format("air: preconditioner \"{}\" (as before the restart)", setup_.flow.preconditioner));

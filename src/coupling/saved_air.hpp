@@ -1,6 +1,6 @@
 // Air that one run leaves for another to start from (start.air; Leble & Barakos 2016, section 4.6): beside tiles and march, a
 // checkpoint of a resolved rotor says on which grid and with which settings it was made, where the rotor was and what load it
-// felt. Written by flow_run.cpp and run.cpp, read by resolved_air.cpp; tested in tests/coupled/machine_test.py.
+// felt. Written by src/run, read by resolved_air.cpp; tested in tests/coupled/machine_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 // An array of a side's state on its way into a checkpoint: the side says which arrays there are and hands in its pieces; ranks
-// that have another side know neither. Used by air_file.cpp, sides.cpp and run.cpp; tested through tests/coupled/machine_test.py.
+// that have another side know neither. Used by air_file.cpp, sides.cpp and src/run; tested through tests/coupled/machine_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -41,7 +41,7 @@ struct Scenario {
   sea::WavesOptions waves;
 
   bool resolves_air() const { return aero.model == "blade_resolved"; }
-  bool has_flow() const { return resolves_air() && bodies.empty(); }  ///< the air by itself: flow_run.hpp
+  bool has_flow() const { return resolves_air() && bodies.empty(); }  ///< the air by itself: src/run/flow_simulation.hpp
   bool has_rotor() const { return aero.model != "none" && !has_flow(); }
   bool is_controlled() const { return control.model != aero::ControlModel::none; }
   bool has_sea() const { return sea.model != "none"; }

@@ -7,9 +7,6 @@ namespace spindrift::coupling {
 
 namespace {
 
-/// Ticks begin below zero while bodies are held; files are numbered from zero.
-std::int64_t file_number(const Machine& machine, std::int64_t tick) { return tick - machine.first_tick(); }
-
 io::Field field_named(const std::string& name) {
   if (name == "velocity") return {name, "m/s", 3};
   if (name == "pressure") return {name, "Pa", 1};
@@ -23,10 +20,6 @@ SeaOutput::SeaOutput(const Machine& machine, const std::filesystem::path& folder
     : machine_(machine), writes_(world.rank == 0) {
   const auto& options = machine.scenario().sea.fields;
   if (!machine.particles() || !options) return;
-  const Timeline& timeline = machine.timeline();
-  every_ = std::max<std::int64_t>(1, std::llround(options->interval_s / timeline.window_s()));
-  first_ = std::llround(options->from_s / timeline.window_s());
-  last_ = options->to_s ? std::llround(*options->to_s / timeline.window_s()) : timeline.windows();
   std::vector<io::Field> fields;
   for (const std::string& name : options->particles) fields.push_back(field_named(name));
   if (!fields.empty()) particles_ = std::make_unique<io::ParticleFields>(world.comm, folder, "particles", fields, resume_s);
@@ -40,16 +33,9 @@ SeaOutput::SeaOutput(const Machine& machine, const std::filesystem::path& folder
                                               std::vector<io::Field>{{"elevation", "m", 1}}, true, resume_s);
 }
 
-bool SeaOutput::due(std::int64_t window) const {
-  return every_ > 0 && window >= first_ && window <= last_ && (window - first_) % every_ == 0;
-}
-
-void SeaOutput::write_if_due(std::int64_t window) {
-  if (!due(window)) return;
-  const std::int64_t tick = machine_.timeline().tick_of_window(window);
-  const double t = machine_.timeline().window_end_s(window);
-  if (particles_) write_particles(file_number(machine_, tick), t);
-  if (surface_) write_surface(file_number(machine_, tick), t);
+void SeaOutput::write(std::int64_t number, double t) {
+  if (particles_) write_particles(number, t);
+  if (surface_) write_surface(number, t);
 }
 
 void SeaOutput::write_particles(std::int64_t tick, double t) {

@@ -1,5 +1,5 @@
 // What a sea of particles leaves in fields/: particles and the height of the surface, at the times, places and with the fields
-// that [sea.fields] asks for. Called by run.cpp at window ends; tested in tests/coupled/particle_sea_test.cpp.
+// that [sea.fields] asks for. Called by src/run at window ends; tested in tests/coupled/particle_sea_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,17 +18,15 @@ class SeaOutput {
   /// Collective. Files go to `folder`; a restart goes on after resume_s.
   SeaOutput(const Machine& machine, const std::filesystem::path& folder, const runtime::World& world,
             double resume_s = io::from_the_start);
-  /// Collective. Writes where the end of this window is a time of output.
-  void write_if_due(std::int64_t window);
+  /// The state at time t [s], as files of this number. Collective.
+  void write(std::int64_t number, double t);
 
  private:
-  bool due(std::int64_t window) const;
   void write_particles(std::int64_t tick, double t);
   void write_surface(std::int64_t tick, double t);
 
   const Machine& machine_;
   bool writes_;  ///< this rank hands the surface in: all ranks have all of it
-  std::int64_t every_ = 0, first_ = 0, last_ = -1;
   std::unique_ptr<io::ParticleFields> particles_;
   std::unique_ptr<io::GridFields> surface_;
   int nx_ = 0, ny_ = 0;

@@ -65,10 +65,10 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
     if (held_) held_motions_ = at_rest(from.motions);
     sea_.open(time(from.tick), held_ ? held_motions_ : from.motions, held_);
   }
-  bool record(runtime::Graph& graph) override {
+  Tasks record(runtime::Graph& graph) override {
     constexpr int first_tag = 64;  // those of the air are below
     sea_.record(graph, between_ ? between_(*this) : *this, first_tag);
-    return true;
+    return Tasks::many;
   }
   bodies::BodiesState finish() override {
     sea_.close();

@@ -93,7 +93,7 @@ class SharedAir final : public AirSide {
   void aim(double t, double dt, const aero::RotorState& at_end) override {
     if (own_) own_->aim(t, dt, at_end);
   }
-  bool record(runtime::Graph& graph) override { return own_ && own_->record(graph); }
+  Tasks record(runtime::Graph& graph) override { return own_ ? own_->record(graph) : Tasks::none; }
   void forget_tasks() override {
     if (own_) own_->forget_tasks();
   }
@@ -168,7 +168,7 @@ class SharedBodies final : public BodySide {
     state_ = from;
     if (own_) own_->aim(from, end_tick);
   }
-  bool record(runtime::Graph& graph) override { return own_ && own_->record(graph); }
+  Tasks record(runtime::Graph& graph) override { return own_ ? own_->record(graph) : Tasks::none; }
   bodies::BodiesState finish() override {
     answer_of(
         parts_, sea_part,
@@ -227,10 +227,11 @@ void on_parts(const runtime::Parts& parts, const std::function<void()>& work) {
   }
 }
 
-Sides make_sides(Machine& machine, const aero::RotorState& now, const runtime::Parts& parts) {
+Sides make_sides(Machine& machine, std::span<const Motion> start, const runtime::Parts& parts) {
   Sides sides;
   on_parts(parts, [&] {
-    if (parts.has(air_part)) sides.air = make_air(machine, now, parts.mine());
+    if (parts.has(air_part))
+      sides.air = machine.has_interface() ? make_air(machine, machine.rotor()->state(0.0, start), parts.mine()) : make_no_air();
     if (parts.has(sea_part)) sides.bodies = make_body_side(machine);
   });
   if (!parts.split()) return sides;

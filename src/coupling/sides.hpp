@@ -1,11 +1,12 @@
 // The two sides of a coupled window on the ranks that have them. Placed `shared`, every rank has both; placed `split`, a rank has
 // the air or the bodies with their sea, and what one side answers (the rotor's load; the bodies' state: a handful of numbers)
-// goes to all ranks. The schemes do not know the difference, so results do not depend on it. Used by run.cpp; tested in
+// goes to all ranks. The schemes do not know the difference, so results do not depend on it. Used by src/run; tested in
 // tests/coupled/machine_test.py and tests/src/coupling/sides_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "runtime/mpi/parts.hpp"
 #include "src/coupling/air_side.hpp"
@@ -21,9 +22,9 @@ struct Sides {
   std::unique_ptr<BodySide> bodies;
 };
 
-/// `now`: of the rotor at the start; of a machine with particles: after Machine::fill_sea on the sea's ranks. Both machine and
-/// parts outlive them. Collective; a failure is thrown on all ranks alike.
-Sides make_sides(Machine& machine, const aero::RotorState& now, const runtime::Parts& parts);
+/// `start`: of the bodies; of a machine with particles: after Machine::fill_sea on the sea's ranks. Both machine and parts
+/// outlive them. Collective; a failure is thrown on all ranks alike.
+Sides make_sides(Machine& machine, std::span<const Motion> start, const runtime::Parts& parts);
 
 /// Runs `work` on every rank, each for the parts it has. What is wrong with the user's scene or files (scene::SceneError,
 /// io::InputError, alike on all ranks of a part) is thrown on all ranks, as io::InputError; anything else ends the program.

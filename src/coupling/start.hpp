@@ -1,5 +1,5 @@
 // The state at t = 0: constraints met, and where the scene asks for it in static equilibrium. What is wrong is said by joint and
-// body. Used by run.cpp and by `spindrift check`; tested in tests/src/coupling. SPDX-License-Identifier: Apache-2.0
+// body. Used by src/run and by `spindrift check`; tested in tests/src/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>

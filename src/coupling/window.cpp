@@ -13,18 +13,43 @@ namespace spindrift::coupling {
 
 namespace {
 
-Staggering staggering(const CouplingOptions& o) {
-  if (o.scheme == SchemeKind::cps) return Staggering::cps();
-  return o.scheme == SchemeKind::cps2 ? Staggering::cps2() : Staggering::css(o.predictor_order);
-}
-
 Vector not_finite(Eigen::Index rows) { return Vector::Constant(rows, std::numeric_limits<double>::quiet_NaN()); }
 
 }  // namespace
 
-CoupledWindow::AnyScheme CoupledWindow::make_scheme(const CouplingOptions& o) {
+std::optional<Staggered> CoupledWindow::make_loose(const CouplingOptions& o) {
+  switch (o.scheme) {
+    case SchemeKind::cps:
+      return Staggered(Staggering::cps());
+    case SchemeKind::cps2:
+      return Staggered(Staggering::cps2());
+    case SchemeKind::css:
+      return Staggered(Staggering::css(o.predictor_order));
+    case SchemeKind::automatic:
+    case SchemeKind::monolithic:
+    case SchemeKind::relaxation:
+    case SchemeKind::aitken:
+    case SchemeKind::steepest_descent:
+    case SchemeKind::iqn_ils:
+    case SchemeKind::ibqn_ls:
+    case SchemeKind::interface_gmres:
+    case SchemeKind::newton:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<CoupledWindow::AnyScheme> CoupledWindow::make_strong(const CouplingOptions& o) {
   const LearningOptions learning{o.reuse_windows, o.filter};
   switch (o.scheme) {
+    case SchemeKind::automatic:
+    case SchemeKind::monolithic:
+    case SchemeKind::cps:
+    case SchemeKind::cps2:
+    case SchemeKind::css:
+      return std::nullopt;
+    case SchemeKind::relaxation:
+      return RelaxationConstant(o.relaxation);
     case SchemeKind::aitken:
       return RelaxationAitken(o.relaxation);
     case SchemeKind::steepest_descent:
@@ -37,28 +62,27 @@ CoupledWindow::AnyScheme CoupledWindow::make_scheme(const CouplingOptions& o) {
       return InterfaceGmres(o.relaxation, learning);
     case SchemeKind::newton:
       return Newton(1e-9);
-    default:
-      return RelaxationConstant(o.relaxation);
   }
+  return std::nullopt;
 }
 
 CoupledWindow::CoupledWindow(Machine& machine, Sides sides, MPI_Comm comm, std::size_t records)
     : machine_(machine),
       options_(machine.scenario().coupling),
-      interface_(machine),
-      air_(sides.air ? std::move(sides.air) : make_engineering_air(machine)),
+      air_(sides.air                 ? std::move(sides.air)
+           : machine.has_interface() ? make_engineering_air(machine)
+                                     : make_no_air()),
       bodies_(sides.bodies ? std::move(sides.bodies) : make_body_side(machine)),
-      tasks_(air_.get(), *bodies_, comm, records),
+      tasks_(*air_, *bodies_, comm, records),
       loads_(options_.predictor_order),
       motions_(1),
       load_now_(RotorInterface::load_rows) {
-  if (is_loose(options_.scheme))
-    loose_.emplace(staggering(options_));
-  else
-    strong_.emplace(make_scheme(options_));
+  if (!machine.has_interface()) return;
+  interface_.emplace(machine);
+  loose_ = make_loose(options_), strong_ = make_strong(options_);
   machine_.replace_rotor_loads([this](double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
     felt_(t, load_now_);
-    interface_.add_load(load_now_, bodies, wrenches);
+    interface_->add_load(load_now_, bodies, wrenches);
   });
   machine_.write_rotor_load(air_->written());
 }
@@ -74,9 +98,10 @@ void CoupledWindow::feel(const Signal& signal) {
 }
 
 void CoupledWindow::begin(const bodies::BodiesState& state) {
+  if (!interface_) return;
   const double t = time(state.tick);
-  const Vector motion = interface_.motion(t, state.motions, 0.0);
-  const Vector load = interface_.rows(air_->begin(t, interface_.state(t, motion)));
+  const Vector motion = interface_->motion(t, state.motions, 0.0);
+  const Vector load = interface_->rows(air_->begin(t, interface_->state(t, motion)));
   if (loose_) {
     loose_->begin(t, motion, load);
     feel(loose_->load());
@@ -98,24 +123,22 @@ bool CoupledWindow::finish(bodies::BodiesState& state) {
 
 Vector CoupledWindow::answer() {
   ++totals_.rotor_calls;
-  const std::int64_t begin = runtime::Clock::now_ns();
   Vector rows = not_finite(RotorInterface::load_rows);
   try {
-    rows = interface_.rows(air_->answer());
+    rows = interface_->rows(air_->answer());
   } catch (const NumericalFailure& failure) { trouble_ = failure.what(); }
-  totals_.answer_ns += runtime::Clock::now_ns() - begin;
   return rows;
 }
 
 bool CoupledWindow::move(bodies::BodiesState& state, std::int64_t end) {
   bodies_->aim(state, end);
-  tasks_.run(false, true);
+  tasks_.run(Run::bodies);
   return finish(state);
 }
 
 Vector CoupledWindow::air_load(double t, double dt, const Vector& motion) {
-  air_->aim(t, dt, interface_.state(t, motion));
-  tasks_.run(true, false);
+  air_->aim(t, dt, interface_->state(t, motion));
+  tasks_.run(Run::air);
   return answer();
 }
 
@@ -124,7 +147,8 @@ WindowReport CoupledWindow::advance(bodies::BodiesState& state) {
   const std::int64_t begin = runtime::Clock::now_ns();
   air_->keep(AirSide::window), bodies_->keep(AirSide::window);
   totals_.keep_ns += runtime::Clock::now_ns() - begin;
-  last_ = state.tick < 0 ? advance_held(state) : loose_ ? advance_loose(state) : advance_strong(state);
+  // Before t = 0 the sea settles round bodies that are held; the air waits.
+  last_ = !interface_ || state.tick < 0 ? advance_bodies(state) : loose_ ? advance_loose(state) : advance_strong(state);
   if (!last_.ok()) air_->back(AirSide::window), bodies_->back(AirSide::window);
   ++totals_.windows;
   totals_.evaluations += last_.log.evaluations, totals_.probes += last_.log.probes;
@@ -132,8 +156,7 @@ WindowReport CoupledWindow::advance(bodies::BodiesState& state) {
   return last_;
 }
 
-/// Before t = 0 the sea settles round bodies that are held; the air waits.
-WindowReport CoupledWindow::advance_held(bodies::BodiesState& state) {
+WindowReport CoupledWindow::advance_bodies(bodies::BodiesState& state) {
   WindowReport report;
   if (!move(state, state.tick + machine_.timeline().steps_per_window())) report.failure = trouble_;
   return report;
@@ -146,8 +169,8 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
     std::int64_t end;
     Vector start;  // motion at the window's start
     Vector motion_at(double begin, double end_s) const {
-      return w.interface_.motion(end_s, state.motions,
-                                 RotorInterface::azimuth(start) + (end_s - begin) * RotorInterface::rate(start));
+      return w.interface_->motion(end_s, state.motions,
+                                  RotorInterface::azimuth(start) + (end_s - begin) * RotorInterface::rate(start));
     }
     Vector shown(const Waveform& motion, double begin, double end_s) const {
       // One window is no line to extrapolate: a rotor that stood still for it would jump.
@@ -167,8 +190,8 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
     std::pair<Vector, Vector> both(const Extrapolation& load, const Waveform& motion, double begin, double end_s) {
       w.feel(load);
       w.bodies_->aim(state, end);
-      w.air_->aim(end_s, w.machine_.timeline().window_s(), w.interface_.state(end_s, shown(motion, begin, end_s)));
-      w.tasks_.run(true, true);
+      w.air_->aim(end_s, w.machine_.timeline().window_s(), w.interface_->state(end_s, shown(motion, begin, end_s)));
+      w.tasks_.run(Run::both);
       const bool moved = w.finish(state);
       return {moved ? motion_at(begin, end_s) : not_finite(RotorInterface::motion_rows), w.answer()};
     }
@@ -203,7 +226,7 @@ class CoupledWindow::Pieces {
   }
   /// Bodies: loads at the samples to motions at the samples.
   Vector first(const Vector& loads) {
-    go_back(false, true);
+    restore(Run::bodies);
     show(loads);
     Vector motions(samples() * RotorInterface::motion_rows);
     for (int s = 1; s <= samples(); ++s)
@@ -216,7 +239,7 @@ class CoupledWindow::Pieces {
   }
   /// Rotor: motions to loads.
   Vector second(const Vector& motions) {
-    go_back(true, false);
+    restore(Run::air);
     Vector loads(load_rows());
     for (int s = 1; s <= samples(); ++s)
       if (!put_load(s, w_.air_load(w_.time(tick(s)), dt(), part(motions, s, RotorInterface::motion_rows)), loads))
@@ -226,14 +249,14 @@ class CoupledWindow::Pieces {
   }
   /// Both at once, sample by sample.
   std::pair<Vector, Vector> both(const Vector& given_loads, const Vector& given_motions) {
-    go_back(true, true);
+    restore(Run::both);
     show(given_loads);
     Vector motions(samples() * RotorInterface::motion_rows), loads(load_rows());
     for (int s = 1; s <= samples(); ++s) {
       w_.bodies_->aim(state_, tick(s));
       w_.air_->aim(w_.time(tick(s)), dt(),
-                   w_.interface_.state(w_.time(tick(s)), part(given_motions, s, RotorInterface::motion_rows)));
-      w_.tasks_.run(true, true);
+                   w_.interface_->state(w_.time(tick(s)), part(given_motions, s, RotorInterface::motion_rows)));
+      w_.tasks_.run(Run::both);
       const bool moved = w_.finish(state_), loaded = put_load(s, w_.answer(), loads);
       if (!moved || !loaded) return {not_finite(motions.size()), not_finite(loads.size())};
       put_motion(s, motions);
@@ -270,10 +293,10 @@ class CoupledWindow::Pieces {
 
  private:
   void keep() { w_.air_->keep(AirSide::piece), w_.bodies_->keep(AirSide::piece); }
-  void go_back(bool air, bool bodies) {
+  void restore(Run sides) {
     w_.trouble_.clear();
-    if (air) w_.air_->back(AirSide::piece);
-    if (bodies) w_.bodies_->back(AirSide::piece), state_ = start_;
+    if (has_air(sides)) w_.air_->back(AirSide::piece);
+    if (has_bodies(sides)) w_.bodies_->back(AirSide::piece), state_ = start_;
   }
   /// The signal through the loads at the samples.
   void show(const Vector& loads) {
@@ -288,7 +311,7 @@ class CoupledWindow::Pieces {
     const double t = w_.time(tick(s));
     const Vector turned = RotorInterface::turned(w_.motions_.last(), t - w_.time(start_.tick));
     motions.segment((s - 1) * RotorInterface::motion_rows, RotorInterface::motion_rows) =
-        w_.interface_.motion(t, state_.motions, RotorInterface::azimuth(turned));
+        w_.interface_->motion(t, state_.motions, RotorInterface::azimuth(turned));
   }
   bool put_load(int s, const Vector& load, Vector& loads) {
     loads.segment((s - 1) * RotorInterface::load_rows, RotorInterface::load_rows) = load;
@@ -341,9 +364,8 @@ std::string CoupledWindow::describe(const WindowLog& log, const bodies::BodiesSt
 }
 
 void CoupledWindow::visit(auto& v) {
-  if (loose_)
-    loose_->visit(v);
-  else
+  if (loose_) loose_->visit(v);
+  if (strong_)
     loads_.visit(v), motions_.visit(v), signal_.visit(v), std::visit([&v](auto& scheme) { scheme.visit(v); }, *strong_);
 }
 
@@ -357,19 +379,18 @@ std::vector<double> CoupledWindow::history() {
 bool CoupledWindow::restore(std::span<const double> values) {
   Loader loader{values};
   visit(loader);
-  if (loose_)
-    feel(loose_->load());
-  else
-    feel(signal_);
+  if (loose_) feel(loose_->load());
+  if (strong_) feel(signal_);
   return loader.intact && loader.in.empty();
 }
 
 void CoupledWindow::declare(io::History& history) {
   air_column_ = history.columns().size();
   for (const io::Column& column : air_->columns()) history.add(column);
+  if (!interface_) return;
   column_ = history.add({"coupling.evaluations", "-", "of the window by the scheme, probes included"});
   history.add({"coupling.mismatch", "-", "loads that went in and came out, their difference over them"});
-  if (loose_) return;
+  if (!strong_) return;
   history.add({"coupling.columns", "-", "differences the scheme keeps"});
   history.add({"coupling.cuts", "-", "halvings of the window"});
   history.add({"coupling.retries", "-", "attempts after clearing and relaxing"});
@@ -378,8 +399,9 @@ void CoupledWindow::declare(io::History& history) {
 void CoupledWindow::put(std::span<double> row) const {
   const std::vector<double> air = air_->values();
   std::copy(air.begin(), air.end(), row.begin() + std::ptrdiff_t(air_column_));
+  if (!interface_) return;
   row[column_] = last_.log.evaluations, row[column_ + 1] = last_.mismatch;
-  if (loose_) return;
+  if (!strong_) return;
   row[column_ + 2] = last_.log.columns, row[column_ + 3] = last_.log.cuts, row[column_ + 4] = last_.log.retries;
 }
 

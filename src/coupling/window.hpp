@@ -1,8 +1,9 @@
 // A window shared by the rotor and the rest of the machine (bodies, sea, moorings, advanced in their own steps): the rotor is
 // asked once per window and sample, and the bodies see its loads as a signal in time, by a loose scheme or iterated until both
-// agree. What iterates is a pure function of a snapshot in memory, so a window may be repeated, cut, or begun again after a
-// restart. Schemes: kernels/coupling. Called by run.cpp; tested in tests/src/coupling/window_test.cpp and
-// tests/coupled/schemes_test.cpp. SPDX-License-Identifier: Apache-2.0
+// agree. Where there is no such interface (no rotor, or coupling.scheme = "monolithic") a window is the bodies' steps alone. What
+// iterates is a pure function of a snapshot in memory, so a window may be repeated, cut, or begun again after a restart. Schemes:
+// kernels/coupling. Called by src/run; tested in tests/src/coupling/window_test.cpp and tests/coupled/schemes_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>
@@ -39,8 +40,8 @@ struct WindowReport {
 
 class CoupledWindow {
  public:
-  /// The machine has a rotor, its scheme is not monolithic, and it outlives the window; its bodies take the rotor's loads from
-  /// here on. `sides`: the engineering rotor, and the bodies, where none are given. `comm`: of the ranks that share its tasks.
+  /// The machine outlives the window; where it has an interface its bodies take the rotor's loads from here on. `sides`: the
+  /// engineering rotor, and the bodies, where none are given. `comm`: of the ranks that share its tasks.
   explicit CoupledWindow(Machine& machine, Sides sides = {}, MPI_Comm comm = MPI_COMM_SELF, std::size_t records = 0);
   ~CoupledWindow();
   CoupledWindow(const CoupledWindow&) = delete;
@@ -59,12 +60,13 @@ class CoupledWindow {
   /// Totals since the object was made.
   struct Totals {
     std::int64_t windows = 0, evaluations = 0, probes = 0, retries = 0, cuts = 0, body_steps = 0, rotor_calls = 0;
-    std::int64_t keep_ns = 0;    ///< noting the state at the start of each window
-    std::int64_t answer_ns = 0;  ///< asking the air for its load; of an engineering rotor, all of its work
+    std::int64_t keep_ns = 0;  ///< noting the state at the start of each window
   };
   const Totals& totals() const { return totals_; }
   AirSide& air() { return *air_; }
-  bool loose() const { return loose_.has_value(); }
+  const AirSide& air() const { return *air_; }
+  /// Whether a window is one evaluation.
+  bool iterates() const { return strong_.has_value(); }
   const WindowTasks& tasks() const { return tasks_; }
   const BodySide& bodies() const { return *bodies_; }
 
@@ -77,7 +79,9 @@ class CoupledWindow {
   friend class Pieces;
   using AnyScheme =
       std::variant<RelaxationConstant, RelaxationAitken, RelaxationSteepestDescent, IqnIls, IbqnLs, InterfaceGmres, Newton>;
-  static AnyScheme make_scheme(const CouplingOptions& options);
+  /// The scheme of the scene, if it is one of these.
+  static std::optional<Staggered> make_loose(const CouplingOptions& options);
+  static std::optional<AnyScheme> make_strong(const CouplingOptions& options);
 
   double time(std::int64_t tick) const { return double(tick) * machine_.timeline().tick_s(); }
   /// After the tasks: the bodies at the end, or false, or load rows, not finite, where a side fails (then trouble_).
@@ -86,7 +90,7 @@ class CoupledWindow {
   /// Bodies alone, or air alone for `dt` seconds that end at `t` with this motion.
   bool move(bodies::BodiesState& state, std::int64_t end);
   Vector air_load(double t, double dt, const Vector& motion);
-  WindowReport advance_held(bodies::BodiesState& state);
+  WindowReport advance_bodies(bodies::BodiesState& state);
   template <class Signal>
   void feel(const Signal& signal);
   WindowReport advance_loose(bodies::BodiesState& state);
@@ -96,7 +100,7 @@ class CoupledWindow {
 
   Machine& machine_;
   const CouplingOptions options_;
-  RotorInterface interface_;
+  std::optional<RotorInterface> interface_;
   std::unique_ptr<AirSide> air_;
   std::unique_ptr<BodySide> bodies_;
   WindowTasks tasks_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/window_tasks.hpp"
 
+#include <algorithm>
+
 namespace spindrift::coupling {
 
 namespace {
@@ -17,17 +19,20 @@ constexpr std::array<std::string_view, 2> modules{"aero", "sea"};
 
 }  // namespace
 
-WindowTasks::WindowTasks(AirSide* air, BodySide& bodies, MPI_Comm comm, std::size_t records)
+WindowTasks::WindowTasks(AirSide& air, BodySide& bodies, MPI_Comm comm, std::size_t records)
     : air_(air), bodies_(bodies), comm_(comm), records_(records) {}
 
-void WindowTasks::run(bool air, bool bodies) {
-  if (bodies && bodies_.outdated()) drop();
-  Program& program = programs_[std::size_t(air) + 2 * std::size_t(bodies)];
+void WindowTasks::run(Run sides) {
+  if (has_bodies(sides) && bodies_.outdated()) drop();
+  Program& program = programs_[std::size_t(sides)];
   if (!program.recorded) {
     runtime::Graph graph(comm_);
-    const bool of_air = air && air_->record(graph), of_bodies = bodies && bodies_.record(graph);
-    if (of_air || of_bodies)
-      program.executor = std::make_unique<runtime::Executor>(std::move(graph), runtime::ExecutorOptions{.records = records_});
+    Tasks tasks = Tasks::none;
+    if (has_air(sides)) tasks = std::max(tasks, air_.record(graph));
+    if (has_bodies(sides)) tasks = std::max(tasks, bodies_.record(graph));
+    if (tasks != Tasks::none)
+      program.executor = std::make_unique<runtime::Executor>(
+          std::move(graph), runtime::ExecutorOptions{.threads = tasks == Tasks::many ? 0 : 1, .records = records_});
     program.recorded = true;
   }
   if (!program.executor) return;
@@ -40,13 +45,13 @@ void WindowTasks::run(bool air, bool bodies) {
 void WindowTasks::drop() {
   for (std::size_t m = 0; m < modules.size(); ++m) dropped_[m] = core_seconds(modules[m]);
   programs_ = {};
-  if (air_) air_->forget_tasks();
+  air_.forget_tasks();
   bodies_.forget_tasks();
 }
 
 const runtime::Executor* WindowTasks::executor() const {
-  for (const std::size_t n : {3, 1, 2})
-    if (programs_[n].executor) return programs_[n].executor.get();
+  for (const Run run : {Run::both, Run::air, Run::bodies})
+    if (const auto& executor = programs_[std::size_t(run)].executor) return executor.get();
   return nullptr;
 }
 

@@ -1,6 +1,7 @@
 // The sides of a window as one task graph: air and bodies at once, so that what one leaves idle the other fills, or one of them
-// where a scheme wants it alone. Sides without tasks cost no graph. Between runs a side is aimed and asked; within one nothing
-// but data orders. Used by window.cpp and run.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
+// where a scheme wants it alone. Each selection of sides is a program of its own: recorded once, replayed. Between runs a side is
+// given what to do and asked for the result; within one nothing but data orders.
+// Used by window.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -13,13 +14,19 @@
 
 namespace spindrift::coupling {
 
+/// Sides of a window that run together.
+enum class Run { air, bodies, both };
+constexpr bool has_air(Run run) { return run != Run::bodies; }
+constexpr bool has_bodies(Run run) { return run != Run::air; }
+
 class WindowTasks {
  public:
-  /// `air` may be null. `records`: per thread, for a trace.
-  WindowTasks(AirSide* air, BodySide& bodies, MPI_Comm comm, std::size_t records);
+  /// `records`: per thread, for a trace.
+  WindowTasks(AirSide& air, BodySide& bodies, MPI_Comm comm, std::size_t records);
 
-  /// Runs the tasks of the sides named, which have been aimed.
-  void run(bool air, bool bodies);
+  /// @pre the sides named have been given what to do (AirSide::aim, BodySide::aim). @post their tasks have run; their results are
+  /// to be asked for.
+  void run(Run sides);
 
   /// The executor that tells most of where time went: of both sides, else of one; null where none has run.
   const runtime::Executor* executor() const;
@@ -34,11 +41,11 @@ class WindowTasks {
   };
   void drop();
 
-  AirSide* air_;
+  AirSide& air_;
   BodySide& bodies_;
   MPI_Comm comm_;
   std::size_t records_;
-  std::array<Program, 4> programs_;  ///< by 1 for the air, 2 for the bodies
+  std::array<Program, 3> programs_;  ///< by Run
   std::array<double, 2> dropped_{};  ///< core-seconds of executors that are gone: of the air, of the sea
   std::int64_t wall_ns_ = 0;
 };

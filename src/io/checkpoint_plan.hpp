@@ -1,6 +1,6 @@
 // When a run saves its state: at its start, then by simulated time where the scene asks for it, then by the clock on the wall,
 // seldom enough that saving takes less than a hundredth of the run. When it saves changes no bit of what it computes. Used by
-// run.cpp and flow_run.cpp; tested in tests/src/io/checkpoint_plan_test.cpp. SPDX-License-Identifier: Apache-2.0
+// src/run/outputs.cpp; tested in tests/src/io/checkpoint_plan_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <mpi.h>

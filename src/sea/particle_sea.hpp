@@ -1,6 +1,6 @@
 // The sea of particles as the coupling sees it: bodies held or moving in a tank, advanced in substeps between which the coupling
 // moves them, with instruments, output and a state that can be saved and put back. Hides dimensions and precision.
-// Called by src/coupling (sea_window.cpp, run.cpp, recorder.cpp); tested in tests/coupled/particle_sea_test.cpp and
+// Called by src/coupling (sea_window.cpp, recorder.cpp) and src/run; tested in tests/coupled/particle_sea_test.cpp and
 // tests/coupled.
 //
 //   ParticleSea::Plan plan = plan_of(options, waves, environment, bodies);   // checked before; cheap

@@ -102,7 +102,7 @@ TEST_CASE("a body that comes to lie on the bed is carried by its contact, named 
 TEST_CASE("an interrupted sea of particles goes on bit for bit", "[coupled][sea][fast]") {
   const test::Folder whole("sea_whole"), parts("sea_parts");
   test::run_scene(test::input(box), small_box, whole.path());
-  RunSettings first{.until_s = 0.16, .quiet = true};
+  run::RunSettings first{.until_s = 0.16, .quiet = true};
   test::run_scene(test::input(box), small_box, parts.path(), first);
   test::run_scene(test::input(box), small_box, parts.path(), {.restart = true, .quiet = true});
   CHECK(test::text_of(whole.path() / "history.csv") == test::text_of(parts.path() / "history.csv"));

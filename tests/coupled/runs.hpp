@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "src/coupling/run.hpp"
+#include "src/run/driver.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/document.hpp"
 
@@ -34,13 +34,13 @@ class Folder {
 inline std::string input(const std::string& name) { return std::string(SPINDRIFT_SOURCE_DIR "/inputs/") + name; }
 
 inline io::Summary run_scene(const std::string& file, const std::vector<std::string>& overrides, const std::filesystem::path& out,
-                             const RunSettings& settings = {.quiet = true}) {
+                             const run::RunSettings& settings = {.quiet = true}) {
   scene::Document document = scene::load(file, overrides);
   Machine machine(read_scenario(document));
   const Start start = make_start(machine);
   const runtime::World world{MPI_COMM_WORLD, 0, 1};
   const io::RunDirectory directory(world.comm, out, settings.restart ? io::Existing::resume : io::Existing::refuse);
-  return run(machine, start, directory, world, settings);
+  return run::run(machine, start, directory, world, settings);
 }
 
 inline std::string text_of(const std::filesystem::path& file) {

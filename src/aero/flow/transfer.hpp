@@ -1,5 +1,5 @@
 // The flow of a coarser grid as the state of a finer one of the same blocks: what grid sequencing needs.
-// Called by src/aero/coarse_start.cpp, src/coupling/flow_run.cpp and perf/air; tested in tests/src/aero/flow/transfer_test.cpp
+// Called by src/aero/coarse_start.cpp, src/run/flow_case.cpp and perf/air; tested in tests/src/aero/flow/transfer_test.cpp
 // and tests/src/aero/coarse_start_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// A grid of every second node, for marches that begin on coarser grids. Called by src/coupling/flow_run.cpp and perf/air; tested
+// A grid of every second node, for marches that begin on coarser grids. Called by src/run/flow_case.cpp and perf/air; tested
 // in tests/src/aero/flow/transfer_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/coupling/saved_history.hpp"
+#include "src/run/saved_history.hpp"
 
 #include <array>
 
-#include "src/io/collective.hpp"
-
-namespace spindrift::coupling {
+namespace spindrift::run {
 
 namespace {
 constexpr const char* extent_name = "history/extent";
@@ -22,14 +20,4 @@ std::optional<io::History::Extent> extent_in(const io::CheckpointReader& file) {
   return io::History::Extent{values.at(0), values.at(1), values.at(2)};
 }
 
-void open_history(MPI_Comm comm, io::History& history, const io::RunDirectory& directory, const RunSettings& settings,
-                  double time_s, const std::optional<io::History::Extent>& written) {
-  io::on_root(comm, [&] {
-    if (!settings.restart)
-      history.open(directory.history());
-    else
-      history.resume(directory.history(), time_s, settings.accept_history ? std::nullopt : written);
-  });
-}
-
-}  // namespace spindrift::coupling
+}  // namespace spindrift::run

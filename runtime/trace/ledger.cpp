@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/trace/ledger.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "runtime/executor/worker.hpp"
+#include "runtime/trace/clock.hpp"
+#include "runtime/trace/trace_of.hpp"
+
+namespace spindrift::runtime {
+
+namespace {
+
+Ledger* active = nullptr;
+
+void widen(std::vector<ThreadTimes>& threads, std::size_t count) {
+  if (threads.size() < count) threads.resize(count);
+}
+
+}  // namespace
+
+Ledger::Ledger(std::size_t records) : begin_ns_(Clock::now_ns()), capacity_(records) {
+  widen(gone_.trace.threads, std::size_t(omp_get_max_threads()));
+  active = this;
+}
+Ledger::~Ledger() { active = nullptr; }
+Ledger* Ledger::current() { return active; }
+
+void Ledger::opened(const Team& team) { live_.push_back({&team}); }
+
+void Ledger::closed(const Team& team) {
+  const auto found = std::ranges::find(live_, &team, &Live::team);
+  if (found == live_.end()) return;
+  add(gone_, *found);
+  live_.erase(found);
+}
+
+void Ledger::ran(const Team& team, std::int64_t ns) {
+  if (const auto found = std::ranges::find(live_, &team, &Live::team); found != live_.end()) found->wall_ns += ns;
+  if (innermost_) innermost_->inner_ns_ += ns;
+}
+
+void Ledger::move(std::string_view from, std::string_view label, std::int64_t ns, std::int64_t count) {
+  Move& move = moves_[std::string(label)];
+  move.from = from, move.cost.ns += ns, move.cost.count += std::uint64_t(count);
+}
+
+/// Nodes of the team's graph join those alike; its threads' times are brought to the wall time of its runs as seen from outside.
+void Ledger::add(Merged& to, const Live& live) {
+  RankTrace own = trace_of(*live.team, 0);
+  std::vector<std::uint32_t> as(own.nodes.size());
+  std::map<Key, std::uint32_t> seen;
+  for (std::uint32_t n = 0; n < own.nodes.size(); ++n) {
+    TraceNode& node = own.nodes[n];
+    if (node.loop != no_node) node.loop = as[node.loop];
+    Key key{node.kind, node.loop, node.label, node.peer, node.tag, 0};
+    std::get<5>(key) = seen[key]++;
+    const auto [at, is_new] = to.nodes.emplace(std::move(key), std::uint32_t(to.trace.nodes.size()));
+    as[n] = at->second;
+    if (is_new)
+      to.trace.nodes.push_back(std::move(node));
+    else
+      to.trace.nodes[as[n]].cost.total_ns += node.cost.total_ns, to.trace.nodes[as[n]].cost.count += node.cost.count;
+  }
+  if (!own.records.empty()) {
+    std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>> edges;
+    for (const Edge& e : to.trace.edges) edges.emplace(e.from, e.to, e.distance);
+    for (const Edge& e : own.edges)
+      if (edges.emplace(as[e.from], as[e.to], e.distance).second) to.trace.edges.push_back({as[e.from], as[e.to], e.distance});
+    std::uint32_t replays = 0;
+    for (Record& record : own.records) {
+      if (record.task < as.size()) record.task = as[record.task];
+      replays = std::max(replays, record.replay + 1);
+      record.replay += to.replays;
+      to.trace.records.push_back(record);
+    }
+    to.replays += replays;
+  }
+  to.trace.complete_until = std::min(to.trace.complete_until, own.complete_until);
+  widen(to.trace.threads, own.threads.size());
+  for (std::size_t t = 0; t < to.trace.threads.size(); ++t) {
+    ThreadTimes& times = to.trace.threads[t];
+    times.wall_ns += live.wall_ns;
+    if (t >= own.threads.size()) {
+      times.idle_ns += live.wall_ns;
+      continue;
+    }
+    times.task_ns += own.threads[t].task_ns, times.idle_ns += own.threads[t].idle_ns, times.poll_ns += own.threads[t].poll_ns;
+    times.tasks += own.threads[t].tasks, times.steals += own.threads[t].steals;
+  }
+}
+
+RankTrace Ledger::trace(int rank) const {
+  Merged all = gone_;
+  std::int64_t known_ns = 0;
+  for (const Live& live : live_) add(all, live);
+  RankTrace& trace = all.trace;
+  trace.rank = rank;
+  known_ns = trace.threads[0].wall_ns;
+  const auto serial = [&](std::int64_t ns, bool waits) {
+    for (std::size_t t = 0; t < trace.threads.size(); ++t) {
+      trace.threads[t].wall_ns += ns;
+      (t == 0 && !waits ? trace.threads[t].task_ns : trace.threads[t].idle_ns) += ns;
+    }
+    known_ns += ns;
+  };
+  std::map<std::string, std::uint32_t, std::less<>> node_of;
+  const auto add_span = [&](const std::string& label, const Cost& cost) {
+    node_of[label] = std::uint32_t(trace.nodes.size());
+    trace.nodes.push_back({.label = label, .cost = {cost.ns, cost.count}});
+  };
+  for (const auto& [label, cost] : spans_) add_span(label, cost), serial(cost.ns, false);
+  for (const auto& [label, cost] : waits_) serial(cost.ns, true);
+  // What nobody named: between spans and runs of executors.
+  const std::int64_t rest = std::max<std::int64_t>(0, Clock::now_ns() - begin_ns_ - known_ns);
+  add_span("run/other", {rest, 1}), serial(rest, false);
+  std::uint32_t replay = 1u << 31;  // a window of its own for each
+  for (const SpanRecord& span : records_) {
+    const auto node = node_of.find(span.label);
+    trace.records.push_back({span.begin_ns, span.end_ns, node == node_of.end() ? no_task : node->second, replay++, 0, 0, 0,
+                             node == node_of.end() ? Activity::idle : Activity::task});
+  }
+  for (const auto& [label, move] : moves_) {
+    std::int64_t left = move.cost.ns;
+    for (TraceNode& node : trace.nodes) {
+      if (node.kind != NodeKind::task || module_of(node.label) != move.from) continue;
+      const std::int64_t taken = std::min(left, node.cost.total_ns);
+      node.cost.total_ns -= taken, left -= taken;
+    }
+    trace.nodes.push_back({.label = label, .cost = {move.cost.ns - left, move.cost.count}});
+  }
+  return trace;
+}
+
+Span::Span(std::string_view label, Kind kind) : ledger_(Worker::current() ? nullptr : active), label_(label), kind_(kind) {
+  if (!ledger_) return;
+  begin_ns_ = Clock::now_ns();
+  outer_ = std::exchange(ledger_->innermost_, this);
+}
+
+Span::~Span() {
+  if (!ledger_) return;
+  const std::int64_t end_ns = Clock::now_ns(), ns = end_ns - begin_ns_;
+  auto& costs = kind_ == Kind::work ? ledger_->spans_ : ledger_->waits_;
+  Ledger::Cost& cost = costs[label_];
+  cost.ns += ns - inner_ns_, ++cost.count;
+  if (ledger_->records_.size() < ledger_->capacity_) ledger_->records_.push_back({std::move(label_), begin_ns_, end_ns});
+  ledger_->innermost_ = outer_;
+  if (outer_) outer_->inner_ns_ += ns;
+}
+
+}  // namespace spindrift::runtime

@@ -1,0 +1,101 @@
+// Where the core-seconds of a run went, all of them: tasks of every executor there was, also of those that are gone, and what a
+// rank did outside of tasks, by label; waiting, messages and the runtime's own work. Made by the driver of a run; fed by Executor
+// and by spans; read as a trace (trace_of.hpp), from which table, summary and trace.json follow.
+// Tested in tests/runtime/trace/ledger_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "runtime/trace/rank_trace.hpp"
+
+namespace spindrift::runtime {
+
+struct Team;
+class Span;
+
+class Ledger {
+ public:
+  /// From now on every executor of this process is counted. `records`: of spans, kept for the trace. One ledger at a time.
+  explicit Ledger(std::size_t records = 0);
+  ~Ledger();
+  Ledger(const Ledger&) = delete;
+  Ledger& operator=(const Ledger&) = delete;
+  /// Null where nobody counts.
+  static Ledger* current();
+
+  /// Of time inside tasks of the module `from`, this much belongs to `label`: what a task asked of others, counted by itself.
+  /// Neither clocks nor counts may go beyond what the module has.
+  void move(std::string_view from, std::string_view label, std::int64_t ns, std::int64_t count);
+
+  /// Everything so far. The threads' wall times are those of the ledger: wall = task + idle + poll + overhead for each, and the
+  /// costs of the nodes add up to the tasks' times.
+  RankTrace trace(int rank) const;
+
+  // For Executor.
+  void opened(const Team& team);
+  void closed(const Team& team);
+  void ran(const Team& team, std::int64_t ns);
+
+ private:
+  friend class Span;
+  struct Live {
+    const Team* team;
+    std::int64_t wall_ns = 0;
+  };
+  /// What makes nodes of two graphs the same: kind, loop (as merged), label, peer, tag, and the how-manieth of these in its
+  /// graph.
+  using Key = std::tuple<NodeKind, std::uint32_t, std::string, int, int, std::uint32_t>;
+  struct Merged {
+    RankTrace trace;
+    std::map<Key, std::uint32_t> nodes;
+    std::uint32_t replays = 0;
+  };
+  static void add(Merged& to, const Live& live);
+  struct Cost {
+    std::int64_t ns = 0;
+    std::uint64_t count = 0;
+  };
+  struct Move {
+    std::string from;
+    Cost cost;
+  };
+
+  const std::int64_t begin_ns_;
+  std::size_t capacity_;
+  std::vector<Live> live_;
+  Merged gone_;
+  std::map<std::string, Cost, std::less<>> spans_, waits_;
+  std::map<std::string, Move, std::less<>> moves_;
+  struct SpanRecord {
+    std::string label;
+    std::int64_t begin_ns, end_ns;
+  };
+  std::vector<SpanRecord> records_;
+  Span* innermost_ = nullptr;
+};
+
+/// Work of the first thread outside of tasks, or its wait for other ranks, under a label like a task's; all other threads wait.
+/// What runs inside it under another label (an executor, another span) is not its own. Inside a task it does nothing.
+class Span {
+ public:
+  enum class Kind { work, wait };
+  explicit Span(std::string_view label, Kind kind = Kind::work);
+  ~Span();
+  Span(const Span&) = delete;
+  Span& operator=(const Span&) = delete;
+
+ private:
+  friend class Ledger;
+  Ledger* ledger_;
+  std::string label_;
+  Kind kind_;
+  std::int64_t begin_ns_ = 0, inner_ns_ = 0;
+  Span* outer_ = nullptr;
+};
+
+}  // namespace spindrift::runtime

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/run/driver.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/executor/executor.hpp"
+#include "runtime/trace/chrome.hpp"
+#include "runtime/trace/efficiency.hpp"
+#include "runtime/trace/trace_of.hpp"
+#include "src/io/collective.hpp"
+#include "src/io/fields.hpp"
+#include "src/io/progress.hpp"
+#include "src/run/flow_simulation.hpp"
+#include "src/run/outputs.hpp"
+#include "src/run/system_simulation.hpp"
+
+namespace spindrift::run {
+
+Driver::Driver(const io::RunDirectory& directory, const runtime::Parts& parts, const RunSettings& settings,
+               const coupling::RuntimeOptions& options)
+    : directory_(directory), parts_(parts), settings_(settings), stop_(options.wall_limit_s), ledger_(settings.records()) {}
+
+io::Summary Driver::run(Simulation& simulation) {
+  const runtime::World& world = parts_.world();
+  const coupling::Timeline& timeline = simulation.timeline();
+  io::History history;
+  simulation.declare(history);
+  Checkpoints checkpoints(simulation, directory_, history, world.comm);
+  const std::int64_t first = settings_.restart ? checkpoints.resume() : simulation.begin();
+  if (settings_.restart) spdlog::info("restart from t = {} s", timeline.window_end_s(first));
+  std::int64_t window = first, last = last_window(timeline);
+  open_history(history, timeline.window_end_s(first), checkpoints.rows());
+  HistoryOutput rows(simulation, history);
+  ProgressOutput progress(timeline, first, last, io::progress_style(world.rank, settings_.quiet));
+  std::vector<std::unique_ptr<Output>> fields =
+      simulation.outputs(directory_, settings_.restart ? timeline.window_end_s(first) : io::from_the_start);
+  std::vector<Output*> outputs{&rows, &checkpoints, &progress};  // files for people last: they may fail
+  for (const auto& output : fields) outputs.push_back(output.get());
+  if (!settings_.restart)
+    for (Output* output : outputs) {
+      const runtime::Span span(output->label());
+      output->begin(first);
+    }
+
+  while (window < last && summary_.exit_code == 0) {
+    const Advance advance = simulation.advance(window, last);
+
+    const Windows done{window, window + advance.windows, advance.settled.empty() ? last : window + advance.windows};
+    window = done.now, last = done.last;
+    if (!advance.settled.empty()) summary_.exit_reason = "done: " + advance.settled;
+    for (Output* output : outputs) take_if_due(*output, done);
+    if (!advance.failure.empty())
+      fail(advance.failure);
+    else if (const std::string why = stop_.agreed(world.comm); !why.empty() && window < last)
+      stop(why);
+  }
+  if (summary_.exit_code == 0 && summary_.exit_reason.empty() && window == timeline.windows())
+    if (const std::string failure = simulation.failure_at_end(); !failure.empty()) fail(failure);
+  for (Output* output : outputs) {
+    const runtime::Span span(output->label());
+    output->finish(window);
+  }
+
+  if (summary_.exit_reason.empty())
+    summary_.exit_reason =
+        last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last)) : simulation.done();
+  summary_.restarts = checkpoints.restarts();
+  summary_.start_time_s = timeline.window_end_s(first), summary_.end_time_s = timeline.window_end_s(window);
+  summary_.window_s = timeline.window_s();
+  summary_.counts = {{"windows", window - first}};
+  summary_.columns = history.columns();
+  summary_.ranks = world.size;
+  simulation.summarise(summary_, ledger_);
+  describe_times();
+  return summary_;
+}
+
+void Driver::take_if_due(Output& output, const Windows& done) {
+  if (!output.due(done)) return;
+  const runtime::Span span(output.label());
+  output.take(done);
+}
+
+std::int64_t Driver::last_window(const coupling::Timeline& timeline) const {
+  if (!settings_.until_s) return timeline.windows();
+  const auto windows = std::int64_t(std::ceil(*settings_.until_s / timeline.window_s() * (1.0 - 1e-12)));
+  return std::min<std::int64_t>(windows, timeline.windows());
+}
+
+/// A new file on rank 0, or that of the run that goes on at `time_s`. Collective; throws on all ranks alike.
+void Driver::open_history(io::History& history, double time_s, const std::optional<io::History::Extent>& written) const {
+  io::on_root(parts_.world().comm, [&] {
+    if (settings_.restart)
+      history.resume(directory_.history(), time_s, settings_.accept_history ? std::nullopt : written);
+    else
+      history.open(directory_.history());
+  });
+}
+
+/// Numerical failure: data, not an exception.
+void Driver::fail(const std::string& failure) {
+  summary_.exit_code = 3;
+  summary_.exit_reason = failure;
+  summary_.numerical_trouble.push_back(failure);
+}
+
+void Driver::stop(const std::string& why) {
+  summary_.exit_code = 5;
+  summary_.exit_reason = why;
+}
+
+/// Where the core-seconds of all ranks went, from the ledger: into the summary by part, into the log as a table, and to
+/// trace.json where asked for. Collective.
+void Driver::describe_times() {
+  const runtime::World& world = parts_.world();
+  runtime::RankTrace own = ledger_.trace(world.rank);
+  for (runtime::TraceNode& node : own.nodes)  // a side's tasks count its own ranks
+    if (node.peer >= 0) node.peer += world.rank - parts_.mine().rank;
+  summary_.wall_seconds = 1e-9 * double(own.threads[0].wall_ns);
+  summary_.threads = int(own.threads.size());
+  const std::vector<runtime::RankTrace> traces = gather_traces(own, world.comm);
+  if (world.rank != 0) return;
+  const runtime::Efficiency e = efficiency_of(traces);
+  for (const auto& [name, value, meaning] : std::initializer_list<std::tuple<const char*, double, const char*>>{
+           {"parallel efficiency", e.parallel, "useful core-seconds over all core-seconds; load balance x communication"},
+           {"load balance", e.load_balance, "mean over largest useful time of a thread"},
+           {"communication efficiency", e.communication, "largest useful time of a thread over elapsed time"},
+           {"serialisation efficiency", e.serialisation, "what dependencies leave on an ideal network"},
+           {"transfer efficiency", e.transfer, "what moving data leaves"}})
+    if (std::isfinite(value)) summary_.efficiency.push_back({name, value, meaning});
+  double known_s = 0.0;
+  const auto add = [&](const std::string& name, double core_s, std::int64_t calls) {
+    summary_.parts.push_back({name, core_s / e.threads, core_s, calls});
+    known_s += core_s;
+  };
+  for (const runtime::ModuleTimes& module : e.modules) add(module.module, module.busy_s, module.calls);
+  add("waiting", e.idle_s, 0), add("messages", e.poll_s, 0);
+  add("runtime", std::max(0.0, e.wall_s - known_s), 0);  // what the threads had besides: task graph, priorities, teams
+  spdlog::info("{}", efficiency_table(e));
+  if (settings_.trace) write_chrome_trace(traces, directory_.trace().string());
+}
+
+io::Summary run(coupling::Machine& machine, const coupling::Start& start, const io::RunDirectory& directory,
+                const runtime::Parts& parts, const RunSettings& settings) {
+  Driver driver(directory, parts, settings, machine.scenario().runtime);
+  SystemSimulation simulation(machine, start.state, parts, settings.records());
+  return driver.run(simulation);
+}
+
+io::Summary run_flow(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::Parts& parts,
+                     const RunSettings& settings) {
+  Driver driver(directory, parts, settings, scenario.runtime);
+  FlowSimulation simulation(scenario, directory, parts.world(), settings.records());
+  return driver.run(simulation);
+}
+
+}  // namespace spindrift::run

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/run/flow_case.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/partition/partition.hpp"
+#include "runtime/trace/ledger.hpp"
+#include "src/aero/flow/poisson.hpp"
+#include "src/aero/flow/transfer.hpp"
+#include "src/aero/flow_grid.hpp"
+#include "src/aero/flow_options.hpp"
+#include "src/aero/grid/coarsen.hpp"
+#include "src/aero/grid/wall_distance.hpp"
+#include "src/aero/wind.hpp"
+#include "src/coupling/flow_scene.hpp"
+#include "src/coupling/grid_progress.hpp"
+#include "src/scene/error.hpp"
+
+namespace spindrift::run {
+
+namespace {
+
+/// Pseudo-steps of a steady march from one call of advance() to the next: clock and disk are asked between them.
+constexpr int steady_chunk = 20;
+
+/// Marches once; `march` was recorded of the solver.
+void look_at_start(aero::FlowSolver& solver, runtime::Executor& march) {
+  solver.march().look();
+  march.run();
+  solver.clear_rows();
+}
+
+}  // namespace
+
+FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world) {
+  const runtime::Span span("aero/start");
+  const aero::FlowOptions& o = *s.aero.flow;
+  if (has_resolved_rotor(s)) {
+    rotor_ = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, steady_chunk, nullptr,
+                                                   coupling::grid_progress());
+    store_ = &rotor_->store(), solver_ = &rotor_->solver();
+    begin(o.start);
+    return;
+  }
+  own_grid_ = aero::flow_grid(o);
+  if (const std::string why = o.coarse_steps.value_or(0) > 0 ? aero::why_not_halved(own_grid_) : std::string(); !why.empty())
+    throw scene::SceneError(
+        {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", *o.coarse_steps),
+          fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
+  if (o.motion) follow_walls(o);
+  solve(s, world, steady_chunk);
+}
+
+FlowCase::FlowCase(aero::MultiBlockGrid grid, const coupling::Scenario& s, const runtime::World& world, int steps) {
+  coupling::Scenario coarse = s;
+  aero::FlowOptions& o = *coarse.aero.flow;
+  o.drop = o.coarse_drop;
+  if (o.preconditioner == "auto") o.preconditioner = aero::FlowOptions().preconditioner;
+  own_grid_ = std::move(grid);
+  solve(coarse, world, steps);
+}
+
+/// Tiles and solver on own_grid_; at most `steps` pseudo-steps a run where the flow is steady.
+void FlowCase::solve(const coupling::Scenario& s, const runtime::World& world, int steps) {
+  const aero::FlowOptions& o = *s.aero.flow;
+  const std::vector<std::string> walls = aero::wall_patches(o);
+  aero::Tiling tiling = aero::make_tiling(own_grid_, walls);
+  std::vector<aero::PatchCondition> conditions = aero::patch_conditions(o, tiling);
+  std::vector<int> ranks(std::size_t(tiling.size()), 0);
+  if (world.size > 1) ranks = runtime::partition_blocks(aero::tile_graph(tiling), {.ranks = world.size}).rank_of_block;
+  own_store_ = std::make_unique<aero::GridStore>(std::move(tiling), std::move(ranks), world.rank);
+  store_ = own_store_.get();
+  store_->build_all(own_grid_, motion_.has_value());
+  std::vector<std::string> no_slip;
+  for (const aero::PatchOptions& b : o.boundaries)
+    if (aero::sticks(b.condition)) no_slip.push_back(b.patch);
+  if (o.wall_distance == "poisson") {
+    aero::fill_wall_distance_by_poisson(*store_, no_slip, world.comm);
+  } else {
+    const aero::WallSurface surface = aero::wall_surface(own_grid_, no_slip);
+    for (const int tile : store_->owned()) aero::fill_wall_distance((*store_)[tile], surface);
+  }
+  aero::FlowSetting setting =
+      aero::flow_setting(o, s.environment.air_density_kg_m3, coupling::flow_wind(s), s.time.window_s, aero::wind_profile(s.wind));
+  if (setting.time_order == 0) setting.march.max_steps = steps;
+  own_solver_ = std::make_unique<aero::FlowSolver>(*store_, setting, std::move(conditions));
+  solver_ = own_solver_.get();
+  begin(o.start);
+  if (motion_) place(0, s.time.window_s);
+}
+
+/// The flow that aero.flow.start names: the wind, air at rest, or a Taylor-Green vortex.
+void FlowCase::begin(const std::string& start) {
+  const aero::FlowSetting& s = solver_->setting();
+  if (start == "wind") return solver_->start_uniform();
+  const double rho = gas::density(s.gas, gas::Primitive<double>{}), U = s.speed;
+  solver_->start([&](const Eigen::Vector3d& x) {
+    if (start == "rest") return gas::Primitive<double>{};
+    const double p = rho * U * U / 16.0 * (std::cos(2 * x[0]) + std::cos(2 * x[1])) * (std::cos(2 * x[2]) + 2.0);
+    return gas::Primitive<double>{p, U * std::sin(x[0]) * std::cos(x[1]) * std::cos(x[2]),
+                                  -U * std::cos(x[0]) * std::sin(x[1]) * std::cos(x[2]), 0.0, p / (rho * s.gas.gas_constant)};
+  });
+}
+
+/// The grid follows the walls that move: in steady flow at once, else from step to step.
+void FlowCase::follow_walls(const aero::FlowOptions& o) {
+  std::vector<std::string> held, sliding;
+  for (const aero::PatchOptions& b : o.boundaries) {
+    if (std::ranges::find(o.motion->patches, b.patch) != o.motion->patches.end()) continue;
+    (b.condition == aero::Condition::symmetry ? sliding : held).push_back(b.patch);
+  }
+  motion_.emplace(own_grid_, *o.motion, held, sliding);
+  spdlog::info("air: {}", motion_->description());
+  if (o.time != "steady") return;
+  aero::MultiBlockGrid placed = motion_->moved_grid(0.0);
+  motion_.reset();
+  own_grid_ = std::move(placed);
+}
+
+void FlowCase::fill_geometry(MPI_Comm comm) {
+  runtime::Graph geometry(comm);
+  solver_->record_geometry(geometry);
+  runtime::Executor(std::move(geometry), {.threads = 1}).run();
+}
+
+void FlowCase::place(std::int64_t window, double window_s) {
+  solver_->place(motion_->poses(double(window - 1) * window_s), motion_->poses(double(window) * window_s));
+}
+
+void FlowCase::move(std::int64_t window, double window_s) {
+  if (rotor_ && !steady()) rotor_->move_to(rotor_->turned(window + 1));
+  if (motion_) solver_->move_to(motion_->poses(double(window + 1) * window_s));
+}
+
+void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Executor& march, const runtime::World& world) {
+  const aero::FlowOptions& o = *s.aero.flow;
+  std::vector<aero::MultiBlockGrid> grids;
+  for (const aero::MultiBlockGrid* last = &own_grid_; int(grids.size()) < o.coarse_levels && aero::why_not_halved(*last).empty();
+       last = &grids.back())
+    grids.push_back(aero::halved(*last));
+  if (grids.empty()) return;
+  look_at_start(*solver_, march);
+  std::unique_ptr<FlowCase> coarser;
+  while (!grids.empty()) {
+    std::unique_ptr<FlowCase> next(
+        new FlowCase(std::move(grids.back()), s, world, o.coarse_steps.value_or(aero::usual_coarse_steps)));
+    grids.pop_back();
+    next->fill_geometry(world.comm);
+    aero::FlowSolver& solver = next->solver();
+    runtime::Graph graph(world.comm);
+    solver.record(graph);
+    runtime::Executor executor(std::move(graph));
+    if (coarser) {
+      look_at_start(solver, executor);
+      aero::begin_with(coarser->solver(), solver, {}, world.comm);
+      solver.march().begin_after_look();
+    }
+    executor.run();
+    const aero::March& done = solver.march();
+    if (done.verdict() == aero::Verdict::failed) {
+      spdlog::warn("air: on a coarser grid of {} cells the march failed ({}); the next begins without it", solver.cells(),
+                   done.why());
+      coarser.reset();
+      continue;
+    }
+    spdlog::info("air: {} pseudo-steps on a coarser grid of {} cells, flux balance down to {:.2g}: {}", done.steps() - 1,
+                 solver.cells(), done.balance_drop(), done.why());
+    coarser = std::move(next);
+  }
+  if (coarser) aero::begin_with(coarser->solver(), *solver_, {}, world.comm);
+  solver_->march().begin_after_look();
+}
+
+}  // namespace spindrift::run

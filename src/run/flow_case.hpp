@@ -1,0 +1,61 @@
+// Grid, tiles and solver of the air alone on this rank, as a scene describes them. Used by flow_simulation.cpp; tested in
+// tests/coupled/flow_run_test.py. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "runtime/executor/executor.hpp"
+#include "runtime/mpi/environment.hpp"
+#include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/grid_motion.hpp"
+#include "src/aero/resolved_rotor.hpp"
+#include "src/coupling/scenario.hpp"
+
+namespace spindrift::run {
+
+class FlowCase {
+ public:
+  /// Collective. Throws scene::SceneError where the grid does not suit the scene.
+  FlowCase(const coupling::Scenario& scenario, const runtime::World& world);
+
+  aero::FlowSolver& solver() { return *solver_; }
+  const aero::FlowSolver& solver() const { return *solver_; }
+  const aero::GridStore& store() const { return *store_; }
+  /// Null where the scene has none.
+  aero::ResolvedRotor* rotor() { return rotor_.get(); }
+  const aero::ResolvedRotor* rotor() const { return rotor_.get(); }
+  const aero::GridMotion* motion() const { return motion_ ? &*motion_ : nullptr; }
+  std::size_t blocks() const { return (rotor_ ? rotor_->grid() : own_grid_).blocks.size(); }
+  bool steady() const { return solver_->setting().time_order == 0; }
+
+  /// Metrics of all tiles; before any march.
+  void fill_geometry(MPI_Comm comm);
+  /// Where the walls that move are after so many windows.
+  void place(std::int64_t window, double window_s);
+  /// Where they go in the window that follows.
+  void move(std::int64_t window, double window_s);
+
+  /// Grid sequencing of grids that are no rotor's: the flow settles on coarser grids first, the coarsest before the others, their
+  /// tiles spread over the ranks like the fine one's. What a drop is counted from stays the residual of the undisturbed flow on
+  /// each grid. `march` is the fine one's. A coarser grid whose march fails is passed over.
+  void start_on_coarser_grids(const coupling::Scenario& scenario, runtime::Executor& march, const runtime::World& world);
+
+ private:
+  /// On a coarser grid, for at most so many pseudo-steps.
+  FlowCase(aero::MultiBlockGrid grid, const coupling::Scenario& scenario, const runtime::World& world, int steps);
+  void solve(const coupling::Scenario& scenario, const runtime::World& world, int steps);
+  void begin(const std::string& start);
+  void follow_walls(const aero::FlowOptions& options);
+
+  std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< has grid, store and solver itself
+  aero::MultiBlockGrid own_grid_;
+  std::unique_ptr<aero::GridStore> own_store_;
+  std::unique_ptr<aero::FlowSolver> own_solver_;
+  std::optional<aero::GridMotion> motion_;  ///< of an unsteady flow
+  aero::GridStore* store_ = nullptr;
+  aero::FlowSolver* solver_ = nullptr;
+};
+
+}  // namespace spindrift::run

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/run/flow_simulation.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/trace/ledger.hpp"
+#include "src/aero/coarse_start.hpp"
+#include "src/aero/flow/choice.hpp"
+#include "src/coupling/air_output.hpp"
+#include "src/coupling/flow_scene.hpp"
+#include "src/coupling/saved_air.hpp"
+#include "src/run/first_cells.hpp"
+
+namespace spindrift::run {
+
+namespace {
+
+/// Fields, walls and loads along the blades at the end of the run.
+class FinalFlow final : public Output {
+ public:
+  explicit FinalFlow(std::function<void(std::int64_t)> write) : write_(std::move(write)) {}
+  std::string_view label() const override { return "output/air"; }
+  bool due(const Windows&) const override { return false; }
+  void take(const Windows&) override {}
+  void finish(std::int64_t window) override { write_(window); }
+
+ private:
+  std::function<void(std::int64_t)> write_;
+};
+
+double density_drop(const aero::March& march) {
+  return march.density_residual() / std::max(march.first_density_residual(), 1e-300);
+}
+
+}  // namespace
+
+FlowSimulation::FlowSimulation(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::World& world,
+                               std::size_t records)
+    : scenario_(scenario),
+      directory_(directory),
+      world_(world),
+      records_(records),
+      timeline_(scenario.time.window_s, scenario.time.window_s, scenario.time.end_s),
+      air_(scenario, world),
+      file_(air_.solver(), air_.store(), world) {
+  spdlog::info("air: {} cells in {} tiles of {} blocks, {:.0f} bytes per cell", air_.solver().cells(),
+               air_.store().tiling().size(), air_.blocks(),
+               double(air_.solver().bytes() + air_.store().bytes()) / double(std::max(1L, air_.solver().cells())) * world.size);
+  if (air_.rotor())
+    if (const std::string note = aero::far_side_note(*scenario.aero.grid); !note.empty()) spdlog::warn("air: {}", note);
+  air_.fill_geometry(world.comm);
+}
+
+/// preconditioner = "auto" became this one; scene.toml then names it, so that it runs alike.
+void FlowSimulation::use(const std::string& preconditioner, const std::string& reason) {
+  chosen_ = preconditioner;
+  air_.solver().use(aero::make_preconditioner(preconditioner, air_.solver().setting().common));
+  spdlog::info("air: preconditioner \"{}\" ({})", preconditioner, reason);
+  if (world_.rank == 0) coupling::write_choice(directory_, preconditioner);
+}
+
+void FlowSimulation::record() {
+  runtime::Graph graph(world_.comm);
+  air_.solver().record(graph);
+  march_.emplace(std::move(graph), runtime::ExecutorOptions{.records = records_});
+}
+
+std::int64_t FlowSimulation::begin() {
+  const runtime::Span span("aero/start");
+  const aero::FlowOptions& options = *scenario_.aero.flow;
+  if (options.preconditioner == "auto") {
+    const aero::Choice choice = aero::choose_preconditioner(air_.solver(), world_.comm);
+    use(choice.preconditioner, choice.reason);
+  }
+  const bool steady = air_.steady();
+  if (const int coarse_steps = options.coarse_steps.value_or(0); steady && coarse_steps > 0 && air_.rotor()) {
+    const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(scenario_), coarse_steps, *air_.rotor(), world_);
+    spdlog::info("air: {} pseudo-steps on a grid of half the resolution: thrust {:.4g} kN, power {:.4g} MW", coarse_steps,
+                 1e-3 * load.thrust, 1e-6 * load.power);
+  }
+  record();
+  if (steady && !air_.rotor() && options.coarse_steps.value_or(aero::usual_coarse_steps) > 0)
+    air_.start_on_coarser_grids(scenario_, *march_, world_);
+  return 0;
+}
+
+void FlowSimulation::restore(const io::CheckpointReader& file) {
+  const runtime::Span span("aero/start");
+  if (scenario_.aero.flow->preconditioner == "auto") use(file.text("preconditioner"), "as before the restart");
+  record();
+  file_.read(file);
+  const std::int64_t window = file.integer("window");
+  air_.solver().set_time_step(timeline_.window_s(), timeline_.window_s());
+  if (air_.rotor() && !air_.steady()) air_.rotor()->placed_at(window);
+  if (air_.motion()) air_.place(window, timeline_.window_s());
+}
+
+void FlowSimulation::save(io::CheckpointWriter& file) {
+  if (!chosen_.empty()) file.set("preconditioner", chosen_);
+  for (const coupling::SavedArray& array : file_.arrays()) write(file, array);
+  if (!air_.rotor()) return;
+  write_air_settings(file, scenario_);
+  for (const coupling::SavedArray& array : rotor_arrays(*air_.rotor(), coupling::felt_by(*air_.rotor()), world_.rank))
+    write(file, array);
+}
+
+Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
+  air_.move(window, timeline_.window_s());
+  march_->run();
+  aero::FlowSolver& solver = air_.solver();
+  const aero::March& march = solver.march();
+  rows_from_ = window;
+  Advance advance;
+  if (air_.steady()) {
+    // The last row of a chunk that goes on is judged, and written, by the next.
+    const std::size_t judged = solver.rows().size() - (march.spent() ? 1 : 0);
+    const auto count = std::min(std::int64_t(judged), last - window);
+    rows_.assign(solver.rows().begin(), solver.rows().begin() + count);
+    last_rows_.insert(last_rows_.end(), rows_.begin(), rows_.end());
+    while (last_rows_.size() > averaged(last)) last_rows_.pop_front();
+    if (march.verdict() == aero::Verdict::converged && !march.spent())
+      advance.settled = fmt::format("{}; flux balance down to {:.2g}, density residual to {:.2g}", march.why(),
+                                    march.balance_drop(), density_drop(march));
+    solver.keep_last_row();
+  } else {
+    rows_ = {solver.rows().back()};
+    solver.clear_rows();
+    advance.failure = unconverged_windows(window + 1);
+  }
+  if (march.verdict() == aero::Verdict::failed)
+    advance.failure =
+        fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}", march.why(),
+                    march.steps(), march.cfl(), march.density_residual(), march.first_density_residual(), solver.trouble());
+  advance.windows = std::int64_t(rows_.size());
+  windows_ += advance.windows;
+  return advance;
+}
+
+/// Of the unsteady march at the end of `window`: warns of the first window that spent its pseudo-steps; what is wrong where more
+/// did than aero.flow.unconverged_share allows, else empty.
+std::string FlowSimulation::unconverged_windows(std::int64_t window) const {
+  const aero::FlowSolver& solver = air_.solver();
+  const aero::March& march = solver.march();
+  const aero::FlowOptions& o = *scenario_.aero.flow;
+  const double t = timeline_.window_end_s(window), most = o.unconverged_share * double(timeline_.windows());
+  if (march.spent() && march.unconverged() == 1)
+    spdlog::warn(
+        "air: the window to t = {:.6g} s spent its {} pseudo-steps; the flux balance has fallen by {:.2g} of {:.2g} asked for; "
+        "{}",
+        t, march.steps() - 1, march.balance_drop(), o.drop, solver.worst_cell());
+  if (double(march.unconverged()) <= most) return {};
+  return fmt::format(
+      "aero: {} of {} windows spent their {} pseudo-steps without the drop of {:.2g} (aero.flow.max_pseudo_steps, .drop), at "
+      "most "
+      "{:g} may (aero.flow.unconverged_share); the last, to t = {:.6g} s, ended at {:.2g}; {}",
+      march.unconverged(), march.ended(), solver.setting().march.max_steps, o.drop, std::floor(most), t, march.balance_drop(),
+      solver.worst_cell());
+}
+
+std::string FlowSimulation::failure_at_end() const {
+  const aero::FlowOptions& o = *scenario_.aero.flow;
+  if (!air_.steady() || o.drop <= 0.0) return {};
+  const aero::March& march = air_.solver().march();
+  return fmt::format(
+      "aero: not converged in the {} pseudo-steps of the scene: the flux balance has fallen by {:.2g}, the density residual by "
+      "{:.2g}, of {:.2g} asked for (aero.flow.drop; 0 takes all steps whatever they reach); {}; --restart with a larger "
+      "time.end_s goes on",
+      march.steps() - 1, march.balance_drop(), density_drop(march), o.drop, air_.solver().worst_cell());
+}
+
+std::string FlowSimulation::done() const { return air_.steady() ? "done: the pseudo-steps of the scene are spent" : "done"; }
+
+void FlowSimulation::declare(io::History& history) { columns_.emplace(history, air_.rotor(), air_.motion(), air_.steady()); }
+
+void FlowSimulation::fill_row(std::int64_t window, std::span<double> row) {
+  columns_->fill(row, timeline_.window_end_s(window), air_.solver().setting(), rows_.at(std::size_t(window - rows_from_ - 1)),
+                 *scenario_.aero.flow, flow_wind(scenario_), air_.solver().march().unconverged());
+}
+
+std::vector<std::unique_ptr<Output>> FlowSimulation::outputs(const io::RunDirectory&, double) {
+  std::vector<std::unique_ptr<Output>> outputs;
+  outputs.push_back(std::make_unique<FinalFlow>([this](std::int64_t window) { write_fields(window); }));
+  return outputs;
+}
+
+/// Rows over which the summary's means go, in a run of so many windows: a steady flow that separates somewhere goes on swinging,
+/// and its loads along the span are means over them.
+std::size_t FlowSimulation::averaged(std::int64_t windows) const {
+  const double length = scenario_.output.mean_length(timeline_.window_end_s(windows));
+  return std::size_t(std::max(1.0, std::round(length / timeline_.window_s())));
+}
+
+void FlowSimulation::write_fields(std::int64_t window) {
+  coupling::AirOutput(world_.comm, air_.solver(), air_.store(), directory_.fields(), {.walls = scenario_.aero.flow->surfaces})
+      .write(window, timeline_.window_end_s(window));
+  if (const aero::FlowSetting& s = air_.solver().setting(); s.viscous && s.turbulence != "none")
+    tell_first_cells(air_.solver(), world_);
+  if (!air_.rotor() || windows_ == 0) return;  // a restart that has nothing left to do leaves what there is
+  while (last_rows_.size() > averaged(window)) last_rows_.pop_front();
+  const std::vector<aero::PseudoRow> rows(last_rows_.begin(), last_rows_.end());
+  coupling::write_span(world_, rows.empty() ? air_.rotor()->span_loads() : air_.rotor()->span_loads(rows), directory_);
+}
+
+void FlowSimulation::summarise(io::Summary& summary, runtime::Ledger&) {
+  summary.counts.emplace_back("cells", air_.solver().cells());
+  summary.counts.emplace_back("krylov_steps", air_.solver().march().krylov_total());
+}
+
+}  // namespace spindrift::run

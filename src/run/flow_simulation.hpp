@@ -1,0 +1,65 @@
+// The air alone as the driver sees it: a scene whose aero.model is "blade_resolved" and that has no bodies: a rotor, wings,
+// plates or cylinders in the wind. Steady scenes have a row of history per pseudo-step (a window is one), unsteady ones a row per
+// window. Used by driver.cpp; tested in tests/coupled/flow_run_test.py. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "src/coupling/air_file.hpp"
+#include "src/run/flow_case.hpp"
+#include "src/run/flow_columns.hpp"
+#include "src/run/simulation.hpp"
+
+namespace spindrift::run {
+
+class FlowSimulation final : public Simulation {
+ public:
+  /// `records`: of the trace, per thread. All outlive it. Collective.
+  FlowSimulation(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::World& world,
+                 std::size_t records);
+
+  const coupling::Scenario& scenario() const override { return scenario_; }
+  const coupling::Timeline& timeline() const override { return timeline_; }
+  std::int64_t file_number(std::int64_t window) const override { return window; }
+
+  std::int64_t begin() override;
+  void restore(const io::CheckpointReader& file) override;
+  void save(io::CheckpointWriter& file) override;
+  Advance advance(std::int64_t window, std::int64_t last) override;
+  std::string failure_at_end() const override;
+  std::string done() const override;
+
+  void declare(io::History& history) override;
+  bool has_first_row() const override { return false; }  // rows are of pseudo-steps
+  void fill_row(std::int64_t window, std::span<double> row) override;
+  std::vector<std::unique_ptr<Output>> outputs(const io::RunDirectory& directory, double resume_s) override;
+
+  void summarise(io::Summary& summary, runtime::Ledger& ledger) override;
+
+ private:
+  std::string unconverged_windows(std::int64_t window) const;
+  void use(const std::string& preconditioner, const std::string& reason);
+  void record();
+  std::size_t averaged(std::int64_t windows) const;
+  void write_fields(std::int64_t window);
+
+  const coupling::Scenario& scenario_;
+  const io::RunDirectory& directory_;
+  const runtime::World& world_;
+  const std::size_t records_;
+  coupling::Timeline timeline_;
+  FlowCase air_;
+  coupling::AirFile file_;
+  std::string chosen_;  ///< what preconditioner = "auto" became
+  std::optional<runtime::Executor> march_;
+  std::optional<FlowColumns> columns_;
+  std::vector<aero::PseudoRow> rows_;  ///< of the windows that the last advance() completed
+  std::int64_t rows_from_ = 0;         ///< the window before them
+  std::deque<aero::PseudoRow> last_rows_;
+  std::int64_t windows_ = 0;  ///< completed by this process
+};
+
+}  // namespace spindrift::run

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/run/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <span>
+
+#include "src/io/machine_failure.hpp"
+#include "src/run/saved_history.hpp"
+
+namespace spindrift::run {
+
+HistoryOutput::HistoryOutput(Simulation& simulation, io::History& history)
+    : simulation_(simulation), history_(history), every_{.windows = simulation.scenario().output.history_every} {}
+
+void HistoryOutput::begin(std::int64_t window) {
+  if (simulation_.has_first_row()) write(window);
+}
+
+bool HistoryOutput::due(const Windows& done) const {
+  return every_.due(done) || (done.now == done.last && done.now > done.before);
+}
+
+void HistoryOutput::take(const Windows& done) {
+  for (std::int64_t n = done.before + 1; n <= done.now; ++n)
+    if (every_.due(n) || n == done.last) write(n);
+}
+
+void HistoryOutput::finish(std::int64_t) { history_.flush(); }
+
+void HistoryOutput::write(std::int64_t window) {
+  if (!simulation_.has_rows()) return;
+  simulation_.fill_row(window, history_.row(simulation_.timeline().window_end_s(window)));
+  history_.write();
+}
+
+ProgressOutput::ProgressOutput(const coupling::Timeline& timeline, std::int64_t first, std::int64_t last, io::ProgressStyle style)
+    : timeline_(timeline), progress_(timeline.window_end_s(first), timeline.window_end_s(last), style) {}
+
+void ProgressOutput::take(const Windows& done) { progress_.update(timeline_.window_end_s(done.now)); }
+
+Checkpoints::Checkpoints(Simulation& simulation, const io::RunDirectory& directory, io::History& history, MPI_Comm comm)
+    : simulation_(simulation),
+      history_(history),
+      comm_(comm),
+      series_(comm, directory.checkpoints(), simulation.scenario().checkpoint.keep, directory.identity()),
+      plan_(simulation.scenario().checkpoint.interval_s, simulation.timeline().window_s(),
+            simulation.scenario().checkpoint.wall_interval_s) {}
+
+void Checkpoints::begin(std::int64_t window) {
+  if (plan_.at_start()) save(window);
+}
+
+void Checkpoints::take(const Windows& done) { save(done.now); }
+
+void Checkpoints::finish(std::int64_t window) {
+  if (saved_ != window) save(window);
+}
+
+/// History first: what is there after a restart must go as far as the checkpoint.
+void Checkpoints::save(std::int64_t window) {
+  const auto begin = io::CheckpointPlan::Clock::now();
+  history_.flush();
+  const coupling::Timeline& timeline = simulation_.timeline();
+  const double tick_s = timeline.tick_s();
+  series_.save(simulation_.file_number(window), [&](io::CheckpointWriter& file) {
+    file.set("window", window);
+    file.set("time_s", timeline.window_end_s(window));
+    file.set("window_s", timeline.window_s());
+    file.set("restarts", std::int64_t(restarts_));
+    file.write<double>("time/tick_s", std::span<const double>(&tick_s, 1));
+    write(file, history_.extent());
+    simulation_.save(file);
+  });
+  saved_ = window;
+  plan_.saved(begin);
+}
+
+/// The unit of time, which follows from more than one key; the scene itself was compared before (src/scene/identity.hpp).
+void Checkpoints::require_same_run(const io::CheckpointReader& file) const {
+  if (!file.has("time/tick_s")) return;
+  const double theirs = file.read<double>("time/tick_s").at(0), ours = simulation_.timeline().tick_s();
+  if (theirs != ours)
+    throw io::InputError(
+        fmt::format("{}: its time is counted in units of {:.6g} s, this scene's in {:.6g} s: a restart keeps time.window_s and "
+                    "time.step_s (given or not)",
+                    file.path().string(), theirs, ours));
+}
+
+std::int64_t Checkpoints::resume() {
+  const std::optional<io::CheckpointReader> file = series_.newest();
+  if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
+  require_same_run(*file);
+  simulation_.restore(*file);
+  restarts_ = int(file->integer("restarts")) + 1;
+  rows_ = extent_in(*file);
+  return saved_ = file->integer("window");
+}
+
+}  // namespace spindrift::run

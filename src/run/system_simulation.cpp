@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/run/system_simulation.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <tuple>
+#include <utility>
+
+#include "runtime/trace/ledger.hpp"
+#include "src/coupling/saved_air.hpp"
+#include "src/coupling/sea_output.hpp"
+#include "src/coupling/sea_window.hpp"
+#include "src/io/machine_failure.hpp"
+
+namespace spindrift::run {
+
+using coupling::air_part, coupling::sea_part;
+
+namespace {
+
+/// The particles of a checkpoint into the machine's sea, which must be the same sea.
+void restore_particles(const coupling::Machine& machine, const io::CheckpointReader& file) {
+  if (!machine.particles()) return;
+  try {
+    sea::ParticleState state = machine.particles()->room();
+    if (file.size("sea/particles") != state.total)
+      throw std::invalid_argument("its sea has " + std::to_string(file.size("sea/particles")) +
+                                  " values of particles, this one " + std::to_string(state.total));
+    const io::Slice<double> mine{state.first, state.values};
+    file.read<double>("sea/particles", std::span(&mine, 1));
+    state.time_s = file.number("sea/time_s"), state.steps = file.integer("sea/steps");
+    machine.particles()->restore(state);
+  } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
+}
+
+/// The particles that the scene starts from, on the ranks that have the sea. Collective; throws on all ranks alike.
+void fill_sea(coupling::Machine& machine, std::span<const Motion> start, const runtime::Parts& parts) {
+  coupling::on_parts(parts, [&] {
+    if (parts.has(sea_part)) machine.fill_sea(start, parts.mine());
+  });
+  const auto& initial = machine.scenario().sea.initial;
+  if (!machine.particle_plan() || !initial || initial->state != "file") return;
+  const io::CheckpointReader file = coupling::open_saved(parts.world().comm, initial->file);
+  coupling::on_parts(parts, [&] { restore_particles(machine, file); });
+}
+
+coupling::Sides sides_in_filled_sea(coupling::Machine& machine, std::span<const Motion> start, const runtime::Parts& parts) {
+  {
+    const runtime::Span span("sea/start");
+    fill_sea(machine, start, parts);
+  }
+  return make_sides(machine, start, parts);
+}
+
+/// Particles and surface, as [sea.fields] asks for them.
+class SeaFields final : public Output {
+ public:
+  SeaFields(const coupling::Machine& machine, const std::filesystem::path& folder, const runtime::World& world, double resume_s)
+      : machine_(machine), output_(machine, folder, world, resume_s) {
+    const auto& options = machine.scenario().sea.fields;
+    if (!machine.particles() || !options) return;
+    const coupling::Timeline& timeline = machine.timeline();
+    every_.windows = Every::count(options->interval_s, timeline);
+    every_.origin = every_.from = std::llround(options->from_s / timeline.window_s());
+    every_.to = options->to_s ? std::llround(*options->to_s / timeline.window_s()) : timeline.windows();
+  }
+  std::string_view label() const override { return "output/sea"; }
+  void begin(std::int64_t window) override {
+    if (every_.due(window)) write(window);
+  }
+  bool due(const Windows& done) const override { return every_.due(done); }
+  void take(const Windows& done) override { write(done.now); }
+
+ private:
+  void write(std::int64_t window) {
+    output_.write(machine_.timeline().tick_of_window(window) - machine_.first_tick(), machine_.timeline().window_end_s(window));
+  }
+  const coupling::Machine& machine_;
+  coupling::SeaOutput output_;
+  Every every_;
+};
+
+/// Fields of the air every output.air_interval_s after t = 0 and at the end, where loads along the blades are written too.
+class AirFields final : public Output {
+ public:
+  AirFields(const coupling::Machine& machine, coupling::AirSide& air) : machine_(machine), air_(air) {
+    every_.windows = every_.from = Every::count(machine.scenario().output.air_interval_s, machine.timeline());
+  }
+  std::string_view label() const override { return "output/air"; }
+  bool due(const Windows& done) const override { return every_.due(done) && done.now < done.last; }
+  void take(const Windows& done) override { write(done.now); }
+  void finish(std::int64_t window) override { write(window), air_.write_span(); }
+
+ private:
+  void write(std::int64_t window) {
+    air_.write_fields(machine_.timeline().tick_of_window(window) - machine_.first_tick(),
+                      machine_.timeline().window_end_s(window));
+  }
+  const coupling::Machine& machine_;
+  coupling::AirSide& air_;
+  Every every_;
+};
+
+}  // namespace
+
+SystemSimulation::SystemSimulation(coupling::Machine& machine, bodies::BodiesState start, const runtime::Parts& parts,
+                                   std::size_t records)
+    : machine_(machine),
+      parts_(parts),
+      state_(std::move(start)),
+      window_(machine, sides_in_filled_sea(machine, state_.motions, parts), parts.mine().comm, records) {}
+
+std::int64_t SystemSimulation::file_number(std::int64_t window) const {
+  return machine_.timeline().tick_of_window(window) - machine_.first_tick();
+}
+
+std::int64_t SystemSimulation::begin() {
+  std::int64_t window = -machine_.held_windows();
+  if (machine_.scenario().start.file.empty()) {
+    window_.begin(state_);  // rotor and bodies begin at t = 0, whatever is held before
+    state_.tick = machine_.first_tick();
+  } else {
+    window = take_over();
+  }
+  log_news();
+  if (machine_.particles()) {
+    const runtime::Span span("sea/start");
+    evaluate_particles(machine_, state_);
+  }
+  start_clocks();
+  return window;
+}
+
+/// start.file: the state that another run of the same machine left, whatever its windows and its march.
+std::int64_t SystemSimulation::take_over() {
+  const io::CheckpointReader file(parts_.world().comm, machine_.scenario().start.file);
+  const auto refuse = [&](const std::string& why) {
+    throw io::InputError(fmt::format("{} (start.file): {}", file.path().string(), why));
+  };
+
+  const coupling::Timeline& timeline = machine_.timeline();
+  const double t = file.number("time_s");
+  const std::optional<std::int64_t> windows =
+      t == 0.0 ? std::optional<std::int64_t>(0) : coupling::whole_ratio(t, timeline.window_s());
+  if (!windows)
+    refuse(fmt::format("its state is that of t = {:g} s, which is no whole number of windows of {:g} s", t, timeline.window_s()));
+  if (*windows >= timeline.windows())
+    refuse(fmt::format("its state is that of t = {:g} s, the run ends at {:g} s", t, timeline.window_end_s(timeline.windows())));
+  const std::vector<double> bodies = file.read<double>("bodies/state");
+  if (bodies.size() != state_.packed_size()) refuse("its bodies and joints are not those of this scene");
+  state_.unpack(bodies);
+  state_.tick = timeline.tick_of_window(*windows);
+  restore_fluids(file);
+  // What the scheme has learnt goes along where scheme and window are the same; else it begins with the state alone.
+  const bool same = file.has("coupling/history") &&
+                    file.integer("coupling/scheme") == std::int64_t(machine_.scenario().coupling.scheme) &&
+                    file.number("window_s") == timeline.window_s();
+  if (!same || !window_.restore(file.read<double>("coupling/history"))) window_.begin(state_);
+  spdlog::info("from t = {:g} s of {}", t, file.path().string());
+  return *windows;
+}
+
+void SystemSimulation::restore(const io::CheckpointReader& file) {
+  state_.unpack(file.read<double>("bodies/state"));
+  steps_ = file.integer("steps");
+  const std::vector<double> history =
+      file.has("coupling/history") ? file.read<double>("coupling/history") : std::vector<double>();
+  if (!window_.restore(history))
+    throw io::InputError(file.path().string() + ": its coupling history is that of another coupling.scheme");
+  restore_fluids(file);
+  log_news();
+  start_clocks();
+}
+
+void SystemSimulation::restore_fluids(const io::CheckpointReader& file) {
+  coupling::on_parts(parts_, [&] {
+    window_.air().restore(file);
+    restore_particles(machine_, file);
+  });
+}
+
+void SystemSimulation::save(io::CheckpointWriter& file) {
+  std::vector<double> packed(state_.packed_size());
+  state_.pack(packed);
+  file.set("steps", steps_);
+  file.write<double>("bodies/state", packed);
+  if (const std::vector<double> history = window_.history(); !history.empty()) {
+    file.set("coupling/scheme", std::int64_t(machine_.scenario().coupling.scheme));
+    file.write<double>("coupling/history", history);
+  }
+  coupling::write(file, parts_, air_part, window_.air().saved());
+  if (machine_.scenario().resolves_air()) write_air_settings(file, machine_.scenario());
+  if (!machine_.particle_plan()) return;
+  sea::ParticleState particles;
+  if (parts_.has(sea_part)) particles = machine_.particles()->save();
+  file.set("sea/time_s", particles.time_s);  // as rank 0 has it, which has the sea
+  file.set("sea/steps", particles.steps);
+  coupling::write(file, parts_, sea_part, {{"sea/particles", particles.total, {{particles.first, std::move(particles.values)}}}});
+}
+
+Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
+  const auto begin = std::chrono::steady_clock::now();
+  const double end_s = machine_.timeline().window_end_s(window + 1);
+  const std::int64_t steps = window_.bodies().steps();
+  const coupling::WindowReport report = window_.advance(state_);
+  log_window(report, end_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  if (report.log.retries > 0)
+    spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}", end_s, report.log.retries,
+                 report.log.cuts, report.log.evaluations, bound_name(report.log.bound));
+  if (!report.ok()) return {.failure = report.failure};
+  steps_ += machine_.particle_plan() ? window_.bodies().steps() - steps : machine_.timeline().steps_per_window();
+  return {.windows = 1};
+}
+
+/// Start-up is not in the windows' times. Collective.
+void SystemSimulation::start_clocks() {
+  machine_.reset_clocks();
+  core_seconds_[3] = runtime::summed(parts_.world().comm, {1e-9 * double(parts_.waited_ns())})[0];
+}
+
+void SystemSimulation::log_news() {
+  for (const std::string& sentence : window_.air().news()) spdlog::info("{}", sentence);
+}
+
+/// A line of log.txt for a window: how it went, and core-seconds of each side on all ranks; not for single evaluations of a
+/// system without fluids, which are too short to be worth a line. Collective.
+void SystemSimulation::log_window(const coupling::WindowReport& report, double end_s, double wall_s) {
+  const bool resolved = machine_.scenario().resolves_air() || machine_.particle_plan();
+  if (!resolved && !window_.iterates()) return;
+  const coupling::WindowTasks& tasks = window_.tasks();
+  const double bodies = parts_.has(sea_part) ? 1e-9 * double(window_.bodies().own_ns()) : 0.0;
+  const std::vector<double> now =
+      runtime::summed(parts_.world().comm, {tasks.core_seconds("aero") + tasks.core_seconds("rotor"), tasks.core_seconds("sea"),
+                                            bodies, 1e-9 * double(parts_.waited_ns())});
+  std::array<double, 4> spent;
+  for (std::size_t n = 0; n < now.size(); ++n) spent[n] = now[n] - core_seconds_[n], core_seconds_[n] = now[n];
+  // Bodies beside particles move within tasks of the sea.
+  const double sea = spent[1] > 0.0 ? spent[1] - spent[2] : 0.0;
+  const coupling::WindowLog& log = report.log;
+  std::string how = fmt::format("{} evaluations, mismatch {:.3g}", log.evaluations, report.mismatch);
+  if (window_.iterates())
+    how += fmt::format(", residual {:.3g} of {:.3g} at first, {} columns, {} retries, {} cuts, ended by {}", log.residual,
+                       log.first_residual, log.columns, log.retries, log.cuts, bound_name(log.bound));
+  spdlog::debug("window to t = {:g} s: {}; {:.3g} s; core-s: air {:.3g}, sea {:.3g}, bodies {:.3g}{}", end_s, how, wall_s,
+                spent[0], sea, spent[2],
+                parts_.split() ? fmt::format("; ranks waited {:.3g} s for the other side", spent[3]) : std::string());
+}
+
+void SystemSimulation::declare(io::History& history) {
+  recorder_.emplace(machine_, history);
+  window_.declare(history);
+}
+
+bool SystemSimulation::has_rows() const { return parts_.has(sea_part); }
+
+void SystemSimulation::fill_row(std::int64_t window, std::span<double> row) {
+  // Loads that are evaluated once more for the row are the output's time.
+  const std::vector<coupling::SourceClock> clocks(machine_.clocks().begin(), machine_.clocks().end());
+  recorder_->fill(row, state_, machine_.timeline().window_end_s(window));
+  machine_.set_clocks(clocks);
+  window_.put(row);
+}
+
+std::vector<std::unique_ptr<Output>> SystemSimulation::outputs(const io::RunDirectory& directory, double resume_s) {
+  window_.air().open_output(directory, resume_s);
+  std::vector<std::unique_ptr<Output>> outputs;
+  outputs.push_back(std::make_unique<SeaFields>(machine_, directory.fields(), parts_.mine(), resume_s));
+  outputs.push_back(std::make_unique<AirFields>(machine_, window_.air()));
+  return outputs;
+}
+
+void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) {
+  summary.counts.emplace_back("steps", steps_);
+  if (machine_.has_interface()) {
+    const coupling::CoupledWindow::Totals& totals = window_.totals();
+    summary.counts.emplace_back("coupling_evaluations", totals.evaluations);
+    summary.counts.emplace_back("coupling_retries", totals.retries);
+    summary.counts.emplace_back("coupling_cuts", totals.cuts);
+    summary.counts.emplace_back("rotor_evaluations", totals.rotor_calls);
+    summary.counts.emplace_back("step_evaluations", totals.body_steps);
+  }
+  if (const sea::ParticleSea* sea = machine_.particles()) {
+    summary.counts.emplace_back("particles", std::int64_t(sea->particles()));
+    summary.counts.emplace_back("particle_evaluations", sea->evaluations());
+    summary.counts.emplace_back("particle_sorts", sea->sorts());
+    summary.counts.emplace_back("particles_lost", std::int64_t(sea->lost()));
+  }
+  // Bodies beside particles move within tasks of the sea, and ask for their loads within their own.
+  if (parts_.has(sea_part)) {
+    if (machine_.particles()) ledger.move("sea", "bodies/substeps", window_.bodies().own_ns(), window_.bodies().steps());
+    const auto clocks = machine_.clocks();
+    for (std::size_t s = 0; s < clocks.size(); ++s)
+      ledger.move("bodies", machine_.system().loads()[s].name + "/loads", clocks[s].ns, clocks[s].calls);
+  }
+  if (parts_.split()) describe_sides(summary, ledger);
+}
+
+/// Where the core-seconds of each side's ranks went, into the summary and as lines under the table. Collective; split runs.
+void SystemSimulation::describe_sides(io::Summary& summary, const runtime::Ledger& ledger) {
+  const runtime::RankTrace trace = ledger.trace(parts_.world().rank);
+  std::vector<double> mine(8, 0.0);  // by part: ranks, core-seconds in all, busy, waiting for the other side
+  double* at = mine.data() + 4 * parts_.part();
+  at[0] = 1.0, at[3] = 1e-9 * double(parts_.waited_ns()) * double(trace.threads.size());
+  for (const runtime::ThreadTimes& thread : trace.threads)
+    at[1] += 1e-9 * double(thread.wall_ns), at[2] += 1e-9 * double(thread.task_ns);
+  const std::vector<double> all = runtime::summed(parts_.world().comm, mine);
+  for (const auto& [part, name, other] : {std::tuple{air_part, "air", "sea"}, std::tuple{sea_part, "sea", "air"}}) {
+    const double *of = all.data() + 4 * part, core_s = of[1];
+    spdlog::info(
+        "  {} on {} rank{}: {:5.1f} % busy, {:5.1f} % waiting for the {}, {:5.1f} % other idle and runtime; of {:.4g} core-s",
+        name, of[0], of[0] == 1.0 ? "" : "s", 100.0 * of[2] / core_s, 100.0 * of[3] / core_s, other,
+        100.0 * (core_s - of[2] - of[3]) / core_s, core_s);
+    summary.efficiency.push_back(
+        {fmt::format("{} busy", name), of[2] / core_s, fmt::format("useful part of the core-seconds of the {}'s ranks", name)});
+    summary.efficiency.push_back(
+        {fmt::format("{} waiting", name), of[3] / core_s, fmt::format("part of them spent until the {} was done", other)});
+  }
+}
+
+}  // namespace spindrift::run
