@@ -175,7 +175,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
       if (*markdown) {
         fmt::print("{}", commands_markdown(cli));
       } else if (topic->empty()) {
-        fmt::print("{}", cli.help());
+        fmt::print("{}", cli.get_formatter()->make_help(&cli, cli.get_name(),
+                                                        CLI::AppFormatMode::Normal));  // cli.help() is that of the command chosen
       } else {
         const auto named = [&](const CLI::App* app) { return app->get_name() == *topic; };
         const std::vector<const CLI::App*> found = std::as_const(cli).get_subcommands(named);

@@ -12,7 +12,7 @@ PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
 CASE1 = ROOT / "inputs/leble_barakos/case1_engineering.toml"
 CASE3 = ROOT / "inputs/leble_barakos/case3_engineering.toml"
 ROTOR = ROOT / "inputs/leble_barakos/rotor_demo.toml"
-WING = ROOT / "inputs/tutorials/wing_section.toml"
+WING = ROOT / "inputs/validation/naca0012/family.toml"
 TURBINE = ROOT / "inputs/turbines/dtu_10mw.toml"
 STUDY = ROOT / "inputs/tutorials/steps.toml"
 BOX = ROOT / "inputs/validation/floating_box/floating_box.toml"
@@ -52,8 +52,7 @@ MISTAKES = [
     (("picture", "EMPTY", "-o", "x.tiff"), 2, ["x.tiff", ".png"]),
     (("film", "EMPTY", "-o", "x.avi"), 2, ["x.avi", ".mp4"]),
     (("report", "EMPTY", "-o", "x.pdf"), 2, ["x.pdf", ".html"]),
-    (check('aero.flow.generate.coordinates="nowhere.dat"', scene=WING), 2, ["nowhere.dat"]),
-    (check(f'aero.flow.generate.coordinates="{TURBINE}"', scene=WING), 2, ["dtu_10mw.toml"]),
+    (check('aero.flow.grid="nowhere.cgns"', 'without=["aero.flow.generate"]', scene=WING), 2, ["nowhere.cgns"]),
     # keys
     (check("time.end=60"), 2, ["time.end", "end_s"]),
     (check("time.window_s=-0.1"), 2, ["time.window_s", "-0.1", "> 0"]),
