@@ -22,6 +22,8 @@ using Command = std::function<int(const runtime::World&)>;
 /// Declares every command with its arguments; parsing sets `chosen`.
 void add_commands(CLI::App& cli, Command& chosen);
 
+/// Every command with its options as Markdown: docs/reference/commands.md.
+std::string commands_markdown(const CLI::App& cli);
 /// Leaves the rest of a command to be done once MPI is closed; a command that starts programs of its own must not hold it.
 void hand_over(std::function<void()> rest);
 /// What was left, done. For main.
@@ -47,7 +49,18 @@ struct CheckArguments : SceneArguments {
 
 struct ReportArguments {
   std::vector<std::string> directories;
+  std::string out;  ///< empty: report.html, comparison.html or study.html in the first directory
   std::string png;  ///< empty: no picture
+};
+
+/// Of `picture` and `film`: what src/report/spindrift_picture.py takes.
+struct PictureArguments {
+  std::string directory, out;
+  std::string time = "last";     ///< of a picture: seconds, or "last"
+  std::string camera = "scene";  ///< "scene", "side", "front", "top", "rotor"
+  double seconds = 12.0;         ///< length of a film
+  int frames_per_second = 12;
+  bool film = false;
 };
 
 struct GridArguments : SceneArguments {
@@ -74,6 +87,7 @@ int study(const StudyArguments& arguments, const runtime::World& world);
 /// One line; `verbose`: all that the speed of this program depends on.
 std::string version(bool verbose);
 int report(const ReportArguments& arguments, const runtime::World& world);
+int picture(const PictureArguments& arguments, const runtime::World& world);
 int import_deck(const ImportArguments& arguments, const runtime::World& world);
 
 }  // namespace spindrift::app

@@ -12,6 +12,7 @@
 
 #include "src/app/commands.hpp"
 #include "src/app/forecast.hpp"
+#include "src/app/scene_file.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/io/build_info.hpp"
@@ -125,6 +126,7 @@ Json of_rung(const scene::Study& study, const scene::StudyRun& rung, std::vector
 }  // namespace
 
 int study(const StudyArguments& arguments, const runtime::World& world) {
+  require_study(arguments.file);
   if (world.size > 1)
     throw scene::SceneError({{arguments.file, 0, "", "", "a study starts its runs itself: call spindrift study without mpirun"}});
   const scene::Study study = scene::read_study(arguments.file, arguments.overrides);
