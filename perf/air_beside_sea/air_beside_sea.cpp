@@ -55,11 +55,11 @@ void measure(perf::Group& group, const std::string& form, const std::vector<std:
   Machine machine(read_scenario(document));
   machine.fill_sea(make_start(machine).state.motions, runtime::World{MPI_COMM_SELF, 0, 1});
   Alone sides(machine);
-  WindowTasks tasks(sides.air.get(), *sides.bodies, MPI_COMM_SELF, std::size_t(1) << 20);
-  for (int n = 0; n < warm_ups; ++n) sides.window(tasks, true, true);  // priorities follow measured costs
+  WindowTasks tasks(*sides.air, *sides.bodies, MPI_COMM_SELF, std::size_t(1) << 20);
+  for (int n = 0; n < warm_ups; ++n) sides.window(tasks, Run::both);  // priorities follow measured costs
   const std::int64_t from = runtime::Clock::now_ns();
   double wall_s = 0.0;
-  for (int n = 0; n < windows; ++n) wall_s += sides.window(tasks, true, true);
+  for (int n = 0; n < windows; ++n) wall_s += sides.window(tasks, Run::both);
   const Seen seen = seen_in(runtime::trace_of(*tasks.executor()), from);
   const std::string note = "2 threads, case3_demo, " + std::to_string(windows) + " windows";
   group.figure(form + "_calls", double(seen.calls) / windows, "per window", "of hypre, longer than 10 us");

@@ -22,13 +22,13 @@ struct Alone {
     air->begin(0.0, m.rotor()->state(0.0, state.motions));
     rotor = m.rotor()->state(0.0, state.motions);
   }
-  double window(WindowTasks& tasks, bool with_air, bool with_bodies) {
+  double window(WindowTasks& tasks, Run run) {
     const double dt = machine.timeline().window_s();
-    if (with_air) rotor.azimuth += rotor.speed * dt, air->aim(air_time += dt, dt, rotor);
-    if (with_bodies) bodies->keep(0), bodies->aim(state, state.tick + machine.timeline().steps_per_window());
-    const double s = perf::seconds([&] { tasks.run(with_air, with_bodies); });
-    if (with_air) air->answer();
-    if (with_bodies) state = bodies->finish();
+    if (has_air(run)) rotor.azimuth += rotor.speed * dt, air->aim(air_time += dt, dt, rotor);
+    if (has_bodies(run)) bodies->keep(0), bodies->aim(state, state.tick + machine.timeline().steps_per_window());
+    const double s = perf::seconds([&] { tasks.run(run); });
+    if (has_air(run)) air->answer();
+    if (has_bodies(run)) state = bodies->finish();
     return s;
   }
   Machine& machine;

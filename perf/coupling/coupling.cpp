@@ -36,8 +36,7 @@ struct Coupled {
   Coupled(scene::Document document, const runtime::Parts& p)
       : parts(p), machine(read_scenario(document)), state(make_start(machine).state) {
     if (parts.has(sea_part)) machine.fill_sea(state.motions, parts.mine());
-    window = std::make_unique<CoupledWindow>(machine, make_sides(machine, machine.rotor()->state(0.0, state.motions), parts),
-                                             parts.mine().comm);
+    window = std::make_unique<CoupledWindow>(machine, make_sides(machine, state.motions, parts), parts.mine().comm);
     window->begin(state);
   }
   double advance(int threads) {
@@ -72,12 +71,12 @@ void measure(perf::Group& group, const runtime::Parts& parts) {
   Machine machine(read_scenario(document));
   machine.fill_sea(make_start(machine).state.motions, alone.mine());
   Alone sides(machine);
-  WindowTasks two(sides.air.get(), *sides.bodies, MPI_COMM_SELF, std::size_t(1) << 20),
-      one(sides.air.get(), *sides.bodies, MPI_COMM_SELF, 0);
+  WindowTasks two(*sides.air, *sides.bodies, MPI_COMM_SELF, std::size_t(1) << 20),
+      one(*sides.air, *sides.bodies, MPI_COMM_SELF, 0);
   // Executors take the number of threads that stands when they first run.
-  sides.window(two, true, true), sides.window(two, true, false), sides.window(two, false, true);
+  sides.window(two, Run::both), sides.window(two, Run::air), sides.window(two, Run::bodies);
   omp_set_num_threads(1);
-  sides.window(one, true, false), sides.window(one, false, true);
+  sides.window(one, Run::air), sides.window(one, Run::bodies);
   omp_set_num_threads(2);
   Coupled shared(demo(), alone);
   shared.advance(2);  // records
@@ -90,11 +89,11 @@ void measure(perf::Group& group, const runtime::Parts& parts) {
   std::vector<double> both, air, sea, air_one, sea_one, sum_ratio, in_shared, in_split, gain;
   for (int n = 0; n < rounds; ++n) {
     omp_set_num_threads(2);
-    air.push_back(sides.window(two, true, false)), sea.push_back(sides.window(two, false, true));
-    both.push_back(sides.window(two, true, true));
+    air.push_back(sides.window(two, Run::air)), sea.push_back(sides.window(two, Run::bodies));
+    both.push_back(sides.window(two, Run::both));
     sum_ratio.push_back(both.back() / (air.back() + sea.back()));
     omp_set_num_threads(1);
-    air_one.push_back(sides.window(one, true, false)), sea_one.push_back(sides.window(one, false, true));
+    air_one.push_back(sides.window(one, Run::air)), sea_one.push_back(sides.window(one, Run::bodies));
     in_shared.push_back(shared.advance(2));
     meet();
     in_split.push_back(split.advance(1));

@@ -77,7 +77,7 @@ StepCost measured_steps(Machine& machine, const coupling::Start& start) {
   history.open(file);
   state = start.state;
   cost.row_s = least_seconds([&] {
-    recorder.write(state, 0.0);
+    recorder.fill(history.row(0.0), state, 0.0), history.write();
     return true;
   });
   std::filesystem::remove(file);

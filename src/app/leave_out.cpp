@@ -133,12 +133,13 @@ Outcome run(Scenario scenario, double length_s, const std::vector<std::string>& 
     bodies::BodiesState state = start.state;
     const coupling::Timeline& time = machine.timeline();
     const double begin = processor_seconds();
-    recorder.write(state, 0.0);
+    const auto write_row = [&](double t) { recorder.fill(history.row(t), state, t), history.write(); };
+    write_row(0.0);
     for (std::int64_t window = 1; double(window) * time.window_s() <= length_s * (1.0 + 1e-12); ++window) {
       for (std::int64_t n = 0; n < time.steps_per_window(); ++n)
         if (const bodies::StepReport report = machine.system().advance(state, time.tick_s(), 1); !report.ok())
           throw machine.system().failure(report, state, time.tick_s());
-      if (window % machine.scenario().output.history_every == 0) recorder.write(state, time.window_end_s(window));
+      if (window % machine.scenario().output.history_every == 0) write_row(time.window_end_s(window));
     }
     outcome.core_seconds = processor_seconds() - begin;
     history.flush();
