@@ -22,7 +22,7 @@ class BodySide {
   /// What is to come: from this state to the end tick.
   virtual void aim(const bodies::BodiesState& from, std::int64_t end_tick) = 0;
   /// Records the tasks that do it.
-  virtual Tasks record(runtime::Graph&) = 0;
+  virtual Tasks record(runtime::Graph&) { return Tasks::none; }
   /// Once they have run: the state at the end. Throws NumericalFailure.
   virtual bodies::BodiesState finish() = 0;
   /// Whether what was recorded no longer serves; once its executors are gone, forget_tasks() and record again.

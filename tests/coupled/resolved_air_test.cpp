@@ -62,7 +62,7 @@ class Listening final : public AirSide {
     motion << ' ' << s.azimuth << ' ' << s.speed << '\n';
     inner_->aim(t, dt, s);
   }
-  bool record(runtime::Graph& graph) override { return inner_->record(graph); }
+  Tasks record(runtime::Graph& graph) override { return inner_->record(graph); }
   aero::RotorLoad answer() override {
     answers.push_back(inner_->answer());
     return answers.back();
@@ -111,7 +111,7 @@ TEST_CASE("what the air answers is what the bodies feel, and its motion from a f
   const std::unique_ptr<AirSide> again = make_air(machine, first, alone);
   again->begin(0.0, first);
   runtime::Graph graph;
-  REQUIRE(again->record(graph));
+  REQUIRE(again->record(graph) != Tasks::none);
   runtime::Executor executor(std::move(graph));
   std::ifstream file(folder.path() / "motion.txt");
   double t, dt;
@@ -143,7 +143,7 @@ TEST_CASE("wind that grows with height tilts a rotor whose air has settled in th
     const std::unique_ptr<AirSide> air = make_air(machine, first, alone);
     air->begin(0.0, first);
     runtime::Graph graph;
-    REQUIRE(air->record(graph));
+    REQUIRE(air->record(graph) != Tasks::none);
     runtime::Executor executor(std::move(graph));
     aero::RotorLoad load;
     for (int n = 1; n <= 6; ++n) {
@@ -172,7 +172,7 @@ TEST_CASE("thrust falls as the hub of the demo's rotor moves downwind", "[couple
     const std::unique_ptr<AirSide> air = make_air(machine, first, alone);
     air->begin(0.0, first);
     runtime::Graph graph;
-    REQUIRE(air->record(graph));
+    REQUIRE(air->record(graph) != Tasks::none);
     runtime::Executor executor(std::move(graph));
     for (int n = 1; n <= 50; ++n) {
       aero::RotorState s = first;
