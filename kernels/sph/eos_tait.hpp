@@ -7,6 +7,8 @@
 #include <cmath>
 #include <concepts>
 
+#include "kernels/base/wide.hpp"
+
 namespace spindrift::sph {
 
 struct EosTait {
@@ -22,6 +24,18 @@ struct EosTait {
     const Real e = deviation * Real(1.0 / rho0);
     const Real series = Real(7) + e * (Real(21) + e * (Real(35) + e * (Real(35) + e * (Real(21) + e * (Real(7) + e)))));
     return Real(stiffness()) * (e * series);
+  }
+  /// Inverse for pressures in [-0.9 B, 10 B] by Newton's method, to round-off for those under B: for lanes.
+  template <class Real>
+  Real deviation_by_newton(Real pressure) const {
+    const Real y = pressure * Real(1.0 / stiffness());
+    Real e = y * reciprocal(Real(7) + Real(3) * y);  // of second order; above the root
+    for (int turn = 0; turn < 4; ++turn) {
+      const Real s = Real(1) + e, s2 = s * s;
+      const Real series = Real(7) + e * (Real(21) + e * (Real(35) + e * (Real(35) + e * (Real(21) + e * (Real(7) + e)))));
+      e = e - (e * series - y) * reciprocal(Real(7) * (s2 * s2) * s2);
+    }
+    return Real(rho0) * e;
   }
   /// Inverse: deviation [kg/m3] that gives the pressure [Pa]; below -B there is none.
   double deviation(double pressure) const { return rho0 * std::expm1(std::log1p(pressure / stiffness()) / gamma); }

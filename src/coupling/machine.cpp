@@ -88,7 +88,8 @@ Machine::Machine(Scenario scenario)
     }
     if (only_cylinders && !names.empty()) {
       sea::SeaOptions still;
-      still.model = "hydrostatic";
+      still.model = "morison";  // at rest that is buoyancy and the water's inertia, which modes need
+      still.axial_added_mass_coefficient = 1.0;
       sea_.emplace(still, sea::WavesOptions{}, sea_environment(s.environment), sea_bodies(s.bodies));
     }
     add_source(sources,
@@ -99,7 +100,9 @@ Machine::Machine(Scenario scenario)
                   else if (sea_)
                     sea_->add_loads(t, m, w);
                 },
-                {}},
+                [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
+                  if (!particles_ && sea_) sea_->add_added_mass(t, m, a);  // particles push back by themselves
+                }},
                on);
     if (particle_plan_->parameters.contact && std::find(on.begin(), on.end(), true) != on.end())
       add_source(sources,

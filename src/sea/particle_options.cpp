@@ -72,7 +72,9 @@ const Section<ParticleOptions>& particle_section() {
                   "The same between water and walls or bodies; that of the water where absent.", not_negative())
           .only_if("viscosity_model", {"laminar", "laminar_sps"})
           .choice("walls", &ParticleOptions::walls,
-                  {{"dynamic", "particles whose density follows continuity (Crespo et al. 2007)"},
+                  {{"extrapolated", "pressure carried on from the water beside them (Adami et al. 2012), velocity their own"},
+                   {"extrapolated_no_slip", "the same, water sticks"},
+                   {"dynamic", "particles whose density follows continuity (Crespo et al. 2007)"},
                    {"modified", "density carried on from the water beside them (English et al. 2022), velocity their own"},
                    {"modified_no_slip", "the same, water sticks"},
                    {"modified_free_slip", "the same, water slides"}},

@@ -33,8 +33,8 @@ struct ParticleOptions {
   std::optional<double> solid_viscosity;   ///< with walls and bodies; that of the water where absent
   double kinematic_viscosity_m2_s = 1e-6;  ///< of the laminar models
   std::optional<double> solid_kinematic_viscosity_m2_s;
-  std::string walls = "dynamic";  ///< dynamic, modified, modified_no_slip, modified_free_slip
-  bool contact = true;            ///< of bodies with walls and each other
+  std::string walls = "extrapolated";  ///< dynamic, extrapolated, extrapolated_no_slip, modified, ...
+  bool contact = true;                 ///< of bodies with walls and each other
   double contact_stiffness = 1.0, contact_damping = 0.2, contact_friction = 0.0;
   sph::DiffusionChoice density_diffusion = sph::DiffusionChoice::fourtakas;
   double diffusion_strength = 0.1;
@@ -48,7 +48,7 @@ struct ParticleOptions {
   int lost_at_most = 0;
 
   bool planar() const { return dimensions == "2"; }
-  bool modified_walls() const { return walls != "dynamic"; }
+  bool modified_walls() const { return walls.starts_with("modified"); }
 };
 
 /// [sea.tank]: where water may be.

@@ -32,7 +32,10 @@ sph::Parameters parameters_of(const SeaOptions& o, const SeaEnvironment& environ
   p.viscosity = s.viscosity_model;
   p.alpha = s.viscosity, p.alpha_solid = s.solid_viscosity.value_or(s.viscosity);
   p.nu = s.kinematic_viscosity_m2_s, p.nu_solid = s.solid_kinematic_viscosity_m2_s.value_or(s.kinematic_viscosity_m2_s);
-  p.wall = s.walls == "modified_no_slip"     ? sph::WallChoice::no_slip
+  p.boundary = s.walls == "dynamic"              ? sph::BoundaryChoice::dynamic
+               : s.walls.starts_with("modified") ? sph::BoundaryChoice::modified
+                                                 : sph::BoundaryChoice::extrapolated;
+  p.wall = s.walls.ends_with("no_slip")      ? sph::WallChoice::no_slip
            : s.walls == "modified_free_slip" ? sph::WallChoice::free_slip
                                              : sph::WallChoice::still;
   p.contact = s.contact, p.contact_stiffness = s.contact_stiffness, p.contact_damping = s.contact_damping;

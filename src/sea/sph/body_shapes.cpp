@@ -56,7 +56,7 @@ Points fill_cylinder(const Cylinder& c, double spacing, Cut cut) {
       const Eigen::Vector3d across = axis.cross(Eigen::Vector3d::UnitY());
       for (double offset : cell_centres(2.0 * radius, spacing)) points.push_back(middle + along * axis + offset * across);
     } else {
-      for (const Eigen::Vector2d& p : points_in_disc(radius, spacing))
+      for (const Eigen::Vector2d& p : points_in_disc(radius, spacing_across(c.length(), spacing)))
         points.push_back(middle + turn * Eigen::Vector3d(p[0], p[1], along));
     }
   }

@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "kernels/sph/boundary_extrapolated.hpp"
 #include "kernels/sph/boundary_modified.hpp"
 #include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/solids.hpp"
@@ -147,6 +148,98 @@ void apply_boundary(Store<dim, Real>& store, const Columns<dim>& columns, const 
       }
       for (int k = 0; k < dim; ++k) state[(dim + k) * cluster_size + lane] = Real(velocity[k]);
     }
+  }
+}
+
+/// Particles of a cluster of water that may be within reach of a box of walls (in the frame of `x`), by lane; returns how many.
+template <class V, int dim, class Real>
+SPINDRIFT_INLINE int lanes_near_box(const Real* water, const Vec<Real, dim>& low, const Vec<Real, dim>& high, Real reach2,
+                                    std::array<int, cluster_size>& near) {
+  std::array<Real, cluster_size> gap2;
+  for (int lane = 0; lane < cluster_size; lane += V::size) {
+    V total(0);
+    for (int k = 0; k < dim; ++k) {
+      const V x = V::load(water + k * cluster_size + lane), gap = max(max(V(low[k]) - x, x - V(high[k])), V(0));
+      total += gap * gap;
+    }
+    total.store(gap2.data() + lane);
+  }
+  int count = 0;
+  for (int lane = 0; lane < cluster_size; ++lane) {
+    near[std::size_t(count)] = lane;
+    count += gap2[std::size_t(lane)] < reach2;
+  }
+  return count;
+}
+
+/// Extrapolated walls of one group: sixteen walls side by side against the water round them, particle by particle.
+template <bool sticks, class Kernel, int dim, class Real>
+void extrapolate_to_walls(Store<dim, Real>& store, const Columns<dim>& columns, const Parameters& p, int group, float reach,
+                          double old, const Kernel& kernel, Candidates<dim, Real>& water) {
+  using V = NativeWide<Real>;
+  using Boundary = BoundaryExtrapolated<dim, sticks>;
+  constexpr int parts = cluster_size / V::size;
+  const Real least = Real(1e-6) * kernel.value(Real(1e-12)), rho0 = Real(p.eos.rho0);
+  Vec<V, dim> body_force;
+  for (int k = 0; k < dim; ++k) body_force[k] = V(Real(k == dim - 1 ? -p.gravity : k == 0 ? p.drive : 0.0));
+  for (std::uint32_t cluster = store.groups[group].solid; cluster < store.groups[group].end; ++cluster) {
+    Real* const state = store.pack_of(cluster);
+    std::array<double, dim> low, high;
+    for (int k = 0; k < dim; ++k) {
+      low[k] = store.corner[k] + double(store.low[k][cluster]) - double(reach) - old;
+      high[k] = store.corner[k] + double(store.high[k][cluster]) + double(reach) + old;
+    }
+    water.clear();
+    columns.for_overlapping(low, high, [&](const Neighbour<dim>& near) {
+      const Group& other = store.groups[near.group];
+      if (other.solid > other.fluid) water.add(store, cluster, other.fluid, other.solid, near.shift, reach);
+    });
+    Vec<V, Boundary::planes> sums[parts] = {};
+    if (water.size() > 0) {
+      Vec<V, dim> x[parts];
+      Vec<Real, dim> box_low, box_high;
+      for (int k = 0; k < dim; ++k) {
+        for (int part = 0; part < parts; ++part) x[part][k] = V::load(state + k * cluster_size + part * V::size);
+        box_low[k] = Real(store.low[k][cluster] - store.frame(k, cluster));
+        box_high[k] = Real(store.high[k][cluster] - store.frame(k, cluster));
+      }
+      const auto near = water.all();
+      std::array<int, cluster_size> lanes;
+      for (int n = 0; n < water.size(); ++n) {
+        const Real* const other = store.pack_of(near.cluster[n]);
+        Vec<Real, dim> shift, from, to;
+        for (int k = 0; k < dim; ++k)
+          shift[k] = near.shift[k][n], from[k] = box_low[k] + shift[k], to[k] = box_high[k] + shift[k];
+        const int count = lanes_near_box<V, dim>(other, from, to, Real(reach) * Real(reach), lanes);
+        for (int l = 0; l < count; ++l) {
+          const int lane = lanes[std::size_t(l)];
+          const PairState<V, dim> j = spread_state<dim, V>(other, lane);
+          const V rho = V(rho0) + j.deviation, pressure = j.p_rho2 * (rho * rho);
+          for (int part = 0; part < parts; ++part) {
+            Vec<V, dim> from_j;
+            for (int k = 0; k < dim; ++k) from_j[k] = x[part][k] + (V(shift[k]) - j.x[k]);
+            Boundary::template add<V>(sums[part], from_j, kernel.value(max(dot(from_j, from_j), V(Real(1e-30)))), pressure, rho,
+                                      j.v);
+          }
+        }
+      }
+    }
+    const std::size_t first = std::size_t(cluster) * cluster_size;
+    std::array<Real, cluster_size> deviations;
+    for (int part = 0; part < parts; ++part) {
+      Real* const planes = state + part * V::size;
+      const V pressure = Boundary::pressure(sums[part], body_force, V(least)), deviation = p.eos.deviation_by_newton(pressure);
+      const V rho = V(rho0) + deviation;
+      deviation.store(planes + 2 * dim * cluster_size);
+      (pressure * reciprocal(rho * rho)).store(planes + (2 * dim + 1) * cluster_size);
+      deviation.store(deviations.data() + part * V::size);
+      if constexpr (sticks)
+        for (int k = 0; k < dim; ++k) {
+          Real* const v = planes + (dim + k) * cluster_size;
+          Boundary::velocity(sums[part], k, V::load(v), V(least)).store(v);
+        }
+    }
+    for (int lane = 0; lane < cluster_size; ++lane) store.deviation[first + lane] = double(deviations[std::size_t(lane)]);
   }
 }
 

@@ -13,7 +13,9 @@ enum class KernelChoice { wendland, cubic };
 enum class DiffusionChoice { none, molteni, fourtakas };
 enum class StepChoice { symplectic, verlet };
 enum class FilterChoice { none, shepard, mls };
-/// What modified boundaries do to the velocity of their particles: leave the wall's own, or mirror the water's.
+/// Where wall particles have their density from: continuity, the water round them, or the water round their mirror images.
+enum class BoundaryChoice { dynamic, extrapolated, modified };
+/// What extrapolated and modified boundaries do to the velocity of their particles: leave the wall's own, or mirror the water's.
 enum class WallChoice { still, no_slip, free_slip };
 enum class ViscosityChoice { artificial, laminar, laminar_sps };
 
@@ -29,6 +31,7 @@ struct Parameters {
   double nu_solid = 1e-6;    ///< with walls and bodies
   double alpha = 0.1;        ///< artificial viscosity, water with water
   double alpha_solid = 0.1;  ///< with walls and bodies; the paper neglects it (0)
+  BoundaryChoice boundary = BoundaryChoice::dynamic;
   WallChoice wall = WallChoice::still;
   DiffusionChoice diffusion = DiffusionChoice::none;
   double delta = 0.1;     ///< strength of the density diffusion

@@ -34,7 +34,8 @@ class Schemes {
   GroupSweep<dim, Real> rates() const { return p_.laminar() ? laminar() : artificial(); }
   /// Rates of strain for the sub-particle stress, which `rates` then reads from the store; empty without that stress.
   GroupSweep<dim, Real> strain() const;
-  /// Density and velocity of modified walls, for every group between packing and the pair sweeps; empty without ghost nodes.
+  /// Density and velocity of extrapolated or modified walls, for every group between packing and the pair sweeps; empty for
+  /// dynamic ones.
   GroupBoundary<dim, Real> boundary(const Ghosts<dim>& ghosts) const;
   GroupSweep<dim, Real> filter() const;    ///< empty without a filter
   GroupSweep<dim, Real> shifting() const;  ///< empty without shifting

@@ -17,6 +17,16 @@ GroupSweep<dim, Real> Schemes<dim, Real>::strain() const {
 
 template <int dim, class Real>
 GroupBoundary<dim, Real> Schemes<dim, Real>::boundary(const Ghosts<dim>& ghosts) const {
+  if (p_.boundary == BoundaryChoice::extrapolated)
+    return with_kernel<GroupBoundary<dim, Real>>([this](auto kernel) {
+      const auto walls = [&](auto sticks) {
+        return GroupBoundary<dim, Real>([kernel, &columns = columns_, &p = p_, reach = reach_](Store<dim, Real>& store, int group,
+                                                                                               Candidates<dim, Real>& water) {
+          extrapolate_to_walls<decltype(sticks)::value>(store, columns, p, group, reach, 2.0 * p.drift(), kernel, water);
+        });
+      };
+      return p_.wall == WallChoice::no_slip ? walls(std::true_type{}) : walls(std::false_type{});
+    });
   if (ghosts.empty()) return {};
   return with_kernel<GroupBoundary<dim, Real>>([this, &ghosts](auto kernel) {
     return [kernel, &ghosts, &columns = columns_, &p = p_, reach = reach_](Store<dim, Real>& store, int group,

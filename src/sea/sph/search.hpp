@@ -125,6 +125,16 @@ class Candidates {
                                   std::uint32_t(from), count_ - from);
     return found;
   }
+  /// The clusters themselves and their shifts, all of them.
+  struct All {
+    const std::uint32_t* cluster;
+    std::array<const Real*, dim> shift;
+  };
+  All all() const {
+    All a{cluster_.data(), {}};
+    for (int k = 0; k < dim; ++k) a.shift[k] = shift_[k].data();
+    return a;
+  }
   /// Plain pointers for the inner loop.
   struct View {
     const std::uint32_t *chosen, *cluster;

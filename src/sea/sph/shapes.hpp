@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -27,14 +28,43 @@ inline std::vector<double> cell_centres(double length, double spacing) {
   return centres;
 }
 
+/// Counts along the edges of a box (an edge of zero: one) whose product is nearest to its volume in cells, each within one of the
+/// edge in spacings: particles that stand for more or less than their volume make the body larger or smaller.
+inline std::array<int, 3> counts_in_box(const Eigen::Vector3d& edges, double spacing) {
+  std::array<int, 3> best{1, 1, 1};
+  double volume = 1.0, least = 1e300;
+  for (int axis = 0; axis < 3; ++axis)
+    if (edges[axis] > 0.0) volume *= edges[axis] / spacing;
+  for (int choice = 0; choice < 8; ++choice) {
+    std::array<int, 3> n{1, 1, 1};
+    double product = 1.0, uneven = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(edges[axis] > 0.0)) continue;
+      const double length = edges[axis] / spacing;
+      n[std::size_t(axis)] = std::max(1, int(std::floor(length + 1e-9)) + (choice >> axis & 1));
+      product *= n[std::size_t(axis)], uneven += std::pow(std::log(n[std::size_t(axis)] / length), 2);
+    }
+    const double off = std::abs(std::log(product / volume)) + 0.1 * uneven;
+    if (off < least - 1e-12) least = off, best = n;
+  }
+  return best;
+}
+
 /// Box of the given edges; an edge of zero makes the plane of a 2-D scene.
 inline Points points_in_box(const Eigen::Vector3d& edges, double spacing) {
-  const auto along = [&](int axis) { return edges[axis] > 0.0 ? cell_centres(edges[axis], spacing) : std::vector<double>{0.0}; };
+  const std::array<int, 3> counts = counts_in_box(edges, spacing);
   Points points;
-  for (double x : along(0))
-    for (double y : along(1))
-      for (double z : along(2)) points.push_back({x, y, z});
+  for (int i = 0; i < counts[0]; ++i)
+    for (int j = 0; j < counts[1]; ++j)
+      for (int k = 0; k < counts[2]; ++k)
+        points.push_back({edges[0] * ((i + 0.5) / counts[0] - 0.5), edges[1] * ((j + 0.5) / counts[1] - 0.5),
+                          edges[2] * ((k + 0.5) / counts[2] - 0.5)});
   return points;
+}
+
+/// Spacing across an axis that makes up for layers of other than the spacing along it: number times spacing^3 is the volume.
+inline double spacing_across(double length, double spacing) {
+  return spacing * std::sqrt(whole_spacings(length, spacing) * spacing / length);
 }
 
 /// Rings of a disc in the plane of the first two components: ring k holds about as many particles as spacings fit on it.
@@ -58,9 +88,10 @@ inline std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing
 /// Circular cylinder along an axis (0 x, 1 y, 2 z); length zero makes the disc of a 2-D scene.
 inline Points points_in_cylinder(double radius, double length, int axis, double spacing) {
   const std::vector<double> layers = length > 0.0 ? cell_centres(length, spacing) : std::vector<double>{0.0};
+  const double across = length > 0.0 ? spacing_across(length, spacing) : spacing;
   Points points;
   for (double along : layers)
-    for (const Eigen::Vector2d& p : points_in_disc(radius, spacing)) {
+    for (const Eigen::Vector2d& p : points_in_disc(radius, across)) {
       Eigen::Vector3d point;
       point[axis] = along, point[(axis + 1) % 3] = p[0], point[(axis + 2) % 3] = p[1];
       points.push_back(point);

@@ -35,6 +35,7 @@ template <int dim, class Real>
 void pack(Store<dim, Real>& store, const Parameters& p, int group, double half_dt) {
   const Rates<dim> rates(p);
   const double dt = 2.0 * half_dt;
+  const bool dynamic_walls = p.boundary != BoundaryChoice::extrapolated;  // others are set after this
   const Group& range = store.groups[group];
   for (std::uint32_t cluster = range.fluid; cluster < range.end; ++cluster) {
     const bool water = cluster < range.solid;
@@ -66,7 +67,7 @@ void pack(Store<dim, Real>& store, const Parameters& p, int group, double half_d
     for (int lane = 0; lane < cluster_size; ++lane) {
       const double rate = dt > 0.0 ? rates.density(sums[dim * cluster_size + lane]) : 0.0;
       double d = StepSymplectic::half(deviation[lane], rate, dt);
-      if (!water) d = boundary_dynamic(d);
+      if (!water) d = dynamic_walls ? boundary_dynamic(d) : deviation[lane];
       const double rho = p.eos.rho0 + d;
       planes[2 * dim * cluster_size + lane] = Real(d);
       planes[(2 * dim + 1) * cluster_size + lane] = Real(p.eos.pressure(d) / (rho * rho));
@@ -115,12 +116,17 @@ Extremes extremes(const Store<dim, Real>& store, const Parameters& p, int group)
   return result;
 }
 
+/// End of the clusters whose density follows its rate: extrapolated walls take theirs from the water.
+inline std::uint32_t end_of_rates(const Group& range, const Parameters& p) {
+  return p.boundary == BoundaryChoice::extrapolated ? range.solid : range.end;
+}
+
 /// Full step from the sums at n + 1/2.
 template <int dim, class Real>
 void correct_symplectic(Store<dim, Real>& store, const Parameters& p, int group, double dt) {
   const Rates<dim> rates(p);
   const Group& range = store.groups[group];
-  for (std::uint32_t cluster = range.fluid; cluster < range.end; ++cluster) {
+  for (std::uint32_t cluster = range.fluid; cluster < end_of_rates(range, p); ++cluster) {
     const bool water = cluster < range.solid;
     const std::size_t first = std::size_t(cluster) * cluster_size;
     const Real* planes = store.pack_of(cluster);
@@ -154,7 +160,7 @@ void correct_verlet(Store<dim, Real>& store, const Parameters& p, int group, dou
     const double next = join ? StepVerlet::join(value, rate, dt) : StepVerlet::leap(before, rate, dt);
     before = value, value = next;
   };
-  for (std::uint32_t cluster = range.fluid; cluster < range.end; ++cluster) {
+  for (std::uint32_t cluster = range.fluid; cluster < end_of_rates(range, p); ++cluster) {
     const bool water = cluster < range.solid;
     const Real* sums = store.sums_of(cluster);
     for (int lane = 0; lane < cluster_size; ++lane) {

@@ -6,6 +6,7 @@
 
 #include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/lattice.hpp"
+#include "src/sea/sph/packing.hpp"
 #include "src/sea/sph/solids.hpp"
 
 namespace spindrift::sph {
@@ -79,7 +80,7 @@ template <int dim>
 class Builder {
  public:
   Builder(const TankPlan& plan, Parameters& p)
-      : plan_(plan), p_(p), lattice_(plan, p.spacing), layers_(int(std::ceil(p.reach() / p.spacing - 1e-9))) {
+      : plan_(plan), p_(p), lattice_(plan, p.spacing), layers_(int(std::ceil(p.reach() / p.spacing - 1e-9)) - 1) {
     const bool heavy = p.gravity > 0.0;
     p.mass_factor = lattice_.cell() / std::pow(p.spacing, dim) * (heavy ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0);
     row_mass_ = p.eos.rho0 * lattice_.edge[dim - 1] * (heavy ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0);
@@ -89,17 +90,20 @@ class Builder {
     result_.cell_volume = lattice_.cell() / std::pow(p_.spacing, dim);
     fill_bodies();
     add_water();
+    if (displaced_ > 0.0) take_displaced_water();
     result_.water = result_.seeds.size();
     add_walls();
     result_.walls = result_.seeds.size() - result_.water;
     std::uint16_t owner = wall_owner + 1;
     if (plan_.paddle) add_paddle(*(result_.paddle = owner++));
     for (std::size_t b = 0; b < plan_.bodies.size(); ++b) add_body(b, owner++);
+    if (!plan_.bodies.empty()) fit_water_to_bodies();
     set_domain();
     return std::move(result_);
   }
 
  private:
+  static constexpr double near_bodies = 6.0;  ///< spacings: half of it is packed anew, between the other half
   static constexpr Cut cut = dim == 2 ? Cut::plane : Cut::space;
 
   double deviation_at(double z, double surface) const {
@@ -109,14 +113,40 @@ class Builder {
   bool is_obstacle(const std::array<double, dim>& x) const {
     return std::any_of(plan_.obstacles.begin(), plan_.obstacles.end(), [&](const auto& block) { return inside<dim>(block, x); });
   }
-  /// Nearer to a body than a quarter of a spacing: no water there, or the body would be pushed at once.
-  bool is_body(const Eigen::Vector3d& x) const {
+  /// So deep in an obstacle that water outside does not feel it.
+  bool is_core(const std::array<double, dim>& x) const {
+    const Eigen::Vector3d at = to_earth<dim>(x);
+    return std::any_of(plan_.obstacles.begin(), plan_.obstacles.end(), [&](const TankPlan::Block& block) {
+      double depth = 1e300;
+      for (int k = 0; k < 3; ++k)
+        if (dim == 3 || k != 1) depth = std::min({depth, at[k] - block.low[k], block.high[k] - at[k]});
+      return depth > layers_ * p_.spacing;
+    });
+  }
+  /// From the nearest body's surface, negative inside [m]; huge where none is near.
+  double distance_to_bodies(const Eigen::Vector3d& x) const {
+    double nearest = 1e300;
     for (std::size_t b = 0; b < plan_.bodies.size(); ++b) {
       const TankPlan::Body& body = plan_.bodies[b];
       const Eigen::Vector3d local = body.motion.attitude.conjugate() * (x - body.motion.position);
-      if (local.cwiseAbs().maxCoeff() < extent_[b] && signed_distance(body.shapes, local, cut) < 0.25 * p_.spacing) return true;
+      if (local.cwiseAbs().maxCoeff() < extent_[b]) nearest = std::min(nearest, signed_distance(body.shapes, local, cut));
     }
-    return false;
+    return nearest;
+  }
+  /// Share of the cell round x that bodies take.
+  double share_of_bodies(const std::array<double, dim>& x, double distance) const {
+    const double far = 0.5 * p_.spacing * std::sqrt(double(dim)) * 1.1;
+    if (std::abs(distance) > far) return distance < 0.0 ? 1.0 : 0.0;
+    constexpr int samples = 6;  // along each edge
+    std::array<int, dim> low{}, high;
+    high.fill(samples);
+    int inside = 0, all = 0;
+    for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
+      std::array<double, dim> at = x;
+      for (int k = 0; k < dim; ++k) at[k] += lattice_.edge[k] * ((index[k] + 0.5) / samples - 0.5);
+      inside += distance_to_bodies(to_earth<dim>(at)) < 0.0, ++all;
+    });
+    return double(inside) / all;
   }
 
   void fill_bodies() {
@@ -125,7 +155,7 @@ class Builder {
       points_.push_back(fill_body(body.shapes, spacing, cut));
       double far = 0.0;
       for (const Eigen::Vector3d& point : points_.back()) far = std::max(far, point.cwiseAbs().maxCoeff());
-      extent_.push_back(far + 2.0 * p_.spacing);
+      extent_.push_back(far + 2.0 * near_bodies * p_.spacing);
     }
   }
 
@@ -139,9 +169,12 @@ class Builder {
   /// Rows from the surface down, each with the weight of the rows above it.
   void add_water_in(const TankPlan::Block& block, double surface) {
     std::array<int, dim> low{}, high = lattice_.count;
+    if (!plan_.bodies.empty()) high[dim - 1] += int(near_bodies);  // air over the water, for bodies that pierce the surface
     for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
-      std::array<double, dim> x = lattice_.at(index);
-      if (!inside<dim>(block, x) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x)) return;
+      std::array<double, dim> x = lattice_.at(index), under = x;
+      if (x[dim - 1] > surface && x[dim - 1] < surface + near_bodies * lattice_.edge[dim - 1] && !plan_.bodies.empty())
+        under[dim - 1] = surface - 0.5 * lattice_.edge[dim - 1];
+      if (!inside<dim>(block, under) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x)) return;
       Seed<dim> seed{.position = x};
       if (p_.gravity > 0.0) {
         const double rows_above = (surface - x[dim - 1]) / lattice_.edge[dim - 1];
@@ -152,8 +185,51 @@ class Builder {
       if (!plan_.waves.empty()) set_in_motion<dim>(seed, plan_.waves, plan_.depth);
       const bool in_tank =
           plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
-      if (in_tank && !is_body(to_earth<dim>(seed.position))) result_.seeds.push_back(seed);
+      if (!in_tank) return;
+      const double distance = distance_to_bodies(to_earth<dim>(seed.position));
+      if (seed.position[dim - 1] > surface)
+        distance > 0.0 && distance < near_bodies* p_.spacing ? air_.push_back(seed.position) : void();
+      else
+        result_.seeds.push_back(seed), displaced_ += share_of_bodies(seed.position, distance);
     });
+  }
+  /// As many particles as the bodies displace, those deepest inside.
+  void take_displaced_water() {
+    std::vector<std::pair<double, std::size_t>> inside;
+    for (std::size_t n = 0; n < result_.seeds.size(); ++n) {
+      const double distance = distance_to_bodies(to_earth<dim>(result_.seeds[n].position));
+      if (distance < p_.spacing) inside.push_back({distance, n});
+    }
+    std::sort(inside.begin(), inside.end());
+    inside.resize(std::min(inside.size(), std::size_t(std::lround(displaced_))));
+    std::vector<std::uint8_t> taken(result_.seeds.size(), 0);
+    for (const auto& [distance, n] : inside) taken[n] = 1;
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < taken.size(); ++n)
+      if (!taken[n]) result_.seeds[kept++] = result_.seeds[n];
+    result_.seeds.resize(kept);
+  }
+  /// Moves the water beside bodies until it stands evenly there, at the pressure of its new depth. Air counts as water does, so
+  /// that the surface stays.
+  void fit_water_to_bodies() {
+    std::vector<std::size_t> moved;
+    std::vector<std::array<double, dim>> points, fixed = air_;
+    for (std::size_t n = 0; n < result_.seeds.size(); ++n) {
+      const auto& x = result_.seeds[n].position;
+      const double distance = distance_to_bodies(to_earth<dim>(x));
+      if (n < result_.water && distance < 0.5 * near_bodies * p_.spacing)
+        moved.push_back(n), points.push_back(x);
+      else if (distance < near_bodies * p_.spacing)
+        fixed.push_back(x);
+    }
+    pack_evenly<dim>(points, fixed, p_.spacing * std::pow(result_.cell_volume, 1.0 / dim));
+    for (std::size_t n = 0; n < moved.size(); ++n) {
+      Seed<dim>& seed = result_.seeds[moved[n]];
+      const double risen = points[n][dim - 1] - seed.position[dim - 1];
+      seed.position = points[n];
+      if (p_.gravity > 0.0)
+        seed.deviation = p_.eos.deviation(std::max(0.0, p_.eos.pressure(seed.deviation) - p_.eos.rho0 * p_.gravity * risen));
+    }
   }
 
   double surface_of_scene() const {
@@ -238,7 +314,7 @@ class Builder {
       if constexpr (dim == 3) wall = wall || (!plan_.periodic[1] && (index[1] < 0 || index[1] >= lattice_.count[1]));
       bool in_tank = index[0] >= 0 && index[0] < lattice_.count[0];
       if constexpr (dim == 3) in_tank = in_tank && index[1] >= 0 && index[1] < lattice_.count[1];
-      if (wall || (in_tank && is_obstacle(x))) add_wall_particle(x, wall_owner);
+      if ((wall || (in_tank && is_obstacle(x))) && !is_core(x)) add_wall_particle(x, wall_owner);
     });
   }
 
@@ -294,6 +370,8 @@ class Builder {
   double row_mass_;  ///< mass per area of a row of water [kg/m2]
   std::vector<Points> points_;
   std::vector<double> extent_;
+  std::vector<std::array<double, dim>> air_;  ///< places of the lattice over the water, near bodies
+  double displaced_ = 0.0;                    ///< by bodies, in particles of water
   TankParticles<dim> result_;
 };
 

@@ -244,7 +244,8 @@ void StepTasks<dim, Real>::pack(Half half) {
   }
 }
 
-/// Modified walls take their density and velocity from the water round their ghost nodes, up to two columns away.
+/// Extrapolated walls take their density and velocity from the water in the columns beside them, modified ones from that round
+/// their ghost nodes, up to two columns away.
 template <int dim, class Real>
 void StepTasks<dim, Real>::set_walls() {
   if (!sea_.boundary) return;
@@ -261,6 +262,7 @@ void StepTasks<dim, Real>::set_walls() {
       uses.push_back(reads(planes_[std::size_t(g)]));
       for (const int near : around[std::size_t(g)]) {
         uses.push_back(reads(planes_[std::size_t(near)]));
+        if (sea_.ghosts.empty()) continue;
         for (const int far : around[std::size_t(near)]) uses.push_back(reads(planes_[std::size_t(far)]));
       }
     }
