@@ -7,6 +7,7 @@
 #include <random>
 
 #include "kernels/sph/boundary_dynamic.hpp"
+#include "kernels/sph/boundary_extrapolated.hpp"
 #include "kernels/sph/kernel_wendland.hpp"
 
 using namespace spindrift::sph;
@@ -44,6 +45,39 @@ Vec<double, BoundaryModified<dim>::planes> moments(Field&& field, double d, doub
 }
 
 }  // namespace
+
+TEST_CASE("an extrapolated wall has the pressure of water at rest at its place, and nothing without water", "[sph][fast]") {
+  using Boundary = BoundaryExtrapolated<2, true>;
+  const double rho = 1000.0, g = 9.81, d = 0.1;
+  const KernelWendland<2> kernel(0.15);
+  const Vec<double, 2> gravity{0.0, -g}, wall{0.02, -0.13};
+  Vec<double, Boundary::planes> sums{};
+  for (int a = -4; a <= 4; ++a)
+    for (int b = 0; b < 4; ++b) {
+      const Vec<double, 2> water{a * d, (b + 0.5) * d};
+      const Vec<double, 2> x = wall - water;
+      Boundary::add(sums, x, kernel.value(dot(x, x)), 5000.0 - rho * g * water[1], rho, Vec<double, 2>{1.0, 2.0});
+    }
+  CHECK(Boundary::pressure(sums, gravity, 1e-6) == Approx(5000.0 + rho * g * 0.13).epsilon(1e-12));
+  CHECK(Boundary::velocity(sums, 0, 0.25, 1e-6) == Approx(2.0 * 0.25 - 1.0));
+  CHECK(Boundary::pressure(Vec<double, Boundary::planes>{}, gravity, 1e-6) == 0.0);
+  CHECK(Boundary::velocity(Vec<double, Boundary::planes>{}, 1, 0.25, 1e-6) == 0.25);
+}
+
+TEST_CASE("weight does not make an extrapolated wall pull, water under tension does", "[sph][fast]") {
+  using Boundary = BoundaryExtrapolated<2, false>;
+  const KernelWendland<2> kernel(0.15);
+  const Vec<double, 2> gravity{0.0, -9.81}, above{0.0, 0.1};
+  const auto ceiling = [&](double pressure) {
+    Vec<double, Boundary::planes> sums{};
+    Boundary::add(sums, above, kernel.value(0.01), pressure, 1000.0, Vec<double, 2>{});
+    return Boundary::pressure(sums, gravity, 1e-6);
+  };
+  CHECK(ceiling(0.0) == 0.0);
+  CHECK(ceiling(100.0) == 0.0);
+  CHECK(ceiling(2000.0) == Approx(2000.0 - 981.0));
+  CHECK(ceiling(-300.0) == Approx(-300.0));
+}
 
 TEST_CASE("walls push and never pull", "[sph][fast]") {
   CHECK(boundary_dynamic(-3.0) == 0.0);

@@ -55,6 +55,13 @@ TEST_CASE("still water between modified walls, sticking or sliding, is at rest t
   check_rest(tank, 1.0, 0, 0.01, true);
 }
 
+TEST_CASE("still water between extrapolated walls is at rest too", "[verification][sea][fast]") {
+  Tank tank(0.05, 1.0, 0.5, 10.0);
+  tank.p.boundary = BoundaryChoice::extrapolated;
+  tank.p.wall = GENERATE(WallChoice::still, WallChoice::no_slip);
+  check_rest(tank, 1.0, 0, 0.01);
+}
+
 TEST_CASE("still water stays still over 1e5 steps", "[verification][sea][nightly]") {
   check_rest(Tank(0.025, 1.0, 0.5, 10.0), 2.0, 100000, 0.01);
   check_rest(Tank(0.025, 1.0, 0.5, 20.0), 4.0, 0, 0.005);

@@ -1,5 +1,5 @@
-// Modified boundaries as a sweep: a wall takes on the linear field of the water beside it, whatever the columns and periodic
-// sides between them.
+// Modified and extrapolated boundaries as sweeps: a wall takes on the linear field of the water beside it, whatever the columns
+// and periodic sides between them.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/boundary.hpp"
 
@@ -72,6 +72,40 @@ TEMPLATE_TEST_CASE("modified walls continue a linear density across columns", "[
   for (std::size_t n = 0; n < seeds3.size(); ++n)
     if (seeds3[n].position[2] < 0.6) worst = std::max(worst, std::abs(after3[n] - (3.0 + 2.0 * seeds3[n].position[2])));
   CHECK(worst < tolerance);
+}
+
+TEMPLATE_TEST_CASE("extrapolated walls have the pressure of rest at their depth", "[sph][fast]", float, double) {
+  Parameters p;
+  p.spacing = d, p.h_over_d = 1.5, p.boundary = BoundaryChoice::extrapolated, p.eos.c0 = 30.0;
+  const double tolerance = std::is_same_v<TestType, float> ? 2e-5 : 2e-6;  // of the greatest pressure
+  const auto check = [&](auto dimension, auto cells, auto periodic, const auto& domain) {
+    constexpr int dim = decltype(dimension)::value;
+    const double surface = cells[dim - 1] * d, greatest = p.eos.rho0 * p.gravity * surface;
+    auto seeds = basin<dim>(cells, periodic);
+    for (auto& seed : seeds) {
+      seed.ghost = {};
+      if (seed.owner == 0) seed.deviation = p.eos.deviation(p.eos.rho0 * p.gravity * (surface - seed.position[dim - 1]));
+    }
+    SeaSph<dim, TestType> sea(p, domain, seeds);
+    sea.evaluate();
+    const auto after = by_identity(sea.store(), seeds.size(), [&](std::size_t slot) { return sea.store().deviation[slot]; });
+    double worst = 0.0;
+    int wet = 0;
+    for (std::size_t n = 0; n < seeds.size(); ++n) {
+      double outside = 0.0;  // of the water, beyond which no particle sees it
+      for (int k = 0; k < dim; ++k)
+        if (!periodic[k]) outside += std::pow(std::max({0.0, -seeds[n].position[k], seeds[n].position[k] - cells[k] * d}), 2);
+      const double z = seeds[n].position[dim - 1];
+      if (seeds[n].owner == 0 || outside > d * d || z > surface - 0.3) continue;
+      // Carried on by the density of the water, which is up to 1 % above rho0.
+      worst = std::max(worst, std::abs(p.eos.pressure(after[n]) - p.eos.rho0 * p.gravity * (surface - z)) / greatest), ++wet;
+    }
+    CHECK(wet > 20);
+    CHECK(worst < tolerance + 0.01 * 2.0 * d / surface);
+  };
+  check(std::integral_constant<int, 2>{}, std::array<int, 2>{30, 12}, std::array<bool, 2>{}, Domain<2>{{-1, -1}, {4, 4}});
+  check(std::integral_constant<int, 3>{}, std::array<int, 3>{22, 9, 8}, std::array<bool, 3>{true, false, false},
+        Domain<3>{{0, -1, -1}, {2.2, 2, 2}, {true, false, false}});
 }
 
 TEST_CASE("ghost nodes turn with their body, and its walls mirror the velocity of the water", "[sph][fast]") {
