@@ -236,28 +236,32 @@ class Drawing:
         cells = sum(block["velocity"][..., 0].size for block in blocks)
         slow, axial_at, cores, axial_of = [], [], [], []
         for block in blocks:
-            if min(block["velocity"].shape[:3]) < 2:
-                continue
             nodes = (block["points"] - hub) @ frame.T
             if np.hypot(nodes[..., 1], nodes[..., 2]).min() > 1.6 * tip or nodes[..., 0].min() > 3.2 * tip or nodes[..., 0].max() < -0.3 * tip:
                 continue
             velocity = block["velocity"] @ frame.T
             axial = cut.at_nodes(velocity[..., 0]) / self.wind
-            g = cut.gradient(nodes, velocity)
-            q = cut.at_nodes(-0.5 * np.einsum("...ij,...ji->...", g, g)) * (10.0 / self.wind) ** 2
+            q = None
+            if min(velocity.shape[:3]) > 1 and cells * copies >= FEWEST_FOR_VORTICES:
+                g = cut.gradient(nodes, velocity)
+                q = cut.at_nodes(-0.5 * np.einsum("...ij,...ji->...", g, g)) * (10.0 / self.wind) ** 2
             for copy in range(copies):
                 turn = geometry.about(np.array([1.0, 0.0, 0.0]), 2 * np.pi * copy / copies)
                 places = nodes @ turn.T
-                if places[..., 1].min() <= 0.0 <= places[..., 1].max():
-                    points, values = cut.surface(places, places[..., 1] - 1e-6 * tip, 0.0, axial)
+                beside = 0.013 * tip   # not in a plane that blocks share
+                if places[..., 1].min() <= beside <= places[..., 1].max():
+                    points, values = cut.surface(places, places[..., 1], beside, axial)
                     slow.append(points), axial_at.append(values)
-                points, values = cut.surface(places, q, VORTEX, axial)
-                cores.append(points), axial_of.append(values)
+                if q is not None:
+                    points, values = cut.surface(places, q, VORTEX, axial)
+                    cores.append(points), axial_of.append(values)
 
         def kept(points, values, condition):
             points, values = np.concatenate(points or [np.empty((0, 3, 3))]), np.concatenate(values or [np.empty((0, 3))])
             middle = points.mean(axis=1)
-            near = (middle[:, 0] > -0.3 * tip) & (middle[:, 0] < 3.0 * tip) & (np.hypot(middle[:, 1], middle[:, 2]) < 1.5 * tip)
+            # By corners: cells far downstream are longer than what is shown of them.
+            near = (points[..., 0].max(axis=1) > -0.3 * tip) & (points[..., 0].min(axis=1) < 3.0 * tip)
+            near &= np.hypot(points[..., 1], points[..., 2]).min(axis=1) < 1.5 * tip
             chosen = near & condition(middle, values.mean(axis=1))
             return triangles(hub + points[chosen] @ frame, values[chosen]) if chosen.any() else None
 
@@ -266,9 +270,7 @@ class Drawing:
             plane = clipped(plane, None, SLOW)
             for at, normal in (((0.03 * tip, 0, 0), (1, 0, 0)), ((2.0 * tip, 0, 0), (-1, 0, 0)), ((0, 0, 1.25 * tip), (0, 0, -1)), ((0, 0, -1.25 * tip), (0, 0, 1))):
                 plane = clipped(plane, (hub + np.array(at) @ frame, np.array(normal, float) @ frame), 0.0)
-        # What is bound to the blades hides them; cells that are as large as the vortices show none.
-        if cells * copies < FEWEST_FOR_VORTICES:
-            return plane, None
+        # What is bound to the blades hides them.
         vortices = kept(cores, axial_of, lambda middle, value: (middle[:, 0] > 0.03 * tip) & (np.hypot(middle[:, 1], middle[:, 2]) < 1.3 * tip))
         return plane, smooth(vortices, 180.0) if vortices is not None else None
 

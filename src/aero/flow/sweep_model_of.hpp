@@ -106,7 +106,8 @@ struct SweepsOf : ClosuresOf<Model> {
       const double* diffusivity = slope + (eddy_component(n) + 2 + m) * g;
       const gas::Vector<Row> slope_on_face = gas::face_gradient(load_vector(gradient - back, g), load_vector(gradient, g),
                                                                 Row::load(q) - Row::load(q - tile.cells.stride(d)), across);
-      flux[m] = turbulence::diffused(0.5 * (Row::load(diffusivity - back) + Row::load(diffusivity)), slope_on_face, f);
+      const Row on_face = 0.5 * (Row::load(diffusivity - back) + Row::load(diffusivity));
+      flux[m] = turbulence::diffused(on_face, slope_on_face, f);
     }
   }
 

@@ -22,7 +22,7 @@ GroupBoundary<dim, Real> Schemes<dim, Real>::boundary(const Ghosts<dim>& ghosts)
       const auto walls = [&](auto sticks) {
         return GroupBoundary<dim, Real>([kernel, &columns = columns_, &p = p_, reach = reach_](Store<dim, Real>& store, int group,
                                                                                                Candidates<dim, Real>& water) {
-          extrapolate_to_walls<decltype(sticks)::value>(store, columns, p, group, reach, 2.0 * p.drift(), kernel, water);
+          extrapolate_to_walls<decltype(sticks)::value>(store, columns, p, group, reach, p.drift(), kernel, water);
         });
       };
       return p_.wall == WallChoice::no_slip ? walls(std::true_type{}) : walls(std::false_type{});

@@ -187,10 +187,12 @@ class Builder {
           plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
       if (!in_tank) return;
       const double distance = distance_to_bodies(to_earth<dim>(seed.position));
-      if (seed.position[dim - 1] > surface)
-        distance > 0.0 && distance < near_bodies* p_.spacing ? air_.push_back(seed.position) : void();
-      else
-        result_.seeds.push_back(seed), displaced_ += share_of_bodies(seed.position, distance);
+      if (x[dim - 1] <= surface) {  // at rest: a crest is water
+        displaced_ += share_of_bodies(seed.position, distance);
+        result_.seeds.push_back(seed);
+      } else if (distance > 0.0 && distance < near_bodies * p_.spacing) {
+        air_.push_back(seed.position);
+      }
     });
   }
   /// As many particles as the bodies displace, those deepest inside.
