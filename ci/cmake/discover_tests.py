@@ -51,7 +51,7 @@ def main():
             for stem, name in cases(program, tags + where):
                 text += entry(command, stem, name, count, label, properties)
                 found += 1
-        if not found:
+        if not found and (count > 1 or not ranks):
             sys.exit(f"{program}: no test case for {count} rank(s)")
     pathlib.Path(out).write_text(text)
 

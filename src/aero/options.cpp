@@ -122,6 +122,12 @@ const scene::Section<RotorOptions>& rotor_section() {
           .only_if("joint", no_joint)
           .vector("axis", &RotorOptions::axis, "-", "Rotor axis, downwind, initial earth frame; any length.")
           .only_if("joint", no_joint)
+          .choice("operating_point", &RotorOptions::operating_point,
+                  {{"given", "speed_rpm, or the driver of the bearing, and blade_pitch_deg"},
+                   {"table",
+                    "the operating table's for the undisturbed wind at the hub; it takes the place of the bearing's "
+                    "speed_rpm"}},
+                  "Where rotor speed and blade pitch come from; with [control], those of the start.")
           .rpm("speed_rpm", &RotorOptions::speed, "Constant rotor speed where no body turns.", scene::between(-1e4, 1e4))
           .only_if("joint", no_joint)
           .only_if("operating_point", {"given"})
@@ -136,12 +142,6 @@ const scene::Section<RotorOptions>& rotor_section() {
               "operation", &RotorOptions::operation,
               "CSV file with wind_m_s, speed_rpm and, if any, blade_pitch_deg and power_W: steady operation. Without it that of "
               "the turbine file, if it names one; else the rotor speed of the scene stands for every wind.")
-          .choice("operating_point", &RotorOptions::operating_point,
-                  {{"given", "speed_rpm, or the driver of the bearing, and blade_pitch_deg"},
-                   {"table",
-                    "the operating table's for the undisturbed wind at the hub; it takes the place of the bearing's "
-                    "speed_rpm"}},
-                  "Where rotor speed and blade pitch come from; with [control], those of the start.")
           .check(check_axis);
   return section;
 }

@@ -16,18 +16,18 @@ std::vector<std::string> changed(const Identity& before, const Identity& now, st
   for (const Difference& d : differences(before, now, free)) keys.push_back(d.what);
   return keys;
 }
-const std::string scene =
+const std::string echo_of_run =
     "[time]\nend_s = 1.0  # s; end\n\n[bodies.a]\nmass_kg = 2.0\n\n[[bodies.a.cylinders]]\ndiameter_m = 3.0\n"
     "\n[[bodies.a.cylinders]]\ndiameter_m = 4.0\nname = \"a  # b\"\n";
 std::string with(const std::string& from, const std::string& to) {
-  std::string text = scene;
+  std::string text = echo_of_run;
   return text.replace(text.find(from), from.size(), to);
 }
 }  // namespace
 
 TEST_CASE("every key that differs is named with both values, nested ones by their place", "[scene][fast]") {
-  const Identity before{scene, {}};
-  CHECK(changed(before, {scene, {}}).empty());
+  const Identity before{echo_of_run, {}};
+  CHECK(changed(before, {echo_of_run, {}}).empty());
   CHECK(changed(before, Identity::parsed(before.text())).empty());
   CHECK(changed(before, {with("4.0", "4.5"), {}}) == std::vector<std::string>{"bodies.a.cylinders[1].diameter_m"});
   CHECK(changed(before, {with("a  # b", "a"), {}}) == std::vector<std::string>{"bodies.a.cylinders[1].name"});
@@ -42,7 +42,7 @@ TEST_CASE("every key that differs is named with both values, nested ones by thei
 }
 
 TEST_CASE("what may change is given by key, by section, and not by part of a name", "[scene][fast]") {
-  const Identity before{scene, {}}, now{with("end_s = 1.0", "end_s = 2.0"), {}};
+  const Identity before{echo_of_run, {}}, now{with("end_s = 1.0", "end_s = 2.0"), {}};
   CHECK(changed(before, now, {"time.end_s"}).empty());
   CHECK(changed(before, now, {"time"}).empty());
   CHECK(changed(before, now, {"tim", "time.end"}).size() == 1);
