@@ -27,7 +27,7 @@ ResolvedRotorSetup coarser(const ResolvedRotorSetup& setup) {
   return s;
 }
 
-void interpolate(const ResolvedRotor& from, ResolvedRotor& to, MPI_Comm comm) {
+void interpolate(const ResolvedRotor& from, ResolvedRotor& to) {
   // Blocks from the hub on have the tip at the same share of their own cells only; those of the plug begin there.
   const auto place = [&](int block, int direction, int cell) {
     const Index coarse = from.solver().grid().tiling().block_cells[std::size_t(block)],
@@ -37,17 +37,17 @@ void interpolate(const ResolvedRotor& from, ResolvedRotor& to, MPI_Comm comm) {
     return cell < tip ? (cell + 0.5) * coarse_tip / tip
                       : coarse_tip + (cell - tip + 0.5) * (coarse[d] - coarse_tip) / (fine[d] - tip);
   };
-  begin_with(from.solver(), to.solver(), place, comm);
+  begin_with(from.solver(), to.solver(), place);
 }
 
-RotorLoad start_from_coarser(const ResolvedRotorSetup& setup, int steps, ResolvedRotor& fine, const runtime::World& world) {
+RotorLoad start_from_coarser(const ResolvedRotorSetup& setup, int steps, ResolvedRotor& fine) {
   ResolvedRotorSetup first = coarser(setup);
   first.flow.max_pseudo_steps = steps, first.flow.coarse_steps = 0, first.flow.drop = setup.flow.coarse_drop;
-  ResolvedRotor coarse(first, world.size, world.rank);
+  ResolvedRotor coarse(first);
   coarse.solver().start_uniform();
-  coarse.prepare(world.comm);
+  coarse.prepare(MPI_COMM_SELF);
   coarse.run();
-  interpolate(coarse, fine, world.comm);
+  interpolate(coarse, fine);
   return coarse.load();
 }
 

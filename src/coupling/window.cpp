@@ -113,11 +113,10 @@ void CoupledWindow::begin(const bodies::BodiesState& state) {
 }
 
 bool CoupledWindow::finish(bodies::BodiesState& state) {
-  const std::int64_t before = bodies_->steps();
   try {
     state = bodies_->finish();
   } catch (const NumericalFailure& failure) { trouble_ = failure.what(); }
-  totals_.body_steps += bodies_->steps() - before;
+  totals_.body_steps = bodies_->steps();
   return trouble_.empty();
 }
 

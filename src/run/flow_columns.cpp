@@ -9,8 +9,8 @@
 
 namespace spindrift::run {
 
-FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion, bool steady)
-    : rotor_(rotor), motion_(motion), steady_(steady) {
+FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion)
+    : rotor_(rotor), motion_(motion) {
   if (rotor_) add_rotor(history);
   if (motion_) add_motion(history);
   const char* axes[3] = {"x", "y", "z"};
@@ -28,10 +28,6 @@ FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor,
   cfl_ = history.add({"flow.cfl", "-", "CFL number of the pseudo-step."});
   krylov_ = history.add({"flow.krylov_steps", "-", "Iterations of the linear solver in the pseudo-step before."});
   steps_ = history.add({"flow.pseudo_steps", "-", "Pseudo-steps: so far (steady), of the window (unsteady)."});
-  limited_ = history.add({"flow.limited_cells", "-", "Cells whose last update was too large: it was shortened."});
-  if (!steady_)
-    unconverged_ =
-        history.add({"flow.unconverged_windows", "-", "Windows so far that spent their pseudo-steps without the drop."});
 }
 
 void FlowColumns::add_rotor(io::History& history) {
@@ -71,7 +67,7 @@ void FlowColumns::fill_motion(std::span<double> row, double time) const {
 }
 
 void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetting& s, const aero::PseudoRow& p,
-                       const aero::FlowOptions& o, const Eigen::Vector3d& wind, long unconverged) const {
+                       const aero::FlowOptions& o, const Eigen::Vector3d& wind) const {
   if (motion_) fill_motion(row, time);
   const Eigen::Vector3d f(p.force[0], p.force[1], p.force[2]), along = wind.normalized();
   Eigen::Vector3d across = Eigen::Vector3d::UnitZ() - along.z() * along;
@@ -83,8 +79,7 @@ void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetti
   else
     row[lift_] = f.dot(across) / unit, row[drag_] = f.dot(along) / unit;
   row[residual_] = p.density_residual, row[momentum_] = p.mean_residual, row[model_] = p.model_residual;
-  row[cfl_] = p.cfl, row[krylov_] = p.krylov, row[steps_] = p.step + 1, row[limited_] = double(p.limited);
-  if (!steady_) row[unconverged_] = double(unconverged);
+  row[cfl_] = p.cfl, row[krylov_] = p.krylov, row[steps_] = p.step + 1;
 }
 
 }  // namespace spindrift::run

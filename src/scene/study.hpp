@@ -1,7 +1,7 @@
 // STUDY.toml: rungs of a ladder of scenes, how their results differ from a reference, and what is good enough.
-// Read by the same declarations as a scene; `spindrift study` (src/app) checks what expand() names, src/report/spindrift_study.py runs and judges it.
-// Tested in tests/src/scene/study_test.cpp; explained in docs/user/studies.md.
-// SPDX-License-Identifier: Apache-2.0
+// Read by the same declarations as a scene; `spindrift study` (src/app) checks what expand() names, src/report/spindrift_study.py
+// runs and judges it. Tested in tests/src/scene/study_test.cpp; explained in docs/user/studies.md. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <optional>

@@ -93,8 +93,11 @@ class Scenes(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 found = json.loads((self.folder / file.stem / "study.json").read_text())
                 if "runs" in entry:
-                    self.assertEqual(len(found["runs"]), entry["runs"])
-                self.assertTrue((self.folder / file.stem / "study.html").exists())
+                    self.assertEqual(len(found["rungs"]), entry["runs"])
+                page = (self.folder / file.stem / "study.html").read_text(encoding="utf-8")
+                for rung in found["rungs"]:
+                    self.assertIn(rung["name"], page)
+                self.assertNotIn("$\\mathdefault", page)  # ticks are numbers
 
 
 class Commands(unittest.TestCase):

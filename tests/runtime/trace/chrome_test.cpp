@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/trace/chrome.hpp"
 
+#include <unistd.h>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <map>
@@ -17,7 +18,8 @@ using nlohmann::json;
 namespace {
 
 std::vector<json> events_of(const std::vector<RankTrace>& traces, const std::string& phase, ChromeOptions options = {}) {
-  const std::string path = std::string(SPINDRIFT_BINARY_DIR) + "/chrome_test.json";
+  const std::string path = std::string(SPINDRIFT_BINARY_DIR) + "/chrome_test_" + std::to_string(getpid()) +
+                           ".json";  // tests of one file may run side by side
   write_chrome_trace(traces, path, options);
   const json all = json::parse(std::ifstream(path));
   std::remove(path.c_str());

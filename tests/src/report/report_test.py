@@ -20,7 +20,6 @@ import figures
 import page
 import picture
 import quantities
-import study_page
 import synthetic_run
 import verdict
 from run_data import RunData
@@ -283,23 +282,6 @@ class PartsTest(unittest.TestCase):
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Lines"], "bad")
             run.values[run.columns.index("float.z_m")] = 0.05 * t
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Settled"], "warn")
-
-    def test_ticks_of_a_study_are_numbers_and_its_names_are_whole(self):
-        runs = [{"name": f"a long name of a run, number {i}", "exit_code": 0, "exit_reason": "", "core_seconds": 10.0 * 1.6**i, "on_front": i != 2,
-                 "errors": {"heave": 0.01 / (i + 1) ** 2}} for i in range(6)]
-        study = {"study": "a.toml", "reference": "finest", "metrics": [{"name": "heave", "column": "p.z_m", "target": 2e-4}], "runs": runs,
-                 "cheapest_within_targets": None}
-        with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "study.json").write_text(json.dumps(study))
-            text = study_page.build(pathlib.Path(folder))
-        parsed = Parsed(text)
-        self.assertNotIn("$", text)
-        self.assertIn("No run meets every target", parsed.text)
-        for run in runs:
-            self.assertIn(run["name"], parsed.text)
-        width = float(re.search(r'viewBox="0 0 ([\d.]+)', text)[1])
-        for x in re.findall(r'<text[^>]*translate\(([\d.]+)', text):
-            self.assertLess(float(x), width)
 
     def test_a_spectrum_has_its_peak_at_the_frequency_and_the_variance_as_area(self):
         t = 0.05 * np.arange(6000)
