@@ -244,8 +244,9 @@ TEST_CASE(
     const Marched with = marched(s, 10.0), with_long = marched(s, 50.0);
     CAPTURE(name, direct, with.drop, ilu_long.drop, with_long.drop, ilu.load.thrust, with.load.thrust);
     CHECK(with.drop <= 1e-3);
-    CHECK(with.load.thrust == Approx(ilu.load.thrust).epsilon(1e-3));
-    CHECK(with.load.torque == Approx(ilu.load.torque).epsilon(1e-3));
+    // Two steps, each with what a drop of 1e-3 leaves of its linear system.
+    CHECK(with.load.thrust == Approx(ilu.load.thrust).epsilon(2e-3));
+    CHECK(with.load.torque == Approx(ilu.load.torque).epsilon(2e-3));
     if (std::string(name) == "coarse") CHECK(with_long.drop < 0.7 * ilu_long.drop);
   }
 }
