@@ -143,7 +143,7 @@ class Program(unittest.TestCase):
         self.assertAlmostEqual(paper["cells"] / 8e6, 1.0, delta=0.05)
         self.assertAlmostEqual(paper["water"] / 5e6, 1.0, delta=0.02)
         self.assertLess(float(paper["memory"].group(1)), 24.0)
-        self.assertTrue(paper["verdict"] and not demo["verdict"])  # windows of 0.02 and 0.1 s against 3P at 0.44 Hz
+        self.assertTrue(paper["verdict"] and demo["verdict"])  # each scene with a scheme that its window suits, 3P at 0.44 Hz
         self.assertTrue(0.1 < cost("demo", "--calibrate")["rate"] / demo["rate"] < 10.0)
 
 
