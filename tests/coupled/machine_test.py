@@ -350,7 +350,8 @@ class MachineRun(Machine):
             self.spindrift(text, name + "_third", settings=[*start, "time.window_s=0.05", "coupling.scheme='cps'", "aero.flow.cfl_max=10"])
             third = self.rows(name + "_third")
             self.assertEqual(len(third), 5)
-            self.assertAlmostEqual(third[-1]["platform.x_m"], after[-1]["platform.x_m"], delta=0.02 * abs(after[-1]["platform.x_m"]))
+            # Close by what the thrust alone would do to the machine in this time, some 2 cm.
+            self.assertAlmostEqual(third[-1]["platform.x_m"], after[-1]["platform.x_m"], delta=0.02 * 0.02)
             self.assertNotEqual(third[-1]["platform.x_m"], after[-1]["platform.x_m"])
             # Much shorter ones: the air is where the rotor is, not where cps2 had foretold it for 0.1 s; no jolt.
             short = ["time.window_s=0.001", "time.end_s=0.203"] + (["time.step_s=0.001"] if text is ENGINEERING else [])
@@ -419,16 +420,18 @@ class Placement(Machine):
                 self.assertIn(word, said)
 
     def test_a_failure_of_one_fluid_stops_both_with_the_reason_and_the_last_good_state(self):
-        # The largest step of the particles at rest, which they outgrow as they move. (The air's: tests/src/coupling/sides_test.cpp.)
-        said = self.spindrift(PARTICLES, "failed", settings=["time.step_s=0.008333333333333333", *self.SPLIT], ranks=2, code=3)
+        # The largest step of the particles at rest, which they outgrow round a machine too heavy to float. (The air's:
+        # tests/src/coupling/sides_test.cpp.)
+        heavy = ["time.step_s=0.008333333333333333", "bodies.platform.mass_kg=5e8", "time.end_s=1.5", *self.SPLIT]
+        said = self.spindrift(PARTICLES, "failed", settings=heavy, ranks=2, code=3)
         self.assertIn("sea: the step of", said)
         self.assertTrue(list((self.path / "failed/checkpoints").iterdir()))
         summary = json.loads((self.path / "failed/summary.json").read_text())
         self.assertEqual(summary["exit_code"], 3)
         self.assertIn("sea: the step of", summary["exit_reason"])
-        said = self.spindrift(PARTICLES, "failed", "--restart", settings=self.SPLIT, ranks=2, code=2)  # with another step
+        said = self.spindrift(PARTICLES, "failed", "--restart", settings=heavy[1:], ranks=2, code=2)  # with another step
         self.assertIn("time.step_s: was 0.00833", said)
-        said = self.spindrift(PARTICLES, "failed", "--restart", "--allow-change", "time.step_s", settings=self.SPLIT, ranks=2, code=2)
+        said = self.spindrift(PARTICLES, "failed", "--restart", "--allow-change", "time.step_s", settings=heavy[1:], ranks=2, code=2)
         self.assertIn("a restart keeps time.window_s and time.step_s", said)
 
     def test_too_few_ranks_are_refused(self):
