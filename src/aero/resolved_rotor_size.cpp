@@ -48,7 +48,8 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   const linear::CellBox cells{ni, nj, nk};
   double bytes = wide * (2.0 * box(ni, nj, nk, state_ghosts, kind.unknowns) +
                          box(ni, nj, nk, gradient_ghosts, gradient_components(kind.turbulence, kind.eddies)) +
-                         (1 + kind.time_order) * box(ni, nj, nk, 0, kind.unknowns) + box(ni, nj, nk, 0, 1));
+                         (1 + kind.time_order) * box(ni, nj, nk, 0, kind.unknowns) + box(ni, nj, nk, 0, 1) +
+                         (kind.turbulence > 0 ? box(ni, nj, nk, 0, kind.turbulence) : 0.0));
   double matrix = double(linear::StencilMatrix<5>::size(cells, 3)), vectors = kind.krylov_steps + 1;
   if (kind.turbulence == 1) matrix += double(linear::StencilMatrix<1>::size(cells, 3));
   if (kind.turbulence == 2) matrix += double(linear::StencilMatrix<2>::size(cells, 3));

@@ -12,6 +12,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "runtime/executor/executor.hpp"
+#include "runtime/mpi/exchange.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
 #include "src/aero/coarse_start.hpp"
@@ -83,21 +84,21 @@ struct Air {
       return;
     }
     own_grid = aero::flow_grid(o);
-    if (const std::string why = o.coarse_steps > 0 ? aero::why_not_halved(own_grid) : std::string(); !why.empty())
+    if (const std::string why = o.coarse_steps.value_or(0) > 0 ? aero::why_not_halved(own_grid) : std::string(); !why.empty())
       throw scene::SceneError(
-          {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", o.coarse_steps),
+          {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", *o.coarse_steps),
             fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
     if (o.motion) follow(o);
     solve(s, world, steady_chunk);
   }
-  /// On the grid of every second node, all of it on this rank.
-  Air(const Air& fine, const Scenario& s) {
+  /// On a coarser grid, for at most so many pseudo-steps.
+  Air(aero::MultiBlockGrid grid, const Scenario& s, const runtime::World& world, int steps) {
     Scenario coarse = s;
     aero::FlowOptions& o = *coarse.aero.flow;
     o.drop = o.coarse_drop;
     if (o.preconditioner == "auto") o.preconditioner = aero::FlowOptions().preconditioner;
-    own_grid = aero::halved(fine.own_grid);
-    solve(coarse, {.comm = MPI_COMM_SELF, .rank = 0, .size = 1}, o.coarse_steps);
+    own_grid = std::move(grid);
+    solve(coarse, world, steps);
   }
   /// Tiles and solver on own_grid; at most `steps` pseudo-steps a run where the flow is steady.
   void solve(const Scenario& s, const runtime::World& world, int steps) {
@@ -154,34 +155,104 @@ void fill_geometry(FlowSolver& solver, MPI_Comm comm) {
   runtime::Executor(std::move(geometry), {.threads = 1}).run();
 }
 
-/// Grid sequencing of grids that are no rotor's: the flow settles on every second node first; what the drop is counted from stays
-/// the residual of the undisturbed flow on the fine grid. `march` is the fine one's. Every rank makes the same coarse flow for
-/// itself.
-void start_on_coarser_grid(const Scenario& s, Air& air, runtime::Executor& march) {
-  air.solver->march().look();
+/// Marches once; `march` was recorded of the solver.
+void look_at_start(FlowSolver& solver, runtime::Executor& march) {
+  solver.march().look();
   march.run();
-  air.solver->clear_rows();
-  Air coarse(air, s);
-  fill_geometry(*coarse.solver, MPI_COMM_SELF);
-  runtime::Graph graph(MPI_COMM_SELF);
-  coarse.solver->record(graph);
-  runtime::Executor(std::move(graph)).run();
-  const aero::March& done = coarse.solver->march();
-  aero::begin_with(*coarse.solver, *air.solver);
-  spdlog::info("air: {} pseudo-steps on every second node, {} cells: {}", done.steps(), coarse.solver->cells(), done.why());
+  solver.clear_rows();
+}
+
+/// Pseudo-steps on each coarser grid where the scene does not say.
+constexpr int usual_coarse_steps = 100;
+
+/// Grid sequencing of grids that are no rotor's: the flow settles on coarser grids first, the coarsest before the others, their
+/// tiles spread over the ranks like the fine one's. What a drop is counted from stays the residual of the undisturbed flow on
+/// each grid. `march` is the fine one's. A coarser grid whose march fails is passed over.
+void start_on_coarser_grids(const Scenario& s, Air& air, runtime::Executor& march, const runtime::World& world) {
+  const aero::FlowOptions& o = *s.aero.flow;
+  std::vector<aero::MultiBlockGrid> grids;
+  for (const aero::MultiBlockGrid* last = &air.own_grid;
+       int(grids.size()) < o.coarse_levels && aero::why_not_halved(*last).empty(); last = &grids.back())
+    grids.push_back(aero::halved(*last));
+  if (grids.empty()) return;
+  look_at_start(*air.solver, march);
+  std::unique_ptr<Air> coarser;
+  while (!grids.empty()) {
+    auto next = std::make_unique<Air>(std::move(grids.back()), s, world, o.coarse_steps.value_or(usual_coarse_steps));
+    grids.pop_back();
+    FlowSolver& solver = *next->solver;
+    fill_geometry(solver, world.comm);
+    runtime::Graph graph(world.comm);
+    solver.record(graph);
+    runtime::Executor executor(std::move(graph));
+    if (coarser) {
+      look_at_start(solver, executor);
+      aero::begin_with(*coarser->solver, solver, {}, world.comm);
+      solver.march().begin_after_look();
+    }
+    executor.run();
+    const aero::March& done = solver.march();
+    if (done.verdict() == aero::Verdict::failed) {
+      spdlog::warn("air: on a coarser grid of {} cells the march failed ({}); the next begins without it", solver.cells(),
+                   done.why());
+      coarser.reset();
+      continue;
+    }
+    spdlog::info("air: {} pseudo-steps on a coarser grid of {} cells, flux balance down to {:.2g}: {}", done.steps() - 1,
+                 solver.cells(), done.balance_drop(), done.why());
+    solver.forget_graphs();
+    coarser = std::move(next);
+  }
+  if (coarser) aero::begin_with(*coarser->solver, *air.solver, {}, world.comm);
   air.solver->march().begin_after_look();
+}
+
+/// Says where first cells stand in another part of the layer than their wall is made for: nine tenths of the walls' area by y+ of
+/// their centres. Resolved walls want about 1, the law of the wall the logarithmic layer.
+void tell_first_cells(const FlowSolver& solver, const runtime::World& world) {
+  struct Face {
+    double area, y_plus;
+  };
+  std::array<std::vector<Face>, 2> walls;  // resolved, by the law of the wall
+  for (const aero::FlowTile& tile : solver.tiles())
+    for (const aero::WallPoint& p : solver.wall_points(tile)) {
+      const aero::Condition c = solver.conditions()[std::size_t(p.patch)].condition;
+      if (aero::sticks(c)) walls[c == aero::Condition::wall_law].push_back({p.area, p.y_plus});
+    }
+  constexpr std::array<double, 2> least{0.0, 15.0}, most{5.0, 1000.0};
+  constexpr double share = 0.9;
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    runtime::Packer mine;
+    mine.put(std::span<const Face>(walls[kind]));
+    std::vector<Face> all;
+    for (const runtime::Bytes& bytes : runtime::exchange_all(world.comm, mine.take()))
+      for (const Face& face : runtime::Unpacker(bytes).many<Face>()) all.push_back(face);
+    if (all.empty()) continue;
+    std::ranges::sort(all, {}, &Face::y_plus);
+    double area = 0.0, off = 0.0;
+    for (const Face& f : all) area += f.area, off += f.y_plus < least[kind] || f.y_plus > most[kind] ? f.area : 0.0;
+    if (off <= (1.0 - share) * area) continue;
+    spdlog::warn(
+        "air: y+ of first cells is {:.3g} in the middle, {:.3g} at most; {} walls want {:g} to {:g}, which {:.0f} % of their "
+        "area does not have: friction is not to be trusted",
+        all[all.size() / 2].y_plus, all.back().y_plus, kind == 0 ? "resolved" : "wall-function", least[kind], most[kind],
+        100.0 * off / area);
+  }
 }
 
 /// Columns of history.csv and how a row fills them.
 struct FlowColumns {
-  std::size_t force[3], lift, drag, residual, momentum, model, cfl, krylov, steps;
+  std::size_t force[3], lift, drag, residual, momentum, model, cfl, krylov, steps, limited, unconverged = 0;
   const aero::ResolvedRotor* rotor;
   const aero::GridMotion* motion;
   std::size_t pitch = 0, heave[3] = {0, 0, 0};
   std::size_t thrust = 0, torque = 0, power = 0, azimuth = 0, rpm = 0;
   std::vector<std::array<std::size_t, 2>> blades;  ///< thrust and torque
 
-  FlowColumns(io::History& history, const aero::ResolvedRotor* of, const aero::GridMotion* moving) : rotor(of), motion(moving) {
+  bool steady = true;
+
+  FlowColumns(io::History& history, const aero::ResolvedRotor* of, const aero::GridMotion* moving, bool is_steady)
+      : rotor(of), motion(moving), steady(is_steady) {
     if (rotor) add_rotor(history);
     if (motion) add_motion(history);
     const char* axes[3] = {"x", "y", "z"};
@@ -199,6 +270,10 @@ struct FlowColumns {
     cfl = history.add({"flow.cfl", "-", "CFL number of the pseudo-step."});
     krylov = history.add({"flow.krylov_steps", "-", "Iterations of the linear solver in the pseudo-step before."});
     steps = history.add({"flow.pseudo_steps", "-", "Pseudo-steps: so far (steady), of the window (unsteady)."});
+    limited = history.add({"flow.limited_cells", "-", "Cells whose last update was too large: it was shortened."});
+    if (!steady)
+      unconverged =
+          history.add({"flow.unconverged_windows", "-", "Windows so far that spent their pseudo-steps without the drop."});
   }
   void add_rotor(io::History& history) {
     thrust = history.add({"rotor.thrust_N", "N", "Force of the air on the blades along the rotor axis, positive downwind."});
@@ -246,7 +321,8 @@ struct FlowColumns {
     else
       row[lift] = f.dot(across) / unit, row[drag] = f.dot(along) / unit;
     row[residual] = p.density_residual, row[momentum] = p.mean_residual, row[model] = p.model_residual;
-    row[cfl] = p.cfl, row[krylov] = p.krylov, row[steps] = p.step + 1;
+    row[cfl] = p.cfl, row[krylov] = p.krylov, row[steps] = p.step + 1, row[limited] = double(p.limited);
+    if (!steady) row[unconverged] = double(solver.march().unconverged());
   }
 };
 
@@ -335,19 +411,20 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   io::History history;
   FlowCheckpoints checkpoints(world, air, directory, s, history);
   if (s.aero.flow->preconditioner == "auto") choose_for(air, checkpoints, directory, world, settings.restart);
-  const int coarse_steps = settings.restart ? 0 : s.aero.flow->coarse_steps;
-  if (coarse_steps > 0 && air.rotor) {
-    const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(s), coarse_steps, *air.rotor);
+  const bool begins = air.steady() && !settings.restart;
+  if (const int coarse_steps = s.aero.flow->coarse_steps.value_or(0); begins && coarse_steps > 0 && air.rotor) {
+    const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(s), coarse_steps, *air.rotor, world);
     spdlog::info("air: {} pseudo-steps on a grid of half the resolution: thrust {:.4g} kN, power {:.4g} MW", coarse_steps,
                  1e-3 * load.thrust, 1e-6 * load.power);
   }
   runtime::Graph graph(world.comm);
   solver.record(graph);
   runtime::Executor executor(std::move(graph));
-  if (coarse_steps > 0 && !air.rotor) start_on_coarser_grid(s, air, executor);
+  if (begins && !air.rotor && s.aero.flow->coarse_steps.value_or(usual_coarse_steps) > 0)
+    start_on_coarser_grids(s, air, executor, world);
 
   io::Summary summary;
-  const FlowColumns columns(history, air.rotor.get(), air.motion ? &*air.motion : nullptr);
+  const FlowColumns columns(history, air.rotor.get(), air.motion ? &*air.motion : nullptr, air.steady());
   std::int64_t number = 0, saved = -1;
   if (settings.restart) {
     number = checkpoints.resume(summary.restarts);
@@ -406,6 +483,22 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
     } else {
       write_row(solver.rows().back(), timeline.window_end_s(++number));
       solver.clear_rows();
+      const long unconverged = march.unconverged();
+      if (march.spent() && unconverged == 1)
+        spdlog::warn(
+            "air: the window to t = {:.6g} s spent its {} pseudo-steps; the flux balance has fallen by {:.2g} of {:.2g} "
+            "asked for; {}",
+            timeline.window_end_s(number), march.steps() - 1, march.balance_drop(), s.aero.flow->drop, solver.worst_cell());
+      if (const double most = s.aero.flow->unconverged_share * double(timeline.windows()); double(unconverged) > most) {
+        summary.exit_code = 3;
+        summary.exit_reason = fmt::format(
+            "aero: {} of {} windows spent their {} pseudo-steps without the drop of {:.2g} (aero.flow.max_pseudo_steps, .drop), "
+            "at "
+            "most {:g} may (aero.flow.unconverged_share); the last, to t = {:.6g} s, ended at {:.2g}; {}",
+            unconverged, march.ended(), solver.setting().march.max_steps, s.aero.flow->drop, std::floor(most),
+            timeline.window_end_s(number), march.balance_drop(), solver.worst_cell());
+        summary.numerical_trouble.push_back(summary.exit_reason);
+      }
     }
     if (march.verdict() == aero::Verdict::failed) {
       summary.exit_code = 3;
@@ -419,10 +512,22 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
       summary.exit_code = 5, summary.exit_reason = why;
     if (plan.due(world.comm, before, number)) save();
   }
+  if (air.steady() && summary.exit_code == 0 && !settled && number == timeline.windows() && s.aero.flow->drop > 0.0) {
+    const aero::March& march = solver.march();
+    summary.exit_code = 3;
+    summary.exit_reason = fmt::format(
+        "aero: not converged in the {} pseudo-steps of the scene: the flux balance has fallen by {:.2g}, the density residual by "
+        "{:.2g}, of {:.2g} asked for (aero.flow.drop; 0 takes all steps whatever they reach); {}; --restart with a larger "
+        "time.end_s goes on",
+        march.steps() - 1, march.balance_drop(), march.density_residual() / std::max(march.first_density_residual(), 1e-300),
+        s.aero.flow->drop, solver.worst_cell());
+    summary.numerical_trouble.push_back(summary.exit_reason);
+  }
   history.flush();
   if (saved != number) checkpoints.save(number, number, summary.restarts);
   AirOutput(world.comm, solver, *air.store, directory.fields(), {.walls = s.aero.flow->surfaces})
       .write(number, timeline.window_end_s(number));
+  if (solver.setting().viscous && solver.setting().turbulence != "none") tell_first_cells(solver, world);
   if (air.rotor && number > first) {  // a restart that has nothing left to do leaves what there is
     while (last_rows.size() > averaged(number)) last_rows.pop_front();
     const std::vector<aero::PseudoRow> rows(last_rows.begin(), last_rows.end());
@@ -430,9 +535,12 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   }
 
   if (summary.exit_code == 0)
-    summary.exit_reason = !air.steady() ? "done"
-                          : settled     ? fmt::format("done: {}", solver.march().why())
-                                        : "done: the pseudo-steps of the scene are spent";
+    summary.exit_reason =
+        !air.steady() ? "done"
+        : settled     ? fmt::format("done: {}; flux balance down to {:.2g}, density residual to {:.2g}", solver.march().why(),
+                                    solver.march().balance_drop(),
+                                    solver.march().density_residual() / std::max(solver.march().first_density_residual(), 1e-300))
+                      : "done: the pseudo-steps of the scene are spent";
   summary.start_time_s = timeline.window_end_s(first);
   summary.end_time_s = timeline.window_end_s(number);
   summary.window_s = timeline.window_s();

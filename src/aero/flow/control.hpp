@@ -15,10 +15,18 @@ struct MarchOptions {
   double cfl_start = 5.0, cfl_max = 1e4, cfl_least = 1e-3;
   double growth = 2.0;       ///< most that the CFL number grows in a step
   double back_off = 0.2;     ///< what it is multiplied by after a rejected step
-  double rise_limit = 10.0;  ///< of the residual in one step; beyond it the step is rejected
-  double drop = 1e-2;        ///< of the density residual since the start of the (physical) step: done
-  double absolute = 0.0;     ///< density residual [kg/(m3 s)] below which all is done
-  double load_change = 0.0;  ///< relative change of the loads over load_window steps: done; 0: not looked at
+  double rise_limit = 10.0;  ///< of the residual in one step; beyond it a step is taken back whatever the rest says
+  /// A step is good where it lowers the residual, or leaves of the pseudo-time's own equation, R + D dq, at most so many times
+  /// the residual that it set out from: of the mean flow and of turbulence each by itself. A step that is not is shortened, then
+  /// taken back, in a row so many times at most, then let pass.
+  double accept = 1.2;
+  double shortening = 0.4;
+  int shortenings = 2, patience = 3;
+  double drop = 1e-2;       ///< of the residual since the start of the (physical) step: done
+  bool by_balance = false;  ///< the residual of the drop is the norm of all scaled flux balances; else that of the density's rate
+  double load_settled = 0.0;  ///< relative change of the loads over the last steps that a drop needs too; 0: not looked at
+  double absolute = 0.0;      ///< density residual [kg/(m3 s)] below which all is done
+  double load_change = 0.0;   ///< relative change of the loads over load_window steps: done; 0: not looked at
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
   int krylov_steps = 18;            ///< most Krylov iterations of a pseudo-step
@@ -33,8 +41,13 @@ struct Norms {
   double mass = 0.0;     ///< of squared mass balances: not divided by volumes
   double mean = 0.0;     ///< of squared scaled residuals of the mean flow
   double model = 0.0;    ///< of the turbulence unknowns
+  /// Likewise of what the last update left of the pseudo-time's own equation, R + D dq.
+  double mean_left = 0.0, model_left = 0.0;
+  double limited = 0.0;  ///< cells that limited the last update
   double cells = 1.0;
   double broken = 0.0;  ///< cells whose residual is not finite
+  double noise = 0.0;   ///< sum of mean and model that round-off alone may have
+  double total() const { return mean + model; }
 };
 
 enum class Verdict : std::uint8_t { go_on, rejected, converged, failed };
@@ -67,6 +80,11 @@ class March {
   double density_residual() const { return density_; }
   double mass_residual() const { return mass_; }
   double first_density_residual() const { return first_; }
+  /// The norm of all scaled flux balances over that of the start.
+  double balance_drop() const { return first_total_ > 0.0 ? before_ / first_total_ : 0.0; }
+  /// Marches so far that came to an end, and those of them that ended for want of steps.
+  long ended() const { return ended_; }
+  long unconverged() const { return unconverged_; }
   Verdict verdict() const { return verdict_; }
   bool spent() const { return spent_; }  ///< ended for want of steps
   /// Whether the matrix is to be made anew: always where it is the operator; else after refresh_every steps, or sooner where the
@@ -76,17 +94,23 @@ class March {
   int krylov() const { return krylov_; }
   long krylov_total() const { return krylov_total_; }
   double fraction() const { return fraction_; }
+  /// Of the update that is to be tried next: 1, less where the step was shortened, 0 where it is taken back.
+  double share() const { return share_; }
   double linear_drop() const { return linear_drop_; }
   const MarchOptions& options() const { return o_; }
 
  private:
+  double swing(int steps) const;
   MarchOptions o_;
+  double mean_ = 0.0, model_ = 0.0;  ///< squared norms of the state that was last good
   double cfl_, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
-  int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
+  double share_ = 1.0, cap_ = 0.0, low_ = 0.0, first_total_ = 0.0;
+  long ended_ = 0, unconverged_ = 0;
+  int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0, shortened_ = 0, since_low_ = 0, bad_in_a_row_ = 0;
   long krylov_total_ = 0;
   int since_refresh_ = 0;
   double cfl_of_matrix_ = 0.0, drop_of_matrix_ = 0.0;
-  double reference_ = 0.0;  ///< least density residual that counts as that of the start
+  double reference_ = 0.0, reference_total_ = 0.0;  ///< least residuals that count as those of the start
   bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false, looking_ = false;
   Verdict verdict_ = Verdict::go_on;
   const char* why_ = "";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/flow_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,7 +14,7 @@ namespace spindrift::aero {
 
 namespace {
 
-constexpr int norm_count = 5;
+constexpr int norm_count = 9;
 
 Scales scales_of(const FlowSetting& s) {
   const double rho = gas::density(s.gas, s.stream), u = s.speed;
@@ -22,11 +24,30 @@ Scales scales_of(const FlowSetting& s) {
   return scales;
 }
 
+/// Sum of squares of what round-off leaves in the scaled residuals of a uniform stream: a part in 1e14 of the pressure on all
+/// faces, which is 1 / (gamma M^2) in their units.
+double noise_of(const FlowTile& tile, const FlowSetting& s) {
+  const double c = gas::sound_speed(s.gas, s.stream), unit = 1e-14 * (1.0 + c * c / (s.speed * s.speed));
+  double sum = 0.0;
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; ++i) {
+      double area = 0.0;
+      for (int d = 0; d < tile.directions; ++d) {
+        const int at[3] = {i + (d == 0), j + (d == 1), k + (d == 2)};
+        area += load_face(*tile.geometry, d, k, j, i).area[0] + load_face(*tile.geometry, d, at[2], at[1], at[0]).area[0];
+      }
+      sum += unit * unit * area * area;
+    }
+  });
+  return sum;
+}
+
 }  // namespace
 
 std::size_t FlowTile::bytes() const {
   std::size_t sum = state.bytes() + trial.bytes() + source.bytes() + gradients.bytes() + residual.bytes() + before.bytes() +
-                    before_that.bytes() + rate.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() + direction.bytes();
+                    before_that.bytes() + rate.bytes() + model_time.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() +
+                    direction.bytes();
   for (const auto& v : vectors) sum += v.bytes();
   for (const auto& v : directions_kept) sum += v.bytes();
   for (const auto& v : open) sum += v.bytes();
@@ -81,7 +102,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     const double eddy = 100.0 * nu, k = 1e-2 * setting.speed * setting.speed;
     implicit_.scales.model_unknown = model_->equations == 1 ? std::array{eddy, 1.0} : std::array{k, k / eddy};
     for (std::size_t t = 0; t < 2; ++t)
-      implicit_.scales.model_residual[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
+      implicit_.scales.model_residual[t] = model_unit_[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
   }
 
   periodic_ = tiling.periodic;
@@ -130,6 +151,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     t.gradients = AlignedArray<double>(t.gradient_box.size(gradient_components(t.turbulence, t.eddies)));
     t.residual = AlignedArray<double>(t.inner.size(unknowns));
     t.rate = AlignedArray<double>(t.inner.size(1));
+    if (t.turbulence > 0) t.model_time = AlignedArray<double>(t.inner.size(t.turbulence));
     if (setting.time_order > 0) t.before = AlignedArray<double>(t.inner.size(unknowns));
     if (setting.time_order > 1) t.before_that = AlignedArray<double>(t.inner.size(unknowns));
     t.mean_matrix = AlignedArray<float>(linear::StencilMatrix<5>::size(t.box, t.directions));
@@ -146,7 +168,8 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   dot_partials_.resize(owned * std::size_t(columns + 1));
   size_partials_.resize(owned);
   fraction_partials_.resize(owned);
-  limits_.resize(owned);
+  limits_.resize(owned), limited_cells_.resize(owned);
+  for (const FlowTile& tile : tiles_) noise_.push_back(noise_of(tile, setting));
   norm_sums_.resize(norm_count);
   loads_.resize(std::max<std::size_t>(1, conditions_.size()) * load_components);
   dots_.resize(std::size_t(columns + 1));
@@ -394,8 +417,34 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
   const TileGeometry& g = *tile.geometry;
   std::fill(partial.begin(), partial.end(), 0.0);
   const Scales& s = implicit_.scales;
+  const std::size_t component = std::size_t(tile.cells.component);
+  const double inverse_cfl = 1.0 / march_.cfl();
+  partial[8] = noise_[std::size_t(&tile - tiles_.data())];
+  partial[6] = limited_cells_[std::size_t(&tile - tiles_.data())];
   for_rows(tile.box, [&](int k, int j) {
-    double density = 0.0, mass = 0.0, mean = 0.0, model = 0.0;
+    double density = 0.0, mass = 0.0, mean = 0.0, model = 0.0, mean_left = 0.0, model_left = 0.0;
+    if (stepped_)
+      for (int i = 0; i < tile.box.ni; i += row_lanes) {
+        const double *now = tile.state.data() + tile.cells.at(k, j, i), *past = tile.trial.data() + tile.cells.at(k, j, i),
+                     *r = tile.residual.data() + tile.inner.at(k, j, i);
+        const auto q = gas::load_primitive<Row>(past, component);
+        const Row rate = Row::load(tile.rate.data() + tile.inner.at(k, j, i)) * inverse_cfl;
+        const auto thermo = gas::preconditioned(setting_.gas, gas::thermo(setting_.gas, q), reference_squared(implicit_, q));
+        const auto change = rate * gas::conserved_change(setting_.gas, thermo, q, gas::load_primitive<Row>(now, component) - q);
+        const int used = std::min(int(row_lanes), tile.box.ni - i);
+        const auto add = [&](double& left, int c, const Row& d, double unit) {
+          const Row sum = (Row::load(r + c * tile.inner.component) + d) * (1.0 / unit);
+          for (int lane = 0; lane < used; ++lane) left += sum[lane] * sum[lane];
+        };
+        add(mean_left, 0, change.rho, s.residual[0]), add(mean_left, 1, change.mx, s.residual[1]);
+        add(mean_left, 2, change.my, s.residual[2]), add(mean_left, 3, change.mz, s.residual[3]);
+        add(mean_left, 4, change.E, s.residual[4]);
+        for (int t = 0; t < tile.turbulence; ++t) {
+          const std::ptrdiff_t c = (mean_unknowns + t) * tile.cells.component;
+          const Row time = Row::load(tile.model_time.data() + tile.inner.at(k, j, i) + t * tile.inner.component);
+          add(model_left, mean_unknowns + t, time * (Row::load(now + c) - Row::load(past + c)), model_unit_[std::size_t(t)]);
+        }
+      }
     for (int i = 0; i < tile.box.ni; ++i) {
       const double* r = tile.residual.data() + tile.inner.at(k, j, i);
       const double rate = r[0] / g.volume_data.data()[g.cell_box.at(k, j, i)];
@@ -405,7 +454,7 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
         mean += scaled * scaled;
       }
       for (int t = 0; t < tile.turbulence; ++t) {
-        const double scaled = r[(mean_unknowns + t) * tile.inner.component] / s.model_residual[std::size_t(t)];
+        const double scaled = r[(mean_unknowns + t) * tile.inner.component] / model_unit_[std::size_t(t)];
         model += scaled * scaled;
       }
     }
@@ -413,7 +462,8 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
       partial[3] += 1.0;
       limits_[std::size_t(&tile - tiles_.data())] = {0.0, {0, j, k}, "no finite residual in the row of"};
     }
-    partial[0] += density, partial[1] += mean, partial[2] += model, partial[4] += mass;
+    partial[0] += density, partial[1] += mean, partial[2] += model, partial[4] += mass, partial[5] += mean_left,
+        partial[7] += model_left;
   });
   std::fill(loads.begin(), loads.end(), 0.0);
   add_loads(tile, tile.state.data(), viscous_, bands_, loads);
@@ -425,8 +475,12 @@ void FlowSolver::judge() {
             .mass = norm_sums_[4],
             .mean = norm_sums_[1],
             .model = norm_sums_[2],
+            .mean_left = norm_sums_[5],
+            .model_left = norm_sums_[7],
+            .limited = norm_sums_[6],
             .cells = double(cells()),
-            .broken = norm_sums_[3]};
+            .broken = norm_sums_[3],
+            .noise = norm_sums_[8]};
   double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
   for (std::size_t p = 0; p < conditions_.size(); ++p)
     if (conditions_[p].loads)
@@ -447,6 +501,7 @@ void FlowSolver::judge() {
                    .mean_residual = std::sqrt(norms_.mean),
                    .model_residual = std::sqrt(norms_.model),
                    .fraction = march_.fraction(),
+                   .limited = long(norms_.limited),
                    .matrix_free = matrix_free_,
                    .force = {force[0], force[1], force[2]},
                    .moment = {moment[0], moment[1], moment[2]},
@@ -454,9 +509,19 @@ void FlowSolver::judge() {
   if (watcher_) watcher_(rows_.back());
   if (verdict == Verdict::failed) name_trouble();
   solving_ = verdict == Verdict::go_on;
+  stepped_ = solving_ || (verdict == Verdict::rejected && march_.share() > 0.0);
   matrix_free_ = march_.matrix_free();
   if (refreshes()) ++matrices_;
-  if (solving_) cycle_.start(std::sqrt(norms_.mean + norms_.model));
+  if (!solving_) return;
+  // The linear solver lowers one norm. What turbulence brings to it is made no larger than the mean flow's part, or errors of the
+  // order of the one would be let into the other. With a matrix that is kept its units are kept.
+  if (refreshes() && model_->equations > 0) {
+    const double times = norms_.mean > 0.0 ? std::max(1.0, std::sqrt(norms_.model / norms_.mean)) : 1.0;
+    for (std::size_t t = 0; t < 2; ++t) implicit_.scales.model_residual[t] = times * model_unit_[t];
+  }
+  const double share = model_unit_[0] / implicit_.scales.model_residual[0];
+  linear_norm_ = std::sqrt(norms_.mean + share * share * norms_.model);
+  cycle_.start(linear_norm_);
 }
 
 void FlowSolver::name_trouble() {
@@ -469,14 +534,40 @@ void FlowSolver::name_trouble() {
              std::to_string(at[1]) + ", " + std::to_string(at[2]) + ")";
 }
 
+std::string FlowSolver::worst_cell() const {
+  double worst = -1.0;
+  const FlowTile* of = nullptr;
+  Index cell{};
+  int unknown = 0;
+  for (const FlowTile& tile : tiles_)
+    for_rows(tile.box, [&](int k, int j) {
+      for (int i = 0; i < tile.box.ni; ++i)
+        for (int c = 0; c < tile.unknowns(); ++c) {
+          const double unit =
+              c < mean_unknowns ? implicit_.scales.residual[std::size_t(c)] : model_unit_[std::size_t(c - mean_unknowns)];
+          const double r = std::abs(tile.residual.data()[tile.inner.at(k, j, i) + c * tile.inner.component]) / unit;
+          if (!(r <= worst)) worst = r, of = &tile, cell = {i, j, k}, unknown = c;
+        }
+    });
+  if (of == nullptr) return {};
+  static constexpr std::array<const char*, mean_unknowns + 1> names{"mass",     "momentum", "momentum",
+                                                                    "momentum", "energy",   "turbulence"};
+  const Tile& tile = grid_.tiling().tiles[std::size_t(of->index)];
+  const Index at = tile.to_block(cell);
+  const double* x = of->geometry->centre_data.data() + of->geometry->cell_box.at(cell[2], cell[1], cell[0]);
+  const std::ptrdiff_t c = of->geometry->cell_box.component;
+  return fmt::format("the balance of {} is worst in block {} cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m",
+                     names[std::size_t(std::min(unknown, mean_unknowns))], tile.block, at[0], at[1], at[2], x[0], x[c], x[2 * c]);
+}
+
 void FlowSolver::build_matrix(FlowTile& tile) {
   if (!solving_) return;
-  sweep_rates(tile, tile.state.data(), implicit_);
+  sweep_rates(tile, tile.state.data(), march_.cfl(), implicit_);
   if (!refreshes()) return;  // the pseudo-time of matrix-free products follows the state all the same
   const double* eddy =
       tile.eddies ? tile.gradients.data() + eddy_component(tile.turbulence) * tile.gradient_box.component : nullptr;
   sweep_jacobian(tile, tile.state.data(), eddy, march_.cfl(), implicit_);
-  if (tile.turbulence > 0) model_->matrix(tile, tile.state.data(), march_.cfl(), implicit_);
+  if (tile.turbulence > 0) model_->matrix(tile, tile.state.data(), implicit_);
 }
 
 /// v_0: the scaled residual with its sign turned, of unit length.
@@ -582,20 +673,12 @@ void FlowSolver::product(FlowTile& tile, int j, std::span<double> dots) {
       model = w + tile.box.count() * mean_unknowns;
       for_rows(tile.box, [&](int k, int row) {
         for (int i = 0; i < tile.box.ni; ++i) {
-          const auto q =
-              gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, row, i), std::size_t(tile.cells.component));
-          const double time = gas::density(setting_.gas, q) * tile.rate.data()[tile.inner.at(k, row, i)] / march_.cfl();
           for (int t = 0; t < tile.turbulence; ++t) {
             const double unit = implicit_.scales.model_unknown[std::size_t(t)] / implicit_.scales.model_residual[std::size_t(t)];
             const float z =
                 tile.direction.data()[(mean_unknowns + t) * tile.gradient_box.component + tile.gradient_box.at(k, row, i)];
-            const bool of_k = tile.turbulence == 2 && t == 0;
-            const double slowed =
-                of_k
-                    ? time + growth_damping(tile.residual.data()[tile.inner.at(k, row, i) + mean_unknowns * tile.inner.component],
-                                            tile.state.data()[tile.cells.at(k, row, i) + mean_unknowns * tile.cells.component])
-                    : time;
-            *model++ += float(slowed * unit * double(z));
+            const double time = tile.model_time.data()[tile.inner.at(k, row, i) + t * tile.inner.component];
+            *model++ += float(time * unit * double(z));
           }
         }
       });
@@ -612,26 +695,35 @@ void FlowSolver::precondition_solution(FlowTile& tile) {
   if (solving_ && cycle_.precondition_at_end()) preconditioner_->apply({&tile, cycle_.solution(tile), cycle_.solution(tile)});
 }
 
-/// Of the change of the unknowns: the fraction that keeps pressure and temperature positive.
+/// Of the change of the unknowns: the fraction that no cell finds too large.
 double FlowSolver::find_update(FlowTile& tile) {
   if (!solving_) return 1.0;
   const float* x = cycle_.solution(tile);
-  constexpr double most = 0.2;  // of the absolute value, in one pseudo-step
+  constexpr double most =
+      0.2;  // of the absolute value, in one pseudo-step; of the speed, the larger of the cell's and the scale:
+  constexpr double most_speed = 1.0;
   double fraction = 1.0;
   Limit& limit_of_tile = limits_[std::size_t(&tile - tiles_.data())];
   limit_of_tile = {};
+  double& limited = limited_cells_[std::size_t(&tile - tiles_.data())];
+  limited = 0.0;
   const Scales& s = implicit_.scales;
   const float* d = x;
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; ++i, d += mean_unknowns) {
       const auto q = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
-      const auto limit = [&](double change, double value, const char* what) {
-        if (std::abs(change) <= most * value) return;
-        const double allowed = std::isfinite(change) ? most * value / std::abs(change) : 0.0;  // not a number must not hide
+      bool binds = false;
+      const auto limit = [&](double change, double value, double share, const char* what) {
+        if (std::abs(change) <= share * value) return;
+        binds = true;
+        const double allowed = std::isfinite(change) ? share * value / std::abs(change) : 0.0;  // not a number must not hide
         if (allowed < fraction) fraction = allowed, limit_of_tile = {allowed, {i, j, k}, what};
       };
-      limit(double(d[0]) * s.unknown[0], gas::absolute_pressure(setting_.gas, q), "the change of pressure in");
-      limit(double(d[4]) * s.unknown[4], gas::absolute_temperature(setting_.gas, q), "the change of temperature in");
+      limit(double(d[0]) * s.unknown[0], gas::absolute_pressure(setting_.gas, q), most, "the change of pressure in");
+      limit(double(d[4]) * s.unknown[4], gas::absolute_temperature(setting_.gas, q), most, "the change of temperature in");
+      const double change = std::sqrt(double(d[1]) * d[1] + double(d[2]) * d[2] + double(d[3]) * d[3]) * s.unknown[1];
+      limit(change, std::max(setting_.speed, std::sqrt(2.0 * gas::kinetic(q))), most_speed, "the change of velocity in");
+      limited += binds;
     }
   });
   return fraction;
@@ -643,18 +735,19 @@ void FlowSolver::apply_update(FlowTile& tile) {
     if (verdict == Verdict::failed && march_.rejections() > 0) std::swap(tile.state, tile.trial);
     return;
   }
-  if (verdict == Verdict::rejected) {
+  if (verdict == Verdict::rejected)
     std::copy_n(tile.trial.data(), tile.trial.size(), tile.state.data());
-    return;
-  }
-  std::copy_n(tile.state.data(), tile.state.size(), tile.trial.data());
+  else
+    std::copy_n(tile.state.data(), tile.state.size(), tile.trial.data());
+  const double share = march_.share();
+  if (share == 0.0) return;
   const float* d = cycle_.solution(tile);
   const Scales& s = implicit_.scales;
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; ++i) {
       double* at = tile.state.data() + tile.cells.at(k, j, i);
       for (int c = 0; c < mean_unknowns; ++c)
-        at[c * tile.cells.component] += fraction_ * s.unknown[std::size_t(c)] * double(*d++);
+        at[c * tile.cells.component] += share * fraction_ * s.unknown[std::size_t(c)] * double(*d++);
     }
   });
   if (tile.turbulence == 0) return;
@@ -663,7 +756,9 @@ void FlowSolver::apply_update(FlowTile& tile) {
     for (int i = 0; i < tile.box.ni; ++i)
       for (int t = 0; t < tile.turbulence; ++t) {
         double& q = tile.state.data()[tile.cells.at(k, j, i) + (mean_unknowns + t) * tile.cells.component];
-        const double change = fraction_ * s.model_unknown[std::size_t(t)] * double(*d++), low = model_->lowest[std::size_t(t)];
+        const double change = share * fraction_ * s.model_unknown[std::size_t(t)] * double(*d++),
+                     low = model_->lowest[std::size_t(t)];
+        if (change < -0.9 * (q - low)) limited_cells_[std::size_t(&tile - tiles_.data())] += 1.0;
         q += std::max(change, -0.9 * (q - low));
       }
   });

@@ -65,6 +65,7 @@ struct FlowTile {
   AlignedArray<double>
       source;  ///< added to the rate of change of conserved amounts per volume; empty but in manufactured solutions
   AlignedArray<double> rate;                 ///< V / pseudo-time step [m3/s]
+  AlignedArray<double> model_time;           ///< mass over the pseudo-time step of the turbulence unknowns [kg/s]
   std::array<AlignedArray<double>, 6> open;  ///< per side with walls: 1 where the flux scheme acts, 0 on wall faces; else empty
   std::array<AlignedArray<double>, 6> law;   ///< likewise: 1 on faces of walls with a wall function; empty where there are none
 

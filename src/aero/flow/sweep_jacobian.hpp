@@ -34,8 +34,8 @@ struct ImplicitSetting {
 };
 
 /// FlowTile::rate: sum of the (preconditioned) spectral radii of a cell's faces, halved, viscous ones added: V / pseudo-step at
-/// CFL 1.
-void sweep_rates(FlowTile& tile, const double* state, const ImplicitSetting& setting);
+/// CFL 1. And FlowTile::model_time, of the residual as it stands.
+void sweep_rates(FlowTile& tile, const double* state, double cfl, const ImplicitSetting& setting);
 
 /// Square of the preconditioner's reference speed in a cell, from its state alone.
 template <class Real>

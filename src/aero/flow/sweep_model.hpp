@@ -19,7 +19,7 @@ struct ModelSweeps {
   std::array<double, 2> wall_spread{};  ///< diffusivity on a no-slip wall over the laminar viscosity
   void (*closures)(FlowTile& tile, const double* state, const ViscousSetting& s) = nullptr;
   void (*residual)(FlowTile& tile, const double* state, double* residual, const ViscousSetting& s) = nullptr;
-  void (*matrix)(FlowTile& tile, const double* state, double cfl, const ImplicitSetting& s) = nullptr;
+  void (*matrix)(FlowTile& tile, const double* state, const ImplicitSetting& s) = nullptr;
   void (*multiply)(FlowTile& tile, const float* x, float* y) = nullptr;
   void (*wall)(const double* inside, double nu, double distance, double* ghost) = nullptr;
   std::array<double, 2> (*far_field)(double nu, double speed, double sound_speed) = nullptr;
@@ -35,12 +35,6 @@ std::span<const ModelSweeps> sweeps_of_sst();
 std::span<const ModelSweeps> sweeps_of_sst_2003();
 std::span<const ModelSweeps> sweeps_of_k_omega();
 std::span<const ModelSweeps> sweeps_of_les();
-
-/// Added to the pseudo-time [kg/s] of k where its residual makes it grow: 1.1 times the rate of growth, so that an implicit
-/// update grows it at most elevenfold. A Newton step longer than the time in which k grows points to k = 0 instead, the laminar
-/// solution, and stays there. It goes with the residual, so that the end of a march is Newton's. (Twice the rate, and omega too,
-/// took up to three times the steps.)
-constexpr double growth_damping(double residual, double k) { return residual < 0.0 ? -1.1 * residual / k : 0.0; }
 
 /// Components of FlowTile::gradients after those of gradients: what closures() leaves there.
 constexpr int eddy_component(int equations) { return 3 * (4 + equations); }

@@ -192,7 +192,7 @@ struct SweepsOf : ClosuresOf<Model> {
 
   /// Upwind convection by the mean of both sides' mass flux, diffusion, source, time; one cell after the other, as it is not
   /// often made.
-  static void matrix(FlowTile& tile, const double* state, double cfl, const ImplicitSetting& s) {
+  static void matrix(FlowTile& tile, const double* state, const ImplicitSetting& s) {
     const linear::StencilMatrix<n> a = tile.model<n>();
     const linear::CellBox& box = tile.box;
     const TileGeometry& g = *tile.geometry;
@@ -206,23 +206,18 @@ struct SweepsOf : ClosuresOf<Model> {
         const Cell cell = load_cell(tile, state, viscous, k, j, i);
         const turbulence::SourceJacobian<Row, n> source = Model{}.source_jacobian(cell.flow, cell.model);
         const Row volume = Row::load(g.volume_data.data() + g.cell_box.at(k, j, i));
-        const Row time =
-            cell.flow.rho * (Row::load(tile.rate.data() + tile.inner.at(k, j, i)) * (1.0 / cfl) + volume * s.physical_rate);
+        const Row physical = cell.flow.rho * volume * s.physical_rate;
+        Row time[n];
+        for (int m = 0; m < n; ++m)
+          time[m] = physical + Row::load(tile.model_time.data() + tile.inner.at(k, j, i) + m * tile.inner.component);
         for (int lane = 0; lane < std::min(8, box.ni - i); ++lane) {
           float* block = a.block((std::ptrdiff_t(k) * box.nj + j) * box.ni + i + lane, 0);
           for (int r = 0; r < n; ++r)
             for (int c = 0; c < n; ++c)
-              block[c * n + r] = float(unit[r][c] * ((r == c ? time[lane] : 0.0) - volume[lane] * source.m[r][c][lane]));
+              block[c * n + r] = float(unit[r][c] * ((r == c ? time[r][lane] : 0.0) - volume[lane] * source.m[r][c][lane]));
         }
       }
     });
-    if constexpr (n == 2)
-      for_rows(box, [&](int k, int j) {
-        for (int i = 0; i < box.ni; ++i)
-          a.block((std::ptrdiff_t(k) * box.nj + j) * box.ni + i, 0)[0] += float(
-              unit[0][0] * growth_damping(tile.residual.data()[tile.inner.at(k, j, i) + mean_unknowns * tile.inner.component],
-                                          state[tile.cells.at(k, j, i) + mean_unknowns * tile.cells.component]));
-      });
     const int extent[3] = {box.ni, box.nj, box.nk};
     const std::ptrdiff_t aux = tile.gradient_box.component;
     for (int d = 0; d < tile.directions; ++d)
@@ -277,8 +272,8 @@ struct SweepsOf : ClosuresOf<Model> {
         const std::ptrdiff_t cell = (std::ptrdiff_t(k) * box.nj + j) * box.ni + i;
         for (int slot = 0; slot < 2 + 2 * tile.directions; ++slot) a.block(cell, slot)[1] = a.block(cell, slot)[3] = 0.0f;
         const double volume = g.volume_data.data()[g.cell_box.at(k, j, i)];
-        const double time = tile.rate.data()[tile.inner.at(k, j, i)] / cfl + volume * s.physical_rate;
-        a.block(cell, 0)[3] = float(unit[1][1] * wall.rho * (time + volume * law.omega));
+        const double time = tile.model_time.data()[tile.inner.at(k, j, i) + tile.inner.component];
+        a.block(cell, 0)[3] = float(unit[1][1] * (time + wall.rho * volume * (s.physical_rate + law.omega)));
       });
   }
 

@@ -3,6 +3,7 @@
 #include "src/aero/flow/control.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 using namespace spindrift::aero;
@@ -31,6 +32,14 @@ TEST_CASE("a residual that leaps or is not finite takes the step back and makes 
     REQUIRE(march.judge(of(1.0), 0.0) == Verdict::go_on);
     march.updated(1.0, 5, 0.1);
     CHECK(march.judge(of(leap), 0.0) == Verdict::rejected);
+    if (leap == 1e3) {  // shortened twice before
+      CHECK(march.share() == Approx(0.4));
+      CHECK(march.judge(of(leap), 0.0) == Verdict::rejected);
+      CHECK(march.share() == Approx(0.16));
+      CHECK(march.cfl() == 10.0);
+      CHECK(march.judge(of(leap), 0.0) == Verdict::rejected);
+    }
+    CHECK(march.share() == 0.0);
     CHECK(march.cfl() == Approx(2.0));
     CHECK(march.judge(of(1.0), 0.0) == Verdict::go_on);
   }
@@ -44,6 +53,7 @@ TEST_CASE("what no step size cures ends in a failure with its reason", "[flow][f
   for (int n = 0; n < 100 && verdict != Verdict::failed; ++n) {
     march.updated(1.0, 5, 0.1);
     verdict = march.judge(of(1e9), 0.0);
+    while (verdict == Verdict::rejected && march.share() > 0.0) verdict = march.judge(of(1e9), 0.0);
     if (verdict == Verdict::rejected) march.judge(of(1.0), 0.0);
   }
   CHECK(verdict == Verdict::failed);
@@ -83,4 +93,62 @@ TEST_CASE("loads that have settled end a march where asked", "[flow][fast]") {
     march.updated(1.0, 5, 0.1), load *= 0.5;
   CHECK(steps > 5);
   CHECK(steps < 20);
+}
+
+TEST_CASE("a step that leaves more of its own equation than it set out with is shortened: mean flow and turbulence each count",
+          "[flow][fast]") {
+  const Norms start{.density = 1.0, .mean = 1.0, .model = 1e4, .cells = 1.0};
+  const auto after = [&](double mean, double mean_left, double model, double model_left) {
+    March march({.cfl_start = 10.0});
+    march.begin_step();
+    march.judge(start, 0.0);
+    march.updated(1.0, 5, 0.1);
+    return march.judge(
+        {.density = 1.0, .mean = mean, .model = model, .mean_left = mean_left, .model_left = model_left, .cells = 1.0}, 0.0);
+  };
+  CHECK(after(1.1, 0.5, 1e4, 5e3) == Verdict::go_on);     // rises, as its own equation asks
+  CHECK(after(4.0, 3.0, 9e3, 5e3) == Verdict::rejected);  // the mean flow, hidden in the sum
+  CHECK(after(0.9, 0.5, 4e4, 3e4) == Verdict::rejected);
+  CHECK(after(0.9, 3.0, 9e3, 3e4) == Verdict::go_on);  // both fall
+}
+
+TEST_CASE("what round-off leaves is no reason to take a step back", "[flow][fast]") {
+  March march({.cfl_start = 10.0});
+  march.begin_step();
+  march.judge({.mean = 1e-26, .cells = 1.0, .noise = 1e-20}, 0.0);
+  march.updated(1.0, 5, 0.1);
+  CHECK(march.judge({.mean = 1e-21, .mean_left = 1e-21, .cells = 1.0, .noise = 1e-20}, 0.0) == Verdict::go_on);
+}
+
+TEST_CASE("by the flux balance a march ends when all equations have fallen from the start and the loads stand", "[flow][fast]") {
+  March march({.drop = 1e-2, .by_balance = true, .load_settled = 1e-3});
+  march.begin_step();
+  const auto state = [](double mean, double model) {
+    return Norms{.density = 1e-12, .mean = mean * mean, .model = model * model, .cells = 1.0};
+  };
+  march.judge(state(1.0, 0.0), 0.0);
+  march.updated(1.0, 5, 0.1);
+  CHECK(march.judge(state(1e-3, 0.5), 1.0) == Verdict::go_on);  // turbulence is on its way
+  march.updated(1.0, 5, 0.1);
+  CHECK(march.judge(state(1e-3, 1e-3), 1.1) == Verdict::go_on);  // the loads move
+  march.updated(1.0, 5, 0.1);
+  CHECK(march.judge(state(1e-3, 1e-3), 1.1001) == Verdict::go_on);
+  march.updated(1.0, 5, 0.1);
+  CHECK(march.judge(state(1e-3, 1e-3), 1.1002) == Verdict::converged);
+  CHECK(march.balance_drop() == Approx(std::sqrt(2e-6)));
+}
+
+TEST_CASE("marches that end for want of steps are counted, and the count goes through a restart", "[flow][fast]") {
+  March march({.drop = 1e-6, .max_steps = 3});
+  for (int window = 0; window < 2; ++window) {
+    march.begin_step();
+    while (march.judge(of(1.0), 0.0) == Verdict::go_on) march.updated(1.0, 5, 0.1);
+    CHECK(march.spent());
+  }
+  March again({.drop = 1e-6, .max_steps = 3});
+  again.load(march.save());
+  CHECK(again.unconverged() == 2);
+  CHECK(again.ended() == 2);
+  again.resume(3);  // a steady march that goes on has not ended
+  CHECK(again.unconverged() == 1);
 }
