@@ -200,7 +200,6 @@ void start_on_coarser_grids(const Scenario& s, Air& air, runtime::Executor& marc
     }
     spdlog::info("air: {} pseudo-steps on a coarser grid of {} cells, flux balance down to {:.2g}: {}", done.steps() - 1,
                  solver.cells(), done.balance_drop(), done.why());
-    solver.forget_graphs();
     coarser = std::move(next);
   }
   if (coarser) aero::begin_with(*coarser->solver, *air.solver, {}, world.comm);

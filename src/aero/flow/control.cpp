@@ -21,6 +21,7 @@ void March::begin_step() {
 
 void March::begin_after_look() {
   reference_ = density_, reference_total_ = before_;
+  if (spent_) --ended_, unconverged_ -= o_.drop > 0.0;  // a look is no march
   looking_ = false;
   begin_step();
   verdict_ = Verdict::go_on;

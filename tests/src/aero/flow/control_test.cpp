@@ -115,9 +115,9 @@ TEST_CASE("a step that leaves more of its own equation than it set out with is s
 TEST_CASE("what round-off leaves is no reason to take a step back", "[flow][fast]") {
   March march({.cfl_start = 10.0});
   march.begin_step();
-  march.judge({.mean = 1e-26, .cells = 1.0, .noise = 1e-20}, 0.0);
+  march.judge({.density = 1.0, .mean = 1e-26, .cells = 1.0, .noise = 1e-20}, 0.0);
   march.updated(1.0, 5, 0.1);
-  CHECK(march.judge({.mean = 1e-21, .mean_left = 1e-21, .cells = 1.0, .noise = 1e-20}, 0.0) == Verdict::go_on);
+  CHECK(march.judge({.density = 1.0, .mean = 1e-21, .mean_left = 1e-21, .cells = 1.0, .noise = 1e-20}, 0.0) == Verdict::go_on);
 }
 
 TEST_CASE("by the flux balance a march ends when all equations have fallen from the start and the loads stand", "[flow][fast]") {
