@@ -12,7 +12,7 @@ void March::begin_step() {
   last_step_ = looking_ ? 0 : o_.max_steps;
   first_ = before_ = 0.0;
   matrix_free_ = retry_ = spent_ = false;
-  share_ = 1.0, cap_ = low_ = first_total_ = 0.0;
+  share_ = 1.0, cap_ = low_ = first_mean_ = first_model_ = 0.0;
   shortened_ = since_low_ = bad_in_a_row_ = 0;
   fraction_ = 1.0, linear_drop_ = 0.0;
   loads_.clear();
@@ -20,7 +20,7 @@ void March::begin_step() {
 }
 
 void March::begin_after_look() {
-  reference_ = density_, reference_total_ = before_;
+  reference_ = density_, reference_mean_ = mean_, reference_model_ = model_;
   if (spent_) --ended_, unconverged_ -= o_.drop > 0.0;  // a look is no march
   looking_ = false;
   begin_step();
@@ -45,14 +45,16 @@ std::vector<double> March::save() const {
                           cap_,
                           low_,
                           double(since_low_),
-                          first_total_,
+                          first_mean_,
+                          first_model_,
                           mean_,
                           model_,
                           double(ended_),
                           double(unconverged_),
                           double(spent_),
                           reference_,
-                          reference_total_,
+                          reference_mean_,
+                          reference_model_,
                           double(loads_.size())};
   all.insert(all.end(), loads_.begin(), loads_.end());
   all.resize(all.size() + std::size_t(o_.load_window) + 1 - loads_.size(), 0.0);
@@ -65,10 +67,11 @@ void March::load(std::span<const double> from) {
   steps_ = int(from[7]), rejections_ = int(from[8]), in_a_row_ = int(from[9]), krylov_ = int(from[10]),
   since_refresh_ = int(from[11]);
   drop_of_matrix_ = from[12], matrix_free_ = from[13] != 0.0;
-  cap_ = from[14], low_ = from[15], since_low_ = int(from[16]), first_total_ = from[17], mean_ = from[18], model_ = from[19];
-  ended_ = long(from[20]), unconverged_ = long(from[21]), spent_ = from[22] != 0.0;
-  reference_ = from[23], reference_total_ = from[24];
-  loads_.assign(from.begin() + 26, from.begin() + 26 + std::ptrdiff_t(from[25]));
+  cap_ = from[14], low_ = from[15], since_low_ = int(from[16]), first_mean_ = from[17], first_model_ = from[18], mean_ = from[19],
+  model_ = from[20];
+  ended_ = long(from[21]), unconverged_ = long(from[22]), spent_ = from[23] != 0.0;
+  reference_ = from[24], reference_mean_ = from[25], reference_model_ = from[26];
+  loads_.assign(from.begin() + 28, from.begin() + 28 + std::ptrdiff_t(from[27]));
 }
 
 void March::resume(int more_steps) {
@@ -87,6 +90,11 @@ double March::swing(int steps) const {
   const auto [low, high] = std::minmax_element(loads_.end() - steps, loads_.end());
   const double most = std::max(std::abs(*low), std::abs(*high));
   return most > 0.0 ? (*high - *low) / most : 0.0;
+}
+
+double March::balance_drop() const {
+  const auto of = [](double now, double was) { return was > 0.0 ? std::sqrt(now / was) : 0.0; };
+  return std::max(of(mean_, first_mean_), of(model_, std::max(first_model_, first_mean_)));
 }
 
 Verdict March::judge(const Norms& n, double load) {
@@ -129,7 +137,8 @@ Verdict March::judge(const Norms& n, double load) {
   }
   density_ = density, mass_ = std::sqrt(n.mass / n.cells);
   if (fresh) {
-    first_ = std::max(density, reference_), first_total_ = std::max(total, reference_total_);
+    first_ = std::max(density, reference_), first_mean_ = std::max(n.mean, reference_mean_),
+    first_model_ = std::max(n.model, reference_model_);
     if (reference_ > 0.0) cfl_ = std::clamp(o_.cfl_start * first_ / density, cfl_, std::max(cfl_, o_.cfl_max));
   }
   first_ = std::max(first_, density);  // what an impulsive start stirs up counts as the start
@@ -171,7 +180,7 @@ Verdict March::judge(const Norms& n, double load) {
   loads_.push_back(load);
   if (steps_ > o_.min_steps) {
     const bool settled = o_.load_settled == 0.0 || swing(3) <= o_.load_settled;
-    if (o_.by_balance && total <= o_.drop * first_total_ && settled) return done("the flux balance fell by the drop asked for");
+    if (o_.by_balance && balance_drop() <= o_.drop && settled) return done("the flux balance fell by the drop asked for");
     if (!o_.by_balance && density <= o_.drop * first_ && settled) return done("the density residual fell by the drop asked for");
     if (density <= o_.absolute) return done("the density residual is below the absolute limit");
     if (o_.load_change > 0.0 && int(loads_.size()) > o_.load_window && swing(o_.load_window) <= o_.load_change)

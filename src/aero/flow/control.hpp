@@ -80,8 +80,9 @@ class March {
   double density_residual() const { return density_; }
   double mass_residual() const { return mass_; }
   double first_density_residual() const { return first_; }
-  /// The norm of all scaled flux balances over that of the start.
-  double balance_drop() const { return first_total_ > 0.0 ? before_ / first_total_ : 0.0; }
+  /// The norm of all scaled flux balances over that of the start: the larger of the mean flow's and turbulence's, which starts
+  /// with as much as the mean flow at least.
+  double balance_drop() const;
   /// Marches so far that came to an end, and those of them that ended for want of steps.
   long ended() const { return ended_; }
   long unconverged() const { return unconverged_; }
@@ -104,13 +105,13 @@ class March {
   MarchOptions o_;
   double mean_ = 0.0, model_ = 0.0;  ///< squared norms of the state that was last good
   double cfl_, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
-  double share_ = 1.0, cap_ = 0.0, low_ = 0.0, first_total_ = 0.0;
+  double share_ = 1.0, cap_ = 0.0, low_ = 0.0, first_mean_ = 0.0, first_model_ = 0.0;
   long ended_ = 0, unconverged_ = 0;
   int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0, shortened_ = 0, since_low_ = 0, bad_in_a_row_ = 0;
   long krylov_total_ = 0;
   int since_refresh_ = 0;
   double cfl_of_matrix_ = 0.0, drop_of_matrix_ = 0.0;
-  double reference_ = 0.0, reference_total_ = 0.0;  ///< least residuals that count as those of the start
+  double reference_ = 0.0, reference_mean_ = 0.0, reference_model_ = 0.0;  ///< least residuals that count as those of the start
   bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false, looking_ = false;
   Verdict verdict_ = Verdict::go_on;
   const char* why_ = "";
