@@ -16,9 +16,9 @@ struct RotorGridSizes {
   int box = 10;    ///< of them on each of the two sides of the box that face along the rotor's plane
   int layers = 8;  ///< from the wall to the box
   int beside = 4;  ///< from the box to the sector's side, each side
-  int upstream = 6, downstream = 8;
+  int upstream = 4, downstream = 6;
   int span = 12;     ///< from hub cylinder to tip
-  int outboard = 8;  ///< from tip to outer radius
+  int outboard = 5;  ///< from tip to outer radius
   int box_chordwise() const { return round / 2 - box; }
   int chordwise() const { return round / 2 - edge; }  ///< of the plug
   int radial() const { return span + outboard; }
@@ -27,7 +27,7 @@ struct RotorGridSizes {
   long cells() const;  ///< of one sector
 };
 
-/// The sizes of resolution n: every number grows with n, about 13 000 n^3 cells a sector.
+/// The sizes of resolution n: every number grows with n, about 10 000 n^3 cells a sector.
 RotorGridSizes sizes_of(double n);
 
 /// Nodes round the section for these sizes.
@@ -36,7 +36,7 @@ SectionSpacing section_spacing(const RotorGridSizes& sizes, bool rounded_edge = 
 struct RotorGridSpec {
   RotorGridSizes sizes;
   double hub_radius_m = 5.0;
-  double radial_extent = 12.0, upstream_extent = 10.0, downstream_extent = 12.0;  ///< from the hub, in tip radii
+  double radial_extent = 3.0, upstream_extent = 3.0, downstream_extent = 6.0;  ///< from the hub, in tip radii
   double first_cell_chords = 2e-3;  ///< height of the first cell over the local chord, where first_cell_m is zero
   double first_cell_m = 0.0;
   double y_plus = 0.0;       ///< where positive: of the first cell's centre, in the flow below

@@ -32,7 +32,7 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
   static const auto section =
       scene::Section<RotorGridOptions>("grid", "The grid round a resolved rotor, written by `spindrift grid`.")
           .number("resolution", &RotorGridOptions::resolution, "-",
-                  "Number n that sizes the grid: about 40 000 n^3 cells for three blades; every number of cells grows with n.",
+                  "Number n that sizes the grid: about 30 000 n^3 cells for three blades; every number of cells grows with n.",
                   scene::between(0.8, 10.0))
           .integer("cells_round", &RotorGridOptions::cells_round, "-", "Cells round the section, even; default 40 n.",
                    scene::between(24, 2000))
@@ -46,12 +46,12 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
           .integer("cells_span", &RotorGridOptions::cells_span, "-", "Cells along the blade; default 12 n.",
                    scene::between(4, 2000))
           .integer("cells_outboard", &RotorGridOptions::cells_outboard, "-",
-                   "Cells from the tip to the outer radius; default 8 n.", scene::between(3, 1000))
+                   "Cells from the tip to the outer radius; default 5 n.", scene::between(3, 1000))
           .integer("cells_beside", &RotorGridOptions::cells_beside, "-",
                    "Cells from the O to half-way to the next blade, each side; default 4 n.", scene::between(2, 1000))
-          .integer("cells_upstream", &RotorGridOptions::cells_upstream, "-", "Cells from the O to the inflow; default 6 n.",
+          .integer("cells_upstream", &RotorGridOptions::cells_upstream, "-", "Cells from the O to the inflow; default 4 n.",
                    scene::between(2, 1000))
-          .integer("cells_downstream", &RotorGridOptions::cells_downstream, "-", "Cells from the O to the outflow; default 8 n.",
+          .integer("cells_downstream", &RotorGridOptions::cells_downstream, "-", "Cells from the O to the outflow; default 6 n.",
                    scene::between(2, 1000))
           .number("first_cell_chords", &RotorGridOptions::first_cell_chords, "-",
                   "Height of the cells at the wall over the local chord; default 2e-3/n, for wall functions.",
