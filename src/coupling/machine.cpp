@@ -124,19 +124,25 @@ Machine::Machine(Scenario scenario)
     add_source(sources, std::move(source), on);
   }
   if (s.has_rotor()) {
-    rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start);
+    rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start,
+                   s.control);
     std::vector<bool> on(names.size());
     on[std::size_t(index_of(names, s.rotor.body))] = true;
-    add_source(sources,
-               {"rotor",
-                [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
-                  if (rotor_elsewhere_)
-                    rotor_elsewhere_(t, m, w);
-                  else
-                    rotor_->add_loads(t, m, w, ramp(t));
-                },
-                {}},
-               on);
+    bodies::LoadSource source{"rotor",
+                              [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
+                                if (rotor_elsewhere_)
+                                  rotor_elsewhere_(t, m, w);
+                                else
+                                  rotor_->add_loads(t, m, w, ramp(t));
+                              },
+                              {}};
+    if (rotor_->memory_size() > 0)
+      source.memory = {
+          rotor_->memory_size(),
+          [this](double t, std::span<const Motion> m, std::span<double> memory) { rotor_->begin(t, m, memory); },
+          [this](std::span<const double> memory) { rotor_->recall(memory); },
+          [this](double t, double h, std::span<const Motion> m, std::span<double> memory) { rotor_->remember(t, h, m, memory); }};
+    add_source(sources, std::move(source), on);
   }
   clocks_.resize(sources.size());
   system_ =
