@@ -28,7 +28,7 @@ void check_wind(const WindOptions& o, const scene::Report& report) {
                                       o.roughness_m, o.least_height_m));
 }
 
-const scene::Section<WindEventOptions>& event_section() {
+const scene::Section<WindEventOptions>& wind_event_section() {
   const std::vector<std::string> plain{"step", "ramp"}, by_class{"eog", "edc", "ews_vertical", "ews_horizontal"};
   static const auto section =
       scene::Section<WindEventOptions>("event", "A change of the wind, the same for the whole rotor but for the shears.")
@@ -158,7 +158,7 @@ const scene::Section<WindOptions>& wind_section() {
                 "CSV file with time_s, speed_m_s and, if any, direction_deg, vertical_m_s, joined by straight lines: takes the "
                 "place "
                 "of speed_m_s, which is its first row.")
-          .table("event", &WindOptions::event, event_section(), "A gust or another change.")
+          .table("event", &WindOptions::event, wind_event_section(), "A gust or another change.")
           .table("turbulence", &WindOptions::turbulence, turbulence_section(), "Turbulence.")
           .at_most_one_of({"table", "event"})
           .check(check_wind);

@@ -53,6 +53,10 @@ struct StudyArguments {
   std::string out;                     ///< empty: runs/STUDY
 };
 
+struct ImportArguments {
+  std::string file, out;
+};
+
 int run(const RunArguments& arguments, const runtime::World& world);
 int grid(const GridArguments& arguments, const runtime::World& world);
 int check(const CheckArguments& arguments, const runtime::World& world);
@@ -60,5 +64,6 @@ int check(const CheckArguments& arguments, const runtime::World& world);
 int reference(const std::string& topic, bool markdown, const runtime::World& world);
 int study(const StudyArguments& arguments, const runtime::World& world);
 int report(const ReportArguments& arguments, const runtime::World& world);
+int import_deck(const ImportArguments& arguments, const runtime::World& world);
 
 }  // namespace spindrift::app

@@ -209,8 +209,8 @@ Scenario read_scenario(scene::Document& document) {
                                   s.resolves_air() ? "a resolved rotor turns as its bearing does" : "aero.model is none");
   take_from_turbine(document, s);
   s.sea = document.read(sea::sea_section());
-  s.waves = document.read_where(s.sea.model == "morison" || s.has_particles(), sea::waves_section(),
-                                "sea.model is neither morison nor sph");
+  s.waves = document.read_where(s.sea.model == "morison" || s.sea.model == "potential" || s.has_particles(), sea::waves_section(),
+                                "sea.model is none of morison, potential, sph");
   s.moorings = document.read_named(moorings::line_section());
   s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple");
   s.start = document.read(start_section());
