@@ -94,7 +94,9 @@ DiscLoad BladeElementMomentum::load(const Wind& wind, const DiscMotion& rotor, d
     const double pitch = rotor.pitches.empty() ? rotor.blade_pitch : rotor.pitches[std::size_t(b)];
     for (const Element& e : elements_) {
       const Eigen::Vector3d arm = e.axial * rotor.axis + e.radius * out;
-      const Eigen::Vector3d relative = wind.at(t, rotor.hub + arm) - rotor.hub_velocity;
+      Eigen::Vector3d air = wind.at(t, rotor.hub + arm);
+      if (rotor.tower) air = rotor.tower->disturbed(rotor.tower_frame, air, rotor.hub + arm);
+      const Eigen::Vector3d relative = air - rotor.hub_velocity;
       const Eigen::Vector3d normal = e.normal_axial * rotor.axis + e.normal_radial * out, met = relative - rotor.omega.cross(arm);
       const double normal_wind = met.dot(normal), tangential_wind = -met.dot(ahead);
       const auto section = [&](double a) { return polar(e, a); };

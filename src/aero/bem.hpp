@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kernels/rotor/blade_element.hpp"
+#include "src/aero/tower.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 
@@ -24,6 +25,8 @@ struct DiscMotion {
   double azimuth, blade_pitch;                    ///< [rad]
   Eigen::Vector3d hub = Eigen::Vector3d::Zero();  ///< [m], where the wind goes with height
   std::span<const double> pitches = {};           ///< of each blade [rad]; none: all have blade_pitch
+  const Tower* tower = nullptr;                   ///< whose flow the blades meet
+  TowerFrame tower_frame = {};
 };
 
 struct DiscLoad {

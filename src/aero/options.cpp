@@ -102,6 +102,8 @@ const scene::Section<AeroOptions>& aero_section() {
                    {"buhl", "momentum theory, Buhl's parabola beyond 0.4"}},
                   "Induction from local loading.")
           .only_if("model", {"bem"})
+          .table("tower", &AeroOptions::tower, tower_section(), "The tower in the wind.")
+          .only_if("model", {"thrust_curve", "bem"})
           .table("grid", &AeroOptions::grid, rotor_grid_section(), "The grid round the resolved rotor.")
           .table("flow", &AeroOptions::flow, flow_section(), "The resolved air.")
           .one_of({"thrust_N", "table"})

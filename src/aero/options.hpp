@@ -11,6 +11,7 @@
 
 #include "src/aero/flow_options.hpp"
 #include "src/aero/rotor_grid/options.hpp"
+#include "src/aero/tower.hpp"
 #include "src/aero/wind_options.hpp"
 
 namespace spindrift::scene {
@@ -38,6 +39,7 @@ struct AeroOptions {
   std::string interpolation = "linear";
   // bem
   std::string induction = "madsen";
+  std::optional<TowerOptions> tower;
   std::optional<FlowOptions> flow;       ///< blade_resolved
   std::optional<RotorGridOptions> grid;  ///< resolved rotor
 };

@@ -21,6 +21,10 @@ double mean(std::span<const double> values) {
   return sum / double(values.size());
 }
 
+TowerFrame tower_frame(const RotorState& now) {
+  return {now.hub, now.axis, now.up, now.hub_velocity, now.omega - now.speed * now.axis};
+}
+
 /// From [rotor], else from the blades; 0 where nothing says.
 double diameter_of(const RotorOptions& rotor) {
   if (rotor.diameter_m) return *rotor.diameter_m;
@@ -51,6 +55,7 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
   if (aero.model == "prescribed") model_ = Prescribed(aero);
   if (aero.model == "thrust_curve") model_ = ThrustCurve(aero, rotor, air_density);
   if (aero.model == "bem") model_ = BladeElementMomentum(read_turbine(rotor.turbine), aero.induction, air_density);
+  if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
   const int blades = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
   control_.emplace(control, read_controller(control.file),
@@ -96,8 +101,9 @@ RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
   RotorLoad load;
   const std::span<const double> pitches = control_ && !memory_.empty() ? control_->pitch(memory_) : std::span<const double>();
   if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) {
-    const DiscLoad disc =
-        (*bem)(wind_, {now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_, now.hub, pitches}, t);
+    DiscMotion disc_motion{now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_, now.hub, pitches};
+    if (tower_ && tower_->changes_wind()) disc_motion.tower = &*tower_, disc_motion.tower_frame = tower_frame(now);
+    const DiscLoad disc = (*bem)(wind_, disc_motion, t);
     load.force = ramp * disc.force, load.moment = ramp * disc.moment;
     load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis);
   } else {
@@ -109,6 +115,10 @@ RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
     load.force = load.thrust * thrust_direction_.value_or(now.axis), load.moment = load.torque * now.axis;
   }
   load.power = load.torque * now.speed;
+  if (tower_) {
+    const TowerLoad drag = tower_->drag(tower_frame(now), wind_, t);
+    load.force += ramp * drag.force, load.moment += ramp * drag.moment;
+  }
   if (control_) {
     // The body feels what the shaft gives it, and the turning of the spinning rotor's axis.
     if (!memory_.empty()) load.moment += (ramp * TurbineControl::state(memory_).shaft_torque - load.torque) * now.axis;

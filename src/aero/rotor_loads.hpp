@@ -95,6 +95,7 @@ class RotorLoads {
   double start_azimuth_, speed_, blade_pitch_;
   Wind wind_;
   std::optional<TurbineControl> control_;
+  std::optional<Tower> tower_;
   std::vector<double> memory_;  ///< recalled; empty: steady
   std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
 };

@@ -160,6 +160,25 @@ class Importer {
     return text;
   }
 
+  std::string tower(const Deck& ad) {
+    const bool changes_wind = ad.integer({"TwrPotent"}, 0) > 0, drag = ad.flag({"TwrAero"}, false);
+    if (ad.integer({"TwrShadow"}, 0) > 0) leave_out("the tower's wake on a downwind rotor (TwrShadow)");
+    if (ad.integer({"TwrPotent"}, 0) > 1) leave_out("Bak's correction of the flow round the tower (TwrPotent 2)");
+    const std::size_t count = std::size_t(ad.integer({"NumTwrNds"}, 0));
+    if (!(changes_wind || drag) || count < 2) return "";
+    std::string text = "\n[aero.tower]\nstations = [\n";
+    for (std::size_t n = *ad.find({"NumTwrNds"}) + 3; count > 0 && n < *ad.find({"NumTwrNds"}) + 3 + count; ++n) {
+      const std::vector<double> row = ad.numbers(n, 3);
+      text += fmt::format("  [{:.9g}, {:.9g}, {:.9g}],\n", row[0], row[1], row[2]);
+    }
+    text += "]\n";
+    if (!changes_wind) text += "changes_wind = false\n";
+    if (!drag) text += "has_drag = false\n";
+    carry("tower: " + std::string(changes_wind ? "its flow round the blades" : "") + (changes_wind && drag ? ", " : "") +
+          (drag ? "drag" : ""));
+    return text;
+  }
+
   void wind_and_rotor() {
     const Deck& ed = *elastodyn_;
     const bool blows = main_.integer({"CompInflow"}, 0) == 1, aero = main_.integer({"CompAero"}, 0) == 2;
@@ -175,10 +194,10 @@ class Importer {
       leave_out("no induction (Wake_Mod 0): blades are in balance with their wake");
     if (ad.integer({"Wake_Mod", "WakeMod"}, 1) > 1 || ad.integer({"DBEMT_Mod"}, 0) > 0)
       leave_out("dynamic or free-vortex wake: induction is quasi-steady");
-    if (ad.integer({"UA_Mod", "UAMod"}, 0) > 0) leave_out("unsteady aerofoils (UA_Mod): polars are used as they are");
-    if (ad.integer({"TwrPotent"}, 0) > 0 || ad.integer({"TwrShadow"}, 0) > 0) leave_out("the tower's influence on the wind");
-    if (ad.flag({"TwrAero"}, false)) leave_out("drag of the tower");
-    scene_ << "\n[aero]\nmodel = \"bem\"\ninduction = \"buhl\"\n";
+    if (ad.integer({"UA_Mod", "UAMod"}, 0) > 0)
+      leave_out(
+          "unsteady aerofoils (UA_Mod): forces are steady; with UA_Mod 1 to 3 polars are limited as that model limits them");
+    scene_ << "\n[aero]\nmodel = \"bem\"\ninduction = \"buhl\"\n" << tower(ad);
     scene_ << "\n[rotor]\nbody = \"platform\"\nturbine = \"turbine.toml\"\n";
     scene_ << "hub_m = " << vector(rotor_.hub) << "\naxis = " << vector(rotor_.axis) << "\n";
     scene_ << fmt::format("speed_rpm = {:.9g}\nblade_pitch_deg = {:.9g}\n", ed.number({"RotSpeed"}),

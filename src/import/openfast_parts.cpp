@@ -135,6 +135,31 @@ double rotor_inertia(const Deck& ed, const RotorFrame& r) {
   return r.axis.dot(about_hub * r.axis) + ed.number({"HubIner"}, 0.0) + generator_inertia(ed);
 }
 
+namespace {
+
+struct PolarRow {
+  double alpha, lift, drag;  ///< [deg], [-], [-]
+};
+
+/// What the Beddoes-Leishman models of AeroDyn (UA_Mod 1 to 3) make of a polar in steady flow: normal force of C_nalpha (alpha -
+/// alpha_0)
+/// ((1 + sqrt f)/2)^2 with the separation point f, at most 1, that the polar has by the same law (Leishman & Beddoes 1989;
+/// Damiani & Hayman 2019, NREL/TP-5000-66347). Lift above the file's straight line is lost. Beyond 30 degrees the polar stays.
+void limit_by_separation(const Deck& file, std::vector<PolarRow>& polar) {
+  const double slope = file.number({"C_nalpha"}, 0.0), zero = file.number({"alpha0"}, 0.0), drag_0 = file.number({"Cd0"}, 0.0);
+  if (slope <= 0.0) return;
+  for (PolarRow& row : polar) {
+    if (std::abs(row.alpha) > 30.0) continue;
+    const double a = row.alpha * radians_per_degree, sine = std::sin(a), cosine = std::cos(a);
+    const double straight = slope * (a - zero * radians_per_degree), normal = row.lift * cosine + (row.drag - drag_0) * sine;
+    const double root = straight == 0.0 ? 1.0 : 2.0 * std::sqrt(std::max(normal / straight, 0.0)) - 1.0;  // sqrt f
+    if (root < 1.0) continue;                         // f below 1 gives the polar back
+    row.lift = straight / cosine, row.drag = drag_0;  // with the chordwise force straight tan(a) of full suction
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> write_turbine(const Deck& ad, const RotorFrame& r, const std::filesystem::path& folder) {
   std::vector<std::string> left_out;
   const Deck blade(ad.path({"ADBlFile(1)", "ADBlFile1"}));
@@ -172,6 +197,7 @@ std::vector<std::string> write_turbine(const Deck& ad, const RotorFrame& r, cons
 
   const auto files = std::size_t(ad.number({"NumAFfiles"}));
   const std::size_t names = *ad.find({"NumAFfiles"}) + 1;
+  const bool unsteady = !ad.has("AFAeroMod") || ad.integer({"AFAeroMod"}, 1) == 2;  // older decks have a switch of their own
   const auto alpha = std::size_t(ad.number({"InCol_Alfa"}, 1) - 1), lift = std::size_t(ad.number({"InCol_Cl"}, 2) - 1),
              drag = std::size_t(ad.number({"InCol_Cd"}, 3) - 1);
   std::ofstream turbine(folder / "turbine.toml");
@@ -188,14 +214,16 @@ std::vector<std::string> write_turbine(const Deck& ad, const RotorFrame& r, cons
     const std::string out = fmt::format("polar_{}.csv", polar);
     std::ofstream csv(folder / out);
     csv << "# From " << file.file().filename().string() << ".\nalpha_deg,cl,cd\n";
-    double last = -1e9;
+    std::vector<PolarRow> rows_of_polar;
     for (std::size_t k = table; k < table + count; ++k) {
       const auto row = file.rows(k, 1, std::max({alpha, lift, drag}) + 1)[0];
-      const double a = file.to_number(row[alpha], k);
-      if (a <= last) continue;  // a doubled row closes the circle in some files
-      last = a;
-      csv << fmt::format("{:.9g},{:.9g},{:.9g}\n", a, file.to_number(row[lift], k), file.to_number(row[drag], k));
+      const PolarRow now{file.to_number(row[alpha], k), file.to_number(row[lift], k), file.to_number(row[drag], k)};
+      if (!rows_of_polar.empty() && now.alpha <= rows_of_polar.back().alpha) continue;  // a doubled row closes the circle
+      rows_of_polar.push_back(now);
     }
+    if (const int model = ad.integer({"UA_Mod", "UAMod"}, 0); unsteady && model >= 1 && model <= 3)
+      limit_by_separation(file, rows_of_polar);
+    for (const PolarRow& row : rows_of_polar) csv << fmt::format("{:.9g},{:.9g},{:.9g}\n", row.alpha, row.lift, row.drag);
     turbine << fmt::format("  {{ thickness_pct = {:.9g}, file = \"{}\" }},\n", label(polar), out);
   }
   turbine << "]\n";

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "kernels/base/constants.hpp"
@@ -197,7 +198,7 @@ TEST_CASE("a deck with something wrong is refused by file and line", "[import][f
   const auto [file, from, to, said] = GENERATE(table<std::string, std::string, std::string, std::string>({
       {"main.fst", "\"ed.dat\" EDFile", "\"none.dat\" EDFile", "none.dat"},
       {"main.fst", "\"ed.dat\" EDFile\n", "", "EDFile"},
-      {"ed.dat", "-4 OverHang", "x OverHang", "ed.dat:27"},
+      {"ed.dat", "-4 OverHang", "x OverHang", "ed.dat:24"},
       {"ed.dat", "60 TowerHt\n", "", "TowerHt"},
       {"blade.dat", "1 0 100 1 1", "1 0", "blade.dat:7"},
       {"blade.dat", "2 NBlInpSt", "3 NBlInpSt", "blade.dat"},
@@ -209,7 +210,7 @@ TEST_CASE("a deck with something wrong is refused by file and line", "[import][f
       {"hd.dat", "1 1 2 1 1 4", "1 1 7 1 1 4", "joint 7"},
       {"hd.dat", "1 1 2 1 1 4", "1 1 2 1 5 4", "property set 5"},
       {"hd.dat", "wamit/spar", "wamit/none", "none.1"},
-      {"map.dat", "1 chain 540 1 2", "1 rope 540 1 2", "map.dat:12"},
+      {"map.dat", "1 chain 540 1 2", "1 rope 540 1 2", "map.dat:13"},
       {"map.dat", "1 chain 540 1 2", "1 chain 540 1 9", "node 9"},
       {"map.dat", "chain 0.1 100", "chain wide 100", "map.dat:4"},
       {"map.dat", "Line LineType", "Lines LineType", "Line"},

@@ -1,4 +1,4 @@
-// Cummins' equation with a memory that has a closed form: a heaving body decays as the eigenvalues of the equivalent third-order
+// Cummins' equation with a memory that has a closed form: a heaving body decays as the eigenvalues of the equivalent fourth-order
 // system say, and answers waves as the frequency domain says.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/potential.hpp"
@@ -21,8 +21,13 @@ using namespace spindrift::sea;
 
 namespace {
 
-// K = k exp(-a t) in heave; m, A(inf), c.
-constexpr double k = 2.0e5, a = 0.4, infinite = 3.0e5, mass = 1.0e6, stiffness = 4.0e5, density = 1000.0;
+// K = k exp(-a t) (cos bt - a/b sin bt) in heave, of which B + i w (A - A(inf)) = i w k / ((i w + a)^2 + b^2); m, A(inf), c.
+constexpr double k = 2.0e5, a = 0.2, b = 0.6, infinite = 3.0e5, mass = 1.0e6, stiffness = 4.0e5, density = 1000.0;
+
+std::complex<double> radiation_of(double w) {
+  const std::complex<double> s(0.0, w);
+  return s * k / ((s + a) * (s + a) + b * b);
+}
 
 struct Files {
   std::filesystem::path folder = std::filesystem::temp_directory_path() / ("spindrift_potential_" + std::to_string(getpid()));
@@ -32,8 +37,10 @@ struct Files {
     radiation.precision(12), excitation.precision(12);
     radiation << "0.0 3 3 " << infinite / density << "\n";
     for (int n = 1; n <= 3000; ++n) {
-      const double w = 0.02 * n, share = k / (a * a + w * w);
-      radiation << 2.0 * pi / w << " 3 3 " << (infinite - share) / density << " " << share * a / (density * w) << "\n";
+      const double w = 0.02 * n;
+      const std::complex<double> r = radiation_of(w);
+      radiation << 2.0 * pi / w << " 3 3 " << (infinite + r.imag() / w) / density << " "
+                << r.real() / (density * w) << "\n";
     }
     for (double period : {2.0, 60.0})
       for (int mode = 1; mode <= 6; ++mode)
@@ -44,7 +51,7 @@ struct Files {
   PotentialOptions options() const {
     PotentialOptions o;
     o.body = "body", o.radiation_file = folder / "body.1", o.excitation_file = folder / "body.3";
-    o.hydrostatics_file = folder / "body.hst", o.volume_m3 = mass / density, o.memory_s = 30.0;
+    o.hydrostatics_file = folder / "body.hst", o.volume_m3 = mass / density, o.memory_s = 60.0;
     return o;
   }
 };
@@ -77,14 +84,14 @@ Heave move(const Files& files, double start, double end, double step, const std:
   return heave;
 }
 
-/// z of (m + A) z'' + y + c z = 0, y' = -a y + k z', from rest at z = 1.
+/// z of (m + A) z'' + k q' + c z = 0, q'' + 2a q' + (a^2 + b^2) q = z', from rest at z = 1.
 double exact_decay(double t) {
-  Eigen::Matrix3d system;  // z, z', y
-  system << 0, 1, 0, -stiffness / (mass + infinite), 0, -1.0 / (mass + infinite), 0, k, -a;
-  const Eigen::EigenSolver<Eigen::Matrix3d> eigen(system);
-  const Eigen::Vector3cd share = eigen.eigenvectors().inverse() * Eigen::Vector3cd(1.0, 0.0, 0.0);
+  Eigen::Matrix4d system;  // z, z', q, q'
+  system << 0, 1, 0, 0, -stiffness / (mass + infinite), 0, 0, -k / (mass + infinite), 0, 0, 0, 1, 0, 1, -(a * a + b * b), -2.0 * a;
+  const Eigen::EigenSolver<Eigen::Matrix4d> eigen(system);
+  const Eigen::Vector4cd share = eigen.eigenvectors().inverse() * Eigen::Vector4cd(1.0, 0.0, 0.0, 0.0);
   std::complex<double> z = 0.0;
-  for (int i = 0; i < 3; ++i) z += eigen.eigenvectors()(0, i) * share[i] * std::exp(eigen.eigenvalues()[i] * t);
+  for (int i = 0; i < 4; ++i) z += eigen.eigenvectors()(0, i) * share[i] * std::exp(eigen.eigenvalues()[i] * t);
   return z.real();
 }
 
@@ -111,10 +118,9 @@ TEST_CASE("in regular waves heave settles on X / (c - w^2 (m + A) + i w B) of th
   const double w = GENERATE(0.4, 0.7), amplitude = 0.5;
   const waves::Component wave{.wave_number = w * w / 10.0, .angular_frequency = w, .amplitude = amplitude, .phase = 0.3};
   const Heave heave = move(files, 0.0, 260.0, 0.1, {wave});
-  const double share = k / (a * a + w * w), scale = density * 10.0;
-  const std::complex<double> force = amplitude * scale * std::complex<double>(10.0, 5.0) * std::polar(1.0, -0.3);
-  const std::complex<double> answer =
-      force / (stiffness - w * w * (mass + infinite - share) + std::complex<double>(0.0, w * share * a));
+  const double scale = density * 10.0;
+  const std::complex<double> force = amplitude * scale * std::complex<double>(10.0, 5.0) * std::polar(1.0, -0.3), iw(0.0, w);
+  const std::complex<double> answer = force / (stiffness - w * w * (mass + infinite) + iw * radiation_of(w));
   double worst = 0.0;
   for (std::size_t n = heave.z.size() - 200; n < heave.z.size(); ++n)
     worst = std::max(worst, std::abs(heave.z[n] - (answer * std::polar(1.0, w * double(n) * 0.1)).real()));
