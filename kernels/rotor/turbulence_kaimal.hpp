@@ -1,5 +1,5 @@
 // Kaimal's spectra and the exponential coherence of IEC 61400-1 ed. 3 (2005), annex B.2, of the three components of turbulence.
-// Used by src/aero/turbulence_kaimal.cpp; tested in tests/kernels/rotor/turbulence_kaimal_test.cpp.
+// Used by src/aero/turbulence_kaimal.cpp; tested in tests/kernels/rotor/gusts_iec_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -55,3 +55,36 @@ TEST_CASE("a controlled run broken off and continued is the unbroken run, bit fo
   REQUIRE(run_scene(scene_file, overrides, folder.path() / "parts", {.restart = true, .quiet = true}).exit_code == 0);
   CHECK(text_of(folder.path() / "whole/history.csv") == text_of(folder.path() / "parts/history.csv"));
 }
+
+TEST_CASE("the controlled turbine rides out every event of the wind", "[coupled][fast]") {
+  const auto event = GENERATE("{what='eog', start_s=20.0}", "{what='ecd', start_s=20.0}",
+                              "{what='edc', start_s=20.0, reversed=true}", "{what='ews_vertical', start_s=20.0}",
+                              "{what='ews_horizontal', start_s=20.0}", "{what='step', start_s=20.0, speed_change_m_s=3.0}",
+                              "{what='ramp', start_s=20.0, speed_change_m_s=-3.0, duration_s=10.0}");
+  CAPTURE(event);
+  const Folder folder("event");
+  REQUIRE(run_scene(scene_file, {"wind.speed_m_s=13.0", "time.end_s=60.0", std::string("wind.event=") + event}, folder.path())
+              .exit_code == 0);
+  const scene::Columns history = history_of(folder);
+  const auto time = history["time_s"], rpm = history["rotor.rpm"], thrust = history["rotor.thrust_N"];
+  double before = 0.0, most = 0.0;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    CHECK(rpm[i] < 1.3 * 9.6);
+    if (time[i] < 20.0)
+      before = thrust[i];
+    else
+      most = std::max(most, std::abs(thrust[i] - before));
+  }
+  CHECK(most > 0.01 * before);  // it was felt
+}
+
+TEST_CASE("turbulence of a seed is the same in a run broken off and continued", "[coupled][fast]") {
+  const Folder folder("turbulent_restart");
+  const std::vector<std::string> overrides{
+      "time.end_s=8.0", "wind.speed_m_s=12.0",
+      "wind.turbulence={model='kaimal', seed=7, points_across=5, points_up=5, duration_s=60.0, step_s=0.5}"};
+  REQUIRE(run_scene(scene_file, overrides, folder.path() / "whole").exit_code == 0);
+  REQUIRE(run_scene(scene_file, overrides, folder.path() / "parts", {.until_s = 4.0, .quiet = true}).exit_code == 0);
+  REQUIRE(run_scene(scene_file, overrides, folder.path() / "parts", {.restart = true, .quiet = true}).exit_code == 0);
+  CHECK(text_of(folder.path() / "whole/history.csv") == text_of(folder.path() / "parts/history.csv"));
+}
