@@ -77,13 +77,13 @@ ElementState BladeElementMomentum::solve(std::size_t element, double normal_wind
       induction_);
 }
 
-DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& rotor) const {
-  return std::visit([&](const auto& induction) { return load(wind, rotor, induction); }, induction_);
+DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& rotor, double t) const {
+  return std::visit([&](const auto& induction) { return load(wind, rotor, t, induction); }, induction_);
 }
 
 template <class Induction>
-DiscLoad BladeElementMomentum::load(const Wind& wind, const DiscMotion& rotor, const Induction& induction) const {
-  const Eigen::Vector3d at_hub = wind.at(rotor.hub) - rotor.hub_velocity, side = rotor.axis.cross(rotor.up);
+DiscLoad BladeElementMomentum::load(const Wind& wind, const DiscMotion& rotor, double t, const Induction& induction) const {
+  const Eigen::Vector3d at_hub = wind.at(t, rotor.hub) - rotor.hub_velocity, side = rotor.axis.cross(rotor.up);
   const Eigen::Vector3d in_disc = at_hub - at_hub.dot(rotor.axis) * rotor.axis;
   const double across = in_disc.norm(), skew = std::atan2(across, std::abs(at_hub.dot(rotor.axis)));
   const Eigen::Vector3d downstream = across > 0.0 ? Eigen::Vector3d(in_disc / across) : Eigen::Vector3d::Zero();
@@ -91,13 +91,16 @@ DiscLoad BladeElementMomentum::load(const Wind& wind, const DiscMotion& rotor, c
   for (int b = 0; b < blades_; ++b) {
     const double azimuth = rotor.azimuth + 2.0 * pi * b / blades_;
     const Eigen::Vector3d out = std::cos(azimuth) * rotor.up + std::sin(azimuth) * side, ahead = rotor.axis.cross(out);
+    const double pitch = rotor.pitches.empty() ? rotor.blade_pitch : rotor.pitches[std::size_t(b)];
     for (const Element& e : elements_) {
       const Eigen::Vector3d arm = e.axial * rotor.axis + e.radius * out;
-      const Eigen::Vector3d relative = wind.at(rotor.hub + arm) - rotor.hub_velocity;
+      Eigen::Vector3d air = wind.at(t, rotor.hub + arm);
+      if (rotor.tower) air = rotor.tower->disturbed(rotor.tower_frame, air, rotor.hub + arm);
+      const Eigen::Vector3d relative = air - rotor.hub_velocity;
       const Eigen::Vector3d normal = e.normal_axial * rotor.axis + e.normal_radial * out, met = relative - rotor.omega.cross(arm);
       const double normal_wind = met.dot(normal), tangential_wind = -met.dot(ahead);
       const auto section = [&](double a) { return polar(e, a); };
-      const Annulus ring = annulus(e, rotor.blade_pitch);
+      const Annulus ring = annulus(e, pitch);
       ElementState s = solve_element(ring, normal_wind, tangential_wind, induction, section);
       s = skewed(ring, s, normal_wind, tangential_wind, skew, e.radius / tip_radius_ * out.dot(downstream), section);
       const double pressure = 0.5 * air_density_ * s.speed * s.speed * e.chord * e.length;

@@ -5,11 +5,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "kernels/rotor/blade_element.hpp"
+#include "src/aero/tower.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 
@@ -22,6 +24,9 @@ struct DiscMotion {
   Eigen::Vector3d axis, up;                       ///< unit, normal to each other; blade 1 points along `up` at azimuth zero
   double azimuth, blade_pitch;                    ///< [rad]
   Eigen::Vector3d hub = Eigen::Vector3d::Zero();  ///< [m], where the wind goes with height
+  std::span<const double> pitches = {};           ///< of each blade [rad]; none: all have blade_pitch
+  const Tower* tower = nullptr;                   ///< whose flow the blades meet
+  TowerFrame tower_frame = {};
 };
 
 struct DiscLoad {
@@ -34,9 +39,10 @@ class BladeElementMomentum {
   /// `induction`: "madsen" or "buhl".
   BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density_kg_m3);
 
-  DiscLoad operator()(const Wind& wind, const DiscMotion& rotor) const;
+  DiscLoad operator()(const Wind& wind, const DiscMotion& rotor, double t = 0.0) const;
   DiscLoad operator()(const Eigen::Vector3d& wind, const DiscMotion& rotor) const { return (*this)(Wind{wind}, rotor); }
 
+  double tip_radius() const { return tip_radius_; }
   double radius(std::size_t element) const { return elements_[element].radius; }
   double chord(std::size_t element) const { return elements_[element].chord; }
   /// Of one element by itself; the two winds as in solve_element.
@@ -52,7 +58,7 @@ class BladeElementMomentum {
   };
   SectionForce polar(const Element& e, double attack) const;
   template <class Induction>
-  DiscLoad load(const Wind& wind, const DiscMotion& rotor, const Induction& induction) const;
+  DiscLoad load(const Wind& wind, const DiscMotion& rotor, double t, const Induction& induction) const;
   Annulus annulus(const Element& e, double blade_pitch) const;
 
   std::variant<InductionMadsen, InductionBuhl> induction_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "src/aero/operation.hpp"
 #include "src/aero/prescribed.hpp"
 #include "src/aero/thrust_curve.hpp"
 #include "src/aero/turbine.hpp"
@@ -37,18 +38,6 @@ void check_aero(const AeroOptions& o, const scene::Report& report) {
   if (!o.table.empty() && series) report("table", "takes the place of torque_N_m and of all harmonics: give the table or those");
   if (!o.curve.empty() && o.torque_coefficient != 0.0)
     report("torque_coefficient", "has no effect beside a curve, which has its own");
-}
-
-void check_wind(const WindOptions& o, const scene::Report& report) {
-  if (o.law == WindLaw::uniform) return;
-  if (!o.reference_height_m)
-    return report("reference_height_m", "must be given: a profile has speed_m_s at one height, the hub's say");
-  if (o.least_height_m > *o.reference_height_m)
-    report("least_height_m",
-           fmt::format("= {} must not be above reference_height_m = {}", o.least_height_m, *o.reference_height_m));
-  if (o.law == WindLaw::logarithmic && !(o.roughness_m < o.least_height_m))
-    report("roughness_m", fmt::format("= {} must be below least_height_m = {}: the logarithmic law is zero at the roughness",
-                                      o.roughness_m, o.least_height_m));
 }
 
 void check_axis(const RotorOptions& o, const scene::Report& report) {
@@ -113,6 +102,8 @@ const scene::Section<AeroOptions>& aero_section() {
                    {"buhl", "momentum theory, Buhl's parabola beyond 0.4"}},
                   "Induction from local loading.")
           .only_if("model", {"bem"})
+          .table("tower", &AeroOptions::tower, tower_section(), "The tower in the wind.")
+          .only_if("model", {"thrust_curve", "bem"})
           .table("grid", &AeroOptions::grid, rotor_grid_section(), "The grid round the resolved rotor.")
           .table("flow", &AeroOptions::flow, flow_section(), "The resolved air.")
           .one_of({"thrust_N", "table"})
@@ -133,49 +124,25 @@ const scene::Section<RotorOptions>& rotor_section() {
           .only_if("joint", no_joint)
           .rpm("speed_rpm", &RotorOptions::speed, "Constant rotor speed where no body turns.", scene::between(-1e4, 1e4))
           .only_if("joint", no_joint)
+          .only_if("operating_point", {"given"})
           .degrees("azimuth_deg", &RotorOptions::azimuth, "Azimuth of blade 1 at the start; zero is up.",
                    scene::between(-360.0, 360.0))
           .degrees("blade_pitch_deg", &RotorOptions::blade_pitch, "Blade pitch, positive nose into the wind (towards feather).",
                    scene::between(-180.0, 180.0))
+          .only_if("operating_point", {"given"})
           .number("diameter_m", &RotorOptions::diameter_m, "m", "Rotor diameter.", scene::positive())
           .path("turbine", &RotorOptions::turbine, "Turbine file: blades as section tables (inputs/turbines).")
-          .path("operation", &RotorOptions::operation,
-                "CSV file with wind_m_s and speed_rpm: steady operation, for the frequencies that `check` compares; without it "
-                "the rotor "
-                "speed of the scene stands for every wind.")
+          .path(
+              "operation", &RotorOptions::operation,
+              "CSV file with wind_m_s, speed_rpm and, if any, blade_pitch_deg and power_W: steady operation. Without it that of "
+              "the turbine file, if it names one; else the rotor speed of the scene stands for every wind.")
+          .choice("operating_point", &RotorOptions::operating_point,
+                  {{"given", "speed_rpm, or the driver of the bearing, and blade_pitch_deg"},
+                   {"table",
+                    "the operating table's for the undisturbed wind at the hub; it takes the place of the bearing's "
+                    "speed_rpm"}},
+                  "Where rotor speed and blade pitch come from; with [control], those of the start.")
           .check(check_axis);
-  return section;
-}
-
-const scene::Section<WindOptions>& wind_section() {
-  const std::vector<std::string> sheared{"power_law", "logarithmic"};
-  static const auto section =
-      scene::Section<WindOptions>("wind", "The undisturbed wind: steady, of one direction.")
-          .number("speed_m_s", &WindOptions::speed_m_s, "m/s", "Wind speed; with a profile, at reference_height_m.",
-                  scene::between(0.0, 200.0))
-          .degrees("direction_deg", &WindOptions::direction, "Where it blows to: 0 along +x, positive towards +y.",
-                   scene::between(-360.0, 360.0))
-          .choice("profile", &WindOptions::law,
-                  {{"uniform", WindLaw::uniform, "the same at every height"},
-                   {"power_law", WindLaw::power, "speed_m_s times (z / reference_height_m)^shear_exponent"},
-                   {"logarithmic", WindLaw::logarithmic,
-                    "speed_m_s times ln(z / roughness_m) / ln(reference_height_m / roughness_m)"}},
-                  "Speed over the height z above still water.")
-          .number("reference_height_m", &WindOptions::reference_height_m, "m",
-                  "Height above still water at which the wind has speed_m_s.", scene::above(0.0).up_to(1e4))
-          .only_if("profile", sheared)
-          .number("shear_exponent", &WindOptions::shear_exponent, "-",
-                  "Of the power law: .14 at sea, .2 on land (IEC 61400-3, 61400-1).", scene::between(-1.0, 1.0))
-          .only_if("profile", {"power_law"})
-          .number("roughness_m", &WindOptions::roughness_m, "m", "Of the surface, for the logarithmic law; 0.0002 for open sea.",
-                  scene::between(1e-6, 10.0))
-          .only_if("profile", {"logarithmic"})
-          .number(
-              "least_height_m", &WindOptions::least_height_m, "m",
-              "Below this height, and below the water, which the grid of the air does not know, the wind is as at this height.",
-              scene::above(0.0).up_to(1e4))
-          .only_if("profile", sheared)
-          .check(check_wind);
   return section;
 }
 
@@ -205,12 +172,7 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
   if (aero.model == "bem" && rotor.turbine.empty())
     doc.problem("rotor.turbine", "must name a turbine file: aero.model \"bem\" needs the blades");
   try_file("rotor.turbine", rotor.turbine, [&] { read_turbine(rotor.turbine); });
-  try_file("rotor.operation", rotor.operation, [&] {
-    const scene::Columns table = scene::read_columns(rotor.operation);
-    table.require_rows(1);
-    table.require_increasing("wind_m_s", "wind must increase from row to row");
-    table["speed_rpm"];
-  });
+  try_file("rotor.operation", rotor.operation, [&] { read_operation(rotor.operation); });
   try_file("aero.table", aero.table, [&] { Prescribed model(aero); });
   try_file("aero.curve", aero.curve, [&] { ThrustCurve model(aero, rotor, 1.0); });
 }

@@ -1,4 +1,4 @@
-// Options of the rotor and its air at engineering fidelity: [aero], [rotor], [wind], and the rules between them.
+// Options of the rotor and its air at engineering fidelity: [aero], [rotor], and the rules between them.
 // Declared in options.cpp; read by src/app; tested in tests/src/aero/options_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "kernels/rotor/wind_profile.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/rotor_grid/options.hpp"
+#include "src/aero/tower.hpp"
+#include "src/aero/wind_options.hpp"
 
 namespace spindrift::scene {
 template <class Options>
@@ -38,6 +39,7 @@ struct AeroOptions {
   std::string interpolation = "linear";
   // bem
   std::string induction = "madsen";
+  std::optional<TowerOptions> tower;
   std::optional<FlowOptions> flow;       ///< blade_resolved
   std::optional<RotorGridOptions> grid;  ///< resolved rotor
 };
@@ -51,21 +53,13 @@ struct RotorOptions {
   double azimuth = 0.0;      ///< at the start [rad]
   double blade_pitch = 0.0;  ///< [rad], positive nose into the wind
   std::optional<double> diameter_m;
-  std::string turbine;    ///< path: blades as data
-  std::string operation;  ///< path: rotor speed against wind
-};
-
-struct WindOptions {
-  double speed_m_s = 0.0;  ///< at the reference height
-  double direction = 0.0;  ///< where it blows to, from +x towards +y [rad]
-  WindLaw law = WindLaw::uniform;
-  std::optional<double> reference_height_m;
-  double least_height_m = 10.0, shear_exponent = 0.14, roughness_m = 2e-4;
+  std::string turbine;                    ///< path: blades as data
+  std::string operation;                  ///< path: rotor speed, pitch and power against wind
+  std::string operating_point = "given";  ///< given, table
 };
 
 const scene::Section<AeroOptions>& aero_section();
 const scene::Section<RotorOptions>& rotor_section();
-const scene::Section<WindOptions>& wind_section();
 
 /// Rules between sections: the body and joint exist, the rotor has what its model needs, data files are readable.
 void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptions& rotor, std::span<const std::string> bodies,

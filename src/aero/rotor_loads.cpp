@@ -15,15 +15,31 @@ double whole_turns_off(double angle) {
   return rest < 0.0 ? rest + 2 * pi : rest;
 }
 
+double mean(std::span<const double> values) {
+  double sum = 0.0;
+  for (double v : values) sum += v;
+  return sum / double(values.size());
+}
+
+TowerFrame tower_frame(const RotorState& now) {
+  return {now.hub, now.axis, now.up, now.hub_velocity, now.omega - now.speed * now.axis};
+}
+
+/// From [rotor], else from the blades; 0 where nothing says.
+double diameter_of(const RotorOptions& rotor) {
+  if (rotor.diameter_m) return *rotor.diameter_m;
+  return rotor.turbine.empty() ? 0.0 : 2.0 * BladeElementMomentum(read_turbine(rotor.turbine), "madsen", 1.0).tip_radius();
+}
+
 }  // namespace
 
 RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,
-                       const RotorPlacement& placement, std::span<const Motion> start)
+                       const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control)
     : placement_(placement),
       start_azimuth_(rotor.azimuth),
       speed_(rotor.speed),
       blade_pitch_(rotor.blade_pitch),
-      wind_(wind_of(wind)) {
+      wind_(wind_of(wind, {placement.hub, diameter_of(rotor)})) {
   const Motion& body = start[placement.body];
   const Eigen::Vector3d axis = placement.axis.normalized();
   hub_ = body.attitude.conjugate() * (placement.hub - body.position);
@@ -39,6 +55,13 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
   if (aero.model == "prescribed") model_ = Prescribed(aero);
   if (aero.model == "thrust_curve") model_ = ThrustCurve(aero, rotor, air_density);
   if (aero.model == "bem") model_ = BladeElementMomentum(read_turbine(rotor.turbine), aero.induction, air_density);
+  if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
+  if (control.model == ControlModel::none) return;
+  const int blades = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
+  control_.emplace(control, read_controller(control.file),
+                   rotor.operation.empty() ? std::nullopt : std::optional(read_operation(rotor.operation)), blades, rotor.azimuth,
+                   rotor.speed, rotor.blade_pitch);
+  speed_ = control_->start_speed(), blade_pitch_ = control_->start_pitch();
 }
 
 Eigen::Quaterniond RotorLoads::support_attitude(std::span<const Motion> bodies) const {
@@ -55,11 +78,16 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
   now.axis = body.attitude * axis_;
   now.up = support * support_up_;
   now.omega = body.omega_earth();
-  now.relative_wind = relative_wind(now.hub, now.hub_velocity, now.axis);
+  now.relative_wind = relative_wind(t, now.hub, now.hub_velocity, now.axis);
   if (!placement_.support) {
-    now.azimuth = whole_turns_off(start_azimuth_ + speed_ * t);
     now.speed = speed_;
-    now.omega += speed_ * now.axis;
+    double azimuth = start_azimuth_ + speed_ * t;
+    if (control_ && !memory_.empty()) {
+      const TurbineControl::State drive = TurbineControl::state(memory_);
+      now.speed = drive.speed, azimuth = drive.azimuth + drive.speed * (t - drive.time);
+    }
+    now.azimuth = whole_turns_off(azimuth);
+    now.omega += now.speed * now.axis;
     return now;
   }
   const Eigen::Quaterniond since = support.conjugate() * body.attitude * start_turn_.conjugate();
@@ -71,19 +99,50 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
 
 RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
   RotorLoad load;
+  const std::span<const double> pitches = control_ && !memory_.empty() ? control_->pitch(memory_) : std::span<const double>();
   if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) {
-    const DiscLoad disc = (*bem)(wind_, {now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_, now.hub});
+    DiscMotion disc_motion{now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_, now.hub, pitches};
+    if (tower_ && tower_->changes_wind()) disc_motion.tower = &*tower_, disc_motion.tower_frame = tower_frame(now);
+    const DiscLoad disc = (*bem)(wind_, disc_motion, t);
     load.force = ramp * disc.force, load.moment = ramp * disc.moment;
     load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis);
   } else {
     AxialLoad axial;
+    const double pitch = pitches.empty() ? blade_pitch_ : mean(pitches);
     if (const auto* prescribed = std::get_if<Prescribed>(&model_)) axial = (*prescribed)(t, now.azimuth);
-    if (const auto* curve = std::get_if<ThrustCurve>(&model_)) axial = (*curve)(now.relative_wind, now.speed, blade_pitch_);
+    if (const auto* curve = std::get_if<ThrustCurve>(&model_)) axial = (*curve)(now.relative_wind, now.speed, pitch);
     load.thrust = ramp * axial.thrust, load.torque = ramp * axial.torque;
     load.force = load.thrust * thrust_direction_.value_or(now.axis), load.moment = load.torque * now.axis;
   }
   load.power = load.torque * now.speed;
+  if (tower_) {
+    const TowerLoad drag = tower_->drag(tower_frame(now), wind_, t);
+    load.force += ramp * drag.force, load.moment += ramp * drag.moment;
+  }
+  if (control_) {
+    // The body feels what the shaft gives it, and the turning of the spinning rotor's axis.
+    if (!memory_.empty()) load.moment += (ramp * TurbineControl::state(memory_).shaft_torque - load.torque) * now.axis;
+    const Eigen::Vector3d carrier = now.omega - now.speed * now.axis;
+    load.moment -= carrier.cross(Eigen::Vector3d(control_->rotor_inertia() * now.speed * now.axis));
+  }
   return load;
+}
+
+void RotorLoads::begin(double t, std::span<const Motion> bodies, std::span<double> memory) {
+  recall({});
+  const RotorState now = state(t, bodies);
+  control_->begin(t, load(t, now).torque, now.relative_wind, memory);
+  recall(memory);
+}
+
+void RotorLoads::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const {
+  const RotorState now = state(t, bodies);
+  control_->advance(t, h, load(t, now).torque, now.relative_wind, memory);
+}
+
+RotorLoads::Drive RotorLoads::drive() const {
+  const TurbineControl::State s = TurbineControl::state(memory_);
+  return {s.generator_torque, control_->efficiency() * s.generator_torque * s.speed, s.asked, control_->pitch(memory_)};
 }
 
 void RotorLoads::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp) const {

@@ -15,6 +15,7 @@
 #include "src/aero/options.hpp"
 #include "src/aero/prescribed.hpp"
 #include "src/aero/thrust_curve.hpp"
+#include "src/aero/turbine_control.hpp"
 
 namespace spindrift::aero {
 
@@ -49,7 +50,7 @@ class RotorLoads {
   /// `start`: initial motions of all bodies, in the order of every later call. Data files have been checked (check_rotor); throws
   /// scene::SceneError where one cannot be read.
   RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density_kg_m3,
-             const RotorPlacement& placement, std::span<const Motion> start);
+             const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control = {});
 
   /// Adds the load, times `ramp`, to the rotor body's wrench.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp = 1.0) const;
@@ -60,10 +61,27 @@ class RotorLoads {
 
   RotorState state(double t, std::span<const Motion> bodies) const;
   /// Wind along the axis, seen from a hub that is there and moves so [m/s].
-  double relative_wind(const Eigen::Vector3d& hub, const Eigen::Vector3d& hub_velocity, const Eigen::Vector3d& axis) const {
-    return (wind_.at(hub) - hub_velocity).dot(axis);
+  double relative_wind(double t, const Eigen::Vector3d& hub, const Eigen::Vector3d& hub_velocity,
+                       const Eigen::Vector3d& axis) const {
+    return (wind_.at(t, hub) - hub_velocity).dot(axis);
   }
   RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const;
+
+  // What the rotor remembers from step to step, as bodies::Memory has it: the drive train with its controller. Without values to
+  // recall it turns as at the start.
+  std::size_t memory_size() const { return control_ ? control_->memory_size() : 0; }
+  void begin(double t, std::span<const Motion> bodies, std::span<double> memory);
+  void recall(std::span<const double> memory) { memory_.assign(memory.begin(), memory.end()); }
+  void remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const;
+
+  bool is_controlled() const { return control_.has_value(); }
+  std::size_t drive_blades() const { return control_ ? control_->blades() : 0; }
+  /// What the controller does; of the values recalled last, which must be there.
+  struct Drive {
+    double generator_torque, electrical_power, asked_pitch;  ///< [N m] on the shaft, [W], [rad]
+    std::span<const double> pitch;                           ///< of each blade [rad]
+  };
+  Drive drive() const;
 
  private:
   /// Attitude of what carries azimuth zero.
@@ -76,6 +94,9 @@ class RotorLoads {
   std::optional<Eigen::Vector3d> thrust_direction_;  ///< earth frame, where the thrust does not follow the axis
   double start_azimuth_, speed_, blade_pitch_;
   Wind wind_;
+  std::optional<TurbineControl> control_;
+  std::optional<Tower> tower_;
+  std::vector<double> memory_;  ///< recalled; empty: steady
   std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
 };
 

@@ -124,8 +124,17 @@ const scene::Section<TurbineOptions>& turbine_section() {
           .required()
           .tables("polars", &TurbineOptions::polars, polar_section(), "Lift and drag for the thicknesses along the blade.")
           .tables("aerofoils", &TurbineOptions::aerofoils, aerofoil_section(),
-                  "Outlines for the thicknesses along the blade: what a resolved blade's surface is made from.");
+                  "Outlines for the thicknesses along the blade: what a resolved blade's surface is made from.")
+          .path("operation", &TurbineOptions::operation, "Operating table, for scenes that give no rotor.operation.")
+          .path("controller", &TurbineOptions::controller, "Controller file, for scenes that give no control.file.");
   return section;
+}
+
+TurbineFiles turbine_files(const std::string& path) {
+  scene::Document doc = scene::load(path);
+  const TurbineOptions options = doc.read(turbine_section());
+  doc.finish();
+  return {options.operation, options.controller};
 }
 
 Turbine read_turbine(const std::string& path) {

@@ -33,6 +33,7 @@ struct TurbineOptions {
   std::string planform;  ///< path
   std::vector<PolarOptions> polars;
   std::vector<OutlineOptions> aerofoils;
+  std::string operation, controller;  ///< paths
 };
 
 const scene::Section<TurbineOptions>& turbine_section();
@@ -68,6 +69,12 @@ struct Turbine {
   std::vector<Polar> polars;        ///< by increasing thickness
   std::vector<Aerofoil> aerofoils;  ///< by increasing thickness; none where the file gives none
 };
+
+/// What a turbine file says besides its blades: paths of its operating table and its controller, empty where it names none.
+struct TurbineFiles {
+  std::string operation, controller;
+};
+TurbineFiles turbine_files(const std::string& path);
 
 /// Throws scene::SceneError with all that is wrong with the file and the data files that it names.
 Turbine read_turbine(const std::string& path);

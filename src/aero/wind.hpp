@@ -1,30 +1,52 @@
-// The undisturbed wind: steady, of one direction, its speed by a law of the height above still water. A turbulent box would take
-// its place behind the same function. Used by rotor_loads.cpp, bem.cpp and the scenes of the resolved air; tested in
-// tests/src/aero/rotor_loads_test.cpp. SPDX-License-Identifier: Apache-2.0
+// The undisturbed wind: its speed by a law of the height above still water, its changes in time, its turbulence.
+// Made from [wind]; used by rotor_loads.cpp, bem.cpp and, where it is steady, the scenes of the resolved air; tested in
+// tests/src/aero/wind_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
+#include <memory>
+#include <string>
 
 #include "kernels/rotor/wind_profile.hpp"
-#include "src/aero/options.hpp"
+#include "src/aero/wind_options.hpp"
 
 namespace spindrift::aero {
 
+/// What makes the wind change: a table, an event, a box of turbulence.
+class WindInTime;
+
 struct Wind {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< at the profile's reference height [m/s], earth frame
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< at the profile's reference height, at the start [m/s], earth frame
   WindProfile profile = {};
-  Eigen::Vector3d at(const Eigen::Vector3d& point) const {
+  std::shared_ptr<const WindInTime> in_time = {};  ///< null: steady
+
+  Eigen::Vector3d at(double t, const Eigen::Vector3d& point) const {
+    if (in_time) return changing(t, point);
     return profile.uniform() ? velocity : Eigen::Vector3d(profile.share(point.z()) * velocity);
   }
+
+ private:
+  Eigen::Vector3d changing(double t, const Eigen::Vector3d& point) const;
 };
 
 inline WindProfile wind_profile(const WindOptions& wind) {
   return {wind.law, wind.reference_height_m.value_or(1.0), wind.least_height_m, wind.shear_exponent, wind.roughness_m};
 }
 
-inline Wind wind_of(const WindOptions& wind) {
-  return {wind.speed_m_s * Eigen::Vector3d(std::cos(wind.direction), std::sin(wind.direction), 0.0), wind_profile(wind)};
-}
+/// Where the rotor is and how large: what gusts and boxes are made for.
+struct WindSite {
+  Eigen::Vector3d hub = Eigen::Vector3d::Zero();  ///< at the start [m]
+  double diameter = 0.0;                          ///< [m]
+};
+
+/// Throws scene::SceneError where a file cannot be read, or a box does not cover the rotor or (t_end) the run.
+Wind wind_of(const WindOptions& wind, const WindSite& site);
+
+/// The speed that the scene's wind begins with, from its files where those say so [m/s].
+double starting_speed(const WindOptions& wind);
+
+/// In words: "8 m/s, eog at 60 s".
+std::string describe_wind(const WindOptions& wind);
 
 }  // namespace spindrift::aero

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "src/aero/wind.hpp"
 #include "src/app/commands.hpp"
 #include "src/app/cost.hpp"
 #include "src/coupling/campbell.hpp"
@@ -29,6 +30,7 @@ void print_models(const Machine& machine) {
   fmt::print("\nWhat will be modelled\n");
   fmt::print("  {:<10}{}\n", "bodies", coupling::describe_bodies(s));
   fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
+  if (s.has_rotor() && s.aero.model != "prescribed") fmt::print("  {:<10}{}\n", "wind", aero::describe_wind(s.wind));
   fmt::print("  {:<10}{}\n", "sea", coupling::describe_sea(s));
   fmt::print("  {:<10}{}\n", "moorings", coupling::describe_moorings(s));
 }

@@ -54,6 +54,10 @@ struct StudyArguments {
   std::string out;                     ///< empty: runs/STUDY
 };
 
+struct ImportArguments {
+  std::string file, out;
+};
+
 int run(const RunArguments& arguments, const runtime::World& world);
 int grid(const GridArguments& arguments, const runtime::World& world);
 int check(const CheckArguments& arguments, const runtime::World& world);
@@ -63,5 +67,6 @@ int study(const StudyArguments& arguments, const runtime::World& world);
 /// One line; `verbose`: all that the speed of this program depends on.
 std::string version(bool verbose);
 int report(const ReportArguments& arguments, const runtime::World& world);
+int import_deck(const ImportArguments& arguments, const runtime::World& world);
 
 }  // namespace spindrift::app

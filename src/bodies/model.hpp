@@ -42,6 +42,18 @@ struct Joint {
   std::optional<PrescribedMotion> rotation, translation;  ///< drivers [rad], [m]
 };
 
+/// What a source of load carries from one step to the next (a controller, the memory of waves, nodes of a line): plain values
+/// that are part of the bodies' state, so that windows repeat and restarts go on with them, bit for bit.
+struct Memory {
+  std::size_t size = 0;  ///< values
+  /// Fills the values at the start of a run, where the bodies are so.
+  std::function<void(double t, std::span<const Motion>, std::span<double>)> begin;
+  /// Loads asked for from now on are those with these values; with none they are the steady ones, as statics and modes want them.
+  std::function<void(std::span<const double>)> recall;
+  /// @pre `recall` was called with these values, which are those of t - h. @post they are those of t, where the bodies are so.
+  std::function<void(double t, double h, std::span<const Motion>, std::span<double>)> remember;
+};
+
 /// Loads on the bodies from one cause, kept apart in the output. `loads` ADDS to wrenches about each body's centre of mass (their
 /// points are set); called in every right-hand-side evaluation, so it must not allocate. `added_mass`, where not empty, adds each
 /// body's 6x6 matrix about its centre of mass, rows and columns [force; moment], earth axes: it goes on the left-hand side, so
@@ -51,6 +63,7 @@ struct LoadSource {
   std::string name;
   std::function<void(double t, std::span<const Motion>, std::span<Wrench>)> loads;
   std::function<void(double t, std::span<const Motion>, std::span<Matrix6>)> added_mass;
+  std::optional<Memory> memory = std::nullopt;
 };
 
 }  // namespace spindrift::bodies

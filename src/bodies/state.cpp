@@ -18,6 +18,7 @@ void BodiesState::pack(std::span<double> out) const {
   for (double angle : joint_angles) *p++ = angle;
   for (char flag : independent) *p++ = flag;
   for (char flag : active) *p++ = flag;
+  for (double value : memory) *p++ = value;
 }
 
 void BodiesState::unpack(std::span<const double> in) {
@@ -33,6 +34,7 @@ void BodiesState::unpack(std::span<const double> in) {
   for (double& angle : joint_angles) angle = *p++;
   for (char& flag : independent) flag = char(*p++);
   for (char& flag : active) flag = char(*p++);
+  for (double& value : memory) value = *p++;
 }
 
 }  // namespace spindrift::bodies

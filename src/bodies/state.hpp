@@ -18,9 +18,12 @@ struct BodiesState {
   std::vector<double> joint_angles;  ///< [rad] of every joint, full turns included; zero for joints that do not turn
   std::vector<char> independent;     ///< by velocity coordinate (6 per body): 1 where independent (coordinate partitioning)
   std::vector<char> active;          ///< by constraint row: 1 where used, 0 where redundant
+  std::vector<double> memory;        ///< of the sources of load that have one, in their order; empty before System::begin_memory
 
   /// Doubles that pack() writes; the same for all states of a system.
-  std::size_t packed_size() const { return 1 + 13 * motions.size() + joint_angles.size() + independent.size() + active.size(); }
+  std::size_t packed_size() const {
+    return 1 + 13 * motions.size() + joint_angles.size() + independent.size() + active.size() + memory.size();
+  }
   void pack(std::span<double> out) const;
   /// Reads what pack() wrote into a state of the same system (sizes are those of this state).
   void unpack(std::span<const double> in);

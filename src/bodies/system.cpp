@@ -49,13 +49,18 @@ struct System::Work {
     force.setZero(mechanism.coordinates());
     inertial.setZero(mechanism.coordinates());
     mass_tangent.resize(mechanism.coordinates(), 0);
-    for (const LoadSource& source : loads) has_added_mass |= bool(source.added_mass);
+    for (const LoadSource& source : loads) {
+      has_added_mass |= bool(source.added_mass);
+      if (source.memory) memory_size += source.memory->size;
+    }
     evaluation.acceleration.resize(bodies.size());
     evaluation.angular_acceleration.resize(bodies.size());
     evaluation.by_source.assign(loads.size(), std::vector<Wrench>(bodies.size()));
     evaluation.joint_reactions.resize(joints.size());
   }
 
+  void recall(std::span<const double> memory);
+  void remember(double t, double h, BodiesState& state);
   void gather_loads(double t);
   void gather_mass(double t);
   void gather_forces(bool at_rest);
@@ -74,6 +79,7 @@ struct System::Work {
   Mechanism mechanism;
   std::vector<int> support;
   bool has_added_mass = false;
+  std::size_t memory_size = 0;
 
   StepReport report;
   std::vector<Motion> motions;
@@ -116,6 +122,27 @@ bool System::Work::positions(double t, const Eigen::VectorXd& x) {
   report.joint = r.joint;
   report.value = r.value;
   return false;
+}
+
+/// Hands each source its part of the memory; to all of them nothing where there is none.
+void System::Work::recall(std::span<const double> memory) {
+  if (memory_size == 0) return;
+  std::size_t first = 0;
+  for (const LoadSource& source : loads) {
+    if (!source.memory) continue;
+    source.memory->recall(memory.empty() ? memory : memory.subspan(first, source.memory->size));
+    first += source.memory->size;
+  }
+}
+
+void System::Work::remember(double t, double h, BodiesState& state) {
+  if (state.memory.empty()) return;
+  std::size_t first = 0;
+  for (const LoadSource& source : loads) {
+    if (!source.memory) continue;
+    source.memory->remember(t, h, state.motions, std::span(state.memory).subspan(first, source.memory->size));
+    first += source.memory->size;
+  }
 }
 
 void System::Work::gather_loads(double t) {
@@ -241,6 +268,7 @@ Assembly System::assemble(double t_s) {
 }
 
 Assembly System::assemble_from(const BodiesState& near, double t_s) {
+  w_->recall({});
   Assembly assembly;
   assembly.state = near;
   BodiesState& state = assembly.state;
@@ -300,11 +328,22 @@ Assembly System::assemble_from(const BodiesState& near, double t_s) {
   return assembly;
 }
 
+void System::begin_memory(BodiesState& state, double t_s) {
+  state.memory.assign(w_->memory_size, 0.0);
+  std::size_t first = 0;
+  for (const LoadSource& source : w_->loads) {
+    if (!source.memory) continue;
+    source.memory->begin(t_s, state.motions, std::span(state.memory).subspan(first, source.memory->size));
+    first += source.memory->size;
+  }
+}
+
 StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks) {
   Work& w = *w_;
   const double t = double(state.tick) * tick_s, h = double(ticks) * tick_s;
   const double t_end = double(state.tick + ticks) * tick_s;
   w.opened = state;
+  w.recall(w.opened.memory);
   if (!w.open(w.opened, t, false).ok()) return w.report;
   w.u = w.mechanism.open_velocity();
   const auto rates = [&w](double time, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
@@ -320,6 +359,12 @@ StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks
   w.mechanism.motions(w.opened.motions);
   w.mechanism.turn_joints(w.opened.joint_angles);
   w.opened.tick = state.tick + ticks;
+  w.remember(t_end, h, w.opened);
+  for (std::size_t k = 0; k < w.opened.memory.size(); ++k)
+    if (!std::isfinite(w.opened.memory[k])) {
+      w.fail(StepReport::Trouble::not_finite, -1);
+      return w.report;
+    }
   std::swap(state, w.opened);
   return w.report;
 }
@@ -328,6 +373,7 @@ const Evaluation& System::evaluate(const BodiesState& state, double t_s) {
   Work& w = *w_;
   Evaluation& e = w.evaluation;
   w.opened = state;
+  w.recall(w.opened.memory);
   e.report = w.open(w.opened, t_s, false);
   if (!e.report.ok()) return e;
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(w.mechanism.freedoms());
@@ -412,6 +458,7 @@ NumericalFailure System::failure(const StepReport& r, const BodiesState& state, 
 
 StepReport System::open_chart(const BodiesState& state, double t_s) {
   w_->opened = state;
+  w_->recall({});
   return w_->open(w_->opened, t_s, false);
 }
 int System::freedoms() const { return w_->mechanism.freedoms(); }

@@ -78,6 +78,10 @@ class System {
   /// Consistent state with the given motions; `tick` and turns are kept from `near`.
   Assembly assemble_from(const BodiesState& near, double t_s);
 
+  /// Gives the sources of load the memory with which a run begins. Without it (or without sources that have one) loads are the
+  /// steady ones.
+  void begin_memory(BodiesState& state, double t_s);
+
   /// One step of `ticks` ticks with the chosen integrator. On trouble the state is left as it was. Does not allocate unless the
   /// independent set is chosen anew.
   StepReport advance(BodiesState& state, double tick_s, std::int64_t ticks);
@@ -93,6 +97,7 @@ class System {
   std::string describe(const StepReport& report) const;
   NumericalFailure failure(const StepReport& report, const BodiesState& state, double tick_s) const;
 
+  // Loads in the chart are the steady ones: memory is left out.
   // The chart: coordinates of the configurations near a state, x in R^n with x = 0 at the state, one for each independent
   // velocity u. Translations in units of reference_length(). For statics and linearisation.
   StepReport open_chart(const BodiesState& state, double t_s);

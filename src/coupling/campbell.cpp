@@ -11,8 +11,8 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/coupling/loose_limits.hpp"
+#include "src/aero/operation.hpp"
 #include "src/aero/turbine.hpp"
-#include "src/scene/columns.hpp"
 
 namespace spindrift::coupling {
 
@@ -42,27 +42,14 @@ void find_pairs(CampbellRow& row, const Campbell& c) {
 
 }  // namespace
 
-double Operation::at(double wind) const {
-  const auto above = std::upper_bound(wind_m_s.begin(), wind_m_s.end(), wind);
-  if (above == wind_m_s.begin()) return speed.front();
-  if (above == wind_m_s.end()) return speed.back();
-  const auto i = std::size_t(above - wind_m_s.begin());
-  const double x = (wind - wind_m_s[i - 1]) / (wind_m_s[i] - wind_m_s[i - 1]);
-  return (1.0 - x) * speed[i - 1] + x * speed[i];
-}
-
 Campbell campbell(const Scenario& s, const bodies::Linearisation& linearisation, double speed) {
   Campbell c;
   for (const bodies::Mode& mode : linearisation.modes)
     if (std::abs(mode.eigenvalue.imag()) > 1e-6 && mode.damping_ratio() < 1.0)
       c.platform.emplace_back(mode.name, 1.0 / mode.period_s());
-  Operation operation;
-  if (!s.rotor.operation.empty()) {
-    const scene::Columns table = scene::read_columns(s.rotor.operation);
-    operation.wind_m_s.assign(table["wind_m_s"].begin(), table["wind_m_s"].end());
-    for (double rpm : table["speed_rpm"]) operation.speed.push_back(rpm * rad_s_per_rpm);
-  }
-  const auto once = [&](double wind) { return std::abs(operation.speed.empty() ? speed : operation.at(wind)) / (2 * pi); };
+  aero::Operation operation;
+  if (!s.rotor.operation.empty()) operation = aero::read_operation(s.rotor.operation);
+  const auto once = [&](double wind) { return std::abs(operation.speed.empty() ? speed : operation.at(wind).speed) / (2 * pi); };
   for (const SeaState& sea : sea_states)
     c.rows.push_back({fmt::format("sea state {}", sea.number),
                       sea.wind_m_s,
@@ -158,7 +145,7 @@ LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, c
   for (int side = 0; side < 2; ++side) {
     aero::RotorState moved = hub;
     moved.hub_velocity += (side ? change : -change) * hub.axis;
-    moved.relative_wind = rotor.relative_wind(hub.hub, moved.hub_velocity, hub.axis);
+    moved.relative_wind = rotor.relative_wind(0.0, hub.hub, moved.hub_velocity, hub.axis);
     thrust[side] = rotor.load(0.0, moved).force.dot(hub.axis);
   }
   verdict.slope_N_s_m = (thrust[0] - thrust[1]) / (2 * change);

@@ -35,12 +35,6 @@ struct CampbellRow {
 };
 inline constexpr double close = 0.1;
 
-/// Rotor speed [rad/s] against wind, linear between rows, its ends held; empty: one speed at every wind.
-struct Operation {
-  std::vector<double> wind_m_s, speed;
-  double at(double wind) const;
-};
-
 struct Campbell {
   std::vector<CampbellRow> rows;
   std::vector<std::pair<std::string, double>> platform;  ///< name and frequency [Hz] of the modes that oscillate

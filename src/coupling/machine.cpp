@@ -114,32 +114,46 @@ Machine::Machine(Scenario scenario)
                  on);
   } else if (s.has_sea()) {
     const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
-    sea_.emplace(s.sea, s.waves, sea_environment(s.environment), wetted);
+    sea_.emplace(s.sea, s.waves, sea_environment(s.environment), wetted, timeline_.tick_s());
     std::vector<bool> on(names.size());
     for (std::size_t b = 0; b < names.size(); ++b) on[b] = !wetted[b].cylinders.empty();
     for (const sea::DampingOptions& damping : s.sea.damping) on[std::size_t(index_of(names, damping.body))] = true;
+    for (const sea::MatricesOptions& matrices : s.sea.matrices) on[std::size_t(index_of(names, matrices.body))] = true;
+    if (s.sea.potential) on[std::size_t(index_of(names, s.sea.potential->body))] = true;
     bodies::LoadSource source{
         "sea", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { sea_->add_loads(t, m, w); }, {}};
     if (sea_->has_added_mass())
       source.added_mass = [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
         sea_->add_added_mass(t, m, a);
       };
+    if (sea_->memory_size() > 0)
+      source.memory = {
+          sea_->memory_size(),
+          [this](double t, std::span<const Motion> m, std::span<double> memory) { sea_->begin(t, m, memory); },
+          [this](std::span<const double> memory) { sea_->recall(memory); },
+          [this](double t, double, std::span<const Motion> m, std::span<double> memory) { sea_->remember(t, m, memory); }};
     add_source(sources, std::move(source), on);
   }
   if (s.has_rotor()) {
-    rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start);
+    rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start,
+                   s.control);
     std::vector<bool> on(names.size());
     on[std::size_t(index_of(names, s.rotor.body))] = true;
-    add_source(sources,
-               {"rotor",
-                [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
-                  if (rotor_elsewhere_)
-                    rotor_elsewhere_(t, m, w);
-                  else
-                    rotor_->add_loads(t, m, w, ramp(t));
-                },
-                {}},
-               on);
+    bodies::LoadSource source{"rotor",
+                              [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
+                                if (rotor_elsewhere_)
+                                  rotor_elsewhere_(t, m, w);
+                                else
+                                  rotor_->add_loads(t, m, w, ramp(t));
+                              },
+                              {}};
+    if (rotor_->memory_size() > 0)
+      source.memory = {
+          rotor_->memory_size(),
+          [this](double t, std::span<const Motion> m, std::span<double> memory) { rotor_->begin(t, m, memory); },
+          [this](std::span<const double> memory) { rotor_->recall(memory); },
+          [this](double t, double h, std::span<const Motion> m, std::span<double> memory) { rotor_->remember(t, h, m, memory); }};
+    add_source(sources, std::move(source), on);
   }
   clocks_.resize(sources.size());
   system_ =

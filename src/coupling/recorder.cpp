@@ -99,6 +99,14 @@ Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine), 
                              {"hub_vx_m_s", "m/s", "velocity of the hub along x"},
                              {"hub_vy_m_s", "m/s", "velocity of the hub along y"},
                              {"hub_vz_m_s", "m/s", "velocity of the hub along z"}});
+  if (machine.rotor() && machine.rotor()->is_controlled()) {
+    control_column_ = declare(history, "rotor.",
+                              {{"generator_torque_N_m", "N m", "of the generator, on the low-speed shaft"},
+                               {"electrical_power_W", "W", "generator torque times rate times efficiency"},
+                               {"asked_pitch_deg", "deg", "blade pitch that the controller asks for"}});
+    for (std::size_t blade = 1; blade <= machine.rotor()->drive_blades(); ++blade)
+      history.add({"rotor.blade_" + std::to_string(blade) + ".pitch_deg", "deg", "pitch of the blade, nose into the wind"});
+  }
   if (machine.moorings())
     for (std::size_t line = 0; line < machine.moorings()->size(); ++line) {
       const std::size_t column = history.add({machine.moorings()->name(line) + ".tension_N", "N", "tension at the fairlead"});
@@ -179,6 +187,13 @@ void Recorder::write(const bodies::BodiesState& state, double t, const std::func
       row[column++] = value;
     put(row, column, rotor.hub);
     put(row, column, rotor.hub_velocity);
+    if (machine_.rotor()->is_controlled()) {
+      const aero::RotorLoads::Drive drive = machine_.rotor()->drive();
+      column = control_column_;
+      row[column++] = drive.generator_torque, row[column++] = drive.electrical_power;
+      row[column++] = drive.asked_pitch / radians_per_degree;
+      for (double pitch : drive.pitch) row[column++] = pitch / radians_per_degree;
+    }
   }
   if (machine_.moorings())
     for (std::size_t line = 0; line < machine_.moorings()->size(); ++line)

@@ -45,7 +45,7 @@ class Recorder {
   std::vector<std::size_t> joint_columns_;
   void declare_particles();
   void put_particles(std::span<double> row, double t) const;
-  std::size_t rotor_column_ = 0, mooring_column_ = 0, wave_column_ = 0, particle_column_ = 0;
+  std::size_t rotor_column_ = 0, control_column_ = 0, mooring_column_ = 0, wave_column_ = 0, particle_column_ = 0;
 };
 
 }  // namespace spindrift::coupling

@@ -40,7 +40,7 @@ Vector RotorInterface::carried_on(const Vector& motion, double dt) {
   return m;
 }
 
-aero::RotorState RotorInterface::state(const Vector& m) const {
+aero::RotorState RotorInterface::state(double t, const Vector& m) const {
   aero::RotorState s;
   s.hub = length_ * m.segment<3>(0), s.hub_velocity = length_ * m.segment<3>(3);
   s.axis = m.segment<3>(9).normalized();
@@ -50,7 +50,7 @@ aero::RotorState RotorInterface::state(const Vector& m) const {
   s.azimuth = 2 * pi * (turns - std::floor(turns));
   s.speed = m[16];
   s.omega = m.segment<3>(6) + s.speed * s.axis;
-  s.relative_wind = machine_.rotor()->relative_wind(s.hub, s.hub_velocity, s.axis);
+  s.relative_wind = machine_.rotor()->relative_wind(t, s.hub, s.hub_velocity, s.axis);
   return s;
 }
 

@@ -29,7 +29,7 @@ class RotorInterface {
   static double rate(const Vector& motion) { return motion[16]; }
 
   /// The rotor that moves so, and its load as rows.
-  aero::RotorState state(const Vector& motion) const;
+  aero::RotorState state(double t, const Vector& motion) const;
   Vector rows(const aero::RotorLoad& load) const;
   /// Puts it on the rotor's body.
   void add_load(const Vector& load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;

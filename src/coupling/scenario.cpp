@@ -8,9 +8,12 @@
 #include <cmath>
 #include <set>
 
+#include "src/aero/operation.hpp"
+#include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/timeline.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
 
@@ -58,6 +61,51 @@ void check_particles(scene::Document& document, const Scenario& s) {
     document.problem("sea.initial.settle_s", fmt::format("must be a whole number of windows of {} s", s.time.window_s));
 }
 
+/// Height of the hub above still water as the scene describes it [m].
+double hub_height(const Scenario& s) {
+  for (const auto& [name, joint] : s.joints)
+    if (name == s.rotor.joint) return joint.point_m.z();
+  return s.rotor.hub_m.z();
+}
+
+/// Rotor speed and blade pitch of the operating table, into [rotor] or the driver of its bearing.
+void take_operating_point(scene::Document& document, Scenario& s) {
+  if (s.rotor.operating_point != "table") return;
+  if (s.rotor.operation.empty())
+    return document.problem("rotor.operating_point", "is \"table\", but neither rotor.operation nor rotor.turbine names one");
+  const aero::Operation table = aero::read_operation(s.rotor.operation);
+  if (table.pitch.empty())
+    return document.problem("rotor.operation", "has no column blade_pitch_deg, which rotor.operating_point \"table\" needs");
+  const aero::OperatingPoint point = table.at(s.wind.speed_m_s * aero::wind_profile(s.wind).share(hub_height(s)));
+  s.rotor.speed = point.speed, s.rotor.blade_pitch = point.pitch;
+  for (auto& [name, joint] : s.joints) {
+    if (name != s.rotor.joint) continue;
+    if (!joint.rotation)
+      return document.problem("rotor.operating_point",
+                              "is \"table\", but nothing drives the bearing: give [joints." + name + ".rotation]");
+    joint.rotation->rate = std::copysign(point.speed, joint.rotation->rate);
+  }
+}
+
+/// What the turbine file says where the scene says nothing, and what follows from it. Files that cannot be read are told of by
+/// check_rotor.
+void take_from_turbine(scene::Document& document, Scenario& s) {
+  if (!s.has_rotor() && !has_resolved_rotor(s)) return;
+  int blades = 3;
+  std::optional<aero::Operation> operation;
+  try {
+    if (!s.rotor.turbine.empty()) {
+      const aero::TurbineFiles files = aero::turbine_files(s.rotor.turbine);
+      if (s.rotor.operation.empty()) s.rotor.operation = files.operation;
+      if (s.control.file.empty()) s.control.file = files.controller;
+      blades = aero::read_turbine(s.rotor.turbine).blades;
+    }
+    take_operating_point(document, s);
+    if (!s.rotor.operation.empty()) operation = aero::read_operation(s.rotor.operation);
+  } catch (const scene::SceneError&) { return; }
+  if (s.is_controlled()) aero::check_control(document, s.control, s.rotor, operation, blades);
+}
+
 /// A saved state is the start: what would make another one has no effect.
 void check_saved_start(scene::Document& document, const Scenario& s) {
   if (s.start.file.empty()) return;
@@ -90,10 +138,11 @@ void check_resolved_air(scene::Document& document, const Scenario& s) {
 }  // namespace
 
 std::span<const scene::SectionBase* const> all_sections() {
-  static const std::array<const scene::SectionBase*, 15> sections{
-      &time_section(),     &environment_section(), &aero::wind_section(),   &aero::aero_section(),    &aero::rotor_section(),
-      &sea::sea_section(), &sea::waves_section(),  &bodies::body_section(), &bodies::joint_section(), &moorings::line_section(),
-      &coupling_section(), &start_section(),       &runtime_section(),      &output_section(),        &checkpoint_section()};
+  static const std::array<const scene::SectionBase*, 16> sections{
+      &time_section(),         &environment_section(),   &aero::wind_section(),     &aero::aero_section(),
+      &aero::rotor_section(),  &aero::control_section(), &sea::sea_section(),       &sea::waves_section(),
+      &bodies::body_section(), &bodies::joint_section(), &moorings::line_section(), &coupling_section(),
+      &start_section(),        &runtime_section(),       &output_section(),         &checkpoint_section()};
   return sections;
 }
 
@@ -145,13 +194,23 @@ Scenario read_scenario(scene::Document& document) {
   s.environment = document.read(environment_section());
   s.aero = document.read(aero::aero_section());
   s.bodies = document.read_named(bodies::body_section());
+  s.joints = document.read_named(bodies::joint_section());
   s.rotor = document.read_where(s.has_rotor() || has_resolved_rotor(s), aero::rotor_section(), "aero.model is none");
   s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
                                "aero.model = \"" + s.aero.model + "\" does not look at the wind");
+  if (!s.wind.steady() && s.resolves_air())
+    document.problem("wind", "must be steady beside a resolved rotor: leave out table, event and turbulence");
+  try {
+    s.wind.speed_m_s = aero::starting_speed(s.wind);
+  } catch (const scene::SceneError& e) {
+    document.problem(s.wind.table.empty() ? "wind.turbulence.file" : "wind.table", e.what());
+  }
+  s.control = document.read_where(s.has_rotor() && !s.resolves_air(), aero::control_section(),
+                                  s.resolves_air() ? "a resolved rotor turns as its bearing does" : "aero.model is none");
+  take_from_turbine(document, s);
   s.sea = document.read(sea::sea_section());
-  s.waves = document.read_where(s.sea.model == "morison" || s.has_particles(), sea::waves_section(),
-                                "sea.model is neither morison nor sph");
-  s.joints = document.read_named(bodies::joint_section());
+  s.waves = document.read_where(s.sea.model == "morison" || s.sea.model == "potential" || s.has_particles(), sea::waves_section(),
+                                "sea.model is none of morison, potential, sph");
   s.moorings = document.read_named(moorings::line_section());
   s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple");
   s.start = document.read(start_section());
@@ -195,6 +254,8 @@ Scenario read_scenario(scene::Document& document) {
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, bodies);
   if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
+  if (s.is_controlled() && s.coupling.scheme != SchemeKind::monolithic)
+    document.problem("coupling.scheme", "must be \"monolithic\" with [control]: the controller steps with the bodies");
   const auto report = [&](const std::vector<sea::OptionProblem>& problems) {
     for (const sea::OptionProblem& p : problems) document.problem(p.key, p.what);
   };
@@ -216,7 +277,16 @@ std::string describe_bodies(const Scenario& s) {
 std::string describe_rotor(const Scenario& s) {
   if (has_resolved_rotor(s))
     return fmt::format("blade_resolved, {}{}", s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
-  return s.has_rotor() ? fmt::format("{} on body {}", s.aero.model, s.rotor.body) : "none";
+  if (!s.has_rotor()) return "none";
+  std::string text = fmt::format("{} on body {}", s.aero.model, s.rotor.body);
+  if (s.rotor.operating_point == "table")
+    text += fmt::format(", {:.4g} rpm and blade pitch {:.4g} deg of its operating table", s.rotor.speed / rad_s_per_rpm,
+                        s.rotor.blade_pitch / radians_per_degree);
+  if (s.is_controlled())
+    text += fmt::format(", controlled by {} ({}{})", s.control.file,
+                        s.control.tuning == aero::Tuning::floating ? "floating gains" : "gains of a fixed foundation",
+                        s.control.events.empty() ? "" : fmt::format(", {} events", s.control.events.size()));
+  return text;
 }
 
 std::string describe_sea(const Scenario& s) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "src/aero/control_options.hpp"
 #include "src/aero/options.hpp"
 #include "src/bodies/options.hpp"
 #include "src/coupling/coupling_options.hpp"
@@ -35,12 +36,14 @@ struct Scenario {
   aero::AeroOptions aero;
   aero::RotorOptions rotor;
   aero::WindOptions wind;
+  aero::ControlOptions control;
   sea::SeaOptions sea;
   sea::WavesOptions waves;
 
   bool resolves_air() const { return aero.model == "blade_resolved"; }
   bool has_flow() const { return resolves_air() && bodies.empty(); }  ///< the air by itself: flow_run.hpp
   bool has_rotor() const { return aero.model != "none" && !has_flow(); }
+  bool is_controlled() const { return control.model != aero::ControlModel::none; }
   bool has_sea() const { return sea.model != "none"; }
   bool has_waves() const { return has_sea() && waves.model != "none"; }
   bool has_particles() const { return sea.has_particles(); }

@@ -47,7 +47,9 @@ class FullLoads {
 
 }  // namespace
 
-Start make_start(Machine& machine) {
+namespace {
+
+Start start_without_memory(Machine& machine) {
   if (machine.system().bodies().empty()) return {};  // water alone
   bodies::Assembly assembly = machine.system().assemble();
   if (!assembly.contradiction.empty()) refuse(machine, "joints", "", assembly.contradiction);
@@ -64,6 +66,14 @@ Start make_start(Machine& machine) {
         fmt::format("{}: neither load nor stiffness; the equilibrium leaves it where the scene puts it", direction));
   if (!found.unstable.empty()) start.notes.push_back(fmt::format("the equilibrium is unstable: {}", found.unstable));
   start.state = found.state;
+  return start;
+}
+
+}  // namespace
+
+Start make_start(Machine& machine) {
+  Start start = start_without_memory(machine);
+  machine.system().begin_memory(start.state, 0.0);
   return start;
 }
 

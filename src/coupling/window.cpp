@@ -76,7 +76,7 @@ void CoupledWindow::feel(const Signal& signal) {
 void CoupledWindow::begin(const bodies::BodiesState& state) {
   const double t = time(state.tick);
   const Vector motion = interface_.motion(t, state.motions, 0.0);
-  const Vector load = interface_.rows(air_->begin(t, interface_.state(motion)));
+  const Vector load = interface_.rows(air_->begin(t, interface_.state(t, motion)));
   if (loose_) {
     loose_->begin(t, motion, load);
     feel(loose_->load());
@@ -114,7 +114,7 @@ bool CoupledWindow::move(bodies::BodiesState& state, std::int64_t end) {
 }
 
 Vector CoupledWindow::air_load(double t, double dt, const Vector& motion) {
-  air_->aim(t, dt, interface_.state(motion));
+  air_->aim(t, dt, interface_.state(t, motion));
   tasks_.run(true, false);
   return answer();
 }
@@ -167,7 +167,7 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
     std::pair<Vector, Vector> both(const Extrapolation& load, const Waveform& motion, double begin, double end_s) {
       w.feel(load);
       w.bodies_->aim(state, end);
-      w.air_->aim(end_s, w.machine_.timeline().window_s(), w.interface_.state(shown(motion, begin, end_s)));
+      w.air_->aim(end_s, w.machine_.timeline().window_s(), w.interface_.state(end_s, shown(motion, begin, end_s)));
       w.tasks_.run(true, true);
       const bool moved = w.finish(state);
       return {moved ? motion_at(begin, end_s) : not_finite(RotorInterface::motion_rows), w.answer()};
@@ -231,7 +231,8 @@ class CoupledWindow::Pieces {
     Vector motions(samples() * RotorInterface::motion_rows), loads(load_rows());
     for (int s = 1; s <= samples(); ++s) {
       w_.bodies_->aim(state_, tick(s));
-      w_.air_->aim(w_.time(tick(s)), dt(), w_.interface_.state(part(given_motions, s, RotorInterface::motion_rows)));
+      w_.air_->aim(w_.time(tick(s)), dt(),
+                   w_.interface_.state(w_.time(tick(s)), part(given_motions, s, RotorInterface::motion_rows)));
       w_.tasks_.run(true, true);
       const bool moved = w_.finish(state_), loaded = put_load(s, w_.answer(), loads);
       if (!moved || !loaded) return {not_finite(motions.size()), not_finite(loads.size())};

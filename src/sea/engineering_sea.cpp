@@ -29,7 +29,7 @@ std::vector<Strip> strips_of(const SeaBody& body, const SeaOptions& options) {
       if (j != i) others.push_back(body.cylinders[j].shape);
     const double touching = 1e-6 * shape.length();
     // The hydrostatic rung needs the exact volume only: one strip.
-    const double longest = options.model == "morison" ? options.strip_length_m : shape.length();
+    const double longest = options.model != "hydrostatic" ? options.strip_length_m : shape.length();
     append_strips(shape, coefficients_of(body.cylinders[i].name, options),
                   exposed_area(shape.start, shape.start_radius, others, touching),
                   exposed_area(shape.end, shape.end_radius, others, touching), longest, strips);
@@ -70,6 +70,29 @@ struct Water {
   }
 };
 
+Matrix6 matrix_of(const std::vector<std::array<double, 6>>& rows) {
+  Matrix6 m = Matrix6::Zero();
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < 6; ++j) m(Eigen::Index(i), Eigen::Index(j)) = rows[i][j];
+  return m;
+}
+
+/// Drag alone: the inertia of a body in potential flow is not that of its strips.
+void add_drag(const WettedStrip& strip, const Coefficients& c, double density, const Frame& body, const Water& water,
+              SeaLoads& loads) {
+  for (const Station& s : std::span(strip.stations).first(strip.count)) {
+    if (s.volume <= 0.0) continue;
+    const Eigen::Vector3d relative = water.at(s.arm).velocity - body.velocity_at(s.arm);
+    add_at(loads.drag, waves::drag_across(density, c.drag, 2.0 * s.volume / (pi * s.radius), relative, strip.axis), s.arm);
+  }
+  for (const End& e : strip.ends)
+    if (e.exposed_area > 0.0)
+      add_at(
+          loads.drag,
+          waves::drag_end(density, c.axial_drag, e.exposed_area, water.at(e.arm).velocity - body.velocity_at(e.arm), strip.axis),
+          e.arm);
+}
+
 void add_morison(const WettedStrip& strip, const Coefficients& c, double density, const Frame& body, const Water& water,
                  SeaLoads& loads, Matrix6* mass) {
   const Eigen::Matrix3d along = strip.axis * strip.axis.transpose(), across = Eigen::Matrix3d::Identity() - along;
@@ -97,11 +120,19 @@ void add_morison(const WettedStrip& strip, const Coefficients& c, double density
 }  // namespace
 
 EngineeringSea::EngineeringSea(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
-                               const std::vector<SeaBody>& bodies)
-    : environment_(environment), current_(options.current_m_s), morison_(options.model == "morison") {
-  if (morison_) waves_ = WaveField(waves, environment);
+                               const std::vector<SeaBody>& bodies, double step_s)
+    : environment_(environment),
+      current_(options.current_m_s),
+      strips_load_(options.model == "morison" || options.model == "potential") {
+  if (strips_load_) waves_ = WaveField(waves, environment);
   for (const SeaBody& body : bodies) {
-    BodyStrips own{options.model == "none" ? std::vector<Strip>{} : strips_of(body, options), {}};
+    BodyStrips own{options.model == "none" ? std::vector<Strip>{} : strips_of(body, options), {}, {}, {}};
+    if (options.potential && options.potential->body == body.name)
+      own.potential.emplace(*options.potential, environment, body.initial, waves_.components(), step_s);
+    for (const MatricesOptions& m : options.matrices)
+      if (m.body == body.name)
+        own.matrices.push_back({body.initial, body.initial.attitude.conjugate() * (m.point_m - body.initial.position),
+                                matrix_of(m.stiffness), matrix_of(m.damping), matrix_of(m.quadratic_damping)});
     for (const DampingOptions& damping : options.damping) {
       if (damping.body != body.name) continue;
       const Eigen::Vector3d point = damping.point_m.value_or(body.initial.position);
@@ -114,7 +145,7 @@ EngineeringSea::EngineeringSea(const SeaOptions& options, const WavesOptions& wa
 
 SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motion& motion, Matrix6* mass) const {
   SeaLoads loads;
-  for (Wrench* w : {&loads.buoyancy, &loads.inertia, &loads.drag, &loads.damping}) w->point = motion.position;
+  for (Wrench* w : {&loads.buoyancy, &loads.inertia, &loads.drag, &loads.damping, &loads.potential}) w->point = motion.position;
   const Frame body(motion);
   waves::Wetted wet;
   for (const Strip& strip : own.strips) {
@@ -125,7 +156,7 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
       const waves::Surface s = waves_.surface(t, motion.position.x() + middle.x(), motion.position.y() + middle.y());
       surface = waves::tangent_plane(middle.x(), middle.y(), s.elevation - motion.position.z(), s.slope_x, s.slope_y);
     }
-    if (!morison_) {
+    if (!strips_load_) {
       const waves::Wetted part = wetted_part(strip.shape, start, end, surface);
       wet.volume += part.volume;
       wet.first_moment += part.first_moment;
@@ -134,8 +165,17 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
     const WettedStrip part = wetted_strip(strip, start, end, surface);
     wet.volume += part.wetted.volume;
     wet.first_moment += part.wetted.first_moment;
-    if (part.wetted.volume > 0.0)
-      add_morison(part, strip.coefficients, environment_.water_density, body, {waves_, current_, body, surface, t}, loads, mass);
+    if (part.wetted.volume <= 0.0) continue;
+    const Water water{waves_, current_, body, surface, t};
+    if (own.potential)
+      add_drag(part, strip.coefficients, environment_.water_density, body, water, loads);
+    else
+      add_morison(part, strip.coefficients, environment_.water_density, body, water, loads, mass);
+  }
+  if (own.potential) {
+    if (own.potential->linear_hydrostatics()) wet = {};
+    loads.potential = own.potential->load(t, waves_.still() ? 0.0 : waves_.ramp(t), motion);
+    if (mass) own.potential->add_added_mass(motion, *mass);
   }
   const double weight = environment_.water_density * environment_.gravity;
   loads.buoyancy.force.z() = weight * wet.volume;
@@ -145,6 +185,13 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
     add_at(loads.damping, body.rotation * -d.force.cwiseProduct(velocity), body.rotation * d.arm);
     loads.damping.moment -= body.rotation * d.moment.cwiseProduct(motion.omega);
   }
+  for (const Matrices& m : own.matrices) {
+    const PoseOfPoint pose = pose_of(motion, m.initial, m.point);
+    const Vector6 force = -m.stiffness * pose.displacement - m.damping * pose.velocity -
+                          m.quadratic_damping * pose.velocity.cwiseAbs().cwiseProduct(pose.velocity);
+    loads.damping.add_force(force.head<3>(), pose.point);
+    loads.damping.add_moment(force.tail<3>());
+  }
   return loads;
 }
 
@@ -153,16 +200,38 @@ void EngineeringSea::add_loads(double t, std::span<const Motion> bodies, std::sp
 }
 
 void EngineeringSea::add_added_mass(double t, std::span<const Motion> bodies, std::span<Matrix6> masses) const {
-  if (morison_) add(t, bodies, {}, masses);
+  if (strips_load_) add(t, bodies, {}, masses);
 }
 
 void EngineeringSea::add(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, std::span<Matrix6> masses) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (bodies_[i].strips.empty() && bodies_[i].damping.empty()) continue;
+    if (!bodies_[i].loaded()) continue;
     const SeaLoads loads = body_loads(t, bodies_[i], bodies[i], masses.empty() ? nullptr : &masses[i]);
     if (wrenches.empty()) continue;
-    for (const Wrench* w : {&loads.buoyancy, &loads.inertia, &loads.drag, &loads.damping}) wrenches[i] += *w;
+    for (const Wrench* w : {&loads.buoyancy, &loads.inertia, &loads.drag, &loads.damping, &loads.potential}) wrenches[i] += *w;
   }
+}
+
+std::size_t EngineeringSea::memory_size() const {
+  std::size_t size = 0;
+  for (const BodyStrips& body : bodies_)
+    if (body.potential) size += body.potential->memory_size();
+  return size;
+}
+
+void EngineeringSea::begin(double t, std::span<const Motion> bodies, std::span<double> memory) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i)  // one body at most
+    if (bodies_[i].potential) bodies_[i].potential->begin(t, bodies[i], memory);
+}
+
+void EngineeringSea::recall(std::span<const double> memory) {
+  for (BodyStrips& body : bodies_)
+    if (body.potential && body.potential->memory_size() > 0) body.potential->recall(memory);
+}
+
+void EngineeringSea::remember(double t, std::span<const Motion> bodies, std::span<double> memory) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i].potential) bodies_[i].potential->remember(t, bodies[i], memory);
 }
 
 void EngineeringSea::loads_by_part(double t, std::span<const Motion> bodies, std::span<SeaLoads> loads) const {

@@ -1,11 +1,12 @@
 // Water loads on floating bodies at engineering fidelity: rungs `hydrostatic` (exact buoyancy in still water, linear damping) and
-// `morison` (waves and current; Froude-Krylov, added mass and drag by strips). Equations and what is left out:
-// docs/theory/sea_engineering.md. Built by the coupling from checked options; called in every evaluation of the right-hand side,
-// without allocation. Tested in tests/src/sea.
+// `morison` (waves and current; Froude-Krylov, added mass and drag by strips), `potential` (a boundary-element code's
+// coefficients, with drag by strips). Equations and what is left out: docs/theory/sea_engineering.md. Built by the coupling from
+// checked options; called in every evaluation of the right-hand side, without allocation. Tested in tests/src/sea.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "kernels/rigid/shapes.hpp"
 #include "kernels/rigid/wrench.hpp"
 #include "src/sea/options.hpp"
+#include "src/sea/potential.hpp"
 #include "src/sea/strips.hpp"
 #include "src/sea/wave_field.hpp"
 
@@ -33,19 +35,19 @@ struct SeaBody {
 
 /// Loads on one body by physical part, each about its centre of mass, earth axes.
 struct SeaLoads {
-  Wrench buoyancy;  ///< rho g V, up to the local surface
-  Wrench inertia;   ///< Froude-Krylov and wave part of the added mass
-  Wrench drag;      ///< transverse and of the ends
-  Wrench damping;   ///< linear, [[sea.damping]]
+  Wrench buoyancy;   ///< rho g V, up to the local surface
+  Wrench inertia;    ///< Froude-Krylov and wave part of the added mass
+  Wrench drag;       ///< transverse and of the ends
+  Wrench damping;    ///< [[sea.damping]], [[sea.matrices]]
+  Wrench potential;  ///< waves, radiation and linear hydrostatics of [sea.potential]
 };
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 class EngineeringSea {
  public:
   /// Options in which the checks below find nothing.
+  /// `step_s`: of the bodies; potential flow samples its memory at it.
   EngineeringSea(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
-                 const std::vector<SeaBody>& bodies);
+                 const std::vector<SeaBody>& bodies, double step_s = 0.0);
 
   /// Adds the sea's load to one wrench per body, each about its body's centre of mass.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
@@ -58,21 +60,35 @@ class EngineeringSea {
 
   double elevation(double x, double y, double t) const { return waves_.still() ? 0.0 : waves_.elevation(t, x, y); }
   const WaveField& waves() const { return waves_; }
-  bool has_added_mass() const { return morison_; }
+  bool has_added_mass() const { return strips_load_; }
+
+  // What the water remembers, as bodies::Memory has it.
+  std::size_t memory_size() const;
+  void begin(double t, std::span<const Motion> bodies, std::span<double> memory) const;
+  void recall(std::span<const double> memory);
+  void remember(double t, std::span<const Motion> bodies, std::span<double> memory) const;
 
  private:
   struct Damping {
     Eigen::Vector3d arm, force, moment;  ///< body axes
   };
+  struct Matrices {
+    Motion initial;
+    Eigen::Vector3d point;  ///< body axes
+    Matrix6 stiffness, damping, quadratic_damping;
+  };
   struct BodyStrips {
     std::vector<Strip> strips;
     std::vector<Damping> damping;
+    std::vector<Matrices> matrices;
+    std::optional<PotentialBody> potential;
+    bool loaded() const { return !strips.empty() || !damping.empty() || !matrices.empty() || potential; }
   };
   SeaLoads body_loads(double t, const BodyStrips& body, const Motion& motion, Matrix6* mass) const;
 
   SeaEnvironment environment_;
   Eigen::Vector3d current_;
-  bool morison_;
+  bool strips_load_;  ///< strips have drag and inertia, not buoyancy alone
   WaveField waves_;
   std::vector<BodyStrips> bodies_;
 };

@@ -36,6 +36,61 @@ const Section<DampingOptions>& damping_section() {
   return section;
 }
 
+const Section<MatricesOptions>& matrices_section() {
+  static const auto section =
+      Section<MatricesOptions>("matrices",
+                               "Stiffness and damping of a body over surge, sway, heave, roll, pitch, yaw of one of its "
+                               "points, as a mooring's yaw spring or damping fitted to tests.")
+          .text("body", &MatricesOptions::body, "Name of a body.")
+          .required()
+          .vector("point_m", &MatricesOptions::point_m, "m", "The point, initial earth coordinates.")
+          .rows("stiffness", &MatricesOptions::stiffness, "-",
+                "Six rows: force and moment [N, N m] per displacement and rotation [m, rad] since the start, earth axes.")
+          .rows("damping", &MatricesOptions::damping, "-", "Six rows: the same per velocity [m/s, rad/s].")
+          .rows("quadratic_damping", &MatricesOptions::quadratic_damping, "-",
+                "Six rows: the same per velocity times its magnitude, component by component.")
+          .check([](const MatricesOptions& o, const scene::Report& report) {
+            for (const auto& [key, rows] : {std::pair{"stiffness", &o.stiffness}, std::pair{"damping", &o.damping},
+                                            std::pair{"quadratic_damping", &o.quadratic_damping}})
+              if (!rows->empty() && rows->size() != 6) report(key, "must have six rows of six numbers");
+          });
+  return section;
+}
+
+const Section<PotentialOptions>& potential_section() {
+  static const auto section =
+      Section<PotentialOptions>("potential",
+                                "Potential flow round one body, from the files of WAMIT or of a code that writes them.")
+          .text("body", &PotentialOptions::body, "The body.")
+          .required()
+          .path("radiation_file", &PotentialOptions::radiation_file, "Added mass and damping, NAME.1.")
+          .required()
+          .path("excitation_file", &PotentialOptions::excitation_file,
+                "Wave exciting forces, NAME.3; needed where there are waves.")
+          .path("hydrostatics_file", &PotentialOptions::hydrostatics_file,
+                "Hydrostatic stiffness, NAME.hst; where absent, exact buoyancy of the body's cylinders.")
+          .number("length_m", &PotentialOptions::length_m, "m", "ULEN, with which the files are made dimensional.",
+                  scene::positive())
+          .vector("point_m", &PotentialOptions::point_m, "m", "Origin of the files' axes, initial earth coordinates.")
+          .number("volume_m3", &PotentialOptions::volume_m3, "m3",
+                  "Displaced where the scene puts the body; with "
+                  "hydrostatics_file.",
+                  scene::positive())
+          .vector("buoyancy_centre_m", &PotentialOptions::buoyancy_centre_m, "m",
+                  "Earth x and y of the centre of that volume; its height is in the stiffness.")
+          .choice("radiation", &PotentialOptions::radiation,
+                  {{"convolution", "memory of the body's velocity, sampled at every step"},
+                   {"none", "added mass at infinite frequency alone"}},
+                  "Waves that the body makes.")
+          .number("memory_s", &PotentialOptions::memory_s, "s", "How long the water remembers.", scene::above(0.0).up_to(1e4))
+          .only_if("radiation", {"convolution"})
+          .check([](const PotentialOptions& o, const scene::Report& report) {
+            if (!o.hydrostatics_file.empty() && !o.volume_m3) report("volume_m3", "must be given with hydrostatics_file");
+            if (o.hydrostatics_file.empty() && o.volume_m3) report("volume_m3", "has no effect without hydrostatics_file");
+          });
+  return section;
+}
+
 }  // namespace
 
 const Section<WavesOptions>& waves_section() {
@@ -90,13 +145,16 @@ const Section<WavesOptions>& waves_section() {
 }
 
 const Section<SeaOptions>& sea_section() {
-  static const std::vector<std::string> wet = {"hydrostatic", "morison"}, strips = {"morison"}, particles = {"sph"};
+  static const std::vector<std::string> wet = {"hydrostatic", "morison", "potential"}, strips = {"morison", "potential"},
+                                        particles = {"sph"};
   static const auto section =
       Section<SeaOptions>("sea", "Hydrodynamic model.")
           .choice("model", &SeaOptions::model,
                   {{"none", "no water"},
                    {"hydrostatic", "exact buoyancy in still water and linear damping"},
                    {"morison", "exact buoyancy up to the waves; inertia and drag by strips (Morison), current, linear damping"},
+                   {"potential",
+                    "waves that the body scatters and makes, from a boundary-element code's files, with the drag of strips"},
                    {"sph", "a tank of particles (weakly compressible SPH): waves, breaking, green water, any motion"}},
                   "Rung of the ladder.")
           .number("drag_coefficient", &SeaOptions::drag_coefficient, "-", "Transverse drag of the cylinders, on the diameter.",
@@ -120,6 +178,11 @@ const Section<SeaOptions>& sea_section() {
           .only_if("model", strips)
           .tables("damping", &SeaOptions::damping, damping_section(), "Linear damping of bodies.")
           .only_if("model", wet)
+          .tables("matrices", &SeaOptions::matrices, matrices_section(), "Stiffness and damping over all six motions of bodies.")
+          .only_if("model", wet)
+          .table("potential", &SeaOptions::potential, potential_section(), "Potential flow round a body.")
+          .only_if("model", {"potential"})
+          .required()
           .table("particles", &SeaOptions::particles, particle_section(), "Resolution and schemes.")
           .only_if("model", particles)
           .required()

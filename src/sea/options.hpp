@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,9 +44,28 @@ struct DampingOptions {
   std::optional<Eigen::Vector3d> point_m;  ///< initial earth position where the force acts; the centre of mass where absent
 };
 
+/// [[sea.matrices]]: stiffness and damping of one body over all six motions of one of its points.
+struct MatricesOptions {
+  std::string body;
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();                         ///< initial earth coordinates
+  std::vector<std::array<double, 6>> stiffness, damping, quadratic_damping;  ///< six rows or none [SI]
+};
+
+/// [sea.potential]
+struct PotentialOptions {
+  std::string body;
+  std::string radiation_file, excitation_file, hydrostatics_file;  ///< paths
+  double length_m = 1.0;
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< initial earth coordinates
+  std::optional<double> volume_m3;
+  std::array<double, 2> buoyancy_centre_m{0.0, 0.0};
+  std::string radiation = "convolution";
+  double memory_s = 60.0;
+};
+
 /// [sea]
 struct SeaOptions {
-  std::string model = "none";                  ///< none, hydrostatic, morison, sph
+  std::string model = "none";                  ///< none, hydrostatic, morison, potential, sph
   double drag_coefficient = 1.0;               ///< transverse, on the diameter
   double added_mass_coefficient = 1.0;         ///< transverse, on the displaced mass
   double axial_drag_coefficient = 1.0;         ///< of each exposed end, on its area
@@ -54,6 +74,8 @@ struct SeaOptions {
   Eigen::Vector3d current_m_s = Eigen::Vector3d::Zero();  ///< uniform, earth axes
   std::vector<CoefficientsOptions> coefficients;
   std::vector<DampingOptions> damping;
+  std::vector<MatricesOptions> matrices;
+  std::optional<PotentialOptions> potential;
   // of "sph"
   std::optional<ParticleOptions> particles;
   std::optional<TankOptions> tank;

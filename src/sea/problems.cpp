@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "kernels/waves/stokes.hpp"
+#include "src/scene/error.hpp"
 #include "src/sea/engineering_sea.hpp"
 
 namespace spindrift::sea {
@@ -43,6 +44,22 @@ void check_shapes(const SeaBody& body, double depth, std::vector<OptionProblem>&
   }
 }
 
+void check_potential(const PotentialOptions& o, const WavesOptions& waves, std::vector<OptionProblem>& problems) {
+  const auto attempt = [&](const char* key, const std::string& path, auto read) {
+    if (path.empty()) return;
+    try {
+      read(path, WamitScale{});
+    } catch (const scene::SceneError& e) { problems.push_back({std::string("sea.potential.") + key, e.what()}); }
+  };
+  attempt("radiation_file", o.radiation_file, read_radiation);
+  attempt("excitation_file", o.excitation_file, read_excitation);
+  attempt("hydrostatics_file", o.hydrostatics_file, read_hydrostatics);
+  if (waves.model == "none") return;
+  if (o.excitation_file.empty()) problems.push_back({"sea.potential.excitation_file", "must be given: there are waves"});
+  if (waves.model == "stokes2")
+    problems.push_back({"waves.model", "must not be 'stokes2': sea.model 'potential' is linear in the waves; use 'airy'"});
+}
+
 }  // namespace
 
 std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves,
@@ -54,7 +71,9 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
     names = listed(names, body.name);
     for (const NamedCylinder& c : body.cylinders) cylinders = listed(cylinders, c.name);
   }
-  if (cylinders.empty())
+  const bool needs_cylinders =
+      !(options.model == "potential" && options.potential && !options.potential->hydrostatics_file.empty());
+  if (cylinders.empty() && needs_cylinders)
     problems.push_back(
         {"sea.model", "is '" + options.model + "', but no body has [[bodies.NAME.cylinders]] for the water to act on"});
   if (options.model == "hydrostatic" && waves.model != "none")
@@ -65,6 +84,16 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
     if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return has_cylinder(b, name); }))
       problems.push_back({"sea.coefficients[" + std::to_string(i) + "].cylinder",
                           "names '" + name + "', which no body has; known: " + cylinders});
+  }
+  const auto check_body = [&](const std::string& key, const std::string& name) {
+    if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return b.name == name; }))
+      problems.push_back({key, "names '" + name + "', which is not in [bodies]; known: " + names});
+  };
+  for (std::size_t i = 0; i < options.matrices.size(); ++i)
+    check_body("sea.matrices[" + std::to_string(i) + "].body", options.matrices[i].body);
+  if (options.model == "potential" && options.potential) {
+    check_body("sea.potential.body", options.potential->body);
+    check_potential(*options.potential, waves, problems);
   }
   for (std::size_t i = 0; i < options.damping.size(); ++i) {
     const std::string& name = options.damping[i].body;

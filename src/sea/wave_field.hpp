@@ -25,10 +25,11 @@ class WaveField {
   waves::Kinematics kinematics(double t, const Eigen::Vector3d& point, double elevation) const;
 
   const std::vector<waves::Component>& components() const { return components_; }
+  /// Share of the waves that has grown by then.
+  double ramp(double t) const;
 
  private:
   enum class Stretching { wheeler, vertical, extrapolated };
-  double ramp(double t) const;
 
   std::vector<waves::Component> components_;
   std::vector<waves::ComponentGroup> groups_;

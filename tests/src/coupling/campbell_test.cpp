@@ -34,11 +34,6 @@ TEST_CASE("1P of the DTU rotor and the sea states are the paper's, and meet near
         Approx(9.0).margin(0.3));  // "for sea states between 3 and 4 (or wind speed about 9m/s) resonances may occur"
   const auto& pairs = c.rows.back().together;
   CHECK(std::any_of(pairs.begin(), pairs.end(), [](const std::string& p) { return p.rfind("waves and heave", 0) == 0; }));
-
-  Operation table{{4.0, 7.0, 12.0}, {0.6, 0.6, 1.0}};
-  CHECK(table.at(1.0) == 0.6);
-  CHECK(table.at(9.5) == Approx(0.8));
-  CHECK(table.at(30.0) == 1.0);
 }
 
 TEST_CASE("a loose scheme will do for the paper's machine at windows of 0.02 s, not at 5 s", "[coupling][fast]") {

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/control_options.hpp"
+
+#include <fmt/format.h>
+
+#include "src/aero/options.hpp"
+#include "src/scene/document.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+const scene::Section<EventOptions>& event_section() {
+  static const auto section =
+      scene::Section<EventOptions>("events", "Something that happens to the turbine.")
+          .choice(
+              "what", &EventOptions::what,
+              {{"start_up", ControlEvent::start_up, "blades come from feather, the generator joins at least speed"},
+               {"shut_down", ControlEvent::shut_down, "blades go to feather at stop_pitch_rate, the generator helps to stop"},
+               {"emergency_stop", ControlEvent::emergency_stop, "no generator, blades to feather as fast as they can, brake on"},
+               {"grid_loss", ControlEvent::grid_loss, "no generator, blades to feather as fast as they can"},
+               {"blade_stuck", ControlEvent::blade_stuck, "one blade stays at its pitch from then on"}},
+              "Which.")
+          .required()
+          .number("time_s", &EventOptions::time_s, "s", "When.", scene::not_negative())
+          .required()
+          .integer("blade", &EventOptions::blade, "-", "Blade that is stuck.", scene::between(1, 12))
+          .only_if("what", {"blade_stuck"});
+  return section;
+}
+
+scene::Section<PitchGainOptions> gain_section(const char* name, const char* help) {
+  return scene::Section<PitchGainOptions>(name, help)
+      .number("kp_s", &PitchGainOptions::kp_s, "s", "Pitch per excess of speed [rad/(rad/s)].", scene::not_negative())
+      .required()
+      .number("ki", &PitchGainOptions::ki, "-", "Pitch per excess of angle [rad/rad].", scene::not_negative())
+      .required()
+      .number("schedule_linear_deg", &PitchGainOptions::schedule_linear_deg, "deg",
+              "KK1: gains fall by 1 / (1 + pitch/KK1 + pitch^2/KK2).", scene::positive())
+      .number("schedule_quadratic_deg2", &PitchGainOptions::schedule_quadratic_deg2, "deg2", "KK2.", scene::positive())
+      .flag("constant_power", &PitchGainOptions::constant_power, "Above rated; false: constant torque.");
+}
+
+void check_controller(const ControllerOptions& o, const scene::Report& report) {
+  if (!(o.min_speed < o.rated_speed)) report("min_speed_rpm", "must be below rated_speed_rpm");
+  if (o.max_torque_N_m * o.rated_speed < o.rated_power_W / o.generator_efficiency)
+    report("max_torque_N_m", fmt::format("times the rated speed is {:.4g} W, below the rated shaft power of {:.4g} W",
+                                         o.max_torque_N_m * o.rated_speed, o.rated_power_W / o.generator_efficiency));
+}
+
+}  // namespace
+
+const scene::Section<ControlOptions>& control_section() {
+  static const auto section =
+      scene::Section<ControlOptions>("control", "Who turns the rotor and pitches its blades.")
+          .choice("model", &ControlOptions::model,
+                  {{"none", ControlModel::none, "rotor speed and pitch as [rotor] or its bearing has them"},
+                   {"dtu", ControlModel::dtu, "generator torque and collective pitch by the Basic DTU controller"}},
+                  "Control of the turbine.")
+          .path("file", &ControlOptions::file, "Constants of the controller and the drive train; else those the turbine names.")
+          .only_if("model", {"dtu"})
+          .choice("tuning", &ControlOptions::tuning,
+                  {{"fixed_foundation", Tuning::fixed_foundation, "gains of the turbine on a fixed foundation"},
+                   {"floating", Tuning::floating, "the controller file's floating_gains"}},
+                  "Which gains of pitch; those of a fixed foundation make a floater's pitch unstable above rated wind.")
+          .only_if("model", {"dtu"})
+          .choice("start", &ControlOptions::start,
+                  {{"operating", ControlStart::operating, "at rotor speed and pitch of the operating point"},
+                   {"parked", ControlStart::parked, "at rest, blades feathered"}},
+                  "How the turbine stands at the start.")
+          .only_if("model", {"dtu"})
+          .tables("events", &ControlOptions::events, event_section(), "What happens when.")
+          .only_if("model", {"dtu"});
+  return section;
+}
+
+const scene::Section<ControllerOptions>& controller_section() {
+  using scene::positive, scene::not_negative, scene::between;
+  static const auto fixed = gain_section("gains", "Pitch gains on a fixed foundation.");
+  static const auto floating = gain_section("floating_gains", "Pitch gains on a floater.");
+  static const auto section =
+      scene::Section<ControllerOptions>("controller", "A turbine's controller and drive train, on the low-speed shaft.")
+          .number("rated_power_W", &ControllerOptions::rated_power_W, "W", "Electrical.", positive())
+          .required()
+          .number("generator_efficiency", &ControllerOptions::generator_efficiency, "-", "Electrical over shaft power.",
+                  between(0.1, 1.0))
+          .rpm("min_speed_rpm", &ControllerOptions::min_speed, "Least speed of operation.", positive())
+          .required()
+          .rpm("rated_speed_rpm", &ControllerOptions::rated_speed, "Rated speed.", positive())
+          .required()
+          .number("max_torque_N_m", &ControllerOptions::max_torque_N_m, "N m", "Of the generator.", positive())
+          .required()
+          .number("torque_gain_N_m_s2", &ControllerOptions::torque_gain_N_m_s2, "N m s2",
+                  "K of Q = K omega^2; where absent the one that holds the tip-speed ratio of rotor.operation.", positive())
+          .number("torque_kp_N_m_s", &ControllerOptions::torque_kp_N_m_s, "N m s", "Torque per excess of speed.", not_negative())
+          .number("torque_ki_N_m", &ControllerOptions::torque_ki_N_m, "N m", "Torque per excess of angle.", not_negative())
+          .number("filter_frequency_Hz", &ControllerOptions::filter_frequency_Hz, "Hz", "Low-pass filter of the speed.",
+                  positive())
+          .number("filter_damping", &ControllerOptions::filter_damping, "-", "Its damping ratio.", between(0.1, 2.0))
+          .degrees("max_pitch_deg", &ControllerOptions::max_pitch, "Largest pitch of operation.", between(1.0, 120.0))
+          .degrees("max_pitch_rate_deg_s", &ControllerOptions::max_pitch_rate,
+                   "Largest rate of the blades' pitch (degrees a "
+                   "second).",
+                   between(0.01, 100.0))
+          .degrees("max_pitch_acceleration_deg_s2", &ControllerOptions::max_pitch_acceleration,
+                   "Largest acceleration of the blades' pitch (degrees per second squared).", between(0.01, 1000.0))
+          .number("servo_frequency_Hz", &ControllerOptions::servo_frequency_Hz, "Hz", "Of the pitch servo.", positive())
+          .number("servo_damping", &ControllerOptions::servo_damping, "-", "Its damping ratio.", between(0.1, 2.0))
+          .degrees("switch_pitch_deg", &ControllerOptions::switch_pitch, "Full load begins this far above the least pitch.",
+                   between(0.0, 10.0))
+          .table("gains", &ControllerOptions::gains, fixed, "Pitch gains on a fixed foundation.")
+          .table("floating_gains", &ControllerOptions::floating_gains, floating, "Pitch gains on a floater.")
+          .number("rotor_inertia_kg_m2", &ControllerOptions::rotor_inertia_kg_m2, "kg m2", "Blades and hub about the shaft.",
+                  positive())
+          .required()
+          .number("generator_inertia_kg_m2", &ControllerOptions::generator_inertia_kg_m2, "kg m2",
+                  "Generator, as felt on the low-speed shaft.", not_negative())
+          .number("brake_torque_N_m", &ControllerOptions::brake_torque_N_m, "N m", "Of the brake, on the low-speed shaft.",
+                  not_negative())
+          .degrees("feather_deg", &ControllerOptions::feather, "Pitch of feathered blades.", between(45.0, 120.0))
+          .degrees("stop_pitch_rate_deg_s", &ControllerOptions::stop_pitch_rate,
+                   "Rate of pitch in a shut-down and a start-up (degrees a second).", between(0.01, 100.0))
+          .check(check_controller);
+  return section;
+}
+
+ControllerOptions read_controller(const std::string& path) {
+  scene::Document doc = scene::load(path);
+  const ControllerOptions options = doc.read(controller_section());
+  doc.finish();
+  return options;
+}
+
+void check_control(scene::Document& doc, const ControlOptions& control, const RotorOptions& rotor,
+                   const std::optional<Operation>& operation, int blades) {
+  if (!rotor.joint.empty())
+    doc.problem("rotor.joint",
+                "must be left out with [control]: the drive train turns the rotor within rotor.body, whose mass "
+                "and inertia are those with the rotor");
+  if (control.file.empty()) return doc.problem("control.file", "must be given: rotor.turbine names no controller");
+  try {
+    const ControllerOptions c = read_controller(control.file);
+    if (control.tuning == Tuning::floating && !c.floating_gains)
+      doc.problem("control.tuning", fmt::format("is \"floating\", but {} has no [controller.floating_gains]", control.file));
+    if (!c.torque_gain_N_m_s2 && !(operation && operation->torque_gain()))
+      doc.problem("control.file", fmt::format("{} gives no torque_gain_N_m_s2, and no rotor.operation with power_W says which "
+                                              "tip-speed ratio to hold",
+                                              control.file));
+  } catch (const scene::SceneError& e) { doc.problem("control.file", e.what()); }
+  for (std::size_t i = 0; i < control.events.size(); ++i) {
+    const EventOptions& event = control.events[i];
+    if (i > 0 && event.time_s < control.events[i - 1].time_s)
+      doc.problem(fmt::format("control.events[{}].time_s", i), "must not be before that of the event before it");
+    if (event.what == ControlEvent::blade_stuck && event.blade > blades)
+      doc.problem(fmt::format("control.events[{}].blade", i), fmt::format("the rotor has {} blades", blades));
+  }
+}
+
+}  // namespace spindrift::aero

@@ -1,0 +1,79 @@
+// [control]: who turns the rotor and pitches its blades, with what happens when; and the file of a controller's constants.
+// Declared in control_options.cpp; read by src/coupling; acted on by turbine_control.cpp; tested in
+// tests/src/aero/turbine_control_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/aero/operation.hpp"
+
+namespace spindrift::scene {
+template <class Options>
+class Section;
+class Document;
+}  // namespace spindrift::scene
+
+namespace spindrift::aero {
+
+struct RotorOptions;
+
+enum class ControlModel { none, dtu };
+enum class Tuning { fixed_foundation, floating };
+enum class ControlStart { operating, parked };
+enum class ControlEvent { start_up, shut_down, emergency_stop, grid_loss, blade_stuck };
+
+/// [[control.events]]
+struct EventOptions {
+  ControlEvent what = ControlEvent::shut_down;
+  double time_s = 0.0;
+  int blade = 1;  ///< of blade_stuck
+};
+
+/// [control]
+struct ControlOptions {
+  ControlModel model = ControlModel::none;
+  std::string file;  ///< path of the controller's constants; empty: as the turbine names it
+  Tuning tuning = Tuning::fixed_foundation;
+  ControlStart start = ControlStart::operating;
+  std::vector<EventOptions> events;
+};
+
+/// [pitch_gains] of a controller file.
+struct PitchGainOptions {
+  double kp_s = 0.0, ki = 0.0;
+  std::optional<double> schedule_linear_deg, schedule_quadratic_deg2;
+  bool constant_power = true;
+};
+
+/// [controller] of a controller file. Speeds and torques on the low-speed shaft.
+struct ControllerOptions {
+  double rated_power_W = 0.0;  ///< electrical
+  double generator_efficiency = 1.0;
+  double min_speed = 0.0, rated_speed = 0.0;  ///< [rad/s]
+  double max_torque_N_m = 0.0;
+  std::optional<double> torque_gain_N_m_s2;
+  double torque_kp_N_m_s = 0.0, torque_ki_N_m = 0.0;
+  double filter_frequency_Hz = 0.4, filter_damping = 0.7;
+  double max_pitch = 1.5707963267948966, max_pitch_rate = 0.17453292519943295, max_pitch_acceleration = 0.2617993877991494;
+  double servo_frequency_Hz = 1.0, servo_damping = 0.7;
+  double switch_pitch = 0.008726646259971648;
+  PitchGainOptions gains;
+  std::optional<PitchGainOptions> floating_gains;
+  double rotor_inertia_kg_m2 = 0.0, generator_inertia_kg_m2 = 0.0;
+  double brake_torque_N_m = 0.0;
+  double feather = 1.5707963267948966, stop_pitch_rate = 0.03490658503988659;  ///< [rad], [rad/s]
+};
+
+const scene::Section<ControlOptions>& control_section();
+const scene::Section<ControllerOptions>& controller_section();
+
+/// Throws scene::SceneError with all that is wrong with the file.
+ControllerOptions read_controller(const std::string& path);
+
+/// Rules with [rotor] and the files; `operation` is empty where the scene has none.
+void check_control(scene::Document& document, const ControlOptions& control, const RotorOptions& rotor,
+                   const std::optional<Operation>& operation, int blades);
+
+}  // namespace spindrift::aero

@@ -1,0 +1,20 @@
+// spindrift import: a scene from another program's input.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "src/app/commands.hpp"
+#include "src/import/openfast.hpp"
+
+namespace spindrift::app {
+
+int import_deck(const ImportArguments& arguments, const runtime::World& world) {
+  if (world.rank != 0) return done;
+  const decks::Imported result = decks::import_openfast(arguments.file, arguments.out);
+  fmt::print("{}\n\nCarried over\n", result.scene.string());
+  for (const std::string& what : result.carried) fmt::print("  {}\n", what);
+  if (!result.left_out.empty()) fmt::print("\nLeft out\n");
+  for (const std::string& what : result.left_out) fmt::print("  {}\n", what);
+  return done;
+}
+
+}  // namespace spindrift::app

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/import/deck.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+
+#include "src/scene/error.hpp"
+
+namespace spindrift::decks {
+
+namespace {
+
+/// Without case, underscores and an index: "BldFile(1)" and "BldFile1" are the same.
+std::string plain(const std::string& name) {
+  std::string result;
+  for (const char c : name)
+    if (std::isalnum(static_cast<unsigned char>(c))) result += char(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> words;
+  std::string word;
+  char quote = '\0';
+  bool quoted = false;
+  const auto end = [&] {
+    if (!word.empty() || quoted) words.push_back(word);
+    word.clear(), quoted = false;
+  };
+  for (const char c : text) {
+    if (quote != '\0') {
+      if (c == quote)
+        quote = '\0';
+      else
+        word += c;
+    } else if (c == '"' || c == '\'') {
+      quote = c, quoted = true;
+    } else if (std::isspace(static_cast<unsigned char>(c)) || c == ',') {
+      end();
+    } else {
+      word += c;
+    }
+  }
+  end();
+  return words;
+}
+
+std::optional<double> number_in(std::string word) {
+  std::replace(word.begin(), word.end(), 'D', 'E');
+  std::replace(word.begin(), word.end(), 'd', 'e');
+  std::size_t used = 0;
+  try {
+    const double value = std::stod(word, &used);
+    if (used == word.size() && std::isfinite(value)) return value;
+  } catch (const std::exception&) {}
+  return std::nullopt;
+}
+
+}  // namespace
+
+Deck::Deck(const std::filesystem::path& file, char comment) : file_(file) {
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file)) fail(std::nullopt, "cannot be read");
+  std::string text;
+  for (int number = 1; std::getline(in, text); ++number) {
+    std::vector<std::string> words = split(text);
+    if (comment != '\0' && (words.empty() || words[0][0] == comment)) continue;
+    lines_.push_back({number, std::move(words)});
+  }
+}
+
+std::optional<std::size_t> Deck::find(const std::vector<std::string>& names) const {
+  for (const std::string& name : names) {
+    const std::string wanted = plain(name);
+    for (std::size_t n = 0; n < lines_.size(); ++n) {
+      const std::vector<std::string>& words = lines_[n].words;
+      // Behind the values and before the comment: the first word that is no number, apart from the first of the line.
+      for (std::size_t w = 1; w < words.size(); ++w) {
+        if (plain(words[w]) == wanted) return n;
+        if (!number_in(words[w])) break;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+double Deck::to_number(const std::string& word, std::size_t line) const {
+  const std::optional<double> value = number_in(word);
+  if (!value) fail(line, fmt::format("'{}' is not a number", word));
+  return *value;
+}
+
+double Deck::number(const std::vector<std::string>& names) const {
+  const auto line = find(names);
+  if (!line) fail(std::nullopt, fmt::format("has no line for {}", fmt::join(names, " or ")));
+  return to_number(lines_[*line].words[0], *line);
+}
+
+double Deck::number(const std::vector<std::string>& names, double otherwise) const {
+  const auto line = find(names);
+  if (!line || plain(lines_[*line].words[0]) == "default") return otherwise;
+  return to_number(lines_[*line].words[0], *line);
+}
+
+int Deck::integer(const std::vector<std::string>& names, int otherwise) const {
+  const auto line = find(names);
+  if (!line || plain(lines_[*line].words[0]) == "default") return otherwise;
+  const double value = to_number(lines_[*line].words[0], *line);
+  if (value != std::floor(value) || std::abs(value) > 1e9)
+    fail(line, fmt::format("'{}' is not a whole number", lines_[*line].words[0]));
+  return int(value);
+}
+
+bool Deck::flag(const std::vector<std::string>& names, bool otherwise) const {
+  const auto line = find(names);
+  if (!line || plain(lines_[*line].words[0]) == "default") return otherwise;
+  const char first = lines_[*line].words[0].empty() ? '?' : char(std::tolower(lines_[*line].words[0][0]));
+  if (first != 't' && first != 'f') fail(line, fmt::format("'{}' is neither true nor false", lines_[*line].words[0]));
+  return first == 't';
+}
+
+std::string Deck::text(const std::vector<std::string>& names) const {
+  const auto line = find(names);
+  if (!line) fail(std::nullopt, fmt::format("has no line for {}", fmt::join(names, " or ")));
+  return lines_[*line].words[0];
+}
+
+std::filesystem::path Deck::beside(const std::string& name) const {
+  std::string slashes = name;
+  std::replace(slashes.begin(), slashes.end(), '\\', '/');
+  return std::filesystem::path(slashes).is_absolute() ? std::filesystem::path(slashes) : file_.parent_path() / slashes;
+}
+
+std::filesystem::path Deck::path(const std::vector<std::string>& names) const { return beside(text(names)); }
+
+const std::vector<std::string>& Deck::words(std::size_t line) const {
+  if (line >= lines_.size()) fail(std::nullopt, "ends too early");
+  return lines_[line].words;
+}
+
+std::vector<std::vector<std::string>> Deck::rows(std::size_t first, std::size_t count, std::size_t least) const {
+  std::vector<std::vector<std::string>> result;
+  for (std::size_t n = first; n < first + count; ++n) {
+    if (n >= lines_.size())
+      fail(std::nullopt, fmt::format("ends within a table: {} rows are wanted, {} are there", count, n - first));
+    if (lines_[n].words.size() < least) fail(n, fmt::format("has {} values, {} are wanted", lines_[n].words.size(), least));
+    result.push_back(lines_[n].words);
+  }
+  return result;
+}
+
+std::vector<double> Deck::numbers(std::size_t line, std::size_t count) const {
+  const std::vector<std::string> row = rows(line, 1, count)[0];
+  std::vector<double> result;
+  for (std::size_t w = 0; w < count; ++w) result.push_back(to_number(row[w], line));
+  return result;
+}
+
+std::size_t Deck::column(std::size_t heading, const std::vector<std::string>& names) const {
+  const std::vector<std::string>& row = words(heading);
+  for (const std::string& name : names)
+    for (std::size_t w = 0; w < row.size(); ++w)
+      if (plain(row[w]) == plain(name)) return w;
+  fail(heading, fmt::format("has no column {}", fmt::join(names, " or ")));
+}
+
+void Deck::fail(std::optional<std::size_t> line, const std::string& what) const {
+  throw scene::SceneError({{file_.string(), line ? lines_[*line].number : 0, "", "", what}});
+}
+
+}  // namespace spindrift::decks

@@ -1,0 +1,54 @@
+// An input file of OpenFAST: lines of words, most of them "value Name - comment". Values are found by name, so that files of
+// different versions, with lines added or moved, read alike. Used by openfast.cpp; tested in tests/src/import/deck_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spindrift::decks {
+
+class Deck {
+ public:
+  /// Throws scene::SceneError where the file cannot be read. Lines that begin with `comment` are left out.
+  explicit Deck(const std::filesystem::path& file, char comment = '\0');
+
+  const std::filesystem::path& file() const { return file_; }
+  /// Line of the first that has one of these names behind its values; names compare without case, underscores and "(1)".
+  std::optional<std::size_t> find(const std::vector<std::string>& names) const;
+  bool has(const std::string& name) const { return find({name}).has_value(); }
+
+  // Of the value before the name; several names are those of several versions. They throw, naming file and line, where the name
+  // is missing or the value is no number; the second form gives `otherwise` where the name is missing or the value is "default".
+  double number(const std::vector<std::string>& names) const;
+  double number(const std::vector<std::string>& names, double otherwise) const;
+  int integer(const std::vector<std::string>& names, int otherwise) const;
+  bool flag(const std::vector<std::string>& names, bool otherwise) const;
+  std::string text(const std::vector<std::string>& names) const;
+  /// A file named relative to this one.
+  std::filesystem::path path(const std::vector<std::string>& names) const;
+  std::filesystem::path beside(const std::string& name) const;
+
+  // Tables: `count` lines from `first` on, at least so many words each.
+  std::vector<std::vector<std::string>> rows(std::size_t first, std::size_t count, std::size_t words) const;
+  std::vector<double> numbers(std::size_t line, std::size_t count) const;
+  const std::vector<std::string>& words(std::size_t line) const;
+  std::size_t size() const { return lines_.size(); }
+  /// Column of a table whose heading is this line; throws where there is none.
+  std::size_t column(std::size_t heading, const std::vector<std::string>& names) const;
+
+  double to_number(const std::string& word, std::size_t line) const;
+  [[noreturn]] void fail(std::optional<std::size_t> line, const std::string& what) const;
+
+ private:
+  struct Line {
+    int number;
+    std::vector<std::string> words;
+  };
+  std::filesystem::path file_;
+  std::vector<Line> lines_;
+};
+
+}  // namespace spindrift::decks

@@ -1,0 +1,469 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/import/openfast.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "kernels/base/constants.hpp"
+#include "src/import/openfast_parts.hpp"
+#include "src/scene/error.hpp"
+
+namespace spindrift::decks {
+
+namespace {
+
+std::string vector(const Eigen::Vector3d& v) {
+  // Round-off of sines and cosines is nothing that a reader should see.
+  const auto clean = [&](double x) { return std::abs(x) < 1e-9 * std::max(1.0, v.norm()) ? 0.0 : x; };
+  return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", clean(v.x()), clean(v.y()), clean(v.z()));
+}
+
+/// One deck on its way to a scene.
+class Importer {
+ public:
+  Importer(const std::filesystem::path& main_file, const std::filesystem::path& folder) : main_(main_file), folder_(folder) {}
+
+  Imported run() {
+    if (main_.integer({"CompElast"}, 1) == 2)
+      leave_out("BeamDyn blades (CompElast 2): masses are those of ElastoDyn's blade files");
+    if (!main_.has("EDFile"))
+      main_.fail(std::nullopt, "has no line for EDFile: this is not an OpenFAST main file (version 3 to 5)");
+    elastodyn_.emplace(main_.path({"EDFile"}));
+    std::filesystem::create_directories(folder_);
+    rotor_ = rotor_frame(*elastodyn_);
+    environment();
+    hydro();  // says whether the platform floats
+    body();
+    wind_and_rotor();
+    if (floats_) moorings();
+    servo();
+    structure();
+    write();
+    return {folder_ / "scene.toml", left_out_, carried_};
+  }
+
+ private:
+  void leave_out(std::string what) { left_out_.push_back(std::move(what)); }
+  void carry(std::string what) { carried_.push_back(std::move(what)); }
+
+  void environment() {
+    gravity_ = main_.number({"Gravity"}, elastodyn_->number({"Gravity"}, 9.80665));
+    depth_ = main_.number({"WtrDpth"}, 200.0), water_density_ = main_.number({"WtrDens"}, 1025.0);
+    scene_ << fmt::format("\n[environment]\ngravity_m_s2 = {:.9g}\nair_density_kg_m3 = {:.9g}\nwater_density_kg_m3 = {:.9g}\n",
+                          gravity_, main_.number({"AirDens"}, 1.225), water_density_);
+    scene_ << fmt::format("water_depth_m = {:.9g}\n", depth_);
+    if (main_.number({"MSL2SWL"}, 0.0) != 0.0) leave_out("MSL2SWL: still water is at the mean level");
+  }
+
+  void body() {
+    const Deck& ed = *elastodyn_;
+    const MassSum sum = all_masses(ed, rotor_);
+    Eigen::Matrix3d inertia = sum.inertia();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (std::abs(inertia(i, j)) < 1e-9 * inertia.trace()) inertia(i, j) = 0.0;
+    scene_ << "\n[bodies.platform]                       # platform, tower, nacelle, hub and blades as one rigid body\n"
+           << fmt::format("mass_kg = {:.10g}\ninertia_kg_m2 = [\n", sum.mass());
+    for (int i = 0; i < 3; ++i)
+      scene_ << fmt::format("  [{:.10g}, {:.10g}, {:.10g}],\n", inertia(i, 0), inertia(i, 1), inertia(i, 2));
+    scene_ << "]\ncentre_m = " << vector(sum.centre()) << "\nreference_m = "
+           << vector({ed.number({"PtfmRefxt"}, 0.0), ed.number({"PtfmRefyt"}, 0.0), ed.number({"PtfmRefzt"}, 0.0)}) << "\n";
+    const Eigen::Vector3d moved(ed.number({"PtfmSurge"}, 0.0), ed.number({"PtfmSway"}, 0.0), ed.number({"PtfmHeave"}, 0.0));
+    const Eigen::Vector3d turned(ed.number({"PtfmRoll"}, 0.0), ed.number({"PtfmPitch"}, 0.0), ed.number({"PtfmYaw"}, 0.0));
+    if (floats_ && moved.norm() > 0.0) scene_ << "displacement_m = " << vector(moved) << "\n";
+    if (floats_ && turned.norm() > 0.0) scene_ << "rotation_deg = " << vector(turned) << "\n";
+    scene_ << cylinders_;
+    carry(fmt::format("body: {:.6g} kg, centre {}", sum.mass(), vector(sum.centre())));
+    int free = 0;
+    for (const char* freedom : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
+      free += ed.flag({freedom}, false);
+    if (floats_ && free > 0 && free < 6)
+      leave_out(fmt::format("{} of the platform's six motions are held in the deck; here all are free", 6 - free));
+    if (!floats_ || free == 0)
+      scene_ << "\n[joints.foundation]\ntype = \"fixed\"\nbodies = [\"earth\", \"platform\"]\npoint_m = [0.0, 0.0, 0.0]\n";
+  }
+
+  // Wind and rotor.
+
+  std::string wind(const Deck& w) {
+    const int type = w.integer({"WindType"}, 1);
+    std::string text = "\n[wind]\n";
+    const double speed = w.number({"HWindSpeed"}, 0.0), height = w.number({"RefHt"}, rotor_.hub.z()),
+                 exponent = w.number({"PLexp"}, 0.0);
+    if (type == 1) {
+      text += fmt::format("speed_m_s = {:.9g}\n", speed);
+      if (exponent != 0.0)
+        text += fmt::format("profile = \"power_law\"\nreference_height_m = {:.9g}\nshear_exponent = {:.9g}\n", height, exponent);
+      carry(fmt::format("wind: steady {:.4g} m/s", speed));
+    } else if (type == 3) {
+      const std::filesystem::path box = w.path({"FileName_BTS", "Filename"});
+      copy(box);
+      text += fmt::format("[wind.turbulence]\nmodel = \"bts\"\nfile = \"{}\"\n", box.filename().string());
+      carry("wind: " + box.filename().string());
+    } else if (type == 5) {
+      text += mann(w);
+    } else if (type == 2) {
+      text += uniform(w);
+    } else {
+      leave_out(fmt::format("wind of WindType {}: there is none in the scene", type));
+      text += "speed_m_s = 0.0\n";
+    }
+    if (const double to = w.number({"PropagationDir"}, 0.0); to != 0.0) {
+      // InflowWind counts clockwise seen from above, the scene from x towards y.
+      const std::size_t at = text.find("[wind]\n") + 7;
+      text.insert(at, fmt::format("direction_deg = {:.9g}\n", -to));
+    }
+    if (w.number({"VFlowAng"}, 0.0) != 0.0) leave_out("VFlowAng: the wind is level");
+    return text;
+  }
+
+  std::string mann(const Deck& w) {
+    std::string files;
+    for (const char* name : {"FileName_u", "FileName_v", "FileName_w"}) {
+      const std::filesystem::path path = w.path({name});
+      copy(path);
+      files += fmt::format("{}\"{}\"", files.empty() ? "" : ", ", path.filename().string());
+    }
+    if (w.integer({"ScaleMethod"}, 0) != 0) leave_out("ScaleMethod: the Mann box is not scaled");
+    carry("wind: Mann box");
+    return fmt::format(
+        "speed_m_s = {:.9g}\n[wind.turbulence]\nmodel = \"mann\"\nfiles = [{}]\npoints = [{}, {}, {}]\nspacing_m = [{:.9g}, "
+        "{:.9g}, "
+        "{:.9g}]\n",
+        w.number({"URef"}), files, w.integer({"nx"}, 0), w.integer({"ny"}, 0), w.integer({"nz"}, 0), w.number({"dx"}),
+        w.number({"dy"}), w.number({"dz"}));
+  }
+
+  /// Uniform wind in time: time, speed, direction, vertical speed, shears, gust.
+  std::string uniform(const Deck& w) {
+    const Deck file(w.path({"FileName_Uni", "Filename"}), '!');
+    std::ofstream out(folder_ / "wind.csv");
+    out << "# From " << file.file().filename().string() << ".\ntime_s,speed_m_s,direction_deg,vertical_m_s\n";
+    double shear = 0.0;
+    for (std::size_t n = 0; n < file.size(); ++n) {
+      if (file.words(n).empty()) continue;
+      const std::vector<double> row = file.numbers(n, 8);
+      out << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", row[0], row[1] + row[7], -row[2], row[3]);
+      shear = row[5];
+      if (row[4] != 0.0 || row[6] != 0.0) leave_out("horizontal and linear vertical shear of the uniform wind file");
+    }
+    carry("wind: " + file.file().filename().string());
+    std::string text = "table = \"wind.csv\"\n";
+    if (shear != 0.0)
+      text += fmt::format("profile = \"power_law\"\nreference_height_m = {:.9g}\nshear_exponent = {:.9g}\n",
+                          w.number({"RefHt_Uni", "RefHt"}, rotor_.hub.z()), shear);
+    return text;
+  }
+
+  std::string tower(const Deck& ad) {
+    const bool changes_wind = ad.integer({"TwrPotent"}, 0) > 0, drag = ad.flag({"TwrAero"}, false);
+    if (ad.integer({"TwrShadow"}, 0) > 0) leave_out("the tower's wake on a downwind rotor (TwrShadow)");
+    if (ad.integer({"TwrPotent"}, 0) > 1) leave_out("Bak's correction of the flow round the tower (TwrPotent 2)");
+    const std::size_t count = std::size_t(ad.integer({"NumTwrNds"}, 0));
+    if (!(changes_wind || drag) || count < 2) return "";
+    std::string text = "\n[aero.tower]\nstations = [\n";
+    for (std::size_t n = *ad.find({"NumTwrNds"}) + 3; count > 0 && n < *ad.find({"NumTwrNds"}) + 3 + count; ++n) {
+      const std::vector<double> row = ad.numbers(n, 3);
+      text += fmt::format("  [{:.9g}, {:.9g}, {:.9g}],\n", row[0], row[1], row[2]);
+    }
+    text += "]\n";
+    if (!changes_wind) text += "changes_wind = false\n";
+    if (!drag) text += "has_drag = false\n";
+    carry("tower: " + std::string(changes_wind ? "its flow round the blades" : "") + (changes_wind && drag ? ", " : "") +
+          (drag ? "drag" : ""));
+    return text;
+  }
+
+  void wind_and_rotor() {
+    const Deck& ed = *elastodyn_;
+    const bool blows = main_.integer({"CompInflow"}, 0) == 1, aero = main_.integer({"CompAero"}, 0) == 2;
+    if (main_.integer({"CompAero"}, 0) == 1) leave_out("AeroDyn 14 or AeroDisk (CompAero 1): no aerodynamics in the scene");
+    if (!aero || !blows) {
+      carry("no aerodynamics");
+      return;
+    }
+    const Deck ad(main_.path({"AeroFile"}));
+    for (std::string& what : write_turbine(ad, rotor_, folder_)) leave_out(std::move(what));
+    scene_ << wind(Deck(main_.path({"InflowFile"})));
+    if (ad.integer({"Wake_Mod", "WakeMod"}, 1) == 0)
+      leave_out("no induction (Wake_Mod 0): blades are in balance with their wake");
+    if (ad.integer({"Wake_Mod", "WakeMod"}, 1) > 1 || ad.integer({"DBEMT_Mod"}, 0) > 0)
+      leave_out("dynamic or free-vortex wake: induction is quasi-steady");
+    if (ad.integer({"UA_Mod", "UAMod"}, 0) > 0)
+      leave_out(
+          "unsteady aerofoils (UA_Mod): forces are steady; with UA_Mod 1 to 3 polars are limited as that model limits them");
+    scene_ << "\n[aero]\nmodel = \"bem\"\ninduction = \"buhl\"\n" << tower(ad);
+    scene_ << "\n[rotor]\nbody = \"platform\"\nturbine = \"turbine.toml\"\n";
+    scene_ << "hub_m = " << vector(rotor_.hub) << "\naxis = " << vector(rotor_.axis) << "\n";
+    scene_ << fmt::format("speed_rpm = {:.9g}\nblade_pitch_deg = {:.9g}\n", ed.number({"RotSpeed"}),
+                          ed.number({"BlPitch(1)", "BlPitch1"}, 0.0));
+    if (const double azimuth = ed.number({"Azimuth"}, 0.0); azimuth != 0.0)
+      scene_ << fmt::format("azimuth_deg = {:.9g}\n", azimuth);
+    carry(fmt::format("rotor: {} blades, {:.4g} rpm, blade pitch {:.4g} deg", rotor_.blades, ed.number({"RotSpeed"}),
+                      ed.number({"BlPitch(1)", "BlPitch1"}, 0.0)));
+    if (ed.number({"NacYaw"}, 0.0) != 0.0) leave_out("NacYaw: the nacelle looks along x");
+  }
+
+  void servo() {
+    if (main_.integer({"CompServo"}, 0) == 1)
+      leave_out(
+          fmt::format("ServoDyn: the rotor keeps its speed and pitch; give [control] (inertia of rotor and generator about the "
+                      "shaft: {:.6g} kg m2)",
+                      rotor_inertia(*elastodyn_, rotor_)));
+    else if (elastodyn_->flag({"GenDOF"}, false))
+      leave_out("GenDOF without ServoDyn: the rotor keeps its speed");
+  }
+
+  void structure() {
+    const auto any = [&](std::initializer_list<const char*> freedoms) {
+      return std::any_of(freedoms.begin(), freedoms.end(), [&](const char* f) { return elastodyn_->flag({f}, false); });
+    };
+    if (any({"FlapDOF1", "FlapDOF2", "EdgeDOF"})) leave_out("bending of the blades: they are rigid");
+    if (any({"TwFADOF1", "TwFADOF2", "TwSSDOF1", "TwSSDOF2"})) leave_out("bending of the tower: it is rigid");
+    if (any({"YawDOF", "DrTrDOF", "TeetDOF"})) leave_out("motion of yaw bearing, shaft and teeter");
+    for (const auto& [part, name] : {std::pair{"CompSub", "SubDyn"}, std::pair{"CompIce", "ice"}, std::pair{"CompSoil", "soil"}})
+      if (main_.integer({part}, 0) != 0) leave_out(name);
+  }
+
+  // Water.
+
+  void copy(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) main_.fail(std::nullopt, fmt::format("names {}, which is not there", file.string()));
+    std::filesystem::copy_file(file, folder_ / file.filename(), std::filesystem::copy_options::overwrite_existing);
+  }
+
+  void hydro() {
+    floats_ = main_.integer({"CompHydro"}, 0) == 1;
+    if (!floats_) return;
+    const Deck hd(main_.path({"HydroFile"}));
+    const bool old = !main_.has("SeaStFile");
+    std::optional<Deck> sea_state;
+    if (!old && main_.integer({"CompSeaSt"}, 1) == 1) sea_state.emplace(main_.path({"SeaStFile"}));
+    const Deck& waves = sea_state ? *sea_state : hd;
+    if (hd.integer({"NBody"}, 1) > 1) hd.fail(hd.find({"NBody"}), "has several bodies: one is carried over");
+    const bool potential = hd.integer({"PotMod"}, 0) == 1;
+    if (hd.integer({"PotMod"}, 0) == 2) leave_out("FIT (PotMod 2)");
+    const bool still = waves.integer({"WaveMod"}, 0) == 0;
+
+    std::string sea = fmt::format("\n[sea]\nmodel = \"{}\"\n", potential ? "potential" : "morison");
+    sea += members(hd, potential);
+    if (potential) sea += potential_flow(hd, still);
+    sea += matrices(hd);
+    for (const auto& [key, name] :
+         {std::pair{"MnDrift", "mean drift"}, std::pair{"NewmanApp", "Newman's drift"},
+          std::pair{"DiffQTF", "difference-frequency loads"}, std::pair{"SumQTF", "sum-frequency loads"}})
+      if (hd.integer({key}, 0) != 0) leave_out(std::string(name) + " (" + key + ")");
+    if (waves.integer({"CurrMod"}, 0) != 0) leave_out("the current");
+    water_ = sea + wave_section(waves);
+    carry(fmt::format("sea: {}", potential ? "potential flow with drag of strips" : "Morison strips"));
+  }
+
+  std::string potential_flow(const Deck& hd, bool still) {
+    const std::filesystem::path root = hd.beside(hd.text({"PotFile"}));
+    const auto with = [&](const char* ending) { return std::filesystem::path(root.string() + ending); };
+    copy(with(".1")), copy(with(".hst"));
+    const std::string name = root.filename().string();
+    std::string text = fmt::format(
+        "\n[sea.potential]\nbody = \"platform\"\nradiation_file = \"{}.1\"\nhydrostatics_file = \"{}.hst\"\n", name, name);
+    if (std::filesystem::exists(with(".3")))
+      copy(with(".3")), text += fmt::format("excitation_file = \"{}.3\"\n", name);
+    else if (!still)
+      copy(with(".3"));
+    else
+      leave_out(name + ".3 is not there: the scene has no excitation, and no waves");
+    text += fmt::format("length_m = {:.9g}\nvolume_m3 = {:.9g}\nbuoyancy_centre_m = [{:.9g}, {:.9g}]\n",
+                        hd.number({"WAMITULEN"}, 1.0), hd.number({"PtfmVol0"}), hd.number({"PtfmCOBxt"}, 0.0),
+                        hd.number({"PtfmCOByt"}, 0.0));
+    if (hd.integer({"RdtnMod"}, 1) == 0)
+      text += "radiation = \"none\"\n";
+    else
+      text += fmt::format("memory_s = {:.9g}\n", hd.number({"RdtnTMax"}, 60.0));
+    if (hd.integer({"RdtnMod"}, 1) == 2)
+      leave_out("the state space of radiation (RdtnMod 2): convolution with the .1 file instead");
+    return text;
+  }
+
+  std::string matrices(const Deck& hd) {
+    std::string text;
+    bool any = false;
+    text += "\n[[sea.matrices]]\nbody = \"platform\"\n";
+    for (const auto& [deck, key] :
+         {std::pair{"AddCLin", "stiffness"}, std::pair{"AddBLin", "damping"}, std::pair{"AddBQuad", "quadratic_damping"}}) {
+      const auto line = hd.find({deck});
+      if (!line) continue;
+      std::string rows;
+      bool zero = true;
+      for (std::size_t i = 0; i < 6; ++i) {
+        const std::vector<double> row = hd.numbers(*line + i, 6);
+        rows +=
+            fmt::format("  [{:.9g}, {:.9g}, {:.9g}, {:.9g}, {:.9g}, {:.9g}],\n", row[0], row[1], row[2], row[3], row[4], row[5]);
+        for (double x : row) zero = zero && x == 0.0;
+      }
+      if (zero) continue;
+      any = true;
+      text += fmt::format("{} = [\n{}]\n", key, rows);
+    }
+    // One value per line, with the name on the first.
+    if (const auto line = hd.find({"AddF0"}))
+      for (std::size_t i = 0; i < 6; ++i)
+        if (hd.to_number(hd.words(*line + i).at(0), *line + i) != 0.0) {
+          leave_out("the constant force AddF0");
+          break;
+        }
+    return any ? text : "";
+  }
+
+  /// Members as cylinders of the body; their coefficients for all of them.
+  std::string members(const Deck& hd, bool potential) {
+    const auto joints = hd.find({"NJoints"});
+    if (!joints || hd.integer({"NJoints"}, 0) == 0) return "";
+    struct Joint {
+      std::string id;
+      Eigen::Vector3d at;
+    };
+    std::vector<Joint> nodes;
+    for (std::size_t n = *joints + 3; n < *joints + 3 + std::size_t(hd.integer({"NJoints"}, 0)); ++n) {
+      const auto row = hd.rows(n, 1, 4)[0];
+      nodes.push_back({row[0], {hd.to_number(row[1], n), hd.to_number(row[2], n), hd.to_number(row[3], n)}});
+    }
+    const std::vector<std::string> sets{"NPropSetsCyl", "NPropSets"};
+    std::vector<std::pair<std::string, double>> diameters;
+    const std::size_t first_set = *hd.find(sets) + 3;
+    for (std::size_t n = first_set; n < first_set + std::size_t(hd.integer(sets, 0)); ++n) {
+      const auto row = hd.rows(n, 1, 2)[0];
+      diameters.emplace_back(row[0], hd.to_number(row[1], n));
+    }
+    // The table of simple coefficients: heading, units, one row. Its heading is the line that begins with SimplCd.
+    double drag = 1.0, added = 1.0;
+    for (std::size_t n = 0; n < hd.size(); ++n)
+      if (!hd.words(n).empty() && (hd.words(n)[0] == "SimplCd" || hd.words(n)[0] == "SimplCd1")) {
+        const std::vector<double> row = hd.numbers(n + 2, 4);
+        drag = row[0], added = row[2];
+        break;
+      }
+    const auto find = [&](const auto& list, const std::string& id, std::size_t line, const char* what) {
+      const auto it = std::find_if(list.begin(), list.end(), [&](const auto& entry) {
+        if constexpr (requires { entry.id; })
+          return entry.id == id;
+        else
+          return entry.first == id;
+      });
+      if (it == list.end()) hd.fail(line, fmt::format("names {} {}, which is in no table", what, id));
+      return *it;
+    };
+    const std::size_t count = std::size_t(hd.integer({"NMembers"}, 0)), first = *hd.find({"NMembers"}) + 3;
+    double strip = 5.0;
+    for (std::size_t n = first; n < first + count; ++n) {
+      const auto row = hd.rows(n, 1, 6)[0];
+      const Joint a = find(nodes, row[1], n, "joint"), b = find(nodes, row[2], n, "joint");
+      const double d1 = find(diameters, row[3], n, "property set").second, d2 = find(diameters, row[4], n, "property set").second;
+      cylinders_ +=
+          fmt::format("\n[[bodies.platform.cylinders]]\nname = \"member_{}\"\nstart_m = {}\nend_m = {}\ndiameter_m = {:.9g}\n",
+                      row[0], vector(a.at), vector(b.at), d1);
+      if (d1 != d2) cylinders_ += fmt::format("end_diameter_m = {:.9g}\n", d2);
+    }
+    if (count > 0) {
+      const std::size_t heading = first - 2, divide = hd.column(heading, {"MDivSize"}), mode = hd.column(heading, {"MCoefMod"});
+      strip = hd.to_number(hd.words(first).at(divide), first);
+      for (std::size_t n = first; n < first + count; ++n)
+        if (hd.words(n).size() > mode && hd.words(n)[mode] != "1") {
+          leave_out("coefficients of members by depth or by member (MCoefMod 2, 3): the simple ones are used");
+          break;
+        }
+    }
+    if (count == 0) return "";
+    if (const auto axial = hd.find({"NAxCoef"}); axial && hd.integer({"NAxCoef"}, 0) > 0) {
+      const std::vector<double> row = hd.numbers(*axial + 3, 3);
+      axial_drag_ = row[1], axial_added_ = row[2];
+      if (hd.integer({"NAxCoef"}, 0) > 1) leave_out("several sets of axial coefficients: the first is used for all ends");
+    }
+    std::string text = fmt::format("drag_coefficient = {:.9g}\naxial_drag_coefficient = {:.9g}\nstrip_length_m = {:.9g}\n", drag,
+                                   axial_drag_, strip);
+    if (!potential)
+      text += fmt::format("added_mass_coefficient = {:.9g}\naxial_added_mass_coefficient = {:.9g}\n", added, axial_added_);
+    return text;
+  }
+
+  std::string wave_section(const Deck& waves) {
+    const int model = waves.integer({"WaveMod"}, 0);
+    if (model == 0) return "";
+    const double height = waves.number({"WaveHs"}, 0.0), period = waves.number({"WaveTp"}, 0.0);
+    if (model != 1 && model != 2) {
+      leave_out(fmt::format("waves of WaveMod {}", model));
+      return "";
+    }
+    std::string text = fmt::format("\n[waves]\nmodel = \"{}\"\nheight_m = {:.9g}\nperiod_s = {:.9g}\ndirection_deg = {:.9g}\n",
+                                   model == 1 ? "airy" : "jonswap", height, period, waves.number({"WaveDir"}, 0.0));
+    if (model == 2) {
+      text += fmt::format("seed = {}\n", std::abs(waves.integer({"WaveSeed(1)", "WaveSeed1"}, 1)));
+      if (const double peak = waves.number({"WavePkShp"}, 0.0); peak > 0.0)
+        text += fmt::format("peak_enhancement = {:.9g}\n", peak);
+      leave_out("the phases of the irregular waves: those of the seed are others than HydroDyn's");
+    }
+    if (waves.integer({"WaveDirMod"}, 0) != 0) leave_out("directional spreading of the waves");
+    carry(fmt::format("waves: {} {:.4g} m, {:.4g} s", model == 1 ? "regular" : "JONSWAP", height, period));
+    return text;
+  }
+
+  void moorings() {
+    const int kind = main_.integer({"CompMooring"}, 0);
+    if (kind == 0) return;
+    if (kind != 1 && kind != 3) return leave_out(fmt::format("mooring lines of CompMooring {}", kind));
+    const Deck file(main_.path({"MooringFile"}));
+    const std::vector<ImportedLine> lines = kind == 1 ? read_map(file, depth_, left_out_) : read_moordyn(file, depth_, left_out_);
+    if (kind == 3) leave_out("dynamics of the lines (MoorDyn): they are static catenaries");
+    for (std::size_t n = 0; n < lines.size(); ++n) {
+      const ImportedLine& l = lines[n];
+      const double weight = gravity_ * (l.mass_per_m - water_density_ * 0.25 * pi * l.diameter * l.diameter);
+      if (!(weight > 0.0) || !(l.axial_stiffness > 0.0)) {
+        leave_out(fmt::format("line {}: it has no weight in water or no stiffness", n + 1));
+        continue;
+      }
+      const bool on_bed = l.anchor.z() <= -depth_ + 1e-6 * depth_;
+      scene_ << fmt::format("\n[moorings.line_{}]\nmodel = \"catenary\"\nbody = \"platform\"\nfairlead_m = {}\nanchor_m = {}\n",
+                            n + 1, vector(l.fairlead), vector(l.anchor))
+             << fmt::format("rest_length_m = {:.9g}\naxial_stiffness_N = {:.9g}\nweight_N_m = {:.9g}\n", l.length,
+                            l.axial_stiffness, weight);
+      if (!on_bed)
+        scene_ << "bed_contact = false\n";
+      else if (l.bed_friction > 0.0)
+        scene_ << fmt::format("bed_friction = {:.9g}\n", l.bed_friction);
+    }
+    carry(fmt::format("moorings: {} lines", lines.size()));
+  }
+
+  void write() {
+    constexpr double window = 0.1, step = 0.05;  // a rigid platform's shortest period is some seconds
+    const double end = window * std::max(1.0, std::round(main_.number({"TMax"}) / window));
+    std::ofstream out(folder_ / "scene.toml");
+    out << fmt::format("# From the OpenFAST deck {}, by spindrift import.\n", main_.file().filename().string());
+    if (!left_out_.empty()) out << "# Left out:\n";
+    for (const std::string& what : left_out_) out << "# - " << what << "\n";
+    out << fmt::format("[time]\nend_s = {:.9g}\nwindow_s = {}\nstep_s = {}\n", end, window, step) << scene_.str() << water_;
+    out << fmt::format("\n[output]\ntitle = \"{}\"\n", main_.file().stem().string());
+    if (!out.flush()) throw std::runtime_error((folder_ / "scene.toml").string() + ": cannot be written");
+  }
+
+  Deck main_;
+  std::filesystem::path folder_;
+  std::optional<Deck> elastodyn_;
+  RotorFrame rotor_;
+  double gravity_ = 9.80665, depth_ = 0.0, water_density_ = 1025.0, axial_drag_ = 0.0, axial_added_ = 0.0;
+  bool floats_ = false;
+  std::ostringstream scene_;
+  std::string cylinders_, water_;
+  std::vector<std::string> left_out_, carried_;
+};
+
+}  // namespace
+
+Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder) {
+  return Importer(main_file, folder).run();
+}
+
+}  // namespace spindrift::decks

@@ -1,0 +1,22 @@
+// A scene from an OpenFAST deck (versions 3 to 5): turbine, polars, platform, potential flow or strips, lines, waves, wind.
+// Called by src/app/import.cpp; tested in tests/src/import/openfast_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace spindrift::decks {
+
+struct Imported {
+  std::filesystem::path scene;        ///< what was written, with its files beside it
+  std::vector<std::string> left_out;  ///< what the deck has and the scene has not, one sentence each
+  std::vector<std::string> carried;   ///< what the scene has, one line each
+};
+
+/// Reads the deck and writes scene.toml and its files into a folder that is made where it is missing. Throws scene::SceneError
+/// naming file and line of what cannot be read.
+Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder);
+
+}  // namespace spindrift::decks

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/import/openfast_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "kernels/base/constants.hpp"
+
+namespace spindrift::decks {
+
+void MassSum::add(double mass, const Eigen::Vector3d& at, const Eigen::Matrix3d& inertia) {
+  mass_ += mass, first_ += mass * at;
+  about_origin_ += inertia + mass * (at.squaredNorm() * Eigen::Matrix3d::Identity() - at * at.transpose());
+}
+
+Eigen::Matrix3d MassSum::inertia() const {
+  const Eigen::Vector3d c = centre();
+  return about_origin_ - mass_ * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+}
+
+RotorFrame rotor_frame(const Deck& ed) {
+  const double tilt = ed.number({"ShftTilt"}) * radians_per_degree, overhang = ed.number({"OverHang"});
+  RotorFrame r;
+  r.axis = Eigen::Vector3d(std::cos(tilt), 0.0, std::sin(tilt));
+  r.hub = Eigen::Vector3d(0.0, 0.0, ed.number({"TowerHt"}) + ed.number({"Twr2Shft"})) + overhang * r.axis;
+  r.blades = ed.integer({"NumBl"}, 3);
+  r.hub_radius = ed.number({"HubRad"}), r.tip_radius = ed.number({"TipRad"});
+  r.precone = ed.number({"PreCone(1)", "PreCone1"}) * radians_per_degree;
+  return r;
+}
+
+namespace {
+
+/// Mass per length at shares of a length, straight between them.
+struct Density {
+  std::vector<double> at, per_m;
+};
+
+Density read_density(const Deck& file, const std::vector<std::string>& count, const std::vector<std::string>& share,
+                     const std::vector<std::string>& density, const std::vector<std::string>& factor) {
+  const auto n = std::size_t(file.number(count));
+  // The heading is the first line below that has the column's name.
+  std::size_t heading = *file.find(count);
+  const auto names = [&](std::size_t line) {
+    try {
+      file.column(line, density);
+      return file.words(line).size() >= 2 && file.words(line)[0] != "-";
+    } catch (const std::exception&) { return false; }
+  };
+  const auto is_value = [&](std::size_t line) { return file.words(line).size() > 2 && file.words(line)[2] == "-"; };
+  for (++heading; heading < file.size() && (!names(heading) || is_value(heading)); ++heading) {}
+  if (heading == file.size()) file.fail(std::nullopt, "has no table of " + density[0]);
+  const std::size_t a = file.column(heading, share), m = file.column(heading, density);
+  const double scale = file.number(factor, 1.0);
+  Density result;
+  std::size_t line = heading + 2;
+  for (const auto& row : file.rows(line, n, std::max(a, m) + 1)) {
+    result.at.push_back(file.to_number(row[a], line)), result.per_m.push_back(scale * file.to_number(row[m], line));
+    ++line;
+  }
+  return result;
+}
+
+/// Calls add(mass, share) for slices of a straight density.
+template <class Add>
+void slice(const Density& d, double length, const Add& add) {
+  constexpr int slices = 16;
+  for (std::size_t i = 0; i + 1 < d.at.size(); ++i)
+    for (int s = 0; s < slices; ++s) {
+      const double x = (s + 0.5) / slices, width = (d.at[i + 1] - d.at[i]) / slices;
+      add(((1.0 - x) * d.per_m[i] + x * d.per_m[i + 1]) * width * length, (1.0 - x) * d.at[i] + x * d.at[i + 1]);
+    }
+}
+
+void add_blades(const Deck& ed, const RotorFrame& r, MassSum& sum) {
+  const Eigen::Vector3d up = (Eigen::Vector3d::UnitZ() - r.axis.z() * r.axis).normalized(), side = r.axis.cross(up);
+  for (int b = 0; b < r.blades; ++b) {
+    const std::string index = std::to_string(b + 1);
+    const Deck blade(ed.path({"BldFile(" + index + ")", "BldFile" + index, "BldFile"}));
+    const Density density = read_density(blade, {"NBlInpSt"}, {"BlFract"}, {"BMassDen"}, {"AdjBlMs"});
+    const double azimuth = 2.0 * pi * b / r.blades;
+    const Eigen::Vector3d out = std::cos(azimuth) * up + std::sin(azimuth) * side;
+    const Eigen::Vector3d along = std::cos(r.precone) * out + std::sin(r.precone) * r.axis;
+    slice(density, r.tip_radius - r.hub_radius, [&](double mass, double share) {
+      sum.add(mass, r.hub + (r.hub_radius + share * (r.tip_radius - r.hub_radius)) * along);
+    });
+    sum.add(ed.number({"TipMass(" + index + ")", "TipMass" + index}, 0.0), r.hub + r.tip_radius * along);
+  }
+}
+
+Eigen::Matrix3d about_axis(double inertia, const Eigen::Vector3d& axis) { return inertia * axis * axis.transpose(); }
+
+double generator_inertia(const Deck& ed) {
+  const double ratio = ed.number({"GBRatio"}, 1.0);
+  return ed.number({"GenIner"}, 0.0) * ratio * ratio;
+}
+
+}  // namespace
+
+MassSum all_masses(const Deck& ed, const RotorFrame& r) {
+  MassSum sum;
+  Eigen::Matrix3d platform =
+      Eigen::Vector3d(ed.number({"PtfmRIner"}, 0.0), ed.number({"PtfmPIner"}, 0.0), ed.number({"PtfmYIner"}, 0.0)).asDiagonal();
+  sum.add(ed.number({"PtfmMass"}, 0.0),
+          {ed.number({"PtfmCMxt"}, 0.0), ed.number({"PtfmCMyt"}, 0.0), ed.number({"PtfmCMzt"}, 0.0)}, platform);
+  const double top = ed.number({"TowerHt"}), base = ed.number({"TowerBsHt"}, 0.0);
+  const Deck tower(ed.path({"TwrFile"}));
+  slice(read_density(tower, {"NTwInpSt"}, {"HtFract"}, {"TMassDen"}, {"AdjTwMa"}), top - base, [&](double mass, double share) {
+    sum.add(mass, {0.0, 0.0, base + share * (top - base)});
+  });
+  const Eigen::Vector3d nacelle(ed.number({"NacCMxn"}, 0.0), ed.number({"NacCMyn"}, 0.0), top + ed.number({"NacCMzn"}, 0.0));
+  const double nacelle_mass = ed.number({"NacMass"}, 0.0);
+  const double own_yaw = ed.number({"NacYIner"}, 0.0) - nacelle_mass * nacelle.head<2>().squaredNorm();
+  sum.add(nacelle_mass, nacelle, Eigen::Vector3d(0.0, 0.0, std::max(own_yaw, 0.0)).asDiagonal());
+  sum.add(ed.number({"YawBrMass"}, 0.0), {0.0, 0.0, top});
+  sum.add(ed.number({"HubMass"}, 0.0), r.hub + ed.number({"HubCM"}, 0.0) * r.axis,
+          about_axis(ed.number({"HubIner"}, 0.0) + generator_inertia(ed), r.axis));
+  add_blades(ed, r, sum);
+  return sum;
+}
+
+double rotor_inertia(const Deck& ed, const RotorFrame& r) {
+  RotorFrame at_origin = r;
+  at_origin.hub.setZero();
+  MassSum blades;
+  add_blades(ed, at_origin, blades);
+  const Eigen::Vector3d c = blades.centre();
+  const Eigen::Matrix3d about_hub =
+      blades.inertia() + blades.mass() * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  return r.axis.dot(about_hub * r.axis) + ed.number({"HubIner"}, 0.0) + generator_inertia(ed);
+}
+
+namespace {
+
+struct PolarRow {
+  double alpha, lift, drag;  ///< [deg], [-], [-]
+};
+
+/// What the Beddoes-Leishman models of AeroDyn (UA_Mod 1 to 3) make of a polar in steady flow: normal force of C_nalpha (alpha -
+/// alpha_0)
+/// ((1 + sqrt f)/2)^2 with the separation point f, at most 1, that the polar has by the same law (Leishman & Beddoes 1989;
+/// Damiani & Hayman 2019, NREL/TP-5000-66347). Lift above the file's straight line is lost. Beyond 30 degrees the polar stays.
+void limit_by_separation(const Deck& file, std::vector<PolarRow>& polar) {
+  const double slope = file.number({"C_nalpha"}, 0.0), zero = file.number({"alpha0"}, 0.0), drag_0 = file.number({"Cd0"}, 0.0);
+  if (slope <= 0.0) return;
+  for (PolarRow& row : polar) {
+    if (std::abs(row.alpha) > 30.0) continue;
+    const double a = row.alpha * radians_per_degree, sine = std::sin(a), cosine = std::cos(a);
+    const double straight = slope * (a - zero * radians_per_degree), normal = row.lift * cosine + (row.drag - drag_0) * sine;
+    const double root = straight == 0.0 ? 1.0 : 2.0 * std::sqrt(std::max(normal / straight, 0.0)) - 1.0;  // sqrt f
+    if (root < 1.0) continue;                         // f below 1 gives the polar back
+    row.lift = straight / cosine, row.drag = drag_0;  // with the chordwise force straight tan(a) of full suction
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> write_turbine(const Deck& ad, const RotorFrame& r, const std::filesystem::path& folder) {
+  std::vector<std::string> left_out;
+  const Deck blade(ad.path({"ADBlFile(1)", "ADBlFile1"}));
+  const auto nodes = std::size_t(blade.number({"NumBlNds"}));
+  const std::size_t heading = *blade.find({"NumBlNds"}) + 1, first = heading + 2;
+  struct Node {
+    double span, bend, sweep, twist, chord;
+    int polar;
+  };
+  std::vector<Node> rows;
+  std::size_t line = first;
+  const auto column = [&](const char* name) { return blade.column(heading, {name}); };
+  for (const auto& row : blade.rows(first, nodes, column("BlAFID") + 1)) {
+    const auto at = [&](const char* name) { return blade.to_number(row[column(name)], line); };
+    rows.push_back({at("BlSpn"), at("BlCrvAC"), at("BlSwpAC"), at("BlTwist"), at("BlChord"), int(at("BlAFID"))});
+    ++line;
+  }
+
+  // A turbine's polars are told apart by thickness; the deck's by number. Each gets a label in the order in which the blade uses
+  // them, so that an element between two stations has the mean of theirs.
+  std::vector<int> used;
+  for (const Node& n : rows)
+    if (std::find(used.begin(), used.end(), n.polar) == used.end()) used.push_back(n.polar);
+  const auto label = [&](int polar) {
+    const auto place = double(std::find(used.begin(), used.end(), polar) - used.begin());
+    return 100.0 - 80.0 * place / double(std::max<std::size_t>(used.size() - 1, 1));
+  };
+  std::ofstream planform(folder / "planform.csv");
+  planform << "# From " << blade.file().filename().string()
+           << ". thickness_pct tells the deck's polars apart: it is a label, not a thickness.\n"
+           << "span_m,chord_m,twist_deg,thickness_pct,prebend_m,sweep_m\n";
+  for (const Node& n : rows)
+    planform << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", n.span + r.hub_radius, n.chord, n.twist,
+                            label(n.polar), n.bend, n.sweep);
+
+  const auto files = std::size_t(ad.number({"NumAFfiles"}));
+  const std::size_t names = *ad.find({"NumAFfiles"}) + 1;
+  const bool unsteady = !ad.has("AFAeroMod") || ad.integer({"AFAeroMod"}, 1) == 2;  // older decks have a switch of their own
+  const auto alpha = std::size_t(ad.number({"InCol_Alfa"}, 1) - 1), lift = std::size_t(ad.number({"InCol_Cl"}, 2) - 1),
+             drag = std::size_t(ad.number({"InCol_Cd"}, 3) - 1);
+  std::ofstream turbine(folder / "turbine.toml");
+  turbine << "# From " << ad.file().filename().string() << ".\n[turbine]\n"
+          << fmt::format("blades = {}\nhub_radius_m = {:.9g}\nprecone_deg = {:.9g}\nplanform = \"planform.csv\"\npolars = [\n",
+                         r.blades, rows[0].span + r.hub_radius, -r.precone / radians_per_degree);
+  for (int polar : used) {
+    if (polar < 1 || std::size_t(polar) > files)
+      blade.fail(std::nullopt, fmt::format("names polar {}; {} has {}", polar, ad.file().filename().string(), files));
+    const Deck file(ad.beside(ad.words(names + std::size_t(polar) - 1)[0]), '!');
+    if (file.integer({"NumTabs"}, 1) > 1)
+      left_out.push_back(fmt::format("{}: its first table alone is used (Reynolds number)", file.file().filename().string()));
+    const std::size_t table = *file.find({"NumAlf"}) + 1, count = std::size_t(file.number({"NumAlf"}));
+    const std::string out = fmt::format("polar_{}.csv", polar);
+    std::ofstream csv(folder / out);
+    csv << "# From " << file.file().filename().string() << ".\nalpha_deg,cl,cd\n";
+    std::vector<PolarRow> rows_of_polar;
+    for (std::size_t k = table; k < table + count; ++k) {
+      const auto row = file.rows(k, 1, std::max({alpha, lift, drag}) + 1)[0];
+      const PolarRow now{file.to_number(row[alpha], k), file.to_number(row[lift], k), file.to_number(row[drag], k)};
+      if (!rows_of_polar.empty() && now.alpha <= rows_of_polar.back().alpha) continue;  // a doubled row closes the circle
+      rows_of_polar.push_back(now);
+    }
+    if (const int model = ad.integer({"UA_Mod", "UAMod"}, 0); unsteady && model >= 1 && model <= 3)
+      limit_by_separation(file, rows_of_polar);
+    for (const PolarRow& row : rows_of_polar) csv << fmt::format("{:.9g},{:.9g},{:.9g}\n", row.alpha, row.lift, row.drag);
+    turbine << fmt::format("  {{ thickness_pct = {:.9g}, file = \"{}\" }},\n", label(polar), out);
+  }
+  turbine << "]\n";
+  return left_out;
+}
+
+namespace {
+
+/// Line of the first heading of a section below: the one whose first word is this.
+std::size_t heading_of(const Deck& file, std::size_t from, const std::string& first_word) {
+  for (std::size_t n = from; n < file.size(); ++n)
+    if (!file.words(n).empty() && file.words(n)[0] == first_word) return n;
+  file.fail(std::nullopt, "has no table that begins with " + first_word);
+}
+
+bool is_rule(const Deck& file, std::size_t line) {
+  const auto& words = file.words(line);
+  return words.empty() || words[0].find("---") != std::string::npos || words[0].find("===") != std::string::npos;
+}
+
+/// Rows of a table until the next rule.
+template <class Row>
+void each_row(const Deck& file, std::size_t heading, const Row& row) {
+  for (std::size_t n = heading + 2; n < file.size() && !is_rule(file, n); ++n) row(n, file.words(n));
+}
+
+}  // namespace
+
+std::vector<ImportedLine> read_map(const Deck& file, double depth, std::vector<std::string>& left_out) {
+  const std::size_t types = heading_of(file, 0, "LineType"), nodes = heading_of(file, types, "Node"),
+                    lines = heading_of(file, nodes, "Line");
+  struct Type {
+    double diameter, mass, stiffness, friction;
+  };
+  std::map<std::string, Type> by_name;
+  each_row(file, types, [&](std::size_t n, const auto& w) {
+    file.rows(n, 1, 5);
+    by_name[w[0]] = {file.to_number(w[1], n), file.to_number(w[2], n), file.to_number(w[3], n), file.to_number(w[4], n)};
+  });
+  struct Node {
+    std::string type;
+    Eigen::Vector3d at;
+  };
+  std::map<std::string, Node> by_number;
+  each_row(file, nodes, [&](std::size_t n, const auto& w) {
+    file.rows(n, 1, 5);
+    const auto coordinate = [&](std::string word) {
+      if (!word.empty() && word[0] == '#') word = word.substr(1);
+      return word == "depth" ? -depth : file.to_number(word, n);
+    };
+    std::string type = w[1];
+    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+    by_number[w[0]] = {type, {coordinate(w[2]), coordinate(w[3]), coordinate(w[4])}};
+  });
+  std::vector<ImportedLine> found;
+  each_row(file, lines, [&](std::size_t n, const auto& w) {
+    file.rows(n, 1, 5);
+    if (!by_name.count(w[1])) file.fail(n, fmt::format("names line type '{}', which is not in the dictionary", w[1]));
+    for (const std::string& node : {w[3], w[4]})
+      if (!by_number.count(node)) file.fail(n, fmt::format("names node {}, which is not in the table of nodes", node));
+    Node a = by_number[w[3]], b = by_number[w[4]];
+    if (a.type == "vessel") std::swap(a, b);
+    if (a.type != "fix" || b.type != "vessel") {
+      left_out.push_back(fmt::format("{}: line {} ties {} to {}; lines from the bed to the platform alone are carried over",
+                                     file.file().filename().string(), w[0], a.type, b.type));
+      return;
+    }
+    const Type& t = by_name[w[1]];
+    found.push_back({a.at, b.at, file.to_number(w[2], n), t.diameter, t.mass, t.stiffness, t.friction});
+  });
+  // "repeat 120 240": all lines again, turned about z.
+  const std::size_t once = found.size();
+  for (std::size_t n = lines; n < file.size(); ++n) {
+    const auto& w = file.words(n);
+    if (w.empty() || w[0] != "repeat") continue;
+    for (std::size_t k = 1; k < w.size(); ++k) {
+      const Eigen::Matrix3d turn =
+          Eigen::AngleAxisd(file.to_number(w[k], n) * radians_per_degree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      for (std::size_t l = 0; l < once; ++l) {
+        ImportedLine copy = found[l];
+        copy.anchor = turn * copy.anchor, copy.fairlead = turn * copy.fairlead;
+        found.push_back(copy);
+      }
+    }
+  }
+  return found;
+}
+
+std::vector<ImportedLine> read_moordyn(const Deck& file, double depth, std::vector<std::string>& left_out) {
+  const auto section = [&](std::initializer_list<const char*> words) -> std::size_t {
+    for (std::size_t n = 0; n < file.size(); ++n) {
+      if (!is_rule(file, n)) continue;
+      std::string text;
+      for (std::string w : file.words(n)) {
+        for (char& c : w) c = char(std::toupper(static_cast<unsigned char>(c)));
+        text += w + " ";
+      }
+      for (const char* word : words)
+        if (text.find(word) != std::string::npos) return n + 1;
+    }
+    file.fail(std::nullopt, fmt::format("has no section {}", *words.begin()));
+  };
+  struct Type {
+    double diameter, mass, stiffness;
+  };
+  std::map<std::string, Type> types;
+  each_row(file, section({"LINE TYPES", "LINE DICTIONARY"}), [&](std::size_t n, const auto& w) {
+    file.rows(n, 1, 4);
+    types[w[0]] = {file.to_number(w[1], n), file.to_number(w[2], n), file.to_number(w[3], n)};
+  });
+  struct Point {
+    std::string type;
+    Eigen::Vector3d at;
+  };
+  std::map<std::string, Point> points;
+  each_row(file, section({"POINTS", "CONNECTION PROPERTIES", "POINT PROPERTIES"}), [&](std::size_t n, const auto& w) {
+    file.rows(n, 1, 5);
+    std::string type = w[1];
+    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+    points[w[0]] = {type, {file.to_number(w[2], n), file.to_number(w[3], n), std::max(file.to_number(w[4], n), -depth)}};
+  });
+  const std::size_t lines = section({"LINES", "LINE PROPERTIES"});
+  // Version 1 has the segments' number after the length, version 2 the ends before it.
+  const std::size_t type = file.column(lines, {"LineType"}), a = file.column(lines, {"AttachA", "NodeAnch"}),
+                    b = file.column(lines, {"AttachB", "NodeFair"}), length = file.column(lines, {"UnstrLen"});
+  std::vector<ImportedLine> found;
+  each_row(file, lines, [&](std::size_t n, const auto& w) {
+    file.rows(n, 1, std::max({type, a, b, length}) + 1);
+    if (!types.count(w[type])) file.fail(n, fmt::format("names line type '{}', which is not among the types", w[type]));
+    for (const std::string& point : {w[a], w[b]})
+      if (!points.count(point)) file.fail(n, fmt::format("names point {}, which is not in the table of points", point));
+    Point anchor = points[w[a]], fairlead = points[w[b]];
+    const auto moves = [](const Point& p) { return p.type == "vessel" || p.type == "coupled" || p.type.rfind("body", 0) == 0; };
+    if (moves(anchor)) std::swap(anchor, fairlead);
+    if (moves(anchor) || !moves(fairlead) || anchor.type.rfind("fix", 0) != 0) {
+      left_out.push_back(fmt::format("{}: line {} ties {} to {}; lines from the bed to the platform alone are carried over",
+                                     file.file().filename().string(), w[0], anchor.type, fairlead.type));
+      return;
+    }
+    const Type& t = types[w[type]];
+    found.push_back({anchor.at, fairlead.at, file.to_number(w[length], n), t.diameter, t.mass, t.stiffness, 0.0});
+  });
+  return found;
+}
+
+}  // namespace spindrift::decks

@@ -1,0 +1,52 @@
+// Parts of an OpenFAST deck as plain values: masses, blades with polars, lines. Used by openfast.cpp; tested in
+// tests/src/import/openfast_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "src/import/deck.hpp"
+
+namespace spindrift::decks {
+
+/// Mass, its centre and inertia, gathered part by part in earth axes of the deck's position at rest.
+class MassSum {
+ public:
+  /// A part with its own inertia about its centre of mass.
+  void add(double mass, const Eigen::Vector3d& at, const Eigen::Matrix3d& inertia = Eigen::Matrix3d::Zero());
+  double mass() const { return mass_; }
+  Eigen::Vector3d centre() const { return mass_ > 0.0 ? Eigen::Vector3d(first_ / mass_) : Eigen::Vector3d::Zero(); }
+  /// About the centre of mass.
+  Eigen::Matrix3d inertia() const;
+
+ private:
+  double mass_ = 0.0;
+  Eigen::Vector3d first_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d about_origin_ = Eigen::Matrix3d::Zero();
+};
+
+/// Where ElastoDyn puts the rotor.
+struct RotorFrame {
+  Eigen::Vector3d hub, axis;  ///< [m]; unit, downwind
+  int blades = 3;
+  double hub_radius = 0.0, tip_radius = 0.0, precone = 0.0;  ///< [m], [m], [rad] positive downwind as in the deck
+};
+RotorFrame rotor_frame(const Deck& elastodyn);
+
+/// Platform, tower, nacelle, hub, blades, as ElastoDyn has them.
+MassSum all_masses(const Deck& elastodyn, const RotorFrame& rotor);
+/// Blades, hub and generator about the shaft [kg m2].
+double rotor_inertia(const Deck& elastodyn, const RotorFrame& rotor);
+
+/// Writes planform, polars and turbine.toml; returns what was left out.
+std::vector<std::string> write_turbine(const Deck& aerodyn, const RotorFrame& rotor, const std::filesystem::path& folder);
+
+struct ImportedLine {
+  Eigen::Vector3d anchor, fairlead;
+  double length = 0.0, diameter = 0.0, mass_per_m = 0.0, axial_stiffness = 0.0, bed_friction = 0.0;
+};
+std::vector<ImportedLine> read_map(const Deck& file, double water_depth, std::vector<std::string>& left_out);
+std::vector<ImportedLine> read_moordyn(const Deck& file, double water_depth, std::vector<std::string>& left_out);
+
+}  // namespace spindrift::decks

@@ -1,0 +1,90 @@
+// The drive train: torque turns it as Newton says, events change its mode, its memory is all there is of it.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/turbine_control.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "src/scene/document.hpp"
+#include "tests/order.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+
+namespace {
+
+const std::string turbines = SPINDRIFT_SOURCE_DIR "/inputs/turbines/";
+
+TurbineControl made(const ControlOptions& options = {.model = ControlModel::dtu}, double speed = 0.8, double pitch = 0.0) {
+  return {options,
+          read_controller(turbines + "dtu_10mw_controller.toml"),
+          read_operation(turbines + "dtu_10mw_operation.csv"),
+          3,
+          0.0,
+          speed,
+          pitch};
+}
+
+}  // namespace
+
+TEST_CASE("the shaft obeys Newton: torque in less torque out is inertia times acceleration", "[aero][fast]") {
+  const TurbineControl control = made();
+  std::vector<double> memory(control.memory_size());
+  control.begin(0.0, 5e6, 9.0, memory);
+  double before = TurbineControl::state(memory).speed;
+  for (int n = 1; n <= 200; ++n) {
+    const double torque = 5e6 + 1e6 * std::sin(0.1 * n);
+    control.advance(0.05 * n, 0.05, torque, 9.0, memory);
+    const TurbineControl::State s = TurbineControl::state(memory);
+    CHECK(control.inertia() * (s.speed - before) / 0.05 == Approx(torque - s.shaft_torque).epsilon(1e-9));
+    before = s.speed;
+  }
+}
+
+TEST_CASE("after a loss of grid the generator is off, the blades feather at their largest rate", "[aero][fast]") {
+  const TurbineControl control =
+      made({.model = ControlModel::dtu, .events = {{.what = ControlEvent::grid_loss, .time_s = 1.0}}}, 1.005, 0.2);
+  std::vector<double> memory(control.memory_size());
+  control.begin(0.0, 10e6, 15.0, memory);
+  double fastest = 0.0, last = 0.2;
+  for (int n = 1; n <= 400; ++n) {
+    control.advance(0.05 * n, 0.05, n > 20 ? 0.0 : 10e6, 15.0, memory);
+    if (n >= 20) CHECK(TurbineControl::state(memory).generator_torque == 0.0);
+    fastest = std::max(fastest, (control.pitch(memory)[0] - last) / 0.05), last = control.pitch(memory)[0];
+  }
+  CHECK(last == Approx(0.5 * pi).epsilon(1e-3));
+  CHECK(fastest == Approx(10.0 * radians_per_degree).epsilon(1e-2));
+}
+
+TEST_CASE("a stuck blade stays while the others pitch", "[aero][fast]") {
+  const TurbineControl control = made({.model = ControlModel::dtu,
+                                       .events = {{.what = ControlEvent::blade_stuck, .time_s = 1.0, .blade = 2},
+                                                  {.what = ControlEvent::shut_down, .time_s = 2.0}}});
+  std::vector<double> memory(control.memory_size());
+  control.begin(0.0, 5e6, 9.0, memory);
+  for (int n = 1; n <= 400; ++n) control.advance(0.05 * n, 0.05, 0.0, 9.0, memory);
+  CHECK(control.pitch(memory)[1] == 0.0);
+  CHECK(control.pitch(memory)[0] > 0.5);
+  CHECK(control.pitch(memory)[0] == control.pitch(memory)[2]);
+}
+
+TEST_CASE("a controller file is refused by the key that is wrong", "[aero][fast]") {
+  const auto problems = [](const std::string& text) -> std::string {
+    scene::Document doc = scene::parse(text, "controller.toml", "/");
+    doc.read(controller_section());
+    try {
+      doc.finish();
+    } catch (const scene::SceneError& e) { return e.what(); }
+    return "";
+  };
+  const std::string good =
+      "[controller]\nrated_power_W = 1e7\nmin_speed_rpm = 6.0\nrated_speed_rpm = 9.6\nmax_torque_N_m = 15.6e6\n"
+      "rotor_inertia_kg_m2 = 1e8\n[controller.gains]\nkp_s = 1.0\nki = 0.1\n";
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    return problems(text.replace(text.find(from), from.size(), to));
+  };
+  CHECK(problems(good).empty());
+  CHECK(with("min_speed_rpm = 6.0", "min_speed_rpm = 10.0").find("min_speed_rpm") != std::string::npos);
+  CHECK(with("max_torque_N_m = 15.6e6", "max_torque_N_m = 1.0e6").find("max_torque_N_m") != std::string::npos);
+  CHECK(with("kp_s = 1.0", "").find("kp_s") != std::string::npos);
+}

@@ -1,0 +1,224 @@
+// A small deck of our own: a spar of two members with a three-bladed rotor, WAMIT files and two lines, written here in the
+// layouts of OpenFAST, and what becomes of it. SPDX-License-Identifier: Apache-2.0
+#include "src/import/openfast.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <unistd.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "kernels/base/constants.hpp"
+#include "src/coupling/machine.hpp"
+#include "src/coupling/start.hpp"
+#include "src/scene/document.hpp"
+#include "src/scene/error.hpp"
+
+using namespace spindrift;
+
+namespace {
+
+/// The deck in a folder of this process; files can be changed before it is imported.
+struct SmallDeck {
+  std::filesystem::path folder = std::filesystem::temp_directory_path() / ("spindrift_import_" + std::to_string(getpid()));
+  std::map<std::string, std::string> files;
+
+  SmallDeck() {
+    files["main.fst"] =
+        "------ OpenFAST INPUT FILE ------\nsmall\n\"FATAL\" AbortLevel - x\n100 TMax - s\n0.01 DT\n1 CompElast\n1 CompInflow\n2 "
+        "CompAero\n"
+        "0 CompServo\n1 CompSeaSt\n1 CompHydro\n0 CompSub\n1 CompMooring\n0 CompIce\n9.80665 Gravity\n1.225 AirDens\n1025 "
+        "WtrDens\n"
+        "200 WtrDpth\n0 MSL2SWL\n\"ed.dat\" EDFile\n\"ifw.dat\" InflowFile\n\"ad.dat\" AeroFile\n\"sea.dat\" "
+        "SeaStFile\n\"hd.dat\" HydroFile\n"
+        "\"map.dat\" MooringFile\n";
+    files["ed.dat"] =
+        "--- ElastoDyn\nFalse FlapDOF1\nFalse TwFADOF1\nFalse GenDOF\nTrue PtfmSgDOF\nTrue PtfmSwDOF\nTrue PtfmHvDOF\nTrue "
+        "PtfmRDOF\n"
+        "True PtfmPDOF\nTrue PtfmYDOF\n3 BlPitch(1)\n3 BlPitch(2)\n3 BlPitch(3)\n10 RotSpeed\n2 PtfmHeave\n5 PtfmPitch\n3 "
+        "NumBl\n40 TipRad\n"
+        "2 HubRad\n-3 PreCone(1)\n-3 PreCone(2)\n-3 PreCone(3)\n0 HubCM\n-4 OverHang\n-6 ShftTilt\n1 NacCMxn\n0 NacCMyn\n1 "
+        "NacCMzn\n"
+        "2 Twr2Shft\n60 TowerHt\n10 TowerBsHt\n-50 PtfmCMzt\n0 TipMass(1)\n0 TipMass(2)\n0 TipMass(3)\n20000 HubMass\n50000 "
+        "HubIner\n"
+        "100 GenIner\n100000 NacMass\n500000 NacYIner\n3000000 PtfmMass\n2e9 PtfmRIner\n2e9 PtfmPIner\n5e7 PtfmYIner\n"
+        "\"blade.dat\" BldFile(1)\n\"blade.dat\" BldFile(2)\n\"blade.dat\" BldFile(3)\n50 GBRatio\n\"tower.dat\" TwrFile\n";
+    files["blade.dat"] =
+        "--- BLADE\n2 NBlInpSt\n1.0 AdjBlMs\nBlFract StrcTwst BMassDen FlpStff EdgStff\n(-) (deg) (kg/m) (Nm^2) (Nm^2)\n"
+        "0 0 300 1 1\n1 0 100 1 1\n";
+    files["tower.dat"] =
+        "--- TOWER\n2 NTwInpSt\n1.0 AdjTwMa\nHtFract TMassDen TwFAStif TwSSStif\n(-) (kg/m) (Nm^2) (Nm^2)\n0 4000 1 1\n1 2000 1 "
+        "1\n";
+    files["ifw.dat"] = "---\n1 WindType\n0 PropagationDir\n9.0 HWindSpeed\n62 RefHt\n0.1 PLexp\n";
+    files["ad.dat"] =
+        "---\n1 Wake_Mod\n0 TwrPotent\n0 TwrShadow\nFalse TwrAero\n0 UA_Mod\n1 InCol_Alfa\n2 InCol_Cl\n3 InCol_Cd\n4 InCol_Cm\n"
+        "2 NumAFfiles\n\"root.dat\" AFNames\n\"foil.dat\"\n\"adblade.dat\" ADBlFile(1)\n\"adblade.dat\" ADBlFile(2)\n"
+        "\"adblade.dat\" ADBlFile(3)\n";
+    files["adblade.dat"] =
+        "---\n===\n4 NumBlNds\nBlSpn BlCrvAC BlSwpAC BlCrvAng BlTwist BlChord BlAFID\n(m) (m) (m) (deg) (deg) (m) (-)\n"
+        "0 0 0 0 12 2.5 1\n10 0.1 0 0 10 3 2\n25 0.5 0 0 4 2.5 2\n38 1.0 0 0 0 1 2\n";
+    files["root.dat"] = "! a cylinder\n1 NumTabs\n3 NumAlf\n! Alpha Cl Cd Cm\n-180 0 0.5 0\n0 0 0.5 0\n180 0 0.5 0\n";
+    files["foil.dat"] =
+        "! a flat plate\n1 NumTabs\n5 NumAlf\n! Alpha Cl Cd Cm\n! (deg) (-) (-) (-)\n-180 0 0.02 0\n-15 -1.2 0.1 0\n0 0.3 0.01 "
+        "0\n"
+        "15 1.4 0.1 0\n180 0 0.02 0\n";
+    files["sea.dat"] = "---\n1 WaveMod\n2.5 WaveHs\n9 WaveTp\n30 WaveDir\n0 CurrMod\n";
+    files["hd.dat"] =
+        "---\n1 PotMod\n1 RdtnMod\n30 RdtnTMax\n1 NBody\n\"wamit/spar\" PotFile\n1 WAMITULEN\n4000 PtfmVol0\n0 PtfmCOBxt\n0 "
+        "PtfmCOByt\n"
+        "0 MnDrift\n0 NewmanApp\n0 DiffQTF\n0 SumQTF\n0 AddF0\n0\n0\n0\n0\n0\n0 0 0 0 0 0 AddCLin\n0 0 0 0 0 0\n0 0 0 0 0 0\n0 0 "
+        "0 0 0 0\n"
+        "0 0 0 0 0 0\n0 0 0 0 0 5e7\n1e4 0 0 0 0 0 AddBLin\n0 1e4 0 0 0 0\n0 0 2e4 0 0 0\n0 0 0 0 0 0\n0 0 0 0 0 0\n0 0 0 0 0 "
+        "1e6\n"
+        "0 0 0 0 0 0 AddBQuad\n0 0 0 0 0 0\n0 0 0 0 0 0\n0 0 0 0 0 0\n0 0 0 0 0 0\n0 0 0 0 0 0\n1 NAxCoef\nAxCoefID AxCd AxCa "
+        "AxCp\n(-) (-) (-) (-)\n"
+        "1 0.5 0 1\n3 NJoints\nJointID Jointxi Jointyi Jointzi JointAxID JointOvrlp\n(-) (m) (m) (m) (-) (-)\n1 0 0 -80 1 0\n2 0 "
+        "0 -5 1 0\n3 0 0 10 1 0\n"
+        "2 NPropSets\nPropSetID PropD PropThck\n(-) (m) (m)\n1 8 0.01\n2 6 0.01\n\nSimplCd SimplCdMG SimplCa SimplCaMG\n(-) (-) "
+        "(-) (-)\n0.7 0 0.9 0\n"
+        "2 NMembers\nMemberID MJointID1 MJointID2 MPropSetID1 MPropSetID2 MDivSize MCoefMod PropPot\n(-) (-) (-) (-) (-) (m) (-) "
+        "(-)\n"
+        "1 1 2 1 1 4 1 TRUE\n2 2 3 1 2 4 1 TRUE\n";
+    files["wamit/spar.1"] = "-1 1 1 4000\n0 1 1 3900\n0 3 3 120\n20 1 1 4100 10\n20 3 3 120 1\n5 1 1 3800 200\n5 3 3 120 2\n";
+    files["wamit/spar.3"] = "20 0 1 1 0 1 0\n20 90 1 1 0 1 0\n5 0 1 1 0 2 0\n5 90 1 1 0 2 0\n";
+    files["wamit/spar.hst"] = "3 3 28.27\n4 4 -90000\n5 5 -90000\n";
+    files["map.dat"] =
+        "--- LINE DICTIONARY ---\nLineType Diam MassDenInAir EA CB CIntDamp Ca Cdn Cdt\n(-) (m) (kg/m) (N) (-) (Pa-s) (-) (-) "
+        "(-)\n"
+        "chain 0.1 100 4e8 0.5 1 1 1 1\n--- NODE PROPERTIES ---\nNode Type X Y Z M B FX FY FZ\n(-) (-) (m) (m) (m) (kg) (mB) (N) "
+        "(N) (N)\n"
+        "1 fix 500 0 depth 0 0 # # #\n2 Vessel 4 0 -30 0 0 # # #\n--- LINE PROPERTIES ---\nLine LineType UnstrLen NodeAnch "
+        "NodeFair Flags\n"
+        "(-) (-) (m) (-) (-) (-)\n1 chain 540 1 2 plot\n--- SOLVER OPTIONS ---\nOption\n(-)\nrepeat 120 240\n";
+  }
+  ~SmallDeck() { std::filesystem::remove_all(folder); }
+
+  void replace(const std::string& file, const std::string& from, const std::string& to) {
+    std::string& text = files[file];
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+  }
+  decks::Imported import() const {
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder / "deck/wamit");
+    for (const auto& [name, text] : files) std::ofstream(folder / "deck" / name) << text;
+    return decks::import_openfast(folder / "deck/main.fst", folder / "scene");
+  }
+  coupling::Scenario scenario() const {
+    scene::Document document = scene::load(import().scene.string());
+    return coupling::read_scenario(document);
+  }
+  std::string refusal() const {
+    try {
+      import();
+    } catch (const scene::SceneError& e) { return e.what(); }
+    return "";
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the deck's platform, rotor, water, lines and waves are the scene's", "[import][fast]") {
+  const SmallDeck deck;
+  const coupling::Scenario s = deck.scenario();
+  REQUIRE(s.bodies.size() == 1);
+  const bodies::BodyOptions& body = s.bodies[0].options;
+  const double blade = 38.0 * 200.0, tower = 50.0 * 3000.0;
+  CHECK(body.mass_kg == Approx(3e6 + tower + 1e5 + 2e4 + 3.0 * blade));
+  // The tower's centre is 4/9 of its length up: density falls from 4000 to 2000 kg/m.
+  const double hub_height = 60.0 + 2.0 + 4.0 * std::sin(6.0 * radians_per_degree);
+  const double moment = 3e6 * -50.0 + tower * (10.0 + 50.0 * 4.0 / 9.0) + 1e5 * 61.0 + 2e4 * hub_height;
+  CHECK(body.centre_m.z() == Approx((moment + 3.0 * blade * hub_height) / body.mass_kg).margin(0.1));
+  CHECK(body.displacement_m.z() == 2.0);
+  CHECK(body.rotation.y() == Approx(5.0 * radians_per_degree));
+  CHECK(s.rotor.hub_m.z() == Approx(hub_height));
+  CHECK(s.rotor.axis.z() == Approx(-std::sin(6.0 * radians_per_degree)));
+  CHECK(s.rotor.speed == Approx(10.0 * rad_s_per_rpm));
+  CHECK(s.rotor.blade_pitch == Approx(3.0 * radians_per_degree));
+  CHECK(s.wind.speed_m_s == 9.0);
+  CHECK(s.wind.shear_exponent == 0.1);
+  CHECK(s.sea.model == "potential");
+  CHECK(s.sea.drag_coefficient == 0.7);
+  CHECK(s.sea.axial_drag_coefficient == 0.5);
+  CHECK(s.sea.matrices.at(0).stiffness.at(5)[5] == 5e7);
+  CHECK(s.sea.matrices.at(0).damping.at(2)[2] == 2e4);
+  CHECK(body.cylinders.at(1).end_diameter_m.value() == 6.0);
+  CHECK(s.waves.model == "airy");
+  CHECK(s.waves.direction == Approx(30.0 * radians_per_degree));
+  REQUIRE(s.moorings.size() == 3);
+  const moorings::LineOptions& line = s.moorings[1].options;
+  CHECK(line.weight_N_m == Approx(9.80665 * (100.0 - 1025.0 * 0.25 * pi * 0.01)));
+  CHECK(line.anchor_m.x() == Approx(500.0 * std::cos(120.0 * radians_per_degree)));
+  CHECK(line.anchor_m.z() == -200.0);
+}
+
+TEST_CASE("an imported scene is a machine that stands and moves", "[import][fast]") {
+  const SmallDeck deck;
+  coupling::Machine machine(deck.scenario());
+  coupling::Start start = make_start(machine);
+  REQUIRE(machine.rotor());
+  for (int n = 0; n < 20; ++n) REQUIRE(machine.system().advance(start.state, machine.timeline().tick_s(), 1).ok());
+}
+
+TEST_CASE("what the scene cannot say is told", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("ed.dat", "False FlapDOF1", "True FlapDOF1");
+  deck.replace("ad.dat", "0 UA_Mod", "3 UA_Mod");
+  deck.replace("hd.dat", "0 DiffQTF", "12 DiffQTF");
+  deck.replace("main.fst", "0 CompServo", "1 CompServo");
+  std::string all;
+  for (const std::string& what : deck.import().left_out) all += what + "\n";
+  for (const char* word : {"bending of the blades", "unsteady aerofoils", "difference-frequency", "ServoDyn"})
+    CHECK(all.find(word) != std::string::npos);
+  std::ostringstream scene;
+  scene << std::ifstream(deck.folder / "scene/scene.toml").rdbuf();
+  CHECK(scene.str().find("# - bending of the blades") != std::string::npos);
+}
+
+TEST_CASE("MoorDyn's lines and older names are read too", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("main.fst", "1 CompMooring", "3 CompMooring");
+  deck.replace("ad.dat", "1 Wake_Mod", "1 WakeMod");
+  deck.files["map.dat"] =
+      "--- LINE TYPES ---\nName Diam MassDen EA BA/-zeta EI Cd Ca CdAx CaAx\n(-) (m) (kg/m) (N) (N-s/-) (-) (-) (-) (-) (-)\n"
+      "chain 0.1 100 4e8 -1 0 1 1 0 0\n---- POINTS ----\nID Attachment X Y Z M V CdA CA\n(#) (-) (m) (m) (m) (kg) (m^3) (m^2) "
+      "(-)\n"
+      "1 Fixed 500 0 -200 0 0 0 0\n2 Vessel 4 0 -30 0 0 0 0\n---- LINES ----\nID LineType AttachA AttachB UnstrLen NumSegs "
+      "Outputs\n"
+      "(#) (name) (#) (#) (m) (-) (-)\n1 chain 1 2 540 20 -\n---- OPTIONS ----\n0.001 dtM\n";
+  const coupling::Scenario s = deck.scenario();
+  REQUIRE(s.moorings.size() == 1);
+  CHECK(s.moorings[0].options.rest_length_m == 540.0);
+  CHECK(s.moorings[0].options.fairlead_m.z() == -30.0);
+}
+
+TEST_CASE("a deck with something wrong is refused by file and line", "[import][fast]") {
+  const auto [file, from, to, said] = GENERATE(table<std::string, std::string, std::string, std::string>({
+      {"main.fst", "\"ed.dat\" EDFile", "\"none.dat\" EDFile", "none.dat"},
+      {"main.fst", "\"ed.dat\" EDFile\n", "", "EDFile"},
+      {"ed.dat", "-4 OverHang", "x OverHang", "ed.dat:24"},
+      {"ed.dat", "60 TowerHt\n", "", "TowerHt"},
+      {"blade.dat", "1 0 100 1 1", "1 0", "blade.dat:7"},
+      {"blade.dat", "2 NBlInpSt", "3 NBlInpSt", "blade.dat"},
+      {"tower.dat", "0 4000", "0 q", "tower.dat:6"},
+      {"adblade.dat", "10 0.1 0 0 10 3 2", "10 0.1 0 0 10 3 9", "polar 9"},
+      {"adblade.dat", "BlChord", "Chords", "adblade.dat:4"},
+      {"foil.dat", "15 1.4 0.1 0", "15 one 0.1 0", "foil.dat:9"},
+      {"hd.dat", "1 NBody", "2 NBody", "hd.dat:5"},
+      {"hd.dat", "1 1 2 1 1 4", "1 1 7 1 1 4", "joint 7"},
+      {"hd.dat", "1 1 2 1 1 4", "1 1 2 1 5 4", "property set 5"},
+      {"hd.dat", "wamit/spar", "wamit/none", "none.1"},
+      {"map.dat", "1 chain 540 1 2", "1 rope 540 1 2", "map.dat:13"},
+      {"map.dat", "1 chain 540 1 2", "1 chain 540 1 9", "node 9"},
+      {"map.dat", "chain 0.1 100", "chain wide 100", "map.dat:4"},
+      {"map.dat", "Line LineType", "Lines LineType", "Line"},
+      {"ifw.dat", "9.0 HWindSpeed", "fast HWindSpeed", "ifw.dat:4"},
+      {"main.fst", "100 TMax - s\n", "", "TMax"},
+  }));
+  SmallDeck deck;
+  deck.replace(file, from, to);
+  CAPTURE(file, from, to);
+  CHECK(deck.refusal().find(said) != std::string::npos);
+}

@@ -1,0 +1,128 @@
+// Cummins' equation with a memory that has a closed form: a heaving body decays as the eigenvalues of the equivalent fourth-order
+// system say, and answers waves as the frequency domain says.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/potential.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <unistd.h>
+
+#include <Eigen/Eigenvalues>
+#include <complex>
+#include <filesystem>
+#include <fstream>
+
+#include "src/bodies/loads.hpp"
+#include "src/bodies/system.hpp"
+#include "tests/order.hpp"
+
+using namespace spindrift;
+using namespace spindrift::sea;
+
+namespace {
+
+// K = k exp(-a t) (cos bt - a/b sin bt) in heave, of which B + i w (A - A(inf)) = i w k / ((i w + a)^2 + b^2); m, A(inf), c.
+constexpr double k = 2.0e5, a = 0.2, b = 0.6, infinite = 3.0e5, mass = 1.0e6, stiffness = 4.0e5, density = 1000.0;
+
+std::complex<double> radiation_of(double w) {
+  const std::complex<double> s(0.0, w);
+  return s * k / ((s + a) * (s + a) + b * b);
+}
+
+struct Files {
+  std::filesystem::path folder = std::filesystem::temp_directory_path() / ("spindrift_potential_" + std::to_string(getpid()));
+  Files() {
+    std::filesystem::create_directories(folder);
+    std::ofstream radiation(folder / "body.1"), excitation(folder / "body.3");
+    radiation.precision(12), excitation.precision(12);
+    radiation << "0.0 3 3 " << infinite / density << "\n";
+    for (int n = 1; n <= 3000; ++n) {
+      const double w = 0.02 * n;
+      const std::complex<double> r = radiation_of(w);
+      radiation << 2.0 * pi / w << " 3 3 " << (infinite + r.imag() / w) / density << " "
+                << r.real() / (density * w) << "\n";
+    }
+    for (double period : {2.0, 60.0})
+      for (int mode = 1; mode <= 6; ++mode)
+        excitation << period << " 0 " << mode << " 0 0 " << (mode == 3 ? 10.0 : 0.0) << " " << (mode == 3 ? 5.0 : 0.0) << "\n";
+    std::ofstream(folder / "body.hst") << "3 3 " << stiffness / (density * 10.0) << "\n";
+  }
+  ~Files() { std::filesystem::remove_all(folder); }
+  PotentialOptions options() const {
+    PotentialOptions o;
+    o.body = "body", o.radiation_file = folder / "body.1", o.excitation_file = folder / "body.3";
+    o.hydrostatics_file = folder / "body.hst", o.volume_m3 = mass / density, o.memory_s = 60.0;
+    return o;
+  }
+};
+
+struct Heave {
+  std::vector<double> z;
+  double step;
+};
+
+Heave move(const Files& files, double start, double end, double step, const std::vector<waves::Component>& waves = {}) {
+  const Motion initial;
+  PotentialBody water(files.options(), {density, 100.0, 10.0}, initial, waves, step);
+  const bodies::Body body{.name = "body", .mass = mass, .inertia = 1e8 * Eigen::Matrix3d::Identity(), .initial = initial};
+  bodies::LoadSource sea{
+      "sea", [&](double t, std::span<const Motion> m, std::span<Wrench> w) { w[0] += water.load(t, 1.0, m[0]); },
+      [&](double, std::span<const Motion> m, std::span<bodies::Matrix6> added) { water.add_added_mass(m[0], added[0]); }};
+  sea.memory = {water.memory_size(),
+                [&](double t, std::span<const Motion> m, std::span<double> memory) { water.begin(t, m[0], memory); },
+                [&](std::span<const double> memory) { water.recall(memory); },
+                [&](double t, double, std::span<const Motion> m, std::span<double> memory) { water.remember(t, m[0], memory); }};
+  bodies::System system({body}, {}, {bodies::gravity_source(std::span(&body, 1), 10.0), sea});
+  bodies::BodiesState state = system.assemble().state;
+  state.motions[0].position.z() = start;
+  system.begin_memory(state, 0.0);
+  Heave heave{{start}, step};
+  for (int n = 0; n < int(std::lround(end / step)); ++n) {
+    REQUIRE(system.advance(state, step, 1).ok());
+    heave.z.push_back(state.motions[0].position.z());
+  }
+  return heave;
+}
+
+/// z of (m + A) z'' + k q' + c z = 0, q'' + 2a q' + (a^2 + b^2) q = z', from rest at z = 1.
+double exact_decay(double t) {
+  Eigen::Matrix4d system;  // z, z', q, q'
+  system << 0, 1, 0, 0, -stiffness / (mass + infinite), 0, 0, -k / (mass + infinite), 0, 0, 0, 1, 0, 1, -(a * a + b * b), -2.0 * a;
+  const Eigen::EigenSolver<Eigen::Matrix4d> eigen(system);
+  const Eigen::Vector4cd share = eigen.eigenvectors().inverse() * Eigen::Vector4cd(1.0, 0.0, 0.0, 0.0);
+  std::complex<double> z = 0.0;
+  for (int i = 0; i < 4; ++i) z += eigen.eigenvectors()(0, i) * share[i] * std::exp(eigen.eigenvalues()[i] * t);
+  return z.real();
+}
+
+}  // namespace
+
+TEST_CASE("free decay with memory is the exact one within 1 % of the start over ten periods", "[sea][fast]") {
+  const Files files;
+  const Heave heave = move(files, 1.0, 110.0, 0.05);
+  double worst = 0.0;
+  for (std::size_t n = 0; n < heave.z.size(); ++n) worst = std::max(worst, std::abs(heave.z[n] - exact_decay(double(n) * 0.05)));
+  CHECK(worst < 0.01);
+}
+
+TEST_CASE("the decay converges with the step at second order", "[sea][order][fast]") {
+  const Files files;
+  std::vector<double> h, error;
+  const double fine = move(files, 1.0, 12.0, 0.0125).z.back();
+  for (double step : {0.4, 0.2, 0.1}) h.push_back(step), error.push_back(std::abs(move(files, 1.0, 12.0, step).z.back() - fine));
+  CHECK(observed_order(h, error) > 1.7);
+}
+
+TEST_CASE("in regular waves heave settles on X / (c - w^2 (m + A) + i w B) of the frequency domain within 1 %", "[sea][fast]") {
+  const Files files;
+  const double w = GENERATE(0.4, 0.7), amplitude = 0.5;
+  const waves::Component wave{.wave_number = w * w / 10.0, .angular_frequency = w, .amplitude = amplitude, .phase = 0.3};
+  const Heave heave = move(files, 0.0, 260.0, 0.1, {wave});
+  const double scale = density * 10.0;
+  const std::complex<double> force = amplitude * scale * std::complex<double>(10.0, 5.0) * std::polar(1.0, -0.3), iw(0.0, w);
+  const std::complex<double> answer = force / (stiffness - w * w * (mass + infinite) + iw * radiation_of(w));
+  double worst = 0.0;
+  for (std::size_t n = heave.z.size() - 200; n < heave.z.size(); ++n)
+    worst = std::max(worst, std::abs(heave.z[n] - (answer * std::polar(1.0, w * double(n) * 0.1)).real()));
+  CHECK(worst < 0.01 * std::abs(answer));
+}
