@@ -1,0 +1,42 @@
+"""`spindrift check` knows: each slip of tests/extremes/blunders.toml is named. That the scenes of inputs raise no
+doubt is held by program_test.py. Usage: blunders_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
+import pathlib
+import subprocess
+import sys
+import tomllib
+import unittest
+
+ROOT = pathlib.Path(__file__).parents[2]
+PROGRAM = sys.argv.pop(1)
+SCENES = {"case1": "leble_barakos/case1_engineering.toml", "case2": "leble_barakos/case2_engineering.toml",
+          "case3": "leble_barakos/case3_engineering.toml", "oc3": "validation/oc3_heave_decay/oc3_heave_decay.toml"}
+BLUNDERS = tomllib.loads((ROOT / "tests/extremes/blunders.toml").read_text(encoding="utf-8"))["blunder"]
+
+
+def check(scene, overrides=()):
+    words = [PROGRAM, "check", str(scene)]
+    for text in overrides:
+        words += ["--set", text]
+    return subprocess.run(words, capture_output=True, text=True, check=False, timeout=300)
+
+
+def named(said, what):
+    """By a warning about the key, or by an error."""
+    warnings = [line for line in said.stdout.splitlines() if line.strip().startswith("warning: ")]
+    return any(what in line for line in warnings) or (said.returncode == 2 and what in said.stderr + said.stdout)
+
+
+class Blunders(unittest.TestCase):
+    def test_there_are_forty(self):
+        self.assertGreaterEqual(len(BLUNDERS), 40)
+
+    def test_each_is_named(self):
+        for blunder in BLUNDERS:
+            with self.subTest(blunder["what"]):
+                said = check(ROOT / "inputs" / SCENES[blunder["scene"]], blunder["set"])
+                self.assertIn(said.returncode, (0, 2), said.stderr)
+                self.assertTrue(named(said, blunder["named"]), f"\n{said.stdout[:3000]}\n{said.stderr}")
+
+
+if __name__ == "__main__":
+    unittest.main()
