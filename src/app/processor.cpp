@@ -1,7 +1,7 @@
 // Ends the program with a word where the processor lacks instructions that it was compiled for, before any of them runs: a
 // constructor ahead of all others, in a file compiled for every x86-64 processor (CMakeLists.txt) and without anything of the
 // standard library, whose inline functions other files may have compiled for a newer one. Tested by
-// tests/src/app/processor_test.cpp. SPDX-License-Identifier: Apache-2.0
+// tests/src/app/other_processor.cpp. SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
 #include "src/app/built_for.hpp"

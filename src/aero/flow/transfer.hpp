@@ -3,7 +3,7 @@
 // and tests/src/aero/coarse_start_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <mpi.h>
+#include "runtime/mpi/communicator.hpp"
 
 #include <functional>
 

@@ -39,8 +39,7 @@ struct Files {
     for (int n = 1; n <= 3000; ++n) {
       const double w = 0.02 * n;
       const std::complex<double> r = radiation_of(w);
-      radiation << 2.0 * pi / w << " 3 3 " << (infinite + r.imag() / w) / density << " "
-                << r.real() / (density * w) << "\n";
+      radiation << 2.0 * pi / w << " 3 3 " << (infinite + r.imag() / w) / density << " " << r.real() / (density * w) << "\n";
     }
     for (double period : {2.0, 60.0})
       for (int mode = 1; mode <= 6; ++mode)
@@ -87,7 +86,8 @@ Heave move(const Files& files, double start, double end, double step, const std:
 /// z of (m + A) z'' + k q' + c z = 0, q'' + 2a q' + (a^2 + b^2) q = z', from rest at z = 1.
 double exact_decay(double t) {
   Eigen::Matrix4d system;  // z, z', q, q'
-  system << 0, 1, 0, 0, -stiffness / (mass + infinite), 0, 0, -k / (mass + infinite), 0, 0, 0, 1, 0, 1, -(a * a + b * b), -2.0 * a;
+  system << 0, 1, 0, 0, -stiffness / (mass + infinite), 0, 0, -k / (mass + infinite), 0, 0, 0, 1, 0, 1, -(a * a + b * b),
+      -2.0 * a;
   const Eigen::EigenSolver<Eigen::Matrix4d> eigen(system);
   const Eigen::Vector4cd share = eigen.eigenvectors().inverse() * Eigen::Vector4cd(1.0, 0.0, 0.0, 0.0);
   std::complex<double> z = 0.0;
