@@ -358,6 +358,16 @@ T fma(T a, std::type_identity_t<T> b, std::type_identity_t<T> c) {
   return std::fma(a, b, c);
 }
 
+/// 1/a, correctly rounded.
+template <std::floating_point T>
+T reciprocal(T a) {
+  return T(1) / a;
+}
+template <class T, int n>
+SPINDRIFT_INLINE Wide<T, n> reciprocal(Wide<T, n> a) {
+  return Wide<T, n>(T(1)) / a;
+}
+
 /// Sum of all lanes by halves: a fixed order of additions.
 template <class T, int n>
 SPINDRIFT_INLINE T sum(Wide<T, n> a) {
