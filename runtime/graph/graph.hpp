@@ -45,11 +45,9 @@ struct Message {
   std::function<void(std::size_t bytes)> received = {};  ///< receive only: told the size that came, before successors run
 };
 
-/// A reduction over all parts of all ranks, added up in the order of the parts' global indices: the same bits for any
-/// distribution.
+/// A reduction over all parts of all ranks, with the same bits for any distribution and order of the parts.
 struct Reduction {
   enum class Operation : std::uint8_t { sum, min, max } operation = Operation::sum;
-  std::vector<std::int64_t> parts;   ///< global indices of this rank's parts; every index on exactly one rank
   std::span<const double> partials;  ///< [part][component]
   std::span<double> result;          ///< [component], on every rank
 };
@@ -103,7 +101,8 @@ class Graph {
 
   std::uint32_t send(std::string label, const Uses& uses, Message message);
   std::uint32_t receive(std::string label, const Uses& uses, Message message);
-  /// The uses must read the partials and write the result.
+  /// The uses must read the partials and write the result. On several ranks the reductions of a module (the first component of
+  /// the label) start in the order of recording.
   std::uint32_t reduce(std::string label, const Uses& uses, Reduction reduction);
 
   /// Records what `body` records as one loop. With min < max the body must call `until` once.

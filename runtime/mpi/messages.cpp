@@ -68,7 +68,7 @@ void Messages::start(std::uint32_t node, std::int64_t now) {
   const std::size_t at = std::size_t(active_);
   MPI_Request& request = requests_[at];
   if (recorded.kind == NodeKind::reduce) {
-    OrderedReduction& reduction = *graph_.reductions[graph_.payload[node]];
+    Allreduce& reduction = *graph_.reductions[graph_.payload[node]];
     reduction.post(request);
     bytes_of_[at] = std::uint32_t(reduction.bytes());
   } else {

@@ -274,7 +274,6 @@ class FlowSolver {
   std::unique_ptr<Preconditioner> preconditioner_;
   int matrices_ = 0;
   Norms norms_;
-  std::vector<std::int64_t> parts_;
   std::vector<double> norm_partials_, load_partials_, dot_partials_, size_partials_, fraction_partials_;
   std::vector<double> norm_sums_, loads_, dots_;
   std::array<double, 2> model_unit_{1.0, 1.0};  ///< of the turbulence model's residuals where they are judged
