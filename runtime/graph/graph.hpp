@@ -43,6 +43,7 @@ struct Message {
   int peer, tag;  ///< rank in the graph's communicator; a tag names one send and one receive between two ranks
   Buffer buffer;
   std::function<void(std::size_t bytes)> received = {};  ///< receive only: told the size that came, before successors run
+  std::function<bool()> active = {};                     ///< as Reduction::active, the same answer on both sides
 };
 
 /// A reduction over all parts of all ranks, with the same bits for any distribution and order of the parts.
@@ -50,6 +51,9 @@ struct Reduction {
   enum class Operation : std::uint8_t { sum, min, max } operation = Operation::sum;
   std::span<const double> partials;  ///< [part][component]
   std::span<double> result;          ///< [component], on every rank
+  /// Asked when it could start, the same answer on all ranks: where false nothing is sent and the result stays as it was, since
+  /// nobody will read it. The uses must read what the answer depends on. None: always.
+  std::function<bool()> active = {};
 };
 
 enum class NodeKind : std::uint8_t { task, send, receive, reduce, collective, until, loop };

@@ -22,6 +22,7 @@ class Allreduce {
   /// order on all ranks; it is not owned. `ranks` in it: with one nothing is sent.
   Allreduce(std::string_view label, Reduction reduction, MPI_Comm comm, int ranks);
 
+  bool active() const { return !reduction_.active || reduction_.active(); }
   bool needs_messages() const { return ranks_ > 1; }
   void post(MPI_Request& request);  ///< takes in the partials, which may change from then on, and starts joining the ranks
   void finish();                    ///< writes `result`; without messages it takes in the partials first

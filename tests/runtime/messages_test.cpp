@@ -227,3 +227,25 @@ TEST_CASE("reductions have the same bits on 1 to 4 ranks, however parts are deal
   }
   MPI_Barrier(MPI_COMM_WORLD);
 }
+
+TEST_CASE("a message or reduction that nobody reads is not sent", "[runtime][mpi2]") {
+  const int rank = rank_of(MPI_COMM_WORLD), other = 1 - rank;
+  double out = 0.0, in = -1.0, sum = -1.0;
+  std::vector<double> partial{0.0}, came, sums;
+  int iteration = 0;
+  Graph g(MPI_COMM_WORLD);
+  const Datum count = g.datum(), mine = g.datum(), theirs = g.datum(), total = g.datum();
+  const auto every_third = [&iteration] { return iteration % 3 == 0; };
+  g.repeat("loop", 9, [&] {
+    g.task("count", {updates(count), writes(mine)}, [&] { ++iteration, out = partial[0] = 10.0 * iteration + rank; });
+    g.send("send", {reads(count), reads(mine)}, {other, 1, buffer_of(std::span(&out, 1)), {}, every_third});
+    g.receive("receive", {reads(count), writes(theirs)},
+              {other, 1, buffer_of(std::span(&in, 1)), [&](std::size_t) { came.push_back(in); }, every_third});
+    g.reduce("sum", {reads(count), reads(mine), writes(total)},
+             {.partials = partial, .result = {&sum, 1}, .active = every_third});
+    g.task("keep", {reads(count), reads(theirs), reads(total)}, [&] { sums.push_back(sum); });
+  });
+  Executor(std::move(g), {.threads = 2}).run();
+  CHECK(came == std::vector<double>{30.0 + other, 60.0 + other, 90.0 + other});
+  CHECK(sums == std::vector<double>{-1.0, -1.0, 61.0, 61.0, 61.0, 121.0, 121.0, 121.0, 181.0});
+}

@@ -182,8 +182,8 @@ class StepGraph {
         g_.task(of("aero/krylov/direction", n), uses, [this, n](const Context& c) { direction(n, int(c.iteration)); });
       }
     }
-    g_.reduce("aero/krylov/size", {reads(size_), writes(total_size_)},
-              {Reduction::Operation::max, s_.size_partials_, {&s_.direction_size_, 1}});
+    g_.reduce("aero/krylov/size", {reads(size_), reads(decision_), writes(total_size_)},
+              {Reduction::Operation::max, s_.size_partials_, {&s_.direction_size_, 1}, [this] { return perturbs(); }});
     // w = A z: by the stored blocks, or by the residual of a state a little further along z.
     const HaloField<float> direction{"aero/krylov/direction_ghosts",
                                      [this](int t) { return tile_of(t).direction_view(); },
@@ -222,7 +222,8 @@ class StepGraph {
                reads(trial_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(matrix_[n]), reads(past_[n]),
                reads(residual_[n]), updates(vectors_[n]), writes(dots_[n])},
               [this, n](const Context& c) { s_.product(s_.tiles_[n], int(c.iteration), dots_of(n)); });
-    g_.reduce("aero/krylov/dots", {reads(dots_), writes(total_dots_)}, {.partials = s_.dot_partials_, .result = s_.dots_});
+    g_.reduce("aero/krylov/dots", {reads(dots_), reads(decision_), writes(total_dots_)},
+              {.partials = s_.dot_partials_, .result = s_.dots_, .active = [this] { return s_.solving_; }});
     g_.task("aero/krylov/append", {reads(total_dots_), reads(decision_), updates(krylov_)}, [this] {
       if (s_.solving_) s_.cycle_.append(s_.dots_);
     });
