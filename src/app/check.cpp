@@ -9,14 +9,22 @@
 #include <span>
 #include <vector>
 
+#include "src/aero/flow_grid.hpp"
+#include "src/aero/flow_options.hpp"
+#include "src/aero/grid/coarsen.hpp"
+#include "src/aero/grid/tiling.hpp"
+#include "src/aero/resolved_rotor.hpp"
 #include "src/app/commands.hpp"
 #include "src/app/cost.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/limits.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/coupling/room.hpp"
 #include "src/coupling/start.hpp"
 #include "src/scene/document.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::app {
 
@@ -229,11 +237,31 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   print_cost(std::span(&cost, 1), s.time.end_s, ranks);
 }
 
+/// What `run` does with the grid of a flow before its first step. Rotor grids of millions of cells take minutes: they are not
+/// made.
+void require_flow(const coupling::Scenario& s) {
+  if (has_resolved_rotor(s)) {
+    constexpr long made_at_most = 300'000;
+    const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
+    if (aero::resolved_rotor_size(setup).cells <= made_at_most) aero::made_rotor_grid(setup);
+    return;
+  }
+  const aero::FlowOptions& o = *s.aero.flow;
+  const aero::MultiBlockGrid grid = aero::flow_grid(o);
+  if (const std::string why = o.coarse_steps > 0 ? aero::why_not_halved(grid) : std::string(); !why.empty())
+    throw scene::SceneError(
+        {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", o.coarse_steps),
+          fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
+  aero::patch_conditions(o, aero::make_tiling(grid, aero::wall_patches(o)));
+}
+
 }  // namespace
 
 int check(const CheckArguments& arguments, const runtime::World& world) {
   scene::Document document = scene::load(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
+  coupling::require_room(scenario, coupling::machine_memory() * world.size);
+  if (scenario.has_flow()) require_flow(scenario);
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
     if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size);
     return done;
@@ -255,6 +283,8 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     if (!start.state.motions.empty()) print_modes(machine, stability.linearisation);
   }
   require_stable(machine, stability);
+  require_stable_lines(machine);
+  require_stable_coupling(machine, start.state, stability.linearisation);
   if (world.rank != 0) return done;
   if (start.state.motions.empty()) {
     const PartCost cost = print_particles(machine, start);

@@ -4,13 +4,18 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
 
+#include "kernels/base/failure.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/coupling/flow_run.hpp"
+#include "src/coupling/limits.hpp"
 #include "src/coupling/placement.hpp"
+#include "src/coupling/room.hpp"
 #include "src/coupling/run.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/checkpoint.hpp"
@@ -19,6 +24,7 @@
 #include "src/io/machine_failure.hpp"
 #include "src/report/report.hpp"
 #include "src/scene/document.hpp"
+#include "src/scene/error.hpp"
 #include "src/scene/identity.hpp"
 
 namespace spindrift::app {
@@ -60,6 +66,12 @@ std::vector<io::TimeRange> mean_ranges(const coupling::Scenario& scenario, doubl
   return {{"whole_run", 0.0, end_s}, {fmt::format("last_{:g}_s", length), end_s - length, end_s}};
 }
 
+/// Of the rows that there are; none where the run did not come to one.
+io::HistoryStatistics statistics(const io::RunDirectory& directory, const coupling::Scenario& scenario, double end_s) {
+  if (!std::filesystem::exists(directory.history())) return {};
+  return io::history_statistics(directory.history(), mean_ranges(scenario, end_s));
+}
+
 void print_summary(const io::Summary& summary, const io::RunDirectory& directory) {
   spdlog::info("{}: {:g} s simulated in {:.3g} s, {:.3g} times real time", summary.exit_reason,
                summary.end_time_s - summary.start_time_s, summary.wall_seconds, io::real_time_factor(summary));
@@ -76,7 +88,10 @@ ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
   ReadyScene ready;
   ready.machine = std::make_unique<coupling::Machine>(std::move(scenario));
   ready.start = make_start(*ready.machine);
-  require_stable(*ready.machine, stability(*ready.machine, ready.start.state));
+  const coupling::Stability found = stability(*ready.machine, ready.start.state);
+  require_stable(*ready.machine, found);
+  require_stable_lines(*ready.machine);
+  require_stable_coupling(*ready.machine, ready.start.state, found.linearisation);
   ready.echo = std::move(echo);
   return ready;
 }
@@ -85,10 +100,34 @@ ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
 ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
   scene::Document document = scene::load(path, overrides, overrider);
   coupling::Scenario scenario = coupling::read_scenario(document);
+  coupling::require_room(scenario, coupling::machine_memory());
   return made_ready(std::move(scenario), document.echo());
 }
 
 namespace {
+/// The summary of a run that began, however it ended: what is thrown becomes an exit code, and a sentence in summary.json, before
+/// it goes on (a failure of the machine, which the other ranks may not know of) or ends the run (what all ranks know).
+io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& world, const std::function<io::Summary()>& run) {
+  io::Summary summary;
+  const auto end = [&](int code, const std::string& why) {
+    summary.exit_code = code, summary.exit_reason = why;
+    summary.ranks = world.size;
+    if (code == numerical_failure) summary.numerical_trouble.push_back(why);
+  };
+  try {
+    return run();
+  } catch (const runtime::StopAsked&) {
+    end(stopped, "stopped on request before the first window; started again, the run begins anew");
+  } catch (const NumericalFailure& failure) { end(numerical_failure, failure.what()); } catch (const io::InputError&) {
+    throw;  // the run did not begin
+  } catch (const scene::SceneError&) { throw; } catch (const std::exception& failure) {
+    end(machine_failure, failure.what());
+    if (world.rank == 0) write_summary(directory.summary(), summary, {});
+    throw;
+  }
+  return summary;
+}
+
 /// A scene of the air alone has no machine of bodies.
 SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& echo, const std::vector<std::string>& files,
                         const RunArguments& arguments, const runtime::World& world) {
@@ -99,14 +138,13 @@ SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& e
   coupling::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
   settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
   if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
-  io::Summary summary = coupling::run_flow(scenario, directory, world, settings);
+  io::Summary summary = summary_of(directory, world, [&] { return coupling::run_flow(scenario, directory, world, settings); });
   summary.title = scenario.output.title.empty() ? std::filesystem::path(arguments.scene).stem().string() : scenario.output.title;
   summary.scene = arguments.scene;
   if (world.rank == 0) {
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
     summary.warnings = io::warnings_logged();
-    write_summary(directory.summary(), summary,
-                  io::history_statistics(directory.history(), mean_ranges(scenario, summary.end_time_s)));
+    write_summary(directory.summary(), summary, statistics(directory, scenario, summary.end_time_s));
     print_summary(summary, directory);
   }
   return {std::move(summary), directory.path(), world.rank == 0};
@@ -122,6 +160,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     scene::Document document = scene::load(arguments.scene, arguments.overrides, overrider);
     read.emplace();
     scenario = coupling::read_scenario(document);
+    coupling::require_room(*scenario, coupling::machine_memory() * started.size);  // of as many machines as there may be
     echo = document.echo();
     return coupling::Started{arguments.fluid, echo,
                              fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n", arguments.out,
@@ -144,15 +183,15 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   coupling::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
   settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
   if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
-  io::Summary summary = coupling::run(*scene.machine, scene.start, directory, parts, settings);
+  io::Summary summary =
+      summary_of(directory, world, [&] { return coupling::run(*scene.machine, scene.start, directory, parts, settings); });
   const std::string& title = scene.machine->scenario().output.title;
   summary.title = title.empty() ? std::filesystem::path(arguments.scene).stem().string() : title;
   summary.scene = arguments.scene;
   if (world.rank == 0) {
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
     summary.warnings = io::warnings_logged();
-    write_summary(directory.summary(), summary,
-                  io::history_statistics(directory.history(), mean_ranges(scene.machine->scenario(), summary.end_time_s)));
+    write_summary(directory.summary(), summary, statistics(directory, scene.machine->scenario(), summary.end_time_s));
     print_summary(summary, directory);
   }
   return {std::move(summary), directory.path(), world.rank == 0};
@@ -160,7 +199,9 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
 
 int run(const RunArguments& arguments, const runtime::World& world) {
   const SceneRun run = run_scene(arguments, world);
-  if (run.writes && !arguments.no_report) {
+  if (run.writes && !arguments.no_report && run.summary.exit_code == stopped) {  // there may be no time for one
+    spdlog::info("no report of a run that was stopped: spindrift report {} makes it", run.directory.string());
+  } else if (run.writes && !arguments.no_report) {
     if (const std::optional<std::string> why = report::write({.directories = {run.directory}}))
       spdlog::warn("no report: {}", *why);
     else

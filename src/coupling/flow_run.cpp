@@ -324,7 +324,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
                      const RunSettings& settings) {
   const auto begin = std::chrono::steady_clock::now();
   const Timeline timeline(s.time.window_s, s.time.window_s, s.time.end_s);
-  const runtime::StopRequest stop(s.runtime.wall_limit_s);
+  runtime::StopRequest stop(s.runtime.wall_limit_s, directory.stop());
   Air air(s, world);
   FlowSolver& solver = *air.solver;
   spdlog::info("air: {} cells in {} tiles of {} blocks, {:.0f} bytes per cell", solver.cells(), air.store->tiling().size(),
@@ -364,7 +364,7 @@ io::Summary run_flow(const Scenario& s, const io::RunDirectory& directory, const
   const auto save = [&] {
     const auto save_begin = io::CheckpointPlan::Clock::now();
     history.flush(), checkpoints.save(saved = number, number, summary.restarts);
-    plan.saved(save_begin);
+    plan.saved(save_begin), stop.keep_margin(2.0 * plan.cost_s());
   };
   if (plan.at_start() && !settings.restart) save();
   const Eigen::Vector3d wind = flow_wind(s);

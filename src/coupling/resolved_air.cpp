@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/mpi/parts.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/aero/flow/choice.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/coupling/air_file.hpp"
@@ -269,6 +271,7 @@ class ResolvedAir final : public AirSide {
       if (done > 0) held.solver().keep_last_row();
       held.run();
       done = march.steps() - 1;
+      if (runtime::summed(world_.comm, {runtime::StopRequest::asked() ? 1.0 : 0.0})[0] > 0.0) throw runtime::StopAsked();
       const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       if (spent_s - said_s < 10.0 || done >= steps) continue;
       said_s = spent_s;

@@ -371,7 +371,7 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   const auto begin = std::chrono::steady_clock::now();
   const Timeline& timeline = machine.timeline();
   const CheckpointOptions& checkpoint = machine.scenario().checkpoint;
-  const runtime::StopRequest stop(machine.scenario().runtime.wall_limit_s);
+  runtime::StopRequest stop(machine.scenario().runtime.wall_limit_s, directory.stop());
 
   io::Summary summary;
   Window window;
@@ -430,7 +430,7 @@ io::Summary run(Machine& machine, const Start& start, const io::RunDirectory& di
   const auto save = [&](std::int64_t number) {
     const auto save_begin = io::CheckpointPlan::Clock::now();
     history.flush(), checkpoints.save(window, number, summary.restarts);
-    plan.saved(save_begin);
+    plan.saved(save_begin), stop.keep_margin(2.0 * plan.cost_s());
   };
   if (plan.at_start() && !settings.restart) save(first);
   runtime::Executor executor(record_window(machine, window, parts), {.threads = 1, .records = records});

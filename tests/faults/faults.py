@@ -1,5 +1,6 @@
-"""What machines do to runs: kills, full disks, flipped and missing bytes, second jobs. Nothing may be lost, nothing wrong accepted, and no
+"""What machines do to runs: kills, full disks, flipped and missing bytes, second jobs, signals. Nothing may be lost, nothing wrong accepted, and no
 hand be needed. Usage: faults.py SPINDRIFT FAULT [COUNT [SEED]], where FAULT is one of the functions below. A failure prints the seed."""
+import json
 import os
 import pathlib
 import random
@@ -16,6 +17,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 INPUTS = ROOT / "inputs"
 # A floating turbine of engineering models, long enough to be met anywhere: start, windows, checkpoints, end.
 SCENE = [INPUTS / "leble_barakos/case3_engineering.toml", "--set", "time.end_s=60.0", "--set", "checkpoint.interval_s=5.0"]
+TANK = [INPUTS / "validation/dam_break/koshizuka_oka.toml", "--set", "sea.particles.spacing_m=0.02", "--set", "time.end_s=40.0"]
+AIR = [INPUTS / "leble_barakos/rotor_demo.toml", "--set", "aero.flow.drop=1e-12"]
+COUPLED = [INPUTS / "leble_barakos/case3_demo.toml", "--set", "sea.particles.spacing_m=5.0"]
 QUIET = ["--no-report", "--quiet"]
 
 
@@ -141,8 +145,35 @@ def two_jobs(folder, count, pick):
     return f"{count} pairs, {refused} refused"
 
 
+def signals(folder, count, pick):
+    """A request to stop at any time, while air and sea settle too: out within ten seconds with exit code 5, and the next job goes on."""
+    longest = 0.0
+    for n in range(count):
+        scene, out = [TANK, AIR, COUPLED][n % 3], folder / f"signal_{n}"
+        process = start(scene, out, "--restart")
+        while not (out / "run.lock").exists() and process.poll() is None:
+            time.sleep(0.01)
+        time.sleep(pick.uniform(0.2, 4.0))
+        number = pick.choice([signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2, signal.SIGHUP, signal.SIGXCPU, None])
+        begin = time.time()
+        if number is None:
+            (out / "stop").write_text("")
+        else:
+            process.send_signal(number)
+        said = process.communicate(timeout=120)[0]
+        took = time.time() - begin
+        longest = max(longest, took)
+        if process.returncode == 0:
+            continue
+        assert process.returncode == 5, f"{scene[0].name}, {number}: exit code {process.returncode}\n{said[-2000:]}"
+        assert took < 10.0, f"{scene[0].name}, {number}: {took:.1f} s to the end"
+        assert json.loads((out / "summary.json").read_text())["exit_code"] == 5
+        shutil.rmtree(out)
+    return f"{count} requests, the slowest took {longest:.1f} s"
+
+
 def main():
-    fault = {f.__name__: f for f in (kill, flip, truncate, full_disk, two_jobs)}[sys.argv[2]]
+    fault = {f.__name__: f for f in (kill, flip, truncate, full_disk, two_jobs, signals)}[sys.argv[2]]
     count = int(sys.argv[3]) if len(sys.argv) > 3 else 3
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else random.randrange(10**6)
     os.environ["OMP_NUM_THREADS"] = "1"
