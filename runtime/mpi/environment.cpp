@@ -2,6 +2,7 @@
 #include "runtime/mpi/environment.hpp"
 
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +15,8 @@ namespace spindrift::runtime {
 
 namespace {
 
+std::string own_folder;  ///< of Open MPI's files; empty where a launcher gave one
+
 /// A process that no launcher started talks to nobody: Open MPI need neither start a daemon beside it nor open a network, which
 /// takes .5 s. What the user has set stands. Other libraries do not read these names.
 void alone_without_network() {
@@ -22,6 +25,12 @@ void alone_without_network() {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
   setenv("OMPI_MCA_pml", "ob1", keep);
   setenv("OMPI_MCA_btl", "self,vader", keep);
+  // Isolated processes share one folder of Open MPI's and, started side by side, fail now and then: 6 of 400, 0 with one each.
+  const char* given = std::getenv("TMPDIR");
+  std::string folder = std::string(given ? given : "/tmp") + "/spindrift_mpi_XXXXXX";
+  if (!mkdtemp(folder.data())) return;
+  setenv("OMPI_MCA_orte_tmpdir_base", folder.c_str(), keep);
+  own_folder = folder;
 }
 
 }  // namespace
@@ -39,7 +48,11 @@ MpiEnvironment::MpiEnvironment(int& argc, char**& argv) {
   MPI_Comm_size(MPI_COMM_WORLD, &world_.size);
 }
 
-MpiEnvironment::~MpiEnvironment() { MPI_Finalize(); }
+MpiEnvironment::~MpiEnvironment() {
+  MPI_Finalize();
+  std::error_code ignored;
+  if (!own_folder.empty()) std::filesystem::remove_all(own_folder, ignored);
+}
 
 void MpiEnvironment::abort(int code) const {
   MPI_Abort(MPI_COMM_WORLD, code);
