@@ -70,7 +70,11 @@ void add_commands(CLI::App& cli, Command& chosen) {
     CLI::App* command = cli.add_subcommand("reference", "Every scene key with type, unit, default, range and a sentence");
     command->add_option("topic", *topic, "A section or a key");
     command->add_flag("--markdown", *markdown, "As inputs/REFERENCE.md");
-    command->callback([=, &chosen] { chosen = [=](const auto& world) { return reference(*topic, *markdown, world); }; });
+    const auto columns = std::make_shared<bool>(false);
+    command->add_flag("--columns", *columns, "Every column of history.csv instead, as in docs/reference/columns.md");
+    command->callback([=, &chosen] {
+      chosen = [=](const auto& world) { return *columns ? reference_columns(world) : reference(*topic, *markdown, world); };
+    });
   }
   {
     auto arguments = std::make_shared<ReportArguments>();
