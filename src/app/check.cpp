@@ -1,17 +1,17 @@
 // spindrift check: validates a scene and says what will be modelled, at what cost and at which limits. Runs nothing.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <span>
 #include <vector>
 
 #include "src/app/commands.hpp"
 #include "src/app/cost.hpp"
+#include "src/app/forecast.hpp"
 #include "src/coupling/campbell.hpp"
+#include "src/coupling/doubts.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/recorder.hpp"
@@ -33,25 +33,12 @@ void print_models(const Machine& machine) {
   fmt::print("  {:<10}{}\n", "moorings", coupling::describe_moorings(s));
 }
 
-/// Seconds of one step, the fastest of a few (the others were disturbed).
-double seconds_per_step(Machine& machine, bodies::BodiesState state) {
-  double fastest = std::numeric_limits<double>::infinity();
-  for (int trial = 0; trial < 50; ++trial) {
-    const auto begin = std::chrono::steady_clock::now();
-    if (!machine.system().advance(state, machine.timeline().tick_s(), 1).ok()) break;
-    fastest = std::min(fastest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  }
-  return fastest;
-}
-
 /// Of a sea of particles: how many, how large, how long. Nothing of it is made but a list of places.
 PartCost print_particles(const Machine& machine, const coupling::Start& start) {
   const coupling::Scenario& s = machine.scenario();
   const sea::ParticleCensus census = particle_census(*machine.particle_plan(), start.state.motions);
   const sph::Parameters& p = machine.particle_plan()->parameters;
-  const double step =
-      std::min({s.time.step_s.value_or(census.step_s), machine.body_step_limit(), census.step_s, s.time.window_s});
-  const double steps_per_window = std::ceil(s.time.window_s / step * (1.0 - 1e-9));
+  const double steps_per_window = particle_steps(machine, census);
   fmt::print("\nSea of particles\n");
   fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls,
              census.bodies);
@@ -62,32 +49,29 @@ PartCost print_particles(const Machine& machine, const coupling::Start& start) {
   fmt::print("  {:<22}{:.4g} m/s, {:.3g} m spacing, support {:.3g} m\n", "speed of sound", p.eos.c0, p.spacing, p.reach());
   fmt::print("  {:<22}{:.4g} s at rest, set by {}{}; {:.0f} to a window\n", "largest step", census.step_s, census.step_set_by,
              s.time.step_s ? fmt::format("; the scene asks for {} s", *s.time.step_s) : "", steps_per_window);
-  const double evaluations = steps_per_window / s.time.window_s * (p.step == sph::StepChoice::verlet ? 1.0 : 2.0);
-  const int notes = machine.rotor() && is_strong(s.coupling.scheme) ? 2 : 1;
-  return {.name = "sea",
-          .count = double(census.particles()),
-          .things = "particles",
-          .bytes = census.bytes + notes * sea::bytes_of_note * double(census.particles()),
-          .checkpoint_bytes = sea::bytes_of_note * double(census.particles()),
-          .work_per_second = evaluations,
-          .work = "evaluations of all",
-          .core_seconds_per_work = double(census.particles()) / census.evaluations_per_second,
-          .rate = fmt::format("{:.3g} M particles per core-s, measured now on a small sea", 1e-6 * census.evaluations_per_second),
-          .work_before = s.sea.settle_s() * evaluations};
+  return cost_of_particles(machine, census, steps_per_window);
+}
+
+void print_doubts(Machine& machine, const coupling::Start& start, const coupling::Stability& stability) {
+  const scene::Doubts doubts = coupling::doubts(machine, start, stability);
+  if (doubts.empty()) return;
+  fmt::print("\nDoubts: possible, but it looks like a slip\n");
+  for (const scene::Doubt& doubt : doubts) fmt::print("  warning: {}\n", text(doubt));
 }
 
 void print_steps(Machine& machine, const coupling::Start& start) {
   const coupling::Timeline& t = machine.timeline();
-  const double steps = double(t.windows()) * double(t.steps_per_window());
-  const double seconds = steps * seconds_per_step(machine, start.state);
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  const StepCost cost = measured_steps(machine, start);
+  const double seconds = cost.core_seconds();
   fmt::print("\nSize and cost\n");
   fmt::print("  {:<22}{} windows of {} s, {} step{} each ({})\n", "time", t.windows(), t.window_s(), t.steps_per_window(),
              t.steps_per_window() == 1 ? "" : "s", name(machine.system().integrator()));
-  fmt::print("  {:<22}{:.3g} ({:.3g} s on one core, {:.0f} times real time), from steps measured now\n", "predicted core-hours",
-             seconds / 3600.0, seconds, t.windows() * t.window_s() / seconds);
-  fmt::print("  {:<22}{:.0f} MB\n", "memory", double(usage.ru_maxrss) / 1024.0);
+  fmt::print(
+      "  {:<22}{:.3g} ({:.3g} s on one core, {:.0f} times real time): {:.3g} steps of {:.3g} us and {:.3g} rows of history of "
+      "{:.3g} us, measured now\n",
+      "predicted core-hours", seconds / 3600.0, seconds, t.windows() * t.window_s() / seconds, cost.steps, 1e6 * cost.step_s,
+      cost.rows, 1e6 * cost.row_s);
+  fmt::print("  {:<22}{:.0f} MB\n", "memory", peak_memory() / 1e6);
 }
 
 void print_equilibrium(Machine& machine, const bodies::BodiesState& state) {
@@ -108,12 +92,18 @@ void print_equilibrium(Machine& machine, const bodies::BodiesState& state) {
 
 void print_modes(const Machine& machine, const bodies::Linearisation& linearisation) {
   fmt::print("\nModes about the start\n");
+  std::size_t free = 0;
   for (const bodies::Mode& mode : linearisation.modes)
-    if (std::abs(mode.eigenvalue.imag()) > 1e-6)
+    if (mode.eigenvalue == 0.0)
+      ++free;
+    else if (std::abs(mode.eigenvalue.imag()) > 1e-6)
       fmt::print("  {:<34}period {:8.3f} s ({:.4f} Hz)   damping {:.2f} % of critical\n", mode.name, mode.period_s(),
                  1.0 / mode.period_s(), 100.0 * mode.damping_ratio());
     else
       fmt::print("  {:<34}rate {:+.3g} 1/s\n", mode.name, mode.eigenvalue.real());
+  if (free > 0)
+    fmt::print("  {} of {} are free: neither stiffness nor damping{}\n", free, linearisation.modes.size(),
+               machine.particle_plan() && !machine.sea() ? "; that of the particles is not known before they are there" : "");
   const coupling::TimeOptions& time = machine.scenario().time;
   const std::string asked =
       machine.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());
@@ -145,6 +135,11 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
     fmt::print("\n");
   }
   for (double wind : c.meets_waves_m_s) fmt::print("  1P meets the most probable waves at a wind of {:.1f} m/s\n", wind);
+  if (machine.scenario().coupling.scheme == coupling::SchemeKind::monolithic) {
+    fmt::print(
+        "\nCoupling of rotor and platform: monolithic; the rotor answers in every evaluation of the bodies, nothing lags\n");
+    return;
+  }
 
   machine.use_full_loads(true);
   const coupling::LooseVerdict verdict = loose_verdict(machine, start.state, c);
@@ -168,29 +163,6 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
                                : "No loose scheme will do at this window: iterate (coupling.scheme) or shorten it.");
   if (!c.rows.back().together.empty())
     fmt::print("  Frequencies of this scene lie together: response there is sensitive to phase; compare with a strong scheme.\n");
-}
-
-/// Size and rate of a resolved rotor, with so many pseudo-steps at most per simulated second and before t = 0.
-PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, double per_second, double before,
-                     int notes, bool calibrate) {
-  PartCost cost{.name = "air",
-                .count = double(size.cells),
-                .things = "cells",
-                .bytes = size.bytes + (notes - 1) * size.bytes_of_checkpoint,
-                .checkpoint_bytes = size.bytes_of_checkpoint,
-                .work_per_second = per_second,
-                .work = "pseudo-steps at most",
-                .core_seconds_per_work = size.core_seconds_per_pseudo_step,
-                .rate = {},
-                .work_before = before};
-  std::string source = "stated; --calibrate measures it";
-  if (calibrate) {
-    const aero::AirRate rate = aero::measured_air_rate(setup);
-    cost.core_seconds_per_work = rate.core_seconds * double(size.cells);
-    source = fmt::format("measured now: {} pseudo-steps of {} cells", rate.pseudo_steps, rate.cells);
-  }
-  cost.rate = fmt::format("{:.3g} us per cell, {}", 1e6 * cost.core_seconds_per_work / double(size.cells), source);
-  return cost;
 }
 
 void print_far_sides(const aero::RotorGridOptions& grid) {
@@ -252,6 +224,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     fmt::print("{}: valid\n", arguments.scene);
     print_models(machine);
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
+    print_doubts(machine, start, stability);
     if (!start.state.motions.empty()) print_modes(machine, stability.linearisation);
   }
   require_stable(machine, stability);

@@ -13,7 +13,18 @@ void add_scene(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--set", arguments.overrides, "Override a key of the scene: --set time.end_s=60")->allow_extra_args(false);
 }
 
+std::function<void()>& left_over() {
+  static std::function<void()> rest;
+  return rest;
+}
+
 }  // namespace
+
+void hand_over(std::function<void()> rest) { left_over() = std::move(rest); }
+
+void finish() {
+  if (left_over()) left_over()();
+}
 
 void add_commands(CLI::App& cli, Command& chosen) {
   {
@@ -61,7 +72,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
         cli.add_subcommand("study", "Run the variants of a study; error against cost, the front, the cheapest that will do");
     command->add_option("study", arguments->file, "Study file (TOML)")->required();
     command->add_option("--set", arguments->overrides, "Override a key of the study file")->allow_extra_args(false);
-    command->add_option("--out", arguments->out, "Folder of the runs (default: runs/STUDY)");
+    command->add_option("--out", arguments->out, "Folder of the runs (default: runs/STUDY); finished runs in it are kept");
+    command->add_flag("--dry-run", arguments->dry_run, "Say what would run and the forecast of its cost; run nothing");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return study(*arguments, world); }; });
   }
   {

@@ -15,12 +15,17 @@ class App;
 namespace spindrift::app {
 
 /// Exit codes, also written into summary.json since mpirun may change them.
-enum ExitCode : int { done = 0, bad_input = 2, numerical_failure = 3, machine_failure = 4, stopped = 5 };
+enum ExitCode : int { done = 0, bad_input = 2, numerical_failure = 3, machine_failure = 4, stopped = 5, out_of_reach = 6 };
 
 using Command = std::function<int(const runtime::World&)>;
 
 /// Declares every command with its arguments; parsing sets `chosen`.
 void add_commands(CLI::App& cli, Command& chosen);
+
+/// Leaves the rest of a command to be done once MPI is closed; a command that starts programs of its own must not hold it.
+void hand_over(std::function<void()> rest);
+/// What was left, done. For main.
+void finish();
 
 struct SceneArguments {
   std::string scene;
@@ -52,6 +57,7 @@ struct StudyArguments {
   std::string file;
   std::vector<std::string> overrides;  ///< of the study file
   std::string out;                     ///< empty: runs/STUDY
+  bool dry_run = false;                ///< says what would run and at what cost; runs nothing
 };
 
 int run(const RunArguments& arguments, const runtime::World& world);

@@ -1,6 +1,6 @@
 // spindrift: the program. Parses the command line, starts MPI, calls a command, turns failures into exit codes
-// (docs/developer/errors.md): 0 done, 2 bad input, 3 numerical failure, 4 machine failure, 5 stopped on request.
-// SPDX-License-Identifier: Apache-2.0
+// (docs/developer/errors.md): 0 done, 2 bad input, 3 numerical failure, 4 machine failure, 5 stopped on request, 6 a target of a
+// study is out of reach. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
@@ -51,10 +51,14 @@ int main(int argc, char** argv) {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& e) { return cli.exit(e) == 0 ? 0 : app::bad_input; }
   try {
-    const runtime::MpiEnvironment mpi(argc, argv);
-    io::start_log(mpi.rank(), false);
-    const int code = guarded([&] { return command(mpi.world()); });
-    if (code == app::machine_failure && mpi.size() > 1) mpi.abort(code);  // the other ranks may be waiting for this one
+    int code = app::done;
+    {
+      const runtime::MpiEnvironment mpi(argc, argv);
+      io::start_log(mpi.rank(), false);
+      code = guarded([&] { return command(mpi.world()); });
+      if (code == app::machine_failure && mpi.size() > 1) mpi.abort(code);  // the other ranks may be waiting for this one
+    }
+    app::finish();
     return code;
   } catch (const std::exception& e) {
     fmt::print(stderr, "spindrift: {}\n", e.what());

@@ -8,7 +8,10 @@
 #include <optional>
 #include <utility>
 
+#include "runtime/mpi/parts.hpp"
+#include "src/app/forecast.hpp"
 #include "src/app/scene_run.hpp"
+#include "src/coupling/doubts.hpp"
 #include "src/coupling/flow_run.hpp"
 #include "src/coupling/placement.hpp"
 #include "src/coupling/run.hpp"
@@ -60,6 +63,12 @@ std::vector<io::TimeRange> mean_ranges(const coupling::Scenario& scenario, doubl
   return {{"whole_run", 0.0, end_s}, {fmt::format("last_{:g}_s", length), end_s - length, end_s}};
 }
 
+/// Processor time of all ranks since each one's clock was at `since`, and memory. Collective.
+void take_stock(io::Summary& summary, double since, const runtime::World& world) {
+  const std::vector<double> all = runtime::summed(world.comm, {processor_seconds() - since, peak_memory()});
+  summary.processor_seconds = all[0], summary.peak_memory_bytes = all[1];
+}
+
 void print_summary(const io::Summary& summary, const io::RunDirectory& directory) {
   spdlog::info("{}: {:g} s simulated in {:.3g} s, {:.3g} times real time", summary.exit_reason,
                summary.end_time_s - summary.start_time_s, summary.wall_seconds, io::real_time_factor(summary));
@@ -76,7 +85,8 @@ ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
   ReadyScene ready;
   ready.machine = std::make_unique<coupling::Machine>(std::move(scenario));
   ready.start = make_start(*ready.machine);
-  require_stable(*ready.machine, stability(*ready.machine, ready.start.state));
+  ready.doubts = coupling::doubts(*ready.machine, ready.start, stability(*ready.machine, ready.start.state));
+  require_stable(*ready.machine, stability(*ready.machine, ready.start.state));  // leaves the chart at the start
   ready.echo = std::move(echo);
   return ready;
 }
@@ -91,7 +101,7 @@ ReadyScene read_scene(const std::string& path, const std::vector<std::string>& o
 namespace {
 /// A scene of the air alone has no machine of bodies.
 SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& echo, const std::vector<std::string>& files,
-                        const RunArguments& arguments, const runtime::World& world) {
+                        const RunArguments& arguments, const runtime::World& world, double since) {
   io::RunDirectory directory = open_directory(arguments, world.comm);
   require_same_run(directory, scene::Identity::of(echo, files), arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
@@ -102,6 +112,7 @@ SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& e
   io::Summary summary = coupling::run_flow(scenario, directory, world, settings);
   summary.title = scenario.output.title.empty() ? std::filesystem::path(arguments.scene).stem().string() : scenario.output.title;
   summary.scene = arguments.scene;
+  take_stock(summary, since, world);
   if (world.rank == 0) {
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
     summary.warnings = io::warnings_logged();
@@ -114,6 +125,7 @@ SceneRun run_flow_scene(const coupling::Scenario& scenario, const std::string& e
 }  // namespace
 
 SceneRun run_scene(const RunArguments& arguments, const runtime::World& started, const scene::Source& overrider) {
+  const double since = processor_seconds();
   io::start_log(started.rank, arguments.quiet);
   std::optional<coupling::Scenario> scenario;
   std::string echo;
@@ -130,7 +142,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   const runtime::Parts parts = coupling::place(*scenario, started, arguments.fluid);
   const runtime::World& world = parts.world();
   io::start_log(world.rank, arguments.quiet);
-  if (scenario->has_flow()) return run_flow_scene(*scenario, echo, read->files(), arguments, world);
+  if (scenario->has_flow()) return run_flow_scene(*scenario, echo, read->files(), arguments, world, since);
   const ReadyScene scene = made_ready(std::move(*scenario), std::move(echo));
   io::RunDirectory directory = open_directory(arguments, world.comm);
   require_same_run(directory, scene::Identity::of(scene.echo, read->files()), arguments, world.comm);
@@ -140,6 +152,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   spdlog::info("spindrift {} ({}), {} rank{}: {}", build.version, build.commit, world.size, world.size == 1 ? "" : "s",
                arguments.scene);
   for (const std::string& note : scene.start.notes) spdlog::info("{}", note);
+  for (const scene::Doubt& doubt : scene.doubts) spdlog::warn("{}", text(doubt));
 
   coupling::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
   settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
@@ -148,6 +161,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   const std::string& title = scene.machine->scenario().output.title;
   summary.title = title.empty() ? std::filesystem::path(arguments.scene).stem().string() : title;
   summary.scene = arguments.scene;
+  take_stock(summary, since, world);
   if (world.rank == 0) {
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
     summary.warnings = io::warnings_logged();

@@ -11,6 +11,7 @@
 #include "src/coupling/start.hpp"
 #include "src/io/summary.hpp"
 #include "src/scene/document.hpp"
+#include "src/scene/doubt.hpp"
 
 namespace spindrift::app {
 
@@ -19,6 +20,7 @@ struct ReadyScene {
   std::string echo;  ///< the scene with every default
   std::unique_ptr<coupling::Machine> machine;
   coupling::Start start;
+  scene::Doubts doubts;  ///< what looks like a slip
 };
 /// `overrider`: whose overrides they are; names of files in them start at its folder.
 ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides,

@@ -1,169 +1,158 @@
-// spindrift study: runs the variants of a study, measures their error against their cost, prints the front and the cheapest run
-// that meets the targets, and writes study.json and study.html. What a study file says: docs/user/scenes.md.
-// SPDX-License-Identifier: Apache-2.0
+// spindrift study: checks every scene of a study, forecasts each run, and hands the plan to the program that runs and judges it
+// (src/report/spindrift_study.py). What a study file says: docs/user/studies.md. SPDX-License-Identifier: Apache-2.0
 #include "src/scene/study.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "src/app/commands.hpp"
+#include "src/app/forecast.hpp"
 #include "src/app/scene_run.hpp"
-#include "src/io/log.hpp"
+#include "src/coupling/flow_scene.hpp"
+#include "src/io/build_info.hpp"
 #include "src/report/report.hpp"
 #include "src/scene/columns.hpp"
-#include "src/scene/study_front.hpp"
+#include "src/scene/error.hpp"
+#include "src/scene/text_check.hpp"
 
 namespace spindrift::app {
 
 namespace {
 
-using Errors = std::vector<std::optional<double>>;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
-struct Outcome {
-  std::string name;
-  int exit_code = 0;
-  std::string exit_reason;
-  double core_seconds = 0.0;
-  std::filesystem::path history;
-  Errors errors;                    ///< by metric
-  std::optional<double> shortfall;  ///< largest error over its target; at most 1 is good enough
-};
-
-Outcome run_variant(const scene::Study& study, const scene::StudyRun& variant, const std::filesystem::path& folder,
-                    const runtime::World& world) {
-  RunArguments arguments;
-  arguments.scene = study.study.scene;
-  arguments.overrides = variant.overrides;
-  arguments.out = (folder / variant.name).string();
-  arguments.overwrite = arguments.quiet = true;
-  const SceneRun run = run_scene(arguments, world, {study.file, study.directory});
-  return {.name = variant.name,
-          .exit_code = run.summary.exit_code,
-          .exit_reason = run.summary.exit_reason,
-          .core_seconds = run.summary.wall_seconds * run.summary.ranks * run.summary.threads,
-          .history = run.directory / "history.csv"};
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 
-/// Errors of all runs against the reference, metric by metric. A run that failed has none.
-void judge(const scene::Study& study, std::vector<Outcome>& outcomes) {
-  if (!study.reference) return;
-  std::filesystem::path reference = study.reference->history;
-  for (const Outcome& o : outcomes)
-    if (o.name == study.reference->variant) reference = o.history;
-  const scene::Columns truth = scene::read_columns(reference.string());
-  for (Outcome& o : outcomes) {
-    o.errors.assign(study.metrics.size(), std::nullopt);
-    if (o.exit_code != done) continue;
-    const scene::Columns run = scene::read_columns(o.history.string());
-    for (std::size_t m = 0; m < study.metrics.size(); ++m) {
-      const scene::MetricOptions& metric = study.metrics[m].options;
-      o.errors[m] = metric_error(metric, {run["time_s"], run[metric.column]}, {truth["time_s"], truth[metric.column]});
+Json of_options(const scene::StudyOptions& o) {
+  return {{"design", name(o.design)},
+          {"crossed", o.crossed},
+          {"threads", o.threads},
+          {"at_once", or_null(o.at_once)},
+          {"budget_core_h", or_null(o.budget_core_h)},
+          {"confidence", o.confidence},
+          {"repeats", o.repeats}};
+}
+
+Json of_axis(const std::string& name, const scene::AxisOptions& axis) {
+  Json points = Json::array();
+  for (const scene::StudyPoint& point : points_of(name, axis)) points.push_back(point.name);
+  return {{"name", name}, {"key", axis.key}, {"values", axis.values}, {"points", points}};
+}
+
+Json of_metric(const std::string& metric_name, const scene::MetricOptions& o) {
+  return {{"name", metric_name},
+          {"column", o.column},
+          {"measure", name(o.measure)},
+          {"from_s", o.from_s},
+          {"until_s", or_null(o.until_s)},
+          {"frequency_Hz", or_null(o.frequency_Hz)},
+          {"wohler_exponent", o.wohler_exponent},
+          {"relative", o.relative},
+          {"divide_by", o.divide_by},
+          {"target", or_null(o.target)}};
+}
+
+/// A scene that every check has passed, with the echo by which a finished run is known again.
+struct Checked {
+  std::string echo;
+  Forecast forecast;
+};
+
+Checked checked(const std::string& file, const std::vector<std::string>& overrides, const scene::Source& overrider) {
+  scene::Document document = scene::load(file, overrides, overrider);
+  const coupling::Scenario scenario = coupling::read_scenario(document);
+  if (scenario.has_flow()) return {document.echo(), has_resolved_rotor(scenario) ? forecast_of_air(scenario) : Forecast{}};
+  const ReadyScene ready = read_scene(file, overrides, overrider);
+  return {ready.echo, forecast(*ready.machine, ready.start)};
+}
+
+/// Misspelt columns are found before anything runs.
+void check_columns(const scene::Study& study, const std::string& rung, const std::vector<std::string>& columns,
+                   std::vector<scene::Problem>& problems) {
+  if (columns.empty()) return;
+  for (const auto& [metric, options] : study.metrics) {
+    if (std::find(columns.begin(), columns.end(), options.column) != columns.end()) continue;
+    const std::string near = scene::nearest(options.column, columns);
+    problems.push_back({study.file, 0, fmt::format("metrics.{}.column", metric), fmt::format("\"{}\"", options.column),
+                        fmt::format("is no column of {}{}", rung, near.empty() ? "" : "; did you mean \"" + near + "\"?")});
+  }
+}
+
+/// A reference from elsewhere must have them too.
+void check_history(const scene::Study& study) {
+  if (!study.reference || study.reference->history.empty()) return;
+  const scene::Columns columns = scene::read_columns(study.reference->history);
+  for (const auto& [metric, options] : study.metrics) static_cast<void>(columns[options.column]);
+  static_cast<void>(columns["time_s"]);
+}
+
+Json of_rung(const scene::Study& study, const scene::StudyRun& rung, std::vector<scene::Problem>& problems) {
+  Json out{{"name", rung.name}, {"variant", rung.variant}, {"scene", fs::absolute(rung.scene).string()},
+           {"at", rung.at},     {"later", rung.later},     {"runs", Json::array()}};
+  const std::vector<scene::StudyPoint> replicas =
+      study.replicas ? points_of("replica", *study.replicas) : std::vector<scene::StudyPoint>{{}};
+  std::optional<Forecast> first;
+  for (int n = 0; n < rung.replicas; ++n) {
+    std::vector<std::string> set = rung.overrides;
+    set.insert(set.end(), replicas[std::size_t(n)].set.begin(), replicas[std::size_t(n)].set.end());
+    const Checked scene = checked(rung.scene, set, {study.file, study.directory});
+    if (!first) {
+      first = scene.forecast;
+      check_columns(study, rung.name, first->columns, problems);
     }
-    o.shortfall = scene::shortfall(study.metrics, o.errors);
+    out["runs"].push_back(
+        {{"name", replicas[std::size_t(n)].name.empty() ? rung.name : rung.name + "/" + replicas[std::size_t(n)].name},
+         {"set", set},
+         {"echo", scene.echo},
+         {"forecast_core_s", first->core_seconds},
+         {"forecast_bytes", first->bytes}});
   }
-}
-
-/// One number to rank by: the error over its target where there are targets, else the first metric.
-std::optional<double> overall(const Outcome& o) {
-  if (o.shortfall) return o.shortfall;
-  return o.errors.empty() ? std::nullopt : o.errors.front();
-}
-
-struct Verdict {
-  std::vector<std::string> front;       ///< cheapest first
-  std::optional<std::string> cheapest;  ///< that meets every target
-};
-
-Verdict verdict(const scene::Study& study, const std::vector<Outcome>& outcomes) {
-  std::vector<scene::Judged> judged;
-  std::vector<std::string> names;
-  for (const Outcome& o : outcomes) {
-    const std::optional<double> error = overall(o);
-    const bool is_reference = study.reference && o.name == study.reference->variant;  // its error is zero by definition
-    if (error && !is_reference) judged.push_back({*error, o.core_seconds}), names.push_back(o.name);
-  }
-  Verdict v;
-  for (const std::size_t i : scene::front(judged)) v.front.push_back(names[i]);
-  const bool targets =
-      std::any_of(study.metrics.begin(), study.metrics.end(), [](const auto& m) { return m.options.target.has_value(); });
-  if (targets)
-    if (const auto best = scene::cheapest(judged, 1.0)) v.cheapest = names[*best];
-  return v;
-}
-
-bool on(const std::vector<std::string>& front, const std::string& name) {
-  return std::find(front.begin(), front.end(), name) != front.end();
-}
-
-void print(const scene::Study& study, const std::vector<Outcome>& outcomes, const Verdict& v) {
-  fmt::print("\n{:<40}{:>12}", "run", "core-s");
-  for (const auto& metric : study.metrics) fmt::print("{:>16}", metric.name);
-  fmt::print("\n");
-  for (const Outcome& o : outcomes) {
-    fmt::print("{:<40}{:>12.4g}", o.name, o.core_seconds);
-    for (const auto& error : o.errors) fmt::print("{:>16}", error ? fmt::format("{:.4g}", *error) : "-");
-    fmt::print("{}{}\n", on(v.front, o.name) ? "  on the front" : "", o.exit_code == done ? "" : "  " + o.exit_reason);
-  }
-  if (v.cheapest) fmt::print("\ncheapest run that meets every target: {}\n", *v.cheapest);
-}
-
-void write_json(const scene::Study& study, const std::vector<Outcome>& outcomes, const Verdict& v,
-                const std::filesystem::path& file) {
-  nlohmann::ordered_json json;
-  json["study"] = study.file;
-  json["reference"] =
-      study.reference ? (study.reference->variant.empty() ? study.reference->history : study.reference->variant) : "";
-  for (const auto& metric : study.metrics)
-    json["metrics"].push_back({{"name", metric.name},
-                               {"column", metric.options.column},
-                               {"target", metric.options.target ? nlohmann::ordered_json(*metric.options.target) : nullptr}});
-  for (const Outcome& o : outcomes) {
-    nlohmann::ordered_json run{{"name", o.name},
-                               {"exit_code", o.exit_code},
-                               {"exit_reason", o.exit_reason},
-                               {"core_seconds", o.core_seconds},
-                               {"on_front", on(v.front, o.name)}};
-    for (std::size_t m = 0; m < o.errors.size(); ++m)
-      run["errors"][study.metrics[m].name] = o.errors[m] ? nlohmann::ordered_json(*o.errors[m]) : nullptr;
-    json["runs"].push_back(run);
-  }
-  json["cheapest_within_targets"] = v.cheapest ? nlohmann::ordered_json(*v.cheapest) : nullptr;
-  std::ofstream(file) << json.dump(2) << "\n";
+  return out;
 }
 
 }  // namespace
 
 int study(const StudyArguments& arguments, const runtime::World& world) {
+  if (world.size > 1)
+    throw scene::SceneError({{arguments.file, 0, "", "", "a study starts its runs itself: call spindrift study without mpirun"}});
   const scene::Study study = scene::read_study(arguments.file, arguments.overrides);
-  const std::vector<scene::StudyRun> runs = expand(study);
-  const std::filesystem::path folder = arguments.out.empty()
-                                           ? std::filesystem::path("runs") / std::filesystem::path(arguments.file).stem()
-                                           : std::filesystem::path(arguments.out);
-  for (const scene::StudyRun& run : runs)
-    read_scene(study.study.scene, run.overrides, {study.file, study.directory});  // every scene is right before the first runs
+  check_history(study);
+  const fs::path folder = arguments.out.empty() ? fs::path("runs") / fs::path(arguments.file).stem() : fs::path(arguments.out);
+  Json plan{{"study", study.file},
+            {"program", fs::read_symlink("/proc/self/exe").string()},
+            {"commit", io::build_info().commit},
+            {"directory", fs::absolute(study.directory.empty() ? "." : study.directory).string()},
+            {"options", of_options(study.study)},
+            {"axes", Json::array()},
+            {"replicas", study.replicas ? of_axis("replica", *study.replicas) : Json(nullptr)},
+            {"reference", nullptr},
+            {"metrics", Json::array()},
+            {"rungs", Json::array()}};
+  for (const auto& [name, axis] : study.axes) plan["axes"].push_back(of_axis(name, axis));
+  for (const auto& [name, metric] : study.metrics) plan["metrics"].push_back(of_metric(name, metric));
+  if (const auto& r = study.reference)
+    plan["reference"] = {
+        {"variant", r->variant}, {"history", r->history.empty() ? "" : fs::absolute(r->history).string()}, {"limit", r->limit}};
+  std::vector<scene::Problem> problems;
+  for (const scene::StudyRun& rung : expand(study)) plan["rungs"].push_back(of_rung(study, rung, problems));
+  if (!problems.empty()) throw scene::SceneError(problems);
 
-  std::vector<Outcome> outcomes;
-  for (const scene::StudyRun& run : runs) {
-    spdlog::info("run {} of {}: {}", outcomes.size() + 1, runs.size(), run.name);
-    outcomes.push_back(run_variant(study, run, folder, world));
-    io::start_log(world.rank, false);
-  }
-  if (world.rank != 0) return done;
-  judge(study, outcomes);
-  const Verdict v = verdict(study, outcomes);
-  print(study, outcomes, v);
-  write_json(study, outcomes, v, folder / "study.json");
-  if (const std::optional<std::string> why = report::write({.directories = {folder}}))
-    spdlog::warn("no report: {}", *why);
-  else
-    spdlog::info("report: {}", (folder / "study.html").string());
-  const bool failed = std::any_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.exit_code != done; });
-  return failed ? numerical_failure : done;
+  fs::create_directories(folder);
+  const fs::path file = folder / (arguments.dry_run ? "plan_dry.json" : "plan.json");
+  std::ofstream(file) << plan.dump(1) << "\n";
+  std::vector<std::string> words{file};
+  if (arguments.dry_run) words.push_back("--dry-run");
+  hand_over([words] { report::become("spindrift_study.py", words); });
+  return done;
 }
 
 }  // namespace spindrift::app

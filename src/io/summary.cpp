@@ -91,6 +91,8 @@ void write_summary(const std::filesystem::path& path, const Summary& summary, co
   json["counts"] = std::move(counts);
   json["wall_seconds"] = summary.wall_seconds;
   json["core_seconds"] = summary.wall_seconds * summary.ranks * summary.threads;
+  json["processor_seconds"] = summary.processor_seconds;
+  json["peak_memory_bytes"] = summary.peak_memory_bytes;
   json["real_time_factor"] = real_time_factor(summary);
   json["parts"] = Json::array();
   for (const PartTime& part : summary.parts)

@@ -41,6 +41,8 @@ struct Summary {
   int restarts = 0;
   std::vector<std::pair<std::string, std::int64_t>> counts;  ///< windows, steps, coupling_iterations, ... in the order shown
   double wall_seconds = 0;
+  double processor_seconds = 0;  ///< of all threads of all ranks, from reading the scene to the end, whatever else ran beside it
+  double peak_memory_bytes = 0;  ///< of all ranks together, each at its largest
   std::vector<PartTime> parts;
   std::vector<Efficiency> efficiency;
 

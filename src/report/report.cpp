@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <stdexcept>
 #include <string_view>
 
 extern char** environ;
@@ -27,11 +28,10 @@ std::string interpreter() {
 }
 
 /// Beside an installed program, else in the sources it was built from.
-fs::path program() {
+fs::path program(const std::string& name = "spindrift_report.py") {
   std::error_code none;
-  const fs::path installed =
-      fs::read_symlink("/proc/self/exe", none).parent_path() / SPINDRIFT_REPORT_FROM_BINARY / "spindrift_report.py";
-  return fs::exists(installed, none) ? installed : fs::path(SPINDRIFT_REPORT_SOURCE_DIR) / "spindrift_report.py";
+  const fs::path installed = fs::read_symlink("/proc/self/exe", none).parent_path() / SPINDRIFT_REPORT_FROM_BINARY / name;
+  return fs::exists(installed, none) ? installed : fs::path(SPINDRIFT_REPORT_SOURCE_DIR) / name;
 }
 
 /// Without the variables by which a child of an MPI program takes itself for one of its ranks.
@@ -39,7 +39,9 @@ std::vector<char*> environment() {
   std::vector<char*> kept;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
-    if (!text.starts_with("OMPI_") && !text.starts_with("PMIX_") && !text.starts_with("PMI_")) kept.push_back(*entry);
+    if ((!text.starts_with("OMPI_") || text.starts_with("OMPI_ALLOW_RUN_AS_ROOT")) && !text.starts_with("PMIX_") &&
+        !text.starts_with("PMI_"))
+      kept.push_back(*entry);
   }
   kept.push_back(nullptr);
   return kept;
@@ -102,6 +104,18 @@ std::optional<std::string> write(const Request& request) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
   if (WIFSIGNALED(status)) return "no report: " + words[0] + " was ended by signal " + std::to_string(WTERMSIG(status));
   return "no report: " + (said.empty() ? words[0] + " says nothing" : last_line(said));
+}
+
+void become(const std::string& name, const std::vector<std::string>& given) {
+  std::vector<std::string> words = {interpreter(), "-B", "-E", "-s", program(name)};
+  words.insert(words.end(), given.begin(), given.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::vector<char*> variables = environment();
+  ::execve(words[0].c_str(), arguments.data(), variables.data());
+  throw std::runtime_error("cannot start " + words[0] + ": " + std::strerror(errno) +
+                           "; install python3 (ci/setup does) or set SPINDRIFT_PYTHON");
 }
 
 }  // namespace spindrift::report

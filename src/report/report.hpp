@@ -20,4 +20,8 @@ struct Request {
 /// Empty when the report is written, else one sentence that says why not and what helps. On one rank; takes a few seconds.
 std::optional<std::string> write(const Request& request);
 
+/// This process becomes `program` ("spindrift_study.py") of this folder, with these words; after MPI is closed. Throws where
+/// Python cannot be started.
+[[noreturn]] void become(const std::string& program, const std::vector<std::string>& words);
+
 }  // namespace spindrift::report

@@ -1,53 +1,158 @@
-"""The page of a study, from its study.json: error against cost of every run, the front, the cheapest run within the targets.
+"""The page of a study, from its study.json: the answer, error against cost with intervals, the error budget, what was not tested.
 Called by spindrift_report.py; tested in tests/src/report/report_test.py. SPDX-License-Identifier: Apache-2.0"""
 import json
 import math
 import pathlib
 
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 import figures
 import page
+from study_judge import WORDS
+
+LABELLED = 14  # rungs named beside their points; more are numbered
 
 
-def _drawing(study, metric):
-    """Runs with a positive error, which is what a logarithmic axis can show; the front joined."""
-    drawn = [(run["core_seconds"], run["errors"][metric["name"]], run) for run in study["runs"]
-             if (run.get("errors", {}).get(metric["name"]) or 0.0) > 0.0]
-    if not drawn:
+def _in_percent(metric):
+    return metric["relative"] or metric["divide_by"] != 1.0
+
+
+def _unit(metric):
+    return 100.0 if _in_percent(metric) else 1.0
+
+
+def _plain(value, _=None):
+    """1e-05, 0.01, 20, 1500: no powers where a number will do."""
+    return f"{value:g}" if 1e-3 <= abs(value) < 1e5 else f"{value:.0e}"
+
+
+def _decades(axis, low, high):
+    """A logarithmic axis whose ticks a reader can read: every decade, and within fewer than two decades 1, 2, 5."""
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    steps = (1, 2, 5) if math.log10(high / low) < 2.5 else (1,)
+    every = max(1, (last - first) // 8)
+    axis.set_major_locator(FixedLocator([s * 10.0**d for d in range(first, last + 1, every) for s in steps]))
+    axis.set_major_formatter(FuncFormatter(_plain))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _points(study, metric):
+    """Drawn points: an error of zero cannot stand on a logarithmic axis."""
+    return [(rung, rung["errors"][metric["name"]]) for rung in study["rungs"]
+            if (rung["errors"][metric["name"]]["error"] or 0.0) > 0.0 and not rung["is_reference"] and rung["cost"]["core_s"]]
+
+
+def draw(study, metric, axis, numbered=True):
+    """Error against cost: points with their intervals, the front joined, the target as a line. False where there is nothing to draw."""
+    points, unit = _points(study, metric), _unit(metric)
+    if not points:
+        return False
+    floor = 0.3 * min(e["error"] for _, e in points) * unit
+    lows, highs = [], []
+    for rung, e in points:
+        cost, error = rung["cost"]["core_s"], e["error"] * unit
+        low, high = max(e["low"] * unit, floor), e["high"] * unit
+        lows.append(low), highs.append(high)
+        colour = figures.PALETTE[1] if rung["name"] == study["answer"] else figures.PALETTE[0 if rung["on_front"] else 7]
+        axis.plot([cost, cost], [low, high], "-", color=colour, linewidth=1.0, alpha=0.7)
+        axis.plot([rung["cost"]["low"], rung["cost"]["high"]], [error, error], "-", color=colour, linewidth=1.0, alpha=0.7)
+        axis.plot(cost, error, "o", color=colour, markersize=6 if rung["on_front"] else 4.5)
+        name = rung["name"] if len(points) <= LABELLED or not numbered else str(1 + [r["name"] for r in study["rungs"]].index(rung["name"]))
+        right = cost > math.sqrt(min(r["cost"]["core_s"] for r, _ in points) * max(r["cost"]["core_s"] for r, _ in points))
+        axis.annotate(name, (cost, error), textcoords="offset points", xytext=(-6 if right else 6, 4), fontsize=7.5,
+                      ha="right" if right else "left")
+    front = sorted((r["cost"]["core_s"], e["error"] * unit) for r, e in points if r["on_front"])
+    axis.plot([c for c, _ in front], [e for _, e in front], "-", color=figures.PALETTE[0], linewidth=0.8, alpha=0.6, zorder=0)
+    if metric["target"]:
+        axis.axhline(metric["target"] * unit, color=figures.PALETTE[6], linestyle="--", linewidth=0.9)
+        lows.append(metric["target"] * unit), highs.append(metric["target"] * unit)
+    axis.set_xscale("log"), axis.set_yscale("log")
+    costs = [r["cost"]["core_s"] for r, _ in points]
+    axis.set_xlim(min(costs) / 1.8, max(costs) * 1.8)
+    axis.set_ylim(min(lows) / 1.5, max(highs) * 1.6)
+    _decades(axis.xaxis, min(costs), max(costs)), _decades(axis.yaxis, min(lows), max(highs))
+    axis.set_xlabel("processor time of one run [core-s]")
+    axis.set_ylabel(f"error of the {WORDS[metric['measure']].removesuffix(' of')} [{'%' if _in_percent(metric) else metric['column'].rsplit('_', 1)[-1]}]")
+    return True
+
+
+def _figure(study, metric):
+    figure, axis = plt.subplots(figsize=(7.0, 4.0))
+    if not draw(study, metric, axis):
+        plt.close(figure)
         return ""
-    figure, axis = plt.subplots(figsize=(7.0, 3.6))
-    for cost, error, run in drawn:
-        axis.loglog(cost, error, "o", color=figures.PALETTE[0 if run["on_front"] else 7], markersize=6 if run["on_front"] else 4)
-        axis.annotate(run["name"], (cost, error), textcoords="offset points", xytext=(5, 4), fontsize=7.5)
-    front = sorted((cost, error) for cost, error, run in drawn if run["on_front"])
-    axis.loglog([c for c, _ in front], [e for _, e in front], "-", color=figures.PALETTE[0], linewidth=0.9)
-    if metric.get("target"):
-        axis.axhline(metric["target"], color=figures.PALETTE[6], linestyle="--", linewidth=0.9)
-    axis.set_xlabel("cost [core-seconds]")
-    axis.set_ylabel(f"{metric['name']}: error of {metric['column']}")
-    return figures.as_html(figure, f"Error of {metric['column']} against cost")
+    what = f"{WORDS[metric['measure']]} {metric['column']}"
+    target = f"; the dashed line is the target, {_plain(metric['target'] * _unit(metric))}{' %' if _in_percent(metric) else ''}" if metric["target"] else ""
+    bars = f"Bars are {100 * study['confidence']:g} % intervals from {study['replicas']} replicas, paired with the reference. " if study["replicas"] else ""
+    return (f"<figure><h3>{page.escape(metric['name'])}: {page.escape(what)}</h3>{figures.as_html(figure, 'Error against cost: ' + what)}"
+            f"<figcaption>{bars}The line joins what nothing beats in both error and cost, over all targets{page.escape(target)}.</figcaption></figure>")
+
+
+def _error_text(e, metric):
+    if e["error"] is None:
+        return "-"
+    unit, sign = _unit(metric), " %" if _in_percent(metric) else ""
+    text = f"{page.number(e['error'] * unit, 3)}{sign}"
+    if e["high"] > e["low"]:
+        text += f" <small>{page.number(e['low'] * unit, 2)} to {page.number(e['high'] * unit, 2)}</small>"
+    return text
 
 
 def _table(study):
-    metrics = study.get("metrics", [])
-    head = "".join(f"<th>{page.escape(m['name'])}</th>" for m in metrics)
+    head = "".join(f"<th>{page.escape(m['name'])}</th><th>value</th>" for m in study["metrics"])
+    sure = any(r["confidence"] is not None for r in study["rungs"])
     rows = ""
-    for run in study["runs"]:
-        errors = "".join(f"<td>{page.number(run.get('errors', {}).get(m['name'], math.nan))}</td>" for m in metrics)
-        verdict = "on the front" if run["on_front"] else "" if run["exit_code"] == 0 else page.escape(run["exit_reason"])
-        rows += f"<tr><td>{page.escape(run['name'])}</td><td>{page.number(run['core_seconds'])}</td>{errors}<td>{verdict}</td></tr>"
-    return f"<table><thead><tr><th>run</th><th>core-seconds</th>{head}<th></th></tr></thead><tbody>{rows}</tbody></table>"
+    for number, rung in enumerate(study["rungs"], 1):
+        errors = "".join(f"<td>{_error_text(rung['errors'][m['name']], m)}</td>"
+                         f"<td>{page.number(value, 4) if (value := rung['errors'][m['name']]['value']) is not None else '-'}</td>"
+                         for m in study["metrics"])
+        cost, notes = rung["cost"], []
+        notes += ["<strong>the answer</strong>"] if rung["name"] == study["answer"] else []
+        notes += ["reference"] if rung["is_reference"] else ["on the front"] if rung["on_front"] else []
+        notes += [f"failed: {page.escape(rung['failed'])}"] if rung["failed"] else []
+        confidence = (f"<td>{'-' if rung['confidence'] is None or rung['is_reference'] else page.number(100 * rung['confidence'], 3) + ' %'}</td>"
+                      if sure else "")
+        memory = page.number(cost["memory"] / 1e6, 3) if cost["memory"] == cost["memory"] else "-"
+        rows += (f"<tr><td>{number}</td><td class=text>{page.escape(rung['name'])}</td><td>{page.number(cost['core_s'], 3)}</td><td>{memory}</td>"
+                 f"{errors}{confidence}<td class=text>{', '.join(notes)}</td></tr>")
+    return (f'<div class="scroll"><table><thead><tr><th></th><th class=text>rung</th><th>core-s</th><th>MB</th>{head}'
+            f"{'<th>confidence</th>' if sure else ''}<th></th></tr></thead><tbody>{rows}</tbody></table></div>")
+
+
+def _budget(study):
+    """Sources of error of the answer, as bars per metric."""
+    parts = ""
+    for row, metric in zip(study["budget"], study["metrics"]):
+        sources = [s for s in row["sources"] if math.isfinite(s["size"])]
+        if not sources:
+            continue
+        largest, unit, sign = max(s["size"] for s in sources) or 1.0, _unit(metric), " %" if _in_percent(metric) else ""
+        bars = "".join(f"<span>{page.escape(s['source'])}</span><b style=\"width:{100 * s['size'] / largest:.1f}%\"></b>"
+                       f"<span>{page.number(s['size'] * unit, 2)}{sign}</span>" for s in sources)
+        parts += f"<h3>{page.escape(metric['name'])}</h3><div class=bars>{bars}</div>"
+    return f"<section><h2>Where the error of {page.escape(study['budget_of'])} comes from</h2>{parts}</section>" if parts else ""
 
 
 def build(folder):
     study = json.loads((folder / "study.json").read_text(encoding="utf-8"))
     title = f"Study {pathlib.Path(study['study']).stem}"
     style = (pathlib.Path(__file__).parent / "style.css").read_text(encoding="utf-8")
-    best = study.get("cheapest_within_targets")
-    verdict = f"<p>Cheapest run within every target: <strong>{page.escape(best)}</strong>.</p>" if best else ""
-    reference = f"<p>Errors are against {page.escape(study['reference'])}.</p>" if study.get("reference") else ""
-    pictures = "".join(f"<figure>{_drawing(study, m)}</figure>" for m in study.get("metrics", []) if _drawing(study, m))
+    good = "" if study["answer"] or not any(m["target"] for m in study["metrics"]) else " warn"
+    scene = f"<p>The scene to run: <code>{page.escape(folder / study['scene'])}</code></p>" if study["scene"] else ""
+    sentence = study["sentence"][0].upper() + study["sentence"][1:]
+    reference = study["reference"] or {}
+    against = (f"the rung '{reference['variant']}'" if reference.get("variant") else pathlib.Path(reference["history"]).name
+               if reference.get("history") else f"Richardson's limit along {reference['limit']}" if reference.get("limit") else "nothing")
+    limits = "".join(f"<li>{page.escape(l['metric'])} of {page.escape(l['of'])}: " + (page.escape(l["why"]) if l["why"] else
+                     f"order {page.number(l['order'], 3) if l['order'] else 'not needed'}") + "</li>" for l in study["limits"])
+    left = "".join(f"<li>{page.escape(text)}</li>" for text in study["not_tested"])
     return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
-            f"<title>{page.escape(title)}</title><style>{style}</style></head><body><main><h1>{page.escape(title)}</h1>"
-            f"{reference}{verdict}{pictures}<section>{_table(study)}</section></main></body></html>")
+            f"<title>{page.escape(title)}</title><style>{style}</style></head><body><main><header><h1>{page.escape(title)}</h1>"
+            f"<p class=facts>{len(study['rungs'])} rungs, {page.number(study['core_s_spent'], 3)} core-s spent; errors are against "
+            f"{page.escape(against)}.</p><div class=\"status{good}\"><strong>{page.escape(sentence)}.</strong>{scene}"
+            f"<p>Next best spend: {page.escape(study['next'])}.</p></div></header>"
+            f"<section class=figures>{''.join(_figure(study, m) for m in study['metrics'])}</section>"
+            f"<section><h2>Rungs</h2>{_table(study)}</section>{_budget(study)}"
+            + (f"<section><h2>Limits</h2><ul>{limits}</ul></section>" if limits else "")
+            + (f"<section><h2>What was not tested</h2><ul>{left}</ul></section>" if left else "") + "</main></body></html>")

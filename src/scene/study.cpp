@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "src/scene/layers.hpp"
@@ -15,19 +18,64 @@ namespace {
 
 constexpr std::size_t most_runs = 10000;  // more is a slip of the hand
 
+struct DesignWord {
+  Design design;
+  const char *word, *help;
+};
+constexpr std::array designs{
+    DesignWord{Design::product, "product", "every variant at every point of the product of all axes"},
+    DesignWord{Design::one_at_a_time, "one_at_a_time", "the first point of each axis (the pivot), then each axis by itself"},
+    DesignWord{Design::pairs, "pairs", "that, then the points where the axes that matter most both leave the pivot"}};
+
+struct MeasureWord {
+  Measure measure;
+  const char *word, *help;
+};
+constexpr std::array measures{
+    MeasureWord{Measure::rms, "rms", "root of the mean square of the difference of the two histories"},
+    MeasureWord{Measure::max, "max", "largest absolute difference of the two histories"},
+    MeasureWord{Measure::mean, "mean", "difference of the means"},
+    MeasureWord{Measure::last, "last", "difference at the end"},
+    MeasureWord{Measure::deviation, "deviation", "difference of the standard deviations"},
+    MeasureWord{Measure::peak, "peak", "difference of the largest absolute values"},
+    MeasureWord{Measure::amplitude, "amplitude", "difference of the amplitudes at frequency_Hz, by least squares"},
+    MeasureWord{Measure::phase, "phase", "difference of the phases at frequency_Hz [deg]"},
+    MeasureWord{Measure::period, "period", "difference of the mean periods between upward crossings of the mean [s]"},
+    MeasureWord{Measure::damping, "damping", "difference of the damping ratios by the decrement of successive extremes"},
+    MeasureWord{Measure::damage, "damage",
+                "difference of the damage-equivalent ranges at 1 Hz: rainflow count after ASTM E1049, exponent wohler_exponent"}};
+
 const Section<StudyOptions>& study_section() {
-  static const auto section = Section<StudyOptions>("study", "Variants of one scene, compared by error and cost.")
-                                  .path("scene", &StudyOptions::scene, "Scene file that all variants start from.")
-                                  .required()
-                                  .texts("set", &StudyOptions::set, "Overrides of every variant, each KEY=VALUE.");
+  static const auto section = [] {
+    std::vector<Section<StudyOptions>::Case<Design>> words;
+    for (const DesignWord& d : designs) words.push_back({d.word, d.design, d.help});
+    return Section<StudyOptions>("study", "Variants of one scene or a ladder of scenes, compared by error and cost.")
+        .path("scene", &StudyOptions::scene, "Scene file of the variants that name none.")
+        .texts("set", &StudyOptions::set, "Overrides of every run, each KEY=VALUE.")
+        .choice("design", &StudyOptions::design, words, "Which points of the axes are run.")
+        .integer("crossed", &StudyOptions::crossed, "-", "So many of the axes that matter most are crossed.", between(2, 6))
+        .only_if("design", {"pairs"})
+        .integer("threads", &StudyOptions::threads, "-", "Threads of each run.", at_least(1))
+        .integer("at_once", &StudyOptions::at_once, "-", "Runs at the same time; as many as cores are free where absent.",
+                 at_least(1))
+        .number("budget_core_h", &StudyOptions::budget_core_h, "h",
+                "Core-hours that may be spent: what the forecast puts beyond them is left out, dearest first.", positive())
+        .number("confidence", &StudyOptions::confidence, "-", "Of the intervals, and at least of the answer.",
+                between(0.5, 0.999))
+        .integer("repeats", &StudyOptions::repeats, "-",
+                 "Runs that compete for the answer are timed so often; the least time counts.", between(1, 20));
+  }();
   return section;
 }
 
 const Section<VariantOptions>& variant_section() {
-  static const auto section = Section<VariantOptions>("variants", "A named set of overrides.")
-                                  .named()
-                                  .texts("set", &VariantOptions::set, "Overrides of this variant, each KEY=VALUE.")
-                                  .flag("alone", &VariantOptions::alone, "Runs once, not at every point of the axes.");
+  static const auto section =
+      Section<VariantOptions>("variants", "A rung of the ladder: a scene, or a named set of overrides.")
+          .named()
+          .path("scene", &VariantOptions::scene, "Scene file of this rung; that of [study] where absent.")
+          .texts("set", &VariantOptions::set, "Overrides of this variant, each KEY=VALUE.")
+          .flag("alone", &VariantOptions::alone, "Not taken to the points of the axes.")
+          .integer("replicas", &VariantOptions::replicas, "-", "At most so many replicas; all where absent.", at_least(1));
   return section;
 }
 
@@ -40,49 +88,74 @@ const Section<PointOptions>& point_section() {
   return section;
 }
 
+Section<AxisOptions> with_points(Section<AxisOptions> section) {
+  return section.text("key", &AxisOptions::key, "Scene key that takes each of the values.")
+      .values("values", &AxisOptions::values, "Values of the key.")
+      .size(1)
+      .tables("points", &AxisOptions::points, point_section(),
+              "Points where several keys change together, instead of key and values.")
+      .one_of({"key", "points"})
+      .one_of({"values", "points"});
+}
+
 const Section<AxisOptions>& axis_section() {
-  static const auto section =
-      Section<AxisOptions>("axes", "A direction of variation: every variant runs at every point of the product of all axes.")
-          .named()
-          .text("key", &AxisOptions::key, "Scene key that takes each of the values.")
-          .values("values", &AxisOptions::values, "Values of the key.")
-          .size(1)
-          .tables("points", &AxisOptions::points, point_section(),
-                  "Points where several keys change together, instead of key and values.")
-          .one_of({"key", "points"})
-          .one_of({"values", "points"});
+  static const auto section = with_points(
+      Section<AxisOptions>("axes", "A direction of variation; its first point is the pivot of the designs that have one.")
+          .named());
+  return section;
+}
+
+const Section<AxisOptions>& replicas_section() {
+  static const auto section = with_points(Section<AxisOptions>(
+      "replicas",
+      "Every rung is run at each of these, which differ by chance alone (seed, phase of the waves, jitter of particles): "
+      "errors are paired between rungs, their scatter is the noise floor."));
   return section;
 }
 
 const Section<ReferenceOptions>& reference_section() {
-  static const auto section = Section<ReferenceOptions>("reference", "What errors are measured against.")
-                                  .text("variant", &ReferenceOptions::variant, "Name of a run of this study.")
-                                  .path("history", &ReferenceOptions::history,
-                                        "A history.csv from elsewhere that has time_s and the columns of the metrics.")
-                                  .one_of({"variant", "history"});
+  static const auto section =
+      Section<ReferenceOptions>("reference", "What errors are measured against.")
+          .text("variant", &ReferenceOptions::variant, "Name of a rung of this study.")
+          .path("history", &ReferenceOptions::history,
+                "A history.csv from elsewhere that has time_s and the columns of the metrics.")
+          .text("limit", &ReferenceOptions::limit,
+                "Name of an axis whose values are numbers: Richardson's limit from its three finest, with "
+                "the order that they show.")
+          .one_of({"variant", "history", "limit"});
   return section;
 }
 
+bool of_two_histories(Measure m) { return m == Measure::rms || m == Measure::max; }
+
 const Section<MetricOptions>& metric_section() {
-  static const auto section =
-      Section<MetricOptions>("metrics", "An error: the difference of a history column from the reference's.")
-          .named()
-          .text("column", &MetricOptions::column, "Column of history.csv.")
-          .required()
-          .choice("measure", &MetricOptions::measure,
-                  {{"rms", Measure::rms, "root of the mean square of the difference"},
-                   {"max", Measure::max, "largest absolute difference"},
-                   {"mean", Measure::mean, "absolute difference of the means"},
-                   {"last", Measure::last, "absolute difference at the end"}},
-                  "How the difference becomes one number.")
-          .number("from_s", &MetricOptions::from_s, "s", "Start of the time range.")
-          .number("until_s", &MetricOptions::until_s, "s", "End of the time range; that of the shorter history where absent.")
-          .number("divide_by", &MetricOptions::divide_by, "-",
-                  "Divides the error, in the column's unit: makes columns comparable.", positive())
-          .number("target", &MetricOptions::target, "-", "Largest error that is good enough, after the division.", positive())
-          .check([](const MetricOptions& o, const Report& report) {
-            if (o.until_s && *o.until_s <= o.from_s) report("until_s", "must be later than from_s");
-          });
+  static const auto section = [] {
+    std::vector<Section<MetricOptions>::Case<Measure>> words;
+    for (const MeasureWord& m : measures) words.push_back({m.word, m.measure, m.help});
+    return Section<MetricOptions>("metrics", "An error: how a history column differs from the reference's.")
+        .named()
+        .text("column", &MetricOptions::column, "Column of history.csv.")
+        .required()
+        .choice("measure", &MetricOptions::measure, words, "How the difference becomes one number.")
+        .number("from_s", &MetricOptions::from_s, "s", "Start of the time range.")
+        .number("until_s", &MetricOptions::until_s, "s", "End of the time range; that of the shorter history where absent.")
+        .number("frequency_Hz", &MetricOptions::frequency_Hz, "Hz", "Frequency looked at.", positive())
+        .required()
+        .only_if("measure", {"amplitude", "phase"})
+        .number("wohler_exponent", &MetricOptions::wohler_exponent, "-",
+                "Slope of the S-N curve: 3 to 4 of steel, 10 of glass fibre.", between(1.0, 20.0))
+        .only_if("measure", {"damage"})
+        .flag("relative", &MetricOptions::relative, "The error is divided by the reference's own value.")
+        .number("divide_by", &MetricOptions::divide_by, "-", "Divides the error, in the column's unit: makes columns comparable.",
+                positive())
+        .number("target", &MetricOptions::target, "-", "Largest error that is good enough, after the division.", positive())
+        .at_most_one_of({"relative", "divide_by"})
+        .check([](const MetricOptions& o, const Report& report) {
+          if (o.until_s && *o.until_s <= o.from_s) report("until_s", "must be later than from_s");
+          if (o.relative && of_two_histories(o.measure))
+            report("relative", "has no effect: rms and max compare histories; use divide_by");
+        });
+  }();
   return section;
 }
 
@@ -95,14 +168,12 @@ void check_form(Document& doc, const std::string& key, const std::vector<std::st
   }
 }
 
-void check_axes(Document& doc, const std::vector<Named<AxisOptions>>& axes) {
-  for (const auto& [name, axis] : axes) {
-    if (!axis.key.empty() && !parse_key(axis.key)) doc.problem("axes." + name + ".key", "is no key of a scene");
-    if (axis.key.empty() && axis.points.empty() && doc.given("axes." + name + ".points"))
-      doc.problem("axes." + name + ".points", "must have at least one entry");
-    for (std::size_t i = 0; i < axis.points.size(); ++i)
-      check_form(doc, fmt::format("axes.{}.points[{}].set", name, i), axis.points[i].set);
-  }
+void check_points(Document& doc, const std::string& at, const AxisOptions& axis) {
+  if (!axis.key.empty() && !parse_key(axis.key)) doc.problem(at + ".key", "is no key of a scene");
+  if (axis.key.empty() && axis.points.empty() && doc.given(at + ".points"))
+    doc.problem(at + ".points", "must have at least one entry");
+  for (std::size_t i = 0; i < axis.points.size(); ++i)
+    check_form(doc, fmt::format("{}.points[{}].set", at, i), axis.points[i].set);
 }
 
 /// Fit for a directory: 'sea.table="a b.csv"' gives a_b.csv.
@@ -113,21 +184,19 @@ std::string short_name(std::string text) {
   return text;
 }
 
-/// The points of one axis, whichever way they were given.
-std::vector<StudyRun> points_of(const Named<AxisOptions>& axis) {
-  std::vector<StudyRun> points;
-  for (const std::string& value : axis.options.values)
-    points.push_back({axis.name + "_" + short_name(value), {axis.options.key + "=" + value}});
-  for (const PointOptions& point : axis.options.points) points.push_back({axis.name + "_" + short_name(point.name), point.set});
-  return points;
-}
-
 void append(std::vector<std::string>& to, const std::vector<std::string>& more) { to.insert(to.end(), more.begin(), more.end()); }
 
+/// Runs of the whole product: an upper bound of every design.
 std::size_t size_of_product(const Study& study) {
   double size = double(std::max<std::size_t>(1, study.variants.size()));
-  for (const auto& axis : study.axes) size *= double(axis.options.values.size() + axis.options.points.size());
+  for (const auto& axis : study.axes) size *= double(axis.options.size());
   return std::size_t(std::min(size, 1e18));
+}
+
+bool is_positive_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end == text.c_str() + text.size() && std::isfinite(value) && value > 0.0;
 }
 
 /// Two runs of one name would share a directory; a reference must be one of the runs.
@@ -140,7 +209,16 @@ void check_runs(Document& doc, const Study& study) {
     if (!names.insert(run.name).second) doc.problem("variants", fmt::format("two runs would be called '{}'", run.name));
     all.push_back(run.name);
   }
-  if (!study.reference || study.reference->variant.empty() || names.count(study.reference->variant)) return;
+  if (!study.reference) return;
+  if (const std::string& limit = study.reference->limit; !limit.empty()) {
+    const auto axis = std::find_if(study.axes.begin(), study.axes.end(), [&](const auto& a) { return a.name == limit; });
+    if (axis == study.axes.end()) return doc.problem("reference.limit", "is no axis of this study");
+    if (axis->options.values.size() < 3) doc.problem("reference.limit", "needs at least three values of that axis");
+    for (const std::string& value : axis->options.values)
+      if (!is_positive_number(value)) doc.problem("reference.limit", "needs values > 0 on that axis: " + value + " is none");
+    return;
+  }
+  if (study.reference->variant.empty() || names.count(study.reference->variant)) return;
   const std::string near = nearest(study.reference->variant, all);
   constexpr std::size_t few = 12;
   if (all.size() > few) all.resize(few), all.push_back("...");
@@ -151,7 +229,7 @@ void check_runs(Document& doc, const Study& study) {
 }  // namespace
 
 std::vector<const SectionBase*> study_sections() {
-  return {&study_section(), &variant_section(), &axis_section(), &reference_section(), &metric_section()};
+  return {&study_section(), &variant_section(), &axis_section(), &replicas_section(), &reference_section(), &metric_section()};
 }
 
 Study read_study(const std::string& path, const std::vector<std::string>& overrides) {
@@ -162,41 +240,75 @@ Study read_study(const std::string& path, const std::vector<std::string>& overri
   study.study = doc.read(study_section());
   study.variants = doc.read_named(variant_section());
   study.axes = doc.read_named(axis_section());
+  study.replicas = doc.read_if_given(replicas_section());
   study.reference = doc.read_if_given(reference_section());
   study.metrics = doc.read_named(metric_section());
   check_form(doc, "study.set", study.study.set);
-  for (const auto& [name, variant] : study.variants) check_form(doc, "variants." + name + ".set", variant.set);
-  check_axes(doc, study.axes);
+  for (const auto& [name, variant] : study.variants) {
+    check_form(doc, "variants." + name + ".set", variant.set);
+    if (variant.scene.empty() && study.study.scene.empty())
+      doc.problem("variants." + name, "needs a scene: its own, or that of [study]");
+  }
+  if (study.variants.empty() && study.study.scene.empty()) doc.problem("study.scene", "is required where there are no variants");
+  for (const auto& [name, axis] : study.axes) check_points(doc, "axes." + name, axis);
+  if (study.replicas) check_points(doc, "replicas", *study.replicas);
   if (!study.metrics.empty() && !study.reference) doc.problem("metrics", "need a [reference] to measure against");
   check_runs(doc, study);
   doc.finish();
   return study;
 }
 
+std::vector<StudyPoint> points_of(const std::string& axis, const AxisOptions& options) {
+  std::vector<StudyPoint> points;
+  for (const std::string& value : options.values) points.push_back({axis + "_" + short_name(value), {options.key + "=" + value}});
+  for (const PointOptions& point : options.points) points.push_back({axis + "_" + short_name(point.name), point.set});
+  return points;
+}
+
 std::vector<StudyRun> expand(const Study& study) {
-  std::vector<StudyRun> product = {{"", {}}};
+  const bool whole = study.study.design == Design::product;
+  std::vector<StudyRun> product = {{}};
   for (const auto& axis : study.axes) {
+    const std::vector<StudyPoint> points = points_of(axis.name, axis.options);
     std::vector<StudyRun> next;
     for (const StudyRun& so_far : product)
-      for (const StudyRun& point : points_of(axis)) {
+      for (std::size_t p = 0; p < points.size(); ++p) {
         StudyRun run = so_far;
-        run.name += "-" + point.name;
-        append(run.overrides, point.overrides);
+        if (whole || p > 0) run.name += "-" + points[p].name;
+        append(run.overrides, points[p].set);
+        run.at.push_back(int(p));
         next.push_back(std::move(run));
       }
     product = std::move(next);
   }
+  std::erase_if(product, [&](StudyRun& run) {
+    const auto off = std::count_if(run.at.begin(), run.at.end(), [](int p) { return p > 0; });
+    run.later = !whole && off == 2;
+    return !whole && off > (study.study.design == Design::pairs ? 2 : 1);
+  });
   std::vector<Named<VariantOptions>> variants = study.variants;
   if (variants.empty()) variants.push_back({"base", {}});
+  const int replicas = study.replicas ? int(study.replicas->size()) : 1;
   std::vector<StudyRun> runs;
   for (const auto& [name, variant] : variants)
-    for (const StudyRun& at : variant.alone ? std::vector<StudyRun>{{"", {}}} : product) {
-      StudyRun run{name + at.name, study.study.set};
+    for (const StudyRun& at : variant.alone ? std::vector<StudyRun>{{}} : product) {
+      StudyRun run = at;
+      run.name = name + at.name, run.variant = name, run.overrides = study.study.set;
+      run.scene = variant.scene.empty() ? study.study.scene : variant.scene;
+      run.replicas = std::min(replicas, variant.replicas.value_or(replicas));
       append(run.overrides, variant.set);
       append(run.overrides, at.overrides);
       runs.push_back(std::move(run));
     }
   return runs;
+}
+
+std::string_view name(Design design) {
+  return std::find_if(designs.begin(), designs.end(), [&](const DesignWord& d) { return d.design == design; })->word;
+}
+
+std::string_view name(Measure measure) {
+  return std::find_if(measures.begin(), measures.end(), [&](const MeasureWord& m) { return m.measure == measure; })->word;
 }
 
 }  // namespace spindrift::scene

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/app/forecast.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+
+#include "src/coupling/recorder.hpp"
+
+namespace spindrift::app {
+
+namespace {
+
+using coupling::Machine;
+
+/// Least processor time of one call, over blocks of calls that take about a tenth of a second together.
+template <class Call>
+double least_seconds(Call&& call) {
+  constexpr int block = 10, most_blocks = 40;
+  double least = std::numeric_limits<double>::infinity();
+  const double begin = processor_seconds();
+  for (int n = 0; n < most_blocks && processor_seconds() - begin < 0.1; ++n) {
+    const double before = processor_seconds();
+    int calls = 0;
+    while (calls < block && call()) ++calls;
+    if (calls == 0) return 0.0;
+    least = std::min(least, (processor_seconds() - before) / calls);
+    if (calls < block) break;
+  }
+  return least;
+}
+
+std::vector<std::string> names(const io::History& history) {
+  std::vector<std::string> result;
+  for (const io::Column& column : history.columns()) result.push_back(column.name);
+  return result;
+}
+
+/// Evaluations of the bodies in a window, over those of the monolithic scheme.
+double evaluations(const coupling::Scenario& s) {
+  if (!s.has_rotor() || s.coupling.scheme == coupling::SchemeKind::monolithic || !is_strong(s.coupling.scheme)) return 1.0;
+  constexpr double usual = 4.0;  // iterations of a window by the quasi-Newton schemes
+  return usual;
+}
+
+}  // namespace
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * double(usage.ru_maxrss);
+}
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+StepCost measured_steps(Machine& machine, const coupling::Start& start) {
+  const coupling::Timeline& t = machine.timeline();
+  StepCost cost;
+  cost.steps = double(t.windows()) * double(t.steps_per_window()) * evaluations(machine.scenario());
+  cost.rows = std::ceil(double(t.windows()) / machine.scenario().output.history_every) + 1.0;
+  machine.use_full_loads(true);
+  bodies::BodiesState state = start.state;
+  cost.step_s = least_seconds([&] { return machine.system().advance(state, t.tick_s(), 1).ok(); });
+  io::History history;
+  coupling::Recorder recorder(machine, history);
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / fmt::format("spindrift_rows_{}.csv", ::getpid());
+  history.open(file);
+  state = start.state;
+  cost.row_s = least_seconds([&] {
+    recorder.write(state, 0.0);
+    return true;
+  });
+  std::filesystem::remove(file);
+  machine.use_full_loads(false);
+  return cost;
+}
+
+double particle_steps(const Machine& machine, const sea::ParticleCensus& census) {
+  const coupling::TimeOptions& time = machine.scenario().time;
+  const double step = std::min({time.step_s.value_or(census.step_s), machine.body_step_limit(), census.step_s, time.window_s});
+  return std::ceil(time.window_s / step * (1.0 - 1e-9));
+}
+
+PartCost cost_of_particles(const Machine& machine, const sea::ParticleCensus& census, double steps_per_window) {
+  const coupling::Scenario& s = machine.scenario();
+  const sph::Parameters& p = machine.particle_plan()->parameters;
+  const double evaluations = steps_per_window / s.time.window_s * (p.step == sph::StepChoice::verlet ? 1.0 : 2.0);
+  const int notes = machine.rotor() && is_strong(s.coupling.scheme) ? 2 : 1;
+  return {.name = "sea",
+          .count = double(census.particles()),
+          .things = "particles",
+          .bytes = census.bytes + notes * sea::bytes_of_note * double(census.particles()),
+          .checkpoint_bytes = sea::bytes_of_note * double(census.particles()),
+          .work_per_second = evaluations,
+          .work = "evaluations of all",
+          .core_seconds_per_work = double(census.particles()) / census.evaluations_per_second,
+          .rate = fmt::format("{:.3g} M particles per core-s, measured now on a small sea", 1e-6 * census.evaluations_per_second),
+          .work_before = s.sea.settle_s() * evaluations};
+}
+
+PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, double per_second, double before,
+                     int notes, bool calibrate) {
+  PartCost cost{.name = "air",
+                .count = double(size.cells),
+                .things = "cells",
+                .bytes = size.bytes + (notes - 1) * size.bytes_of_checkpoint,
+                .checkpoint_bytes = size.bytes_of_checkpoint,
+                .work_per_second = per_second,
+                .work = "pseudo-steps at most",
+                .core_seconds_per_work = size.core_seconds_per_pseudo_step,
+                .rate = {},
+                .work_before = before};
+  std::string source = "stated; --calibrate measures it";
+  if (calibrate) {
+    const aero::AirRate rate = aero::measured_air_rate(setup);
+    cost.core_seconds_per_work = rate.core_seconds * double(size.cells);
+    source = fmt::format("measured now: {} pseudo-steps of {} cells", rate.pseudo_steps, rate.cells);
+  }
+  cost.rate = fmt::format("{:.3g} us per cell, {}", 1e6 * cost.core_seconds_per_work / double(size.cells), source);
+  return cost;
+}
+
+Forecast forecast(Machine& machine, const coupling::Start& start) {
+  const coupling::Scenario& s = machine.scenario();
+  Forecast f;
+  io::History history;
+  const coupling::Recorder recorder(machine, history);
+  if (!s.resolves_air() && (!s.has_rotor() || s.coupling.scheme == coupling::SchemeKind::monolithic)) f.columns = names(history);
+  const auto add = [&](const PartCost& part) {
+    f.core_seconds += part.core_seconds_per_work * (part.work_before + part.work_per_second * s.time.end_s);
+    f.bytes += part.bytes + part.checkpoint_bytes;
+  };
+  if (s.resolves_air()) {
+    aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
+    setup.rotor.speed = machine.rotor()->state(0.0, start.state.motions).speed;
+    const bool strong = is_strong(s.coupling.scheme);
+    add(cost_of_air(setup, aero::resolved_rotor_size(setup),
+                    (strong ? s.coupling.samples : 1.0) * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps,
+                    strong ? 2 : 1, false));
+  }
+  if (machine.particle_plan()) {
+    const sea::ParticleCensus census = particle_census(*machine.particle_plan(), start.state.motions);
+    add(cost_of_particles(machine, census, particle_steps(machine, census)));
+  } else {
+    f.core_seconds += measured_steps(machine, start).core_seconds();
+  }
+  f.bytes += peak_memory();
+  return f;
+}
+
+Forecast forecast_of_air(const coupling::Scenario& s) {
+  const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
+  const PartCost cost = cost_of_air(setup, aero::resolved_rotor_size(setup),
+                                    (setup.dt == 0.0 ? 1.0 : setup.flow.max_pseudo_steps) / s.time.window_s, 0.0, 1, false);
+  return {.core_seconds = cost.core_seconds_per_work * cost.work_per_second * s.time.end_s,
+          .bytes = cost.bytes + cost.checkpoint_bytes + peak_memory(),
+          .columns = {}};
+}
+
+}  // namespace spindrift::app

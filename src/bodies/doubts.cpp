@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/bodies/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace spindrift::bodies {
+
+namespace {
+
+Eigen::AlignedBox3d box_of(const BodyOptions& body) {
+  Eigen::AlignedBox3d box;
+  for (const CylinderOptions& c : body.cylinders)
+    for (const Eigen::Vector3d& end : {c.start_m, c.end_m}) {
+      const double radius = 0.5 * std::max(c.diameter_m, c.end_diameter_m.value_or(c.diameter_m));
+      box.extend(end + Eigen::Vector3d::Constant(radius)), box.extend(end - Eigen::Vector3d::Constant(radius));
+    }
+  for (const BoxOptions& b : body.boxes) box.extend(b.centre_m + 0.5 * b.size_m), box.extend(b.centre_m - 0.5 * b.size_m);
+  for (const SphereOptions& s : body.spheres)
+    box.extend(s.centre_m + Eigen::Vector3d::Constant(0.5 * s.diameter_m)),
+        box.extend(s.centre_m - Eigen::Vector3d::Constant(0.5 * s.diameter_m));
+  return box;
+}
+
+/// Mass spread over a shape gives radii of gyration of its own size; a tower on top adds to them.
+void doubt_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body, double size) {
+  const Eigen::Vector3d radii = (body.inertia_kg_m2.diagonal() / body.mass_kg).cwiseMax(0.0).cwiseSqrt();
+  const double least = radii.minCoeff(), most = radii.maxCoeff();
+  const std::string what = fmt::format("radii of gyration of {:.3g} to {:.3g} m", least, most);
+  const std::string advice = "look at the units of mass and inertia: kg and kg m2, not t";
+  if (size > 0.0 && (most > 4.0 * size || most < 0.05 * size))
+    doubts.push_back({at + ".inertia_kg_m2", fmt::format("{} in a body of {:.3g} m", what, size),
+                      "0.05 to 4 times its half diagonal", advice});
+  else if (size == 0.0 && most > 300.0)
+    doubts.push_back({at + ".inertia_kg_m2", what, "up to 300 m", advice});
+}
+
+}  // namespace
+
+double extent(const BodyOptions& body) {
+  const Eigen::AlignedBox3d box = box_of(body);
+  return box.isEmpty() ? 0.0 : 0.5 * box.diagonal().norm();
+}
+
+scene::Doubts body_doubts(const NamedBodies& bodies) {
+  scene::Doubts doubts;
+  for (const auto& [name, body] : bodies) {
+    const std::string at = "bodies." + name;
+    const double size = extent(body);
+    doubt_inertia(doubts, at, body, size);
+    if (const Eigen::AlignedBox3d box = box_of(body); !box.isEmpty())
+      if (const double off = std::sqrt(box.squaredExteriorDistance(body.centre_m)); off > 2.0 * size)
+        doubts.push_back({at + ".centre_m", fmt::format("{:.4g} m away from its shapes", off),
+                          fmt::format("within {:.3g} m of them", 2.0 * size),
+                          "look at the place of the centre of mass and of the shapes: both in earth coordinates"});
+    if (const double turned = body.rotation.cwiseAbs().maxCoeff() / radians_per_degree; turned > 60.0)
+      doubts.push_back({at, fmt::format("starts turned by {:.4g} degrees", turned), "up to 60 degrees",
+                        "look at roll_deg, pitch_deg and yaw_deg"});
+    if (const double speed = body.velocity_m_s.norm(); speed > 30.0)
+      doubts.push_back({at + ".velocity_m_s", fmt::format("{:.4g} m/s", speed), "up to 30 m/s", "look at its unit"});
+    if (const double turn = body.omega_rad_s.norm(); size > 5.0 && turn * size > 60.0)
+      doubts.push_back({at, fmt::format("starts turning at {:.4g} rad/s, its ends at {:.4g} m/s", turn, turn * size),
+                        "ends up to 60 m/s", "look at the unit of its rates"});
+  }
+  return doubts;
+}
+
+}  // namespace spindrift::bodies

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/aero/doubts.hpp"
+#include "src/aero/turbine.hpp"
+#include "src/bodies/doubts.hpp"
+#include "src/coupling/recorder.hpp"
+#include "src/moorings/doubts.hpp"
+#include "src/sea/doubts.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+void append(scene::Doubts& to, const scene::Doubts& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+double weight(const Machine& machine) {
+  double mass = 0.0;
+  for (const auto& body : machine.scenario().bodies) mass += body.options.mass_kg;
+  return mass * std::abs(machine.scenario().environment.gravity_m_s2);
+}
+
+/// Deepest point of the body's shapes below still water where it starts, its highest and, of shapes, whether it has any.
+struct Reach {
+  double low = 0.0, high = 0.0;
+  bool any = false;
+};
+
+Reach reach(const bodies::BodyOptions& body, const Motion& now) {
+  Reach result;
+  const auto take = [&](const Eigen::Vector3d& point, double radius) {
+    const double z = (now.position + now.attitude * point).z();
+    result.low = result.any ? std::min(result.low, z - radius) : z - radius;
+    result.high = result.any ? std::max(result.high, z + radius) : z + radius;
+    result.any = true;
+  };
+  for (const bodies::CylinderOptions& c : body.cylinders) {
+    const Cylinder shape = make_cylinder(c, body);
+    const Eigen::Vector3d axis = now.attitude * shape.axis();
+    const double lean = std::sqrt(std::max(0.0, 1.0 - axis.z() * axis.z()));  // ends are discs
+    take(shape.start, shape.start_radius * lean), take(shape.end, shape.end_radius * lean);
+  }
+  for (const bodies::BoxOptions& b : body.boxes) {
+    const Box shape = make_box(b, body);
+    for (int corner = 0; corner < 8; ++corner)
+      take(shape.centre +
+               0.5 * Eigen::Vector3d(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1).cwiseProduct(shape.size),
+           0.0);
+  }
+  for (const bodies::SphereOptions& s : body.spheres) {
+    const Sphere shape = make_sphere(s, body);
+    take(shape.centre, shape.radius);
+  }
+  return result;
+}
+
+double volume(const bodies::BodyOptions& body) {
+  double sum = 0.0;
+  for (const bodies::CylinderOptions& c : body.cylinders) sum += make_cylinder(c, body).volume();
+  for (const bodies::BoxOptions& b : body.boxes) sum += make_box(b, body).volume();
+  for (const bodies::SphereOptions& s : body.spheres) sum += make_sphere(s, body).volume();
+  return sum;
+}
+
+/// Draft of the deepest body that the water carries; doubts about bodies below the bed and about weights that the water cannot
+/// carry at all, or that hardly press it aside.
+double doubt_floating(scene::Doubts& doubts, const Machine& machine, const Start& start) {
+  const Scenario& s = machine.scenario();
+  double draft = 0.0, displaced = 0.0;
+  bool any = false;
+  std::string first;
+  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+    const auto& [name, body] = s.bodies[b];
+    const Reach r = reach(body, start.state.motions[b]);
+    if (!r.any) continue;
+    if (r.low < -s.environment.water_depth_m - 1e-6)
+      doubts.push_back({"bodies." + name, fmt::format("reaches down to z = {:.4g} m", r.low),
+                        fmt::format("above the bed at {:.4g} m", -s.environment.water_depth_m),
+                        "look at its shapes, displacement_m and environment.water_depth_m"});
+    if (r.low < 0.0) draft = std::max(draft, -r.low);
+    any = any || r.low < 0.0;
+    displaced += volume(body);
+    if (first.empty()) first = name;
+  }
+  if (!any) return draft;  // dropped from above: it carries nothing yet
+  // Joints to the earth, lines and point loads may carry what the water does not.
+  const bool held = std::any_of(s.joints.begin(), s.joints.end(), [](const auto& joint) {
+    return std::find(joint.options.bodies.begin(), joint.options.bodies.end(), "earth") != joint.options.bodies.end();
+  });
+  const double all = s.environment.water_density_kg_m3 * displaced, mass = weight(machine) / std::abs(s.environment.gravity_m_s2);
+  const bool falls = draft < 0.02 * std::cbrt(displaced);
+  if (held || falls) return draft;
+  const std::string key = "bodies." + first + ".mass_kg",
+                    advice = "look at the mass in kg, and at the shapes' sizes in m (diameters, not radii)";
+  if (mass > 1.05 * all)
+    doubts.push_back({key, fmt::format("{:.4g} kg in all, whose shapes displace {:.4g} kg of water when wholly under", mass, all),
+                      "less: else it sinks", advice});
+  else if (mass < 0.03 * all)
+    doubts.push_back({key, fmt::format("{:.4g} kg in all, whose shapes displace {:.4g} kg of water when wholly under", mass, all),
+                      "more than 3 % of that: else it lies on the water like foam", advice});
+  return draft;
+}
+
+/// Loads that nothing in the scene balances throw a body off at once.
+void doubt_acceleration(scene::Doubts& doubts, Machine& machine, const Start& start) {
+  if (machine.particle_plan()) return;  // its water is not there yet
+  const bodies::Evaluation& now = machine.system().evaluate(start.state, 0.0);
+  if (!now.report.ok()) return;
+  const double gravity = std::abs(machine.scenario().environment.gravity_m_s2), bound = 1.2 * std::max(gravity, 1.0);
+  const auto all = machine.system().bodies();
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const double a = now.acceleration[b].norm();
+    if (a <= bound) continue;
+    std::size_t worst = 0;
+    for (std::size_t s = 0; s < now.by_source.size(); ++s)
+      if (now.by_source[s][b].force.norm() > now.by_source[worst][b].force.norm()) worst = s;
+    doubts.push_back({"bodies." + all[b].name,
+                      fmt::format("starts with an acceleration of {:.4g} m/s2, mostly by {} ({:.3g} N)", a,
+                                  machine.system().loads()[worst].name, now.by_source[worst][b].force.norm()),
+                      fmt::format("up to {:.3g} m/s2, a free fall", bound),
+                      "look at the units of mass, sizes and stiffness, or start in equilibrium"});
+  }
+}
+
+/// Modes that grow: what the statics call unstable (metacentric height), and damping of the wrong sign.
+void doubt_modes(scene::Doubts& doubts, const Machine& machine, const Stability& stability) {
+  if (machine.particle_plan()) return;  // hydrostatics without damping stand for its water
+  double fastest = 0.0;
+  for (const bodies::Mode& mode : stability.linearisation.modes) fastest = std::max(fastest, std::abs(mode.eigenvalue));
+  for (const bodies::Mode& mode : stability.linearisation.modes) {
+    const double rate = mode.eigenvalue.real(), size = std::abs(mode.eigenvalue);
+    if (rate <= 1e-3 * size || rate <= 1e-4 || size < 1e-6 * fastest) continue;
+    const double doubling = std::log(2.0) / rate;
+    if (mode.eigenvalue.imag() > 1e-9 * fastest)
+      doubts.push_back({"bodies",
+                        fmt::format("{} grows by itself: damping {:.3g} % of critical, doubling in {:.3g} s", mode.name,
+                                    100.0 * mode.damping_ratio(), doubling),
+                        "damping above zero", "look at the signs of damping, or at a rotor whose thrust rises with the wind"});
+    else
+      doubts.push_back({"bodies", fmt::format("{} leaves the start by itself, doubling in {:.3g} s", mode.name, doubling),
+                        "a start that is stable: metacentric height above zero",
+                        "look at the height of the centre of mass, at the shapes and at the lines"});
+  }
+}
+
+/// Where the machine would come to rest, against where it starts.
+void doubt_statics(scene::Doubts& doubts, Machine& machine, const Start& start) {
+  if (machine.particle_plan() || machine.has_waves() || start.equilibrium) return;
+  const bodies::Equilibrium found = find_equilibrium(machine.system(), start.state, 0.0);
+  if (!found.problem.empty()) return;
+  const auto all = machine.system().bodies();
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const bodies::BodyOptions& body = machine.scenario().bodies[b].options;
+    if (bodies::extent(body) == 0.0) continue;
+    const ReferenceMotion m = reference_motion(found.state.motions[b], all[b].initial, machine.reference_point(b),
+                                               Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    const double turned = m.angles.head<2>().cwiseAbs().maxCoeff() / radians_per_degree, heave = m.displacement.z();
+    if (turned > 30.0 || std::abs(heave) > bodies::extent(body))
+      doubts.push_back({"bodies." + all[b].name,
+                        fmt::format("rests {:+.3g} m higher and heeled by {:.3g} degrees", heave, turned),
+                        "less than its size, and 30 degrees", "look at the loads, the weight and its place"});
+  }
+}
+
+void doubt_times(scene::Doubts& doubts, const Machine& machine) {
+  const Scenario& s = machine.scenario();
+  const bool wavy = s.has_waves() && s.waves.period_s > 0.0;
+  if (wavy && s.time.window_s > s.waves.period_s / 8.0 && s.has_rotor() && s.coupling.scheme != SchemeKind::monolithic)
+    doubts.push_back({"time.window_s", fmt::format("{:.4g} s under waves of {:.4g} s", s.time.window_s, s.waves.period_s),
+                      "up to an eighth of the period", "rotor and platform exchange loads once a window"});
+  if (wavy && s.time.step() > s.waves.period_s / 8.0)
+    doubts.push_back({"time.step_s", fmt::format("{:.4g} s under waves of {:.4g} s", s.time.step(), s.waves.period_s),
+                      "up to an eighth of the period", "the steps do not see the wave"});
+  if (wavy && s.time.window_s * s.output.history_every > s.waves.period_s / 4.0)
+    doubts.push_back(
+        {"output.history_every",
+         fmt::format("a row every {:.4g} s under waves of {:.4g} s", s.time.window_s * s.output.history_every, s.waves.period_s),
+         "four rows to a period at least", "peaks fall between the rows"});
+  if (wavy && s.time.end_s < s.waves.period_s)
+    doubts.push_back({"time.end_s", fmt::format("{:.4g} s under waves of {:.4g} s", s.time.end_s, s.waves.period_s),
+                      "one period at least", "the run ends before the first wave has passed"});
+}
+
+void doubt_rotor(scene::Doubts& doubts, const Machine& machine, const Start& start) {
+  const Scenario& s = machine.scenario();
+  const aero::RotorState now = machine.rotor()->state(0.0, start.state.motions);
+  aero::RotorAtStart rotor{.hub = now.hub, .axis = now.axis, .speed = now.speed, .over_water = s.has_sea()};
+  if (s.rotor.diameter_m) rotor.radius = 0.5 * *s.rotor.diameter_m;
+  if (!s.rotor.turbine.empty()) rotor.radius = aero::read_turbine(s.rotor.turbine).planform.span.back();
+  if (!s.resolves_air()) {
+    const aero::RotorLoad load = machine.rotor()->load(0.0, now);
+    rotor.thrust = load.thrust;
+    if (s.aero.model == "bem" || load.torque != 0.0) rotor.power = load.power;
+    if (const double carried = weight(machine); carried > 0.0 && std::abs(load.thrust) > 0.5 * carried)
+      doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start", load.thrust),
+                        fmt::format("up to half the weight of all bodies, {:.3g} N", carried), "look at its unit: N, not kN"});
+  }
+  append(doubts, rotor_doubts(s.aero, s.rotor, s.wind, s.environment.air_density_kg_m3, rotor));
+}
+
+}  // namespace
+
+scene::Doubts doubts(Machine& machine, const Start& start, const Stability& stability) {
+  const Scenario& s = machine.scenario();
+  scene::Doubts all = body_doubts(s.bodies);
+  append(all, line_doubts(s.moorings, s.has_sea() ? s.environment.water_depth_m : -1.0, weight(machine)));
+  double draft = 0.0;
+  machine.use_full_loads(true);
+  if (s.has_sea() && !start.state.motions.empty()) draft = doubt_floating(all, machine, start);
+  if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), draft));
+  if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
+  if (machine.rotor()) doubt_rotor(all, machine, start);
+  if (!start.state.motions.empty()) {
+    doubt_acceleration(all, machine, start);
+    doubt_modes(all, machine, stability);
+    doubt_statics(all, machine, start);
+  }
+  machine.use_full_loads(false);
+  doubt_times(all, machine);
+  return all;
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,15 @@
+// Doubts about a scene as a whole: those of its modules, and those that only the machine can tell (weight against buoyancy,
+// accelerations at the start, modes that grow, statics far from the start, step and window against what moves). Printed by
+// `spindrift check` and logged as warnings by `spindrift run`; tested by tests/coupled/blunders_test.py.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "src/coupling/start.hpp"
+#include "src/scene/doubt.hpp"
+
+namespace spindrift::coupling {
+
+/// `start` and `stability`: as make_start and stability gave them. Changes nothing in the machine but its scratch.
+scene::Doubts doubts(Machine& machine, const Start& start, const Stability& stability);
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,131 @@
+"""Laws of src/report/study_judge.py on studies whose truth is known, without a run. SPDX-License-Identifier: Apache-2.0"""
+import math
+import pathlib
+import sys
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[3] / "src/report"))
+import spindrift_study  # noqa: E402
+import study_judge  # noqa: E402
+
+MEAN = {"name": "mean", "column": "pitch", "measure": "mean", "from_s": 0.0, "until_s": None, "frequency_Hz": None, "wohler_exponent": 4.0,
+        "relative": True, "divide_by": 1.0, "target": 0.02}
+
+
+class Synthetic:
+    """Rungs whose mean is off by a known part; each replica shifts all rungs alike, and each by a little of its own."""
+
+    def __init__(self, offs, costs, replicas=6, shared=0.2, own=0.002, seed=1, axes=(), at=None, reference="fine", design="product",
+                 metric=None, dear=None):
+        self.random = np.random.default_rng(seed)
+        t = np.linspace(0.0, 10.0, 101)
+        names = [f"replica_{n}" for n in range(replicas)]
+        shift = self.random.normal(0.0, shared, replicas)
+        self.histories, self.results, rungs = {}, {}, []
+        for name, off in offs.items():
+            count = dear.get(name, replicas) if dear else replicas
+            runs = [{"name": f"{name}/{r}", "set": [], "echo": "", "forecast_core_s": costs[name], "forecast_bytes": 1e8} for r in names[:count]]
+            for n, run in enumerate(runs):
+                value = 5.0 * (1.0 + off + self.random.normal(0.0, own)) + shift[n]
+                self.histories[run["name"]] = (t, lambda column, v=value: np.full_like(t, v))
+                self.results[run["name"]] = {"exit_code": 0, "core_s": [costs[name]], "memory": 1e8, "reason": "done"}
+            where = (at or {}).get(name, [])
+            later = design == "pairs" and sum(p > 0 for p in where) > 1
+            rungs.append({"name": name, "variant": "base" if where else name, "scene": "", "at": where, "later": later, "runs": runs})
+        self.plan = {"study": "s.toml", "commit": "", "axes": list(axes), "rungs": rungs, "metrics": [metric or MEAN],
+                     "replicas": {"points": names} if replicas > 1 else None,
+                     "reference": reference if isinstance(reference, dict) else {"variant": reference, "history": "", "limit": ""},
+                     "options": {"design": design, "crossed": 2, "confidence": 0.95, "repeats": 3, "budget_core_h": None}}
+
+    def judge(self):
+        return study_judge.Judge(self.plan, self.results, lambda name: self.histories[name])
+
+
+LADDER = {"curve": 0.2, "coarse": 0.013, "good": 0.004, "fine": 0.0}
+COSTS = {"curve": 1.0, "coarse": 3.0, "good": 10.0, "fine": 100.0}
+
+
+class Answer(unittest.TestCase):
+    def test_pairing_finds_the_cheapest_where_seeds_scatter_more_than_rungs_differ(self):
+        # Seeds scatter 4 %, rungs differ by 0.4 to 1.3 %; what replicas leave unpaired is 0.2 %.
+        answers = [Synthetic(LADDER, COSTS, seed=seed).judge().result()["answer"] for seed in range(20)]
+        self.assertGreaterEqual(answers.count("coarse"), 19, answers)
+
+    def test_the_sentence_names_target_cost_and_confidence(self):
+        result = Synthetic(LADDER, COSTS).judge().result()
+        self.assertRegex(result["sentence"], r"cheapest within 2 % of the mean of pitch: 'coarse'; costs 3 core-s and 100 MB a run; confidence 9\d")
+        self.assertEqual(result["scene"], "coarse/replica_0/scene.toml")
+        self.assertEqual(result["front"], ["curve", "coarse", "good"])
+
+    def test_costs_that_differ_by_noise_alone_do_not_decide(self):
+        for seed in range(20):
+            noise = np.random.default_rng(seed).normal(1.0, 0.01, 2)
+            costs = {"rough": 3.0 * noise[0], "good": 3.0 * noise[1], "fine": 100.0}
+            self.assertEqual(Synthetic({"rough": 0.01, "good": 0.002, "fine": 0.0}, costs, seed=seed).judge().result()["answer"], "good")
+
+    def test_a_target_out_of_reach_is_said_and_the_nearest_named(self):
+        result = Synthetic({"curve": 0.2, "other": 0.1, "fine": 0.0}, {"curve": 1, "other": 2, "fine": 9}).judge().result()
+        self.assertIsNone(result["answer"])
+        self.assertIn("nothing is known to be within 2 %", result["sentence"])
+        self.assertIn("'other'", result["sentence"])
+
+    def test_a_mean_inside_the_target_is_no_answer_while_chance_may_be_the_reason(self):
+        result = Synthetic({"noisy": 0.0, "fine": 0.0}, {"noisy": 1, "fine": 9}, replicas=3, own=0.03).judge().result()
+        self.assertIsNone(result["answer"])
+        self.assertIn("more of it and of the reference", result["next"])
+
+    def test_without_replicas_no_confidence_is_claimed(self):
+        result = Synthetic(LADDER, COSTS, replicas=1, own=0.0).judge().result()
+        self.assertEqual(result["answer"], "coarse")
+        self.assertIn("confidence not known", result["sentence"])
+
+    def test_a_reference_too_dear_for_replicas_borrows_the_scatter_of_the_next_rung(self):
+        result = Synthetic(LADDER, COSTS, dear={"fine": 1}).judge().result()
+        errors = next(r for r in result["rungs"] if r["name"] == "coarse")["errors"]["mean"]
+        self.assertEqual(errors["scatter_of"], "good")
+        self.assertGreater(errors["high"], errors["low"])
+        self.assertTrue(any("stands in" in text for text in result["not_tested"]))
+
+    def test_a_run_that_failed_is_kept_with_its_reason(self):
+        study = Synthetic(LADDER, COSTS)
+        study.results["curve/replica_2"].update(exit_code=3, reason="blew up at t = 3 s")
+        result = study.judge().result()
+        self.assertEqual(result["answer"], "coarse")
+        self.assertTrue(any("blew up" in text for text in result["not_tested"]))
+
+
+class Sources(unittest.TestCase):
+    def test_errors_against_richardsons_limit_are_those_of_the_exact_solution(self):
+        steps = {"base-h_0.1": 0.1, "base-h_0.2": 0.2, "base-h_0.4": 0.4, "base-h_0.8": 0.8}
+        study = Synthetic({n: 0.3 * h**2 for n, h in steps.items()}, {n: 1 / h for n, h in steps.items()}, replicas=1, own=0.0, shared=0.0,
+                          axes=[{"name": "h", "values": ["0.1", "0.2", "0.4", "0.8"]}], at={n: [i] for i, n in enumerate(steps)},
+                          reference={"variant": "", "history": "", "limit": "h"})
+        result = study.judge().result()
+        self.assertAlmostEqual(result["limits"][0]["order"], 2.0, delta=1e-3)
+        for rung, h in zip(result["rungs"], steps.values()):
+            self.assertAlmostEqual(rung["errors"]["mean"]["error"], 0.3 * h**2, delta=1e-9)
+        self.assertEqual(result["answer"], "base-h_0.2")
+
+    def test_the_axes_that_matter_most_are_crossed(self):
+        axes = [{"name": n, "values": ["a", "b"]} for n in ("small", "large", "middle")]
+        offs, at = {"base": 0.0}, {"base": [0, 0, 0]}
+        for i, (name, off) in enumerate((("small", 0.001), ("large", 0.2), ("middle", 0.05))):
+            offs[f"base-{name}_b"], at[f"base-{name}_b"] = off, [int(i == a) for a in range(3)]
+        study = Synthetic(offs, dict.fromkeys(offs, 1.0), axes=axes, at=at, reference="base", design="pairs")
+        self.assertEqual(study.judge().crossed(), [1, 2])
+
+
+class Budget(unittest.TestCase):
+    def test_the_dearest_runs_are_left_out_first_and_never_the_reference(self):
+        plan = Synthetic(LADDER, COSTS, replicas=1).plan
+        plan["options"]["budget_core_h"] = 105.0 / 3600.0
+        wanted = [(g, r) for g in plan["rungs"] for r in g["runs"]]
+        kept, left_out = spindrift_study.within_budget(plan, wanted, {})
+        self.assertEqual([g["name"] for g, _ in kept], ["curve", "coarse", "fine"])
+        self.assertEqual(left_out, ["good/replica_0 (10 s)"])
+
+
+if __name__ == "__main__":
+    unittest.main()
