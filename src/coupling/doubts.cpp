@@ -150,8 +150,10 @@ void doubt_modes(scene::Doubts& doubts, const Machine& machine, const Stability&
 
 /// Where the machine would come to rest, against where it starts.
 void doubt_statics(scene::Doubts& doubts, Machine& machine, const Start& start) {
-  if (machine.particle_plan() || machine.has_waves() || start.equilibrium) return;
+  if (machine.particle_plan() || start.equilibrium) return;
+  machine.use_mean_loads(true);
   const bodies::Equilibrium found = find_equilibrium(machine.system(), start.state, 0.0);
+  machine.use_mean_loads(false);
   if (!found.problem.empty()) return;
   const auto all = machine.system().bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {

@@ -33,13 +33,14 @@ void move_to_start(Machine& machine, bodies::BodiesState& state) {
   state = assembly.state;
 }
 
-/// Loads at full value while this lives.
+/// Loads at full value while this lives: those of the instant, or their mean.
 class FullLoads {
  public:
   explicit FullLoads(Machine& machine) : machine_(machine) { machine_.use_full_loads(true); }
-  ~FullLoads() { machine_.use_full_loads(false); }
+  ~FullLoads() { machine_.use_mean_loads(false); }
   FullLoads(const FullLoads&) = delete;
   FullLoads& operator=(const FullLoads&) = delete;
+  void mean() { machine_.use_mean_loads(true); }
 
  private:
   Machine& machine_;
@@ -55,7 +56,8 @@ Start make_start(Machine& machine) {
   move_to_start(machine, start.state);
   if (!machine.scenario().start.equilibrium) return start;
 
-  const FullLoads full(machine);
+  FullLoads loads(machine);
+  loads.mean();
   start.equilibrium = find_equilibrium(machine.system(), start.state, 0.0);
   const bodies::Equilibrium& found = *start.equilibrium;
   if (!found.problem.empty()) refuse(machine, "start.equilibrium", "true", found.problem);

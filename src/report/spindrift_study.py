@@ -91,7 +91,7 @@ class Runs:
     def _enter(self, run, entry, code, summary):
         """Writes down the end of a run."""
         spent = entry["spent"] + (summary["processor_seconds"] if summary else 0.0)
-        entry = dict(entry, spent=spent, exit_code=code, state="stopped" if code == STOPPED else "finished",
+        entry = dict(entry, spent=spent, exit_code=code, state="stopped" if code == STOPPED and self.stopping else "finished",
                      reason=summary["exit_reason"] if summary else entry.get("reason", f"ended with code {code} and no summary"))
         if entry["state"] == "finished":
             entry["core_s"] = [spent]
@@ -118,9 +118,18 @@ class Runs:
             return subprocess.Popen(words, cwd=self.plan["directory"], env=environment, stdout=said, stderr=said,
                                     preexec_fn=with_parent)
 
+    def _let_end(self, run, pid):
+        """The last attempt may still be writing its checkpoint, its study having been killed."""
+        try:
+            while str(self.folder / run["name"]) in pathlib.Path(f"/proc/{pid}/cmdline").read_text().split("\0"):
+                time.sleep(0.05)
+        except OSError:
+            return
+
     def begin(self, rung, run):
         out, mark = self.folder / run["name"], self.fingerprint(run)
         old = read_json(self.ledger(run)) or {}
+        self._let_end(run, old.get("pid", 0))
         same = old.get("fingerprint") == mark and old.get("state") in ("stopped", "under_way")
         resume = same and any((out / "checkpoints").glob("*.h5")) and (out / "history.csv").exists()
         spent = old.get("spent", 0.0) if resume else 0.0
@@ -129,7 +138,10 @@ class Runs:
         entry = {"fingerprint": mark, "state": "under_way", "spent": spent}
         (out / "summary.json").unlink(missing_ok=True)
         write_whole(self.ledger(run), json.dumps(entry))
-        self.children.append((self._start(rung, run, out, resume), rung, run, entry, resume))
+        process = self._start(rung, run, out, resume)
+        entry["pid"] = process.pid
+        write_whole(self.ledger(run), json.dumps(entry))
+        self.children.append((process, rung, run, entry, resume))
 
     def collect(self):
         """Ends what has ended."""

@@ -123,6 +123,7 @@ class Program(unittest.TestCase):
                 continue  # parts of scenes, studies, grids alone
             done = spindrift("check", scene)
             self.assertEqual(done.returncode, 0, f"{scene}: {done.stdout}{done.stderr}")
+            self.assertNotIn("warning: ", done.stdout, scene)
             if "sph" in done.stdout or "particles" in done.stdout or "blade_resolved" in done.stdout:
                 for words in ("predicted core-hours", "wall time", "memory of a rank each"):
                     self.assertIn(words, done.stdout, scene)

@@ -1,0 +1,158 @@
+"""`spindrift study` as a user calls it: the answer, what is found before anything runs, stop, kill and resume.
+Usage: study_test.py SPINDRIFT [TEST...]. SPDX-License-Identifier: Apache-2.0"""
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).parents[2]
+PROGRAM = sys.argv.pop(1)
+STUDY = f"""
+[study]
+scene = "{ROOT}/inputs/leble_barakos/case3_engineering.toml"
+set = ["time.end_s=20.0", "start.equilibrium=false", "waves.model=jonswap", "waves.components=40"]
+at_once = 1
+repeats = 1
+
+[axes.step]
+key = "time.step_s"
+values = [0.1, 0.05, 0.025]
+
+[replicas]
+key = "waves.seed"
+values = [1, 2, 3, 4]
+
+[reference]
+variant = "base-step_0.025"
+
+[metrics.pitch]
+column = "platform.pitch_deg"
+measure = "deviation"
+relative = true
+target = 0.05
+
+[metrics.tension]
+column = "line_upwind_left.tension_N"
+measure = "damage"
+relative = true
+"""
+
+
+class Study(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.scratch.name)
+        self.out = self.folder / "out"
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def words(self, text, *more):
+        file = self.folder / "study.toml"
+        file.write_text(text)
+        return [PROGRAM, "study", str(file), "--out", str(self.out), *more]
+
+    def study(self, text=STUDY, *more):
+        return subprocess.run(self.words(text, *more), capture_output=True, text=True, check=False, timeout=600)
+
+    def ledgers(self):
+        """By run: what it came to and when that was written."""
+        return {str(p.parent.relative_to(self.out)): (json.loads(p.read_text()), p.stat().st_mtime_ns) for p in self.out.rglob("study_run.json")}
+
+    def result(self):
+        return json.loads((self.out / "study.json").read_text())
+
+    def test_the_answer_names_rung_cost_and_confidence_and_a_second_call_runs_nothing(self):
+        done = self.study()
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"answer: cheapest within 5 % of the deviation of platform.pitch_deg: 'base-step_0.1'; costs .* confidence")
+        result, first = self.result(), self.ledgers()
+        self.assertEqual(len(first), 12)
+        self.assertTrue((self.out / result["scene"]).exists())
+        self.assertTrue((self.out / "study.html").exists())
+        for rung in result["rungs"]:
+            self.assertGreater(rung["cost"]["core_s"], 0.0)
+            self.assertGreater(rung["cost"]["memory"], 1e7)
+            self.assertEqual(rung["errors"]["tension"]["replicas"], 4)
+        again = self.study()
+        self.assertEqual(again.returncode, 0)
+        self.assertEqual(self.ledgers(), first)
+        self.assertEqual(self.result(), result)
+        changed = self.study(STUDY.replace("values = [0.1, 0.05, 0.025]", "values = [0.1, 0.05, 0.025, 0.0125]"))
+        self.assertEqual(changed.returncode, 0)
+        self.assertEqual({k: v for k, v in self.ledgers().items() if k in first}, first)
+
+    def test_a_dry_run_runs_nothing(self):
+        done = self.study(STUDY, "--dry-run")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("12 runs, 0 of them there already", done.stdout)
+        self.assertIn("core-hours", done.stdout)
+        self.assertEqual(self.ledgers(), {})
+
+    def test_what_is_wrong_is_found_before_anything_runs(self):
+        for old, new, said in (("platform.pitch_deg", "platform.pitch_degg", 'did you mean "platform.pitch_deg"'),
+                               ("waves.components=40", "waves.component=40", "waves.component"),
+                               ('variant = "base-step_0.025"', 'variant = "base-step_0.25"', "is no run of this study")):
+            done = self.study(STUDY.replace(old, new))
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertIn(said, done.stdout + done.stderr)
+            self.assertFalse(self.ledgers())
+
+    def test_a_target_out_of_reach_is_a_sentence_and_exit_code_6(self):
+        done = self.study(STUDY.replace("target = 0.05", "target = 1e-9"))
+        self.assertEqual(done.returncode, 6, done.stdout + done.stderr)
+        self.assertIn("answer: nothing is known to be within", done.stdout)
+
+    def test_a_run_that_fails_is_kept_with_its_reason(self):
+        """Here: stopped by its own limit on wall time."""
+        text = STUDY.replace("[replicas]", '[variants.base]\n[variants.stopped]\nalone = true\nset = ["runtime.wall_limit_s=1e-6"]\n\n[replicas]')
+        done = self.study(text)
+        self.assertIn(done.returncode, (0, 6), done.stdout + done.stderr)
+        self.assertIn("wall", " ".join(self.result()["not_tested"] + [done.stdout]))
+
+    def test_a_signal_stops_the_study_and_the_same_command_goes_on(self):
+        process = subprocess.Popen(self.words(STUDY), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        while len([1 for entry, _ in self.ledgers().values() if entry["state"] == "finished"]) < 3 and process.poll() is None:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGTERM)
+        said, _ = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 5, said)
+        self.assertIn("the same command goes on", said)
+        before = {k: v for k, v in self.ledgers().items() if v[0]["state"] == "finished"}
+        self.assertLess(len(before), 12)
+        self.assertEqual(self.study().returncode, 0)
+        self.assertEqual({k: v for k, v in self.ledgers().items() if k in before}, before)
+
+    def test_killed_at_ten_random_moments_no_run_is_done_twice_and_the_answer_is_the_same(self):
+        whole = self.study()
+        self.assertEqual(whole.returncode, 0, whole.stdout)
+        values = {r["name"]: {m: e["value"] for m, e in r["errors"].items()} for r in self.result()["rungs"]}
+        answer, self.out = self.result()["answer"], self.folder / "killed"
+        dice = random.Random(7)
+        kept = {}
+        for _ in range(10):
+            process = subprocess.Popen(self.words(STUDY), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            try:
+                process.wait(timeout=dice.uniform(0.2, 6.0))
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+            time.sleep(0.5)  # the run under way ends by itself once its study is gone
+            now = {k: v for k, v in self.ledgers().items() if v[0]["state"] == "finished"}
+            self.assertEqual({k: v for k, v in now.items() if k in kept}, kept)
+            kept = now
+        self.assertEqual(self.study().returncode, 0)
+        self.assertEqual({k: v for k, v in self.ledgers().items() if k in kept}, kept)
+        self.assertEqual(self.result()["answer"], answer)
+        self.assertEqual({r["name"]: {m: e["value"] for m, e in r["errors"].items()} for r in self.result()["rungs"]}, values)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    unittest.main(verbosity=2)
