@@ -10,6 +10,7 @@
 #include "src/app/commands.hpp"
 #include "src/app/cost.hpp"
 #include "src/app/forecast.hpp"
+#include "src/app/leave_out.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/doubts.hpp"
 #include "src/coupling/flow_scene.hpp"
@@ -203,6 +204,33 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
 
 }  // namespace
 
+namespace {
+
+/// What could be left out, with its price in the columns asked for.
+void print_omissions(const coupling::Scenario& scenario, const std::vector<std::string>& columns) {
+  if (scenario.has_particles() || scenario.resolves_air() || scenario.bodies.empty()) {
+    fmt::print("\nWhat could be left out: not tried, a trial takes more than a moment; spindrift study does\n");
+    return;
+  }
+  const Trial trial = try_omissions(scenario, columns);
+  fmt::print("\nWhat could be left out (tried over {:g} s; change of mean and deviation over their last two thirds)\n",
+             trial.length_s);
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    fmt::print("  {:<28}{}: mean {:.4g}, deviation {:.4g}\n", c == 0 ? "the scene itself" : "", columns[c], trial.own[c].mean,
+               trial.own[c].deviation);
+  for (const Omission& o : trial.omissions) {
+    if (!o.refused.empty()) {
+      fmt::print("  {:<28}cannot be: {}\n", o.name, o.refused);
+      continue;
+    }
+    fmt::print("  {:<28}saves {:.0f} % ({})\n", o.name, 100.0 * o.saving, o.keys);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      fmt::print("  {:<28}{}: mean {:+.2g}, deviation {:+.2g}\n", "", columns[c], o.effects[c].mean, o.effects[c].deviation);
+  }
+}
+
+}  // namespace
+
 int check(const CheckArguments& arguments, const runtime::World& world) {
   scene::Document document = scene::load(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
@@ -217,6 +245,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
                  aero::describe_flow_grid(*scenario.aero.flow));
     return done;
   }
+  const coupling::Scenario asked = scenario;
   Machine machine(std::move(scenario));
   const coupling::Start start = make_start(machine);
   const coupling::Stability stability = coupling::stability(machine, start.state);
@@ -250,6 +279,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   else
     print_steps(machine, start);
   if (!parts.empty()) print_cost(parts, machine.scenario().time.end_s, world.size);
+  if (!arguments.columns.empty()) print_omissions(asked, arguments.columns);
   return done;
 }
 

@@ -53,6 +53,10 @@ void add_commands(CLI::App& cli, Command& chosen) {
     CLI::App* command = cli.add_subcommand(
         "check", "Validate a scene, say what will be modelled, at what cost and at which limits; runs nothing");
     add_scene(*command, *arguments);
+    command
+        ->add_option("--columns", arguments->columns,
+                     "Columns of history.csv: also try what could be left out, by its effect on them")
+        ->delimiter(',');
     command->add_flag("--calibrate", arguments->calibrate, "Measure what a resolved rotor costs on this machine (some seconds)");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return check(*arguments, world); }; });
   }

@@ -41,7 +41,8 @@ struct RunArguments : SceneArguments {
 };
 
 struct CheckArguments : SceneArguments {
-  bool calibrate = false;  ///< rates of the air measured by a short march instead of stated
+  std::vector<std::string> columns;  ///< of history.csv: what could be left out, by its effect on these
+  bool calibrate = false;            ///< rates of the air measured by a short march instead of stated
 };
 
 struct ReportArguments {

@@ -199,6 +199,7 @@ class Runs:
                 return
             entry["core_s"].append(summary["processor_seconds"])
             write_whole(self.ledger(run), json.dumps(entry))
+        shutil.rmtree(out, ignore_errors=True)
 
 
 def duration(seconds):

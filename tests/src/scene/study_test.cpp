@@ -1,13 +1,9 @@
-// Laws of src/scene/study.hpp and study_front.hpp.
+// Laws of src/scene/study.hpp.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/scene/study.hpp"
 
 #include <catch2/catch.hpp>
 
-#include <cmath>
-
-#include "kernels/base/constants.hpp"
-#include "src/scene/study_front.hpp"
 #include "tests/src/scene/example_sections.hpp"
 #include "tests/src/scene/temporary.hpp"
 
@@ -100,42 +96,55 @@ TEST_CASE("the declarations of a study are sound", "[scene][fast]") {
   for (const SectionBase* section : study_sections()) CHECK(section->faults() == std::vector<std::string>{});
 }
 
-TEST_CASE("an error of a sine against its shifted self is known", "[scene][fast]") {
-  // sin(t) + 0.1 against sin(t) on other times: rms, max, mean and last are all 0.1 up to the interpolation's h^2/8.
-  std::vector<double> t, x, t_ref, x_ref;
-  for (int i = 0; i <= 1000; ++i) t.push_back(2 * pi * i / 1000), x.push_back(std::sin(t.back()) + 0.1);
-  for (int i = 0; i <= 1700; ++i) t_ref.push_back(2 * pi * i / 1700), x_ref.push_back(std::sin(t_ref.back()));
-  for (const Measure measure : {Measure::rms, Measure::max, Measure::mean, Measure::last})
-    CHECK(metric_error({.column = "x", .measure = measure}, {t, x}, {t_ref, x_ref}).value() == Approx(0.1).epsilon(2e-5));
-  // The mean forgives what swings, the root mean square of it is 1/sqrt(2).
-  const std::vector<double> zero(t.size(), 0.1);
-  CHECK(metric_error({.column = "x", .measure = Measure::mean}, {t, x}, {t, zero}).value() == Approx(0.0).margin(1e-12));
-  CHECK(metric_error({.column = "x", .divide_by = 0.5}, {t, x}, {t, zero}).value() == Approx(2 / std::sqrt(2.0)));
-  CHECK(metric_error({.column = "x", .measure = Measure::max, .from_s = 0.0, .until_s = 0.5}, {t, x}, {t, zero}).value() ==
-        Approx(std::sin(0.5)).epsilon(0.01));
+TEST_CASE("designs take the pivot and what leaves it on one axis, or on two", "[scene][fast]") {
+  const Temporary dir;
+  dir.file("scene.toml", "");
+  dir.file("dear.toml", "");
+  const auto runs = [&](const std::string& design) {
+    return expand(read_study(dir.file("study.toml", R"(
+[study]
+scene = "scene.toml"
+design = ")" + design + R"("
+[variants.a]
+[variants.dear]
+scene = "dear.toml"
+alone = true
+replicas = 1
+[axes.x]
+key = "s.x"
+values = [1, 2]
+[axes.y]
+key = "s.y"
+values = [1, 2, 3]
+[replicas]
+key = "s.seed"
+values = [7, 8]
+)")));
+  };
+  const auto names = [](const std::vector<StudyRun>& all) {
+    std::vector<std::string> result;
+    for (const StudyRun& run : all) result.push_back(run.name + (run.later ? " later" : ""));
+    return result;
+  };
+  CHECK(names(runs("one_at_a_time")) == std::vector<std::string>{"a", "a-y_2", "a-y_3", "a-x_2", "dear"});
+  CHECK(names(runs("pairs")) ==
+        std::vector<std::string>{"a", "a-y_2", "a-y_3", "a-x_2", "a-x_2-y_2 later", "a-x_2-y_3 later", "dear"});
+  CHECK(names(runs("product")).size() == 7);
+  const std::vector<StudyRun> all = runs("one_at_a_time");
+  CHECK(all[3].overrides == std::vector<std::string>{"s.x=2", "s.y=1"});
+  CHECK(all[3].replicas == 2);
+  CHECK(all[4].replicas == 1);
+  CHECK(all[4].scene.ends_with("dear.toml"));
+  CHECK(all[4].overrides.empty());
 }
 
-TEST_CASE("uneven steps weigh by their length", "[scene][fast]") {
-  const std::vector<double> t = {0.0, 1.0, 1.0 + 1e-9, 1.5, 2.0}, x = {0.0, 0.0, 1.0, 1.0, 1.0}, zero(5, 0.0);
-  CHECK(metric_error({.column = "x", .measure = Measure::mean}, {t, x}, {t, zero}).value() == Approx(0.5));
-  CHECK(metric_error({.column = "x", .measure = Measure::rms}, {t, x}, {t, zero}).value() == Approx(std::sqrt(0.5)));
-}
-
-TEST_CASE("an error that cannot be said is not said", "[scene][fast]") {
-  const std::vector<double> t = {0.0, 1.0}, x = {0.0, 1.0}, later = {5.0, 6.0}, bad = {0.0, NAN};
-  CHECK_FALSE(metric_error({.column = "x"}, {t, x}, {later, x}));
-  CHECK_FALSE(metric_error({.column = "x"}, {t, bad}, {t, x}));
-  CHECK_FALSE(metric_error({.column = "x"}, {{}, {}}, {t, x}));
-}
-
-TEST_CASE("the front holds what nothing beats, cheapest first; the cheapest good enough is on it", "[scene][fast]") {
-  const std::vector<Judged> runs = {{0.10, 1.0}, {0.01, 10.0}, {0.05, 20.0}, {0.001, 100.0}, {0.2, 2.0}, {NAN, 0.1}};
-  CHECK(front(runs) == std::vector<std::size_t>{0, 1, 3});
-  CHECK(cheapest(runs, 0.05) == std::optional<std::size_t>(1));
-  CHECK(cheapest(runs, 0.5) == std::optional<std::size_t>(0));
-  CHECK_FALSE(cheapest(runs, 1e-4));
-  const std::vector<Named<MetricOptions>> metrics = {
-      {"a", {.column = "x", .target = 0.1}}, {"b", {.column = "y", .target = 2.0}}, {"c", {.column = "z"}}};
-  CHECK(shortfall(metrics, std::vector<std::optional<double>>{0.05, 3.0, std::nullopt}).value() == Approx(1.5));
-  CHECK_FALSE(shortfall(metrics, std::vector<std::optional<double>>{std::nullopt, 3.0, 1.0}));
+TEST_CASE("a limit needs an axis of three numbers, a measure what it looks at", "[scene][fast]") {
+  const Temporary dir;
+  const std::string limit = "[axes.h]\nkey = \"x.h\"\nvalues = [1, 2]\n[reference]\nlimit = ";
+  CHECK_THAT(complaint(dir, limit + "\"h\"\n"), Catch::Contains("needs at least three values"));
+  CHECK_THAT(complaint(dir, limit + "\"k\"\n"), Catch::Contains("is no axis of this study"));
+  const std::string metric = "[variants.a]\n[reference]\nvariant = \"a\"\n[metrics.m]\ncolumn = \"x\"\n";
+  CHECK_THAT(complaint(dir, metric + "measure = \"phase\"\n"), Catch::Contains("frequency_Hz"));
+  CHECK_THAT(complaint(dir, metric + "relative = true\n"), Catch::Contains("rms and max compare histories"));
+  CHECK(complaint(dir, metric + "measure = \"damage\"\nwohler_exponent = 10.0\nrelative = true\n") == "");
 }

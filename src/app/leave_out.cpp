@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/app/leave_out.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "src/app/forecast.hpp"
+#include "src/coupling/recorder.hpp"
+#include "src/coupling/start.hpp"
+#include "src/scene/columns.hpp"
+#include "src/scene/error.hpp"
+#include "src/scene/text_check.hpp"
+
+namespace spindrift::app {
+
+namespace {
+
+using coupling::Scenario;
+
+constexpr double most_core_seconds = 1.0;  // of one trial
+
+/// A smaller choice: changes the scenario and says how, or leaves it where it has nothing to offer.
+struct Choice {
+  const char* name;
+  std::function<std::optional<std::string>(Scenario&)> make;
+};
+
+const std::vector<Choice>& choices() {
+  static const std::vector<Choice> all{
+      {"step twice as long",
+       [](Scenario& s) -> std::optional<std::string> {
+         const double step = 2.0 * s.time.step();
+         s.time.step_s = step, s.time.window_s = std::max(s.time.window_s, step);
+         return fmt::format("time.step_s = {:g}", step);
+       }},
+      {"rows half as often",
+       [](Scenario& s) -> std::optional<std::string> {
+         s.output.history_every *= 2;
+         return fmt::format("output.history_every = {}", s.output.history_every);
+       }},
+      {"still water",
+       [](Scenario& s) -> std::optional<std::string> {
+         if (!s.has_waves()) return std::nullopt;
+         s.waves = {};
+         return "waves.model = \"none\"";
+       }},
+      {"strips twice as long",
+       [](Scenario& s) -> std::optional<std::string> {
+         if (s.sea.model != "morison") return std::nullopt;
+         s.sea.strip_length_m *= 2.0;
+         return fmt::format("sea.strip_length_m = {:g}", s.sea.strip_length_m);
+       }},
+      {"buoyancy without strips",
+       [](Scenario& s) -> std::optional<std::string> {
+         if (s.sea.model != "morison") return std::nullopt;
+         s.sea.model = "hydrostatic", s.waves = {}, s.sea.coefficients.clear();
+         return "sea.model = \"hydrostatic\"";
+       }},
+      {"first-order waves",
+       [](Scenario& s) -> std::optional<std::string> {
+         if (!s.has_waves() || s.waves.model != "stokes2") return std::nullopt;
+         s.waves.model = "airy";
+         return "waves.model = \"airy\"";
+       }},
+      {"half the wave components",
+       [](Scenario& s) -> std::optional<std::string> {
+         if (!s.has_waves() || (s.waves.model != "jonswap" && s.waves.model != "pierson_moskowitz") || s.waves.components < 20)
+           return std::nullopt;
+         s.waves.components /= 2;
+         return fmt::format("waves.components = {}", s.waves.components);
+       }},
+      {"thrust curve for blades",
+       [](Scenario& s) -> std::optional<std::string> {
+         if (s.aero.model != "bem" || s.rotor.operation.empty()) return std::nullopt;
+         s.aero.model = "thrust_curve", s.aero.curve = s.rotor.operation;
+         return fmt::format("aero.model = \"thrust_curve\", aero.curve = \"{}\"", s.rotor.operation);
+       }},
+      {"no gyroscopic moments",
+       [](Scenario& s) -> std::optional<std::string> {
+         bool any = false;
+         for (auto& body : s.bodies) any = any || body.options.gyroscopic, body.options.gyroscopic = false;
+         return any ? std::optional<std::string>("bodies.NAME.gyroscopic = false") : std::nullopt;
+       }},
+  };
+  return all;
+}
+
+struct Outcome {
+  std::vector<Effect> columns;
+  double core_seconds = 0.0;
+};
+
+/// Mean and deviation over the last two thirds, trapezoidal.
+Effect of_column(std::span<const double> t, std::span<const double> x) {
+  const double from = t.front() + (t.back() - t.front()) / 3.0;
+  double length = 0.0, first = 0.0, second = 0.0;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    if (t[i - 1] < from) continue;
+    const double h = t[i] - t[i - 1];
+    length += h, first += 0.5 * h * (x[i] + x[i - 1]), second += 0.5 * h * (x[i] * x[i] + x[i - 1] * x[i - 1]);
+  }
+  const double mean = first / length;
+  return {mean, std::sqrt(std::max(0.0, second / length - mean * mean))};
+}
+
+/// The scene for `length_s`, rows and all.
+Outcome run(Scenario scenario, double length_s, const std::vector<std::string>& columns) {
+  coupling::Machine machine(std::move(scenario));
+  const coupling::Start start = make_start(machine);
+  require_stable(machine, stability(machine, start.state));
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / fmt::format("spindrift_trial_{}.csv", ::getpid());
+  Outcome outcome;
+  {
+    io::History history;
+    coupling::Recorder recorder(machine, history);
+    std::vector<std::string> known;
+    for (const io::Column& column : history.columns()) known.push_back(column.name);
+    for (const std::string& column : columns)
+      if (std::find(known.begin(), known.end(), column) == known.end()) {
+        const std::string near = scene::nearest(column, known);
+        throw scene::SceneError({{"--columns", 0, "", column,
+                                  "is no column of this scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?")}});
+      }
+    history.open(file);
+    bodies::BodiesState state = start.state;
+    const coupling::Timeline& time = machine.timeline();
+    const double begin = processor_seconds();
+    recorder.write(state, 0.0);
+    for (std::int64_t window = 1; double(window) * time.window_s() <= length_s * (1.0 + 1e-12); ++window) {
+      for (std::int64_t n = 0; n < time.steps_per_window(); ++n)
+        if (const bodies::StepReport report = machine.system().advance(state, time.tick_s(), 1); !report.ok())
+          throw machine.system().failure(report, state, time.tick_s());
+      if (window % machine.scenario().output.history_every == 0) recorder.write(state, time.window_end_s(window));
+    }
+    outcome.core_seconds = processor_seconds() - begin;
+    history.flush();
+  }
+  const scene::Columns table = scene::read_columns(file.string());
+  for (const std::string& column : columns) outcome.columns.push_back(of_column(table["time_s"], table[column]));
+  std::filesystem::remove(file);
+  return outcome;
+}
+
+/// Least of two, as others on the machine only add.
+Outcome timed(const Scenario& scenario, double length_s, const std::vector<std::string>& columns) {
+  Outcome first = run(scenario, length_s, columns);
+  first.core_seconds = std::min(first.core_seconds, run(scenario, length_s, columns).core_seconds);
+  return first;
+}
+
+}  // namespace
+
+Trial try_omissions(const Scenario& scenario, const std::vector<std::string>& columns) {
+  Trial trial;
+  double pace = 0.0;  // core-seconds per simulated second
+  {
+    coupling::Machine machine{Scenario(scenario)};
+    const coupling::Start start = make_start(machine);
+    pace = measured_steps(machine, start).core_seconds() / scenario.time.end_s;
+  }
+  const double windows =
+      std::max(3.0, std::floor(std::min(scenario.time.end_s, most_core_seconds / pace) / scenario.time.window_s));
+  trial.length_s = std::min(scenario.time.end_s, windows * scenario.time.window_s);
+  const Outcome own = timed(scenario, trial.length_s, columns);
+  trial.own = own.columns;
+  for (const Choice& choice : choices()) {
+    Scenario smaller = scenario;
+    const std::optional<std::string> keys = choice.make(smaller);
+    if (!keys) continue;
+    Omission omission{.name = choice.name, .keys = *keys, .effects = {}, .saving = 0.0, .refused = {}};
+    try {
+      const Outcome outcome = timed(smaller, trial.length_s, columns);
+      omission.saving = 1.0 - outcome.core_seconds / own.core_seconds;
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        omission.effects.push_back(
+            {outcome.columns[c].mean - own.columns[c].mean, outcome.columns[c].deviation - own.columns[c].deviation});
+    } catch (const std::exception& e) { omission.refused = e.what(); }
+    trial.omissions.push_back(std::move(omission));
+  }
+  std::stable_sort(trial.omissions.begin(), trial.omissions.end(),
+                   [](const Omission& a, const Omission& b) { return a.saving > b.saving; });
+  return trial;
+}
+
+}  // namespace spindrift::app
