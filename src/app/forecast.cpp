@@ -10,6 +10,7 @@
 #include <ctime>
 #include <filesystem>
 
+#include "src/coupling/flow_scene.hpp"
 #include "src/coupling/recorder.hpp"
 
 namespace spindrift::app {

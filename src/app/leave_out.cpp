@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 
+#include "src/aero/turbine.hpp"
 #include "src/app/forecast.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/start.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 using coupling::Scenario;
 
-constexpr double most_core_seconds = 1.0;  // of one trial
+constexpr double most_core_seconds = 0.4;  // of one trial
 
 /// A smaller choice: changes the scenario and says how, or leaves it where it has nothing to offer.
 struct Choice {
@@ -79,6 +80,7 @@ const std::vector<Choice>& choices() {
        [](Scenario& s) -> std::optional<std::string> {
          if (s.aero.model != "bem" || s.rotor.operation.empty()) return std::nullopt;
          s.aero.model = "thrust_curve", s.aero.curve = s.rotor.operation;
+         s.rotor.diameter_m = 2.0 * aero::read_turbine(s.rotor.turbine).planform.span.back();
          return fmt::format("aero.model = \"thrust_curve\", aero.curve = \"{}\"", s.rotor.operation);
        }},
       {"no gyroscopic moments",

@@ -67,9 +67,12 @@ struct Checked {
   Forecast forecast;
 };
 
-Checked checked(const std::string& file, const std::vector<std::string>& overrides, const scene::Source& overrider) {
+/// `forecasts`: with its forecast, for which the machine is made; the replicas of a rung have that of the first.
+Checked checked(const std::string& file, const std::vector<std::string>& overrides, const scene::Source& overrider,
+                bool forecasts) {
   scene::Document document = scene::load(file, overrides, overrider);
   const coupling::Scenario scenario = coupling::read_scenario(document);
+  if (!forecasts) return {document.echo(), {}};
   if (scenario.has_flow()) return {document.echo(), has_resolved_rotor(scenario) ? forecast_of_air(scenario) : Forecast{}};
   const ReadyScene ready = read_scene(file, overrides, overrider);
   return {ready.echo, forecast(*ready.machine, ready.start)};
@@ -104,7 +107,7 @@ Json of_rung(const scene::Study& study, const scene::StudyRun& rung, std::vector
   for (int n = 0; n < rung.replicas; ++n) {
     std::vector<std::string> set = rung.overrides;
     set.insert(set.end(), replicas[std::size_t(n)].set.begin(), replicas[std::size_t(n)].set.end());
-    const Checked scene = checked(rung.scene, set, {study.file, study.directory});
+    const Checked scene = checked(rung.scene, set, {study.file, study.directory}, n == 0);
     if (!first) {
       first = scene.forecast;
       check_columns(study, rung.name, first->columns, problems);

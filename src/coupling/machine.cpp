@@ -171,7 +171,7 @@ void Machine::fill_sea(std::span<const Motion> start, const runtime::World& worl
 }
 
 void Machine::add_rotor_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
-  constexpr int places = 24;  // of blade 1 in a turn: exact up to its 23rd harmonic
+  constexpr int places = 8;  // of blade 1 in a turn: of three blades' harmonics none below the 24th is mistaken for the mean
   aero::RotorState now = rotor_->state(t, bodies);
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
   const double first = now.azimuth;

@@ -71,7 +71,8 @@ Start make_start(Machine& machine) {
 
 Stability stability(Machine& machine, const bodies::BodiesState& state) {
   if (state.motions.empty()) return {{}, {std::numeric_limits<double>::infinity(), "", {}}};
-  const FullLoads full(machine);
+  FullLoads loads(machine);
+  loads.mean();
   Stability result{linearise(machine.system(), state, 0.0), {}};
   result.limit = step_limit(machine.system().integrator(), result.linearisation);
   return result;
