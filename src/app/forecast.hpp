@@ -1,6 +1,6 @@
 // What a run of a scene will cost and which columns it will write, before it is run: core-seconds and memory by part from counts,
 // and from rates stated or measured in a moment. Called by `spindrift check` and `spindrift study`; tested in
-// tests/coupled/forecast_test.py. SPDX-License-Identifier: Apache-2.0
+// tests/coupled/program_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>

@@ -87,9 +87,10 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   }
   if (!sea.has_particles() || !sea.particles) return doubts;
   const double spacing = sea.particles->spacing_m;
-  if (wavy && waves.height_m > 0.0 && waves.height_m < 1.0 * spacing)
+  if (wavy && waves.height_m > 0.0 && waves.height_m < 0.5 * spacing)
     doubts.push_back({"sea.particles.spacing_m", fmt::format("{:.4g} m for waves {:.4g} m high", spacing, waves.height_m),
-                      "below the height: a wave within one particle is not there", "take a tenth of the height to see it well"});
+                      "below twice the height: a wave within half a particle is not there",
+                      "take a tenth of the height to see it well"});
   if (draft_m > 0.0 && draft_m < 2.0 * spacing)
     doubts.push_back({"sea.particles.spacing_m", fmt::format("{:.4g} m for a draft of {:.4g} m", spacing, draft_m),
                       "below half the draft", "a body two particles deep does not float rightly; take a tenth of the draft"});
