@@ -115,15 +115,14 @@ Machine::Machine(Scenario scenario)
   } else if (s.has_sea()) {
     const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
     sea_.emplace(s.sea, s.waves, sea_environment(s.environment), wetted);
-    if (s.has_waves()) still_sea_.emplace(s.sea, sea::WavesOptions{}, sea_environment(s.environment), wetted);
     std::vector<bool> on(names.size());
     for (std::size_t b = 0; b < names.size(); ++b) on[b] = !wetted[b].cylinders.empty();
     for (const sea::DampingOptions& damping : s.sea.damping) on[std::size_t(index_of(names, damping.body))] = true;
     bodies::LoadSource source{
-        "sea", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { sea_now().add_loads(t, m, w); }, {}};
+        "sea", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { sea_->add_loads(t, m, w); }, {}};
     if (sea_->has_added_mass())
       source.added_mass = [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
-        sea_now().add_added_mass(t, m, a);
+        sea_->add_added_mass(t, m, a);
       };
     add_source(sources, std::move(source), on);
   }
@@ -136,8 +135,6 @@ Machine::Machine(Scenario scenario)
                 [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
                   if (rotor_elsewhere_)
                     rotor_elsewhere_(t, m, w);
-                  else if (mean_loads_)
-                    add_rotor_loads(t, m, w);
                   else
                     rotor_->add_loads(t, m, w, ramp(t));
                 },
@@ -168,19 +165,6 @@ void Machine::add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadS
 
 void Machine::fill_sea(std::span<const Motion> start, const runtime::World& world) {
   if (particle_plan_) particles_ = sea::ParticleSea::make(*particle_plan_, start, world);
-}
-
-void Machine::add_rotor_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
-  constexpr int places = 8;  // of blade 1 in a turn: of three blades' harmonics none below the 24th is mistaken for the mean
-  aero::RotorState now = rotor_->state(t, bodies);
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
-  const double first = now.azimuth;
-  for (int place = 0; place < places; ++place) {
-    now.azimuth = first + 2.0 * pi * place / places;
-    const aero::RotorLoad load = rotor_->load(t, now);
-    force += load.force / places, moment += load.moment / places;
-  }
-  rotor_->add_at_hub(bodies, wrenches, force, moment);
 }
 
 double Machine::ramp(double t) const {

@@ -33,14 +33,13 @@ void move_to_start(Machine& machine, bodies::BodiesState& state) {
   state = assembly.state;
 }
 
-/// Loads at full value while this lives: those of the instant, or their mean.
+/// Loads at full value while this lives.
 class FullLoads {
  public:
   explicit FullLoads(Machine& machine) : machine_(machine) { machine_.use_full_loads(true); }
-  ~FullLoads() { machine_.use_mean_loads(false); }
+  ~FullLoads() { machine_.use_full_loads(false); }
   FullLoads(const FullLoads&) = delete;
   FullLoads& operator=(const FullLoads&) = delete;
-  void mean() { machine_.use_mean_loads(true); }
 
  private:
   Machine& machine_;
@@ -56,8 +55,7 @@ Start make_start(Machine& machine) {
   move_to_start(machine, start.state);
   if (!machine.scenario().start.equilibrium) return start;
 
-  FullLoads loads(machine);
-  loads.mean();
+  const FullLoads full(machine);
   start.equilibrium = find_equilibrium(machine.system(), start.state, 0.0);
   const bodies::Equilibrium& found = *start.equilibrium;
   if (!found.problem.empty()) refuse(machine, "start.equilibrium", "true", found.problem);
@@ -71,8 +69,7 @@ Start make_start(Machine& machine) {
 
 Stability stability(Machine& machine, const bodies::BodiesState& state) {
   if (state.motions.empty()) return {{}, {std::numeric_limits<double>::infinity(), "", {}}};
-  FullLoads loads(machine);
-  loads.mean();
+  const FullLoads full(machine);
   Stability result{linearise(machine.system(), state, 0.0), {}};
   result.limit = step_limit(machine.system().integrator(), result.linearisation);
   return result;
