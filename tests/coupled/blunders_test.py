@@ -35,6 +35,7 @@ class Blunders(unittest.TestCase):
             with self.subTest(blunder["what"]):
                 said = check(ROOT / "inputs" / SCENES[blunder["scene"]], blunder["set"])
                 self.assertIn(said.returncode, (0, 2), said.stderr)
+                self.assertNotIn("unknown key", said.stderr, "a slip of the table")
                 self.assertTrue(named(said, blunder["named"]), f"\n{said.stdout[:3000]}\n{said.stderr}")
 
 
