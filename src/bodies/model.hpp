@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -51,6 +52,9 @@ struct LoadSource {
   std::string name;
   std::function<void(double t, std::span<const Motion>, std::span<Wrench>)> loads;
   std::function<void(double t, std::span<const Motion>, std::span<Matrix6>)> added_mass;
+  /// Which of its parts bear load now, as bits: lines that are taut. When one sets in that bore none at the start of a step, the
+  /// limit of the step is found anew, with it. Empty where the stiffness never sets in at once.
+  std::function<std::uint64_t(std::span<const Motion>)> regime = {};
 };
 
 }  // namespace spindrift::bodies

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/bodies/linearise.hpp"
 #include "src/bodies/mechanism.hpp"
 
 namespace spindrift::bodies {
@@ -49,7 +50,7 @@ struct System::Work {
     force.setZero(mechanism.coordinates());
     inertial.setZero(mechanism.coordinates());
     mass_tangent.resize(mechanism.coordinates(), 0);
-    for (const LoadSource& source : loads) has_added_mass |= bool(source.added_mass);
+    for (const LoadSource& source : loads) has_added_mass |= bool(source.added_mass), has_regimes |= bool(source.regime);
     evaluation.acceleration.resize(bodies.size());
     evaluation.angular_acceleration.resize(bodies.size());
     evaluation.by_source.assign(loads.size(), std::vector<Wrench>(bodies.size()));
@@ -73,7 +74,18 @@ struct System::Work {
   Integrator integrator;
   Mechanism mechanism;
   std::vector<int> support;
-  bool has_added_mass = false;
+  bool has_added_mass = false, has_regimes = false;
+  bool watching = false;            // within a step of a system with regimes
+  std::uint64_t loaded_before = 0;  // regimes at the start of the step
+  std::vector<Motion> set_in;       // where a part first set in that bore no load then; empty: nowhere
+  std::string stiff_mode;           // of the last report of a step that is too long
+
+  std::uint64_t regimes(std::span<const Motion> at) const {
+    std::uint64_t bits = 0;
+    for (const LoadSource& source : loads)
+      if (source.regime) bits |= source.regime(at);
+    return bits;
+  }
 
   StepReport report;
   std::vector<Motion> motions;
@@ -180,6 +192,7 @@ bool System::Work::accelerations(double t, const Eigen::VectorXd& x, const Eigen
   if (!positions(t, x)) return false;
   mechanism.solve_velocities(u);
   mechanism.motions(motions);
+  if (watching && set_in.empty() && (regimes(motions) & ~loaded_before) != 0) set_in = motions;
   gather_loads(t);
   gather_mass(t);
   gather_forces(false);
@@ -314,12 +327,28 @@ StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks
     u_rate = w.acceleration;
     return true;
   };
+  w.watching = w.has_regimes;
+  if (w.watching) w.set_in.clear(), w.loaded_before = w.regimes(state.motions);
   const bool done = step(w.integrator, rates, t, h, w.u, w.integration) && w.close(t_end, w.integration.x, w.u);
+  w.watching = false;
   w.report.newton_iterations = w.mechanism.newton_iterations();
   if (!done) return w.report;
   w.mechanism.motions(w.opened.motions);
   w.mechanism.turn_joints(w.opened.joint_angles);
   w.opened.tick = state.tick + ticks;
+  if (w.has_regimes && (!w.set_in.empty() || (w.regimes(w.opened.motions) & ~w.loaded_before) != 0)) {
+    BodiesState after = w.opened, loaded = state;
+    loaded.motions = w.set_in.empty() ? after.motions : w.set_in;
+    const StepReport went = w.report;
+    const StepLimit limit = step_limit(w.integrator, linearise(*this, loaded, t));
+    w.report = went;
+    if (h > limit.step_s) {
+      w.stiff_mode = limit.mode;
+      w.report.trouble = StepReport::Trouble::stiff, w.report.value = limit.step_s;
+      return w.report;
+    }
+    w.opened = std::move(after);
+  }
   std::swap(state, w.opened);
   return w.report;
 }
@@ -397,6 +426,9 @@ std::string System::describe(const StepReport& r) const {
       return body + ": a load or motion is not a finite number; the step is probably beyond its stability limit";
     case Trouble::mass:
       return "mass plus added mass is not positive definite";
+    case Trouble::stiff:
+      return fmt::format("a line came taut, and with it time.step_s is above the limit of {:.4g} s of {}; set it below that",
+                         r.value, w_->stiff_mode);
   }
   return "";
 }

@@ -34,10 +34,11 @@ struct StepReport {
     inconsistent,  ///< a constraint found redundant at the start is no longer satisfied
     not_finite,    ///< a position, velocity or acceleration is not a finite number
     mass,          ///< mass plus added mass is not positive definite
+    stiff,         ///< a part that set in within the step makes it unstable: `value` is the new limit [s]
   };
   Trouble trouble = Trouble::none;
   int joint = -1, body = -1;   ///< where, -1 when neither
-  double value = 0.0;          ///< residual over the reference length, or pivot
+  double value = 0.0;          ///< residual over the reference length, pivot, or limit of the step
   int newton_iterations = 0;   ///< in the whole step
   bool repartitioned = false;  ///< a new independent set was chosen at the start of the step
   bool ok() const { return trouble == Trouble::none; }

@@ -72,10 +72,10 @@ Machine::Machine(Scenario scenario)
       for (const std::string& body : {line.body, line.anchor_body})
         if (const int b = index_of(names, body); b >= 0) on[std::size_t(b)] = true;
     }
-    add_source(
-        sources,
-        {"moorings", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { moorings_->add_loads(t, m, w); }, {}},
-        on);
+    bodies::LoadSource source{
+        "moorings", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { moorings_->add_loads(t, m, w); }, {}};
+    if (moorings_->can_snap()) source.regime = [this](std::span<const Motion> m) { return moorings_->taut(m); };
+    add_source(sources, std::move(source), on);
   }
   if (s.has_particles()) {
     const std::vector<sea::ParticleBody> shaped = particle_bodies(s.bodies);

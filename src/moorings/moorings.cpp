@@ -67,6 +67,29 @@ void Moorings::add_loads(double /*t*/, std::span<const Motion> bodies, std::span
   }
 }
 
+namespace {
+const LineSpringDamper* snapping(const std::variant<LineSpringDamper, LineCatenary, LineTable>& model) {
+  const auto* spring = std::get_if<LineSpringDamper>(&model);
+  return spring && spring->tension_only ? spring : nullptr;
+}
+}  // namespace
+
+bool Moorings::can_snap() const {
+  return std::any_of(lines_.begin(), lines_.end(), [](const Line& line) { return snapping(line.model) != nullptr; });
+}
+
+std::uint64_t Moorings::taut(std::span<const Motion> bodies) const {
+  std::uint64_t bits = 0;
+  int bit = 0;
+  const auto at = [&](const End& end) { return end.body < 0 ? end.point : bodies[std::size_t(end.body)].point(end.point); };
+  for (const Line& line : lines_)
+    if (const LineSpringDamper* spring = snapping(line.model)) {
+      if ((at(line.fairlead) - at(line.anchor)).norm() > spring->rest_length) bits |= std::uint64_t(1) << bit;
+      bit = std::min(bit + 1, 63);
+    }
+  return bits;
+}
+
 LineTension Moorings::tension(std::size_t line, std::span<const Motion> bodies) const {
   const LineForces f = forces(lines_[line], bodies);
   return {f.fairlead_tension, f.anchor_tension};

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <variant>
@@ -38,6 +39,10 @@ class Moorings {
   /// Adds the pull of every line to the wrenches of the bodies it is tied to, in the order of the scene. Quasi-static: t has no
   /// effect.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+  /// Whether a line can be slack and then pull at once: a tension-only spring.
+  bool can_snap() const;
+  /// Bit by bit of the lines that can snap, whether each pulls now; beyond the 63rd they share the last bit.
+  std::uint64_t taut(std::span<const Motion> bodies) const;
   LineTension tension(std::size_t line, std::span<const Motion> bodies) const;
 
  private:
