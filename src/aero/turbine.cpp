@@ -112,11 +112,11 @@ Planform read_planform(const std::string& path, double hub_radius) {
 
 const scene::Section<TurbineOptions>& turbine_section() {
   static const auto section =
-      scene::Section<TurbineOptions>("turbine", "A rotor as data.")
+      scene::Section<TurbineOptions>("turbine", "A rotor as data: blades from tables of sections.")
           .integer("blades", &TurbineOptions::blades, "-", "Number of equal blades.", scene::between(1, 12))
           .number("hub_radius_m", &TurbineOptions::hub_radius_m, "m", "Radius at which the blades begin.", scene::positive())
           .required()
-          .degrees("precone_deg", &TurbineOptions::precone, "Angle by which the blades lean upwind.", scene::between(-45.0, 45.0))
+          .degrees("precone_deg", &TurbineOptions::precone, "Angle by which the blades lean out of the plane of the rotor: positive upwind, away from the tower.", scene::between(-45.0, 45.0))
           .path(
               "planform", &TurbineOptions::planform,
               "CSV file from root to tip: span_m (from the rotor axis along the blade), chord_m, twist_deg (nose into the wind), "

@@ -11,6 +11,7 @@
 
 #include "src/app/commands.hpp"
 #include "src/app/cost.hpp"
+#include "src/app/scene_file.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/machine.hpp"
@@ -232,7 +233,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
 }  // namespace
 
 int check(const CheckArguments& arguments, const runtime::World& world) {
-  scene::Document document = scene::load(arguments.scene, arguments.overrides);
+  scene::Document document = load_scene(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
     if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size);

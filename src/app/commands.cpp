@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/app/commands.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <filesystem>
 #include <memory>
 
 namespace spindrift::app {
@@ -13,6 +16,55 @@ void add_scene(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--set", arguments.overrides, "Override a key of the scene: --set time.end_s=60")->allow_extra_args(false);
 }
 
+/// Simulated seconds, at least zero.
+const CLI::Validator time_of_run(
+    [](std::string& text) {
+      double value = 0.0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (error != std::errc() || end != text.data() + text.size()) return fmt::format("'{}' is no number of seconds", text);
+      return value >= 0.0 ? std::string() : fmt::format("{} s lies before the start; give a time >= 0", text);
+    },
+    "");
+
+CLI::Validator ends_in(std::vector<std::string> endings) {
+  return CLI::Validator(
+      [endings](std::string& file) {
+        const std::string ending = std::filesystem::path(file).extension();
+        if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return std::string();
+        return fmt::format("'{}' has an ending that is not known; write one of {}", file, fmt::join(endings, ", "));
+      },
+      "");
+}
+
+void add_picture(CLI::App& cli, Command& chosen, bool film) {
+  auto arguments = std::make_shared<PictureArguments>();
+  arguments->film = film;
+  CLI::App* command = film ? cli.add_subcommand("film", "Film of a run: the scene as a picture shows it, over its time")
+                           : cli.add_subcommand("picture", "Picture of a run: floats, turbine, lines, sea and wake together");
+  command->add_option("directory", arguments->directory, "Run directory")->required();
+  command
+      ->add_option("-o,--output", arguments->out,
+                   film ? "File: .mp4 or .webm (default: film.mp4 in the run directory)"
+                        : "File: .png (default: picture.png in the run directory)")
+      ->check(ends_in(film ? std::vector<std::string>{".mp4", ".webm"} : std::vector<std::string>{".png"}));
+  command->add_option("--camera", arguments->camera, "From where: scene, side, front, top, rotor")
+      ->check(CLI::IsMember({"scene", "side", "front", "top", "rotor"}));
+  if (film) {
+    command->add_option("--seconds", arguments->seconds, "Length of the film [s]")->check(CLI::Range(0.5, 600.0));
+    command->add_option("--rate", arguments->frames_per_second, "Frames per second")->check(CLI::Range(1, 60));
+    command->footer(
+        "Examples:\n  spindrift film runs/demo/coupled\n  spindrift film runs/demo/coupled --camera side -o demo.webm\n"
+        "Needs python3-vtk9 and ffmpeg: ci/setup --pictures installs them.");
+  } else {
+    command->add_option("--time", arguments->time, "Simulated time [s] of the picture, or last");
+    command->footer(
+        "Examples:\n  spindrift picture runs/demo/coupled\n  spindrift picture runs/demo/coupled --time 6 --camera rotor -o "
+        "rotor.png\n"
+        "Needs python3-vtk9: ci/setup --pictures installs it.");
+  }
+  command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return picture(*arguments, world); }; });
+}
+
 }  // namespace
 
 void add_commands(CLI::App& cli, Command& chosen) {
@@ -22,7 +74,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
     add_scene(*command, *arguments);
     command->add_option("--out", arguments->out, "Run directory (default: runs/SCENE_DATE_TIME)");
     command->add_option("--until", arguments->until_s, "Stop at this simulated time [s], to be continued by --restart")
-        ->check(CLI::NonNegativeNumber);
+        ->check(time_of_run);
     command->add_option("--fluid", arguments->fluid, "Which fluid the ranks of this section of mpirun have; the others the other")
         ->check(CLI::IsMember({"air", "sea"}));
     command->add_flag("--restart", arguments->restart, "Go on from the newest checkpoint in the run directory")->needs("--out");
@@ -30,6 +82,13 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->add_flag("--trace", arguments->trace, "Write trace.json (open with Perfetto or chrome://tracing)");
     command->add_flag("--quiet", arguments->quiet, "Warnings and errors only");
     command->add_flag("--no-report", arguments->no_report, "Leave report.html for later: spindrift report DIR");
+    command->footer(
+        "Examples:\n"
+        "  spindrift run inputs/leble_barakos/case1_engineering.toml --out run1\n"
+        "  spindrift run scene.toml --set time.end_s=60 --set waves.height_m=2.5\n"
+        "  spindrift run scene.toml --out run1 --until 30\n"
+        "  spindrift run scene.toml --out run1 --restart\n"
+        "  mpirun -n 2 spindrift run scene.toml --out run1");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return run(*arguments, world); }; });
   }
   {
@@ -38,6 +97,10 @@ void add_commands(CLI::App& cli, Command& chosen) {
         "check", "Validate a scene, say what will be modelled, at what cost and at which limits; runs nothing");
     add_scene(*command, *arguments);
     command->add_flag("--calibrate", arguments->calibrate, "Measure what a resolved rotor costs on this machine (some seconds)");
+    command->footer(
+        "Examples:\n"
+        "  spindrift check inputs/leble_barakos/case1_engineering.toml\n"
+        "  spindrift check scene.toml --set time.step_s=0.02");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return check(*arguments, world); }; });
   }
   {
@@ -47,7 +110,12 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command
         ->add_option("-o,--output", arguments->files,
                      "File: .cgns; .p3d or .xyz (binary Plot3D) or .p3dfmt, with a .nmf beside it")
+        ->check(ends_in({".cgns", ".p3d", ".xyz", ".p3dfmt"}))
         ->allow_extra_args(false);
+    command->footer(
+        "Examples:\n"
+        "  spindrift grid inputs/leble_barakos/rotor_demo.toml\n"
+        "  spindrift grid inputs/leble_barakos/rotor_demo.toml -o rotor.cgns");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return grid(*arguments, world); }; });
   }
   {
@@ -57,6 +125,9 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->add_option("study", arguments->file, "Study file (TOML)")->required();
     command->add_option("--set", arguments->overrides, "Override a key of the study file")->allow_extra_args(false);
     command->add_option("--out", arguments->out, "Folder of the runs (default: runs/STUDY)");
+    command->footer(
+        "Examples:\n"
+        "  spindrift study inputs/studies/case2_time_step.toml --out runs/steps");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return study(*arguments, world); }; });
   }
   {
@@ -65,15 +136,69 @@ void add_commands(CLI::App& cli, Command& chosen) {
     CLI::App* command = cli.add_subcommand("reference", "Every scene key with type, unit, default, range and a sentence");
     command->add_option("topic", *topic, "A section or a key");
     command->add_flag("--markdown", *markdown, "As inputs/REFERENCE.md");
+    command->footer(
+        "Examples:\n"
+        "  spindrift reference waves\n"
+        "  spindrift reference waves.height_m\n"
+        "  spindrift reference precone_deg");
     command->callback([=, &chosen] { chosen = [=](const auto& world) { return reference(*topic, *markdown, world); }; });
   }
   {
     auto arguments = std::make_shared<ReportArguments>();
     CLI::App* command = cli.add_subcommand("report", "(Re)make report.html of a run directory; of several, compare them");
-    command->add_option("directory", arguments->directories, "Run directory")->required();
-    command->add_option("--png", arguments->png, "Also a picture of the first run");
+    command->add_option("directory", arguments->directories, "Run directory, or the folder of a study")->required();
+    command->add_option("-o,--out", arguments->out, "The page (default: report.html, comparison.html or study.html in DIR)")
+        ->check(ends_in({".html"}));
+    command->add_option("--png", arguments->png, "Also a picture of the first run's plots")->check(ends_in({".png"}));
+    command->footer(
+        "Examples:\n"
+        "  spindrift report run1\n"
+        "  spindrift report run1 run2 -o compared.html\n"
+        "  spindrift report runs/steps");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return report(*arguments, world); }; });
   }
+  add_picture(cli, chosen, false);
+  add_picture(cli, chosen, true);
+  {
+    auto topic = std::make_shared<std::string>();
+    auto markdown = std::make_shared<bool>(false);
+    CLI::App* command = cli.add_subcommand("help", "The same as --help; with a command, the help of that command");
+    command->add_option("command", *topic, "A command");
+    command->add_flag("--markdown", *markdown, "Every command, as docs/reference/commands.md");
+    command->callback([=, &cli, &chosen] {
+      if (*markdown) {
+        fmt::print("{}", commands_markdown(cli));
+      } else if (topic->empty()) {
+        fmt::print("{}", cli.help());
+      } else {
+        const CLI::App* found = cli.get_subcommand_no_throw(*topic);
+        if (found == nullptr) throw CLI::ValidationError("help", fmt::format("there is no command '{}'", *topic));
+        fmt::print("{}", found->help("spindrift"));
+      }
+      chosen = [](const auto&) { return done; };
+    });
+  }
+  cli.footer(
+      "Examples:\n"
+      "  spindrift check inputs/leble_barakos/case1_engineering.toml\n"
+      "  spindrift run inputs/leble_barakos/case1_engineering.toml --out run1\n"
+      "  spindrift help run\n"
+      "Exit codes: 0 done, 2 bad input, 3 numerical failure (state saved), 4 machine failure, 5 stopped on request with a "
+      "checkpoint.");
+}
+
+std::string commands_markdown(const CLI::App& cli) {
+  std::string out =
+      "# Commands\n\nWritten by `spindrift help --markdown`, not by hand. `mpirun -n N spindrift ...` runs the same on many "
+      "ranks.\n";
+  for (const CLI::App* command : cli.get_subcommands([](const CLI::App*) { return true; }))
+    out += fmt::format("\n## spindrift {}\n\n```text\n{}```\n", command->get_name(), command->help("spindrift"));
+  return out +
+         "\n## Exit codes\n\n| code | meaning |\n|---|---|\n| 0 | done |\n| 2 | bad input: nothing ran |\n"
+         "| 3 | numerical failure: the last good state is saved |\n| 4 | failure of the machine: disk, memory, network, a "
+         "missing "
+         "package |\n| 5 | stopped on request, with a checkpoint: `--restart` goes on |\n\nThe code also stands in "
+         "`summary.json`, since `mpirun` may change it.\n";
 }
 
 }  // namespace spindrift::app

@@ -22,6 +22,9 @@ using Command = std::function<int(const runtime::World&)>;
 /// Declares every command with its arguments; parsing sets `chosen`.
 void add_commands(CLI::App& cli, Command& chosen);
 
+/// Every command with its options as Markdown: docs/reference/commands.md.
+std::string commands_markdown(const CLI::App& cli);
+
 struct SceneArguments {
   std::string scene;
   std::vector<std::string> overrides;  ///< "a.b=c"
@@ -40,7 +43,18 @@ struct CheckArguments : SceneArguments {
 
 struct ReportArguments {
   std::vector<std::string> directories;
+  std::string out;  ///< empty: report.html, comparison.html or study.html in the first directory
   std::string png;  ///< empty: no picture
+};
+
+/// Of `picture` and `film`: what src/report/spindrift_picture.py takes.
+struct PictureArguments {
+  std::string directory, out;
+  std::string time = "last";     ///< of a picture: seconds, or "last"
+  std::string camera = "scene";  ///< "scene", "side", "front", "top", "rotor"
+  double seconds = 12.0;         ///< length of a film
+  int frames_per_second = 15;
+  bool film = false;
 };
 
 struct GridArguments : SceneArguments {
@@ -60,5 +74,6 @@ int check(const CheckArguments& arguments, const runtime::World& world);
 int reference(const std::string& topic, bool markdown, const runtime::World& world);
 int study(const StudyArguments& arguments, const runtime::World& world);
 int report(const ReportArguments& arguments, const runtime::World& world);
+int picture(const PictureArguments& arguments, const runtime::World& world);
 
 }  // namespace spindrift::app

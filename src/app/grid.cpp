@@ -11,6 +11,7 @@
 #include "src/aero/rotor_grid/quality.hpp"
 #include "src/aero/rotor_grid/rotor_grid.hpp"
 #include "src/app/commands.hpp"
+#include "src/app/scene_file.hpp"
 #include "src/coupling/scenario.hpp"
 #include "src/scene/document.hpp"
 
@@ -27,7 +28,7 @@ struct Wanted {
 /// A scene may be as short as [rotor] turbine and [aero.grid]; what else it has must be right, but need not be all that a run
 /// needs.
 Wanted read(const SceneArguments& arguments) {
-  scene::Document document = scene::load(arguments.scene, arguments.overrides);
+  scene::Document document = load_scene(arguments.scene, arguments.overrides);
   const aero::AeroOptions air = document.read(aero::aero_section());
   const aero::RotorOptions rotor = document.read(aero::rotor_section());
   const aero::WindOptions wind = document.read(aero::wind_section());

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/environment.hpp"
@@ -12,6 +14,7 @@
 #include "src/io/log.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
+#include "src/scene/value.hpp"
 
 namespace {
 
@@ -36,17 +39,42 @@ int guarded(const std::function<int()>& command) {
   }
 }
 
+/// One line, or with `verbose` also how the program was built.
+std::string version(bool verbose) {
+  const io::BuildInfo& build = io::build_info();
+  std::string text = fmt::format("spindrift {} ({}, {})", build.version, build.commit, build.compiler);
+  if (verbose) text += fmt::format("\nflags: {}\nlicence: Apache-2.0", build.flags);
+  return text;
+}
+
+/// The first word of the command line, where it is no command: what was meant. Empty where it is one.
+std::string unknown_command(const CLI::App& cli, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::vector<std::string> known;
+  for (const CLI::App* command : cli.get_subcommands([](const CLI::App*) { return true; })) known.push_back(command->get_name());
+  const std::string word = argv[1];
+  if (std::find(known.begin(), known.end(), word) != known.end()) return {};
+  if (word.ends_with(".toml")) return fmt::format("'{}' is a file: spindrift run {}", word, word);
+  const std::string near = scene::nearest(word, known);
+  return fmt::format("there is no command '{}'; {}", word,
+                     near.empty() ? fmt::format("known: {}", fmt::join(known, ", ")) : fmt::format("did you mean '{}'?", near));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App cli{"Coupled simulation of floating offshore wind turbines.", "spindrift"};
-  cli.set_version_flag("--version", [] {
-    const io::BuildInfo& build = io::build_info();
-    return fmt::format("spindrift {} ({}, {})", build.version, build.commit, build.compiler);
-  });
+  bool verbose = false;
+  cli.add_flag("--verbose", verbose, "With --version: also how the program was built");
+  const bool with_flags = std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--verbose"; });
+  cli.set_version_flag("--version", [with_flags] { return version(with_flags); });
   cli.require_subcommand(1);
   app::Command command;
   app::add_commands(cli, command);
+  if (const std::string unknown = unknown_command(cli, argc, argv); !unknown.empty()) {
+    fmt::print(stderr, "error: {}\n", unknown);
+    return app::bad_input;
+  }
   try {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& e) { return cli.exit(e) == 0 ? 0 : app::bad_input; }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "src/app/scene_file.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/coupling/flow_run.hpp"
 #include "src/coupling/placement.hpp"
@@ -58,7 +59,7 @@ ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
 }  // namespace
 
 ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
-  scene::Document document = scene::load(path, overrides, overrider);
+  scene::Document document = load_scene(path, overrides, overrider);
   coupling::Scenario scenario = coupling::read_scenario(document);
   return made_ready(std::move(scenario), document.echo());
 }
@@ -91,7 +92,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   std::optional<coupling::Scenario> scenario;
   std::string echo;
   coupling::agree(started, [&] {
-    scene::Document document = scene::load(arguments.scene, arguments.overrides, overrider);
+    scene::Document document = load_scene(arguments.scene, arguments.overrides, overrider);
     scenario = coupling::read_scenario(document);
     echo = document.echo();
     return coupling::Started{arguments.fluid, echo,
@@ -130,21 +131,13 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
 int run(const RunArguments& arguments, const runtime::World& world) {
   const SceneRun run = run_scene(arguments, world);
   if (run.writes && !arguments.no_report) {
-    if (const std::optional<std::string> why = report::write({.directories = {run.directory}}))
-      spdlog::warn("no report: {}", *why);
+    spdlog::info("making the report");
+    if (const report::Outcome made = report::write({.directories = {run.directory}}); !made.ok())
+      spdlog::warn("no report: {}", made.trouble);
     else
       spdlog::info("report: {}", (run.directory / "report.html").string());
   }
   return run.summary.exit_code;
-}
-
-int report(const ReportArguments& arguments, const runtime::World& world) {
-  if (world.rank != 0) return done;
-  report::Request request{.directories = {arguments.directories.begin(), arguments.directories.end()}};
-  if (!arguments.png.empty()) request.png = arguments.png;
-  const std::optional<std::string> why = report::write(request);
-  if (why) spdlog::error("no report: {}", *why);
-  return why ? machine_failure : done;
 }
 
 }  // namespace spindrift::app

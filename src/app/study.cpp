@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/app/commands.hpp"
+#include "src/app/scene_file.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/io/log.hpp"
 #include "src/report/report.hpp"
@@ -139,6 +140,7 @@ void write_json(const scene::Study& study, const std::vector<Outcome>& outcomes,
 }  // namespace
 
 int study(const StudyArguments& arguments, const runtime::World& world) {
+  require_study(arguments.file);
   const scene::Study study = scene::read_study(arguments.file, arguments.overrides);
   const std::vector<scene::StudyRun> runs = expand(study);
   const std::filesystem::path folder = arguments.out.empty()
@@ -158,8 +160,8 @@ int study(const StudyArguments& arguments, const runtime::World& world) {
   const Verdict v = verdict(study, outcomes);
   print(study, outcomes, v);
   write_json(study, outcomes, v, folder / "study.json");
-  if (const std::optional<std::string> why = report::write({.directories = {folder}}))
-    spdlog::warn("no report: {}", *why);
+  if (const report::Outcome made = report::write({.directories = {folder}}); !made.ok())
+    spdlog::warn("no report: {}", made.trouble);
   else
     spdlog::info("report: {}", (folder / "study.html").string());
   const bool failed = std::any_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.exit_code != done; });

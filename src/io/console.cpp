@@ -42,6 +42,9 @@ void set_status(std::string_view text) {
 }
 
 bool is_terminal() {
+  // A launcher hands its ranks a terminal of its own even where its output goes to a file.
+  for (const char* launcher : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "SLURM_STEP_ID"})
+    if (std::getenv(launcher) != nullptr) return false;
   const char* kind = std::getenv("TERM");
   return ::isatty(STDOUT_FILENO) != 0 && kind != nullptr && std::string_view(kind) != "dumb";
 }

@@ -36,16 +36,13 @@ def envelope(time, values):
     n = len(values)
     if n <= 4 * BINS:
         return time, values
-    per_bin = n // BINS
-    body = values[: per_bin * BINS].reshape(BINS, per_bin)
-    starts = np.arange(BINS) * per_bin
-    low = starts + np.argmin(np.where(np.isfinite(body), body, np.inf), axis=1)
-    high = starts + np.argmax(np.where(np.isfinite(body), body, -np.inf), axis=1)
-    tail = np.arange(per_bin * BINS, n)
-    if len(tail):
-        finite = np.where(np.isfinite(values[tail]), values[tail], np.nan)
-        tail = tail[[np.nanargmin(finite), np.nanargmax(finite)]] if np.isfinite(finite).any() else tail[:1]
-    kept = np.sort(np.concatenate([low, high, tail, [0, n - 1]]))
+    edges = np.linspace(0, n, BINS + 1).astype(int)   # stretches of equal length, but for one row
+    rows = np.minimum(edges[:-1, None] + np.arange(-(-n // BINS)), edges[1:, None] - 1)
+    body = values[rows]
+    take = lambda which: np.take_along_axis(rows, which[:, None], axis=1)[:, 0]
+    low = take(np.argmin(np.where(np.isfinite(body), body, np.inf), axis=1))
+    high = take(np.argmax(np.where(np.isfinite(body), body, -np.inf), axis=1))
+    kept = np.unique(np.concatenate([low, high, [0, n - 1]]))
     return time[kept], values[kept]
 
 
@@ -198,8 +195,13 @@ def density(time, values):
     return frequency[1:], (2.0 * step / (window ** 2).sum() / len(starts) * total)[1:]
 
 
-def spectra(runs, panels):
-    """Spectra of motions; None where there is nothing that moves for long enough."""
+def segment_s(time):
+    """Length of the segments that a spectrum of a run is taken over: two thirds of what is left without the first quarter."""
+    return 0.5 * (time[-1] - time[0])
+
+
+def spectra(runs, panels, marks):
+    """Spectra of motions with lines at `marks` {name: Hz}; None where there is nothing that moves for long enough."""
     ready = []
     for label, column in panels:
         lines = []
@@ -217,10 +219,16 @@ def spectra(runs, panels):
     figure, axes = plt.subplots(len(ready), 1, squeeze=False, sharex=True, figsize=(5.4, 1.3 * len(ready) + (0.9 if len(ready) == 1 else 0.4)),
                                 layout="constrained")
     top = max(_band(f, s) for *_, lines in ready for _, f, s in lines)
+    top = max([top] + [1.15 * mark for mark in marks.values() if mark < 3.0 * top])
     for axis, (label, column, lines) in zip(axes.flat, ready):
         for r, frequency, power in lines:
             axis.semilogy(*envelope(frequency, power), color=PALETTE[r % len(PALETTE)])
         peak = max(power[frequency <= top].max(initial=1e-300) for _, frequency, power in lines)
+        for name, mark in marks.items():
+            if mark <= top:
+                axis.axvline(mark, color=INK, linewidth=0.7, linestyle=DASHES[1])
+                if axis is axes.flat[0]:
+                    axis.annotate(name, (mark, 1.0), xycoords=("data", "axes fraction"), xytext=(2, -1), textcoords="offset points", fontsize=7.5, va="top")
         axis.set_xlim(0.0, top)
         axis.set_ylim(peak * 1e-6, peak * 5.0)
         axis.set_ylabel(f"{label} [{quantities.unit_of(column)}²/Hz]")

@@ -125,7 +125,9 @@ def groups(names):
 
 
 def key_columns(names):
-    """Columns of the key figures: motions of the first body, rotor loads, tensions."""
+    """Columns of the key figures: motions of the first body, coefficients of a flow, rotor loads, tensions, gauges."""
     bodies = bodies_of(names)
     chosen = [c for b in bodies[:1] for c in (p[1][0][1] for p in _triple(names, b, ("x", "y", "z", "roll", "pitch", "yaw")))]
-    return chosen + [n for n in names if n.endswith((".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".tension_N"))]
+    wanted = (".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".tension_N", ".lift_coefficient", ".drag_coefficient", "flow.fx_N", "flow.fz_N",
+              ".elevation_m", "sea.x_max_m", ".pressure_Pa", "sea.lost_particles")
+    return chosen + [n for n in names if n.endswith(wanted) and not n.startswith("rotor.blade_")]

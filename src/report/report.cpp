@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -26,12 +27,11 @@ std::string interpreter() {
   return chosen != nullptr && *chosen != '\0' ? chosen : "/usr/bin/python3";
 }
 
-/// Beside an installed program, else in the sources it was built from.
-fs::path program() {
+/// The folder of the programs: beside an installed binary, else in the sources it was built from.
+fs::path folder() {
   std::error_code none;
-  const fs::path installed =
-      fs::read_symlink("/proc/self/exe", none).parent_path() / SPINDRIFT_REPORT_FROM_BINARY / "spindrift_report.py";
-  return fs::exists(installed, none) ? installed : fs::path(SPINDRIFT_REPORT_SOURCE_DIR) / "spindrift_report.py";
+  const fs::path installed = fs::read_symlink("/proc/self/exe", none).parent_path() / SPINDRIFT_REPORT_FROM_BINARY;
+  return fs::exists(installed / "spindrift_report.py", none) ? installed : fs::path(SPINDRIFT_REPORT_SOURCE_DIR);
 }
 
 /// Without the variables by which a child of an MPI program takes itself for one of its ranks.
@@ -43,16 +43,6 @@ std::vector<char*> environment() {
   }
   kept.push_back(nullptr);
   return kept;
-}
-
-std::vector<std::string> command(const Request& request) {
-  // -B: leaves no __pycache__ behind; -E -s: a user's own Python set-up does not matter.
-  std::vector<std::string> words = {interpreter(), "-B", "-E", "-s", program()};
-  if (request.out) words.insert(words.end(), {"--out", *request.out});
-  if (request.png) words.insert(words.end(), {"--png", *request.png});
-  words.push_back("--");
-  words.insert(words.end(), request.directories.begin(), request.directories.end());
-  return words;
 }
 
 std::string read_all(int descriptor) {
@@ -74,17 +64,34 @@ std::string last_line(std::string text) {
 
 }  // namespace
 
-std::optional<std::string> write(const Request& request) {
-  std::vector<std::string> words = command(request);
+fs::path page_of(const Request& request) {
+  if (request.out) return *request.out;
+  const fs::path& first = request.directories.front();
+  std::error_code none;
+  if (fs::exists(first / "study.json", none)) return first / "study.html";
+  return first / (request.directories.size() == 1 ? "report.html" : "comparison.html");
+}
+
+Outcome write(const Request& request) {
+  std::vector<std::string> words = {"--out", page_of(request)};
+  if (request.png) words.insert(words.end(), {"--png", *request.png});
+  words.push_back("--");
+  words.insert(words.end(), request.directories.begin(), request.directories.end());
+  return start("spindrift_report.py", std::move(words));
+}
+
+Outcome start(const std::string& program, std::vector<std::string> words) {
+  // -B: leaves no __pycache__ behind; -E -s: a user's own Python set-up does not matter.
+  words.insert(words.begin(), {interpreter(), "-B", "-E", "-s", folder() / program});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) return "no report: " + std::string(std::strerror(errno));
+  if (::pipe2(ends, O_CLOEXEC) != 0) return {4, std::strerror(errno)};
+  std::fflush(stdout);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
   pid_t child = 0;
   std::vector<char*> variables = environment();
@@ -94,14 +101,15 @@ std::optional<std::string> write(const Request& request) {
   const std::string said = error == 0 ? read_all(ends[0]) : "";
   ::close(ends[0]);
   if (error != 0)
-    return "no report: cannot start " + words[0] + ": " + std::strerror(error) +
-           "; install python3 (ci/setup does) or set SPINDRIFT_PYTHON";
+    return {4, "cannot start " + words[0] + ": " + std::strerror(error) +
+                   "; install python3 (ci/setup does) or set SPINDRIFT_PYTHON"};
 
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
-  if (WIFSIGNALED(status)) return "no report: " + words[0] + " was ended by signal " + std::to_string(WTERMSIG(status));
-  return "no report: " + (said.empty() ? words[0] + " says nothing" : last_line(said));
+  if (WIFSIGNALED(status)) return {4, words[0] + " was ended by signal " + std::to_string(WTERMSIG(status))};
+  const int code = WEXITSTATUS(status);
+  if (code == 0) return {};
+  return {code == 2 ? 2 : 4, said.empty() ? words[0] + " says nothing" : last_line(said)};
 }
 
 }  // namespace spindrift::report

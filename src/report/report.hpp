@@ -1,7 +1,7 @@
-// report.html of a run, or of several side by side: starts the Python program of this folder on run directories.
-// Called by `spindrift run` at its end and by `spindrift report`. A report that cannot be made never fails a run: the caller logs
-// the reason. Tested in tests/src/report/wrapper_test.cpp; the page itself in tests/src/report/report_test.py.
-// SPDX-License-Identifier: Apache-2.0
+// The Python programs of this folder, started on run directories: report.html of a run, a comparison of several, the page of a
+// study; pictures and films. Called by `spindrift run`, `study`, `report`, `picture` and `film`. A report that cannot be made
+// never fails a run: the caller logs the reason. Tested in tests/src/report/wrapper_test.cpp; the pages in
+// tests/src/report/report_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,21 @@ struct Request {
   std::optional<std::filesystem::path> png;        ///< also a picture of the first run
 };
 
-/// Empty when the report is written, else one sentence that says why not and what helps. On one rank; takes a few seconds.
-std::optional<std::string> write(const Request& request);
+/// What a program of this folder came to: its exit code (0 done, 2 bad input, 4 a package or the disk is missing), and one
+/// sentence that says what is wrong and what helps.
+struct Outcome {
+  int exit_code = 0;
+  std::string trouble;
+  bool ok() const { return exit_code == 0; }
+};
+
+/// Where the page of a request is written.
+std::filesystem::path page_of(const Request& request);
+
+/// Writes the page. On one rank; takes seconds, and says on standard output what it does where it takes many.
+Outcome write(const Request& request);
+
+/// Starts `program` ("spindrift_picture.py") of this folder on `words`; what it prints goes to standard output.
+Outcome start(const std::string& program, std::vector<std::string> words);
 
 }  // namespace spindrift::report

@@ -1,4 +1,4 @@
-"""Pictures of a resolved rotor: pressure on a blade, the wind through and behind the rotor, and its vortices.
+"""Pictures of a resolved rotor: pressure on a blade, the wind through and behind the rotor.
 From the newest fields/air_*.h5 and walls_*.h5; h5py is needed. Called by page.py; tested in tests/src/report.
 SPDX-License-Identifier: Apache-2.0"""
 import pathlib
@@ -7,7 +7,6 @@ import tomllib
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 import cut
 import flow_pictures
@@ -75,9 +74,10 @@ def carried_by_bodies(run, scene):
 
 def blade(rotor):
     """Pressure coefficient (on wind and turning at the radius) of the first blade, seen from upwind and from downwind."""
-    walls = rotor.walls
+    walls = [wall for wall in rotor.walls if wall["block"].startswith("blade_1")] or rotor.walls
+    turned = turning(np.concatenate([rotor.local(wall["points"]).reshape(-1, 3) for wall in walls]))
     ambient = rotor.density * flow_pictures.GAS_CONSTANT * rotor.temperature
-    quads = np.concatenate([faces(rotor.local(wall["points"])) for wall in walls])
+    quads = np.concatenate([faces(rotor.local(wall["points"]) @ turned) for wall in walls])
     pressure = np.concatenate([wall["pressure"].ravel() for wall in walls]) - ambient
     block = np.concatenate([np.full(wall["pressure"].size, n) for n, wall in enumerate(walls)])
     centre = quads.mean(axis=1)
@@ -105,6 +105,13 @@ def blade(rotor):
     return figure
 
 
+def turning(points):
+    """Matrix that turns a blade's points (n, 3) about the axis until the blade stands upright."""
+    far = points[np.hypot(points[:, 1], points[:, 2]) > 0.5 * np.hypot(points[:, 1], points[:, 2]).max()]
+    y, z = far[:, 1:].mean(axis=0) / np.hypot(*far[:, 1:].mean(axis=0))
+    return np.array([[1.0, 0.0, 0.0], [0.0, z, y], [0.0, -y, z]])
+
+
 def faces(p):
     """The quadrilaterals of a surface's nodes, four corners each."""
     return np.stack([p[:-1, :-1], p[:-1, 1:], p[1:, 1:], p[1:, :-1]], axis=-2).reshape(-1, 4, 3)
@@ -124,20 +131,12 @@ def spine(quads):
 
 
 def volume(run, rotor):
-    """The blocks in the rotor's frame: nodes, and at the nodes the axial velocity over the wind and Q over (wind / 10 m)^2."""
+    """The blocks in the rotor's frame: nodes, and at the nodes the axial velocity over the wind."""
     blocks = flow_pictures.newest(run, "air")
     if not blocks or not rotor.wind:
         return None
-    out = []
-    for block in blocks:
-        nodes = rotor.local(block["points"])
-        velocity = block["velocity"] @ rotor.frame.T
-        if min(velocity.shape[:3]) < 2:
-            continue
-        g = cut.gradient(nodes, velocity)
-        q = -0.5 * np.einsum("...ij,...ji->...", g, g)   # |Omega|^2 - |S|^2 over 2 where the divergence is small
-        out.append((nodes, cut.at_nodes(velocity[..., 0]) / rotor.wind, cut.at_nodes(q) * (10.0 / rotor.wind) ** 2))
-    return out or None
+    return [(rotor.local(block["points"]), cut.at_nodes(block["velocity"] @ rotor.frame[0]) / rotor.wind)
+            for block in blocks if min(block["velocity"].shape[:3]) >= 2] or None
 
 
 def wake(blocks, rotor):
@@ -147,7 +146,7 @@ def wake(blocks, rotor):
     behind = 0.5 * tip
     for axis, normal, level, shown, span in ((axes[0], 1, 0.0, (0, 2), ((-2.0, 4.0), (-2.0, 2.0))), (axes[1], 0, behind, (1, 2), ((-1.6, 1.6),) * 2)):
         for copy in range(rotor.copies):
-            for nodes, axial, _ in blocks:
+            for nodes, axial in blocks:
                 places = rotor.turned(nodes, copy)
                 if places[..., normal].min() > level or places[..., normal].max() < level:
                     continue
@@ -168,36 +167,6 @@ def wake(blocks, rotor):
     return figure
 
 
-vortex_level = 0.05   # of Q in units of (wind / 10 m)^2: low enough for the vortices of coarse grids
-
-
-def vortices(blocks, rotor):
-    """The surface of `vortex_level` within two radii of the hub, coloured by the axial velocity."""
-    tip = rotor.tip
-    triangles, values = [], []
-    for nodes, axial, q in blocks:
-        if np.linalg.norm(nodes, axis=-1).min() > 3.0 * tip:
-            continue
-        t, v = cut.surface(nodes, q, vortex_level, axial)
-        near = (np.linalg.norm(t[:, :, 1:], axis=-1).max(axis=1) < 1.3 * tip) & (t[:, :, 0].max(axis=1) < 3.0 * tip) & (t[:, :, 0].min(axis=1) > -0.5 * tip)
-        triangles.append(t[near]), values.append(v[near].mean(axis=1))
-    if not triangles or not sum(map(len, triangles)):
-        return None
-    triangles, values = np.concatenate(triangles), np.concatenate(values)
-    every = np.concatenate([rotor.turned(triangles, copy) for copy in range(rotor.copies)])
-    figure = plt.figure(figsize=(7.2, 5.4), layout="constrained")
-    axis = figure.add_subplot(projection="3d")
-    colours = plt.cm.viridis(np.clip(np.tile(values, rotor.copies) / 1.2, 0.0, 1.0))
-    axis.add_collection3d(Poly3DCollection(every, facecolors=colours, linewidths=0.0, rasterized=True))
-    axis.set_xlim(-0.5 * tip, 2.5 * tip)
-    axis.set_ylim(-1.2 * tip, 1.2 * tip)
-    axis.set_zlim(-1.2 * tip, 1.2 * tip)
-    axis.set_box_aspect((3.0, 2.4, 2.4))
-    axis.view_init(elev=18, azim=-60)
-    axis.set_xlabel("x [m]"), axis.set_ylabel("y [m]"), axis.set_zlabel("z [m]")
-    return figure
-
-
 def pictures(run):
     """(title, figure, caption) of each picture that the run's files give."""
     if "grid" not in run.scene.get("aero", {}):   # what stands still in the wind has a grid of its own, [aero.flow]
@@ -211,7 +180,3 @@ def pictures(run):
                "Pressure above the undisturbed one on the dynamic pressure of wind and turning at the radius; leading edge and suction side are blue.")
     if blocks := volume(run, rotor):
         yield "Wind through the rotor", wake(blocks, rotor), "Velocity along the axis over the wind's, at the end of the run."
-        if figure := vortices(blocks, rotor):
-            yield ("Vortices", figure,
-                   f"Surface Q = {vortex_level:g} (wind / 10 m)^2 (Q: half of squared rotation less squared strain); colour: velocity along the axis, "
-                   "dark slow, bright fast.")

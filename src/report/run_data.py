@@ -46,6 +46,46 @@ class RunData:
             self._round_off[unit] = 1e-12 * np.abs(alike[np.isfinite(alike)]).max(initial=0.0)
         return self._round_off[unit]
 
+    def mean_range(self):
+        """Rows and words of the range that means are taken over: the summary's last that holds rows, else the last quarter."""
+        def rows(start, end):
+            margin = 1e-9 * max(1.0, abs(end))
+            return (self.time >= start - margin) & (self.time <= end + margin), f"{start:.6g} to {end:.6g} s"
+
+        for found in list((self.summary.get("ranges") or {}).values())[::-1]:
+            if isinstance(found, dict) and isinstance(found.get("from_s"), (int, float)) and isinstance(found.get("to_s"), (int, float)):
+                chosen = rows(found["from_s"], found["to_s"])
+                if chosen[0].any():
+                    return chosen
+        return rows(self.time[-1] - 0.25 * (self.time[-1] - self.time[0]), self.time[-1])
+
+    def _named_by_rotor(self, key):
+        """The file that a key of [rotor] names; paths of scene.toml start at the run directory."""
+        rotor = self.scene.get("rotor", {})
+        name = rotor.get(key) if isinstance(rotor, dict) else None
+        return self.folder / name if isinstance(name, str) and name else None
+
+    def turbine(self):
+        """The turbine file's [turbine], {} where there is none or it is gone; its path."""
+        path = self._named_by_rotor("turbine")
+        try:
+            return tomllib.loads(path.read_text(encoding="utf-8"))["turbine"], path
+        except (AttributeError, OSError, KeyError, tomllib.TOMLDecodeError):
+            return {}, path
+
+    def blades(self):
+        found = self.turbine()[0].get("blades", 3)
+        return found if isinstance(found, int) else 3
+
+    def operation(self):
+        """{column: values} of the turbine's steady operation, None where the scene names none."""
+        path = self._named_by_rotor("operation")
+        try:
+            rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines() if line.strip() and not line.startswith("#")]
+            return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
+        except (AttributeError, OSError, ValueError, IndexError):
+            return None
+
     def _text(self, name):
         try:
             return (self.folder / name).read_text(encoding="utf-8", errors="replace")

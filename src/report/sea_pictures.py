@@ -19,14 +19,12 @@ def _chosen(files):
     return [files[i] for i in sorted({0, len(files) // 2, len(files) - 1})] if files else []
 
 
-def _slice(file):
-    """x, z, speed, pressure of the water near y = 0 (all of it in 2-D), time; thinned."""
+def _slice(file, spacing):
+    """x, z, speed, pressure of the water within a spacing of y = 0 (all of it in 2-D), time; thinned."""
     position = file["position"][...]
     keep = np.ones(len(position), bool)
-    width = np.ptp(position[:, 1]) if len(position) else 0.0
-    if width > 0.0:
-        y = np.unique(np.round(np.abs(position[:, 1]), 6))
-        keep = np.abs(position[:, 1]) <= y[min(len(y) - 1, max(1, len(y) // 60))]
+    if len(position) and np.ptp(position[:, 1]) > 0.0:
+        keep = np.abs(position[:, 1]) <= spacing
     if "owner" in file:
         keep &= file["owner"][...] == 0
     chosen = np.flatnonzero(keep)
@@ -41,7 +39,7 @@ def particles(run, h5py):
     slices = []
     for path in _chosen(_outputs(run, "particles")):
         with h5py.File(path) as file:
-            slices.append(_slice(file))
+            slices.append(_slice(file, run.scene.get("sea", {}).get("particles", {}).get("spacing_m", np.inf)))
     for index, name, unit, factor in ((2, "speed", "m/s", 1.0), (3, "pressure", "kPa", 1e-3)):
         shown = [s for s in slices if s[index] is not None and len(s[0])]
         if not shown:
@@ -59,7 +57,15 @@ def particles(run, h5py):
                 axis.set_aspect("equal")
         axes[-1, 0].set_xlabel("x [m]")
         figure.colorbar(drawn, ax=list(axes[:, 0]), label=f"{name} [{unit}]", fraction=0.04)
-        yield f"Water particles: {name}", figure, "Slice of the water along y = 0, at the first, middle and last output of fields/particles."
+        yield f"Water particles: {name}", figure, "Water within a spacing of y = 0, at the first, middle and last output of fields/particles."
+
+
+def _scale(run, maps):
+    """Greatest elevation of the colours [m]: that of the waves, not of the holes that bodies make."""
+    height = run.scene.get("waves", {}).get("height_m")
+    if isinstance(height, (int, float)) and height > 0.0:
+        return 0.75 * height
+    return max(1.5 * np.percentile(np.abs(m[1]), 90) for m in maps) or 1.0
 
 
 def surface(run, h5py):
@@ -82,14 +88,14 @@ def surface(run, h5py):
         axis.legend(ncols=len(maps))
     else:
         figure, axes = plt.subplots(1, len(maps), squeeze=False, sharey=True, figsize=(5.4, 2.6), layout="constrained")
-        most = max(np.percentile(np.abs(m[1]), 99) for m in maps) or 1.0
+        most = _scale(run, maps)
         for axis, (corners, elevation, time) in zip(axes[0], maps):
             drawn = axis.pcolormesh(corners[0, :, :, 0], corners[0, :, :, 1], elevation, cmap="RdBu_r", vmin=-most, vmax=most, rasterized=True)
             axis.set_aspect("equal")
             axis.set_title(f"t = {time:g} s", loc="left")
             axis.set_xlabel("x [m]")
         axes[0, 0].set_ylabel("y [m]")
-        figure.colorbar(drawn, ax=list(axes[0]), label="elevation [m]", fraction=0.04)
+        figure.colorbar(drawn, ax=list(axes[0]), label="elevation [m]", fraction=0.04, extend="both")
     yield "Height of the water's surface", figure, "Read on the mesh of fields/surface, at the first, middle and last output."
 
 

@@ -11,8 +11,10 @@ import argparse
 import os
 import pathlib
 import sys
+import time
 
-PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib"}
+PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "jinja2": "python3-jinja2"}
+SILENT_S = 5.0   # a report that takes longer says what it does
 
 
 def arguments():
@@ -23,11 +25,26 @@ def arguments():
     return parser.parse_args()
 
 
+def fail(code, words):
+    """2 bad input, 4 what the machine lacks."""
+    print(words, file=sys.stderr)
+    sys.exit(code)
+
+
 def guarded(action):
     try:
         action()
     except (OSError, ValueError) as error:
-        sys.exit(f"report not written: {error}")
+        fail(4, f"not written: {error}")
+
+
+class Progress:
+    def __init__(self):
+        self.began = time.monotonic()
+
+    def __call__(self, words):
+        if (passed := time.monotonic() - self.began) > SILENT_S:
+            print(f"  {passed:3.0f} s: {words}", flush=True)
 
 
 def write(out, text):
@@ -40,7 +57,9 @@ def main():
     given = arguments()
     for folder in given.directories:
         if not folder.is_dir():
-            sys.exit(f"{folder} is not a run directory")
+            fail(2, f"{folder} is not a run directory: {'it is a file' if folder.exists() else 'there is nothing of that name'}")
+        if not any((folder / name).exists() for name in ("history.csv", "summary.json", "scene.toml", "study.json")):
+            fail(2, f"{folder} is not a run directory: it has neither history.csv nor summary.json")
     try:
         import page
         import picture
@@ -48,12 +67,13 @@ def main():
         from run_data import RunData
     except ModuleNotFoundError as missing:
         package = PACKAGES.get(missing.name, missing.name)
-        sys.exit(f"Python at {sys.executable} has no module '{missing.name}': install the package {package} (ci/setup does)")
+        fail(4, f"Python at {sys.executable} has no module '{missing.name}': install the package {package} (ci/setup does)")
+    progress = Progress()
     if (given.directories[0] / "study.json").exists():
         return write(given.out or given.directories[0] / "study.html", lambda: study_page.build(given.directories[0]))
     runs = [RunData(folder) for folder in given.directories]
     out = given.out or given.directories[0] / ("report.html" if len(runs) == 1 else "comparison.html")
-    write(out, lambda: page.build(runs))
+    write(out, lambda: page.build(runs, progress))
     if given.png:
         guarded(lambda: picture.draw(runs[0], given.png))
 

@@ -123,10 +123,7 @@ void plain(std::string& out, const Entry& entry) {
 }  // namespace
 
 std::string reference_markdown(std::span<const SectionBase* const> sections) {
-  std::string out =
-      "# Scene reference\n\nEvery key of a scene; written by `spindrift reference --markdown`, not by hand. How scenes are "
-      "composed: "
-      "`docs/user/scenes.md`.\n";
+  std::string out;
   for (const Entry& entry : entries(sections)) {
     const auto options = entry.section->default_options();
     out += fmt::format("\n## `{}`\n\n{}\n\n", entry.brackets, entry.help);

@@ -11,7 +11,7 @@
 
 namespace spindrift::scene {
 
-/// The whole reference as Markdown.
+/// A heading and a table of keys per section, as Markdown.
 std::string reference_markdown(std::span<const SectionBase* const> sections);
 
 /// Plain text for a terminal. `topic`: empty for everything, a section ("time", "bodies.NAME"), a key ("time.window_s") or

@@ -1,6 +1,7 @@
 """The report's page on synthetic run directories: sections that the data have and no others, nothing from a network, nothing that breaks it.
 Run by ctest with the distribution's Python. SPDX-License-Identifier: Apache-2.0"""
 import html.parser
+import json
 import pathlib
 import re
 import sys
@@ -19,11 +20,13 @@ import figures
 import page
 import picture
 import quantities
+import study_page
 import synthetic_run
+import verdict
 from run_data import RunData
 
 VOID = {"meta", "br", "img", "link", "hr", "input"}
-ALL = ["model", "key-figures", "motion", "rates", "spectra", "forces", "moments", "rotor", "moorings", "other", "time-spent", "efficiency",
+ALL = ["key-figures", "motion", "forces", "moments", "rotor", "moorings", "spectra", "model", "rates", "other", "time-spent", "efficiency",
        "scene", "log"]
 
 
@@ -184,7 +187,7 @@ class ReportTest(unittest.TestCase):
         text, parsed = self.page("run")
         self.assertLess(time.process_time() - start, 20.0)
         self.assertLess(len(text), 3_000_000)
-        self.assertRegex(parsed.text, "a surge a.x_mm[^a]*−1.0009.000a pitch")  # the peak of one row
+        self.assertRegex(parsed.text, r"a surge a.x_mm[^a]*−1.0009.000\s*a pitch")  # the peak of one row
 
     def test_comparison_lays_runs_over_each_other(self):
         synthetic_run.write(self.folder / "a")
@@ -192,7 +195,7 @@ class ReportTest(unittest.TestCase):
         table["platform.pitch_deg"] *= 1.1
         synthetic_run.write(self.folder / "b", table=table, scene=synthetic_run.SCENE.replace("1.5e6", "1.65e6"))
         text, parsed = self.page("a", "b")
-        self.assertEqual(parsed.sections, ["differences", "key-figures"] + ALL[2:10])
+        self.assertEqual(parsed.sections, ["differences", "key-figures"] + [key for key in ALL[1:10] if key != "model"])
         self.assertRegex(parsed.text, r"aero\.thrust_N\s*1500000\.0\s*1650000\.0")
         self.assertIn("(+10.", parsed.text)
         synthetic_run.write(self.folder / "deep/a", rows=0)
@@ -240,9 +243,63 @@ class PartsTest(unittest.TestCase):
         x, y = figures.envelope(np.arange(100_003.0), values)
         self.assertLess(len(x), 1500)
         self.assertEqual((y.max(), y.min()), (50.0, -50.0))
-        self.assertTrue((np.diff(x) >= 0).all())
+        self.assertTrue((np.diff(x) > 0).all())
         self.assertEqual((x[0], x[-1]), (0, 100_002))
         figures.envelope(np.arange(100_003.0), np.nan * values)
+
+    def test_the_drawn_curve_is_that_of_the_rows_within_a_pixel(self):
+        """Of the SVG, at the width of a screen's column: each row lies within a pixel of the curve, each corner of the curve on the rows."""
+        for rows in (700, 2801, 6001, 60_001):
+            with self.subTest(rows=rows):
+                t = np.linspace(0.0, 600.0, rows)
+                values = np.sin(0.05 * t) + 0.4 * np.sin(1.7 * t) + 0.002 * t
+                x, y = figures.envelope(t, values)
+                pixel_x, pixel_y = 600.0 / 540.0, np.ptp(values) / 120.0
+                for at, value in zip(t, values):
+                    low, high = np.searchsorted(x, at - pixel_x), np.searchsorted(x, at + pixel_x, side="right")
+                    near = y[max(0, low - 1): high + 1]
+                    self.assertTrue(near.min() - pixel_y <= value <= near.max() + pixel_y, f"row at {at:.3f} s")
+                np.testing.assert_array_equal(np.interp(x, t, values), y)
+
+    def test_health_says_what_stands_against_a_run(self):
+        cylinder = {"start_m": [0, 0, -14.0], "end_m": [0, 0, 12.0], "diameter_m": 11.25}
+        weight = 1025.0 * 9.81 * 14.0 * np.pi / 4 * 11.25**2
+        t = 0.1 * np.arange(400)
+        table = {"time_s": t, "float.x_m": 0 * t, "float.z_m": 2.0 + 0 * t, "float.pitch_deg": 0 * t, "float.sea.fz_N": weight + 0 * t,
+                 "line.tension_N": 1e5 + 0 * t, "sea.lost_particles": 0 * t, "coupling.mismatch": 0.01 + 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder) / "run"
+            synthetic_run.write(folder, table=table)
+            run = RunData(folder)
+            run.scene = {"sea": {"model": "sph"}, "bodies": {"float": {"cylinders": [cylinder]}}}
+            found = {c.title: c for c in verdict.health(run)}
+            self.assertEqual(found["Draft"].level, "warn")
+            self.assertIn("2.00 m too high", found["Draft"].text)
+            self.assertIn("Look before you trust it: draft", verdict.headline(verdict.health(run))[1])
+            self.assertEqual(found["Lines"].level, "good")
+            run.values[run.columns.index("float.z_m")] = 0.01
+            self.assertEqual({c.title: c.level for c in verdict.health(run)}["Draft"], "good")
+            run.values[run.columns.index("line.tension_N")][7] = -1.0
+            self.assertEqual({c.title: c.level for c in verdict.health(run)}["Lines"], "bad")
+            run.values[run.columns.index("float.z_m")] = 0.05 * t
+            self.assertEqual({c.title: c.level for c in verdict.health(run)}["Settled"], "warn")
+
+    def test_ticks_of_a_study_are_numbers_and_its_names_are_whole(self):
+        runs = [{"name": f"a long name of a run, number {i}", "exit_code": 0, "exit_reason": "", "core_seconds": 10.0 * 1.6**i, "on_front": i != 2,
+                 "errors": {"heave": 0.01 / (i + 1) ** 2}} for i in range(6)]
+        study = {"study": "a.toml", "reference": "finest", "metrics": [{"name": "heave", "column": "p.z_m", "target": 2e-4}], "runs": runs,
+                 "cheapest_within_targets": None}
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "study.json").write_text(json.dumps(study))
+            text = study_page.build(pathlib.Path(folder))
+        parsed = Parsed(text)
+        self.assertNotIn("$", text)
+        self.assertIn("No run meets every target", parsed.text)
+        for run in runs:
+            self.assertIn(run["name"], parsed.text)
+        width = float(re.search(r'viewBox="0 0 ([\d.]+)', text)[1])
+        for x in re.findall(r'<text[^>]*translate\(([\d.]+)', text):
+            self.assertLess(float(x), width)
 
     def test_a_spectrum_has_its_peak_at_the_frequency_and_the_variance_as_area(self):
         t = 0.05 * np.arange(6000)

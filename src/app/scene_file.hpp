@@ -1,0 +1,19 @@
+// Tells a scene from the other files that a user has beside it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/scene/document.hpp"
+
+namespace spindrift::app {
+
+/// As scene::load; a study or a turbine file is refused with the command or the key that takes it.
+scene::Document load_scene(const std::string& path, const std::vector<std::string>& overrides,
+                           const scene::Source& overrider = scene::command_line());
+
+/// Throws where `path` is a scene and no study.
+void require_study(const std::string& path);
+
+}  // namespace spindrift::app

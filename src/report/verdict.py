@@ -1,0 +1,273 @@
+"""What a run came to, in words: one sentence of what ran, the figures it answers with, and checks of its health.
+Called by page.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+import math
+
+import numpy as np
+
+import quantities
+import words
+
+EXITS = {0: "Done", 2: "Bad input", 3: "Numerical failure", 4: "Machine failure", 5: "Stopped on request"}
+ORDER = {"bad": 0, "warn": 1, "good": 2}
+
+
+class Check:
+    """One line of the panel: level 'good', 'warn' or 'bad', what was looked at, what was found."""
+
+    def __init__(self, level, title, text):
+        self.level, self.title, self.text = level, title, text
+
+
+def kind(run):
+    """What sort of scene: 'floating turbine', 'rotor', 'flow', 'bodies', 'tank' or 'run'."""
+    bodies, thrust = quantities.bodies_of(run.columns), "rotor.thrust_N" in run.columns
+    if thrust:
+        return "floating turbine" if bodies else "rotor"
+    if any(n.startswith("flow.") for n in run.columns):
+        return "flow"
+    if bodies:
+        return "bodies"
+    return "tank" if any(n.startswith("sea.") for n in run.columns) else "run"
+
+
+def _value(table, *keys):
+    for key in keys:
+        table = table.get(key) if isinstance(table, dict) else None
+    return table
+
+
+def what_ran(run):
+    """One sentence: the kind of scene, its models, how long."""
+    scene = run.scene
+    sea = {"sph": "a sea of particles", "morison": "Morison strips", "hydrostatic": "hydrostatics"}.get(_value(scene, "sea", "model"))
+    air = {"blade_resolved": "a blade-resolved rotor", "bem": "blade element momentum", "prescribed": "prescribed rotor loads",
+           "thrust_curve": "a thrust curve"}.get(_value(scene, "aero", "model"))
+    wave = _value(scene, "waves", "height_m")
+    named = {"floating turbine": "A floating turbine", "rotor": "A rotor", "flow": "A flow round walls" if _walls(run) else "A flow",
+             "bodies": "Bodies", "tank": "A tank of water", "run": "A run"}[kind(run)]
+    parts = [p for p in ((air if kind(run) == "floating turbine" else None), sea) if p]
+    text = named + (f" with {' and '.join(parts)}" if parts else "")
+    if isinstance(wave, (int, float)) and wave > 0:
+        text += f", waves of {wave:.3g} m" + (f" and {run.scene['waves']['period_s']:.3g} s" if _value(scene, "waves", "period_s") else "")
+    wind = _value(scene, "wind", "speed_m_s")
+    if isinstance(wind, (int, float)) and wind > 0:
+        text += f", wind of {wind:.4g} m/s"
+    if len(run.time):
+        steady = _value(scene, "aero", "flow", "time") == "steady"
+        text += f": {run.time[-1]:.6g} pseudo-steps to a steady state" if steady and kind(run) in ("flow", "rotor") else f": {run.time[-1]:.6g} s"
+    wall = run.summary.get("wall_seconds")
+    return text + (f", computed in {words.duration(wall)}." if isinstance(wall, (int, float)) else ".")
+
+
+def _walls(run):
+    return "flow.lift_coefficient" in run.columns or "flow.drag_coefficient" in run.columns
+
+
+def answers(run):
+    """[(words, value, unit)]: the few figures that this kind of scene is run for; means over the summary's range."""
+    if not len(run.time):
+        return []
+    chosen, said = run.mean_range()[0], []
+    mean = lambda name: words.mean(run.time[chosen], run.column(name)[chosen])
+
+    def add(text, name, function=mean):
+        if name in run.columns:
+            value = function(name)
+            unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(value) if math.isfinite(value) else 0.0)
+            said.append((text, words.number(factor * value), unit))
+
+    sort = kind(run)
+    if sort in ("floating turbine", "bodies"):
+        body = quantities.bodies_of(run.columns)[0]
+        for text, quantity in (("surge", "x_m"), ("heave", "z_m"), ("pitch", "pitch_deg")):
+            add(text, f"{body}.{quantity}")
+    for text, name in (("thrust", "rotor.thrust_N"), ("power", "rotor.power_W"), ("lift coefficient", "flow.lift_coefficient"),
+                       ("drag coefficient", "flow.drag_coefficient")):
+        add(text, name)
+    tensions = [n for n in run.columns if n.endswith(".tension_N")]
+    if tensions:
+        largest = max(tensions, key=lambda n: np.nanmax(run.column(n), initial=0.0))
+        add("largest tension", largest, lambda n: float(np.nanmax(run.column(n))))
+    if sort == "tank":
+        for name in run.columns:
+            if name.endswith(".elevation_m") and not name.startswith("waves.") and len(said) < 4:
+                add(f"{name.rpartition('.')[0]}, highest", name, lambda n: float(np.nanmax(run.column(n))))
+        add("farthest water, x", "sea.x_max_m", lambda n: float(run.column(n)[-1]))
+    return said
+
+
+# ---- health -----------------------------------------------------------------------------------------------------------------------------
+
+
+def _end(run):
+    code = run.summary.get("exit_code")
+    reason = str(run.summary.get("exit_reason") or "")
+    if code is None:
+        return Check("warn", "End", "no summary: interrupted, or still running")
+    level = "good" if code == 0 else "warn" if code == 5 else "bad"
+    word = EXITS.get(code, f"exit code {code}")
+    return Check(level, "End", reason if level == "good" and reason else f"{word}: {reason}" if reason else word)
+
+
+def trouble(run):
+    """Sentences about what went wrong numerically, from the summary and from the numbers themselves."""
+    said = [str(s) for s in run.summary.get("numerical_trouble", [])]
+    for name, values in zip(run.columns, run.values):
+        bad = ~np.isfinite(values)
+        if bad.any() and not np.isnan(values).all():
+            said.append(f"{name}: {bad.sum()} of {len(values)} values are not finite, the first at t = {words.number(run.time[bad.argmax()])} s")
+    empty = [name for name, values in zip(run.columns, run.values) if len(values) and np.isnan(values).all()]
+    if empty:
+        said.append("no value at any time: " + ", ".join(empty))
+    return said
+
+
+def _draft(run):
+    """Where the mean height of the first body is, and where the mean vertical load of the sea has it by the volume of its cylinders."""
+    bodies = quantities.bodies_of(run.columns)
+    if not bodies or _value(run.scene, "sea", "model") != "sph":
+        return None
+    body = bodies[0]
+    cylinders = _value(run.scene, "bodies", body, "cylinders")
+    if not cylinders or f"{body}.sea.fz_N" not in run.columns:
+        return None
+    rho, g = _value(run.scene, "environment", "water_density_kg_m3") or 1025.0, _value(run.scene, "environment", "gravity_m_s2") or 9.81
+    area = volume = draft = 0.0
+    for c in cylinders:
+        (x0, y0, z0), (x1, y1, z1) = c["start_m"], c["end_m"]
+        if math.hypot(x1 - x0, y1 - y0) > 1e-6 * abs(z1 - z0) or max(z0, z1) <= 0.0:
+            return None
+        a = math.pi / 4.0 * c["diameter_m"] ** 2
+        area, volume, draft = area + a, volume + a * -min(z0, z1), max(draft, -min(z0, z1))
+    chosen = run.mean_range()[0]
+    mean = lambda name: words.mean(run.time[chosen], run.column(name)[chosen])
+    heave, expected = mean(f"{body}.z_m"), (volume - mean(f"{body}.sea.fz_N") / (rho * g)) / area
+    off = heave - expected
+    text = (f"{body} floats at {words.number(heave, 3)} m; the vertical load on it asks for {words.number(expected, 3)} m by the volume of its cylinders")
+    if abs(off) <= 0.03 * draft:
+        return Check("good", "Draft", text)
+    return Check("warn", "Draft", f"{text}. It is {words.number(abs(off), 3)} m too {'high' if off > 0 else 'low'}, "
+                 f"{100 * abs(off) / draft:.0f} % of the draft: finer particles bring it nearer")
+
+
+def _power(run):
+    """Mean power against that of the turbine's operation table at this wind."""
+    wind, table = _value(run.scene, "wind", "speed_m_s"), run.operation()
+    if table is None or not wind or "rotor.power_W" not in run.columns or not len(run.time):
+        return None
+    if not {"wind_m_s", "power_W"} <= set(table):
+        return None
+    chosen = run.mean_range()[0]
+    power, stated = words.mean(run.time[chosen], run.column("rotor.power_W")[chosen]), float(np.interp(wind, table["wind_m_s"], table["power_W"]))
+    rated = max(table["power_W"])
+    text = f"mean {words.number(1e-6 * power, 3)} MW; the turbine's table has {words.number(1e-6 * stated, 3)} MW at {wind:.4g} m/s, rated {words.number(1e-6 * rated, 3)} MW"
+    level = "good" if abs(power - stated) <= 0.15 * max(stated, 1.0) else "warn"
+    return Check(level, "Power", text)
+
+
+def _lines(run):
+    tensions = [n for n in run.columns if n.endswith(".tension_N")]
+    if not tensions or not len(run.time):
+        return None
+    pushed = [n for n in tensions if np.nanmin(run.column(n)) < 0.0]
+    if pushed:
+        return Check("bad", "Lines", "push, which no line can: " + ", ".join(n.rpartition(".")[0] for n in pushed))
+    slack = {n.rpartition(".")[0]: float(np.mean(run.column(n) == 0.0)) for n in tensions}
+    said = [f"{name} {100 * share:.0f} % of the time" for name, share in slack.items() if share > 0.0]
+    return Check("good", "Lines", "none pushes" + (f"; slack: {', '.join(said)}" if said else "; none goes slack"))
+
+
+def _windows(run):
+    found = []
+    if "coupling.mismatch" in run.columns:
+        values = run.column("coupling.mismatch")
+        finite = values[np.isfinite(values)]
+        asked = _value(run.scene, "coupling", "tolerance")
+        if len(finite):
+            worst = float(finite.max())
+            loose = isinstance(asked, (int, float)) and worst > asked
+            strong = "coupling.columns" in run.columns
+            found.append(Check("warn" if loose and strong else "good", "Coupling",
+                               f"loads in and out of a window differ by at most {words.number(100 * worst, 2)} %"
+                               + (f"; asked: {words.number(100 * asked, 2)} %" if strong and isinstance(asked, (int, float)) else "")))
+    drop = _value(run.scene, "aero", "flow", "drop")
+    if "air.residual_drop" in run.columns and isinstance(drop, (int, float)):
+        values = run.column("air.residual_drop")
+        share = float(np.mean(values[np.isfinite(values)] <= drop)) if np.isfinite(values).any() else 0.0
+        found.append(Check("good" if share >= 0.9 else "warn", "Air",
+                           f"the residual falls to {drop:g} of its start in {100 * share:.0f} % of the windows"
+                           + ("" if share >= 0.9 else "; the others end at max_pseudo_steps")))
+    if "flow.density_residual" in run.columns and _value(run.scene, "aero", "flow", "time") == "steady":
+        values = run.column("flow.density_residual")
+        if len(values) and np.nanmax(values) > 0:
+            fell = values[-1] / np.nanmax(values)
+            found.append(Check("good" if fell <= max(drop or 0.0, 1e-3) * 1.01 else "warn", "Residual", f"fell to {fell:.1e} of its largest"))
+    return found
+
+
+def _particles(run):
+    if "sea.lost_particles" not in run.columns or not len(run.time):
+        return None
+    lost = run.column("sea.lost_particles")[-1]
+    return Check("good" if lost == 0 else "warn", "Particles", "none left the tank" if lost == 0 else f"{lost:.0f} left the tank")
+
+
+def _budgets(run):
+    """Columns that say how well something is conserved, whatever part of the program writes them."""
+    found = []
+    for name in run.columns:
+        quantity = name.rpartition(".")[2]
+        if not any(word in quantity for word in ("budget", "constraint", "imbalance", "conservation")):
+            continue
+        values = run.column(name)
+        values = values[np.isfinite(values)]
+        if len(values):
+            unit = quantities.unit_of(name, run.described)
+            found.append(Check("good", quantities.spoken(name), f"at most {words.number(float(np.abs(values).max()), 2)} {unit}".strip()))
+    return found
+
+
+def _settled(run):
+    """Do the means stand for more than their stretch? Halves of the range compared, for the first body and the thrust."""
+    if len(run.time) < 20 or kind(run) not in ("floating turbine", "bodies"):
+        return None
+    chosen = np.flatnonzero(run.mean_range()[0])
+    if len(chosen) < 10:
+        return None
+    body, moving = quantities.bodies_of(run.columns)[0], []
+    first, second = np.array_split(chosen, 2)
+    for text, name, least in (("surge", f"{body}.x_m", 0.02), ("heave", f"{body}.z_m", 0.02), ("pitch", f"{body}.pitch_deg", 0.05)):
+        if name in run.columns:
+            values = run.column(name)
+            change = words.mean(run.time[second], values[second]) - words.mean(run.time[first], values[first])
+            if abs(change) > max(least, 0.1 * abs(words.mean(run.time[chosen], values[chosen]))):
+                unit = quantities.unit_of(name, run.described)
+                moving.append(f"{text} by {words.number(change, 2)} {unit}")
+    if moving:
+        return Check("warn", "Settled", "not yet: between the halves of the stretch of the means, " + ", ".join(moving) + " changed")
+    return Check("good", "Settled", "means of both halves of their stretch agree")
+
+
+def health(run):
+    """All checks that the run's data allow, the worst first."""
+    found = [_end(run)]
+    said = trouble(run)
+    found += [Check("bad", "Numbers", s) for s in said]
+    if not said and len(run.time):
+        found.append(Check("good", "Numbers", f"all {run.values.size:,} of history.csv are finite"))
+    found += [c for c in (_draft(run), _power(run), _lines(run), _particles(run), _settled(run)) if c]
+    found += _windows(run) + _budgets(run)
+    if warnings := run.summary.get("warnings"):
+        found.append(Check("warn", "Log", f"{warnings} warning{'s' if warnings != 1 else ''}"))
+    found += [Check("warn", "Files", note) for note in run.notes]
+    return sorted(found, key=lambda c: ORDER[c.level])
+
+
+def headline(checks):
+    """(level, words) of all checks together: nobody reads 'done' over a result that is wrong."""
+    worst = min((c.level for c in checks), key=ORDER.get)
+    if worst == "bad":
+        return worst, "Do not trust this run: " + "; ".join(c.title.lower() for c in checks if c.level == "bad")
+    if worst == "warn":
+        return worst, "Look before you trust it: " + ", ".join(dict.fromkeys(c.title.lower() for c in checks if c.level == "warn"))
+    return worst, "Nothing stands against these results"
