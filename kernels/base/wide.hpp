@@ -276,7 +276,7 @@ T abs(T a) {
 
 /// 1/a of a positive number, and 1/sqrt(a): correctly rounded operations for one number; for a register of floats an estimate of
 /// 12 (AVX2) or 14 bits and a Newton step, within 3 units in the last place, at a third of the cost of the divider (perf/sea,
-/// docs/developer/sea.md).
+/// docs/developer/notes/sea.md).
 template <class Real>
 Real reciprocal(Real a) {
 #ifdef __AVX512F__

@@ -1,6 +1,6 @@
 // Products and the inverse of small dense blocks, n x n floats stored column by column. For n = 5 a column is read as eight
 // floats: the three lanes beyond it hold numbers of what follows, are multiplied along and never stored; no padding, 100 bytes
-// per block. Measured (docs/developer/air.md): this order against rows of many cells per register. Called by block_ilu.hpp,
+// per block. Measured (docs/developer/notes/air.md): this order against rows of many cells per register. Called by block_ilu.hpp,
 // stencil_matrix.hpp; tested in tests/kernels/linear/small_block_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

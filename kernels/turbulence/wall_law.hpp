@@ -1,6 +1,6 @@
 // The law of the wall as a table over the logarithm of the distance in wall units, and what it makes of a first cell that stands
 // in it. Each closure has its own law, found by wall_layer.hpp: laws of other closures or of measurements stand up to 1 u_tau
-// beside it, which is 8 % of the friction (docs/developer/air.md). Called by src/aero/flow (sweep_gradients, sweep_viscous,
+// beside it, which is 8 % of the friction (docs/developer/notes/air.md). Called by src/aero/flow (sweep_gradients, sweep_viscous,
 // sweep_model_of) for walls with a wall function; tested in tests/kernels/turbulence/wall_law_test.cpp. SPDX-License-Identifier:
 // Apache-2.0
 #pragma once

@@ -2,7 +2,7 @@
 // degrees), the residual alone, what a cell costs as grids grow and as they are cut into blocks. User CPU seconds of one thread,
 // per cell. Two density residuals are told apart: RMS over cells of R/V, and of the flux balance R itself, which is what CFL3D
 // prints (l2norm.F sums res^2, resp.F takes the mean and the root; no volume). Bars that come from CFL3D's runs are held against
-// the latter. Run by perf/run; bars and what was tried: docs/developer/air.md. SPDX-License-Identifier: Apache-2.0
+// the latter. Run by perf/run; bars and what was tried: docs/developer/notes/air.md. SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <numbers>
 

@@ -2,7 +2,7 @@
 // what 256 tiles cost over one; the map of one pseudo-step's linear system over Mach number, CFL number and tiles, with the
 // winner; a march to six orders round a cylinder at Mach 1e-3. Forms: block ILU; coarse correction by groups of 8 cells a side,
 // eliminated; by groups of 4, left to BoomerAMG with ILU smoothing; pressure by BoomerAMG. What it says:
-// docs/developer/air_linear.md. Run by perf/run. SPDX-License-Identifier: Apache-2.0
+// docs/developer/notes/air_linear.md. Run by perf/run. SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdio>
 #include <tuple>

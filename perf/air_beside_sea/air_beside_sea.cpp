@@ -2,7 +2,7 @@
 // algebraic multigrid and a sea of particles as one graph on two threads. Of the time of all calls of hypre (set-up and cycles:
 // the collective tasks of the air), the part in which the other thread ran no task; runtime and polling count as idle. Windows
 // need more work of the sea than hypre takes: the figure beside says how much more there is. Threads whatever OMP_NUM_THREADS
-// says. Run by perf/run; what was measured: docs/developer/air_linear.md. SPDX-License-Identifier: Apache-2.0
+// says. Run by perf/run; what was measured: docs/developer/notes/air_linear.md. SPDX-License-Identifier: Apache-2.0
 #include <omp.h>
 
 #include <map>

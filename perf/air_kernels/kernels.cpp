@@ -1,7 +1,7 @@
 // What the kernels of the air cost: nanoseconds per face or cell over rows in cache, and the share of the multiply-add ceiling
 // that the counted operations make (a division or square root counts one, an addition one; the ceiling counts two for a
 // multiply-add). Processor time of the thread, best of several: other processes only ever add. Rows lie in the second-level
-// cache, as a tile's do. Run by perf/run; figures are quoted in docs/developer/air_kernels.md. SPDX-License-Identifier:
+// cache, as a tile's do. Run by perf/run; figures are quoted in docs/developer/notes/air_kernels.md. SPDX-License-Identifier:
 // Apache-2.0
 #include <ctime>
 #include <limits>

@@ -2,7 +2,7 @@
 // 0.67 x 0.3 m, post 0.12 x 0.12 x 0.45 m, spacing 6 mm, h/d 1.732, Wendland, c0 34 m/s, alpha 0.1, symplectic, CFL 0.2, dynamic
 // walls, water displaced by up to a quarter spacing at random. Counted as particle evaluations (all particles, two per step)
 // over wall time, everything included.
-// Run by perf/run; what was tried is in docs/developer/sea.md.
+// Run by perf/run; what was tried is in docs/developer/notes/sea.md.
 // SPDX-License-Identifier: Apache-2.0
 #include <omp.h>
 

@@ -1,7 +1,7 @@
 // What the choices of a sea of particles trade: a standing wave in 2-D (length 1 m, depth 0.5 m, amplitude 1 cm, d = 1/40 m),
 // each choice varied alone, its error in frequency against linear theory, its decay and its price in processor seconds per second
 // of sea. Ratios to the first line, run in turn in one process, so that a busy machine matters little. Run by perf/run; read in
-// docs/developer/sea.md. SPDX-License-Identifier: Apache-2.0
+// docs/developer/notes/sea.md. SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <string>
 

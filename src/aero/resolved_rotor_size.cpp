@@ -19,7 +19,7 @@ namespace spindrift::aero {
 
 namespace {
 
-// Measured on one core of 50 GFLOP/s in double (docs/developer/rotor_resolved.md, machine.md): SA with 20 Krylov vectors;
+// Measured on one core of 50 GFLOP/s in double (docs/developer/notes/rotor_resolved.md, machine.md): SA with 20 Krylov vectors;
 // inviscid.
 constexpr double viscous_seconds = 12e-6, inviscid_seconds = 7.5e-6;
 

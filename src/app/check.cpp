@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -230,6 +231,41 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   print_cost(std::span(&cost, 1), s.time.end_s, ranks);
 }
 
+/// What a patch of this name most likely is.
+const char* likely_condition(const std::string& patch, bool viscous) {
+  const auto has = [&](const char* word) { return patch.find(word) != std::string::npos; };
+  if (has("sym")) return "symmetry";
+  if (has("wall") || has("solid") || has("blade") || has("wing") || has("foil") || has("body"))
+    return viscous ? "no_slip" : "slip";
+  return "far_field";
+}
+
+/// Size of a grid that stands, its patches with their conditions; a block to paste where some have none. False then.
+bool print_flow_grid(const aero::FlowOptions& o) {
+  const aero::MultiBlockGrid grid = flow_grid(o);
+  std::size_t cells = 0;
+  for (const aero::Block& b : grid.blocks) cells += std::size_t(b.ni) * b.nj * b.nk;
+  std::map<std::string, long> faces;
+  for (const aero::Boundary& b : grid.boundaries)
+    faces[b.patch] += long(b.where.high[0] - b.where.low[0]) * (b.where.high[1] - b.where.low[1]);
+  fmt::print("  {:<10}{} cells in {} block{}{}\n", "", cells, grid.blocks.size(), grid.blocks.size() == 1 ? "" : "s",
+             grid.planar ? ", planar" : "");
+  std::vector<std::string> missing;
+  fmt::print("\nPatches of the grid\n");
+  for (const auto& [patch, count] : faces) {
+    const bool given =
+        std::any_of(o.boundaries.begin(), o.boundaries.end(), [&](const aero::PatchOptions& b) { return b.patch == patch; });
+    fmt::print("  {:<22}{} faces{}\n", patch, count, given ? "" : ", no condition yet");
+    if (!given) missing.push_back(patch);
+  }
+  if (missing.empty()) return true;
+  fmt::print("\nEach patch needs a condition. To paste under [aero.flow], after a look at each line:\n\nboundaries = [\n");
+  for (const auto& [patch, count] : faces)
+    fmt::print("  {{patch = \"{}\", condition = \"{}\"}},\n", patch, likely_condition(patch, o.viscous != "none"));
+  fmt::print("]\n");
+  return false;
+}
+
 }  // namespace
 
 int check(const CheckArguments& arguments, const runtime::World& world) {
@@ -240,11 +276,11 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     return done;
   }
   if (scenario.has_flow()) {
-    if (world.rank == 0)
-      fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air",
-                 scenario.aero.flow->time, scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
-                 aero::describe_flow_grid(*scenario.aero.flow));
-    return done;
+    if (world.rank != 0) return done;
+    fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
+               scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
+               aero::describe_flow_grid(*scenario.aero.flow));
+    return print_flow_grid(*scenario.aero.flow) ? done : bad_input;
   }
   Machine machine(std::move(scenario));
   const coupling::Start start = make_start(machine);

@@ -53,7 +53,7 @@ struct PictureArguments {
   std::string time = "last";     ///< of a picture: seconds, or "last"
   std::string camera = "scene";  ///< "scene", "side", "front", "top", "rotor"
   double seconds = 12.0;         ///< length of a film
-  int frames_per_second = 15;
+  int frames_per_second = 12;
   bool film = false;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "src/io/collective.hpp"
@@ -163,7 +164,9 @@ struct ParticleFields::Impl {
   std::string grid(double time_s, const std::string& file, std::int64_t count) const {
     const std::string n = std::to_string(count);
     std::string text = fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n", series.name, time_s);
-    text += fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n", n);
+    // Each particle a cell by its number: without the list ParaView's default reader (Xdmf3) has points and shows none.
+    text += fmt::format("<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n", n,
+                        item(n, "Int", 8, file, "vertex"));
     text += "<Geometry GeometryType=\"XYZ\">" + item(n + " 3", "Float", 8, file, "position") + "</Geometry>\n";
     text += "<Attribute Name=\"id\" AttributeType=\"Scalar\" Center=\"Node\">" + item(n, "Int", 8, file, "id") + "</Attribute>\n";
     for (const Field& field : series.fields) text += attribute(field, n, "Node", file, field.name);
@@ -191,7 +194,8 @@ void ParticleFields::write(std::int64_t tick, double time_s, std::span<const std
   set_time(file, time_s);
   const auto extent = static_cast<hsize_t>(total);
   std::vector<SharedFile::Array> arrays = {{"position", H5T_NATIVE_DOUBLE, {extent, 3}, {}},
-                                           {"id", H5T_NATIVE_INT64, {extent}, {}}};
+                                           {"id", H5T_NATIVE_INT64, {extent}, {}},
+                                           {"vertex", H5T_NATIVE_INT64, {extent}, {}}};
   for (const Field& field : series.fields) arrays.push_back(field_array(field.name, {extent}, field));
   const std::vector<std::int64_t> places = file.add(arrays);
   together(series.comm, [&] {
@@ -199,12 +203,15 @@ void ParticleFields::write(std::int64_t tick, double time_s, std::span<const std
     require_size(fields.size(), series.fields.size(), series.name + " (number of fields)");
     file.write(places[0] + before * 3 * 8, std::as_bytes(positions));
     file.write(places[1] + before * 8, std::as_bytes(ids));
+    std::vector<std::int64_t> vertex(ids.size());
+    std::iota(vertex.begin(), vertex.end(), before);
+    file.write(places[2] + before * 8, std::as_bytes(std::span<const std::int64_t>(vertex)));
     std::vector<float> buffer;
     for (std::size_t f = 0; f < fields.size(); ++f) {
       const int components = series.fields[f].components;
       require_size(fields[f].size(), ids.size() * static_cast<std::size_t>(components),
                    series.name + "/" + series.fields[f].name);
-      write_single(file, places[2 + f] + before * components * 4, fields[f], buffer);
+      write_single(file, places[3 + f] + before * components * 4, fields[f], buffer);
     }
   });
   file.commit();

@@ -141,7 +141,8 @@ def _key_rows(run, names):
         unit, factor = quantities.scaled(quantities.unit_of(name, run.described), np.abs(finite).max(initial=0.0))
         low, high = (finite.min(), finite.max()) if len(finite) else (math.nan, math.nan)
         figures_of = [values[-1], mean(run.time[where[0]], values[where[0]]), low, high]
-        rows.append((name, unit, [factor * float(v) for v in figures_of]))
+        noise = 1e-12 * np.abs(finite).max(initial=0.0)
+        rows.append((name, unit, [factor * float(v) if not abs(v) <= noise else 0.0 for v in figures_of]))
     return rows, where[1]
 
 

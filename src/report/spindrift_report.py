@@ -38,6 +38,15 @@ def guarded(action):
         fail(4, f"not written: {error}")
 
 
+def surfaces(run):
+    """fields/geometry.xdmf; needs h5py as all fields do."""
+    try:
+        import geometry_fields
+        geometry_fields.write(run)
+    except ModuleNotFoundError:
+        pass
+
+
 class Progress:
     def __init__(self):
         self.began = time.monotonic()
@@ -74,6 +83,9 @@ def main():
     runs = [RunData(folder) for folder in given.directories]
     out = given.out or given.directories[0] / ("report.html" if len(runs) == 1 else "comparison.html")
     write(out, lambda: page.build(runs, progress))
+    if len(runs) == 1:
+        progress("surfaces for ParaView")
+        guarded(lambda: surfaces(runs[0]))
     if given.png:
         guarded(lambda: picture.draw(runs[0], given.png))
 

@@ -171,7 +171,13 @@ def _lines(run):
         return None
     pushed = [n for n in tensions if np.nanmin(run.column(n)) < 0.0]
     if pushed:
-        return Check("bad", "Lines", "push, which no line can: " + ", ".join(n.rpartition(".")[0] for n in pushed))
+        names = [n.rpartition(".")[0] for n in pushed]
+        lines = run.scene.get("moorings") or {}
+        if all((lines.get(name) or {}).get("tension_only") is False for name in names):
+            share = max(float(np.mean(run.column(n) < 0.0)) for n in pushed)
+            return Check("warn", "Lines", f"push up to {100 * share:.0f} % of the time, which no rope does: {', '.join(names)} (tension_only = false makes "
+                         "them springs both ways)")
+        return Check("bad", "Lines", "push, which no line can: " + ", ".join(names))
     slack = {n.rpartition(".")[0]: float(np.mean(run.column(n) == 0.0)) for n in tensions}
     said = [f"{name} {100 * share:.0f} % of the time" for name, share in slack.items() if share > 0.0]
     return Check("good", "Lines", "none pushes" + (f"; slack: {', '.join(said)}" if said else "; none goes slack"))
@@ -236,6 +242,13 @@ def _settled(run):
         return None
     body, moving = quantities.bodies_of(run.columns)[0], []
     first, second = np.array_split(chosen, 2)
+    period = _value(run.scene, "waves", "period_s") or _value(run.scene, "waves", "peak_period_s")
+    if isinstance(period, (int, float)) and period > 0:   # whole waves alone have a mean
+        begin, end = run.time[chosen[0]], run.time[chosen[-1]]
+        waves = int((end - begin) / period + 1e-6) // 2
+        if waves == 0:
+            return None
+        first, second = chosen[run.time[chosen] <= begin + waves * period + 1e-9], chosen[run.time[chosen] >= end - waves * period - 1e-9]
     for text, name, least in (("surge", f"{body}.x_m", 0.02), ("heave", f"{body}.z_m", 0.02), ("pitch", f"{body}.pitch_deg", 0.05)):
         if name in run.columns:
             values = run.column(name)

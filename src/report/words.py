@@ -19,7 +19,7 @@ def number(value, digits=4):
 def duration(seconds):
     """'0.62 s', '2 min 5 s', '3 h 10 min'."""
     if seconds < 100:
-        return f"{number(seconds, 3)} s"
+        return f"{number(seconds, 3)}\u00a0s"
     if seconds < 7200:
         return f"{int(seconds) // 60} min {int(seconds) % 60} s"
     return f"{int(seconds) // 3600} h {int(seconds) % 3600 // 60} min"

@@ -93,7 +93,7 @@ TEST_CASE("case 3: every strong scheme, in turn or at once, finds the same motio
       const March run = march(case3, options);
       REQUIRE(run.failure == "");
       CHECK(rms_difference(run.pitch, reference.pitch) < 1e-9);
-      const bool learns_slowly = scheme == "interface_gmres" && composition == "parallel";  // docs/developer/status.md
+      const bool learns_slowly = scheme == "interface_gmres" && composition == "parallel";  // docs/verification/status.md
       if (!learns_slowly) CHECK(run.totals.retries == 0);
       const double mean = double(run.totals.evaluations) / double(run.totals.windows);
       std::cout << "case 3 " << scheme << " " << composition << ": " << mean << " evaluations a window\n";

@@ -12,7 +12,7 @@
 namespace spindrift::aero {
 
 /// What a pseudo-step's solution costs beside residual and matrix, in microseconds of one core per cell: measured by perf/air_amg
-/// on one core of 101 GFLOP/s (docs/developer/air_linear.md); only ratios matter.
+/// on one core of 101 GFLOP/s (docs/developer/notes/air_linear.md); only ratios matter.
 struct CostModel {
   double ilu_iteration = 0.36;
   double coarse_setup = 0.5, coarse_iteration = 0.45;

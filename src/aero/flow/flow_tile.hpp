@@ -1,5 +1,5 @@
 // What the solver keeps for one tile: state, residual, gradients, the past, the matrix and the Krylov vectors, each allocated
-// only where the scene needs it. Bytes per cell are added up in docs/developer/air.md. Unknowns are p u v w T above the
+// only where the scene needs it. Bytes per cell are added up in docs/developer/notes/air.md. Unknowns are p u v w T above the
 // references of the gas, then those of the turbulence model; residuals in the order rho mx my mz E. Called by the sweeps and
 // tasks of src/aero/flow; tested through tests/src/aero/flow. SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,5 +1,5 @@
 // How particles lie in memory: clusters of 16 near neighbours, one lane each, several planes of 16 numbers per cluster side by
-// side; clusters stand in the order of the groups (columns of cells) of the scene. Why so: docs/developer/sea.md.
+// side; clusters stand in the order of the groups (columns of cells) of the scene. Why so: docs/developer/notes/sea.md.
 // Called by every file of src/sea/sph; tested in tests/src/sea/sph/ordering_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace spindrift::sph {
 
-inline constexpr int cluster_size = 16;  ///< a float register of AVX-512; measured against 8 in docs/developer/sea.md
+inline constexpr int cluster_size = 16;  ///< a float register of AVX-512; measured against 8 in docs/developer/notes/sea.md
 inline constexpr std::uint32_t no_particle = std::numeric_limits<std::uint32_t>::max();  ///< id of an empty lane
 inline constexpr double empty_lane_offset_m =
     1e9;  ///< position of an empty lane: outside every support, its square finite in float

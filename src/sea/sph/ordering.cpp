@@ -1,4 +1,4 @@
-// Groups by counting, clusters by halving (see ordering.hpp). Cost at the reference scene: docs/developer/sea.md.
+// Groups by counting, clusters by halving (see ordering.hpp). Cost at the reference scene: docs/developer/notes/sea.md.
 // Called through ordering.hpp; tested in tests/src/sea/sph/ordering_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/ordering.hpp"

@@ -1,7 +1,7 @@
 // The pair sweep: every pair of particles within reach once, both partners updated ("symmetric"), one particle against 16 lanes
 // at a time. A group writes to itself and its forward neighbours; groups of one colour (columns.hpp) may run at once. No locks;
 // the order of the terms of every sum is fixed by the scene and the sorting. Layouts tried and their speeds:
-// docs/developer/sea.md. Called by sea_sph.hpp; tested in tests/src/sea/sph/sweep_test.cpp against all pairs.
+// docs/developer/notes/sea.md. Called by sea_sph.hpp; tested in tests/src/sea/sph/sweep_test.cpp against all pairs.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,7 +1,7 @@
 // What a lattice of particles under pressure does against a shear that changes no volume. Pressure acts along the gradient of the
 // sum of kernels: where that sum changes under shear the lattice holds an energy of beta strain^2 times the pressure, as an
 // elastic body would; water has none. By energy it raises the frequency of waves by about (beta_pure + beta_simple)/4
-// (docs/developer/sea_physics.md). SPDX-License-Identifier: Apache-2.0
+// (docs/developer/notes/sea_physics.md). SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 

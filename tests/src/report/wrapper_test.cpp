@@ -53,8 +53,7 @@ TEST_CASE("why there is no report is said in one sentence", "[report][fast]") {
   const RunFolder run;
   CHECK(report::write({{run.path / "absent"}, {}, {}}).exit_code == 2);
   CHECK_THAT(report::write({{run.path / "absent"}, {}, {}}).trouble, Contains("absent is not a run directory"));
-  CHECK_THAT(report::write({{run.path}, run.path / "no/such/folder.html", {}}).trouble,
-             Contains("No such file or directory"));
+  CHECK_THAT(report::write({{run.path}, run.path / "no/such/folder.html", {}}).trouble, Contains("No such file or directory"));
   {
     const Interpreter none("/nowhere/python3");
     CHECK_THAT(report::write({{run.path}, {}, {}}).trouble, Contains("/nowhere/python3") && Contains("ci/setup"));

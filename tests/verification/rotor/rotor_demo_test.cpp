@@ -1,7 +1,7 @@
 // The DTU 10-MW rotor on the demo's grid at 11 m/s, 8.836 rpm, pitch 0 against its 2013 report (1507 kN, 9.70 MW; Bak et al., DTU
 // Wind Energy I-0092) and the normal force along the span by blade element momentum (Madsen's induction, Prandtl's losses,
-// cone 2.5 degrees, no tilt: 1511 kN, 9803 kW). What the demo grid misses is stated in docs/developer/rotor_resolved.md; the test
-// holds it there. SPDX-License-Identifier: Apache-2.0
+// cone 2.5 degrees, no tilt: 1511 kN, 9803 kW). What the demo grid misses is stated in docs/developer/notes/rotor_resolved.md;
+// the test holds it there. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // The DTU 10-MW rotor with friction on a family of grids at 11 and 8 m/s, tip-speed ratio 7.5, against the 2013 report (Bak et
 // al., DTU Wind Energy I-0092: 1507.4 kN and 9698 kW, 797.3 kN and 3731 kW) and blade element momentum along the span: orders,
 // Richardson values, dT/dU. Each grid is marched once for all test cases of a process, so that each case can be run by itself.
-// Printed as it goes, the table of docs/developer/rotor_resolved.md. SPDX-License-Identifier: Apache-2.0
+// Printed as it goes, the table of docs/developer/notes/rotor_resolved.md. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ ResolvedRotorSetup setup(double resolution, double wind, double rpm, int steps) 
   ResolvedRotorSetup s;
   s.grid.resolution = resolution, s.grid.sectors = "one", s.grid.first_cell_chords = 5.8e-4 / resolution;
   // Far sides at twelve, ten and twelve tip radii: nearer, they hold back the air that the rotor pushes aside and speed the wake
-  // up, and the disc sees more wind than it should (docs/developer/rotor_resolved.md).
+  // up, and the disc sees more wind than it should (docs/developer/notes/rotor_resolved.md).
   s.grid.radial_extent = 12.0, s.grid.upstream_extent = 10.0, s.grid.downstream_extent = 12.0;
   s.grid.cells_outboard = int(std::lround(8.75 * resolution)), s.grid.cells_upstream = int(std::lround(6.25 * resolution));
   s.grid.cells_downstream = int(std::lround(7.5 * resolution));

@@ -1,7 +1,7 @@
 // Half-buoyant cylinder of 5.5 cm radius dropped from 0.8 m into 0.3 m of water, in 2-D: depth against time from contact.
 // Experiment of Greenhow & Lin (1983), MIT Sea Grant report, and boundary-element values; validation case of Leble & Barakos
 // (2016), section 2.2, Fig. 3. Starts at contact with the speed of the fall, 2.955 m/s; fluid-body viscosity is neglected as in
-// the paper. How walls, sound and support were chosen: docs/developer/sea_physics.md. SPDX-License-Identifier: Apache-2.0
+// the paper. How walls, sound and support were chosen: docs/developer/notes/sea_physics.md. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
 #include "src/sea/sph/shapes.hpp"

@@ -1,7 +1,7 @@
 // A column of water, 0.6 m wide and 0.3 m high, breaks and runs 1.01 m along a dry bed to a wall: when it arrives and how hard it
 // presses on sensor 1 of Lobovsky et al. (2014), J. Fluids Struct. 48, 407: 4.2 mm across, 3 mm above the bed, arrival at
 // t sqrt(g/H) = 2.43, peak 2.84 rho g H. Pressure is the force on the rows of wall particles that the sensor covers, over their
-// area: what single particles say depends on the speed of sound (rho c0 u is 39 rho g H). docs/developer/sea_physics.md.
+// area: what single particles say depends on the speed of sound (rho c0 u is 39 rho g H). docs/developer/notes/sea_physics.md.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <deque>

@@ -1,6 +1,6 @@
 // Collapse of a water column 1 m wide and 2 m high: position of the front against the experiment of Koshizuka & Oka (1996),
 // Nucl. Sci. Eng. 123, 421, scaled to a width of 1 m: this one leads by some 5 % of the way, made in the first
-// 0.3 s (docs/developer/sea_physics.md); and the first instant against potential flow.
+// 0.3 s (docs/developer/notes/sea_physics.md); and the first instant against potential flow.
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <numbers>

@@ -1,7 +1,7 @@
 // A wave of the paper's proportions (depth 0.6 m, period 1.5 s, height 0.055 m) that travels between periodic sides: phase speed
 // and loss per wave length, without a paddle. The support of the kernel decides both: as we explain it, a lattice of particles
 // under pressure resists shear where its sums are coarse (tests/kernels/sph/lattice_stiffness_test.cpp), and a stiff sea is a
-// fast one. Equations: docs/theory/waves.md; figures: docs/developer/sea_physics.md. SPDX-License-Identifier: Apache-2.0
+// fast one. Equations: docs/theory/waves.md; figures: docs/developer/notes/sea_physics.md. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <complex>
 

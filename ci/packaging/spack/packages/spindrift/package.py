@@ -1,0 +1,33 @@
+# Spack recipe of Spindrift; untested: no Spack was at hand. SPDX-License-Identifier: Apache-2.0
+#   spack repo add ci/packaging/spack && spack install spindrift
+from spack.package import *
+
+
+class Spindrift(CMakePackage):
+    """Coupled simulation of floating offshore wind turbines: a rotor in compressible air, a sea of particles, moored bodies."""
+
+    license("Apache-2.0")
+    version("main", branch="main")
+
+    variant("cgns", default=True, description="Read and write CGNS grids")
+
+    depends_on("cxx", type="build")
+    depends_on("cmake@3.21:", type="build")
+    depends_on("mpi")
+    depends_on("hdf5@1.10: +mpi")
+    depends_on("eigen@3.4:")
+    depends_on("metis@5:")
+    depends_on("hypre@2.26:")
+    depends_on("cgns +hdf5 +parallel", when="+cgns")
+    depends_on("fmt@9:")
+    depends_on("spdlog@1.10:")
+    depends_on("nlohmann-json@3.11:")
+    depends_on("tomlplusplus@3.3:")
+    depends_on("cli11@2.2:")
+    depends_on("python@3.11:", type="run")
+    depends_on("py-matplotlib", type="run")
+    depends_on("py-h5py", type="run")
+    depends_on("py-jinja2", type="run")
+
+    def cmake_args(self):
+        return [self.define("SPINDRIFT_NATIVE", False), self.define("SPINDRIFT_TESTS", False), self.define("SPINDRIFT_PERF", False)]

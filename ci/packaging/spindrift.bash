@@ -1,0 +1,24 @@
+# Completion of spindrift's commands, options and files for bash. Installed into share/bash-completion/completions.
+_spindrift() {
+  local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]:-} before=${COMP_WORDS[COMP_CWORD-1]}
+  COMPREPLY=()
+  if [ "$COMP_CWORD" -eq 1 ]; then
+    COMPREPLY=($(compgen -W "run check grid study reference report picture film help --help --version" -- "$word"))
+    return
+  fi
+  case $before in
+    --set | --until | --seconds | --rate | --time) return ;;
+    --fluid) COMPREPLY=($(compgen -W "air sea" -- "$word")); return ;;
+    --camera) COMPREPLY=($(compgen -W "scene side front top rotor" -- "$word")); return ;;
+  esac
+  if [[ $word == -* ]]; then
+    COMPREPLY=($(compgen -W "$("${COMP_WORDS[0]}" "$command" --help 2>/dev/null | grep -oE -- '--[a-z-]+' | sort -u)" -- "$word"))
+    return
+  fi
+  case $command in
+    run | check | grid | study) COMPREPLY=($(compgen -f -X '!*.toml' -- "$word") $(compgen -d -- "$word")) ;;
+    report | picture | film) COMPREPLY=($(compgen -d -- "$word")) ;;
+    help) COMPREPLY=($(compgen -W "run check grid study reference report picture film" -- "$word")) ;;
+  esac
+}
+complete -o filenames -F _spindrift spindrift

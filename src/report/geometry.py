@@ -1,0 +1,312 @@
+"""The scene as surfaces and lines in the earth frame at any time of a run, from scene.toml and history.csv alone: shapes of the bodies, tower,
+nacelle, blades, lines, the undisturbed waves. Tower, nacelle and braces are drawn for the eye: a scene has their mass, not their shape.
+Called by scene_picture.py and paraview.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+import math
+
+import numpy as np
+
+import quantities
+
+ROUND = 36  # corners of a circle
+
+
+class Piece:
+    """A surface of quadrilaterals and triangles, or polylines: `kind` says what it shows (float, tower, nacelle, blade, line, brace)."""
+
+    def __init__(self, kind, name, points, polygons=(), lines=()):
+        self.kind, self.name, self.points = kind, name, np.asarray(points, float)
+        self.polygons, self.lines = list(polygons), list(lines)
+
+
+def about(axis, angle):
+    """Rotation matrix about an axis."""
+    x, y, z = axis / np.linalg.norm(axis)
+    c, s = math.cos(angle), math.sin(angle)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + s * cross + (1 - c) * cross @ cross
+
+
+def attitude(roll, pitch, yaw):
+    """Z-Y'-X'' from degrees: how an initial direction lies now."""
+    x, y, z = np.eye(3)
+    return about(z, math.radians(yaw)) @ about(y, math.radians(pitch)) @ about(x, math.radians(roll))
+
+
+def frustum(start, end, d0, d1=None, rings=1):
+    """Points and polygons of a closed cone between two centres."""
+    start, end = np.asarray(start, float), np.asarray(end, float)
+    d1 = d0 if d1 is None else d1
+    along = (end - start) / np.linalg.norm(end - start)
+    first = np.cross(along, [0.0, 1.0, 0.0] if abs(along[1]) < 0.9 else [1.0, 0.0, 0.0])
+    first /= np.linalg.norm(first)
+    second = np.cross(along, first)
+    angle = 2 * np.pi * np.arange(ROUND) / ROUND
+    circle = np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * second
+    points = np.concatenate([start + s * (end - start) + 0.5 * (d0 + s * (d1 - d0)) * circle for s in np.linspace(0, 1, rings + 1)])
+    n = np.arange(ROUND)
+    polygons = [[r * ROUND + i, r * ROUND + (i + 1) % ROUND, (r + 1) * ROUND + (i + 1) % ROUND, (r + 1) * ROUND + i] for r in range(rings) for i in n]
+    return points, polygons + [list(n[::-1]), list(rings * ROUND + n)]
+
+
+def box(centre, size):
+    corners = np.array([[i, j, k] for k in (-0.5, 0.5) for j in (-0.5, 0.5) for i in (-0.5, 0.5)])
+    sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    return np.asarray(centre, float) + corners * np.asarray(size, float), sides
+
+
+def sphere(centre, diameter):
+    height = np.linspace(-np.pi / 2, np.pi / 2, 19)[1:-1]
+    angle = 2 * np.pi * np.arange(ROUND) / ROUND
+    points = np.array([[math.cos(h) * math.cos(a), math.cos(h) * math.sin(a), math.sin(h)] for h in height for a in angle])
+    rings = len(height)
+    polygons = [[r * ROUND + i, r * ROUND + (i + 1) % ROUND, (r + 1) * ROUND + (i + 1) % ROUND, (r + 1) * ROUND + i]
+                for r in range(rings - 1) for i in range(ROUND)]
+    polygons += [list(range(ROUND))[::-1], list(range((rings - 1) * ROUND, rings * ROUND))]
+    return np.asarray(centre, float) + 0.5 * diameter * points, polygons
+
+
+def hanging(fairlead, anchor, length, count=40):
+    """Points of an inextensible line of this length between two points, on a bed at the anchor's level where it is long enough; straight where taut."""
+    fairlead, anchor = np.asarray(fairlead, float), np.asarray(anchor, float)
+    span = fairlead - anchor
+    across, rise = math.hypot(span[0], span[1]), span[2]
+    straight = anchor + np.linspace(0, 1, count)[:, None] * span
+    if not length or length <= 1.0001 * np.linalg.norm(span) or rise <= 0.0 or across <= 1e-9:
+        return straight
+
+    def resting(a):
+        """Length of the part in the water and its horizontal reach, for a line that lies tangent on the bed."""
+        return math.sqrt(rise * rise + 2 * rise * a), a * math.acosh(rise / a + 1)
+
+    horizontal = span / across * [1, 1, 0]
+    if length >= across + rise:   # hangs down and lies on the bed
+        return evenly(np.array([anchor, fairlead - [0, 0, rise], fairlead]), count)
+    a = resting_parameter(resting, across, length)
+    if a is None:
+        return straight
+    far = resting(a)[1]
+    ground = across - far
+    x = np.concatenate([np.linspace(0, ground, max(2, count // 4), endpoint=False), ground + far * np.linspace(0, 1, count)])
+    z = np.where(x < ground, 0.0, a * (np.cosh(np.maximum(x - ground, 0.0) / a) - 1))
+    return evenly(anchor + x[:, None] * horizontal + z[:, None] * [0, 0, 1], count)
+
+
+def evenly(points, count):
+    """So many points at equal lengths along a polyline."""
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    at = np.linspace(0.0, length[-1], count)
+    return np.stack([np.interp(at, length, points[:, d]) for d in range(3)], axis=-1)
+
+
+def resting_parameter(resting, across, length):
+    """Of the catenary whose reach is `across`; None where no part of the line would lie on the bed."""
+    reach = lambda a: length - resting(a)[0] + resting(a)[1]
+    low, high = 1e-6 * length, 1e6 * length
+    while high / low > 1 + 1e-10:
+        middle = math.sqrt(low * high)
+        if resting(middle)[0] > length or reach(middle) > across:
+            high = middle
+        else:
+            low = middle
+    return low if abs(reach(low) - across) < 1e-3 * across else None
+
+
+class Blades:
+    """Surface of one upright blade in the rotor's frame (x downwind along the axis, z up), from the turbine's tables."""
+
+    def __init__(self, turbine, path, pitch_deg):
+        table = columns(path.parent / turbine["planform"])
+        outlines = sorted((a["thickness_pct"], columns(path.parent / a["file"])) for a in turbine.get("aerofoils", [])) if turbine.get("aerofoils") else []
+        self.count, self.tip = turbine.get("blades", 3), table["span_m"][-1]
+        cone, pitch, sections = math.radians(turbine.get("precone_deg", 0.0)), math.radians(pitch_deg), []
+        prebend, sweep = (table.get(name, [0.0] * len(table["span_m"])) for name in ("prebend_m", "sweep_m"))
+        s = np.linspace(0, 2 * np.pi, 41)[:-1]
+        for m in range(len(table["span_m"])):
+            chord, twist = table["chord_m"][m], math.radians(table["twist_deg"][m])
+            thickness = table["thickness_pct"][m]
+            if outlines:
+                o = min(outlines, key=lambda entry: abs(entry[0] - thickness))[1]
+                at = np.linspace(0, len(o["x_c"]) - 1, 40).astype(int)
+                x, y = np.array(o["x_c"])[at], np.array(o["y_c"])[at]
+            else:
+                x, y = 0.5 + 0.5 * np.cos(s), 0.005 * thickness * np.sin(s)
+            # As src/aero/rotor_grid/blade_surface.cpp: t towards -y, the way the rotor turns; n downwind; then pitch and precone.
+            ahead, suction = (0.5 - x) * chord, y * chord
+            t = sweep[m] + ahead * math.cos(twist) + suction * math.sin(twist)
+            n = prebend[m] - ahead * math.sin(twist) + suction * math.cos(twist)
+            t, n = t * math.cos(pitch) + n * math.sin(pitch), n * math.cos(pitch) - t * math.sin(pitch)
+            span = table["span_m"][m]
+            sections.append(np.stack([n * math.cos(cone) - span * math.sin(cone), -t, span * math.cos(cone) + n * math.sin(cone)], axis=-1))
+        self.points, n = np.concatenate(sections), len(sections[0])
+        self.polygons = [[m * n + i, m * n + (i + 1) % n, (m + 1) * n + (i + 1) % n, (m + 1) * n + i] for m in range(len(sections) - 1) for i in range(n)]
+        self.polygons.append(list(range((len(sections) - 1) * n, len(sections) * n)))
+
+
+def columns(path):
+    """{name: values} of a CSV file with comments."""
+    rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines() if line.strip() and not line.startswith("#")]
+    return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
+
+
+class Scene3d:
+    def __init__(self, run):
+        self.run, self.scene = run, run.scene
+        self.bodies = {name: b for name, b in (run.scene.get("bodies") or {}).items() if f"{name}.x_m" in run.columns}
+        self.blades = self._blades()
+        self.hub0 = self._hub_at_start()
+
+    # ---- motion -------------------------------------------------------------------------------------------------------------------------
+
+    def at(self, name, t):
+        return float(np.interp(t, self.run.time, self.run.column(name))) if name in self.run.columns else 0.0
+
+    def moved(self, body, points, t):
+        """Points given at the start, carried by a body to time t."""
+        if body not in self.bodies:
+            return np.asarray(points, float)
+        given = self.bodies[body]
+        reference = np.asarray(given.get("reference_m", given.get("centre_m", [0, 0, 0])), float)
+        turn = attitude(*(self.at(f"{body}.{q}_deg", t) for q in ("roll", "pitch", "yaw")))
+        return (np.asarray(points, float) - reference) @ turn.T + reference + [self.at(f"{body}.{q}_m", t) for q in "xyz"]
+
+    def carrier(self):
+        """The body that carries the rotor: the other one of its joint."""
+        rotor = self.scene.get("rotor", {})
+        joint = (self.scene.get("joints") or {}).get(rotor.get("joint", ""), {})
+        others = [b for b in joint.get("bodies", []) if b != rotor.get("body")]
+        return others[0] if others else rotor.get("body", "")
+
+    def _hub_at_start(self):
+        rotor = self.scene.get("rotor", {})
+        joint = (self.scene.get("joints") or {}).get(rotor.get("joint", ""), {})
+        if "point_m" in joint:
+            return np.asarray(joint["point_m"], float)
+        if "rotor.thrust_N" in self.run.columns and not self.bodies:
+            return np.asarray(rotor.get("hub_m", [0, 0, 0]), float)
+        return None
+
+    def axis(self, t):
+        rotor = self.scene.get("rotor", {})
+        joint = (self.scene.get("joints") or {}).get(rotor.get("joint", ""), {})
+        along = np.asarray(joint.get("axis", rotor.get("axis", [1.0, 0.0, 0.0])), float)
+        along = along / np.linalg.norm(along)
+        body = self.carrier()
+        if body in self.bodies:
+            along = attitude(*(self.at(f"{body}.{q}_deg", t) for q in ("roll", "pitch", "yaw"))) @ along
+        return along
+
+    def hub(self, t):
+        return self.moved(self.carrier(), self.hub0[None], t)[0]
+
+    def azimuth(self, t):
+        """[rad], between the rows by the rate, since the column drops at a whole turn."""
+        if "rotor.azimuth_deg" not in self.run.columns:
+            return 0.0
+        return float(np.interp(t, self.run.time, np.unwrap(np.radians(self.run.column("rotor.azimuth_deg")))))
+
+    def rotor_frame(self, t):
+        """Rows: axis, sideways, up."""
+        along = self.axis(t)
+        up = np.array([0.0, 0.0, 1.0]) - along[2] * along
+        up /= np.linalg.norm(up)
+        return np.stack([along, np.cross(up, along), up])
+
+    def _blades(self):
+        turbine, path = self.run.turbine()
+        try:
+            return Blades(turbine, path, self.scene.get("rotor", {}).get("blade_pitch_deg", 0.0)) if turbine else None
+        except (OSError, KeyError, ValueError, IndexError):
+            return None
+
+    # ---- pieces -------------------------------------------------------------------------------------------------------------------------
+
+    def pieces(self, t):
+        found = []
+        for body, given in self.bodies.items():
+            for c in given.get("cylinders", []):
+                points, polygons = frustum(c["start_m"], c["end_m"], c["diameter_m"], c.get("end_diameter_m"))
+                found.append(Piece("float", f"{body} {c.get('name', '')}".strip(), self.moved(body, points, t), polygons))
+            for b in given.get("boxes", []):
+                points, polygons = box(b["centre_m"], b["size_m"])
+                found.append(Piece("float", f"{body} {b.get('name', '')}".strip(), self.moved(body, points, t), polygons))
+            for b in given.get("spheres", []):
+                points, polygons = sphere(b["centre_m"], b["diameter_m"])
+                found.append(Piece("float", f"{body} {b.get('name', '')}".strip(), self.moved(body, points, t), polygons))
+            if not any(given.get(shape) for shape in ("cylinders", "boxes", "spheres")) and self.hub0 is None:
+                points, polygons = sphere(given.get("centre_m", [0, 0, 0]), 0.06 * self._reach())
+                found.append(Piece("float", body, self.moved(body, points, t), polygons))
+        if self.hub0 is not None:
+            found += self._support(t) + self._rotor(t)
+        for name, line in (self.scene.get("moorings") or {}).items():
+            found.append(self._line(name, line, t))
+        return found
+
+    def _reach(self):
+        """Length of the longest line [m]: what the size of a body without a shape is taken from."""
+        lines = (self.scene.get("moorings") or {}).values()
+        return max((float(np.linalg.norm(np.subtract(line["fairlead_m"], line["anchor_m"]))) for line in lines), default=10.0)
+
+    def _line(self, name, line, t):
+        fairlead = self.moved(line.get("body", ""), [line["fairlead_m"]], t)[0]
+        anchor = self.moved(line.get("anchor_body", "earth"), [line["anchor_m"]], t)[0]
+        points = hanging(fairlead, anchor, line.get("rest_length_m"))
+        return Piece("line", name, points, lines=[list(range(len(points)))])
+
+    def _support(self, t):
+        """Tower from the deck to the nacelle, and braces from its foot to floats that stand apart."""
+        body, found = self.carrier(), []
+        cylinders = self.bodies.get(body, {}).get("cylinders", [])
+        if not cylinders:
+            return found
+        hub = self.hub0
+        deck = max(max(c["start_m"][2], c["end_m"][2]) for c in cylinders)
+        size = max(3.0, 0.065 * (hub[2] - deck))
+        behind = hub + np.array([0.06 * (hub[2] - deck), 0.0, 0.0])   # the tower stands downwind of an upwind rotor
+        foot, top = np.array([behind[0], behind[1], deck]), behind - [0.0, 0.0, 0.3 * size]
+        add = lambda kind, name, made: found.append(Piece(kind, name, self.moved(body, made[0], t), made[1]))
+        add("tower", "tower", frustum(foot, top, size, 0.62 * size, rings=8))
+        add("nacelle", "nacelle", box(behind + [0.02 * hub[2], 0.0, 0.0], [0.11 * hub[2], 0.05 * hub[2], 0.05 * hub[2]]))
+        for c in cylinders:
+            end = np.asarray(c["end_m"] if c["end_m"][2] > c["start_m"][2] else c["start_m"], float)
+            if np.hypot(*(end - foot)[:2]) > 0.5 * c["diameter_m"] + size:
+                add("brace", "brace", frustum(foot + [0, 0, -0.1 * size], end - [0, 0, 0.1 * size], 0.5 * size))
+                add("brace", "brace", frustum(foot + [0, 0, 2.2 * size], end - [0, 0, 0.1 * size], 0.3 * size))
+        return found
+
+    def _rotor(self, t):
+        frame, hub, found = self.rotor_frame(t), self.hub(t), []
+        size = 0.035 * (self.blades.tip if self.blades else 0.7 * max(abs(self.hub0[2]), 1.0))
+        points, polygons = sphere([0.0, 0.0, 0.0], 2.0 * size)
+        found.append(Piece("hub", "hub", hub + points @ frame, polygons))
+        if self.blades:
+            points, polygons, count = self.blades.points, self.blades.polygons, self.blades.count
+        else:   # loads without a turbine file: three plates of a size that suits the height
+            tip, count = 0.75 * abs(self.hub0[2]), 3
+            points = np.array([[0, -0.02 * tip, 0.05 * tip], [0, 0.02 * tip, 0.05 * tip], [0, 0.045 * tip, 0.25 * tip], [0, 0.01 * tip, tip],
+                               [0, -0.01 * tip, tip], [0, -0.02 * tip, 0.25 * tip]])
+            polygons = [[0, 1, 2, 3, 4, 5]]
+        for b in range(count):
+            turn = about(np.array([1.0, 0.0, 0.0]), self.azimuth(t) + 2 * np.pi * b / count)
+            found.append(Piece("blade", f"blade {b + 1}", hub + points @ turn.T @ frame, polygons))
+        return found
+
+    # ---- water --------------------------------------------------------------------------------------------------------------------------
+
+    def elevation(self, x, t):
+        """Undisturbed surface at x: what passes the origin, shifted by the speed of the waves' crests (of regular waves exact)."""
+        waves = self.scene.get("waves", {})
+        period = waves.get("period_s", waves.get("peak_period_s"))
+        if "waves.elevation_m" not in self.run.columns or not isinstance(period, (int, float)):
+            return np.zeros_like(x)
+        depth = self.scene.get("environment", {}).get("water_depth_m", 1e3)
+        g, omega = 9.81, 2 * np.pi / period
+        k = omega**2 / g
+        for _ in range(60):
+            k = 0.5 * (k + omega**2 / (g * math.tanh(k * depth)))
+        when = t - x * k / omega * math.copysign(1.0, math.cos(math.radians(waves.get("direction_deg", 0.0))))
+        time, series = self.run.time, self.run.column("waves.elevation_m")
+        whole = math.floor((time[-1] - time[0]) / period) * period
+        if whole > 0:   # what lies outside of the run repeats its last whole periods
+            when = np.where(when > time[-1], when - np.ceil((when - time[-1]) / whole) * whole, when)
+            when = np.where(when < time[0], when + np.ceil((time[0] - when) / whole) * whole, when)
+        return np.interp(when, time, series)

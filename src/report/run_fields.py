@@ -1,0 +1,89 @@
+"""The fields that a run left, by time: the water's surface between two outputs, the air of the nearest one.
+Called by scene_picture.py and plane_picture.py; needs h5py. SPDX-License-Identifier: Apache-2.0"""
+import numpy as np
+
+
+class Fields:
+    def __init__(self, run):
+        self.run, self.kept = run, {}
+        self.files = {name: self._outputs(name) for name in ("surface", "air", "particles", "walls")}
+
+    def _outputs(self, name):
+        """[(time, file)] in the order of time."""
+        paths = sorted((self.run.folder / "fields").glob(f"{name}_*.h5"))
+        if not paths:
+            return []
+        import h5py
+        found = []
+        for path in paths:
+            with h5py.File(path) as file:
+                found.append((float(file.attrs["time_s"]), path))
+        return sorted(found)
+
+    def times(self, name):
+        return [time for time, _ in self.files[name]]
+
+    def nearest(self, name, t):
+        """(time, file) of the output nearest to t, or None."""
+        return min(self.files[name], key=lambda entry: abs(entry[0] - t), default=None)
+
+    def surface(self, t):
+        """x, y, z (nj, ni) of the water's surface at t between two outputs, and the height of the bed; None without outputs."""
+        if not self.files["surface"]:
+            return None
+        times = np.array(self.times("surface"))
+        after = int(np.clip(np.searchsorted(times, t), 0, len(times) - 1))
+        before = max(0, after - 1)
+        (x, y, z0, bed), (_, _, z1, _) = self._surface(before), self._surface(after)
+        share = 0.0 if after == before else float(np.clip((t - times[before]) / (times[after] - times[before]), 0.0, 1.0))
+        return x, y, (1 - share) * z0 + share * z1, bed
+
+    def _surface(self, index):
+        key = ("surface", index)
+        if key not in self.kept:
+            import h5py
+            with h5py.File(self.files["surface"][index][1]) as file:
+                points = file["water/points"][...]
+            top, bed = points[1], float(points[0, ..., 2].min())
+            self.kept[key] = (top[..., 0], top[..., 1], without_holes(top[..., 2], bed), bed)
+        return self.kept[key]
+
+    def air(self, t):
+        """The blocks of the air nearest to t, and their time."""
+        found = self.nearest("air", t)
+        if found is None:
+            return [], t
+        if ("air", found[0]) not in self.kept:
+            import h5py
+            with h5py.File(found[1]) as file:
+                points = self._points(found[1], file)
+                blocks = [{"points": points[name], "velocity": np.array(group["velocity"], float)} for name, group in file.items()]
+            self.kept = {key: value for key, value in self.kept.items() if key[0] != "air"} | {("air", found[0]): blocks}
+        return self.kept[("air", found[0])], found[0]
+
+    def _points(self, path, file):
+        """Of a grid that stands they are in the first output only."""
+        if all("points" in group for group in file.values()):
+            return {name: np.array(group["points"], float) for name, group in file.items()}
+        import h5py
+        with h5py.File(self.files["air"][0][1]) as first:
+            return {name: np.array(group["points"], float) for name, group in first.items()}
+
+
+def without_holes(z, bed):
+    """Where a body stands in the water there is no surface: the heights around close the hole."""
+    dry = z < bed + 0.5 * (np.median(z) - bed)
+    wide = dry.copy()
+    for axis in (0, 1):
+        for step in (-1, 1):
+            wide |= np.roll(dry, step, axis)
+    z = np.where(wide, np.nan, z)
+    for _ in range(200):
+        if not np.isnan(z).any() or np.isnan(z).all():
+            break
+        padded = np.pad(z, 1, mode="edge")
+        around = np.stack([padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]])
+        known = ~np.isnan(around)
+        filled = np.where(known.any(axis=0), np.nansum(around, axis=0) / np.maximum(known.sum(axis=0), 1), np.nan)
+        z = np.where(np.isnan(z), filled, z)
+    return z

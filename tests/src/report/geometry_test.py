@@ -1,0 +1,138 @@
+"""The scene as surfaces: bodies carried by their motion, blades as the resolved grid has them, lines of their length; surfaces for ParaView.
+Run by ctest with the distribution's Python. SPDX-License-Identifier: Apache-2.0"""
+import pathlib
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+sys.path[:0] = [str(HERE), str(ROOT / "src/report")]
+sys.dont_write_bytecode = True
+
+import geometry
+import geometry_fields
+import run_fields
+import synthetic_run
+from run_data import RunData
+
+SCENE = f"""
+[rotor]
+body = "rotor"
+joint = "bearing"
+turbine = "{ROOT}/inputs/turbines/dtu_10mw.toml"
+[bodies.platform]
+mass_kg = 1.0
+centre_m = [0.0, 0.0, 16.0]
+reference_m = [0.0, 0.0, -4.0]
+[[bodies.platform.cylinders]]
+name = "float"
+start_m = [40.0, 0.0, -14.0]
+end_m = [40.0, 0.0, 12.0]
+diameter_m = 11.0
+[bodies.rotor]
+mass_kg = 1.0
+[joints.bearing]
+bodies = ["platform", "rotor"]
+point_m = [0.0, 0.0, 119.0]
+axis = [1.0, 0.0, 0.0]
+[moorings.line]
+body = "platform"
+fairlead_m = [40.0, 0.0, -7.0]
+anchor_m = [150.0, 0.0, -20.0]
+rest_length_m = 113.0
+[waves]
+model = "airy"
+height_m = 2.0
+period_s = 8.0
+[environment]
+water_depth_m = 20.0
+"""
+
+
+class Geometry(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name) / "run"
+        t = 0.1 * np.arange(401)
+        zero = 0 * t
+        table = {"time_s": t} | {f"platform.{name}": zero for name in ("y_m", "z_m", "roll_deg", "yaw_deg")}
+        table |= {"platform.x_m": 0.1 * t, "platform.pitch_deg": 0.25 * t, "rotor.thrust_N": zero, "rotor.azimuth_deg": (60.0 * t) % 360.0,
+                  "waves.elevation_m": np.cos(2 * np.pi * t / 8.0)}
+        synthetic_run.write(self.folder, table=table, scene=SCENE)
+        self.scene = geometry.Scene3d(RunData(self.folder))
+
+    def kinds(self, t):
+        found = {}
+        for piece in self.scene.pieces(t):
+            found.setdefault(piece.kind, []).append(piece)
+        return found
+
+    def test_everything_is_there(self):
+        self.assertEqual({kind: len(pieces) for kind, pieces in self.kinds(0.0).items()},
+                         {"float": 1, "tower": 1, "nacelle": 1, "brace": 2, "hub": 1, "blade": 3, "line": 1})
+
+    def test_bodies_are_carried_about_their_reference_point(self):
+        start, end = (self.kinds(t)["float"][0].points for t in (0.0, 40.0))
+        np.testing.assert_allclose(start.mean(axis=0), [40.0, 0.0, -1.0], atol=1e-9)
+        turn = geometry.about(np.array([0.0, 1.0, 0.0]), np.radians(10.0))
+        np.testing.assert_allclose(end.mean(axis=0), turn @ [40.0, 0.0, 3.0] + [4.0, 0.0, -4.0], atol=1e-9)
+
+    def test_blades_are_a_third_of_a_turn_apart_lean_upwind_and_turn_towards_minus_y(self):
+        blades = [piece.points for piece in self.kinds(0.0)["blade"]]
+        tips = [b[np.argmax(np.linalg.norm(b - self.scene.hub(0.0), axis=1))] - self.scene.hub(0.0) for b in blades]
+        self.assertGreater(tips[0][2], 85.0)
+        self.assertLess(tips[0][0], -3.0)   # precone of 2.5 degrees, and prebend upwind
+        self.assertLess(tips[1][1], -70.0)  # what comes next in the sense of turning
+        later = self.kinds(1.0)["blade"][0].points
+        self.assertLess((later - self.scene.hub(1.0))[:, 1].min(), -70.0)
+
+    def test_lines_have_their_length_and_end_where_they_should(self):
+        for length, rise in ((113.0, 13.0), (140.0, 13.0), (1000.0, 300.0), (902.2, 250.0)):
+            fairlead, anchor = np.array([5.2, 0.0, -70.0]), np.array([5.2 + np.sqrt(max(length**2 * 0.86, 110.0**2)) * 0.97, 0.0, -70.0 - rise])
+            points = geometry.hanging(fairlead, anchor, length)
+            self.assertEqual(len(points), 40)
+            np.testing.assert_allclose([points[0], points[-1]], [anchor, fairlead], atol=1e-6)
+            drawn = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+            straight = np.linalg.norm(fairlead - anchor)
+            self.assertLess(abs(drawn - max(length, straight)), 0.02 * length, (length, rise, straight))
+            self.assertGreaterEqual(points[:, 2].min(), anchor[2] - 1e-6)
+
+    def test_waves_travel_downwind_and_repeat_beyond_the_run(self):
+        x = np.array([0.0, 5.0, -500.0, 500.0])
+        now = self.scene.elevation(x, 16.0)
+        self.assertAlmostEqual(now[0], 1.0, delta=1e-3)
+        self.assertLess(now[1], 1.0)
+        self.assertTrue((np.abs(now) <= 1.0).all())
+        self.assertGreater(self.scene.elevation(x, 16.5)[1], now[1])   # the crest comes to where x is larger
+
+    def test_surfaces_for_paraview_read_back(self):
+        import h5py
+        (self.folder / "fields").mkdir()
+        written = geometry_fields.write(RunData(self.folder))
+        self.assertEqual([path.name for path in written], ["paraview.py", "geometry.xdmf"])
+        compile(written[0].read_text(), "paraview.py", "exec")
+        steps = xml.etree.ElementTree.parse(written[1]).getroot().findall(".//Grid/Grid")
+        self.assertEqual(len(steps), 50)
+        with h5py.File(self.folder / "fields/geometry.h5") as file:
+            flat, kinds, at, count = file["cells"][...], file["kind"][...], 0, 0
+            while at < len(flat):
+                self.assertIn(flat[at], (2, 3))
+                self.assertLess(flat[at + 2: at + 2 + flat[at + 1]].max(), len(file["points_0"]))
+                at, count = at + 2 + flat[at + 1], count + 1
+            self.assertEqual(count, len(kinds))
+            self.assertEqual(set(kinds), set(range(len(geometry_fields.KINDS))))
+            self.assertTrue(all(file[f"points_{n}"].shape == file["points_0"].shape for n in range(50)))
+
+    def test_holes_in_the_surface_are_closed(self):
+        z = np.zeros((9, 9))
+        z[4, 4] = -20.0
+        np.testing.assert_array_equal(run_fields.without_holes(z, -20.0), np.zeros((9, 9)))
+
+
+if __name__ == "__main__":
+    unittest.main()
