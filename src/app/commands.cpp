@@ -6,6 +6,7 @@
 #include <charconv>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 namespace spindrift::app {
 
@@ -171,9 +172,10 @@ void add_commands(CLI::App& cli, Command& chosen) {
       } else if (topic->empty()) {
         fmt::print("{}", cli.help());
       } else {
-        const CLI::App* found = cli.get_subcommand_no_throw(*topic);
-        if (found == nullptr) throw CLI::ValidationError("help", fmt::format("there is no command '{}'", *topic));
-        fmt::print("{}", found->help("spindrift"));
+        const auto named = [&](const CLI::App* app) { return app->get_name() == *topic; };
+        const std::vector<const CLI::App*> found = std::as_const(cli).get_subcommands(named);
+        if (found.empty()) throw CLI::ValidationError("help", fmt::format("there is no command '{}'", *topic));
+        fmt::print("{}", found.front()->help("spindrift"));
       }
       chosen = [](const auto&) { return done; };
     });

@@ -26,7 +26,7 @@ def section(key, title, body, fold=False):
     if not body:
         return None
     body = Markup(body)
-    return {"key": key, "title": title, "body": body, "fold": fold, "half": not fold and body.count("<figure>") == 1}
+    return {"key": key, "title": title, "body": body, "fold": fold, "half": not fold and body.partition("<details")[0].count("<figure>") == 1}
 
 
 def render(**what):

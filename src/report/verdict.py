@@ -73,6 +73,8 @@ def answers(run):
     def add(text, name, function=mean):
         if name in run.columns:
             value = function(name)
+            if value == 0.0:   # what a scene leaves out
+                return
             unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(value) if math.isfinite(value) else 0.0)
             said.append((text, words.number(factor * value), unit))
 

@@ -116,6 +116,8 @@ class Program(unittest.TestCase):
     def test_the_reference_in_the_repository_is_that_of_the_program(self):
         text = spindrift("reference", "--markdown").stdout
         self.assertEqual(text, (ROOT / "inputs/REFERENCE.md").read_text(), "run ci/reference and commit inputs/REFERENCE.md")
+        text = spindrift("help", "--markdown").stdout
+        self.assertEqual(text, (ROOT / "docs/reference/commands.md").read_text(), "run ci/reference and commit docs/reference/commands.md")
 
     def test_every_scene_of_inputs_passes_check(self):
         for scene in sorted((ROOT / "inputs").rglob("*.toml")):
