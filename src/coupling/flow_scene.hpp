@@ -1,5 +1,5 @@
 // What a scene says to the resolved air: wind, whether there is a rotor in it, that rotor's set-up.
-// Used by scenario.cpp, flow_run.cpp and `spindrift check`; tested through tests/coupled/rotor_run_test.py.
+// Used by scenario.cpp, src/run and `spindrift check`; tested through tests/coupled/rotor_run_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
