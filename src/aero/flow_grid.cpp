@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/cgns.hpp"
@@ -14,6 +15,7 @@
 #include "src/aero/grid/generators/plane_cases.hpp"
 #include "src/aero/grid/neutral_map.hpp"
 #include "src/aero/grid/plot3d.hpp"
+#include "src/aero/turbine.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/section.hpp"
 
@@ -55,17 +57,20 @@ MultiBlockGrid make_box(const GenerateOptions& g) {
   return cartesian_box(box);
 }
 
-MultiBlockGrid aerofoil(const GenerateOptions& g, double width) {
+MultiBlockGrid section_grid(const GenerateOptions& g, double width) {
   AerofoilOptions o{.n = g.refinement, .far = g.far_m, .width = width};
   if (g.first_cell_m > 0.0) o.first_cell = g.first_cell_m;
-  return naca0012(o);
+  if (g.coordinates.empty()) return naca0012(o);
+  try {
+    return aerofoil(read_outline(g.coordinates), o);
+  } catch (const std::invalid_argument& e) { throw scene::SceneError({scene::Problem{g.coordinates, 0, "", "", e.what()}}); }
 }
 
 MultiBlockGrid generated(const GenerateOptions& g, double width) {
   if (g.kind == "box") return make_box(g);
   if (g.kind == "flat_plate") return flat_plate(g.refinement, width);
-  if (g.kind == "naca0012") return aerofoil(g, width);
-  if (g.kind == "wing") return extruded(aerofoil(g, width), g.span_cells, g.span_m, false);
+  if (g.kind == "naca0012" || g.kind == "aerofoil") return section_grid(g, width);
+  if (g.kind == "wing") return extruded(section_grid(g, width), g.span_cells, g.span_m, false);
   if (g.kind == "bump") {
     BumpOptions o{.n = g.refinement, .width = width};
     if (g.first_cell_m > 0.0) o.first_cell = g.first_cell_m;
@@ -92,14 +97,21 @@ const scene::Section<GenerateOptions>& generate_section() {
                    {"flat_plate", "NASA's flat plate from x = 0 to 2 m; patches inflow, outflow, symmetry, wall, top"},
                    {"cylinder", "an O round a circular cylinder along y; patches wall, farfield"},
                    {"naca0012", "a C round NACA 0012, chord 1 m from x = 0; patches wall, farfield, outflow"},
-                   {"wing", "that drawn out along y; patch sides beside those"},
+                   {"aerofoil", "a C round the outline of `coordinates`, likewise"},
+                   {"wing", "one of these two drawn out along y; patch sides beside those"},
                    {"bump", "NASA's bump in a channel; patches inflow, outflow, symmetry, wall, top"}},
                   "Shape.")
           .required()
+          .path("coordinates", &GenerateOptions::coordinates,
+                "Outline from the trailing edge along the upper side to the nose and back, over the chord: CSV with columns x_c, "
+                "y_c, "
+                "or .dat with a title and two numbers a line (Selig). A wing without it has NACA 0012.")
+          .only_if("kind", {"aerofoil", "wing"})
           .integer("refinement", &GenerateOptions::refinement, "-",
-                   "Member of the family: 34 n x 24 n cells (flat_plate), 112 n x 32 n (naca0012, wing), 44 n x 20 n (bump).",
+                   "Member of the family: 34 n x 24 n cells (flat_plate), 112 n x 32 n (naca0012, aerofoil, wing), 44 n x 20 n "
+                   "(bump).",
                    between(1, 32))
-          .only_if("kind", {"flat_plate", "naca0012", "wing", "bump"})
+          .only_if("kind", {"flat_plate", "naca0012", "aerofoil", "wing", "bump"})
           .integer("around", &GenerateOptions::around, "-", "Cells round the cylinder.", between(8, 1e5))
           .only_if("kind", {"cylinder"})
           .integer("outward", &GenerateOptions::outward, "-", "Cells from the cylinder to the far field.", between(4, 512))
@@ -108,13 +120,13 @@ const scene::Section<GenerateOptions>& generate_section() {
           .only_if("kind", {"cylinder"})
           .number("far_m", &GenerateOptions::far_m, "m", "Distance of the far field (cylinder: its radius).",
                   above(0.0).up_to(1e6))
-          .only_if("kind", {"cylinder", "naca0012", "wing"})
+          .only_if("kind", {"cylinder", "naca0012", "aerofoil", "wing"})
           .number("first_cell_m", &GenerateOptions::first_cell_m, "m",
                   "Height of the first cell at the wall, of refinement 2 or 64 cells around and in proportion for others; 0: the "
                   "generator's own "
                   "(aerofoil 3.6e-6, bump 1e-5, cylinder: radii in geometric progression).",
                   between(0.0, 1e3))
-          .only_if("kind", {"cylinder", "naca0012", "wing", "bump"})
+          .only_if("kind", {"cylinder", "naca0012", "aerofoil", "wing", "bump"})
           .number("span_m", &GenerateOptions::span_m, "m", "Span of the wing.", above(0.0).up_to(1e4))
           .only_if("kind", {"wing"})
           .integer("span_cells", &GenerateOptions::span_cells, "-", "Cells along the span.", between(2, 1e4))
@@ -132,7 +144,8 @@ const scene::Section<GenerateOptions>& generate_section() {
             check_box(o, report);
             if (o.kind == "cylinder" && o.far_m <= 2.0 * o.radius_m)
               report("far_m", fmt::format("must be above 2 radius_m = {}; found {}", 2.0 * o.radius_m, o.far_m));
-            if ((o.kind == "naca0012" || o.kind == "wing") && o.far_m < 5.0)
+            if (o.kind == "aerofoil" && o.coordinates.empty()) report("coordinates", "must name the file of the outline");
+            if ((o.kind == "naca0012" || o.kind == "aerofoil" || o.kind == "wing") && o.far_m < 5.0)
               report("far_m", fmt::format("must be at least 5 chords; found {}", o.far_m));
           });
   return section;

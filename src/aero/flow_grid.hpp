@@ -21,6 +21,7 @@ struct FlowOptions;
 /// [aero.flow.generate]
 struct GenerateOptions {
   std::string kind = "box";
+  std::string coordinates;              ///< path: outline of an aerofoil
   int refinement = 2;                   ///< flat plate, aerofoil, wing, bump
   int around = 96, outward = 64;        ///< cylinder
   double radius_m = 0.5, far_m = 50.0;  ///< cylinder; far_m also of the aerofoil

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/grid/aerofoil.hpp"
@@ -59,35 +60,26 @@ Polar read_polar(const PolarOptions& options) {
   return {0.01 * options.thickness_pct, column(file, "alpha_deg", radians_per_degree), column(file, "cl"), column(file, "cd")};
 }
 
-/// What an outline must be for a grid to go round it.
 Aerofoil read_aerofoil(const OutlineOptions& options) {
-  const scene::Columns file = scene::read_columns(options.file);
-  file.allow_only({"x_c", "y_c"});
-  file.require_rows(9);
-  const auto x = file["x_c"], y = file["y_c"];
-  const std::size_t n = file.rows();
-  Aerofoil aerofoil{0.01 * options.thickness_pct, {}};
-  for (std::size_t i = 0; i < n; ++i) {
-    if (x[i] < -0.05 || x[i] > 1.05) file.fail(int(i), fmt::format("x_c = {} is off the chord, which goes from 0 to 1", x[i]));
-    if (i > 0 && x[i] == x[i - 1] && y[i] == y[i - 1]) file.fail(int(i), "the same point as the one before");
-    aerofoil.outline.emplace_back(x[i], y[i]);
-  }
-  for (const std::size_t i : {std::size_t(0), n - 1})
-    if (std::abs(x[i] - 1.0) > 0.02)
-      file.fail(int(i), fmt::format("x_c = {}: an outline begins and ends at the trailing edge, x_c = 1", x[i]));
+  Aerofoil aerofoil{0.01 * options.thickness_pct, read_outline(options.file)};
   std::vector<Eigen::Vector2d> loop = aerofoil.outline;
   if ((loop.front() - loop.back()).norm() < 1e-9) loop.pop_back();
-  const SegmentPair crossing = first_crossing(loop);
-  if (crossing.first >= 0)
-    file.fail(crossing.second, fmt::format("the outline crosses itself: the piece from ({}, {}) meets the one from ({}, {})",
-                                           x[std::size_t(crossing.second)], y[std::size_t(crossing.second)],
-                                           x[std::size_t(crossing.first)], y[std::size_t(crossing.first)]));
-  if (signed_area(loop) < 0.0)
-    file.fail(0, "the outline runs along the pressure side first: it must begin with the suction side, y_c > 0");
   const double thickness = outline_thickness(loop);
   if (std::abs(thickness - aerofoil.thickness) > 0.02)
-    file.fail(-1, fmt::format("the outline is {:.1f} % thick, thickness_pct says {}", 100.0 * thickness, options.thickness_pct));
+    throw scene::SceneError(
+        {{options.file, 0, "", "",
+          fmt::format("the outline is {:.1f} % thick, thickness_pct says {}", 100.0 * thickness, options.thickness_pct)}});
   return aerofoil;
+}
+
+/// x_c and y_c of a Selig file as those of a CSV one: a title, then two numbers a line.
+scene::Columns read_points(const std::string& path) {
+  if (std::filesystem::path(path).extension() != ".dat") {
+    const scene::Columns file = scene::read_columns(path);
+    file.allow_only({"x_c", "y_c"});
+    return file;
+  }
+  return scene::read_blank_columns(path, {"x_c", "y_c"});
 }
 
 Planform read_planform(const std::string& path, double hub_radius) {
@@ -137,6 +129,32 @@ TurbineFiles turbine_files(const std::string& path) {
   const TurbineOptions options = doc.read(turbine_section());
   doc.finish();
   return {options.operation, options.controller};
+}
+
+std::vector<Eigen::Vector2d> read_outline(const std::string& path) {
+  const scene::Columns file = read_points(path);
+  file.require_rows(9);
+  const auto x = file["x_c"], y = file["y_c"];
+  const std::size_t n = file.rows();
+  std::vector<Eigen::Vector2d> outline;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (x[i] < -0.05 || x[i] > 1.05) file.fail(int(i), fmt::format("x_c = {} is off the chord, which goes from 0 to 1", x[i]));
+    if (i > 0 && x[i] == x[i - 1] && y[i] == y[i - 1]) file.fail(int(i), "the same point as the one before");
+    outline.emplace_back(x[i], y[i]);
+  }
+  for (const std::size_t i : {std::size_t(0), n - 1})
+    if (std::abs(x[i] - 1.0) > 0.02)
+      file.fail(int(i), fmt::format("x_c = {}: an outline begins and ends at the trailing edge, x_c = 1", x[i]));
+  std::vector<Eigen::Vector2d> loop = outline;
+  if ((loop.front() - loop.back()).norm() < 1e-9) loop.pop_back();
+  const SegmentPair crossing = first_crossing(loop);
+  if (crossing.first >= 0)
+    file.fail(crossing.second, fmt::format("the outline crosses itself: the piece from ({}, {}) meets the one from ({}, {})",
+                                           x[std::size_t(crossing.second)], y[std::size_t(crossing.second)],
+                                           x[std::size_t(crossing.first)], y[std::size_t(crossing.first)]));
+  if (signed_area(loop) < 0.0)
+    file.fail(0, "the outline runs along the pressure side first: it must begin with the suction side, y_c > 0");
+  return outline;
 }
 
 Turbine read_turbine(const std::string& path) {

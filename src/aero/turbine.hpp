@@ -76,6 +76,10 @@ struct TurbineFiles {
 };
 TurbineFiles turbine_files(const std::string& path);
 
+/// Outline of an aerofoil over its chord, in the order of `Aerofoil::outline`, from CSV (x_c, y_c) or a Selig file (.dat). Throws
+/// scene::SceneError where no grid could go round it.
+std::vector<Eigen::Vector2d> read_outline(const std::string& path);
+
 /// Throws scene::SceneError with all that is wrong with the file and the data files that it names.
 Turbine read_turbine(const std::string& path);
 

@@ -20,6 +20,16 @@ std::string_view trim(std::string_view text) {
   return first == std::string_view::npos ? std::string_view() : text.substr(first, last - first + 1);
 }
 
+std::vector<std::string_view> split_at_blanks(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (std::size_t from = 0; (from = line.find_first_not_of(" \t\r", from)) != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(" \t\r", from), line.size());
+    cells.push_back(line.substr(from, end - from));
+    from = end;
+  }
+  return cells;
+}
+
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> cells;
   for (std::size_t from = 0; from <= line.size();) {
@@ -36,6 +46,20 @@ std::vector<std::string_view> split(std::string_view line) {
 
 }  // namespace
 
+void Columns::add_row(const std::vector<std::string_view>& cells, int line) {
+  if (cells.size() != names_.size())
+    fail_at(file_, line, "",
+            fmt::format("has {} values where there are {} columns ({})", cells.size(), names_.size(), fmt::join(names_, ", ")));
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(cells[c].data(), cells[c].data() + cells[c].size(), value);
+    if (error != std::errc() || end != cells[c].data() + cells[c].size() || !std::isfinite(value))
+      fail_at(file_, line, fmt::format("\"{}\"", cells[c]), fmt::format("must be a finite number (column {})", names_[c]));
+    values_[c].push_back(value);
+  }
+  lines_.push_back(line);
+}
+
 Columns read_columns(const std::string& path) {
   std::ifstream in(path);
   if (!in) fail_at(path, 0, "", "cannot be read");
@@ -49,22 +73,24 @@ Columns read_columns(const std::string& path) {
     if (table.names_.empty()) {
       table.names_.assign(cells.begin(), cells.end());
       table.values_.resize(cells.size());
-      continue;
+    } else {
+      table.add_row(cells, line);
     }
-    if (cells.size() != table.names_.size())
-      fail_at(path, line, "",
-              fmt::format("has {} values where the header names {} columns ({})", cells.size(), table.names_.size(),
-                          fmt::join(table.names_, ", ")));
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      double value = 0.0;
-      const auto [end, error] = std::from_chars(cells[c].data(), cells[c].data() + cells[c].size(), value);
-      if (error != std::errc() || end != cells[c].data() + cells[c].size() || !std::isfinite(value))
-        fail_at(path, line, fmt::format("\"{}\"", cells[c]), fmt::format("must be a finite number (column {})", table.names_[c]));
-      table.values_[c].push_back(value);
-    }
-    table.lines_.push_back(line);
   }
   if (table.names_.empty()) fail_at(path, 0, "", "holds no table: a header line of column names, then rows of numbers");
+  return table;
+}
+
+Columns read_blank_columns(const std::string& path, std::vector<std::string> names) {
+  std::ifstream in(path);
+  std::string text;
+  if (!in || !std::getline(in, text)) fail_at(path, 0, "", "cannot be read");
+  Columns table;
+  table.file_ = path;
+  table.names_ = std::move(names);
+  table.values_.resize(table.names_.size());
+  for (int line = 2; std::getline(in, text); ++line)
+    if (const auto cells = split_at_blanks(text); !cells.empty()) table.add_row(cells, line);
   return table;
 }
 

@@ -30,6 +30,8 @@ class Columns {
 
  private:
   friend Columns read_columns(const std::string& path);
+  friend Columns read_blank_columns(const std::string& path, std::vector<std::string> names);
+  void add_row(const std::vector<std::string_view>& cells, int line);
   std::string file_;
   std::vector<std::string> names_;
   std::vector<std::vector<double>> values_;  ///< by column
@@ -37,5 +39,7 @@ class Columns {
 };
 
 Columns read_columns(const std::string& path);
+/// From a file of other programs: a line of title, then numbers parted by blanks, in columns that have these names.
+Columns read_blank_columns(const std::string& path, std::vector<std::string> names);
 
 }  // namespace spindrift::scene

@@ -3,6 +3,7 @@
 // validation scenes; tested in tests/src/aero/grid/generators_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "src/aero/grid/multi_block.hpp"
@@ -33,6 +34,10 @@ struct AerofoilOptions {
   double width = 1.0;
 };
 MultiBlockGrid naca0012(const AerofoilOptions& options);
+/// The same round any outline: points from the trailing edge along the upper side to the nose and back along the lower side,
+/// chord 1 from x = 0. An open trailing edge of up to 3 % of the chord is closed. Throws std::invalid_argument with the reason
+/// where no such grid goes round it.
+MultiBlockGrid aerofoil(std::span<const Eigen::Vector2d> outline, const AerofoilOptions& options);
 /// Half thickness at x in [0, 1]; closed at x = 1.
 double naca0012_half_thickness(double x);
 

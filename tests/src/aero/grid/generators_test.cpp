@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 #include "src/aero/grid/checks.hpp"
@@ -119,6 +121,59 @@ TEST_CASE("the NACA 0012 grid is sound at every size, normal to the wall and as 
   CHECK(length(223) == Approx(96).epsilon(0.1));
   CHECK(b.nodes[b.node(0, 64, 112)].x() == Approx(-500).epsilon(5e-3));
   CHECK(b.nodes[b.node(0, 0, 224)].x() == Approx(501).epsilon(1e-3));
+}
+
+namespace {
+/// NACA 4-digit section: points from the trailing edge along the upper side, nose, lower side; `open` as printed, else closed.
+std::vector<Eigen::Vector2d> naca_4_digit(double camber, double at, double thickness, int points, bool open) {
+  std::vector<Eigen::Vector2d> outline;
+  for (int n = -points; n <= points; ++n) {
+    const double x = 1.0 - std::cos(0.5 * std::numbers::pi * std::abs(n) / points), side = n < 0 ? 1.0 : -1.0;
+    const double t =
+        5.0 * thickness *
+        (0.2969 * std::sqrt(x) - 0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x - (open ? 0.1015 : 0.1036) * x * x * x * x);
+    const double y = x < at ? camber / (at * at) * (2.0 * at * x - x * x)
+                            : camber / ((1.0 - at) * (1.0 - at)) * (1.0 - 2.0 * at + 2.0 * at * x - x * x);
+    const double slope = 2.0 * camber / (x < at ? at * at : (1.0 - at) * (1.0 - at)) * (at - x), angle = std::atan(slope);
+    outline.emplace_back(x - side * t * std::sin(angle), y + side * t * std::cos(angle));
+  }
+  return outline;
+}
+}  // namespace
+
+TEST_CASE("a grid goes round any outline: its nodes lie on it, and NACA 0012 by points is that by its formula",
+          "[aero][grid][fast]") {
+  for (const bool open : {false, true})
+    for (const double camber : {0.0, 0.04, 0.06}) {
+      const std::vector<Eigen::Vector2d> outline = naca_4_digit(camber, 0.4, 0.15, 60, open);
+      const MultiBlockGrid grid = aerofoil(outline, {.n = 1, .far = 100.0, .first_cell = 1e-4});
+      INFO("camber " << camber << (open ? ", open" : "") << "\n" << describe(grid_quality(grid), grid));
+      CHECK(grid_faults(grid).empty());
+      CHECK(grid_quality(grid).scaled_jacobian.value > 0.8);
+      const Block& b = grid.blocks[0];
+      const std::vector<Eigen::Vector2d> fine = naca_4_digit(camber, 0.4, 0.15, 4000, false);
+      for (int i = 24; i <= 88; ++i) {
+        const Vector3d& node = b.nodes[b.node(0, 0, i)];
+        double nearest = 1.0;
+        for (const Eigen::Vector2d& p : fine) nearest = std::min(nearest, (p - Eigen::Vector2d(node.x(), node.z())).norm());
+        REQUIRE(nearest < (open ? 3e-3 : 4e-4));
+      }
+    }
+  std::vector<Eigen::Vector2d> points;
+  for (int n = -80; n <= 80; ++n) {
+    const double x = 1.0 - std::cos(0.5 * std::numbers::pi * std::abs(n) / 80);
+    points.emplace_back(x, (n < 0 ? 1.0 : -1.0) * naca0012_half_thickness(x));
+  }
+  const Block own = aerofoil(points, {.n = 1}).blocks[0], formula = naca0012({.n = 1}).blocks[0];
+  for (int i = 0; i <= own.ni; ++i)
+    for (int j : {0, 8, 16}) {
+      const Vector3d &a = own.nodes[own.node(0, j, i)], &c = formula.nodes[formula.node(0, j, i)];
+      REQUIRE((a - c).norm() < 4e-3 * (1.0 + c.norm()));
+    }
+  CHECK_THROWS_WITH(aerofoil(naca_4_digit(0.0, 0.4, 0.15, 3, false), {.n = 1}), Catch::Contains("nine points"));
+  std::vector<Eigen::Vector2d> blunt = naca_4_digit(0.0, 0.4, 0.15, 20, false);
+  blunt.front().y() = 0.05;
+  CHECK_THROWS_WITH(aerofoil(blunt, {.n = 1}), Catch::Contains("3 % of the chord"));
 }
 
 TEST_CASE("bump channel and drawn-out wing are sound", "[aero][grid][fast]") {
