@@ -97,13 +97,13 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
   return now;
 }
 
-RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
+RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, double ramp) const {
   RotorLoad load;
   const std::span<const double> pitches = control_ && !memory_.empty() ? control_->pitch(memory_) : std::span<const double>();
   if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) {
     DiscMotion disc_motion{now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_, now.hub, pitches};
     if (tower_ && tower_->changes_wind()) disc_motion.tower = &*tower_, disc_motion.tower_frame = tower_frame(now);
-    const DiscLoad disc = (*bem)(wind_, disc_motion, t);
+    const DiscLoad disc = (*bem)(wind, disc_motion, t);
     load.force = ramp * disc.force, load.moment = ramp * disc.moment;
     load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis);
   } else {
@@ -116,7 +116,7 @@ RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
   }
   load.power = load.torque * now.speed;
   if (tower_) {
-    const TowerLoad drag = tower_->drag(tower_frame(now), wind_, t);
+    const TowerLoad drag = tower_->drag(tower_frame(now), wind, t);
     load.force += ramp * drag.force, load.moment += ramp * drag.moment;
   }
   if (control_) {
@@ -150,6 +150,20 @@ void RotorLoads::add_loads(double t, std::span<const Motion> bodies, std::span<W
   const RotorLoad load = this->load(t, now, ramp);
   wrenches[placement_.body].add_force(load.force, now.hub);
   wrenches[placement_.body].add_moment(load.moment);
+}
+
+void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
+  constexpr int places = 8;  // of blade 1 in a turn: of three blades' harmonics none below the 24th is mistaken for the mean
+  Wind mean_wind = wind_;
+  mean_wind.in_time = nullptr;
+  RotorState now = state(t, bodies);
+  now.relative_wind = (mean_wind.at(t, now.hub) - now.hub_velocity).dot(now.axis);
+  const double first = now.azimuth;
+  for (int place = 0; place < places; ++place) {
+    now.azimuth = whole_turns_off(first + 2.0 * pi * place / places);
+    const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places);
+    add_at_hub(bodies, wrenches, load.force, load.moment);
+  }
 }
 
 void RotorLoads::add_at_hub(std::span<const Motion> bodies, std::span<Wrench> wrenches, const Eigen::Vector3d& force,

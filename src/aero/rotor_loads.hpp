@@ -55,6 +55,9 @@ class RotorLoads {
   /// Adds the load, times `ramp`, to the rotor body's wrench.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp = 1.0) const;
 
+  /// The same under the mean wind (the scene's own at the start, without gusts and turbulence), as a mean over a turn of blade 1.
+  void add_mean_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+
   /// Adds a load known from elsewhere, about the hub, to the rotor body's wrench.
   void add_at_hub(std::span<const Motion> bodies, std::span<Wrench> wrenches, const Eigen::Vector3d& force,
                   const Eigen::Vector3d& moment) const;
@@ -65,7 +68,7 @@ class RotorLoads {
                        const Eigen::Vector3d& axis) const {
     return (wind_.at(t, hub) - hub_velocity).dot(axis);
   }
-  RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const;
+  RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const { return load(wind_, t, now, ramp); }
 
   // What the rotor remembers from step to step, as bodies::Memory has it: the drive train with its controller. Without values to
   // recall it turns as at the start.
@@ -84,6 +87,7 @@ class RotorLoads {
   Drive drive() const;
 
  private:
+  RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp) const;
   /// Attitude of what carries azimuth zero.
   Eigen::Quaterniond support_attitude(std::span<const Motion> bodies) const;
 

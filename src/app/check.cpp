@@ -81,7 +81,7 @@ void print_steps(Machine& machine, const coupling::Start& start) {
 
 void print_equilibrium(Machine& machine, const bodies::BodiesState& state) {
   const auto bodies = machine.system().bodies();
-  fmt::print("\nStatic equilibrium under the full loads of t = 0 (displacements of the reference points)\n");
+  fmt::print("\nStatic equilibrium under the mean loads: wind, current, still water (displacements of the reference points)\n");
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const coupling::ReferenceMotion m = coupling::reference_motion(
         state.motions[b], bodies[b].initial, machine.reference_point(b), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
@@ -303,10 +303,10 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     return done;
   }
   if (machine.rotor()) print_campbell(machine, start, stability.linearisation);
-  machine.use_full_loads(true);
+  machine.use_mean_loads(true);
   const bodies::Equilibrium equilibrium =
       start.equilibrium ? *start.equilibrium : find_equilibrium(machine.system(), start.state, 0.0);
-  machine.use_full_loads(false);
+  machine.use_mean_loads(false);
   if (equilibrium.problem.empty())
     print_equilibrium(machine, equilibrium.state);
   else

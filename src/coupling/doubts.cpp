@@ -129,7 +129,7 @@ void doubt_acceleration(scene::Doubts& doubts, Machine& machine, const Start& st
 
 /// Modes that grow: what the statics call unstable (metacentric height), and damping of the wrong sign.
 void doubt_modes(scene::Doubts& doubts, const Machine& machine, const Stability& stability) {
-  if (machine.particle_plan() || machine.has_waves()) return;  // no water that stands still
+  if (machine.particle_plan()) return;  // hydrostatics without damping stand for its water
   double fastest = 0.0;
   for (const bodies::Mode& mode : stability.linearisation.modes) fastest = std::max(fastest, std::abs(mode.eigenvalue));
   for (const bodies::Mode& mode : stability.linearisation.modes) {
@@ -150,8 +150,10 @@ void doubt_modes(scene::Doubts& doubts, const Machine& machine, const Stability&
 
 /// Where the machine would come to rest, against where it starts.
 void doubt_statics(scene::Doubts& doubts, Machine& machine, const Start& start) {
-  if (machine.particle_plan() || machine.has_waves() || start.equilibrium) return;
+  if (machine.particle_plan() || start.equilibrium) return;
+  machine.use_mean_loads(true);
   const bodies::Equilibrium found = find_equilibrium(machine.system(), start.state, 0.0);
+  machine.use_mean_loads(false);
   if (!found.problem.empty()) return;
   const auto all = machine.system().bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {

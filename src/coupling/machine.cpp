@@ -115,16 +115,17 @@ Machine::Machine(Scenario scenario)
   } else if (s.has_sea()) {
     const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
     sea_.emplace(s.sea, s.waves, sea_environment(s.environment), wetted, timeline_.tick_s());
+    if (s.has_waves()) still_sea_.emplace(s.sea, sea::WavesOptions{}, sea_environment(s.environment), wetted, timeline_.tick_s());
     std::vector<bool> on(names.size());
     for (std::size_t b = 0; b < names.size(); ++b) on[b] = !wetted[b].cylinders.empty();
     for (const sea::DampingOptions& damping : s.sea.damping) on[std::size_t(index_of(names, damping.body))] = true;
     for (const sea::MatricesOptions& matrices : s.sea.matrices) on[std::size_t(index_of(names, matrices.body))] = true;
     if (s.sea.potential) on[std::size_t(index_of(names, s.sea.potential->body))] = true;
     bodies::LoadSource source{
-        "sea", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { sea_->add_loads(t, m, w); }, {}};
+        "sea", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { sea_now().add_loads(t, m, w); }, {}};
     if (sea_->has_added_mass())
       source.added_mass = [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
-        sea_->add_added_mass(t, m, a);
+        sea_now().add_added_mass(t, m, a);
       };
     if (sea_->memory_size() > 0)
       source.memory = {
@@ -143,6 +144,8 @@ Machine::Machine(Scenario scenario)
                               [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
                                 if (rotor_elsewhere_)
                                   rotor_elsewhere_(t, m, w);
+                                else if (mean_loads_)
+                                  rotor_->add_mean_loads(t, m, w);
                                 else
                                   rotor_->add_loads(t, m, w, ramp(t));
                               },

@@ -89,8 +89,12 @@ class Machine {
   double ramp(double t) const;
   /// Until told otherwise loads are ramped; the statics and stability ask for their full value.
   void use_full_loads(bool full) { full_loads_ = full; }
+  /// For the statics: loads at their full mean value. The water is still but for its current, the wind is without gusts and
+  /// turbulence, the rotor's load is its mean over a turn.
+  void use_mean_loads(bool mean) { mean_loads_ = mean; }
 
  private:
+  const sea::EngineeringSea& sea_now() const { return mean_loads_ && still_sea_ ? *still_sea_ : *sea_; }
   void add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadSource source, std::vector<bool> on);
 
   Scenario scenario_;
@@ -103,7 +107,8 @@ class Machine {
   std::vector<Eigen::Vector3d> reference_points_;
   std::vector<std::vector<bool>> loaded_;  ///< [source][body]
   std::vector<SourceClock> clocks_;
-  bool full_loads_ = false;
+  bool full_loads_ = false, mean_loads_ = false;
+  std::optional<sea::EngineeringSea> still_sea_;  ///< of a sea with waves: the same without them
   std::optional<sea::ParticlePlan> particle_plan_;
   std::unique_ptr<sea::ParticleSea> particles_;
   double body_step_limit_ = std::numeric_limits<double>::infinity();

@@ -59,8 +59,8 @@ const scene::Section<StartOptions>& start_section() {
   static const auto section =
       scene::Section<StartOptions>("start", "State at t = 0.")
           .flag("equilibrium", &StartOptions::equilibrium,
-                "Start from the static equilibrium under all loads at their full value, instead of from the positions of the "
-                "scene.")
+                "Start from the static equilibrium under the mean loads (wind without gusts, current, lines, still water; the "
+                "rotor's over a turn), instead of from the positions of the scene.")
           .path("file", &StartOptions::file,
                 "Checkpoint (checkpoints/*.h5 of a run) of the same machine: bodies, water and air go on from its state at its "
                 "time. Windows, steps, "

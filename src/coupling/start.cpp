@@ -33,13 +33,13 @@ void move_to_start(Machine& machine, bodies::BodiesState& state) {
   state = assembly.state;
 }
 
-/// Loads at full value while this lives.
-class FullLoads {
+/// Mean loads while this lives.
+class MeanLoads {
  public:
-  explicit FullLoads(Machine& machine) : machine_(machine) { machine_.use_full_loads(true); }
-  ~FullLoads() { machine_.use_full_loads(false); }
-  FullLoads(const FullLoads&) = delete;
-  FullLoads& operator=(const FullLoads&) = delete;
+  explicit MeanLoads(Machine& machine) : machine_(machine) { machine_.use_mean_loads(true); }
+  ~MeanLoads() { machine_.use_mean_loads(false); }
+  MeanLoads(const MeanLoads&) = delete;
+  MeanLoads& operator=(const MeanLoads&) = delete;
 
  private:
   Machine& machine_;
@@ -57,7 +57,7 @@ Start start_without_memory(Machine& machine) {
   move_to_start(machine, start.state);
   if (!machine.scenario().start.equilibrium) return start;
 
-  const FullLoads full(machine);
+  const MeanLoads mean(machine);
   start.equilibrium = find_equilibrium(machine.system(), start.state, 0.0);
   const bodies::Equilibrium& found = *start.equilibrium;
   if (!found.problem.empty()) refuse(machine, "start.equilibrium", "true", found.problem);
@@ -79,7 +79,7 @@ Start make_start(Machine& machine) {
 
 Stability stability(Machine& machine, const bodies::BodiesState& state) {
   if (state.motions.empty()) return {{}, {std::numeric_limits<double>::infinity(), "", {}}};
-  const FullLoads full(machine);
+  const MeanLoads mean(machine);
   Stability result{linearise(machine.system(), state, 0.0), {}};
   result.limit = step_limit(machine.system().integrator(), result.linearisation);
   return result;

@@ -22,7 +22,7 @@ struct Start {
 /// Throws scene::SceneError where joints contradict each other or no equilibrium exists.
 Start make_start(Machine& machine);
 
-/// Stability of the bodies' integrator about the state, under the full loads of time t = 0.
+/// Stability of the bodies' integrator about the state, under the mean loads.
 struct Stability {
   bodies::Linearisation linearisation;
   bodies::StepLimit limit;

@@ -27,6 +27,19 @@ TEST_CASE("the buoy rests where weight, buoyancy and chain balance", "[coupling]
         Approx(-1.5 - 31415.926535897932 / (31415.926535897932 + 1e4)).epsilon(1e-6));
 }
 
+TEST_CASE("the equilibrium is that under the mean loads, whatever wave stands there at t = 0", "[coupling][fast]") {
+  // Waves of 2 m over a buoy with a draft of 2 m.
+  const Eigen::Vector3d still =
+      make_start(*std::make_unique<Machine>(test::scenario(test::buoy, {"start.equilibrium=true"}))).state.motions[0].position;
+  for (int seed = 1; seed <= 20; ++seed) {
+    Machine machine(
+        test::scenario(test::buoy, {"start.equilibrium=true", "sea.model='morison'", "waves.model='jonswap'",
+                                    "waves.height_m=2.0", "waves.period_s=6.0", "waves.seed=" + std::to_string(seed)}));
+    const Eigen::Vector3d at = make_start(machine).state.motions[0].position;
+    CHECK((at - still).norm() < 1e-6);
+  }
+}
+
 TEST_CASE("a displaced start is the described position moved and turned about the reference point", "[coupling][fast]") {
   Machine machine(
       test::scenario(test::buoy, {"bodies.buoy.displacement_m=[0.0,0.0,0.5]", "bodies.buoy.velocity_m_s=[0.1,0.0,0.0]"}));
