@@ -101,11 +101,11 @@ void check_history(const scene::Study& study) {
 
 Json of_rung(const scene::Study& study, const scene::StudyRun& rung, std::vector<scene::Problem>& problems) {
   Json out{{"name", rung.name}, {"variant", rung.variant}, {"scene", fs::absolute(rung.scene).string()},
-           {"at", rung.at},     {"later", rung.later},     {"runs", Json::array()}};
+           {"at", rung.at},     {"later", rung.later},     {"fixed", study.replicas && rung.replicas == 0}, {"runs", Json::array()}};
   const std::vector<scene::StudyPoint> replicas =
-      study.replicas ? points_of("replica", *study.replicas) : std::vector<scene::StudyPoint>{{}};
+      study.replicas && rung.replicas > 0 ? points_of("replica", *study.replicas) : std::vector<scene::StudyPoint>{{}};
   std::optional<Forecast> first;
-  for (int n = 0; n < rung.replicas; ++n) {
+  for (int n = 0; n < std::max(rung.replicas, 1); ++n) {
     std::vector<std::string> set = rung.overrides;
     set.insert(set.end(), replicas[std::size_t(n)].set.begin(), replicas[std::size_t(n)].set.end());
     const Checked scene = checked(rung.scene, set, {study.file, study.directory}, n == 0);

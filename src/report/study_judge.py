@@ -63,6 +63,8 @@ class Judge:
             for m, metric in enumerate(self.metrics):
                 if metric["measure"] not in measures.OF_TWO_HISTORIES:
                     rows[m][n] = measures.quantity(metric, time, column(metric["column"]))
+        if rung.get("fixed"):
+            rows = [row * len(self.plan["replicas"]["points"]) for row in rows]
         return rows
 
     def _cost(self, rung):
@@ -82,7 +84,7 @@ class Judge:
         return bool(self.plan["reference"]) and self.plan["reference"]["variant"] == rung["name"]
 
     def _limit(self, rung, m):
-        """Richardson's limit along the axis of the reference, all else as in `rung`: (value by replica, allowance)."""
+        """Richardson's limit along the axis of the reference, all else as in `rung`: (value by replica, allowance). Of a count (cells, components), whose larger values cost more, the step is 1 over it."""
         axis = [a["name"] for a in self.plan["axes"]].index(self.plan["reference"]["limit"])
         group = (m, rung["variant"], tuple(p for a, p in enumerate(rung["at"]) if a != axis))
         if group in self.limits:
@@ -90,9 +92,11 @@ class Judge:
         steps = [float(v) for v in self.plan["axes"][axis]["values"]]
         levels = sorted(((steps[r["at"][axis]], r) for r in self.rungs if r["variant"] == rung["variant"] and r["at"]
                          and tuple(p for a, p in enumerate(r["at"]) if a != axis) == group[2]), key=lambda level: level[0])
+        if len(levels) > 1 and self.costs[levels[-1][1]["name"]]["core_s"] > self.costs[levels[0][1]["name"]]["core_s"]:
+            levels = [(1.0 / v, r) for v, r in reversed(levels)]
         values, allowances, orders, why = [], [], [], ""
-        for n in range(len(rung["runs"])):
-            q = [(h, self.quantities[r["name"]][m][n]) for h, r in levels if n < len(r["runs"])]
+        for n in range(len(self.quantities[rung["name"]][m])):
+            q = [(h, self.quantities[r["name"]][m][n]) for h, r in levels if n < len(self.quantities[r["name"]][m])]
             q = [(h, v) for h, v in q if math.isfinite(v)]
             if len(q) < 3:
                 values.append(math.nan)
@@ -129,7 +133,8 @@ class Judge:
 
     def _history_differences(self, rung, metric):
         reference, gaps = self.plan["reference"], []
-        for n, run in enumerate(rung["runs"]):
+        runs = rung["runs"] * len(self.plan["replicas"]["points"]) if rung.get("fixed") else rung["runs"]
+        for n, run in enumerate(runs):
             other = reference["history"]
             if reference["variant"]:
                 theirs = self.by_name.get(reference["variant"], {"runs": []})["runs"]

@@ -75,7 +75,9 @@ const Section<VariantOptions>& variant_section() {
           .path("scene", &VariantOptions::scene, "Scene file of this rung; that of [study] where absent.")
           .texts("set", &VariantOptions::set, "Overrides of this variant, each KEY=VALUE.")
           .flag("alone", &VariantOptions::alone, "Not taken to the points of the axes.")
-          .integer("replicas", &VariantOptions::replicas, "-", "At most so many replicas; all where absent.", at_least(1));
+          .integer("replicas", &VariantOptions::replicas, "-", "At most so many replicas; all where absent. 0: nothing in this rung depends on them; it runs once, as the scene is, and "
+                   "stands beside each replica of the others.",
+                   at_least(0));
   return section;
 }
 

@@ -39,7 +39,7 @@ struct VariantOptions {
   std::string scene = {};  ///< empty: that of [study]
   std::vector<std::string> set = {};
   bool alone = false;                ///< not multiplied with the axes
-  std::optional<int> replicas = {};  ///< at most so many of them
+  std::optional<int> replicas = {};  ///< at most so many of them; 0: one run that they do not touch
 };
 
 /// [[axes.NAME.points]]: overrides that change together.
@@ -99,7 +99,7 @@ struct StudyRun {
   std::string variant = {};            ///< of which variant
   std::vector<int> at = {};            ///< point of each axis; empty of a variant that is alone
   bool later = false;                  ///< pairs: run where its two axes turn out to matter
-  int replicas = 1;                    ///< how many
+  int replicas = 1;                    ///< how many; 0: one run that they do not touch
 };
 
 /// A point of an axis, or a replica: its name ("step_0.1") and what it sets.

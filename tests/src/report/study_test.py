@@ -108,6 +108,22 @@ class Sources(unittest.TestCase):
             self.assertAlmostEqual(rung["errors"]["mean"]["error"], 0.3 * h**2, delta=1e-9)
         self.assertEqual(result["answer"], "base-h_0.2")
 
+    def test_of_a_count_the_largest_value_is_the_finest(self):
+        counts = {"base-n_10": 10, "base-n_20": 20, "base-n_40": 40}
+        study = Synthetic({n: 0.3 / c**2 for n, c in counts.items()}, {n: float(c) for n, c in counts.items()}, replicas=1, own=0.0, shared=0.0,
+                          axes=[{"name": "n", "values": ["10", "20", "40"]}], at={n: [i] for i, n in enumerate(counts)},
+                          reference={"variant": "", "history": "", "limit": "n"})
+        result = study.judge().result()
+        self.assertAlmostEqual(result["limits"][0]["order"], 2.0, delta=1e-3)
+        self.assertAlmostEqual(result["rungs"][0]["errors"]["mean"]["error"], 0.3 / 10**2, delta=1e-9)
+
+    def test_a_rung_that_replicas_do_not_touch_stands_beside_each_of_them(self):
+        study = Synthetic({"still": 0.05, "fine": 0.0}, {"still": 1.0, "fine": 9.0}, shared=0.01, own=0.0, dear={"still": 1})
+        study.plan["rungs"][0]["fixed"] = True
+        error = study.judge().result()["rungs"][0]["errors"]["mean"]
+        self.assertEqual(error["replicas"], 6)
+        self.assertAlmostEqual(error["error"], 0.05, delta=0.01)
+
     def test_the_axes_that_matter_most_are_crossed(self):
         axes = [{"name": n, "values": ["a", "b"]} for n in ("small", "large", "middle")]
         offs, at = {"base": 0.0}, {"base": [0, 0, 0]}
