@@ -248,7 +248,10 @@ void Worker::fire(std::uint32_t slot) {
     case Action::loop:
       return enter(s.payload, program_.loops[s.payload].min);
     case Action::reduce_here:
-      if (run(slot, [&](const Context&) { graph.reductions[s.payload]->finish(); })) complete(slot);
+      if (run(slot, [&](const Context&) {
+            if (graph.reductions[s.payload]->active()) graph.reductions[s.payload]->finish();
+          }))
+        complete(slot);
       return;
     case Action::message:
     case Action::join:
@@ -287,8 +290,9 @@ void Worker::complete_message(const Messages::Completion& completion) {
   Slot& s = slots_[completion.node];
   const NodeKind kind = graph.nodes[completion.node].kind;
   try {
-    if (kind == NodeKind::reduce) graph.reductions[s.payload]->finish();
-    if (kind == NodeKind::receive && graph.messages[s.payload].received) graph.messages[s.payload].received(completion.bytes);
+    if (kind == NodeKind::reduce && completion.active) graph.reductions[s.payload]->finish();
+    if (kind == NodeKind::receive && completion.active && graph.messages[s.payload].received)
+      graph.messages[s.payload].received(completion.bytes);
   } catch (const std::exception& e) {
     return team_.fail({graph.comm.rank(), false, graph.nodes[completion.node].label, e.what()});
   } catch (...) {

@@ -110,8 +110,14 @@ std::uint32_t Graph::receive(std::string label, const Uses& uses, Message messag
 
 std::uint32_t Graph::reduce(std::string label, const Uses& uses, Reduction reduction) {
   Recorded& g = *recorded_;
-  g.reductions.push_back(std::make_unique<OrderedReduction>(label, std::move(reduction), g.comm.get()));
-  return add_node(g, NodeKind::reduce, std::move(label), uses, g.reductions.size() - 1);
+  const std::string module = label.substr(0, label.find('/'));
+  auto of = g.reductions_of.find(module);
+  if (of == g.reductions_of.end())
+    of = g.reductions_of.emplace(module, Recorded::Reductions{Communicator(g.comm.get()), datum()}).first;
+  g.reductions.push_back(std::make_unique<Allreduce>(label, std::move(reduction), of->second.comm.get(), g.comm.size()));
+  Uses ordered = uses;
+  if (g.comm.size() > 1) ordered.push_back(updates(of->second.order));
+  return add_node(g, NodeKind::reduce, std::move(label), ordered, g.reductions.size() - 1);
 }
 
 std::uint32_t Graph::until(std::string label, const Uses& uses, std::function<bool()> stop) {

@@ -43,15 +43,17 @@ struct Message {
   int peer, tag;  ///< rank in the graph's communicator; a tag names one send and one receive between two ranks
   Buffer buffer;
   std::function<void(std::size_t bytes)> received = {};  ///< receive only: told the size that came, before successors run
+  std::function<bool()> active = {};                     ///< as Reduction::active, the same answer on both sides
 };
 
-/// A reduction over all parts of all ranks, added up in the order of the parts' global indices: the same bits for any
-/// distribution.
+/// A reduction over all parts of all ranks, with the same bits for any distribution and order of the parts.
 struct Reduction {
   enum class Operation : std::uint8_t { sum, min, max } operation = Operation::sum;
-  std::vector<std::int64_t> parts;   ///< global indices of this rank's parts; every index on exactly one rank
   std::span<const double> partials;  ///< [part][component]
   std::span<double> result;          ///< [component], on every rank
+  /// Asked when it could start, the same answer on all ranks: where false nothing is sent and the result stays as it was, since
+  /// nobody will read it. The uses must read what the answer depends on. None: always.
+  std::function<bool()> active = {};
 };
 
 enum class NodeKind : std::uint8_t { task, send, receive, reduce, collective, until, loop };
@@ -103,7 +105,8 @@ class Graph {
 
   std::uint32_t send(std::string label, const Uses& uses, Message message);
   std::uint32_t receive(std::string label, const Uses& uses, Message message);
-  /// The uses must read the partials and write the result.
+  /// The uses must read the partials and write the result. On several ranks the reductions of a module (the first component of
+  /// the label) start in the order of recording.
   std::uint32_t reduce(std::string label, const Uses& uses, Reduction reduction);
 
   /// Records what `body` records as one loop. With min < max the body must call `until` once.

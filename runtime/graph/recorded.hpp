@@ -2,13 +2,14 @@
 // constant while replaying. Used by runtime/graph and runtime/executor. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "runtime/graph/graph.hpp"
+#include "runtime/mpi/allreduce.hpp"
 #include "runtime/mpi/communicator.hpp"
-#include "runtime/mpi/ordered_reduction.hpp"
 
 namespace spindrift::runtime {
 
@@ -18,7 +19,7 @@ struct Graph::Recorded {
   std::vector<std::uint32_t> payload;  ///< by node: index into the table of its kind below
   std::vector<Work> works;             ///< task, collective
   std::vector<Message> messages;       ///< send, receive
-  std::vector<std::unique_ptr<OrderedReduction>> reductions;
+  std::vector<std::unique_ptr<Allreduce>> reductions;
   std::vector<std::function<bool()>> predicates;  ///< until
   std::vector<Limits> limits;                     ///< loop
   std::vector<std::uint32_t> until_of;            ///< by index of `limits`: the until node or no_node
@@ -28,6 +29,13 @@ struct Graph::Recorded {
   std::vector<float> place_of;  ///< by datum
   std::vector<std::pair<std::uint32_t, std::uint32_t>> orders;
   std::uint32_t open = no_node;  ///< loop being recorded
+
+  /// MPI takes the reductions of a communicator in one order on all ranks: that of recording, by a datum that each updates.
+  struct Reductions {
+    Communicator comm;
+    Datum order;
+  };
+  std::map<std::string, Reductions, std::less<>> reductions_of;  ///< by module
 
   Communicator comm;         ///< messages and control
   Communicator collectives;  ///< of all collective tasks, which are in order

@@ -63,12 +63,18 @@ void Messages::post(std::uint32_t node) {
   posted_.push(0, node);
 }
 
+bool Messages::active(std::uint32_t node) const {
+  const std::uint32_t at = graph_.payload[node];
+  if (graph_.nodes[node].kind == NodeKind::reduce) return graph_.reductions[at]->active();
+  return !graph_.messages[at].active || graph_.messages[at].active();
+}
+
 void Messages::start(std::uint32_t node, std::int64_t now) {
   const Node& recorded = graph_.nodes[node];
   const std::size_t at = std::size_t(active_);
   MPI_Request& request = requests_[at];
   if (recorded.kind == NodeKind::reduce) {
-    OrderedReduction& reduction = *graph_.reductions[graph_.payload[node]];
+    Allreduce& reduction = *graph_.reductions[graph_.payload[node]];
     reduction.post(request);
     bytes_of_[at] = std::uint32_t(reduction.bytes());
   } else {
@@ -103,7 +109,12 @@ bool Messages::poll(std::vector<Completion>& done) {
     const std::int64_t now = Clock::now_ns();
     for (std::uint32_t node; (node = posted_.pop(0)) != ReadyQueue::none;) {
       try {
-        start(node, now);
+        if (active(node)) {
+          start(node, now);
+        } else {
+          done.push_back({node, 0, now, false});
+          outstanding_.fetch_sub(1, std::memory_order_relaxed);
+        }
       } catch (const std::exception& e) {  // the buffer's owner threw, or it is too large
         throw Failure{node, e.what()};
       } catch (...) { throw Failure{node, "an exception of unknown type"}; }

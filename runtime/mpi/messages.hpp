@@ -27,6 +27,7 @@ class Messages {
     std::uint32_t node;
     std::uint32_t bytes;
     std::int64_t posted_ns;
+    bool active = true;  ///< false: was not needed this time
   };
 
   /// Thrown by poll where a buffer could not be had.
@@ -54,6 +55,7 @@ class Messages {
   void abandon(const Notice* tell);
 
  private:
+  bool active(std::uint32_t node) const;
   void start(std::uint32_t node, std::int64_t now);
   void retire(int request);
   Graph::Recorded& graph_;

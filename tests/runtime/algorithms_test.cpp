@@ -36,10 +36,8 @@ struct ConjugateGradients {
   Field x, r, p, q;
   std::vector<double> partial_pq = std::vector<double>(blocks), partial_rr = std::vector<double>(blocks);
   double pq = 0, rr = 0, rr_before = 1;
-  std::vector<std::int64_t> index = std::vector<std::int64_t>(blocks);
 
   explicit ConjugateGradients(const Field& f) : x(blocks, Block(cells)), r(f), p(f), q(x) {
-    std::iota(index.begin(), index.end(), 0);
     for (const Block& b : f) rr += dot(b, b);
   }
 
@@ -52,13 +50,13 @@ struct ConjugateGradients {
         g.task(tile("air/krylov/matvec", b),
                {reads(dp[left(b)]), reads(dp[b]), reads(dp[right(b)]), writes(dq[b]), writes(dpq[b])},
                [this, b] { laplacian(p, b, q[b]), partial_pq[b] = dot(p[b], q[b]); });
-      g.reduce("air/krylov/pq", {reads(dpq), writes(alpha)}, {.parts = index, .partials = partial_pq, .result = {&pq, 1}});
+      g.reduce("air/krylov/pq", {reads(dpq), writes(alpha)}, {.partials = partial_pq, .result = {&pq, 1}});
       for (std::size_t b = 0; b < blocks; ++b)
         g.task(tile("air/krylov/residual", b),
                {reads(alpha), reads(beta), reads(dq[b]), reads(dp[b]), updates(dr[b]), updates(dx[b]), writes(drr[b])},
                [this, b] { add(r[b], -rr / pq, q[b]), add(x[b], rr / pq, p[b]), partial_rr[b] = dot(r[b], r[b]); });
       g.task("air/krylov/keep", {updates(beta)}, [this] { rr_before = rr; });
-      g.reduce("air/krylov/rr", {reads(drr), updates(beta)}, {.parts = index, .partials = partial_rr, .result = {&rr, 1}});
+      g.reduce("air/krylov/rr", {reads(drr), updates(beta)}, {.partials = partial_rr, .result = {&rr, 1}});
       for (std::size_t b = 0; b < blocks; ++b)
         g.task(tile("air/krylov/direction", b), {reads(beta), reads(dr[b]), updates(dp[b])}, [this, b] {
           for (std::size_t i = 0; i < cells; ++i) p[b][i] = r[b][i] + rr / rr_before * p[b][i];

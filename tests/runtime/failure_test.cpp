@@ -104,7 +104,7 @@ TEST_CASE("a task that throws on one rank stops the others within a second", "[r
   g.task("aero/residual/12", {updates(x)}, [rank](const Context& c) {
     if (rank == 2 && c.iteration == 5) throw std::runtime_error("negative density");
   });
-  g.reduce("aero/norm", {reads(x), writes(sum)}, {.parts = {rank}, .partials = partial, .result = {&result, 1}});
+  g.reduce("aero/norm", {reads(x), writes(sum)}, {.partials = partial, .result = {&result, 1}});
   Executor executor(std::move(g), {.threads = 2});
   const auto start = std::chrono::steady_clock::now();
   CHECK_THROWS_WITH(executor.run(1000), Contains("task aero/residual/12 on rank 2: negative density"));

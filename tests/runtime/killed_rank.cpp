@@ -16,6 +16,6 @@ int main(int argc, char** argv) {
   g.task("aero/step", {reads(sum), updates(x)}, [&](const Context& c) {
     if (mpi.rank() == 1 && c.iteration == 100) std::raise(SIGKILL);
   });
-  g.reduce("aero/norm", {reads(x), writes(sum)}, {.parts = {mpi.rank()}, .partials = partial, .result = {&result, 1}});
+  g.reduce("aero/norm", {reads(x), writes(sum)}, {.partials = partial, .result = {&result, 1}});
   Executor(std::move(g), {.threads = 2}).run(1'000'000);
 }

@@ -138,7 +138,6 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     t.direction = AlignedArray<float>(t.gradient_box.size(unknowns));
     cycle_.allocate(t);
     set_open_faces(t);
-    parts_.push_back(index);
   }
   const std::size_t owned = tiles_.size();
   norm_partials_.resize(owned * norm_count);

@@ -270,7 +270,6 @@ class FlowSolver {
   std::unique_ptr<Preconditioner> preconditioner_;
   int matrices_ = 0;
   Norms norms_;
-  std::vector<std::int64_t> parts_;
   std::vector<double> norm_partials_, load_partials_, dot_partials_, size_partials_, fraction_partials_;
   std::vector<double> norm_sums_, loads_, dots_;
   double direction_size_ = 0.0, fraction_ = 1.0;

@@ -79,7 +79,6 @@ struct Poisson::Work {
   Numbering numbering;
   std::optional<Multigrid> multigrid;
   std::vector<double> right, left, partials, sums{0.0};
-  std::vector<std::int64_t> parts;
   std::deque<std::vector<double>> buffers;
   double first = 0.0, reached = 1.0;
   int corrections = 0;
@@ -110,7 +109,6 @@ struct Poisson::Work {
         }
         for_boundary(t, b, [&](const Index&, const Index&, double& value) { value = 0.0; });
       }
-      parts.push_back(index);
     }
     right.resize(std::size_t(numbering.end - numbering.begin)), left.resize(right.size());
     partials.resize(tiles.size());
@@ -310,7 +308,7 @@ struct Poisson::Work {
                    [this, n] { partials[n] = residual(tiles[n]); });
       Uses partial{writes(sum)};
       partial.push_back(reads(residuals));
-      graph.reduce("aero/poisson/norm", partial, {.parts = parts, .partials = partials, .result = sums});
+      graph.reduce("aero/poisson/norm", partial, {.partials = partials, .result = sums});
       graph.task("aero/poisson/judge", {reads(sum), updates(decision)}, [this, o] {
         const double norm = std::sqrt(sums[0]);
         if (corrections == 0) first = norm;

@@ -143,11 +143,9 @@ class StepGraph {
         });
   }
   void judge() {
-    g_.reduce("aero/norms", {reads(norms_), writes(sums_)},
-              {.parts = s_.parts_, .partials = s_.norm_partials_, .result = s_.norm_sums_});
+    g_.reduce("aero/norms", {reads(norms_), writes(sums_)}, {.partials = s_.norm_partials_, .result = s_.norm_sums_});
     const Datum loads = g_.datum();
-    g_.reduce("aero/loads", {reads(norms_), writes(loads)},
-              {.parts = s_.parts_, .partials = s_.load_partials_, .result = s_.loads_});
+    g_.reduce("aero/loads", {reads(norms_), writes(loads)}, {.partials = s_.load_partials_, .result = s_.loads_});
     g_.task("aero/judge", {reads(sums_), reads(loads), updates(decision_)}, [this] { s_.judge(); });
   }
 
@@ -184,8 +182,8 @@ class StepGraph {
         g_.task(of("aero/krylov/direction", n), uses, [this, n](const Context& c) { direction(n, int(c.iteration)); });
       }
     }
-    g_.reduce("aero/krylov/size", {reads(size_), writes(total_size_)},
-              {Reduction::Operation::max, s_.parts_, s_.size_partials_, {&s_.direction_size_, 1}});
+    g_.reduce("aero/krylov/size", {reads(size_), reads(decision_), writes(total_size_)},
+              {Reduction::Operation::max, s_.size_partials_, {&s_.direction_size_, 1}, [this] { return perturbs(); }});
     // w = A z: by the stored blocks, or by the residual of a state a little further along z.
     const HaloField<float> direction{"aero/krylov/direction_ghosts",
                                      [this](int t) { return tile_of(t).direction_view(); },
@@ -224,8 +222,8 @@ class StepGraph {
                reads(trial_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(matrix_[n]), reads(past_[n]),
                reads(residual_[n]), updates(vectors_[n]), writes(dots_[n])},
               [this, n](const Context& c) { s_.product(s_.tiles_[n], int(c.iteration), dots_of(n)); });
-    g_.reduce("aero/krylov/dots", {reads(dots_), writes(total_dots_)},
-              {.parts = s_.parts_, .partials = s_.dot_partials_, .result = s_.dots_});
+    g_.reduce("aero/krylov/dots", {reads(dots_), reads(decision_), writes(total_dots_)},
+              {.partials = s_.dot_partials_, .result = s_.dots_, .active = [this] { return s_.solving_; }});
     g_.task("aero/krylov/append", {reads(total_dots_), reads(decision_), updates(krylov_)}, [this] {
       if (s_.solving_) s_.cycle_.append(s_.dots_);
     });
@@ -283,7 +281,7 @@ class StepGraph {
           s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]);
         });
     g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
-              {Reduction::Operation::min, s_.parts_, s_.fraction_partials_, {&s_.fraction_, 1}});
+              {Reduction::Operation::min, s_.fraction_partials_, {&s_.fraction_, 1}});
     g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
       if (s_.solving_)
         s_.march_.updated(s_.fraction_, s_.cycle_.columns(),

@@ -26,7 +26,8 @@ struct HaloField {
 };
 
 /// Records what fills the ghosts of all owned tiles: packing, messages, and one task per tile that copies, unpacks and then calls
-/// `boundaries` (owned index). `active` false: the tasks do nothing, messages pass all the same.
+/// `boundaries` (owned index). `active` false: the tasks do nothing and no message
+/// passes; it is the same on all ranks and depends on `control` alone.
 template <class T>
 void record_halo(runtime::Graph& graph, const GridStore& grid, const std::vector<int>& local, const HaloField<T>& field,
                  std::deque<std::vector<T>>& buffers, const std::function<bool()>& active,
@@ -59,16 +60,20 @@ void record_halo(runtime::Graph& graph, const GridStore& grid, const std::vector
                                 field.layout(tiling.tiles[std::size_t(link.to)]), at);
                  }
                });
-    graph.send(field.label + "/send/" + std::to_string(message.rank), {reads(datum)},
-               {message.rank, field.tag, buffer_of(std::span(buffer))});
+    Uses sent = control;
+    sent.push_back(reads(datum));
+    graph.send(field.label + "/send/" + std::to_string(message.rank), sent,
+               {message.rank, field.tag, buffer_of(std::span(buffer)), {}, active});
   }
   for (const LinkPlan::Message& message : grid.plan().receives) {
     std::size_t size = 0;
     for (const int l : message.links) size += packed_size(tiling.links[std::size_t(l)], components, field.layers);
     auto& buffer = buffers.emplace_back(size);
     const Datum datum = graph.datum();
-    graph.receive(field.label + "/receive/" + std::to_string(message.rank), {writes(datum)},
-                  {message.rank, field.tag, buffer_of(std::span(buffer))});
+    Uses received = control;
+    received.push_back(writes(datum));
+    graph.receive(field.label + "/receive/" + std::to_string(message.rank), received,
+                  {message.rank, field.tag, buffer_of(std::span(buffer)), {}, active});
     const T* at = buffer.data();
     for (const int l : message.links) {
       const GhostLink& link = tiling.links[std::size_t(l)];

@@ -412,9 +412,7 @@ template <int dim, class Real>
 void StepTasks<dim, Real>::limits() {
   const auto shared = shared_;
   SeaState<dim, Real>& sea = sea_;
-  std::vector<std::int64_t> parts;
   for (std::size_t b = 0; b < bundles_.size(); ++b) {
-    parts.push_back(bundles_[b].front());
     Uses uses = of_groups(bundles_[b], reads, state_);
     for (const int g : bundles_[b]) uses.push_back(reads(sums_[std::size_t(g)]));
     uses.push_back(reads(order_)), uses.push_back(reads(plan_)), uses.push_back(writes(extremes_[b]));
@@ -427,7 +425,7 @@ void StepTasks<dim, Real>::limits() {
   }
   const Datum result = graph_.datum();
   graph_.reduce("sea/limits", {reads(extremes_), writes(result)},
-                {runtime::Reduction::Operation::max, parts, shared->extremes, shared->extreme});
+                {runtime::Reduction::Operation::max, shared->extremes, shared->extreme});
   graph_.task("sea/look", {reads(result), updates(plan_)}, [&sea, shared] {
     if (!sea.plan.failure) sea.look(shared->extreme[0], shared->extreme[1], shared->extreme[2]);
   });
@@ -440,11 +438,9 @@ void StepTasks<dim, Real>::bodies(Half half) {
   const auto shared = shared_;
   SeaState<dim, Real>& sea = sea_;
   const std::size_t solids = sea.solids.size();
-  std::vector<std::int64_t> parts;
   const std::string when = half == Half::begin ? "begin" : "middle";
   for (std::size_t n = 0; n < body_groups_.size(); ++n) {
     const int g = body_groups_[n];
-    parts.push_back(g);
     graph_.task(name("load/" + when, std::size_t(g)),
                 {reads(order_), reads(plan_), reads(loads_), reads(planes_[std::size_t(g)]), reads(sums_[std::size_t(g)]),
                  reads(touches_[std::size_t(g)]), writes(partial_loads_[n])},
@@ -468,7 +464,7 @@ void StepTasks<dim, Real>::bodies(Half half) {
   }
   const Datum sum = graph_.datum();
   graph_.reduce("sea/loads/" + when, {reads(partial_loads_), writes(sum)},
-                {runtime::Reduction::Operation::sum, parts, shared->partial_loads, shared->loads});
+                {runtime::Reduction::Operation::sum, shared->partial_loads, shared->loads});
   graph_.task("sea/bodies/" + when, {reads(sum), reads(plan_), updates(loads_)},
               if_active([&sea, shared, half, &touching = touching_, farthest = path_limit()](const Context&, int n) {
                 shared->wrenches.clear(), shared->motions.clear(), shared->contacts.clear();
