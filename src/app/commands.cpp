@@ -170,8 +170,13 @@ void add_commands(CLI::App& cli, Command& chosen) {
         "Examples:\n"
         "  spindrift reference waves\n"
         "  spindrift reference waves.height_m\n"
-        "  spindrift reference precone_deg");
-    command->callback([=, &chosen] { chosen = [=](const auto& world) { return reference(*topic, *markdown, world); }; });
+        "  spindrift reference precone_deg\n"
+        "  spindrift reference --columns");
+    const auto columns = std::make_shared<bool>(false);
+    command->add_flag("--columns", *columns, "Every column of history.csv instead, as in docs/reference/columns.md");
+    command->callback([=, &chosen] {
+      chosen = [=](const auto& world) { return *columns ? reference_columns(world) : reference(*topic, *markdown, world); };
+    });
   }
   {
     auto arguments = std::make_shared<ReportArguments>();

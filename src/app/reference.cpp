@@ -7,6 +7,7 @@
 #include "src/aero/turbine.hpp"
 #include "src/app/commands.hpp"
 #include "src/coupling/scenario.hpp"
+#include "src/run/flow_columns.hpp"
 #include "src/scene/study.hpp"
 
 namespace spindrift::app {
@@ -36,6 +37,19 @@ int reference(const std::string& topic, bool markdown, const runtime::World& wor
   all.insert(all.end(), of_studies.begin(), of_studies.end());
   const std::string text = markdown ? markdown_pages(of_scenes, of_turbines, of_studies) : scene::reference_text(all, topic);
   if (world.rank == 0) fmt::print("{}", text);
+  return done;
+}
+
+int reference_columns(const runtime::World& world) {
+  if (world.rank != 0) return done;
+  fmt::print(
+      "# Columns of history.csv\n\nMade from the program's declarations by `ci/reference`. `time_s` comes first. Words in "
+      "capitals stand "
+      "for names of the\nscene. A run has the columns of what its scene has; `summary.json` lists them with unit and meaning.\n");
+  for (const io::ColumnSection& section : run::all_columns()) {
+    fmt::print("\n## {}* ({})\n\n| column | unit | meaning |\n|---|---|---|\n", section.prefix, section.when);
+    for (const io::Column& c : section.columns) fmt::print("| `{}{}` | {} | {} |\n", section.prefix, c.name, c.unit, c.meaning);
+  }
   return done;
 }
 

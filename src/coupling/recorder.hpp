@@ -4,22 +4,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "src/bodies/system.hpp"
+#include "src/coupling/columns.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/io/history.hpp"
 
 namespace spindrift::coupling {
-
-/// Motion of the reference point of a body and of the body round it, as it is written.
-struct ReferenceMotion {
-  Eigen::Vector3d displacement, velocity, acceleration;  ///< of the point, earth axes [m], [m/s], [m/s2]
-  Eigen::Vector3d angles;                                ///< roll, pitch, yaw since the start [rad]
-  Eigen::Vector3d omega, omega_rate;                     ///< earth axes [rad/s], [rad/s2]
-};
 
 /// `point`: the reference point in body axes from the centre of mass; accelerations as System::evaluate gives them.
 ReferenceMotion reference_motion(const Motion& now, const Motion& initial, const Eigen::Vector3d& point,
@@ -34,16 +28,29 @@ class Recorder {
   void fill(std::span<double> row, const bodies::BodiesState& state, double t);
 
  private:
+  template <class Source>
+  using Group = io::ColumnGroup<Source>;
   struct Load {
-    std::size_t source, body, column;
+    std::size_t source, body;
+    Group<Wrench> columns;
   };
-  Machine& machine_;
-  std::vector<std::size_t> body_columns_;  ///< first of each body
-  std::vector<Load> loads_;
-  std::vector<std::size_t> joint_columns_;
   void declare_particles(io::History& history);
-  void put_particles(std::span<double> row, double t) const;
-  std::size_t rotor_column_ = 0, control_column_ = 0, mooring_column_ = 0, wave_column_ = 0, particle_column_ = 0;
+  void fill_particles(std::span<double> row, double t) const;
+
+  Machine& machine_;
+  std::vector<Group<ReferenceMotion>> bodies_;
+  std::vector<Load> loads_;
+  std::vector<Group<Wrench>> joints_;
+  std::optional<Group<RotorRow>> rotor_;
+  std::optional<Group<aero::RotorState>> hub_;
+  std::optional<Group<aero::RotorLoads::Drive>> drive_;
+  std::vector<Group<double>> pitches_;
+  std::vector<Group<moorings::LineTension>> moorings_;
+  std::optional<Group<double>> waves_;
+  std::optional<Group<WaterRow>> water_;
+  std::optional<Group<sph::Wavemaker::Stroke>> paddle_;
+  std::vector<Group<double>> gauges_;
+  std::vector<Group<sea::ParticleSea::Reading>> probes_;
 };
 
 }  // namespace spindrift::coupling

@@ -19,6 +19,7 @@
 #include "src/aero/resolved_rotor.hpp"
 #include "src/coupling/air_file.hpp"
 #include "src/coupling/air_output.hpp"
+#include "src/coupling/columns.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/grid_progress.hpp"
 #include "src/coupling/machine.hpp"
@@ -160,22 +161,17 @@ class ResolvedAir final : public AirSide {
   }
 
   std::vector<io::Column> columns() const override {
-    std::vector<io::Column> columns{{"air.pseudo_steps", "-", "pseudo-steps of the window's last physical step"},
-                                    {"air.density_residual", "kg/(m3 s)", "root mean square over the cells after them"},
-                                    {"air.residual_drop", "-", "the same over its largest in that step"},
-                                    {"air.cfl", "-", "CFL number of the last pseudo-step"}};
-    for (int b = 1; b <= size_.sectors; ++b) {
-      columns.push_back({fmt::format("rotor.blade_{}.thrust_N", b), "N", "share of one blade, along the axis"});
-      columns.push_back({fmt::format("rotor.blade_{}.torque_N_m", b), "N m", "share of one blade, about the axis"});
-    }
+    std::vector<io::Column> columns;
+    for (const auto& c : march_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
+    for (int b = 1; b <= size_.sectors; ++b)
+      for (const auto& c : blade_columns()) columns.push_back({fmt::format("rotor.blade_{}.{}", b, c.name), c.unit, c.meaning});
     return columns;
   }
   std::vector<double> values() const override {
-    const aero::March& march = rotor_->solver().march();
-    std::vector<double> values{
-        double(march.steps() - 1), march.density_residual(),
-        march.first_density_residual() > 0.0 ? march.density_residual() / march.first_density_residual() : 0.0, march.cfl()};
-    for (const aero::RotorLoad& blade : felt_.blades) values.insert(values.end(), {blade.thrust, blade.torque});
+    std::vector<double> values;
+    for (const auto& c : march_columns()) values.push_back(c.value(rotor_->solver().march()));
+    for (const aero::RotorLoad& blade : felt_.blades)
+      for (const auto& c : blade_columns()) values.push_back(c.value(blade));
     return values;
   }
 

@@ -43,7 +43,7 @@ std::string settings_of(const Scenario& s) {
   add_lines(lines, aero::rotor_grid_section(), "aero.grid", &*s.aero.grid);
   add_lines(lines, aero::flow_section(), "aero.flow", &*s.aero.flow,
             {"blades", "temperature_K", "viscosity_Pa_s", "viscous", "turbulence", "flux", "limiter", "upwinding",
-             "first_order_turbulence"});
+             "physical_far_field", "first_order_turbulence"});
   return lines;
 }
 

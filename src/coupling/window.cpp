@@ -387,21 +387,15 @@ void CoupledWindow::declare(io::History& history) {
   air_column_ = history.columns().size();
   for (const io::Column& column : air_->columns()) history.add(column);
   if (!interface_) return;
-  column_ = history.add({"coupling.evaluations", "-", "of the window by the scheme, probes included"});
-  history.add({"coupling.mismatch", "-", "loads that went in and came out, their difference over them"});
-  if (!strong_) return;
-  history.add({"coupling.columns", "-", "differences the scheme keeps"});
-  history.add({"coupling.cuts", "-", "halvings of the window"});
-  history.add({"coupling.retries", "-", "attempts after clearing and relaxing"});
+  columns_.emplace(history, "coupling.", window_columns());
+  if (strong_) strong_columns_.emplace(history, "coupling.", strong_columns());
 }
 
 void CoupledWindow::put(std::span<double> row) const {
   const std::vector<double> air = air_->values();
   std::copy(air.begin(), air.end(), row.begin() + std::ptrdiff_t(air_column_));
-  if (!interface_) return;
-  row[column_] = last_.log.evaluations, row[column_ + 1] = last_.mismatch;
-  if (!strong_) return;
-  row[column_ + 2] = last_.log.columns, row[column_ + 3] = last_.log.cuts, row[column_ + 4] = last_.log.retries;
+  if (columns_) columns_->fill(row, last_);
+  if (strong_columns_) strong_columns_->fill(row, last_);
 }
 
 }  // namespace spindrift::coupling

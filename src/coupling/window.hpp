@@ -22,6 +22,7 @@
 #include "kernels/coupling/relaxation_steepest_descent.hpp"
 #include "kernels/coupling/solve_window.hpp"
 #include "kernels/coupling/staggered.hpp"
+#include "src/coupling/columns.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/rotor_interface.hpp"
 #include "src/coupling/sides.hpp"
@@ -70,7 +71,7 @@ class CoupledWindow {
   const WindowTasks& tasks() const { return tasks_; }
   const BodySide& bodies() const { return *bodies_; }
 
-  // Columns of history.csv: evaluations and mismatch; of strong schemes also columns kept, cuts and retries.
+  // Columns of history.csv: those of the air, and how the last window went.
   void declare(io::History& history);
   void put(std::span<double> row) const;
 
@@ -113,7 +114,8 @@ class CoupledWindow {
   std::string trouble_;  ///< of the side that failed last
   WindowReport last_;
   Totals totals_;
-  std::size_t column_ = 0, air_column_ = 0;
+  std::size_t air_column_ = 0;
+  std::optional<io::ColumnGroup<WindowReport>> columns_, strong_columns_;
 };
 
 }  // namespace spindrift::coupling

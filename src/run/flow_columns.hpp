@@ -2,7 +2,7 @@
 // tests/coupled/flow_run_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,9 +10,20 @@
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid_motion.hpp"
 #include "src/aero/resolved_rotor.hpp"
-#include "src/io/history.hpp"
+#include "src/coupling/columns.hpp"
 
 namespace spindrift::run {
+
+/// Force over dynamic pressure and reference area.
+struct Coefficients {
+  double lift, drag;
+};
+
+/// Angle of the walls that move [deg], their shift [m].
+struct WallMotion {
+  double pitch_deg;
+  Eigen::Vector3d shift;
+};
 
 class FlowColumns {
  public:
@@ -23,17 +34,19 @@ class FlowColumns {
             const aero::FlowOptions& options, const Eigen::Vector3d& wind) const;
 
  private:
-  void add_rotor(io::History& history);
-  void fill_rotor(std::span<double> row, const aero::PseudoRow& p) const;
-  void add_motion(io::History& history);
-  void fill_motion(std::span<double> row, double time) const;
+  template <class Source>
+  using Group = io::ColumnGroup<Source>;
 
   const aero::ResolvedRotor* rotor_;
   const aero::GridMotion* motion_;
-  std::size_t force_[3], lift_ = 0, drag_ = 0, residual_, momentum_, model_, cfl_, krylov_, steps_;
-  std::size_t pitch_ = 0, heave_[3] = {0, 0, 0};
-  std::size_t thrust_ = 0, torque_ = 0, power_ = 0, azimuth_ = 0, rpm_ = 0;
-  std::vector<std::array<std::size_t, 2>> blades_;  ///< thrust and torque
+  std::optional<Group<coupling::RotorRow>> rotor_columns_;
+  std::vector<Group<aero::RotorLoad>> blades_;
+  std::optional<Group<WallMotion>> motion_columns_;
+  std::optional<Group<Coefficients>> coefficients_;
+  Group<aero::PseudoRow> march_;
 };
+
+/// Of every scene: those of a floating system and of the air alone. For pages.
+std::vector<io::ColumnSection> all_columns();
 
 }  // namespace spindrift::run

@@ -118,6 +118,8 @@ class Program(unittest.TestCase):
         self.assertEqual(text, (ROOT / "inputs/REFERENCE.md").read_text(), "run ci/reference and commit inputs/REFERENCE.md")
         text = spindrift("help", "--markdown").stdout
         self.assertEqual(text, (ROOT / "docs/reference/commands.md").read_text(), "run ci/reference and commit docs/reference/commands.md")
+        text = spindrift("reference", "--columns").stdout
+        self.assertEqual(text, (ROOT / "docs/reference/columns.md").read_text(), "run ci/reference and commit docs/reference/columns.md")
 
     def test_every_scene_of_inputs_passes_check(self):
         for scene in sorted((ROOT / "inputs").rglob("*.toml")):

@@ -1,4 +1,9 @@
 // MUSCL over a piece of a row, one function per limiter. SPDX-License-Identifier: Apache-2.0
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
 #include "src/aero/flow/sweep_convective.hpp"
 
 namespace spindrift::aero {
@@ -34,11 +39,16 @@ struct FirstOrder {
 }  // namespace
 
 Reconstruction reconstruction(std::string_view limiter) {
-  if (limiter == gas::VanAlbada::name) return reconstruct_row<gas::VanAlbada>;
-  if (limiter == gas::VanLeer::name) return reconstruct_row<gas::VanLeer>;
-  if (limiter == gas::Minmod::name) return reconstruct_row<gas::Minmod>;
-  if (limiter == "first_order") return reconstruct_row<FirstOrder>;
-  return reconstruct_row<gas::Unlimited>;
+  static constexpr std::pair<std::string_view, Reconstruction> list[] = {
+      {gas::VanAlbada::name, reconstruct_row<gas::VanAlbada>},
+      {gas::VanLeer::name, reconstruct_row<gas::VanLeer>},
+      {gas::Minmod::name, reconstruct_row<gas::Minmod>},
+      {gas::Unlimited::name, reconstruct_row<gas::Unlimited>},
+      {"first_order", reconstruct_row<FirstOrder>},
+  };
+  for (const auto& [name, function] : list)
+    if (name == limiter) return function;
+  throw std::invalid_argument("no limiter is named \"" + std::string(limiter) + "\"");
 }
 
 }  // namespace spindrift::aero

@@ -1,4 +1,9 @@
 // Flux schemes over a piece of a row, one function per scheme. SPDX-License-Identifier: Apache-2.0
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
 #include "kernels/gas/flux_osher.hpp"
 #include "kernels/gas/flux_roe.hpp"
 #include "kernels/gas/flux_roe_low_mach.hpp"
@@ -25,11 +30,16 @@ void flux_row(const gas::IdealGas& gas, const TileGeometry& geometry, int d, int
 }  // namespace
 
 RowFlux row_flux(std::string_view flux) {
-  if (flux == "osher") return flux_row<gas::Osher<gas::OsherOrder::physical>>;
-  if (flux == "osher_inverse") return flux_row<gas::Osher<gas::OsherOrder::inverse>>;
-  if (flux == gas::Roe::name) return flux_row<gas::Roe>;
-  if (flux == gas::Rusanov::name) return flux_row<gas::Rusanov>;
-  return flux_row<gas::RoeLowMach>;
+  static constexpr std::pair<std::string_view, RowFlux> list[] = {
+      {"osher", flux_row<gas::Osher<gas::OsherOrder::physical>>},
+      {"osher_inverse", flux_row<gas::Osher<gas::OsherOrder::inverse>>},
+      {gas::Roe::name, flux_row<gas::Roe>},
+      {gas::RoeLowMach::name, flux_row<gas::RoeLowMach>},
+      {gas::Rusanov::name, flux_row<gas::Rusanov>},
+  };
+  for (const auto& [name, function] : list)
+    if (name == flux) return function;
+  throw std::invalid_argument("no flux is named \"" + std::string(flux) + "\"");
 }
 
 }  // namespace spindrift::aero

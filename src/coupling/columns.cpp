@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/columns.hpp"
+
+#include "kernels/base/constants.hpp"
+#include "src/aero/flow/control.hpp"
+#include "src/coupling/window.hpp"
+
+namespace spindrift::coupling {
+
+using io::ColumnOf, io::section_of;
+
+Table<ReferenceMotion> motion_columns() {
+  using Of = const ReferenceMotion&;
+  static constexpr double degree = radians_per_degree;
+  static constexpr ColumnOf<ReferenceMotion> table[] = {
+      {"x_m", "m", "surge of the reference point since the start", [](Of m) { return m.displacement[0]; }},
+      {"y_m", "m", "sway of the reference point", [](Of m) { return m.displacement[1]; }},
+      {"z_m", "m", "heave of the reference point", [](Of m) { return m.displacement[2]; }},
+      {"roll_deg", "deg", "roll since the start", [](Of m) { return 1.0 / degree * m.angles[0]; }},
+      {"pitch_deg", "deg", "pitch since the start", [](Of m) { return 1.0 / degree * m.angles[1]; }},
+      {"yaw_deg", "deg", "yaw since the start", [](Of m) { return 1.0 / degree * m.angles[2]; }},
+      {"vx_m_s", "m/s", "velocity of the reference point along x", [](Of m) { return m.velocity[0]; }},
+      {"vy_m_s", "m/s", "velocity of the reference point along y", [](Of m) { return m.velocity[1]; }},
+      {"vz_m_s", "m/s", "velocity of the reference point along z", [](Of m) { return m.velocity[2]; }},
+      {"wx_rad_s", "rad/s", "angular velocity about x, earth axes", [](Of m) { return m.omega[0]; }},
+      {"wy_rad_s", "rad/s", "angular velocity about y, earth axes", [](Of m) { return m.omega[1]; }},
+      {"wz_rad_s", "rad/s", "angular velocity about z, earth axes", [](Of m) { return m.omega[2]; }},
+      {"ax_m_s2", "m/s2", "acceleration of the reference point along x", [](Of m) { return m.acceleration[0]; }},
+      {"ay_m_s2", "m/s2", "acceleration of the reference point along y", [](Of m) { return m.acceleration[1]; }},
+      {"az_m_s2", "m/s2", "acceleration of the reference point along z", [](Of m) { return m.acceleration[2]; }},
+      {"awx_rad_s2", "rad/s2", "angular acceleration about x, earth axes", [](Of m) { return m.omega_rate[0]; }},
+      {"awy_rad_s2", "rad/s2", "angular acceleration about y, earth axes", [](Of m) { return m.omega_rate[1]; }},
+      {"awz_rad_s2", "rad/s2", "angular acceleration about z, earth axes", [](Of m) { return m.omega_rate[2]; }}};
+  return table;
+}
+
+Table<Wrench> wrench_columns() {
+  using Of = const Wrench&;
+  static constexpr ColumnOf<Wrench> table[] = {{"fx_N", "N", "force along x, earth axes", [](Of w) { return w.force[0]; }},
+                                               {"fy_N", "N", "force along y", [](Of w) { return w.force[1]; }},
+                                               {"fz_N", "N", "force along z", [](Of w) { return w.force[2]; }},
+                                               {"mx_N_m", "N m", "moment about x, earth axes", [](Of w) { return w.moment[0]; }},
+                                               {"my_N_m", "N m", "moment about y", [](Of w) { return w.moment[1]; }},
+                                               {"mz_N_m", "N m", "moment about z", [](Of w) { return w.moment[2]; }}};
+  return table;
+}
+
+Table<RotorRow> rotor_columns() {
+  using Of = const RotorRow&;
+  static constexpr ColumnOf<RotorRow> table[] = {
+      {"thrust_N", "N", "force of the air on the blades along the rotor axis, positive downwind",
+       [](Of r) { return r.load.thrust; }},
+      {"torque_N_m", "N m", "its moment about the axis, positive where the air drives the rotor",
+       [](Of r) { return r.load.torque; }},
+      {"power_W", "W", "torque times rotor speed", [](Of r) { return r.load.power; }},
+      {"azimuth_deg", "deg", "azimuth of blade 1, zero upwards, 0 to 360", [](Of r) { return r.azimuth_deg; }},
+      {"rpm", "rpm", "rotor speed", [](Of r) { return r.rpm; }}};
+  return table;
+}
+
+Table<aero::RotorState> hub_columns() {
+  using Of = const aero::RotorState&;
+  static constexpr ColumnOf<aero::RotorState> table[] = {
+      {"hub_x_m", "m", "hub, along the earth's x", [](Of s) { return s.hub[0]; }},
+      {"hub_y_m", "m", "hub, along y", [](Of s) { return s.hub[1]; }},
+      {"hub_z_m", "m", "hub, along z", [](Of s) { return s.hub[2]; }},
+      {"hub_vx_m_s", "m/s", "velocity of the hub along x", [](Of s) { return s.hub_velocity[0]; }},
+      {"hub_vy_m_s", "m/s", "velocity of the hub along y", [](Of s) { return s.hub_velocity[1]; }},
+      {"hub_vz_m_s", "m/s", "velocity of the hub along z", [](Of s) { return s.hub_velocity[2]; }}};
+  return table;
+}
+
+Table<aero::RotorLoad> blade_columns() {
+  using Of = const aero::RotorLoad&;
+  static constexpr ColumnOf<aero::RotorLoad> table[] = {
+      {"thrust_N", "N", "share of one blade of the grid, along the axis", [](Of l) { return l.thrust; }},
+      {"torque_N_m", "N m", "share of one blade of the grid, about the axis", [](Of l) { return l.torque; }}};
+  return table;
+}
+
+Table<aero::RotorLoads::Drive> drive_columns() {
+  using Of = const aero::RotorLoads::Drive&;
+  static constexpr double degree = radians_per_degree;
+  static constexpr ColumnOf<aero::RotorLoads::Drive> table[] = {
+      {"generator_torque_N_m", "N m", "of the generator, on the low-speed shaft", [](Of d) { return d.generator_torque; }},
+      {"electrical_power_W", "W", "generator torque times rotor speed times efficiency", [](Of d) { return d.electrical_power; }},
+      {"asked_pitch_deg", "deg", "blade pitch that the controller asks for", [](Of d) { return d.asked_pitch / degree; }}};
+  return table;
+}
+
+Table<double> pitch_columns() {
+  static constexpr double degree = radians_per_degree;
+  static constexpr ColumnOf<double> table[] = {
+      {"pitch_deg", "deg", "pitch of the blade, nose into the wind", [](const double& pitch) { return pitch / degree; }}};
+  return table;
+}
+
+Table<moorings::LineTension> mooring_columns() {
+  using Of = const moorings::LineTension&;
+  static constexpr ColumnOf<moorings::LineTension> table[] = {
+      {"tension_N", "N", "tension at the fairlead", [](Of t) { return t.fairlead; }}};
+  return table;
+}
+
+Table<double> wave_columns() {
+  static constexpr ColumnOf<double> table[] = {
+      {"elevation_m", "m", "surface elevation of the undisturbed waves at the earth origin", [](const double& v) { return v; }}};
+  return table;
+}
+
+Table<WaterRow> water_columns() {
+  using Of = const WaterRow&;
+  static constexpr ColumnOf<WaterRow> table[] = {
+      {"lost_particles", "-", "particles that left the tank so far", [](Of w) { return w.lost; }},
+      {"x_max_m", "m", "farthest water along x: the front of a broken dam", [](Of w) { return w.extent.x_max; }},
+      {"z_max_m", "m", "highest water", [](Of w) { return w.extent.z_max; }},
+      {"kinetic_energy_J", "J", "of the water", [](Of w) { return w.extent.kinetic_energy; }}};
+  return table;
+}
+
+Table<sph::Wavemaker::Stroke> paddle_columns() {
+  using Of = const sph::Wavemaker::Stroke&;
+  static constexpr ColumnOf<sph::Wavemaker::Stroke> table[] = {
+      {"displacement_m", "m", "of the paddle's face at still water", [](Of s) { return s.displacement; }},
+      {"velocity_m_s", "m/s", "of the same", [](Of s) { return s.velocity; }}};
+  return table;
+}
+
+Table<double> gauge_columns() {
+  static constexpr ColumnOf<double> table[] = {
+      {"elevation_m", "m", "height of the water's surface; the bed where there is none", [](const double& v) { return v; }}};
+  return table;
+}
+
+Table<sea::ParticleSea::Reading> probe_columns() {
+  using Of = const sea::ParticleSea::Reading&;
+  static constexpr ColumnOf<sea::ParticleSea::Reading> table[] = {
+      {"pressure_Pa", "Pa", "pressure of the water, zero where there is none", [](Of r) { return r.pressure; }},
+      {"vx_m_s", "m/s", "velocity of the water along x, zero where there is none", [](Of r) { return r.velocity[0]; }},
+      {"vy_m_s", "m/s", "along y", [](Of r) { return r.velocity[1]; }},
+      {"vz_m_s", "m/s", "along z", [](Of r) { return r.velocity[2]; }}};
+  return table;
+}
+
+Table<WindowReport> window_columns() {
+  using Of = const WindowReport&;
+  static constexpr ColumnOf<WindowReport> table[] = {
+      {"evaluations", "-", "of the window by the scheme, probes included", [](Of r) { return double(r.log.evaluations); }},
+      {"mismatch", "-", "loads that went in and came out, their difference over them", [](Of r) { return r.mismatch; }}};
+  return table;
+}
+
+Table<WindowReport> strong_columns() {
+  using Of = const WindowReport&;
+  static constexpr ColumnOf<WindowReport> table[] = {
+      {"columns", "-", "differences that the scheme has", [](Of r) { return double(r.log.columns); }},
+      {"cuts", "-", "halvings of the window", [](Of r) { return double(r.log.cuts); }},
+      {"retries", "-", "attempts after clearing and relaxing", [](Of r) { return double(r.log.retries); }}};
+  return table;
+}
+
+Table<aero::March> march_columns() {
+  using Of = const aero::March&;
+  static constexpr ColumnOf<aero::March> table[] = {
+      {"pseudo_steps", "-", "pseudo-steps of the window's last physical step", [](Of m) { return double(m.steps() - 1); }},
+      {"density_residual", "kg/(m3 s)", "root mean square over the cells after them", [](Of m) { return m.density_residual(); }},
+      {"residual_drop", "-", "the same over its largest in that step",
+       [](Of m) { return m.first_density_residual() > 0.0 ? m.density_residual() / m.first_density_residual() : 0.0; }},
+      {"cfl", "-", "CFL number of the last pseudo-step", [](Of m) { return m.cfl(); }}};
+  return table;
+}
+
+std::vector<io::ColumnSection> column_sections() {
+  return {section_of("BODY.", "each body: its reference point ([bodies.BODY] reference_m, else the centre of mass)",
+                     motion_columns()),
+          section_of("BODY.SOURCE.",
+                     "each source of load of a body (gravity, forces, moorings, sea, contact, rotor), about its centre of mass",
+                     wrench_columns()),
+          section_of("JOINT.", "each joint: its reaction", wrench_columns()),
+          section_of("rotor.", "scenes with a rotor, with bodies or alone", rotor_columns()),
+          section_of("rotor.", "rotors on bodies", hub_columns()),
+          section_of("rotor.", "controlled rotors", drive_columns()),
+          section_of("rotor.blade_1.", "each blade of a controlled rotor", pitch_columns()),
+          section_of("rotor.blade_1.", "each blade of the grid of a resolved rotor", blade_columns()),
+          section_of("MOORING.", "each line", mooring_columns()),
+          section_of("waves.", "engineering seas with waves", wave_columns()),
+          section_of("sea.", "seas of particles", water_columns()),
+          section_of("wavemaker.", "tanks with a paddle", paddle_columns()),
+          section_of("GAUGE.", "each gauge of a sea of particles", gauge_columns()),
+          section_of("PROBE.", "each probe of a sea of particles", probe_columns()),
+          section_of("coupling.", "schemes other than monolithic", window_columns()),
+          section_of("coupling.", "schemes that iterate", strong_columns()),
+          section_of("air.", "resolved rotors on bodies", march_columns())};
+}
+
+}  // namespace spindrift::coupling
