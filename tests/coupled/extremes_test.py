@@ -1,5 +1,5 @@
 """The battery of tests/extremes: every scene at or beyond a limit ends bounded, or is refused or stopped by name. Nothing hangs, nothing
-runs away with exit code 0. Usage: extremes_test.py SPINDRIFT [--table] (--table: docs/developer/extremes.md on standard output).
+runs away with exit code 0. Usage: extremes_test.py SPINDRIFT [--table] (--table: docs/verification/extremes.md on standard output).
 SPDX-License-Identifier: Apache-2.0"""
 import csv
 import json
