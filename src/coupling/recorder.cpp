@@ -109,8 +109,9 @@ Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine) {
   }
   if (machine.moorings())
     for (std::size_t line = 0; line < machine.moorings()->size(); ++line) {
-      const std::size_t column = history.add({machine.moorings()->name(line) + ".tension_N", "N", "tension at the fairlead"});
-      if (line == 0) mooring_column_ = column;
+      const std::string& name = machine.moorings()->name(line);
+      mooring_columns_.push_back(history.add({name + ".tension_N", "N", "tension at the fairlead"}));
+      if (machine.moorings()->is_dynamic(line)) history.add({name + ".anchor_tension_N", "N", "tension at the anchor"});
     }
   if (machine.has_waves())
     wave_column_ = history.add({"waves.elevation_m", "m", "surface elevation of the undisturbed waves at the earth origin"});
@@ -195,8 +196,11 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     }
   }
   if (machine_.moorings())
-    for (std::size_t line = 0; line < machine_.moorings()->size(); ++line)
-      row[mooring_column_ + line] = machine_.moorings()->tension(line, state.motions).fairlead;
+    for (std::size_t line = 0; line < mooring_columns_.size(); ++line) {
+      const moorings::LineTension tension = machine_.moorings()->tension(line, state.motions);
+      row[mooring_columns_[line]] = tension.fairlead;
+      if (machine_.moorings()->is_dynamic(line)) row[mooring_columns_[line] + 1] = tension.anchor;
+    }
   if (machine_.particles()) put_particles(row, t);
   if (machine_.has_waves()) row[wave_column_] = machine_.sea()->elevation(0.0, 0.0, t);
 }

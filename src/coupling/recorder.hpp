@@ -40,10 +40,10 @@ class Recorder {
   Machine& machine_;
   std::vector<std::size_t> body_columns_;  ///< first of each body
   std::vector<Load> loads_;
-  std::vector<std::size_t> joint_columns_;
+  std::vector<std::size_t> joint_columns_, mooring_columns_;
   void declare_particles(io::History& history);
   void put_particles(std::span<double> row, double t) const;
-  std::size_t rotor_column_ = 0, control_column_ = 0, mooring_column_ = 0, wave_column_ = 0, particle_column_ = 0;
+  std::size_t rotor_column_ = 0, control_column_ = 0, wave_column_ = 0, particle_column_ = 0;
 };
 
 }  // namespace spindrift::coupling
