@@ -34,8 +34,9 @@ Polar blend(const std::vector<Polar>& polars, double thickness) {
 
 }  // namespace
 
-BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density)
-    : blades_(turbine.blades), air_density_(air_density) {
+BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density,
+                                           const UnsteadyFlow& unsteady)
+    : unsteady_(unsteady), blades_(turbine.blades), air_density_(air_density) {
   if (induction == InductionBuhl::name) induction_ = InductionBuhl();
   const Planform& p = turbine.planform;
   const double cone_sine = std::sin(turbine.precone), cone_cosine = std::cos(turbine.precone);
@@ -47,7 +48,8 @@ BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::st
     const double outward = radius(i + 1) - radius(i), downwind = axial(i + 1) - axial(i), length = std::hypot(outward, downwind);
     const Polar polar = blend(turbine.polars, middle(p.thickness));
     elements_.push_back({0.5 * (radius(i) + radius(i + 1)), 0.5 * (axial(i) + axial(i + 1)), -downwind / length, outward / length,
-                         length, middle(p.chord), middle(p.twist), attack_.size(), polar.attack.size()});
+                         length, middle(p.chord), middle(p.twist), attack_.size(), polar.attack.size(),
+                         DynamicStallOye::of(polar.attack, polar.lift)});
     attack_.insert(attack_.end(), polar.attack.begin(), polar.attack.end());
     lift_.insert(lift_.end(), polar.lift.begin(), polar.lift.end());
     drag_.insert(drag_.end(), polar.drag.begin(), polar.drag.end());
@@ -77,17 +79,13 @@ ElementState BladeElementMomentum::solve(std::size_t element, double normal_wind
       induction_);
 }
 
-DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& rotor, double t) const {
-  return std::visit([&](const auto& induction) { return load(wind, rotor, t, induction); }, induction_);
-}
-
-template <class Induction>
-DiscLoad BladeElementMomentum::load(const Wind& wind, const DiscMotion& rotor, double t, const Induction& induction) const {
+template <class Visit>
+void BladeElementMomentum::for_each_place(const Wind& wind, const DiscMotion& rotor, double t, const Visit& visit) const {
   const Eigen::Vector3d at_hub = wind.at(t, rotor.hub) - rotor.hub_velocity, side = rotor.axis.cross(rotor.up);
   const Eigen::Vector3d in_disc = at_hub - at_hub.dot(rotor.axis) * rotor.axis;
   const double across = in_disc.norm(), skew = std::atan2(across, std::abs(at_hub.dot(rotor.axis)));
   const Eigen::Vector3d downstream = across > 0.0 ? Eigen::Vector3d(in_disc / across) : Eigen::Vector3d::Zero();
-  DiscLoad sum;
+  std::size_t index = 0;
   for (int b = 0; b < blades_; ++b) {
     const double azimuth = rotor.azimuth + 2.0 * pi * b / blades_;
     const Eigen::Vector3d out = std::cos(azimuth) * rotor.up + std::sin(azimuth) * side, ahead = rotor.axis.cross(out);
@@ -98,17 +96,114 @@ DiscLoad BladeElementMomentum::load(const Wind& wind, const DiscMotion& rotor, d
       if (rotor.tower) air = rotor.tower->disturbed(rotor.tower_frame, air, rotor.hub + arm);
       const Eigen::Vector3d relative = air - rotor.hub_velocity;
       const Eigen::Vector3d normal = e.normal_axial * rotor.axis + e.normal_radial * out, met = relative - rotor.omega.cross(arm);
-      const double normal_wind = met.dot(normal), tangential_wind = -met.dot(ahead);
-      const auto section = [&](double a) { return polar(e, a); };
-      const Annulus ring = annulus(e, pitch);
-      ElementState s = solve_element(ring, normal_wind, tangential_wind, induction, section);
-      s = skewed(ring, s, normal_wind, tangential_wind, skew, e.radius / tip_radius_ * out.dot(downstream), section);
-      const double pressure = 0.5 * air_density_ * s.speed * s.speed * e.chord * e.length;
-      const Eigen::Vector3d force = pressure * (s.normal * normal + s.tangential * ahead);
-      sum.force += force, sum.moment += arm.cross(force), sum.unbalanced += !s.balanced;
+      visit(Place{index++, e, annulus(e, pitch), arm, normal, ahead, met.dot(normal), -met.dot(ahead), skew,
+                  e.radius / tip_radius_ * out.dot(downstream)});
     }
   }
+}
+
+ElementState BladeElementMomentum::balance(const Place& at) const {
+  const auto section = [&](double a) { return polar(at.element, a); };
+  return std::visit(
+      [&](const auto& induction) { return solve_element(at.ring, at.normal_wind, at.tangential_wind, induction, section); },
+      induction_);
+}
+
+BladeElementMomentum::Induced BladeElementMomentum::steady(const Place& at) const {
+  const ElementState s = balance(at);
+  return {-s.axial_induction * at.normal_wind, s.tangential_induction * at.tangential_wind};
+}
+
+/// With these induced velocities of the level disc, skewed.
+template <class Section>
+ElementState BladeElementMomentum::forces(const Place& at, const Induced& induced, const Section& section) const {
+  ElementState level = element_forces(at.ring, at.normal_wind + induced.normal, at.tangential_wind + induced.tangential, section);
+  if (at.normal_wind == 0.0 || at.tangential_wind == 0.0) return level;
+  level.axial_induction = -induced.normal / at.normal_wind;
+  level.tangential_induction = induced.tangential / at.tangential_wind, level.balanced = true;
+  return skewed(at.ring, level, at.normal_wind, at.tangential_wind, at.skew, at.across, section);
+}
+
+DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& rotor, double t,
+                                          std::span<const double> memory) const {
+  DiscLoad sum;
+  for_each_place(wind, rotor, t, [&](const Place& at) {
+    const Element& e = at.element;
+    const auto section = [&](double a) { return polar(e, a); };
+    ElementState s;
+    if (memory.empty()) {
+      s = skewed(at.ring, balance(at), at.normal_wind, at.tangential_wind, at.skew, at.across, section);
+    } else {
+      const Past past = recalled(memory, at.index);
+      const Induced induced = unsteady_.inflow ? Induced{past.normal.now, past.tangential.now} : steady(at);
+      s = forces(at, induced, [&](double a) {
+        SectionForce f = section(a);
+        if (unsteady_.stall) f.lift = e.stall.lift(std::remainder(a, 2.0 * pi), f.lift, past.separation);
+        return f;
+      });
+    }
+    const double pressure = 0.5 * air_density_ * s.speed * s.speed * e.chord * e.length;
+    const Eigen::Vector3d force = pressure * (s.normal * at.normal + s.tangential * at.ahead);
+    sum.force += force, sum.moment += at.arm.cross(force), sum.unbalanced += !s.balanced;
+  });
   return sum;
+}
+
+std::size_t BladeElementMomentum::memory_size() const {
+  return unsteady_.inflow || unsteady_.stall ? past_size * elements_.size() * std::size_t(blades_) : 0;
+}
+
+BladeElementMomentum::Past BladeElementMomentum::recalled(std::span<const double> memory, std::size_t index) {
+  const auto m = memory.subspan(past_size * index, past_size);
+  return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6], m[7]};
+}
+
+void BladeElementMomentum::store(const Past& p, std::span<double> memory, std::size_t index) {
+  const double values[past_size] = {p.normal.steady,     p.normal.middle,  p.normal.now, p.tangential.steady,
+                                    p.tangential.middle, p.tangential.now, p.separation, p.still_separation};
+  std::copy(std::begin(values), std::end(values), memory.begin() + std::ptrdiff_t(past_size * index));
+}
+
+BladeElementMomentum::Separation BladeElementMomentum::separation(const Place& at, const Induced& induced) const {
+  const ElementState s = forces(at, induced, [](double) { return SectionForce{}; });
+  const double attack = std::remainder(s.attack, 2.0 * pi);
+  return {at.element.stall.separation(attack, polar(at.element, attack).lift), s.speed};
+}
+
+void BladeElementMomentum::begin(const Wind& wind, const DiscMotion& rotor, double t, std::span<double> memory) const {
+  for_each_place(wind, rotor, t, [&](const Place& at) {
+    const Induced induced = steady(at);
+    const auto [normal, tangential] = induced;
+    const double f = separation(at, induced).still;
+    store({{normal, normal, normal}, {tangential, tangential, tangential}, f, f}, memory, at.index);
+  });
+}
+
+void BladeElementMomentum::remember(const Wind& wind, const DiscMotion& rotor, double t, double h,
+                                    std::span<double> memory) const {
+  // Mean induction over the disc, of the wake as it was.
+  const double along = (wind.at(t, rotor.hub) - rotor.hub_velocity).dot(rotor.axis);
+  double slowed = 0.0, area = 0.0;
+  for (std::size_t k = 0; k < elements_.size() * std::size_t(blades_); ++k) {
+    const Element& e = elements_[k % elements_.size()];
+    slowed -= e.radius * e.length * recalled(memory, k).normal.now, area += e.radius * e.length;
+  }
+  const double induction = along > 0.0 ? slowed / (area * along) : 0.0;
+  for_each_place(wind, rotor, t, [&](const Place& at) {
+    Past past = recalled(memory, at.index);
+    const auto [normal, tangential] = steady(at);
+    if (unsteady_.inflow) {
+      const auto wake = unsteady_.inflow_time ? DynamicInflowOye::of(at.ring.radius, tip_radius_, *unsteady_.inflow_time)
+                                              : DynamicInflowOye::at(at.ring.radius, tip_radius_, std::abs(along), induction);
+      past.normal = wake.advance(past.normal, normal, h), past.tangential = wake.advance(past.tangential, tangential, h);
+    } else {
+      past.normal = {normal, normal, normal}, past.tangential = {tangential, tangential, tangential};
+    }
+    const auto [still, speed] = separation(at, {past.normal.now, past.tangential.now});
+    past.separation = DynamicStallOye::advance(past.separation, past.still_separation, still, h, at.ring.chord, speed);
+    past.still_separation = still;
+    store(past, memory, at.index);
+  });
 }
 
 }  // namespace spindrift::aero

@@ -1,16 +1,20 @@
 // Blade element momentum: the loads of a rotor given as section tables, element by element and blade by blade, with the motion of
-// its body in every element's wind. Equations: docs/theory/rotor_engineering.md; one element: kernels/rotor/blade_element.hpp.
+// its body in every element's wind; the wake and the separation on the blades may lag behind. Equations:
+// docs/theory/rotor_engineering.md; one element: kernels/rotor/blade_element.hpp.
 // Used by rotor_loads.cpp; tested in tests/src/aero/bem_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "kernels/rotor/blade_element.hpp"
+#include "kernels/rotor/dynamic_inflow_oye.hpp"
+#include "kernels/rotor/dynamic_stall_oye.hpp"
 #include "src/aero/tower.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
@@ -34,13 +38,29 @@ struct DiscLoad {
   int unbalanced = 0;  ///< elements that found no induction: they act as free aerofoils
 };
 
+/// What of the flow round the blades takes time.
+struct UnsteadyFlow {
+  bool inflow = false;                  ///< the wake, by Oye's filters
+  std::optional<double> inflow_time{};  ///< tau_1 [s]; absent: by wind and induction
+  bool stall = false;                   ///< separation, by Oye's lag
+};
+
 class BladeElementMomentum {
  public:
   /// `induction`: "madsen" or "buhl".
-  BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density_kg_m3);
+  BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density_kg_m3,
+                       const UnsteadyFlow& unsteady = {});
 
-  DiscLoad operator()(const Wind& wind, const DiscMotion& rotor, double t = 0.0) const;
+  /// `memory`: what the flow remembers; without it the flow is steady.
+  DiscLoad operator()(const Wind& wind, const DiscMotion& rotor, double t = 0.0, std::span<const double> memory = {}) const;
   DiscLoad operator()(const Eigen::Vector3d& wind, const DiscMotion& rotor) const { return (*this)(Wind{wind}, rotor); }
+
+  // What the flow remembers of its past, element by element, in plain numbers that the caller keeps.
+  std::size_t memory_size() const;
+  /// Settled in this flow.
+  void begin(const Wind& wind, const DiscMotion& rotor, double t, std::span<double> memory) const;
+  /// After h, at whose end t the rotor moves so.
+  void remember(const Wind& wind, const DiscMotion& rotor, double t, double h, std::span<double> memory) const;
 
   double tip_radius() const { return tip_radius_; }
   double radius(std::size_t element) const { return elements_[element].radius; }
@@ -55,13 +75,47 @@ class BladeElementMomentum {
     double normal_radial, normal_axial;  ///< its normal
     double length, chord, twist;         ///< [m], [m], [rad]
     std::size_t first, rows;             ///< its polar in attack_, lift_, drag_
+    DynamicStallOye stall;
   };
+  /// An element of one blade in the flow.
+  struct Place {
+    std::size_t index;  ///< among the elements of all blades
+    const Element& element;
+    Annulus ring;
+    Eigen::Vector3d arm, normal, ahead;   ///< from the hub [m]; units
+    double normal_wind, tangential_wind;  ///< undisturbed, as solve_element has them [m/s]
+    double skew, across;                  ///< as `skewed` has them
+  };
+  /// Velocities that the wake induces along the normal and against the motion, before skew [m/s].
+  struct Induced {
+    double normal, tangential;
+  };
+  /// Of one element of one blade, in the memory.
+  struct Past {
+    DynamicInflowOye::Induced normal, tangential;  ///< [m/s]
+    double separation, still_separation;           ///< f, and that of the polar
+  };
+  static constexpr std::size_t past_size = 8;
+  static Past recalled(std::span<const double> memory, std::size_t index);
+  static void store(const Past& past, std::span<double> memory, std::size_t index);
+
   SectionForce polar(const Element& e, double attack) const;
-  template <class Induction>
-  DiscLoad load(const Wind& wind, const DiscMotion& rotor, double t, const Induction& induction) const;
+  template <class Visit>
+  void for_each_place(const Wind& wind, const DiscMotion& rotor, double t, const Visit& visit) const;
+  /// In balance with the momentum of its annulus, the wind along the axis.
+  ElementState balance(const Place& at) const;
+  Induced steady(const Place& at) const;
+  template <class Section>
+  ElementState forces(const Place& at, const Induced& induced, const Section& section) const;
+  /// Where the element's polar separates in this flow, and how fast it moves.
+  struct Separation {
+    double still, speed;  ///< f [-]; relative to the air [m/s]
+  };
+  Separation separation(const Place& at, const Induced& induced) const;
   Annulus annulus(const Element& e, double blade_pitch) const;
 
   std::variant<InductionMadsen, InductionBuhl> induction_;
+  UnsteadyFlow unsteady_;
   int blades_;
   double air_density_, hub_radius_, tip_radius_;
   std::vector<Element> elements_;

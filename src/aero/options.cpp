@@ -102,6 +102,20 @@ const scene::Section<AeroOptions>& aero_section() {
                    {"buhl", "momentum theory, Buhl's parabola beyond 0.4"}},
                   "Induction from local loading.")
           .only_if("model", {"bem"})
+          .choice("dynamic_inflow", &AeroOptions::dynamic_inflow,
+                  {{"none", "the wake follows the rotor at once"},
+                   {"oye", "two filters in series behind the quasi-steady induction, after Oye"}},
+                  "How the wake answers to a change of load or wind.")
+          .only_if("model", {"bem"})
+          .number("inflow_time_s", &AeroOptions::inflow_time_s, "s",
+                  "Larger time constant of the wake; without it by wind and induction, 1.1 R / (U (1 - 1.3 a)).",
+                  scene::positive())
+          .only_if("model", {"bem"})
+          .only_if("dynamic_inflow", {"oye"})
+          .choice("dynamic_stall", &AeroOptions::dynamic_stall,
+                  {{"none", "the polars at every instant"}, {"oye", "separation lags by the passage of four chords, after Oye"}},
+                  "How the blades' sections stall and recover.")
+          .only_if("model", {"bem"})
           .table("tower", &AeroOptions::tower, tower_section(), "The tower in the wind.")
           .only_if("model", {"thrust_curve", "bem"})
           .table("grid", &AeroOptions::grid, rotor_grid_section(), "The grid round the resolved rotor.")

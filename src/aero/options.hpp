@@ -39,6 +39,8 @@ struct AeroOptions {
   std::string interpolation = "linear";
   // bem
   std::string induction = "madsen";
+  std::string dynamic_inflow = "none", dynamic_stall = "none";
+  std::optional<double> inflow_time_s;  ///< absent: by wind and induction
   std::optional<TowerOptions> tower;
   std::optional<FlowOptions> flow;       ///< blade_resolved
   std::optional<RotorGridOptions> grid;  ///< resolved rotor

@@ -54,7 +54,9 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
   if (aero.thrust_frame == "earth") thrust_direction_ = axis;
   if (aero.model == "prescribed") model_ = Prescribed(aero);
   if (aero.model == "thrust_curve") model_ = ThrustCurve(aero, rotor, air_density);
-  if (aero.model == "bem") model_ = BladeElementMomentum(read_turbine(rotor.turbine), aero.induction, air_density);
+  if (aero.model == "bem")
+    model_ = BladeElementMomentum(read_turbine(rotor.turbine), aero.induction, air_density,
+                                  {aero.dynamic_inflow == "oye", aero.inflow_time_s, aero.dynamic_stall == "oye"});
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
   const int blades = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
@@ -97,18 +99,28 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
   return now;
 }
 
+std::size_t RotorLoads::flow_size() const {
+  const auto* bem = std::get_if<BladeElementMomentum>(&model_);
+  return bem ? bem->memory_size() : 0;
+}
+
+DiscMotion RotorLoads::disc_motion(const RotorState& now, std::span<const double> memory) const {
+  DiscMotion motion{now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_, now.hub};
+  if (control_ && !memory.empty()) motion.pitches = control_->pitch(memory);
+  if (tower_ && tower_->changes_wind()) motion.tower = &*tower_, motion.tower_frame = tower_frame(now);
+  return motion;
+}
+
 RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, double ramp) const {
   RotorLoad load;
-  const std::span<const double> pitches = control_ && !memory_.empty() ? control_->pitch(memory_) : std::span<const double>();
   if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) {
-    DiscMotion disc_motion{now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_, now.hub, pitches};
-    if (tower_ && tower_->changes_wind()) disc_motion.tower = &*tower_, disc_motion.tower_frame = tower_frame(now);
-    const DiscLoad disc = (*bem)(wind, disc_motion, t);
+    const std::span<const double> flow = memory_.empty() ? std::span<const double>() : std::span(memory_).subspan(control_size());
+    const DiscLoad disc = (*bem)(wind, disc_motion(now, memory_), t, flow);
     load.force = ramp * disc.force, load.moment = ramp * disc.moment;
     load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis);
   } else {
     AxialLoad axial;
-    const double pitch = pitches.empty() ? blade_pitch_ : mean(pitches);
+    const double pitch = control_ && !memory_.empty() ? mean(control_->pitch(memory_)) : blade_pitch_;
     if (const auto* prescribed = std::get_if<Prescribed>(&model_)) axial = (*prescribed)(t, now.azimuth);
     if (const auto* curve = std::get_if<ThrustCurve>(&model_)) axial = (*curve)(now.relative_wind, now.speed, pitch);
     load.thrust = ramp * axial.thrust, load.torque = ramp * axial.torque;
@@ -131,13 +143,17 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
 void RotorLoads::begin(double t, std::span<const Motion> bodies, std::span<double> memory) {
   recall({});
   const RotorState now = state(t, bodies);
-  control_->begin(t, load(t, now).torque, now.relative_wind, memory);
+  if (control_) control_->begin(t, load(t, now).torque, now.relative_wind, memory.first(control_size()));
+  if (flow_size() > 0)
+    std::get<BladeElementMomentum>(model_).begin(wind_, disc_motion(now, memory), t, memory.subspan(control_size()));
   recall(memory);
 }
 
 void RotorLoads::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const {
   const RotorState now = state(t, bodies);
-  control_->advance(t, h, load(t, now).torque, now.relative_wind, memory);
+  if (control_) control_->advance(t, h, load(t, now).torque, now.relative_wind, memory.first(control_size()));
+  if (flow_size() > 0)
+    std::get<BladeElementMomentum>(model_).remember(wind_, disc_motion(now, memory), t, h, memory.subspan(control_size()));
 }
 
 RotorLoads::Drive RotorLoads::drive() const {

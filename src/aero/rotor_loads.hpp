@@ -70,9 +70,9 @@ class RotorLoads {
   }
   RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const { return load(wind_, t, now, ramp); }
 
-  // What the rotor remembers from step to step, as bodies::Memory has it: the drive train with its controller. Without values to
-  // recall it turns as at the start.
-  std::size_t memory_size() const { return control_ ? control_->memory_size() : 0; }
+  // What the rotor remembers from step to step, as bodies::Memory has it: the drive train with its controller, then the flow
+  // round the blades. Without values to recall it turns as at the start, in steady flow.
+  std::size_t memory_size() const { return control_size() + flow_size(); }
   void begin(double t, std::span<const Motion> bodies, std::span<double> memory);
   void recall(std::span<const double> memory) { memory_.assign(memory.begin(), memory.end()); }
   void remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const;
@@ -88,6 +88,9 @@ class RotorLoads {
 
  private:
   RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp) const;
+  std::size_t control_size() const { return control_ ? control_->memory_size() : 0; }
+  std::size_t flow_size() const;
+  DiscMotion disc_motion(const RotorState& now, std::span<const double> memory) const;
   /// Attitude of what carries azimuth zero.
   Eigen::Quaterniond support_attitude(std::span<const Motion> bodies) const;
 

@@ -19,6 +19,7 @@
 #include "src/io/history_statistics.hpp"
 #include "src/io/log.hpp"
 #include "src/io/machine_failure.hpp"
+#include "src/io/openfast_file.hpp"
 #include "src/report/report.hpp"
 #include "src/run/driver.hpp"
 #include "src/scene/document.hpp"
@@ -145,6 +146,9 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     summary.warnings = io::warnings_logged();
     write_summary(directory.summary(), summary,
                   io::history_statistics(directory.history(), mean_ranges(*scenario, summary.end_time_s)));
+    using Format = io::OpenFastFormat;
+    if (const std::string& format = scenario->output.openfast; format != "none")
+      write_openfast(directory.history(), summary.columns, format == "text" ? Format::text : Format::binary, summary.title);
     print_summary(summary, directory);
   }
   return {std::move(summary), directory.path(), world.rank == 0};

@@ -102,6 +102,13 @@ Table<moorings::LineTension> mooring_columns() {
   return table;
 }
 
+Table<moorings::LineTension> anchor_columns() {
+  using Of = const moorings::LineTension&;
+  static constexpr ColumnOf<moorings::LineTension> table[] = {
+      {"anchor_tension_N", "N", "tension at the anchor", [](Of t) { return t.anchor; }}};
+  return table;
+}
+
 Table<double> wave_columns() {
   static constexpr ColumnOf<double> table[] = {
       {"elevation_m", "m", "surface elevation of the undisturbed waves at the earth origin", [](const double& v) { return v; }}};
@@ -183,6 +190,7 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("rotor.blade_1.", "each blade of a controlled rotor", pitch_columns()),
           section_of("rotor.blade_1.", "each blade of the grid of a resolved rotor", blade_columns()),
           section_of("MOORING.", "each line", mooring_columns()),
+          section_of("MOORING.", "each line of the model lumped_mass", anchor_columns()),
           section_of("waves.", "engineering seas with waves", wave_columns()),
           section_of("sea.", "seas of particles", water_columns()),
           section_of("wavemaker.", "tanks with a paddle", paddle_columns()),

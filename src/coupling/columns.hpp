@@ -48,6 +48,7 @@ Table<aero::RotorLoads::Drive> drive_columns();  ///< rotor., of a controlled on
 Table<double> pitch_columns();                   ///< rotor.blade_N., likewise
 Table<aero::RotorLoad> blade_columns();          ///< rotor.blade_N.
 Table<moorings::LineTension> mooring_columns();  ///< MOORING.
+Table<moorings::LineTension> anchor_columns();   ///< MOORING., of a dynamic line
 Table<double> wave_columns();                    ///< waves.
 Table<WaterRow> water_columns();                 ///< sea.
 Table<sph::Wavemaker::Stroke> paddle_columns();

@@ -210,7 +210,10 @@ void doubt_rotor(scene::Doubts& doubts, const Machine& machine, const Start& sta
 scene::Doubts doubts(Machine& machine, const Start& start, const Stability& stability) {
   const Scenario& s = machine.scenario();
   scene::Doubts all = body_doubts(s.bodies);
-  append(all, line_doubts(s.moorings, s.has_sea() ? s.environment.water_depth_m : -1.0, weight(machine)));
+  moorings::LineSurroundings around{s.has_sea() ? s.environment.water_depth_m : -1.0, weight(machine),
+                                    s.environment.water_density_kg_m3, s.environment.gravity_m_s2, s.time.step()};
+  for (const auto& [name, body] : s.bodies) around.masses_kg[name] = body.mass_kg;
+  append(all, line_doubts(s.moorings, around));
   double draft = 0.0;
   machine.use_full_loads(true);
   if (s.has_sea() && !start.state.motions.empty()) draft = doubt_floating(all, machine, start);

@@ -65,17 +65,34 @@ Machine::Machine(Scenario scenario)
     add_source(sources, point_load_source("forces", std::move(loads)), on);
   }
   if (!s.moorings.empty()) {
-    moorings_.emplace(names, start);
+    moorings::LineEnvironment around{s.environment.gravity_m_s2, s.environment.water_density_kg_m3};
+    if (s.has_waves() || !s.sea.current_m_s.isZero(0.0))
+      around.water = [this](double t, const Eigen::Vector3d& point) {
+        if (!sea_ || particle_plan_) return LineWater{};
+        const waves::Kinematics water = sea_now().water(t, point);
+        return LineWater{water.velocity, water.acceleration, sea_now().elevation(point.x(), point.y(), t)};
+      };
+    moorings_.emplace(names, start, std::move(around));
     std::vector<bool> on(names.size());
     for (const auto& [name, line] : s.moorings) {
       moorings_->add(name, line);
       for (const std::string& body : {line.body, line.anchor_body})
         if (const int b = index_of(names, body); b >= 0) on[std::size_t(b)] = true;
     }
-    add_source(
-        sources,
-        {"moorings", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { moorings_->add_loads(t, m, w); }, {}},
-        on);
+    bodies::LoadSource source{
+        "moorings", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { moorings_->add_loads(t, m, w); }, {}};
+    if (moorings_->memory_size() > 0) {
+      source.added_mass = [this](double, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
+        moorings_->add_added_mass(m, a);
+      };
+      source.memory = {moorings_->memory_size(),
+                       [this](double t, std::span<const Motion> m, std::span<double> memory) { moorings_->begin(t, m, memory); },
+                       [this](std::span<const double> memory) { moorings_->recall(memory); },
+                       [this](double t, double h, std::span<const Motion> m, std::span<double> memory) {
+                         moorings_->remember(t, h, m, memory);
+                       }};
+    }
+    add_source(sources, std::move(source), on);
   }
   if (s.has_particles()) {
     const std::vector<sea::ParticleBody> shaped = particle_bodies(s.bodies);

@@ -90,6 +90,11 @@ const scene::Section<OutputOptions>& output_section() {
           .text("title", &OutputOptions::title, "Title of the report; the scene's file name where empty.")
           .integer("history_every", &OutputOptions::history_every, "-", "Windows from one row of history.csv to the next.",
                    scene::between(1, 1e9))
+          .choice("openfast", &OutputOptions::openfast,
+                  {{"none", "no other file"},
+                   {"text", "history.out, the text format of OpenFAST"},
+                   {"binary", "history.outb, its binary format: each column in 16 bits over its range"}},
+                  "history.csv once more, at the end of the run, for tools that read OpenFAST's output.")
           .number("means_over_s", &OutputOptions::means_over_s, "s",
                   "Length of the time before the end over which summary.json, and spanwise.csv of a steady flow, give means; 0: "
                   "the last third of the run.",

@@ -43,6 +43,7 @@ struct StartOptions {
 
 struct OutputOptions {
   std::string title;
+  std::string openfast = "none";
   int history_every = 1;
   double means_over_s = 0.0;  ///< 0: the last third of the run
   /// Length of the end of a run over which means are taken [s].

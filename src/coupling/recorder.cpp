@@ -37,8 +37,12 @@ Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine) {
       pitches_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", pitch_columns());
   }
   if (machine.moorings())
-    for (std::size_t line = 0; line < machine.moorings()->size(); ++line)
-      moorings_.emplace_back(history, machine.moorings()->name(line) + ".", mooring_columns());
+    for (std::size_t line = 0; line < machine.moorings()->size(); ++line) {
+      const std::string prefix = machine.moorings()->name(line) + ".";
+      moorings_.emplace_back(history, prefix, mooring_columns());
+      anchors_.emplace_back();
+      if (machine.moorings()->is_dynamic(line)) anchors_.back().emplace(history, prefix, anchor_columns());
+    }
   if (machine.has_waves()) waves_.emplace(history, "waves.", wave_columns());
   if (machine.particle_plan()) declare_particles(history);
 }
@@ -89,8 +93,11 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
       for (std::size_t blade = 0; blade < pitches_.size(); ++blade) pitches_[blade].fill(row, drive.pitch[blade]);
     }
   }
-  for (std::size_t line = 0; line < moorings_.size(); ++line)
-    moorings_[line].fill(row, machine_.moorings()->tension(line, state.motions));
+  for (std::size_t line = 0; line < moorings_.size(); ++line) {
+    const moorings::LineTension tension = machine_.moorings()->tension(line, state.motions);
+    moorings_[line].fill(row, tension);
+    if (anchors_[line]) anchors_[line]->fill(row, tension);
+  }
   if (machine_.particles()) fill_particles(row, t);
   if (waves_) waves_->fill(row, machine_.sea()->elevation(0.0, 0.0, t));
 }

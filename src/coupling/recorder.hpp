@@ -46,6 +46,7 @@ class Recorder {
   std::optional<Group<aero::RotorLoads::Drive>> drive_;
   std::vector<Group<double>> pitches_;
   std::vector<Group<moorings::LineTension>> moorings_;
+  std::vector<std::optional<Group<moorings::LineTension>>> anchors_;  ///< of dynamic lines
   std::optional<Group<double>> waves_;
   std::optional<Group<WaterRow>> water_;
   std::optional<Group<sph::Wavemaker::Stroke>> paddle_;

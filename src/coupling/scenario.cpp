@@ -252,10 +252,13 @@ Scenario read_scenario(scene::Document& document) {
         document.problem(fmt::format("bodies.{}.{}", name, shapes),
                          "has no effect: only sea.model = \"sph\" knows this shape, others cylinders");
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
-  check_lines(document, s.moorings, bodies);
+  check_lines(document, s.moorings, bodies, s.environment.water_density_kg_m3);
   if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
   if (s.is_controlled() && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme", "must be \"monolithic\" with [control]: the controller steps with the bodies");
+  if ((s.aero.dynamic_inflow != "none" || s.aero.dynamic_stall != "none") && s.coupling.scheme != SchemeKind::monolithic)
+    document.problem("coupling.scheme",
+                     "must be \"monolithic\" with aero.dynamic_inflow or aero.dynamic_stall: the flow steps with the bodies");
   const auto report = [&](const std::vector<sea::OptionProblem>& problems) {
     for (const sea::OptionProblem& p : problems) document.problem(p.key, p.what);
   };

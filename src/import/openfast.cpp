@@ -179,6 +179,27 @@ class Importer {
     return text;
   }
 
+  /// What takes time in the flow. Decks of version 3 have Wake_Mod 2 for the dynamic wake and AFAeroMod 2 for the unsteady
+  /// aerofoils besides.
+  std::string unsteady(const Deck& ad, int wake) {
+    std::string text;
+    const int filter = ad.integer({"DBEMT_Mod"}, 0);
+    const bool knows = !ad.has("AFAeroMod"), stalls = knows || ad.integer({"AFAeroMod"}, 1) == 2;
+    if (filter > 0 && (wake == 2 || (wake == 1 && knows))) {
+      text += "dynamic_inflow = \"oye\"\n";
+      if (filter != 2) text += fmt::format("inflow_time_s = {:.9g}\n", ad.number({"tau1_const"}));
+      carry("dynamic inflow after Oye");
+    }
+    if (const int model = ad.integer({"UA_Mod", "UAMod"}, 0); model > 0 && stalls) {
+      text += "dynamic_stall = \"oye\"\n";
+      if (model != 5)
+        leave_out(fmt::format("the dynamic stall model of UA_Mod {}: Oye's instead{}", model,
+                              model <= 3 ? ", on polars limited as UA_Mod 1 to 3 limits them" : ""));
+      carry("dynamic stall after Oye");
+    }
+    return text;
+  }
+
   void wind_and_rotor() {
     const Deck& ed = *elastodyn_;
     const bool blows = main_.integer({"CompInflow"}, 0) == 1, aero = main_.integer({"CompAero"}, 0) == 2;
@@ -192,12 +213,9 @@ class Importer {
     scene_ << wind(Deck(main_.path({"InflowFile"})));
     if (ad.integer({"Wake_Mod", "WakeMod"}, 1) == 0)
       leave_out("no induction (Wake_Mod 0): blades are in balance with their wake");
-    if (ad.integer({"Wake_Mod", "WakeMod"}, 1) > 1 || ad.integer({"DBEMT_Mod"}, 0) > 0)
-      leave_out("dynamic or free-vortex wake: induction is quasi-steady");
-    if (ad.integer({"UA_Mod", "UAMod"}, 0) > 0)
-      leave_out(
-          "unsteady aerofoils (UA_Mod): forces are steady; with UA_Mod 1 to 3 polars are limited as that model limits them");
-    scene_ << "\n[aero]\nmodel = \"bem\"\ninduction = \"buhl\"\n" << tower(ad);
+    const int wake = ad.integer({"Wake_Mod", "WakeMod"}, 1);
+    if (wake > 2) leave_out("the free-vortex wake (Wake_Mod 3): blade element momentum");
+    scene_ << "\n[aero]\nmodel = \"bem\"\ninduction = \"buhl\"\n" << unsteady(ad, wake) << tower(ad);
     scene_ << "\n[rotor]\nbody = \"platform\"\nturbine = \"turbine.toml\"\n";
     scene_ << "hub_m = " << vector(rotor_.hub) << "\naxis = " << vector(rotor_.axis) << "\n";
     scene_ << fmt::format("speed_rpm = {:.9g}\nblade_pitch_deg = {:.9g}\n", ed.number({"RotSpeed"}),
@@ -416,7 +434,8 @@ class Importer {
     if (kind != 1 && kind != 3) return leave_out(fmt::format("mooring lines of CompMooring {}", kind));
     const Deck file(main_.path({"MooringFile"}));
     const std::vector<ImportedLine> lines = kind == 1 ? read_map(file, depth_, left_out_) : read_moordyn(file, depth_, left_out_);
-    if (kind == 3) leave_out("dynamics of the lines (MoorDyn): they are static catenaries");
+    if (kind == 3 && file.integer({"WaveKin", "WaterKin"}, 0) == 0 && water_.find("[waves]") != std::string::npos)
+      leave_out("MoorDyn's still water round the lines (WaveKin 0): here they feel the scene's waves");
     for (std::size_t n = 0; n < lines.size(); ++n) {
       const ImportedLine& l = lines[n];
       const double weight = gravity_ * (l.mass_per_m - water_density_ * 0.25 * pi * l.diameter * l.diameter);
@@ -425,10 +444,20 @@ class Importer {
         continue;
       }
       const bool on_bed = l.anchor.z() <= -depth_ + 1e-6 * depth_;
-      scene_ << fmt::format("\n[moorings.line_{}]\nmodel = \"catenary\"\nbody = \"platform\"\nfairlead_m = {}\nanchor_m = {}\n",
-                            n + 1, vector(l.fairlead), vector(l.anchor))
-             << fmt::format("rest_length_m = {:.9g}\naxial_stiffness_N = {:.9g}\nweight_N_m = {:.9g}\n", l.length,
-                            l.axial_stiffness, weight);
+      scene_ << fmt::format("\n[moorings.line_{}]\nmodel = \"{}\"\nbody = \"platform\"\nfairlead_m = {}\nanchor_m = {}\n", n + 1,
+                            l.dynamics ? "lumped_mass" : "catenary", vector(l.fairlead), vector(l.anchor))
+             << fmt::format("rest_length_m = {:.9g}\naxial_stiffness_N = {:.9g}\n", l.length, l.axial_stiffness);
+      if (const auto& d = l.dynamics) {
+        scene_ << fmt::format("mass_kg_m = {:.9g}\ndiameter_m = {:.9g}\nsegments = {}\ndamping_ratio = {:.9g}\n", l.mass_per_m,
+                              l.diameter, d->segments, d->damping_ratio)
+               << fmt::format("drag_coefficient = {:.9g}\naxial_drag_coefficient = {:.9g}\n", d->drag, d->axial_drag)
+               << fmt::format("added_mass_coefficient = {:.9g}\naxial_added_mass_coefficient = {:.9g}\n", d->added_mass,
+                              d->axial_added_mass);
+        if (on_bed)
+          scene_ << fmt::format("bed_stiffness_Pa_m = {:.9g}\nbed_damping_Pa_s_m = {:.9g}\n", d->bed_stiffness, d->bed_damping);
+      } else {
+        scene_ << fmt::format("weight_N_m = {:.9g}\n", weight);
+      }
       if (!on_bed)
         scene_ << "bed_contact = false\n";
       else if (l.bed_friction > 0.0)

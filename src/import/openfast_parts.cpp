@@ -327,12 +327,28 @@ std::vector<ImportedLine> read_moordyn(const Deck& file, double depth, std::vect
     file.fail(std::nullopt, fmt::format("has no section {}", *words.begin()));
   };
   struct Type {
-    double diameter, mass, stiffness;
+    double diameter, mass, stiffness, damping;  ///< damping: BA [N s], or -zeta
+    ImportedLine::Dynamics dynamics;
   };
   std::map<std::string, Type> types;
-  each_row(file, section({"LINE TYPES", "LINE DICTIONARY"}), [&](std::size_t n, const auto& w) {
-    file.rows(n, 1, 4);
-    types[w[0]] = {file.to_number(w[1], n), file.to_number(w[2], n), file.to_number(w[3], n)};
+  const std::size_t dictionary = section({"LINE TYPES", "LINE DICTIONARY"});
+  const std::vector<std::string>& heading = file.words(dictionary);
+  const auto bending = std::size_t(std::find(heading.begin(), heading.end(), "EI") - heading.begin());
+  // Version 1 calls the coefficients Can, Cat, Cdn, Cdt and has no bending.
+  const std::size_t damped = file.column(dictionary, {"BA/-zeta", "BA/-Zeta", "CIntDamp"}),
+                    drag = file.column(dictionary, {"Cd", "Cdn"}), added = file.column(dictionary, {"Ca", "Can"}),
+                    axial_drag = file.column(dictionary, {"CdAx", "Cdt"}), axial_added = file.column(dictionary, {"CaAx", "Cat"});
+  each_row(file, dictionary, [&](std::size_t n, const auto& w) {
+    file.rows(n, 1, std::max({damped, drag, added, axial_drag, axial_added, std::size_t(3)}) + 1);
+    const auto at = [&](std::size_t column) { return file.to_number(w[column], n); };
+    types[w[0]] = {
+        at(1),
+        at(2),
+        at(3),
+        at(damped),
+        {.drag = at(drag), .axial_drag = at(axial_drag), .added_mass = at(added), .axial_added_mass = at(axial_added)}};
+    if (bending < heading.size() && w.size() > bending && at(bending) != 0.0)
+      left_out.push_back(fmt::format("{}: bending stiffness of line type {}", file.file().filename().string(), w[0]));
   });
   struct Point {
     std::string type;
@@ -348,10 +364,11 @@ std::vector<ImportedLine> read_moordyn(const Deck& file, double depth, std::vect
   const std::size_t lines = section({"LINES", "LINE PROPERTIES"});
   // Version 1 has the segments' number after the length, version 2 the ends before it.
   const std::size_t type = file.column(lines, {"LineType"}), a = file.column(lines, {"AttachA", "NodeAnch"}),
-                    b = file.column(lines, {"AttachB", "NodeFair"}), length = file.column(lines, {"UnstrLen"});
+                    b = file.column(lines, {"AttachB", "NodeFair"}), length = file.column(lines, {"UnstrLen"}),
+                    segments = file.column(lines, {"NumSegs"});
   std::vector<ImportedLine> found;
   each_row(file, lines, [&](std::size_t n, const auto& w) {
-    file.rows(n, 1, std::max({type, a, b, length}) + 1);
+    file.rows(n, 1, std::max({type, a, b, length, segments}) + 1);
     if (!types.count(w[type])) file.fail(n, fmt::format("names line type '{}', which is not among the types", w[type]));
     for (const std::string& point : {w[a], w[b]})
       if (!points.count(point)) file.fail(n, fmt::format("names point {}, which is not in the table of points", point));
@@ -364,7 +381,26 @@ std::vector<ImportedLine> read_moordyn(const Deck& file, double depth, std::vect
       return;
     }
     const Type& t = types[w[type]];
-    found.push_back({anchor.at, fairlead.at, file.to_number(w[length], n), t.diameter, t.mass, t.stiffness, 0.0});
+    ImportedLine line{anchor.at,
+                      fairlead.at,
+                      file.to_number(w[length], n),
+                      t.diameter,
+                      t.mass,
+                      t.stiffness,
+                      file.number({"FrictionCoefficient"}, 0.0),
+                      t.dynamics};
+    const double least = std::max(2.0, file.to_number(w[segments], n));
+    line.dynamics->segments = int(least);
+    line.dynamics->bed_stiffness = file.number({"kBot", "kb"}, 3e6),
+    line.dynamics->bed_damping = file.number({"cBot", "cb"}, 3e5);
+    const double critical = line.length / least * std::sqrt(t.stiffness * t.mass);
+    line.dynamics->damping_ratio = t.damping <= 0.0 ? -t.damping : t.damping / critical;
+    if (line.dynamics->damping_ratio > 1.0) {
+      left_out.push_back(fmt::format("{}: internal damping of line {} beyond the critical one of its segments",
+                                     file.file().filename().string(), w[0]));
+      line.dynamics->damping_ratio = 1.0;
+    }
+    found.push_back(line);
   });
   return found;
 }

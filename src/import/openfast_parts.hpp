@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,13 @@ std::vector<std::string> write_turbine(const Deck& aerodyn, const RotorFrame& ro
 struct ImportedLine {
   Eigen::Vector3d anchor, fairlead;
   double length = 0.0, diameter = 0.0, mass_per_m = 0.0, axial_stiffness = 0.0, bed_friction = 0.0;
+  /// Of MoorDyn's lines, which are dynamic: keys beyond those above, as a scene has them.
+  struct Dynamics {
+    int segments = 20;
+    double damping_ratio = 1.0, drag = 0.0, axial_drag = 0.0, added_mass = 0.0, axial_added_mass = 0.0;
+    double bed_stiffness = 3e6, bed_damping = 3e5;
+  };
+  std::optional<Dynamics> dynamics{};
 };
 std::vector<ImportedLine> read_map(const Deck& file, double water_depth, std::vector<std::string>& left_out);
 std::vector<ImportedLine> read_moordyn(const Deck& file, double water_depth, std::vector<std::string>& left_out);

@@ -5,9 +5,13 @@
 
 #include <cmath>
 
+#include "kernels/mooring/line_catenary.hpp"
+
 namespace spindrift::moorings {
 
 namespace {
+
+bool hangs(const LineOptions& line) { return line.model == "catenary" || line.model == "lumped_mass"; }
 
 void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N) {
   if (line.model == "table") return;
@@ -21,10 +25,10 @@ void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOption
       doubts.push_back({at + ".rest_length_m", fmt::format("{}, a tension of {:.3g} N at the start", what, tension),
                         fmt::format("a tension below the weight of all bodies, {:.3g} N", weight_N),
                         "look at the length, the stiffness and the place of the ends"});
-  } else if (line.model == "catenary" && length > round && line.anchor_body == "earth") {
+  } else if (hangs(line) && length > round && line.anchor_body == "earth") {
     doubts.push_back({at + ".rest_length_m", what, fmt::format("less than straight down and along the bed, {:.4g} m", round),
                       "the line hangs down and does nothing; look at the length and at the anchor"});
-  } else if (line.model != "catenary" && length > 1.5 * apart) {
+  } else if (!hangs(line) && length > 1.5 * apart) {
     doubts.push_back(
         {at + ".rest_length_m", what, "up to 1.5 times the distance", "the line is slack until the body has drifted far"});
   }
@@ -33,31 +37,63 @@ void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOption
 /// Chain, wire and fibre rope alike have an axial stiffness of some 10^6 m times their weight in water: studless chain 8.5e10 d^2
 /// N over 1.7e5 d^2 N/m, wire rope 4e10 over 3e4 (diameters d in m; Orcina's fits to manufacturers' tables). Buoyant ropes may
 /// weigh less.
-void doubt_material(scene::Doubts& doubts, const std::string& at, const LineOptions& line) {
-  if (line.model != "catenary" || !line.axial_stiffness_N) return;
-  const double ratio = *line.axial_stiffness_N / line.weight_N_m;
+void doubt_material(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N_m) {
+  if (!hangs(line) || !line.axial_stiffness_N) return;
+  const double ratio = *line.axial_stiffness_N / weight_N_m;
   if (ratio < 3e4 || ratio > 5e7)
-    doubts.push_back({at + ".weight_N_m",
-                      fmt::format("{:.4g} N/m with an axial stiffness of {:.4g} N", line.weight_N_m, *line.axial_stiffness_N),
+    doubts.push_back({at + (line.model == "catenary" ? ".weight_N_m" : ".mass_kg_m"),
+                      fmt::format("{:.4g} N/m in water with an axial stiffness of {:.4g} N", weight_N_m, *line.axial_stiffness_N),
                       "a stiffness of 3e4 to 5e7 m times the weight in water",
                       "look at the units: N/m in water, not kg/m or kN/m; N, not kN"});
 }
 
+/// Chords instead of arcs: the tension is off by some (segment / radius of curvature)^2 / 24, 1 per cent at half the radius.
+void doubt_segments(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N_m) {
+  const Eigen::Vector3d along = line.fairlead_m - line.anchor_m;
+  const LineCatenary rest{line.rest_length_m, weight_N_m, *line.axial_stiffness_N, 0.0, line.bed_contact};
+  const CatenaryState s = rest.solve(std::hypot(along.x(), along.y()), std::abs(along.z()));
+  const double radius = s.horizontal / weight_N_m, segment = line.rest_length_m / line.segments;
+  if (s.regime != CatenaryRegime::slack && s.horizontal > 0.0 && segment > 0.5 * radius)
+    doubts.push_back({at + ".segments",
+                      fmt::format("{}, of {:.4g} m each, where the line at rest is bent to a radius of {:.4g} m", line.segments,
+                                  segment, radius),
+                      "segments up to half the radius",
+                      fmt::format("take {:.0f} or more", std::ceil(2.0 * line.rest_length_m / radius))});
+}
+
+/// The line loads its bodies as it did in the step before: stable while the step is below M / sqrt(EA m'), in which a body of
+/// mass M loses its speed to the axial waves of the line (second-order Adams-Bashforth on that decay).
+void doubt_step(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around) {
+  for (const std::string& body : {line.body, line.anchor_body}) {
+    const auto mass = around.masses_kg.find(body);
+    if (mass == around.masses_kg.end()) continue;
+    const double limit = mass->second / std::sqrt(*line.axial_stiffness_N * line.mass_kg_m);
+    if (around.step_s > 0.5 * limit)
+      doubts.push_back({"time.step_s",
+                        fmt::format("{:.4g} s with {} pulling on body {} of {:.4g} kg", around.step_s, at, body, mass->second),
+                        fmt::format("up to {:.3g} s, half the time in which the line's axial waves stop the body", 0.5 * limit),
+                        "take a smaller step, or look at the body's mass and the line's axial_stiffness_N"});
+  }
+}
+
 }  // namespace
 
-scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, double depth_m, double weight_N) {
+scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, const LineSurroundings& around) {
+  const double depth_m = around.depth_m;
   scene::Doubts doubts;
   for (const auto& [name, line] : lines) {
     const std::string at = "moorings." + name;
-    doubt_length(doubts, at, line, weight_N);
-    doubt_material(doubts, at, line);
+    const double weight_N_m = weight_in_water(line, around.water_density_kg_m3, around.gravity_m_s2);
+    doubt_length(doubts, at, line, around.weight_N);
+    doubt_material(doubts, at, line, weight_N_m);
+    if (line.model == "lumped_mass") doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
     if (depth_m < 0.0 || line.anchor_body != "earth") continue;
     const double above = line.anchor_m.z() + depth_m;
     if (above < -0.01 * depth_m - 0.5)
       doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m under the bed", line.anchor_m.z(), -above),
                         fmt::format("an anchor on the bed at {:.4g} m", -depth_m),
                         "look at anchor_m and environment.water_depth_m"});
-    else if (line.model == "catenary" && line.bed_contact && above > 0.05 * depth_m)
+    else if (hangs(line) && line.bed_contact && above > 0.05 * depth_m)
       doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m.z(), above),
                         fmt::format("an anchor on the bed at {:.4g} m, where the line lies", -depth_m),
                         "look at anchor_m and environment.water_depth_m, or say bed_contact = false"});

@@ -1,13 +1,24 @@
 // Doubts about mooring lines. Called by src/coupling/doubts.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "src/moorings/options.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/doubt.hpp"
 
 namespace spindrift::moorings {
 
-/// `depth_m`: of the water, negative where the scene has no sea. `weight_N`: of all bodies together.
-scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, double depth_m, double weight_N);
+/// What lines are held against.
+struct LineSurroundings {
+  double depth_m = -1.0;  ///< of the water, negative where the scene has no sea
+  double weight_N = 0.0;  ///< of all bodies together
+  double water_density_kg_m3 = 1025.0, gravity_m_s2 = 9.80665;
+  double step_s = 0.0;                        ///< of the bodies
+  std::map<std::string, double> masses_kg{};  ///< of each body
+};
+scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, const LineSurroundings& around);
 
 }  // namespace spindrift::moorings

@@ -1,22 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/moorings/moorings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "kernels/base/failure.hpp"
+#include "kernels/waves/morison.hpp"
 #include "src/moorings/table_file.hpp"
 
 namespace spindrift::moorings {
 
 namespace {
 
-struct Moving {
-  Eigen::Vector3d position, velocity;
-};
+LineLumpedMass lumped_mass(const LineOptions& o, const LineEnvironment& environment) {
+  LineLumpedMass line;
+  line.length = o.rest_length_m, line.segments = o.segments, line.diameter = o.diameter_m, line.mass_per_m = o.mass_kg_m;
+  line.axial_stiffness = *o.axial_stiffness_N, line.damping_ratio = o.damping_ratio;
+  line.normal_drag = o.drag_coefficient, line.tangential_drag = o.axial_drag_coefficient;
+  line.normal_added_mass = o.added_mass_coefficient, line.tangential_added_mass = o.axial_added_mass_coefficient;
+  line.gravity = environment.gravity_m_s2, line.water_density = environment.water_density_kg_m3;
+  line.bed_contact = o.bed_contact, line.bed_level = std::min(o.anchor_m.z(), o.fairlead_m.z());
+  line.bed_stiffness = o.bed_stiffness_Pa_m, line.bed_damping = o.bed_damping_Pa_s_m, line.bed_friction = o.bed_friction;
+  return line;
+}
 
 }  // namespace
 
-Moorings::Moorings(std::span<const std::string> bodies, std::span<const Motion> start)
-    : bodies_(bodies.begin(), bodies.end()), start_(start.begin(), start.end()) {
+/// Time and ends of the last step's end, forces there and how they changed in the step, nodes: as they lie in the memory.
+struct Moorings::Recalled {
+  static constexpr std::size_t ends = 1, forces = 13, changes = 19, nodes = 25;
+  std::span<const double> of;
+
+  double time() const { return of[0]; }
+  Eigen::Vector3d at(std::size_t first) const { return Eigen::Map<const Eigen::Vector3d>(of.data() + first); }
+  LineEnds line_ends() const { return {{at(ends), at(ends + 3)}, {at(ends + 6), at(ends + 9)}}; }
+  LineForces at_end() const {
+    LineForces f{at(forces), at(forces + 3)};
+    f.fairlead_tension = f.on_fairlead.norm(), f.anchor_tension = f.on_anchor.norm();
+    return f;
+  }
+
+  static void write(double time, const LineEnds& e, const LineForces& f, const LineForces& rate, std::span<double> memory) {
+    memory[0] = time;
+    std::size_t k = ends;
+    for (const Eigen::Vector3d& v : {e.anchor.position, e.anchor.velocity, e.fairlead.position, e.fairlead.velocity,
+                                     f.on_fairlead, f.on_anchor, rate.on_fairlead, rate.on_anchor}) {
+      Eigen::Map<Eigen::Vector3d>(memory.data() + k) = v;
+      k += 3;
+    }
+  }
+};
+
+Moorings::Moorings(std::span<const std::string> bodies, std::span<const Motion> start, LineEnvironment environment)
+    : bodies_(bodies.begin(), bodies.end()), start_(start.begin(), start.end()), environment_(std::move(environment)) {
   SPINDRIFT_ASSERT(bodies_.size() == start_.size(), "one initial motion for each body");
 }
 
@@ -29,12 +66,17 @@ Moorings::End Moorings::attach(const std::string& body, const Eigen::Vector3d& p
 }
 
 void Moorings::add(const std::string& name, const LineOptions& o) {
-  Line line{name, attach(o.body, o.fairlead_m), attach(o.anchor_body, o.anchor_m), {}};
+  Line line{name, attach(o.body, o.fairlead_m), attach(o.anchor_body, o.anchor_m), {}, {}};
   if (o.model == "spring_damper") {
     const double k = o.stiffness_N_m ? *o.stiffness_N_m : *o.axial_stiffness_N / o.rest_length_m;
     line.model = LineSpringDamper{o.rest_length_m, k, o.damping_N_s_m, o.tension_only};
   } else if (o.model == "catenary") {
     line.model = LineCatenary{o.rest_length_m, o.weight_N_m, *o.axial_stiffness_N, o.bed_friction, o.bed_contact};
+  } else if (o.model == "lumped_mass") {
+    const LineLumpedMass dynamic = lumped_mass(o, environment_);
+    line.model = dynamic.catenary();
+    line.dynamic = Dynamic{dynamic, dynamic.scratch(), memory_size_};
+    memory_size_ += Recalled::nodes + dynamic.state_size();
   } else {
     auto [distance, tension] = read_line_table(o.table);
     Table& table = tables_.emplace_back(std::move(distance), std::move(tension), std::vector<double>());
@@ -45,20 +87,32 @@ void Moorings::add(const std::string& name, const LineOptions& o) {
   lines_.push_back(std::move(line));
 }
 
-LineForces Moorings::forces(const Line& line, std::span<const Motion> bodies) const {
-  const auto moving = [&](const End& end) {
-    if (end.body < 0) return Moving{end.point, Eigen::Vector3d::Zero()};
-    return Moving{bodies[end.body].point(end.point), bodies[end.body].point_velocity(end.point)};
-  };
-  const Moving fairlead = moving(line.fairlead), anchor = moving(line.anchor);
+LineEnd Moorings::moving(const End& end, std::span<const Motion> bodies) const {
+  if (end.body < 0) return {end.point, Eigen::Vector3d::Zero()};
+  return {bodies[end.body].point(end.point), bodies[end.body].point_velocity(end.point)};
+}
+
+LineEnds Moorings::ends(const Line& line, std::span<const Motion> bodies) const {
+  return {moving(line.anchor, bodies), moving(line.fairlead, bodies)};
+}
+
+LineForces Moorings::forces(const Line& line, double t, std::span<const Motion> bodies) const {
+  if (line.dynamic && !memory_.empty()) {
+    const Recalled last{std::span(memory_).subspan(line.dynamic->first)};
+    LineForces f = last.at_end();
+    f.on_fairlead += (t - last.time()) * last.at(Recalled::changes),
+        f.on_anchor += (t - last.time()) * last.at(Recalled::changes + 3);
+    return f;
+  }
+  const auto [anchor, fairlead] = ends(line, bodies);
   return std::visit(
       [&](const auto& model) { return model.forces(fairlead.position - anchor.position, fairlead.velocity - anchor.velocity); },
       line.model);
 }
 
-void Moorings::add_loads(double /*t*/, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
+void Moorings::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
   for (const Line& line : lines_) {
-    const LineForces f = forces(line, bodies);
+    const LineForces f = forces(line, t, bodies);
     const auto pull = [&](const End& end, const Eigen::Vector3d& force) {
       if (end.body >= 0) wrenches[end.body].add_force(force, bodies[end.body].point(end.point));
     };
@@ -67,9 +121,67 @@ void Moorings::add_loads(double /*t*/, std::span<const Motion> bodies, std::span
   }
 }
 
+void Moorings::add_added_mass(std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> masses) const {
+  if (memory_.empty()) return;
+  for (const Line& line : lines_) {
+    if (!line.dynamic) continue;
+    const LineLumpedMass& model = line.dynamic->line;
+    const Recalled last{std::span(memory_).subspan(line.dynamic->first)};
+    const LineEnds e = last.line_ends();
+    const LineLumpedMass::Nodes nodes{model, e, last.of.subspan(Recalled::nodes, model.state_size())};
+    const auto add = [&](const End& end, int node) {
+      if (end.body < 0) return;
+      const Eigen::Vector3d arm = bodies[end.body].point(end.point) - bodies[end.body].position;
+      waves::add_point_inertia(model.end_mass(model.tangent(nodes, node)), arm, masses[end.body]);
+    };
+    add(line.fairlead, model.segments);
+    add(line.anchor, 0);
+  }
+}
+
 LineTension Moorings::tension(std::size_t line, std::span<const Motion> bodies) const {
-  const LineForces f = forces(lines_[line], bodies);
+  const LineForces f = is_dynamic(line) && !memory_.empty()
+                           ? Recalled{std::span(memory_).subspan(lines_[line].dynamic->first)}.at_end()
+                           : forces(lines_[line], 0.0, bodies);
   return {f.fairlead_tension, f.anchor_tension};
+}
+
+void Moorings::begin(double t, std::span<const Motion> bodies, std::span<double> memory) {
+  std::vector<double> rate;
+  for (Line& line : lines_) {
+    if (!line.dynamic) continue;
+    auto& [model, scratch, first] = *line.dynamic;
+    const std::span<double> state = memory.subspan(first + Recalled::nodes, model.state_size());
+    const LineEnds now = ends(line, bodies);
+    const LineLumpedMass::Rest rest = model.rest(now, state);
+    if (!rest.found())
+      throw NumericalFailure(fmt::format("the line finds no rest: {:.3g} N are left on a node after {} iterations, {:.3g} N are "
+                                         "allowed; look at its length, its ends and its segments",
+                                         rest.residual, rest.iterations, rest.limit),
+                             "moorings." + line.name, 0, t, rest.limit);
+    for (int i = 1; i < model.segments; ++i) {  // an end that moves at the start takes the nodes along
+      const double share = double(i) / model.segments;
+      Eigen::Map<Eigen::Vector3d>(state.data() + 3 * (model.inner() + std::size_t(i - 1))) =
+          (1.0 - share) * now.anchor.velocity + share * now.fairlead.velocity;
+    }
+    rate.resize(state.size());
+    Recalled::write(t, now, model.rates(t, now, state, rate, environment_.water, scratch), {}, memory.subspan(first));
+  }
+  recall(memory);
+}
+
+void Moorings::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) {
+  for (Line& line : lines_) {
+    if (!line.dynamic) continue;
+    auto& [model, scratch, first] = *line.dynamic;
+    const Recalled last{memory.subspan(first)};
+    const LineForces before = last.at_end();
+    const LineEnds now = ends(line, bodies);
+    const LineForces f = model.advance(t - h, h, last.line_ends(), now,
+                                       memory.subspan(first + Recalled::nodes, model.state_size()), environment_.water, scratch);
+    const LineForces change{(f.on_fairlead - before.on_fairlead) / h, (f.on_anchor - before.on_anchor) / h};
+    Recalled::write(t, now, f, change, memory.subspan(first));
+  }
 }
 
 }  // namespace spindrift::moorings

@@ -1,14 +1,18 @@
 // The mooring lines of a scene: who is tied to what, and the loads they put on the bodies.
-// Built and called by src/coupling; line models are in kernels/mooring; tested in tests/src/moorings/moorings_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Dynamic lines carry their nodes as memory from step to step (bodies::Memory). Built and called by src/coupling; line models are
+// in kernels/mooring; tested in tests/src/moorings/moorings_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "kernels/mooring/line_catenary.hpp"
+#include "kernels/mooring/line_lumped_mass.hpp"
 #include "kernels/mooring/line_spring_damper.hpp"
 #include "kernels/mooring/line_table.hpp"
 #include "kernels/rigid/motion.hpp"
@@ -16,6 +20,12 @@
 #include "src/moorings/options.hpp"
 
 namespace spindrift::moorings {
+
+/// What surrounds dynamic lines.
+struct LineEnvironment {
+  double gravity_m_s2 = 9.80665, water_density_kg_m3 = 1025.0;
+  std::function<LineWater(double t, const Eigen::Vector3d& point)> water = StillWater{};
+};
 
 /// Tensions of one line [N]; negative where a two-way spring pushes.
 struct LineTension {
@@ -25,7 +35,7 @@ struct LineTension {
 class Moorings {
  public:
   /// `bodies` and `start`: names and initial motions of all bodies, in the order of every later call.
-  Moorings(std::span<const std::string> bodies, std::span<const Motion> start);
+  Moorings(std::span<const std::string> bodies, std::span<const Motion> start, LineEnvironment environment = {});
   Moorings(Moorings&&) = default;  // tables are held by address: movable, not copyable
   Moorings& operator=(Moorings&&) = default;
 
@@ -35,31 +45,55 @@ class Moorings {
   std::size_t size() const { return lines_.size(); }
   const std::string& name(std::size_t line) const { return lines_[line].name; }
 
-  /// Adds the pull of every line to the wrenches of the bodies it is tied to, in the order of the scene. Quasi-static: t has no
-  /// effect.
+  /// Adds the pull of every line to the wrenches of the bodies it is tied to, in the order of the scene. A dynamic line pulls as
+  /// it did at the end of the last step, and goes on as it changed in it; without memory as the catenary.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+  /// Of a dynamic line: at the end of the last step.
   LineTension tension(std::size_t line, std::span<const Motion> bodies) const;
+  bool is_dynamic(std::size_t line) const { return lines_[line].dynamic.has_value(); }
+
+  // What dynamic lines remember, as bodies::Memory has it.
+  std::size_t memory_size() const { return memory_size_; }
+  /// Every dynamic line in rest between its ends. Throws NumericalFailure where a line finds none.
+  void begin(double t, std::span<const Motion> bodies, std::span<double> memory);
+  void recall(std::span<const double> memory) { memory_.assign(memory.begin(), memory.end()); }
+  void remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory);
+  /// Inertia of the half segments at the bodies.
+  void add_added_mass(std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> masses) const;
 
  private:
   struct End {
     int body;               ///< -1: the earth
     Eigen::Vector3d point;  ///< body axes from the centre of mass, or earth frame [m]
   };
+  struct Dynamic {
+    LineLumpedMass line;
+    LineLumpedMass::Scratch scratch;
+    std::size_t first;  ///< of its memory
+  };
+  /// A dynamic line's part of the memory.
+  struct Recalled;
   struct Line {
     std::string name;
     End fairlead, anchor;
     std::variant<LineSpringDamper, LineCatenary, LineTable> model;
+    std::optional<Dynamic> dynamic;  ///< `model` is then its statics
   };
   struct Table {
     std::vector<double> distance, tension, slope;
   };
   End attach(const std::string& body, const Eigen::Vector3d& point) const;
-  LineForces forces(const Line& line, std::span<const Motion> bodies) const;
+  LineEnd moving(const End& end, std::span<const Motion> bodies) const;
+  LineEnds ends(const Line& line, std::span<const Motion> bodies) const;
+  LineForces forces(const Line& line, double t, std::span<const Motion> bodies) const;
 
   std::vector<std::string> bodies_;
   std::vector<Motion> start_;
+  LineEnvironment environment_;
   std::vector<Line> lines_;
-  std::vector<Table> tables_;  ///< a LineTable looks into these; their heap does not move with the vector
+  std::size_t memory_size_ = 0;
+  std::vector<double> memory_;  ///< recalled; empty: steady
+  std::vector<Table> tables_;   ///< a LineTable looks into these; their heap does not move with the vector
 };
 
 }  // namespace spindrift::moorings

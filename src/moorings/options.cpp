@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "kernels/base/constants.hpp"
 #include "src/moorings/table_file.hpp"
 #include "src/scene/document.hpp"
 
@@ -13,13 +14,14 @@ namespace spindrift::moorings {
 
 namespace {
 
-const std::vector<std::string> springs{"spring_damper"}, catenaries{"catenary"}, elastic{"spring_damper", "catenary"},
-    tables{"table"};
+const std::vector<std::string> springs{"spring_damper"}, catenaries{"catenary"}, hanging{"catenary", "lumped_mass"},
+    elastic{"spring_damper", "catenary", "lumped_mass"}, dynamic{"lumped_mass"}, tables{"table"};
 
 /// What `check` can say of one line by itself.
 void check_line(const LineOptions& o, const scene::Report& report) {
   if (o.anchor_body == o.body) report("anchor_body", "is the body that carries the fairlead: a line ties two different things");
-  if (o.model == "catenary" && o.bed_contact && o.anchor_body != "earth")
+  const bool hangs = o.model == "catenary" || o.model == "lumped_mass";
+  if (hangs && o.bed_contact && o.anchor_body != "earth")
     report("bed_contact", "must be false for a line between two bodies: only an anchor on \"earth\" lies on the bed");
 }
 
@@ -33,6 +35,7 @@ const scene::Section<LineOptions>& line_section() {
           .choice("model", &LineOptions::model,
                   {{"spring_damper", "linear spring and damper along the chord"},
                    {"catenary", "static elastic catenary, with or without contact on a flat bed"},
+                   {"lumped_mass", "dynamic: point masses joined by springs, with weight, bed, drag and inertia of the water"},
                    {"table", "tension from a table of the distance between the ends"}},
                   "Model of the line.")
           .text("body", &LineOptions::body, "Body that carries the fairlead.")
@@ -59,9 +62,42 @@ const scene::Section<LineOptions>& line_section() {
           .only_if("model", catenaries)
           .required()
           .flag("bed_contact", &LineOptions::bed_contact, "The line may lie on a flat bed at the level of its lower end.")
-          .only_if("model", catenaries)
+          .only_if("model", hanging)
           .number("bed_friction", &LineOptions::bed_friction, "-", "Friction coefficient between line and bed.", not_negative())
-          .only_if("model", catenaries)
+          .only_if("model", hanging)
+          .only_if("bed_contact", {"true"})
+          .integer("segments", &LineOptions::segments, "-", "Equal segments, between point masses.", scene::between(2, 1000))
+          .only_if("model", dynamic)
+          .number("diameter_m", &LineOptions::diameter_m, "m",
+                  "Diameter of a cylinder of the line's volume: 1.8 times the bar of a studless chain.", positive())
+          .only_if("model", dynamic)
+          .required()
+          .number("mass_kg_m", &LineOptions::mass_kg_m, "kg/m", "Mass per unstretched length, dry.", positive())
+          .only_if("model", dynamic)
+          .required()
+          .number("damping_ratio", &LineOptions::damping_ratio, "-",
+                  "Internal damping, as a share of the critical one of a segment between its two masses.",
+                  scene::between(0.0, 1.0))
+          .only_if("model", dynamic)
+          .number("drag_coefficient", &LineOptions::drag_coefficient, "-",
+                  "Drag across the line, on its diameter; studless chain by default.", not_negative())
+          .only_if("model", dynamic)
+          .number("axial_drag_coefficient", &LineOptions::axial_drag_coefficient, "-",
+                  "Drag along the line, on its circumference; studless chain by default.", not_negative())
+          .only_if("model", dynamic)
+          .number("added_mass_coefficient", &LineOptions::added_mass_coefficient, "-",
+                  "Added mass across the line, on the displaced one.", not_negative())
+          .only_if("model", dynamic)
+          .number("axial_added_mass_coefficient", &LineOptions::axial_added_mass_coefficient, "-",
+                  "Added mass along the line, on the displaced one.", not_negative())
+          .only_if("model", dynamic)
+          .number("bed_stiffness_Pa_m", &LineOptions::bed_stiffness_Pa_m, "Pa/m",
+                  "Pressure of the bed under the line's diameter per depth of sinking in.", positive())
+          .only_if("model", dynamic)
+          .only_if("bed_contact", {"true"})
+          .number("bed_damping_Pa_s_m", &LineOptions::bed_damping_Pa_s_m, "Pa s/m",
+                  "Pressure of the bed under the line's diameter per speed of sinking in.", not_negative())
+          .only_if("model", dynamic)
           .only_if("bed_contact", {"true"})
           .path("table", &LineOptions::table,
                 "CSV file with columns distance_m, tension_N: both increasing. Below the first row its tension holds, beyond the "
@@ -74,7 +110,13 @@ const scene::Section<LineOptions>& line_section() {
   return section;
 }
 
-void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines, std::span<const std::string> bodies) {
+double weight_in_water(const LineOptions& o, double water_density, double gravity) {
+  if (o.model != "lumped_mass") return o.weight_N_m;
+  return gravity * (o.mass_kg_m - water_density * 0.25 * pi * o.diameter_m * o.diameter_m);
+}
+
+void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines, std::span<const std::string> bodies,
+                 double water_density) {
   const auto known = [&](const std::string& body) { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); };
   for (const auto& [name, line] : lines) {
     const std::string at = "moorings." + name;
@@ -87,6 +129,12 @@ void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOption
     if (line.anchor_body != "earth" && !known(line.anchor_body)) doc.problem(at + ".anchor_body", unknown(line.anchor_body));
     if ((line.fairlead_m - line.anchor_m).norm() == 0.0)
       doc.problem(at + ".anchor_m", "is where the fairlead is: the line has no direction");
+    if (line.model == "lumped_mass" && line.mass_kg_m > 0.0 && line.diameter_m > 0.0 &&
+        !(weight_in_water(line, water_density, 1.0) > 0.0))
+      doc.problem(at + ".mass_kg_m",
+                  fmt::format("= {} must be above the {:.4g} kg/m of the water that diameter_m = {} displaces: "
+                              "the line would float",
+                              line.mass_kg_m, line.mass_kg_m - weight_in_water(line, water_density, 1.0), line.diameter_m));
     if (line.model == "table" && !line.table.empty()) try {
         read_line_table(line.table);
       } catch (const scene::SceneError& e) { doc.problem(at + ".table", e.what()); }

@@ -33,11 +33,22 @@ struct LineOptions {
   bool bed_contact = true;
   double bed_friction = 0.0;
   std::string table;  ///< path
+  // lumped_mass
+  int segments = 20;
+  double diameter_m = 0.0, mass_kg_m = 0.0;
+  double damping_ratio = 1.0;
+  double drag_coefficient = 1.33, axial_drag_coefficient = 0.2;             ///< chain on the diameter of its volume
+  double added_mass_coefficient = 1.0, axial_added_mass_coefficient = 0.0;  ///< on the displaced mass
+  double bed_stiffness_Pa_m = 3e6, bed_damping_Pa_s_m = 3e5;                ///< MoorDyn's
 };
 
 const scene::Section<LineOptions>& line_section();
 
+/// What a line of `lumped_mass` weighs in water [N/m]; of other models what the scene says.
+double weight_in_water(const LineOptions& line, double water_density_kg_m3, double gravity_m_s2);
+
 /// Rules between sections: the bodies named exist, ends differ, tables are readable. Problems go to the document.
-void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines, std::span<const std::string> bodies);
+void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines, std::span<const std::string> bodies,
+                 double water_density_kg_m3 = 1025.0);
 
 }  // namespace spindrift::moorings

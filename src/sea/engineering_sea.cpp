@@ -195,6 +195,13 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
   return loads;
 }
 
+waves::Kinematics EngineeringSea::water(double t, const Eigen::Vector3d& point) const {
+  if (waves_.still()) return {current_, Eigen::Vector3d::Zero(), 0.0};
+  waves::Kinematics k = waves_.kinematics(t, point, elevation(point.x(), point.y(), t));
+  k.velocity += current_;
+  return k;
+}
+
 void EngineeringSea::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
   add(t, bodies, wrenches, {});
 }

@@ -59,6 +59,8 @@ class EngineeringSea {
   void loads_by_part(double t, std::span<const Motion> bodies, std::span<SeaLoads> loads) const;
 
   double elevation(double x, double y, double t) const { return waves_.still() ? 0.0 : waves_.elevation(t, x, y); }
+  /// Motion of the water at an earth point under the surface, current included.
+  waves::Kinematics water(double t, const Eigen::Vector3d& point) const;
   const WaveField& waves() const { return waves_; }
   bool has_added_mass() const { return strips_load_; }
 

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 
 PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -143,6 +144,46 @@ class Folders(Runs):
         newest.write_bytes(newest.read_bytes()[:5000])
         self.run_case("--restart", "--until", 1.2)
         self.assertTrue(newest.with_name(newest.name + ".damaged").exists())
+
+
+class Memory(Runs):
+    """Lines, wake and blades that carry a state of their own."""
+    SCENE = ROOT / "inputs/validation/oc3_heave_decay/oc3_heave_decay.toml"
+    MORE = f"""
+[waves]
+model = "airy"
+height_m = 3.0
+period_s = 9.0
+
+[wind]
+speed_m_s = 14.0
+
+[aero]
+model = "bem"
+dynamic_inflow = "oye"
+dynamic_stall = "oye"
+
+[rotor]
+body = "spar"
+turbine = "{ROOT}/inputs/turbines/dtu_10mw.toml"
+hub_m = [-7.0, 0.0, 119.0]
+speed_rpm = 9.0
+"""
+
+    def test_a_run_goes_on_with_the_same_bits_and_runs_of_any_threads_have_them(self):
+        text = self.SCENE.read_text().replace('model = "catenary"', 'model = "lumped_mass"\nmass_kg_m = 77.7066\ndiameter_m = 0.09')
+        text = "\n".join(line for line in text.splitlines() if not line.startswith("weight_N_m"))
+        scene = self.path / "scene.toml"
+        scene.write_text(text + self.MORE)
+        whole = self.path / "whole"
+        self.run_case("--until", 6.0, scene=scene, out=whole)
+        with unittest.mock.patch.dict(os.environ, {"OMP_NUM_THREADS": "3"}):
+            self.run_case("--until", 2.5, scene=scene)
+            self.run_case("--restart", "--until", 6.0, scene=scene)
+        self.assertEqual(self.history(), self.history(whole))
+        names = self.history().splitlines()[0].split(",")
+        self.assertIn("line_1.anchor_tension_N", names)
+        self.assertNotIn("nan", self.history())
 
 
 if __name__ == "__main__":

@@ -184,3 +184,57 @@ TEST_CASE("a turbine file that is not a rotor is refused with what is wrong", "[
   const std::string half = data_file("half.csv", "alpha_deg,cl,cd\n-90,0,0.1\n90,0,0.1\n");
   CHECK_THROWS_WITH(with("2.0", planform, "polars = [{thickness_pct = 24, file = '" + half + "'}]\n"), Contains("-180 to 180"));
 }
+
+namespace {
+
+/// Thrust [N] every h over n steps from when the blades of the settled rotor are pitched by so many degrees.
+std::vector<double> after_pitch_step(const UnsteadyFlow& unsteady, double degrees, double h, int n, double wind = 11.0) {
+  const BladeElementMomentum bem(dtu(), "madsen", 1.225, unsteady);
+  const Wind uniform{{wind, 0, 0}};
+  std::vector<double> memory(bem.memory_size()), thrust;
+  bem.begin(uniform, spinning(8.836), 0.0, memory);
+  for (int i = 0; i <= n; ++i) {
+    thrust.push_back(bem(uniform, spinning(8.836, degrees), i * h, memory).force.x());
+    bem.remember(uniform, spinning(8.836, degrees), (i + 1) * h, h, memory);
+  }
+  return thrust;
+}
+
+}  // namespace
+
+TEST_CASE("settled, a rotor whose wake and separation take time has the loads of steady flow", "[aero][fast]") {
+  const BladeElementMomentum steady(dtu(), "madsen", 1.225);
+  const UnsteadyFlow both{.inflow = true, .stall = true}, stall{.stall = true};
+  const double wind = GENERATE(6.0, 11.0, 20.0), tilt = GENERATE(0.0, 0.3);  // stalled at 20 m/s
+  for (const UnsteadyFlow& unsteady : {both, stall}) {
+    const BladeElementMomentum bem(dtu(), "madsen", 1.225, unsteady);
+    const DiscMotion rotor = spinning(8.836, 0.0, tilt);
+    std::vector<double> memory(bem.memory_size());
+    bem.begin(Wind{{wind, 0, 0}}, rotor, 0.0, memory);
+    const DiscLoad a = steady({wind, 0, 0}, rotor), b = bem(Wind{{wind, 0, 0}}, rotor, 0.0, memory);
+    CHECK((a.force - b.force).norm() < 1e-9 * a.force.norm());
+    CHECK((a.moment - b.moment).norm() < 1e-9 * a.moment.norm());
+  }
+}
+
+TEST_CASE("after a pitch step thrust overshoots and settles with the published time constant of the wake", "[aero][fast]") {
+  // Hansen (2008), eq. 9.19: 1.1 R / (U (1 - 1.3 a)), with the induction a of the whole disc.
+  const BladeElementMomentum steady(dtu(), "madsen", 1.225);
+  double slowed = 0.0, area = 0.0;
+  for (std::size_t i = 0; i + 1 < dtu().planform.span.size(); ++i) {
+    const double r = steady.radius(i), ring = r * (dtu().planform.span[i + 1] - dtu().planform.span[i]);
+    slowed += ring * steady.solve(i, 11.0, 8.836 * rad_s_per_rpm * r, 0.0).axial_induction, area += ring;
+  }
+  const bool given = GENERATE(true, false);
+  const double far = given ? 8.0 : 1.1 / (1.0 - 1.3 * slowed / area) * steady.tip_radius() / 11.0, h = 0.05;
+  UnsteadyFlow unsteady{.inflow = true};
+  if (given) unsteady.inflow_time = far;
+  const std::vector<double> thrust = after_pitch_step(unsteady, 0.5, h, 4000);
+  const double before = steady({11, 0, 0}, spinning(8.836)).force.x(), end = steady({11, 0, 0}, spinning(8.836, 0.5)).force.x();
+  CHECK(thrust.back() == Approx(end).epsilon(1e-4));
+  CHECK(thrust.front() - end < 0.3 * (end - before));  // beyond by a third of the change and more
+  // Long after tau_2 one exponential is left.
+  const auto left = [&](double t) { return thrust[std::size_t(t / h)] - end; };
+  const double t1 = 2.5 * far, t2 = 3.5 * far;
+  CHECK((t2 - t1) / std::log(left(t1) / left(t2)) == Approx(far).epsilon(0.04));
+}

@@ -170,7 +170,7 @@ TEST_CASE("what the scene cannot say is told", "[import][fast]") {
   deck.replace("main.fst", "0 CompServo", "1 CompServo");
   std::string all;
   for (const std::string& what : deck.import().left_out) all += what + "\n";
-  for (const char* word : {"bending of the blades", "unsteady aerofoils", "difference-frequency", "ServoDyn"})
+  for (const char* word : {"bending of the blades", "dynamic stall model of UA_Mod 3", "difference-frequency", "ServoDyn"})
     CHECK(all.find(word) != std::string::npos);
   std::ostringstream scene;
   scene << std::ifstream(deck.folder / "scene/scene.toml").rdbuf();
@@ -190,8 +190,24 @@ TEST_CASE("MoorDyn's lines and older names are read too", "[import][fast]") {
       "(#) (name) (#) (#) (m) (-) (-)\n1 chain 1 2 540 20 -\n---- OPTIONS ----\n0.001 dtM\n";
   const coupling::Scenario s = deck.scenario();
   REQUIRE(s.moorings.size() == 1);
-  CHECK(s.moorings[0].options.rest_length_m == 540.0);
-  CHECK(s.moorings[0].options.fairlead_m.z() == -30.0);
+  const moorings::LineOptions& line = s.moorings[0].options;
+  CHECK(line.model == "lumped_mass");
+  CHECK(line.rest_length_m == 540.0);
+  CHECK(line.fairlead_m.z() == -30.0);
+  CHECK((line.segments == 20 && line.mass_kg_m == 100.0 && line.diameter_m == 0.1 && line.damping_ratio == 1.0));
+  CHECK((line.drag_coefficient == 1.0 && line.added_mass_coefficient == 1.0 && line.axial_drag_coefficient == 0.0));
+}
+
+TEST_CASE("what takes time in AeroDyn's flow is turned on as the deck says", "[import][fast]") {
+  const auto [wake, filter, stall] = GENERATE(table<std::string, std::string, std::string>(
+      {{"1 Wake_Mod", "0", "0 UA_Mod"}, {"1 Wake_Mod", "2", "3 UA_Mod"}, {"1 Wake_Mod", "1", "5 UA_Mod"}}));
+  SmallDeck deck;
+  deck.replace("ad.dat", "1 Wake_Mod", wake + "\n" + filter + " DBEMT_Mod\n12.5 tau1_const");
+  deck.replace("ad.dat", "0 UA_Mod", stall);
+  const coupling::Scenario s = deck.scenario();
+  CHECK(s.aero.dynamic_inflow == (filter == "0" ? "none" : "oye"));
+  CHECK(s.aero.inflow_time_s.value_or(0.0) == (filter == "1" ? 12.5 : 0.0));
+  CHECK(s.aero.dynamic_stall == (stall == "0 UA_Mod" ? "none" : "oye"));
 }
 
 TEST_CASE("a deck with something wrong is refused by file and line", "[import][fast]") {

@@ -145,3 +145,95 @@ TEST_CASE("tensions are those of the force that the body feels", "[moorings][fas
   CHECK((sum - loads(m, motions)[0].force).norm() < 1e-6);
   CHECK(m.name(2) == "line_3");
 }
+
+namespace {
+
+LineOptions chain() {
+  LineOptions line;
+  line.model = "lumped_mass", line.body = "platform";
+  line.fairlead_m = {0, 0, -4}, line.anchor_m = {400, 0, -54}, line.rest_length_m = 410.0;
+  line.axial_stiffness_N = 1.674e9, line.diameter_m = 0.252, line.mass_kg_m = 390.0;
+  return line;
+}
+
+/// The platform heaves by 2 m at 10 s.
+std::vector<Motion> heaved(double t) {
+  auto motions = start();
+  const double omega = 2.0 * pi / 10.0;
+  motions[0].position.z() += 2.0 * std::sin(omega * t), motions[0].velocity.z() = 2.0 * omega * std::cos(omega * t);
+  return motions;
+}
+
+}  // namespace
+
+TEST_CASE("a dynamic line at rest pulls as the catenary does, with memory and without", "[moorings][fast]") {
+  Moorings m(names, start());
+  m.add("line", chain());
+  const Vector3d still = loads(m, start())[0].force;  // no memory: the catenary
+  std::vector<double> memory(m.memory_size());
+  m.begin(0.0, start(), memory);
+  CHECK((loads(m, start())[0].force - still).norm() < 0.01 * still.norm());
+  CHECK(m.tension(0, start()).fairlead == Approx(991.6e3).epsilon(0.015));
+  CHECK(m.tension(0, start()).anchor == Approx(826.2e3).epsilon(0.015));
+  for (int n = 1; n <= 200; ++n) m.remember(0.05 * n, 0.05, start(), memory);
+  m.recall(memory);
+  CHECK((loads(m, start())[0].force - still).norm() < 0.01 * still.norm());
+}
+
+TEST_CASE("a dynamic line is a function of its memory alone: the same bits after a restart", "[moorings][fast]") {
+  const auto go = [](Moorings& m, std::vector<double>& memory, int from, int to) {
+    for (int n = from; n < to; ++n) m.recall(memory), m.remember(0.05 * (n + 1), 0.05, heaved(0.05 * (n + 1)), memory);
+  };
+  Moorings whole(names, start()), second(names, start());
+  whole.add("line", chain()), second.add("line", chain());
+  std::vector<double> memory(whole.memory_size());
+  whole.begin(0.0, heaved(0.0), memory);
+  go(whole, memory, 0, 150);
+  std::vector<double> saved = memory;
+  go(whole, memory, 150, 300);
+  go(second, saved, 150, 300);
+  CHECK(saved == memory);
+}
+
+TEST_CASE("a dynamic line feels the water's motion", "[moorings][fast]") {
+  LineEnvironment around;
+  around.water = [](double, const Vector3d&) { return LineWater{{0.0, 1.0, 0.0}, Vector3d::Zero(), 0.0}; };
+  Moorings m(names, start(), around);
+  m.add("line", chain());
+  std::vector<double> memory(m.memory_size());
+  m.begin(0.0, start(), memory);
+  for (int n = 1; n <= 400; ++n) m.recall(memory), m.remember(0.1 * n, 0.1, start(), memory);
+  m.recall(memory);
+  CHECK(loads(m, start())[0].force.y() > 1e3);
+}
+
+TEST_CASE("a body on a dynamic line is stable up to half the time in which the line's waves stop it", "[moorings][fast]") {
+  // What `check` doubts: M / sqrt(EA m'). A body of mass M falls along its own line into it, force extrapolated from step to
+  // step.
+  const double share = GENERATE(0.5, 3.0), mass = 5e4;
+  LineOptions line = chain();
+  line.anchor_m = {100, 0, -4}, line.rest_length_m = 100.2, line.bed_contact = false;
+  Moorings m({names.data(), 1}, std::vector<Motion>{start()[0]});
+  m.add("line", line);
+  const double h = share * mass / std::sqrt(*line.axial_stiffness_N * line.mass_kg_m);
+  std::vector<Motion> body{start()[0]};
+  std::vector<double> memory(m.memory_size());
+  m.begin(0.0, body, memory);
+  const double rest = loads(m, {body[0], start()[1]})[0].force.x();
+  body[0].velocity.x() = -0.5;
+  double largest = 0.0, early = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    m.recall(memory);
+    std::vector<Wrench> w(1);
+    m.add_loads((n + 0.5) * h, body, w);
+    body[0].velocity.x() += h / mass * (w[0].force.x() - rest), body[0].position.x() += h * body[0].velocity.x();
+    m.remember((n + 1) * h, h, body, memory);
+    largest = std::max(largest, std::abs(body[0].velocity.x()));
+    if (n < 100) early = largest;
+  }
+  INFO(share << ": " << early << " " << largest);
+  if (share < 1.0)
+    CHECK(largest < 0.6);
+  else
+    CHECK_FALSE(largest < 5.0);
+}

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "kernels/base/constants.hpp"
+#include "src/moorings/doubts.hpp"
 #include "src/moorings/table_file.hpp"
 #include "src/scene/document.hpp"
 
@@ -64,6 +66,25 @@ TEST_CASE("a malformed mooring line is refused with what is wrong", "[moorings][
   CHECK_THROWS_WITH(read(c.keys), Contains(c.message));
 }
 
+TEST_CASE("a dynamic line says what it weighs, and is refused where it would float", "[moorings][fast]") {
+  const std::string dynamic = ends + "model = 'lumped_mass'\nrest_length_m = 130\naxial_stiffness_N = 4e8\n";
+  const LineOptions line = read(dynamic + "diameter_m = 0.1\nmass_kg_m = 100\n");
+  CHECK(line.segments == 20);
+  CHECK(weight_in_water(line, 1025.0, 10.0) == Approx(10.0 * (100.0 - 1025.0 * 0.25 * pi * 0.01)));
+  struct Case {
+    std::string keys, message;
+  };
+  const auto c = GENERATE(
+      Case{"diameter_m = 0.1\n", "mass_kg_m"}, Case{"mass_kg_m = 100\n", "diameter_m"},
+      Case{"diameter_m = 0.4\nmass_kg_m = 100\n", "must be above the 128.8 kg/m of the water that diameter_m = 0.4 displaces"},
+      Case{"diameter_m = 0.1\nmass_kg_m = 100\nsegments = 1\n", "segments"},
+      Case{"diameter_m = 0.1\nmass_kg_m = 100\ndamping_ratio = 1.5\n", "damping_ratio"},
+      Case{"diameter_m = 0.1\nmass_kg_m = 100\nweight_N_m = 1e3\n", "weight_N_m"},
+      Case{"diameter_m = 0.1\nmass_kg_m = 100\nbed_contact = false\nbed_stiffness_Pa_m = 1e6\n", "bed_stiffness_Pa_m"},
+      Case{"diameter_m = 0.1\nmass_kg_m = 100\nanchor_body = 'buoy'\n", "must be false for a line between two bodies"});
+  CHECK_THROWS_WITH(read(dynamic + c.keys), Contains(c.message));
+}
+
 TEST_CASE("a catenary between two bodies is legal where it does not ask for a bed", "[moorings][fast]") {
   CHECK_FALSE(read(catenary + "anchor_body = 'buoy'\nbed_contact = false\n").bed_contact);
 }
@@ -79,4 +100,20 @@ TEST_CASE("a table must be one that a line can follow", "[moorings][fast]") {
   CHECK_THROWS_WITH(with("distance_m,tension_N\n100,5\n110,4\n"), Contains("unstable"));
   CHECK_THROWS_WITH(with("distance_m,tension_N\n-1,5\n110,6\n"), Contains("must not be negative"));
   CHECK_THROWS_WITH(with("distance_m,force_N\n100,5\n110,6\n"), Contains("force_N"));
+}
+
+TEST_CASE("too few segments, and a step too long for a light body, are doubted", "[moorings][fast]") {
+  LineOptions line = read(
+      "model = 'lumped_mass'\nbody = 'platform'\nfairlead_m = [0, 0, 0]\nanchor_m = [400, 0, -50]\nrest_length_m = 410\n"
+      "axial_stiffness_N = 1.674e9\ndiameter_m = 0.252\nmass_kg_m = 390\n");
+  const auto keys = [&](double mass_kg) {
+    std::string all;
+    for (const scene::Doubt& doubt : line_doubts({{"line_1", line}}, {50.0, 1e9, 1025.0, 9.80665, 0.02, {{"platform", mass_kg}}}))
+      all += doubt.key + " ";
+    return all;
+  };
+  CHECK(keys(8e6).empty());
+  CHECK(keys(2e4) == "time.step_s ");
+  line.segments = 3;  // 137 m each where the chain is bent to 251 m
+  CHECK(keys(8e6) == "moorings.line_1.segments ");
 }

@@ -1,0 +1,342 @@
+// A dynamic mooring line as point masses joined by axial springs and dampers: weight, bed, drag and inertia of the water at the
+// nodes. Hall & Goupee (2015), Ocean Engineering 104, 590-603, the equations of MoorDyn. Its statics by Newton's method, its
+// motion by classical Runge-Kutta in substeps of its own: docs/theory/moorings.md. Called through src/moorings; tested in
+// tests/kernels/mooring/line_lumped_mass_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "kernels/base/constants.hpp"
+#include "kernels/mooring/line.hpp"
+#include "kernels/mooring/line_catenary.hpp"
+
+namespace spindrift {
+
+/// The water at a point; z of the surface above it [m].
+struct LineWater {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< [m/s]
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< [m/s2]
+  double surface = 0.0;
+};
+
+/// Still water up to z = 0.
+struct StillWater {
+  LineWater operator()(double /*t*/, const Eigen::Vector3d& /*point*/) const { return {}; }
+};
+
+/// Where an end is and how it moves; earth frame.
+struct LineEnd {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
+};
+struct LineEnds {
+  LineEnd anchor, fairlead;
+};
+
+struct LineLumpedMass {
+  static constexpr std::string_view name = "lumped_mass";
+  double length = 1.0;                               ///< L, unstretched [m]
+  int segments = 20;                                 ///< N; nodes 0 (anchor) to N (fairlead)
+  double diameter = 0.1;                             ///< d, of a cylinder of the line's volume [m]
+  double mass_per_m = 1.0;                           ///< m', dry [kg/m]
+  double axial_stiffness = 1.0;                      ///< EA [N]
+  double damping_ratio = 1.0;                        ///< zeta, of the shortest axial wave the segments carry; at most 1 [-]
+  double normal_drag = 1.33, tangential_drag = 0.2;  ///< on d and on pi d, each per length [-]
+  double normal_added_mass = 1.0, tangential_added_mass = 0.0;  ///< on the displaced mass [-]
+  double gravity = 9.81, water_density = 1025.0;
+  bool bed_contact = true;
+  double bed_level = 0.0;      ///< z [m]
+  double bed_stiffness = 3e6;  ///< per depth of sinking in and projected area [Pa/m]
+  double bed_damping = 3e5;    ///< [Pa s/m]
+  double bed_friction = 0.0;   ///< [-]
+
+  static constexpr double creep_speed = 0.01;  ///< below it friction falls to nothing linearly [m/s]
+
+  double segment() const { return length / segments; }
+  double area() const { return 0.25 * pi * diameter * diameter; }
+  double weight_per_m() const { return (mass_per_m - water_density * area()) * gravity; }  ///< in water [N/m]
+  /// BA of T = EA e + BA de/dt [N s].
+  double internal_damping() const { return damping_ratio * segment() * std::sqrt(axial_stiffness * mass_per_m); }
+  std::size_t inner() const { return std::size_t(segments - 1); }
+  std::size_t state_size() const { return 6 * inner(); }  ///< positions of the inner nodes, then their velocities
+
+  /// The line in rest that the nodes tend to as they grow many.
+  LineCatenary catenary() const {
+    return {.length = length, .weight_per_m = weight_per_m(), .axial_stiffness = axial_stiffness, .bed_contact = bed_contact};
+  }
+
+  /// Fastest rate of the nodes [1/s]: axial waves of two segments, the bed's spring and damper, friction at creeping speed.
+  double fastest_rate() const {
+    double rate = 2.0 / segment() * std::sqrt(axial_stiffness / mass_per_m);
+    if (!bed_contact) return rate;
+    rate = std::max({rate, std::sqrt(bed_stiffness * diameter / mass_per_m), bed_damping * diameter / mass_per_m});
+    return std::max(rate, bed_friction * weight_per_m() / (mass_per_m * creep_speed));
+  }
+  /// Substep: RK4 is stable up to 2.78 of the fastest rate on the real axis and 2.83 on the imaginary one; a fifth is kept back.
+  double largest_step() const { return 2.2 / fastest_rate(); }
+
+  /// Room for one evaluation.
+  struct Scratch {
+    std::vector<Eigen::Vector3d> pull;  ///< of each segment on its lower-numbered node [N]
+    std::vector<double> stages;         ///< of Runge-Kutta
+  };
+  Scratch scratch() const { return {std::vector<Eigen::Vector3d>(std::size_t(segments)), std::vector<double>(6 * state_size())}; }
+
+  /// Nodes of a state with its ends, as one row.
+  struct Nodes {
+    const LineLumpedMass& line;
+    const LineEnds& ends;
+    std::span<const double> state;
+    Eigen::Vector3d position(int i) const { return at(i, 0, ends.anchor.position, ends.fairlead.position); }
+    Eigen::Vector3d velocity(int i) const { return at(i, 3 * line.inner(), ends.anchor.velocity, ends.fairlead.velocity); }
+
+   private:
+    Eigen::Vector3d at(int i, std::size_t first, const Eigen::Vector3d& anchor, const Eigen::Vector3d& fairlead) const {
+      if (i == 0) return anchor;
+      if (i == line.segments) return fairlead;
+      return Eigen::Map<const Eigen::Vector3d>(state.data() + first + 3 * std::size_t(i - 1));
+    }
+  };
+
+  /// T n of the segment from r to s, by how it is stretched and how fast; nothing where it is slack.
+  Eigen::Vector3d pull(const Eigen::Vector3d& span, const Eigen::Vector3d& rate) const {
+    const double l0 = segment(), l = span.norm();
+    if (l <= l0) return Eigen::Vector3d::Zero();
+    const double tension = axial_stiffness * (l / l0 - 1.0) + internal_damping() * span.dot(rate) / (l * l0);
+    return tension > 0.0 ? Eigen::Vector3d(tension / l * span) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  }
+
+  /// What loads a piece of line but its neighbours, and its inertia across and along `tangent`. `middle`: height of its middle
+  /// above the node [m].
+  struct NodeLoad {
+    Eigen::Vector3d force;
+    double mass_across, mass_along;
+  };
+  NodeLoad node_load(double piece, const Eigen::Vector3d& tangent, const LineEnd& node, const LineWater& water,
+                     double middle = 0.0) const {
+    const double displaced = water_density * area() * piece, height = std::max(piece * std::abs(tangent.z()), diameter);
+    const double wet = std::clamp(0.5 + (water.surface - node.position.z() - middle) / height, 0.0, 1.0);
+    NodeLoad load{Eigen::Vector3d(0.0, 0.0, (wet * displaced - mass_per_m * piece) * gravity), mass_per_m * piece,
+                  mass_per_m * piece};
+    if (wet > 0.0) {
+      const auto along = [&](const Eigen::Vector3d& v) { return Eigen::Vector3d(v.dot(tangent) * tangent); };
+      const Eigen::Vector3d relative = water.velocity - node.velocity, tangential = along(relative),
+                            normal = relative - tangential;
+      const double dynamic = 0.5 * water_density * wet * piece * diameter;
+      load.force += dynamic * (normal_drag * normal.norm() * normal + pi * tangential_drag * tangential.norm() * tangential);
+      const Eigen::Vector3d with = along(water.acceleration), across = water.acceleration - with;
+      load.force += wet * displaced * ((1.0 + normal_added_mass) * across + (1.0 + tangential_added_mass) * with);
+      load.mass_across += wet * normal_added_mass * displaced, load.mass_along += wet * tangential_added_mass * displaced;
+    }
+    if (bed_contact && node.position.z() < bed_level) load.force += bed_force(piece, node);
+    return load;
+  }
+
+  /// The bed pushes up, never holds, and resists sliding.
+  Eigen::Vector3d bed_force(double piece, const LineEnd& node) const {
+    const double push =
+        piece * diameter * std::max(0.0, bed_stiffness * (bed_level - node.position.z()) - bed_damping * node.velocity.z());
+    const Eigen::Vector3d slide(node.velocity.x(), node.velocity.y(), 0.0);
+    Eigen::Vector3d force = -bed_friction * push / std::max(slide.norm(), creep_speed) * slide;
+    force.z() = push;
+    return force;
+  }
+
+  Eigen::Vector3d tangent(const Nodes& nodes, int i) const {
+    const Eigen::Vector3d chord = nodes.position(std::min(i + 1, segments)) - nodes.position(std::max(i - 1, 0));
+    const double l = chord.norm();
+    return l > 0.0 ? Eigen::Vector3d(chord / l) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+  }
+
+  /// d(state)/dt in `rate`. Returns the forces on the two ends; the half segment at an end is part of them but for its inertia,
+  /// end_mass().
+  template <class Water>
+  LineForces rates(double t, const LineEnds& ends, std::span<const double> state, std::span<double> rate, const Water& water,
+                   Scratch& scratch) const {
+    const Nodes nodes{*this, ends, state};
+    for (int i = 0; i < segments; ++i)
+      scratch.pull[std::size_t(i)] = pull(nodes.position(i + 1) - nodes.position(i), nodes.velocity(i + 1) - nodes.velocity(i));
+    const double l0 = segment();
+    for (int i = 1; i < segments; ++i) {
+      const LineEnd node{nodes.position(i), nodes.velocity(i)};
+      const Eigen::Vector3d q = tangent(nodes, i);
+      const NodeLoad load = node_load(l0, q, node, water(t, node.position));
+      const Eigen::Vector3d force = load.force + scratch.pull[std::size_t(i)] - scratch.pull[std::size_t(i - 1)];
+      const Eigen::Vector3d along = force.dot(q) * q;
+      const std::size_t k = 3 * std::size_t(i - 1);
+      Eigen::Map<Eigen::Vector3d>(rate.data() + k) = node.velocity;
+      Eigen::Map<Eigen::Vector3d>(rate.data() + 3 * inner() + k) = (force - along) / load.mass_across + along / load.mass_along;
+    }
+    const auto end = [&](int i, const LineEnd& e) {
+      const Eigen::Vector3d q = tangent(nodes, i);
+      return node_load(0.5 * l0, q, e, water(t, e.position), (i == 0 ? 0.25 : -0.25) * l0 * q.z()).force;
+    };
+    LineForces f;
+    f.on_fairlead = end(segments, ends.fairlead) - scratch.pull.back();
+    f.on_anchor = end(0, ends.anchor) + scratch.pull.front();
+    f.fairlead_tension = f.on_fairlead.norm(), f.anchor_tension = f.on_anchor.norm();
+    return f;
+  }
+
+  /// Inertia [kg] of the half segment at an end of this direction, wet.
+  Eigen::Matrix3d end_mass(const Eigen::Vector3d& tangent) const {
+    const double piece = 0.5 * segment(), displaced = water_density * area() * piece;
+    const double across = mass_per_m * piece + normal_added_mass * displaced;
+    const double along = mass_per_m * piece + tangential_added_mass * displaced;
+    return across * Eigen::Matrix3d::Identity() + (along - across) * tangent * tangent.transpose();
+  }
+
+  /// Goes on by h from t, while the ends move from `from` to `to` on cubics that keep places and velocities. Returns the forces
+  /// on the ends at t + h.
+  template <class Water>
+  LineForces advance(double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state, const Water& water,
+                     Scratch& scratch) const {
+    const std::size_t n = state_size();
+    const auto stage = [&](std::size_t i) { return std::span<double>(scratch.stages).subspan(i * n, n); };
+    const std::span<double> k1 = stage(0), k2 = stage(1), k3 = stage(2), k4 = stage(3), trial = stage(4);
+    const int count = std::max(1, int(std::ceil(h / largest_step() * (1.0 - 1e-12))));
+    const double dt = h / count;
+    const auto ends = [&](double s) {  // s: substeps since t
+      const auto moving = [&](const LineEnd& a, const LineEnd& b) { return on_cubic(a, b, h, s / count); };
+      return LineEnds{moving(from.anchor, to.anchor), moving(from.fairlead, to.fairlead)};
+    };
+    const auto go = [&](double step, std::span<const double> rate) {
+      for (std::size_t i = 0; i < n; ++i) trial[i] = state[i] + step * rate[i];
+    };
+    for (int m = 0; m < count; ++m) {
+      const double now = t + m * dt;
+      const LineEnds middle = ends(m + 0.5);
+      rates(now, ends(m), state, k1, water, scratch);
+      go(0.5 * dt, k1);
+      rates(now + 0.5 * dt, middle, trial, k2, water, scratch);
+      go(0.5 * dt, k2);
+      rates(now + 0.5 * dt, middle, trial, k3, water, scratch);
+      go(dt, k3);
+      rates(now + dt, ends(m + 1), trial, k4, water, scratch);
+      for (std::size_t i = 0; i < n; ++i) state[i] += dt / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+    }
+    return rates(t + h, to, state, k1, water, scratch);
+  }
+
+  /// What the search for rest came to: the largest force left on a node, and what is allowed [N].
+  struct Rest {
+    double residual, limit;
+    int iterations;
+    bool found() const { return residual <= limit; }
+  };
+  /// The line in rest between ends that do not move, in still water. Friction of the bed, which depends on how it was laid, is
+  /// left out. A segment that only pulls, weight and a bed that only pushes have a convex energy: Newton's method with a damping
+  /// that grows where the residual does not fall finds its least value.
+  Rest rest(const LineEnds& ends, std::span<double> state) const;
+
+ private:
+  static LineEnd on_cubic(const LineEnd& a, const LineEnd& b, double h, double s) {
+    const double r = 1.0 - s, u = s * s * (3.0 - 2.0 * s);
+    const Eigen::Vector3d way = b.position - a.position;
+    return {a.position + u * way + h * s * r * (r * a.velocity - s * b.velocity),
+            6.0 * s * r / h * way + r * (1.0 - 3.0 * s) * a.velocity + s * (3.0 * s - 2.0) * b.velocity};
+  }
+
+  void lay_as_catenary(const LineEnds& ends, std::span<double> state) const;
+};
+
+/// Nodes on the catenary between the ends: a first guess.
+inline void LineLumpedMass::lay_as_catenary(const LineEnds& ends, std::span<double> state) const {
+  const Eigen::Vector3d span = ends.fairlead.position - ends.anchor.position;
+  const bool rises = span.z() >= 0.0;
+  const Eigen::Vector3d& low = rises ? ends.anchor.position : ends.fairlead.position;
+  const double x = std::hypot(span.x(), span.y());
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  if (x > 0.0) out = Eigen::Vector3d(span.x() / x, span.y() / x, 0.0) * (rises ? 1.0 : -1.0);
+  const CatenaryState s = catenary().solve(x, std::abs(span.z()));
+  const double w = weight_per_m(), h = std::max(s.horizontal, 1e-6 * w * length), lower = s.lower_vertical;
+  const auto place = [&](double from_low) {
+    const double hanging = std::max(from_low - s.on_bed, 0.0), up = lower + w * hanging;
+    const double along =
+        std::min(from_low, s.on_bed) + h / w * (std::asinh(up / h) - std::asinh(lower / h)) + h * from_low / axial_stiffness;
+    const double rise = (std::hypot(h, up) - std::hypot(h, lower)) / w + (lower + 0.5 * w * hanging) * hanging / axial_stiffness;
+    return Eigen::Vector3d(along, 0.0, rise);
+  };
+  const double reach = place(length).x();  // differs from x where the line is slack
+  for (int i = 1; i < segments; ++i) {
+    const Eigen::Vector3d p = place(segment() * (rises ? i : segments - i));
+    Eigen::Map<Eigen::Vector3d>(state.data() + 3 * std::size_t(i - 1)) =
+        low + (reach > 0.0 ? p.x() / reach * x : 0.0) * out + p.z() * Eigen::Vector3d::UnitZ();
+  }
+  std::fill(state.begin() + std::ptrdiff_t(3 * inner()), state.end(), 0.0);
+}
+
+inline LineLumpedMass::Rest LineLumpedMass::rest(const LineEnds& moving, std::span<double> state) const {
+  const LineEnds ends{{moving.anchor.position, Eigen::Vector3d::Zero()}, {moving.fairlead.position, Eigen::Vector3d::Zero()}};
+  lay_as_catenary(ends, state);
+  const std::size_t n = inner();
+  const double l0 = segment(), scale = axial_stiffness / l0;
+  LineLumpedMass still = *this;
+  still.bed_friction = 0.0;
+  std::vector<Eigen::Matrix3d> diagonal(n), upper(n);
+  std::vector<Eigen::Vector3d> force(n), step(n);
+  std::vector<double> trial(state.begin(), state.end());
+  const auto forces = [&](std::span<const double> at) {  // largest force left
+    const Nodes nodes{still, ends, at};
+    double largest = 0.0;
+    for (int i = 1; i < segments; ++i) {
+      const Eigen::Vector3d zero = Eigen::Vector3d::Zero(), r = nodes.position(i);
+      force[std::size_t(i - 1)] = pull(nodes.position(i + 1) - r, zero) - pull(r - nodes.position(i - 1), zero) +
+                                  still.node_load(l0, tangent(nodes, i), {r, zero}, {}).force;
+      largest = std::max(largest, force[std::size_t(i - 1)].norm());
+    }
+    return largest;
+  };
+  const auto sum = [&] {
+    double squares = 0.0;
+    for (const Eigen::Vector3d& f : force) squares += f.squaredNorm();
+    return squares;
+  };
+  Rest rest{forces(state), 1e-7 * mass_per_m * gravity * l0 + 1e-12 * axial_stiffness, 0};
+  double merit = sum(), damping = 1e-6 * scale;
+  for (; rest.iterations < 2000 && !rest.found(); ++rest.iterations) {
+    const Nodes nodes{still, ends, state};
+    const auto stiffness = [&](int segment) -> Eigen::Matrix3d {
+      const Eigen::Vector3d along = nodes.position(segment + 1) - nodes.position(segment);
+      const double l = along.norm();
+      if (l <= l0) return Eigen::Matrix3d::Zero();
+      return chord_stiffness(along, axial_stiffness * (l / l0 - 1.0), scale);
+    };
+    forces(state);
+    Eigen::Matrix3d below = stiffness(0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Eigen::Matrix3d above = stiffness(int(i) + 1);
+      diagonal[i] = below + above + damping * Eigen::Matrix3d::Identity();
+      if (bed_contact && nodes.position(int(i) + 1).z() < bed_level) diagonal[i](2, 2) += bed_stiffness * diameter * l0;
+      upper[i] = -above, below = above;
+    }
+    // Block elimination: K step = force.
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i > 0) {
+        const Eigen::Matrix3d factor = upper[i - 1].transpose() * diagonal[i - 1];  // the diagonal holds inverses behind i
+        diagonal[i] -= factor * upper[i - 1];
+        force[i] -= factor * force[i - 1];
+      }
+      diagonal[i] = diagonal[i].inverse().eval();
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      step[i] = diagonal[i] * (i + 1 < n ? Eigen::Vector3d(force[i] - upper[i] * step[i + 1]) : force[i]);
+      Eigen::Map<Eigen::Vector3d>(trial.data() + 3 * i) = Eigen::Map<const Eigen::Vector3d>(state.data() + 3 * i) + step[i];
+    }
+    const double largest = forces(trial), now = sum();
+    if (now < merit) {
+      std::copy(trial.begin(), trial.end(), state.begin());
+      merit = now, rest.residual = largest, damping = std::max(0.2 * damping, 1e-12 * scale);
+    } else {
+      damping *= 5.0;
+      if (damping > 1e6 * scale) break;
+    }
+  }
+  return rest;
+}
+
+}  // namespace spindrift
