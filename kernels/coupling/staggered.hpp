@@ -7,6 +7,7 @@
 // tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <tuple>
 
 #include "kernels/coupling/extrapolation.hpp"
@@ -53,22 +54,29 @@ class Staggered {
         x = parts.move(load_, begin, end), y = parts.load(motion, begin, end);
     }
     if (!x.allFinite() || !y.allFinite()) return false;
-    mismatch_ = y - load_.at(end);
+    const Vector assumed = load_.at(end);
+    mismatch_ = y - assumed;
+    apart_ = mismatch_.norm() > far_apart * std::max(y.norm(), assumed.norm()) ? apart_ + 1 : 0;
     motion_.add(end, x), load_.add(end, std::move(y));
     return true;
   }
 
   /// Loads that F returned less those that S had assumed at the last window's end: what the scheme neglects, to the order it has.
   const Vector& mismatch() const { return mismatch_; }
+  /// Windows in a row, up to now, whose loads came out apart from those assumed by more than `far_apart` of the larger: where the
+  /// scheme is unstable each answers the one before. A ramp that begins with the square of time has no more than three.
+  static constexpr double far_apart = 0.45;
+  int apart() const { return apart_; }
   /// Loads by now, and what S is going to see of them.
   const Extrapolation& load() const { return load_; }
   const Extrapolation& motion() const { return motion_; }
-  void visit(auto& v) { motion_.visit(v), load_.visit(v), v(mismatch_); }
+  void visit(auto& v) { motion_.visit(v), load_.visit(v), v(mismatch_), v(apart_); }
 
  private:
   Staggering scheme_;
   Extrapolation motion_, load_;
   Vector mismatch_;
+  int apart_ = 0;
 };
 
 }  // namespace spindrift::coupling

@@ -1,57 +1,104 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/mpi/stop_request.hpp"
 
-#include <csignal>
+#include <signal.h>
+#include <time.h>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <utility>
 
 namespace spindrift::runtime {
 
 namespace {
 
-volatile std::sig_atomic_t caught = 0;
-constexpr int signals[] = {SIGTERM, SIGINT, SIGUSR1};
-constexpr int wall_limit = 1000;  // beyond every signal number
+constexpr int wall_limit = 1000, stop_file = 1001;  // beyond every signal number
+constexpr std::array<std::pair<int, const char*>, 6> signals{{{SIGTERM, "SIGTERM"},
+                                                              {SIGINT, "SIGINT"},
+                                                              {SIGUSR1, "SIGUSR1"},
+                                                              {SIGUSR2, "SIGUSR2"},
+                                                              {SIGHUP, "SIGHUP"},
+                                                              {SIGXCPU, "SIGXCPU"}}};
+constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max(), second_ns = 1'000'000'000;
 
-extern "C" void note_signal(int signal) {
-  if (caught == SIGINT && signal == SIGINT) {
-    std::signal(SIGINT, SIG_DFL);
-    std::raise(SIGINT);
-  }
-  caught = signal;
+// Of the one request that lives; a signal handler can reach nothing else.
+std::atomic<int> cause = 0;
+std::atomic<std::int64_t> caught_ns = 0, limit_ns = never, margin_ns = 0, looked_ns = 0;
+std::string watched;  // written before threads look
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+
+std::int64_t now_ns() {  // may be called by a signal handler
+  timespec t{};
+  ::clock_gettime(CLOCK_MONOTONIC, &t);
+  return t.tv_sec * second_ns + t.tv_nsec;
 }
 
-std::string reason(int cause) {
-  switch (cause) {
-    case 0:
-      return "";
-    case SIGTERM:
-      return "stopped on request (SIGTERM)";
-    case SIGINT:
-      return "stopped on request (SIGINT)";
-    case SIGUSR1:
-      return "stopped on request (SIGUSR1)";
-    default:
-      return "the limit on wall time is reached (runtime.wall_limit_s)";
+extern "C" void note_signal(int signal) {
+  const std::int64_t now = now_ns();
+  int none = 0;
+  if (cause.compare_exchange_strong(none, signal) || none >= wall_limit) {
+    caught_ns = now;
+    return;
   }
+  // The same request may come through the launcher and from the terminal; the kernel repeats XCPU every second.
+  if (signal == SIGXCPU || now - caught_ns < second_ns) return;
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+std::string reason(int why) {
+  for (const auto& [number, name] : signals)
+    if (why == number) return std::string("stopped on request (") + name + ")";
+  if (why == wall_limit) return "the limit on wall time is reached (runtime.wall_limit_s)";
+  return why == stop_file ? "stopped on request (file)" : "";
 }
 
 }  // namespace
 
-StopRequest::StopRequest(double wall_limit_s)
-    : end_(std::chrono::steady_clock::now() +
-           std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(wall_limit_s))),
-      limited_(wall_limit_s > 0.0) {
-  caught = 0;
-  for (int s : signals) std::signal(s, note_signal);
+StopRequest::StopRequest(double wall_limit_s, std::filesystem::path file) : file_(std::move(file)) {
+  cause = 0, margin_ns = 0, looked_ns = 0;
+  limit_ns = wall_limit_s > 0.0 ? now_ns() + std::int64_t(wall_limit_s * 1e9) : never;
+  watched = file_.string();
+  std::error_code none;
+  if (!watched.empty()) std::filesystem::remove(file_, none);  // of the run before
+  for (const auto& [number, name] : signals) {
+    struct sigaction action {};
+    action.sa_handler = note_signal;
+    action.sa_flags = SA_RESTART;
+    ::sigaction(number, &action, nullptr);
+  }
 }
 
 StopRequest::~StopRequest() {
-  for (int s : signals) std::signal(s, SIG_DFL);
+  for (const auto& [number, name] : signals) ::signal(number, SIG_DFL);
+  cause = 0, limit_ns = never;
+  watched.clear();
+}
+
+void StopRequest::keep_margin(double seconds) { margin_ns = std::int64_t(seconds * 1e9); }
+
+bool StopRequest::asked() {
+  if (cause.load(std::memory_order_relaxed) != 0) return true;
+  if (limit_ns.load(std::memory_order_relaxed) == never && watched.empty()) return false;
+  const std::int64_t now = now_ns();
+  int none = 0;
+  if (now >= limit_ns - margin_ns) return cause.compare_exchange_strong(none, wall_limit), true;
+  if (watched.empty()) return false;
+  std::int64_t before = looked_ns.load(std::memory_order_relaxed);
+  if (now - before < second_ns || !looked_ns.compare_exchange_strong(before, now)) return false;
+  std::error_code error;
+  if (!std::filesystem::exists(watched, error)) return false;
+  return cause.compare_exchange_strong(none, stop_file), true;
 }
 
 std::string StopRequest::agreed(MPI_Comm comm) const {
-  int cause = caught != 0 ? int(caught) : limited_ && std::chrono::steady_clock::now() >= end_ ? wall_limit : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &cause, 1, MPI_INT, MPI_MAX, comm);
-  return reason(cause);
+  int why = asked() ? cause.load() : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &why, 1, MPI_INT, MPI_MAX, comm);
+  std::error_code none;
+  if (why == stop_file && !file_.empty()) std::filesystem::remove(file_, none);
+  return reason(why);
 }
 
 }  // namespace spindrift::runtime

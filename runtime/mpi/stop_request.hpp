@@ -1,29 +1,40 @@
-// "Finish the window, save, stop": SIGTERM, SIGINT or SIGUSR1 sent to any rank, or a limit on wall time, agreed on by all ranks.
-// Used by src/coupling between windows; tested in tests/coupled/program_test.py.
-// SPDX-License-Identifier: Apache-2.0
+// "Finish the window, save, stop": a signal sent to any rank, a file, or a limit on wall time, agreed on by all ranks. Looked at
+// between windows and, through a sum over the ranks, between the pieces in which a resolved rotor's air settles. Used by
+// src/coupling; tested in tests/runtime/stop_request_test.cpp and tests/faults. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <mpi.h>
 
-#include <chrono>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 
 namespace spindrift::runtime {
 
+/// Work was given up since all ranks know that the run is to stop; its state is of no use.
+struct StopAsked : std::runtime_error {
+  StopAsked() : std::runtime_error("asked to stop") {}
+};
+
 class StopRequest {
  public:
-  /// Catches the signals from now on; a second SIGINT ends the program at once. wall_limit_s <= 0: none.
-  explicit StopRequest(double wall_limit_s = 0.0);
+  /// Catches TERM, INT, USR1, USR2, HUP and XCPU from now on; a second signal, a second later or more, ends the program at once.
+  /// wall_limit_s <= 0: none. `file`: whose appearance is a request (it is then removed); empty: none.
+  explicit StopRequest(double wall_limit_s = 0.0, std::filesystem::path file = {});
   ~StopRequest();  ///< gives the signals back
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
 
+  /// What saving takes: so much before the limit on wall time the run is to stop.
+  void keep_margin(double seconds);
+
+  /// Whether this process knows of a request, to be summed over the ranks by who acts on it. Cheap; from any thread.
+  static bool asked();
   /// Why to stop, on all ranks alike; empty to go on. Collective over `comm`; a few microseconds.
   std::string agreed(MPI_Comm comm) const;
 
  private:
-  std::chrono::steady_clock::time_point end_;
-  bool limited_;
+  std::filesystem::path file_;
 };
 
 }  // namespace spindrift::runtime

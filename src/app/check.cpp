@@ -8,6 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "src/aero/flow_grid.hpp"
+#include "src/aero/flow_options.hpp"
+#include "src/aero/grid/coarsen.hpp"
+#include "src/aero/grid/tiling.hpp"
+#include "src/aero/resolved_rotor.hpp"
 #include "src/aero/wind.hpp"
 #include "src/app/commands.hpp"
 #include "src/app/cost.hpp"
@@ -17,10 +22,13 @@
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/doubts.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/limits.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/coupling/room.hpp"
 #include "src/coupling/start.hpp"
 #include "src/scene/document.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::app {
 
@@ -215,9 +223,19 @@ const char* likely_condition(const std::string& patch, bool viscous) {
   return "far_field";
 }
 
+/// The grid of the air alone as `run` makes it before its first step.
+aero::MultiBlockGrid made_flow_grid(const coupling::Scenario& s) {
+  const aero::FlowOptions& o = *s.aero.flow;
+  aero::MultiBlockGrid grid = aero::flow_grid(o);
+  if (const std::string why = o.coarse_steps > 0 ? aero::why_not_halved(grid) : std::string(); !why.empty())
+    throw scene::SceneError(
+        {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", o.coarse_steps),
+          fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
+  return grid;
+}
+
 /// Size of a grid that stands, its patches with their conditions; a block to paste where some have none. False then.
-bool print_flow_grid(const aero::FlowOptions& o) {
-  const aero::MultiBlockGrid grid = flow_grid(o);
+bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& grid) {
   std::size_t cells = 0;
   for (const aero::Block& b : grid.blocks) cells += std::size_t(b.ni) * b.nj * b.nk;
   std::map<std::string, long> faces;
@@ -233,7 +251,10 @@ bool print_flow_grid(const aero::FlowOptions& o) {
     fmt::print("  {:<22}{} faces{}\n", patch, count, given ? "" : ", no condition yet");
     if (!given) missing.push_back(patch);
   }
-  if (missing.empty()) return true;
+  if (missing.empty()) {
+    aero::patch_conditions(o, aero::make_tiling(grid, aero::wall_patches(o)));  // a condition for no patch is refused
+    return true;
+  }
   fmt::print("\nEach patch needs a condition. To paste under [aero.flow], after a look at each line:\n\nboundaries = [\n");
   for (const auto& [patch, count] : faces)
     fmt::print("  {{patch = \"{}\", condition = \"{}\"}},\n", patch, likely_condition(patch, o.viscous != "none"));
@@ -273,16 +294,22 @@ void print_omissions(const coupling::Scenario& scenario, const std::vector<std::
 int check(const CheckArguments& arguments, const runtime::World& world) {
   scene::Document document = load_scene(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
+  coupling::require_room(scenario, coupling::machine_memory() * world.size);
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
+    // Grids of millions of cells take minutes: they are not made.
+    constexpr long made_at_most = 300'000;
+    const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(scenario);
+    if (aero::resolved_rotor_size(setup).cells <= made_at_most) aero::made_rotor_grid(setup);
     if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size);
     return done;
   }
   if (scenario.has_flow()) {
+    const aero::MultiBlockGrid grid = made_flow_grid(scenario);
     if (world.rank != 0) return done;
     fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
                aero::describe_flow_grid(*scenario.aero.flow));
-    return print_flow_grid(*scenario.aero.flow) ? done : bad_input;
+    return print_flow_grid(*scenario.aero.flow, grid) ? done : bad_input;
   }
   const coupling::Scenario asked = scenario;
   Machine machine(std::move(scenario));
@@ -296,6 +323,8 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     if (!start.state.motions.empty()) print_modes(machine, stability.linearisation);
   }
   require_stable(machine, stability);
+  require_stable_lines(machine, start.state);
+  require_stable_coupling(machine, start.state, stability.linearisation);
   if (world.rank != 0) return done;
   if (start.state.motions.empty()) {
     const PartCost cost = print_particles(machine, start);

@@ -4,16 +4,21 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
 
+#include "kernels/base/failure.hpp"
 #include "runtime/mpi/parts.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/app/forecast.hpp"
 #include "src/app/scene_file.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/coupling/doubts.hpp"
+#include "src/coupling/limits.hpp"
 #include "src/coupling/placement.hpp"
+#include "src/coupling/room.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/history_statistics.hpp"
@@ -23,6 +28,7 @@
 #include "src/report/report.hpp"
 #include "src/run/driver.hpp"
 #include "src/scene/document.hpp"
+#include "src/scene/error.hpp"
 #include "src/scene/identity.hpp"
 
 namespace spindrift::app {
@@ -64,6 +70,35 @@ std::vector<io::TimeRange> mean_ranges(const coupling::Scenario& scenario, doubl
   return {{"whole_run", 0.0, end_s}, {fmt::format("last_{:g}_s", length), end_s - length, end_s}};
 }
 
+/// Of the rows that there are; none where the run did not come to one.
+io::HistoryStatistics statistics(const io::RunDirectory& directory, const coupling::Scenario& scenario, double end_s) {
+  if (!std::filesystem::exists(directory.history())) return {};
+  return io::history_statistics(directory.history(), mean_ranges(scenario, end_s));
+}
+
+/// The summary of a run that began, however it ended: what is thrown becomes an exit code, and a sentence in summary.json, before
+/// it goes on (a failure of the machine, which the other ranks may not know of) or ends the run (what all ranks know).
+io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& world, const std::function<io::Summary()>& run) {
+  io::Summary summary;
+  const auto end = [&](int code, const std::string& why) {
+    summary.exit_code = code, summary.exit_reason = why;
+    summary.ranks = world.size;
+    if (code == numerical_failure) summary.numerical_trouble.push_back(why);
+  };
+  try {
+    return run();
+  } catch (const io::InputError&) {
+    throw;  // the run did not begin
+  } catch (const scene::SceneError&) { throw; } catch (const runtime::StopAsked&) {
+    end(stopped, "stopped on request before the first window; started again, the run begins anew");
+  } catch (const NumericalFailure& failure) { end(numerical_failure, failure.what()); } catch (const std::exception& failure) {
+    end(machine_failure, failure.what());
+    if (world.rank == 0) write_summary(directory.summary(), summary, {});
+    throw;
+  }
+  return summary;
+}
+
 /// Processor time of all ranks since each one's clock was at `since`, and memory. Collective.
 void take_stock(io::Summary& summary, double since, const runtime::World& world) {
   const std::vector<double> all = runtime::summed(world.comm, {processor_seconds() - since, peak_memory()});
@@ -86,8 +121,12 @@ ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
   ReadyScene ready;
   ready.machine = std::make_unique<coupling::Machine>(std::move(scenario));
   ready.start = make_start(*ready.machine);
-  ready.doubts = coupling::doubts(*ready.machine, ready.start, stability(*ready.machine, ready.start.state));
-  require_stable(*ready.machine, stability(*ready.machine, ready.start.state));  // leaves the chart at the start
+  const coupling::Stability found = stability(*ready.machine, ready.start.state);
+  ready.doubts = coupling::doubts(*ready.machine, ready.start, found);
+  require_stable(*ready.machine, found);
+  require_stable_lines(*ready.machine, ready.start.state);
+  require_stable_coupling(*ready.machine, ready.start.state, found.linearisation);
+  (void)stability(*ready.machine, ready.start.state);  // leaves the chart at the start
   ready.echo = std::move(echo);
   return ready;
 }
@@ -96,6 +135,7 @@ ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
 ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
   scene::Document document = load_scene(path, overrides, overrider);
   coupling::Scenario scenario = coupling::read_scenario(document);
+  coupling::require_room(scenario, coupling::machine_memory());
   return made_ready(std::move(scenario), document.echo());
 }
 
@@ -109,6 +149,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     scene::Document document = load_scene(arguments.scene, arguments.overrides, overrider);
     read.emplace();
     scenario = coupling::read_scenario(document);
+    coupling::require_room(*scenario, coupling::machine_memory() * started.size);  // of as many machines as there may be
     echo = document.echo();
     return coupling::Started{arguments.fluid, echo,
                              fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n", arguments.out,
@@ -135,8 +176,11 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     for (const std::string& note : system->start.notes) spdlog::info("{}", note);
   if (system)
     for (const scene::Doubt& doubt : system->doubts) spdlog::warn("{}", text(doubt));
-  io::Summary summary = system ? run::run(*system->machine, system->start, directory, parts, settings)
-                               : run::run_flow(*scenario, directory, parts, settings);
+  runtime::StopRequest stop(scenario->runtime.wall_limit_s, directory.stop());
+  io::Summary summary = summary_of(directory, world, [&] {
+    return system ? run::run(*system->machine, system->start, directory, parts, settings, stop)
+                  : run::run_flow(*scenario, directory, parts, settings, stop);
+  });
   const std::string& title = scenario->output.title;
   summary.title = title.empty() ? std::filesystem::path(arguments.scene).stem().string() : title;
   summary.scene = arguments.scene;
@@ -144,8 +188,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   if (world.rank == 0) {
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
     summary.warnings = io::warnings_logged();
-    write_summary(directory.summary(), summary,
-                  io::history_statistics(directory.history(), mean_ranges(*scenario, summary.end_time_s)));
+    write_summary(directory.summary(), summary, statistics(directory, *scenario, summary.end_time_s));
     using Format = io::OpenFastFormat;
     if (const std::string& format = scenario->output.openfast; format != "none")
       write_openfast(directory.history(), summary.columns, format == "text" ? Format::text : Format::binary, summary.title);
@@ -156,7 +199,9 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
 
 int run(const RunArguments& arguments, const runtime::World& world) {
   const SceneRun run = run_scene(arguments, world);
-  if (run.writes && !arguments.no_report) {
+  if (run.writes && !arguments.no_report && run.summary.exit_code == stopped) {  // there may be no time for one
+    spdlog::info("no report of a run that was stopped: spindrift report {} makes it", run.directory.string());
+  } else if (run.writes && !arguments.no_report) {
     spdlog::info("making the report");
     if (const report::Outcome made = report::write({.directories = {run.directory}}); !made.ok())
       spdlog::warn("no report: {}", made.trouble);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/bodies/linearise.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -46,6 +47,25 @@ std::string direction_name(const System& system, const BodiesState& state, const
     }
   }
   return name;
+}
+
+double mobility(System& system, const BodiesState& state, std::span<const Pull> pulls) {
+  if (!system.open_chart(state, 0.0).ok() || system.freedoms() == 0) return 0.0;
+  const Eigen::Index n = system.freedoms();
+  Eigen::VectorXd force(n), along = Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd mass(n, n);
+  if (!system.forces_at_rest(0.0, Eigen::VectorXd::Zero(n), force, mass)) return 0.0;
+  const Eigen::MatrixXd motion = system.motion_of_freedoms();
+  for (const Pull& pull : pulls) {
+    const Motion& m = state.motions[pull.body];
+    const auto row = Eigen::Index(6 * pull.body);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Eigen::Vector3d linear = motion.col(k).segment<3>(row),
+                            spin = m.attitude * Eigen::Vector3d(motion.col(k).segment<3>(row + 3));
+      along[k] += (linear + spin.cross(pull.point - m.position)).dot(pull.direction);
+    }
+  }
+  return along.dot(mass.llt().solve(along));
 }
 
 Linearisation linearise(System& system, const BodiesState& state, double t_s) {

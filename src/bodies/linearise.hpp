@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,15 @@ struct StepLimit {
   std::complex<double> eigenvalue;
 };
 StepLimit step_limit(Integrator integrator, const Linearisation& linearisation);
+
+/// A unit force along `direction` at a point of a body, earth axes.
+struct Pull {
+  std::size_t body;
+  Eigen::Vector3d point, direction;
+};
+/// By what unit forces together accelerate their points along themselves [1/kg]: joints and added mass are in it. 0 where nothing
+/// can move or the state cannot be evaluated.
+double mobility(System& system, const BodiesState& state, std::span<const Pull> pulls);
 
 /// "heave of platform" for the direction, in the chart of the last open_chart, with the largest share of kinetic energy.
 std::string direction_name(const System& system, const BodiesState& state, const Eigen::VectorXd& chart_direction);

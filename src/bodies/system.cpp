@@ -13,6 +13,8 @@ namespace spindrift::bodies {
 
 namespace {
 
+constexpr double farthest = 6.371e6;            // m, mean radius of the earth (IUGG)
+constexpr double fastest = 1.119e4;             // m/s, escape velocity at its surface
 constexpr double consistency_tolerance = 1e-9;  // residual over L (or velocity) that a redundant row may show
 
 /// Support of each body: what carries it in its first revolute or cylindrical joint with the earth or a heavier body; the body
@@ -71,6 +73,8 @@ struct System::Work {
   void size_for_freedoms();
   StepReport open(BodiesState& state, double t, bool choose);
   bool close(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u);
+  bool advance(double t, double t_end, double h);
+  bool within_bounds();
 
   std::vector<Body> bodies;
   std::vector<Joint> joints;
@@ -244,6 +248,46 @@ bool System::Work::close(double t, const Eigen::VectorXd& x, const Eigen::Vector
   return true;
 }
 
+/// `opened` from t to t_end, which is h later.
+bool System::Work::advance(double t, double t_end, double h) {
+  recall(opened.memory);
+  if (!open(opened, t, false).ok()) return false;
+  u = mechanism.open_velocity();
+  const auto rates = [this](double time, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
+                            Eigen::VectorXd& u_rate) {
+    if (!accelerations(time, x, u)) return false;
+    mechanism.chart_rate(x_rate);
+    u_rate = acceleration;
+    return true;
+  };
+  const bool done = step(integrator, rates, t, h, u, integration) && close(t_end, integration.x, u);
+  report.newton_iterations = mechanism.newton_iterations();
+  if (!done) return false;
+  constexpr double stiffest = 2.2;  // a twentieth beyond the limit of rk4
+  if (integration.stiffness > stiffest || integration.onset > 1.0) {
+    report.value = h / std::sqrt(std::max(0.5 * integration.stiffness, integration.onset));
+    return fail(StepReport::Trouble::stiff, -1);
+  }
+  mechanism.motions(opened.motions);
+  if (!within_bounds()) return false;
+  mechanism.turn_joints(opened.joint_angles);
+  remember(t_end, h, opened);
+  return std::ranges::all_of(opened.memory, [](double v) { return std::isfinite(v); }) ||
+         fail(StepReport::Trouble::not_finite, -1);
+}
+
+/// Loads are those of a flat earth.
+bool System::Work::within_bounds() {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const double distance = opened.motions[b].position.norm(), speed = opened.motions[b].velocity.norm();
+    report.value = distance <= farthest ? speed : distance;
+    if (!(distance <= farthest)) return fail(StepReport::Trouble::too_far, int(b));
+    if (!(speed <= fastest)) return fail(StepReport::Trouble::too_fast, int(b));
+  }
+  report.value = 0.0;
+  return true;
+}
+
 System::System(std::vector<Body> bodies, std::vector<Joint> joints, std::vector<LoadSource> loads, Integrator integrator)
     : w_(std::make_unique<Work>(std::move(bodies), std::move(joints), std::move(loads), integrator)) {}
 System::~System() = default;
@@ -338,33 +382,16 @@ void System::begin_memory(BodiesState& state, double t_s) {
   }
 }
 
-StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks) {
+StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces) {
   Work& w = *w_;
-  const double t = double(state.tick) * tick_s, h = double(ticks) * tick_s;
-  const double t_end = double(state.tick + ticks) * tick_s;
+  const double begin = double(state.tick) * tick_s, length = double(ticks) * tick_s, h = length / pieces;
+  const double end = double(state.tick + ticks) * tick_s;
   w.opened = state;
-  w.recall(w.opened.memory);
-  if (!w.open(w.opened, t, false).ok()) return w.report;
-  w.u = w.mechanism.open_velocity();
-  const auto rates = [&w](double time, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
-                          Eigen::VectorXd& u_rate) {
-    if (!w.accelerations(time, x, u)) return false;
-    w.mechanism.chart_rate(x_rate);
-    u_rate = w.acceleration;
-    return true;
-  };
-  const bool done = step(w.integrator, rates, t, h, w.u, w.integration) && w.close(t_end, w.integration.x, w.u);
-  w.report.newton_iterations = w.mechanism.newton_iterations();
-  if (!done) return w.report;
-  w.mechanism.motions(w.opened.motions);
-  w.mechanism.turn_joints(w.opened.joint_angles);
+  for (int piece = 0; piece < pieces; ++piece) {
+    const double t = piece == 0 ? begin : begin + piece * h;
+    if (!w.advance(t, piece + 1 == pieces ? end : begin + (piece + 1) * h, h)) return w.report;
+  }
   w.opened.tick = state.tick + ticks;
-  w.remember(t_end, h, w.opened);
-  for (std::size_t k = 0; k < w.opened.memory.size(); ++k)
-    if (!std::isfinite(w.opened.memory[k])) {
-      w.fail(StepReport::Trouble::not_finite, -1);
-      return w.report;
-    }
   std::swap(state, w.opened);
   return w.report;
 }
@@ -443,6 +470,14 @@ std::string System::describe(const StepReport& r) const {
       return body + ": a load or motion is not a finite number; the step is probably beyond its stability limit";
     case Trouble::mass:
       return "mass plus added mass is not positive definite";
+    case Trouble::stiff:
+      return "bodies: the step is beyond the " + fmt::format("{:.3g}", r.value) +
+             " s or so that the stiffest load allows now (a line that snapped taut, water met at speed); try a smaller "
+             "time.step_s";
+    case Trouble::too_far:
+      return body + ": it is " + fmt::format("{:.4g} m away, the limit is {:.4g} m (radius of the earth)", r.value, farthest);
+    case Trouble::too_fast:
+      return body + ": its speed is " + fmt::format("{:.4g} m/s, the limit is {:.5g} m/s (escape velocity)", r.value, fastest);
   }
   return "";
 }

@@ -34,10 +34,13 @@ struct StepReport {
     inconsistent,  ///< a constraint found redundant at the start is no longer satisfied
     not_finite,    ///< a position, velocity or acceleration is not a finite number
     mass,          ///< mass plus added mass is not positive definite
+    stiff,         ///< the step is beyond what loads as stiff as they are now allow: `value` is about that [s]
+    too_far,       ///< a body is farther away than the earth is large: `value` is how far [m]
+    too_fast,      ///< a body is faster than what leaves the earth: `value` is its speed [m/s]
   };
   Trouble trouble = Trouble::none;
   int joint = -1, body = -1;   ///< where, -1 when neither
-  double value = 0.0;          ///< residual over the reference length, or pivot
+  double value = 0.0;          ///< residual over the reference length, pivot, or as the trouble says
   int newton_iterations = 0;   ///< in the whole step
   bool repartitioned = false;  ///< a new independent set was chosen at the start of the step
   bool ok() const { return trouble == Trouble::none; }
@@ -82,9 +85,9 @@ class System {
   /// steady ones.
   void begin_memory(BodiesState& state, double t_s);
 
-  /// One step of `ticks` ticks with the chosen integrator. On trouble the state is left as it was. Does not allocate unless the
-  /// independent set is chosen anew.
-  StepReport advance(BodiesState& state, double tick_s, std::int64_t ticks);
+  /// One step of `ticks` ticks with the chosen integrator, or so many equal pieces of it. On trouble the state is left as it was.
+  /// Does not allocate unless the independent set is chosen anew.
+  StepReport advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces = 1);
 
   /// Accelerations and loads by source; the reference is valid until the next call.
   const Evaluation& evaluate(const BodiesState& state, double t_s);

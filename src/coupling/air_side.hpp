@@ -34,8 +34,11 @@ class AirSide {
   virtual Tasks record(runtime::Graph&) { return Tasks::none; }
   /// Their executors are gone.
   virtual void forget_tasks() {}
-  /// To be called once they have run: the load at the end, ramped as the scene asks. Throws NumericalFailure.
+  /// To be called once they have run: the load at the end, ramped as the scene asks. Throws NumericalFailure,
+  /// and runtime::StopAsked where the work was given up.
   virtual aero::RotorLoad answer() = 0;
+  /// With the steps of this retry from here on (retries.hpp); after back().
+  virtual void ease(int /*retry*/) {}
   /// The load to be written to history, where it is not simply that of the rotor's state now.
   virtual const aero::RotorLoad* written() const { return nullptr; }
 

@@ -6,6 +6,7 @@
 #include "kernels/base/failure.hpp"
 #include "runtime/trace/clock.hpp"
 #include "src/coupling/machine.hpp"
+#include "src/coupling/retries.hpp"
 #include "src/coupling/sea_window.hpp"
 
 namespace spindrift::coupling {
@@ -25,6 +26,7 @@ class Steps final : public BodySide {
     if (failure_) throw *failure_;
     return state_;
   }
+  void ease(int retry) override { pieces_ = pieces_of_step(retry); }
 
  private:
   void advance() {
@@ -32,7 +34,7 @@ class Steps final : public BodySide {
     const double tick_s = machine_.timeline().tick_s();
     failure_.reset();
     while (state_.tick < end_ && !failure_) {
-      const bodies::StepReport report = machine_.system().advance(state_, tick_s, 1);
+      const bodies::StepReport report = machine_.system().advance(state_, tick_s, 1, pieces_);
       if (report.ok())
         ++steps_;
       else
@@ -45,6 +47,7 @@ class Steps final : public BodySide {
   std::optional<NumericalFailure> failure_;
   bodies::BodiesState state_;
   std::int64_t end_ = 0;
+  int pieces_ = 1;
 };
 
 }  // namespace

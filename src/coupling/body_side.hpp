@@ -23,8 +23,10 @@ class BodySide {
   virtual void aim(const bodies::BodiesState& from, std::int64_t end_tick) = 0;
   /// Records the tasks that do it.
   virtual Tasks record(runtime::Graph&) { return Tasks::none; }
-  /// Once they have run: the state at the end. Throws NumericalFailure.
+  /// Once they have run: the state at the end. Throws NumericalFailure, and runtime::StopAsked where the work was given up.
   virtual bodies::BodiesState finish() = 0;
+  /// With the steps of this retry from here on (retries.hpp).
+  virtual void ease(int /*retry*/) {}
   /// Whether what was recorded no longer serves; once its executors are gone, forget_tasks() and record again.
   virtual bool outdated() const { return false; }
   virtual void forget_tasks() {}

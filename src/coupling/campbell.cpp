@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -120,24 +119,11 @@ LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, c
   aero::RotorState hub = rotor.state(0.0, state.motions);
   bodies::System& system = machine.system();
   if (!system.open_chart(state, 0.0).ok() || system.freedoms() == 0) return verdict;
-
-  // Mobility of the hub along the axis: 1 / (J M^-1 J^T), J its velocity per independent velocity.
-  Eigen::VectorXd force(system.freedoms());
-  Eigen::MatrixXd mass(system.freedoms(), system.freedoms());
-  if (!system.forces_at_rest(0.0, Eigen::VectorXd::Zero(system.freedoms()), force, mass)) return verdict;
-  const Eigen::MatrixXd motion = system.motion_of_freedoms();
   const std::string& body = machine.scenario().rotor.body;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {
     if (system.bodies()[b].name != body) continue;
-    const Motion& m = state.motions[b];
-    const Eigen::Vector3d arm = hub.hub - m.position;
-    Eigen::VectorXd along(system.freedoms());
-    for (Eigen::Index k = 0; k < along.size(); ++k) {
-      const Eigen::Vector3d linear = motion.col(k).segment<3>(Eigen::Index(6 * b)),
-                            spin = m.attitude * Eigen::Vector3d(motion.col(k).segment<3>(Eigen::Index(6 * b + 3)));
-      along[k] = (linear + spin.cross(arm)).dot(hub.axis);
-    }
-    const double mobility = along.dot(mass.llt().solve(along));
+    const bodies::Pull thrust{b, hub.hub, hub.axis};
+    const double mobility = bodies::mobility(system, state, std::span(&thrust, 1));
     verdict.hub_mass_kg = mobility > 0.0 ? 1.0 / mobility : std::numeric_limits<double>::infinity();
   }
   constexpr double change = 0.1;  // m/s either side

@@ -101,6 +101,9 @@ const scene::Section<CouplingOptions>& coupling_section() {
           .integer("air_ranks", &CouplingOptions::air_ranks, "-",
                    "Ranks of the air, the last ones of the run; the others have the sea.", between(1, 1e6))
           .only_if("placement", {"split"})
+          .flag("accept_unstable", &CouplingOptions::accept_unstable,
+                "Run a loose scheme at a window beyond the limit that `spindrift check` prints, where it is refused otherwise.")
+          .only_if("scheme", {"automatic", "cps", "cps2", "css"})
           .check(check_section);
   return section;
 }

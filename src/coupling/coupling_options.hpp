@@ -49,7 +49,8 @@ struct CouplingOptions {
   int samples = 1;
   Interpolation interpolation = Interpolation::linear;
   Placing placement = Placing::shared;
-  int air_ranks = 1;  ///< of a split run; the others are the sea's
+  int air_ranks = 1;             ///< of a split run; the others are the sea's
+  bool accept_unstable = false;  ///< a loose scheme beyond its limit (limits.hpp)
 };
 
 const scene::Section<CouplingOptions>& coupling_section();

@@ -124,7 +124,12 @@ const scene::Section<RuntimeOptions>& runtime_section() {
       scene::Section<RuntimeOptions>("runtime", "How the machine's time is used.")
           .number("wall_limit_s", &RuntimeOptions::wall_limit_s, "s",
                   "Wall time after which the run finishes its window, writes a checkpoint and ends with exit code 5; 0: none.",
-                  scene::between(0.0, 1e9));
+                  scene::between(0.0, 1e9))
+          .number(
+              "watchdog_s", &RuntimeOptions::watchdog_s, "s",
+              "Where no task completes for so long, what they wait for is said, and the run ends with exit code 4 unless one is "
+              "at work; 0: never.",
+              scene::between(0.0, 1e9));
   return section;
 }
 

@@ -59,6 +59,7 @@ struct CheckpointOptions {
 
 struct RuntimeOptions {
   double wall_limit_s = 0.0;  ///< 0: none
+  double watchdog_s = 600.0;  ///< nothing completes for so long: said, and ended where nothing works
 };
 
 const scene::Section<TimeOptions>& time_section();

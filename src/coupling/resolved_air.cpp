@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "runtime/trace/ledger.hpp"
 #include "src/aero/flow/choice.hpp"
 #include "src/aero/resolved_rotor.hpp"
@@ -23,6 +24,7 @@
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/grid_progress.hpp"
 #include "src/coupling/machine.hpp"
+#include "src/coupling/retries.hpp"
 #include "src/coupling/saved_air.hpp"
 #include "src/io/progress.hpp"
 
@@ -83,7 +85,7 @@ class ResolvedAir final : public AirSide {
     }
     const StartOptions& start = machine_.scenario().start;
     if (automatic()) choose(start.air_steps > 0);
-    const TileStates settled = start.air_steps > 0 ? settle(start.air_steps) : TileStates();
+    const TileStates settled = start.air_steps > 0 ? settled_air(start.air_steps) : TileStates();
     if (!rotor_) make();
     tell_size();
     for (std::size_t n = 0; n < settled.size(); ++n) {
@@ -118,6 +120,7 @@ class ResolvedAir final : public AirSide {
 
   aero::RotorLoad answer() override {
     const aero::March& march = rotor_->solver().march();
+    if (march.verdict() == aero::Verdict::stopped) throw runtime::StopAsked();
     if (march.verdict() == aero::Verdict::failed)
       throw NumericalFailure(
           fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
@@ -125,6 +128,9 @@ class ResolvedAir final : public AirSide {
           "aero/rotor", long(rotor_->solver().time_steps()), t_);
     felt_ = felt_by(*rotor_);
     return load_ = ramped(leant(felt_.rotor));
+  }
+  void ease(int retry) override {
+    if (rotor_) rotor_->solver().march().ease(share_of_cfl(retry));
   }
   const aero::RotorLoad* written() const override { return &load_; }
 
@@ -246,10 +252,21 @@ class ResolvedAir final : public AirSide {
     return grid_;
   }
 
+  /// Tried again where it fails.
+  TileStates settled_air(int steps) {
+    for (int retry = 0;; ++retry) try {
+        return settle(steps, retry);
+      } catch (const NumericalFailure& failure) {
+        if (retry == most_retries) throw;
+        spdlog::warn("{}; retry {} of {} from a CFL number {:g} as large", failure.what(), retry + 1, most_retries,
+                     share_of_cfl(retry + 1));
+      }
+  }
+
   /// A steady march seen from the turning rotor, hub held where it starts, upright; the physical steps go on from its flow, which
   /// does not know of a lean that an equilibrium gave the rotor. Its solver is gone before the moving one is made: two would not
   /// fit where one does.
-  TileStates settle(int steps) {
+  TileStates settle(int steps, int retry) {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
     steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 1e-9, steady.flow.load_change = 0.0;
@@ -260,7 +277,8 @@ class ResolvedAir final : public AirSide {
     aero::ResolvedRotor held(steady, world_.size, world_.rank, piece, grid(), grid_progress());
     spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held.solver().cells());
     held.solver().start_uniform();
-    held.prepare(world_.comm);
+    held.solver().march().ease(share_of_cfl(retry));
+    held.prepare(world_.comm, {.watchdog_s = machine_.scenario().runtime.watchdog_s});
     const aero::March& march = held.solver().march();
     const auto begin = std::chrono::steady_clock::now();
     double said_s = 0.0;
@@ -268,6 +286,7 @@ class ResolvedAir final : public AirSide {
       if (done > 0) held.solver().keep_last_row();
       held.run();
       done = march.steps() - 1;
+      if (march.verdict() == aero::Verdict::stopped) throw runtime::StopAsked();
       const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       if (spent_s - said_s < 10.0 || done >= steps) continue;
       said_s = spent_s;

@@ -8,6 +8,7 @@
 
 #include "runtime/trace/clock.hpp"
 #include "src/coupling/machine.hpp"
+#include "src/coupling/retries.hpp"
 
 namespace spindrift::coupling {
 
@@ -76,6 +77,7 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
   }
   bool outdated() const override { return sea_.outdated(); }
   void forget_tasks() override { sea_.forget_tasks(); }
+  void ease(int retry) override { retry_ = retry; }
   void keep(int note) override {
     if (note == 0) sea_.balance();
     sea_.keep(note);
@@ -84,7 +86,9 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
 
  private:
   Step choose(double limit) override {
-    ticks_ = choose_substep(machine_, state_.tick, end_ - state_.tick, std::min(limit, machine_.body_step_limit()));
+    // A step that the scene gives stays.
+    const double share = machine_.scenario().time.step_s ? 1.0 : share_of_substep(retry_);
+    ticks_ = choose_substep(machine_, state_.tick, end_ - state_.tick, share * std::min(limit, machine_.body_step_limit()));
     const Step step{double(ticks_) * machine_.timeline().tick_s(), state_.tick + ticks_ == end_};
     if (!sea_.moves_solids()) {  // nobody will ask
       std::vector<Motion> motions;
@@ -101,7 +105,7 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
       motions = held_ ? held_motions_ : state_.motions;
     } else {
       const double tick_s = machine_.timeline().tick_s();
-      const bodies::StepReport report = machine_.system().advance(next_, tick_s, ticks);
+      const bodies::StepReport report = machine_.system().advance(next_, tick_s, ticks, pieces_of_step(retry_));
       if (!report.ok()) throw machine_.system().failure(report, state_, tick_s);
       motions = next_.motions;
     }
@@ -118,6 +122,7 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
   std::vector<Motion> held_motions_;
   std::int64_t end_ = 0, ticks_ = 0;
   bool held_ = false;
+  int retry_ = 0;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/coupling/machine.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
@@ -28,7 +29,7 @@ std::string text(Unpacker& from) {
 /// files are not what they should be, all throw.
 template <class Pack, class Unpack>
 void answer_of(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpack) {
-  enum class End : char { answer, numerical, input };
+  enum class End : char { answer, numerical, input, stop };
   Packer parcel;
   const auto failed = [&](End end, const std::exception& e) {
     parcel = Packer();
@@ -40,13 +41,16 @@ void answer_of(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpa
     } catch (const NumericalFailure& f) {
       failed(End::numerical, f), put(parcel, f.place);
       parcel.put_one(f.step), parcel.put_one(f.time_s), parcel.put_one(f.limit);
-    } catch (const io::InputError& e) { failed(End::input, e); }
+    } catch (const io::InputError& e) { failed(End::input, e); } catch (const runtime::StopAsked& e) {
+      failed(End::stop, e);
+    }
   const runtime::Bytes bytes = parts.share(part, parcel.take());
   Unpacker from(bytes);
   const End end = from.one<End>();
   if (end == End::answer) return unpack(from);
   const std::string what = text(from);
   if (end == End::input) throw io::InputError(what);
+  if (end == End::stop) throw runtime::StopAsked();
   const std::string place = text(from);
   const long step = from.one<long>();
   const double t = from.one<double>(), limit = from.one<double>();
@@ -99,6 +103,9 @@ class SharedAir final : public AirSide {
   }
   aero::RotorLoad answer() override {
     return show([&] { return own_->answer(); });
+  }
+  void ease(int retry) override {
+    if (own_) own_->ease(retry);
   }
   const aero::RotorLoad* written() const override { return writes_ ? &shown_.load : nullptr; }
 
@@ -183,6 +190,9 @@ class SharedBodies final : public BodySide {
           steps_ = from.one<std::int64_t>(), own_ns_ = from.one<std::int64_t>();
         });
     return state_;
+  }
+  void ease(int retry) override {
+    if (own_) own_->ease(retry);
   }
   bool outdated() const override { return own_ && own_->outdated(); }
   void forget_tasks() override {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "runtime/trace/clock.hpp"
 
 namespace spindrift::coupling {
@@ -73,7 +74,7 @@ CoupledWindow::CoupledWindow(Machine& machine, Sides sides, MPI_Comm comm, std::
            : machine.has_interface() ? make_engineering_air(machine)
                                      : make_no_air()),
       bodies_(sides.bodies ? std::move(sides.bodies) : make_body_side(machine)),
-      tasks_(*air_, *bodies_, comm, records),
+      tasks_(*air_, *bodies_, comm, {.records = records, .watchdog_s = machine.scenario().runtime.watchdog_s}),
       loads_(options_.predictor_order),
       motions_(1),
       load_now_(RotorInterface::load_rows) {
@@ -115,9 +116,11 @@ void CoupledWindow::begin(const bodies::BodiesState& state) {
 bool CoupledWindow::finish(bodies::BodiesState& state) {
   try {
     state = bodies_->finish();
-  } catch (const NumericalFailure& failure) { trouble_ = failure.what(); }
+  } catch (const NumericalFailure& failure) { trouble_ = failure.what(); } catch (const runtime::StopAsked&) {
+    stopped_ = true;
+  }
   totals_.body_steps = bodies_->steps();
-  return trouble_.empty();
+  return trouble_.empty() && !stopped_;
 }
 
 Vector CoupledWindow::answer() {
@@ -125,7 +128,9 @@ Vector CoupledWindow::answer() {
   Vector rows = not_finite(RotorInterface::load_rows);
   try {
     rows = interface_->rows(air_->answer());
-  } catch (const NumericalFailure& failure) { trouble_ = failure.what(); }
+  } catch (const NumericalFailure& failure) { trouble_ = failure.what(); } catch (const runtime::StopAsked&) {
+    stopped_ = true;
+  }
   return rows;
 }
 
@@ -141,13 +146,16 @@ Vector CoupledWindow::air_load(double t, double dt, const Vector& motion) {
   return answer();
 }
 
-WindowReport CoupledWindow::advance(bodies::BodiesState& state) {
-  trouble_.clear();
+WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
+  trouble_.clear(), stopped_ = false;
   const std::int64_t begin = runtime::Clock::now_ns();
   air_->keep(AirSide::window), bodies_->keep(AirSide::window);
   totals_.keep_ns += runtime::Clock::now_ns() - begin;
+  air_->ease(retry), bodies_->ease(retry);
   // Before t = 0 the sea settles round bodies that are held; the air waits.
   last_ = !interface_ || state.tick < 0 ? advance_bodies(state) : loose_ ? advance_loose(state) : advance_strong(state);
+  last_.stopped = stopped_;
+  last_.of_a_side = !last_.failure.empty() && !trouble_.empty();
   if (!last_.ok()) air_->back(AirSide::window), bodies_->back(AirSide::window);
   ++totals_.windows;
   totals_.evaluations += last_.log.evaluations, totals_.probes += last_.log.probes;
@@ -157,7 +165,11 @@ WindowReport CoupledWindow::advance(bodies::BodiesState& state) {
 
 WindowReport CoupledWindow::advance_bodies(bodies::BodiesState& state) {
   WindowReport report;
-  if (!move(state, state.tick + machine_.timeline().steps_per_window())) report.failure = trouble_;
+  bodies::BodiesState end = state;
+  if (move(end, state.tick + machine_.timeline().steps_per_window()))
+    state = std::move(end);
+  else
+    report.failure = trouble_;
   return report;
 }
 
@@ -197,6 +209,7 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
   };
   const std::int64_t end = state.tick + machine_.timeline().steps_per_window();
   Parts parts{*this, state, end, loose_->motion().last()};
+  const std::vector<double> before = history();
   WindowReport report;
   report.log.evaluations = 1;
   if (!loose_->advance(parts, time(state.tick), time(end))) {
@@ -204,10 +217,20 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
     report.failure = describe(report.log, state);
     return report;
   }
-  state = std::move(parts.state);
   report.log.residual = report.log.first_residual = loose_->mismatch().norm();
   const double load = loose_->load().last().norm();
   report.mismatch = load > 0.0 ? report.log.residual / load : report.log.residual;
+  constexpr int most_apart = 3;
+  if (loose_->apart() > most_apart) {
+    report.failure = fmt::format(
+        "t = {:g} s: coupling: the loads on the rotor came out apart from those assumed by {:.3g} of them, window after window "
+        "({} in a row by more than {:g} of the larger, the limit is {}): the loose scheme is unstable at a window of {:g} s; "
+        "iterate (coupling.scheme = \"iqn_ils\") or shorten time.window_s",
+        time(state.tick), report.mismatch, loose_->apart(), Staggered::far_apart, most_apart, machine_.timeline().window_s());
+    restore(before);
+    return report;
+  }
+  state = std::move(parts.state);
   return report;
 }
 
@@ -221,6 +244,7 @@ class CoupledWindow::Pieces {
   }
 
   Vector evaluate(const Vector& x) {
+    if (w_.stopped_) return not_finite(x.size());  // what the scheme tries next is of no use
     return w_.options_.composition == Composition::parallel ? parallel_answer(*this, x, load_rows()) : serial_answer(*this, x);
   }
   /// Bodies: loads at the samples to motions at the samples.

@@ -33,10 +33,12 @@ namespace spindrift::coupling {
 
 /// How a window went.
 struct WindowReport {
-  WindowLog log;          ///< loose: one evaluation; the residual is what the scheme neglects, as is
-  double mismatch = 0.0;  ///< residual over the loads
-  std::string failure;    ///< not empty: the state is that of the window's start
-  bool ok() const { return failure.empty(); }
+  WindowLog log;           ///< loose: one evaluation; the residual is what the scheme neglects, as is
+  double mismatch = 0.0;   ///< residual over the loads
+  std::string failure;     ///< not empty: the state is that of the window's start
+  bool of_a_side = false;  ///< what failed is a side's own march, which smaller steps may mend
+  bool stopped = false;    ///< given up since the run is to stop; likewise
+  bool ok() const { return failure.empty() && !stopped; }
 };
 
 class CoupledWindow {
@@ -50,8 +52,8 @@ class CoupledWindow {
 
   /// Motion and loads of the run's first state; what has to settle first, settles. Not before restore().
   void begin(const bodies::BodiesState& state);
-  /// From a window's start to its end.
-  WindowReport advance(bodies::BodiesState& state);
+  /// From a window's start to its end; `retry`: with smaller steps (retries.hpp).
+  WindowReport advance(bodies::BodiesState& state, int retry = 0);
 
   /// Everything but the bodies' state that the next window depends on; bit for bit.
   std::vector<double> history();
@@ -112,6 +114,7 @@ class CoupledWindow {
   std::function<void(double, Vector&)> felt_;
   Vector load_now_;      ///< scratch of the right-hand side
   std::string trouble_;  ///< of the side that failed last
+  bool stopped_ = false;
   WindowReport last_;
   Totals totals_;
   std::size_t air_column_ = 0;

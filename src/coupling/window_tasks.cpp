@@ -19,8 +19,8 @@ constexpr std::array<std::string_view, 2> modules{"aero", "sea"};
 
 }  // namespace
 
-WindowTasks::WindowTasks(AirSide& air, BodySide& bodies, MPI_Comm comm, std::size_t records)
-    : air_(air), bodies_(bodies), comm_(comm), records_(records) {}
+WindowTasks::WindowTasks(AirSide& air, BodySide& bodies, MPI_Comm comm, const runtime::ExecutorOptions& options)
+    : air_(air), bodies_(bodies), comm_(comm), options_(options) {}
 
 void WindowTasks::run(Run sides) {
   if (has_bodies(sides) && bodies_.outdated()) drop();
@@ -30,9 +30,8 @@ void WindowTasks::run(Run sides) {
     Tasks tasks = Tasks::none;
     if (has_air(sides)) tasks = std::max(tasks, air_.record(graph));
     if (has_bodies(sides)) tasks = std::max(tasks, bodies_.record(graph));
-    if (tasks != Tasks::none)
-      program.executor = std::make_unique<runtime::Executor>(
-          std::move(graph), runtime::ExecutorOptions{.threads = tasks == Tasks::many ? 0 : 1, .records = records_});
+    options_.threads = tasks == Tasks::many ? 0 : 1;
+    if (tasks != Tasks::none) program.executor = std::make_unique<runtime::Executor>(std::move(graph), options_);
     program.recorded = true;
   }
   if (!program.executor) return;

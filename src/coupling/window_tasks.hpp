@@ -21,8 +21,8 @@ constexpr bool has_bodies(Run run) { return run != Run::air; }
 
 class WindowTasks {
  public:
-  /// `records`: per thread, for a trace.
-  WindowTasks(AirSide& air, BodySide& bodies, MPI_Comm comm, std::size_t records);
+  /// `options`: but for the threads.
+  WindowTasks(AirSide& air, BodySide& bodies, MPI_Comm comm, const runtime::ExecutorOptions& options);
 
   /// @pre the sides named have been given what to do (AirSide::aim, BodySide::aim). @post their tasks have run; their results are
   /// to be asked for.
@@ -44,7 +44,7 @@ class WindowTasks {
   AirSide& air_;
   BodySide& bodies_;
   MPI_Comm comm_;
-  std::size_t records_;
+  runtime::ExecutorOptions options_;
   std::array<Program, 3> programs_;  ///< by Run
   std::array<double, 2> dropped_{};  ///< core-seconds of executors that are gone: of the air, of the sea
   std::int64_t wall_ns_ = 0;

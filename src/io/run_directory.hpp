@@ -46,6 +46,7 @@ class RunDirectory {
   std::filesystem::path trace() const { return path_ / "trace.json"; }
   std::filesystem::path report() const { return path_ / "report.html"; }
   std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
+  std::filesystem::path stop() const { return path_ / "stop"; }  ///< made by who wants the run to stop
   std::filesystem::path fields() const { return path_ / "fields"; }
 
   /// Rank 0 writes scene.toml: the scene with every default spelled out. Collective.

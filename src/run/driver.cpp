@@ -21,8 +21,8 @@
 namespace spindrift::run {
 
 Driver::Driver(const io::RunDirectory& directory, const runtime::Parts& parts, const RunSettings& settings,
-               const coupling::RuntimeOptions& options)
-    : directory_(directory), parts_(parts), settings_(settings), stop_(options.wall_limit_s), ledger_(settings.records()) {}
+               runtime::StopRequest& stop)
+    : directory_(directory), parts_(parts), settings_(settings), stop_(stop), ledger_(settings.records()) {}
 
 io::Summary Driver::run(Simulation& simulation) {
   const runtime::World& world = parts_.world();
@@ -31,6 +31,8 @@ io::Summary Driver::run(Simulation& simulation) {
   simulation.declare(history);
   Checkpoints checkpoints(simulation, directory_, history, world.comm);
   const std::int64_t first = settings_.restart ? checkpoints.resume() : simulation.begin();
+  // A start that was cut short is not the one that the scene asks for.
+  if (!settings_.restart && !stop_.agreed(world.comm).empty()) throw runtime::StopAsked();
   if (settings_.restart) spdlog::info("restart from t = {} s", timeline.window_end_s(first));
   std::int64_t window = first, last = last_window(timeline);
   open_history(history, timeline.window_end_s(first), checkpoints.rows());
@@ -53,10 +55,11 @@ io::Summary Driver::run(Simulation& simulation) {
     window = done.now, last = done.last;
     if (!advance.settled.empty()) summary_.exit_reason = "done: " + advance.settled;
     for (Output* output : outputs) take_if_due(*output, done);
+    stop_.keep_margin(2.0 * checkpoints.cost_s());
     if (!advance.failure.empty())
       fail(advance.failure);
     else if (const std::string why = stop_.agreed(world.comm); !why.empty() && window < last)
-      stop(why);
+      end_early(why);
   }
   for (Output* output : outputs) {
     const runtime::Span span(output->label());
@@ -106,7 +109,7 @@ void Driver::fail(const std::string& failure) {
   summary_.numerical_trouble.push_back(failure);
 }
 
-void Driver::stop(const std::string& why) {
+void Driver::end_early(const std::string& why) {
   summary_.exit_code = 5;
   summary_.exit_reason = why;
 }
@@ -143,15 +146,15 @@ void Driver::describe_times() {
 }
 
 io::Summary run(coupling::Machine& machine, const coupling::Start& start, const io::RunDirectory& directory,
-                const runtime::Parts& parts, const RunSettings& settings) {
-  Driver driver(directory, parts, settings, machine.scenario().runtime);
+                const runtime::Parts& parts, const RunSettings& settings, runtime::StopRequest& stop) {
+  Driver driver(directory, parts, settings, stop);
   SystemSimulation simulation(machine, start.state, parts, settings.records());
   return driver.run(simulation);
 }
 
 io::Summary run_flow(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::Parts& parts,
-                     const RunSettings& settings) {
-  Driver driver(directory, parts, settings, scenario.runtime);
+                     const RunSettings& settings, runtime::StopRequest& stop) {
+  Driver driver(directory, parts, settings, stop);
   FlowSimulation simulation(scenario, directory, parts.world(), settings.records());
   return driver.run(simulation);
 }

@@ -32,13 +32,13 @@ struct RunSettings {
 
 class Driver {
  public:
-  /// Takes requests to stop from here on. `parts`: a world, on which all ranks have both sides, or what place() made of it; the
-  /// directory is one of parts.world(). All outlive it.
-  Driver(const io::RunDirectory& directory, const runtime::Parts& parts, const RunSettings& settings,
-         const coupling::RuntimeOptions& options);
+  /// `parts`: a world, on which all ranks have both sides, or what place() made of it; the directory is one of parts.world(). All
+  /// outlive it.
+  Driver(const io::RunDirectory& directory, const runtime::Parts& parts, const RunSettings& settings, runtime::StopRequest& stop);
 
   /// Writes everything but report and summary.json; returns the summary with the exit code (0 done, 3 numerical failure with the
-  /// state saved, 5 stopped on request with a checkpoint). Collective.
+  /// state saved, 5 stopped on request with a checkpoint). Throws runtime::StopAsked, on all ranks alike, where there was no time
+  /// to make the first state. Collective.
   io::Summary run(Simulation& simulation);
 
  private:
@@ -46,21 +46,21 @@ class Driver {
   void open_history(io::History& history, double time_s, const std::optional<io::History::Extent>& written) const;
   static void take_if_due(Output& output, const Windows& done);
   void fail(const std::string& failure);
-  void stop(const std::string& why);
+  void end_early(const std::string& why);
   void describe_times();
 
   const io::RunDirectory& directory_;
   const runtime::Parts& parts_;
   const RunSettings settings_;
-  const runtime::StopRequest stop_;
+  runtime::StopRequest& stop_;
   runtime::Ledger ledger_;  ///< of all that the run does from here on
   io::Summary summary_;
 };
 
 /// Runs a floating system, or the air alone, as Driver::run does.
 io::Summary run(coupling::Machine& machine, const coupling::Start& start, const io::RunDirectory& directory,
-                const runtime::Parts& parts, const RunSettings& settings);
+                const runtime::Parts& parts, const RunSettings& settings, runtime::StopRequest& stop);
 io::Summary run_flow(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::Parts& parts,
-                     const RunSettings& settings);
+                     const RunSettings& settings, runtime::StopRequest& stop);
 
 }  // namespace spindrift::run

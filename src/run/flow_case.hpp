@@ -37,6 +37,15 @@ class FlowCase {
   /// Where they go in the window that follows.
   void move(std::int64_t window, double window_s);
 
+  /// The state at the end of a window, kept in memory to go back to.
+  struct Note {
+    std::vector<std::vector<double>> tiles;
+    std::vector<double> march;
+    aero::FlowSolver::SetUpNote set_up;
+  };
+  Note note() const;
+  void back(const Note& to, std::int64_t window, double window_s);
+
   /// Grid sequencing of grids that are no rotor's: the flow settles on every second node first; what the drop is counted from
   /// stays the residual of the undisturbed flow on the fine grid. `march` is the fine one's. Every rank makes the same coarse
   /// flow for itself.

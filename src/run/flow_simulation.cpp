@@ -12,6 +12,7 @@
 #include "src/aero/flow/choice.hpp"
 #include "src/coupling/air_output.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/retries.hpp"
 #include "src/coupling/saved_air.hpp"
 
 namespace spindrift::run {
@@ -61,7 +62,7 @@ void FlowSimulation::use(const std::string& preconditioner, const std::string& r
 void FlowSimulation::record() {
   runtime::Graph graph(world_.comm);
   air_.solver().record(graph);
-  march_.emplace(std::move(graph), runtime::ExecutorOptions{.records = records_});
+  march_.emplace(std::move(graph), runtime::ExecutorOptions{.records = records_, .watchdog_s = scenario_.runtime.watchdog_s});
 }
 
 std::int64_t FlowSimulation::begin() {
@@ -103,11 +104,28 @@ void FlowSimulation::save(io::CheckpointWriter& file) {
 }
 
 Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
-  air_.move(window, timeline_.window_s());
-  march_->run();
   aero::FlowSolver& solver = air_.solver();
-  const aero::March& march = solver.march();
-  rows_from_ = window;
+  aero::March& march = solver.march();
+  const FlowCase::Note before = air_.note();
+  rows_.clear(), rows_from_ = window;
+  for (int retry = 0;; ++retry) {
+    march.ease(coupling::share_of_cfl(retry));
+    air_.move(window, timeline_.window_s());
+    march_->run();
+    const bool given_up = march.verdict() == aero::Verdict::stopped && !air_.steady();
+    if (march.verdict() != aero::Verdict::failed && !given_up) break;
+    const std::string failure =
+        fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}",
+                    timeline_.window_end_s(window), march.why(), march.steps(), march.cfl(), march.density_residual(),
+                    march.first_density_residual(), solver.trouble());
+    air_.back(before, window, timeline_.window_s());
+    if (given_up) return {};
+    if (retry == coupling::most_retries)
+      return {.failure = fmt::format("{}; {} retries, the last from a CFL number {:g} as large", failure, retry,
+                                     coupling::share_of_cfl(retry))};
+    spdlog::warn("{}; made again from there (retry {} of {}) from a CFL number {:g} as large", failure, retry + 1,
+                 coupling::most_retries, coupling::share_of_cfl(retry + 1));
+  }
   Advance advance;
   if (air_.steady()) {
     // The last row of a chunk that goes on is judged, and written, by the next.
@@ -122,10 +140,6 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
     rows_ = {solver.rows().back()};
     solver.clear_rows();
   }
-  if (march.verdict() == aero::Verdict::failed)
-    advance.failure =
-        fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}", march.why(),
-                    march.steps(), march.cfl(), march.density_residual(), march.first_density_residual(), solver.trouble());
   advance.windows = std::int64_t(rows_.size());
   windows_ += advance.windows;
   return advance;

@@ -57,6 +57,7 @@ class Checkpoints final : public Output {
   /// Puts the simulation where the newest checkpoint that verifies left it; the window it is the end of. Throws io::InputError.
   std::int64_t resume();
   int restarts() const { return restarts_; }
+  double cost_s() const { return plan_.cost_s(); }  ///< of the last one
   /// Of history.csv, when the checkpoint that was resumed was written.
   const std::optional<io::History::Extent>& rows() const { return rows_; }
 

@@ -25,7 +25,8 @@ namespace spindrift::run {
 
 /// How far one call of Simulation::advance came.
 struct Advance {
-  std::int64_t windows = 0;  ///< completed: one, or more pseudo-steps of a steady flow; none where the first failed
+  std::int64_t windows = 0;  ///< completed: one, or more pseudo-steps of a steady flow; none where the first failed, or was given
+                             ///< up since the run is to stop
   std::string settled;       ///< not empty: nothing changes any more, and why
   std::string failure;       ///< not empty: the numerics gave up: what, where, when, limit
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/trace/ledger.hpp"
+#include "src/coupling/retries.hpp"
 #include "src/coupling/saved_air.hpp"
 #include "src/coupling/sea_output.hpp"
 #include "src/coupling/sea_window.hpp"
@@ -204,7 +205,16 @@ Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
   const auto begin = std::chrono::steady_clock::now();
   const double end_s = machine_.timeline().window_end_s(window + 1);
   const std::int64_t steps = window_.bodies().steps();
-  const coupling::WindowReport report = window_.advance(state_);
+  coupling::WindowReport report = window_.advance(state_);
+  for (int retry = 1; report.of_a_side && !report.stopped && retry <= coupling::most_retries; ++retry) {
+    spdlog::warn(
+        "{}; the window to t = {:g} s is made again (retry {} of {}): bodies by {} pieces of a step, sea by {:g} of its "
+        "limit, CFL number of the air {:g} as large",
+        report.failure, end_s, retry, coupling::most_retries, coupling::pieces_of_step(retry), coupling::share_of_substep(retry),
+        coupling::share_of_cfl(retry));
+    report = window_.advance(state_, retry);
+  }
+  if (report.stopped) return {};
   log_window(report, end_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   if (report.log.retries > 0)
     spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}", end_s, report.log.retries,

@@ -9,6 +9,7 @@
 
 #include "kernels/base/binned_sum.hpp"
 #include "kernels/sph/time_step.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/sea/sph/by_identity.hpp"
 #include "src/sea/sph/damping.hpp"
 #include "src/sea/sph/gauges.hpp"
@@ -131,9 +132,10 @@ class Sea final : public ParticleSea {
     sph::Plan& plan = sea_.state().plan;
     plan.left = 1.0;                               // until the driver calls a step the last
     plan.drift = 2.0 * sea_.parameters().drift();  // sorts first: what follows depends on the state alone
-    plan.failure.reset();
+    plan.failure.reset(), plan.stopped = false;
   }
   void close() override {
+    if (sea_.state().plan.stopped) throw runtime::StopAsked();
     if (const auto& failure = sea_.state().plan.failure) throw NumericalFailure(*failure);
   }
   void keep(int note) override { notes_[std::size_t(note)] = {sea_.save(), loads_, contacts_, motions_}; }

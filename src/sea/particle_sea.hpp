@@ -129,7 +129,7 @@ class ParticleSea {
   virtual void forget_tasks() = 0;
   /// `settling`: the water is damped as until t = 0.
   virtual void open(double t_s, std::span<const Motion> bodies, bool settling) = 0;
-  /// Throws the NumericalFailure of the window.
+  /// Throws the NumericalFailure of the window, or runtime::StopAsked where it was given up.
   virtual void close() = 0;
   /// Notes the state (0, 1), and goes back to it bit for bit.
   virtual void keep(int note) = 0;

@@ -95,8 +95,10 @@ TEST_CASE("a body that comes to lie on the bed is carried by its contact, named 
                   folder.path());
   const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
   CHECK(test::mean_of_last(history, "box.contact.fz_N", 1.0) > 0.9 * 240.0 * 9.81);
+  // Over 12 replicas, the box up to 12 mm aside and 3 mm higher or lower, the mean is 3924.01 N with a standard deviation of
+  // 0.04 N; 25 of these.
   CHECK(test::mean_of_last(history, "box.sea.fz_N", 1.0) + test::mean_of_last(history, "box.contact.fz_N", 1.0) ==
-        Approx(400.0 * 9.81).epsilon(0.05));
+        Approx(400.0 * 9.81).margin(1.0));
 }
 
 TEST_CASE("an interrupted sea of particles goes on bit for bit", "[coupled][sea][fast]") {

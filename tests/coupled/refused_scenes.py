@@ -104,7 +104,11 @@ aero.thrust_N="large"
 sea.model="ocean"
 """,
     "leble_barakos/case3_engineering.toml": EVERY + WATER + BODIES + ROTOR + """
+coupling.scheme="cps2" & time.window_s=5.0 : time.window_s
+coupling.scheme="cps" & time.window_s=20.0 : time.window_s
+sea.strip_length_m=1e-12
 sea.strip_length_m=0.0
+sea.strip_length_m=1e-5
 sea.drag_coefficient=-1.0
 sea.damping[0].body="nobody"
 waves.height_m=-1.0
@@ -112,12 +116,16 @@ waves.height_m=30.0 & waves.model="stokes2" : waves
 waves.period_s=0.0
 waves.model="tsunami"
 waves.components=3
+start.equilibrium=false & moorings.line_downwind.tension_only=true & moorings.line_downwind.axial_stiffness_N=1e14 : moorings.line_downwind
 """,
     "leble_barakos/case1_demo.toml": EVERY + WATER + """
+sea.particles.spacing_m=1e-6
+sea.particles.spacing_m=1e-2
 sea.particles.spacing_m=0.0
 sea.particles.spacing_m=1e3
 sea.particles.cfl=5.0
 sea.particles.kernel="gauss"
+sea.tank.top_m=1e8
 sea.tank.top_m=-100.0
 sea.tank.x_m=[10.0, -10.0]
 sea.tank.x_m=[0.0]
@@ -135,6 +143,7 @@ rotor.body="platform"
 aero.grid.resolution=0.0
 aero.grid.resolution=1e6
 aero.grid.sectors="two"
+aero.grid.coarsen=5
 aero.grid.cells_round=-4
 aero.flow.time="implicit"
 aero.flow.flux="central"
@@ -153,8 +162,11 @@ aero.flow.generate.far_m=0.1
 aero.flow.generate.kind="sphere"
 aero.flow.generate.kind="box"
 aero.flow.generate.refinement=2
+aero.flow.boundaries[0].patch="nothing"
 aero.flow.boundaries[0].condition="wet"
+aero.flow.boundaries=[]
 aero.flow.coarse_steps=-1
+aero.flow.generate.around=97 & aero.flow.coarse_steps=10 : aero.flow.coarse_steps
 wind.speed_m_s=0.0
 aero.flow.temperature_K=-1.0
 aero.flow.map="/etc/hostname"
@@ -162,13 +174,18 @@ aero.flow.map="/etc/hostname"
     "validation/naca0012/naca0012.toml": """
 aero.flow.grid="nothing.p3d"
 aero.flow.grid="/dev/zero"
+aero.flow.grid="/etc/hostname" : /etc/hostname
 aero.flow.map="/dev/zero"
+aero.flow.map="/etc/hostname" : /etc/hostname
+aero.flow.boundaries[0].patch="nothing"
 aero.flow.turbulence="magic"
 aero.flow.incidence_deg="up"
 """,
     "validation/dam_break/koshizuka_oka.toml": """
 sea.particles.dimensions="4"
 sea.particles.spacing_m=-1.0
+sea.particles.spacing_m=1e-9
+sea.tank.top_m=1e12
 sea.tank.y_m=[0.0, 1.0]
 sea.water[0].low_m=[0.0, 0.0]
 sea.gauges[0].name=""

@@ -40,7 +40,8 @@ inline io::Summary run_scene(const std::string& file, const std::vector<std::str
   const Start start = make_start(machine);
   const runtime::World world{MPI_COMM_WORLD, 0, 1};
   const io::RunDirectory directory(world.comm, out, settings.restart ? io::Existing::resume : io::Existing::refuse);
-  return run::run(machine, start, directory, world, settings);
+  runtime::StopRequest stop;
+  return run::run(machine, start, directory, world, settings, stop);
 }
 
 inline std::string text_of(const std::filesystem::path& file) {

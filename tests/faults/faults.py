@@ -1,5 +1,6 @@
-"""What machines do to runs: kills, full disks, flipped and missing bytes, second jobs. Nothing may be lost, nothing wrong accepted, and no
+"""What machines do to runs: kills, full disks, flipped and missing bytes, second jobs, signals. Nothing may be lost, nothing wrong accepted, and no
 hand be needed. Usage: faults.py SPINDRIFT FAULT [COUNT [SEED]], where FAULT is one of the functions below. A failure prints the seed."""
+import json
 import os
 import pathlib
 import random
@@ -16,6 +17,10 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 INPUTS = ROOT / "inputs"
 # A floating turbine of engineering models, long enough to be met anywhere: start, windows, checkpoints, end.
 SCENE = [INPUTS / "leble_barakos/case3_engineering.toml", "--set", "time.end_s=60.0", "--set", "checkpoint.interval_s=5.0"]
+# Seconds of work each: particles that settle and break loose, a steady march of a resolved rotor, and both round a platform.
+TANK = [INPUTS / "validation/dam_break/koshizuka_oka.toml", "--set", "sea.particles.spacing_m=0.02", "--set", "time.end_s=0.5"]
+AIR = [INPUTS / "leble_barakos/rotor_demo.toml", "--set", "aero.flow.drop=1e-12", "--set", "time.end_s=50.0"]
+COUPLED = [INPUTS / "leble_barakos/case3_demo.toml", "--set", "sea.particles.spacing_m=5.0", "--set", "start.air_steps=30", "--set", "time.end_s=0.4"]
 QUIET = ["--no-report", "--quiet"]
 
 
@@ -141,8 +146,59 @@ def two_jobs(folder, count, pick):
     return f"{count} pairs, {refused} refused"
 
 
+def signals(folder, count, pick):
+    """Requests to stop at any time, settling included: each ends the job within ten seconds with exit code 5 and a summary, and jobs with
+    --restart come to the history of the unbroken run."""
+    requests, slowest, runs = 0, 0.0, 0
+    unbroken = {}
+    while requests < count:
+        name, scene = [("tank", TANK), ("air", AIR), ("coupled", COUPLED)][runs % 3]
+        if name not in unbroken:
+            (folder / name).mkdir()
+            unbroken[name] = whole(folder / name, scene)
+        expected, seconds = unbroken[name]
+        out, runs = folder / f"signal_{runs}", runs + 1
+        for attempt in range(100):
+            process = start(scene, out, "--restart")
+            if attempt < 3 and requests < count:
+                asked = ask(process, out, pick, seconds)
+                if asked is not None:
+                    said = process.communicate(timeout=120)[0]
+                    took = time.time() - asked
+                    if process.returncode != 0:  # else it was done
+                        assert process.returncode == 5, f"{name}: exit code {process.returncode}\n{said[-2000:]}"
+                        assert took < 10.0, f"{name}: {took:.1f} s to the end"
+                        assert json.loads((out / "summary.json").read_text())["exit_code"] == 5
+                        requests, slowest = requests + 1, max(slowest, took)
+                        continue
+            said = process.communicate(timeout=600)[0]
+            assert process.returncode == 0, said[-2000:]
+            break
+        assert history(out) == expected, f"{out}: another history after {requests} requests"
+        shutil.rmtree(out)
+    return f"{count} requests in {runs} runs, the slowest took {slowest:.1f} s"
+
+
+def ask(process, out, pick, seconds):
+    """Asks it to stop in one of all ways once it is at work, and says when; nothing where it was done before."""
+    while not (out / "log.txt").exists() and process.poll() is None:
+        time.sleep(0.01)
+    try:
+        process.wait(0.1 + pick.uniform(0.0, 0.9 * seconds))
+        return None
+    except subprocess.TimeoutExpired:
+        pass
+    number = pick.choice([signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2, signal.SIGHUP, signal.SIGXCPU, None])
+    begin = time.time()
+    if number is None:
+        (out / "stop").write_text("")
+    else:
+        process.send_signal(number)
+    return begin
+
+
 def main():
-    fault = {f.__name__: f for f in (kill, flip, truncate, full_disk, two_jobs)}[sys.argv[2]]
+    fault = {f.__name__: f for f in (kill, flip, truncate, full_disk, two_jobs, signals)}[sys.argv[2]]
     count = int(sys.argv[3]) if len(sys.argv) > 3 else 3
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else random.randrange(10**6)
     os.environ["OMP_NUM_THREADS"] = "1"

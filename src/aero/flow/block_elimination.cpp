@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 
 #include "kernels/base/wide.hpp"
+#include "src/aero/flow/singular_matrix.hpp"
 
 namespace spindrift::aero {
 
@@ -113,7 +113,7 @@ BlockElimination::BlockElimination(int rows, std::span<const Entry> entries) : p
         pivot(a, b) -= i > first ? inner(&lower_[at(i, a)], &upper_[at(i, b)], std::ptrdiff_t(n) * (i - first)) : 0.0;
     const Block inverse = pivot.partialPivLu().inverse();
     if (!inverse.allFinite())
-      throw std::runtime_error("flow: the coarse matrix is singular in row " + std::to_string(i) + " of its elimination");
+      throw SingularMatrix("flow: the coarse matrix is singular in row " + std::to_string(i) + " of its elimination");
     pivot = inverse;
   }
 }

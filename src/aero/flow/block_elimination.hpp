@@ -19,7 +19,7 @@ class BlockElimination {
     std::array<double, 25> block;  ///< column by column
   };
   BlockElimination() = default;
-  /// Entries of the same place add up; the pattern must be symmetric after that, with a diagonal. Throws std::runtime_error
+  /// Entries of the same place add up; the pattern must be symmetric after that, with a diagonal. Throws SingularMatrix
   /// naming the row of a singular pivot.
   BlockElimination(int rows, std::span<const Entry> entries);
   /// x = A^-1 b; both [row][5], may be the same.

@@ -178,7 +178,7 @@ struct CoarseCorrection final : IluAfterCommon {
         }
   }
 
-  void fill(FlowTile& tile, bool anew) override {
+  std::ptrdiff_t fill(FlowTile& tile, bool anew) override {
     TileGroups& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();
     if (anew)
@@ -203,7 +203,7 @@ struct CoarseCorrection final : IluAfterCommon {
           auto& value = t.values[std::size_t(entry)];
           for (int e = 0; e < block_size; ++e) value[std::size_t(e)] += double(block[e]);
         });
-    if (!anew) return;
+    if (!anew) return -1;
     // Neighbours through a rotational period: their velocities turn before the block acts.
     for (std::size_t n = 0; n < t.entries.size(); ++n) {
       const Eigen::Matrix3d* turn = t.columns[std::size_t(t.entries[n].second)].turn;
@@ -216,6 +216,7 @@ struct CoarseCorrection final : IluAfterCommon {
           t.values[n][std::size_t((c + 1) * width + r)] = sum;
         }
     }
+    return -1;
   }
 
   std::size_t matrix_size(const FlowTile& tile) const override { return of(tile).values.size() * block_size; }
@@ -281,7 +282,7 @@ struct CoarseCorrection final : IluAfterCommon {
     return numbering.first[std::size_t(tile)] + p.canonical - canonical_first[std::size_t(tile)];
   }
 
-  void common(MPI_Comm comm) override {
+  void solve_common(MPI_Comm comm) override {
     if (!direct()) {
       multigrid->cycle(right, left);
       exchange.fetch(numbering, left, width, outside, comm);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace spindrift::aero {
 
@@ -10,7 +11,7 @@ void March::begin_step() {
   steps_ = rejections_ = in_a_row_ = 0;
   last_step_ = looking_ ? 0 : o_.max_steps;
   first_ = before_ = 0.0;
-  matrix_free_ = retry_ = spent_ = false;
+  matrix_free_ = retry_ = spent_ = singular_ = false;
   fraction_ = 1.0, linear_drop_ = 0.0;
   loads_.clear();
   cfl_of_matrix_ = 0.0;
@@ -21,6 +22,17 @@ void March::begin_after_look() {
   looking_ = false;
   begin_step();
   verdict_ = Verdict::go_on;
+}
+
+void March::ease(double factor) {
+  eased_ = factor < 1.0 ? factor * cfl_ / o_.cfl_max : 1.0;
+  cfl_ = std::min(cfl_, std::max(o_.cfl_least, eased_ * o_.cfl_max));
+}
+
+void March::stop() {
+  why_ = "asked to stop";
+  verdict_ = Verdict::stopped;
+  spent_ = true;
 }
 
 std::vector<double> March::save() const {
@@ -67,7 +79,8 @@ void March::resume(int more_steps) {
 Verdict March::judge(const Norms& n, double load) {
   const double total = std::sqrt(n.mean), density = std::sqrt(n.density / n.cells);
   const bool fresh = steps_ == 0;
-  const bool bad = n.broken > 0.0 || !std::isfinite(total) || (!fresh && !retry_ && total > o_.rise_limit * before_);
+  const bool singular = std::exchange(singular_, false);
+  const bool bad = n.broken > 0.0 || !std::isfinite(total) || singular || (!fresh && !retry_ && total > o_.rise_limit * before_);
   ++steps_;
   if (bad) {
     ++rejections_;
@@ -101,7 +114,7 @@ Verdict March::judge(const Norms& n, double load) {
       cfl_ *= std::clamp(ratio < 1.0 ? std::max(1.3, 1.0 / ratio) : 1.3 / (ratio * ratio), 0.5, o_.growth);
     else if (fraction_ < 0.3)
       cfl_ *= 0.5;
-    cfl_ = std::clamp(cfl_, o_.cfl_least, o_.cfl_max);
+    cfl_ = std::clamp(cfl_, o_.cfl_least, std::max(o_.cfl_least, eased_ * o_.cfl_max));
   }
   retry_ = false;
   before_ = total;

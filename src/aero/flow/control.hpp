@@ -37,7 +37,9 @@ struct Norms {
   double broken = 0.0;  ///< cells whose residual is not finite
 };
 
-enum class Verdict : std::uint8_t { go_on, rejected, converged, failed };
+/// stopped: the run was asked to stop; a steady march goes on from there, a physical step is to be made again.
+enum class Verdict : std::uint8_t { go_on, rejected, converged, failed, stopped };
+constexpr bool ends_march(Verdict v) { return v == Verdict::converged || v == Verdict::failed || v == Verdict::stopped; }
 
 class March {
  public:
@@ -45,6 +47,8 @@ class March {
 
   /// A new physical step: the CFL number stays.
   void begin_step();
+  /// The largest CFL number from here on, of the scene's: below 1 where a step is tried again.
+  void ease(double factor);
   /// A steady march goes on where it was, for at most so many more steps.
   void resume(int more_steps);
   void set_drop(double drop) { o_.drop = drop; }
@@ -57,8 +61,12 @@ class March {
   void load(std::span<const double> from);
   /// After each residual.
   Verdict judge(const Norms& norms, double load);
-  /// After each update: the fraction of it that was applied, and the Krylov iterations it took.
+  /// After each update: the fraction of it that was applied, and the Krylov iterations it took. Without one, as a matrix was
+  /// singular, the step is rejected.
   void updated(double fraction, int krylov, double linear_drop);
+  void not_updated() { singular_ = true, linear_drop_ = 1.0; }
+  /// Instead of another step.
+  void stop();
 
   double cfl() const { return cfl_; }
   int steps() const { return steps_; }
@@ -81,13 +89,13 @@ class March {
 
  private:
   MarchOptions o_;
-  double cfl_, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
+  double cfl_, eased_ = 1.0, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
   int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
   long krylov_total_ = 0;
   int since_refresh_ = 0;
   double cfl_of_matrix_ = 0.0, drop_of_matrix_ = 0.0;
   double reference_ = 0.0;  ///< least density residual that counts as that of the start
-  bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false, looking_ = false;
+  bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false, looking_ = false, singular_ = false;
   Verdict verdict_ = Verdict::go_on;
   const char* why_ = "";
   std::vector<double> loads_;

@@ -6,13 +6,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/mpi/stop_request.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
 
 namespace spindrift::aero {
 
 namespace {
 
-constexpr int norm_count = 5;
+constexpr int norm_count = 6;
 
 Scales scales_of(const FlowSetting& s) {
   const double rho = gas::density(s.gas, s.stream), u = s.speed;
@@ -414,6 +415,7 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
     }
     partial[0] += density, partial[1] += mean, partial[2] += model, partial[4] += mass;
   });
+  partial[5] = runtime::StopRequest::asked() ? 1.0 : 0.0;
   std::fill(loads.begin(), loads.end(), 0.0);
   add_loads(tile, tile.state.data(), viscous_, bands_, loads);
 }
@@ -435,7 +437,7 @@ void FlowSolver::judge() {
       }
   const double load = std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
   const double cfl = march_.cfl();
-  const Verdict verdict = march_.judge(norms_, load);
+  Verdict verdict = march_.judge(norms_, load);
   rows_.push_back({.step = march_.steps() - 1,
                    .krylov = march_.krylov(),
                    .rejections = march_.rejections(),
@@ -451,6 +453,7 @@ void FlowSolver::judge() {
                    .moment = {moment[0], moment[1], moment[2]},
                    .loads = loads_});
   if (watcher_) watcher_(rows_.back());
+  if (norm_sums_[5] > 0.0 && verdict == Verdict::go_on && stops_anywhere()) march_.stop(), verdict = march_.verdict();
   if (verdict == Verdict::failed) name_trouble();
   solving_ = verdict == Verdict::go_on;
   matrix_free_ = march_.matrix_free();
@@ -468,6 +471,7 @@ void FlowSolver::name_trouble() {
              std::to_string(at[1]) + ", " + std::to_string(at[2]) + ")";
 }
 
+/// With the preconditioner's part of the tile; where that is singular the step is rejected (find_update).
 void FlowSolver::build_matrix(FlowTile& tile) {
   if (!solving_) return;
   sweep_rates(tile, tile.state.data(), implicit_);
@@ -476,6 +480,12 @@ void FlowSolver::build_matrix(FlowTile& tile) {
       tile.eddies ? tile.gradients.data() + eddy_component(tile.turbulence) * tile.gradient_box.component : nullptr;
   sweep_jacobian(tile, tile.state.data(), eddy, march_.cfl(), implicit_);
   if (tile.turbulence > 0) model_->matrix(tile, tile.state.data(), march_.cfl(), implicit_);
+  const std::ptrdiff_t singular = preconditioner_->refresh(tile);
+  Limit& limit = limits_[std::size_t(&tile - tiles_.data())];
+  limit = {};
+  const std::ptrdiff_t row = tile.box.ni, plane = row * tile.box.nj;
+  if (singular >= 0)
+    limit = {-1.0, {int(singular % row), int(singular % plane / row), int(singular / plane)}, "a singular pivot in"};
 }
 
 /// v_0: the scaled residual with its sign turned, of unit length.
@@ -611,13 +621,14 @@ void FlowSolver::precondition_solution(FlowTile& tile) {
   if (solving_ && cycle_.precondition_at_end()) preconditioner_->apply({&tile, cycle_.solution(tile), cycle_.solution(tile)});
 }
 
-/// Of the change of the unknowns: the fraction that keeps pressure and temperature positive.
+/// Of the change of the unknowns: the fraction that keeps pressure and temperature positive; -1 where a matrix was singular.
 double FlowSolver::find_update(FlowTile& tile) {
   if (!solving_) return 1.0;
   const float* x = cycle_.solution(tile);
   constexpr double most = 0.2;  // of the absolute value, in one pseudo-step
   double fraction = 1.0;
   Limit& limit_of_tile = limits_[std::size_t(&tile - tiles_.data())];
+  if (limit_of_tile.fraction < 0.0 || preconditioner_->singular()) return -1.0;
   limit_of_tile = {};
   const Scales& s = implicit_.scales;
   const float* d = x;
@@ -638,7 +649,7 @@ double FlowSolver::find_update(FlowTile& tile) {
 
 void FlowSolver::apply_update(FlowTile& tile) {
   const Verdict verdict = march_.verdict();
-  if (verdict == Verdict::converged || verdict == Verdict::failed) {
+  if (ends_march(verdict)) {
     if (verdict == Verdict::failed && march_.rejections() > 0) std::swap(tile.state, tile.trial);
     return;
   }
@@ -647,6 +658,7 @@ void FlowSolver::apply_update(FlowTile& tile) {
     return;
   }
   std::copy_n(tile.state.data(), tile.state.size(), tile.trial.data());
+  if (fraction_ < 0.0) return;
   const float* d = cycle_.solution(tile);
   const Scales& s = implicit_.scales;
   for_rows(tile.box, [&](int k, int j) {

@@ -242,6 +242,11 @@ class FlowSolver {
     if (!rows_.empty()) rows_.pop_back();
   }
   void build_matrix(FlowTile& tile);
+  /// Whether a march that ends before its time goes on with the same bits: a physical step begins anew, and a steady march where
+  /// nothing outlives a pseudo-step.
+  bool stops_anywhere() const {
+    return setting_.time_order > 0 || (march_.options().refresh_every == 1 && setting_.common.common_every == 1);
+  }
   bool refreshes() const { return solving_ && march_.refresh(); }
   void first_vector(FlowTile& tile);
   void make_vector(FlowTile& tile, int iteration);

@@ -7,25 +7,30 @@
 #include <memory>
 
 #include "src/aero/flow/preconditioner.hpp"
+#include "src/aero/flow/singular_matrix.hpp"
 
 namespace spindrift::aero {
 
 class IluAfterCommon : public Preconditioner {
  public:
   explicit IluAfterCommon(const PreconditionerOptions& options) : options_(options) {}
-  void refresh(FlowTile& tile) final {
-    ilu_->refresh(tile);
-    fill(tile, due());
+  std::ptrdiff_t refresh(FlowTile& tile) final {
+    const std::ptrdiff_t own = ilu_->refresh(tile), filled = fill(tile, due());
+    return own >= 0 ? own : filled;
   }
   bool has_common() const final { return true; }
   void begin(std::int64_t step) final { refreshes_ = 0, tick_ = step % options_.common_steps == 0; }
   void refresh_common(MPI_Comm comm) final {
     const bool anew = due();
-    if (anew || outdated_) set_up(comm);
+    if (anew || outdated_) attempt([&] { set_up(comm); });
     if (anew) number_ = ++numbers_;
     have_ = true, outdated_ = false;
     ++refreshes_;
   }
+  void common(MPI_Comm comm) final {
+    if (!singular_) attempt([&] { solve_common(comm); });
+  }
+  bool singular() const final { return singular_; }
 
   std::size_t kept_size(const FlowTile& tile) const final { return options_.common_steps > 1 ? 1 + matrix_size(tile) : 0; }
   void save_kept(const FlowTile& tile, std::span<double> to) const final {
@@ -41,9 +46,12 @@ class IluAfterCommon : public Preconditioner {
 
  protected:
   /// What the common part needs of a tile's blocks; `anew`: also what the next set_up() is made of, which otherwise stays.
-  virtual void fill(FlowTile& tile, bool anew) = 0;
+  /// Returns a cell whose diagonal block is singular, or -1.
+  virtual std::ptrdiff_t fill(FlowTile& tile, bool anew) = 0;
   /// The common part's matrix and its solver, of all tiles. Collective.
   virtual void set_up(MPI_Comm comm) = 0;
+  /// Its answer to what was gathered. Collective. Both may throw SingularMatrix.
+  virtual void solve_common(MPI_Comm comm) = 0;
   // A tile's part of that matrix.
   virtual std::size_t matrix_size(const FlowTile& tile) const = 0;
   virtual void save_matrix(const FlowTile& tile, std::span<double> to) const = 0;
@@ -53,6 +61,13 @@ class IluAfterCommon : public Preconditioner {
   const std::unique_ptr<Preconditioner> ilu_ = make_tile_preconditioner("block_ilu");
 
  private:
+  template <class Work>
+  void attempt(Work&& work) {
+    singular_ = false;
+    try {
+      work();
+    } catch (const SingularMatrix&) { singular_ = true; }
+  }
   /// Whether the next set-up is made of the matrix as it is then. No task changes what this reads while tiles are refreshed.
   bool due() const { return !have_ || (refreshes_ % options_.common_every == 0 && (refreshes_ > 0 || tick_)); }
 
@@ -60,6 +75,7 @@ class IluAfterCommon : public Preconditioner {
   bool tick_ = true;       ///< this step begins with a new set-up
   bool have_ = false;      ///< there is a set-up, or what it was made of
   bool outdated_ = false;  ///< only the latter
+  bool singular_ = false;
   std::uint64_t number_ = 0, numbers_ = 0;
 };
 

@@ -41,12 +41,11 @@ struct Jacobi {
 template <class Method>
 class ByBlocks final : public Preconditioner {
  public:
-  void refresh(FlowTile& tile) override {
+  std::ptrdiff_t refresh(FlowTile& tile) override {
     std::ptrdiff_t cell = Method::factor(tile.mean());
     if (cell < 0 && tile.turbulence == 1) cell = Method::factor(tile.model<1>());
     if (cell < 0 && tile.turbulence == 2) cell = Method::factor(tile.model<2>());
-    if (cell >= 0)
-      throw std::runtime_error("singular pivot in tile " + std::to_string(tile.index) + ", cell " + std::to_string(cell));
+    return cell;
   }
   void apply(const Piece& piece) override {
     FlowTile& tile = *piece.tile;
@@ -59,7 +58,7 @@ class ByBlocks final : public Preconditioner {
 
 class Identity final : public Preconditioner {
  public:
-  void refresh(FlowTile&) override {}
+  std::ptrdiff_t refresh(FlowTile&) override { return -1; }
   void apply(const Piece& p) override {
     if (p.z != p.v) std::copy_n(p.v, p.tile->vector_size(), p.z);
   }

@@ -34,9 +34,9 @@ class Preconditioner {
   virtual ~Preconditioner() = default;
   /// Once, before all else: the grid and the tiles of this process.
   virtual void attach(GridStore&, std::span<FlowTile>) {}
-  /// The blocks of this tile were filled anew. A singular pivot throws, naming tile and cell. Tiles come in any order and beside
-  /// each other, here as in gather() and apply().
-  virtual void refresh(FlowTile& tile) = 0;
+  /// The blocks of this tile were filled anew. Returns the cell whose pivot is singular, or -1. Tiles come in any order and
+  /// beside each other, here as in gather() and apply().
+  virtual std::ptrdiff_t refresh(FlowTile& tile) = 0;
   virtual void apply(const Piece& piece) = 0;
 
   /// Whether there is a common part. If so: refresh() of all tiles, then refresh_common(); gather() of all, common(), apply() of
@@ -50,6 +50,8 @@ class Preconditioner {
   /// Tasks that all ranks run together, as often, one at a time in a process.
   virtual void refresh_common(MPI_Comm) {}
   virtual void common(MPI_Comm) {}
+  /// Whether the common part had no solution since it was last made anew: what apply() gives is of no use then.
+  virtual bool singular() const { return false; }
 
   // A set-up that outlives a physical step: what it was made of in each tile goes into snapshots and checkpoints; the same set-up
   // is made of it again when it is next needed.

@@ -70,16 +70,18 @@ struct PressureAmg final : IluAfterCommon {
   }
 
   /// Weights w of each cell's rows: the pressure row of its inverted diagonal block, and the pressure equation they make.
-  void fill(FlowTile& tile, bool anew) override {
+  std::ptrdiff_t fill(FlowTile& tile, bool anew) override {
+    std::ptrdiff_t singular = -1;
     PressureTile& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();
     const int sides = 2 * tile.directions;
     float* row = t.rows.data();
     for (std::ptrdiff_t cell = 0; cell < tile.box.count(); ++cell) {
       float inverse[25 + linear::block_overrun];
-      if (!linear::invert<5>(a.block(cell, 0), inverse))
-        throw std::runtime_error("singular diagonal block in tile " + std::to_string(tile.index) + ", cell " +
-                                 std::to_string(cell));
+      if (!linear::invert<5>(a.block(cell, 0), inverse)) {
+        if (singular < 0) singular = cell;
+        continue;
+      }
       float* w = t.weights.data() + cell * mean_unknowns;
       for (int r = 0; r < mean_unknowns; ++r) w[r] = inverse[r * mean_unknowns];
       if (!anew) continue;
@@ -105,6 +107,7 @@ struct PressureAmg final : IluAfterCommon {
         *diagonal += driven;
       }
     }
+    return singular;
   }
 
   template <class Body>
@@ -172,7 +175,7 @@ struct PressureAmg final : IluAfterCommon {
     }
   }
 
-  void common(MPI_Comm comm) override {
+  void solve_common(MPI_Comm comm) override {
     multigrid->cycle(right, pressure);
     exchange.fetch(numbering, pressure, 1, other, comm);
   }

@@ -48,10 +48,7 @@ class StepGraph {
             return Uses{reads(decision_),     reads(state_[n]),           reads(state_ghosts_[n]),
                         reads(gradients_[n]), reads(gradient_ghosts_[n]), writes(matrix_[n])};
           },
-          [this](std::size_t n) {
-            s_.build_matrix(s_.tiles_[n]);
-            if (s_.refreshes()) s_.preconditioner_->refresh(s_.tiles_[n]);
-          });
+          [this](std::size_t n) { s_.build_matrix(s_.tiles_[n]); });
       if (common()) {
         Uses uses{reads(decision_), writes(built_)};
         uses.push_back(reads(matrix_));
@@ -61,10 +58,7 @@ class StepGraph {
       }
       g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = urgency + 1}, [&] { krylov_iteration(); });
       update();
-      g_.until("aero/converged", {reads(decision_)}, [this] {
-        const Verdict v = s_.march_.verdict();
-        return v == Verdict::converged || v == Verdict::failed;
-      });
+      g_.until("aero/converged", {reads(decision_)}, [this] { return ends_march(s_.march_.verdict()); });
     });
   }
 
@@ -283,7 +277,10 @@ class StepGraph {
     g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
               {Reduction::Operation::min, s_.fraction_partials_, {&s_.fraction_, 1}});
     g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
-      if (s_.solving_)
+      if (!s_.solving_) return;
+      if (s_.fraction_ < 0.0)
+        s_.march_.not_updated();
+      else
         s_.march_.updated(s_.fraction_, s_.cycle_.columns(),
                           s_.cycle_.residual_norm() / std::sqrt(s_.norms_.mean + s_.norms_.model));
     });

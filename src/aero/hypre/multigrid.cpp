@@ -7,9 +7,10 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "src/aero/flow/singular_matrix.hpp"
 
 namespace spindrift::aero {
 
@@ -22,7 +23,7 @@ void check(const char* what) {
   char text[512] = {};
   HYPRE_DescribeError(error, text);
   HYPRE_ClearAllErrors();
-  if ((error & ~HYPRE_ERROR_CONV) != 0) throw std::runtime_error(std::string("hypre: ") + what + ": " + text);
+  if ((error & ~HYPRE_ERROR_CONV) != 0) throw SingularMatrix(std::string("hypre: ") + what + ": " + text);
 }
 
 void begin_library() {

@@ -72,6 +72,8 @@ struct Plan {
   bool sort = false;
   bool last = false;                        ///< the step planned ends the window (Pace::choose)
   std::optional<NumericalFailure> failure;  ///< set where the numerics gave up; what is left of the window does nothing
+  bool stopped = false;                     ///< the run was asked to stop: likewise
+  bool ended() const { return failure || stopped; }
 };
 
 template <int dim, class Real>
@@ -124,7 +126,7 @@ struct SeaState {
         step_limits(p.cfl, p.h(), p.eos.c0, plan.speed, plan.acceleration, p.laminar() ? std::max(p.nu, p.nu_solid) : 0.0);
     plan.limits.body = body_limit;
     plan.limit = plan.limits.smallest();
-    constexpr double smallest_share = 1e-4;  // of the step of water at rest: speeds of 1e4 c0 are no flow
+    constexpr double smallest_share = 1e-2;  // of the step of water at rest: speeds of 100 c0 are no flow
     if (!(plan.limit > smallest_share * p.cfl * p.h() / p.eos.c0) && !plan.failure)
       plan.failure = NumericalFailure("sea: the step fell to " + std::to_string(plan.limit) + " s (largest speed " +
                                           std::to_string(plan.speed) + " m/s, acceleration " + std::to_string(plan.acceleration) +
@@ -141,7 +143,7 @@ struct SeaState {
   }
   /// Chooses the next steps of a window.
   void choose_steps() {
-    if (plan.failure) return void(plan.planned = 0);
+    if (plan.ended()) return void(plan.planned = 0);
     if (pace.choose) {
       try {
         const Pace::Choice choice = pace.choose(plan.limit);
@@ -172,7 +174,7 @@ struct SeaState {
     for (int n = 0; n < plan.planned; ++n) plan.time += plan.dt;
     plan.steps += plan.planned, work.steps = plan.steps;
     work.evaluations += plan.planned * (p.step == StepChoice::symplectic ? 2 : 1);
-    plan.left = last || plan.failure ? 0.0 : plan.left - plan.dt * plan.planned;
+    plan.left = last || plan.ended() ? 0.0 : plan.left - plan.dt * plan.planned;
   }
   /// What goes with a body beside its particles: the box round it, and the ghost nodes of its surface.
   void follow(const Solid& solid) {

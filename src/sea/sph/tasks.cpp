@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "runtime/mpi/stop_request.hpp"
 #include "src/sea/sph/filters.hpp"
 #include "src/sea/sph/step.hpp"
 
@@ -42,8 +43,8 @@ struct StepTasks<dim, Real>::Shared {
   Shared(SeaState<dim, Real>& sea) : sorting(sea.store, sea.columns, sea.territory, sea.p.anchor_step()) {}
   Sorting<dim, Real> sorting;
   std::vector<Meetings<dim, Real>> meetings;  // one per thread
-  std::vector<double> extremes;               // partials by bundle: speed, acceleration (squares), way by shifting
-  double extreme[3] = {};
+  std::vector<double> extremes;  // partials by bundle: speed, acceleration (squares), way by shifting, a request to stop
+  double extreme[4] = {};
   std::vector<double> partial_loads, loads;  // by body group and body: force, moment
   struct Message {
     std::vector<Real> out, in;
@@ -80,7 +81,7 @@ StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph,
       for (const int g : border.seen) (*data)[std::size_t(g)] = graph.datum();
   }
   extremes_ = graph.data(bundles_.size());
-  shared_->extremes.resize(3 * bundles_.size());
+  shared_->extremes.resize(4 * bundles_.size());
 
   if (!sea.move_bodies) return;
   // Bodies load the groups they are in and two rings round these: path_limit sees to it that none goes farther.
@@ -114,7 +115,7 @@ template <int dim, class Real>
 void StepTasks<dim, Real>::window() {
   SeaState<dim, Real>& sea = sea_;
   graph_.loop("sea/looks", {.min = 1, .urgency = 1}, [&] {
-    graph_.task("sea/order", {updates(plan_)}, [&sea] { sea.plan.sort = sea.sort_is_due() && !sea.plan.failure; });
+    graph_.task("sea/order", {updates(plan_)}, [&sea] { sea.plan.sort = sea.sort_is_due() && !sea.plan.ended(); });
     sort();
     steps(true);
     if (sea.pace.steps_per_look > 1)
@@ -131,7 +132,7 @@ void StepTasks<dim, Real>::steps(bool first) {
   if (first) {
     step_ = [](const Context&) { return 0; };
     // Nothing is planned before the look.
-    graph_.task("sea/plan", {updates(plan_)}, [&sea] { sea.plan.planned = sea.plan.failure ? 0 : 1; });
+    graph_.task("sea/plan", {updates(plan_)}, [&sea] { sea.plan.planned = sea.plan.ended() ? 0 : 1; });
     evaluate(Half::begin);
     limits();
     graph_.task("sea/steps", {updates(plan_)}, [&sea] {
@@ -176,7 +177,7 @@ template <class Do>
 std::function<void(const Context&)> StepTasks<dim, Real>::if_active(Do&& work) const {
   return [&plan = sea_.plan, step = step_, due = due_, work = std::forward<Do>(work)](const Context& context) {
     const int n = step(context);
-    if (n >= plan.planned || plan.failure || (due && !due(n))) return;
+    if (n >= plan.planned || plan.ended() || (due && !due(n))) return;
     if constexpr (std::is_invocable_v<Do, const Context&, int>)
       work(context, n);
     else
@@ -419,15 +420,18 @@ void StepTasks<dim, Real>::limits() {
     graph_.task(name("extremes", b), uses, if_active([&sea, &groups = bundles_[b], shared, b] {
                   Extremes most;
                   for (const int g : groups) most.merge(extremes(sea.store, sea.p, g));
-                  shared->extremes[3 * b] = most.speed2, shared->extremes[3 * b + 1] = most.acceleration2;
-                  shared->extremes[3 * b + 2] = sea.plan.shifted;
+                  double* to = &shared->extremes[4 * b];
+                  to[0] = most.speed2, to[1] = most.acceleration2, to[2] = sea.plan.shifted;
+                  to[3] = runtime::StopRequest::asked() ? 1.0 : 0.0;
                 }));
   }
   const Datum result = graph_.datum();
   graph_.reduce("sea/limits", {reads(extremes_), writes(result)},
                 {runtime::Reduction::Operation::max, shared->extremes, shared->extreme});
   graph_.task("sea/look", {reads(result), updates(plan_)}, [&sea, shared] {
-    if (!sea.plan.failure) sea.look(shared->extreme[0], shared->extreme[1], shared->extreme[2]);
+    if (sea.plan.ended()) return;
+    sea.look(shared->extreme[0], shared->extreme[1], shared->extreme[2]);
+    sea.plan.stopped = shared->extreme[3] > 0.0;
   });
 }
 

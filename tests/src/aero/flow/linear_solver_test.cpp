@@ -57,7 +57,10 @@ class ThroughCommon final : public Preconditioner {
   void attach(GridStore&, std::span<FlowTile> tiles) override {
     for (const FlowTile& tile : tiles) gathered_[tile.index].resize(tile.vector_size());
   }
-  void refresh(FlowTile& tile) override { each_->refresh(tile), ++refreshed_; }
+  std::ptrdiff_t refresh(FlowTile& tile) override {
+    ++refreshed_;
+    return each_->refresh(tile);
+  }
   bool has_common() const override { return true; }
   void refresh_common(MPI_Comm comm) override {
     CHECK(comm != MPI_COMM_NULL);
@@ -146,7 +149,7 @@ TEST_CASE("while the common part of a preconditioner runs, other threads go on w
   class Waiting final : public Preconditioner {
    public:
     Waiting(std::atomic<int>& sea, std::atomic<int>& met, std::atomic<int>& calls) : sea_(sea), met_(met), calls_(calls) {}
-    void refresh(FlowTile& tile) override { each_->refresh(tile); }
+    std::ptrdiff_t refresh(FlowTile& tile) override { return each_->refresh(tile); }
     void apply(const Piece& piece) override { each_->apply(piece); }
     bool has_common() const override { return true; }
     void common(MPI_Comm) override {

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "kernels/rigid/stability.hpp"
+#include "src/coupling/campbell.hpp"
+#include "src/coupling/retries.hpp"
+#include "src/scene/error.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+[[noreturn]] void refuse(const Machine& machine, std::string key, std::string value, std::string message) {
+  throw scene::SceneError({{machine.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
+}
+
+/// The place of a point that the scene gives on the body as it describes it; nothing for the earth, which does not move.
+std::optional<bodies::Pull> pull_at(const Scenario& s, const bodies::BodiesState& state, const std::string& body,
+                                    const Eigen::Vector3d& point) {
+  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+    if (s.bodies[b].name != body) continue;
+    const Motion described = described_motion(s.bodies[b].options);
+    return bodies::Pull{b, state.motions[b].point(described.attitude.conjugate() * (point - described.position)), {}};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bodies::StepLimit taut_line_limit(Machine& machine, const bodies::BodiesState& state) {
+  const Scenario& s = machine.scenario();
+  bodies::StepLimit limit{std::numeric_limits<double>::infinity(), "", 0.0};
+  for (const auto& [name, line] : s.moorings) {
+    if (!line.tension_only) continue;  // others are seen by the linearisation as they are
+    const std::optional<bodies::Pull> fairlead = pull_at(s, state, line.body, line.fairlead_m),
+                                      anchor = pull_at(s, state, line.anchor_body, line.anchor_m);
+    const Eigen::Vector3d along =
+        ((fairlead ? fairlead->point : line.fairlead_m) - (anchor ? anchor->point : line.anchor_m)).stableNormalized();
+    std::vector<bodies::Pull> pulls;
+    if (fairlead) pulls.push_back({fairlead->body, fairlead->point, along});
+    if (anchor) pulls.push_back({anchor->body, anchor->point, -along});
+    const double inverse_mass = bodies::mobility(machine.system(), state, pulls);
+    const double stiffness = line.stiffness_N_m ? *line.stiffness_N_m : *line.axial_stiffness_N / line.rest_length_m;
+    const double decay = 0.5 * line.damping_N_s_m * inverse_mass;
+    const std::complex<double> root = std::sqrt(std::complex<double>(decay * decay - stiffness * inverse_mass));
+    for (const std::complex<double> eigenvalue : {-decay + root, -decay - root})
+      if (const double step = stability_limit(s.time.integrator, eigenvalue); step < limit.step_s)
+        limit = {step, name, eigenvalue};
+  }
+  return limit;
+}
+
+void require_stable_lines(Machine& machine, const bodies::BodiesState& state) {
+  const bodies::StepLimit limit = taut_line_limit(machine, state);
+  const TimeOptions& time = machine.scenario().time;
+  if (machine.particle_plan() && !time.step_s) {
+    constexpr double margin = 0.9;
+    if (limit.step_s > 0.0) machine.limit_body_step(std::min(machine.body_step_limit(), margin * limit.step_s));
+    return;
+  }
+  // A window in which rk4 finds its step too long is tried again with pieces of it; the others cannot tell.
+  const double step = time.step(), least = time.integrator == Integrator::rk4 ? step / pieces_of_step(most_retries) : step;
+  if (least <= limit.step_s) return;
+  refuse(machine, "moorings." + limit.mode + ".tension_only", "true",
+         fmt::format("when this line snaps taut, {} needs steps of at most {:.3g} s with the masses at its ends, and a window "
+                     "that fails is tried again with {:.3g} s at least (time.step_s is {} s): give a shorter step, a softer "
+                     "line or heavier bodies",
+                     name(machine.system().integrator()), limit.step_s, least, step));
+}
+
+void require_stable_coupling(Machine& machine, const bodies::BodiesState& state, const bodies::Linearisation& linearisation) {
+  const CouplingOptions& o = machine.scenario().coupling;
+  if (!machine.rotor() || !is_loose(o.scheme) || o.accept_unstable || state.motions.empty()) return;
+  if (o.scheme == SchemeKind::css && o.predictor_order != 1) return;  // no limit is known
+  machine.use_full_loads(true);
+  const Campbell frequencies = campbell(machine.scenario(), linearisation, machine.rotor()->state(0.0, state.motions).speed);
+  const LooseVerdict verdict = loose_verdict(machine, state, frequencies);
+  machine.use_full_loads(false);
+  const std::string scheme = o.scheme == SchemeKind::cps ? "cps" : o.scheme == SchemeKind::cps2 ? "cps2" : "css1";
+  for (const LooseVerdict::Scheme& known : verdict.schemes) {
+    if (known.name != scheme) continue;
+    const char* mend = "iterate (coupling.scheme = \"iqn_ils\"), or say coupling.accept_unstable = true";
+    const double window = machine.timeline().window_s();
+    if (window > known.window_limit_s)
+      refuse(
+          machine, "time.window_s", fmt::format("{}", window),
+          fmt::format("is above the limit of {:.3g} s at which {} turns the rotor's damping ({:.3g} kN per m/s on {:.3g} kg at "
+                      "the hub) into growth: shorten it, {}",
+                      known.window_limit_s, scheme, 1e-3 * verdict.slope_N_s_m, verdict.hub_mass_kg, mend));
+    if (verdict.mass_ratio() > known.mass_ratio_limit)
+      refuse(machine, "coupling.scheme", "\"" + scheme + "\"",
+             fmt::format("is unstable at any window: the air that the blades carry along is {:.3g} of the mass at the hub, the "
+                         "limit is {:.3g}; {}",
+                         verdict.mass_ratio(), known.mass_ratio_limit, mend));
+  }
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,15 @@
+// A window that fails numerically is made again from the state at its start with smaller steps: how often, and how much smaller.
+// Used by src/run for every simulation, and by the sides of a window; tested in tests/faults/divergence.toml.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace spindrift::coupling {
+
+inline constexpr int most_retries = 2;
+
+/// Of the n-th retry; 0: as the scene asks.
+constexpr int pieces_of_step(int retry) { return 1 << (2 * retry); }         ///< of the bodies' step: 1, 4, 16
+constexpr double share_of_substep(int retry) { return 1.0 / (1 << retry); }  ///< of the sea's limit: 1, 1/2, 1/4
+constexpr double share_of_cfl(int retry) { return 1.0 / (retry == 0 ? 1 : retry == 1 ? 10 : 100); }  ///< of the CFL number that the air began with
+
+}  // namespace spindrift::coupling

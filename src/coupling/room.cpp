@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/room.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "src/aero/flow_grid.hpp"
+#include "src/aero/flow_options.hpp"
+#include "src/aero/resolved_rotor_setup.hpp"
+#include "src/scene/error.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+// Least bytes of one: state, sums and place of a particle; state, matrix in float and metrics of a cell; a strip of a cylinder;
+// a number of a matrix over all bodies.
+constexpr double of_particle = 100.0, of_cell = 600.0, of_strip = 150.0, of_number = 8.0;
+constexpr double most_things = 1e12;  ///< beyond any machine, whatever its memory
+
+/// Water of the tank, or of its blocks, and one layer of its walls.
+double particles(const Scenario& s, double spacing, double top) {
+  const sea::TankOptions& t = *s.sea.tank;
+  const bool planar = s.sea.particles->planar();
+  const double depth = s.environment.water_depth_m, x = t.x_m[1] - t.x_m[0], y = planar ? spacing : t.y_m[1] - t.y_m[0];
+  double water = x * y * depth, wall = x * y;
+  if (!s.sea.water.empty()) water = 0.0;
+  for (const sea::BoxOptions& b : s.sea.water) {
+    const Eigen::Vector3d size = b.high_m - b.low_m;
+    water += size.x() * (planar ? spacing : size.y()) * size.z();
+  }
+  if (t.sides_x != "periodic") wall += 2.0 * y * (depth + top);
+  if (t.sides_y != "periodic" && !planar) wall += 2.0 * x * (depth + top);
+  return std::max(0.0, water) / std::pow(spacing, 3) + std::max(0.0, wall) / (spacing * spacing);
+}
+
+Room sea_room(const Scenario& s, double memory) {
+  const double d = s.sea.particles->spacing_m, top = s.sea.tank->top_m, count = particles(s, d, top);
+  // High walls are mended by their height, the rest by the spacing.
+  const bool walls =
+      particles(s, d, std::min(top, 0.0)) < 0.5 * count && particles(s, d, std::min(top, 0.0)) * of_particle < memory;
+  Room room{walls ? "sea.tank.top_m" : "sea.particles.spacing_m",
+            fmt::format("{}", walls ? top : d),
+            "particles",
+            count,
+            count * of_particle,
+            {}};
+  double fits = walls ? top : d, fails = fits;
+  for (int step = 0; step < 200 && particles(s, walls ? d : fits, walls ? fits : top) * of_particle > memory; ++step)
+    fails = fits, fits *= walls ? 0.5 : 2.0;
+  for (int step = 0; step < 12; ++step) {
+    const double middle = std::sqrt(fits * fails);
+    (particles(s, walls ? d : middle, walls ? middle : top) * of_particle > memory ? fails : fits) = middle;
+  }
+  room.that_fits = fmt::format("{} {:.2g}", walls ? "at most" : "at least", fits * (walls ? 0.95 : 1.05));
+  return room;
+}
+
+double cells_made(const aero::GenerateOptions& g) {
+  const double n = g.refinement;
+  if (g.kind == "flat_plate") return 34.0 * 24.0 * n * n;
+  if (g.kind == "naca0012") return 112.0 * 32.0 * n * n;
+  if (g.kind == "wing") return 112.0 * 32.0 * n * n * g.span_cells;
+  if (g.kind == "bump") return 44.0 * 20.0 * n * n;
+  if (g.kind == "cylinder") return double(g.around) * g.outward;
+  return g.cells[0] * g.cells[1] * g.cells[2];
+}
+const char* key_of(const aero::GenerateOptions& g) {
+  if (g.kind == "box") return "aero.flow.generate.cells";
+  if (g.kind == "wing") return "aero.flow.generate.span_cells";
+  return g.kind == "cylinder" ? "aero.flow.generate.around" : "aero.flow.generate.refinement";
+}
+
+std::string bytes_text(double bytes) {
+  return bytes < 1e12 ? fmt::format("{:.3g} GB", 1e-9 * bytes) : fmt::format("{:.3g} TB", 1e-12 * bytes);
+}
+
+}  // namespace
+
+std::vector<Room> room_of(const Scenario& s, double memory) {
+  std::vector<Room> rooms;
+  const double bodies = double(s.bodies.size());
+  if (bodies > 100.0)
+    rooms.push_back({"bodies", "", "bodies", bodies, 36.0 * bodies * bodies * of_number,
+                     fmt::format("at most {:.0f} bodies", std::sqrt(memory / (36.0 * of_number)))});
+  if (s.has_particles() && s.sea.particles && s.sea.tank) rooms.push_back(sea_room(s, memory));
+  if (s.sea.model == "morison") {
+    double length = 0.0;
+    for (const auto& body : s.bodies)
+      for (const bodies::CylinderOptions& c : body.options.cylinders) length += (c.end_m - c.start_m).norm();
+    const double count = length / s.sea.strip_length_m;
+    rooms.push_back({"sea.strip_length_m", fmt::format("{}", s.sea.strip_length_m), "strips", count, count * of_strip,
+                     fmt::format("at least {:.2g}", std::max(length * of_strip / memory, length / 1e6) * 1.05)});
+    if (count > 1e6) rooms.back().bytes = std::max(rooms.back().bytes, 2.0 * memory);  // a step would take seconds
+  }
+  if (s.has_flow() && s.aero.flow && s.aero.flow->generate) {
+    const double count = cells_made(*s.aero.flow->generate);
+    rooms.push_back({key_of(*s.aero.flow->generate), "", "cells", count, count * of_cell,
+                     fmt::format("at most {:.3g} cells", memory / of_cell)});
+  }
+  if (s.resolves_air() && s.aero.grid) {
+    aero::ResolvedRotorSetup setup = resolved_rotor_setup(s);
+    const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
+    rooms.push_back({"aero.grid.resolution", fmt::format("{}", setup.grid.resolution), "cells", double(size.cells), size.bytes,
+                     fmt::format("some {:.2g}", setup.grid.resolution * std::cbrt(memory / std::max(size.bytes, 1.0)))});
+  }
+  return rooms;
+}
+
+void require_room(const Scenario& s, double memory) {
+  std::vector<scene::Problem> problems;
+  for (const Room& room : room_of(s, memory))
+    if (room.count > most_things || !(room.bytes <= memory))
+      problems.push_back({s.source, 0, room.key, room.value,
+                          fmt::format("makes {:.4g} {}, which take {} or more; there are {}; {} would fit", room.count,
+                                      room.things, bytes_text(room.bytes), bytes_text(memory), room.that_fits)});
+  if (!problems.empty()) throw scene::SceneError(problems);
+}
+
+double machine_memory() {
+  double bytes = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
+  for (const char* file : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+    if (double limit = 0.0; std::ifstream(file) >> limit && limit > 0.0) bytes = std::min(bytes, limit);
+  return bytes;
+}
+
+}  // namespace spindrift::coupling

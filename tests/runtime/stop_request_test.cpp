@@ -1,0 +1,66 @@
+// Requests to stop: runtime/mpi/stop_request.hpp.
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/mpi/stop_request.hpp"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+using Catch::Matchers::Contains;
+using spindrift::runtime::StopRequest;
+using namespace std::chrono_literals;
+
+TEST_CASE("every signal that queues and terminals send is a request, with its name", "[runtime][faults][fast]") {
+  for (const auto& [number, name] : {std::pair{SIGTERM, "SIGTERM"}, std::pair{SIGINT, "SIGINT"}, std::pair{SIGUSR1, "SIGUSR1"},
+                                     std::pair{SIGUSR2, "SIGUSR2"}, std::pair{SIGHUP, "SIGHUP"}, std::pair{SIGXCPU, "SIGXCPU"}}) {
+    const StopRequest stop;
+    CHECK_FALSE(StopRequest::asked());
+    CHECK(stop.agreed(MPI_COMM_SELF).empty());
+    ::raise(number);
+    ::raise(number);  // by another way, at once
+    CHECK(StopRequest::asked());
+    CHECK_THAT(stop.agreed(MPI_COMM_SELF), Contains(name));
+  }
+  CHECK_FALSE(StopRequest::asked());
+}
+
+TEST_CASE("the limit on wall time leaves room for saving", "[runtime][faults][fast]") {
+  StopRequest stop(3600.0);
+  CHECK_FALSE(StopRequest::asked());
+  stop.keep_margin(3601.0);
+  CHECK(StopRequest::asked());
+  CHECK_THAT(stop.agreed(MPI_COMM_SELF), Contains("runtime.wall_limit_s"));
+}
+
+TEST_CASE("a file is a request when it appears, not one left by the run before", "[runtime][faults][fast]") {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("spindrift_stop_" + std::to_string(::getpid()));
+  std::ofstream(file).put('\n');
+  const StopRequest stop(0.0, file);
+  CHECK_FALSE(StopRequest::asked());
+  std::ofstream(file).put('\n');
+  std::this_thread::sleep_for(1100ms);
+  CHECK(StopRequest::asked());
+  CHECK_THAT(stop.agreed(MPI_COMM_SELF), Contains("file"));
+  CHECK_FALSE(std::filesystem::exists(file));
+}
+
+TEST_CASE("a second signal ends the program at once", "[runtime][faults][fast]") {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const StopRequest stop;
+    ::raise(SIGTERM);
+    std::this_thread::sleep_for(1100ms);
+    ::raise(SIGUSR1);
+    std::_Exit(0);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGUSR1);
+}
