@@ -122,6 +122,20 @@ class ResolvedAir final : public AirSide {
           fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
                       march.steps(), march.cfl(), rotor_->solver().trouble(), setup_.flow.cfl_max),
           "aero/rotor", long(rotor_->solver().time_steps()), t_);
+    const long windows = machine_.timeline().windows(), unconverged = march.unconverged();
+    if (march.spent() && unconverged == 1)
+      news_.push_back(
+          fmt::format("warning: air: the step to t = {:g} s spent its {} pseudo-steps; the flux balance has fallen by {:.2g} of "
+                      "{:.2g} asked for",
+                      t_, march.steps() - 1, march.balance_drop(), setup_.flow.drop));
+    if (double(unconverged) > setup_.flow.unconverged_share * double(std::max(windows, march.ended())))
+      throw NumericalFailure(
+          fmt::format("t = {:g} s: aero: {} of {} steps spent their {} pseudo-steps without the drop of {:.2g}, more than "
+                      "aero.flow.unconverged_share = {:g} of the run's; the last ended at {:.2g}; try more "
+                      "aero.flow.max_pseudo_steps or a shorter window",
+                      t_, unconverged, march.ended(), setup_.flow.max_pseudo_steps, setup_.flow.drop,
+                      setup_.flow.unconverged_share, march.balance_drop()),
+          "aero/rotor", long(rotor_->solver().time_steps()), t_);
     felt_ = felt_by(*rotor_);
     return load_ = ramped(leant(felt_.rotor));
   }
@@ -163,6 +177,8 @@ class ResolvedAir final : public AirSide {
     std::vector<io::Column> columns{{"air.pseudo_steps", "-", "pseudo-steps of the window's last physical step"},
                                     {"air.density_residual", "kg/(m3 s)", "root mean square over the cells after them"},
                                     {"air.residual_drop", "-", "the same over its largest in that step"},
+                                    {"air.balance_drop", "-", "norm of all scaled flux balances over that of the step's start"},
+                                    {"air.unconverged_steps", "-", "steps so far that spent their pseudo-steps without the drop"},
                                     {"air.cfl", "-", "CFL number of the last pseudo-step"}};
     for (int b = 1; b <= size_.sectors; ++b) {
       columns.push_back({fmt::format("rotor.blade_{}.thrust_N", b), "N", "share of one blade, along the axis"});
@@ -173,8 +189,12 @@ class ResolvedAir final : public AirSide {
   std::vector<double> values() const override {
     const aero::March& march = rotor_->solver().march();
     std::vector<double> values{
-        double(march.steps() - 1), march.density_residual(),
-        march.first_density_residual() > 0.0 ? march.density_residual() / march.first_density_residual() : 0.0, march.cfl()};
+        double(march.steps() - 1),
+        march.density_residual(),
+        march.first_density_residual() > 0.0 ? march.density_residual() / march.first_density_residual() : 0.0,
+        march.balance_drop(),
+        double(march.unconverged()),
+        march.cfl()};
     for (const aero::RotorLoad& blade : felt_.blades) values.insert(values.end(), {blade.thrust, blade.torque});
     return values;
   }
@@ -256,7 +276,7 @@ class ResolvedAir final : public AirSide {
   TileStates settle(int steps) {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
-    steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 1e-9, steady.flow.load_change = 0.0;
+    steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 0.0, steady.flow.load_change = 0.0;
     steady.profile = {}, steady.wind *= share_at_hub();
     // A large grid settles in pieces, so that the log shows life; how long they are follows from the grid alone, as the bits do.
     constexpr double cells_of_a_piece = 2.5e6;  // half a minute of a core

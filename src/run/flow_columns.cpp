@@ -9,8 +9,8 @@
 
 namespace spindrift::run {
 
-FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion)
-    : rotor_(rotor), motion_(motion) {
+FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion, bool steady)
+    : rotor_(rotor), motion_(motion), steady_(steady) {
   if (rotor_) add_rotor(history);
   if (motion_) add_motion(history);
   const char* axes[3] = {"x", "y", "z"};
@@ -28,6 +28,12 @@ FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor,
   cfl_ = history.add({"flow.cfl", "-", "CFL number of the pseudo-step."});
   krylov_ = history.add({"flow.krylov_steps", "-", "Iterations of the linear solver in the pseudo-step before."});
   steps_ = history.add({"flow.pseudo_steps", "-", "Pseudo-steps: so far (steady), of the window (unsteady)."});
+  fraction_ =
+      history.add({"flow.update_fraction", "-", "Of the last update what was made: less than 1 where a cell's was too large."});
+  balance_ = history.add({"flow.balance_drop", "-", "Norm of all scaled flux balances over that of the start."});
+  if (!steady_)
+    unconverged_ =
+        history.add({"flow.unconverged_windows", "-", "Windows so far that spent their pseudo-steps without the drop."});
 }
 
 void FlowColumns::add_rotor(io::History& history) {
@@ -67,7 +73,7 @@ void FlowColumns::fill_motion(std::span<double> row, double time) const {
 }
 
 void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetting& s, const aero::PseudoRow& p,
-                       const aero::FlowOptions& o, const Eigen::Vector3d& wind) const {
+                       const aero::FlowOptions& o, const Eigen::Vector3d& wind, long unconverged) const {
   if (motion_) fill_motion(row, time);
   const Eigen::Vector3d f(p.force[0], p.force[1], p.force[2]), along = wind.normalized();
   Eigen::Vector3d across = Eigen::Vector3d::UnitZ() - along.z() * along;
@@ -79,7 +85,9 @@ void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetti
   else
     row[lift_] = f.dot(across) / unit, row[drag_] = f.dot(along) / unit;
   row[residual_] = p.density_residual, row[momentum_] = p.mean_residual, row[model_] = p.model_residual;
-  row[cfl_] = p.cfl, row[krylov_] = p.krylov, row[steps_] = p.step + 1;
+  row[cfl_] = p.cfl, row[krylov_] = p.krylov, row[steps_] = p.step + 1, row[fraction_] = p.fraction,
+  row[balance_] = p.balance_drop;
+  if (!steady_) row[unconverged_] = double(unconverged);
 }
 
 }  // namespace spindrift::run

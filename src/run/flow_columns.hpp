@@ -17,10 +17,10 @@ namespace spindrift::run {
 class FlowColumns {
  public:
   /// Declares them. `rotor`, `motion`: null where the scene has none; they outlive the columns.
-  FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion);
-  /// `wind`: undisturbed [m/s]; `time` [s].
+  FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion, bool steady);
+  /// `wind`: undisturbed [m/s]; `time` [s]; `unconverged`: windows so far.
   void fill(std::span<double> row, double time, const aero::FlowSetting& setting, const aero::PseudoRow& p,
-            const aero::FlowOptions& options, const Eigen::Vector3d& wind) const;
+            const aero::FlowOptions& options, const Eigen::Vector3d& wind, long unconverged) const;
 
  private:
   void add_rotor(io::History& history);
@@ -30,7 +30,9 @@ class FlowColumns {
 
   const aero::ResolvedRotor* rotor_;
   const aero::GridMotion* motion_;
-  std::size_t force_[3], lift_ = 0, drag_ = 0, residual_, momentum_, model_, cfl_, krylov_, steps_;
+  const bool steady_;
+  std::size_t force_[3], lift_ = 0, drag_ = 0, residual_, momentum_, model_, cfl_, krylov_, steps_, fraction_, balance_,
+                         unconverged_ = 0;
   std::size_t pitch_ = 0, heave_[3] = {0, 0, 0};
   std::size_t thrust_ = 0, torque_ = 0, power_ = 0, azimuth_ = 0, rpm_ = 0;
   std::vector<std::array<std::size_t, 2>> blades_;  ///< thrust and torque

@@ -9,7 +9,7 @@ namespace spindrift::aero {
 void March::begin_step() {
   steps_ = rejections_ = in_a_row_ = 0;
   last_step_ = looking_ ? 0 : o_.max_steps;
-  first_ = before_ = 0.0;
+  first_ = before_ = first_mean_ = first_model_ = 0.0;
   matrix_free_ = retry_ = spent_ = false;
   fraction_ = 1.0, linear_drop_ = 0.0;
   loads_.clear();
@@ -17,47 +17,49 @@ void March::begin_step() {
 }
 
 void March::begin_after_look() {
-  reference_ = density_;
+  reference_ = density_, reference_mean_ = mean_, reference_model_ = model_;
+  if (spent_) uncount();  // a look is no march
   looking_ = false;
   begin_step();
   verdict_ = Verdict::go_on;
 }
 
+/// What a restart needs of a march besides its loads, one after the other.
+template <class Self, class Body>
+void March::for_saved(Self& m, Body&& body) {
+  const auto each = [&](auto&... values) { (body(values), ...); };
+  each(m.cfl_, m.density_, m.mass_, m.first_, m.before_, m.fraction_, m.linear_drop_, m.steps_, m.rejections_, m.in_a_row_,
+       m.krylov_, m.since_refresh_, m.drop_of_matrix_, m.matrix_free_, m.mean_, m.model_, m.first_mean_, m.first_model_, m.ended_,
+       m.unconverged_, m.spent_, m.reference_, m.reference_mean_, m.reference_model_);
+}
+
 std::vector<double> March::save() const {
-  std::vector<double> all{cfl_,
-                          density_,
-                          mass_,
-                          first_,
-                          before_,
-                          fraction_,
-                          linear_drop_,
-                          double(steps_),
-                          double(rejections_),
-                          double(in_a_row_),
-                          double(krylov_),
-                          double(since_refresh_),
-                          drop_of_matrix_,
-                          double(matrix_free_),
-                          reference_,
-                          double(loads_.size())};
+  std::vector<double> all;
+  for_saved(*this, [&](const auto& value) { all.push_back(double(value)); });
+  all.push_back(double(loads_.size()));
   all.insert(all.end(), loads_.begin(), loads_.end());
   all.resize(all.size() + std::size_t(o_.load_window) + 1 - loads_.size(), 0.0);
   return all;
 }
 
 void March::load(std::span<const double> from) {
-  cfl_ = from[0], density_ = from[1], mass_ = from[2], first_ = from[3], before_ = from[4], fraction_ = from[5],
-  linear_drop_ = from[6];
-  steps_ = int(from[7]), rejections_ = int(from[8]), in_a_row_ = int(from[9]), krylov_ = int(from[10]),
-  since_refresh_ = int(from[11]);
-  drop_of_matrix_ = from[12], matrix_free_ = from[13] != 0.0;
-  reference_ = from[14];
-  loads_.assign(from.begin() + 16, from.begin() + 16 + std::ptrdiff_t(from[15]));
+  std::size_t n = 0;
+  for_saved(*this, [&]<class T>(T& value) { value = T(from[n++]); });
+  const auto count = std::size_t(from[n++]);
+  loads_.assign(from.begin() + std::ptrdiff_t(n), from.begin() + std::ptrdiff_t(n + count));
+}
+
+void March::uncount() { --ended_, unconverged_ -= o_.drop > 0.0; }
+
+double March::balance_drop() const {
+  const auto of = [](double now, double was) { return was > 0.0 ? now / was : 0.0; };
+  return std::max(of(mean_, first_mean_), of(model_, std::max(first_model_, first_mean_)));
 }
 
 void March::resume(int more_steps) {
   // The last step of the run before was judged and not solved: it is judged again.
   last_step_ = --steps_ + more_steps;
+  if (spent_) uncount();
   verdict_ = Verdict::go_on;
   spent_ = false;
   retry_ = true;
@@ -84,9 +86,10 @@ Verdict March::judge(const Norms& n, double load) {
     }
     return verdict_ = Verdict::rejected;
   }
-  density_ = density, mass_ = std::sqrt(n.mass / n.cells);
+  density_ = density, mass_ = std::sqrt(n.mass / n.cells), mean_ = total, model_ = std::sqrt(n.model);
   if (fresh) {
     first_ = std::max(density, reference_), before_ = total;
+    first_mean_ = std::max(total, reference_mean_), first_model_ = std::max(std::sqrt(n.model), reference_model_);
     if (reference_ > 0.0) cfl_ = std::clamp(o_.cfl_start * first_ / density, cfl_, std::max(cfl_, o_.cfl_max));
   }
   first_ = std::max(first_, density);  // what an impulsive start stirs up counts as the start
@@ -111,13 +114,15 @@ Verdict March::judge(const Norms& n, double load) {
              linear_drop_ > std::max(o_.krylov_drop, 1.5 * drop_of_matrix_);
   if (refresh_) since_refresh_ = 0, cfl_of_matrix_ = cfl_;
   const auto done = [&](const char* why) {
-    why_ = why;
+    why_ = why, ++ended_;
     return verdict_ = Verdict::converged;
   };
   if (int(loads_.size()) > o_.load_window) loads_.erase(loads_.begin());
   loads_.push_back(load);
   if (steps_ > o_.min_steps) {
-    if (density <= o_.drop * first_) return done("the density residual fell by the drop asked for");
+    if (o_.by_balance && balance_drop() <= o_.drop) return done("the flux balance fell by the drop asked for");
+    if (o_.by_balance && n.mean + n.model <= n.noise) return done("the flux balance is down to round-off");
+    if (!o_.by_balance && density <= o_.drop * first_) return done("the density residual fell by the drop asked for");
     if (density <= o_.absolute) return done("the density residual is below the absolute limit");
     if (o_.load_change > 0.0 && int(loads_.size()) > o_.load_window) {
       const auto [low, high] = std::minmax_element(loads_.end() - o_.load_window, loads_.end());
@@ -126,6 +131,7 @@ Verdict March::judge(const Norms& n, double load) {
   }
   if (steps_ > last_step_) {
     spent_ = true;
+    unconverged_ += o_.drop > 0.0;
     return done("the number of pseudo-steps is spent");
   }
   return verdict_ = Verdict::go_on;

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/flow_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/mpi/exchange.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
 
 namespace spindrift::aero {
 
 namespace {
 
-constexpr int norm_count = 5;
+constexpr int norm_count = 6;
 
 Scales scales_of(const FlowSetting& s) {
   const double rho = gas::density(s.gas, s.stream), u = s.speed;
@@ -20,6 +23,23 @@ Scales scales_of(const FlowSetting& s) {
   scales.unknown = {rho * u * u, u, u, u, u * u / s.gas.cp()};
   scales.residual = {rho * u, rho * u * u, rho * u * u, rho * u * u, rho * u * u * u};
   return scales;
+}
+
+/// Sum of squares of what round-off leaves in the scaled residuals of a uniform stream: a part in 1e14 of the pressure on all
+/// faces, which is 1 / (gamma M^2) in their units.
+double noise_of(const FlowTile& tile, const FlowSetting& s) {
+  const double c = gas::sound_speed(s.gas, s.stream), unit = 1e-14 * (1.0 + c * c / (s.speed * s.speed));
+  double sum = 0.0;
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; ++i) {
+      double area = 0.0;
+      for (int d = 0; d < tile.directions; ++d)
+        area += load_face(*tile.geometry, d, k, j, i).area[0] +
+                load_face(*tile.geometry, d, k + (d == 2), j + (d == 1), i + (d == 0)).area[0];
+      sum += unit * unit * area * area;
+    }
+  });
+  return sum;
 }
 
 }  // namespace
@@ -147,6 +167,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   size_partials_.resize(owned);
   fraction_partials_.resize(owned);
   limits_.resize(owned);
+  for (const FlowTile& tile : tiles_) noise_.push_back(noise_of(tile, setting));
   norm_sums_.resize(norm_count);
   loads_.resize(std::max<std::size_t>(1, conditions_.size()) * load_components);
   dots_.resize(std::size_t(columns + 1));
@@ -393,6 +414,7 @@ void FlowSolver::evaluate(FlowTile& tile, double* state, double* residual) {
 void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<double> loads) {
   const TileGeometry& g = *tile.geometry;
   std::fill(partial.begin(), partial.end(), 0.0);
+  partial[5] = noise_[std::size_t(&tile - tiles_.data())];
   const Scales& s = implicit_.scales;
   for_rows(tile.box, [&](int k, int j) {
     double density = 0.0, mass = 0.0, mean = 0.0, model = 0.0;
@@ -426,7 +448,8 @@ void FlowSolver::judge() {
             .mean = norm_sums_[1],
             .model = norm_sums_[2],
             .cells = double(cells()),
-            .broken = norm_sums_[3]};
+            .broken = norm_sums_[3],
+            .noise = norm_sums_[5]};
   double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
   for (std::size_t p = 0; p < conditions_.size(); ++p)
     if (conditions_[p].loads)
@@ -446,6 +469,7 @@ void FlowSolver::judge() {
                    .mass_residual = march_.mass_residual(),
                    .mean_residual = std::sqrt(norms_.mean),
                    .model_residual = std::sqrt(norms_.model),
+                   .balance_drop = march_.balance_drop(),
                    .fraction = march_.fraction(),
                    .matrix_free = matrix_free_,
                    .force = {force[0], force[1], force[2]},
@@ -467,6 +491,44 @@ void FlowSolver::name_trouble() {
   const Index at = tile.to_block(worst->cell);
   trouble_ = std::string("; ") + worst->what + " block " + std::to_string(tile.block) + " cell (" + std::to_string(at[0]) + ", " +
              std::to_string(at[1]) + ", " + std::to_string(at[2]) + ")";
+}
+
+std::string FlowSolver::worst_cells(MPI_Comm comm) const {
+  struct Worst {
+    double balance = -1.0;
+    int block = 0, unknown = 0;
+    Index cell{};
+    double x[3] = {0.0, 0.0, 0.0};
+  };
+  std::array<Worst, 2> worst;  // of the mean flow, of turbulence
+  for (const FlowTile& tile : tiles_)
+    for_centres(tile, [&](int k, int j, int i, const Eigen::Vector3d& x) {
+      for (int c = 0; c < tile.unknowns(); ++c) {
+        const bool model = c >= mean_unknowns;
+        const Scales& s = implicit_.scales;
+        const double unit = model ? s.model_residual[std::size_t(c - mean_unknowns)] : s.residual[std::size_t(c)],
+                     r = std::abs(tile.residual.data()[tile.inner.at(k, j, i) + c * tile.inner.component]) / unit;
+        if (Worst& w = worst[model]; !(r <= w.balance))
+          w = {r, tiling_tile(tile).block, c, tiling_tile(tile).to_block({i, j, k}), {x[0], x[1], x[2]}};
+      }
+    });
+  runtime::Packer mine;
+  mine.put(std::span<const Worst>(worst));
+  worst = {};
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take())) {
+    const std::vector<Worst> other = runtime::Unpacker(bytes).many<Worst>();
+    for (std::size_t n = 0; n < 2; ++n)
+      if (!(other[n].balance <= worst[n].balance)) worst[n] = other[n];
+  }
+  static constexpr std::array<const char*, mean_unknowns + 2> names{"mass",   "momentum",   "momentum",          "momentum",
+                                                                    "energy", "turbulence", "turbulence's omega"};
+  std::string text;
+  for (const Worst& w : worst)
+    if (w.balance >= 0.0)
+      text += fmt::format("{}the balance of {} in block {} cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m",
+                          text.empty() ? "worst are " : " and ", names[std::size_t(w.unknown)], w.block, w.cell[0], w.cell[1],
+                          w.cell[2], w.x[0], w.x[1], w.x[2]);
+  return text;
 }
 
 void FlowSolver::build_matrix(FlowTile& tile) {
