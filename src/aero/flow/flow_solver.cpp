@@ -101,7 +101,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     const double eddy = 100.0 * nu, k = 1e-2 * setting.speed * setting.speed;
     implicit_.scales.model_unknown = model_->equations == 1 ? std::array{eddy, 1.0} : std::array{k, k / eddy};
     for (std::size_t t = 0; t < 2; ++t)
-      implicit_.scales.model_residual[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
+      implicit_.scales.model_residual[t] = model_unit_[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
   }
 
   periodic_ = tiling.periodic;
@@ -427,7 +427,7 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
         mean += scaled * scaled;
       }
       for (int t = 0; t < tile.turbulence; ++t) {
-        const double scaled = r[(mean_unknowns + t) * tile.inner.component] / s.model_residual[std::size_t(t)];
+        const double scaled = r[(mean_unknowns + t) * tile.inner.component] / model_unit_[std::size_t(t)];
         model += scaled * scaled;
       }
     }
@@ -480,7 +480,16 @@ void FlowSolver::judge() {
   solving_ = verdict == Verdict::go_on;
   matrix_free_ = march_.matrix_free();
   if (refreshes()) ++matrices_;
-  if (solving_) cycle_.start(std::sqrt(norms_.mean + norms_.model));
+  if (!solving_) return;
+  // The linear solver lowers one norm. What turbulence brings to it is made no larger than the mean flow's part, or errors of the
+  // order of the one would be let into the other. With a matrix that is kept its units are kept.
+  if (refreshes() && model_->equations > 0) {
+    const double times = norms_.mean > 0.0 ? std::max(1.0, std::sqrt(norms_.model / norms_.mean)) : 1.0;
+    for (std::size_t t = 0; t < 2; ++t) implicit_.scales.model_residual[t] = times * model_unit_[t];
+  }
+  const double share = model_unit_[0] / implicit_.scales.model_residual[0];
+  linear_norm_ = std::sqrt(norms_.mean + share * share * norms_.model);
+  cycle_.start(linear_norm_);
 }
 
 void FlowSolver::name_trouble() {
@@ -506,7 +515,7 @@ std::string FlowSolver::worst_cells(MPI_Comm comm) const {
       for (int c = 0; c < tile.unknowns(); ++c) {
         const bool model = c >= mean_unknowns;
         const Scales& s = implicit_.scales;
-        const double unit = model ? s.model_residual[std::size_t(c - mean_unknowns)] : s.residual[std::size_t(c)],
+        const double unit = model ? model_unit_[std::size_t(c - mean_unknowns)] : s.residual[std::size_t(c)],
                      r = std::abs(tile.residual.data()[tile.inner.at(k, j, i) + c * tile.inner.component]) / unit;
         if (Worst& w = worst[model]; !(r <= w.balance))
           w = {r, tiling_tile(tile).block, c, tiling_tile(tile).to_block({i, j, k}), {x[0], x[1], x[2]}};
@@ -674,11 +683,12 @@ void FlowSolver::precondition_solution(FlowTile& tile) {
   if (solving_ && cycle_.precondition_at_end()) preconditioner_->apply({&tile, cycle_.solution(tile), cycle_.solution(tile)});
 }
 
-/// Of the change of the unknowns: the fraction that keeps pressure and temperature positive.
+/// Of the change of the unknowns: the fraction that no cell finds too large.
 double FlowSolver::find_update(FlowTile& tile) {
   if (!solving_) return 1.0;
   const float* x = cycle_.solution(tile);
-  constexpr double most = 0.2;  // of the absolute value, in one pseudo-step
+  constexpr double most = 0.2;        // of the absolute value, in one pseudo-step;
+  constexpr double most_speed = 0.5;  // of the cell's speed or the flow's, the larger of both
   double fraction = 1.0;
   Limit& limit_of_tile = limits_[std::size_t(&tile - tiles_.data())];
   limit_of_tile = {};
@@ -687,13 +697,15 @@ double FlowSolver::find_update(FlowTile& tile) {
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; ++i, d += mean_unknowns) {
       const auto q = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
-      const auto limit = [&](double change, double value, const char* what) {
-        if (std::abs(change) <= most * value) return;
-        const double allowed = std::isfinite(change) ? most * value / std::abs(change) : 0.0;  // not a number must not hide
+      const auto limit = [&](double change, double bound, const char* what) {
+        if (std::abs(change) <= bound) return;
+        const double allowed = std::isfinite(change) ? bound / std::abs(change) : 0.0;  // not a number must not hide
         if (allowed < fraction) fraction = allowed, limit_of_tile = {allowed, {i, j, k}, what};
       };
-      limit(double(d[0]) * s.unknown[0], gas::absolute_pressure(setting_.gas, q), "the change of pressure in");
-      limit(double(d[4]) * s.unknown[4], gas::absolute_temperature(setting_.gas, q), "the change of temperature in");
+      limit(double(d[0]) * s.unknown[0], most * gas::absolute_pressure(setting_.gas, q), "the change of pressure in");
+      limit(double(d[4]) * s.unknown[4], most * gas::absolute_temperature(setting_.gas, q), "the change of temperature in");
+      limit(std::hypot(double(d[1]), double(d[2]), double(d[3])) * s.unknown[1],
+            most_speed * std::max(setting_.speed, std::sqrt(2.0 * gas::kinetic(q))), "the change of velocity in");
     }
   });
   return fraction;

@@ -278,6 +278,8 @@ class FlowSolver {
   std::vector<std::int64_t> parts_;
   std::vector<double> norm_partials_, load_partials_, dot_partials_, size_partials_, fraction_partials_;
   std::vector<double> norm_sums_, loads_, dots_;
+  std::array<double, 2> model_unit_{1.0, 1.0};  ///< of the turbulence model's residuals where they are judged
+  double linear_norm_ = 0.0;                    ///< of the right-hand side, in the units of the linear solver
   double direction_size_ = 0.0, fraction_ = 1.0;
   bool solving_ = false, matrix_free_ = false;
   std::vector<PseudoRow> rows_;

@@ -231,7 +231,7 @@ class StepGraph {
     });
     g_.until("aero/krylov/enough", {reads(krylov_), reads(decision_)}, [this] {
       return !s_.solving_ || s_.cycle_.breakdown() ||
-             s_.cycle_.residual_norm() <= s_.march_.options().krylov_drop * std::sqrt(s_.norms_.mean + s_.norms_.model);
+             s_.cycle_.residual_norm() <= s_.march_.options().krylov_drop * s_.linear_norm_;
     });
   }
 
@@ -285,9 +285,7 @@ class StepGraph {
     g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
               {Reduction::Operation::min, s_.parts_, s_.fraction_partials_, {&s_.fraction_, 1}});
     g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
-      if (s_.solving_)
-        s_.march_.updated(s_.fraction_, s_.cycle_.columns(),
-                          s_.cycle_.residual_norm() / std::sqrt(s_.norms_.mean + s_.norms_.model));
+      if (s_.solving_) s_.march_.updated(s_.fraction_, s_.cycle_.columns(), s_.cycle_.residual_norm() / s_.linear_norm_);
     });
     each(
         "aero/apply",
