@@ -33,7 +33,7 @@ std::vector<std::array<double, 3>> middles(const MultiBlockGrid& grid) {
 }  // namespace
 
 TEST_CASE("a C grid's wake becomes one block across its cut, with the same cells and sound connections", "[aero][grid][fast]") {
-  const MultiBlockGrid whole = naca0012({});
+  const MultiBlockGrid whole = naca0012({.n = 1});
   MultiBlockGrid turned = whole;
   const bool other = GENERATE(false, true);
   if (other) reorient(turned, 0, {-2, 1, 3});  // the cut at a high side
@@ -53,5 +53,5 @@ TEST_CASE("a C grid's wake becomes one block across its cut, with the same cells
 
 TEST_CASE("grids without a cut, and cuts whose lines would be too long, stay as they are", "[aero][grid][fast]") {
   CHECK(join_cuts(cylinder({.around = 16, .outward = 8}), 512).blocks.size() == 1);
-  CHECK(join_cuts(naca0012({}), 60).blocks.size() == 1);
+  CHECK(join_cuts(naca0012({.n = 1}), 60).blocks.size() == 1);
 }
