@@ -11,6 +11,7 @@ void March::begin_step() {
   last_step_ = looking_ ? 0 : o_.max_steps;
   first_ = before_ = first_mean_ = first_model_ = 0.0;
   matrix_free_ = retry_ = spent_ = false;
+  ceiling_ = 0.0;
   fraction_ = 1.0, linear_drop_ = 0.0;
   loads_.clear();
   cfl_of_matrix_ = 0.0;
@@ -29,8 +30,8 @@ template <class Self, class Body>
 void March::for_saved(Self& m, Body&& body) {
   const auto each = [&](auto&... values) { (body(values), ...); };
   each(m.cfl_, m.density_, m.mass_, m.first_, m.before_, m.fraction_, m.linear_drop_, m.steps_, m.rejections_, m.in_a_row_,
-       m.krylov_, m.since_refresh_, m.drop_of_matrix_, m.matrix_free_, m.mean_, m.model_, m.first_mean_, m.first_model_, m.ended_,
-       m.unconverged_, m.spent_, m.reference_, m.reference_mean_, m.reference_model_);
+       m.krylov_, m.ceiling_, m.since_refresh_, m.drop_of_matrix_, m.matrix_free_, m.mean_, m.model_, m.first_mean_,
+       m.first_model_, m.ended_, m.unconverged_, m.spent_, m.reference_, m.reference_mean_, m.reference_model_);
 }
 
 std::vector<double> March::save() const {
@@ -69,7 +70,9 @@ void March::resume(int more_steps) {
 Verdict March::judge(const Norms& n, double load) {
   const double total = std::sqrt(n.mean), density = std::sqrt(n.density / n.cells);
   const bool fresh = steps_ == 0;
-  const bool bad = n.broken > 0.0 || !std::isfinite(total) || (!fresh && !retry_ && total > o_.rise_limit * before_);
+  const bool stepped = !fresh && !retry_;
+  const bool leapt = stepped && n.model > n.mean && std::sqrt(n.model) > o_.leap_limit * model_ && model_ > 0.0;
+  const bool bad = n.broken > 0.0 || !std::isfinite(total) || (stepped && total > o_.rise_limit * before_) || leapt;
   ++steps_;
   if (bad) {
     ++rejections_;
@@ -77,6 +80,7 @@ Verdict March::judge(const Norms& n, double load) {
       why_ = "the state it starts from has no finite residual";
       return verdict_ = Verdict::failed;
     }
+    if (leapt) ceiling_ = 0.5 * cfl_;
     cfl_ *= o_.back_off;
     retry_ = true;
     cfl_of_matrix_ = 0.0;
@@ -93,7 +97,7 @@ Verdict March::judge(const Norms& n, double load) {
     if (reference_ > 0.0) cfl_ = std::clamp(o_.cfl_start * first_ / density, cfl_, std::max(cfl_, o_.cfl_max));
   }
   first_ = std::max(first_, density);  // what an impulsive start stirs up counts as the start
-  if (!fresh && !retry_) {
+  if (stepped) {
     in_a_row_ = 0;
     const double ratio = before_ > 0.0 ? total / before_ : 1.0;
     // Full steps let the number grow by what the residual fell, and by a little where it did not rise much; shortened ones hold
@@ -104,6 +108,10 @@ Verdict March::judge(const Norms& n, double load) {
       cfl_ *= std::clamp(ratio < 1.0 ? std::max(1.3, 1.0 / ratio) : 1.3 / (ratio * ratio), 0.5, o_.growth);
     else if (fraction_ < 0.3)
       cfl_ *= 0.5;
+    if (ceiling_ > 0.0) {
+      ceiling_ *= 1.1;
+      cfl_ = std::min(cfl_, ceiling_);
+    }
     cfl_ = std::clamp(cfl_, o_.cfl_least, o_.cfl_max);
   }
   retry_ = false;

@@ -13,13 +13,14 @@ namespace spindrift::aero {
 
 struct MarchOptions {
   double cfl_start = 5.0, cfl_max = 1e4, cfl_least = 1e-3;
-  double growth = 2.0;       ///< most that the CFL number grows in a step
-  double back_off = 0.2;     ///< what it is multiplied by after a rejected step
-  double rise_limit = 10.0;  ///< of the residual in one step; beyond it the step is rejected
-  double drop = 1e-2;        ///< of the residual since the start of the (physical) step: done; 0: all steps are meant
-  bool by_balance = false;   ///< that residual is the norm of all scaled flux balances; else that of the density's rate
-  double absolute = 0.0;     ///< density residual [kg/(m3 s)] below which all is done
-  double load_change = 0.0;  ///< relative change of the loads over load_window steps: done; 0: not looked at
+  double growth = 2.0;        ///< most that the CFL number grows in a step
+  double back_off = 0.2;      ///< what it is multiplied by after a rejected step
+  double rise_limit = 10.0;   ///< of the mean flow's residual in one step; beyond it the step is rejected
+  double leap_limit = 100.0;  ///< of turbulence's, likewise; the CFL number it leapt at is then approached slowly
+  double drop = 1e-2;         ///< of the residual since the start of the (physical) step: done; 0: all steps are meant
+  bool by_balance = false;    ///< that residual is the norm of all scaled flux balances; else that of the density's rate
+  double absolute = 0.0;      ///< density residual [kg/(m3 s)] below which all is done
+  double load_change = 0.0;   ///< relative change of the loads over load_window steps: done; 0: not looked at
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
   int krylov_steps = 18;            ///< most Krylov iterations of a pseudo-step
@@ -99,6 +100,7 @@ class March {
   long krylov_total_ = 0;
   int since_refresh_ = 0;
   double cfl_of_matrix_ = 0.0, drop_of_matrix_ = 0.0;
+  double ceiling_ = 0.0;  ///< of the CFL number after a leap of turbulence; 0: none
   double reference_ = 0.0, reference_mean_ = 0.0, reference_model_ = 0.0;  ///< least residuals that count as those of the start
   bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false, looking_ = false;
   Verdict verdict_ = Verdict::go_on;
