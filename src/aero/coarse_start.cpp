@@ -27,7 +27,7 @@ ResolvedRotorSetup coarser(const ResolvedRotorSetup& setup) {
   return s;
 }
 
-void interpolate(const ResolvedRotor& from, ResolvedRotor& to) {
+void interpolate(const ResolvedRotor& from, ResolvedRotor& to, MPI_Comm comm) {
   // Blocks from the hub on have the tip at the same share of their own cells only; those of the plug begin there.
   const auto place = [&](int block, int direction, int cell) {
     const Index coarse = from.solver().grid().tiling().block_cells[std::size_t(block)],
@@ -37,17 +37,17 @@ void interpolate(const ResolvedRotor& from, ResolvedRotor& to) {
     return cell < tip ? (cell + 0.5) * coarse_tip / tip
                       : coarse_tip + (cell - tip + 0.5) * (coarse[d] - coarse_tip) / (fine[d] - tip);
   };
-  begin_with(from.solver(), to.solver(), place);
+  begin_with(from.solver(), to.solver(), place, comm);
 }
 
-RotorLoad start_from_coarser(const ResolvedRotorSetup& setup, int steps, ResolvedRotor& fine) {
+RotorLoad start_from_coarser(const ResolvedRotorSetup& setup, int steps, ResolvedRotor& fine, const runtime::World& world) {
   ResolvedRotorSetup first = coarser(setup);
   first.flow.max_pseudo_steps = steps, first.flow.coarse_steps = 0, first.flow.drop = setup.flow.coarse_drop;
-  ResolvedRotor coarse(first);
+  ResolvedRotor coarse(first, world.size, world.rank);
   coarse.solver().start_uniform();
-  coarse.prepare(MPI_COMM_SELF);
+  coarse.prepare(world.comm);
   coarse.run();
-  interpolate(coarse, fine);
+  interpolate(coarse, fine, world.comm);
   return coarse.load();
 }
 

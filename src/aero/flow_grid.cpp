@@ -8,11 +8,13 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "src/aero/flow/sweep.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/cgns.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/generators/box.hpp"
 #include "src/aero/grid/generators/plane_cases.hpp"
+#include "src/aero/grid/join.hpp"
 #include "src/aero/grid/neutral_map.hpp"
 #include "src/aero/grid/plot3d.hpp"
 #include "src/aero/turbine.hpp"
@@ -162,7 +164,7 @@ MultiBlockGrid flow_grid(const FlowOptions& o) {
     read_neutral_map(grid, o.map);
   }
   require_sound(grid, o.generate ? "aero.flow.generate" : o.grid);
-  return grid;
+  return join_cuts(std::move(grid), longest_row);
 }
 
 std::string describe_flow_grid(const FlowOptions& o) { return o.generate ? "made: " + o.generate->kind : o.grid; }

@@ -121,7 +121,19 @@ const scene::Section<FlowOptions>& flow_section() {
                   "Time integration.")
           .number("cfl", &FlowOptions::cfl, "-", "CFL number of the first pseudo-step.", above(0.0).up_to(1e6))
           .number("cfl_max", &FlowOptions::cfl_max, "-", "Largest CFL number.", above(0.0).up_to(1e8))
-          .number("drop", &FlowOptions::drop, "-", "Drop of the density residual that ends a march.", between(0.0, 1.0))
+          .number("drop", &FlowOptions::drop, "-",
+                  "Drop of the residual that ends a march. A steady march that takes all its steps without it has not converged "
+                  "and ends with exit code 3; 0: it is to take them all.",
+                  between(0.0, 1.0))
+          .choice("drop_of", &FlowOptions::drop_of,
+                  {{"balance", "norm of the flux balances of all equations, scaled, mean flow and turbulence"},
+                   {"density", "root mean square of the rate of change of the density, which the smallest cells rule"}},
+                  "Residual whose drop ends a march.")
+          .number("unconverged_share", &FlowOptions::unconverged_share, "-",
+                  "Share of a run's windows that may spend max_pseudo_steps without the drop; with more the run ends with exit "
+                  "code 3.",
+                  between(0.0, 1.0))
+          .only_if("time", {"bdf1", "bdf2"})
           .number("residual_kg_m3_s", &FlowOptions::residual_kg_m3_s, "kg/(m3 s)",
                   "Density residual (as flow.density_residual) that ends a march whatever its drop; 0: not looked at.",
                   between(0.0, 1e6))
@@ -130,14 +142,18 @@ const scene::Section<FlowOptions>& flow_section() {
           .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.",
                    between(1, 1e6))
           .only_if("time", {"bdf1", "bdf2"})
-          .integer("coarse_steps", &FlowOptions::coarse_steps, "-",
-                   "Pseudo-steps on a coarser grid, whose flow a steady march then begins with: of half the resolution of "
-                   "[aero.grid]; else of every second "
-                   "node, and there the drop still counts from the wind's residual on the fine grid. 0: none.",
-                   between(0, 1e6))
+          .integer(
+              "coarse_steps", &FlowOptions::coarse_steps, "-",
+              "Most pseudo-steps on each coarser grid, whose flow a steady march then begins with: of half the resolution of "
+              "[aero.grid]; else of every second node, and there the drop still counts from the wind's residual on the fine "
+              "grid. Default: 100 where every second node makes a grid, none with [aero.grid]. 0: none.",
+              between(0, 1e6))
+          .only_if("time", {"steady"})
+          .integer("coarse_levels", &FlowOptions::coarse_levels, "-",
+                   "Most coarser grids, each of every second node of the next; fewer where the grid allows fewer.", between(1, 8))
           .only_if("time", {"steady"})
           .number("coarse_drop", &FlowOptions::coarse_drop, "-",
-                  "Drop of the density residual that ends the march on the coarser grid sooner.", between(0.0, 1.0))
+                  "Drop of the residual that ends the march on a coarser grid sooner.", between(0.0, 1.0))
           .only_if("time", {"steady"})
           .choice("krylov", &FlowOptions::krylov,
                   {{"gmres", KrylovMethod::gmres, "GMRES, one set of vectors"},
@@ -182,11 +198,12 @@ const scene::Section<FlowOptions>& flow_section() {
                    "Most iterations of the linear solver in a pseudo-step; memory grows with it.", between(2, 40))
           .number("krylov_drop", &FlowOptions::krylov_drop, "-", "Drop of the linear residual that is enough.",
                   above(0.0).up_to(1.0))
-          .number("matrix_free_below", &FlowOptions::matrix_free_below, "-",
-                  "Drop of the density residual from which on the operator is the linearised residual itself (Newton), not the "
-                  "stored "
-                  "first-order matrix; 0: never.",
-                  between(0.0, 1.0))
+          .number(
+              "matrix_free_below", &FlowOptions::matrix_free_below, "-",
+              "Drop of the density residual from which on the operator is the linearised residual itself (Newton), not the "
+              "stored first-order matrix; 0: never. Default: 1, from the first step on, of a steady march; 0.01 of an unsteady "
+              "one's.",
+              between(0.0, 1.0))
           .choice("start", &FlowOptions::start,
                   {{"wind", "the wind everywhere"},
                    {"rest", "air at rest, into which the wind breaks from the boundaries"},
@@ -252,13 +269,14 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.march = {.cfl_start = o.cfl,
              .cfl_max = std::max(o.cfl, o.cfl_max),
              .drop = o.drop,
+             .by_balance = o.drop_of == "balance",
              .absolute = o.residual_kg_m3_s,
              .load_change = o.load_change,
              .max_steps = o.max_pseudo_steps,
              .krylov_steps = o.krylov_steps,
              .krylov_drop = o.krylov_drop,
              .refresh_every = o.refresh_every,
-             .matrix_free_below = o.matrix_free_below};
+             .matrix_free_below = o.matrix_free_below.value_or(s.time_order == 0 ? 1.0 : 1e-2)};
   return s;
 }
 

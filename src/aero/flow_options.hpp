@@ -56,10 +56,15 @@ struct FlowOptions {
   int group_cells = 8, direct_groups = 512, common_every = 1, common_steps = 1;  ///< of preconditioners with a common part
   std::string wall_distance = "exact";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, residual_kg_m3_s = 0.0, load_change = 0.0;
-  int coarse_steps = 0;  ///< on a coarser grid, before the march
-  double coarse_drop = 1e-5;
+  std::string drop_of = "balance";
+  double unconverged_share = 0.05;
+  /// On each coarser grid before a steady march; unset: some, where the grid allows it.
+  std::optional<int> coarse_steps;
+  int coarse_levels = 2;
+  double coarse_drop = 1e-3;
   int max_pseudo_steps = 500, krylov_steps = 18, refresh_every = 1;
-  double krylov_drop = 0.05, matrix_free_below = 1e-2;
+  double krylov_drop = 0.05;
+  std::optional<double> matrix_free_below;  ///< unset: from the first step of a steady march, from 1e-2 on of an unsteady one's
   bool surfaces = true;
   double incidence = 0.0;  ///< of the wind, turned about y: positive blows upwards [rad]
   double reference_area_m2 = 1.0;

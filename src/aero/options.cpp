@@ -29,7 +29,7 @@ void check_aero(const AeroOptions& o, const scene::Report& report) {
     if (!o.grid && !file && !made) report("flow.grid", "must be given, or [aero.flow.generate], or for a rotor [aero.grid]");
   }
   constexpr double least = 2.0;  // half of it makes a grid within the limits of quality at any pitch
-  if (o.flow && o.flow->coarse_steps > 0 && o.grid && o.grid->resolution < least)
+  if (o.flow && o.flow->coarse_steps.value_or(0) > 0 && o.grid && o.grid->resolution < least)
     report("grid.resolution",
            fmt::format("= {} must be at least {} with flow.coarse_steps, whose grid has half of it", o.grid->resolution, least));
   if (o.model != "blade_resolved" && o.flow) report("flow", "has no effect: aero.model is not \"blade_resolved\"");

@@ -173,6 +173,10 @@ Table<aero::March> march_columns() {
       {"density_residual", "kg/(m3 s)", "root mean square over the cells after them", [](Of m) { return m.density_residual(); }},
       {"residual_drop", "-", "the same over its largest in that step",
        [](Of m) { return m.first_density_residual() > 0.0 ? m.density_residual() / m.first_density_residual() : 0.0; }},
+      {"balance_drop", "-", "norm of all scaled flux balances over that of the step's start",
+       [](Of m) { return m.balance_drop(); }},
+      {"unconverged_steps", "-", "steps so far that spent their pseudo-steps without the drop",
+       [](Of m) { return double(m.unconverged()); }},
       {"cfl", "-", "CFL number of the last pseudo-step", [](Of m) { return m.cfl(); }}};
   return table;
 }

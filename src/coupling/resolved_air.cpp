@@ -126,6 +126,20 @@ class ResolvedAir final : public AirSide {
           fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
                       march.steps(), march.cfl(), rotor_->solver().trouble(), setup_.flow.cfl_max),
           "aero/rotor", long(rotor_->solver().time_steps()), t_);
+    const long windows = machine_.timeline().windows(), unconverged = march.unconverged();
+    if (march.spent() && unconverged == 1)
+      news_.push_back(
+          fmt::format("warning: air: the step to t = {:g} s spent its {} pseudo-steps; the flux balance has fallen by {:.2g} of "
+                      "{:.2g} asked for",
+                      t_, march.steps() - 1, march.balance_drop(), setup_.flow.drop));
+    if (double(unconverged) > setup_.flow.unconverged_share * double(std::max(windows, march.ended())))
+      throw NumericalFailure(
+          fmt::format("t = {:g} s: aero: {} of {} steps spent their {} pseudo-steps without the drop of {:.2g}, more than "
+                      "aero.flow.unconverged_share = {:g} of the run's; the last ended at {:.2g}; try more "
+                      "aero.flow.max_pseudo_steps or a shorter window",
+                      t_, unconverged, march.ended(), setup_.flow.max_pseudo_steps, setup_.flow.drop,
+                      setup_.flow.unconverged_share, march.balance_drop()),
+          "aero/rotor", long(rotor_->solver().time_steps()), t_);
     felt_ = felt_by(*rotor_);
     return load_ = ramped(leant(felt_.rotor));
   }
@@ -269,7 +283,7 @@ class ResolvedAir final : public AirSide {
   TileStates settle(int steps, int retry) {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
-    steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 1e-9, steady.flow.load_change = 0.0;
+    steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 0.0, steady.flow.load_change = 0.0;
     steady.profile = {}, steady.wind *= share_at_hub();
     // A large grid settles in pieces, so that the log shows life; how long they are follows from the grid alone, as the bits do.
     constexpr double cells_of_a_piece = 2.5e6;  // half a minute of a core

@@ -61,6 +61,8 @@ io::Summary Driver::run(Simulation& simulation) {
     else if (const std::string why = stop_.agreed(world.comm); !why.empty() && window < last)
       end_early(why);
   }
+  if (summary_.exit_code == 0 && summary_.exit_reason.empty() && window == timeline.windows())
+    if (const std::string failure = simulation.failure_at_end(); !failure.empty()) fail(failure);
   for (Output* output : outputs) {
     const runtime::Span span(output->label());
     output->finish(window);

@@ -27,6 +27,13 @@ namespace {
 /// Pseudo-steps of a steady march from one call of advance() to the next: clock and disk are asked between them.
 constexpr int steady_chunk = 20;
 
+/// Marches once; `march` was recorded of the solver.
+void look_at_start(aero::FlowSolver& solver, runtime::Executor& march) {
+  solver.march().look();
+  march.run();
+  solver.clear_rows();
+}
+
 }  // namespace
 
 FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world) {
@@ -40,21 +47,21 @@ FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world) {
     return;
   }
   own_grid_ = aero::flow_grid(o);
-  if (const std::string why = o.coarse_steps > 0 ? aero::why_not_halved(own_grid_) : std::string(); !why.empty())
+  if (const std::string why = o.coarse_steps.value_or(0) > 0 ? aero::why_not_halved(own_grid_) : std::string(); !why.empty())
     throw scene::SceneError(
-        {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", o.coarse_steps),
+        {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", *o.coarse_steps),
           fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
   if (o.motion) follow_walls(o);
   solve(s, world, steady_chunk);
 }
 
-FlowCase::FlowCase(const FlowCase& fine, const coupling::Scenario& s) {
+FlowCase::FlowCase(aero::MultiBlockGrid grid, const coupling::Scenario& s, const runtime::World& world, int steps) {
   coupling::Scenario coarse = s;
   aero::FlowOptions& o = *coarse.aero.flow;
   o.drop = o.coarse_drop;
   if (o.preconditioner == "auto") o.preconditioner = aero::FlowOptions().preconditioner;
-  own_grid_ = aero::halved(fine.own_grid_);
-  solve(coarse, {.comm = MPI_COMM_SELF, .rank = 0, .size = 1}, o.coarse_steps);
+  own_grid_ = std::move(grid);
+  solve(coarse, world, steps);
 }
 
 /// Tiles and solver on own_grid_; at most `steps` pseudo-steps a run where the flow is steady.
@@ -144,18 +151,43 @@ void FlowCase::back(const Note& to, std::int64_t window, double window_s) {
   solver_->clear_rows();
 }
 
-void FlowCase::start_on_coarser_grid(const coupling::Scenario& s, runtime::Executor& march) {
-  solver_->march().look();
-  march.run();
-  solver_->clear_rows();
-  FlowCase coarse(*this, s);
-  coarse.fill_geometry(MPI_COMM_SELF);
-  runtime::Graph graph(MPI_COMM_SELF);
-  coarse.solver_->record(graph);
-  runtime::Executor(std::move(graph)).run();
-  const aero::March& done = coarse.solver_->march();
-  aero::begin_with(*coarse.solver_, *solver_);
-  spdlog::info("air: {} pseudo-steps on every second node, {} cells: {}", done.steps(), coarse.solver_->cells(), done.why());
+void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Executor& march, const runtime::World& world) {
+  const aero::FlowOptions& o = *s.aero.flow;
+  std::vector<aero::MultiBlockGrid> grids;
+  for (const aero::MultiBlockGrid* last = &own_grid_; int(grids.size()) < o.coarse_levels && aero::why_not_halved(*last).empty();
+       last = &grids.back())
+    grids.push_back(aero::halved(*last));
+  if (grids.empty()) return;
+  look_at_start(*solver_, march);
+  std::unique_ptr<FlowCase> coarser;
+  while (!grids.empty()) {
+    std::unique_ptr<FlowCase> next(
+        new FlowCase(std::move(grids.back()), s, world, o.coarse_steps.value_or(aero::usual_coarse_steps)));
+    grids.pop_back();
+    next->fill_geometry(world.comm);
+    aero::FlowSolver& solver = next->solver();
+    runtime::Graph graph(world.comm);
+    solver.record(graph);
+    runtime::Executor executor(std::move(graph));
+    if (coarser) {
+      look_at_start(solver, executor);
+      aero::begin_with(coarser->solver(), solver, {}, world.comm);
+      solver.march().begin_after_look();
+    }
+    executor.run();
+    const aero::March& done = solver.march();
+    if (done.verdict() == aero::Verdict::stopped) break;  // the fine march stops at its first step
+    if (done.verdict() == aero::Verdict::failed) {
+      spdlog::warn("air: on a coarser grid of {} cells the march failed ({}); the next begins without it", solver.cells(),
+                   done.why());
+      coarser.reset();
+      continue;
+    }
+    spdlog::info("air: {} pseudo-steps on a coarser grid of {} cells, flux balance down to {:.2g}: {}", done.steps() - 1,
+                 solver.cells(), done.balance_drop(), done.why());
+    coarser = std::move(next);
+  }
+  if (coarser) aero::begin_with(coarser->solver(), *solver_, {}, world.comm);
   solver_->march().begin_after_look();
 }
 

@@ -46,14 +46,14 @@ class FlowCase {
   Note note() const;
   void back(const Note& to, std::int64_t window, double window_s);
 
-  /// Grid sequencing of grids that are no rotor's: the flow settles on every second node first; what the drop is counted from
-  /// stays the residual of the undisturbed flow on the fine grid. `march` is the fine one's. Every rank makes the same coarse
-  /// flow for itself.
-  void start_on_coarser_grid(const coupling::Scenario& scenario, runtime::Executor& march);
+  /// Grid sequencing of grids that are no rotor's: the flow settles on coarser grids first, the coarsest before the others, their
+  /// tiles spread over the ranks like the fine one's. What a drop is counted from stays the residual of the undisturbed flow on
+  /// each grid. `march` is the fine one's. A coarser grid whose march fails is passed over.
+  void start_on_coarser_grids(const coupling::Scenario& scenario, runtime::Executor& march, const runtime::World& world);
 
  private:
-  /// On the grid of every second node, all of it on this rank.
-  FlowCase(const FlowCase& fine, const coupling::Scenario& scenario);
+  /// On a coarser grid, for at most so many pseudo-steps.
+  FlowCase(aero::MultiBlockGrid grid, const coupling::Scenario& scenario, const runtime::World& world, int steps);
   void solve(const coupling::Scenario& scenario, const runtime::World& world, int steps);
   void begin(const std::string& start);
   void follow_walls(const aero::FlowOptions& options);

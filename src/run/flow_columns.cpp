@@ -26,7 +26,17 @@ Table<aero::PseudoRow> pseudo_step_columns() {
       {"turbulence_residual", "-", "the same of the turbulence model", [](Of p) { return p.model_residual; }},
       {"cfl", "-", "CFL number of the pseudo-step", [](Of p) { return p.cfl; }},
       {"krylov_steps", "-", "iterations of the linear solver in the pseudo-step before", [](Of p) { return double(p.krylov); }},
-      {"pseudo_steps", "-", "pseudo-steps: so far (steady), of the window (unsteady)", [](Of p) { return double(p.step + 1); }}};
+      {"pseudo_steps", "-", "pseudo-steps: so far (steady), of the window (unsteady)", [](Of p) { return double(p.step + 1); }},
+      {"update_fraction", "-", "part of the last update that was made: less than 1 where a cell's was too large",
+       [](Of p) { return p.fraction; }},
+      {"balance_drop", "-", "norm of all scaled flux balances over that of the start", [](Of p) { return p.balance_drop; }}};
+  return table;
+}
+
+Table<double> unsteady_columns() {
+  static constexpr ColumnOf<double> table[] = {{"unconverged_windows", "-",
+                                                "windows so far that spent their pseudo-steps without the drop",
+                                                [](const double& n) { return n; }}};
   return table;
 }
 
@@ -52,7 +62,7 @@ Table<WallMotion> wall_motion_columns() {
 
 }  // namespace
 
-FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion)
+FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion, bool steady)
     : rotor_(rotor), motion_(motion), march_(history, "flow.", pseudo_step_columns()) {
   if (rotor_) {
     rotor_columns_.emplace(history, "rotor.", coupling::rotor_columns());
@@ -61,12 +71,14 @@ FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor,
   } else {
     coefficients_.emplace(history, "flow.", coefficient_columns());
   }
+  if (!steady) unsteady_.emplace(history, "flow.", unsteady_columns());
   if (motion_) motion_columns_.emplace(history, "flow.", wall_motion_columns());
 }
 
 void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetting& s, const aero::PseudoRow& p,
-                       const aero::FlowOptions& o, const Eigen::Vector3d& wind) const {
+                       const aero::FlowOptions& o, const Eigen::Vector3d& wind, long unconverged) const {
   march_.fill(row, p);
+  if (unsteady_) unsteady_->fill(row, double(unconverged));
   if (rotor_) {
     const double turns = rotor_->pose().azimuth / (2.0 * pi);
     rotor_columns_->fill(row, {rotor_->load(p), 360.0 * (turns - std::floor(turns)), rotor_->pose().speed * 30.0 / pi});
@@ -86,6 +98,7 @@ void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetti
 std::vector<io::ColumnSection> all_columns() {
   std::vector<io::ColumnSection> sections = coupling::column_sections();
   sections.push_back(section_of("flow.", "the air alone", pseudo_step_columns()));
+  sections.push_back(section_of("flow.", "the air alone, unsteady", unsteady_columns()));
   sections.push_back(section_of("flow.", "the air alone, without a rotor", coefficient_columns()));
   sections.push_back(section_of("flow.", "the air alone, with walls that move", wall_motion_columns()));
   return sections;

@@ -28,10 +28,10 @@ struct WallMotion {
 class FlowColumns {
  public:
   /// Declares them. `rotor`, `motion`: null where the scene has none; they outlive the columns.
-  FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion);
-  /// `wind`: undisturbed [m/s]; `time` [s].
+  FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion, bool steady);
+  /// `wind`: undisturbed [m/s]; `time` [s]; `unconverged`: windows so far.
   void fill(std::span<double> row, double time, const aero::FlowSetting& setting, const aero::PseudoRow& p,
-            const aero::FlowOptions& options, const Eigen::Vector3d& wind) const;
+            const aero::FlowOptions& options, const Eigen::Vector3d& wind, long unconverged) const;
 
  private:
   template <class Source>
@@ -44,6 +44,7 @@ class FlowColumns {
   std::optional<Group<WallMotion>> motion_columns_;
   std::optional<Group<Coefficients>> coefficients_;
   Group<aero::PseudoRow> march_;
+  std::optional<Group<double>> unsteady_;
 };
 
 /// Of every scene: those of a floating system and of the air alone. For pages.

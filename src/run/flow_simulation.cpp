@@ -32,6 +32,10 @@ class FinalFlow final : public Output {
   std::function<void(std::int64_t)> write_;
 };
 
+double density_drop(const aero::March& march) {
+  return march.density_residual() / std::max(march.first_density_residual(), 1e-300);
+}
+
 }  // namespace
 
 FlowSimulation::FlowSimulation(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::World& world,
@@ -72,14 +76,15 @@ std::int64_t FlowSimulation::begin() {
     const aero::Choice choice = aero::choose_preconditioner(air_.solver(), world_.comm);
     use(choice.preconditioner, choice.reason);
   }
-  const int coarse_steps = options.coarse_steps;
-  if (coarse_steps > 0 && air_.rotor()) {
-    const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(scenario_), coarse_steps, *air_.rotor());
+  const bool steady = air_.steady();
+  if (const int coarse_steps = options.coarse_steps.value_or(0); steady && coarse_steps > 0 && air_.rotor()) {
+    const aero::RotorLoad load = aero::start_from_coarser(resolved_rotor_setup(scenario_), coarse_steps, *air_.rotor(), world_);
     spdlog::info("air: {} pseudo-steps on a grid of half the resolution: thrust {:.4g} kN, power {:.4g} MW", coarse_steps,
                  1e-3 * load.thrust, 1e-6 * load.power);
   }
   record();
-  if (coarse_steps > 0 && !air_.rotor()) air_.start_on_coarser_grid(scenario_, *march_);
+  if (steady && !air_.rotor() && options.coarse_steps.value_or(aero::usual_coarse_steps) > 0)
+    air_.start_on_coarser_grids(scenario_, *march_, world_);
   return 0;
 }
 
@@ -134,24 +139,59 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
     rows_.assign(solver.rows().begin(), solver.rows().begin() + count);
     last_rows_.insert(last_rows_.end(), rows_.begin(), rows_.end());
     while (last_rows_.size() > averaged(last)) last_rows_.pop_front();
-    if (march.verdict() == aero::Verdict::converged && !march.spent()) advance.settled = march.why();
+    if (march.verdict() == aero::Verdict::converged && !march.spent())
+      advance.settled = fmt::format("{}; flux balance down to {:.2g}, density residual to {:.2g}", march.why(),
+                                    march.balance_drop(), density_drop(march));
     solver.keep_last_row();
   } else {
     rows_ = {solver.rows().back()};
     solver.clear_rows();
+    advance.failure = unconverged_windows(window + 1);
   }
   advance.windows = std::int64_t(rows_.size());
   windows_ += advance.windows;
   return advance;
 }
 
+/// Of the unsteady march at the end of `window`: warns of the first window that spent its pseudo-steps; what is wrong where more
+/// did than aero.flow.unconverged_share allows, else empty.
+std::string FlowSimulation::unconverged_windows(std::int64_t window) const {
+  const aero::FlowSolver& solver = air_.solver();
+  const aero::March& march = solver.march();
+  const aero::FlowOptions& o = *scenario_.aero.flow;
+  const double t = timeline_.window_end_s(window), most = o.unconverged_share * double(timeline_.windows());
+  if (march.spent() && march.unconverged() == 1)
+    spdlog::warn(
+        "air: the window to t = {:.6g} s spent its {} pseudo-steps; the flux balance has fallen by {:.2g} of {:.2g} asked for; "
+        "{}",
+        t, march.steps() - 1, march.balance_drop(), o.drop, solver.worst_cells(world_.comm));
+  if (double(march.unconverged()) <= most) return {};
+  return fmt::format(
+      "aero: {} of {} windows spent their {} pseudo-steps without the drop of {:.2g} (aero.flow.max_pseudo_steps, .drop), at "
+      "most "
+      "{:g} may (aero.flow.unconverged_share); the last, to t = {:.6g} s, ended at {:.2g}; {}",
+      march.unconverged(), march.ended(), solver.setting().march.max_steps, o.drop, std::floor(most), t, march.balance_drop(),
+      solver.worst_cells(world_.comm));
+}
+
+std::string FlowSimulation::failure_at_end() const {
+  const aero::FlowOptions& o = *scenario_.aero.flow;
+  if (!air_.steady() || o.drop <= 0.0) return {};
+  const aero::March& march = air_.solver().march();
+  return fmt::format(
+      "aero: not converged in the {} pseudo-steps of the scene: the flux balance has fallen by {:.2g}, the density residual by "
+      "{:.2g}, of {:.2g} asked for (aero.flow.drop; 0 takes all steps whatever they reach); {}; --restart with a larger "
+      "time.end_s goes on",
+      march.steps() - 1, march.balance_drop(), density_drop(march), o.drop, air_.solver().worst_cells(world_.comm));
+}
+
 std::string FlowSimulation::done() const { return air_.steady() ? "done: the pseudo-steps of the scene are spent" : "done"; }
 
-void FlowSimulation::declare(io::History& history) { columns_.emplace(history, air_.rotor(), air_.motion()); }
+void FlowSimulation::declare(io::History& history) { columns_.emplace(history, air_.rotor(), air_.motion(), air_.steady()); }
 
 void FlowSimulation::fill_row(std::int64_t window, std::span<double> row) {
   columns_->fill(row, timeline_.window_end_s(window), air_.solver().setting(), rows_.at(std::size_t(window - rows_from_ - 1)),
-                 *scenario_.aero.flow, flow_wind(scenario_));
+                 *scenario_.aero.flow, flow_wind(scenario_), air_.solver().march().unconverged());
 }
 
 std::vector<std::unique_ptr<Output>> FlowSimulation::outputs(const io::RunDirectory&, double) {

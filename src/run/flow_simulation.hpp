@@ -29,6 +29,7 @@ class FlowSimulation final : public Simulation {
   void restore(const io::CheckpointReader& file) override;
   void save(io::CheckpointWriter& file) override;
   Advance advance(std::int64_t window, std::int64_t last) override;
+  std::string failure_at_end() const override;
   std::string done() const override;
 
   void declare(io::History& history) override;
@@ -39,6 +40,7 @@ class FlowSimulation final : public Simulation {
   void summarise(io::Summary& summary, runtime::Ledger& ledger) override;
 
  private:
+  std::string unconverged_windows(std::int64_t window) const;
   void use(const std::string& preconditioner, const std::string& reason);
   void record();
   std::size_t averaged(std::int64_t windows) const;

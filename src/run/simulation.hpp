@@ -51,6 +51,8 @@ class Simulation {
 
   /// @pre begin() or restore(), or advance() without failure: the state is that of the end of `window`. `last`: of the run.
   virtual Advance advance(std::int64_t window, std::int64_t last) = 0;
+  /// Why a run that reached the scene's end without settling failed all the same; empty where it did not.
+  virtual std::string failure_at_end() const { return {}; }
   /// Why a run that reached the scene's end is done.
   virtual std::string done() const { return "done"; }
 

@@ -36,6 +36,7 @@ matrix_free_below = 0.0
 cfl = 2.0
 cfl_max = 20.0
 max_pseudo_steps = 3
+drop = 0.0
 [start]
 air_steps = 10
 """ % ROOT
@@ -54,7 +55,7 @@ ALONE = """
 end_s = 20.0
 window_s = 1.0
 """ + AIR.replace("[rotor]", "[rotor]\nhub_m = [0.0, 0.0, 119.0]\naxis = [1.0, 0.0, 0.0]\nspeed_rpm = 8.8").replace('time = "bdf2"', 'time = "steady"').replace(
-    "max_pseudo_steps = 3", "drop = 1e-9\nload_change = 0.0").replace("[start]\nair_steps = 10\n", "")
+    "max_pseudo_steps = 3\n", "load_change = 0.0\n").replace("[start]\nair_steps = 10\n", "")
 PARTICLES = """
 base = "%s/platform.toml"
 [time]

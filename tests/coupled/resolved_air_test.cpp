@@ -48,7 +48,7 @@ resolution = 1.0
 /// 3 000 cells a sector, three pseudo-steps: enough to see what is passed on.
 const std::string tiny = "cells_round = 28\ncells_layers = 4\ncells_span = 8\nfirst_cell_chords = 8e-3\n";
 const std::vector<std::string> quick{"aero.flow.cfl_max=20.0", "aero.flow.krylov_steps=6", "aero.flow.max_pseudo_steps=3",
-                                     "start.air_steps=5"};
+                                     "aero.flow.drop=0.0", "start.air_steps=5"};
 
 /// Passes everything on, and writes down how the rotor was to move and what came back.
 class Listening final : public AirSide {

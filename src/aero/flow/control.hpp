@@ -13,12 +13,14 @@ namespace spindrift::aero {
 
 struct MarchOptions {
   double cfl_start = 5.0, cfl_max = 1e4, cfl_least = 1e-3;
-  double growth = 2.0;       ///< most that the CFL number grows in a step
-  double back_off = 0.2;     ///< what it is multiplied by after a rejected step
-  double rise_limit = 10.0;  ///< of the residual in one step; beyond it the step is rejected
-  double drop = 1e-2;        ///< of the density residual since the start of the (physical) step: done
-  double absolute = 0.0;     ///< density residual [kg/(m3 s)] below which all is done
-  double load_change = 0.0;  ///< relative change of the loads over load_window steps: done; 0: not looked at
+  double growth = 2.0;        ///< most that the CFL number grows in a step
+  double back_off = 0.2;      ///< what it is multiplied by after a rejected step
+  double rise_limit = 10.0;   ///< of the mean flow's residual in one step; beyond it the step is rejected
+  double leap_limit = 100.0;  ///< of turbulence's, likewise; the CFL number it leapt at is then approached slowly
+  double drop = 1e-2;         ///< of the residual since the start of the (physical) step: done; 0: all steps are meant
+  bool by_balance = false;    ///< that residual is the norm of all scaled flux balances; else that of the density's rate
+  double absolute = 0.0;      ///< density residual [kg/(m3 s)] below which all is done
+  double load_change = 0.0;   ///< relative change of the loads over load_window steps: done; 0: not looked at
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
   int krylov_steps = 18;            ///< most Krylov iterations of a pseudo-step
@@ -35,6 +37,7 @@ struct Norms {
   double model = 0.0;    ///< of the turbulence unknowns
   double cells = 1.0;
   double broken = 0.0;  ///< cells whose residual is not finite
+  double noise = 0.0;   ///< sum of mean and model that round-off alone may have
 };
 
 /// stopped: the run was asked to stop; a steady march goes on from there, a physical step is to be made again.
@@ -75,6 +78,12 @@ class March {
   double density_residual() const { return density_; }
   double mass_residual() const { return mass_; }
   double first_density_residual() const { return first_; }
+  /// The norm of all scaled flux balances over its start: the larger of the mean flow's and of turbulence's, which starts with as
+  /// much as the mean flow at least.
+  double balance_drop() const;
+  /// Marches so far that came to an end, and those of them that ended for want of steps.
+  long ended() const { return ended_; }
+  long unconverged() const { return unconverged_; }
   Verdict verdict() const { return verdict_; }
   bool spent() const { return spent_; }  ///< ended for want of steps
   /// Whether the matrix is to be made anew: always where it is the operator; else after refresh_every steps, or sooner where the
@@ -88,13 +97,19 @@ class March {
   const MarchOptions& options() const { return o_; }
 
  private:
+  template <class Self, class Body>
+  static void for_saved(Self& march, Body&& body);
+  void uncount();  ///< the march that ended for want of steps goes on
   MarchOptions o_;
   double cfl_, eased_ = 1.0, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
+  double mean_ = 0.0, model_ = 0.0, first_mean_ = 0.0, first_model_ = 0.0;  ///< norms of the flux balances: now, at the start
+  long ended_ = 0, unconverged_ = 0;
   int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
   long krylov_total_ = 0;
   int since_refresh_ = 0;
   double cfl_of_matrix_ = 0.0, drop_of_matrix_ = 0.0;
-  double reference_ = 0.0;  ///< least density residual that counts as that of the start
+  double ceiling_ = 0.0;  ///< of the CFL number after a leap of turbulence; 0: none
+  double reference_ = 0.0, reference_mean_ = 0.0, reference_model_ = 0.0;  ///< least residuals that count as those of the start
   bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false, looking_ = false, singular_ = false;
   Verdict verdict_ = Verdict::go_on;
   const char* why_ = "";

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/flow_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/mpi/exchange.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
 
@@ -21,6 +24,23 @@ Scales scales_of(const FlowSetting& s) {
   scales.unknown = {rho * u * u, u, u, u, u * u / s.gas.cp()};
   scales.residual = {rho * u, rho * u * u, rho * u * u, rho * u * u, rho * u * u * u};
   return scales;
+}
+
+/// Sum of squares of what round-off leaves in the scaled residuals of a uniform stream: a part in 1e17 of the pressure on all
+/// faces, which is 1 / (gamma M^2) in their units.
+double noise_of(const FlowTile& tile, const FlowSetting& s) {
+  const double c = gas::sound_speed(s.gas, s.stream), unit = 1e-17 * (1.0 + c * c / (s.speed * s.speed));
+  double sum = 0.0;
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; ++i) {
+      double area = 0.0;
+      for (int d = 0; d < tile.directions; ++d)
+        area += load_face(*tile.geometry, d, k, j, i).area[0] +
+                load_face(*tile.geometry, d, k + (d == 2), j + (d == 1), i + (d == 0)).area[0];
+      sum += unit * unit * area * area;
+    }
+  });
+  return sum;
 }
 
 }  // namespace
@@ -82,7 +102,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     const double eddy = 100.0 * nu, k = 1e-2 * setting.speed * setting.speed;
     implicit_.scales.model_unknown = model_->equations == 1 ? std::array{eddy, 1.0} : std::array{k, k / eddy};
     for (std::size_t t = 0; t < 2; ++t)
-      implicit_.scales.model_residual[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
+      implicit_.scales.model_residual[t] = model_unit_[t] = rho * setting.speed * implicit_.scales.model_unknown[t];
   }
 
   periodic_ = tiling.periodic;
@@ -147,6 +167,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
   size_partials_.resize(owned);
   fraction_partials_.resize(owned);
   limits_.resize(owned);
+  for (const FlowTile& tile : tiles_) noise_.push_back(noise_of(tile, setting));
   norm_sums_.resize(norm_count);
   loads_.resize(std::max<std::size_t>(1, conditions_.size()) * load_components);
   dots_.resize(std::size_t(columns + 1));
@@ -393,6 +414,7 @@ void FlowSolver::evaluate(FlowTile& tile, double* state, double* residual) {
 void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<double> loads) {
   const TileGeometry& g = *tile.geometry;
   std::fill(partial.begin(), partial.end(), 0.0);
+  partial[5] = noise_[std::size_t(&tile - tiles_.data())];
   const Scales& s = implicit_.scales;
   for_rows(tile.box, [&](int k, int j) {
     double density = 0.0, mass = 0.0, mean = 0.0, model = 0.0;
@@ -405,7 +427,7 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
         mean += scaled * scaled;
       }
       for (int t = 0; t < tile.turbulence; ++t) {
-        const double scaled = r[(mean_unknowns + t) * tile.inner.component] / s.model_residual[std::size_t(t)];
+        const double scaled = r[(mean_unknowns + t) * tile.inner.component] / model_unit_[std::size_t(t)];
         model += scaled * scaled;
       }
     }
@@ -427,7 +449,8 @@ void FlowSolver::judge() {
             .mean = norm_sums_[1],
             .model = norm_sums_[2],
             .cells = double(cells()),
-            .broken = norm_sums_[3]};
+            .broken = norm_sums_[3],
+            .noise = norm_sums_[5]};
   double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
   for (std::size_t p = 0; p < conditions_.size(); ++p)
     if (conditions_[p].loads)
@@ -447,6 +470,7 @@ void FlowSolver::judge() {
                    .mass_residual = march_.mass_residual(),
                    .mean_residual = std::sqrt(norms_.mean),
                    .model_residual = std::sqrt(norms_.model),
+                   .balance_drop = march_.balance_drop(),
                    .fraction = march_.fraction(),
                    .matrix_free = matrix_free_,
                    .force = {force[0], force[1], force[2]},
@@ -458,7 +482,16 @@ void FlowSolver::judge() {
   solving_ = verdict == Verdict::go_on;
   matrix_free_ = march_.matrix_free();
   if (refreshes()) ++matrices_;
-  if (solving_) cycle_.start(std::sqrt(norms_.mean + norms_.model));
+  if (!solving_) return;
+  // The linear solver lowers one norm. What turbulence brings to it is made no larger than the mean flow's part, or errors of the
+  // order of the one would be let into the other. With a matrix that is kept its units are kept.
+  if (refreshes() && model_->equations > 0) {
+    const double times = norms_.mean > 0.0 ? std::max(1.0, std::sqrt(norms_.model / norms_.mean)) : 1.0;
+    for (std::size_t t = 0; t < 2; ++t) implicit_.scales.model_residual[t] = times * model_unit_[t];
+  }
+  const double share = model_unit_[0] / implicit_.scales.model_residual[0];
+  linear_norm_ = std::sqrt(norms_.mean + share * share * norms_.model);
+  cycle_.start(linear_norm_);
 }
 
 void FlowSolver::name_trouble() {
@@ -469,6 +502,44 @@ void FlowSolver::name_trouble() {
   const Index at = tile.to_block(worst->cell);
   trouble_ = std::string("; ") + worst->what + " block " + std::to_string(tile.block) + " cell (" + std::to_string(at[0]) + ", " +
              std::to_string(at[1]) + ", " + std::to_string(at[2]) + ")";
+}
+
+std::string FlowSolver::worst_cells(MPI_Comm comm) const {
+  struct Worst {
+    double balance = -1.0;
+    int block = 0, unknown = 0;
+    Index cell{};
+    double x[3] = {0.0, 0.0, 0.0};
+  };
+  std::array<Worst, 2> worst;  // of the mean flow, of turbulence
+  for (const FlowTile& tile : tiles_)
+    for_centres(tile, [&](int k, int j, int i, const Eigen::Vector3d& x) {
+      for (int c = 0; c < tile.unknowns(); ++c) {
+        const bool model = c >= mean_unknowns;
+        const Scales& s = implicit_.scales;
+        const double unit = model ? model_unit_[std::size_t(c - mean_unknowns)] : s.residual[std::size_t(c)],
+                     r = std::abs(tile.residual.data()[tile.inner.at(k, j, i) + c * tile.inner.component]) / unit;
+        if (Worst& w = worst[model]; !(r <= w.balance))
+          w = {r, tiling_tile(tile).block, c, tiling_tile(tile).to_block({i, j, k}), {x[0], x[1], x[2]}};
+      }
+    });
+  runtime::Packer mine;
+  mine.put(std::span<const Worst>(worst));
+  worst = {};
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take())) {
+    const std::vector<Worst> other = runtime::Unpacker(bytes).many<Worst>();
+    for (std::size_t n = 0; n < 2; ++n)
+      if (!(other[n].balance <= worst[n].balance)) worst[n] = other[n];
+  }
+  static constexpr std::array<const char*, mean_unknowns + 2> names{"mass",   "momentum",   "momentum",          "momentum",
+                                                                    "energy", "turbulence", "turbulence's omega"};
+  std::string text;
+  for (const Worst& w : worst)
+    if (w.balance >= 0.0)
+      text += fmt::format("{}the balance of {} in block {} cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m",
+                          text.empty() ? "worst are " : " and ", names[std::size_t(w.unknown)], w.block, w.cell[0], w.cell[1],
+                          w.cell[2], w.x[0], w.x[1], w.x[2]);
+  return text;
 }
 
 /// With the preconditioner's part of the tile; where that is singular the step is rejected (find_update).
@@ -516,7 +587,8 @@ void FlowSolver::precondition_vector(FlowTile& tile, int j) {
   if (solving_) preconditioner_->apply({&tile, cycle_.source(tile, j), cycle_.direction(tile, j)});
 }
 
-/// Puts the direction M^-1 v_j where neighbours look for it; returns its largest component in the units of the unknowns.
+/// Puts the direction M^-1 v_j where neighbours look for it; returns its largest component in the units of the unknowns, or in
+/// that of a cell's own turbulence where this is more: omega at walls is 1e5 times what it is in the flow.
 double FlowSolver::spread_direction(FlowTile& tile, int j) {
   if (!solving_) return 0.0;
   const float* z = cycle_.direction(tile, j);
@@ -533,7 +605,9 @@ double FlowSolver::spread_direction(FlowTile& tile, int j) {
       for (int t = 0; t < tile.turbulence; ++t) {
         const float value = *m++;
         to[(mean_unknowns + t) * tile.gradient_box.component] = value;
-        largest = std::max(largest, std::abs(value));
+        const double unit = implicit_.scales.model_unknown[std::size_t(t)],
+                     q = tile.state.data()[tile.cells.at(k, row, i) + (mean_unknowns + t) * tile.cells.component];
+        largest = std::max(largest, std::abs(value) * float(unit / std::max(unit, std::abs(q))));
       }
     }
   });
@@ -621,11 +695,12 @@ void FlowSolver::precondition_solution(FlowTile& tile) {
   if (solving_ && cycle_.precondition_at_end()) preconditioner_->apply({&tile, cycle_.solution(tile), cycle_.solution(tile)});
 }
 
-/// Of the change of the unknowns: the fraction that keeps pressure and temperature positive; -1 where a matrix was singular.
+/// Of the change of the unknowns: the fraction that no cell finds too large; -1 where a matrix was singular.
 double FlowSolver::find_update(FlowTile& tile) {
   if (!solving_) return 1.0;
   const float* x = cycle_.solution(tile);
-  constexpr double most = 0.2;  // of the absolute value, in one pseudo-step
+  constexpr double most = 0.2;        // of the absolute value, in one pseudo-step;
+  constexpr double most_speed = 0.5;  // of the cell's speed or the flow's, the larger of both
   double fraction = 1.0;
   Limit& limit_of_tile = limits_[std::size_t(&tile - tiles_.data())];
   if (limit_of_tile.fraction < 0.0 || preconditioner_->singular()) return -1.0;
@@ -635,13 +710,15 @@ double FlowSolver::find_update(FlowTile& tile) {
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; ++i, d += mean_unknowns) {
       const auto q = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
-      const auto limit = [&](double change, double value, const char* what) {
-        if (std::abs(change) <= most * value) return;
-        const double allowed = std::isfinite(change) ? most * value / std::abs(change) : 0.0;  // not a number must not hide
+      const auto limit = [&](double change, double bound, const char* what) {
+        if (std::abs(change) <= bound) return;
+        const double allowed = std::isfinite(change) ? bound / std::abs(change) : 0.0;  // not a number must not hide
         if (allowed < fraction) fraction = allowed, limit_of_tile = {allowed, {i, j, k}, what};
       };
-      limit(double(d[0]) * s.unknown[0], gas::absolute_pressure(setting_.gas, q), "the change of pressure in");
-      limit(double(d[4]) * s.unknown[4], gas::absolute_temperature(setting_.gas, q), "the change of temperature in");
+      limit(double(d[0]) * s.unknown[0], most * gas::absolute_pressure(setting_.gas, q), "the change of pressure in");
+      limit(double(d[4]) * s.unknown[4], most * gas::absolute_temperature(setting_.gas, q), "the change of temperature in");
+      limit(std::hypot(double(d[1]), double(d[2]), double(d[3])) * s.unknown[1],
+            most_speed * std::max(setting_.speed, std::sqrt(2.0 * gas::kinetic(q))), "the change of velocity in");
     }
   });
   return fraction;

@@ -74,7 +74,8 @@ struct BlockPose {
 /// What a pseudo-step did; one row for each since the last clear.
 struct PseudoRow {
   int step = 0, krylov = 0, rejections = 0, matrices = 0;  ///< matrices made so far
-  double cfl = 0.0, density_residual = 0.0, mass_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, fraction = 1.0;
+  double cfl = 0.0, density_residual = 0.0, mass_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, balance_drop = 0.0,
+         fraction = 1.0;
   bool matrix_free = false;
   std::array<double, 3> force{};   ///< of all patches with loads [N]
   std::array<double, 3> moment{};  ///< likewise, about the origin [N m]
@@ -162,6 +163,9 @@ class FlowSolver {
   }
   /// Where a march failed on this rank: block, cell and the limit that bound there; empty where none did.
   const std::string& trouble() const { return trouble_; }
+  /// Where the flow is farthest from its balance, as last judged: cells of the mean flow and of turbulence, a sentence.
+  /// Collective.
+  std::string worst_cells(MPI_Comm comm) const;
   /// Loads by patch and by band as last judged, the same on every rank.
   std::span<const double> load_sums() const { return loads_; }
   PatchLoads loads(int patch) const { return patch_loads(loads_, patch); }
@@ -197,6 +201,7 @@ class FlowSolver {
 
   std::size_t bytes() const;
   long cells() const;  ///< of all ranks
+  int unknowns() const { return mean_unknowns + model_->equations; }
 
  private:
   friend class StepGraph;
@@ -277,6 +282,8 @@ class FlowSolver {
   Norms norms_;
   std::vector<double> norm_partials_, load_partials_, dot_partials_, size_partials_, fraction_partials_;
   std::vector<double> norm_sums_, loads_, dots_;
+  std::array<double, 2> model_unit_{1.0, 1.0};  ///< of the turbulence model's residuals where they are judged
+  double linear_norm_ = 0.0;                    ///< of the right-hand side, in the units of the linear solver
   double direction_size_ = 0.0, fraction_ = 1.0;
   bool solving_ = false, matrix_free_ = false;
   std::vector<PseudoRow> rows_;
@@ -289,6 +296,7 @@ class FlowSolver {
     const char* what = "";
   };
   std::vector<Limit> limits_;
+  std::vector<double> noise_;  ///< by tile: squared norm of what round-off leaves of its balances
   std::string trouble_;
   std::vector<BlockPose> poses_before_{1}, poses_{1}, poses_next_{1};  ///< one step ago, now, at the end of the next step
   std::vector<RigidMap> periodic_;                                     ///< of the grid where it is

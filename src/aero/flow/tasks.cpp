@@ -223,7 +223,7 @@ class StepGraph {
     });
     g_.until("aero/krylov/enough", {reads(krylov_), reads(decision_)}, [this] {
       return !s_.solving_ || s_.cycle_.breakdown() ||
-             s_.cycle_.residual_norm() <= s_.march_.options().krylov_drop * std::sqrt(s_.norms_.mean + s_.norms_.model);
+             s_.cycle_.residual_norm() <= s_.march_.options().krylov_drop * s_.linear_norm_;
     });
   }
 
@@ -281,8 +281,7 @@ class StepGraph {
       if (s_.fraction_ < 0.0)
         s_.march_.not_updated();
       else
-        s_.march_.updated(s_.fraction_, s_.cycle_.columns(),
-                          s_.cycle_.residual_norm() / std::sqrt(s_.norms_.mean + s_.norms_.model));
+        s_.march_.updated(s_.fraction_, s_.cycle_.columns(), s_.cycle_.residual_norm() / s_.linear_norm_);
     });
     each(
         "aero/apply",

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/mpi/exchange.hpp"
 
 namespace spindrift::aero {
 
@@ -47,9 +48,9 @@ void for_cells(const Tiling& tiling, const FlowTile& tile, Body&& body) {
 
 }  // namespace
 
-void transfer(const FlowSolver& from, FlowSolver& to, const CellPlace& place) {
+void transfer(const FlowSolver& from, FlowSolver& to, const CellPlace& place, MPI_Comm comm) {
   const Tiling &coarse = from.grid().tiling(), &fine = to.grid().tiling();
-  const int unknowns = from.tiles().empty() ? 0 : from.tiles()[0].unknowns();
+  const int unknowns = from.unknowns();
   std::vector<BlockValues> values(coarse.block_cells.size());
   std::vector<std::array<std::vector<Between>, 3>> neighbours(values.size());
   for (std::size_t b = 0; b < values.size(); ++b) {
@@ -61,11 +62,27 @@ void transfer(const FlowSolver& from, FlowSolver& to, const CellPlace& place) {
         neighbours[b][d].push_back(between(place ? place(int(b), int(d), i) : (i + 0.5) * n[d] / cells, n[d]));
     }
   }
-  for (const FlowTile& tile : from.tiles())
-    for_cells(coarse, tile, [&](int block, const Index& cell, std::ptrdiff_t at) {
-      BlockValues& v = values[std::size_t(block)];
-      for (int c = 0; c < unknowns; ++c) v.data[v.at(c, cell)] = tile.state.data()[c * tile.cells.component + at];
+  // Tiles of all ranks: a coarser grid is an eighth or a quarter of what a rank may hold anyway.
+  runtime::Packer mine;
+  for (const FlowTile& tile : from.tiles()) {
+    std::vector<double> state;
+    for_cells(coarse, tile, [&](int, const Index&, std::ptrdiff_t at) {
+      for (int c = 0; c < unknowns; ++c) state.push_back(tile.state.data()[c * tile.cells.component + at]);
     });
+    mine.put_one(tile.index);
+    mine.put(std::span<const double>(state));
+  }
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take()))
+    for (runtime::Unpacker all(bytes); !all.done();) {
+      const Tile& tile = coarse.tiles[std::size_t(all.one<int>())];
+      const std::vector<double> state = all.many<double>();
+      BlockValues& v = values[std::size_t(tile.block)];
+      std::size_t n = 0;
+      for (int k = 0; k < tile.nk; ++k)
+        for (int j = 0; j < tile.nj; ++j)
+          for (int i = 0; i < tile.ni; ++i)
+            for (int c = 0; c < unknowns; ++c) v.data[v.at(c, tile.to_block({i, j, k}))] = state[n++];
+    }
   for (FlowTile& tile : to.tiles())
     for_cells(fine, tile, [&](int block, const Index& cell, std::ptrdiff_t at) {
       const BlockValues& v = values[std::size_t(block)];
@@ -87,14 +104,14 @@ void transfer(const FlowSolver& from, FlowSolver& to, const CellPlace& place) {
   to.forget();
 }
 
-void begin_with(const FlowSolver& coarse, FlowSolver& fine, const CellPlace& place) {
+void begin_with(const FlowSolver& coarse, FlowSolver& fine, const CellPlace& place, MPI_Comm comm) {
   const March& march = coarse.march();
   if (march.verdict() == Verdict::failed)
     throw NumericalFailure(
         fmt::format("aero: on the coarser grid of the start (aero.flow.coarse_steps): {} (pseudo-step {}, CFL {:.3g}){}",
                     march.why(), march.steps(), march.cfl(), coarse.trouble()),
         "aero", march.steps(), 0.0);
-  transfer(coarse, fine, place);
+  transfer(coarse, fine, place, comm);
 }
 
 }  // namespace spindrift::aero

@@ -84,3 +84,50 @@ TEST_CASE("loads that have settled end a march where asked", "[flow][fast]") {
   CHECK(steps > 5);
   CHECK(steps < 20);
 }
+
+TEST_CASE("by the flux balance a march ends when mean flow and turbulence have both fallen from the start", "[flow][fast]") {
+  const auto state = [](double mean, double model) {
+    return Norms{.density = 1e-12, .mean = mean * mean, .model = model * model, .cells = 1.0};
+  };
+  March march({.drop = 1e-2, .by_balance = true});
+  march.begin_step();
+  march.judge(state(1.0, 0.0), 0.0);
+  march.updated(1.0, 5, 0.1);
+  CHECK(march.judge(state(1e-3, 0.5), 0.0) == Verdict::go_on);  // turbulence is on its way
+  march.updated(1.0, 5, 0.1);
+  CHECK(march.judge(state(1e-3, 1e-3), 0.0) == Verdict::converged);
+  CHECK(march.balance_drop() == Approx(1e-3));
+  // Turbulence that starts with a thousand times the mean flow's is no reason to leave that where it is.
+  March other({.drop = 1e-2, .by_balance = true});
+  other.begin_step();
+  other.judge(state(1.0, 1e3), 0.0);
+  other.updated(1.0, 5, 0.1);
+  CHECK(other.judge(state(0.5, 1.0), 0.0) == Verdict::go_on);
+  other.updated(1.0, 5, 0.1);
+  CHECK(other.judge(state(1e-3, 1.0), 0.0) == Verdict::converged);
+}
+
+TEST_CASE("a balance that is round-off from the start has converged", "[flow][fast]") {
+  March march({.drop = 1e-6, .by_balance = true});
+  march.begin_step();
+  const Norms noise{.mean = 1e-26, .cells = 1.0, .noise = 1e-24};
+  march.judge(noise, 0.0);
+  march.updated(1.0, 5, 0.1);
+  CHECK(march.judge(noise, 0.0) == Verdict::converged);
+  CHECK_FALSE(march.spent());
+}
+
+TEST_CASE("marches that end for want of steps are counted, and the count goes through a restart", "[flow][fast]") {
+  March march({.drop = 1e-6, .max_steps = 3});
+  for (int window = 0; window < 2; ++window) {
+    march.begin_step();
+    while (march.judge(of(1.0), 0.0) == Verdict::go_on) march.updated(1.0, 5, 0.1);
+    CHECK(march.spent());
+  }
+  March again({.drop = 1e-6, .max_steps = 3});
+  again.load(march.save());
+  CHECK(again.unconverged() == 2);
+  CHECK(again.ended() == 2);
+  again.resume(3);  // a steady march that goes on has not ended
+  CHECK(again.unconverged() == 1);
+}

@@ -1,0 +1,106 @@
+"""NACA 0012 with default settings, as a user runs it: every incidence converges in the balance of all equations, or says that it did not.
+Usage: aerofoil_test.py SPINDRIFT [Fast|Nightly]"""
+import csv
+import itertools
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
+SCENE = """
+[time]
+end_s = %d
+window_s = 1.0
+[environment]
+air_density_kg_m3 = 1.225
+[wind]
+speed_m_s = 51.04            # Mach 0.15
+[aero]
+model = "blade_resolved"
+[aero.flow]
+incidence_deg = %g
+viscosity_Pa_s = 1.04207e-5  # Re = 6e6
+turbulence = "%s"
+flux = "%s"
+boundaries = [
+  {patch = "wall", condition = "no_slip"},
+  {patch = "farfield", condition = "far_field"},
+  {patch = "outflow", condition = "far_field"},
+]
+[aero.flow.generate]
+kind = "naca0012"
+refinement = %d
+far_m = 500.0
+"""
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_aerofoil_")
+        self.out = pathlib.Path(self.folder.name) / "run"
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def aerofoil(self, incidence, turbulence="sa", flux="roe_low_mach", refinement=1, steps=600):
+        """Exit code, summary and last row of the history."""
+        scene = self.out.parent / "aerofoil.toml"
+        scene.write_text(SCENE % (steps, incidence, turbulence, flux, refinement))
+        done = subprocess.run([PROGRAM, "run", scene, "--out", self.out, "--overwrite", "--no-report"], capture_output=True, text=True,
+                              timeout=1500)
+        self.words = done.stdout + done.stderr
+        self.assertTrue((self.out / "summary.json").exists(), self.words)
+        with open(self.out / "history.csv") as file:
+            last = {key: float(value) for key, value in list(csv.DictReader(file))[-1].items()}
+        return done.returncode, json.loads((self.out / "summary.json").read_text()), last
+
+
+class Fast(Runs):
+    def test_no_incidence_and_a_large_one_settle_with_default_settings(self):
+        code, summary, last = self.aerofoil(0)
+        self.assertEqual(code, 0, self.words)
+        self.assertIn("flux balance fell by the drop asked for", summary["exit_reason"])
+        self.assertLessEqual(last["flow.balance_drop"], 1e-6)
+        self.assertLess(abs(last["flow.lift_coefficient"]), 1e-4)
+        code, summary, last = self.aerofoil(15)
+        self.assertEqual(code, 0, self.words)
+        self.assertAlmostEqual(last["flow.lift_coefficient"], 1.460, delta=0.003)  # our own converged value
+
+    def test_a_march_that_takes_all_its_steps_ends_with_3_names_the_place_and_goes_on(self):
+        code, summary, last = self.aerofoil(10, steps=20)
+        self.assertEqual(code, 3, self.words)
+        self.assertEqual(summary["exit_code"], 3)
+        for words in ("not converged in the", "the flux balance has fallen by", "of 1e-06 asked for", "aero.flow.drop", "worst are the balance of",
+                      "in block", "cell (", ") m"):
+            self.assertIn(words, summary["exit_reason"])
+            self.assertIn(words, self.words)
+        self.assertTrue(list((self.out / "checkpoints").iterdir()))
+        again = subprocess.run([PROGRAM, "run", self.out.parent / "aerofoil.toml", "--out", self.out, "--restart", "--no-report"], capture_output=True,
+                               text=True, timeout=600)
+        self.assertEqual(again.returncode, 3, again.stdout + again.stderr)  # it has not converged by being looked at
+
+
+class Nightly(Runs):
+    def test_forty_cases_converge_or_say_that_they_did_not(self):
+        converged = 0
+        for refinement, turbulence, flux, incidence in itertools.product((1, 2), ("sa", "sst"), ("roe_low_mach", "osher"), (0, 4, 10, 15, 17)):
+            with self.subTest(refinement=refinement, turbulence=turbulence, flux=flux, incidence=incidence):
+                code, summary, last = self.aerofoil(incidence, turbulence, flux, refinement)
+                print(112 * refinement, turbulence, flux, incidence, code, last["flow.pseudo_steps"], "%.1e" % last["flow.balance_drop"],
+                      "%.5f %.5f" % (last["flow.lift_coefficient"], last["flow.drag_coefficient"]), flush=True)
+                self.assertIn(code, (0, 3), self.words)
+                if code == 0:
+                    converged += 1
+                    self.assertLessEqual(last["flow.balance_drop"], 1e-6)
+                    if incidence == 0:
+                        self.assertLess(abs(last["flow.lift_coefficient"]), 1e-4)
+                    if (refinement, turbulence, flux, incidence) == (2, "sa", "roe_low_mach", 15):
+                        self.assertTrue(1.49 < last["flow.lift_coefficient"] < 1.57)
+        self.assertGreaterEqual(converged, 36)
+
+
+if __name__ == "__main__":
+    unittest.main()
