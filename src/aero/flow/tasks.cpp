@@ -368,6 +368,7 @@ void FlowSolver::record_geometry(Graph& graph) {
   const std::vector<Datum> nodes = graph.data(tiles_.size()), ghosts = graph.data(tiles_.size());
   for (std::size_t n = 0; n < tiles_.size(); ++n)
     graph.task("aero/geometry/" + std::to_string(tiles_[n].index), {writes(nodes[n])}, [] {});
+  if (tiles_.empty()) graph.task("aero/geometry", {}, [] {});  // a coarse grid may have fewer tiles than there are ranks
   record_centres(graph, nodes, ghosts, {});
 }
 
