@@ -14,6 +14,7 @@
 #include "src/aero/rotor_grid/quality.hpp"
 #include "src/aero/rotor_grid/rotor_grid.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::aero {
 
@@ -59,7 +60,7 @@ RotorPose hub_pose(const RotorOptions& rotor) {
   return pose;
 }
 
-std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told) {
+std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told) try {
   auto made = std::make_shared<MadeRotorGrid>();
   made->turbine = read_turbine(setup.rotor.turbine);
   made->spec = rotor_grid_spec(setup.grid, made->turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
@@ -70,6 +71,8 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
   require_sound(made->grid, "aero.grid");
   made->stations = blade_stations(made->grid);
   return made;
+} catch (const NumericalFailure& failure) {
+  throw scene::SceneError({{setup.rotor.turbine, 0, "aero.grid", "", failure.what()}});
 }
 
 ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk,

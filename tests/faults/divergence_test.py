@@ -59,8 +59,8 @@ def main():
             print(f"\n## {part}\n\n| what | ends |\n|---|---|")
         for case in TABLE[part]["cases"]:
             how, said, wrong = ended(case)
-            wrong = wrong or ("" if how == case["ends"] else f"ends {how}, should be {case['ends']}")
-            wrong = wrong or ("" if case["named"] in said else f"does not name {case['named']}")
+            wrong = wrong or ("" if how == case.get("ends") else f"ends {how}, should be {case.get('ends')}")
+            wrong = wrong or ("" if case.get("named", "") in said else f"does not name {case['named']}")
             faults += bool(wrong)
             if "--table" in sys.argv or wrong:
                 print(f"| {case['what']} | {how}: {said}{' **' + wrong + '**' if wrong else ''} |", flush=True)
