@@ -31,8 +31,8 @@ struct IntegratorWork {
   /// of the stiffest mode that moves, whatever its phase (after Hairer & Wanner 1996, Solving ODEs II, IV.2). Beyond 2 the step
   /// is unstable. 0 where they differ by less than `least_change` of velocity in the step.
   double stiffness = 0.0;
-  /// Likewise: the change of velocity by a load that sets in within the step (u' ten times that at its start), over the velocity
-  /// (10 least_change at least): a line that snaps taut within the step is stretched by the whole way.
+  /// Likewise: the change of velocity by a load that sets in or ends within the step (one evaluation of u' is ten times another),
+  /// over the velocity (10 least_change at least): a line that snaps taut within the step is stretched by the whole way.
   double onset = 0.0;
   static constexpr double least_change = 0.05;  // 1/s
   void resize(Eigen::Index n) {
@@ -51,6 +51,7 @@ bool step_rk4(Rates&& rates, double t, double h, Eigen::VectorXd& u, IntegratorW
   w.u_sum = w.u_rate;
   constexpr double least_change = IntegratorWork::least_change;
   const double first = w.u_rate.norm(), speed = std::max(u.norm(), 10.0 * least_change);
+  double least = first, most = first;
   constexpr double node[3] = {0.5, 0.5, 1.0}, weight[3] = {2.0, 2.0, 1.0};
   for (int stage = 0; stage < 3; ++stage) {
     w.x = (node[stage] * h) * w.x_rate;
@@ -61,10 +62,11 @@ bool step_rk4(Rates&& rates, double t, double h, Eigen::VectorXd& u, IntegratorW
       const double difference = (w.u_rate - w.u_rate_before).norm();
       w.stiffness = h * difference > least_change ? difference / first : 0.0;
     }
-    if (const double now = w.u_rate.norm(); now > 10.0 * first) w.onset = std::max(w.onset, h * now / speed);
+    least = std::min(least, w.u_rate.norm()), most = std::max(most, w.u_rate.norm());
     w.x_sum += weight[stage] * w.x_rate;
     w.u_sum += weight[stage] * w.u_rate;
   }
+  if (most > 10.0 * least) w.onset = h * most / speed;
   w.x = (h / 6.0) * w.x_sum;
   u += (h / 6.0) * w.u_sum;
   return true;
