@@ -27,12 +27,14 @@ inline constexpr std::optional<Integrator> integrator_named(std::string_view nam
 /// Vectors that a step needs; resized once, so that steps do not allocate.
 struct IntegratorWork {
   Eigen::VectorXd x, u, x_sum, u_sum, x_rate, u_rate, u_rate_before;
-  /// Of the last step, by rk4 only: what two evaluations at its middle differ by in u', over the largest u' before. (h |lambda|
-  /// / 2)^2 of the stiffest mode that moves (Hairer & Wanner 1996, Solving ODEs II, IV.2): beyond 2 the step is unstable.
+  /// Of the last step, by rk4 only: what two evaluations at its middle differ by in u', over u' at its start: (h |lambda| / 2)^2
+  /// of the stiffest mode that moves, whatever its phase (after Hairer & Wanner 1996, Solving ODEs II, IV.2). Beyond 2 the step
+  /// is unstable. 0 where they differ by less than `least_change` of velocity in the step.
   double stiffness = 0.0;
-  /// Likewise: the change of velocity by a load that sets in within the step (u' ten times that at its start), over the velocity
-  /// (0.5 at least, in 1/s). Beyond 1 the step is too long for it: a line that snaps taut is stretched by the whole way.
+  /// Likewise: the change of velocity by a load that sets in or ends within the step (one evaluation of u' is ten times another),
+  /// over the velocity (10 least_change at least): a line that snaps taut within the step is stretched by the whole way.
   double onset = 0.0;
+  static constexpr double least_change = 0.05;  // 1/s
   void resize(Eigen::Index n) {
     for (auto* v : {&x, &u, &x_sum, &u_sum, &x_rate, &u_rate, &u_rate_before}) v->resize(n);
   }
@@ -47,23 +49,24 @@ bool step_rk4(Rates&& rates, double t, double h, Eigen::VectorXd& u, IntegratorW
   if (!rates(t, w.x, w.u, w.x_rate, w.u_rate)) return false;
   w.x_sum = w.x_rate;
   w.u_sum = w.u_rate;
-  const double first = w.u_rate.norm(), speed = std::max(u.norm(), 0.5);
-  double largest = first;
+  constexpr double least_change = IntegratorWork::least_change;
+  const double first = w.u_rate.norm(), speed = std::max(u.norm(), 10.0 * least_change);
+  double least = first, most = first;
   constexpr double node[3] = {0.5, 0.5, 1.0}, weight[3] = {2.0, 2.0, 1.0};
   for (int stage = 0; stage < 3; ++stage) {
     w.x = (node[stage] * h) * w.x_rate;
     w.u = u + (node[stage] * h) * w.u_rate;
-    if (stage == 1) w.u_rate_before = w.u_rate, largest = std::max(largest, w.u_rate.norm());
+    if (stage == 1) w.u_rate_before = w.u_rate;
     if (!rates(t + node[stage] * h, w.x, w.u, w.x_rate, w.u_rate)) return false;
     if (stage == 1) {
-      constexpr double round_off = 1e-6;  // a difference of accelerations [1/s2] that says nothing
       const double difference = (w.u_rate - w.u_rate_before).norm();
-      w.stiffness = difference > round_off ? difference / largest : 0.0;
+      w.stiffness = h * difference > least_change ? difference / first : 0.0;
     }
-    if (const double now = w.u_rate.norm(); now > 10.0 * first) w.onset = std::max(w.onset, h * now / speed);
+    least = std::min(least, w.u_rate.norm()), most = std::max(most, w.u_rate.norm());
     w.x_sum += weight[stage] * w.x_rate;
     w.u_sum += weight[stage] * w.u_rate;
   }
+  if (most > 10.0 * least) w.onset = h * most / speed;
   w.x = (h / 6.0) * w.x_sum;
   u += (h / 6.0) * w.u_sum;
   return true;

@@ -14,6 +14,7 @@
 #include "src/aero/rotor_grid/quality.hpp"
 #include "src/aero/rotor_grid/rotor_grid.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::aero {
 
@@ -59,7 +60,14 @@ RotorPose hub_pose(const RotorOptions& rotor) {
   return pose;
 }
 
-std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told) {
+std::vector<std::string> blade_patches(const MultiBlockGrid& grid) {
+  std::vector<std::string> blades;
+  for (const Boundary& b : grid.boundaries)
+    if (b.patch.starts_with("blade_")) blades.push_back(b.patch);
+  return blades;
+}
+
+std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told) try {
   auto made = std::make_shared<MadeRotorGrid>();
   made->turbine = read_turbine(setup.rotor.turbine);
   made->spec = rotor_grid_spec(setup.grid, made->turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
@@ -70,6 +78,8 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
   require_sound(made->grid, "aero.grid");
   made->stations = blade_stations(made->grid);
   return made;
+} catch (const NumericalFailure& failure) {
+  throw scene::SceneError({{setup.rotor.turbine, 0, "aero.grid", "", failure.what()}});
 }
 
 ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk,
@@ -89,13 +99,12 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   pose_ = pose_before_ = start_;
   const MultiBlockGrid placed = steady() ? carried(grid_, map_of(start_)) : MultiBlockGrid();
   const MultiBlockGrid& solved_on = steady() ? placed : grid_;
-  std::vector<std::string> blades;
-  for (const Boundary& b : grid_.boundaries)
-    if (b.patch.starts_with("blade_")) blades.push_back(b.patch);
+  const std::vector<std::string> blades = blade_patches(grid_);
   if (told) told("tiles", 0.0);
   Tiling tiling = make_tiling(solved_on, blades);
   const FlowOptions flow = with_default_patches(setup.flow, tiling);
   std::vector<PatchCondition> conditions = patch_conditions(flow, tiling);
+  require_ranks(std::size_t(tiling.size()), ranks);
   std::vector<int> rank_of_tile(std::size_t(tiling.size()), 0);
   if (ranks > 1) rank_of_tile = runtime::partition_blocks(tile_graph(tiling), {.ranks = ranks}).rank_of_block;
   store_ = std::make_unique<GridStore>(std::move(tiling), std::move(rank_of_tile), rank);

@@ -42,7 +42,9 @@ struct MadeRotorGrid {
   MultiBlockGrid grid;
   std::vector<std::vector<BladeStation>> stations;
 };
-/// Throws scene::SceneError or NumericalFailure where the scene does not make a grid fit for use.
+/// Patches of its blades.
+std::vector<std::string> blade_patches(const MultiBlockGrid& grid);
+/// Throws scene::SceneError where the scene does not make a grid fit for use.
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told = {});
 
 class ResolvedRotor {

@@ -10,6 +10,7 @@
 
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
+#include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/coarsen.hpp"
 #include "src/aero/grid/tiling.hpp"
 #include "src/aero/resolved_rotor.hpp"
@@ -235,7 +236,7 @@ aero::MultiBlockGrid made_flow_grid(const coupling::Scenario& s) {
 }
 
 /// Size of a grid that stands, its patches with their conditions; a block to paste where some have none. False then.
-bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& grid) {
+bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& grid, int ranks) {
   std::size_t cells = 0;
   for (const aero::Block& b : grid.blocks) cells += std::size_t(b.ni) * b.nj * b.nk;
   std::map<std::string, long> faces;
@@ -252,7 +253,9 @@ bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& gri
     if (!given) missing.push_back(patch);
   }
   if (missing.empty()) {
-    aero::patch_conditions(o, aero::make_tiling(grid, aero::wall_patches(o)));  // a condition for no patch is refused
+    const aero::Tiling tiling = aero::make_tiling(grid, aero::wall_patches(o));
+    aero::patch_conditions(o, tiling);  // a condition for no patch is refused
+    aero::require_ranks(std::size_t(tiling.size()), ranks);
     return true;
   }
   fmt::print("\nEach patch needs a condition. To paste under [aero.flow], after a look at each line:\n\nboundaries = [\n");
@@ -299,7 +302,10 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     // Grids of millions of cells take minutes: they are not made.
     constexpr long made_at_most = 300'000;
     const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(scenario);
-    if (aero::resolved_rotor_size(setup).cells <= made_at_most) aero::made_rotor_grid(setup);
+    if (aero::resolved_rotor_size(setup).cells <= made_at_most) {
+      const std::shared_ptr<const aero::MadeRotorGrid> made = aero::made_rotor_grid(setup);
+      aero::require_ranks(std::size_t(aero::make_tiling(made->grid, aero::blade_patches(made->grid)).size()), world.size);
+    }
     if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size);
     return done;
   }
@@ -309,7 +315,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
                aero::describe_flow_grid(*scenario.aero.flow));
-    return print_flow_grid(*scenario.aero.flow, grid) ? done : bad_input;
+    return print_flow_grid(*scenario.aero.flow, grid, world.size) ? done : bad_input;
   }
   const coupling::Scenario asked = scenario;
   Machine machine(std::move(scenario));

@@ -264,8 +264,9 @@ bool System::Work::advance(double t, double t_end, double h) {
   report.newton_iterations = mechanism.newton_iterations();
   if (!done) return false;
   constexpr double stiffest = 2.2;  // a twentieth beyond the limit of rk4
-  if (integration.stiffness > stiffest || integration.onset > 1.0) {
-    report.value = h / std::sqrt(std::max(0.5 * integration.stiffness, integration.onset));
+  constexpr double most_onset = 0.25;
+  if (integration.stiffness > stiffest || integration.onset > most_onset) {
+    report.value = h / std::sqrt(std::max(integration.stiffness / 2.0, integration.onset / most_onset));
     return fail(StepReport::Trouble::stiff, -1);
   }
   mechanism.motions(opened.motions);

@@ -41,9 +41,9 @@ void answer_of(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpa
     } catch (const NumericalFailure& f) {
       failed(End::numerical, f), put(parcel, f.place);
       parcel.put_one(f.step), parcel.put_one(f.time_s), parcel.put_one(f.limit);
-    } catch (const io::InputError& e) { failed(End::input, e); } catch (const runtime::StopAsked& e) {
-      failed(End::stop, e);
-    }
+    } catch (const io::InputError& e) { failed(End::input, e); } catch (const scene::SceneError& e) {
+      failed(End::input, e);
+    } catch (const runtime::StopAsked& e) { failed(End::stop, e); }
   const runtime::Bytes bytes = parts.share(part, parcel.take());
   Unpacker from(bytes);
   const End end = from.one<End>();

@@ -13,6 +13,7 @@
 #include "src/aero/flow/transfer.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
+#include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/coarsen.hpp"
 #include "src/aero/grid/wall_distance.hpp"
 #include "src/aero/wind.hpp"
@@ -70,6 +71,7 @@ void FlowCase::solve(const coupling::Scenario& s, const runtime::World& world, i
   const std::vector<std::string> walls = aero::wall_patches(o);
   aero::Tiling tiling = aero::make_tiling(own_grid_, walls);
   std::vector<aero::PatchCondition> conditions = aero::patch_conditions(o, tiling);
+  aero::require_ranks(std::size_t(tiling.size()), world.size);
   std::vector<int> ranks(std::size_t(tiling.size()), 0);
   if (world.size > 1) ranks = runtime::partition_blocks(aero::tile_graph(tiling), {.ranks = world.size}).rank_of_block;
   own_store_ = std::make_unique<aero::GridStore>(std::move(tiling), std::move(ranks), world.rank);

@@ -178,7 +178,9 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   const sph::Cut cut = planar ? sph::Cut::plane : sph::Cut::space;
   for (const ParticleBody& body : bodies)
     for (const sph::BodyShape& shape : body.shapes) {
-      const auto points = sph::fill_shape(shape, d, cut);
+      constexpr double enough = 1e5;  // points tell where a shape reaches, however small particles are
+      const auto points =
+          sph::fill_shape(shape, std::max(d, std::pow(sph::volume_of(shape, cut) / enough, planar ? 0.5 : 1.0 / 3.0)), cut);
       const std::string key = "bodies." + body.name;
       if (points.size() < (planar ? 4u : 8u))
         wrong(key, fmt::format("has a shape of {} particle{} at a spacing of {} m: too coarse", points.size(),

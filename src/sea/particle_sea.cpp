@@ -127,7 +127,7 @@ class Sea final : public ParticleSea {
   }
   void forget_tasks() override { tasks_.clear(); }
   void open(double t, std::span<const Motion> bodies, bool settling) override {
-    settling_ = settling;
+    settling_ = settling, t_ = t;
     place(t, bodies);
     sph::Plan& plan = sea_.state().plan;
     plan.left = 1.0;                               // until the driver calls a step the last
@@ -136,7 +136,11 @@ class Sea final : public ParticleSea {
   }
   void close() override {
     if (sea_.state().plan.stopped) throw runtime::StopAsked();
-    if (const auto& failure = sea_.state().plan.failure) throw NumericalFailure(*failure);
+    const std::optional<NumericalFailure>& failure = sea_.state().plan.failure;
+    if (!failure) return;
+    // Who drives the window knows the scene's time, the sea its own.
+    const std::string what = failure->what(), told = what.starts_with("t = ") ? "" : "t = " + sph::in_words(t_) + " s: ";
+    throw NumericalFailure(told + what, failure->place, failure->step, told.empty() ? failure->time_s : t_, failure->limit);
   }
   void keep(int note) override { notes_[std::size_t(note)] = {sea_.save(), loads_, contacts_, motions_}; }
   void back(int note) override {
@@ -297,6 +301,7 @@ class Sea final : public ParticleSea {
   std::vector<Wrench> loads_, contacts_;
   std::vector<Motion> motions_;
   bool settling_ = false;
+  double t_ = 0.0;  ///< at the window's start
   // Windows as tasks.
   struct Noted {
     sph::Saved<dim> sea;

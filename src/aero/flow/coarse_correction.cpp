@@ -314,7 +314,7 @@ struct CoarseCorrection final : IluAfterCommon {
           for (int n = 0; n < width; ++n) sum[t.group(k, j, i) * width + n] += double(v[n]);
   }
 
-  void apply(const Piece& piece) override {
+  void apply_common(const Piece& piece) override {
     FlowTile& tile = *piece.tile;
     TileGroups& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();

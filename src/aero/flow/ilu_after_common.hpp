@@ -30,6 +30,12 @@ class IluAfterCommon : public Preconditioner {
   void common(MPI_Comm comm) final {
     if (!singular_) attempt([&] { solve_common(comm); });
   }
+  void apply(const Piece& piece) final {
+    if (singular_)
+      ilu_->apply(piece);
+    else
+      apply_common(piece);
+  }
   bool singular() const final { return singular_; }
 
   std::size_t kept_size(const FlowTile& tile) const final { return options_.common_steps > 1 ? 1 + matrix_size(tile) : 0; }
@@ -52,6 +58,8 @@ class IluAfterCommon : public Preconditioner {
   virtual void set_up(MPI_Comm comm) = 0;
   /// Its answer to what was gathered. Collective. Both may throw SingularMatrix.
   virtual void solve_common(MPI_Comm comm) = 0;
+  /// z from that answer and ILU of what it leaves.
+  virtual void apply_common(const Piece& piece) = 0;
   // A tile's part of that matrix.
   virtual std::size_t matrix_size(const FlowTile& tile) const = 0;
   virtual void save_matrix(const FlowTile& tile, std::span<double> to) const = 0;

@@ -180,7 +180,7 @@ struct PressureAmg final : IluAfterCommon {
     exchange.fetch(numbering, pressure, 1, other, comm);
   }
 
-  void apply(const Piece& piece) override {
+  void apply_common(const Piece& piece) override {
     FlowTile& tile = *piece.tile;
     const PressureTile& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();

@@ -220,6 +220,13 @@ std::vector<std::string> grid_faults(const MultiBlockGrid& grid, const CheckOpti
   return Checker(grid, options).run();
 }
 
+void require_ranks(std::size_t tiles, int ranks) {
+  if (std::size_t(ranks) <= tiles) return;
+  throw scene::SceneError(
+      {{"command line", 0, "ranks of the air", fmt::format("{}", ranks),
+        fmt::format("the grid has {} tile{}, and each rank needs one: at most {}", tiles, tiles == 1 ? "" : "s", tiles)}});
+}
+
 void require_sound(const MultiBlockGrid& grid, const std::string& source, const CheckOptions& options) {
   const auto faults = grid_faults(grid, options);
   if (faults.empty()) return;

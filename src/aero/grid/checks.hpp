@@ -18,6 +18,9 @@ struct CheckOptions {
 /// What is wrong, each a sentence that names block and cell; empty where nothing is.
 std::vector<std::string> grid_faults(const MultiBlockGrid& grid, const CheckOptions& options = {});
 
+/// Throws scene::SceneError where there are more ranks than tiles: each needs one.
+void require_ranks(std::size_t tiles, int ranks);
+
 /// Throws scene::SceneError with all faults; `source` is the file or the key that asked for the grid.
 void require_sound(const MultiBlockGrid& grid, const std::string& source, const CheckOptions& options = {});
 

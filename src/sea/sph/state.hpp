@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -24,6 +25,13 @@
 #include "src/sea/sph/territory.hpp"
 
 namespace spindrift::sph {
+
+/// A number as messages have it.
+inline std::string in_words(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
 
 /// Counters of a run, for reports and benchmarks.
 struct Work {
@@ -111,7 +119,7 @@ struct SeaState {
     if (store.lost.size() <= p.lost_at_most || plan.failure) return;
     const LostParticle<dim>& last = store.lost.back();
     std::string place = "(";
-    for (int k = 0; k < dim; ++k) place += (k > 0 ? ", " : "") + std::to_string(last.position[k]);
+    for (int k = 0; k < dim; ++k) place += (k > 0 ? ", " : "") + in_words(last.position[k]);
     plan.failure = NumericalFailure("sea: " + std::to_string(store.lost.size()) + " particles left the domain (allowed " +
                                         std::to_string(p.lost_at_most) + "), the last one, " + std::to_string(last.id) + ", at " +
                                         place + ") m; widen the domain or check the walls",
@@ -128,9 +136,10 @@ struct SeaState {
     plan.limit = plan.limits.smallest();
     constexpr double smallest_share = 1e-2;  // of the step of water at rest: speeds of 100 c0 are no flow
     if (!(plan.limit > smallest_share * p.cfl * p.h() / p.eos.c0) && !plan.failure)
-      plan.failure = NumericalFailure("sea: the step fell to " + std::to_string(plan.limit) + " s (largest speed " +
-                                          std::to_string(plan.speed) + " m/s, acceleration " + std::to_string(plan.acceleration) +
-                                          " m/s2); try a smaller sea.cfl or more viscosity",
+      plan.failure = NumericalFailure("sea: the stable step fell to " + in_words(plan.limit) + " s, the limit is " +
+                                          in_words(smallest_share * p.cfl * p.h() / p.eos.c0) + " s (largest speed " +
+                                          in_words(plan.speed) + " m/s, acceleration " + in_words(plan.acceleration) +
+                                          " m/s2); try a smaller sea.particles.cfl or more viscosity",
                                       "sea", plan.steps, plan.time, plan.limit);
   }
   void start_steps(double dt, int count) {
@@ -152,9 +161,9 @@ struct SeaState {
       } catch (const NumericalFailure& failure) { plan.failure = failure, plan.planned = 0; }
     } else if (pace.dt > 0.0) {
       if (pace.dt > plan.limit * (1.0 + 1e-12))
-        plan.failure = NumericalFailure("sea: the fixed step of " + std::to_string(pace.dt) + " s is beyond the limit of " +
-                                            std::to_string(plan.limit) + " s (largest speed " + std::to_string(plan.speed) +
-                                            " m/s, acceleration " + std::to_string(plan.acceleration) + " m/s2)",
+        plan.failure = NumericalFailure("sea: the fixed step of " + in_words(pace.dt) + " s is beyond the limit of " +
+                                            in_words(plan.limit) + " s (largest speed " + in_words(plan.speed) +
+                                            " m/s, acceleration " + in_words(plan.acceleration) + " m/s2)",
                                         "sea", plan.steps, plan.time, plan.limit);
       const double steps_left = std::round(plan.left / pace.dt);
       start_steps(pace.dt, plan.failure ? 0 : int(std::min<double>(pace.steps_per_look, steps_left)));

@@ -493,10 +493,10 @@ void StepTasks<dim, Real>::bodies(Half half) {
                     shared->wrenches, shared->motions);
                 for (std::size_t s = 0; s < sea.solids.size(); ++s) sea.set_motion(sea.solids[s], shared->motions[s]);
                 if (plan.solid_path > farthest)
-                  sea.plan.failure = NumericalFailure(
-                      "sea: a body went more than a column of cells and a half in one window; "
-                      "shorten coupling.window_s",
-                      "sea", plan.steps, plan.time, farthest);
+                  sea.plan.failure =
+                      NumericalFailure("sea: bodies went " + in_words(plan.solid_path) + " m in one window, the limit is " +
+                                           in_words(farthest) + " m (a column of cells and a half); shorten time.window_s",
+                                       "sea", plan.steps, plan.time, farthest);
               }));
   for (const int g : body_groups_)
     graph_.task(name("place/" + when, std::size_t(g)),

@@ -85,6 +85,38 @@ TEST_CASE("the textbook limits come out", "[rigid][fast]") {
   CHECK(stability_limit(Integrator::rk4, {2.0, 0.0}) > 1e300);              // growth of the system's own
 }
 
+TEST_CASE("rk4 sees how stiff what moves is, and loads that set in within a step", "[rigid][fast]") {
+  IntegratorWork work;
+  work.resize(1);
+  const double h = 0.01;
+  for (const double z : {0.5, 2.0, 3.0, 10.0}) {  // h omega
+    Eigen::VectorXd u(1);
+    u[0] = 0.3 * z / h;
+    const auto oscillator = [&](double, const Eigen::VectorXd& x, const Eigen::VectorXd& w, Eigen::VectorXd& x_rate,
+                                Eigen::VectorXd& u_rate) {
+      x_rate = w;
+      u_rate[0] = -z * z / (h * h) * (1.0 + x[0]);
+      return true;
+    };
+    REQUIRE(step(Integrator::rk4, oscillator, 0.0, h, u, work));
+    CHECK(work.stiffness == Approx(0.25 * z * z));
+  }
+  // A line that is slack at the start and taut within the step.
+  Eigen::VectorXd u(1);
+  u[0] = 3.0;
+  const auto line = [&](double, const Eigen::VectorXd& x, const Eigen::VectorXd& w, Eigen::VectorXd& x_rate,
+                        Eigen::VectorXd& u_rate) {
+    x_rate = w;
+    u_rate[0] = 9.81 - 1e5 * std::max(0.0, x[0] - 0.02);
+    return true;
+  };
+  REQUIRE(step(Integrator::rk4, line, 0.0, h, u, work));
+  CHECK(work.onset > 0.25);
+  u[0] = 3.0;
+  REQUIRE(step(Integrator::rk4, line, 0.0, h / 16.0, u, work));
+  CHECK(work.onset == 0.0);
+}
+
 TEST_CASE("a step that cannot be evaluated stops at once and says so", "[rigid][fast]") {
   const auto integrator = GENERATE(Integrator::rk4, Integrator::explicit_euler, Integrator::symplectic);
   IntegratorWork work;

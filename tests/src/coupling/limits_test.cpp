@@ -15,10 +15,11 @@ using Catch::Contains;
 
 TEST_CASE("a slack line is held to what it needs taut", "[coupling][fast]") {
   // One tonne on a line of 1e8 N/m, above the body's centre: omega = sqrt(1e5) 1/s, leapfrog's limit 2 / omega = 6.3 ms.
-  const auto with = [](std::vector<std::string> more) {
-    more.insert(more.end(), {"bodies.buoy.mass_kg=1000.0", "moorings.chain.tension_only=true", "moorings.chain.stiffness_N_m=1e8",
-                             "moorings.chain.rest_length_m=30.0", "time.window_s=0.1"});
-    return more;
+  const auto with = [](const std::vector<std::string>& more) {
+    std::vector<std::string> all{"bodies.buoy.mass_kg=1000.0", "moorings.chain.tension_only=true",
+                                 "moorings.chain.stiffness_N_m=1e8", "moorings.chain.rest_length_m=30.0", "time.window_s=0.1"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
   };
   const auto require = [&](const std::vector<std::string>& overrides) {
     Machine machine(test::scenario(test::buoy, overrides));

@@ -36,6 +36,30 @@ TEST_CASE("a residual that leaps or is not finite takes the step back and makes 
   }
 }
 
+TEST_CASE("a step whose matrix was singular is taken back and the next one is smaller", "[flow][fast]") {
+  March march({.cfl_start = 10.0});
+  march.begin_step();
+  REQUIRE(march.judge(of(1.0), 0.0) == Verdict::go_on);
+  march.not_updated();
+  CHECK(march.judge(of(1.0), 0.0) == Verdict::rejected);
+  CHECK(march.cfl() == Approx(2.0));
+  CHECK(march.judge(of(1.0), 0.0) == Verdict::go_on);
+}
+
+TEST_CASE("a march that is asked to stop ends as one whose steps are spent; an eased one keeps to a smaller CFL number",
+          "[flow][fast]") {
+  March march({.cfl_start = 10.0, .cfl_max = 1000.0});
+  march.begin_step();
+  march.judge(of(1.0), 0.0);
+  march.stop();
+  CHECK(ends_march(march.verdict()));
+  CHECK(march.spent());
+  march.ease(0.1);
+  CHECK(march.cfl() == Approx(1.0));
+  march.ease(1.0);
+  CHECK(march.cfl() == Approx(1.0));  // it grows from there
+}
+
 TEST_CASE("what no step size cures ends in a failure with its reason", "[flow][fast]") {
   March march({.cfl_start = 10.0});
   march.begin_step();
