@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernels/base/failure.hpp"
 #include "kernels/waves/morison.hpp"
@@ -170,6 +171,32 @@ void Moorings::begin(double t, std::span<const Motion> bodies, std::span<double>
   recall(memory);
 }
 
+/// One step of a dynamic line, repeated in ever more substeps while it does not end in numbers.
+LineForces Moorings::go_on(Line& line, double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state) {
+  auto& [model, scratch, first] = *line.dynamic;
+  constexpr double most = 1e5;
+  if (const double substeps = model.substeps(h); !(substeps <= most))
+    throw NumericalFailure(
+        fmt::format("the line needs {:.3g} substeps in a step of {:.3g} s, {:.3g} are allowed: its segments of "
+                    "{:.3g} m are too stiff, too light or too short; take fewer segments, or look at its units",
+                    substeps, h, most, model.segment()),
+        "moorings." + line.name, 0, t, most);
+  constexpr int finest = 16;
+  const std::vector<double>& before = (kept_.assign(state.begin(), state.end()), kept_);
+  for (int finer = 1; finer <= finest; finer *= 2) {
+    const LineForces f = model.advance(t, h, from, to, state, environment_.water, scratch, finer);
+    if (std::isfinite(f.fairlead_tension + f.anchor_tension) &&
+        std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); }))
+      return f;
+    std::copy(before.begin(), before.end(), state.begin());
+  }
+  throw NumericalFailure(
+      fmt::format("the line's motion has no numbers even in substeps of {:.3g} s; its fairlead moves by {:.3g} m "
+                  "in the step of {:.3g} s",
+                  h / (finest * model.substeps(h)), (to.fairlead.position - from.fairlead.position).norm(), h),
+      "moorings." + line.name, 0, t, h);
+}
+
 void Moorings::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) {
   for (Line& line : lines_) {
     if (!line.dynamic) continue;
@@ -177,8 +204,8 @@ void Moorings::remember(double t, double h, std::span<const Motion> bodies, std:
     const Recalled last{memory.subspan(first)};
     const LineForces before = last.at_end();
     const LineEnds now = ends(line, bodies);
-    const LineForces f = model.advance(t - h, h, last.line_ends(), now,
-                                       memory.subspan(first + Recalled::nodes, model.state_size()), environment_.water, scratch);
+    const LineForces f =
+        go_on(line, t - h, h, last.line_ends(), now, memory.subspan(first + Recalled::nodes, model.state_size()));
     const LineForces change{(f.on_fairlead - before.on_fairlead) / h, (f.on_anchor - before.on_anchor) / h};
     Recalled::write(t, now, f, change, memory.subspan(first));
   }

@@ -85,6 +85,7 @@ class Moorings {
   End attach(const std::string& body, const Eigen::Vector3d& point) const;
   LineEnd moving(const End& end, std::span<const Motion> bodies) const;
   LineEnds ends(const Line& line, std::span<const Motion> bodies) const;
+  LineForces go_on(Line& line, double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state);
   LineForces forces(const Line& line, double t, std::span<const Motion> bodies) const;
 
   std::vector<std::string> bodies_;
@@ -93,6 +94,7 @@ class Moorings {
   std::vector<Line> lines_;
   std::size_t memory_size_ = 0;
   std::vector<double> memory_;  ///< recalled; empty: steady
+  std::vector<double> kept_;    ///< state of a line before a step that may be repeated
   std::vector<Table> tables_;   ///< a LineTable looks into these; their heap does not move with the vector
 };
 

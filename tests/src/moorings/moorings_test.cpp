@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/failure.hpp"
 
 using namespace spindrift;
 using namespace spindrift::moorings;
@@ -227,7 +228,12 @@ TEST_CASE("a body on a dynamic line is stable up to half the time in which the l
     std::vector<Wrench> w(1);
     m.add_loads((n + 0.5) * h, body, w);
     body[0].velocity.x() += h / mass * (w[0].force.x() - rest), body[0].position.x() += h * body[0].velocity.x();
-    m.remember((n + 1) * h, h, body, memory);
+    try {
+      m.remember((n + 1) * h, h, body, memory);
+    } catch (const NumericalFailure&) {  // which names the line
+      largest = 1e99;
+      break;
+    }
     largest = std::max(largest, std::abs(body[0].velocity.x()));
     if (n < 100) early = largest;
   }
@@ -236,4 +242,26 @@ TEST_CASE("a body on a dynamic line is stable up to half the time in which the l
     CHECK(largest < 0.6);
   else
     CHECK_FALSE(largest < 5.0);
+}
+
+TEST_CASE("a line that cannot be advanced stops the run by its name", "[moorings][fast]") {
+  Moorings m(names, start());
+  LineOptions line = chain();
+  line.axial_stiffness_N = 1.674e21;  // as if in N per m2
+  m.add("line", line);
+  std::vector<double> memory(m.memory_size());
+  CHECK_THROWS_WITH((m.begin(0.0, start(), memory), m.remember(0.05, 0.05, start(), memory)), Catch::Contains("substeps"));
+}
+
+TEST_CASE("a line whose end is torn away ends in numbers or in a refusal with its name", "[moorings][fast]") {
+  Moorings m(names, start());
+  m.add("line", chain());
+  std::vector<double> memory(m.memory_size());
+  m.begin(0.0, start(), memory);
+  auto far = start();
+  far[0].position.x() -= 200.0, far[0].velocity.x() = -4000.0;
+  try {
+    m.remember(0.05, 0.05, far, memory);
+    for (double x : memory) CHECK(std::isfinite(x));
+  } catch (const NumericalFailure& failure) { CHECK(failure.place == "moorings.line"); }
 }
