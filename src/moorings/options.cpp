@@ -131,10 +131,9 @@ void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOption
       doc.problem(at + ".anchor_m", "is where the fairlead is: the line has no direction");
     if (line.model == "lumped_mass" && line.mass_kg_m > 0.0 && line.diameter_m > 0.0 &&
         !(weight_in_water(line, water_density, 1.0) > 0.0))
-      doc.problem(at + ".mass_kg_m",
-                  fmt::format("= {} must be above the {:.4g} kg/m of the water that diameter_m = {} displaces: "
-                              "the line would float",
-                              line.mass_kg_m, line.mass_kg_m - weight_in_water(line, water_density, 1.0), line.diameter_m));
+      doc.problem(at + ".mass_kg_m", fmt::format("must be above the {:.4g} kg/m of the water that diameter_m = {} displaces: "
+                                                 "the line would float",
+                                                 line.mass_kg_m - weight_in_water(line, water_density, 1.0), line.diameter_m));
     if (line.model == "table" && !line.table.empty()) try {
         read_line_table(line.table);
       } catch (const scene::SceneError& e) { doc.problem(at + ".table", e.what()); }
