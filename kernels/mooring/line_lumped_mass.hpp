@@ -37,6 +37,13 @@ struct LineEnds {
   LineEnd anchor, fairlead;
 };
 
+/// A body hung on a node: a weight, or a float.
+struct LineClump {
+  int node = 1;                              ///< of 1 to N - 1
+  double mass = 0.0, volume = 0.0;           ///< [kg], [m3]
+  double drag_area = 0.0, added_mass = 0.5;  ///< coefficient times area [m2]; coefficient on the displaced mass [-]
+};
+
 struct LineLumpedMass {
   static constexpr std::string_view name = "lumped_mass";
   double length = 1.0;                               ///< L, unstretched [m]
@@ -53,6 +60,7 @@ struct LineLumpedMass {
   double bed_stiffness = 3e6;  ///< per depth of sinking in and projected area [Pa/m]
   double bed_damping = 3e5;    ///< [Pa s/m]
   double bed_friction = 0.0;   ///< [-]
+  std::vector<LineClump> clumps;
 
   static constexpr double creep_speed = 0.01;  ///< below it friction falls to nothing linearly [m/s]
 
@@ -137,6 +145,20 @@ struct LineLumpedMass {
     return load;
   }
 
+  void add_clumps(int i, const LineEnd& node, const LineWater& water, NodeLoad& load) const {
+    for (const LineClump& c : clumps) {
+      if (c.node != i) continue;
+      const double height = std::max(std::cbrt(c.volume), diameter);
+      const double displaced =
+          water_density * c.volume * std::clamp(0.5 + (water.surface - node.position.z()) / height, 0.0, 1.0);
+      const Eigen::Vector3d relative = water.velocity - node.velocity;
+      load.force.z() += (displaced - c.mass) * gravity;
+      load.force += 0.5 * water_density * c.drag_area * relative.norm() * relative;
+      load.force += displaced * (1.0 + c.added_mass) * water.acceleration;
+      load.mass_across += c.mass + c.added_mass * displaced, load.mass_along += c.mass + c.added_mass * displaced;
+    }
+  }
+
   /// The bed pushes up, never holds, and resists sliding.
   Eigen::Vector3d bed_force(double piece, const LineEnd& node) const {
     const double push =
@@ -165,7 +187,9 @@ struct LineLumpedMass {
     for (int i = 1; i < segments; ++i) {
       const LineEnd node{nodes.position(i), nodes.velocity(i)};
       const Eigen::Vector3d q = tangent(nodes, i);
-      const NodeLoad load = node_load(l0, q, node, water(t, node.position));
+      const LineWater around = water(t, node.position);
+      NodeLoad load = node_load(l0, q, node, around);
+      add_clumps(i, node, around, load);
       const Eigen::Vector3d force = load.force + scratch.pull[std::size_t(i)] - scratch.pull[std::size_t(i - 1)];
       const Eigen::Vector3d along = force.dot(q) * q;
       const std::size_t k = 3 * std::size_t(i - 1);
@@ -286,8 +310,9 @@ inline LineLumpedMass::Rest LineLumpedMass::rest(const LineEnds& moving, std::sp
     double largest = 0.0;
     for (int i = 1; i < segments; ++i) {
       const Eigen::Vector3d zero = Eigen::Vector3d::Zero(), r = nodes.position(i);
-      force[std::size_t(i - 1)] = pull(nodes.position(i + 1) - r, zero) - pull(r - nodes.position(i - 1), zero) +
-                                  still.node_load(l0, tangent(nodes, i), {r, zero}, {}).force;
+      NodeLoad load = still.node_load(l0, tangent(nodes, i), {r, zero}, {});
+      add_clumps(i, {r, zero}, {}, load);
+      force[std::size_t(i - 1)] = pull(nodes.position(i + 1) - r, zero) - pull(r - nodes.position(i - 1), zero) + load.force;
       largest = std::max(largest, force[std::size_t(i - 1)].norm());
     }
     return largest;

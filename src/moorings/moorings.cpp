@@ -23,6 +23,10 @@ LineLumpedMass lumped_mass(const LineOptions& o, const LineEnvironment& environm
   line.gravity = environment.gravity_m_s2, line.water_density = environment.water_density_kg_m3;
   line.bed_contact = o.bed_contact, line.bed_level = std::min(o.anchor_m.z(), o.fairlead_m.z());
   line.bed_stiffness = o.bed_stiffness_Pa_m, line.bed_damping = o.bed_damping_Pa_s_m, line.bed_friction = o.bed_friction;
+  for (const ClumpOptions& c : o.clumps) {
+    const int node = std::clamp(int(std::lround(c.distance_m / line.segment())), 1, line.segments - 1);
+    line.clumps.push_back({node, c.mass_kg, c.volume_m3, c.drag_area_m2, c.added_mass_coefficient});
+  }
   return line;
 }
 
@@ -106,9 +110,19 @@ LineForces Moorings::forces(const Line& line, double t, std::span<const Motion> 
     return f;
   }
   const auto [anchor, fairlead] = ends(line, bodies);
+  if (line.dynamic && !line.dynamic->line.clumps.empty()) return resting(*line.dynamic, {anchor, fairlead});
   return std::visit(
       [&](const auto& model) { return model.forces(fairlead.position - anchor.position, fairlead.velocity - anchor.velocity); },
       line.model);
+}
+
+/// No catenary has clumps.
+LineForces Moorings::resting(const Dynamic& dynamic, LineEnds ends) {
+  std::vector<double> state(dynamic.line.state_size()), rate(state.size());
+  ends.anchor.velocity.setZero(), ends.fairlead.velocity.setZero();
+  dynamic.line.rest(ends, state);
+  LineLumpedMass::Scratch scratch = dynamic.line.scratch();
+  return dynamic.line.rates(0.0, ends, state, rate, StillWater{}, scratch);
 }
 
 void Moorings::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {

@@ -133,6 +133,25 @@ TEST_CASE("a slack line falls to rest, and every line finds its rest", "[mooring
   CHECK(rest.found());
 }
 
+TEST_CASE("a weight in the middle of a light line hangs on two straight halves", "[mooring][fast]") {
+  LineLumpedMass line;
+  line.length = 100.0, line.diameter = 0.01, line.mass_per_m = 0.1, line.axial_stiffness = 1e9, line.bed_contact = false;
+  line.clumps = {{10, 5e3, 1.0, 0.0, 0.5}};
+  const LineEnds ends{{{0, 0, -60}, Vector3d::Zero()}, {{80, 0, -60}, Vector3d::Zero()}};
+  auto scratch = line.scratch();
+  std::vector<double> state(line.state_size()), rate(state.size());
+  REQUIRE(line.rest(ends, state).found());
+  const LineForces f = line.rates(0.0, ends, state, rate, StillWater{}, scratch);
+  const double weight = 9.81 * (5e3 - 1025.0);  // halves of 50 m, 40 m out and 30 m down
+  CHECK(-f.on_fairlead.z() == Approx(0.5 * weight).epsilon(1e-3));
+  CHECK(f.fairlead_tension == Approx(0.5 * weight / 0.6).epsilon(2e-3));
+  // Let go, it falls with its own mass and that of the water.
+  for (double& z : state) z = 0.0;
+  for (int i = 1; i < 20; ++i) state[std::size_t(3 * (i - 1))] = 4.0 * i, state[std::size_t(3 * (i - 1) + 2)] = -60.0;
+  line.rates(0.0, ends, state, rate, StillWater{}, scratch);
+  CHECK(rate[line.state_size() / 2 + 3 * 9 + 2] == Approx(-weight / (5e3 + 0.5 * 1025.0)).epsilon(1e-3));
+}
+
 TEST_CASE("lines of all kinds find their rest", "[mooring][fast]") {
   std::mt19937 random(5);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };

@@ -181,6 +181,19 @@ TEST_CASE("a dynamic line at rest pulls as the catenary does, with memory and wi
   CHECK((loads(m, start())[0].force - still).norm() < 0.01 * still.norm());
 }
 
+TEST_CASE("a weight on a dynamic line pulls on its body, at rest and in the equilibrium that looks for it", "[moorings][fast]") {
+  Moorings plain(names, start()), heavy(names, start());
+  LineOptions line = chain();
+  plain.add("line", line);
+  line.clumps = {{350.0, 2e4, 2.0, 0.0, 0.5}};
+  heavy.add("line", line);
+  const Vector3d steady = loads(heavy, start())[0].force;
+  CHECK(-steady.z() > -loads(plain, start())[0].force.z() + 5e4);
+  std::vector<double> memory(heavy.memory_size());
+  heavy.begin(0.0, start(), memory);
+  CHECK((loads(heavy, start())[0].force - steady).norm() < 1e-3 * steady.norm());
+}
+
 TEST_CASE("a dynamic line is a function of its memory alone: the same bits after a restart", "[moorings][fast]") {
   const auto go = [](Moorings& m, std::vector<double>& memory, int from, int to) {
     for (int n = from; n < to; ++n) m.recall(memory), m.remember(0.05 * (n + 1), 0.05, heaved(0.05 * (n + 1)), memory);
