@@ -37,6 +37,13 @@ struct LineEnds {
   LineEnd anchor, fairlead;
 };
 
+/// A body hung on a node: a weight, or a float.
+struct LineClump {
+  int node = 1;                              ///< of 1 to N - 1
+  double mass = 0.0, volume = 0.0;           ///< [kg], [m3]
+  double drag_area = 0.0, added_mass = 0.5;  ///< coefficient times area [m2]; coefficient on the displaced mass [-]
+};
+
 struct LineLumpedMass {
   static constexpr std::string_view name = "lumped_mass";
   double length = 1.0;                               ///< L, unstretched [m]
@@ -53,6 +60,7 @@ struct LineLumpedMass {
   double bed_stiffness = 3e6;  ///< per depth of sinking in and projected area [Pa/m]
   double bed_damping = 3e5;    ///< [Pa s/m]
   double bed_friction = 0.0;   ///< [-]
+  std::vector<LineClump> clumps;
 
   static constexpr double creep_speed = 0.01;  ///< below it friction falls to nothing linearly [m/s]
 
@@ -78,6 +86,7 @@ struct LineLumpedMass {
   }
   /// Substep: RK4 is stable up to 2.78 of the fastest rate on the real axis and 2.83 on the imaginary one; a fifth is kept back.
   double largest_step() const { return 2.2 / fastest_rate(); }
+  double substeps(double h) const { return std::max(1.0, std::ceil(h / largest_step() * (1.0 - 1e-12))); }  ///< in a step of h
 
   /// Room for one evaluation.
   struct Scratch {
@@ -136,6 +145,20 @@ struct LineLumpedMass {
     return load;
   }
 
+  void add_clumps(int i, const LineEnd& node, const LineWater& water, NodeLoad& load) const {
+    for (const LineClump& c : clumps) {
+      if (c.node != i) continue;
+      const double height = std::max(std::cbrt(c.volume), diameter);
+      const double displaced =
+          water_density * c.volume * std::clamp(0.5 + (water.surface - node.position.z()) / height, 0.0, 1.0);
+      const Eigen::Vector3d relative = water.velocity - node.velocity;
+      load.force.z() += (displaced - c.mass) * gravity;
+      load.force += 0.5 * water_density * c.drag_area * relative.norm() * relative;
+      load.force += displaced * (1.0 + c.added_mass) * water.acceleration;
+      load.mass_across += c.mass + c.added_mass * displaced, load.mass_along += c.mass + c.added_mass * displaced;
+    }
+  }
+
   /// The bed pushes up, never holds, and resists sliding.
   Eigen::Vector3d bed_force(double piece, const LineEnd& node) const {
     const double push =
@@ -164,7 +187,9 @@ struct LineLumpedMass {
     for (int i = 1; i < segments; ++i) {
       const LineEnd node{nodes.position(i), nodes.velocity(i)};
       const Eigen::Vector3d q = tangent(nodes, i);
-      const NodeLoad load = node_load(l0, q, node, water(t, node.position));
+      const LineWater around = water(t, node.position);
+      NodeLoad load = node_load(l0, q, node, around);
+      add_clumps(i, node, around, load);
       const Eigen::Vector3d force = load.force + scratch.pull[std::size_t(i)] - scratch.pull[std::size_t(i - 1)];
       const Eigen::Vector3d along = force.dot(q) * q;
       const std::size_t k = 3 * std::size_t(i - 1);
@@ -194,11 +219,11 @@ struct LineLumpedMass {
   /// on the ends at t + h.
   template <class Water>
   LineForces advance(double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state, const Water& water,
-                     Scratch& scratch) const {
+                     Scratch& scratch, int finer = 1) const {
     const std::size_t n = state_size();
     const auto stage = [&](std::size_t i) { return std::span<double>(scratch.stages).subspan(i * n, n); };
     const std::span<double> k1 = stage(0), k2 = stage(1), k3 = stage(2), k4 = stage(3), trial = stage(4);
-    const int count = std::max(1, int(std::ceil(h / largest_step() * (1.0 - 1e-12))));
+    const int count = finer * int(substeps(h));
     const double dt = h / count;
     const auto ends = [&](double s) {  // s: substeps since t
       const auto moving = [&](const LineEnd& a, const LineEnd& b) { return on_cubic(a, b, h, s / count); };
@@ -230,7 +255,7 @@ struct LineLumpedMass {
   };
   /// The line in rest between ends that do not move, in still water. Friction of the bed, which depends on how it was laid, is
   /// left out. A segment that only pulls, weight and a bed that only pushes have a convex energy: Newton's method with a damping
-  /// that grows where the residual does not fall finds its least value.
+  /// that grows where the energy does not fall finds its least value.
   Rest rest(const LineEnds& ends, std::span<double> state) const;
 
  private:
@@ -278,26 +303,27 @@ inline LineLumpedMass::Rest LineLumpedMass::rest(const LineEnds& moving, std::sp
   LineLumpedMass still = *this;
   still.bed_friction = 0.0;
   std::vector<Eigen::Matrix3d> diagonal(n), upper(n);
-  std::vector<Eigen::Vector3d> force(n), step(n);
+  std::vector<Eigen::Vector3d> force(n), left(n), step(n);
   std::vector<double> trial(state.begin(), state.end());
   const auto forces = [&](std::span<const double> at) {  // largest force left
     const Nodes nodes{still, ends, at};
     double largest = 0.0;
     for (int i = 1; i < segments; ++i) {
       const Eigen::Vector3d zero = Eigen::Vector3d::Zero(), r = nodes.position(i);
-      force[std::size_t(i - 1)] = pull(nodes.position(i + 1) - r, zero) - pull(r - nodes.position(i - 1), zero) +
-                                  still.node_load(l0, tangent(nodes, i), {r, zero}, {}).force;
+      NodeLoad load = still.node_load(l0, tangent(nodes, i), {r, zero}, {});
+      add_clumps(i, {r, zero}, {}, load);
+      force[std::size_t(i - 1)] = pull(nodes.position(i + 1) - r, zero) - pull(r - nodes.position(i - 1), zero) + load.force;
       largest = std::max(largest, force[std::size_t(i - 1)].norm());
     }
     return largest;
   };
-  const auto sum = [&] {
-    double squares = 0.0;
-    for (const Eigen::Vector3d& f : force) squares += f.squaredNorm();
-    return squares;
+  const auto along_step = [&] {
+    double work = 0.0;
+    for (std::size_t i = 0; i < n; ++i) work += force[i].dot(step[i]);
+    return work;
   };
   Rest rest{forces(state), 1e-7 * mass_per_m * gravity * l0 + 1e-12 * axial_stiffness, 0};
-  double merit = sum(), damping = 1e-6 * scale;
+  double damping = 1e-6 * scale;
   for (; rest.iterations < 2000 && !rest.found(); ++rest.iterations) {
     const Nodes nodes{still, ends, state};
     const auto stiffness = [&](int segment) -> Eigen::Matrix3d {
@@ -315,22 +341,23 @@ inline LineLumpedMass::Rest LineLumpedMass::rest(const LineEnds& moving, std::sp
       upper[i] = -above, below = above;
     }
     // Block elimination: K step = force.
+    left = force;
     for (std::size_t i = 0; i < n; ++i) {
       if (i > 0) {
         const Eigen::Matrix3d factor = upper[i - 1].transpose() * diagonal[i - 1];  // the diagonal holds inverses behind i
         diagonal[i] -= factor * upper[i - 1];
-        force[i] -= factor * force[i - 1];
+        left[i] -= factor * left[i - 1];
       }
       diagonal[i] = diagonal[i].inverse().eval();
     }
     for (std::size_t i = n; i-- > 0;) {
-      step[i] = diagonal[i] * (i + 1 < n ? Eigen::Vector3d(force[i] - upper[i] * step[i + 1]) : force[i]);
+      step[i] = diagonal[i] * (i + 1 < n ? Eigen::Vector3d(left[i] - upper[i] * step[i + 1]) : left[i]);
       Eigen::Map<Eigen::Vector3d>(trial.data() + 3 * i) = Eigen::Map<const Eigen::Vector3d>(state.data() + 3 * i) + step[i];
     }
-    const double largest = forces(trial), now = sum();
-    if (now < merit) {
+    const double before = along_step(), largest = forces(trial);
+    if (before + along_step() > 0.0) {  // the energy fell, by the trapezium of the forces' work
       std::copy(trial.begin(), trial.end(), state.begin());
-      merit = now, rest.residual = largest, damping = std::max(0.2 * damping, 1e-12 * scale);
+      rest.residual = largest, damping = std::max(0.2 * damping, 1e-12 * scale);
     } else {
       damping *= 5.0;
       if (damping > 1e6 * scale) break;

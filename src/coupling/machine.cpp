@@ -193,6 +193,12 @@ void Machine::add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadS
   };
   source.loads = clocked(source.loads);
   if (source.added_mass) source.added_mass = clocked(source.added_mass);
+  if (source.memory)
+    source.memory->remember = [this, index, inner = source.memory->remember](double t, double h, auto motions, auto memory) {
+      const std::int64_t begin = runtime::Clock::now_ns();
+      inner(t, h, motions, memory);
+      clocks_[index].ns += runtime::Clock::now_ns() - begin;
+    };
   sources.push_back(std::move(source));
   loaded_.push_back(std::move(on));
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernels/base/failure.hpp"
 #include "kernels/waves/morison.hpp"
@@ -22,6 +23,10 @@ LineLumpedMass lumped_mass(const LineOptions& o, const LineEnvironment& environm
   line.gravity = environment.gravity_m_s2, line.water_density = environment.water_density_kg_m3;
   line.bed_contact = o.bed_contact, line.bed_level = std::min(o.anchor_m.z(), o.fairlead_m.z());
   line.bed_stiffness = o.bed_stiffness_Pa_m, line.bed_damping = o.bed_damping_Pa_s_m, line.bed_friction = o.bed_friction;
+  for (const ClumpOptions& c : o.clumps) {
+    const int node = std::clamp(int(std::lround(c.distance_m / line.segment())), 1, line.segments - 1);
+    line.clumps.push_back({node, c.mass_kg, c.volume_m3, c.drag_area_m2, c.added_mass_coefficient});
+  }
   return line;
 }
 
@@ -105,9 +110,19 @@ LineForces Moorings::forces(const Line& line, double t, std::span<const Motion> 
     return f;
   }
   const auto [anchor, fairlead] = ends(line, bodies);
+  if (line.dynamic && !line.dynamic->line.clumps.empty()) return resting(*line.dynamic, {anchor, fairlead});
   return std::visit(
       [&](const auto& model) { return model.forces(fairlead.position - anchor.position, fairlead.velocity - anchor.velocity); },
       line.model);
+}
+
+/// No catenary has clumps.
+LineForces Moorings::resting(const Dynamic& dynamic, LineEnds ends) {
+  std::vector<double> state(dynamic.line.state_size()), rate(state.size());
+  ends.anchor.velocity.setZero(), ends.fairlead.velocity.setZero();
+  dynamic.line.rest(ends, state);
+  LineLumpedMass::Scratch scratch = dynamic.line.scratch();
+  return dynamic.line.rates(0.0, ends, state, rate, StillWater{}, scratch);
 }
 
 void Moorings::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
@@ -170,6 +185,32 @@ void Moorings::begin(double t, std::span<const Motion> bodies, std::span<double>
   recall(memory);
 }
 
+/// One step of a dynamic line, repeated in ever more substeps while it does not end in numbers.
+LineForces Moorings::go_on(Line& line, double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state) {
+  auto& [model, scratch, first] = *line.dynamic;
+  constexpr double most = 1e5;
+  if (const double substeps = model.substeps(h); !(substeps <= most))
+    throw NumericalFailure(
+        fmt::format("the line needs {:.3g} substeps in a step of {:.3g} s, {:.3g} are allowed: its segments of "
+                    "{:.3g} m are too stiff, too light or too short; take fewer segments, or look at its units",
+                    substeps, h, most, model.segment()),
+        "moorings." + line.name, 0, t, most);
+  constexpr int finest = 16;
+  const std::vector<double>& before = (kept_.assign(state.begin(), state.end()), kept_);
+  for (int finer = 1; finer <= finest; finer *= 2) {
+    const LineForces f = model.advance(t, h, from, to, state, environment_.water, scratch, finer);
+    if (std::isfinite(f.fairlead_tension + f.anchor_tension) &&
+        std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); }))
+      return f;
+    std::copy(before.begin(), before.end(), state.begin());
+  }
+  throw NumericalFailure(
+      fmt::format("the line's motion has no numbers even in substeps of {:.3g} s; its fairlead moves by {:.3g} m "
+                  "in the step of {:.3g} s",
+                  h / (finest * model.substeps(h)), (to.fairlead.position - from.fairlead.position).norm(), h),
+      "moorings." + line.name, 0, t, h);
+}
+
 void Moorings::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) {
   for (Line& line : lines_) {
     if (!line.dynamic) continue;
@@ -177,8 +218,8 @@ void Moorings::remember(double t, double h, std::span<const Motion> bodies, std:
     const Recalled last{memory.subspan(first)};
     const LineForces before = last.at_end();
     const LineEnds now = ends(line, bodies);
-    const LineForces f = model.advance(t - h, h, last.line_ends(), now,
-                                       memory.subspan(first + Recalled::nodes, model.state_size()), environment_.water, scratch);
+    const LineForces f =
+        go_on(line, t - h, h, last.line_ends(), now, memory.subspan(first + Recalled::nodes, model.state_size()));
     const LineForces change{(f.on_fairlead - before.on_fairlead) / h, (f.on_anchor - before.on_anchor) / h};
     Recalled::write(t, now, f, change, memory.subspan(first));
   }

@@ -46,7 +46,8 @@ class Moorings {
   const std::string& name(std::size_t line) const { return lines_[line].name; }
 
   /// Adds the pull of every line to the wrenches of the bodies it is tied to, in the order of the scene. A dynamic line pulls as
-  /// it did at the end of the last step, and goes on as it changed in it; without memory as the catenary.
+  /// it did at the end of the last step, and goes on as it changed in it; without memory as the catenary, or with clumps as it
+  /// rests.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
   /// Of a dynamic line: at the end of the last step.
   LineTension tension(std::size_t line, std::span<const Motion> bodies) const;
@@ -85,6 +86,8 @@ class Moorings {
   End attach(const std::string& body, const Eigen::Vector3d& point) const;
   LineEnd moving(const End& end, std::span<const Motion> bodies) const;
   LineEnds ends(const Line& line, std::span<const Motion> bodies) const;
+  static LineForces resting(const Dynamic& dynamic, LineEnds ends);
+  LineForces go_on(Line& line, double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state);
   LineForces forces(const Line& line, double t, std::span<const Motion> bodies) const;
 
   std::vector<std::string> bodies_;
@@ -93,6 +96,7 @@ class Moorings {
   std::vector<Line> lines_;
   std::size_t memory_size_ = 0;
   std::vector<double> memory_;  ///< recalled; empty: steady
+  std::vector<double> kept_;    ///< state of a line before a step that may be repeated
   std::vector<Table> tables_;   ///< a LineTable looks into these; their heap does not move with the vector
 };
 

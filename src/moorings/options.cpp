@@ -17,8 +17,28 @@ namespace {
 const std::vector<std::string> springs{"spring_damper"}, catenaries{"catenary"}, hanging{"catenary", "lumped_mass"},
     elastic{"spring_damper", "catenary", "lumped_mass"}, dynamic{"lumped_mass"}, tables{"table"};
 
+const scene::Section<ClumpOptions>& clump_section() {
+  using scene::positive, scene::not_negative;
+  static const auto section =
+      scene::Section<ClumpOptions>("clumps", "A weight or a float on a dynamic line, at the node nearest to its place.")
+          .number("distance_m", &ClumpOptions::distance_m, "m", "From the anchor along the unstretched line.", positive())
+          .required()
+          .number("mass_kg", &ClumpOptions::mass_kg, "kg", "Mass, dry.", not_negative())
+          .required()
+          .number("volume_m3", &ClumpOptions::volume_m3, "m3", "Volume.", not_negative())
+          .number("drag_area_m2", &ClumpOptions::drag_area_m2, "m2", "Drag coefficient times area.", not_negative())
+          .number("added_mass_coefficient", &ClumpOptions::added_mass_coefficient, "-",
+                  "On the displaced mass; a sphere's by default.", not_negative());
+  return section;
+}
+
 /// What `check` can say of one line by itself.
 void check_line(const LineOptions& o, const scene::Report& report) {
+  for (const ClumpOptions& clump : o.clumps) {
+    if (clump.distance_m >= o.rest_length_m && o.rest_length_m > 0.0)
+      report("clumps", fmt::format("has one at {} m, where the line of {} m has ended", clump.distance_m, o.rest_length_m));
+    if (clump.mass_kg == 0.0 && clump.volume_m3 == 0.0) report("clumps", "has one without mass and volume");
+  }
   if (o.anchor_body == o.body) report("anchor_body", "is the body that carries the fairlead: a line ties two different things");
   const bool hangs = o.model == "catenary" || o.model == "lumped_mass";
   if (hangs && o.bed_contact && o.anchor_body != "earth")
@@ -99,6 +119,8 @@ const scene::Section<LineOptions>& line_section() {
                   "Pressure of the bed under the line's diameter per speed of sinking in.", not_negative())
           .only_if("model", dynamic)
           .only_if("bed_contact", {"true"})
+          .tables("clumps", &LineOptions::clumps, clump_section(), "Weights and floats on the line.")
+          .only_if("model", dynamic)
           .path("table", &LineOptions::table,
                 "CSV file with columns distance_m, tension_N: both increasing. Below the first row its tension holds, beyond the "
                 "last "
@@ -131,10 +153,9 @@ void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOption
       doc.problem(at + ".anchor_m", "is where the fairlead is: the line has no direction");
     if (line.model == "lumped_mass" && line.mass_kg_m > 0.0 && line.diameter_m > 0.0 &&
         !(weight_in_water(line, water_density, 1.0) > 0.0))
-      doc.problem(at + ".mass_kg_m",
-                  fmt::format("= {} must be above the {:.4g} kg/m of the water that diameter_m = {} displaces: "
-                              "the line would float",
-                              line.mass_kg_m, line.mass_kg_m - weight_in_water(line, water_density, 1.0), line.diameter_m));
+      doc.problem(at + ".mass_kg_m", fmt::format("must be above the {:.4g} kg/m of the water that diameter_m = {} displaces: "
+                                                 "the line would float",
+                                                 line.mass_kg_m - weight_in_water(line, water_density, 1.0), line.diameter_m));
     if (line.model == "table" && !line.table.empty()) try {
         read_line_table(line.table);
       } catch (const scene::SceneError& e) { doc.problem(at + ".table", e.what()); }

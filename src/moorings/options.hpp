@@ -19,6 +19,13 @@ class Document;
 
 namespace spindrift::moorings {
 
+/// [[moorings.NAME.clumps]]
+struct ClumpOptions {
+  double distance_m = 0.0;
+  double mass_kg = 0.0, volume_m3 = 0.0;
+  double drag_area_m2 = 0.0, added_mass_coefficient = 0.5;  ///< a sphere's
+};
+
 struct LineOptions {
   std::string model = "spring_damper";
   std::string body;                                      ///< carries the fairlead
@@ -40,6 +47,7 @@ struct LineOptions {
   double drag_coefficient = 1.33, axial_drag_coefficient = 0.2;             ///< chain on the diameter of its volume
   double added_mass_coefficient = 1.0, axial_added_mass_coefficient = 0.0;  ///< on the displaced mass
   double bed_stiffness_Pa_m = 3e6, bed_damping_Pa_s_m = 3e5;                ///< MoorDyn's
+  std::vector<ClumpOptions> clumps;
 };
 
 const scene::Section<LineOptions>& line_section();

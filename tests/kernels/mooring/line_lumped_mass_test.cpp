@@ -3,6 +3,7 @@
 #include "kernels/mooring/line_lumped_mass.hpp"
 
 #include <catch2/catch.hpp>
+#include <random>
 
 #include "tests/order.hpp"
 
@@ -132,6 +133,44 @@ TEST_CASE("a slack line falls to rest, and every line finds its rest", "[mooring
   CHECK(rest.found());
 }
 
+TEST_CASE("a weight in the middle of a light line hangs on two straight halves", "[mooring][fast]") {
+  LineLumpedMass line;
+  line.length = 100.0, line.diameter = 0.01, line.mass_per_m = 0.1, line.axial_stiffness = 1e9, line.bed_contact = false;
+  line.clumps = {{10, 5e3, 1.0, 0.0, 0.5}};
+  const LineEnds ends{{{0, 0, -60}, Vector3d::Zero()}, {{80, 0, -60}, Vector3d::Zero()}};
+  auto scratch = line.scratch();
+  std::vector<double> state(line.state_size()), rate(state.size());
+  REQUIRE(line.rest(ends, state).found());
+  const LineForces f = line.rates(0.0, ends, state, rate, StillWater{}, scratch);
+  const double weight = 9.81 * (5e3 - 1025.0);  // halves of 50 m, 40 m out and 30 m down
+  CHECK(-f.on_fairlead.z() == Approx(0.5 * weight).epsilon(1e-3));
+  CHECK(f.fairlead_tension == Approx(0.5 * weight / 0.6).epsilon(2e-3));
+  // Let go, it falls with its own mass and that of the water.
+  for (double& z : state) z = 0.0;
+  for (int i = 1; i < 20; ++i) state[std::size_t(3 * (i - 1))] = 4.0 * i, state[std::size_t(3 * (i - 1) + 2)] = -60.0;
+  line.rates(0.0, ends, state, rate, StillWater{}, scratch);
+  CHECK(rate[line.state_size() / 2 + 3 * 9 + 2] == Approx(-weight / (5e3 + 0.5 * 1025.0)).epsilon(1e-3));
+}
+
+TEST_CASE("lines of all kinds find their rest", "[mooring][fast]") {
+  std::mt19937 random(5);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  int missed = 0;
+  for (int n = 0; n < 400; ++n) {
+    LineLumpedMass line;
+    line.diameter = between(0.02, 0.4), line.mass_per_m = 1025.0 * line.area() * between(1.05, 8.0);
+    line.axial_stiffness = line.weight_per_m() * std::pow(10.0, between(4.0, 7.5));
+    line.segments = int(between(2.0, 60.0));
+    const double out = between(0.0, 1000.0), up = between(-100.0, 600.0);
+    line.length = std::max(1.0, std::hypot(out, up) * between(0.995, 1.5));
+    line.bed_contact = n % 2 == 0, line.bed_level = -700.0 + std::min(up, 0.0);
+    std::vector<double> state(line.state_size());
+    const auto rest = line.rest({{{0, 0, -700}, Vector3d::Zero()}, {{out, 0, -700 + up}, Vector3d::Zero()}}, state);
+    missed += !rest.found();
+  }
+  CHECK(missed == 0);
+}
+
 TEST_CASE("a line that snaps taut gives back no more than the energy put in", "[mooring][fast]") {
   LineLumpedMass line = chain_line({0, 0, 100});
   line.bed_contact = false, line.damping_ratio = GENERATE(0.0, 0.1, 1.0);
@@ -160,7 +199,7 @@ TEST_CASE("a line that snaps taut gives back no more than the energy put in", "[
     largest = std::max(largest, excess);
   }
   INFO("highest tension " << highest << " N, energy beyond the work " << largest << " J of " << work << " J");
-  CHECK(highest > 5e5);                                                        // it did snap
+  CHECK(highest > 5e5);                                                         // it did snap
   CHECK(largest < 0.002 * line.axial_stiffness * line.length * 0.015 * 0.015);  // the trapezium's error in the work
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/failure.hpp"
 
 using namespace spindrift;
 using namespace spindrift::moorings;
@@ -180,6 +181,19 @@ TEST_CASE("a dynamic line at rest pulls as the catenary does, with memory and wi
   CHECK((loads(m, start())[0].force - still).norm() < 0.01 * still.norm());
 }
 
+TEST_CASE("a weight on a dynamic line pulls on its body, at rest and in the equilibrium that looks for it", "[moorings][fast]") {
+  Moorings plain(names, start()), heavy(names, start());
+  LineOptions line = chain();
+  plain.add("line", line);
+  line.clumps = {{350.0, 2e4, 2.0, 0.0, 0.5}};
+  heavy.add("line", line);
+  const Vector3d steady = loads(heavy, start())[0].force;
+  CHECK(-steady.z() > -loads(plain, start())[0].force.z() + 5e4);
+  std::vector<double> memory(heavy.memory_size());
+  heavy.begin(0.0, start(), memory);
+  CHECK((loads(heavy, start())[0].force - steady).norm() < 1e-3 * steady.norm());
+}
+
 TEST_CASE("a dynamic line is a function of its memory alone: the same bits after a restart", "[moorings][fast]") {
   const auto go = [](Moorings& m, std::vector<double>& memory, int from, int to) {
     for (int n = from; n < to; ++n) m.recall(memory), m.remember(0.05 * (n + 1), 0.05, heaved(0.05 * (n + 1)), memory);
@@ -227,7 +241,12 @@ TEST_CASE("a body on a dynamic line is stable up to half the time in which the l
     std::vector<Wrench> w(1);
     m.add_loads((n + 0.5) * h, body, w);
     body[0].velocity.x() += h / mass * (w[0].force.x() - rest), body[0].position.x() += h * body[0].velocity.x();
-    m.remember((n + 1) * h, h, body, memory);
+    try {
+      m.remember((n + 1) * h, h, body, memory);
+    } catch (const NumericalFailure&) {  // which names the line
+      largest = 1e99;
+      break;
+    }
     largest = std::max(largest, std::abs(body[0].velocity.x()));
     if (n < 100) early = largest;
   }
@@ -236,4 +255,26 @@ TEST_CASE("a body on a dynamic line is stable up to half the time in which the l
     CHECK(largest < 0.6);
   else
     CHECK_FALSE(largest < 5.0);
+}
+
+TEST_CASE("a line that cannot be advanced stops the run by its name", "[moorings][fast]") {
+  Moorings m(names, start());
+  LineOptions line = chain();
+  line.axial_stiffness_N = 1.674e21;  // as if in N per m2
+  m.add("line", line);
+  std::vector<double> memory(m.memory_size());
+  CHECK_THROWS_WITH((m.begin(0.0, start(), memory), m.remember(0.05, 0.05, start(), memory)), Catch::Contains("substeps"));
+}
+
+TEST_CASE("a line whose end is torn away ends in numbers or in a refusal with its name", "[moorings][fast]") {
+  Moorings m(names, start());
+  m.add("line", chain());
+  std::vector<double> memory(m.memory_size());
+  m.begin(0.0, start(), memory);
+  auto far = start();
+  far[0].position.x() -= 200.0, far[0].velocity.x() = -4000.0;
+  try {
+    m.remember(0.05, 0.05, far, memory);
+    for (double x : memory) CHECK(std::isfinite(x));
+  } catch (const NumericalFailure& failure) { CHECK(failure.place == "moorings.line"); }
 }

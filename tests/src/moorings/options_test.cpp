@@ -81,6 +81,9 @@ TEST_CASE("a dynamic line says what it weighs, and is refused where it would flo
       Case{"diameter_m = 0.1\nmass_kg_m = 100\ndamping_ratio = 1.5\n", "damping_ratio"},
       Case{"diameter_m = 0.1\nmass_kg_m = 100\nweight_N_m = 1e3\n", "weight_N_m"},
       Case{"diameter_m = 0.1\nmass_kg_m = 100\nbed_contact = false\nbed_stiffness_Pa_m = 1e6\n", "bed_stiffness_Pa_m"},
+      Case{"diameter_m = 0.1\nmass_kg_m = 100\nclumps = [{distance_m = 200, mass_kg = 1e3}]\n",
+           "where the line of 130 m has ended"},
+      Case{"diameter_m = 0.1\nmass_kg_m = 100\nclumps = [{distance_m = 20, mass_kg = 0}]\n", "without mass and volume"},
       Case{"diameter_m = 0.1\nmass_kg_m = 100\nanchor_body = 'buoy'\n", "must be false for a line between two bodies"});
   CHECK_THROWS_WITH(read(dynamic + c.keys), Contains(c.message));
 }
