@@ -228,9 +228,9 @@ const char* likely_condition(const std::string& patch, bool viscous) {
 aero::MultiBlockGrid made_flow_grid(const coupling::Scenario& s) {
   const aero::FlowOptions& o = *s.aero.flow;
   aero::MultiBlockGrid grid = aero::flow_grid(o);
-  if (const std::string why = o.coarse_steps > 0 ? aero::why_not_halved(grid) : std::string(); !why.empty())
+  if (const std::string why = o.coarse_steps.value_or(0) > 0 ? aero::why_not_halved(grid) : std::string(); !why.empty())
     throw scene::SceneError(
-        {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", o.coarse_steps),
+        {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", *o.coarse_steps),
           fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
   return grid;
 }

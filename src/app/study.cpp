@@ -100,8 +100,9 @@ void check_history(const scene::Study& study) {
 }
 
 Json of_rung(const scene::Study& study, const scene::StudyRun& rung, std::vector<scene::Problem>& problems) {
-  Json out{{"name", rung.name}, {"variant", rung.variant}, {"scene", fs::absolute(rung.scene).string()},
-           {"at", rung.at},     {"later", rung.later},     {"fixed", study.replicas && rung.replicas == 0}, {"runs", Json::array()}};
+  Json out{{"name", rung.name},    {"variant", rung.variant}, {"scene", fs::absolute(rung.scene).string()},
+           {"at", rung.at},        {"later", rung.later},     {"fixed", study.replicas && rung.replicas == 0},
+           {"runs", Json::array()}};
   const std::vector<scene::StudyPoint> replicas =
       study.replicas && rung.replicas > 0 ? points_of("replica", *study.replicas) : std::vector<scene::StudyPoint>{{}};
   std::optional<Forecast> first;

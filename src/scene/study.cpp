@@ -69,15 +69,16 @@ const Section<StudyOptions>& study_section() {
 }
 
 const Section<VariantOptions>& variant_section() {
-  static const auto section =
-      Section<VariantOptions>("variants", "A rung of the ladder: a scene, or a named set of overrides.")
-          .named()
-          .path("scene", &VariantOptions::scene, "Scene file of this rung; that of [study] where absent.")
-          .texts("set", &VariantOptions::set, "Overrides of this variant, each KEY=VALUE.")
-          .flag("alone", &VariantOptions::alone, "Not taken to the points of the axes.")
-          .integer("replicas", &VariantOptions::replicas, "-", "At most so many replicas; all where absent. 0: nothing in this rung depends on them; it runs once, as the scene is, and "
-                   "stands beside each replica of the others.",
-                   at_least(0));
+  static const auto section = Section<VariantOptions>("variants", "A rung of the ladder: a scene, or a named set of overrides.")
+                                  .named()
+                                  .path("scene", &VariantOptions::scene, "Scene file of this rung; that of [study] where absent.")
+                                  .texts("set", &VariantOptions::set, "Overrides of this variant, each KEY=VALUE.")
+                                  .flag("alone", &VariantOptions::alone, "Not taken to the points of the axes.")
+                                  .integer("replicas", &VariantOptions::replicas, "-",
+                                           "At most so many replicas; all where absent. 0: nothing in this rung depends on them; "
+                                           "it runs once, as the scene is, and "
+                                           "stands beside each replica of the others.",
+                                           at_least(0));
   return section;
 }
 
