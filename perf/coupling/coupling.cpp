@@ -71,8 +71,8 @@ void measure(perf::Group& group, const runtime::Parts& parts) {
   Machine machine(read_scenario(document));
   machine.fill_sea(make_start(machine).state.motions, alone.mine());
   Alone sides(machine);
-  WindowTasks two(*sides.air, *sides.bodies, MPI_COMM_SELF, std::size_t(1) << 20),
-      one(*sides.air, *sides.bodies, MPI_COMM_SELF, 0);
+  WindowTasks two(*sides.air, *sides.bodies, MPI_COMM_SELF, {.records = std::size_t(1) << 20}),
+      one(*sides.air, *sides.bodies, MPI_COMM_SELF, {});
   // Executors take the number of threads that stands when they first run.
   sides.window(two, Run::both), sides.window(two, Run::air), sides.window(two, Run::bodies);
   omp_set_num_threads(1);
