@@ -57,6 +57,8 @@ std::string reason(int why) {
 
 }  // namespace
 
+StopAsked::StopAsked() : std::runtime_error(cause.load() != 0 ? reason(cause.load()) : "stopped on request") {}
+
 StopRequest::StopRequest(double wall_limit_s, std::filesystem::path file) : file_(std::move(file)) {
   cause = 0, margin_ns = 0, looked_ns = 0;
   limit_ns = wall_limit_s > 0.0 ? now_ns() + std::int64_t(wall_limit_s * 1e9) : never;

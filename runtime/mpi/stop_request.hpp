@@ -13,7 +13,7 @@ namespace spindrift::runtime {
 
 /// Work was given up since all ranks know that the run is to stop; its state is of no use.
 struct StopAsked : std::runtime_error {
-  StopAsked() : std::runtime_error("asked to stop") {}
+  StopAsked();  ///< says why, where this rank knows
 };
 
 class StopRequest {

@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).parents[2]
 PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
 TABLE = tomllib.loads((ROOT / "tests/faults/divergence.toml").read_text(encoding="utf-8"))
 SCENES = TABLE.pop("scene")
-# What every reason of a part says, besides the time; a case may say more.
+# What every reason of a part says, besides the time.
 NAMED = {"air": "aero: ", "bodies": "limit", "lines": "the step is beyond", "coupling": "window", "sea": "sea: "}
 
 
@@ -61,8 +61,8 @@ def main():
             print(f"\n## {part}\n\n| what | ends |\n|---|---|")
         for case in TABLE[part]["cases"]:
             how, said, wrong = ended(case)
-            wrong = wrong or ("" if how == case.get("ends") else f"ends {how}, should be {case.get('ends')}")
-            wrong = wrong or ("" if case.get("named", NAMED[part]) in said else f"does not name {case['named']}")
+            wrong = wrong or ("" if how == case["ends"] else f"ends {how}, should be {case['ends']}")
+            wrong = wrong or ("" if NAMED[part] in said else f"does not say {NAMED[part]}")
             faults += bool(wrong)
             if "--table" in sys.argv or wrong:
                 print(f"| {case['what']} | {how}: {said}{' **' + wrong + '**' if wrong else ''} |", flush=True)

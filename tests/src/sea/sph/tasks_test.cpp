@@ -200,7 +200,7 @@ TEST_CASE("a body that outruns its window's groups stops the run", "[sph][tasks]
   sea.set_bodies([](const HalfStep& half, std::span<const Wrench>, std::span<Motion> motions) {
     motions[0].velocity = {100, 0, 0}, motions[0].position[0] += 50 * half.dt;
   });
-  CHECK_THROWS_WITH(sea.advance(0.02), Catch::Contains("more than a column"));
+  CHECK_THROWS_WITH(sea.advance(0.02), Catch::Contains("a column of cells and a half"));
 }
 
 TEST_CASE("a window repeated from its snapshot has the same bits; a snapshot takes at most 100 bytes per particle",
