@@ -3,12 +3,13 @@
 // Called by src/coupling (sea_window.cpp, recorder.cpp) and src/run; tested in tests/coupled/particle_sea_test.cpp and
 // tests/coupled.
 //
-//   ParticleSea::Plan plan = plan_of(options, waves, environment, bodies);   // checked before; cheap
-//   auto sea = ParticleSea::make(plan, motions at the start, world);   // this and all that follows on all ranks alike
-//   sea->evaluate(t, motions);                              // loads() are those at t: for what is written before the first
-//   window sea->record(graph, driver, first_tag);                  // a window's steps as tasks; the driver moves the bodies
-//   sea->balance(), sea->open(t, motions, settling);        // before each run of the tasks,
-//   sea->close();                                           // and after it
+//   const ParticlePlan plan = particle_plan(options, waves, environment, bodies);  // checked before; cheap
+//   auto sea = ParticleSea::make(plan, motions at the start, world);  // this and all that follows on all ranks alike
+//   sea->evaluate(t, motions);               // loads() are those at t: for what is written before the first window
+//   sea->record(graph, driver, first_tag);   // a window's steps as tasks; the driver moves the bodies
+//   sea->balance(), sea->open(t, motions, settling);  // before each run of the tasks,
+//   sea->close();                                     // and after it
+//
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

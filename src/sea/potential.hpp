@@ -1,6 +1,6 @@
 // Potential flow round one floating body: Cummins' equation with the coefficients of a boundary-element code. Added mass at
-// infinite frequency goes on the left-hand side; radiation memory is a convolution with the body's velocity, or a state space
-// fitted to it; waves excite by force per amplitude; still water carries by exact buoyancy of the cylinders or by linear
+// infinite frequency goes on the left-hand side; radiation memory is a convolution with the body's velocity;
+// waves excite by force per amplitude; still water carries by exact buoyancy of the cylinders or by linear
 // stiffness. Small motions about the scene's position, axes of the earth. Theory: docs/theory/sea_engineering.md. Part of
 // EngineeringSea; tested in tests/src/sea/potential_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once

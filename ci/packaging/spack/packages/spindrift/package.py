@@ -30,4 +30,4 @@ class Spindrift(CMakePackage):
     depends_on("py-jinja2", type="run")
 
     def cmake_args(self):
-        return [self.define("SPINDRIFT_NATIVE", False), self.define("SPINDRIFT_TESTS", False), self.define("SPINDRIFT_PERF", False)]
+        return [self.define("SPINDRIFT_PROCESSOR", "x86-64-v3"), self.define("SPINDRIFT_TESTS", False), self.define("SPINDRIFT_PERF", False)]
