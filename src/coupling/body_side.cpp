@@ -33,13 +33,13 @@ class Steps final : public BodySide {
     const std::int64_t begin = runtime::Clock::now_ns();
     const double tick_s = machine_.timeline().tick_s();
     failure_.reset();
-    while (state_.tick < end_ && !failure_) {
-      const bodies::StepReport report = machine_.system().advance(state_, tick_s, 1, pieces_);
-      if (report.ok())
-        ++steps_;
-      else
-        failure_ = machine_.system().failure(report, state_, tick_s);
-    }
+    while (state_.tick < end_ && !failure_) try {
+        const bodies::StepReport report = machine_.system().advance(state_, tick_s, 1, pieces_);
+        if (report.ok())
+          ++steps_;
+        else
+          failure_ = machine_.system().failure(report, state_, tick_s);
+      } catch (const NumericalFailure& failure) { failure_ = failure; }  // of what remembers: a line
     own_ns_ += runtime::Clock::now_ns() - begin;
   }
 

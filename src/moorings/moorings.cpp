@@ -170,9 +170,10 @@ void Moorings::begin(double t, std::span<const Motion> bodies, std::span<double>
     const LineEnds now = ends(line, bodies);
     const LineLumpedMass::Rest rest = model.rest(now, state);
     if (!rest.found())
-      throw NumericalFailure(fmt::format("the line finds no rest: {:.3g} N are left on a node after {} iterations, {:.3g} N are "
+      throw NumericalFailure(fmt::format("moorings.{} at t = {:.6g} s: the line finds no rest: {:.3g} N are left on a node after "
+                                         "{} iterations, {:.3g} N are "
                                          "allowed; look at its length, its ends and its segments",
-                                         rest.residual, rest.iterations, rest.limit),
+                                         line.name, t, rest.residual, rest.iterations, rest.limit),
                              "moorings." + line.name, 0, t, rest.limit);
     for (int i = 1; i < model.segments; ++i) {  // an end that moves at the start takes the nodes along
       const double share = double(i) / model.segments;
@@ -191,9 +192,10 @@ LineForces Moorings::go_on(Line& line, double t, double h, const LineEnds& from,
   constexpr double most = 1e5;
   if (const double substeps = model.substeps(h); !(substeps <= most))
     throw NumericalFailure(
-        fmt::format("the line needs {:.3g} substeps in a step of {:.3g} s, {:.3g} are allowed: its segments of "
+        fmt::format("moorings.{} at t = {:.6g} s: the line needs {:.3g} substeps in a step of {:.3g} s, {:.3g} are allowed: its "
+                    "segments of "
                     "{:.3g} m are too stiff, too light or too short; take fewer segments, or look at its units",
-                    substeps, h, most, model.segment()),
+                    line.name, t, substeps, h, most, model.segment()),
         "moorings." + line.name, 0, t, most);
   constexpr int finest = 16;
   const std::vector<double>& before = (kept_.assign(state.begin(), state.end()), kept_);
@@ -205,9 +207,10 @@ LineForces Moorings::go_on(Line& line, double t, double h, const LineEnds& from,
     std::copy(before.begin(), before.end(), state.begin());
   }
   throw NumericalFailure(
-      fmt::format("the line's motion has no numbers even in substeps of {:.3g} s; its fairlead moves by {:.3g} m "
+      fmt::format("moorings.{} at t = {:.6g} s: the line's motion has no numbers even in substeps of {:.3g} s; its fairlead "
+                  "moves by {:.3g} m "
                   "in the step of {:.3g} s",
-                  h / (finest * model.substeps(h)), (to.fairlead.position - from.fairlead.position).norm(), h),
+                  line.name, t, h / (finest * model.substeps(h)), (to.fairlead.position - from.fairlead.position).norm(), h),
       "moorings." + line.name, 0, t, h);
 }
 
