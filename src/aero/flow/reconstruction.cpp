@@ -1,4 +1,5 @@
-// MUSCL over a piece of a row, one function per limiter. SPDX-License-Identifier: Apache-2.0
+// MUSCL over a piece of a row, one function per limiter; without one it knows the sizes of cells. SPDX-License-Identifier:
+// Apache-2.0
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,10 +13,20 @@ namespace {
 
 template <class Limiter>
 void reconstruct_row(const gas::IdealGas& gas, const gas::Primitive<double>& smooth, const double* at, std::ptrdiff_t step,
-                     std::ptrdiff_t component, int turbulence, int count, FacePiece& states) {
+                     std::ptrdiff_t component, const double* volume, std::ptrdiff_t volume_step, int turbulence, int count,
+                     FacePiece& states) {
   for (int n = 0; n < count; n += row_lanes, at += row_lanes) {
     const auto load = [&](std::ptrdiff_t offset) { return gas::load_primitive<Row>(at + offset, std::size_t(component)); };
-    const auto s = gas::muscl(gas, Limiter{}, load(-2 * step), load(-step), load(0), load(step), smooth);
+    const auto s = [&] {
+      if constexpr (std::same_as<Limiter, gas::Unlimited>) {
+        // Neighbours share a face, so their volumes are to each other as their sizes across it.
+        const auto size = [&](int cell) { return max(Row::load(volume + n + cell * volume_step), Row(1e-280)); };
+        return gas::muscl_by_size(gas, std::array<Row, 4>{size(-2), size(-1), size(0), size(1)}, load(-2 * step), load(-step),
+                                  load(0), load(step));
+      } else {
+        return gas::muscl(gas, Limiter{}, load(-2 * step), load(-step), load(0), load(step), smooth);
+      }
+    }();
     gas::store_primitive(states.left[0] + n, piece, s.l);
     gas::store_primitive(states.right[0] + n, piece, s.r);
     // Always limited: what turbulence carries must not overshoot below zero at the edge of a layer.

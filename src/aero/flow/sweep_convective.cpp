@@ -51,8 +51,9 @@ void straighten_at_walls(const FlowTile& tile, const double* state, int d, int k
 void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, const ConvectiveSetting& s,
             double* out, std::ptrdiff_t stride) {
   FacePiece states;
-  s.reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component, tile.turbulence,
-                count, states);
+  s.reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component,
+                tile.geometry->volume_data.data() + tile.geometry->cell_box.at(k, j, i), tile.geometry->cell_box.stride(d),
+                tile.turbulence, count, states);
   straighten_at_walls(tile, state, d, k, j, i, count, s.law_slope, states);
   if (s.upwinding < 1.0) draw_together(s.upwinding, count, states);
   s.flux(s.gas, *tile.geometry, d, k, j, i, count, states, out, stride);

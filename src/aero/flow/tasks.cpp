@@ -376,11 +376,13 @@ void FlowSolver::record_geometry(Graph& graph) {
 void FlowSolver::record_centres(Graph& graph, const std::vector<Datum>& nodes, const std::vector<Datum>& ghosts,
                                 const std::vector<Use>& control) {
   const auto view = [this](int t) -> TileGeometry& { return grid_[t]; };
-  const auto layout = [this](const Tile& t) { return cell_layout(t, gradient_ghosts, grid_.tiling().planar); };
+  const auto layout = [this](const Tile& t) { return cell_layout(t, cell_ghosts, grid_.tiling().planar); };
   const HaloField<double> centre{
-      "aero/centres", [view](int t) { return view(t).centre(); }, layout, {Quantity::point}, 1, &nodes, &ghosts, 6, &periodic_};
+      "aero/centres", [view](int t) { return view(t).centre(); }, layout, {Quantity::point}, cell_ghosts, &nodes, &ghosts, 6,
+      &periodic_};
   const HaloField<double> volume{
-      "aero/volumes", [view](int t) { return view(t).volume(); }, layout, {Quantity::scalar}, 1, &nodes, &ghosts, 7, &periodic_};
+      "aero/volumes", [view](int t) { return view(t).volume(); }, layout, {Quantity::scalar}, cell_ghosts, &nodes, &ghosts, 7,
+      &periodic_};
   const auto always = [] { return true; };
   record_halo<double>(
       graph, grid_, local_, centre, double_buffers_, always, [](int) {}, control);

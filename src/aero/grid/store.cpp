@@ -53,7 +53,7 @@ std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Ti
   auto geometry = std::make_unique<TileGeometry>();
   TileGeometry& g = *geometry;
   g.node_box = BoxLayout(tile.ni + 1, tile.nj + 1, tile.nk + 1);
-  g.cell_box = cell_layout(tile, gradient_ghosts, planar);
+  g.cell_box = cell_layout(tile, cell_ghosts, planar);
   g.inner_box = cell_layout(tile, 0, planar);
   for (int d = 0; d < 3; ++d) g.face_box[d] = BoxLayout(tile.ni + (d == 0), tile.nj + (d == 1), tile.nk + (d == 2));
   g.node_data = AlignedArray<double>(g.node_box.size(3));
@@ -125,6 +125,9 @@ void fill_boundary_geometry(TileGeometry& g, std::span<const TileBoundary> bound
         const Eigen::Vector3d c = vector_at(centre, inside[2], inside[1], inside[0]);
         const Eigen::Vector3d middle = q.a + 0.25 * ((q.b - q.a) + (q.c - q.a) + (q.d - q.a));
         set_vector(centre, ghost[2], ghost[1], ghost[0], c + 2.0 * (middle - c).dot(normal) * normal);
+        volume(0, ghost[2], ghost[1], ghost[0]) = volume(0, inside[2], inside[1], inside[0]);
+        ghost[d] += at_end(b.side) ? 1 : -1;
+        if (cells[d] > 1) inside[d] += at_end(b.side) ? -1 : 1;
         volume(0, ghost[2], ghost[1], ghost[0]) = volume(0, inside[2], inside[1], inside[0]);
       }
   }
@@ -234,8 +237,8 @@ void GridStore::fill_local_geometry(std::span<const RigidMap> periodic) {
   for (const int l : plan_.local) {
     const GhostLink& link = tiling_.links[l];
     TileGeometry &from = *geometry_[link.from], &to = *geometry_[link.to];
-    copy_ghosts<double>(link, periodic, centre_quantities, gradient_ghosts, from.centre(), to.centre());
-    copy_ghosts<double>(link, periodic, volume_quantities, gradient_ghosts, from.volume(), to.volume());
+    copy_ghosts<double>(link, periodic, centre_quantities, cell_ghosts, from.centre(), to.centre());
+    copy_ghosts<double>(link, periodic, volume_quantities, cell_ghosts, from.volume(), to.volume());
   }
 }
 

@@ -23,7 +23,7 @@ namespace spindrift::aero {
 /// In a planar grid the faces across k are left zero: nothing flows through them.
 struct TileGeometry {
   BoxLayout node_box;                 ///< ni+1, nj+1, nk+1
-  BoxLayout cell_box;                 ///< with gradient_ghosts
+  BoxLayout cell_box;                 ///< with cell_ghosts
   std::array<BoxLayout, 3> face_box;  ///< one more in the direction across
   BoxLayout inner_box;                ///< cells without ghosts
 

@@ -15,7 +15,8 @@
 namespace spindrift::aero {
 
 inline constexpr int state_ghosts = 2;     ///< layers of ghost cells of a flow state; none in k of planar grids
-inline constexpr int gradient_ghosts = 1;  ///< of cell gradients, centres, volumes
+inline constexpr int gradient_ghosts = 1;  ///< of cell gradients
+inline constexpr int cell_ghosts = 2;      ///< of centres and volumes
 
 struct TilingOptions {
   int across_j = 16, across_k = 8;  ///< largest tile [cells] in the two directions along a wall

@@ -45,8 +45,8 @@ long RotorGridSizes::cells() const {
 
 RotorGridSizes sizes_of(double n) {
   RotorGridSizes s;
-  s.round = even(40 * n), s.edge = even(n), s.box = whole(0.25 * s.round), s.layers = whole(8 * n), s.beside = whole(4 * n);
-  s.upstream = whole(4 * n), s.downstream = whole(6 * n), s.span = whole(12 * n), s.outboard = whole(5 * n);
+  s.round = even(40 * n), s.edge = even(n), s.box = whole(0.25 * s.round), s.layers = whole(8 * n), s.beside = whole(6 * n);
+  s.upstream = whole(7 * n), s.downstream = whole(9 * n), s.span = whole(12 * n), s.outboard = whole(8 * n);
   return s;
 }
 

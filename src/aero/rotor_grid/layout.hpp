@@ -15,10 +15,10 @@ struct RotorGridSizes {
   int edge = 2;    ///< of them on the trailing edge, and across the plug beyond the tip; even
   int box = 10;    ///< of them on each of the two sides of the box that face along the rotor's plane
   int layers = 8;  ///< from the wall to the box
-  int beside = 4;  ///< from the box to the sector's side, each side
-  int upstream = 4, downstream = 6;
+  int beside = 6;  ///< from the box to the sector's side, each side
+  int upstream = 7, downstream = 9;
   int span = 12;     ///< from hub cylinder to tip
-  int outboard = 5;  ///< from tip to outer radius
+  int outboard = 8;  ///< from tip to outer radius
   int box_chordwise() const { return round / 2 - box; }
   int chordwise() const { return round / 2 - edge; }  ///< of the plug
   int radial() const { return span + outboard; }
@@ -27,7 +27,7 @@ struct RotorGridSizes {
   long cells() const;  ///< of one sector
 };
 
-/// The sizes of resolution n: every number grows with n, about 10 000 n^3 cells a sector.
+/// The sizes of resolution n: every number grows with n, about 16 000 n^3 cells a sector.
 RotorGridSizes sizes_of(double n);
 
 /// Nodes round the section for these sizes.
@@ -36,8 +36,8 @@ SectionSpacing section_spacing(const RotorGridSizes& sizes, bool rounded_edge = 
 struct RotorGridSpec {
   RotorGridSizes sizes;
   double hub_radius_m = 5.0;
-  double radial_extent = 3.0, upstream_extent = 3.0, downstream_extent = 6.0;  ///< from the hub, in tip radii
-  double first_cell_chords = 2e-3;  ///< height of the first cell over the local chord, where first_cell_m is zero
+  double radial_extent = 12.0, upstream_extent = 10.0, downstream_extent = 12.0;  ///< from the hub, in tip radii
+  double first_cell_chords = 1e-3;  ///< height of the first cell over the local chord, where first_cell_m is zero
   double first_cell_m = 0.0;
   double y_plus = 0.0;       ///< where positive: of the first cell's centre, in the flow below
   double rotor_speed = 0.0;  ///< [rad/s]

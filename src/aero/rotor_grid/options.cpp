@@ -32,7 +32,7 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
   static const auto section =
       scene::Section<RotorGridOptions>("grid", "The grid round a resolved rotor, written by `spindrift grid`.")
           .number("resolution", &RotorGridOptions::resolution, "-",
-                  "Number n that sizes the grid: about 30 000 n^3 cells for three blades; every number of cells grows with n.",
+                  "Number n that sizes the grid: about 48 000 n^3 cells for three blades; every number of cells grows with n.",
                   scene::between(0.8, 10.0))
           .integer("cells_round", &RotorGridOptions::cells_round, "-", "Cells round the section, even; default 40 n.",
                    scene::between(24, 2000))
@@ -46,15 +46,15 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
           .integer("cells_span", &RotorGridOptions::cells_span, "-", "Cells along the blade; default 12 n.",
                    scene::between(4, 2000))
           .integer("cells_outboard", &RotorGridOptions::cells_outboard, "-",
-                   "Cells from the tip to the outer radius; default 5 n.", scene::between(3, 1000))
+                   "Cells from the tip to the outer radius; default 8 n.", scene::between(3, 1000))
           .integer("cells_beside", &RotorGridOptions::cells_beside, "-",
-                   "Cells from the O to half-way to the next blade, each side; default 4 n.", scene::between(2, 1000))
-          .integer("cells_upstream", &RotorGridOptions::cells_upstream, "-", "Cells from the O to the inflow; default 4 n.",
+                   "Cells from the O to half-way to the next blade, each side; default 6 n.", scene::between(2, 1000))
+          .integer("cells_upstream", &RotorGridOptions::cells_upstream, "-", "Cells from the O to the inflow; default 7 n.",
                    scene::between(2, 1000))
-          .integer("cells_downstream", &RotorGridOptions::cells_downstream, "-", "Cells from the O to the outflow; default 6 n.",
+          .integer("cells_downstream", &RotorGridOptions::cells_downstream, "-", "Cells from the O to the outflow; default 9 n.",
                    scene::between(2, 1000))
           .number("first_cell_chords", &RotorGridOptions::first_cell_chords, "-",
-                  "Height of the cells at the wall over the local chord; default 2e-3/n, for wall functions.",
+                  "Height of the cells at the wall over the local chord; default 1e-3/n, for wall functions.",
                   scene::between(1e-7, 0.02))
           .number("first_cell_m", &RotorGridOptions::first_cell_m, "m",
                   "Height of the cells at the wall, the same all along the blade.", scene::between(1e-7, 0.1))
@@ -108,7 +108,7 @@ RotorGridSpec rotor_grid_spec(const RotorGridOptions& o, const Turbine& turbine,
   s.layers = o.cells_layers.value_or(up(s.layers, fit)), s.span = o.cells_span.value_or(up(s.span, fit));
   s.outboard = o.cells_outboard.value_or(up(s.outboard, fit)), s.beside = o.cells_beside.value_or(up(s.beside, fit));
   s.upstream = o.cells_upstream.value_or(up(s.upstream, fit)), s.downstream = o.cells_downstream.value_or(up(s.downstream, fit));
-  spec.first_cell_chords = o.first_cell_chords.value_or(2e-3 / spec.resolution());
+  spec.first_cell_chords = o.first_cell_chords.value_or(1e-3 / spec.resolution());
   spec.first_cell_m = o.first_cell_m.value_or(0.0), spec.y_plus = o.y_plus.value_or(0.0);
   spec.kinematic_viscosity = o.kinematic_viscosity_m2_s;
   spec.rotor_speed = speed, spec.wind_m_s = wind_m_s, spec.pitch = pitch;

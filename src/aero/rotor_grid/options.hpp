@@ -23,7 +23,7 @@ struct RotorGridOptions {
   std::optional<double> first_cell_chords, first_cell_m, y_plus;
   double kinematic_viscosity_m2_s = 1.46e-5;  ///< air at 15 C
   std::optional<double> hub_radius_m;
-  double radial_extent = 3.0, upstream_extent = 3.0, downstream_extent = 6.0;
+  double radial_extent = 12.0, upstream_extent = 10.0, downstream_extent = 12.0;
   std::string sectors = "all";
   std::string trailing_edge = "kept";
   int coarsen = 0;

@@ -50,13 +50,14 @@ Points fill_cylinder(const Cylinder& c, double spacing, Cut cut) {
     return points;
   }
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis);
+  double owed = 0.0;
   for (double along : cell_centres(c.length(), spacing)) {
     const double radius = c.radius(0.5 + along / c.length());
     if (cut == Cut::plane) {
       const Eigen::Vector3d across = axis.cross(Eigen::Vector3d::UnitY());
       for (double offset : cell_centres(2.0 * radius, spacing)) points.push_back(middle + along * axis + offset * across);
     } else {
-      for (const Eigen::Vector2d& p : points_in_disc(radius, spacing_across(c.length(), spacing)))
+      for (const Eigen::Vector2d& p : points_in_disc(radius, spacing_across(c.length(), spacing), owed))
         points.push_back(middle + turn * Eigen::Vector3d(p[0], p[1], along));
     }
   }

@@ -67,12 +67,13 @@ inline double spacing_across(double length, double spacing) {
   return spacing * std::sqrt(whole_spacings(length, spacing) * spacing / length);
 }
 
-/// Rings of a disc in the plane of the first two components: ring k holds about as many particles as spacings fit on it.
-inline std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing) {
+/// Rings of a disc in the plane of the first two components: ring k holds about as many particles as spacings fit on it. `owed`:
+/// what rounding has left out so far, in particles; of layer upon layer the volume up to each is then met within half a particle.
+inline std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing, double& owed) {
   const int rings = whole_spacings(radius, spacing);
   const double width = radius / rings;
   std::vector<Eigen::Vector2d> points;
-  double area = 0.0;  // in spacings^2; carried over, so that rounding does not add up
+  double area = owed;  // in spacings^2; carried over, so that rounding does not add up
   for (int ring = 0; ring < rings; ++ring) {
     area += pi * (2 * ring + 1) * width * width / (spacing * spacing);
     const int n = std::max(1, int(std::lround(area - double(points.size()))));
@@ -82,7 +83,12 @@ inline std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing
       points.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
   }
+  owed = area - double(points.size());
   return points;
+}
+inline std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing) {
+  double owed = 0.0;
+  return points_in_disc(radius, spacing, owed);
 }
 
 /// Circular cylinder along an axis (0 x, 1 y, 2 z); length zero makes the disc of a 2-D scene.
@@ -90,8 +96,9 @@ inline Points points_in_cylinder(double radius, double length, int axis, double 
   const std::vector<double> layers = length > 0.0 ? cell_centres(length, spacing) : std::vector<double>{0.0};
   const double across = length > 0.0 ? spacing_across(length, spacing) : spacing;
   Points points;
+  double owed = 0.0;
   for (double along : layers)
-    for (const Eigen::Vector2d& p : points_in_disc(radius, across)) {
+    for (const Eigen::Vector2d& p : points_in_disc(radius, across, owed)) {
       Eigen::Vector3d point;
       point[axis] = along, point[(axis + 1) % 3] = p[0], point[(axis + 2) % 3] = p[1];
       points.push_back(point);

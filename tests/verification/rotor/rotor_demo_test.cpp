@@ -1,7 +1,7 @@
-// The DTU 10-MW rotor on the demo's grid at 11 m/s, 8.836 rpm, pitch 0 against its 2013 report (1507 kN, 9.70 MW; Bak et al., DTU
-// Wind Energy I-0092) and the normal force along the span by blade element momentum (Madsen's induction, Prandtl's losses,
-// cone 2.5 degrees, no tilt: 1511 kN, 9803 kW). What the demo grid misses is stated in docs/developer/notes/rotor_resolved.md;
-// the test holds it there. SPDX-License-Identifier: Apache-2.0
+// The DTU 10-MW rotor on the default grid, one setting for all winds, against its 2013 report (Bak et al., DTU Wind Energy
+// I-0092; tip-speed ratio 7.5) and the normal force along the span by blade element momentum (Madsen's induction, Prandtl's
+// losses, cone 2.5 degrees, no tilt). Figures: docs/developer/notes/rotor_resolved.md. SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -14,59 +14,44 @@ using namespace spindrift::aero;
 
 namespace {
 
-ResolvedRotorSetup demo() {
+ResolvedRotorSetup demo(double wind, double rpm, double pitch_deg) {
   ResolvedRotorSetup s;
   s.grid.resolution = 1.0, s.grid.sectors = "one";
   s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
-  s.rotor.hub_m = {0.0, 0.0, 119.0}, s.rotor.speed = 8.836 * pi / 30.0;
-  s.wind = {11.0, 0.0, 0.0};
-  s.flow.time = "steady", s.flow.viscous = "none", s.flow.cfl = 2.0, s.flow.cfl_max = 100.0, s.flow.drop = 1e-4,
-  s.flow.max_pseudo_steps = 300;
+  s.rotor.hub_m = {0.0, 0.0, 119.0}, s.rotor.speed = rpm * pi / 30.0, s.rotor.blade_pitch = pitch_deg * pi / 180.0;
+  s.wind = {wind, 0.0, 0.0};
+  s.flow.time = "steady", s.flow.turbulence = "sa", s.flow.blades = Condition::wall_law, s.flow.preconditioner = "coarse";
+  s.flow.cfl = 2.0, s.flow.cfl_max = 1000.0, s.flow.drop = 0.0, s.flow.max_pseudo_steps = 100;
   return s;
 }
 
+struct Operation {
+  double wind, rpm, pitch_deg, thrust, power;
+};
+
 }  // namespace
 
-TEST_CASE("the demo rotor without friction has the thrust of blade element momentum to fifteen per cent", "[rotor][nightly]") {
-  ResolvedRotor rotor(demo());
+TEST_CASE("the rotor of default size has the report's thrust to five and its power to ten per cent in every wind",
+          "[rotor][nightly]") {
+  const auto o = GENERATE(Operation{6.0, 6.0, 0.896, 498.1e3, 1532.7e3}, Operation{8.0, 6.4257, 0.0, 797.3e3, 3730.7e3},
+                          Operation{11.0, 8.8354, 0.0, 1507.4e3, 9698.3e3}, Operation{15.0, 9.6, 10.958, 890.8e3, 10683.7e3});
+  ResolvedRotor rotor(demo(o.wind, o.rpm, o.pitch_deg));
   rotor.solver().start_uniform();
   rotor.prepare(MPI_COMM_SELF, {.threads = 1});
   rotor.run();
   const RotorLoad load = rotor.load();
-  CAPTURE(load.thrust, load.power, rotor.solver().march().steps(), rotor.solver().march().why());
+  CAPTURE(o.wind, load.thrust, load.power, rotor.solver().cells());
+  CHECK(rotor.solver().cells() <= 20000);
   CHECK(rotor.solver().march().verdict() == Verdict::converged);
-  CHECK(load.thrust == Approx(1507e3).epsilon(0.15));
-  double worst = 0.0;
+  CHECK(load.thrust == Approx(o.thrust).epsilon(0.05));
+  CHECK(load.power == Approx(o.power).epsilon(0.10));
+  double friction = 0.0, tangential = 0.0, worst = 0.0;
   for (const SpanLoad& row : rotor.span_loads()) {
+    friction += row.friction.tangential * row.length * row.radius, tangential += row.load.tangential * row.length * row.radius;
     const double share = row.radius / 89.166, off = row.load.normal / testing::bem_load(row.radius).normal - 1.0;
-    UNSCOPED_INFO("r/R " << share << ": " << row.load.normal << " N/m, off " << off << ", tangential " << row.load.tangential);
     if (share > 0.3 && share < 0.9) worst = std::max(worst, std::abs(off));
   }
-  CHECK(worst < 0.25);
-}
-
-TEST_CASE("the demo rotor's friction by the law of the wall takes power as a rotor's does, which walls that stick miss",
-          "[rotor][nightly]") {
-  std::vector<double> share;
-  for (const Condition blades : {Condition::no_slip, Condition::wall_law}) {
-    ResolvedRotorSetup s = demo();
-    s.flow.viscous = "full", s.flow.turbulence = "sa", s.flow.viscosity_Pa_s = 1.8e-5, s.flow.blades = blades;
-    s.flow.drop = 1e-4;
-    ResolvedRotor rotor(s);
-    rotor.solver().start_uniform();
-    rotor.prepare(MPI_COMM_SELF, {.threads = 1});
-    rotor.run();
-    const RotorLoad load = rotor.load();
-    double friction = 0.0, tangential = 0.0;
-    for (const SpanLoad& row : rotor.span_loads())
-      friction += row.friction.tangential * row.length * row.radius, tangential += row.load.tangential * row.length * row.radius;
-    share.push_back(friction / tangential);
-    CAPTURE(int(blades), load.thrust, load.power, share.back(), rotor.solver().march().steps());
-    CHECK(rotor.solver().march().verdict() == Verdict::converged);
-    CHECK_FALSE(rotor.solver().march().spent());
-    CHECK(load.thrust == Approx(1507e3).epsilon(0.15));
-  }
-  CHECK(std::abs(share[0]) < 0.005);
-  CHECK(share[1] < -0.02);
-  CHECK(share[1] > -0.08);
+  CHECK(friction / tangential < -0.02);
+  CHECK(friction / tangential > -0.1);
+  if (o.wind == 11.0) CHECK(worst < 0.15);
 }

@@ -13,6 +13,7 @@
 #include "kernels/base/failure.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/rotor_grid/coarsen.hpp"
+#include "src/aero/rotor_grid/options.hpp"
 #include "tests/src/aero/rotor_grid/example.hpp"
 
 using namespace spindrift;
@@ -55,8 +56,22 @@ void check_grid(const RotorGridSpec& spec, const Limits& limits) {
 }  // namespace
 
 // The prototype's figures for these grids are the limits: scaled Jacobian, share below 0.4, angle, growth, aspect ratio.
-TEST_CASE("rotor grids of 30 k cells are as good as stated", "[rotor_grid][fast]") {
-  check_grid(spec_of(1.0, 2e-3, 0.0, true), {0.36, 0.03, 54.0, 2.6, 2e3});
+TEST_CASE("rotor grids of 48 k cells are as good as stated", "[rotor_grid][fast]") {
+  check_grid(spec_of(1.0, 1e-3, 0.0, true), {0.34, 0.05, 56.0, 2.9, 9e3});
+}
+TEST_CASE("by default the far sides stand at ten to twelve tip radii, on few cells", "[rotor_grid][fast]") {
+  const RotorGridSpec spec = rotor_grid_spec({.resolution = 1.0, .sectors = "one"}, dtu(), 0.0, 0.925, 11.0);
+  CHECK(spec.sizes.cells() <= 17000);
+  const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
+  double radius = 0.0, upstream = 0.0, downstream = 0.0;
+  for (const Block& b : grid.blocks)
+    for (const Eigen::Vector3d& x : b.nodes)
+      radius = std::max(radius, x.tail<2>().norm()), upstream = std::max(upstream, -x.x()),
+      downstream = std::max(downstream, x.x());
+  const double tip = 88.935;  // coned and prebent
+  CHECK(radius == Approx(12.0 * tip).epsilon(0.005));
+  CHECK(upstream == Approx(10.0 * tip).epsilon(0.005));
+  CHECK(downstream == Approx(12.0 * tip).epsilon(0.005));
 }
 TEST_CASE("rotor grids of 255 k cells are as good as stated, for wall functions and for y+ of 1", "[rotor_grid][fast]") {
   check_grid(spec_of(2.04, 2.6e-4), {0.36, 0.03, 59.0, 2.1, 7e3});
@@ -128,8 +143,8 @@ TEST_CASE("one sector with rotational periodicity is a third of the rotor", "[ro
   const GridQuality a = grid_quality(all), b = grid_quality(one);
   CHECK(a.cells == 3 * b.cells);
   CHECK(a.volume == Approx(3.0 * b.volume).epsilon(1e-12));
-  // All but the blades: a cylinder ring as long as nine tip radii; its polygons lose 2 % on so coarse a grid.
-  const double R = 88.935, ring = pi * (9.0 * R * R - 25.0) * 9.0 * R;
+  // All but the blades: a cylinder ring as long as 22 tip radii; its polygons lose 2 % on so coarse a grid.
+  const double R = 88.935, ring = pi * (144.0 * R * R - 25.0) * 22.0 * R;
   CHECK(a.volume == Approx(ring).epsilon(0.03));
   CHECK(a.volume < ring);
 }
