@@ -259,11 +259,18 @@ struct Poisson::Work {
     const Datum sum = graph.datum(), decision = graph.datum(), change = graph.datum();
     const auto of = [&](const char* path, std::size_t n) { return std::string(path) + "/" + std::to_string(tiles[n].index); };
     const auto layout = [this](const Tile& t) { return cell_layout(t, gradient_ghosts, grid.tiling().planar); };
+    const auto cells = [this](const Tile& t) { return cell_layout(t, cell_ghosts, grid.tiling().planar); };
     const auto tile_at = [this](int t) -> PoissonTile& { return tiles[std::size_t(local[std::size_t(t)])]; };
     const auto always = [] { return true; };
-    const HaloField<double> centres{
-        "aero/poisson/centres", [this](int t) { return grid[t].centre(); }, layout, {Quantity::point}, 1, &phi, &ghosts, 31,
-        &grid.tiling().periodic};
+    const HaloField<double> centres{"aero/poisson/centres",
+                                    [this](int t) { return grid[t].centre(); },
+                                    cells,
+                                    {Quantity::point},
+                                    cell_ghosts,
+                                    &phi,
+                                    &ghosts,
+                                    31,
+                                    &grid.tiling().periodic};
     record_halo<double>(graph, grid, local, centres, buffers, always, [](int) {}, {});
     graph.collective(
         "aero/poisson/multigrid",
