@@ -116,7 +116,7 @@ waves.height_m=30.0 & waves.model="stokes2" : waves
 waves.period_s=0.0
 waves.model="tsunami"
 waves.components=3
-start.equilibrium=false & moorings.line_downwind.tension_only=true & moorings.line_downwind.axial_stiffness_N=1e14 & moorings.line_downwind.rest_length_m=900.0 : moorings.line_downwind
+start.equilibrium=false & moorings.line_downwind.tension_only=true & moorings.line_downwind.axial_stiffness_N=1e18 & moorings.line_downwind.rest_length_m=900.0 : moorings.line_downwind
 """,
     "leble_barakos/case1_demo.toml": EVERY + WATER + """
 sea.particles.spacing_m=1e-6
