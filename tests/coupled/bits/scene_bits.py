@@ -14,7 +14,7 @@ SCENES = {
     "platform": ("leble_barakos/case3_engineering.toml", ["time.end_s=3.0"]),
     "case3_demo": ("leble_barakos/case3_demo.toml", ["sea.particles.spacing_m=5.0", "start.air_steps=10", "time.end_s=0.15"]),
     "tank": ("validation/dam_break/koshizuka_oka.toml", ["sea.particles.spacing_m=0.1", "time.end_s=0.2"]),
-    "aerofoil": ("validation/naca0012/naca0012.toml", [f'aero.flow.{key}="{INPUTS}/validation/naca0012/tmr_112x32.{end}"' for key, end in (("grid", "p3d"), ("map", "nmf"))] + ["time.end_s=8.0"]),
+    "aerofoil": ("validation/naca0012/naca0012.toml", [f'aero.flow.{key}="{INPUTS}/validation/naca0012/tmr_112x32.{end}"' for key, end in (("grid", "p3d"), ("map", "nmf"))] + ["time.end_s=8.0", "aero.flow.drop=0.0"]),
 }
 
 

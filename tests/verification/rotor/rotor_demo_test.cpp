@@ -25,7 +25,7 @@ ResolvedRotorSetup demo(double wind, double rpm, double pitch_deg) {
   return s;
 }
 
-struct Operation {
+struct OperatingCase {
   double wind, rpm, pitch_deg, thrust, power;
 };
 
@@ -33,8 +33,9 @@ struct Operation {
 
 TEST_CASE("the rotor of default size has the report's thrust to five and its power to ten per cent in every wind",
           "[rotor][nightly]") {
-  const auto o = GENERATE(Operation{6.0, 6.0, 0.896, 498.1e3, 1532.7e3}, Operation{8.0, 6.4257, 0.0, 797.3e3, 3730.7e3},
-                          Operation{11.0, 8.8354, 0.0, 1507.4e3, 9698.3e3}, Operation{15.0, 9.6, 10.958, 890.8e3, 10683.7e3});
+  const auto o =
+      GENERATE(OperatingCase{6.0, 6.0, 0.896, 498.1e3, 1532.7e3}, OperatingCase{8.0, 6.4257, 0.0, 797.3e3, 3730.7e3},
+               OperatingCase{11.0, 8.8354, 0.0, 1507.4e3, 9698.3e3}, OperatingCase{15.0, 9.6, 10.958, 890.8e3, 10683.7e3});
   ResolvedRotor rotor(demo(o.wind, o.rpm, o.pitch_deg));
   rotor.solver().start_uniform();
   rotor.prepare(MPI_COMM_SELF, {.threads = 1});
