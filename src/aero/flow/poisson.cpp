@@ -22,7 +22,7 @@ Eigen::Vector3d at_place(const double* data, std::ptrdiff_t place, std::ptrdiff_
   return {data[place], data[place + component], data[place + 2 * component]};
 }
 
-/// One tile: phi and its gradient with a ghost, what drives it, values on its boundaries.
+/// One tile: phi and its gradient with ghosts, what drives it, values on its boundaries.
 struct PoissonTile {
   const Tile* from = nullptr;
   TileGeometry* geometry = nullptr;
@@ -96,7 +96,7 @@ struct Poisson::Work {
       t.from = &tiling.tiles[std::size_t(index)];
       t.geometry = &grid[index];
       t.index = index;
-      t.box = cell_layout(*t.from, gradient_ghosts, tiling.planar);
+      t.box = cell_layout(*t.from, cell_ghosts, tiling.planar);  // as that of centres
       t.phi = AlignedArray<double>(t.box.size(1)), t.gradient = AlignedArray<double>(t.box.size(3)),
       t.source = AlignedArray<double>(t.box.size(1));
       for (const TileBoundary& b : tiling.boundary(index)) {
@@ -258,13 +258,12 @@ struct Poisson::Work {
                gradient_ghosts_of = graph.data(tiles.size()), residuals = graph.data(tiles.size());
     const Datum sum = graph.datum(), decision = graph.datum(), change = graph.datum();
     const auto of = [&](const char* path, std::size_t n) { return std::string(path) + "/" + std::to_string(tiles[n].index); };
-    const auto layout = [this](const Tile& t) { return cell_layout(t, gradient_ghosts, grid.tiling().planar); };
-    const auto cells = [this](const Tile& t) { return cell_layout(t, cell_ghosts, grid.tiling().planar); };
+    const auto layout = [this](const Tile& t) { return cell_layout(t, cell_ghosts, grid.tiling().planar); };
     const auto tile_at = [this](int t) -> PoissonTile& { return tiles[std::size_t(local[std::size_t(t)])]; };
     const auto always = [] { return true; };
     const HaloField<double> centres{"aero/poisson/centres",
                                     [this](int t) { return grid[t].centre(); },
-                                    cells,
+                                    layout,
                                     {Quantity::point},
                                     cell_ghosts,
                                     &phi,
