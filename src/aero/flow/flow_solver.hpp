@@ -1,6 +1,7 @@
 // The air: a compressible flow on the tiles of this rank, one implicit (pseudo-)time march as tasks. Owns all arrays of the
 // solver and the decisions between tasks; the graph itself is tasks.cpp, the method docs/theory/air.md. Built by
-// src/aero/resolved_rotor.cpp, src/run/flow_case.cpp and by tests; tested in tests/src/aero/flow and tests/verification/air. SPDX-License-Identifier: Apache-2.0
+// src/aero/resolved_rotor.cpp, src/run/flow_case.cpp and by tests; tested in tests/src/aero/flow and tests/verification/air.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
