@@ -81,8 +81,8 @@ double sector_bytes(const Kind& kind, const RotorGridSpec& spec) {
   double bytes = block_bytes(kind, {kept(z.layers), kept(z.round), radial}) +
                  block_bytes(kind, {kept(z.edge), kept(z.chordwise()), kept(z.outboard)});
   for (const int along : {z.upstream, z.downstream}) {
-    bytes += 2.0 * block_bytes(kind, {kept(along), kept(z.beside), radial});
-    bytes += block_bytes(kind, {kept(along), kept(z.box_chordwise()), radial});
+    bytes += 2.0 * block_bytes(kind, {kept(z.beside), kept(along), radial});
+    bytes += block_bytes(kind, {kept(z.box_chordwise()), kept(along), radial});
   }
   return bytes + 2.0 * block_bytes(kind, {kept(z.beside), kept(z.box), radial});
 }

@@ -129,7 +129,7 @@ void doubt_acceleration(scene::Doubts& doubts, Machine& machine, const Start& st
 
 /// Modes that grow: what the statics call unstable (metacentric height), and damping of the wrong sign.
 void doubt_modes(scene::Doubts& doubts, const Machine& machine, const Stability& stability) {
-  if (machine.particle_plan()) return;  // hydrostatics without damping stand for its water
+  if (machine.particle_plan() || machine.has_waves()) return;  // its drag, quadratic in the motion, is not in the modes
   double fastest = 0.0;
   for (const bodies::Mode& mode : stability.linearisation.modes) fastest = std::max(fastest, std::abs(mode.eigenvalue));
   for (const bodies::Mode& mode : stability.linearisation.modes) {

@@ -189,14 +189,14 @@ void Moorings::begin(double t, std::span<const Motion> bodies, std::span<double>
 /// One step of a dynamic line, repeated in ever more substeps while it does not end in numbers.
 LineForces Moorings::go_on(Line& line, double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state) {
   auto& [model, scratch, first] = *line.dynamic;
-  constexpr double most = 1e5;
-  if (const double substeps = model.substeps(h); !(substeps <= most))
+  constexpr double least = 1e-6;  // of the line itself, so that shorter steps of the bodies do not hide it
+  if (const double substep = model.largest_step(); !(substep >= least))
     throw NumericalFailure(
-        fmt::format("moorings.{} at t = {:.6g} s: the line needs {:.3g} substeps in a step of {:.3g} s, {:.3g} are allowed: its "
-                    "segments of "
-                    "{:.3g} m are too stiff, too light or too short; take fewer segments, or look at its units",
-                    line.name, t, substeps, h, most, model.segment()),
-        "moorings." + line.name, 0, t, most);
+        fmt::format(
+            "moorings.{} at t = {:.6g} s: the line needs substeps of {:.3g} s, the least is {:.3g} s: its segments of {:.3g} "
+            "m are too stiff, too light or too short; take fewer segments, or look at its units",
+            line.name, t, substep, least, model.segment()),
+        "moorings." + line.name, 0, t, least);
   constexpr int finest = 16;
   const std::vector<double>& before = (kept_.assign(state.begin(), state.end()), kept_);
   for (int finer = 1; finer <= finest; finer *= 2) {

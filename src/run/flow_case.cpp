@@ -52,6 +52,7 @@ FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world) {
     throw scene::SceneError(
         {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", *o.coarse_steps),
           fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
+  aero::require_ranks(std::size_t(aero::make_tiling(own_grid_, aero::wall_patches(o)).size()), world.size);
   if (o.motion) follow_walls(o);
   solve(s, world, steady_chunk);
 }
@@ -71,7 +72,6 @@ void FlowCase::solve(const coupling::Scenario& s, const runtime::World& world, i
   const std::vector<std::string> walls = aero::wall_patches(o);
   aero::Tiling tiling = aero::make_tiling(own_grid_, walls);
   std::vector<aero::PatchCondition> conditions = aero::patch_conditions(o, tiling);
-  aero::require_ranks(std::size_t(tiling.size()), world.size);
   std::vector<int> ranks(std::size_t(tiling.size()), 0);
   if (world.size > 1) ranks = runtime::partition_blocks(aero::tile_graph(tiling), {.ranks = world.size}).rank_of_block;
   own_store_ = std::make_unique<aero::GridStore>(std::move(tiling), std::move(ranks), world.rank);

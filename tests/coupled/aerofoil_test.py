@@ -67,7 +67,7 @@ class Fast(Runs):
         self.assertLess(abs(last["flow.lift_coefficient"]), 1e-4)
         code, summary, last = self.aerofoil(15)
         self.assertEqual(code, 0, self.words)
-        self.assertAlmostEqual(last["flow.lift_coefficient"], 1.460, delta=0.003)  # our own converged value
+        self.assertAlmostEqual(last["flow.lift_coefficient"], 1.399, delta=0.003)  # our own converged value
 
     def test_a_march_that_takes_all_its_steps_ends_with_3_names_the_place_and_goes_on(self):
         code, summary, last = self.aerofoil(10, steps=20)

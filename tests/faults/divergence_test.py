@@ -43,7 +43,7 @@ def ended(case):
         why = summary["exit_reason"]
         if code != 3:
             return f"code {code}", why, "not 3"
-        if not re.search(r"t = [-\d.e+]+ s", why):
+        if not re.search(r"t = [-\d.e+]+ s|in the \d+ pseudo-steps", why):  # of a steady run the step is the time
             return "stopped", why, "no time"
         if not list((out / "checkpoints").glob("*.h5")):
             return "stopped", why, "no checkpoint"

@@ -19,7 +19,7 @@ INPUTS = ROOT / "inputs"
 SCENE = [INPUTS / "leble_barakos/case3_engineering.toml", "--set", "time.end_s=60.0", "--set", "checkpoint.interval_s=5.0"]
 # Seconds of work each: particles that settle and break loose, a steady march of a resolved rotor, and both round a platform.
 TANK = [INPUTS / "validation/dam_break/koshizuka_oka.toml", "--set", "sea.particles.spacing_m=0.02", "--set", "time.end_s=0.5"]
-AIR = [INPUTS / "leble_barakos/rotor_demo.toml", "--set", "aero.flow.drop=1e-12", "--set", "time.end_s=50.0"]
+AIR = [INPUTS / "leble_barakos/rotor_demo.toml", "--set", "aero.flow.drop=0.0", "--set", "time.end_s=50.0"]
 COUPLED = [INPUTS / "leble_barakos/case3_demo.toml", "--set", "sea.particles.spacing_m=5.0", "--set", "start.air_steps=30", "--set", "time.end_s=0.4"]
 QUIET = ["--no-report", "--quiet"]
 
