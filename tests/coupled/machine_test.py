@@ -278,14 +278,14 @@ class MachineRun(Machine):
     def test_a_window_of_resolved_air_that_stalls_is_cleared_relaxed_and_tried_again_or_cut(self):
         long = ["time.end_s=0.8", "time.window_s=0.8", "coupling.scheme='relaxation'"]
         # The plain fixed point of one evaluation too few: five relaxed ones first are enough.
-        retried = [*long, "coupling.relaxation=0.5", "coupling.max_evaluations=6", "coupling.tolerance=3.6e-3"]
+        retried = [*long, "coupling.relaxation=0.5", "coupling.max_evaluations=6", "coupling.tolerance=1.8e-3"]
         self.spindrift(ENGINEERING, "retried", settings=retried)
         row = self.rows("retried")[-1]
         self.assertEqual((row["coupling.retries"], row["coupling.cuts"], row["coupling.evaluations"]), (1, 0, 17))
-        # Two evaluations do not do for 0.8 s; each half they solve, as windows of that length are.
-        cut = [*long, "coupling.relaxation=1.0", "coupling.max_evaluations=2", "coupling.tolerance=1e-3"]
+        # Two evaluations do not do for 1.6 s; each half they solve, as windows of that length are.
+        cut = [*long, "time.end_s=1.6", "time.window_s=1.6", "coupling.relaxation=1.0", "coupling.max_evaluations=2", "coupling.tolerance=1e-3"]
         self.spindrift(ENGINEERING, "cut", settings=cut)
-        self.spindrift(ENGINEERING, "halves", settings=["time.end_s=0.8", "time.window_s=0.4", "coupling.scheme='aitken'", "coupling.tolerance=1e-8"])
+        self.spindrift(ENGINEERING, "halves", settings=["time.end_s=1.6", "time.window_s=0.8", "coupling.scheme='aitken'", "coupling.tolerance=1e-8"])
         row, halves = self.rows("cut")[-1], self.rows("halves")[-1]
         self.assertEqual(row["coupling.cuts"], 1)
         self.assertAlmostEqual(row["rotor.thrust_N"] / halves["rotor.thrust_N"], 1.0, delta=2e-4)

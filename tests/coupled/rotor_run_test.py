@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SCENE = ROOT / "inputs/leble_barakos/rotor_demo.toml"
 # 6 400 cells a sector.
 TINY = [f"aero.grid.{key}" for key in ("cells_round=28", "cells_layers=6", "first_cell_chords=4e-3")]
-TINY += ["aero.flow.viscous=none", "aero.flow.krylov_steps=8"]
+TINY += ["aero.flow.viscous=none", "aero.flow.blades=no_slip", "aero.flow.krylov_steps=8"]
 TURNING = ["aero.flow.time=bdf2", "aero.flow.max_pseudo_steps=3", "aero.flow.drop=0", "time.window_s=0.05", "time.end_s=0.2"]
 
 

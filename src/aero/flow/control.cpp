@@ -34,15 +34,15 @@ void March::ease(double factor) {
 void March::stop() {
   why_ = "asked to stop";
   verdict_ = Verdict::stopped;
-  spent_ = true;
+  spent_ = true, ++ended_, unconverged_ += o_.drop > 0.0;  // as a march that ends for want of steps: resume() undoes it
 }
 
 /// What a restart needs of a march besides its loads, one after the other.
 template <class Self, class Body>
 void March::for_saved(Self& m, Body&& body) {
   const auto each = [&](auto&... values) { (body(values), ...); };
-  each(m.cfl_, m.density_, m.mass_, m.first_, m.before_, m.fraction_, m.linear_drop_, m.steps_, m.rejections_, m.in_a_row_,
-       m.krylov_, m.ceiling_, m.since_refresh_, m.drop_of_matrix_, m.matrix_free_, m.mean_, m.model_, m.first_mean_,
+  each(m.cfl_, m.cfl_of_step_, m.density_, m.mass_, m.first_, m.before_, m.fraction_, m.linear_drop_, m.steps_, m.rejections_,
+       m.in_a_row_, m.krylov_, m.ceiling_, m.since_refresh_, m.drop_of_matrix_, m.matrix_free_, m.mean_, m.model_, m.first_mean_,
        m.first_model_, m.ended_, m.unconverged_, m.spent_, m.reference_, m.reference_mean_, m.reference_model_);
 }
 
@@ -158,6 +158,7 @@ Verdict March::judge(const Norms& n, double load) {
 }
 
 void March::updated(double fraction, int krylov, double linear_drop) {
+  cfl_of_step_ = cfl_;
   linear_drop_ = linear_drop;
   if (refresh_) drop_of_matrix_ = linear_drop;
   fraction_ = fraction;

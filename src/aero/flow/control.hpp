@@ -72,6 +72,7 @@ class March {
   void stop();
 
   double cfl() const { return cfl_; }
+  double cfl_of_step() const { return steps_ == 0 ? cfl_ : cfl_of_step_; }  ///< of the step made last
   int steps() const { return steps_; }
   int rejections() const { return rejections_; }
   bool matrix_free() const { return matrix_free_; }
@@ -101,7 +102,8 @@ class March {
   static void for_saved(Self& march, Body&& body);
   void uncount();  ///< the march that ended for want of steps goes on
   MarchOptions o_;
-  double cfl_, eased_ = 1.0, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0, linear_drop_ = 0.0;
+  double cfl_, cfl_of_step_ = 0.0, eased_ = 1.0, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0,
+               linear_drop_ = 0.0;
   double mean_ = 0.0, model_ = 0.0, first_mean_ = 0.0, first_model_ = 0.0;  ///< norms of the flux balances: now, at the start
   long ended_ = 0, unconverged_ = 0;
   int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;

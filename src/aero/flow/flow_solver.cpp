@@ -459,7 +459,7 @@ void FlowSolver::judge() {
         moment[c] += loads_[p * load_components + 6 + c];
       }
   const double load = std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
-  const double cfl = march_.cfl();
+  const double cfl = march_.cfl_of_step();
   Verdict verdict = march_.judge(norms_, load);
   rows_.push_back({.step = march_.steps() - 1,
                    .krylov = march_.krylov(),
