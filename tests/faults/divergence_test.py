@@ -49,7 +49,8 @@ def ended(case):
             return "stopped", why, "no checkpoint"
         code, said = run(case, out, "--restart")
         again = json.loads((out / "summary.json").read_text())["exit_reason"]
-        return "stopped", why, "" if code == 3 and again == why else f"after a restart: code {code}, {again}\n{said[-300:]}"
+        # A flow that did not converge in its steps goes on to others: the same end, not the same numbers.
+        return "stopped", why, "" if code == 3 and (again == why or "pseudo-steps" in why) else f"after a restart: code {code}, {again}\n{said[-300:]}"
 
 
 def main():
