@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace spindrift {
@@ -22,6 +23,21 @@ inline constexpr std::optional<Integrator> integrator_named(std::string_view nam
   for (std::size_t i = 0; i < integrator_names.size(); ++i)
     if (integrator_names[i] == name) return Integrator(i);
   return std::nullopt;
+}
+
+/// What each evaluation of a step counts for, in the order in which a step asks for them: the weights by which the step
+/// integrates u' over h. Anything that depends on x, u and u' alone (power) is integrated by them to the step's own order.
+inline std::span<const double> evaluation_weights(Integrator integrator) {
+  static constexpr double rk4[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}, forward[] = {1.0}, ends[] = {0.5, 0.5};
+  switch (integrator) {
+    case Integrator::explicit_euler:
+      return forward;
+    case Integrator::symplectic:
+      return ends;
+    case Integrator::rk4:
+      break;
+  }
+  return rk4;
 }
 
 /// Vectors that a step needs; resized once, so that steps do not allocate.

@@ -19,6 +19,7 @@ void BodiesState::pack(std::span<double> out) const {
   for (char flag : independent) *p++ = flag;
   for (char flag : active) *p++ = flag;
   for (double value : memory) *p++ = value;
+  for (double value : work) *p++ = value;
 }
 
 void BodiesState::unpack(std::span<const double> in) {
@@ -35,6 +36,7 @@ void BodiesState::unpack(std::span<const double> in) {
   for (char& flag : independent) flag = char(*p++);
   for (char& flag : active) flag = char(*p++);
   for (double& value : memory) value = *p++;
+  for (double& value : work) value = *p++;
 }
 
 }  // namespace spindrift::bodies

@@ -34,6 +34,16 @@ std::vector<int> supports(std::span<const Body> bodies, std::span<const Joint> j
   return support;
 }
 
+/// Of the bodies alone [J], added mass not included.
+double kinetic_energy_of(std::span<const Body> bodies, std::span<const Motion> motions) {
+  double energy = 0.0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Motion& m = motions[b];
+    energy += 0.5 * (bodies[b].mass * m.velocity.squaredNorm() + m.omega.dot(bodies[b].inertia * m.omega));
+  }
+  return energy;
+}
+
 }  // namespace
 
 struct System::Work {
@@ -57,6 +67,8 @@ struct System::Work {
     }
     evaluation.acceleration.resize(bodies.size());
     evaluation.angular_acceleration.resize(bodies.size());
+    source_power.assign(loads.size(), 0.0);
+    step_work.assign(loads.size() + EnergyBalance::count, 0.0);
     evaluation.by_source.assign(loads.size(), std::vector<Wrench>(bodies.size()));
     evaluation.joint_reactions.resize(joints.size());
   }
@@ -75,6 +87,10 @@ struct System::Work {
   bool close(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u);
   bool advance(double t, double t_end, double h);
   bool within_bounds();
+  double power(std::span<const Wrench> loads) const;
+  void clear_step_work();
+  void count_power(double weight);
+  bool count_work(double h, double kinetic_before);
 
   std::vector<Body> bodies;
   std::vector<Joint> joints;
@@ -97,6 +113,8 @@ struct System::Work {
   IntegratorWork integration;
   BodiesState opened;
   Evaluation evaluation;
+  std::vector<double> source_power, step_work;  ///< of the last evaluation [W]; over the step, divided by its length
+  double step_gain = 0.0;                       ///< rate of the kinetic energy over the step [W]
 };
 
 bool System::Work::fail(StepReport::Trouble trouble, int body) {
@@ -152,8 +170,72 @@ void System::Work::remember(double t, double h, BodiesState& state) {
 void System::Work::gather_loads(double t) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     wrenches[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), motions[b].position};
-  for (const LoadSource& source : loads)
-    if (source.loads) source.loads(t, motions, wrenches);
+  double before = 0.0;
+  for (std::size_t s = 0; s < loads.size(); ++s) {
+    if (!loads[s].loads) continue;
+    loads[s].loads(t, motions, wrenches);
+    const double so_far = power(wrenches);
+    source_power[s] = so_far - before;
+    before = so_far;
+  }
+}
+
+/// Of loads on all bodies, in W.
+double System::Work::power(std::span<const Wrench> loads) const {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    sum += loads[b].force.dot(motions[b].velocity) + loads[b].moment.dot(motions[b].omega_earth());
+  return sum;
+}
+
+void System::Work::clear_step_work() {
+  std::ranges::fill(step_work, 0.0);
+  step_gain = 0.0;
+}
+
+/// Adds the power of all that acts at the accelerations just found.
+void System::Work::count_power(double weight) {
+  const Eigen::VectorXd& bias = mechanism.bias();
+  double gain = 0.0, of_sources = 0.0, of_added_mass = 0.0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto k = Eigen::Index(6 * b);
+    Eigen::Matrix<double, 6, 1> rate = bias.segment<6>(k);
+    if (mechanism.freedoms() > 0) rate.noalias() += mechanism.tangent().middleRows<6>(k) * acceleration;
+    rate.head<3>() *= mechanism.length();
+    gain += bodies[b].mass * rate.head<3>().dot(motions[b].velocity) + motions[b].omega.dot(bodies[b].inertia * rate.tail<3>());
+    if (!has_added_mass) continue;
+    Eigen::Matrix<double, 6, 1> earth_rate, velocity;
+    earth_rate << rate.head<3>(), mechanism.poses()[b].axes * rate.tail<3>();
+    velocity << motions[b].velocity, motions[b].omega_earth();
+    of_added_mass -= velocity.dot(added[b] * earth_rate);
+  }
+  for (std::size_t s = 0; s < loads.size(); ++s) step_work[s] += weight * source_power[s], of_sources += source_power[s];
+  const auto after_sources = std::span(step_work).subspan(loads.size());
+  after_sources[EnergyBalance::added_mass] += weight * of_added_mass;
+  after_sources[EnergyBalance::joints] += weight * (gain - of_sources - of_added_mass);
+  step_gain += weight * gain;
+}
+
+/// Adds the step's work to that of the run. False where the steps themselves made or lost more energy than half of what the loads
+/// did: no solution of the equations does. Forward Euler, which gains energy by its nature, is counted and not judged.
+bool System::Work::count_work(double h, double kinetic_before) {
+  const auto after_sources = std::span(opened.work).subspan(loads.size());
+  for (std::size_t s = 0; s < loads.size(); ++s) {
+    opened.work[s] += h * step_work[s];
+    after_sources[EnergyBalance::throughput] += h * std::abs(step_work[s]);
+  }
+  for (const auto slot : {EnergyBalance::added_mass, EnergyBalance::joints})
+    after_sources[slot] += h * step_work[loads.size() + slot];
+  double& error = after_sources[EnergyBalance::error];
+  error += kinetic_energy_of(bodies, motions) - kinetic_before - h * step_gain;
+  constexpr double most = 0.5, slow = 0.05;  // m/s: of all mass together, so that rest is no division by zero
+  double mass = 0.0;
+  for (const Body& body : bodies) mass += body.mass;
+  const double scale = after_sources[EnergyBalance::throughput] + std::abs(after_sources[EnergyBalance::joints]) +
+                       std::abs(after_sources[EnergyBalance::added_mass]) + kinetic_before + 0.5 * mass * slow * slow;
+  if (integrator == Integrator::explicit_euler || std::abs(error) <= most * scale) return true;
+  report.value = error;
+  return fail(StepReport::Trouble::energy, -1);
 }
 
 /// Mass matrices in chart units; added mass joins the body's own, angular velocities being in body axes.
@@ -253,11 +335,21 @@ bool System::Work::advance(double t, double t_end, double h) {
   recall(opened.memory);
   if (!open(opened, t, false).ok()) return false;
   u = mechanism.open_velocity();
+  const bool counts = !opened.work.empty();
+  double kinetic_before = 0.0;
+  if (counts) {
+    mechanism.motions(motions);
+    kinetic_before = kinetic_energy_of(bodies, motions);
+    clear_step_work();
+  }
+  const std::span<const double> weights = evaluation_weights(integrator);
+  std::size_t evaluations = 0;
   const auto rates = [this](double time, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
                             Eigen::VectorXd& u_rate) {
     if (!accelerations(time, x, u)) return false;
     mechanism.chart_rate(x_rate);
     u_rate = acceleration;
+    if (counts) count_power(weights[evaluations++]);
     return true;
   };
   const bool done = step(integrator, rates, t, h, u, integration) && close(t_end, integration.x, u);
@@ -271,6 +363,7 @@ bool System::Work::advance(double t, double t_end, double h) {
   }
   mechanism.motions(opened.motions);
   if (!within_bounds()) return false;
+  if (counts && !count_work(h, kinetic_before)) return false;
   mechanism.turn_joints(opened.joint_angles);
   remember(t_end, h, opened);
   return std::ranges::all_of(opened.memory, [](double v) { return std::isfinite(v); }) ||
@@ -373,7 +466,8 @@ Assembly System::assemble_from(const BodiesState& near, double t_s) {
   return assembly;
 }
 
-void System::begin_memory(BodiesState& state, double t_s) {
+void System::begin(BodiesState& state, double t_s) {
+  state.work.assign(w_->loads.size() + EnergyBalance::count, 0.0);
   state.memory.assign(w_->memory_size, 0.0);
   std::size_t first = 0;
   for (const LoadSource& source : w_->loads) {
@@ -441,14 +535,7 @@ double System::constraint_residual(const BodiesState& state, double t_s) {
   return w_->mechanism.residual();
 }
 
-double System::kinetic_energy(const BodiesState& state) const {
-  double energy = 0.0;
-  for (std::size_t b = 0; b < w_->bodies.size(); ++b) {
-    const Motion& m = state.motions[b];
-    energy += 0.5 * (w_->bodies[b].mass * m.velocity.squaredNorm() + m.omega.dot(w_->bodies[b].inertia * m.omega));
-  }
-  return energy;
-}
+double System::kinetic_energy(const BodiesState& state) const { return kinetic_energy_of(w_->bodies, state.motions); }
 
 std::string System::describe(const StepReport& r) const {
   using Trouble = StepReport::Trouble;
@@ -475,6 +562,9 @@ std::string System::describe(const StepReport& r) const {
       return "bodies: the step is beyond the " + fmt::format("{:.3g}", r.value) +
              " s or so that the stiffest load allows now (a line that snapped taut, water met at speed); try a smaller "
              "time.step_s";
+    case Trouble::energy:
+      return "bodies: the steps themselves have made " + fmt::format("{:.3g}", r.value) +
+             " J, more than half of all work of the loads; try a smaller time.step_s";
     case Trouble::too_far:
       return body + ": it is " + fmt::format("{:.4g} m away, the limit is {:.4g} m (radius of the earth)", r.value, farthest);
     case Trouble::too_fast:

@@ -37,6 +37,7 @@ struct StepReport {
     stiff,         ///< the step is beyond what loads as stiff as they are now allow: `value` is about that [s]
     too_far,       ///< a body is farther away than the earth is large: `value` is how far [m]
     too_fast,      ///< a body is faster than what leaves the earth: `value` is its speed [m/s]
+    energy,        ///< the steps themselves made or lost more energy than half of what all loads did: `value` is how much [J]
   };
   Trouble trouble = Trouble::none;
   int joint = -1, body = -1;   ///< where, -1 when neither
@@ -81,9 +82,9 @@ class System {
   /// Consistent state with the given motions; `tick` and turns are kept from `near`.
   Assembly assemble_from(const BodiesState& near, double t_s);
 
-  /// Gives the sources of load the memory with which a run begins. Without it (or without sources that have one) loads are the
-  /// steady ones.
-  void begin_memory(BodiesState& state, double t_s);
+  /// Begins a run at this state: gives the sources of load the memory that they begin with, and counts work from here on. Without
+  /// it loads are the steady ones.
+  void begin(BodiesState& state, double t_s);
 
   /// One step of `ticks` ticks with the chosen integrator, or so many equal pieces of it. On trouble the state is left as it was.
   /// Does not allocate unless the independent set is chosen anew.

@@ -45,6 +45,26 @@ Table<Wrench> wrench_columns() {
   return table;
 }
 
+Table<EnergyRow> energy_columns() {
+  using Of = const EnergyRow&;
+  using Balance = bodies::EnergyBalance;
+  static constexpr ColumnOf<EnergyRow> table[] = {
+      {"kinetic_J", "J", "kinetic energy of all bodies, added mass not included", [](Of e) { return e.kinetic; }},
+      {"added_mass_work_J", "J", "work of the forces of added mass since the start",
+       [](Of e) { return e.after_sources[Balance::added_mass]; }},
+      {"joints_work_J", "J", "work of joints and their drivers since the start; ideal joints do none",
+       [](Of e) { return e.after_sources[Balance::joints]; }},
+      {"steps_J", "J", "kinetic energy that no work explains: made (or lost, below zero) by the time steps since the start",
+       [](Of e) { return e.after_sources[Balance::error]; }}};
+  return table;
+}
+
+Table<double> work_columns() {
+  static constexpr ColumnOf<double> table[] = {
+      {"work_J", "J", "work of this source of load on all bodies since the start", [](const double& w) { return w; }}};
+  return table;
+}
+
 Table<RotorRow> rotor_columns() {
   using Of = const RotorRow&;
   static constexpr ColumnOf<RotorRow> table[] = {
@@ -188,6 +208,8 @@ std::vector<io::ColumnSection> column_sections() {
                      "each source of load of a body (gravity, forces, moorings, sea, contact, rotor), about its centre of mass",
                      wrench_columns()),
           section_of("JOINT.", "each joint: its reaction", wrench_columns()),
+          section_of("energy.", "scenes with bodies: their balance of energy", energy_columns()),
+          section_of("energy.SOURCE.", "each source of load", work_columns()),
           section_of("rotor.", "scenes with a rotor, with bodies or alone", rotor_columns()),
           section_of("rotor.", "rotors on bodies", hub_columns()),
           section_of("rotor.", "controlled rotors", drive_columns()),

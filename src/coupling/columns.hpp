@@ -8,6 +8,7 @@
 
 #include "kernels/rigid/wrench.hpp"
 #include "src/aero/rotor_loads.hpp"
+#include "src/bodies/state.hpp"
 #include "src/io/column_group.hpp"
 #include "src/moorings/moorings.hpp"
 #include "src/sea/particle_sea.hpp"
@@ -37,11 +38,19 @@ struct WaterRow {
   sea::ParticleSea::Extent extent;
 };
 
+/// Energy of all bodies together, and what made it so since the start of the run [J].
+struct EnergyRow {
+  double kinetic;
+  std::span<const double> after_sources;  ///< by bodies::EnergyBalance
+};
+
 template <class Source>
 using Table = std::span<const io::ColumnOf<Source>>;
 
 Table<ReferenceMotion> motion_columns();         ///< BODY.
 Table<Wrench> wrench_columns();                  ///< BODY.SOURCE., JOINT.
+Table<EnergyRow> energy_columns();               ///< energy.
+Table<double> work_columns();                    ///< energy.SOURCE.
 Table<RotorRow> rotor_columns();                 ///< rotor.
 Table<aero::RotorState> hub_columns();           ///< rotor.
 Table<aero::RotorLoads::Drive> drive_columns();  ///< rotor., of a controlled one

@@ -31,6 +31,8 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
   }
   for (const bodies::Joint& joint : floating.multibody().joints())
     joints_.emplace_back(history, joint.name + ".", wrench_columns());
+  if (!bodies.empty()) energy_.emplace(history, "energy.", energy_columns());
+  for (const bodies::LoadSource& source : loads) works_.emplace_back(history, "energy." + source.name + ".", work_columns());
   if (floating.rotor()) rotor_.emplace(history, "rotor.", rotor_columns()), hub_.emplace(history, "rotor.", hub_columns());
   if (floating.rotor() && floating.rotor()->is_controlled()) {
     drive_.emplace(history, "rotor.", drive_columns());
@@ -84,6 +86,11 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
                                           now.angular_acceleration[b]));
   for (const Load& load : loads_) load.columns.fill(row, now.by_source[load.source][load.body]);
   for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].fill(row, now.joint_reactions[j]);
+  if (energy_) {
+    const std::span<const double> work = state.work;
+    for (std::size_t s = 0; s < works_.size(); ++s) works_[s].fill(row, work[s]);
+    energy_->fill(row, {floating_.multibody().kinetic_energy(state), work.subspan(works_.size())});
+  }
   if (floating_.rotor()) {
     const aero::RotorState rotor = floating_.rotor()->state(t, state.motions);
     rotor_->fill(row, {floating_.written_rotor_load(t, rotor), rotor.azimuth / radians_per_degree, rotor.speed / rad_s_per_rpm});

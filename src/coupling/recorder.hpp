@@ -41,6 +41,8 @@ class Recorder {
   std::vector<Group<ReferenceMotion>> bodies_;
   std::vector<Load> loads_;
   std::vector<Group<Wrench>> joints_;
+  std::optional<Group<EnergyRow>> energy_;
+  std::vector<Group<double>> works_;  ///< by source of load
   std::optional<Group<RotorRow>> rotor_;
   std::optional<Group<aero::RotorState>> hub_;
   std::optional<Group<aero::RotorLoads::Drive>> drive_;

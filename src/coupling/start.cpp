@@ -57,7 +57,7 @@ Start start_without_memory(FloatingSystem& floating) {
 
 Start make_start(FloatingSystem& floating) {
   Start start = start_without_memory(floating);
-  floating.multibody().begin_memory(start.state, 0.0);
+  floating.multibody().begin(start.state, 0.0);
   return start;
 }
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* format_name = "spindrift-checkpoint";
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 /// The names of all arrays, one per line: an array that is gone is noticed.
 constexpr const char* manifest_name = "manifest";
 

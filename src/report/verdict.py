@@ -185,6 +185,22 @@ def _lines(run):
     return Check("good", "Lines", "none pushes" + (f"; slack: {', '.join(said)}" if said else "; none goes slack"))
 
 
+def _energy(run):
+    """Energy that the time steps made or lost, against the work of all loads; both as the bodies' step counts them."""
+    works = [n for n in run.columns if n.startswith("energy.") and n.endswith("work_J")]
+    if "energy.steps_J" not in run.columns or len(run.time) < 2:
+        return None
+    made = float(run.column("energy.steps_J")[-1])
+    work = sum(float(np.abs(np.diff(run.column(n))).sum()) for n in works)
+    if not work > 0.0:
+        return None
+    hours = (run.time[-1] - run.time[0]) / 3600.0
+    share = abs(made) / work
+    text = (f"the bodies' steps {'made' if made > 0 else 'lost'} {words.number(abs(made), 2)} J, {words.number(100 * share, 2)} % of the work of all loads; "
+            f"{words.number(abs(made) / hours, 2)} J an hour")
+    return Check("good" if share < 0.02 else "warn", "Energy", text + ("" if share < 0.02 else ": try a smaller time.step_s"))
+
+
 def _windows(run):
     found = []
     if "coupling.mismatch" in run.columns:
@@ -270,7 +286,7 @@ def health(run):
     found += [Check("bad", "Numbers", s) for s in said]
     if not said and len(run.time):
         found.append(Check("good", "Numbers", f"all {run.values.size:,} of history.csv are finite"))
-    found += [c for c in (_draft(run), _power(run), _lines(run), _particles(run), _settled(run)) if c]
+    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _particles(run), _settled(run)) if c]
     found += _windows(run) + _budgets(run)
     if warnings := run.summary.get("warnings"):
         found.append(Check("warn", "Log", f"{warnings} warning{'s' if warnings != 1 else ''}"))

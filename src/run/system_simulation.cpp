@@ -153,8 +153,12 @@ std::int64_t SystemSimulation::take_over() {
   if (*windows >= timeline.windows())
     refuse(fmt::format("its state is that of t = {:g} s, the run ends at {:g} s", t, timeline.window_end_s(timeline.windows())));
   const std::vector<double> bodies = file.read<double>("bodies/state");
-  if (bodies.size() != state_.packed_size()) refuse("its bodies and joints are not those of this scene");
-  state_.unpack(bodies);
+  // Work is counted anew, which may have other sources of load here.
+  const std::vector<double> work = std::exchange(state_.work, {});
+  if (bodies.size() != state_.packed_size() + std::size_t(file.integer("bodies/works")))
+    refuse("its bodies and joints are not those of this scene");
+  state_.unpack(std::span(bodies).first(state_.packed_size()));
+  state_.work = work;
   state_.tick = timeline.tick_of_window(*windows);
   restore_fluids(file);
   // What the scheme has learnt goes along where scheme and window are the same; else it begins with the state alone.
@@ -190,6 +194,7 @@ void SystemSimulation::save(io::CheckpointWriter& file) {
   state_.pack(packed);
   file.set("steps", steps_);
   file.write<double>("bodies/state", packed);
+  file.set("bodies/works", std::int64_t(state_.work.size()));
   if (const std::vector<double> history = window_.history(); !history.empty()) {
     file.set("coupling/scheme", std::int64_t(floating_.scenario().coupling.scheme));
     file.write<double>("coupling/history", history);

@@ -148,12 +148,12 @@ TEST_CASE("a file that is no checkpoint, or of a later format, is refused by nam
   { io::CheckpointWriter(MPI_COMM_SELF, folder / "later.h5").commit(); }
   const hid_t file = H5Fopen((folder / "later.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   const hid_t version = H5Aopen(file, "format_version", H5P_DEFAULT);
-  const std::int64_t later = 2;
+  const std::int64_t later = 3;
   H5Awrite(version, H5T_NATIVE_INT64, &later);
   H5Aclose(version);
   H5Fclose(file);
   CHECK_THROWS_WITH(io::CheckpointReader(MPI_COMM_SELF, folder / "later.h5"),
-                    Contains("format version 2") && Contains("reads 1"));
+                    Contains("format version 3") && Contains("reads 2"));
 }
 
 TEST_CASE("a run killed while it writes, or just before the rename, restarts from the checkpoint before", "[io][faults][fast]") {

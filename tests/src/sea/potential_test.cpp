@@ -74,7 +74,7 @@ Heave move(const Files& files, double start, double end, double step, const std:
   bodies::System system({body}, {}, {bodies::gravity_source(std::span(&body, 1), 10.0), sea});
   bodies::BodiesState state = system.assemble().state;
   state.motions[0].position.z() = start;
-  system.begin_memory(state, 0.0);
+  system.begin(state, 0.0);
   Heave heave{{start}, step};
   for (int n = 0; n < int(std::lround(end / step)); ++n) {
     REQUIRE(system.advance(state, step, 1).ok());
