@@ -6,15 +6,16 @@
 #include <cmath>
 
 #include "kernels/mooring/line_catenary.hpp"
+#include "src/moorings/model.hpp"
 
 namespace spindrift::moorings {
 
 namespace {
 
-bool hangs(const LineOptions& line) { return line.model == "catenary" || line.model == "lumped_mass"; }
+bool hangs(const LineOptions& line) { return line_model(line.model).hangs; }
 
 void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N) {
-  if (line.model == "table") return;
+  if (line.rest_length_m == 0.0) return;  // a table has none
   const Eigen::Vector3d along = line.fairlead_m - line.anchor_m;
   const double apart = along.norm(), length = line.rest_length_m, round = std::hypot(along.x(), along.y()) + std::abs(along.z());
   const std::string what = fmt::format("{:.4g} m for ends {:.4g} m apart", length, apart);
@@ -41,7 +42,7 @@ void doubt_material(scene::Doubts& doubts, const std::string& at, const LineOpti
   if (!hangs(line) || !line.axial_stiffness_N) return;
   const double ratio = *line.axial_stiffness_N / weight_N_m;
   if (ratio < 3e4 || ratio > 5e7)
-    doubts.push_back({at + (line.model == "catenary" ? ".weight_N_m" : ".mass_kg_m"),
+    doubts.push_back({at + (line.mass_kg_m == 0.0 ? ".weight_N_m" : ".mass_kg_m"),
                       fmt::format("{:.4g} N/m in water with an axial stiffness of {:.4g} N", weight_N_m, *line.axial_stiffness_N),
                       "a stiffness of 3e4 to 5e7 m times the weight in water",
                       "look at the units: N/m in water, not kg/m or kN/m; N, not kN"});
@@ -86,7 +87,7 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     const double weight_N_m = weight_in_water(line, around.water_density_kg_m3, around.gravity_m_s2);
     doubt_length(doubts, at, line, around.weight_N);
     doubt_material(doubts, at, line, weight_N_m);
-    if (line.model == "lumped_mass") doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
+    if (line_model(line.model).make_dynamic) doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
     if (depth_m < 0.0 || line.anchor_body != "earth") continue;
     const double above = line.anchor_m.z() + depth_m;
     if (above < -0.01 * depth_m - 0.5)

@@ -8,29 +8,8 @@
 
 #include "kernels/base/failure.hpp"
 #include "kernels/waves/morison.hpp"
-#include "src/moorings/table_file.hpp"
 
 namespace spindrift::moorings {
-
-namespace {
-
-LineLumpedMass lumped_mass(const LineOptions& o, const LineEnvironment& environment) {
-  LineLumpedMass line;
-  line.length = o.rest_length_m, line.segments = o.segments, line.diameter = o.diameter_m, line.mass_per_m = o.mass_kg_m;
-  line.axial_stiffness = *o.axial_stiffness_N, line.damping_ratio = o.damping_ratio;
-  line.normal_drag = o.drag_coefficient, line.tangential_drag = o.axial_drag_coefficient;
-  line.normal_added_mass = o.added_mass_coefficient, line.tangential_added_mass = o.axial_added_mass_coefficient;
-  line.gravity = environment.gravity_m_s2, line.water_density = environment.water_density_kg_m3;
-  line.bed_contact = o.bed_contact, line.bed_level = std::min(o.anchor_m.z(), o.fairlead_m.z());
-  line.bed_stiffness = o.bed_stiffness_Pa_m, line.bed_damping = o.bed_damping_Pa_s_m, line.bed_friction = o.bed_friction;
-  for (const ClumpOptions& c : o.clumps) {
-    const int node = std::clamp(int(std::lround(c.distance_m / line.segment())), 1, line.segments - 1);
-    line.clumps.push_back({node, c.mass_kg, c.volume_m3, c.drag_area_m2, c.added_mass_coefficient});
-  }
-  return line;
-}
-
-}  // namespace
 
 /// Time and ends of the last step's end, forces there and how they changed in the step, nodes: as they lie in the memory.
 struct Moorings::Recalled {
@@ -72,22 +51,12 @@ Moorings::End Moorings::attach(const std::string& body, const Eigen::Vector3d& p
 
 void Moorings::add(const std::string& name, const LineOptions& o) {
   Line line{name, attach(o.body, o.fairlead_m), attach(o.anchor_body, o.anchor_m), {}, {}};
-  if (o.model == "spring_damper") {
-    const double k = o.stiffness_N_m ? *o.stiffness_N_m : *o.axial_stiffness_N / o.rest_length_m;
-    line.model = LineSpringDamper{o.rest_length_m, k, o.damping_N_s_m, o.tension_only};
-  } else if (o.model == "catenary") {
-    line.model = LineCatenary{o.rest_length_m, o.weight_N_m, *o.axial_stiffness_N, o.bed_friction, o.bed_contact};
-  } else if (o.model == "lumped_mass") {
-    const LineLumpedMass dynamic = lumped_mass(o, environment_);
-    line.model = dynamic.catenary();
+  const LineModel& model = line_model(o.model);
+  line.model = model.make(o, environment_);
+  if (model.make_dynamic) {
+    const LineLumpedMass dynamic = model.make_dynamic(o, environment_);
     line.dynamic = Dynamic{dynamic, dynamic.scratch(), memory_size_};
     memory_size_ += Recalled::nodes + dynamic.state_size();
-  } else {
-    auto [distance, tension] = read_line_table(o.table);
-    Table& table = tables_.emplace_back(std::move(distance), std::move(tension), std::vector<double>());
-    table.slope.resize(table.distance.size());
-    monotone_slopes(table.distance, table.tension, table.slope);
-    line.model = LineTable{table.distance, table.tension, table.slope};
   }
   lines_.push_back(std::move(line));
 }
@@ -111,9 +80,7 @@ LineForces Moorings::forces(const Line& line, double t, std::span<const Motion> 
   }
   const auto [anchor, fairlead] = ends(line, bodies);
   if (line.dynamic && !line.dynamic->line.clumps.empty()) return resting(*line.dynamic, {anchor, fairlead});
-  return std::visit(
-      [&](const auto& model) { return model.forces(fairlead.position - anchor.position, fairlead.velocity - anchor.velocity); },
-      line.model);
+  return line.model->forces(fairlead.position - anchor.position, fairlead.velocity - anchor.velocity);
 }
 
 /// No catenary has clumps.

@@ -1,31 +1,21 @@
 // The mooring lines of a scene: who is tied to what, and the loads they put on the bodies.
-// Dynamic lines carry their nodes as memory from step to step (bodies::Memory). Built and called by src/coupling; line models are
-// in kernels/mooring; tested in tests/src/moorings/moorings_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Dynamic lines carry their nodes as memory from step to step (bodies::Memory). Built and called by src/coupling; line models:
+// model.hpp; tested in tests/src/moorings/moorings_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "kernels/mooring/line_catenary.hpp"
 #include "kernels/mooring/line_lumped_mass.hpp"
-#include "kernels/mooring/line_spring_damper.hpp"
-#include "kernels/mooring/line_table.hpp"
 #include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/wrench.hpp"
-#include "src/moorings/options.hpp"
+#include "src/moorings/model.hpp"
 
 namespace spindrift::moorings {
-
-/// What surrounds dynamic lines.
-struct LineEnvironment {
-  double gravity_m_s2 = 9.80665, water_density_kg_m3 = 1025.0;
-  std::function<LineWater(double t, const Eigen::Vector3d& point)> water = StillWater{};
-};
 
 /// Tensions of one line [N]; negative where a two-way spring pushes.
 struct LineTension {
@@ -36,8 +26,6 @@ class Moorings {
  public:
   /// `bodies` and `start`: names and initial motions of all bodies, in the order of every later call.
   Moorings(std::span<const std::string> bodies, std::span<const Motion> start, LineEnvironment environment = {});
-  Moorings(Moorings&&) = default;  // tables are held by address: movable, not copyable
-  Moorings& operator=(Moorings&&) = default;
 
   /// Ties one more line. Throws scene::SceneError where a table cannot be read; body names have been checked (check_lines).
   void add(const std::string& name, const LineOptions& options);
@@ -77,11 +65,8 @@ class Moorings {
   struct Line {
     std::string name;
     End fairlead, anchor;
-    std::variant<LineSpringDamper, LineCatenary, LineTable> model;
+    std::unique_ptr<const StaticLine> model;
     std::optional<Dynamic> dynamic;  ///< `model` is then its statics
-  };
-  struct Table {
-    std::vector<double> distance, tension, slope;
   };
   End attach(const std::string& body, const Eigen::Vector3d& point) const;
   LineEnd moving(const End& end, std::span<const Motion> bodies) const;
@@ -97,7 +82,6 @@ class Moorings {
   std::size_t memory_size_ = 0;
   std::vector<double> memory_;  ///< recalled; empty: steady
   std::vector<double> kept_;    ///< state of a line before a step that may be repeated
-  std::vector<Table> tables_;   ///< a LineTable looks into these; their heap does not move with the vector
 };
 
 }  // namespace spindrift::moorings

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "kernels/base/constants.hpp"
+#include "src/moorings/model.hpp"
 #include "src/moorings/table_file.hpp"
 #include "src/scene/document.hpp"
 
@@ -14,8 +15,12 @@ namespace spindrift::moorings {
 
 namespace {
 
-const std::vector<std::string> springs{"spring_damper"}, catenaries{"catenary"}, hanging{"catenary", "lumped_mass"},
-    elastic{"spring_damper", "catenary", "lumped_mass"}, dynamic{"lumped_mass"}, tables{"table"};
+/// Names and meanings, as the list of models has them.
+std::vector<scene::Choice> model_choices() {
+  std::vector<scene::Choice> choices;
+  for (const LineModel* model : line_models()) choices.push_back({std::string(model->name), std::string(model->help)});
+  return choices;
+}
 
 const scene::Section<ClumpOptions>& clump_section() {
   using scene::positive, scene::not_negative;
@@ -40,8 +45,8 @@ void check_line(const LineOptions& o, const scene::Report& report) {
     if (clump.mass_kg == 0.0 && clump.volume_m3 == 0.0) report("clumps", "has one without mass and volume");
   }
   if (o.anchor_body == o.body) report("anchor_body", "is the body that carries the fairlead: a line ties two different things");
-  const bool hangs = o.model == "catenary" || o.model == "lumped_mass";
-  if (hangs && o.bed_contact && o.anchor_body != "earth")
+  const auto hanging = line_models_with("bed_contact");
+  if (std::ranges::find(hanging, o.model) != hanging.end() && o.bed_contact && o.anchor_body != "earth")
     report("bed_contact", "must be false for a line between two bodies: only an anchor on \"earth\" lies on the bed");
 }
 
@@ -52,12 +57,7 @@ const scene::Section<LineOptions>& line_section() {
   static const auto section =
       scene::Section<LineOptions>("moorings", "A mooring line: its model, its two ends, its properties.")
           .named()
-          .choice("model", &LineOptions::model,
-                  {{"spring_damper", "linear spring and damper along the chord"},
-                   {"catenary", "static elastic catenary, with or without contact on a flat bed"},
-                   {"lumped_mass", "dynamic: point masses joined by springs, with weight, bed, drag and inertia of the water"},
-                   {"table", "tension from a table of the distance between the ends"}},
-                  "Model of the line.")
+          .choice("model", &LineOptions::model, model_choices(), "Model of the line.")
           .text("body", &LineOptions::body, "Body that carries the fairlead.")
           .required()
           .vector("fairlead_m", &LineOptions::fairlead_m, "m", "Fairlead, initial earth coordinates; it moves with its body.")
@@ -66,66 +66,66 @@ const scene::Section<LineOptions>& line_section() {
           .vector("anchor_m", &LineOptions::anchor_m, "m", "Anchor, initial earth coordinates; may lie outside the tank.")
           .required()
           .number("rest_length_m", &LineOptions::rest_length_m, "m", "Unstretched length.", positive())
-          .only_if("model", elastic)
+          .only_if("model", line_models_with("rest_length_m"))
           .required()
           .number("axial_stiffness_N", &LineOptions::axial_stiffness_N, "N",
                   "Axial stiffness EA; the spring's is EA over the rest length.", positive())
-          .only_if("model", elastic)
+          .only_if("model", line_models_with("axial_stiffness_N"))
           .number("stiffness_N_m", &LineOptions::stiffness_N_m, "N/m", "Stiffness of the whole line: force per lengthening.",
                   positive())
-          .only_if("model", springs)
+          .only_if("model", line_models_with("stiffness_N_m"))
           .number("damping_N_s_m", &LineOptions::damping_N_s_m, "N s/m", "Force per rate of lengthening.", not_negative())
-          .only_if("model", springs)
+          .only_if("model", line_models_with("damping_N_s_m"))
           .flag("tension_only", &LineOptions::tension_only, "The line goes slack instead of pushing.")
-          .only_if("model", springs)
+          .only_if("model", line_models_with("tension_only"))
           .number("weight_N_m", &LineOptions::weight_N_m, "N/m", "Weight in water per unstretched length.", positive())
-          .only_if("model", catenaries)
+          .only_if("model", line_models_with("weight_N_m"))
           .required()
           .flag("bed_contact", &LineOptions::bed_contact, "The line may lie on a flat bed at the level of its lower end.")
-          .only_if("model", hanging)
+          .only_if("model", line_models_with("bed_contact"))
           .number("bed_friction", &LineOptions::bed_friction, "-", "Friction coefficient between line and bed.", not_negative())
-          .only_if("model", hanging)
+          .only_if("model", line_models_with("bed_friction"))
           .only_if("bed_contact", {"true"})
           .integer("segments", &LineOptions::segments, "-", "Equal segments, between point masses.", scene::between(2, 1000))
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("segments"))
           .number("diameter_m", &LineOptions::diameter_m, "m",
                   "Diameter of a cylinder of the line's volume: 1.8 times the bar of a studless chain.", positive())
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("diameter_m"))
           .required()
           .number("mass_kg_m", &LineOptions::mass_kg_m, "kg/m", "Mass per unstretched length, dry.", positive())
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("mass_kg_m"))
           .required()
           .number("damping_ratio", &LineOptions::damping_ratio, "-",
                   "Internal damping, as a share of the critical one of a segment between its two masses.",
                   scene::between(0.0, 1.0))
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("damping_ratio"))
           .number("drag_coefficient", &LineOptions::drag_coefficient, "-",
                   "Drag across the line, on its diameter; studless chain by default.", not_negative())
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("drag_coefficient"))
           .number("axial_drag_coefficient", &LineOptions::axial_drag_coefficient, "-",
                   "Drag along the line, on its circumference; studless chain by default.", not_negative())
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("axial_drag_coefficient"))
           .number("added_mass_coefficient", &LineOptions::added_mass_coefficient, "-",
                   "Added mass across the line, on the displaced one.", not_negative())
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("added_mass_coefficient"))
           .number("axial_added_mass_coefficient", &LineOptions::axial_added_mass_coefficient, "-",
                   "Added mass along the line, on the displaced one.", not_negative())
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("axial_added_mass_coefficient"))
           .number("bed_stiffness_Pa_m", &LineOptions::bed_stiffness_Pa_m, "Pa/m",
                   "Pressure of the bed under the line's diameter per depth of sinking in.", positive())
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("bed_stiffness_Pa_m"))
           .only_if("bed_contact", {"true"})
           .number("bed_damping_Pa_s_m", &LineOptions::bed_damping_Pa_s_m, "Pa s/m",
                   "Pressure of the bed under the line's diameter per speed of sinking in.", not_negative())
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("bed_damping_Pa_s_m"))
           .only_if("bed_contact", {"true"})
           .tables("clumps", &LineOptions::clumps, clump_section(), "Weights and floats on the line.")
-          .only_if("model", dynamic)
+          .only_if("model", line_models_with("clumps"))
           .path("table", &LineOptions::table,
                 "CSV file with columns distance_m, tension_N: both increasing. Below the first row its tension holds, beyond the "
                 "last "
                 "the last slope goes on.")
-          .only_if("model", tables)
+          .only_if("model", line_models_with("table"))
           .required()
           .one_of({"axial_stiffness_N", "stiffness_N_m"})
           .check(check_line);
@@ -133,7 +133,7 @@ const scene::Section<LineOptions>& line_section() {
 }
 
 double weight_in_water(const LineOptions& o, double water_density, double gravity) {
-  if (o.model != "lumped_mass") return o.weight_N_m;
+  if (o.mass_kg_m == 0.0) return o.weight_N_m;
   return gravity * (o.mass_kg_m - water_density * 0.25 * pi * o.diameter_m * o.diameter_m);
 }
 
@@ -151,12 +151,11 @@ void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOption
     if (line.anchor_body != "earth" && !known(line.anchor_body)) doc.problem(at + ".anchor_body", unknown(line.anchor_body));
     if ((line.fairlead_m - line.anchor_m).norm() == 0.0)
       doc.problem(at + ".anchor_m", "is where the fairlead is: the line has no direction");
-    if (line.model == "lumped_mass" && line.mass_kg_m > 0.0 && line.diameter_m > 0.0 &&
-        !(weight_in_water(line, water_density, 1.0) > 0.0))
+    if (line.mass_kg_m > 0.0 && line.diameter_m > 0.0 && !(weight_in_water(line, water_density, 1.0) > 0.0))
       doc.problem(at + ".mass_kg_m", fmt::format("must be above the {:.4g} kg/m of the water that diameter_m = {} displaces: "
                                                  "the line would float",
                                                  line.mass_kg_m - weight_in_water(line, water_density, 1.0), line.diameter_m));
-    if (line.model == "table" && !line.table.empty()) try {
+    if (!line.table.empty()) try {
         read_line_table(line.table);
       } catch (const scene::SceneError& e) { doc.problem(at + ".table", e.what()); }
   }

@@ -52,7 +52,7 @@ struct LineOptions {
 
 const scene::Section<LineOptions>& line_section();
 
-/// What a line of `lumped_mass` weighs in water [N/m]; of other models what the scene says.
+/// What a line given by its dry mass weighs in water [N/m]; of others what the scene says.
 double weight_in_water(const LineOptions& line, double water_density_kg_m3, double gravity_m_s2);
 
 /// Rules between sections: the bodies named exist, ends differ, tables are readable. Problems go to the document.

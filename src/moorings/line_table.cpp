@@ -1,0 +1,35 @@
+// Fibre ropes, and results of another program: kernels/mooring/line_table.hpp over the rows of a file.
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/mooring/line_table.hpp"
+
+#include "src/moorings/model.hpp"
+#include "src/moorings/table_file.hpp"
+
+namespace spindrift::moorings {
+
+namespace {
+
+class Tabulated final : public StaticLine {
+ public:
+  explicit Tabulated(TableFile rows) : rows_(std::move(rows)), slope_(rows_.distance.size()) {
+    monotone_slopes(rows_.distance, rows_.tension, slope_);
+  }
+  LineForces forces(const Eigen::Vector3d& span, const Eigen::Vector3d& rate) const override {
+    return LineTable{rows_.distance, rows_.tension, slope_}.forces(span, rate);
+  }
+
+ private:
+  TableFile rows_;
+  std::vector<double> slope_;
+};
+
+}  // namespace
+
+extern const LineModel tabulated{.name = "table",
+                                 .help = "tension from a table of the distance between the ends",
+                                 .keys = {"table"},
+                                 .make = [](const LineOptions& o, const LineEnvironment&) -> std::unique_ptr<const StaticLine> {
+                                   return std::make_unique<Tabulated>(read_line_table(o.table));
+                                 }};
+
+}  // namespace spindrift::moorings

@@ -1,0 +1,67 @@
+// The models of mooring lines that a scene may choose from. Each is one file, line_NAME.cpp, and one line in models.cpp: its
+// name, what the reference says of it, the keys of [moorings.NAME] that it reads, and the line it makes of them. The physics is
+// in kernels/mooring. Used by moorings.cpp, options.cpp and doubts.cpp; tested in tests/src/moorings. SPDX-License-Identifier:
+// Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/mooring/line.hpp"
+#include "kernels/mooring/line_lumped_mass.hpp"
+#include "src/moorings/options.hpp"
+
+namespace spindrift::moorings {
+
+/// What surrounds dynamic lines.
+struct LineEnvironment {
+  double gravity_m_s2 = 9.80665, water_density_kg_m3 = 1025.0;
+  std::function<LineWater(double t, const Eigen::Vector3d& point)> water = StillWater{};
+};
+
+/// A line without a state: forces on both ends from where they are.
+class StaticLine {
+ public:
+  virtual ~StaticLine() = default;
+  /// `span` = fairlead - anchor [m], `rate` = its time derivative [m/s].
+  virtual LineForces forces(const Eigen::Vector3d& span, const Eigen::Vector3d& rate) const = 0;
+};
+
+/// Of a line of kernels/mooring.
+template <MooringLine L>
+std::unique_ptr<const StaticLine> static_line(L line) {
+  class Of final : public StaticLine {
+   public:
+    explicit Of(L l) : line_(std::move(l)) {}
+    LineForces forces(const Eigen::Vector3d& span, const Eigen::Vector3d& rate) const override {
+      return line_.forces(span, rate);
+    }
+
+   private:
+    L line_;
+  };
+  return std::make_unique<Of>(std::move(line));
+}
+
+struct LineModel {
+  std::string_view name, help;
+  std::vector<std::string> keys;  ///< that it reads, besides model and ends; any other is refused
+  bool hangs = false;             ///< has weight: it sags, and may lie on the bed
+  /// The options have been checked. Of a dynamic model: its statics, for starts and linearisation.
+  std::unique_ptr<const StaticLine> (*make)(const LineOptions&, const LineEnvironment&) = nullptr;
+  /// Of a model with a state of its own.
+  LineLumpedMass (*make_dynamic)(const LineOptions&, const LineEnvironment&) = nullptr;
+};
+
+/// In the order in which the reference names them.
+std::span<const LineModel* const> line_models();
+/// @pre the name is one of them.
+const LineModel& line_model(std::string_view name);
+/// Names of the models that read the key.
+std::vector<std::string> line_models_with(std::string_view key);
+
+}  // namespace spindrift::moorings
