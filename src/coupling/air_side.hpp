@@ -44,8 +44,8 @@ class AirSide {
 
   /// Notes the state to go back to: of a window, and of the piece of it that is being iterated.
   enum Snapshot { window, piece };
-  virtual void keep(Snapshot) {}
-  virtual void back(Snapshot) {}
+  virtual void take_snapshot(Snapshot) {}
+  virtual void return_to(Snapshot) {}
 
   virtual std::vector<SavedArray> saved() const { return {}; }
   virtual void restore(const io::CheckpointReader&) {}

@@ -32,8 +32,8 @@ class BodySide {
   virtual void forget_tasks() {}
 
   // What is not in the bodies' state (particles) is noted and gone back to; numbered as AirSide::Snapshot.
-  virtual void keep(int) {}
-  virtual void back(int) {}
+  virtual void take_snapshot(int) {}
+  virtual void return_to(int) {}
 
   std::int64_t steps() const { return steps_; }    ///< of the bodies, or substeps of the sea, so far
   std::int64_t own_ns() const { return own_ns_; }  ///< spent on the bodies and all that they ask
