@@ -1,4 +1,4 @@
-// The models of mooring lines that a scene may choose from. Each is one file, line_NAME.cpp, and one line in models.cpp: its
+// The models of mooring lines that a scene may choose from. Each is one file, line_NAME.cpp, and one line in models.inc: its
 // name, what the reference says of it, the keys of [moorings.NAME] that it reads, and the line it makes of them. The physics is
 // in kernels/mooring. Used by moorings.cpp, options.cpp and doubts.cpp; tested in tests/src/moorings. SPDX-License-Identifier:
 // Apache-2.0

@@ -7,16 +7,17 @@
 
 namespace spindrift::moorings {
 
-extern const LineModel spring_damper, catenary, lumped_mass, tabulated;
+#define MODEL(name) extern const LineModel name;
+#include "src/moorings/models.inc"
+#undef MODEL
 
 namespace {
 
+#define MODEL(name) &name,
 const std::array models{
-    &spring_damper,
-    &catenary,
-    &lumped_mass,
-    &tabulated,
+#include "src/moorings/models.inc"
 };
+#undef MODEL
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/doubts.hpp"
+#include "src/sea/wave_model.hpp"
 
 #include <fmt/format.h>
 
@@ -19,10 +20,10 @@ double wave_length(double period_s, const SeaEnvironment& e) {
 scene::Doubts wave_doubts(const WavesOptions& w, const SeaEnvironment& e) {
   scene::Doubts doubts;
   if (w.model == "none" || w.period_s <= 0.0 || w.height_m <= 0.0) return doubts;
-  const bool irregular = w.model == "jonswap" || w.model == "pierson_moskowitz";
+  const WaveModel& model = wave_model(w.model);
   const double length = wave_length(w.period_s, e), steepness = w.height_m / length;
   // Miche (1944): regular waves break beyond 0.142 tanh(kd). Sea states beyond 1/15 at the peak are not met (DNV-RP-C205, 3.5.5).
-  const double limit = irregular ? 1.0 / 15.0 : 0.142 * std::tanh(2.0 * pi * e.water_depth / length);
+  const double limit = !model.regular ? 1.0 / 15.0 : 0.142 * std::tanh(2.0 * pi * e.water_depth / length);
   if (steepness > limit)
     doubts.push_back({"waves.height_m",
                       fmt::format("{:.4g} m at a period of {:.4g} s is {:.3g} of the length, {:.4g} m", w.height_m, w.period_s,
@@ -37,12 +38,12 @@ scene::Doubts wave_doubts(const WavesOptions& w, const SeaEnvironment& e) {
   if (w.period_s > 30.0)
     doubts.push_back({"waves.period_s", fmt::format("{:.4g} s", w.period_s), "up to 30 s: longer ones are tides and surges",
                       "look at its unit: seconds, not a frequency"});
-  if (!irregular && w.model == "stokes2") {
+  if (model.second_order) {
     // Ursell number of second order's range: beyond 26 its second harmonic is no longer small (Hedges 1995).
     const double ursell = w.height_m * length * length / std::pow(e.water_depth, 3);
     if (ursell > 40.0)
-      doubts.push_back({"waves.model", fmt::format("stokes2 with an Ursell number of {:.3g}", ursell), "below 40 (Hedges 1995)",
-                        "the wave is too long for this depth; look at environment.water_depth_m"});
+      doubts.push_back({"waves.model", fmt::format("{} with an Ursell number of {:.3g}", w.model, ursell),
+                        "below 40 (Hedges 1995)", "the wave is too long for this depth; look at environment.water_depth_m"});
   }
   return doubts;
 }

@@ -1,6 +1,7 @@
 // Declarations of [waves] and [sea]: see options.hpp. Why the defaults are what they are: docs/theory/sea_engineering.md,
 // section 5. SPDX-License-Identifier: Apache-2.0
 #include "src/sea/options.hpp"
+#include "src/sea/wave_model.hpp"
 
 namespace spindrift::sea {
 namespace {
@@ -91,56 +92,60 @@ const Section<PotentialOptions>& potential_section() {
   return section;
 }
 
+std::vector<scene::Choice> wave_choices() {
+  std::vector<scene::Choice> choices{{"none", "still water"}};
+  for (const WaveModel* model : wave_models()) choices.push_back({std::string(model->name), std::string(model->help)});
+  return choices;
+}
+
+std::vector<std::string> any_waves() {
+  std::vector<std::string> names;
+  for (const WaveModel* model : wave_models()) names.emplace_back(model->name);
+  return names;
+}
+
 }  // namespace
 
 const Section<WavesOptions>& waves_section() {
-  static const std::vector<std::string> any_wave = {"airy", "stokes2", "jonswap", "pierson_moskowitz"};
-  static const std::vector<std::string> regular = {"airy", "stokes2"}, irregular = {"jonswap", "pierson_moskowitz"};
   static const auto section =
       Section<WavesOptions>("waves", "The undisturbed sea.")
-          .choice("model", &WavesOptions::model,
-                  {{"none", "still water"},
-                   {"airy", "one linear regular wave"},
-                   {"stokes2", "one regular wave to second order in steepness"},
-                   {"jonswap", "irregular, growing sea with a narrow peak"},
-                   {"pierson_moskowitz", "irregular, fully developed sea"}},
-                  "Kind of waves.")
+          .choice("model", &WavesOptions::model, wave_choices(), "Kind of waves.")
           .number("height_m", &WavesOptions::height_m, "m", "Crest to trough; of a sea state, the significant height.",
                   scene::positive())
           .required()
-          .only_if("model", any_wave)
+          .only_if("model", any_waves())
           .number("period_s", &WavesOptions::period_s, "s", "Period; of a sea state, the peak period.", scene::positive())
           .required()
-          .only_if("model", any_wave)
+          .only_if("model", any_waves())
           .degrees("direction_deg", &WavesOptions::direction, "Towards which the waves travel: 0 along x, 90 along y.",
                    scene::between(-360.0, 360.0))
-          .only_if("model", any_wave)
+          .only_if("model", any_waves())
           .degrees("phase_deg", &WavesOptions::phase, "Phase at the origin at time 0; 0 is a crest.",
                    scene::between(-360.0, 360.0))
-          .only_if("model", regular)
+          .only_if("model", wave_models_with("phase_deg"))
           .number("ramp_s", &WavesOptions::ramp_s, "s", "Time over which the waves grow smoothly from nothing.",
                   scene::not_negative())
-          .only_if("model", any_wave)
+          .only_if("model", any_waves())
           .choice("stretching", &WavesOptions::stretching,
                   {{"wheeler", "profiles are squeezed or stretched to the surface"},
                    {"vertical", "constant above still water"},
                    {"extrapolated", "the formula is used up to the surface"}},
                   "How linear kinematics reach the moving surface; a Stokes wave is always extrapolated.")
-          .only_if("model", {"airy", "jonswap", "pierson_moskowitz"})
+          .only_if("model", wave_models_with("stretching"))
           .integer("seed", &WavesOptions::seed, "-",
                    "Seed of the random phases; the same seed gives the same sea on every machine.", scene::not_negative())
-          .only_if("model", irregular)
+          .only_if("model", wave_models_with("seed"))
           .integer("components", &WavesOptions::components, "-", "Number of harmonics.", scene::between(8, 20000))
-          .only_if("model", irregular)
+          .only_if("model", wave_models_with("components"))
           .choice("spacing", &WavesOptions::spacing,
                   {{"equal_energy", "each harmonic carries the same energy; the sea does not repeat"},
                    {"equal_frequency", "equal steps of frequency; the sea repeats after 2 pi / step"}},
                   "How the frequencies of the harmonics are chosen.")
-          .only_if("model", irregular)
+          .only_if("model", wave_models_with("spacing"))
           .number("peak_enhancement", &WavesOptions::peak_enhancement, "-",
                   "Gamma of the JONSWAP spectrum; where not given, from height and period after DNV-RP-C205.",
                   scene::between(1.0, 7.0))
-          .only_if("model", {"jonswap"});
+          .only_if("model", wave_models_with("peak_enhancement"));
   return section;
 }
 

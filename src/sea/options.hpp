@@ -17,7 +17,7 @@ namespace spindrift::sea {
 
 /// [waves]
 struct WavesOptions {
-  std::string model = "none";              ///< none, airy, stokes2, jonswap, pierson_moskowitz
+  std::string model = "none";              ///< none, or a name of wave_models()
   double height_m = 0.0;                   ///< crest to trough; of a sea state, the significant height
   double period_s = 0.0;                   ///< of a sea state, the peak period
   double direction = 0.0;                  ///< towards which the waves travel, from x to y [rad]

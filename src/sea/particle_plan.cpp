@@ -7,6 +7,7 @@
 
 #include "src/sea/particle_sea.hpp"
 #include "src/sea/wave_field.hpp"
+#include "src/sea/wave_model.hpp"
 
 namespace spindrift::sea {
 namespace {
@@ -62,7 +63,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
   for (const BoxOptions& box : o.water) plan.tank.water.push_back(block_of(box));
   for (const BoxOptions& box : o.obstacles) plan.tank.obstacles.push_back(block_of(box));
   if (waves.model != "none") plan.waves = WaveField(waves, environment).components();
-  plan.second_order = waves.model == "stokes2";
+  plan.second_order = waves.model != "none" && wave_model(waves.model).second_order;
   if (starts_in_waves(o)) plan.tank.waves = plan.waves;
   if (o.initial && o.initial->state == "standing") {
     for (waves::Component& c : plan.tank.waves) c.amplitude *= 0.5, c.speed_amplitude *= 0.5;
@@ -136,10 +137,9 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (o.wavemaker) {
     const WavemakerOptions& w = *o.wavemaker;
     const double bed = t.bed_m.empty() ? -depth : t.bed_m.front()[1];
-    if (w.type == "flap" && waves.model == "stokes2")
-      wrong("sea.wavemaker.type", "a flap makes waves of first order: use a piston for stokes2");
-    if (w.stroke_m && waves.model != "airy" && waves.model != "stokes2")
-      wrong("sea.wavemaker.stroke_m", "is that of a regular wave (airy, stokes2)");
+    if (w.type == "flap" && waved && wave_model(waves.model).second_order)
+      wrong("sea.wavemaker.type", "a flap makes waves of first order: use a piston for " + waves.model);
+    if (w.stroke_m && !(waved && wave_model(waves.model).regular)) wrong("sea.wavemaker.stroke_m", "is that of a regular wave");
     if (w.hinge_m && !(*w.hinge_m >= bed && *w.hinge_m < 0.0))
       wrong("sea.wavemaker.hinge_m", fmt::format("must lie between the bed at {} m and still water", bed));
     if (o.initial && w.start_s < -o.initial->settle_s)

@@ -7,6 +7,7 @@
 #include "kernels/waves/stokes.hpp"
 #include "src/scene/error.hpp"
 #include "src/sea/engineering_sea.hpp"
+#include "src/sea/wave_model.hpp"
 
 namespace spindrift::sea {
 namespace {
@@ -56,8 +57,9 @@ void check_potential(const PotentialOptions& o, const WavesOptions& waves, std::
   attempt("hydrostatics_file", o.hydrostatics_file, read_hydrostatics);
   if (waves.model == "none") return;
   if (o.excitation_file.empty()) problems.push_back({"sea.potential.excitation_file", "must be given: there are waves"});
-  if (waves.model == "stokes2")
-    problems.push_back({"waves.model", "must not be 'stokes2': sea.model 'potential' is linear in the waves; use 'airy'"});
+  if (wave_model(waves.model).second_order)
+    problems.push_back(
+        {"waves.model", "must not be '" + waves.model + "': sea.model 'potential' is linear in the waves; use 'airy'"});
 }
 
 }  // namespace
@@ -118,21 +120,14 @@ std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaE
   if (!problems.empty()) return problems;
   const auto wave = waves::wave_properties(options.period_s, environment.water_depth, environment.gravity);
   // Highest wave before it breaks, after Miche (1944), for regular waves; half of it for the significant height of a sea.
-  const bool regular = options.model == "airy" || options.model == "stokes2";
-  const double breaking = 0.142 * wave.length * std::tanh(wave.relative_depth), most = regular ? breaking : 0.5 * breaking;
+  const WaveModel& model = wave_model(options.model);
+  const double breaking = 0.142 * wave.length * std::tanh(wave.relative_depth), most = model.regular ? breaking : 0.5 * breaking;
   if (options.height_m > most)
     problems.push_back(
         {"waves.height_m", text("is %.4g m, but a wave of this period breaks above %.4g m in this depth (Miche 1944; "
                                 "a sea state: half of that)",
                                 options.height_m, most)});
-  if (options.model == "stokes2") {
-    const double ratio = waves::stokes_ratio(options.height_m, wave.wave_number, environment.water_depth);
-    if (ratio > 0.25)
-      problems.push_back(
-          {"waves.model", text("stokes2 fails for this wave: its second harmonic is %.3g of the first (limit %.3g, a "
-                               "second crest in the trough); use a lower or shorter wave",
-                               ratio, 0.25)});
-  }
+  if (model.check) model.check(options, environment, problems);
   return problems;
 }
 

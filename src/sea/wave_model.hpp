@@ -1,0 +1,41 @@
+// The kinds of waves that a scene may choose from. Each is one file, wave_NAME.cpp, and one line in wave_models.inc: its name,
+// what the reference says of it, the keys of [waves] that it reads, and the harmonics that it is made of. Used by wave_field.cpp,
+// options.cpp, problems.cpp and doubts.cpp; tested in tests/src/sea. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/waves/components.hpp"
+#include "src/sea/options.hpp"
+
+namespace spindrift::sea {
+
+struct OptionProblem;
+
+struct WaveModel {
+  std::string_view name, help;
+  std::vector<std::string> keys;  ///< that it reads besides model, height_m, period_s, direction_deg and ramp_s
+  bool regular = false;           ///< one wave, which repeats after its period; else a sea state
+  bool second_order = false;      ///< in steepness: an expansion about still water that holds up to the crest
+  /// Harmonics at full height; bound ones included.
+  std::vector<waves::Component> (*components)(const WavesOptions&, const SeaEnvironment&) = nullptr;
+  /// What is wrong with such a wave in this water beyond breaking; null where nothing can be.
+  void (*check)(const WavesOptions&, const SeaEnvironment&, std::vector<OptionProblem>&) = nullptr;
+};
+
+/// In the order in which the reference names them; "none" is not among them.
+std::span<const WaveModel* const> wave_models();
+/// @pre the name is one of them.
+const WaveModel& wave_model(std::string_view name);
+/// Names of the models that read the key; of all for a key that all read.
+std::vector<std::string> wave_models_with(std::string_view key);
+
+/// The linear regular wave of height, period, direction and phase.
+waves::Component airy_wave(const WavesOptions& options, const SeaEnvironment& environment);
+/// A sea of random phases with the JONSWAP spectrum of this peak enhancement (1: Pierson-Moskowitz).
+std::vector<waves::Component> random_sea(const WavesOptions& options, const SeaEnvironment& environment, double peak_enhancement);
+
+}  // namespace spindrift::sea
