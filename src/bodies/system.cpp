@@ -344,8 +344,8 @@ bool System::Work::advance(double t, double t_end, double h) {
   }
   const std::span<const double> weights = evaluation_weights(integrator);
   std::size_t evaluations = 0;
-  const auto rates = [this](double time, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
-                            Eigen::VectorXd& u_rate) {
+  const auto rates = [&, this](double time, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
+                               Eigen::VectorXd& u_rate) {
     if (!accelerations(time, x, u)) return false;
     mechanism.chart_rate(x_rate);
     u_rate = acceleration;

@@ -3,13 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <ranges>
+
 namespace spindrift::scene {
 
 namespace {
 std::string list(const std::vector<Problem>& problems) {
   if (problems.size() == 1) return problems.front().text();
   std::string text = fmt::format("{} problems in the scene:", problems.size());
-  for (const Problem& p : problems) text += "\n  " + p.text();
+  constexpr std::size_t most = 50;
+  for (const Problem& p : problems | std::views::take(most)) text += "\n  " + p.text();
+  if (problems.size() > most) text += fmt::format("\n  and {} more", problems.size() - most);
   return text;
 }
 }  // namespace
