@@ -176,7 +176,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
     add_source(sources, std::move(source), on);
   }
   clocks_.resize(sources.size());
-  system_ =
+  multibody_ =
       std::make_unique<bodies::System>(std::move(bodies), make_joints(s.joints, s.bodies), std::move(sources), s.time.integrator);
 }
 

@@ -36,7 +36,7 @@ class FloatingSystem {
 
   const Scenario& scenario() const { return scenario_; }
   const Timeline& timeline() const { return timeline_; }
-  bodies::System& system() { return *system_; }
+  bodies::System& multibody() { return *multibody_; }
 
   const std::optional<moorings::Moorings>& moorings() const { return moorings_; }
   /// Of a scene with particles: its hydrostatics, which statics and linearisation use, where its shapes are cylinders.
@@ -80,7 +80,7 @@ class FloatingSystem {
   /// Of a body, in its axes from the centre of mass.
   const Eigen::Vector3d& reference_point(std::size_t body) const { return reference_points_[body]; }
 
-  /// By source, in the order of system().loads().
+  /// By source, in the order of multibody().loads().
   std::span<const SourceClock> clocks() const { return clocks_; }
   void reset_clocks() { clocks_.assign(clocks_.size(), {}); }
   void set_clocks(std::span<const SourceClock> clocks) { clocks_.assign(clocks.begin(), clocks.end()); }
@@ -112,7 +112,7 @@ class FloatingSystem {
   std::optional<sea::ParticlePlan> particle_plan_;
   std::unique_ptr<sea::ParticleSea> particles_;
   double body_step_limit_ = std::numeric_limits<double>::infinity();
-  std::unique_ptr<bodies::System> system_;
+  std::unique_ptr<bodies::System> multibody_;
 };
 
 /// Asks for the floating system's loads in another way while this lives.

@@ -11,6 +11,7 @@
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
+#include "src/coupling/flow_scene.hpp"
 #include "src/scene/error.hpp"
 
 namespace spindrift::coupling {

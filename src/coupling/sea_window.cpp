@@ -79,7 +79,7 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
   void forget_tasks() override { sea_.forget_tasks(); }
   void ease(int retry) override { retry_ = retry; }
   void take_snapshot(int slot) override {
-    if (note == 0) sea_.balance();
+    if (slot == 0) sea_.balance();
     sea_.take_snapshot(slot);
   }
   void return_to(int slot) override { sea_.return_to(slot); }
