@@ -31,8 +31,10 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
   }
   for (const bodies::Joint& joint : floating.multibody().joints())
     joints_.emplace_back(history, joint.name + ".", wrench_columns());
-  if (!bodies.empty()) energy_.emplace(history, "energy.", energy_columns());
-  for (const bodies::LoadSource& source : loads) works_.emplace_back(history, "energy." + source.name + ".", work_columns());
+  if (!bodies.empty()) {
+    energy_.emplace(history, "energy.", energy_columns());
+    for (const bodies::LoadSource& source : loads) works_.emplace_back(history, "energy." + source.name + ".", work_columns());
+  }
   if (floating.rotor()) rotor_.emplace(history, "rotor.", rotor_columns()), hub_.emplace(history, "rotor.", hub_columns());
   if (floating.rotor() && floating.rotor()->is_controlled()) {
     drive_.emplace(history, "rotor.", drive_columns());
