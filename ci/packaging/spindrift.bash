@@ -3,11 +3,11 @@ _spindrift() {
   local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]:-} before=${COMP_WORDS[COMP_CWORD-1]}
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=($(compgen -W "run check grid study reference report picture film help --help --version" -- "$word"))
+    COMPREPLY=($(compgen -W "run check grid study reference report replay picture film help --help --version" -- "$word"))
     return
   fi
   case $before in
-    --set | --until | --seconds | --rate | --time) return ;;
+    --set | --until | --seconds | --rate | --time | --windows | --ranks | --threads | --nodes | --network | --skew) return ;;
     --fluid) COMPREPLY=($(compgen -W "air sea" -- "$word")); return ;;
     --camera) COMPREPLY=($(compgen -W "scene side front top rotor" -- "$word")); return ;;
   esac
@@ -18,7 +18,8 @@ _spindrift() {
   case $command in
     run | check | grid | study) COMPREPLY=($(compgen -f -X '!*.toml' -- "$word") $(compgen -d -- "$word")) ;;
     report | picture | film) COMPREPLY=($(compgen -d -- "$word")) ;;
-    help) COMPREPLY=($(compgen -W "run check grid study reference report picture film" -- "$word")) ;;
+    replay) COMPREPLY=($(compgen -f -X '!*.jsonl' -- "$word") $(compgen -d -- "$word")) ;;
+    help) COMPREPLY=($(compgen -W "run check grid study reference report replay picture film" -- "$word")) ;;
   esac
 }
 complete -o filenames -F _spindrift spindrift

@@ -78,6 +78,9 @@ void Executor::run(std::uint32_t n) {
       (std::has_single_bit(state_->runs) || state_->runs % 64 == 0))
     set_levels(team);
   ++state_->runs;
+  Ledger* const ledger = Ledger::current();
+  team.recording = team.options.records > 0 && (!ledger || ledger->keeps_records());
+  if (ledger) ledger->starts(team);
   if (team.options.watchdog_s > 0 && !state_->watchdog) state_->watchdog = std::make_unique<Watchdog>(team);
   if (state_->watchdog) state_->watchdog->run_starts();
   team.ended.store(false, std::memory_order_relaxed);
@@ -89,7 +92,7 @@ void Executor::run(std::uint32_t n) {
     if (omp_get_thread_num() == 0) worker.enter(0, n);
     worker.work();
   }
-  if (Ledger* ledger = Ledger::current()) ledger->ran(team, Clock::now_ns() - begin_ns);
+  if (ledger) ledger->ran(team, begin_ns, Clock::now_ns() - begin_ns);
   if (state_->watchdog) state_->watchdog->run_ends();
   if (!team.failure) return;
   const bool ours = team.failure->rank == team.graph.recorded().comm.rank();

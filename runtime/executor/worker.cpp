@@ -230,7 +230,7 @@ bool Worker::run(std::uint32_t slot, Body&& body) {
   times.task_ns += end - begin;
   ++times.tasks;
   if (!s.placed) s.home = std::uint16_t(id_);
-  if (team_.options.records > 0) record(slot, where, Activity::task, begin, end, 0);
+  if (team_.recording) record(slot, where, Activity::task, begin, end, 0);
   poll_if_due(end, false);
   return true;
 }
@@ -282,7 +282,7 @@ void Worker::poll(bool nested) {
   if (auto notice = team_.messages.notice()) team_.fail(std::move(*notice));
   if (nested) return;  // its time is the task's
   times.poll_ns += end - begin;
-  if (!completions_.empty() && team_.options.records > 0) record(no_task, {0, 0, id_}, Activity::poll, begin, end, 0);
+  if (!completions_.empty() && team_.recording) record(no_task, {0, 0, id_}, Activity::poll, begin, end, 0);
 }
 
 void Worker::complete_message(const Messages::Completion& completion) {
@@ -301,8 +301,7 @@ void Worker::complete_message(const Messages::Completion& completion) {
   const std::int64_t end = Clock::now_ns();
   s.cost_ns += end - completion.posted_ns;
   graph.message_bytes[completion.node] += completion.bytes;
-  if (team_.options.records > 0)
-    record(completion.node, context(s), activity_of(kind), completion.posted_ns, end, completion.bytes);
+  if (team_.recording) record(completion.node, context(s), activity_of(kind), completion.posted_ns, end, completion.bytes);
   complete(completion.node);
 }
 
@@ -365,7 +364,7 @@ std::uint32_t Worker::wait() {
   }
   now = Clock::now_ns();
   times.idle_ns += now - begin - (times.poll_ns - polled_before);
-  if (team_.options.records > 0) record(no_task, {0, 0, id_}, Activity::idle, begin, now, 0);
+  if (team_.recording) record(no_task, {0, 0, id_}, Activity::idle, begin, now, 0);
   return found;
 }
 

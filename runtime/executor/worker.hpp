@@ -32,6 +32,7 @@ struct Team {
   Sleepers sleepers;
   bool spins = true;                          ///< idle threads may spin: there is a processor for each
   int levels = 1;                             ///< of priority in use
+  bool recording = false;                     ///< this run leaves records
   alignas(64) std::atomic<bool> ended{true};  ///< the run is over or cancelled
   alignas(64) std::atomic<std::int64_t> last_poll_ns{0};
 

@@ -27,6 +27,9 @@ struct Graph::Recorded {
   std::vector<std::uint64_t> message_bytes;  ///< by node: sent or received so far
 
   std::vector<float> place_of;  ///< by datum
+  // For recordings (sizes.hpp): bytes of data, and of the parts that single nodes read; where nothing was said, none.
+  std::map<std::uint32_t, std::uint64_t> bytes_of_datum;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> bytes_of_read;  ///< by node and datum
   std::vector<std::pair<std::uint32_t, std::uint32_t>> orders;
   std::uint32_t open = no_node;  ///< loop being recorded
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/executor/worker.hpp"
+#include "runtime/replay/recorder.hpp"
 #include "runtime/trace/clock.hpp"
 #include "runtime/trace/trace_of.hpp"
 
@@ -21,6 +22,16 @@ void widen(std::vector<ThreadTimes>& threads, std::size_t count) {
   if (threads.size() < count) threads.resize(count);
 }
 
+/// Of all threads.
+ThreadTimes sum_of(const Team& team) {
+  ThreadTimes sum;
+  for (const auto& worker : team.workers) {
+    const ThreadTimes& times = worker->times;
+    sum.wall_ns += times.wall_ns, sum.task_ns += times.task_ns, sum.idle_ns += times.idle_ns, sum.poll_ns += times.poll_ns;
+  }
+  return sum;
+}
+
 }  // namespace
 
 Ledger::Ledger(std::size_t records) : begin_ns_(Clock::now_ns()), capacity_(records) {
@@ -32,16 +43,65 @@ Ledger* Ledger::current() { return active; }
 
 void Ledger::opened(const Team& team) { live_.push_back({&team}); }
 
-void Ledger::closed(const Team& team) {
+Ledger::Live* Ledger::live(const Team& team) {
   const auto found = std::ranges::find(live_, &team, &Live::team);
-  if (found == live_.end()) return;
-  add(gone_, *found);
-  live_.erase(found);
+  return found == live_.end() ? nullptr : &*found;
 }
 
-void Ledger::ran(const Team& team, std::int64_t ns) {
-  if (const auto found = std::ranges::find(live_, &team, &Live::team); found != live_.end()) found->wall_ns += ns;
+void Ledger::closed(const Team& team) {
+  const Live* found = live(team);
+  if (!found) return;
+  add(gone_, *found), add(recorded_, *found);
+  live_.erase(live_.begin() + (found - live_.data()));
+}
+
+void Ledger::starts(const Team& team) {
+  if (Live* of = live(team)) of->before = sum_of(team), of->replays = team.program.loops[0].base;
+}
+
+void Ledger::ran(const Team& team, std::int64_t begin_ns, std::int64_t ns) {
   if (innermost_) innermost_->inner_ns_ += ns;
+  Live* const of = live(team);
+  if (!of) return;
+  of->wall_ns += ns;
+  if (keep_ != Keep::runs || !in_window_ || team.failure) return;
+  const ThreadTimes now = sum_of(team);
+  const std::int64_t task = now.task_ns - of->before.task_ns, idle = now.idle_ns - of->before.idle_ns,
+                     poll = now.poll_ns - of->before.poll_ns;
+  RunRecord& run = of->runs.emplace_back();
+  run.window = windows_.back().number, run.replays = team.program.loops[0].base - of->replays;
+  run.begin_ns = begin_ns, run.wall_ns = ns;
+  run.task_ns = task, run.idle_ns = idle, run.poll_ns = poll;
+  run.overhead_ns = ns * std::int64_t(team.workers.size()) - task - idle - poll;
+  of->replay.push_back(of->replays);
+}
+
+void Ledger::begin_window(std::int64_t number, Keep keep) {
+  keep_ = keep, in_window_ = true;
+  if (keep == Keep::runs) windows_.push_back({number, 0});
+  window_begin_ns_ = Clock::now_ns();
+}
+
+void Ledger::end_window() {
+  in_window_ = false;
+  if (keep_ == Keep::runs) windows_.back().wall_ns = Clock::now_ns() - window_begin_ns_;
+}
+
+void Ledger::add(RankRecording& to, const Live& live) {
+  std::vector<RunRecord> runs = live.runs;
+  std::vector<std::uint32_t> replay = live.replay;
+  fill_runs(*live.team, replay, runs);
+  if (runs.empty()) return;
+  for (RunRecord& run : runs) run.graph = std::uint32_t(to.graphs.size()), to.runs.push_back(std::move(run));
+  to.graphs.push_back(graph_record(*live.team));
+}
+
+RankRecording Ledger::recording(int rank) const {
+  RankRecording all = recorded_;
+  for (const Live& live : live_) add(all, live);
+  std::ranges::stable_sort(all.runs, {}, &RunRecord::begin_ns);
+  all.rank = rank;
+  return all;
 }
 
 void Ledger::move(std::string_view from, std::string_view label, std::int64_t ns, std::int64_t count) {
@@ -148,7 +208,8 @@ Span::~Span() {
   auto& costs = kind_ == Kind::work ? ledger_->spans_ : ledger_->waits_;
   Ledger::Cost& cost = costs[label_];
   cost.ns += ns - inner_ns_, ++cost.count;
-  if (ledger_->records_.size() < ledger_->capacity_) ledger_->records_.push_back({std::move(label_), begin_ns_, end_ns});
+  if (ledger_->keeps_records() && ledger_->records_.size() < ledger_->capacity_)
+    ledger_->records_.push_back({std::move(label_), begin_ns_, end_ns});
   ledger_->innermost_ = outer_;
   if (outer_) outer_->inner_ns_ += ns;
 }

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "runtime/replay/recording.hpp"
 #include "runtime/trace/rank_trace.hpp"
 
 namespace spindrift::runtime {
@@ -36,16 +37,33 @@ class Ledger {
   /// costs of the nodes add up to the tasks' times.
   RankTrace trace(int rank) const;
 
+  /// What a window leaves: records of tasks and spans (a trace), or besides these its runs, for a recording.
+  enum class Keep { nothing, records, runs };
+  /// What is done from here on belongs to this window. Before the first one records are kept.
+  void begin_window(std::int64_t number, Keep keep);
+  void end_window();
+  /// No records from here to the next window.
+  void pause() { keep_ = Keep::nothing; }
+  bool keeps_records() const { return keep_ != Keep::nothing; }
+  /// The runs of all windows that were to leave them, with their graphs; windows of which a record was lost are left out.
+  RankRecording recording(int rank) const;
+  std::vector<WindowRecord> windows() const { return windows_; }
+
   // For Executor.
   void opened(const Team& team);
   void closed(const Team& team);
-  void ran(const Team& team, std::int64_t ns);
+  void starts(const Team& team);
+  void ran(const Team& team, std::int64_t begin_ns, std::int64_t ns);
 
  private:
   friend class Span;
   struct Live {
     const Team* team;
     std::int64_t wall_ns = 0;
+    ThreadTimes before = {};                 ///< sums of its threads when its last run began
+    std::uint32_t replays = 0;               ///< that it had done by then
+    std::vector<RunRecord> runs = {};        ///< to be recorded
+    std::vector<std::uint32_t> replay = {};  ///< the first of each
   };
   /// What makes nodes of two graphs the same: kind, loop (as merged), label, peer, tag, and the how-manieth of these in its
   /// graph.
@@ -56,6 +74,8 @@ class Ledger {
     std::uint32_t replays = 0;
   };
   static void add(Merged& to, const Live& live);
+  static void add(RankRecording& to, const Live& live);
+  Live* live(const Team& team);
   struct Cost {
     std::int64_t ns = 0;
     std::uint64_t count = 0;
@@ -77,6 +97,11 @@ class Ledger {
   };
   std::vector<SpanRecord> records_;
   Span* innermost_ = nullptr;
+  Keep keep_ = Keep::records;
+  std::int64_t window_begin_ns_ = 0;
+  bool in_window_ = false;
+  std::vector<WindowRecord> windows_;
+  RankRecording recorded_;  ///< of executors that are gone
 };
 
 /// Work of the first thread outside of tasks, or its wait for other ranks, under a label like a task's; all other threads wait.

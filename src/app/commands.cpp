@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -35,6 +36,50 @@ CLI::Validator ends_in(std::vector<std::string> endings) {
         return fmt::format("'{}' has an ending that is not known; write one of {}", file, fmt::join(endings, ", "));
       },
       "");
+}
+
+/// "3:12", or one number.
+const CLI::Validator range_of_windows(
+    [](std::string& text) {
+      long first = 0, last = 0;
+      char rest = 0;
+      const int read = std::sscanf(text.c_str(), "%ld:%ld%c", &first, &last, &rest);
+      if (read == 1 && text.find_first_not_of("-0123456789") == std::string::npos) return std::string();
+      if (read != 2) return fmt::format("'{}' is no range of windows; write FIRST:LAST, as 3:12", text);
+      return first <= last ? std::string() : fmt::format("the windows {} end before they begin", text);
+    },
+    "");
+
+void add_replay(CLI::App& cli, Command& chosen) {
+  auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App* command = cli.add_subcommand(
+      "replay", "Replay a recorded window on a machine that need not be there: time, efficiency, waiting, messages");
+  command->add_option("recording", arguments->recording, "Recording: spindrift run SCENE --record-graph FILE")->required();
+  command->add_option("--ranks", arguments->ranks, "Ranks in all, one or more numbers: 1,2,4 (default: 1)")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1 << 16));
+  command->add_option("--threads", arguments->threads, "Threads of each rank, one or more numbers (default: 1)")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1 << 12));
+  command->add_option("--nodes", arguments->nodes, "Nodes that the ranks are spread over (default: 1)")
+      ->check(CLI::Range(1, 1 << 16));
+  command
+      ->add_option("--network", arguments->network,
+                   "Latency [us] and bandwidth [GB/s] between nodes, then within a node (default: 1.5,12,0.5,6)")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 1e9));
+  command->add_option("--skew", arguments->skew, "Standard deviation of the ranks' speeds, 0 to 0.5 (default: 0)")
+      ->check(CLI::Range(0.0, 0.5));
+  command->add_option("--json", arguments->json, "Also write every figure to this file")->check(ends_in({".json"}));
+  command->add_option("--plot", arguments->plot, "Also draw where the time goes, as .png or .html")
+      ->check(ends_in({".png", ".html"}));
+  command->footer(
+      "Examples:\n"
+      "  spindrift run scene.toml --out run1 --until 1 --record-graph window.jsonl\n"
+      "  spindrift replay window.jsonl --threads 1,2,4\n"
+      "  spindrift replay window.jsonl --ranks 64,128,256 --nodes 16 --threads 8 --network 1.5,12 --skew 0.02\n"
+      "  spindrift replay window.jsonl --ranks 2 --json window.json --plot window.png");
+  command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return replay(*arguments, world); }; });
 }
 
 void add_picture(CLI::App& cli, Command& chosen, bool film) {
@@ -97,6 +142,12 @@ void add_commands(CLI::App& cli, Command& chosen) {
         ->needs("--restart");
     command->add_flag("--overwrite", arguments->overwrite, "Replace the run in the run directory");
     command->add_flag("--trace", arguments->trace, "Write trace.json (open with Perfetto or chrome://tracing)");
+    command->add_option("--record-graph", arguments->record_graph,
+                        "Write the task graph of some windows with measured costs to this file: spindrift replay FILE");
+    command
+        ->add_option("--windows", arguments->windows,
+                     "Windows FIRST:LAST for --trace (default: all) and --record-graph (default: 3:12)")
+        ->check(range_of_windows);
     command->add_flag("--quiet", arguments->quiet, "Warnings and errors only");
     command->add_flag("--no-report", arguments->no_report, "Leave report.html for later: spindrift report DIR");
     command->footer(
@@ -105,6 +156,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
         "  spindrift run scene.toml --set time.end_s=60 --set waves.height_m=2.5\n"
         "  spindrift run scene.toml --out run1 --until 30\n"
         "  spindrift run scene.toml --out run1 --restart\n"
+        "  spindrift run scene.toml --out run1 --until 1 --trace --windows 5:6\n"
         "  mpirun -n 2 spindrift run scene.toml --out run1");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return run(*arguments, world); }; });
   }
@@ -192,6 +244,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
         "  spindrift report runs/steps");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return report(*arguments, world); }; });
   }
+  add_replay(cli, chosen);
   add_picture(cli, chosen, false);
   add_picture(cli, chosen, true);
   {

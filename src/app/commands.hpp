@@ -40,6 +40,8 @@ struct RunArguments : SceneArguments {
   double until_s = -1.0;             ///< < 0: the scene's end
   std::vector<std::string> allowed;  ///< keys and files that a restart may have changed
   bool restart = false, overwrite = false, trace = false, quiet = false, no_report = false;
+  std::string record_graph;  ///< file; empty: none
+  std::string windows;       ///< "3:12" or "3": those that trace and recording take down
 };
 
 struct CheckArguments : SceneArguments {
@@ -74,6 +76,16 @@ struct StudyArguments {
   bool dry_run = false;                ///< says what would run and at what cost; runs nothing
 };
 
+/// A machine to predict for: its network as "latency_us,GB_per_s", between nodes and optionally within one.
+struct ReplayArguments {
+  std::string recording;
+  std::vector<int> ranks = {1}, threads = {1};
+  int nodes = 1;
+  std::vector<double> network;  ///< us, GB/s; us, GB/s within a node
+  double skew = 0.0;
+  std::string json, plot;  ///< files; empty: none
+};
+
 struct ImportArguments {
   std::string file, out;
 };
@@ -88,6 +100,7 @@ int reference_columns(const runtime::World& world);
 int study(const StudyArguments& arguments, const runtime::World& world);
 /// One line; `verbose`: all that the speed of this program depends on.
 std::string version(bool verbose);
+int replay(const ReplayArguments& arguments, const runtime::World& world);
 int report(const ReportArguments& arguments, const runtime::World& world);
 int picture(const PictureArguments& arguments, const runtime::World& world);
 int import_deck(const ImportArguments& arguments, const runtime::World& world);

@@ -4,6 +4,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -21,6 +24,7 @@
 #include "src/coupling/placement.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/io/collective.hpp"
 #include "src/io/history_statistics.hpp"
 #include "src/io/log.hpp"
 #include "src/io/machine_failure.hpp"
@@ -62,6 +66,27 @@ void require_same_run(io::RunDirectory& directory, const scene::Identity& now, c
                                  all.size() == 1 ? "is" : "are", directory.path().string());
   for (const scene::Difference& d : all) text += fmt::format("\n  {}: was {}, is {}", d.what, d.before, d.now);
   throw io::InputError(text + "\ngo on with the scene of the first run, or say --allow-change KEY for each key or file above");
+}
+
+/// "3:12" or "3".
+std::optional<std::pair<std::int64_t, std::int64_t>> windows_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::size_t colon = text.find(':');
+  const std::int64_t first = std::stoll(text), last = colon == std::string::npos ? first : std::stoll(text.substr(colon + 1));
+  return std::pair(first, last);
+}
+
+/// A file that is written at the end of the run can be written at its start.
+void require_writable(const RunArguments& arguments, MPI_Comm world) {
+  const std::string& file = arguments.record_graph;
+  if (!arguments.windows.empty() && !arguments.trace && file.empty())
+    throw io::InputError("--windows " + arguments.windows +
+                         ": says which windows --trace and --record-graph take down; give one of these");
+  if (file.empty()) return;
+  io::on_root(world, [&] {
+    errno = 0;
+    if (!std::ofstream(file)) throw io::InputError(fmt::format("--record-graph {}: {}", file, std::strerror(errno)));
+  });
 }
 
 /// Over which the summary gives means: the whole run, and (the one that the report shows) the end of it.
@@ -149,9 +174,11 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     scenario = coupling::read_scenario(document);
     coupling::require_memory(*scenario, coupling::machine_memory() * started.size);  // of as many machines as there may be
     echo = document.echo();
-    return coupling::Started{arguments.fluid, echo,
-                             fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n", arguments.out,
-                                         arguments.until_s, arguments.restart, arguments.overwrite, arguments.trace)};
+    return coupling::Started{
+        arguments.fluid, echo,
+        fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n--record-graph {}\n--windows {}\n",
+                    arguments.out, arguments.until_s, arguments.restart, arguments.overwrite, arguments.trace,
+                    arguments.record_graph, arguments.windows)};
   });
   const runtime::Parts parts = coupling::place(*scenario, started, arguments.fluid);
   const runtime::World& world = parts.world();
@@ -159,6 +186,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   // Every check has passed before the run directory is made.
   std::optional<ReadyScene> system;
   if (!scenario->has_flow()) system = made_ready(*scenario, echo);
+  require_writable(arguments, world.comm);
   io::RunDirectory directory = open_directory(arguments, world.comm);
   require_same_run(directory, scene::Identity::of(echo, read->files()), arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
@@ -168,6 +196,8 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
                arguments.scene);
 
   run::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
+  settings.scene = arguments.scene, settings.record_graph = arguments.record_graph,
+  settings.windows = windows_of(arguments.windows);
   settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
   if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
   if (system)

@@ -8,9 +8,11 @@
 #include <cmath>
 
 #include "runtime/executor/executor.hpp"
+#include "runtime/replay/recording_file.hpp"
 #include "runtime/trace/chrome.hpp"
 #include "runtime/trace/efficiency.hpp"
 #include "runtime/trace/trace_of.hpp"
+#include "src/io/build_info.hpp"
 #include "src/io/collective.hpp"
 #include "src/io/fields.hpp"
 #include "src/io/progress.hpp"
@@ -22,7 +24,16 @@ namespace spindrift::run {
 
 Driver::Driver(const io::RunDirectory& directory, const runtime::Parts& parts, const RunSettings& settings,
                runtime::StopRequest& stop)
-    : directory_(directory), parts_(parts), settings_(settings), stop_(stop), ledger_(settings.records()) {}
+    : directory_(directory), parts_(parts), settings_(settings), stop_(stop), ledger_(settings.records()) {
+  if (!settings.trace || settings.windows) ledger_.pause();
+}
+
+runtime::Ledger::Keep RunSettings::keep(std::int64_t window) const {
+  using Keep = runtime::Ledger::Keep;
+  const auto in = [window](const auto& range) { return window >= range.first && window <= range.second; };
+  if (!record_graph.empty() && in(windows.value_or(usual_windows))) return Keep::runs;
+  return trace && (!windows || in(*windows)) ? Keep::records : Keep::nothing;
+}
 
 io::Summary Driver::run(Simulation& simulation) {
   const runtime::World& world = parts_.world();
@@ -49,7 +60,11 @@ io::Summary Driver::run(Simulation& simulation) {
     }
 
   while (window < last && summary_.exit_code == 0) {
+    const std::int64_t begin_ns = runtime::Clock::now_ns();
+    ledger_.begin_window(window + 1, settings_.keep(window + 1));
     const Advance advance = simulation.advance(window, last);
+    ledger_.end_window();
+    window_walls_.push_back(1e-9 * double(runtime::Clock::now_ns() - begin_ns));
 
     const Windows done{window, window + advance.windows, advance.settled.empty() ? last : window + advance.windows};
     window = done.now, last = done.last;
@@ -125,9 +140,10 @@ void Driver::describe_times() {
     if (node.peer >= 0) node.peer += world.rank - parts_.mine().rank;
   summary_.wall_seconds = 1e-9 * double(own.threads[0].wall_ns);
   summary_.threads = int(own.threads.size());
-  const std::vector<runtime::RankTrace> traces = gather_traces(own, world.comm);
+  traces_ = gather_traces(own, world.comm);
+  if (!settings_.record_graph.empty()) write_recording();
   if (world.rank != 0) return;
-  const runtime::Efficiency e = efficiency_of(traces);
+  const runtime::Efficiency e = efficiency_of(traces_);
   for (const auto& [name, value, meaning] : std::initializer_list<std::tuple<const char*, double, const char*>>{
            {"parallel efficiency", e.parallel, "useful core-seconds over all core-seconds; load balance x communication"},
            {"load balance", e.load_balance, "mean over largest useful time of a thread"},
@@ -144,7 +160,16 @@ void Driver::describe_times() {
   add("waiting", e.idle_s, 0), add("messages", e.poll_s, 0);
   add("runtime", std::max(0.0, e.wall_s - known_s), 0);  // what the threads had besides: task graph, priorities, teams
   spdlog::info("{}", efficiency_table(e));
-  if (settings_.trace) write_chrome_trace(traces, directory_.trace().string());
+  if (settings_.trace) write_chrome_trace(traces_, directory_.trace().string());
+}
+
+void Driver::write_recording() const {
+  const runtime::World& world = parts_.world();
+  runtime::Recording own{.scene = settings_.scene, .program = io::build_info().version, .threads = summary_.threads};
+  own.windows = ledger_.windows();
+  own.ranks.push_back(ledger_.recording(world.rank));
+  if (own.windows.empty()) spdlog::warn("no window of those to be recorded ran: {} holds none", settings_.record_graph);
+  runtime::write_recording(own, settings_.record_graph, world.comm);
 }
 
 io::Summary run(coupling::FloatingSystem& floating, const coupling::Start& start, const io::RunDirectory& directory,

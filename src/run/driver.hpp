@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/mpi/parts.hpp"
@@ -26,8 +27,15 @@ struct RunSettings {
   bool trace = false;
   bool quiet = false;           ///< no progress
   bool accept_history = false;  ///< a restart goes on with rows of history.csv missing or changed
+  std::string scene;            ///< its file, for recordings
+  std::string record_graph;     ///< file of the recording; empty: none
+  /// Windows that trace and recording take down; without: all into the trace, usual_windows into the recording.
+  std::optional<std::pair<std::int64_t, std::int64_t>> windows;
+  static constexpr std::pair<std::int64_t, std::int64_t> usual_windows{3, 12};  // costs and priorities have settled
   /// Of the trace, per thread.
-  std::size_t records() const { return trace ? std::size_t(1) << 20 : 0; }
+  std::size_t records() const { return trace || !record_graph.empty() ? std::size_t(1) << 20 : 0; }
+  /// What the window of this number (the first after t = 0 is 1) leaves.
+  runtime::Ledger::Keep keep(std::int64_t window) const;
 };
 
 class Driver {
@@ -41,6 +49,11 @@ class Driver {
   /// to make the first state. Collective.
   io::Summary run(Simulation& simulation);
 
+  /// Of each call of Simulation::advance [s], on this rank.
+  const std::vector<double>& window_walls() const { return window_walls_; }
+  /// Of all ranks on rank 0, once the run is over.
+  const std::vector<runtime::RankTrace>& traces() const { return traces_; }
+
  private:
   std::int64_t last_window(const coupling::Timeline& timeline) const;
   void open_history(io::History& history, double time_s, const std::optional<io::History::Extent>& written) const;
@@ -48,12 +61,15 @@ class Driver {
   void fail(const std::string& failure);
   void end_early(const std::string& why);
   void describe_times();
+  void write_recording() const;
 
   const io::RunDirectory& directory_;
   const runtime::Parts& parts_;
   const RunSettings settings_;
   runtime::StopRequest& stop_;
   runtime::Ledger ledger_;  ///< of all that the run does from here on
+  std::vector<double> window_walls_;
+  std::vector<runtime::RankTrace> traces_;
   io::Summary summary_;
 };
 

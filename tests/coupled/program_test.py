@@ -42,6 +42,78 @@ class Program(unittest.TestCase):
         self.assertEqual(summary["exit_code"], 0)
         json.loads((self.out / "trace.json").read_text())
 
+    def recorded(self, *more, ranks=0):
+        """Five windows of a box in a sea of particles, of which the third and fourth are recorded."""
+        box = ROOT / "inputs/validation/floating_box/floating_box.toml"
+        small = ["--set", "sea.particles.spacing_m=0.08", "--set", "time.window_s=0.04", "--set", "time.end_s=0.2", "--set", "sea.initial.settle_s=0.08"]
+        recording = self.out.parent / "graph.jsonl"
+        done = self.run_case(*small, "--record-graph", recording, "--windows", "3:4", *more, scene=box, ranks=ranks)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return recording
+
+    def test_a_recorded_window_is_replayed(self):
+        recording = self.recorded()
+        header, *lines = map(json.loads, recording.read_text().splitlines())
+        self.assertEqual([window["number"] for window in header["windows"]], [3, 4])
+        runs = [line for line in lines if "run" in line]
+        self.assertEqual([run["window"] for run in runs], [3, 4])
+        self.assertTrue(any(line.get("label", "").startswith("sea/pairs/") and line["runs"] > 0 for line in lines))
+        out = self.out.parent / "replay.json"
+        done = spindrift("replay", recording, "--threads", "1,2", "--ranks", "1,2", "--json", out)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        found = {(p["ranks"], p["threads"], p["placement"]): p for p in json.loads(out.read_text())["predictions"]}
+        self.assertEqual(len(found), 8)
+        # One thread does what was recorded, one task after the other.
+        alone = found[1, 1, "shared"]
+        work = sum(run["task_ns"] for run in runs) / 2e9
+        self.assertAlmostEqual(alone["work_s"], work, delta=1e-6 * work)
+        parts = alone["parts_core_s"]
+        self.assertAlmostEqual(alone["wall_s"], work + parts["between graphs"] + parts["runtime"], delta=1e-6 * work)
+        self.assertLess(parts["waiting"], 1e-6 * work)
+        for (ranks, threads, placement), p in found.items():
+            self.assertAlmostEqual(sum(p["parts_core_s"].values()), ranks * threads * p["wall_s"], delta=1e-6 * work)
+            if placement == "bulk-synchronous":
+                self.assertGreater(1.01 * p["wall_s"], found[ranks, threads, "shared"]["wall_s"])
+            elif ranks == 1:
+                self.assertGreater(1.0001 * p["wall_s"], p["critical_path_s"])
+        self.assertGreater(found[2, 1, "shared"]["messages"], 0)
+        self.assertEqual(found[1, 2, "shared"]["messages"], 0)
+
+    def test_a_recording_of_two_ranks_is_replayed_on_two(self):
+        recording = self.recorded(ranks=2)
+        done = spindrift("replay", recording, "--ranks", 2)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("recorded on 2 x", done.stdout)
+        done = spindrift("replay", recording, "--ranks", 3)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("recorded on 2 ranks", done.stdout + done.stderr)
+
+    def test_a_trace_of_chosen_windows_has_these_alone(self):
+        box = ROOT / "inputs/validation/floating_box/floating_box.toml"
+        small = ["--set", "sea.particles.spacing_m=0.08", "--set", "time.window_s=0.04", "--set", "time.end_s=0.2", "--set", "sea.initial.settle_s=0.08"]
+        replays = {}
+        for name, more in (("all", []), ("two", ["--windows", "2:3"])):
+            out = self.out.parent / name
+            self.assertEqual(self.run_case(*small, "--trace", *more, scene=box, out=out).returncode, 0)
+            events = json.loads((out / "trace.json").read_text())["traceEvents"]
+            tasks = [e for e in events if e["ph"] == "X" and e["name"].startswith("sea/pairs/")]
+            replays[name] = sorted({e["args"]["replay"] for e in tasks})
+        self.assertEqual(len(replays["all"]), 7)   # two in which the body is held come first
+        self.assertEqual(replays["two"], replays["all"][3:5])
+
+    def test_what_cannot_be_recorded_or_replayed_is_refused(self):
+        def refused(message, *words):
+            done = spindrift(*words)
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertIn(message, done.stdout + done.stderr)
+        refused("no range of windows", "run", CASE1, "--out", self.out, "--trace", "--windows", "a")
+        refused("end before they begin", "run", CASE1, "--out", self.out, "--trace", "--windows", "5:3")
+        refused("--trace and --record-graph", "run", CASE1, "--out", self.out, "--windows", "3")
+        refused("No such file", "run", CASE1, "--out", self.out, "--record-graph", "/nonexistent/graph.jsonl")
+        self.assertFalse(self.out.exists())
+        refused("line 1", "replay", CASE1)
+        refused("No such file", "replay", "/nonexistent/graph.jsonl")
+
     def test_the_scene_as_run_gives_the_same_run(self):
         self.assertEqual(self.run_case("--until", 2).returncode, 0)
         again = self.out.parent / "again"

@@ -4,12 +4,9 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "runtime/executor/executor.hpp"
-#include "runtime/executor/recording_file.hpp"
 
 using namespace spindrift::runtime;
 
@@ -68,26 +65,4 @@ TEST_CASE("a full record buffer counts what it loses", "[runtime][fast]") {
   CHECK(buffer.records().size() == 2);
   CHECK(buffer.records()[1].begin_ns == 1);
   CHECK(buffer.lost() == 3);
-}
-
-TEST_CASE("the graph is written with its edges, loops, measured costs and message sizes", "[runtime][fast]") {
-  Graph g;
-  const Datum x = g.datum();
-  g.task("aero/a \"1\"", {writes(x)}, [] {});
-  g.loop("aero/loop", {.min = 2, .max = 3}, [&] {
-    g.task("aero/loop/t", {updates(x)}, [] {});
-    g.until("aero/loop/until", {reads(x)}, [] { return false; });
-  });
-  Executor executor(std::move(g), {.threads = 1});
-  executor.run(4);
-  const std::string path = std::string(SPINDRIFT_BINARY_DIR) + "/recording_test.json";
-  write_recording(executor, path);
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  using Catch::Contains;
-  CHECK_THAT(text.str(), Contains(R"({"id": 0, "label": "aero/a \"1\"", "kind": "task", "loop": null, "runs": 4, "mean_ns": )"));
-  CHECK_THAT(text.str(), Contains(R"("kind": "loop", "loop": null, "runs": 4, "min": 2, "max": 3, "mean_iterations": 3)"));
-  CHECK_THAT(text.str(), Contains(R"("label": "aero/loop/t", "kind": "task", "loop": 1, "runs": 12)"));
-  CHECK_THAT(text.str(), Contains("[0, 1, 0]") && Contains("[1, 0, 1]") && Contains("[2, 3, 0]"));
-  CHECK_THROWS_WITH(write_recording(executor, "/nonexistent/x.json"), Contains("/nonexistent/x.json"));
 }

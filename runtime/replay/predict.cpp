@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/replay/predict.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "runtime/replay/recut.hpp"
+#include "runtime/trace/rank_trace.hpp"
+
+namespace spindrift::runtime {
+
+namespace {
+
+/// The runs of a rank in a window.
+std::vector<const RunRecord*> runs_in(const RankRecording& rank, std::int64_t window) {
+  std::vector<const RunRecord*> runs;
+  for (const RunRecord& run : rank.runs)
+    if (run.window == window) runs.push_back(&run);
+  return runs;
+}
+
+bool has(const GraphRecord& graph, Side side, const SideOf& side_of) {
+  return std::ranges::any_of(graph.nodes, [&](const NodeRecord& node) { return side_of(module_of(node.label)) == side; });
+}
+
+double task_s(const RunRecord& run) { return 1e-9 * double(run.task_ns); }
+
+/// Sums up what windows come to.
+class Windows {
+ public:
+  Windows(const Recording& recording, const Cluster& cluster, Placement placement, const SideOf& side_of)
+      : recording_(recording), side_of_(side_of) {
+    out_.placement = placement, out_.cluster = cluster;
+  }
+
+  Prediction predict() {
+    for (const WindowRecord& window : recording_.windows) {
+      const auto runs = runs_in(recording_.ranks[0], window.number);
+      if (runs.empty()) continue;  // a record was lost
+      double in_graphs = 0.0;
+      for (const RunRecord* run : runs) in_graphs += 1e-9 * double(run->wall_ns);
+      out_.outside_s += std::max(0.0, 1e-9 * double(window.wall_ns) - in_graphs);
+      for (const RankRecording& rank : recording_.ranks)
+        for (const RunRecord* run : runs_in(rank, window.number)) out_.work_s += task_s(*run);
+      ++out_.windows;
+      recording_.ranks.size() > 1 ? as_recorded(window.number) : recut_window(runs);
+      if (out_.windows > 1) out_.tasks.slices.resize(slices_);
+      slices_ = out_.tasks.slices.size();
+    }
+    if (out_.windows == 0) throw std::invalid_argument("the recording has no window");
+    return mean();
+  }
+
+ private:
+  Simulated simulated(std::span<const RankRun> ranks) const {
+    return out_.placement == Placement::bulk_synchronous ? simulate_bulk_synchronous(ranks, out_.cluster)
+                                                         : simulate(ranks, out_.cluster);
+  }
+
+  /// Recorded on several ranks: these.
+  void as_recorded(std::int64_t window) {
+    const auto first = runs_in(recording_.ranks[0], window);
+    for (std::size_t n = 0; n < first.size(); ++n) {
+      std::vector<RankRun> ranks;
+      for (const RankRecording& rank : recording_.ranks) {
+        const auto runs = runs_in(rank, window);
+        if (runs.size() != first.size())
+          throw std::invalid_argument(
+              "the ranks of the recording ran different graphs; record with coupling.placement = \"shared\"");
+        ranks.push_back({rank.graphs[runs[n]->graph], *runs[n]});
+      }
+      out_.tasks += simulated(ranks);
+    }
+  }
+
+  void recut_window(const std::vector<const RunRecord*>& runs) {
+    // Pieces of both sides in the order in which they ran.
+    std::array<std::vector<RankRun>, 2> pieces;
+    for (const RunRecord* run : runs) {
+      const GraphRecord& graph = recording_.ranks[0].graphs[run->graph];
+      for (const Side side : {Side::first, Side::second})
+        if (has(graph, side, side_of_))
+          pieces[std::size_t(side)].push_back(
+              part_of(graph, *run, [&](std::string_view module) { return side_of_(module) == side; }));
+    }
+    const std::size_t most = std::max(pieces[0].size(), pieces[1].size());
+    for (std::size_t n = 0; n < most; ++n) {
+      const RankRun* const first = n < pieces[0].size() ? &pieces[0][n] : nullptr;
+      const RankRun* const second = n < pieces[1].size() ? &pieces[1][n] : nullptr;
+      switch (out_.placement) {
+        case Placement::in_turns:
+        case Placement::bulk_synchronous:
+          for (const RankRun* piece : {first, second})
+            if (piece) out_.tasks += simulated(cut(*piece, out_.cluster.ranks, 0));
+          break;
+        case Placement::shared:
+          out_.tasks += simulated(cut(first && second ? joined(*first, *second)
+                                      : first         ? *first
+                                                      : *second,
+                                      out_.cluster.ranks, 0));
+          break;
+        case Placement::split: {
+          std::vector<RankRun> all;
+          const int second_ranks = ranks_of_second(pieces);
+          const int first_ranks = out_.cluster.ranks - second_ranks;
+          for (const auto& [piece, ranks, from, group] :
+               {std::tuple{first, first_ranks, 0, 0}, std::tuple{second, second_ranks, first_ranks, 1}})
+            if (piece)
+              for (RankRun& rank : cut(*piece, ranks, from)) rank.group = group, all.push_back(std::move(rank));
+          out_.tasks += simulated(all);
+          break;
+        }
+      }
+    }
+  }
+
+  /// In proportion to the work, at least one each.
+  int ranks_of_second(const std::array<std::vector<RankRun>, 2>& pieces) {
+    if (out_.second_side_ranks > 0) return out_.second_side_ranks;
+    std::array<double, 2> work{};
+    for (std::size_t side = 0; side < 2; ++side)
+      for (const RankRun& piece : pieces[side])
+        for (const auto& ns : piece.run.ns)
+          for (const std::int64_t one : ns) work[side] += double(one);
+    const int ranks = out_.cluster.ranks;
+    return out_.second_side_ranks =
+               std::clamp(int(std::lround(ranks * work[1] / std::max(1.0, work[0] + work[1]))), 1, ranks - 1);
+  }
+
+  std::vector<RankRun> cut(const RankRun& piece, int ranks, int first_rank) {
+    Recut made = recut(piece.graph, piece.run, ranks, first_rank);
+    for (const double imbalance : made.quality.imbalance) out_.imbalance = std::max(out_.imbalance, imbalance);
+    double work = 0.0;
+    for (const auto& ns : piece.run.ns)
+      for (const std::int64_t one : ns) work += 1e-9 * double(one);
+    repeated_s_ += made.repeated * work;
+    return std::move(made.ranks);
+  }
+
+  Prediction mean() {
+    const double n = out_.windows;
+    Simulated& tasks = out_.tasks;
+    out_.repeated = out_.work_s > 0.0 ? repeated_s_ / out_.work_s : 0.0;
+    for (double* sum : {&out_.outside_s, &out_.work_s, &tasks.wall_s, &tasks.busy_s, &tasks.overhead_s, &tasks.waiting_s,
+                        &tasks.critical_path_s, &tasks.bytes})
+      *sum /= n;
+    for (auto& [module, s] : tasks.busy_of) s /= n;
+    for (long* sum : {&tasks.messages, &tasks.reductions, &tasks.tasks}) *sum = std::lround(double(*sum) / n);
+    out_.wall_s = tasks.wall_s + out_.outside_s;
+    const double cores = double(out_.cluster.ranks) * out_.cluster.threads;
+    out_.efficiency = out_.work_s / (cores * out_.wall_s);
+    return std::move(out_);
+  }
+
+  const Recording& recording_;
+  const SideOf& side_of_;
+  std::size_t slices_ = 0;
+  double repeated_s_ = 0.0;
+  Prediction out_;
+};
+
+}  // namespace
+
+std::string_view name_of(Placement placement) {
+  switch (placement) {
+    case Placement::in_turns:
+      return "in turns";
+    case Placement::shared:
+      return "shared";
+    case Placement::split:
+      return "split";
+    case Placement::bulk_synchronous:
+      return "bulk-synchronous";
+  }
+  return "";
+}
+
+double task_overhead_s(const Recording& recording) {
+  double overhead = 0.0, tasks = 0.0;
+  for (const RankRecording& rank : recording.ranks)
+    for (const RunRecord& run : rank.runs) {
+      overhead += 1e-9 * double(run.overhead_ns);
+      for (std::size_t n = 0; n < run.ns.size(); ++n)
+        if (rank.graphs[run.graph].nodes[n].peer < 0) tasks += double(run.ns[n].size());
+    }
+  return tasks > 0.0 ? std::max(0.0, overhead / tasks) : 0.0;
+}
+
+std::vector<Placement> possible(const Recording& recording, int ranks, const SideOf& side_of) {
+  if (recording.ranks.size() > 1) return {Placement::shared, Placement::bulk_synchronous};
+  bool sides[2] = {};
+  for (const GraphRecord& graph : recording.ranks[0].graphs)
+    for (const Side side : {Side::first, Side::second}) sides[int(side)] = sides[int(side)] || has(graph, side, side_of);
+  if (!(sides[0] && sides[1])) return {Placement::shared, Placement::bulk_synchronous};
+  if (ranks < 2) return {Placement::in_turns, Placement::shared, Placement::bulk_synchronous};
+  return {std::begin(placements), std::end(placements)};
+}
+
+Prediction predict(const Recording& recording, const Cluster& cluster, Placement placement, const SideOf& side_of) {
+  if (recording.ranks.size() > 1 && int(recording.ranks.size()) != cluster.ranks)
+    throw std::invalid_argument("was recorded on " + std::to_string(recording.ranks.size()) +
+                                " ranks and is replayed on these alone, not on " + std::to_string(cluster.ranks) +
+                                "; a recording of one rank can be cut for any number");
+  return Windows(recording, cluster, placement, side_of).predict();
+}
+
+}  // namespace spindrift::runtime

@@ -1,0 +1,53 @@
+// What a window of a recording takes on another machine and in another placement of the two sides (air; sea and bodies). Used by
+// `spindrift replay` and `spindrift profile`; tested in tests/runtime/replay/predict_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/replay/simulate.hpp"
+
+namespace spindrift::runtime {
+
+enum class Placement {
+  in_turns,          ///< all ranks do one side, then the other
+  shared,            ///< all ranks do both sides at once, as one graph
+  split,             ///< some ranks do one side, the rest the other, at once
+  bulk_synchronous,  ///< all ranks, one phase of one side after the other, a barrier after each
+};
+inline constexpr Placement placements[] = {Placement::in_turns, Placement::shared, Placement::split, Placement::bulk_synchronous};
+std::string_view name_of(Placement placement);
+
+struct Prediction {
+  Placement placement = Placement::shared;
+  Cluster cluster;
+  int second_side_ranks = 0;  ///< split: of the ranks
+  int windows = 0;            ///< that the figures are means of
+  // Per window.
+  double wall_s = 0.0;
+  double outside_s = 0.0;   ///< of it between the graphs, as recorded: snapshot, exchange, schemes
+  Simulated tasks;          ///< sums over the windows' graphs, divided by the windows; slices of the first window alone
+  double work_s = 0.0;      ///< core-seconds of tasks as recorded
+  double efficiency = 0.0;  ///< work_s over cores x wall_s
+  double repeated = 0.0;    ///< part of the work that more than one rank does
+  double imbalance = 1.0;   ///< of the most loaded rank, worst of the modules
+};
+
+/// Which side a module (first component of the labels) is of.
+enum class Side { first, second };
+using SideOf = std::function<Side(std::string_view module)>;
+
+/// The executor's own work per task, on average over all runs.
+double task_overhead_s(const Recording& recording);
+
+/// Placements that a recording can be replayed in on so many ranks: in_turns and split need two sides, split two ranks; a
+/// recording of several ranks is replayed on these alone, as it was placed or bulk-synchronously.
+std::vector<Placement> possible(const Recording& recording, int ranks, const SideOf& side_of);
+
+/// Throws std::invalid_argument where the recording cannot be had on so many ranks, or has no window.
+Prediction predict(const Recording& recording, const Cluster& cluster, Placement placement, const SideOf& side_of);
+
+}  // namespace spindrift::runtime

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/replay/recording_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <stdexcept>
+
+namespace spindrift::runtime {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 7> kinds{"task", "send", "receive", "reduce", "collective", "until", "loop"};  // by NodeKind
+constexpr std::array<const char*, 3> accesses{"read", "write", "update"};                                        // by Access
+constexpr const char* format = "spindrift recording";
+
+Json or_null(float place) { return place < 0 ? Json(nullptr) : Json(place); }
+Json or_null(std::uint32_t node) { return node == no_node ? Json(nullptr) : Json(node); }
+float place_of(const Json& value) { return value.is_null() ? -1.0F : value.get<float>(); }
+
+/// Executions of a node in all windows, what one took on average, and how far windows are apart in that (standard deviation).
+struct Cost {
+  std::uint64_t runs = 0;
+  double mean_ns = 0, spread_ns = 0;
+};
+Cost cost_of(const RankRecording& rank, std::uint32_t graph, std::uint32_t node) {
+  Cost cost;
+  std::vector<double> means;
+  double sum = 0;
+  for (const RunRecord& run : rank.runs) {
+    if (run.graph != graph || run.ns[node].empty()) continue;
+    const double ns = std::accumulate(run.ns[node].begin(), run.ns[node].end(), 0.0);
+    sum += ns, cost.runs += run.ns[node].size();
+    means.push_back(ns / double(run.ns[node].size()));
+  }
+  if (cost.runs == 0) return cost;
+  cost.mean_ns = sum / double(cost.runs);
+  const double centre = std::accumulate(means.begin(), means.end(), 0.0) / double(means.size());
+  double squares = 0;
+  for (const double mean : means) squares += (mean - centre) * (mean - centre);
+  cost.spread_ns = means.size() > 1 ? std::sqrt(squares / double(means.size() - 1)) : 0.0;
+  return cost;
+}
+
+int urgency_of(const GraphRecord& graph, std::uint32_t node) {
+  int most = 0;
+  for (std::uint32_t at = node; at != no_node; at = graph.nodes[at].loop)
+    if (graph.nodes[at].kind == NodeKind::loop) most = std::max(most, graph.nodes[at].limits.urgency);
+  return most;
+}
+
+Json node_line(const RankRecording& rank, std::uint32_t g, std::uint32_t n, const std::vector<Edge>& before) {
+  const GraphRecord& graph = rank.graphs[g];
+  const NodeRecord& node = graph.nodes[n];
+  const Cost cost = cost_of(rank, g, n);
+  Json line{{"rank", rank.rank},
+            {"graph", g},
+            {"node", n},
+            {"label", node.label},
+            {"module", node.label.substr(0, node.label.find('/'))},
+            {"kind", kinds[std::size_t(node.kind)]},
+            {"loop", or_null(node.loop)},
+            {"urgency", urgency_of(graph, n)},
+            {"place", or_null(node.place)},
+            {"runs", cost.runs},
+            {"mean_ns", std::round(cost.mean_ns)},
+            {"spread_ns", std::round(cost.spread_ns)}};
+  if (node.kind == NodeKind::loop)
+    line["min"] = node.limits.min, line["max"] = node.limits.max, line["own_urgency"] = node.limits.urgency;
+  if (node.peer >= 0) line["peer"] = node.peer, line["tag"] = node.tag;
+  if (node.peer >= 0 || node.kind == NodeKind::reduce) line["bytes"] = node.bytes;
+  Json uses = Json::array(), after = Json::array();
+  for (const UseRecord& use : node.uses) {
+    uses.push_back({use.datum, accesses[std::size_t(use.how)]});
+    if (use.bytes > 0) uses.back().push_back(use.bytes);
+  }
+  for (const Edge& edge : before) after.push_back({edge.from, edge.distance, graph.bytes(edge)});
+  line["uses"] = std::move(uses), line["after"] = std::move(after);
+  return line;
+}
+
+Json run_line(const RankRecording& rank, std::size_t r) {
+  const RunRecord& run = rank.runs[r];
+  return {{"rank", rank.rank},
+          {"run", r},
+          {"window", run.window},
+          {"graph", run.graph},
+          {"replays", run.replays},
+          {"begin_ns", run.begin_ns},
+          {"wall_ns", run.wall_ns},
+          {"task_ns", run.task_ns},
+          {"idle_ns", run.idle_ns},
+          {"poll_ns", run.poll_ns},
+          {"overhead_ns", run.overhead_ns},
+          {"iterations", run.iterations},
+          {"ns", run.ns}};
+}
+
+std::string lines_of(const RankRecording& rank) {
+  std::string text;
+  for (std::uint32_t g = 0; g < rank.graphs.size(); ++g) {
+    const GraphRecord& graph = rank.graphs[g];
+    Json data = Json::array();
+    for (const DatumRecord& datum : graph.data) data.push_back({or_null(datum.place), datum.bytes});
+    text += Json{{"rank", rank.rank}, {"graph", g}, {"nodes", graph.nodes.size()}, {"data", std::move(data)}}.dump() + '\n';
+    std::vector<std::vector<Edge>> before(graph.nodes.size());
+    for (const Edge& edge : graph.edges) before[edge.to].push_back(edge);
+    for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) text += node_line(rank, g, n, before[n]).dump() + '\n';
+  }
+  for (std::size_t r = 0; r < rank.runs.size(); ++r) text += run_line(rank, r).dump() + '\n';
+  return text;
+}
+
+std::string header_of(const Recording& recording, int ranks) {
+  Json windows = Json::array();
+  for (const WindowRecord& window : recording.windows)
+    windows.push_back({{"number", window.number}, {"wall_ns", window.wall_ns}});
+  return Json{{"format", format}, {"version", recording_version}, {"scene", recording.scene},     {"program", recording.program},
+              {"ranks", ranks},   {"threads", recording.threads}, {"windows", std::move(windows)}}
+             .dump() +
+         '\n';
+}
+
+template <class Names>
+std::size_t index_in(const Names& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw std::runtime_error("\"" + name + "\" is no kind of node or access");
+  return std::size_t(found - names.begin());
+}
+
+void read_header(const Json& line, Recording& to) {
+  if (!line.is_object() || line.value("format", "") != format)
+    throw std::runtime_error("is no recording: the first line lacks \"format\": \"spindrift recording\"");
+  if (const int version = line.at("version"); version != recording_version)
+    throw std::runtime_error("has version " + std::to_string(version) + " of the format; this program reads version " +
+                             std::to_string(recording_version) + ": record again");
+  to.scene = line.at("scene"), to.program = line.at("program"), to.threads = line.at("threads");
+  for (const Json& window : line.at("windows")) to.windows.push_back({window.at("number"), window.at("wall_ns")});
+  to.ranks.resize(line.at("ranks").get<std::size_t>());
+  for (std::size_t r = 0; r < to.ranks.size(); ++r) to.ranks[r].rank = int(r);
+}
+
+void read_node(const Json& line, GraphRecord& graph) {
+  const std::uint32_t n = line.at("node");
+  NodeRecord& node = graph.nodes.at(n);
+  node.label = line.at("label"), node.kind = NodeKind(index_in(kinds, line.at("kind")));
+  if (const Json& loop = line.at("loop"); !loop.is_null()) node.loop = loop;
+  node.place = place_of(line.at("place"));
+  if (node.kind == NodeKind::loop) node.limits = {line.at("min"), line.at("max"), line.at("own_urgency")};
+  node.peer = line.value("peer", -1), node.tag = line.value("tag", -1);
+  node.bytes = line.value("bytes", std::uint64_t(0));
+  for (const Json& use : line.at("uses")) {
+    const std::uint32_t datum = use.at(0);
+    if (datum >= graph.data.size()) throw std::runtime_error("uses datum " + std::to_string(datum) + ", which the graph lacks");
+    node.uses.push_back({datum, Access(index_in(accesses, use.at(1))), use.size() > 2 ? use.at(2).get<std::uint64_t>() : 0});
+  }
+  for (const Json& edge : line.at("after")) {
+    const std::uint32_t from = edge.at(0);
+    if (from >= graph.nodes.size())
+      throw std::runtime_error("waits for node " + std::to_string(from) + ", which the graph lacks");
+    graph.edges.push_back({from, n, edge.at(1)});
+  }
+}
+
+void read_line(const Json& line, Recording& to) {
+  RankRecording& rank = to.ranks.at(line.at("rank").get<std::size_t>());
+  const std::uint32_t g = line.at("graph");
+  if (line.contains("data")) {
+    rank.graphs.resize(std::max<std::size_t>(rank.graphs.size(), g + 1));
+    rank.graphs[g].nodes.resize(line.at("nodes").get<std::size_t>());
+    for (const Json& datum : line.at("data")) rank.graphs[g].data.push_back({place_of(datum.at(0)), datum.at(1)});
+  } else if (line.contains("node")) {
+    read_node(line, rank.graphs.at(g));
+  } else {
+    RunRecord& run = rank.runs.emplace_back();
+    run.graph = g, run.window = line.at("window"), run.replays = line.at("replays");
+    run.begin_ns = line.at("begin_ns"), run.wall_ns = line.at("wall_ns"), run.task_ns = line.at("task_ns");
+    run.idle_ns = line.at("idle_ns"), run.poll_ns = line.at("poll_ns"), run.overhead_ns = line.at("overhead_ns");
+    line.at("iterations").get_to(run.iterations), line.at("ns").get_to(run.ns);
+    const std::size_t nodes = rank.graphs.at(g).nodes.size();
+    if (run.ns.size() != nodes || run.iterations.size() != nodes)
+      throw std::runtime_error("has times of " + std::to_string(run.ns.size()) + " nodes; its graph has " +
+                               std::to_string(nodes));
+  }
+}
+
+}  // namespace
+
+void write_recording(const Recording& own, const std::string& path, MPI_Comm comm) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank), MPI_Comm_size(comm, &size);
+  constexpr std::size_t chunk = std::size_t(1) << 30;  // MPI counts are int
+  std::string text = lines_of(own.ranks.front());
+  if (rank > 0) {
+    const std::uint64_t bytes = text.size();
+    MPI_Send(&bytes, 1, MPI_UINT64_T, 0, 0, comm);
+    for (std::size_t at = 0; at < bytes; at += chunk)
+      MPI_Send(text.data() + at, int(std::min(chunk, bytes - at)), MPI_CHAR, 0, 1, comm);
+    return;
+  }
+  errno = 0;
+  std::ofstream out(path);
+  out << header_of(own, size) << text;
+  for (int other = 1; other < size; ++other) {
+    std::uint64_t bytes = 0;
+    MPI_Recv(&bytes, 1, MPI_UINT64_T, other, 0, comm, MPI_STATUS_IGNORE);
+    text.resize(bytes);
+    for (std::size_t at = 0; at < bytes; at += chunk)
+      MPI_Recv(text.data() + at, int(std::min(chunk, bytes - at)), MPI_CHAR, other, 1, comm, MPI_STATUS_IGNORE);
+    out << text;
+  }
+  out.flush();
+  if (!out) throw std::runtime_error("cannot write the recording to " + path + ": " + std::strerror(errno));
+}
+
+Recording read_recording(const std::string& path) {
+  errno = 0;
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error(path + ": " + std::strerror(errno));
+  Recording recording;
+  std::string text;
+  std::size_t number = 0;
+  try {
+    while (std::getline(in, text)) {
+      ++number;
+      const Json line = Json::parse(text);
+      if (number == 1)
+        read_header(line, recording);
+      else
+        read_line(line, recording);
+    }
+    if (number == 0) throw std::runtime_error("is empty");
+  } catch (const std::exception& e) {
+    throw std::runtime_error(path + ": line " + std::to_string(std::max<std::size_t>(number, 1)) + ": " + e.what());
+  }
+  return recording;
+}
+
+}  // namespace spindrift::runtime

@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/replay/recut.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+
+#include "runtime/graph/edges.hpp"
+#include "runtime/trace/rank_trace.hpp"
+
+namespace spindrift::runtime {
+
+namespace {
+
+constexpr int no_block = -1;
+constexpr std::uint64_t unknown_bytes = 64;  // of a datum of which nothing was said
+constexpr int fields_of_tile = 3;            // a place with so many data is a tile; others follow the tile they are made from
+
+bool writes_to(const UseRecord& use) { return use.how != Access::read; }
+
+/// The blocks of a graph: of every datum, and the graph of costs and bytes that is partitioned.
+class Blocks {
+ public:
+  explicit Blocks(const GraphRecord& graph, const RunRecord& run) : graph_(graph), of_(graph.data.size(), no_block) {
+    find_modules();
+    find_tiles();
+    follow_tiles();
+    weigh(run);
+  }
+  const std::vector<int>& of_datum() const { return of_; }
+  const BlockGraph& weighted() const { return weighted_; }
+  const std::vector<std::string>& modules() const { return modules_; }
+  int count() const { return int(place_.size()); }
+
+ private:
+  using Place = std::pair<int, float>;  // module, place
+
+  void find_modules() {
+    module_of_datum_.assign(graph_.data.size(), -1);
+    for (const NodeRecord& node : graph_.nodes) {
+      const std::string name(module_of(node.label));
+      const auto found = std::ranges::find(modules_, name);
+      const int module = int(found - modules_.begin());
+      bool placed = false;
+      for (const UseRecord& use : node.uses)
+        if (graph_.data[use.datum].place >= 0 && module_of_datum_[use.datum] < 0)
+          module_of_datum_[use.datum] = module, placed = true;
+      if (placed && found == modules_.end()) modules_.push_back(name);
+    }
+  }
+  void find_tiles() {
+    std::map<Place, int> fields;
+    for (std::size_t d = 0; d < of_.size(); ++d)
+      if (module_of_datum_[d] >= 0) ++fields[{module_of_datum_[d], graph_.data[d].place}];
+    for (int module = 0; module < int(modules_.size()); ++module) {
+      const bool tiles =
+          std::ranges::any_of(fields, [&](const auto& f) { return f.first.first == module && f.second >= fields_of_tile; });
+      for (const auto& [place, count] : fields)
+        if (place.first == module && (!tiles || count >= fields_of_tile)) place_.emplace(place, int(place_.size()));
+    }
+    for (std::size_t d = 0; d < of_.size(); ++d) {
+      const auto block = place_.find({module_of_datum_[d], graph_.data[d].place});
+      if (module_of_datum_[d] >= 0 && block != place_.end()) of_[d] = block->second;
+    }
+  }
+  /// Data that stand at a place of their own (a sum by bundle of tiles): with the first tile that who writes them touches, else
+  /// with the nearest.
+  void follow_tiles() {
+    for (const NodeRecord& node : graph_.nodes) {
+      if (node.kind == NodeKind::loop) continue;
+      const auto tile = std::ranges::find_if(node.uses, [&](const UseRecord& use) { return of_[use.datum] != no_block; });
+      for (const UseRecord& use : node.uses)
+        if (writes_to(use) && of_[use.datum] == no_block && module_of_datum_[use.datum] >= 0)
+          of_[use.datum] =
+              tile != node.uses.end() ? of_[tile->datum] : nearest(module_of_datum_[use.datum], graph_.data[use.datum].place);
+    }
+  }
+  int nearest(int module, float place) const {
+    const auto after = place_.upper_bound({module, place});
+    return after == place_.begin() ? after->second : std::prev(after)->second;
+  }
+  void weigh(const RunRecord& run) {
+    weighted_.constraints = std::max(1, int(modules_.size()));
+    weighted_.cost.assign(std::size_t(count()) * std::size_t(weighted_.constraints), 0.0);
+    std::map<std::pair<int, int>, double> passing;
+    std::vector<int> module_of_block(place_.size());
+    for (const auto& [place, block] : place_) module_of_block[std::size_t(block)] = place.first;
+    for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+      const NodeRecord& node = graph_.nodes[n];
+      if (node.kind != NodeKind::task) continue;
+      const auto own =
+          std::ranges::find_if(node.uses, [&](const UseRecord& use) { return writes_to(use) && of_[use.datum] != no_block; });
+      if (own == node.uses.end()) continue;
+      const int block = of_[own->datum];
+      weighted_.cost[std::size_t(block * weighted_.constraints + module_of_block[std::size_t(block)])] +=
+          std::accumulate(run.ns[n].begin(), run.ns[n].end(), 0.0);
+      for (const UseRecord& use : node.uses) {
+        const int other = of_[use.datum];
+        if (other == no_block || other == block || use.how == Access::write) continue;
+        const std::uint64_t bytes = std::max({use.bytes, graph_.data[use.datum].bytes, unknown_bytes});
+        passing[std::minmax(block, other)] += double(bytes) * double(run.ns[n].size());
+      }
+    }
+    for (const auto& [pair, weight] : passing) weighted_.edges.push_back({pair.first, pair.second, weight});
+  }
+
+  const GraphRecord& graph_;
+  std::vector<std::string> modules_;
+  std::vector<int> module_of_datum_, of_;
+  std::map<Place, int> place_;
+  BlockGraph weighted_;
+};
+
+/// Writes the graphs of all ranks in the order of recording, following which rank has the newest of every datum.
+class Cutter {
+ public:
+  Cutter(const GraphRecord& graph, const RunRecord& run, const std::vector<int>& owner, int ranks, int first_rank)
+      : graph_(graph),
+        run_(run),
+        owner_(owner),
+        count_(ranks),
+        first_rank_(first_rank),
+        bodies_(nodes_of(graph)),
+        fresh_(graph.data.size() * std::size_t(ranks), 0),
+        tag_(std::size_t(ranks) * std::size_t(ranks), 0),
+        out_(std::size_t(ranks)) {
+    for (int r = 0; r < ranks; ++r) {
+      RankRun& to = out_[std::size_t(r)];
+      to.graph.data = graph.data;
+      to.run = run;
+      to.run.ns.clear(), to.run.iterations.clear();
+    }
+    place_data();
+    body(no_node);
+    for (RankRun& rank : out_) finish(rank);
+  }
+  std::vector<RankRun> take() { return std::move(out_); }
+  double repeated_ns() const { return repeated_ns_; }
+
+ private:
+  static std::vector<Node> nodes_of(const GraphRecord& graph) {
+    std::vector<Node> nodes;
+    for (const NodeRecord& node : graph.nodes) nodes.push_back({.label = "", .kind = node.kind, .loop = node.loop});
+    return nodes;
+  }
+
+  /// Places of a rank's own data spread over its threads in the order in which they stood; those of others have none.
+  void place_data() {
+    for (int r = 0; r < count_; ++r) {
+      std::set<float> own;
+      for (std::size_t d = 0; d < owner_.size(); ++d)
+        if (owner_[d] == r) own.insert(graph_.data[d].place);
+      std::map<float, float> as;
+      for (const float place : own) as.emplace(place, float(as.size()) / float(own.size()));
+      for (std::size_t d = 0; d < owner_.size(); ++d)
+        if (graph_.data[d].place >= 0)
+          out_[std::size_t(r)].graph.data[d].place = owner_[d] == r ? as.at(graph_.data[d].place) : -1.0F;
+    }
+  }
+
+  bool writes_tiles(const NodeRecord& node) const {
+    return node.kind == NodeKind::task &&
+           std::ranges::any_of(node.uses, [&](const UseRecord& use) { return writes_to(use) && owner_[use.datum] >= 0; });
+  }
+
+  /// Ranks that run a node: the owners of what it writes, or all.
+  std::vector<int> ranks_of(const NodeRecord& node) const {
+    if (writes_tiles(node)) {
+      std::set<int> owners;
+      for (const UseRecord& use : node.uses)
+        if (writes_to(use) && owner_[use.datum] >= 0) owners.insert(owner_[use.datum]);
+      return {owners.begin(), owners.end()};
+    }
+    std::vector<int> all(static_cast<std::size_t>(count_));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+  void body(std::uint32_t loop) {
+    const auto members = bodies_.of(loop);
+    for (std::size_t at = 0; at < members.size();) {
+      const NodeRecord& first = graph_.nodes[members[at]];
+      if (first.kind == NodeKind::loop) {
+        enter(members[at++]);
+        continue;
+      }
+      std::size_t end = at + 1;  // of the tasks of one family
+      const std::string family = family_of(first.label);
+      while (first.kind == NodeKind::task && end < members.size() && graph_.nodes[members[end]].kind == NodeKind::task &&
+             family_of(graph_.nodes[members[end]].label) == family)
+        ++end;
+      const auto phase = members.subspan(at, end - at);
+      send_what_they_read(phase);
+      for (const std::uint32_t n : phase) record(n);
+      for (const std::uint32_t n : phase) outdate(n);
+      at = end;
+    }
+  }
+
+  void enter(std::uint32_t n) {
+    outdate(n);  // what an iteration writes must pass in each
+    const std::vector<std::uint32_t> outer = loop_now_;
+    loop_now_.assign(std::size_t(count_), no_node);
+    for (int r = 0; r < count_; ++r) {
+      const std::uint32_t around = outer.empty() ? no_node : outer[std::size_t(r)];
+      loop_now_[std::size_t(r)] = add(r, n, graph_.nodes[n].label, NodeKind::loop, around);
+      RankRun& rank = out_[std::size_t(r)];
+      rank.graph.nodes.back().limits = graph_.nodes[n].limits;
+      rank.run.iterations.back() = run_.iterations[n];
+    }
+    body(n);
+    for (int r = 0; r < count_; ++r) {
+      std::vector<NodeRecord>& nodes = out_[std::size_t(r)].graph.nodes;
+      const std::uint32_t loop = loop_now_[std::size_t(r)];
+      std::map<std::uint32_t, Access> touched;
+      if (loop + 1 == nodes.size()) add(r, n, graph_.nodes[n].label + "/nothing", NodeKind::task, loop);
+      for (std::size_t m = loop + 1; m < nodes.size(); ++m)
+        for (const UseRecord& use : nodes[m].uses) {
+          const auto [known, is_new] = touched.emplace(use.datum, use.how);
+          if (!is_new && known->second != use.how) known->second = Access::update;
+        }
+      for (const auto& [datum, how] : touched) nodes[loop].uses.push_back({datum, how});
+    }
+    loop_now_ = outer;
+  }
+
+  /// The other ranks' copies of what the node writes are old.
+  void outdate(std::uint32_t n) {
+    for (const UseRecord& use : graph_.nodes[n].uses)
+      if (writes_to(use) && owner_[use.datum] >= 0)
+        std::fill_n(fresh_.begin() + std::ptrdiff_t(use.datum) * count_, count_, std::uint8_t(0));
+  }
+
+  void send_what_they_read(std::span<const std::uint32_t> phase) {
+    struct Parcel {
+      std::uint64_t bytes = 0;
+      std::set<std::uint32_t> data;
+    };
+    std::map<std::pair<int, int>, Parcel> parcels;
+    for (const std::uint32_t n : phase) {
+      const NodeRecord& node = graph_.nodes[n];
+      if (!writes_tiles(node)) continue;
+      for (const int r : ranks_of(node))
+        for (const UseRecord& use : node.uses) {
+          const int owner = owner_[use.datum];
+          if (use.how != Access::read || owner < 0 || owner == r ||
+              fresh_[std::size_t(use.datum) * std::size_t(count_) + std::size_t(r)])
+            continue;
+          Parcel& parcel = parcels[{owner, r}];
+          const bool is_new = parcel.data.insert(use.datum).second;
+          if (use.bytes > 0)
+            parcel.bytes += use.bytes;
+          else if (is_new)
+            parcel.bytes += std::max(graph_.data[use.datum].bytes, unknown_bytes);
+        }
+    }
+    const std::string label = std::string(module_of(graph_.nodes[phase[0]].label)) + "/messages/";
+    for (const bool sends : {true, false})
+      for (const auto& [pair, parcel] : parcels) {
+        const auto [from, to] = pair;
+        const int rank = sends ? from : to, peer = sends ? to : from;
+        add(rank, phase[0], label + std::to_string(peer), sends ? NodeKind::send : NodeKind::receive, around(rank));
+        NodeRecord& node = out_[std::size_t(rank)].graph.nodes.back();
+        node.peer = first_rank_ + peer, node.bytes = parcel.bytes;
+        int& tag = tag_[std::size_t(from * count_ + to)];
+        node.tag = sends ? tag : tag++;
+        for (const std::uint32_t datum : parcel.data) {
+          node.uses.push_back({datum, sends ? Access::read : Access::write});
+          fresh_[std::size_t(datum) * std::size_t(count_) + std::size_t(to)] = 1;
+        }
+      }
+  }
+
+  std::uint32_t around(int rank) const { return loop_now_.empty() ? no_node : loop_now_[std::size_t(rank)]; }
+
+  std::uint32_t add(int rank, std::uint32_t origin, std::string label, NodeKind kind, std::uint32_t loop) {
+    RankRun& to = out_[std::size_t(rank)];
+    to.graph.nodes.push_back({.label = std::move(label), .kind = kind, .loop = loop});
+    to.origin.push_back(origin);
+    to.run.ns.emplace_back(), to.run.iterations.emplace_back();
+    return std::uint32_t(to.graph.nodes.size() - 1);
+  }
+
+  void record(std::uint32_t n) {
+    const NodeRecord& node = graph_.nodes[n];
+    const std::vector<int> ranks = ranks_of(node);
+    const bool of_tiles = writes_tiles(node);
+    for (const int r : ranks) {
+      add(r, n, node.label, node.kind, around(r));
+      RankRun& rank = out_[std::size_t(r)];
+      NodeRecord& to = rank.graph.nodes.back();
+      to.bytes = node.bytes;
+      for (const UseRecord& use : node.uses) {
+        if (!of_tiles && owner_[use.datum] >= 0 && owner_[use.datum] != r) continue;  // every rank looks at its own
+        to.uses.push_back(use);
+        if (writes_to(use) && to.place < 0) to.place = rank.graph.data[use.datum].place;
+      }
+      rank.run.ns.back() = run_.ns[n];
+    }
+    if (node.kind == NodeKind::task)
+      repeated_ns_ += double(ranks.size() - 1) * std::accumulate(run_.ns[n].begin(), run_.ns[n].end(), 0.0);
+  }
+
+  /// Orders that only several ranks need (graph/graph.cpp), then the edges.
+  void finish(RankRun& rank) const {
+    GraphRecord& graph = rank.graph;
+    if (count_ > 1) {
+      std::map<std::string, std::uint32_t> order;  // of the reductions of a module; of all collective tasks
+      for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
+        const NodeKind kind = graph.nodes[n].kind;
+        if (kind != NodeKind::reduce && kind != NodeKind::collective) continue;
+        const std::string of = kind == NodeKind::collective ? "" : std::string(module_of(graph.nodes[n].label));
+        const auto [datum, is_new] = order.emplace(of, std::uint32_t(graph.data.size()));
+        if (is_new) graph.data.push_back({});
+        const std::uint32_t ordered = datum->second;
+        for (std::uint32_t at = n; at != no_node; at = graph.nodes[at].loop)
+          if (std::ranges::none_of(graph.nodes[at].uses, [&](const UseRecord& use) { return use.datum == ordered; }))
+            graph.nodes[at].uses.push_back({ordered, Access::update});
+      }
+    }
+    std::vector<Node> nodes;
+    std::vector<Touch> touched;
+    for (const NodeRecord& node : graph.nodes) {
+      const auto first = std::uint32_t(touched.size());
+      for (const UseRecord& use : node.uses) touched.push_back({use.datum, use.how});
+      nodes.push_back({node.label, node.kind, node.loop, first, std::uint32_t(touched.size()), node.place});
+    }
+    graph.edges = derive_edges(nodes, touched, graph.data.size(), {});
+  }
+
+  const GraphRecord& graph_;
+  const RunRecord& run_;
+  const std::vector<int>& owner_;
+  const int count_, first_rank_;
+  Bodies bodies_;
+  std::vector<std::uint8_t> fresh_;  ///< [datum][rank]: it has the newest
+  std::vector<int> tag_;             ///< next of each pair of ranks
+  std::vector<std::uint32_t> loop_now_;
+  std::vector<RankRun> out_;
+  double repeated_ns_ = 0.0;
+};
+
+}  // namespace
+
+Recut recut(const GraphRecord& graph, const RunRecord& run, int ranks, int first_rank) {
+  for (const NodeRecord& node : graph.nodes)
+    if (node.kind == NodeKind::send || node.kind == NodeKind::receive)
+      throw std::invalid_argument("the graph has messages (" + node.label + "): record on one rank what is to be cut for others");
+  const Blocks blocks(graph, run);
+  Recut out;
+  out.modules = blocks.modules(), out.blocks = blocks.count();
+  std::vector<int> rank_of_block(std::size_t(blocks.count()), 0);
+  if (ranks > 1 && blocks.count() > 0) {
+    Partition partition = partition_blocks(blocks.weighted(), {.ranks = ranks});
+    rank_of_block = std::move(partition.rank_of_block), out.quality = std::move(partition.quality);
+  }
+  std::vector<int> owner(graph.data.size(), -1);
+  for (std::size_t d = 0; d < owner.size(); ++d)
+    if (const int block = blocks.of_datum()[d]; block != no_block) owner[d] = rank_of_block[std::size_t(block)];
+  Cutter cutter(graph, run, owner, ranks, first_rank);
+  out.repeated = cutter.repeated_ns();
+  double all = 0.0;
+  for (std::size_t n = 0; n < graph.nodes.size(); ++n)
+    if (graph.nodes[n].kind == NodeKind::task) all += std::accumulate(run.ns[n].begin(), run.ns[n].end(), 0.0);
+  out.repeated = all > 0.0 ? out.repeated / all : 0.0;
+  out.ranks = cutter.take();
+  return out;
+}
+
+RankRun joined(const RankRun& a, const RankRun& b) {
+  RankRun both = a;
+  const auto nodes = std::uint32_t(a.graph.nodes.size()), data = std::uint32_t(a.graph.data.size());
+  both.graph.data.insert(both.graph.data.end(), b.graph.data.begin(), b.graph.data.end());
+  for (NodeRecord node : b.graph.nodes) {
+    if (node.loop != no_node) node.loop += nodes;
+    for (UseRecord& use : node.uses) use.datum += data;
+    both.graph.nodes.push_back(std::move(node));
+  }
+  for (const Edge& edge : b.graph.edges) both.graph.edges.push_back({edge.from + nodes, edge.to + nodes, edge.distance});
+  both.run.ns.insert(both.run.ns.end(), b.run.ns.begin(), b.run.ns.end());
+  both.run.iterations.insert(both.run.iterations.end(), b.run.iterations.begin(), b.run.iterations.end());
+  both.run.wall_ns += b.run.wall_ns, both.run.task_ns += b.run.task_ns, both.run.overhead_ns += b.run.overhead_ns;
+  return both;
+}
+
+}  // namespace spindrift::runtime

@@ -1,0 +1,138 @@
+// spindrift replay: predicts the windows of a recording for other ranks, threads, networks and placements of air and sea.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "runtime/replay/predict.hpp"
+#include "runtime/replay/recording_file.hpp"
+#include "src/app/commands.hpp"
+#include "src/app/timeline.hpp"
+#include "src/io/machine_failure.hpp"
+
+namespace spindrift::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using runtime::Cluster, runtime::Placement, runtime::Prediction, runtime::Recording;
+
+Cluster cluster_of(const ReplayArguments& arguments, int ranks, int threads, double overhead_s) {
+  Cluster cluster{.nodes = arguments.nodes, .ranks = ranks, .threads = threads};
+  if (arguments.nodes > ranks)
+    throw io::InputError(fmt::format("--nodes {}: more nodes than the {} rank{} to be spread over them", arguments.nodes, ranks,
+                                     ranks == 1 ? "" : "s"));
+  const std::vector<double>& network = arguments.network;
+  if (!network.empty() && network.size() != 2 && network.size() != 4)
+    throw io::InputError(
+        fmt::format("--network: {} numbers; give latency [us] and bandwidth [GB/s] between nodes, or these and "
+                    "both within a node",
+                    network.size()));
+  if (std::ranges::find(network, 0.0) == network.begin() + 1 && network.size() > 1)
+    throw io::InputError("--network: a bandwidth of 0 GB/s carries nothing");
+  if (network.size() >= 2) cluster.between = {1e-6 * network[0], 1e9 * network[1]};
+  if (network.size() == 4) cluster.within = {1e-6 * network[2], 1e9 * network[3]};
+  cluster.skew = arguments.skew, cluster.task_overhead_s = overhead_s;
+  return cluster;
+}
+
+double measured_s(const Recording& recording) {
+  double sum = 0.0;
+  for (const runtime::WindowRecord& window : recording.windows) sum += 1e-9 * double(window.wall_ns);
+  return sum / double(std::max<std::size_t>(1, recording.windows.size()));
+}
+
+Json figures_of(const Prediction& p) {
+  const Cluster& c = p.cluster;
+  const double cores = double(c.ranks) * c.threads;
+  Json parts = Json::object();
+  for (const auto& [module, s] : p.tasks.busy_of) parts[module] = s;
+  parts["waiting"] = p.tasks.waiting_s + cores * p.outside_s - p.outside_s;
+  parts["between graphs"] = p.outside_s;
+  parts["runtime"] = p.tasks.overhead_s;
+  Json figures{{"placement", name_of(p.placement)},
+               {"nodes", c.nodes},
+               {"ranks", c.ranks},
+               {"threads", c.threads},
+               {"air_ranks", p.placement == Placement::split ? Json(p.second_side_ranks) : Json(nullptr)},
+               {"wall_s", p.wall_s},
+               {"efficiency", p.efficiency},
+               {"work_s", p.work_s},
+               {"critical_path_s", p.placement == Placement::bulk_synchronous ? Json(nullptr) : Json(p.tasks.critical_path_s)},
+               {"repeated_work", p.repeated},
+               {"imbalance", p.imbalance},
+               {"bytes", p.tasks.bytes},
+               {"messages", p.tasks.messages},
+               {"reductions", p.tasks.reductions},
+               {"tasks", p.tasks.tasks},
+               {"parts_core_s", std::move(parts)}};
+  if (!p.tasks.slices.empty()) {
+    double end = 0.0;
+    for (const runtime::Slice& slice : p.tasks.slices) end = std::max(end, slice.end_s);
+    figures["timeline"] = timeline(p.tasks.slices, end);
+  }
+  return figures;
+}
+
+void print_row(const Prediction& p) {
+  const Cluster& c = p.cluster;
+  const double all = double(c.ranks) * c.threads * p.wall_s;
+  const auto part = [&](double core_s) { return 100.0 * core_s / all; };
+  const bool bulk = p.placement == Placement::bulk_synchronous;
+  fmt::print("{:>6} x {:<4}{:<17}{:>10.3f}{:>8.1f}{:>8.1f}{:>9.1f}{:>9.1f}{:>10}{:>10.1f}{:>9}{:>8}\n", c.ranks, c.threads,
+             p.placement == Placement::split ? fmt::format("split {}+{}", c.ranks - p.second_side_ranks, p.second_side_ranks)
+                                             : std::string(name_of(p.placement)),
+             1e3 * p.wall_s, 100.0 * p.efficiency, part(p.tasks.busy_s), part(all - p.tasks.busy_s - p.tasks.overhead_s),
+             part(p.tasks.overhead_s), bulk ? "-" : fmt::format("{:.3f}", 1e3 * p.tasks.critical_path_s), 1e-3 * p.tasks.bytes,
+             p.tasks.messages, p.tasks.reductions);
+}
+
+Recording read(const std::string& file) {
+  try {
+    return runtime::read_recording(file);
+  } catch (const std::exception& e) { throw io::InputError(e.what()); }
+}
+
+}  // namespace
+
+int replay(const ReplayArguments& arguments, const runtime::World& world) {
+  if (world.rank != 0) return done;
+  const Recording recording = read(arguments.recording);
+  const double overhead_s = runtime::task_overhead_s(recording), measured = measured_s(recording);
+  for (const int ranks : arguments.ranks) cluster_of(arguments, ranks, 1, 0.0);  // before any long work
+  fmt::print("{}: {} window{} of {}, recorded on {} x {}; {:.3f} ms each, {:.0f} ns of the runtime per task\n",
+             arguments.recording, recording.windows.size(), recording.windows.size() == 1 ? "" : "s", recording.scene,
+             recording.ranks.size(), recording.threads, 1e3 * measured, 1e9 * overhead_s);
+  fmt::print(
+      " ranks x threads and placement        ms a window  eff. %  busy % waiting % runtime % crit. ms        kB messages "
+      "reduct.\n");
+  Json all = Json::array();
+  for (const int ranks : arguments.ranks)
+    for (const int threads : arguments.threads) {
+      const Cluster cluster = cluster_of(arguments, ranks, threads, overhead_s);
+      for (const Placement placement : possible(recording, ranks, side_of)) {
+        try {
+          const Prediction p = predict(recording, cluster, placement, side_of);
+          print_row(p);
+          all.push_back(figures_of(p));
+        } catch (const std::invalid_argument& e) { throw io::InputError(fmt::format("{}: {}", arguments.recording, e.what())); }
+      }
+    }
+  const Json json{{"kind", "replay"},
+                  {"version", 1},
+                  {"title", recording.scene},
+                  {"recorded", {{"ranks", recording.ranks.size()}, {"threads", recording.threads}, {"wall_s", measured}}},
+                  {"network",
+                   {{"between_latency_s", cluster_of(arguments, arguments.ranks[0], 1, 0.0).between.latency_s},
+                    {"between_bytes_per_s", cluster_of(arguments, arguments.ranks[0], 1, 0.0).between.bytes_per_s},
+                    {"within_latency_s", cluster_of(arguments, arguments.ranks[0], 1, 0.0).within.latency_s},
+                    {"within_bytes_per_s", cluster_of(arguments, arguments.ranks[0], 1, 0.0).within.bytes_per_s},
+                    {"skew", arguments.skew}}},
+                  {"predictions", std::move(all)}};
+  if (!arguments.json.empty()) write(json, arguments.json), fmt::print("figures: {}\n", arguments.json);
+  if (!arguments.plot.empty()) draw(json, arguments.plot), fmt::print("plot: {}\n", arguments.plot);
+  return done;
+}
+
+}  // namespace spindrift::app

@@ -1,0 +1,91 @@
+// Placements of two sides side by side, on graphs whose answers can be worked out. SPDX-License-Identifier: Apache-2.0
+#include "runtime/replay/predict.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "runtime/replay/recut.hpp"
+#include "tests/runtime/replay/graphs.hpp"
+
+using namespace spindrift::runtime;
+using namespace spindrift::runtime::testing;
+
+namespace {
+
+Side side_of(std::string_view module) { return module == "aero" ? Side::second : Side::first; }
+
+/// `steps` tasks, one after the other, on each of `tiles` tiles that have nothing to do with each other.
+void chains(Graph& g, const std::string& module, std::size_t tiles, std::uint32_t steps) {
+  const auto a = g.data(tiles), b = g.data(tiles), c = g.data(tiles);
+  g.repeat(module + "/steps", steps, [&] {
+    for (std::size_t n = 0; n < tiles; ++n)
+      g.task(module + "/t/" + std::to_string(n), {updates(a[n]), updates(b[n]), updates(c[n])}, [] {});
+  });
+}
+
+/// Sea of three chains of 100 us and air of one of 90 us, as one graph or as two; 15 us of a window are outside of them.
+Recording two_sides(bool one_graph) {
+  const auto cost = [](const std::string& label) { return label.starts_with("aero") ? 9'000 : 10'000; };
+  Graph sea, air;
+  chains(sea, "sea", 3, 10);
+  chains(one_graph ? sea : air, "aero", 1, 10);
+  Recording recording{.scene = "s", .program = "p", .windows = {{4, 405'000}, {5, 405'000}}};
+  RankRecording& rank = recording.ranks.emplace_back();
+  std::vector<RankRun> runs{worked_out(std::move(sea), cost)};
+  if (!one_graph) runs.push_back(worked_out(std::move(air), cost));
+  for (const WindowRecord& window : recording.windows)
+    for (std::uint32_t g = 0; g < runs.size(); ++g) {
+      rank.runs.push_back(runs[g].run);
+      rank.runs.back().graph = g, rank.runs.back().window = window.number;
+    }
+  for (RankRun& run : runs) rank.graphs.push_back(std::move(run.graph));
+  return recording;
+}
+
+}  // namespace
+
+TEST_CASE("placements of two sides: in turns, shared, split and in bulk", "[replay][fast]") {
+  for (const bool one_graph : {false, true}) {
+    const Recording recording = two_sides(one_graph);
+    const auto wall = [&](int ranks, int threads, Placement placement) {
+      const Prediction p = predict(recording, ideal(ranks, threads), placement, side_of);
+      CHECK(p.windows == 2);
+      CHECK(p.outside_s == Approx(15 * us));
+      CHECK(p.work_s == Approx(390 * us));
+      CHECK(p.tasks.busy_s == Approx(390 * us));
+      CHECK(p.efficiency == Approx(390 * us / (ranks * threads * p.wall_s)));
+      const double cores = ranks * threads;
+      CHECK(p.tasks.busy_s + p.tasks.waiting_s + p.tasks.overhead_s == Approx(cores * p.tasks.wall_s));
+      return p.wall_s - p.outside_s;
+    };
+    for (const Placement placement : {Placement::in_turns, Placement::shared, Placement::bulk_synchronous})
+      CHECK(wall(1, 1, placement) == Approx(390 * us));
+    CHECK(wall(1, 4, Placement::in_turns) == Approx(190 * us).margin(2 * us));  // three chains, then one
+    CHECK(wall(1, 4, Placement::shared) == Approx(100 * us).margin(2 * us));    // all four at once
+    CHECK(wall(4, 1, Placement::split) == Approx(100 * us));                    // a rank has the air
+    CHECK(wall(2, 1, Placement::split) == Approx(300 * us));                    // the sea's rank is the longer
+    CHECK(wall(1, 4, Placement::bulk_synchronous) == Approx(190 * us));
+  }
+}
+
+TEST_CASE("what a recording can be replayed as", "[replay][fast]") {
+  const Recording two = two_sides(false);
+  CHECK(possible(two, 1, side_of) == std::vector{Placement::in_turns, Placement::shared, Placement::bulk_synchronous});
+  CHECK(possible(two, 2, side_of).size() == 4);
+  Recording one = two;
+  one.ranks[0].graphs.resize(1);
+  std::erase_if(one.ranks[0].runs, [](const RunRecord& run) { return run.graph > 0; });
+  CHECK(possible(one, 8, side_of) == std::vector{Placement::shared, Placement::bulk_synchronous});
+  Recording both_ranks = two;
+  both_ranks.ranks.push_back(both_ranks.ranks[0]);
+  CHECK_THROWS_WITH(predict(both_ranks, ideal(3, 1), Placement::shared, side_of), Catch::Contains("recorded on 2 ranks"));
+  CHECK(predict(both_ranks, ideal(2, 1), Placement::shared, side_of).wall_s == Approx(405 * us));
+  Recording none = two;
+  none.windows.clear();
+  CHECK_THROWS_WITH(predict(none, ideal(1, 1), Placement::shared, side_of), Catch::Contains("no window"));
+}
+
+TEST_CASE("the runtime's own work per task is what runs had besides tasks and waiting", "[replay][fast]") {
+  Recording recording = two_sides(false);
+  for (RunRecord& run : recording.ranks[0].runs) run.overhead_ns = run.graph == 0 ? 30 * 200 : 10 * 200;
+  CHECK(task_overhead_s(recording) == Approx(200e-9));
+}
