@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
 
 import quantities
+import verdict
 
 SVG_LIMIT_BYTES = 300_000
 BINS = 700  # of the min-max envelope that stands for a long series
@@ -19,6 +20,8 @@ BINS = 700  # of the min-max envelope that stands for a long series
 PALETTE = ["#2f7fc1", "#d9772b", "#2f9e6e", "#b5569e", "#8a7a2c", "#4aa5b8", "#c2504d", "#7a7f87"]
 INK, GRID = "#808386", "#9a9da1"
 DASHES = ["-", (0, (4, 1.6)), (0, (1.2, 1.2)), (0, (5, 1.5, 1.2, 1.5))]
+LEGEND_DASHES = ["solid", "dashed", "dotted", "dashed"]   # the same in a legend, which is HTML
+TURNING = ("azimuth", "roll", "pitch", "yaw")   # angles that begin anew after a turn
 
 plt.rcParams.update({
     "svg.fonttype": "none", "text.parse_math": False, "font.family": "sans-serif", "font.size": 9, "axes.titlesize": 9, "axes.labelsize": 9,
@@ -47,7 +50,7 @@ def envelope(time, values):
 
 
 def unwrapped_breaks(time, values):
-    """An angle that runs through 360 degrees drops to 0 without a line across the figure."""
+    """An angle that begins anew after a turn does so without a line across the figure."""
     jumps = np.flatnonzero(np.abs(np.diff(values)) > 180.0) + 1
     return np.insert(time, jumps, time[jumps]), np.insert(values, jumps, np.nan)
 
@@ -106,10 +109,14 @@ def _panel_lines(runs, lines):
 
 
 def _style(lines, run, line):
-    """One run: a colour per line. Several: a colour per run where a panel has one line, else a dash per run."""
-    if len(lines) == 1:
-        return {"color": PALETTE[run % len(PALETTE)]}
-    return {"color": PALETTE[line % len(PALETTE)], "linestyle": DASHES[run % len(DASHES)]}
+    """A colour per run where a panel has one line, else per line; a dash per run, so that what lies below is seen, and per round of the colours."""
+    coloured = run if len(lines) == 1 else line
+    return {"color": PALETTE[coloured % len(PALETTE)], "linestyle": DASHES[(run + (line // len(PALETTE) if len(lines) > 1 else 0)) % len(DASHES)]}
+
+
+def legend_mark(coloured, dashed):
+    """(number of a colour, dash of an HTML border)."""
+    return coloured % len(PALETTE), LEGEND_DASHES[dashed % len(LEGEND_DASHES)]
 
 
 def _limits(axis, drawn):
@@ -124,7 +131,7 @@ def _limits(axis, drawn):
 
 
 class Drawing:
-    """A figure (None where nothing is left to draw), its legend {text: index of colour}, what is zero and what is constant throughout."""
+    """A figure (None where nothing is left to draw), its legend {text: legend_mark}, what is zero and what is constant throughout."""
 
     def __init__(self):
         self.figure, self.legend, self.zero, self.constant = None, {}, [], []
@@ -158,20 +165,20 @@ def _draw(runs, panels):
         finite = [np.abs(v[np.isfinite(v)]).max(initial=0.0) for *_, v in drawn]
         unit, factor = quantities.scaled(quantities.unit_of(lines[0][1], runs[0].described), max(finite))
         for legend, r, i, time, values in drawn:
-            if quantities.quantity_of(lines[i][1]) == "azimuth":
+            if quantities.quantity_of(lines[i][1]) in TURNING:
                 time, values = unwrapped_breaks(time, values)
             x, y = envelope(time, values * factor)
             marker = {"marker": "o", "markersize": 3} if len(x) == 1 else {}
             axis.plot(x, y, **_style(lines, r, i), **marker)
             if several:
-                legend_entries[legend] = i % len(PALETTE)
+                legend_entries[legend] = i
         _limits(axis, [v * factor for *_, v in drawn])
         axis.set_ylabel(f"{label} [{unit}]" if unit and label != unit else label)
         axis.yaxis.set_major_locator(MaxNLocator(4))
         axis.margins(x=0.0)
-    axes[-1, 0].set_xlabel("time [s]")
+    axes[-1, 0].set_xlabel("pseudo-step" if verdict.is_steady(runs[0]) else "time [s]")
     figure.align_ylabels()
-    return figure, dict(sorted(legend_entries.items(), key=lambda entry: entry[1]))
+    return figure, {legend: legend_mark(i, i // len(PALETTE)) for legend, i in sorted(legend_entries.items(), key=lambda entry: entry[1])}
 
 
 def density(time, values):
@@ -222,7 +229,7 @@ def spectra(runs, panels, marks):
     top = max([top] + [1.15 * mark for mark in marks.values() if mark < 3.0 * top])
     for axis, (label, column, lines) in zip(axes.flat, ready):
         for r, frequency, power in lines:
-            axis.semilogy(*envelope(frequency, power), color=PALETTE[r % len(PALETTE)])
+            axis.semilogy(*envelope(frequency, power), color=PALETTE[r % len(PALETTE)], linestyle=DASHES[r % len(DASHES)])
         peak = max(power[frequency <= top].max(initial=1e-300) for _, frequency, power in lines)
         for name, mark in marks.items():
             if mark <= top:

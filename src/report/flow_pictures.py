@@ -3,6 +3,7 @@ From history.csv and the newest fields/air_*.h5 and walls_*.h5; h5py is needed f
 SPDX-License-Identifier: Apache-2.0"""
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.colors import Normalize, TwoSlopeNorm
 
 import figures
 
@@ -21,11 +22,12 @@ def residuals(run):
         largest = np.nanmax(values, initial=0.0)
         if largest > 0.0:
             upper.semilogy(run.time, np.where(values > 0.0, values, np.nan) / largest, color=figures.PALETTE[colour])
-            legend[label] = colour
+            legend[label] = figures.legend_mark(colour, 0)
     lower.semilogy(run.time, run.column("flow.cfl"), color=figures.PALETTE[3])
     upper.set_ylabel("residual / largest")
     lower.set_ylabel("CFL")
-    lower.set_xlabel("time [s] (steady: windows, each a pseudo-step)")
+    steady = (run.scene.get("aero", {}).get("flow") or {}).get("time") == "steady"
+    lower.set_xlabel("pseudo-step" if steady else "time [s]")
     for axis in (upper, lower):
         axis.margins(x=0.0)
         axis.yaxis.set_major_formatter(lambda value, _: figures.power_of_ten(value))
@@ -105,8 +107,11 @@ def flow_slice(run):
     for axis, n, label, colours in ((axes[0], 2, "pressure coefficient", "RdYlBu_r"), (axes[1], 3, "Mach number", "viridis")):
         seen = np.concatenate([p[n][inside(p, low, high)] for p in pieces])
         least, most = np.percentile(seen, [0.5, 99.5]) if len(seen) else (0.0, 1.0)
+        most = max(most, least + 1e-12)
+        # The middle of the colours is the undisturbed pressure.
+        scale = TwoSlopeNorm(0.0, least, most) if n == 2 and least < 0.0 < most else Normalize(least, most)
         for piece in pieces:
-            drawn = axis.pcolormesh(piece[0], piece[1], piece[n], cmap=colours, vmin=least, vmax=max(most, least + 1e-12), rasterized=True)
+            drawn = axis.pcolormesh(piece[0], piece[1], piece[n], cmap=colours, norm=scale, rasterized=True)
         figure.colorbar(drawn, ax=axis, label=label, shrink=0.9)
         axis.set_xlim(low[0], high[0])
         axis.set_ylim(low[1], high[1])

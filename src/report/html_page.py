@@ -25,8 +25,9 @@ def section(key, title, body, fold=False):
     """What a page shows under one heading; None where there is nothing."""
     if not body:
         return None
-    body = Markup(body)
-    return {"key": key, "title": title, "body": body, "fold": fold, "half": not fold and body.partition("<details")[0].count("<figure>") == 1}
+    open_part = str(body).partition("<details")[0]
+    half = not fold and open_part.count("<figure") == 1 and '<figure class="wide"' not in open_part
+    return {"key": key, "title": title, "body": Markup(body), "fold": fold, "half": half}
 
 
 def render(**what):

@@ -32,16 +32,17 @@ def verdict_of(run, name=""):
     checks = verdict.health(run)
     level, headline = verdict.headline(checks)
     return {"name": name, "level": level, "headline": headline, "checks": checks, "what": verdict.what_ran(run),
-            "answers": verdict.answers(run), "span": run.mean_range()[1] if len(run.time) else ""}
+            "answers": verdict.answers(run), "span": "" if not len(run.time) else "At the end of the march." if verdict.is_steady(run) else f"Means over {run.mean_range()[1]}."}
 
 
 def facts(run):
     s, said = run.summary, []
+    steady = verdict.is_steady(run)
     if len(run.time):
-        said.append(f"{run.time[-1]:.6g} s simulated")
+        said.append(f"{run.time[-1]:.6g} pseudo-steps" if steady else f"{run.time[-1]:.6g} s simulated")
     if isinstance(s.get("wall_seconds"), (int, float)):
         said.append(f"{duration(s['wall_seconds'])} of wall time")
-    if s.get("real_time_factor"):
+    if s.get("real_time_factor") and not steady:
         said.append(f"{number(s['real_time_factor'], 3)} × real time")
     machine = s.get("machine", {})
     if machine:
@@ -177,6 +178,7 @@ def compared_figures(runs):
     rows, spans = [], [r.mean_range() for r in runs]
     for name in names:
         means = [mean(r.time[s[0]], r.column(name)[s[0]]) for r, s in zip(runs, spans)]
+        means = [0.0 if abs(m) <= r.round_off(name) else m for m, r in zip(means, runs)]
         unit, factor = quantities.scaled(quantities.unit_of(name, runs[0].described), max((abs(m) for m in means if math.isfinite(m)), default=0))
         cells = []
         for i, value in enumerate(means):
@@ -188,8 +190,10 @@ def compared_figures(runs):
             + safe(f'<p class="facts">Means over {escape(said)}. In brackets: difference from the first.</p>'))
 
 
-def _figure(title, legend, picture, caption):
-    return parts.figure(title, legend, safe(picture), caption)
+def _figure(title, legend, figure, caption):
+    """Pictures drawn wide take the page's whole width."""
+    wide = figure.get_figwidth() > 7.0
+    return str(parts.figure(title, legend, safe(figures.as_html(figure, escape(title))), caption, wide))
 
 
 def _caption(group, drawing, runs):
@@ -204,7 +208,7 @@ def _caption(group, drawing, runs):
 
 
 def _run_legend(runs):
-    return {r.name: i % len(figures.PALETTE) for i, r in enumerate(runs)} if len(runs) > 1 else {}
+    return {r.name: figures.legend_mark(i, i) for i, r in enumerate(runs)} if len(runs) > 1 else {}
 
 
 def time_figures(runs):
@@ -217,8 +221,7 @@ def time_figures(runs):
         if drawing.figure is None:
             still.setdefault(group.key, []).append(f"{group.title}. {caption}")
             continue
-        legend, picture = drawing.legend or _run_legend(runs), figures.as_html(drawing.figure, escape(group.title))
-        (folded if group.fold else shown).setdefault(group.key, []).append(_figure(group.title, legend, picture, caption))
+        (folded if group.fold else shown).setdefault(group.key, []).append(_figure(group.title, drawing.legend or _run_legend(runs), drawing.figure, caption))
     out = {}
     for key in GROUPS:
         body = f'<div class="figures">{"".join(shown[key])}</div>' if key in shown else ""
@@ -262,13 +265,12 @@ def spectra(runs):
                       if n.rpartition(".")[0] == body and quantities.quantity_of(n) in wanted]
             figure = figures.spectra(runs, panels, found)
             if figure is not None:
-                title = f"{body}: spectra of {title}"
-                out += _figure(title, _run_legend(runs), figures.as_html(figure, escape(title)), words)
+                out += _figure(f"{body}: spectra of {title}", _run_legend(runs), figure, words)
     return safe(f'<div class="figures">{out}</div>') if out else ""
 
 
 def sea(run):
-    out = "".join(_figure(title, None, figures.as_html(figure, escape(title)), words) for title, figure, words in sea_pictures.pictures(run))
+    out = "".join(_figure(title, None, figure, words) for title, figure, words in sea_pictures.pictures(run))
     return f'<div class="figures">{out}</div>' if out else ""
 
 
@@ -277,17 +279,17 @@ def flow(run):
     out = ""
     if found := flow_pictures.residuals(run):
         figure, legend = found
-        out += _figure("Residuals", legend, figures.as_html(figure, "Residuals"),
+        out += _figure("Residuals", legend, figure,
                        "Root mean square of the density rate, scaled residual of the mean flow, that of turbulence; CFL number of the pseudo-step.")
     pictures = list(rotor_pictures.pictures(run))
-    out += "".join(_figure(title, None, figures.as_html(figure, title), words) for title, figure, words in pictures)
+    out += "".join(_figure(title, None, figure, words) for title, figure, words in pictures)
     if pictures:   # the middle plane of a rotor says nothing
         return f'<div class="figures">{out}</div>'
     if figure := flow_pictures.wall_curves(run):
-        out += _figure("Along the walls", None, figures.as_html(figure, "Along the walls"),
+        out += _figure("Along the walls", None, figure,
                        f"In the middle plane of the walls; pressure with its sign turned. {flow_pictures.y_plus_words(run)}".strip())
     if figure := flow_pictures.flow_slice(run):
-        out += _figure("Slice of the flow", None, figures.as_html(figure, "Slice of the flow"),
+        out += _figure("Slice of the flow", None, figure,
                        "Cells in the middle plane, at the end of the run: pressure above the undisturbed one on dynamic pressure; Mach number.")
     return f'<div class="figures">{out}</div>' if out else ""
 

@@ -50,7 +50,8 @@ class RunData:
         """Rows and words of the range that means are taken over: the summary's last that holds rows, else the last quarter."""
         def rows(start, end):
             margin = 1e-9 * max(1.0, abs(end))
-            return (self.time >= start - margin) & (self.time <= end + margin), f"{start:.6g} to {end:.6g} s"
+            steady = (self.scene.get("aero", {}).get("flow") or {}).get("time") == "steady"
+            return (self.time >= start - margin) & (self.time <= end + margin), f"{start:.4g} to {end:.4g}" + (" pseudo-steps" if steady else " s")
 
         for found in list((self.summary.get("ranges") or {}).values())[::-1]:
             if isinstance(found, dict) and isinstance(found.get("from_s"), (int, float)) and isinstance(found.get("to_s"), (int, float)):

@@ -36,10 +36,10 @@ def _slice(file, spacing):
 
 def particles(run, h5py):
     """(title, figure, caption) of slices, one figure per quantity."""
-    slices = []
+    slices, spacing = [], run.scene.get("sea", {}).get("particles", {}).get("spacing_m", np.inf)
     for path in _chosen(_outputs(run, "particles")):
         with h5py.File(path) as file:
-            slices.append(_slice(file, run.scene.get("sea", {}).get("particles", {}).get("spacing_m", np.inf)))
+            slices.append(_slice(file, spacing))
     for index, name, unit, factor in ((2, "speed", "m/s", 1.0), (3, "pressure", "kPa", 1e-3)):
         shown = [s for s in slices if s[index] is not None and len(s[0])]
         if not shown:
@@ -48,8 +48,11 @@ def particles(run, h5py):
         figure, axes = plt.subplots(len(shown), 1, squeeze=False, sharex=True, layout="constrained",
                                     figsize=(5.4, min(2.4, max(0.9, 5.0 / span)) * len(shown) + 0.5))
         top = max(np.percentile(factor * s[index], 99.5) for s in shown)
+        # As large as its share of the water, some 4.3 inches of which lie side by side; thinned ones and those of no spacing as their number asks for.
+        wide = max(np.ptp(s[0]) for s in shown)
+        size = (1.2 * spacing * 4.3 * 72 / wide) ** 2 if np.isfinite(spacing) and wide > 0.0 else 3000.0 / max(len(s[0]) for s in shown)
         for axis, s in zip(axes[:, 0], shown):
-            drawn = axis.scatter(s[0], s[1], c=factor * s[index], s=max(0.05, min(6.0, 3000.0 / len(s[0]))), linewidths=0, cmap="viridis",
+            drawn = axis.scatter(s[0], s[1], c=factor * s[index], s=float(np.clip(size, 0.3, 40.0)), linewidths=0, cmap="viridis",
                                  vmin=0.0, vmax=top or 1.0, rasterized=True)
             axis.set_ylabel("z [m]")
             axis.set_title(f"t = {s[4]:g} s", loc="left")
@@ -87,7 +90,10 @@ def surface(run, h5py):
         axis.set_ylabel("elevation [m]")
         axis.legend(ncols=len(maps))
     else:
-        figure, axes = plt.subplots(1, len(maps), squeeze=False, sharey=True, figsize=(5.4, 2.6), layout="constrained")
+        corners = maps[0][0]
+        shape = np.ptp(corners[..., 1]) / max(np.ptp(corners[..., 0]), 1e-9)
+        figure, axes = plt.subplots(1, len(maps), squeeze=False, sharey=True, figsize=(10.8, float(np.clip(9.4 / len(maps) * shape, 0.8, 4.0)) + 0.9),
+                                    layout="constrained")
         most = _scale(run, maps)
         for axis, (corners, elevation, time) in zip(axes[0], maps):
             drawn = axis.pcolormesh(corners[0, :, :, 0], corners[0, :, :, 1], elevation, cmap="RdBu_r", vmin=-most, vmax=most, rasterized=True)

@@ -8,7 +8,9 @@ import matplotlib.pyplot as plt
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 import figures
+import html_page
 import page
+from html_page import section
 from study_judge import WORDS
 
 LABELLED = 14  # rungs named beside their points; more are numbered
@@ -60,7 +62,7 @@ def draw(study, metric, axis, numbered=True):
         axis.plot(cost, error, "o", color=colour, markersize=6 if rung["on_front"] else 4.5)
         name = rung["name"] if len(points) <= LABELLED or not numbered else str(1 + [r["name"] for r in study["rungs"]].index(rung["name"]))
         right = cost > math.sqrt(min(r["cost"]["core_s"] for r, _ in points) * max(r["cost"]["core_s"] for r, _ in points))
-        axis.annotate(name, (cost, error), textcoords="offset points", xytext=(-6 if right else 6, 4), fontsize=7.5,
+        axis.annotate(name, (cost, error), textcoords="offset points", xytext=(-6 if right else 6, 5), fontsize=7.5,
                       ha="right" if right else "left")
     front = sorted((r["cost"]["core_s"], e["error"] * unit) for r, e in points if r["on_front"])
     axis.plot([c for c, _ in front], [e for _, e in front], "-", color=figures.PALETTE[0], linewidth=0.8, alpha=0.6, zorder=0)
@@ -78,7 +80,7 @@ def draw(study, metric, axis, numbered=True):
 
 
 def _figure(study, metric):
-    figure, axis = plt.subplots(figsize=(7.0, 4.0))
+    figure, axis = plt.subplots(figsize=(6.4, 3.9), layout="constrained")
     if not draw(study, metric, axis):
         plt.close(figure)
         return ""
@@ -131,28 +133,26 @@ def _budget(study):
         bars = "".join(f"<span>{page.escape(s['source'])}</span><b style=\"width:{100 * s['size'] / largest:.1f}%\"></b>"
                        f"<span>{page.number(s['size'] * unit, 2)}{sign}</span>" for s in sources)
         parts += f"<h3>{page.escape(metric['name'])}</h3><div class=bars>{bars}</div>"
-    return f"<section><h2>Where the error of {page.escape(study['budget_of'])} comes from</h2>{parts}</section>" if parts else ""
+    return parts
 
 
 def build(folder):
     study = json.loads((folder / "study.json").read_text(encoding="utf-8"))
-    title = f"Study {pathlib.Path(study['study']).stem}"
-    style = (pathlib.Path(__file__).parent / "style.css").read_text(encoding="utf-8")
-    good = "" if study["answer"] or not any(m["target"] for m in study["metrics"]) else " warn"
-    scene = f"<p>The scene to run: <code>{page.escape(folder / study['scene'])}</code></p>" if study["scene"] else ""
+    found = study["answer"] or not any(m["target"] for m in study["metrics"])
     sentence = study["sentence"][0].upper() + study["sentence"][1:]
     reference = study["reference"] or {}
     against = (f"the rung '{reference['variant']}'" if reference.get("variant") else pathlib.Path(reference["history"]).name
                if reference.get("history") else f"Richardson's limit along {reference['limit']}" if reference.get("limit") else "nothing")
+    scene = f"<p>The scene to run: <code>{page.escape(folder / study['scene'])}</code></p>" if study["scene"] else ""
+    status = (f'<div class="status{"" if found else " warn"}"><p><strong class="headline">{page.escape(sentence)}.</strong></p>{scene}'
+              f"<p>Next best spend: {page.escape(study['next'])}.</p></div>")
     limits = "".join(f"<li>{page.escape(l['metric'])} of {page.escape(l['of'])}: " + (page.escape(l["why"]) if l["why"] else
                      f"order {page.number(l['order'], 3) if l['order'] else 'not needed'}") + "</li>" for l in study["limits"])
     left = "".join(f"<li>{page.escape(text)}</li>" for text in study["not_tested"])
-    return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
-            f"<title>{page.escape(title)}</title><style>{style}</style></head><body><main><header><h1>{page.escape(title)}</h1>"
-            f"<p class=facts>{len(study['rungs'])} rungs, {page.number(study['core_s_spent'], 3)} core-s spent; errors are against "
-            f"{page.escape(against)}.</p><div class=\"status{good}\"><strong>{page.escape(sentence)}.</strong>{scene}"
-            f"<p>Next best spend: {page.escape(study['next'])}.</p></div></header>"
-            f"<section class=figures>{''.join(_figure(study, m) for m in study['metrics'])}</section>"
-            f"<section><h2>Rungs</h2>{_table(study)}</section>{_budget(study)}"
-            + (f"<section><h2>Limits</h2><ul>{limits}</ul></section>" if limits else "")
-            + (f"<section><h2>What was not tested</h2><ul>{left}</ul></section>" if left else "") + "</main></body></html>")
+    drawn = "".join(_figure(study, m) for m in study["metrics"])
+    sections = [section("figures", "Error against cost", f'<div class="figures">{drawn}</div>' if drawn else ""), section("rungs", "Rungs", _table(study)),
+                section("budget", f"Where the error of {study['budget_of']} comes from", _budget(study)),
+                section("limits", "Limits", f"<ul>{limits}</ul>" if limits else ""), section("not-tested", "What was not tested", f"<ul>{left}</ul>" if left else "")]
+    return html_page.render(title=f"Study {pathlib.Path(study['study']).stem}", eyebrow=f"Spindrift study · {study['study']}",
+                            facts=f"{len(study['rungs'])} rungs · {page.number(study['core_s_spent'], 3)} core-s spent · errors are against {against}",
+                            verdicts=[], before=html_page.safe(status), sections=[s for s in sections if s])

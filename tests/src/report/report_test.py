@@ -17,6 +17,7 @@ sys.dont_write_bytecode = True
 
 import cut
 import figures
+import html_page
 import page
 import picture
 import quantities
@@ -279,9 +280,35 @@ class PartsTest(unittest.TestCase):
             run.values[run.columns.index("float.z_m")] = 0.01
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Draft"], "good")
             run.values[run.columns.index("line.tension_N")][7] = -1.0
+            self.assertEqual({c.title: c.level for c in verdict.health(run)}["Lines"], "good")   # a hundred-thousandth of it: a line that is just taut
+            run.values[run.columns.index("line.tension_N")][7] = -100.0
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Lines"], "bad")
             run.values[run.columns.index("float.z_m")] = 0.05 * t
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Settled"], "warn")
+
+    def test_a_scene_that_takes_all_pseudo_steps_is_judged_by_what_they_reach(self):
+        t = np.linspace(0, 10, 101)
+        for reached, level in ((0.012, "good"), (0.4, "warn")):
+            with tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(folder, table={"time_s": t, "air.residual_drop": reached + 0 * t}, scene="[aero.flow]\ndrop = 0.0\n", log="")
+                found = {c.title: c for c in verdict.health(RunData(folder))}["Air"]
+                self.assertEqual(found.level, level)
+                self.assertIn(f"{reached}", found.text)
+
+    def test_a_section_of_one_figure_takes_half_of_the_page_unless_it_is_wide(self):
+        one = "<figure>a</figure>"
+        self.assertTrue(html_page.section("k", "t", one + "<details>" + one + "</details>")["half"])
+        self.assertFalse(html_page.section("k", "t", one + one)["half"])
+        self.assertFalse(html_page.section("k", "t", one.replace("<figure", '<figure class="wide"'))["half"])
+
+    def test_an_angle_that_begins_anew_leaves_no_line_across_the_figure(self):
+        t = np.linspace(0.0, 20.0, 401)
+        for name in ("a.roll_deg", "rotor.azimuth_deg"):
+            with tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(folder, table={"time_s": t, name: (52.8 * t + 180.0) % 360.0 - 180.0}, scene="", log="")
+                drawing = figures.series([RunData(folder)], next(g for g in quantities.groups([name]) if g.panels))
+                line = drawing.figure.axes[0].lines[0]
+                self.assertEqual(np.isnan(line.get_ydata()).sum(), 3)
 
     def test_a_spectrum_has_its_peak_at_the_frequency_and_the_variance_as_area(self):
         t = 0.05 * np.arange(6000)
