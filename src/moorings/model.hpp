@@ -1,7 +1,7 @@
-// The models of mooring lines that a scene may choose from. Each is one file, line_NAME.cpp, and one line in models.inc: its
-// name, what the reference says of it, the keys of [moorings.NAME] that it reads, and the line it makes of them. The physics is
-// in kernels/mooring. Used by moorings.cpp, options.cpp and doubts.cpp; tested in tests/src/moorings. SPDX-License-Identifier:
-// Apache-2.0
+// The models of mooring lines that a scene may choose from. Each is a file, line_NAME.cpp, and a line in models.inc. The file
+// has the model's name, what the reference says of it, the keys of [moorings.NAME] that it reads, and the line it makes of them;
+// the line names its variable. The physics is in kernels/mooring. Used by moorings.cpp, options.cpp and doubts.cpp; tested in
+// tests/src/moorings. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>

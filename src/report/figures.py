@@ -191,7 +191,7 @@ def density(time, values):
     if np.ptp(np.diff(time)) > 1e-6 * step:
         even = time[0] + step * np.arange(len(time))
         time, values = even, np.interp(even, time, values)
-    length = len(values) // 2 * 2 // 3 * 2  # three segments, half overlapped
+    length = len(values) // 2 * 2 // 3 * 2  # three segments of two thirds, each a sixth after the one before
     window = np.hanning(length)
     total = np.zeros(length // 2 + 1)
     starts = [0, (len(values) - length) // 2, len(values) - length]

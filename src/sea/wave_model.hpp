@@ -1,6 +1,7 @@
-// The kinds of waves that a scene may choose from. Each is one file, wave_NAME.cpp, and one line in wave_models.inc: its name,
-// what the reference says of it, the keys of [waves] that it reads, and the harmonics that it is made of. Used by wave_field.cpp,
-// options.cpp, problems.cpp and doubts.cpp; tested in tests/src/sea. SPDX-License-Identifier: Apache-2.0
+// The kinds of waves that a scene may choose from. Each is a file, wave_NAME.cpp, and a line in wave_models.inc. The file
+// has its name, what the reference says of it, the keys of [waves] that it reads, and the harmonics that it is made of; the line
+// names its variable. Used by wave_field.cpp, options.cpp, problems.cpp and doubts.cpp; tested in tests/src/sea.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // The decisions of a pseudo-time march: when a step is good, how large the next may be, when to stop and when to give up. Numbers
-// in, decisions out; the same on every rank, as all its numbers are ordered reductions. CFL: switched evolution relaxation
+// in, decisions out; the same on every rank, as all its numbers are reduced exactly. CFL: switched evolution relaxation
 // (Mulder & van Leer 1985, J. Comput. Phys. 59, 232) between bounds, with back-off. Called by tasks.cpp; tested in
 // tests/src/aero/flow/control_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
