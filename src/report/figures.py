@@ -182,7 +182,7 @@ def _draw(runs, panels):
 
 
 def density(time, values):
-    """One-sided power spectral density after Welch: halves overlapped, Hann window, mean removed. (Hz, unit²/Hz), or None if too short."""
+    """One-sided power spectral density after Welch: three segments, Hann window, mean removed. (Hz, unit²/Hz), or None if too short."""
     keep = np.isfinite(time) & np.isfinite(values)
     time, values = time[keep], values[keep]
     if len(values) < 64 or time[-1] <= time[0]:
