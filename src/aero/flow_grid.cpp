@@ -12,6 +12,7 @@
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/cgns.hpp"
 #include "src/aero/grid/checks.hpp"
+#include "src/aero/grid/coarsen.hpp"
 #include "src/aero/grid/generators/box.hpp"
 #include "src/aero/grid/generators/plane_cases.hpp"
 #include "src/aero/grid/join.hpp"
@@ -153,6 +154,15 @@ const scene::Section<GenerateOptions>& generate_section() {
   return section;
 }
 
+GeneratedSize generated_size(const GenerateOptions& g) {
+  const double n2 = double(g.refinement) * g.refinement;
+  if (g.kind == "box") return {g.cells[0] * g.cells[1] * g.cells[2], "aero.flow.generate.cells"};
+  if (g.kind == "cylinder") return {double(g.around) * g.outward, "aero.flow.generate.around"};
+  if (g.kind == "wing") return {112.0 * 32.0 * n2 * g.span_cells, "aero.flow.generate.span_cells"};
+  const double base = g.kind == "flat_plate" ? 34.0 * 24.0 : g.kind == "bump" ? 44.0 * 20.0 : 112.0 * 32.0;
+  return {base * n2, "aero.flow.generate.refinement"};
+}
+
 MultiBlockGrid flow_grid(const FlowOptions& o) {
   MultiBlockGrid grid;
   if (o.generate) {
@@ -164,7 +174,13 @@ MultiBlockGrid flow_grid(const FlowOptions& o) {
     read_neutral_map(grid, o.map);
   }
   require_sound(grid, o.generate ? "aero.flow.generate" : o.grid);
-  return join_cuts(std::move(grid), longest_row);
+  grid = join_cuts(std::move(grid), longest_row);
+  if (const std::string why = o.coarse_steps.value_or(0) > 0 ? why_not_halved(grid) : std::string(); !why.empty())
+    throw scene::SceneError(
+        {{.key = "aero.flow.coarse_steps",
+          .value = fmt::format("{}", *o.coarse_steps),
+          .message = fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
+  return grid;
 }
 
 std::string describe_flow_grid(const FlowOptions& o) { return o.generate ? "made: " + o.generate->kind : o.grid; }

@@ -34,8 +34,14 @@ struct GenerateOptions {
 };
 const scene::Section<GenerateOptions>& generate_section();
 
-/// Reads or makes the grid and checks that it is sound. Throws scene::SceneError.
+/// Reads or makes the grid; it is sound, and has coarser ones where the scene asks for them. Throws scene::SceneError.
 MultiBlockGrid flow_grid(const FlowOptions& options);
+/// How many cells such a grid has, and the key that decides it: known before it is made.
+struct GeneratedSize {
+  double cells = 0.0;
+  const char* key = "";
+};
+GeneratedSize generated_size(const GenerateOptions& options);
 /// For people: "grid wing.cgns", "a flat plate of 6528 cells".
 std::string describe_flow_grid(const FlowOptions& options);
 

@@ -131,7 +131,7 @@ const scene::Section<WindOptions>& wind_section() {
   static const auto section =
       scene::Section<WindOptions>("wind", "The undisturbed wind, over height and time.")
           .number("speed_m_s", &WindOptions::speed_m_s, "m/s", "Wind speed; with a profile, at reference_height_m.",
-                  scene::between(0.0, 200.0))
+                  scene::between(0.0, 300.0))
           .degrees("direction_deg", &WindOptions::direction, "Where it blows to: 0 along +x, positive towards +y.",
                    scene::between(-360.0, 360.0))
           .choice("profile", &WindOptions::law,

@@ -8,10 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "src/aero/first_cells.hpp"
+#include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/checks.hpp"
-#include "src/aero/grid/coarsen.hpp"
 #include "src/aero/grid/tiling.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/aero/wind.hpp"
@@ -223,17 +224,6 @@ const char* likely_condition(const std::string& patch, bool viscous) {
   return "far_field";
 }
 
-/// The grid of the air alone as `run` makes it before its first step.
-aero::MultiBlockGrid made_flow_grid(const coupling::Scenario& s) {
-  const aero::FlowOptions& o = *s.aero.flow;
-  aero::MultiBlockGrid grid = aero::flow_grid(o);
-  if (const std::string why = o.coarse_steps.value_or(0) > 0 ? aero::why_not_halved(grid) : std::string(); !why.empty())
-    throw scene::SceneError(
-        {{s.source, 0, "aero.flow.coarse_steps", fmt::format("{}", *o.coarse_steps),
-          fmt::format("needs a grid whose every second node makes a grid; {}, an odd number or too few", why)}});
-  return grid;
-}
-
 /// Size of a grid that stands, its patches with their conditions; a block to paste where some have none. False then.
 bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& grid, int ranks) {
   std::size_t cells = 0;
@@ -262,6 +252,18 @@ bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& gri
     fmt::print("  {{patch = \"{}\", condition = \"{}\"}},\n", patch, likely_condition(patch, o.viscous != "none"));
   fmt::print("]\n");
   return false;
+}
+
+/// What the walls' first cells will see of the boundary layer, before a run tells.
+void print_first_cells(const coupling::Scenario& s, const aero::MultiBlockGrid& grid) {
+  const aero::FlowOptions& o = *s.aero.flow;
+  const aero::FirstCells cells =
+      expected_first_cells(grid, o, flow_setting(o, s.environment.air_density_kg_m3, coupling::flow_wind(s), s.time.window_s));
+  if (cells.resolved.empty() && cells.by_law.empty()) return;
+  fmt::print("\nFirst cells at walls, y+ as on a flat plate of their length\n");
+  if (!cells.resolved.empty()) fmt::print("  {:<22}{}\n", "resolved", describe(cells.resolved));
+  if (!cells.by_law.empty()) fmt::print("  {:<22}{}\n", "by the law of the wall", describe(cells.by_law));
+  for (const std::string& doubt : doubts_of(cells)) fmt::print("  warning: {}\n", doubt);
 }
 
 }  // namespace
@@ -309,12 +311,14 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     return done;
   }
   if (scenario.has_flow()) {
-    const aero::MultiBlockGrid grid = made_flow_grid(scenario);
+    const aero::MultiBlockGrid grid = aero::flow_grid(*scenario.aero.flow);
     if (world.rank != 0) return done;
     fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
                aero::describe_flow_grid(*scenario.aero.flow));
-    return print_flow_grid(*scenario.aero.flow, grid, world.size) ? done : bad_input;
+    if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
+    print_first_cells(scenario, grid);
+    return done;
   }
   const coupling::Scenario asked = scenario;
   FloatingSystem floating(std::move(scenario));

@@ -61,21 +61,6 @@ Demand sea_demand(const Scenario& s, double memory) {
   return demand;
 }
 
-double cells_made(const aero::GenerateOptions& g) {
-  const double n = g.refinement;
-  if (g.kind == "flat_plate") return 34.0 * 24.0 * n * n;
-  if (g.kind == "naca0012") return 112.0 * 32.0 * n * n;
-  if (g.kind == "wing") return 112.0 * 32.0 * n * n * g.span_cells;
-  if (g.kind == "bump") return 44.0 * 20.0 * n * n;
-  if (g.kind == "cylinder") return double(g.around) * g.outward;
-  return g.cells[0] * g.cells[1] * g.cells[2];
-}
-const char* key_of(const aero::GenerateOptions& g) {
-  if (g.kind == "box") return "aero.flow.generate.cells";
-  if (g.kind == "wing") return "aero.flow.generate.span_cells";
-  return g.kind == "cylinder" ? "aero.flow.generate.around" : "aero.flow.generate.refinement";
-}
-
 std::string bytes_text(double bytes) {
   return bytes < 1e12 ? fmt::format("{:.3g} GB", 1e-9 * bytes) : fmt::format("{:.3g} TB", 1e-12 * bytes);
 }
@@ -99,9 +84,8 @@ std::vector<Demand> demands_of(const Scenario& s, double memory) {
     if (count > 1e6) demands.back().bytes = std::max(demands.back().bytes, 2.0 * memory);  // a step would take seconds
   }
   if (s.has_flow() && s.aero.flow && s.aero.flow->generate) {
-    const double count = cells_made(*s.aero.flow->generate);
-    demands.push_back({key_of(*s.aero.flow->generate), "", "cells", count, count * of_cell,
-                       fmt::format("at most {:.3g} cells", memory / of_cell)});
+    const auto [count, key] = aero::generated_size(*s.aero.flow->generate);
+    demands.push_back({key, "", "cells", count, count * of_cell, fmt::format("at most {:.3g} cells", memory / of_cell)});
   }
   if (s.resolves_air() && s.aero.grid) {
     aero::ResolvedRotorSetup setup = resolved_rotor_setup(s);

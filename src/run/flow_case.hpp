@@ -2,6 +2,7 @@
 // tests/coupled/flow_run_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,15 +47,23 @@ class FlowCase {
   Snapshot snapshot() const;
   void return_to(const Snapshot& to, std::int64_t window, double window_s);
 
+  /// How a steady march that is no rotor's begins and steps, in the order in which they are tried.
+  enum class Way : std::uint8_t { coarser_grids, own_grid, physical_pseudo_time };
+  Way way() const { return way_; }
+  /// The way that a checkpoint says; its state follows.
+  void take(Way way);
+  /// The march gives up what it has and begins again in the next way there is: says which, or nothing where there is none left.
+  std::string begin_again(const coupling::Scenario& scenario);
+
   /// Grid sequencing of grids that are no rotor's: the flow settles on coarser grids first, the coarsest before the others, their
   /// tiles spread over the ranks like the fine one's. What a drop is counted from stays the residual of the undisturbed flow on
-  /// each grid. `march` is the fine one's. A coarser grid whose march fails is passed over.
+  /// each grid. `march` is the fine one's. A coarser grid whose march fails, or whose flow does not settle, is passed over.
   void start_on_coarser_grids(const coupling::Scenario& scenario, runtime::Executor& march, const runtime::World& world);
 
  private:
   /// On a coarser grid, for at most so many pseudo-steps.
   FlowCase(aero::MultiBlockGrid grid, const coupling::Scenario& scenario, const runtime::World& world, int steps);
-  void solve(const coupling::Scenario& scenario, const runtime::World& world, int steps);
+  void solve(aero::Tiling tiling, const coupling::Scenario& scenario, const runtime::World& world, int steps);
   void begin(const std::string& start);
   void follow_walls(const aero::FlowOptions& options);
 
@@ -63,6 +72,7 @@ class FlowCase {
   std::unique_ptr<aero::GridStore> own_store_;
   std::unique_ptr<aero::FlowSolver> own_solver_;
   std::optional<aero::GridMotion> motion_;  ///< of an unsteady flow
+  Way way_ = Way::own_grid;
   aero::GridStore* store_ = nullptr;
   aero::FlowSolver* solver_ = nullptr;
 };

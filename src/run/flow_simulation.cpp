@@ -14,6 +14,7 @@
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/retries.hpp"
 #include "src/coupling/saved_air.hpp"
+#include "src/run/first_cells.hpp"
 
 namespace spindrift::run {
 
@@ -92,15 +93,22 @@ void FlowSimulation::restore(const io::CheckpointReader& file) {
   const runtime::Span span("aero/start");
   if (scenario_.aero.flow->preconditioner == "auto") use(file.text("preconditioner"), "as before the restart");
   record();
+  air_.take(FlowCase::Way(file.integer("way")));
   file_.read(file);
   const std::int64_t window = file.integer("window");
   air_.solver().set_time_step(timeline_.window_s(), timeline_.window_s());
   if (air_.rotor() && !air_.steady()) air_.rotor()->placed_at(window);
   if (air_.motion()) air_.place(window, timeline_.window_s());
+  // Where nothing is left to do, what is said and written of the flow needs its residual and its slopes at walls.
+  if (air_.steady() && window >= timeline_.windows()) {
+    air_.solver().march().look();
+    march_->run();
+  }
 }
 
 void FlowSimulation::save(io::CheckpointWriter& file) {
   if (!chosen_.empty()) file.set("preconditioner", chosen_);
+  file.set("way", std::int64_t(air_.way()));
   for (const coupling::SavedArray& array : file_.arrays()) write(file, array);
   if (!air_.rotor()) return;
   write_air_settings(file, scenario_);
@@ -111,7 +119,10 @@ void FlowSimulation::save(io::CheckpointWriter& file) {
 Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   aero::FlowSolver& solver = air_.solver();
   aero::March& march = solver.march();
-  const FlowCase::Snapshot before = air_.snapshot();
+  if (air_.steady() && march.spent() && march.stands_still())
+    begin_again(fmt::format("the flux balance is at {:.2g} and was not halved in the last {} pseudo-steps, CFL {:.2g}",
+                            march.balance_drop(), march.still_for(), march.cfl()));
+  FlowCase::Snapshot before = air_.snapshot();
   rows_.clear(), rows_from_ = window;
   for (int retry = 0;; ++retry) {
     march.ease(coupling::share_of_cfl(retry));
@@ -125,6 +136,11 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
                     march.first_density_residual(), solver.trouble());
     air_.return_to(before, window, timeline_.window_s());
     if (given_up) return {};
+    if (retry == coupling::most_retries && begin_again(failure)) {
+      before = air_.snapshot();
+      retry = -1;
+      continue;
+    }
     if (retry == coupling::most_retries)
       return {.failure = fmt::format("{}; {} retries, the last from a CFL number {:g} as large", failure, retry,
                                      coupling::share_of_cfl(retry))};
@@ -151,6 +167,13 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   advance.windows = std::int64_t(rows_.size());
   windows_ += advance.windows;
   return advance;
+}
+
+/// Of a steady march that comes to nothing, for this reason; false where there is no other way to begin it.
+bool FlowSimulation::begin_again(const std::string& why) {
+  const std::string how = air_.begin_again(scenario_);
+  if (!how.empty()) spdlog::warn("air: {}: the march begins again {}", why, how);
+  return !how.empty();
 }
 
 /// Of the unsteady march at the end of `window`: warns of the first window that spent its pseudo-steps; what is wrong where more
@@ -182,7 +205,7 @@ std::string FlowSimulation::failure_at_end() const {
       "aero: not converged in the {} pseudo-steps of the scene: the flux balance has fallen by {:.2g}, the density residual by "
       "{:.2g}, of {:.2g} asked for (aero.flow.drop; 0 takes all steps whatever they reach); {}; --restart with a larger "
       "time.end_s goes on",
-      march.steps() - 1, march.balance_drop(), density_drop(march), o.drop, air_.solver().worst_cells(world_.comm));
+      march.steps_made(), march.balance_drop(), density_drop(march), o.drop, air_.solver().worst_cells(world_.comm));
 }
 
 std::string FlowSimulation::done() const { return air_.steady() ? "done: the pseudo-steps of the scene are spent" : "done"; }
@@ -210,6 +233,10 @@ std::size_t FlowSimulation::averaged(std::int64_t windows) const {
 void FlowSimulation::write_fields(std::int64_t window) {
   coupling::AirOutput(world_.comm, air_.solver(), air_.store(), directory_.fields(), {.walls = scenario_.aero.flow->surfaces})
       .write(window, timeline_.window_end_s(window));
+  for (const std::string& doubt : doubts_of(first_cells(air_.solver(), world_))) {
+    doubts_.push_back(fmt::format("air: {}", doubt));
+    spdlog::warn(doubts_.back());
+  }
   if (!air_.rotor() || windows_ == 0) return;  // a restart that has nothing left to do leaves what there is
   while (last_rows_.size() > averaged(window)) last_rows_.pop_front();
   const std::vector<aero::PseudoRow> rows(last_rows_.begin(), last_rows_.end());
@@ -218,6 +245,7 @@ void FlowSimulation::write_fields(std::int64_t window) {
 
 void FlowSimulation::summarise(io::Summary& summary, runtime::Ledger&) {
   summary.counts.emplace_back("cells", air_.solver().cells());
+  summary.numerical_trouble.insert(summary.numerical_trouble.end(), doubts_.begin(), doubts_.end());
   summary.counts.emplace_back("krylov_steps", air_.solver().march().krylov_total());
 }
 

@@ -40,6 +40,7 @@ class FlowSimulation final : public Simulation {
   void summarise(io::Summary& summary, runtime::Ledger& ledger) override;
 
  private:
+  bool begin_again(const std::string& why);
   std::string unconverged_windows(std::int64_t window) const;
   void use(const std::string& preconditioner, const std::string& reason);
   void record();
@@ -59,7 +60,8 @@ class FlowSimulation final : public Simulation {
   std::vector<aero::PseudoRow> rows_;  ///< of the windows that the last advance() completed
   std::int64_t rows_from_ = 0;         ///< the window before them
   std::deque<aero::PseudoRow> last_rows_;
-  std::int64_t windows_ = 0;  ///< completed by this process
+  std::int64_t windows_ = 0;         ///< completed by this process
+  std::vector<std::string> doubts_;  ///< of the flow at the end, said in the log
 };
 
 }  // namespace spindrift::run

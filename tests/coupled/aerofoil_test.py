@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SCENE = """
 [time]
 end_s = %d
@@ -81,6 +82,32 @@ class Fast(Runs):
         again = subprocess.run([PROGRAM, "run", self.out.parent / "aerofoil.toml", "--out", self.out, "--restart", "--no-report"], capture_output=True,
                                text=True, timeout=600)
         self.assertEqual(again.returncode, 3, again.stdout + again.stderr)  # it has not converged by being looked at
+        self.assertEqual(json.loads((self.out / "summary.json").read_text())["exit_reason"], summary["exit_reason"])
+
+    def test_a_march_that_comes_to_nothing_begins_again_in_the_ways_there_are(self):
+        steps_of_no_length = ("aero.flow.cfl=0.002", "aero.flow.cfl_max=0.002")
+        ways = ("begins again from aero.flow.start = \"wind\" on the grid itself, without coarser grids",
+                "begins again from aero.flow.start = \"wind\" on the grid itself, with the pseudo-time of low_mach = false")
+        def marched(out, *more, steps=80, ranks=0):
+            scene = self.out.parent / "aerofoil.toml"
+            scene.write_text(SCENE % (steps, 10, "sa", "roe_low_mach", 1))
+            launcher = [ROOT / "ci/mpirun", str(ranks)] if ranks else []
+            settings = [word for key in (*steps_of_no_length, "aero.flow.coarse_drop=1.0") for word in ("--set", key)]
+            done = subprocess.run([*launcher, PROGRAM, "run", scene, "--out", out, "--no-report", *settings, *more], capture_output=True, text=True, timeout=600)
+            return done.returncode, done.stdout + done.stderr
+        code, words = marched(self.out)
+        self.assertEqual(code, 3, words)
+        self.assertIn("not converged in the 80 pseudo-steps", words)
+        for way in ways:
+            self.assertEqual(words.count(way), 1, words)
+        history = (self.out / "history.csv").read_bytes()
+        self.assertEqual([float(row["flow.pseudo_steps"]) for row in csv.DictReader(history.decode().splitlines())], list(range(1, 81)))
+        other = self.out.parent / "other"
+        code, words = marched(other, "--until", "40", ranks=2)
+        self.assertEqual(code, 0, words)
+        code, words = marched(other, "--restart")
+        self.assertEqual(code, 3, words)
+        self.assertEqual((other / "history.csv").read_bytes(), history)
 
 
 class Nightly(Runs):

@@ -1,6 +1,7 @@
 """The air alone as a user runs it: scenes with grids made by the program, fields and walls for ParaView, the report's pictures.
 Usage: flow_run_test.py SPINDRIFT"""
 import csv
+import json
 import pathlib
 import subprocess
 import sys
@@ -59,6 +60,26 @@ class FlowRun(unittest.TestCase):
                 drag += float((cf * length).sum()) / 2.0
             self.assertEqual(faces, 28)
             self.assertAlmostEqual(drag, self.history()[-1]["flow.drag_coefficient"], delta=1e-6)
+
+    def test_first_cells_a_hundred_times_too_coarse_are_said_before_and_after_the_run(self):
+        scene = CASES / "naca0012/family.toml"
+        coarse = ["--set", "aero.flow.generate.refinement=1", "--set", "aero.flow.generate.first_cell_m=3.6e-4"]
+        fine = ["--set", "aero.flow.generate.refinement=1"]
+        words = "friction is not to be trusted"
+        done = spindrift("check", scene, *coarse)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        for text in ("First cells at walls", "warning: y+ of first cells is", words):
+            self.assertIn(text, done.stdout)
+        done = spindrift("check", scene, *fine)
+        self.assertIn("First cells at walls", done.stdout)
+        self.assertNotIn(words, done.stdout)
+        for more, bad in ((coarse, True), (fine, False)):
+            done = spindrift("run", scene, "--out", self.out, "--overwrite", *more)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            trouble = json.loads((self.out / "summary.json").read_text())["numerical_trouble"]
+            self.assertEqual([words in text for text in trouble], [True] if bad else [])
+            for file in ("log.txt", "report.html"):
+                self.assertEqual(words in (self.out / file).read_text(), bad, file)
 
     def test_ranks_do_not_change_a_bit(self):
         scene, more = CASES / "cylinder_low_mach/cylinder.toml", ("--until", 12, "--no-report")

@@ -43,7 +43,8 @@ void March::for_saved(Self& m, Body&& body) {
   const auto each = [&](auto&... values) { (body(values), ...); };
   each(m.cfl_, m.cfl_of_step_, m.density_, m.mass_, m.first_, m.before_, m.fraction_, m.linear_drop_, m.steps_, m.rejections_,
        m.in_a_row_, m.krylov_, m.ceiling_, m.since_refresh_, m.drop_of_matrix_, m.matrix_free_, m.mean_, m.model_, m.first_mean_,
-       m.first_model_, m.ended_, m.unconverged_, m.spent_, m.reference_, m.reference_mean_, m.reference_model_);
+       m.first_model_, m.ended_, m.unconverged_, m.spent_, m.reference_, m.reference_mean_, m.reference_model_, m.abandoned_,
+       m.better_, m.since_better_);
 }
 
 std::vector<double> March::save() const {
@@ -71,12 +72,26 @@ double March::balance_drop() const {
 
 void March::resume(int more_steps) {
   // The last step of the run before was judged and not solved: it is judged again.
-  last_step_ = --steps_ + more_steps;
+  last_step_ = --steps_ + (std::exchange(looking_, false) ? 0 : more_steps);
   if (spent_) uncount();
   verdict_ = Verdict::go_on;
   spent_ = false;
   retry_ = true;
   cfl_of_matrix_ = 0.0;
+}
+
+bool March::stands_still() const {
+  if (!o_.by_balance || o_.drop <= 0.0 || better_ <= o_.still_above) return false;
+  return since_better_ >= o_.still_steps || cfl_ <= 10.0 * o_.cfl_least;
+}
+
+void March::begin_again() {
+  if (spent_) uncount();
+  abandoned_ += std::max(0, steps_ - 1);
+  cfl_ = o_.cfl_start, eased_ = 1.0;
+  since_refresh_ = since_better_ = 0, drop_of_matrix_ = 0.0;
+  begin_step();
+  verdict_ = Verdict::go_on;
 }
 
 Verdict March::judge(const Norms& n, double load) {
@@ -128,6 +143,8 @@ Verdict March::judge(const Norms& n, double load) {
   }
   retry_ = false;
   before_ = total;
+  if (stepped) ++since_better_;
+  if (fresh || balance_drop() < 0.5 * better_) better_ = balance_drop(), since_better_ = 0;
   if (o_.matrix_free_below > 0.0) matrix_free_ = density < o_.matrix_free_below * first_;
   const double of_matrix = cfl_of_matrix_ > 0.0 ? cfl_ / cfl_of_matrix_ : 0.0;
   refresh_ = !matrix_free_ || ++since_refresh_ >= o_.refresh_every || !(of_matrix > 0.5 && of_matrix < 2.0) ||

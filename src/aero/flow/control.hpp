@@ -23,9 +23,11 @@ struct MarchOptions {
   double load_change = 0.0;   ///< relative change of the loads over load_window steps: done; 0: not looked at
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
-  int krylov_steps = 18;            ///< most Krylov iterations of a pseudo-step
-  double krylov_drop = 0.05;        ///< of the linear residual: enough
-  int refresh_every = 1;            ///< pseudo-steps between two matrices of the preconditioner, where products are matrix-free
+  int still_steps = 120;      ///< pseudo-steps without the flux balance being halved: the march stands still,
+  double still_above = 1e-4;  ///< unless it has come down to this; steep flows pause for up to a hundred steps and then go on
+  int krylov_steps = 18;      ///< most Krylov iterations of a pseudo-step
+  double krylov_drop = 0.05;  ///< of the linear residual: enough
+  int refresh_every = 1;      ///< pseudo-steps between two matrices of the preconditioner, where products are matrix-free
   double matrix_free_below = 0.01;  ///< drop of the residual from which on products are matrix-free; 0: never
 };
 
@@ -55,10 +57,14 @@ class March {
   /// A steady march goes on where it was, for at most so many more steps.
   void resume(int more_steps);
   void set_drop(double drop) { o_.drop = drop; }
-  /// The next run judges the state it finds and makes no step ...
+  /// The next run judges the state it finds and makes no step; of a march that has begun it changes nothing else ...
   void look() { looking_ = true; }
   /// ... and the one after it begins anew with another state, but what its residual was then counts as the start of its drop.
   void begin_after_look();
+  /// Whether a steady march that is to end by its flux balance will not: it stands still, or takes steps of no length.
+  bool stands_still() const;
+  /// From another state, or by another pseudo-time: the steps made so far still count.
+  void begin_again();
   /// All that decisions follow from, for a restart of a steady march.
   std::vector<double> save() const;
   void load(std::span<const double> from);
@@ -74,6 +80,8 @@ class March {
   double cfl() const { return cfl_; }
   double cfl_of_step() const { return steps_ == 0 ? cfl_ : cfl_of_step_; }  ///< of the step made last
   int steps() const { return steps_; }
+  long steps_made() const { return abandoned_ + steps_ - 1; }  ///< of a steady march also before it began again
+  int still_for() const { return since_better_; }              ///< pseudo-steps since the flux balance last came to half
   int rejections() const { return rejections_; }
   bool matrix_free() const { return matrix_free_; }
   double density_residual() const { return density_; }
@@ -106,6 +114,9 @@ class March {
                linear_drop_ = 0.0;
   double mean_ = 0.0, model_ = 0.0, first_mean_ = 0.0, first_model_ = 0.0;  ///< norms of the flux balances: now, at the start
   long ended_ = 0, unconverged_ = 0;
+  long abandoned_ = 0;   ///< pseudo-steps of marches that began again
+  double better_ = 0.0;  ///< the balance's drop when it last came to half of what it was
+  int since_better_ = 0;
   int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
   long krylov_total_ = 0;
   int since_refresh_ = 0;

@@ -16,7 +16,7 @@ namespace spindrift::aero {
 
 namespace {
 
-constexpr int norm_count = 6;
+constexpr int norm_count = 7;
 
 Scales scales_of(const FlowSetting& s) {
   const double rho = gas::density(s.gas, s.stream), u = s.speed;
@@ -437,7 +437,7 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
     }
     partial[0] += density, partial[1] += mean, partial[2] += model, partial[4] += mass;
   });
-  partial[5] = runtime::StopRequest::asked() ? 1.0 : 0.0;
+  partial[6] = runtime::StopRequest::asked() ? 1.0 : 0.0;
   std::fill(loads.begin(), loads.end(), 0.0);
   add_loads(tile, tile.state.data(), viscous_, bands_, loads);
 }
@@ -461,7 +461,7 @@ void FlowSolver::judge() {
   const double load = std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
   const double cfl = march_.cfl_of_step();
   Verdict verdict = march_.judge(norms_, load);
-  rows_.push_back({.step = march_.steps() - 1,
+  rows_.push_back({.step = int(march_.steps_made()),
                    .krylov = march_.krylov(),
                    .rejections = march_.rejections(),
                    .matrices = matrices_,
@@ -477,7 +477,7 @@ void FlowSolver::judge() {
                    .moment = {moment[0], moment[1], moment[2]},
                    .loads = loads_});
   if (watcher_) watcher_(rows_.back());
-  if (norm_sums_[5] > 0.0 && verdict == Verdict::go_on && stops_anywhere()) march_.stop(), verdict = march_.verdict();
+  if (norm_sums_[6] > 0.0 && verdict == Verdict::go_on && stops_anywhere()) march_.stop(), verdict = march_.verdict();
   if (verdict == Verdict::failed) name_trouble();
   solving_ = verdict == Verdict::go_on;
   matrix_free_ = march_.matrix_free();

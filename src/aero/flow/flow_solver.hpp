@@ -133,6 +133,8 @@ class FlowSolver {
   /// made. What save_march() keeps of rigid poses is placed by load_march(); of shapes it keeps nothing, place them after it.
   void place(std::vector<BlockPose> before, std::vector<BlockPose> now);
 
+  /// From here on waves run at their own speeds in the pseudo-time, as without low-Mach preconditioning; far field and flow stay.
+  void use_physical_pseudo_time() { implicit_.preconditioned = implicit_.preconditioned_waves = false; }
   /// In place of the one the setting names; before record().
   void use(std::unique_ptr<Preconditioner> preconditioner) {
     preconditioner_ = std::move(preconditioner);

@@ -57,6 +57,23 @@ TEST_CASE("every generator makes the grid that its keys say", "[flow][fast]") {
   CHECK(box.boundaries.size() == 6);
 }
 
+TEST_CASE("the size of a grid is known before it is made, and the key that decides it", "[flow][fast]") {
+  const std::string section = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/tutorials/naca4412.dat";
+  for (const auto& [generate, key] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"kind = 'flat_plate'\nrefinement = 3\n", "refinement"},
+           {"kind = 'naca0012'\nrefinement = 2\n", "refinement"},
+           {"kind = 'aerofoil'\nrefinement = 2\ncoordinates = '" + section + "'\n", "refinement"},
+           {"kind = 'bump'\nrefinement = 3\n", "refinement"},
+           {"kind = 'wing'\nrefinement = 1\nspan_cells = 3\n", "span_cells"},
+           {"kind = 'cylinder'\naround = 32\noutward = 16\n", "around"},
+           {"kind = 'box'\ncells = [3, 4, 5]\n", "cells"}}) {
+    CAPTURE(generate);
+    const FlowOptions o = read("[aero.flow.generate]\n" + generate);
+    CHECK(generated_size(*o.generate).cells == double(cells(flow_grid(o))));
+    CHECK(generated_size(*o.generate).key == "aero.flow.generate." + key);
+  }
+}
+
 TEST_CASE("a CGNS file needs no map and gives the grid that was written", "[flow][fast]") {
   if (!cgns_available()) return;
   const std::filesystem::path file = std::filesystem::temp_directory_path() / "spindrift_flow_grid_test.cgns";

@@ -155,3 +155,49 @@ TEST_CASE("marches that end for want of steps are counted, and the count goes th
   again.resume(3);  // a steady march that goes on has not ended
   CHECK(again.unconverged() == 1);
 }
+
+TEST_CASE("a march stands still where its balance is not halved for long, far from its end or at no step size", "[flow][fast]") {
+  const auto marched = [](double from, double to, int steps) {
+    March march({.drop = 1e-6, .by_balance = true, .max_steps = 1000});
+    march.begin_step();
+    march.judge(of(1.0), 0.0);
+    for (double residual = from; steps > 0; --steps, residual = to) march.updated(1.0, 5, 0.1), march.judge(of(residual), 0.0);
+    return march;
+  };
+  CHECK_FALSE(marched(0.1, 0.09, 120).stands_still());
+  const March still = marched(0.1, 0.09, 121);
+  CHECK(still.stands_still());
+  CHECK_FALSE(marched(0.1, 0.04, 121).stands_still());   // it came to half once more
+  CHECK_FALSE(marched(1e-4, 9e-5, 400).stands_still());  // a flow that swings a little is near its end
+  March again({.drop = 1e-6, .by_balance = true});
+  again.load(still.save());
+  CHECK(again.stands_still());
+  again.begin_again();
+  CHECK_FALSE(again.stands_still());
+  CHECK(again.cfl() == 5.0);
+  again.judge(of(1.0), 0.0);
+  CHECK(again.steps_made() == 121);  // what was spent counts
+  March no_length({.cfl_start = 0.01, .cfl_max = 0.01, .drop = 1e-6, .by_balance = true});
+  no_length.begin_step();
+  no_length.judge(of(1.0), 0.0);
+  CHECK(no_length.stands_still());
+  March all_steps({.cfl_start = 0.01, .cfl_max = 0.01, .drop = 0.0, .by_balance = true});  // it is to take them all
+  all_steps.begin_step();
+  all_steps.judge(of(1.0), 0.0);
+  CHECK_FALSE(all_steps.stands_still());
+}
+
+TEST_CASE("a look at a march that has begun judges its state again and changes nothing", "[flow][fast]") {
+  March march({.drop = 1e-6, .by_balance = true, .max_steps = 3});
+  march.begin_step();
+  while (march.judge(of(0.5), 0.0) == Verdict::go_on) march.updated(1.0, 5, 0.1);
+  const int steps = march.steps();
+  const double cfl = march.cfl();
+  march.look();
+  march.resume(100);
+  CHECK(march.judge(of(0.5), 0.0) == Verdict::converged);
+  CHECK(march.spent());
+  CHECK(march.steps() == steps);
+  CHECK(march.cfl() == cfl);
+  CHECK(march.unconverged() == 1);
+}

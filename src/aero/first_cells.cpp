@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/first_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow_options.hpp"
+#include "src/aero/grid/index_map.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+struct WallFace {
+  Condition condition = Condition::no_slip;
+  double area = 0.0, distance = 0.0, along = 0.0;  ///< of the first cell's centre from the wall; of the face along the wind
+};
+
+/// Faces of a boundary, seen from the cells at it.
+void add_faces_of(const Boundary& b, const MultiBlockGrid& grid, Condition condition, const Eigen::Vector3d& wind,
+                  std::vector<WallFace>& faces) {
+  const Block& block = grid.blocks[std::size_t(b.where.block)];
+  const std::size_t d = std::size_t(direction_of(b.where.side));
+  const auto [u, v] = along(b.where.side);
+  const int inward = at_end(b.where.side) ? -1 : 1;
+  Index at{};
+  at[d] = at_end(b.where.side) ? block.cells()[d] : 0;
+  const auto corners = [&](int depth) {
+    std::array<Eigen::Vector3d, 4> x;
+    for (int n = 0; n < 4; ++n) {
+      Index node = at;
+      node[d] += depth * inward, node[std::size_t(u)] += n == 1 || n == 2, node[std::size_t(v)] += n >= 2;
+      x[std::size_t(n)] = block.nodes[block.node(node[2], node[1], node[0])];
+    }
+    return x;
+  };
+  const auto middle = [](const std::array<Eigen::Vector3d, 4>& x) -> Eigen::Vector3d {
+    return 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  };
+  for (at[std::size_t(v)] = b.where.low[1]; at[std::size_t(v)] < b.where.high[1]; ++at[std::size_t(v)])
+    for (at[std::size_t(u)] = b.where.low[0]; at[std::size_t(u)] < b.where.high[0]; ++at[std::size_t(u)]) {
+      const auto wall = corners(0), next = corners(1);
+      const Eigen::Vector3d normal = 0.5 * (wall[2] - wall[0]).cross(wall[3] - wall[1]);
+      const double area = normal.norm();
+      if (area == 0.0) continue;
+      const double height = std::abs((middle(next) - middle(wall)).dot(normal)) / area;
+      faces.push_back({condition, area, 0.5 * height, middle(wall).dot(wind)});
+    }
+}
+
+}  // namespace
+
+FirstCells expected_first_cells(const MultiBlockGrid& grid, const FlowOptions& options, const FlowSetting& s) {
+  if (s.turbulence == "none" || !(s.speed > 0.0)) return {};
+  const Eigen::Vector3d wind = Eigen::Vector3d(s.stream.u, s.stream.v, s.stream.w) / s.speed;
+  std::vector<WallFace> faces;
+  for (const Boundary& b : grid.boundaries)
+    for (const PatchOptions& o : options.boundaries)
+      if (o.patch == b.patch && sticks(o.condition)) add_faces_of(b, grid, o.condition, wind, faces);
+  FirstCells cells;
+  if (faces.empty()) return cells;
+  const auto [first, last] = std::ranges::minmax_element(faces, {}, &WallFace::along);
+  const double start = first->along, length = last->along - start;
+  const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, s.stream)) / gas::density(s.gas, s.stream);
+  for (const WallFace& f : faces) {
+    const double x = std::max(f.along - start, 0.01 * length), cf = 0.027 / std::pow(std::max(s.speed * x / nu, 1.0), 1.0 / 7.0);
+    const double y_plus = s.speed * std::sqrt(0.5 * cf) * f.distance / nu;
+    (f.condition == Condition::wall_law ? cells.by_law : cells.resolved).push_back({f.area, y_plus});
+  }
+  return cells;
+}
+
+std::string describe(std::vector<FirstCell> cells) {
+  std::ranges::sort(cells, {}, &FirstCell::y_plus);
+  return cells.empty() ? "none"
+                       : fmt::format("{:.3g} in the middle, {:.3g} at most", cells[cells.size() / 2].y_plus, cells.back().y_plus);
+}
+
+std::vector<std::string> doubts_of(const FirstCells& cells) {
+  struct Treatment {
+    const char* walls;
+    const std::vector<FirstCell>& cells;
+    double least, most;
+  };
+  std::vector<std::string> doubts;
+  for (const Treatment& t : {Treatment{"resolved", cells.resolved, 0.0, 5.0}, {"wall-function", cells.by_law, 15.0, 1000.0}}) {
+    double area = 0.0, off = 0.0;
+    for (const FirstCell& c : t.cells) area += c.area, off += c.y_plus < t.least || c.y_plus > t.most ? c.area : 0.0;
+    if (off > 0.1 * area)
+      doubts.push_back(
+          fmt::format("y+ of first cells is {}; {} walls want {:g} to {:g}, which {:.0f} % of their area does not "
+                      "have: friction is not to be trusted",
+                      describe(t.cells), t.walls, t.least, t.most, 100.0 * off / area));
+  }
+  return doubts;
+}
+
+}  // namespace spindrift::aero

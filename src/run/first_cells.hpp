@@ -1,0 +1,14 @@
+// First cells at the walls of a flow that has been computed, of all ranks. Called by flow_simulation.cpp; tested in
+// tests/coupled/flow_run_test.py. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "runtime/mpi/environment.hpp"
+#include "src/aero/first_cells.hpp"
+#include "src/aero/flow/flow_solver.hpp"
+
+namespace spindrift::run {
+
+/// Of a flow with a turbulence model, as its last residual left it; else none. Collective.
+aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::World& world);
+
+}  // namespace spindrift::run

@@ -1,0 +1,46 @@
+// y+ of first cells: what a plate's grid lets expect, and which walls do not suit their cells. SPDX-License-Identifier:
+// Apache-2.0
+#include "src/aero/first_cells.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow_options.hpp"
+#include "src/aero/grid/generators/plane_cases.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using Catch::Matchers::Contains;
+
+TEST_CASE("the y+ expected on a plate follows from its first cells, its Reynolds number and White's friction", "[flow][fast]") {
+  FlowOptions o;
+  o.viscosity_Pa_s = 1e-5;
+  o.boundaries = {{.patch = "wall", .condition = Condition::no_slip}, {.patch = "top", .condition = Condition::far_field}};
+  const MultiBlockGrid grid = flat_plate(1);
+  const FlowSetting setting = flow_setting(o, 1.2, {60.0, 0.0, 0.0}, 0.0);
+  const FirstCells cells = expected_first_cells(grid, o, setting);
+  REQUIRE(cells.resolved.size() == 28);
+  CHECK(cells.by_law.empty());
+  // The last face, 2 m from the edge at most: u_tau y / nu with y half of the first cell's height.
+  const Block& block = grid.blocks[0];
+  const double height = block.nodes[block.node(0, 1, block.ni)].z() - block.nodes[block.node(0, 0, block.ni)].z();
+  const double re = 1.2 * 60.0 * 2.0 / 1e-5, friction = 0.027 / std::pow(re, 1.0 / 7.0);
+  CHECK(cells.resolved.back().y_plus == Approx(60.0 * std::sqrt(0.5 * friction) * 0.5 * height * 1.2 / 1e-5).epsilon(0.01));
+  double area = 0.0;
+  for (const FirstCell& c : cells.resolved) area += c.area;
+  CHECK(area == Approx(2.0));
+  CHECK(doubts_of(cells).empty());
+  o.turbulence = "none";
+  CHECK(expected_first_cells(grid, o, flow_setting(o, 1.2, {60.0, 0.0, 0.0}, 0.0)).resolved.empty());
+}
+
+TEST_CASE("a tenth of the walls' area off what their treatment wants is doubted, less is not", "[flow][fast]") {
+  CHECK(doubts_of({.resolved = {{0.91, 1.0}, {0.09, 50.0}}, .by_law = {{0.91, 100.0}, {0.09, 1e5}}}).empty());
+  const auto coarse = doubts_of({.resolved = {{0.8, 1.0}, {0.2, 50.0}}, .by_law = {}});
+  REQUIRE(coarse.size() == 1);
+  CHECK_THAT(coarse[0], Contains("50 at most") && Contains("resolved walls want 0 to 5") && Contains("20 % of their area"));
+  const auto fine = doubts_of({.resolved = {}, .by_law = {{1.0, 2.0}}});
+  REQUIRE(fine.size() == 1);
+  CHECK_THAT(fine[0], Contains("wall-function walls want 15 to 1000"));
+}
