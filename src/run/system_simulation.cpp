@@ -14,6 +14,7 @@
 #include "src/coupling/sea_output.hpp"
 #include "src/coupling/sea_window.hpp"
 #include "src/io/machine_failure.hpp"
+#include "src/run/stand_in.hpp"
 
 namespace spindrift::run {
 
@@ -47,10 +48,19 @@ void fill_sea(coupling::Machine& machine, std::span<const Motion> start, const r
   coupling::on_parts(parts, [&] { restore_particles(machine, file); });
 }
 
-coupling::Sides sides_in_filled_sea(coupling::Machine& machine, std::span<const Motion> start, const runtime::Parts& parts) {
+coupling::Sides sides_in_filled_sea(coupling::Machine& machine, std::span<const Motion> start, const runtime::Parts& parts,
+                                    Moves moves) {
   {
     const runtime::Span span("sea/start");
     fill_sea(machine, start, parts);
+  }
+  switch (moves) {
+    case Moves::both:
+      break;
+    case Moves::air:
+      return {make_air(machine, machine.rotor()->state(0.0, start), parts.mine()), make_still_bodies()};
+    case Moves::sea:
+      return {make_silent_air(), make_body_side(machine)};
   }
   return make_sides(machine, start, parts);
 }
@@ -107,11 +117,11 @@ class AirFields final : public Output {
 }  // namespace
 
 SystemSimulation::SystemSimulation(coupling::Machine& machine, bodies::BodiesState start, const runtime::Parts& parts,
-                                   std::size_t records)
+                                   std::size_t records, Moves moves)
     : machine_(machine),
       parts_(parts),
       state_(std::move(start)),
-      window_(machine, sides_in_filled_sea(machine, state_.motions, parts), parts.mine().comm, records) {}
+      window_(machine, sides_in_filled_sea(machine, state_.motions, parts, moves), parts.mine().comm, records) {}
 
 std::int64_t SystemSimulation::file_number(std::int64_t window) const {
   return machine_.timeline().tick_of_window(window) - machine_.first_tick();
