@@ -26,6 +26,12 @@ bool has(const GraphRecord& graph, Side side, const SideOf& side_of) {
   return std::ranges::any_of(graph.nodes, [&](const NodeRecord& node) { return side_of(module_of(node.label)) == side; });
 }
 
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t n = values.size();
+  return n == 0 ? 0.0 : 0.5 * (values[n / 2] + values[(n - 1) / 2]);
+}
+
 double task_s(const RunRecord& run) { return 1e-9 * double(run.task_ns); }
 
 /// Sums up what windows come to.
@@ -176,6 +182,46 @@ std::string_view name_of(Placement placement) {
       return "bulk-synchronous";
   }
   return "";
+}
+
+Recording typical(const Recording& recording) {
+  Recording out = recording;
+  if (out.windows.empty()) throw std::invalid_argument("the recording has no window");
+  const std::int64_t number = out.windows[0].number;
+  std::vector<double> outside;
+  for (const WindowRecord& window : recording.windows) {
+    std::int64_t in_graphs = 0;
+    for (const RunRecord* run : runs_in(recording.ranks[0], window.number)) in_graphs += run->wall_ns;
+    outside.push_back(double(window.wall_ns - in_graphs));
+  }
+  double wall = median(outside);
+  for (RankRecording& rank : out.ranks) {
+    std::erase_if(rank.runs, [&](const RunRecord& run) { return run.window != number; });
+    for (std::size_t r = 0; r < rank.runs.size(); ++r) {
+      RunRecord& run = rank.runs[r];
+      std::vector<const RunRecord*> alike;
+      for (const WindowRecord& window : recording.windows) {
+        const auto runs = runs_in(recording.ranks[std::size_t(rank.rank)], window.number);
+        if (r < runs.size() && runs[r]->graph == run.graph && runs[r]->iterations == run.iterations) alike.push_back(runs[r]);
+      }
+      double task = 0.0;
+      for (std::size_t n = 0; n < run.ns.size(); ++n)
+        for (std::size_t e = 0; e < run.ns[n].size(); ++e) {
+          std::vector<double> took;
+          for (const RunRecord* other : alike)
+            if (e < other->ns[n].size()) took.push_back(double(other->ns[n][e]));
+          run.ns[n][e] = std::llround(median(took));
+          if (rank.graphs[run.graph].nodes[n].peer < 0) task += double(run.ns[n][e]);
+        }
+      run.task_ns = std::llround(task);
+      double least = double(run.overhead_ns);  // what others took from the machine between two tasks is in it too
+      for (const RunRecord* other : alike) least = std::min(least, double(other->overhead_ns));
+      run.overhead_ns = std::llround(least);
+      if (rank.rank == 0) wall += double(run.wall_ns = std::max(run.task_ns / recording.threads, std::int64_t(0)));
+    }
+  }
+  out.windows = {{number, std::llround(wall)}};
+  return out;
 }
 
 double task_overhead_s(const Recording& recording) {

@@ -40,6 +40,10 @@ struct Prediction {
 enum class Side { first, second };
 using SideOf = std::function<Side(std::string_view module)>;
 
+/// One window of which every execution took the median of what it took in all windows that were like the first: what a window
+/// takes without what other programs on the machine took from it. Throws std::invalid_argument where there is no window.
+Recording typical(const Recording& recording);
+
 /// The executor's own work per task, on average over all runs.
 double task_overhead_s(const Recording& recording);
 

@@ -50,6 +50,23 @@ const CLI::Validator range_of_windows(
     },
     "");
 
+void add_profile(CLI::App& cli, Command& chosen) {
+  auto arguments = std::make_shared<ProfileArguments>();
+  CLI::App* command = cli.add_subcommand(
+      "profile", "Where the time of a coupled scene goes: air alone, sea alone, both in turns, shared and split");
+  add_scene(*command, *arguments);
+  command->add_option("--out", arguments->out, "Folder of the runs and figures (default: runs/SCENE_profile)");
+  command->add_option("--windows", arguments->windows, "Windows that are counted, after two that are not (default: 10)")
+      ->check(CLI::Range(1, 100000));
+  command->footer(
+      "Examples:\n"
+      "  spindrift profile inputs/leble_barakos/case3_demo.toml --out profile1\n"
+      "  mpirun -n 2 spindrift profile scene.toml --windows 20\n"
+      "Each is a run of its own in the folder; profile.html, profile.png and profile.json have the figures. Split needs two "
+      "ranks.");
+  command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return profile(*arguments, world); }; });
+}
+
 void add_replay(CLI::App& cli, Command& chosen) {
   auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* command = cli.add_subcommand(
@@ -70,6 +87,8 @@ void add_replay(CLI::App& cli, Command& chosen) {
       ->check(CLI::Range(0.0, 1e9));
   command->add_option("--skew", arguments->skew, "Standard deviation of the ranks' speeds, 0 to 0.5 (default: 0)")
       ->check(CLI::Range(0.0, 0.5));
+  command->add_flag("--typical", arguments->typical,
+                    "One window in which every execution takes the median of the windows: for recordings from a busy machine");
   command->add_option("--json", arguments->json, "Also write every figure to this file")->check(ends_in({".json"}));
   command->add_option("--plot", arguments->plot, "Also draw where the time goes, as .png or .html")
       ->check(ends_in({".png", ".html"}));
@@ -244,6 +263,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
         "  spindrift report runs/steps");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return report(*arguments, world); }; });
   }
+  add_profile(cli, chosen);
   add_replay(cli, chosen);
   add_picture(cli, chosen, false);
   add_picture(cli, chosen, true);

@@ -76,6 +76,11 @@ struct StudyArguments {
   bool dry_run = false;                ///< says what would run and at what cost; runs nothing
 };
 
+struct ProfileArguments : SceneArguments {
+  std::string out;   ///< empty: runs/SCENE_profile
+  int windows = 10;  ///< that are counted
+};
+
 /// A machine to predict for: its network as "latency_us,GB_per_s", between nodes and optionally within one.
 struct ReplayArguments {
   std::string recording;
@@ -83,6 +88,7 @@ struct ReplayArguments {
   int nodes = 1;
   std::vector<double> network;  ///< us, GB/s; us, GB/s within a node
   double skew = 0.0;
+  bool typical = false;    ///< the median of the windows, execution by execution
   std::string json, plot;  ///< files; empty: none
 };
 
@@ -100,6 +106,7 @@ int reference_columns(const runtime::World& world);
 int study(const StudyArguments& arguments, const runtime::World& world);
 /// One line; `verbose`: all that the speed of this program depends on.
 std::string version(bool verbose);
+int profile(const ProfileArguments& arguments, const runtime::World& world);
 int replay(const ReplayArguments& arguments, const runtime::World& world);
 int report(const ReportArguments& arguments, const runtime::World& world);
 int picture(const PictureArguments& arguments, const runtime::World& world);

@@ -98,7 +98,10 @@ Recording read(const std::string& file) {
 
 int replay(const ReplayArguments& arguments, const runtime::World& world) {
   if (world.rank != 0) return done;
-  const Recording recording = read(arguments.recording);
+  Recording recording = read(arguments.recording);
+  if (arguments.typical) try {
+      recording = runtime::typical(recording);
+    } catch (const std::invalid_argument& e) { throw io::InputError(fmt::format("{}: {}", arguments.recording, e.what())); }
   const double overhead_s = runtime::task_overhead_s(recording), measured = measured_s(recording);
   for (const int ranks : arguments.ranks) cluster_of(arguments, ranks, 1, 0.0);  // before any long work
   fmt::print("{}: {} window{} of {}, recorded on {} x {}; {:.3f} ms each, {:.0f} ns of the runtime per task\n",

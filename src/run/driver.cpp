@@ -31,7 +31,7 @@ Driver::Driver(const io::RunDirectory& directory, const runtime::Parts& parts, c
 runtime::Ledger::Keep RunSettings::keep(std::int64_t window) const {
   using Keep = runtime::Ledger::Keep;
   const auto in = [window](const auto& range) { return window >= range.first && window <= range.second; };
-  if (!record_graph.empty() && in(windows.value_or(usual_windows))) return Keep::runs;
+  if ((keep_runs || !record_graph.empty()) && in(windows.value_or(usual_windows))) return Keep::runs;
   return trace && (!windows || in(*windows)) ? Keep::records : Keep::nothing;
 }
 
@@ -60,11 +60,9 @@ io::Summary Driver::run(Simulation& simulation) {
     }
 
   while (window < last && summary_.exit_code == 0) {
-    const std::int64_t begin_ns = runtime::Clock::now_ns();
     ledger_.begin_window(window + 1, settings_.keep(window + 1));
     const Advance advance = simulation.advance(window, last);
     ledger_.end_window();
-    window_walls_.push_back(1e-9 * double(runtime::Clock::now_ns() - begin_ns));
 
     const Windows done{window, window + advance.windows, advance.settled.empty() ? last : window + advance.windows};
     window = done.now, last = done.last;

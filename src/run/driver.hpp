@@ -29,11 +29,12 @@ struct RunSettings {
   bool accept_history = false;  ///< a restart goes on with rows of history.csv missing or changed
   std::string scene;            ///< its file, for recordings
   std::string record_graph;     ///< file of the recording; empty: none
+  bool keep_runs = false;       ///< in the ledger, without a file
   /// Windows that trace and recording take down; without: all into the trace, usual_windows into the recording.
   std::optional<std::pair<std::int64_t, std::int64_t>> windows;
   static constexpr std::pair<std::int64_t, std::int64_t> usual_windows{3, 12};  // costs and priorities have settled
   /// Of the trace, per thread.
-  std::size_t records() const { return trace || !record_graph.empty() ? std::size_t(1) << 20 : 0; }
+  std::size_t records() const { return trace || keep_runs || !record_graph.empty() ? std::size_t(1) << 20 : 0; }
   /// What the window of this number (the first after t = 0 is 1) leaves.
   runtime::Ledger::Keep keep(std::int64_t window) const;
 };
@@ -49,8 +50,7 @@ class Driver {
   /// to make the first state. Collective.
   io::Summary run(Simulation& simulation);
 
-  /// Of each call of Simulation::advance [s], on this rank.
-  const std::vector<double>& window_walls() const { return window_walls_; }
+  const runtime::Ledger& ledger() const { return ledger_; }
   /// Of all ranks on rank 0, once the run is over.
   const std::vector<runtime::RankTrace>& traces() const { return traces_; }
 
@@ -68,7 +68,6 @@ class Driver {
   const RunSettings settings_;
   runtime::StopRequest& stop_;
   runtime::Ledger ledger_;  ///< of all that the run does from here on
-  std::vector<double> window_walls_;
   std::vector<runtime::RankTrace> traces_;
   io::Summary summary_;
 };

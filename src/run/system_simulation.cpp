@@ -14,6 +14,7 @@
 #include "src/coupling/sea_output.hpp"
 #include "src/coupling/sea_window.hpp"
 #include "src/io/machine_failure.hpp"
+#include "src/run/stand_in.hpp"
 
 namespace spindrift::run {
 
@@ -48,10 +49,18 @@ void fill_sea(coupling::FloatingSystem& floating, std::span<const Motion> start,
 }
 
 coupling::Sides sides_in_filled_sea(coupling::FloatingSystem& floating, std::span<const Motion> start,
-                                    const runtime::Parts& parts) {
+                                    const runtime::Parts& parts, Moves moves) {
   {
     const runtime::Span span("sea/start");
     fill_sea(floating, start, parts);
+  }
+  switch (moves) {
+    case Moves::both:
+      break;
+    case Moves::air:
+      return {make_air(floating, floating.rotor()->state(0.0, start), parts.mine()), make_still_bodies()};
+    case Moves::sea:
+      return {make_silent_air(), make_body_side(floating)};
   }
   return make_sides(floating, start, parts);
 }
@@ -110,11 +119,11 @@ class AirFields final : public Output {
 }  // namespace
 
 SystemSimulation::SystemSimulation(coupling::FloatingSystem& floating, bodies::BodiesState start, const runtime::Parts& parts,
-                                   std::size_t records)
+                                   std::size_t records, Moves moves)
     : floating_(floating),
       parts_(parts),
       state_(std::move(start)),
-      window_(floating, sides_in_filled_sea(floating, state_.motions, parts), parts.mine().comm, records) {}
+      window_(floating, sides_in_filled_sea(floating, state_.motions, parts, moves), parts.mine().comm, records) {}
 
 std::int64_t SystemSimulation::file_number(std::int64_t window) const {
   return floating_.timeline().tick_of_window(window) - floating_.first_tick();

@@ -12,11 +12,14 @@
 
 namespace spindrift::run {
 
+/// What moves; the rest stands by, for measurements of one side alone.
+enum class Moves { both, air, sea };
+
 class SystemSimulation final : public Simulation {
  public:
   /// `start`: of the bodies at t = 0. `records`: of the trace, per thread. The floating system and parts outlive it. Collective.
   SystemSimulation(coupling::FloatingSystem& floating, bodies::BodiesState start, const runtime::Parts& parts,
-                   std::size_t records);
+                   std::size_t records, Moves moves = Moves::both);
 
   const coupling::Scenario& scenario() const override { return floating_.scenario(); }
   const coupling::Timeline& timeline() const override { return floating_.timeline(); }

@@ -130,6 +130,62 @@ class Machine(unittest.TestCase):
         self.assertEqual(self.text("whole"), self.text("parts"))
 
 
+class Profile(Machine):
+    SETTINGS = ["time.end_s=0.25", "time.window_s=0.05"]
+
+    def profiled(self, ranks, threads=1):
+        (self.path / "scene.toml").write_text(PARTICLES)
+        given = [word for s in self.SETTINGS for word in ("--set", s)]
+        start = ["mpirun", "-n", str(ranks), "--bind-to", "none"] if ranks > 1 else []
+        said = self.ended([*start, PROGRAM, "profile", self.path / "scene.toml", "--windows", "3", "--out", self.path / "out", *given], threads, 0)
+        return said, json.loads((self.path / "out/profile.json").read_text())
+
+    def check_figures(self, modes, threads):
+        for mode in modes:
+            self.assertEqual(mode["windows"], 3)
+            # Modules by the records of their tasks, the rest by the sums of threads: nothing is counted twice or forgotten.
+            self.assertAlmostEqual(mode["accounted"], 1.0, delta=0.01, msg=mode["placement"])
+            self.assertAlmostEqual(mode["efficiency"], mode["load_balance"] * mode["communication_efficiency"], delta=1e-9)
+            busy = sum(s for part, s in mode["parts_core_s"].items() if part not in ("waiting", "messages", "runtime", "exchange"))
+            self.assertAlmostEqual(mode["efficiency"], busy / (mode["ranks"] * threads * mode["wall_s"]), delta=0.01)
+            for part, seconds in mode["parts_core_s"].items():
+                self.assertGreaterEqual(seconds, 0.0, part)
+            self.assertGreater(mode["start_up_s"], 0.0)
+
+    def test_air_sea_and_both_are_set_side_by_side(self):
+        said, profile = self.profiled(1, threads=2)
+        modes = {mode["placement"]: mode for mode in profile["modes"]}
+        self.assertEqual(list(modes), ["air alone", "sea alone", "in turns", "shared"])
+        self.check_figures(modes.values(), 2)
+        self.assertNotIn("sea", modes["air alone"]["parts_core_s"])
+        self.assertNotIn("aero", modes["sea alone"]["parts_core_s"])
+        for name in ("in turns", "shared"):
+            self.assertGreater(modes[name]["parts_core_s"]["sea"], 0.0)
+            self.assertGreater(modes[name]["parts_core_s"]["aero"], 0.0)
+        self.assertIn("waiting [core-ms]", said)
+        self.assertNotIn("idle", said)
+        self.assertIn("Overlap: ", said)
+        self.assertIn("Split needs two ranks", said)
+        self.assertTrue((self.path / "out/profile.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertIn("Profile of scene", (self.path / "out/profile.html").read_text())
+
+    def test_with_two_ranks_there_is_a_split(self):
+        _, profile = self.profiled(2)
+        modes = {mode["placement"]: mode for mode in profile["modes"]}
+        self.assertEqual(list(modes)[-1], "split")
+        self.assertEqual(modes["split"]["air_ranks"], 1)
+        self.check_figures(modes.values(), 1)
+
+    def test_a_scene_without_a_sea_of_particles_is_refused(self):
+        (self.path / "scene.toml").write_text(ENGINEERING)
+        said = self.ended([PROGRAM, "profile", self.path / "scene.toml", "--out", self.path / "out"], 1, 2)
+        self.assertIn("sea of particles", said)
+        (self.path / "scene.toml").write_text(PARTICLES)
+        said = self.ended([PROGRAM, "profile", self.path / "scene.toml", "--windows", "3", "--out", self.path / "out"], 1, 2)
+        self.assertIn("beyond time.end_s", said)
+        self.assertFalse((self.path / "out").exists())
+
+
 class MachineRun(Machine):
     def test_an_engineering_sea_gives_the_same_bits_however_it_is_run_and_loads_meet_the_bodies(self):
         self.check_bits(ENGINEERING, [], 0.3)

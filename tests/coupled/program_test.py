@@ -88,6 +88,43 @@ class Program(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("recorded on 2 ranks", done.stdout + done.stderr)
 
+    def check_trace(self, events):
+        """What Perfetto needs: slices of a row apart or one in the other, arrows from slice to slice, a name for every row."""
+        rows, named, arrows = {}, set(), {}
+        for event in events:
+            row = (event["pid"], event.get("tid"))
+            if event["ph"] == "X":
+                rows.setdefault(row, []).append((event["ts"], event["ts"] + event["dur"]))
+                self.assertTrue(event["name"] and event["cat"])
+            elif event["ph"] == "M" and event["name"] == "thread_name":
+                named.add(row)
+            elif event["ph"] in "sf":
+                arrows.setdefault(event["id"], {})[event["ph"]] = (row, event["ts"])
+        self.assertEqual(set(rows), named & set(rows))
+        rounding = 2e-3   # times are written in thousandths of a microsecond
+        for row, slices in rows.items():
+            open_until = []
+            for begin, end in sorted(slices, key=lambda s: (s[0], -s[1])):
+                while open_until and open_until[-1] <= begin + rounding:
+                    open_until.pop()
+                self.assertTrue(not open_until or end <= open_until[-1] + rounding, row)
+                open_until.append(end)
+        for ends in arrows.values():
+            self.assertEqual(set(ends), {"s", "f"})
+            for row, time in ends.values():
+                self.assertTrue(any(begin - rounding <= time <= end + rounding for begin, end in rows[row]))
+            if ends["s"][0][0] == ends["f"][0][0]:   # clocks of two ranks may be a little apart
+                self.assertLessEqual(ends["s"][1], ends["f"][1] + rounding)
+        return len(arrows)
+
+    def test_a_trace_of_two_ranks_has_the_structure_that_perfetto_reads(self):
+        box = ROOT / "inputs/validation/floating_box/floating_box.toml"
+        small = ["--set", "sea.particles.spacing_m=0.08", "--set", "time.window_s=0.04", "--set", "time.end_s=0.2", "--set", "sea.initial.settle_s=0.08"]
+        done = self.run_case(*small, "--trace", "--windows", "2:2", scene=box, ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        events = json.loads((self.out / "trace.json").read_text())["traceEvents"]
+        self.assertGreater(self.check_trace(events), 10)   # messages between the ranks
+
     def test_a_trace_of_chosen_windows_has_these_alone(self):
         box = ROOT / "inputs/validation/floating_box/floating_box.toml"
         small = ["--set", "sea.particles.spacing_m=0.08", "--set", "time.window_s=0.04", "--set", "time.end_s=0.2", "--set", "sea.initial.settle_s=0.08"]
@@ -96,6 +133,7 @@ class Program(unittest.TestCase):
             out = self.out.parent / name
             self.assertEqual(self.run_case(*small, "--trace", *more, scene=box, out=out).returncode, 0)
             events = json.loads((out / "trace.json").read_text())["traceEvents"]
+            self.check_trace(events)
             tasks = [e for e in events if e["ph"] == "X" and e["name"].startswith("sea/pairs/")]
             replays[name] = sorted({e["args"]["replay"] for e in tasks})
         self.assertEqual(len(replays["all"]), 7)   # two in which the body is held come first

@@ -89,3 +89,30 @@ TEST_CASE("the runtime's own work per task is what runs had besides tasks and wa
   for (RunRecord& run : recording.ranks[0].runs) run.overhead_ns = run.graph == 0 ? 30 * 200 : 10 * 200;
   CHECK(task_overhead_s(recording) == Approx(200e-9));
 }
+
+TEST_CASE("a typical window has the median of every execution", "[replay][fast]") {
+  Recording recording = two_sides(false);
+  recording.windows.push_back({6, 405'000});
+  RankRecording& rank = recording.ranks[0];
+  for (std::size_t r = 0; r < 2; ++r) {
+    rank.runs.push_back(rank.runs[r]);
+    rank.runs.back().window = 6;
+  }
+  for (RunRecord& run : rank.runs) run.overhead_ns = 100 * run.window;
+  // In each window another task of the sea is held up; one window stands longer between its graphs.
+  std::size_t node = 0;
+  for (RunRecord& run : rank.runs)
+    if (run.graph == 0) {
+      do ++node;
+      while (run.ns[node].empty());
+      run.ns[node][3] += 5'000'000, run.task_ns += 5'000'000, run.wall_ns += 5'000'000;
+    }
+  for (WindowRecord& window : recording.windows) window.wall_ns += 5'000'000;
+  recording.windows[1].wall_ns += 9'000'000;
+  const Recording typical = spindrift::runtime::typical(recording);
+  REQUIRE(typical.windows.size() == 1);
+  CHECK(typical.windows[0].wall_ns == 405'000);
+  CHECK(task_overhead_s(typical) == Approx(2 * 400e-9 / 40));  // of window 4, the least
+  CHECK(predict(typical, ideal(1, 1), Placement::shared, side_of).wall_s == Approx(405 * us));
+  CHECK(predict(recording, ideal(1, 1), Placement::shared, side_of).wall_s > 5000 * us);
+}
