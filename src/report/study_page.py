@@ -45,13 +45,32 @@ def _points(study, metric):
             if (rung["errors"][metric["name"]]["error"] or 0.0) > 0.0 and not rung["is_reference"] and rung["cost"]["core_s"]]
 
 
+def _name(axis, labels, size=7.5):
+    """Writes names beside their points, the first first, where none lies on another, on a point or across the edge; what finds no place has its row in
+    the table."""
+    dots = axis.figure.dpi / 72.0
+    width, height = axis.get_position().size * axis.figure.get_size_inches() * axis.figure.dpi
+    (x0, y0), at = axis.transAxes.transform((0.0, 0.0)), axis.transData.transform([label[:2] for label in labels])
+    taken = [(x - 4 * dots, y - 4 * dots, x + 4 * dots, y + 4 * dots) for x, y in at]
+    for (cost, error, text), (x, y) in zip(labels, at):
+        wide, high = 0.62 * size * len(text) * dots, 1.15 * size * dots
+        for right, up in ((6, 5), (-6, 5), (6, -11), (-6, -11), (8, -3), (-8, -3), (6, 14), (-6, 14)):
+            left, low = x + right * dots - (wide if right < 0 else 0.0), y + up * dots
+            box = (left, low, left + wide, low + high)
+            inside = x0 <= left and left + wide <= x0 + width and y0 <= low and low + high <= y0 + height
+            if inside and all(box[2] <= t[0] or t[2] <= box[0] or box[3] <= t[1] or t[3] <= box[1] for t in taken):
+                taken.append(box)
+                axis.annotate(text, (cost, error), textcoords="offset points", xytext=(right, up), fontsize=size, ha="right" if right < 0 else "left")
+                break
+
+
 def draw(study, metric, axis, numbered=True):
     """Error against cost: points with their intervals, the front joined, the target as a line. False where there is nothing to draw."""
     points, unit = _points(study, metric), _unit(metric)
     if not points:
         return False
     floor = 0.3 * min(e["error"] for _, e in points) * unit
-    lows, highs = [], []
+    lows, highs, labels = [], [], []
     for rung, e in points:
         cost, error = rung["cost"]["core_s"], e["error"] * unit
         low, high = max(e["low"] * unit, floor), e["high"] * unit
@@ -61,9 +80,7 @@ def draw(study, metric, axis, numbered=True):
         axis.plot([rung["cost"]["low"], rung["cost"]["high"]], [error, error], "-", color=colour, linewidth=1.0, alpha=0.7)
         axis.plot(cost, error, "o", color=colour, markersize=6 if rung["on_front"] else 4.5)
         name = rung["name"] if len(points) <= LABELLED or not numbered else str(1 + [r["name"] for r in study["rungs"]].index(rung["name"]))
-        right = cost > math.sqrt(min(r["cost"]["core_s"] for r, _ in points) * max(r["cost"]["core_s"] for r, _ in points))
-        axis.annotate(name, (cost, error), textcoords="offset points", xytext=(-6 if right else 6, 5), fontsize=7.5,
-                      ha="right" if right else "left")
+        labels.append((not rung["on_front"], cost, error, name))
     front = sorted((r["cost"]["core_s"], e["error"] * unit) for r, e in points if r["on_front"])
     axis.plot([c for c, _ in front], [e for _, e in front], "-", color=figures.PALETTE[0], linewidth=0.8, alpha=0.6, zorder=0)
     if metric["target"]:
@@ -74,6 +91,7 @@ def draw(study, metric, axis, numbered=True):
     axis.set_xlim(min(costs) / 1.8, max(costs) * 1.8)
     axis.set_ylim(min(lows) / 1.5, max(highs) * 1.6)
     _decades(axis.xaxis, min(costs), max(costs)), _decades(axis.yaxis, min(lows), max(highs))
+    _name(axis, [label[1:] for label in sorted(labels)])
     axis.set_xlabel("processor time of one run [core-s]")
     axis.set_ylabel(f"error of the {WORDS[metric['measure']].removesuffix(' of')} [{'%' if _in_percent(metric) else metric['column'].rsplit('_', 1)[-1]}]")
     return True

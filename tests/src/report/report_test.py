@@ -21,6 +21,7 @@ import html_page
 import page
 import picture
 import quantities
+import study_page
 import synthetic_run
 import verdict
 from run_data import RunData
@@ -300,6 +301,19 @@ class PartsTest(unittest.TestCase):
         self.assertTrue(html_page.section("k", "t", one + "<details>" + one + "</details>")["half"])
         self.assertFalse(html_page.section("k", "t", one + one)["half"])
         self.assertFalse(html_page.section("k", "t", one.replace("<figure", '<figure class="wide"'))["half"])
+
+    def test_names_of_a_crowd_of_rungs_do_not_lie_on_each_other(self):
+        figure, axis = figures.plt.subplots(figsize=(6.4, 3.9))
+        axis.set_xscale("log"), axis.set_yscale("log"), axis.set_xlim(0.4, 4.0), axis.set_ylim(1e-3, 1.0)
+        labels = [(0.5 * 1.09 ** n, 0.2 * 0.8 ** (n * n % 7), f"window_{n}") for n in range(20)]
+        study_page._name(axis, labels)
+        figure.canvas.draw()
+        boxes = [text.get_window_extent() for text in axis.texts]
+        self.assertGreater(len(boxes), 8)
+        for n, a in enumerate(boxes):
+            for b in boxes[n + 1:]:
+                self.assertFalse(min(a.x1, b.x1) - max(a.x0, b.x0) > 1.0 and min(a.y1, b.y1) - max(a.y0, b.y0) > 1.0)
+        figures.plt.close(figure)
 
     def test_an_angle_that_begins_anew_leaves_no_line_across_the_figure(self):
         t = np.linspace(0.0, 20.0, 401)
