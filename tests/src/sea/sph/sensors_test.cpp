@@ -70,7 +70,7 @@ TEST_CASE("patches in still water read the pressure at their middle within 1 % o
         {.owner = owner, .low = from, .high = to, .points = points_of_surface(std::vector{hull}, from, to, 0.05, Cut::plane)});
   }
   sea.set_bodies([](const HalfStep&, std::span<const Wrench>, std::span<Motion>) {});
-  sea.set_pace({.steps_per_look = 1});
+  sea.set_step_control({.steps_per_check = 1});
   sea.advance(0.6);
   const auto read = [&](std::size_t n) { return sea.state().records[n].mean(); };
   const double weight = 1000.0 * p.gravity;
