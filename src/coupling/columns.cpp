@@ -138,7 +138,9 @@ Table<double> wave_columns() {
 Table<WaterRow> water_columns() {
   using Of = const WaterRow&;
   static constexpr ColumnOf<WaterRow> table[] = {
-      {"lost_particles", "-", "particles that left the tank so far", [](Of w) { return w.lost; }},
+      {"lost_particles", "-", "particles that slipped through walls so far", [](Of w) { return w.lost; }},
+      {"left_particles", "-", "particles that left over the walls' upper edge or through open sides so far",
+       [](Of w) { return w.left; }},
       {"x_max_m", "m", "farthest water along x: the front of a broken dam", [](Of w) { return w.extent.x_max; }},
       {"z_max_m", "m", "highest water", [](Of w) { return w.extent.z_max; }},
       {"kinetic_energy_J", "J", "of the water", [](Of w) { return w.extent.kinetic_energy; }}};
@@ -156,6 +158,25 @@ Table<sph::Wavemaker::Stroke> paddle_columns() {
 Table<double> gauge_columns() {
   static constexpr ColumnOf<double> table[] = {
       {"elevation_m", "m", "height of the water's surface; the bed where there is none", [](const double& v) { return v; }}};
+  return table;
+}
+
+Table<double> run_up_columns() {
+  static constexpr ColumnOf<double> table[] = {
+      {"run_up_m", "m", "the same over where the body's waterline (z = 0 where the scene describes it) is there now",
+       [](const double& v) { return v; }}};
+  return table;
+}
+
+Table<sph::PatchReading> sensor_columns() {
+  using Of = const sph::PatchReading&;
+  static constexpr ColumnOf<sph::PatchReading> table[] = {
+      {"mean_pressure_Pa", "Pa", "pressure of the water, mean over the patch and over mean_over_s, zero where it is dry",
+       [](Of r) { return r.pressure; }},
+      {"fx_N", "N", "force of the water on the patch along x, earth axes, mean over mean_over_s",
+       [](Of r) { return r.force[0]; }},
+      {"fy_N", "N", "along y", [](Of r) { return r.force[1]; }},
+      {"fz_N", "N", "along z", [](Of r) { return r.force[2]; }}};
   return table;
 }
 
@@ -221,6 +242,8 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("sea.", "seas of particles", water_columns()),
           section_of("wavemaker.", "tanks with a paddle", paddle_columns()),
           section_of("GAUGE.", "each gauge of a sea of particles", gauge_columns()),
+          section_of("GAUGE.", "each gauge that goes with a body", run_up_columns()),
+          section_of("SENSOR.", "each sensor of a sea of particles", sensor_columns()),
           section_of("PROBE.", "each probe of a sea of particles", probe_columns()),
           section_of("coupling.", "schemes other than monolithic", window_columns()),
           section_of("coupling.", "schemes that iterate", strong_columns()),

@@ -34,7 +34,7 @@ struct RotorRow {
 };
 
 struct WaterRow {
-  double lost;
+  double lost, left;
   sea::ParticleSea::Extent extent;
 };
 
@@ -63,6 +63,8 @@ Table<WaterRow> water_columns();                 ///< sea.
 Table<sph::Wavemaker::Stroke> paddle_columns();
 Table<double> gauge_columns();
 Table<sea::ParticleSea::Reading> probe_columns();
+Table<double> run_up_columns();
+Table<sph::PatchReading> sensor_columns();
 Table<WindowReport> window_columns();  ///< coupling.
 Table<WindowReport> strong_columns();  ///< coupling., of schemes that iterate
 Table<aero::March> march_columns();    ///< air.

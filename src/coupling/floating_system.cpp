@@ -97,6 +97,8 @@ FloatingSystem::FloatingSystem(Scenario scenario)
   if (s.has_particles()) {
     const std::vector<sea::ParticleBody> shaped = particle_bodies(s.bodies);
     particle_plan_ = sea::particle_plan(s.sea, s.waves, sea_environment(s.environment), shaped);
+    for (sea::SensorOptions& sensor : particle_plan_->sensors)
+      if (sensor.mean_over_s == 0.0) sensor.mean_over_s = s.time.window_s;
     std::vector<bool> on(names.size());
     bool only_cylinders = true;
     for (std::size_t b = 0; b < names.size(); ++b) {

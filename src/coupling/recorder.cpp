@@ -56,21 +56,36 @@ void Recorder::declare_particles(io::History& history) {
   const sea::ParticlePlan& plan = *floating_.particle_plan();
   water_.emplace(history, "sea.", water_columns());
   if (plan.wavemaker) paddle_.emplace(history, "wavemaker.", paddle_columns());
-  for (const sea::GaugeOptions& gauge : plan.gauges) gauges_.emplace_back(history, gauge.name + ".", gauge_columns());
+  for (const sea::GaugeOptions& gauge : plan.gauges) {
+    gauges_.emplace_back(history, gauge.name + ".", gauge_columns());
+    run_ups_.emplace_back();
+    if (!gauge.body.empty()) run_ups_.back().emplace(history, gauge.name + ".", run_up_columns());
+  }
   for (const sea::ProbeOptions& probe : plan.probes) probes_.emplace_back(history, probe.name + ".", probe_columns());
+  for (const sea::SensorOptions& sensor : plan.sensors) sensors_.emplace_back(history, sensor.name + ".", sensor_columns());
 }
 
-void Recorder::fill_particles(std::span<double> row, double t) const {
+void Recorder::fill_particles(std::span<double> row, std::span<const Motion> motions, double t) const {
   const sea::ParticlePlan& plan = *floating_.particle_plan();
   const sea::ParticleSea& sea = *floating_.particles();
-  water_->fill(row, {double(sea.lost()), sea.extent()});
+  water_->fill(row, {double(sea.lost()), double(sea.left()), sea.extent()});
   if (paddle_) paddle_->fill(row, sea.paddle(t));
   std::vector<std::array<double, 2>> places;
-  for (const sea::GaugeOptions& gauge : plan.gauges) places.push_back(gauge.point_m);
+  std::vector<double> marks;  // of gauges that go with bodies: where the waterline is
+  for (const sea::GaugeOptions& gauge : plan.gauges) {
+    Eigen::Vector3d at(gauge.point_m[0], gauge.point_m[1], 0.0);
+    for (std::size_t b = 0; b < plan.bodies.size(); ++b)
+      if (plan.bodies[b].name == gauge.body) at = motions[b].point(at - plan.bodies[b].described.position);
+    places.push_back({at[0], at[1]}), marks.push_back(at[2]);
+  }
   // Where there is no water the surface is the bed and nothing moves: no column holds what is not a number.
   const std::vector<double> heights = sea.surface(places);
-  for (std::size_t n = 0; n < places.size(); ++n)
-    gauges_[n].fill(row, std::isfinite(heights[n]) ? heights[n] : plan.tank.bed_at(places[n][0]));
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const double height = std::isfinite(heights[n]) ? heights[n] : plan.tank.bed_at(places[n][0]);
+    gauges_[n].fill(row, height);
+    if (run_ups_[n]) run_ups_[n]->fill(row, height - marks[n]);
+  }
+  for (std::size_t n = 0; n < sensors_.size(); ++n) sensors_[n].fill(row, sea.sensor(n));
   for (std::size_t n = 0; n < plan.probes.size(); ++n) {
     sea::ParticleSea::Reading reading = sea.probe(plan.probes[n].point_m);
     if (!reading.velocity.allFinite()) reading.velocity.setZero();
@@ -108,7 +123,7 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     moorings_[line].fill(row, tension);
     if (anchors_[line]) anchors_[line]->fill(row, tension);
   }
-  if (floating_.particles()) fill_particles(row, t);
+  if (floating_.particles()) fill_particles(row, state.motions, t);
   if (waves_) waves_->fill(row, floating_.sea()->elevation(0.0, 0.0, t));
 }
 

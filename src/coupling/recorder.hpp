@@ -35,7 +35,7 @@ class Recorder {
     Group<Wrench> columns;
   };
   void declare_particles(io::History& history);
-  void fill_particles(std::span<double> row, double t) const;
+  void fill_particles(std::span<double> row, std::span<const Motion> motions, double t) const;
 
   FloatingSystem& floating_;
   std::vector<Group<ReferenceMotion>> bodies_;
@@ -53,6 +53,8 @@ class Recorder {
   std::optional<Group<WaterRow>> water_;
   std::optional<Group<sph::Wavemaker::Stroke>> paddle_;
   std::vector<Group<double>> gauges_;
+  std::vector<std::optional<Group<double>>> run_ups_;  ///< of gauges that go with bodies
+  std::vector<Group<sph::PatchReading>> sensors_;
   std::vector<Group<sea::ParticleSea::Reading>> probes_;
 };
 

@@ -54,9 +54,10 @@ void check_particles(scene::Document& document, const Scenario& s) {
   std::vector<std::string> columns;
   for (const sea::GaugeOptions& gauge : s.sea.gauges) columns.push_back(gauge.name);
   for (const sea::ProbeOptions& probe : s.sea.probes) columns.push_back(probe.name);
+  for (const sea::SensorOptions& sensor : s.sea.sensors) columns.push_back(sensor.name);
   for (const std::string& column : columns)
     for (const auto& body : s.bodies)
-      if (body.name == column) document.problem("bodies." + column, "is the name of a gauge or probe too");
+      if (body.name == column) document.problem("bodies." + column, "is the name of a gauge, probe or sensor too");
   if (s.sea.settle_s() > 0.0 && !whole_ratio(s.sea.settle_s(), s.time.window_s))
     document.problem("sea.initial.settle_s", fmt::format("must be a whole number of windows of {} s", s.time.window_s));
 }

@@ -246,7 +246,9 @@ def _particles(run):
     if "sea.lost_particles" not in run.columns or not len(run.time):
         return None
     lost = run.column("sea.lost_particles")[-1]
-    return Check("good" if lost == 0 else "warn", "Particles", "none left the tank" if lost == 0 else f"{lost:.0f} left the tank")
+    left = run.column("sea.left_particles")[-1] if "sea.left_particles" in run.columns else 0
+    said = [f"{lost:.0f} slipped through walls"] * (lost > 0) + [f"{left:.0f} left over the edge or through open sides"] * (left > 0)
+    return Check("good" if lost == 0 else "warn", "Particles", "; ".join(said) or "none left the tank")
 
 
 def _budgets(run):

@@ -33,6 +33,7 @@ void restore_particles(const coupling::FloatingSystem& floating, const io::Check
     const io::Slice<double> mine{state.first, state.values};
     file.read<double>("sea/particles", std::span(&mine, 1));
     state.time_s = file.number("sea/time_s"), state.steps = file.integer("sea/steps");
+    if (file.has("sea/sensors")) state.sensors = file.read<double>("sea/sensors");
     floating.particles()->restore(state);
   } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
 }
@@ -215,6 +216,7 @@ void SystemSimulation::save(io::CheckpointWriter& file) {
   if (parts_.has(sea_part)) particles = floating_.particles()->save();
   file.set("sea/time_s", particles.time_s);  // as rank 0 has it, which has the sea
   file.set("sea/steps", particles.steps);
+  if (!floating_.particle_plan()->sensors.empty()) file.write<double>("sea/sensors", particles.sensors);
   coupling::write(file, parts_, sea_part, {{"sea/particles", particles.total, {{particles.first, std::move(particles.values)}}}});
 }
 
@@ -313,6 +315,7 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
     summary.counts.emplace_back("particle_evaluations", sea->evaluations());
     summary.counts.emplace_back("particle_sorts", sea->sorts());
     summary.counts.emplace_back("particles_lost", std::int64_t(sea->lost()));
+    summary.counts.emplace_back("particles_left", std::int64_t(sea->left()));
   }
   // Bodies beside particles move within tasks of the sea, and ask for their loads within their own.
   if (parts_.has(sea_part)) {

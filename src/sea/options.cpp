@@ -209,6 +209,8 @@ const Section<SeaOptions>& sea_section() {
           .only_if("model", particles)
           .tables("probes", &SeaOptions::probes, probe_section(), "Pressure and velocity probes.")
           .only_if("model", particles)
+          .tables("sensors", &SeaOptions::sensors, sensor_section(), "Pressure and force on patches of walls and bodies.")
+          .only_if("model", particles)
           .table("fields", &SeaOptions::fields, fields_section(), "Output for ParaView.")
           .only_if("model", particles);
   return section;

@@ -85,6 +85,7 @@ struct SeaOptions {
   std::optional<InitialOptions> initial;
   std::vector<GaugeOptions> gauges;
   std::vector<ProbeOptions> probes;
+  std::vector<SensorOptions> sensors;
   std::optional<FieldsOptions> fields;
 
   bool has_particles() const { return model == "sph"; }

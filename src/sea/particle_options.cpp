@@ -122,14 +122,17 @@ const Section<ParticleOptions>& particle_section() {
                   {{"single", "pairs in float, state in double"}, {"double", "everything in double, about twice the time"}},
                   "Arithmetic of the pairs.")
           .integer("lost_at_most", &ParticleOptions::lost_at_most, "-",
-                   "Particles that may leave the tank before the run stops; each is counted in history.csv.", between(0, 1e9))
+                   "Particles that may slip through walls before the run stops; each is counted in history.csv. One in ten "
+                   "thousand of the water, or ten, where absent.",
+                   between(0, 1e9))
           .at_most_one_of({"sound_speed_factor", "sound_speed_m_s"});
   return section;
 }
 
 const Section<TankOptions>& tank_section() {
   static const std::vector<scene::Choice> sides = {{"wall", "walls of particles"},
-                                                   {"periodic", "what leaves on one side enters on the other"}};
+                                                   {"periodic", "what leaves on one side enters on the other"},
+                                                   {"open", "no walls: what comes there leaves, counted in history.csv"}};
   static const auto section =
       Section<TankOptions>("tank",
                            "The tank: walls, bed and open sides. Still water stands at z = 0, the flat bed at the water depth.")
@@ -138,6 +141,9 @@ const Section<TankOptions>& tank_section() {
           .vector("y_m", &TankOptions::y_m, "m", "From and to along y; not used in 2-D.")
           .number("top_m", &TankOptions::top_m, "m", "Height of the walls' upper edge.")
           .required()
+          .choice("over_edge", &TankOptions::over_edge,
+                  {{"splash", "one in a hundred particles of the water may go; more ends the run"}, {"open", "any may go"}},
+                  "What may leave over the walls' upper edge, counted in history.csv.")
           .choice("sides_x", &TankOptions::sides_x, sides, "The two ends.")
           .choice("sides_y", &TankOptions::sides_y, sides, "The two long sides.")
           .rows("bed_m", &TankOptions::bed_m, "m",
@@ -226,7 +232,32 @@ const Section<GaugeOptions>& gauge_section() {
                                   .text("name", &GaugeOptions::name, "Name of the columns.")
                                   .required()
                                   .vector("point_m", &GaugeOptions::point_m, "m", "x and y.")
-                                  .required();
+                                  .required()
+                                  .text("body", &GaugeOptions::body,
+                                        "Run-up: the gauge goes with this body, from point_m where the scene describes it; a "
+                                        "spacing off its surface reads best.");
+  return section;
+}
+
+const Section<SensorOptions>& sensor_section() {
+  static const auto section =
+      Section<SensorOptions>("sensors",
+                             "Pressure and force of the water on a patch, averaged over its area and over time: a rectangle on a "
+                             "wall, or the part of a body's surface in a box.")
+          .text("name", &SensorOptions::name, "Name of the columns.")
+          .required()
+          .text("body", &SensorOptions::body, "Body whose surface it is; walls and obstacles of the tank where absent.")
+          .vector("low_m", &SensorOptions::low_m, "m",
+                  "Lowest corner; of a body where the scene describes it. On walls the box is flat along one axis.")
+          .required()
+          .vector("high_m", &SensorOptions::high_m, "m", "Highest corner.")
+          .required()
+          .number("mean_over_s", &SensorOptions::mean_over_s, "s",
+                  "Time before each row over which it is averaged; one window where absent.", positive())
+          .check([](const SensorOptions& o, const scene::Report& report) {
+            for (int k = 0; k < 3; ++k)
+              if (o.high_m[k] < o.low_m[k]) return report("high_m", "must not be below low_m along any axis");
+          });
   return section;
 }
 

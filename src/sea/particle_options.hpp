@@ -1,7 +1,7 @@
 // What a scene may say about a sea of particles (sea.model = "sph"): [sea.particles], [sea.tank], [[sea.water]],
-// [[sea.obstacles]], [sea.wavemaker], [[sea.damping_zones]], [sea.initial], [[sea.gauges]], [[sea.probes]], [sea.fields]. Part of
-// SeaOptions. Used by src/sea/particle_sea.cpp and src/sea/sph; tested in tests/coupled/particle_sea_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// [[sea.obstacles]], [sea.wavemaker], [[sea.damping_zones]], [sea.initial], [[sea.gauges]], [[sea.probes]], [[sea.sensors]],
+// [sea.fields]. Part of SeaOptions. Used by src/sea/particle_sea.cpp and src/sea/sph; tested in
+// tests/coupled/particle_sea_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -45,7 +45,7 @@ struct ParticleOptions {
   double cfl = 0.2;
   std::string precision = "single";
   int verlet_join_every = 40;
-  int lost_at_most = 0;
+  std::optional<int> lost_at_most;
 
   bool planar() const { return dimensions == "2"; }
   bool modified_walls() const { return walls.starts_with("modified"); }
@@ -56,6 +56,7 @@ struct TankOptions {
   std::array<double, 2> x_m{}, y_m{};
   double top_m = 0.0;  ///< of the walls; above it is open
   std::string sides_x = "wall", sides_y = "wall";
+  std::string over_edge = "splash";
   std::vector<std::array<double, 2>> bed_m;  ///< [x, z]: height of the bed along x; flat at the water depth where empty
 };
 
@@ -91,6 +92,14 @@ struct InitialOptions {
 struct GaugeOptions {
   std::string name;
   std::array<double, 2> point_m{};
+  std::string body;  ///< that it goes with; empty: stands
+};
+/// [[sea.sensors]]
+struct SensorOptions {
+  std::string name;
+  std::string body;  ///< empty: walls and obstacles
+  Eigen::Vector3d low_m = Eigen::Vector3d::Zero(), high_m = Eigen::Vector3d::Zero();
+  double mean_over_s = 0.0;  ///< 0: one window
 };
 /// [[sea.probes]]
 struct ProbeOptions {
@@ -118,6 +127,7 @@ const scene::Section<DampingZoneOptions>& damping_zone_section();
 const scene::Section<InitialOptions>& initial_section();
 const scene::Section<GaugeOptions>& gauge_section();
 const scene::Section<ProbeOptions>& probe_section();
+const scene::Section<SensorOptions>& sensor_section();
 const scene::Section<FieldsOptions>& fields_section();
 
 }  // namespace spindrift::sea

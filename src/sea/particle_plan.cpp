@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "src/sea/particle_sea.hpp"
+#include "src/sea/sph/sensors.hpp"
 #include "src/sea/wave_field.hpp"
 #include "src/sea/wave_model.hpp"
 
@@ -45,7 +47,6 @@ sph::Parameters parameters_of(const SeaOptions& o, const SeaEnvironment& environ
   p.diffusion = s.density_diffusion, p.delta = s.diffusion_strength;
   p.gravity = environment.gravity;
   p.step = s.step, p.filter = s.density_filter, p.filter_every = s.filter_every, p.shifting = s.shifting, p.cfl = s.cfl;
-  p.lost_at_most = std::size_t(s.lost_at_most);
   return p;
 }
 
@@ -59,6 +60,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
   const TankOptions& t = *o.tank;
   plan.tank.x = t.x_m, plan.tank.y = t.y_m, plan.tank.depth = environment.water_depth, plan.tank.top = t.top_m;
   plan.tank.periodic = {t.sides_x == "periodic", t.sides_y == "periodic"};
+  plan.tank.open = {t.sides_x == "open", t.sides_y == "open"}, plan.tank.over_edge_open = t.over_edge == "open";
   plan.tank.bed = t.bed_m, plan.tank.modified_walls = o.particles->modified_walls();
   for (const BoxOptions& box : o.water) plan.tank.water.push_back(block_of(box));
   for (const BoxOptions& box : o.obstacles) plan.tank.obstacles.push_back(block_of(box));
@@ -74,7 +76,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
     }
   }
   plan.settle_damping = o.initial ? o.initial->settle_damping_1_s : 0.0;
-  plan.damping_zones = o.damping_zones, plan.gauges = o.gauges, plan.probes = o.probes;
+  plan.damping_zones = o.damping_zones, plan.gauges = o.gauges, plan.probes = o.probes, plan.sensors = o.sensors;
   if (o.wavemaker) {
     plan.wavemaker = o.wavemaker;
     const double bed = plan.tank.bed_at(t.x_m[0]), hinge = o.wavemaker->hinge_m.value_or(bed);
@@ -97,7 +99,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
 
   if (!planar && !(t.y_m[1] > t.y_m[0])) wrong("sea.tank.y_m", "is needed in 3-D and must go from the lower to the higher side");
   if (planar && t.y_m != std::array<double, 2>{}) wrong("sea.tank.y_m", "has no effect: sea.particles.dimensions is 2");
-  if (planar && t.sides_y == "periodic") wrong("sea.tank.sides_y", "has no effect: sea.particles.dimensions is 2");
+  if (planar && t.sides_y != "wall") wrong("sea.tank.sides_y", "has no effect: sea.particles.dimensions is 2");
   if (!(t.top_m > -depth)) wrong("sea.tank.top_m", fmt::format("is below the bed at {} m", -depth));
   if (o.water.empty() && t.top_m < 0.0) wrong("sea.tank.top_m", "is below the still water at 0 m");
   if (deepest_water(o, depth) < 4.0 * d)
@@ -115,7 +117,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     if (t.bed_m[n][1] < -depth - 1e-9 * depth)
       wrong(fmt::format("sea.tank.bed_m[{}]", n),
             fmt::format("is deeper than environment.water_depth_m = {} m, which is the deepest", depth));
-  if (t.sides_x == "periodic" && o.wavemaker) wrong("sea.wavemaker", "needs walls at the ends: sea.tank.sides_x is periodic");
+  if (t.sides_x != "wall" && o.wavemaker) wrong("sea.wavemaker", "needs walls at the ends: sea.tank.sides_x is " + t.sides_x);
   if (t.sides_x == "periodic" && !t.bed_m.empty() && t.bed_m.front()[1] != t.bed_m.back()[1])
     wrong("sea.tank.bed_m", "must end at the height it begins with: sea.tank.sides_x is periodic");
 
@@ -151,7 +153,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   const auto name = [&](const std::string& key, const std::string& value) {
     if (value.empty() || value.find_first_of(" ,\"\t\n") != std::string::npos)
       wrong(key, "must be a name without spaces, commas and quotes");
-    if (!names.insert(value).second) wrong(key, "is the name of another gauge or probe");
+    if (!names.insert(value).second) wrong(key, "is the name of another gauge, probe or sensor");
   };
   for (std::size_t n = 0; n < o.gauges.size(); ++n) {
     const std::string key = fmt::format("sea.gauges[{}]", n);
@@ -167,6 +169,38 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     const Eigen::Vector3d& x = o.probes[n].point_m;
     if (!(x[0] >= t.x_m[0] && x[0] <= t.x_m[1]) || (!planar && !(x[1] >= t.y_m[0] && x[1] <= t.y_m[1])))
       wrong(key + ".point_m", "is outside the tank");
+  }
+  const auto shaped = [&](const std::string& key, const std::string& body) {
+    const auto named = std::find_if(bodies.begin(), bodies.end(), [&](const ParticleBody& b) { return b.name == body; });
+    if (named != bodies.end() && !named->shapes.empty()) return named;
+    std::string known;
+    for (const ParticleBody& b : bodies)
+      if (!b.shapes.empty()) known += (known.empty() ? "" : ", ") + b.name;
+    wrong(key + ".body", "names '" + body + "', which is no body with a shape; known: " + (known.empty() ? "none" : known));
+    return bodies.end();
+  };
+  for (std::size_t n = 0; n < o.gauges.size(); ++n)
+    if (!o.gauges[n].body.empty()) shaped(fmt::format("sea.gauges[{}]", n), o.gauges[n].body);
+  for (std::size_t n = 0; n < o.sensors.size(); ++n) {
+    const SensorOptions& sensor = o.sensors[n];
+    const std::string key = fmt::format("sea.sensors[{}]", n);
+    name(key + ".name", sensor.name);
+    if (!sensor.body.empty()) {
+      const auto body = shaped(key, sensor.body);
+      if (body == bodies.end()) continue;
+      const Eigen::Vector3d low = sensor.low_m - body->described.position, high = sensor.high_m - body->described.position;
+      if (sph::points_of_surface(body->shapes, low, high, d, planar ? sph::Cut::plane : sph::Cut::space).empty())
+        wrong(key, "has nothing of the surface of " + sensor.body + " between low_m and high_m, where the scene describes it");
+      continue;
+    }
+    int flat = 0;
+    for (int k = 0; k < 3; ++k)
+      if (!(planar && k == 1) && sensor.low_m[k] == sensor.high_m[k]) ++flat;
+    if (flat != 1)
+      wrong(key, "must be flat along one axis to be a rectangle on a wall (low_m and high_m equal there), or give body");
+    const bool outside = sensor.low_m[0] < t.x_m[0] || sensor.high_m[0] > t.x_m[1] || sensor.low_m[2] < -depth ||
+                         (!planar && (sensor.low_m[1] < t.y_m[0] || sensor.high_m[1] > t.y_m[1]));
+    if (outside) wrong(key, "is outside the tank");
   }
   for (std::size_t n = 0; n < o.damping_zones.size(); ++n)
     for (const double x : {o.damping_zones[n].from_m, o.damping_zones[n].to_m})

@@ -88,6 +88,7 @@ class Sea final : public ParticleSea {
       owner_of_body_[b] = tank.bodies[shaped++];
       sea_.add_body(owner_of_body_[b], start[b], plan.bodies[b].mass / width_);
     }
+    for (const SensorOptions& sensor : plan.sensors) add_sensor(plan, sensor);
   }
 
   void evaluate(double t, std::span<const Motion> bodies) override {
@@ -95,6 +96,7 @@ class Sea final : public ParticleSea {
     if (ranks_ > 1) sea_.repartition();
     sea_.sort();
     (void)sea_.step_limit();
+    sea_.read_sensors();
     for (std::size_t b = 0; b < loads_.size(); ++b) {
       loads_[b] = contacts_[b] = Wrench{.point = motions_[b].position};
       if (!owner_of_body_[b]) continue;
@@ -142,11 +144,13 @@ class Sea final : public ParticleSea {
     const std::string what = failure->what(), told = what.starts_with("t = ") ? "" : "t = " + sph::in_words(t_) + " s: ";
     throw NumericalFailure(told + what, failure->place, failure->step, told.empty() ? failure->time_s : t_, failure->limit);
   }
-  void take_snapshot(int slot) override { snapshots_[std::size_t(slot)] = {sea_.save(), loads_, contacts_, motions_}; }
+  void take_snapshot(int slot) override {
+    snapshots_[std::size_t(slot)] = {sea_.save(), loads_, contacts_, motions_, sea_.state().records};
+  }
   void return_to(int slot) override {
     const Saved& n = snapshots_[std::size_t(slot)];
     sea_.restore(n.sea);
-    loads_ = n.loads, contacts_ = n.contacts, motions_ = n.motions;
+    loads_ = n.loads, contacts_ = n.contacts, motions_ = n.motions, sea_.state().records = n.records;
   }
   std::span<const Wrench> loads() const override { return loads_; }
   std::span<const Wrench> contacts() const override { return contacts_; }
@@ -168,6 +172,11 @@ class Sea final : public ParticleSea {
     const auto reading =
         sph::probe<dim>(sea_.store(), sea_.parameters(), sea_.columns().domain(), sph::from_earth<dim>(at), comm_);
     return {reading.pressure, sph::to_earth<dim>(reading.velocity)};
+  }
+  sph::PatchReading sensor(std::size_t n) const override {
+    sph::PatchReading reading = sea_.state().records[n].mean();
+    reading.force *= width_;
+    return reading;
   }
   sph::Wavemaker::Stroke paddle(double t) const override {
     return wavemaker_ ? wavemaker_->stroke(t) : sph::Wavemaker::Stroke{0.0, 0.0};
@@ -224,27 +233,60 @@ class Sea final : public ParticleSea {
   ParticleState save() const override {
     ParticleState state = layout();
     state.values = sph::by_identity(sea_, particles_, comm_).values;
+    for (const sph::PatchRecord& record : sea_.state().records) record.pack(state.sensors);
     return state;
   }
   ParticleState layout() const override {
     const std::size_t size = sph::values_per_particle<dim>(sea_.parameters());
     const auto mine = sph::identities_of(particles_, runtime::rank_in(comm_), ranks_);
-    return {std::int64_t(mine.first * size), std::int64_t(particles_ * size),
-            std::vector<double>((mine.last - mine.first) * size), sea_.time(), sea_.work().steps};
+    return {std::int64_t(mine.first * size),
+            std::int64_t(particles_ * size),
+            std::vector<double>((mine.last - mine.first) * size),
+            {},
+            sea_.time(),
+            sea_.work().steps};
   }
   void restore(const ParticleState& state) override {
     sph::set_by_identity<dim, Real>(sea_, sph::identities_of(particles_, runtime::rank_in(comm_), ranks_), state.values, owner_,
                                     state.time_s, long(state.steps));
+    // A sea with other sensors than the state's begins their means anew.
+    std::vector<std::span<const double>> records;
+    for (std::span<const double> rest = state.sensors; !rest.empty();) {
+      const std::size_t size = sph::PatchRecord::numbers * std::size_t(rest[0]);
+      if (rest.size() < 1 + size) break;
+      records.push_back(rest.subspan(1, size)), rest = rest.subspan(1 + size);
+    }
+    if (records.size() != sea_.state().records.size()) return;
+    for (std::size_t n = 0; n < records.size(); ++n) sea_.state().records[n].unpack(records[n]);
   }
 
   std::size_t particles() const override { return particles_; }
-  std::size_t lost() const override { return sea_.store().lost.size(); }
+  std::size_t lost() const override { return sea_.state().gone().lost; }
+  std::size_t left() const override { return sea_.state().gone().over_edge + sea_.state().gone().through_open_sides; }
   std::size_t bytes() const override { return sea_.store().bytes(); }
   std::int64_t steps() const override { return sea_.work().steps; }
   std::int64_t evaluations() const override { return sea_.work().evaluations; }
   std::int64_t sorts() const override { return sea_.work().sorts; }
 
  private:
+  void add_sensor(const ParticlePlan& plan, const SensorOptions& sensor) {
+    constexpr sph::Cut cut = dim == 2 ? sph::Cut::plane : sph::Cut::space;
+    const double d = plan.options.spacing_m;
+    sph::Patch patch{.owner = sph::wall_owner, .low = sensor.low_m, .high = sensor.high_m, .mean_over = sensor.mean_over_s};
+    if (sensor.body.empty()) {
+      patch.points = sph::points_of_rectangle(patch.low, patch.high, 0.5 * d, cut);
+      for (int k = 0; k < 3; ++k)  // the particles of the wall on either side of it that water feels
+        if (patch.low[k] == patch.high[k]) patch.low[k] -= sea_.parameters().reach(), patch.high[k] += sea_.parameters().reach();
+    } else {
+      const auto named =
+          std::find_if(plan.bodies.begin(), plan.bodies.end(), [&](const auto& b) { return b.name == sensor.body; });
+      const Motion& described = named->described;
+      patch.owner = owner_of_body_[std::size_t(named - plan.bodies.begin())];
+      patch.low -= described.position, patch.high -= described.position;
+      patch.points = sph::points_of_surface(named->shapes, patch.low, patch.high, d, cut);
+    }
+    sea_.add_sensor(std::move(patch));
+  }
   void place(double t, std::span<const Motion> bodies) {
     motions_.assign(bodies.begin(), bodies.end());
     for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -307,6 +349,7 @@ class Sea final : public ParticleSea {
     sph::Saved<dim> sea;
     std::vector<Wrench> loads, contacts;
     std::vector<Motion> motions;
+    std::vector<sph::PatchRecord> records;
   };
   WindowDriver* driver_ = nullptr;
   std::vector<std::unique_ptr<sph::StepTasks<dim, Real>>> tasks_;
@@ -318,6 +361,12 @@ template <int dim, class Real>
 std::unique_ptr<ParticleSea> make_sea(const ParticlePlan& plan, std::span<const Motion> start, const runtime::World& world) {
   sph::Parameters parameters = plan.parameters;
   const auto tank = sph::lay_out<dim>(tank_with_bodies(plan, start), parameters);
+  // One in ten thousand may slip through walls (an impact presses some), one in a hundred splash over the edge.
+  parameters.lost_at_most = std::size_t(plan.options.lost_at_most.value_or(std::max(10, int(1e-4 * double(tank.water)))));
+  if (plan.tank.over_edge_open)
+    parameters.left_at_most = std::numeric_limits<std::size_t>::max();
+  else
+    parameters.left_at_most = std::max<std::size_t>(100, tank.water / 100);
   return std::make_unique<Sea<dim, Real>>(plan, start, parameters, tank, world);
 }
 

@@ -25,6 +25,7 @@
 #include "runtime/graph/graph.hpp"
 #include "runtime/mpi/environment.hpp"
 #include "src/sea/options.hpp"
+#include "src/sea/sph/sensors.hpp"
 #include "src/sea/sph/tank.hpp"
 #include "src/sea/wave_field.hpp"
 
@@ -51,6 +52,7 @@ struct ParticlePlan {
   double settle_damping = 0.0;
   std::vector<GaugeOptions> gauges;
   std::vector<ProbeOptions> probes;
+  std::vector<SensorOptions> sensors;
 };
 ParticlePlan particle_plan(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
                            std::vector<ParticleBody> bodies);
@@ -91,6 +93,7 @@ struct ParticleSample {
 struct ParticleState {
   std::int64_t first = 0, total = 0;  ///< of `values` among those of all ranks
   std::vector<double> values;
+  std::vector<double> sensors;  ///< what they have read, the same on all ranks
   double time_s = 0.0;
   std::int64_t steps = 0;
 };
@@ -152,6 +155,8 @@ class ParticleSea {
     Eigen::Vector3d velocity;
   };
   virtual Reading probe(const Eigen::Vector3d& at) const = 0;
+  /// Mean of the plan's sensor n; force in earth axes [N].
+  virtual sph::PatchReading sensor(std::size_t n) const = 0;
   /// Displacement and velocity of the paddle at still water [m], [m/s]; zero without one.
   virtual sph::Wavemaker::Stroke paddle(double t_s) const = 0;
   /// Farthest and highest water [m], kinetic energy of the water [J] (2-D: of the scene's width).
@@ -168,7 +173,9 @@ class ParticleSea {
   virtual void restore(const ParticleState& state) = 0;
 
   virtual std::size_t particles() const = 0;
+  /// Particles that slipped through walls; that left over the walls' edge or through open sides.
   virtual std::size_t lost() const = 0;
+  virtual std::size_t left() const = 0;
   virtual std::size_t bytes() const = 0;
   virtual std::int64_t steps() const = 0;
   virtual std::int64_t evaluations() const = 0;

@@ -103,11 +103,63 @@ TEST_CASE("a body that comes to lie on the bed is carried by its contact, named 
 
 TEST_CASE("an interrupted sea of particles goes on bit for bit", "[coupled][sea][fast]") {
   const test::Folder whole("sea_whole"), parts("sea_parts");
-  test::run_scene(test::input(box), small_box, whole.path());
+  std::vector<std::string> watched = small_box;  // a mean over two and a half windows reaches over the interruption
+  watched.push_back("sea.sensors=[{name='low', body='box', low_m=[-1.0, -1.0, -1.0], high_m=[1.0, 1.0, 0.0], mean_over_s=0.1}]");
+  test::run_scene(test::input(box), watched, whole.path());
   run::RunSettings first{.until_s = 0.16, .quiet = true};
-  test::run_scene(test::input(box), small_box, parts.path(), first);
-  test::run_scene(test::input(box), small_box, parts.path(), {.restart = true, .quiet = true});
+  test::run_scene(test::input(box), watched, parts.path(), first);
+  test::run_scene(test::input(box), watched, parts.path(), {.restart = true, .quiet = true});
   CHECK(test::text_of(whole.path() / "history.csv") == test::text_of(parts.path() / "history.csv"));
+}
+
+TEST_CASE("sensors of a scene: patches share out a body's load, a wall's pressure is that of its depth, run-up is over the body",
+          "[coupled][sea][fast]") {
+  const test::Folder folder("sensors");
+  std::vector<std::string> watched = small_box;
+  watched.insert(watched.end(),
+                 {"sea.sensors=[{name='low', body='box', low_m=[-1.0, -1.0, -1.0], high_m=[1.0, 1.0, 0.0], mean_over_s=1e-9}, "
+                  "{name='high', body='box', low_m=[-1.0, -1.0, 1e-9], high_m=[1.0, 1.0, 1.0], mean_over_s=1e-9}, "
+                  "{name='wall', low_m=[1.0, 0.0, -0.5], high_m=[1.0, 0.0, -0.3]}]",
+                  "sea.gauges=[{name='beside', point_m=[0.28, 0.0], body='box'}]"});
+  CHECK(test::run_scene(test::input(box), watched, folder.path()).exit_code == 0);
+  const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
+  const auto t = history["time_s"];
+  for (std::size_t n = 1; n < t.size(); ++n) {  // the mean of the last step alone is the load of its middle
+    CHECK(history["low.fz_N"][n] + history["high.fz_N"][n] == Approx(history["box.sea.fz_N"][n]).epsilon(1e-9));
+    CHECK(history["low.fx_N"][n] + history["high.fx_N"][n] == Approx(history["box.sea.fx_N"][n]).margin(1e-6));
+    CHECK(history["wall.mean_pressure_Pa"][n] == Approx(0.4 * 9810.0).epsilon(0.06));
+    CHECK(history["beside.run_up_m"][n] == Approx(history["beside.elevation_m"][n] - history["box.z_m"][n]).margin(1e-3));
+  }
+  double held = 0.0;  // while the box is held: once released it sinks, and the water rises
+  for (std::size_t n = 0; n < t.size(); ++n)
+    if (t[n] <= 0.0) held += history["wall.mean_pressure_Pa"][n];
+  CHECK(held / double(std::count_if(t.begin(), t.end(), [](double x) { return x <= 0.0; })) ==
+        Approx(0.4 * 9810.0).epsilon(0.02));
+  CHECK_THAT(refusal(box, {"sea.sensors=[{name='a', low_m=[0.0, 0.0, -0.5], high_m=[0.1, 0.0, -0.3]}]"}),
+             Contains("sea.sensors[0]") && Contains("flat along one axis"));
+  CHECK_THAT(refusal(box, {"sea.sensors=[{name='a', body='bax', low_m=[-1.0, -1.0, -1.0], high_m=[1.0, 1.0, 1.0]}]"}),
+             Contains("sea.sensors[0].body") && Contains("known: box"));
+  CHECK_THAT(refusal(box, {"sea.sensors=[{name='a', body='box', low_m=[5.0, -1.0, -1.0], high_m=[6.0, 1.0, 1.0]}]"}),
+             Contains("sea.sensors[0]") && Contains("nothing of the surface"));
+}
+
+TEST_CASE("water leaves through open sides and over the edge, counted apart from what slips through walls",
+          "[coupled][sea][fast]") {
+  const test::Folder open("open_side"), edge("over_edge");
+  const auto run = [&](const std::string& tank, const std::string& sides, const test::Folder& folder) {
+    CHECK(test::run_scene(test::input(dam),
+                          {"sea.particles.spacing_m=0.1", "time.end_s=1.0", "sea.probes=[]", "sea.gauges=[]", tank, sides},
+                          folder.path())
+              .exit_code == 0);
+    return scene::read_columns((folder.path() / "history.csv").string());
+  };
+  const scene::Columns flowing = run("sea.tank.x_m=[0.0, 3.0]", "sea.tank.sides_x='open'", open);
+  CHECK(flowing["sea.left_particles"].back() > 100.0);
+  CHECK(flowing["sea.x_max_m"].back() < 3.06);
+  CHECK(flowing["sea.lost_particles"].back() == 0.0);
+  const scene::Columns splashed = run("sea.tank.x_m=[0.0, 1.6]", "sea.tank.top_m=-1.0", edge);
+  CHECK(splashed["sea.left_particles"].back() > 0.0);
+  CHECK(splashed["sea.lost_particles"].back() == 0.0);
 }
 
 TEST_CASE("a sea starts from the state of another run", "[coupled][sea][fast]") {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace spindrift::sph {
@@ -15,12 +16,33 @@ namespace spindrift::sph {
 template <int dim>
 struct Domain {
   std::array<double, dim> low, high;
-  std::array<bool, dim> periodic{};
-
+  std::array<bool, dim> periodic{}, open{};  ///< open: without a wall there
+  /// The walls' outer faces, where there are walls, and the height of their upper edge: water beyond these and over that has
+  /// left.
+  std::array<double, dim> outer_low = everywhere(-1.0), outer_high = everywhere(1.0);
+  double edge = std::numeric_limits<double>::infinity();
   bool contains(const std::array<double, dim>& x) const {
     for (int k = 0; k < dim; ++k)
       if (!(x[k] >= low[k] && x[k] < high[k]) && !periodic[k]) return false;  // also catches NaN
     return true;
+  }
+  static std::array<double, dim> everywhere(double sign) {
+    std::array<double, dim> x;
+    x.fill(sign * std::numeric_limits<double>::infinity());
+    return x;
+  }
+  bool passed_edge(const std::array<double, dim>& x) const {
+    bool outside = false;
+    for (int k = 0; k < dim - 1; ++k) outside = outside || x[k] < outer_low[k] || x[k] > outer_high[k];
+    return outside && x[dim - 1] > edge;
+  }
+  /// How a particle that is no more in the tank left it.
+  enum class Way { lost, over_edge, open_side };
+  Way way_out(const std::array<double, dim>& x) const {
+    for (int k = 0; k < dim - 1; ++k)
+      if (open[k] && (x[k] < low[k] || x[k] >= high[k])) return Way::open_side;
+    const bool over_top = x[dim - 1] >= high[dim - 1] && std::isfinite(edge) && std::isfinite(x[dim - 1]);
+    return over_top || passed_edge(x) ? Way::over_edge : Way::lost;
   }
 };
 

@@ -157,6 +157,10 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
   return heights;
 }
 
+/// Least share of a full neighbourhood that is read as water: at a wall half is filled, in a corner, which water keeps a spacing
+/// from, a tenth.
+inline constexpr double least_water = 0.02;
+
 /// What a probe reads; velocity is not-a-number where there is no water, pressure zero.
 template <int dim>
 struct ProbeReading {
@@ -203,9 +207,7 @@ ProbeReading<dim> probe(const Store<dim, Real>& store, const Parameters& p, cons
     weight += t.weight, reading.pressure += t.weight * t.pressure;
     for (int k = 0; k < dim; ++k) reading.velocity[k] += t.weight * t.velocity[k];
   }
-  constexpr double least =
-      0.02;  // of a full neighbourhood: at a wall half, in a corner, which water keeps a spacing from, a tenth
-  if (weight < least) {
+  if (weight < least_water) {
     reading.pressure = 0.0;
     reading.velocity.fill(std::numeric_limits<double>::quiet_NaN());
     return reading;

@@ -80,8 +80,9 @@ void Sorting<dim, Real>::classify(int part) {
       }
       x[k] = store_.x[k][slot];
     }
-    key_[slot] =
-        domain.contains(x) ? std::uint32_t(columns_.group(x) * store_.owners + store_.owner[slot / cluster_size]) : lost_key;
+    key_[slot] = domain.contains(x) && !(store_.owner[slot / cluster_size] == 0 && domain.passed_edge(x))
+                     ? std::uint32_t(columns_.group(x) * store_.owners + store_.owner[slot / cluster_size])
+                     : lost_key;
   }
 }
 

@@ -47,7 +47,8 @@ struct Parameters {
   double contact_damping = 0.2;    ///< share of critical for one layer of the weight of water
   double contact_friction = 0.0;   ///< Coulomb's coefficient
   int verlet_join_every = 40;
-  std::size_t lost_at_most = 0;    ///< particles that may leave the domain before the run stops
+  std::size_t lost_at_most = 0;    ///< particles that may slip through walls before the run stops
+  std::size_t left_at_most = 0;    ///< the same over the walls' upper edge
   double drift_over_d = 0.5;       ///< distance a particle may go between two sorts, in spacings
   double column_over_reach = 1.0;  ///< width of a column of cells over the least possible
 

@@ -261,6 +261,38 @@ Wrench SeaSph<dim, Real>::load_on(std::uint16_t owner, const Eigen::Vector3d& ab
 }
 
 template <int dim, class Real>
+void SeaSph<dim, Real>::add_sensor(Patch patch) {
+  s_.records.emplace_back(patch.mean_over);
+  s_.patches.push_back(std::move(patch));
+  forget_programs();
+}
+
+template <int dim, class Real>
+void SeaSph<dim, Real>::read_sensors() {
+  for (std::size_t n = 0; n < s_.patches.size(); ++n) {
+    if (!s_.records[n].empty()) continue;
+    const Patch& patch = s_.patches[n];
+    runtime::Packer mine;
+    std::vector<double> part(sums_of(patch)), sums(part.size(), 0.0);
+    for (const int g : groups_near(patch, s_.solids, s_.columns, s_.p.reach() + 2.0 * s_.p.drift())) {
+      if (!s_.subdomain.owns(g)) continue;
+      read_patch(s_.store, s_.p, s_.columns.domain(), patch, s_.solids, g, std::span<double>(part));
+      mine.put_one(g), mine.put(std::span<const double>(part));
+    }
+    std::vector<std::pair<int, std::vector<double>>> parts;
+    for (const runtime::Bytes& bytes : runtime::exchange_all(comm_.get(), mine.take()))
+      for (runtime::Unpacker from(bytes); !from.done();) {
+        const int g = from.one<int>();
+        parts.emplace_back(g, from.many<double>());
+      }
+    std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [g, values] : parts)
+      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += values[k];
+    s_.records[n].add(0.0, reading_of(patch, sums));
+  }
+}
+
+template <int dim, class Real>
 Saved<dim> SeaSph<dim, Real>::save() const {
   return save_groups(s_, s_.subdomain.own);
 }

@@ -69,6 +69,11 @@ class SeaSph {
   /// Force of the water on the particles of an owner (a body or a wall), about a point.
   Wrench load_on(std::uint16_t owner, const Eigen::Vector3d& about) const;
 
+  /// A patch to be read in every step of windows from now on: state().records. Before the first, read_sensors() reads it.
+  void add_sensor(Patch patch);
+  /// Reads the sensors that have read nothing so far, at the last evaluation.
+  void read_sensors();
+
   /// Contact forces at the last evaluation of a step driven by its parts, each with the two owners it acts between; none of them
   /// is in load_on.
   const std::vector<Touch>& contacts() const { return contacts_; }

@@ -28,39 +28,10 @@ inline std::vector<double> cell_centres(double length, double spacing) {
   return centres;
 }
 
-/// Counts along the edges of a box (an edge of zero: one) whose product is nearest to its volume in cells, each within one of the
-/// edge in spacings: particles that stand for more or less than their volume make the body larger or smaller.
-inline std::array<int, 3> counts_in_box(const Eigen::Vector3d& edges, double spacing) {
-  std::array<int, 3> best{1, 1, 1};
-  double volume = 1.0, least = 1e300;
-  for (int axis = 0; axis < 3; ++axis)
-    if (edges[axis] > 0.0) volume *= edges[axis] / spacing;
-  for (int choice = 0; choice < 8; ++choice) {
-    std::array<int, 3> n{1, 1, 1};
-    double product = 1.0, uneven = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(edges[axis] > 0.0)) continue;
-      const double length = edges[axis] / spacing;
-      n[std::size_t(axis)] = std::max(1, int(std::floor(length + 1e-9)) + (choice >> axis & 1));
-      product *= n[std::size_t(axis)], uneven += std::pow(std::log(n[std::size_t(axis)] / length), 2);
-    }
-    const double off = std::abs(std::log(product / volume)) + 0.1 * uneven;
-    if (off < least - 1e-12) least = off, best = n;
-  }
-  return best;
-}
-
-/// Box of the given edges; an edge of zero makes the plane of a 2-D scene.
-inline Points points_in_box(const Eigen::Vector3d& edges, double spacing) {
-  const std::array<int, 3> counts = counts_in_box(edges, spacing);
-  Points points;
-  for (int i = 0; i < counts[0]; ++i)
-    for (int j = 0; j < counts[1]; ++j)
-      for (int k = 0; k < counts[2]; ++k)
-        points.push_back({edges[0] * ((i + 0.5) / counts[0] - 0.5), edges[1] * ((j + 0.5) / counts[1] - 0.5),
-                          edges[2] * ((k + 0.5) / counts[2] - 0.5)});
-  return points;
-}
+/// Box of the given edges, filled by counts along them (an edge of zero: one, the plane of a 2-D scene) whose product is nearest
+/// to its volume in cells, each within one of the edge in spacings: particles that stand for more or less than their volume make
+/// the body larger or smaller.
+Points points_in_box(const Eigen::Vector3d& edges, double spacing);
 
 /// Spacing across an axis that makes up for layers of other than the spacing along it: number times spacing^3 is the volume.
 inline double spacing_across(double length, double spacing) {
@@ -69,58 +40,13 @@ inline double spacing_across(double length, double spacing) {
 
 /// Rings of a disc in the plane of the first two components: ring k holds about as many particles as spacings fit on it. `owed`:
 /// what rounding has left out so far, in particles; of layer upon layer the volume up to each is then met within half a particle.
-inline std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing, double& owed) {
-  const int rings = whole_spacings(radius, spacing);
-  const double width = radius / rings;
-  std::vector<Eigen::Vector2d> points;
-  double area = owed;  // in spacings^2; carried over, so that rounding does not add up
-  for (int ring = 0; ring < rings; ++ring) {
-    area += pi * (2 * ring + 1) * width * width / (spacing * spacing);
-    const int n = std::max(1, int(std::lround(area - double(points.size()))));
-    const double r = n == 1 ? 0.0 : width * (ring + 0.5);
-    for (int k = 0; k < n; ++k) {
-      const double angle = 2.0 * pi * (k + 0.5 * (ring % 2)) / n;
-      points.push_back({r * std::cos(angle), r * std::sin(angle)});
-    }
-  }
-  owed = area - double(points.size());
-  return points;
-}
-inline std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing) {
-  double owed = 0.0;
-  return points_in_disc(radius, spacing, owed);
-}
+std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing, double& owed);
+std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing);
 
 /// Circular cylinder along an axis (0 x, 1 y, 2 z); length zero makes the disc of a 2-D scene.
-inline Points points_in_cylinder(double radius, double length, int axis, double spacing) {
-  const std::vector<double> layers = length > 0.0 ? cell_centres(length, spacing) : std::vector<double>{0.0};
-  const double across = length > 0.0 ? spacing_across(length, spacing) : spacing;
-  Points points;
-  double owed = 0.0;
-  for (double along : layers)
-    for (const Eigen::Vector2d& p : points_in_disc(radius, across, owed)) {
-      Eigen::Vector3d point;
-      point[axis] = along, point[(axis + 1) % 3] = p[0], point[(axis + 2) % 3] = p[1];
-      points.push_back(point);
-    }
-  return points;
-}
+Points points_in_cylinder(double radius, double length, int axis, double spacing);
 
 /// Sphere: shells of points spread by the golden angle.
-inline Points points_in_sphere(double radius, double spacing) {
-  const int shells = whole_spacings(radius, spacing);
-  const double width = radius / shells, golden = pi * (3.0 - std::sqrt(5.0));
-  Points points;
-  for (int shell = 0; shell < shells; ++shell) {
-    const double volume = 4.0 / 3.0 * pi * std::pow((shell + 1) * width / spacing, 3);
-    const int n = std::max(1, int(std::lround(volume - double(points.size()))));
-    const double r = n == 1 ? 0.0 : width * (shell + 0.5);
-    for (int k = 0; k < n; ++k) {
-      const double z = 1.0 - (2.0 * k + 1.0) / n, ring = std::sqrt(1.0 - z * z);
-      points.push_back(r * Eigen::Vector3d(ring * std::cos(golden * k), ring * std::sin(golden * k), z));
-    }
-  }
-  return points;
-}
+Points points_in_sphere(double radius, double spacing);
 
 }  // namespace spindrift::sph

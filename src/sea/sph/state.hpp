@@ -20,6 +20,7 @@
 #include "src/sea/sph/contact.hpp"
 #include "src/sea/sph/ordering.hpp"
 #include "src/sea/sph/parameters.hpp"
+#include "src/sea/sph/sensors.hpp"
 #include "src/sea/sph/solids.hpp"
 #include "src/sea/sph/subdomain.hpp"
 #include "src/sea/sph/sweep_pairs.hpp"
@@ -104,6 +105,8 @@ struct SeaState {
   Sweep rates, strain, filter, shifting;  ///< pair sweeps of one group with the scene's schemes; empty where there is none
   std::function<void(Store<dim, Real>&, int group, Candidates<dim, Real>&)> boundary;  ///< empty without ghost nodes
   std::vector<std::vector<Touch>> touches;  ///< of each own group, at the last evaluation
+  std::vector<Patch> patches;               ///< of sensors
+  std::vector<PatchRecord> records;         ///< what they read, by patch
   MoveBodies move_bodies;
   std::function<void(int group, double dt)> after_step;  ///< what else a step does to the particles of a group (damping zones)
   StepControl step_control;
@@ -116,14 +119,44 @@ struct SeaState {
     plan.drift = plan.solid_drift = plan.way = plan.solid_way = 0.0;  // what follows depends on the particles alone
     plan.sort = false;
     ++work.sorts;
-    if (store.lost.size() <= p.lost_at_most || plan.failure) return;
-    const LostParticle<dim>& last = store.lost.back();
-    std::string place = "(";
-    for (int k = 0; k < dim; ++k) place += (k > 0 ? ", " : "") + in_words(last.position[k]);
-    plan.failure = NumericalFailure("sea: " + std::to_string(store.lost.size()) + " particles left the domain (allowed " +
-                                        std::to_string(p.lost_at_most) + "), the last one, " + std::to_string(last.id) + ", at " +
-                                        place + ") m; widen the domain or check the walls",
-                                    "sea", plan.steps, plan.time, double(p.lost_at_most));
+    if (store.lost.empty() || plan.failure) return;
+    using Way = typename Domain<dim>::Way;
+    const Gone gone = this->gone();
+    const auto stop = [&](Way way, std::size_t count, std::size_t limit, const std::string& how, const std::string& advice) {
+      if (count <= limit || plan.failure) return;
+      const auto last = std::find_if(store.lost.rbegin(), store.lost.rend(),
+                                     [&](const auto& particle) { return columns.domain().way_out(particle.position) == way; });
+      std::string place = "(";
+      for (int k = 0; k < dim; ++k) place += (k > 0 ? ", " : "") + in_words(last->position[k]);
+      plan.failure =
+          NumericalFailure("sea: " + std::to_string(count) + " particles " + how + " (allowed " + std::to_string(limit) +
+                               "), the last one, " + std::to_string(last->id) + ", at " + place + ") m; " + advice,
+                           "sea", plan.steps, plan.time, double(limit));
+    };
+    stop(Way::lost, gone.lost, p.lost_at_most, "left the tank through its walls",
+         "check that walls and obstacles are closed and bodies start clear of them, take a smaller sea.particles.cfl, or raise "
+         "sea.particles.lost_at_most");
+    stop(Way::over_edge, gone.over_edge, p.left_at_most, "left over the upper edge of the tank's walls",
+         "raise sea.tank.top_m, or let them go with sea.tank.over_edge = \"open\"");
+  }
+  /// Particles that are no more in the tank.
+  struct Gone {
+    std::size_t lost = 0, over_edge = 0, through_open_sides = 0;
+  };
+  Gone gone() const {
+    Gone gone;
+    for (const LostParticle<dim>& particle : store.lost) switch (columns.domain().way_out(particle.position)) {
+        case Domain<dim>::Way::lost:
+          ++gone.lost;
+          break;
+        case Domain<dim>::Way::over_edge:
+          ++gone.over_edge;
+          break;
+        case Domain<dim>::Way::open_side:
+          ++gone.through_open_sides;
+          break;
+      }
+    return gone;
   }
   /// Takes in the extremes of the state at n.
   void check_limits(double speed2, double acceleration2, double shifted) {

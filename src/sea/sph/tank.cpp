@@ -106,6 +106,7 @@ class Builder {
   static constexpr double near_bodies = 6.0;  ///< spacings: half of it is packed anew, between the other half
   static constexpr Cut cut = dim == 2 ? Cut::plane : Cut::space;
 
+  bool walled(std::size_t axis) const { return !plan_.periodic[axis] && !plan_.open[axis]; }
   double deviation_at(double z, double surface) const {
     return p_.gravity > 0.0 ? p_.eos.hydrostatic_deviation(std::max(0.0, surface - z), p_.gravity) : 0.0;
   }
@@ -254,9 +255,9 @@ class Builder {
   std::array<double, dim> ghost_of_wall(const std::array<double, dim>& x, std::uint16_t owner) const {
     std::array<double, dim> low, high;
     low.fill(-1e300), high.fill(1e300);
-    if (!plan_.periodic[0]) low[0] = plan_.paddle && owner == wall_owner ? -1e300 : plan_.x[0], high[0] = plan_.x[1];
+    if (walled(0)) low[0] = plan_.paddle && owner == wall_owner ? -1e300 : plan_.x[0], high[0] = plan_.x[1];
     if constexpr (dim == 3)
-      if (!plan_.periodic[1]) low[1] = plan_.y[0], high[1] = plan_.y[1];
+      if (walled(1)) low[1] = plan_.y[0], high[1] = plan_.y[1];
     low[dim - 1] = -plan_.depth;
     for (const TankPlan::Block& block : plan_.obstacles) {
       if (!inside<dim>(block, x)) continue;
@@ -293,10 +294,10 @@ class Builder {
   void add_walls() {
     const int behind = plan_.paddle ? layers_ + int(std::ceil(plan_.paddle_reach / lattice_.edge[0])) + 1 : layers_;
     std::array<int, dim> low{}, high = lattice_.count;
-    low[0] = plan_.periodic[0] ? 0 : -behind;
-    if (!plan_.periodic[0]) high[0] += layers_;
+    low[0] = walled(0) ? -behind : 0;
+    if (walled(0)) high[0] += layers_;
     if constexpr (dim == 3)
-      if (!plan_.periodic[1]) low[1] = -layers_, high[1] += layers_;
+      if (walled(1)) low[1] = -layers_, high[1] += layers_;
     double lowest = -plan_.depth;
     for (const auto& point : plan_.bed) lowest = std::min(lowest, point[1]);
     low[dim - 1] = int(std::floor((lowest + plan_.depth) / lattice_.edge[dim - 1])) - layers_;
@@ -312,8 +313,8 @@ class Builder {
       const double depth_of_layers = lowest_near[column] - layers_ * lattice_.edge[dim - 1];
       if (x[dim - 1] < depth_of_layers) return;
       bool wall = x[dim - 1] < bed[column];
-      if (!plan_.periodic[0]) wall = wall || index[0] >= lattice_.count[0] || (index[0] < 0 && !plan_.paddle);
-      if constexpr (dim == 3) wall = wall || (!plan_.periodic[1] && (index[1] < 0 || index[1] >= lattice_.count[1]));
+      if (walled(0)) wall = wall || index[0] >= lattice_.count[0] || (index[0] < 0 && !plan_.paddle);
+      if constexpr (dim == 3) wall = wall || (walled(1) && (index[1] < 0 || index[1] >= lattice_.count[1]));
       bool in_tank = index[0] >= 0 && index[0] < lattice_.count[0];
       if constexpr (dim == 3) in_tank = in_tank && index[1] >= 0 && index[1] < lattice_.count[1];
       if ((wall || (in_tank && is_obstacle(x))) && !is_core(x)) add_wall_particle(x, wall_owner);
@@ -346,7 +347,7 @@ class Builder {
     result_.body_particles.push_back(points_[b].size());
   }
 
-  /// Room for walls, the paddle's way, splashes and bodies; sides that repeat have exactly their length.
+  /// Room for walls, the paddle's way, splashes and bodies; sides that repeat or are open have exactly their length.
   void set_domain() {
     Domain<dim>& domain = result_.domain;
     const double margin = (layers_ + 2) * p_.spacing;
@@ -356,6 +357,15 @@ class Builder {
     for (int k = 0; k < dim - 1; ++k)
       if ((domain.periodic[k] = plan_.periodic[std::size_t(k)]))
         domain.low[k] = (k == 0 ? plan_.x : plan_.y)[0], domain.high[k] = (k == 0 ? plan_.x : plan_.y)[1];
+    for (int k = 0; k < dim - 1; ++k) {
+      const auto& side = k == 0 ? plan_.x : plan_.y;
+      if ((domain.open[k] = plan_.open[std::size_t(k)])) domain.low[k] = side[0], domain.high[k] = side[1];
+      if (!walled(std::size_t(k))) continue;
+      const double outside = (layers_ + 0.5) * p_.spacing;
+      if (!(k == 0 && plan_.paddle)) domain.outer_low[k] = side[0] - outside;
+      domain.outer_high[k] = side[1] + outside;
+    }
+    domain.edge = plan_.top - p_.spacing;
     double lowest = 1e300, highest = plan_.top;
     for (const Seed<dim>& seed : result_.seeds) {
       lowest = std::min(lowest, seed.position[dim - 1]);

@@ -23,7 +23,8 @@ struct TankPlan {
   std::array<double, 2> x{}, y{};
   double depth = 0.0;                      ///< bed at -depth, still water at 0 [m]
   double top = 0.0;                        ///< of the walls [m]
-  std::array<bool, 2> periodic{};          ///< sides along x, along y
+  std::array<bool, 2> periodic{}, open{};  ///< sides along x, along y
+  bool over_edge_open = false;             ///< any particle may leave over the walls' upper edge
   std::vector<std::array<double, 2>> bed;  ///< (x, z), x increasing; empty: flat
   struct Block {
     Eigen::Vector3d low, high;

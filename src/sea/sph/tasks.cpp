@@ -45,7 +45,8 @@ struct StepTasks<dim, Real>::Shared {
   std::vector<NeighbourLists<dim, Real>> neighbour_lists;  // one per thread
   std::vector<double> extremes;  // partials by bundle: speed, acceleration (squares), way by shifting, a request to stop
   double extreme[4] = {};
-  std::vector<double> partial_loads, loads;  // by body group and body: force, moment
+  std::vector<double> partial_loads, loads;        // by body group and body: force, moment
+  std::vector<double> partial_readings, readings;  // by group near a sensor: sums of all patches (sensors.hpp)
   struct Message {
     std::vector<Real> out, in;
     bool active = false;
@@ -82,7 +83,14 @@ StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph,
   }
   extremes_ = graph.data(bundles_.size());
   shared_->extremes.resize(4 * bundles_.size());
+  find_bodies();
+  find_sensors();
+}
 
+template <int dim, class Real>
+void StepTasks<dim, Real>::find_bodies() {
+  SeaState<dim, Real>& sea = sea_;
+  const Subdomain& subdomain = sea.subdomain;
   if (!sea.move_bodies) return;
   // Bodies load the groups they are in and two rings round these: path_limit sees to it that none goes farther.
   std::vector<std::uint8_t> region(std::size_t(sea.columns.groups()), 0);
@@ -105,9 +113,30 @@ StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph,
       for (int of = on + 1; of < sea.store.owners; ++of)
         if (std::any_of(sea.free.begin(), sea.free.end(), [&](const auto& box) { return box.owner == on || box.owner == of; }))
           touching_.emplace_back(on, of);
-  partial_loads_ = graph.data(body_groups_.size());
+  partial_loads_ = graph_.data(body_groups_.size());
   shared_->loads.resize(6 * (sea.solids.size() + touching_.size()));
   shared_->partial_loads.resize(shared_->loads.size() * body_groups_.size());
+}
+
+/// The own groups that sensors have to do with: those near, of a body all that it may come into.
+template <int dim, class Real>
+void StepTasks<dim, Real>::find_sensors() {
+  const SeaState<dim, Real>& sea = sea_;
+  std::size_t sums = 0;
+  for (const Patch& patch : sea.patches) {
+    sums += sums_of(patch);
+    if (body_of(patch, sea.solids) && sea.move_bodies)
+      sensor_groups_.insert(sensor_groups_.end(), body_groups_.begin(), body_groups_.end());
+    else
+      for (const int g : groups_near(patch, sea.solids, sea.columns, sea.p.reach() + 2.0 * sea.p.drift()))
+        if (sea.subdomain.owns(g)) sensor_groups_.push_back(g);
+  }
+  std::sort(sensor_groups_.begin(), sensor_groups_.end());
+  sensor_groups_.erase(std::unique(sensor_groups_.begin(), sensor_groups_.end()), sensor_groups_.end());
+  partial_readings_ = graph_.data(sensor_groups_.size());
+  records_ = graph_.datum();
+  shared_->readings.resize(sums);
+  shared_->partial_readings.resize(sums * sensor_groups_.size());
 }
 
 /// Sort where it is due, look at the limits, step; until the window is over.
@@ -149,9 +178,11 @@ void StepTasks<dim, Real>::steps(bool first) {
 
 template <int dim, class Real>
 void StepTasks<dim, Real>::step() {
+  if (sea_.p.step == StepChoice::verlet) sensors();
   bodies(Half::begin);
   if (sea_.p.step == StepChoice::symplectic) {
     evaluate(Half::middle);
+    sensors();
     bodies(Half::middle);
   }
   correct();
@@ -503,6 +534,37 @@ void StepTasks<dim, Real>::bodies(Half half) {
                 {reads(order_), reads(plan_), reads(loads_), updates(state_[std::size_t(g)])}, if_active([&sea, g] {
                   for (const Solid& solid : sea.solids) place(sea.store, sea.columns.domain(), solid, g);
                 }));
+}
+
+/// What the groups add to the sensors' patches, summed in the order of the groups, and noted for the length of the step.
+template <int dim, class Real>
+void StepTasks<dim, Real>::sensors() {
+  if (sea_.patches.empty()) return;
+  const auto shared = shared_;
+  SeaState<dim, Real>& sea = sea_;
+  for (std::size_t n = 0; n < sensor_groups_.size(); ++n) {
+    const auto g = std::size_t(sensor_groups_[n]);
+    graph_.task(name("sensors", g),
+                {reads(order_), reads(plan_), reads(loads_), reads(planes_[g]), reads(sums_[g]), writes(partial_readings_[n])},
+                if_active([&sea, shared, g, n] {
+                  std::span<double> mine = std::span(shared->partial_readings).subspan(n * shared->readings.size());
+                  for (const Patch& patch : sea.patches) {
+                    read_patch(sea.store, sea.p, sea.columns.domain(), patch, sea.solids, int(g), mine.first(sums_of(patch)));
+                    mine = mine.subspan(sums_of(patch));
+                  }
+                }));
+  }
+  const Datum sum = graph_.datum();
+  graph_.reduce("sea/sensors", {reads(partial_readings_), writes(sum)},
+                {runtime::Reduction::Operation::sum, shared->partial_readings, shared->readings});
+  graph_.task("sea/sensors/note", {reads(sum), reads(plan_), updates(records_)}, if_active([&sea, shared] {
+                std::span<const double> sums = shared->readings;
+                for (std::size_t n = 0; n < sea.patches.size(); ++n) {
+                  const std::size_t size = sums_of(sea.patches[n]);
+                  sea.records[n].add(sea.plan.dt, reading_of(sea.patches[n], sums.first(size)));
+                  sums = sums.subspan(size);
+                }
+              }));
 }
 
 template <int dim, class Real>

@@ -32,6 +32,7 @@ class StepTasks {
   void evaluate(Half half);  ///< planes and rates at n, or at n + 1/2
   void limits();             ///< after evaluate(begin): plan.limit
   void bodies(Half half);    ///< loads, motions, places; nothing without SeaState::move_bodies
+  void sensors();            ///< notes what sensors read at the last evaluation; nothing without them
   void correct();            ///< to n + 1
   void filters();            ///< density filter and shifting, where the step is due
 
@@ -58,6 +59,8 @@ class StepTasks {
   void clear(std::size_t which, const std::string& label);
   void extra_sweep(std::size_t which, const std::string& label, const Sweep& sweep, std::function<bool(int step)> due,
                    std::function<double(int group)> apply);
+  void find_bodies();
+  void find_sensors();
   double path_limit() const;
   runtime::Uses of_groups(const std::vector<int>& groups, runtime::Use (*how)(runtime::Datum), const Data& data) const;
   static std::string name(const std::string& path, std::size_t n) { return "sea/" + path + "/" + std::to_string(n); }
@@ -71,8 +74,9 @@ class StepTasks {
   std::vector<std::vector<int>> pair_bundles_;  // groups of one colour, colour by colour
   std::vector<std::pair<int, int>> touching_;   // owners whose contacts are told to bodies
   std::vector<int> body_groups_;                // own groups that bodies may come into before the next recording
-  runtime::Datum order_, plan_, loads_;
-  Data state_, planes_, walls_, sums_, stress_, extra_[3], touches_, extremes_, partial_loads_;
+  std::vector<int> sensor_groups_;              // own groups that sensors' patches are in or near
+  runtime::Datum order_, plan_, loads_, records_;
+  Data state_, planes_, walls_, sums_, stress_, extra_[3], touches_, extremes_, partial_loads_, partial_readings_;
   Step step_ = [](const runtime::Context&) { return 0; };
   std::function<bool(int step)> due_;  // further condition on the tasks being recorded
   std::shared_ptr<Shared> shared_;

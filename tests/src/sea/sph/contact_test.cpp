@@ -16,11 +16,11 @@ using namespace spindrift::sph;
 
 namespace {
 
-constexpr double apart = 0.1, edge = 0.4;
+constexpr double gap = 0.1, edge = 0.4;
 
 Parameters parameters() {
   Parameters p;
-  p.spacing = apart, p.h_over_d = 1.5, p.eos.c0 = 20.0;
+  p.spacing = gap, p.h_over_d = 1.5, p.eos.c0 = 20.0;
   return p;
 }
 
@@ -28,11 +28,11 @@ Parameters parameters() {
 std::vector<Seed<2>> stack(const std::vector<Motion>& boxes) {
   std::vector<Seed<2>> seeds;
   for_lattice<2>({-10, -3}, {10, 0}, [&](const std::array<int, 2>& at) {
-    seeds.push_back({.position = {(at[0] + 0.5) * apart, (at[1] + 0.5) * apart}, .owner = 1});
+    seeds.push_back({.position = {(at[0] + 0.5) * gap, (at[1] + 0.5) * gap}, .owner = 1});
   });
   std::uint16_t owner = 2;
   for (const Motion& box : boxes) {
-    for (const auto& point : points_in_box({edge, 0.0, edge}, apart))
+    for (const auto& point : points_in_box({edge, 0.0, edge}, gap))
       seeds.push_back({.position = from_earth<2>(box.point(point)), .owner = owner});
     ++owner;
   }
@@ -72,9 +72,9 @@ TEST_CASE("a body dropped on a bed in air comes to rest on it, pressed in by its
     energy = now;
   }
   CHECK(fell_freely);
-  CHECK(lowest > 0.5 * edge - 0.4 * apart);
+  CHECK(lowest > 0.5 * edge - 0.4 * gap);
   CHECK(energy == Approx(gravity * box.position[2]).margin(1e-3));
-  CHECK(box.position[2] == Approx(0.5 * edge).margin(0.15 * apart));
+  CHECK(box.position[2] == Approx(0.5 * edge).margin(0.15 * gap));
   CHECK(sea.load_on(2, box.position).force.norm() == 0.0);
   REQUIRE(sea.contacts().size() == 1);
   CHECK(sea.contacts()[0].on == 1);
@@ -121,12 +121,12 @@ TEST_CASE("bodies press on each other with opposite forces and moments, whatever
 TEST_CASE("a light body bounds the step, and the bound is named", "[sph][fast]") {
   Motion sheet = at_height(0.55);
   auto seeds = stack({});
-  for (const auto& point : points_in_box({edge, 0.0, apart}, apart))
+  for (const auto& point : points_in_box({edge, 0.0, gap}, gap))
     seeds.push_back({.position = from_earth<2>(sheet.point(point)), .owner = 2});
   SeaSph<2> sea(parameters(), {{-2, -2}, {2, 4}}, seeds), driven(parameters(), {{-2, -2}, {2, 4}}, seeds);
-  sea.add_body(2, sheet, 0.01 * 1000.0 * edge * apart);
+  sea.add_body(2, sheet, 0.01 * 1000.0 * edge * gap);
   driven.add_body(2, sheet);
-  CHECK(sea.begin_step(1.0) == Approx(0.5 * step_limit_body(0.01, 1.0, apart, 20.0)).epsilon(1e-6));
+  CHECK(sea.begin_step(1.0) == Approx(0.5 * step_limit_body(0.01, 1.0, gap, 20.0)).epsilon(1e-6));
   CHECK(std::string(sea.limits().name()) == "light body");
   CHECK(driven.begin_step(1.0) > sea.limits().body);
   CHECK(std::string(driven.limits().name()) == "acoustic");

@@ -100,7 +100,7 @@ TEST_CASE("a particle that leaves the domain stops the run with its place named"
   seeds[7].velocity = {20.0, -20.0};  // a corner of the block
   {
     SeaSph<2> sea(p, Domain<2>{{-1, -1}, {2, 2}}, seeds);
-    CHECK_THROWS_WITH(sea.advance(0.5), Catch::Contains("left the domain") && Catch::Contains(", 7, at ("));
+    CHECK_THROWS_WITH(sea.advance(0.5), Catch::Contains("left the tank through its walls") && Catch::Contains(", 7, at ("));
   }
   p.lost_at_most = 64;
   SeaSph<2> sea(p, Domain<2>{{-1, -1}, {2, 2}}, seeds);
@@ -109,6 +109,31 @@ TEST_CASE("a particle that leaves the domain stops the run with its place named"
   std::size_t left = 0;
   for (auto id : sea.store().id) left += id != no_particle;
   CHECK(left + sea.store().lost.size() == seeds.size());
+}
+
+TEST_CASE(
+    "what leaves over the walls' edge or through an open side is counted apart, and too much over the edge is told what to do",
+    "[sph][fast]") {
+  Parameters p;
+  p.spacing = 0.1, p.gravity = 0.0;
+  auto seeds = disordered_block<2>(p.spacing, {8, 8}, {0, 0}, false);
+  Domain<2> domain{{-1, -1}, {2, 2}};
+  const auto gone = [&](std::array<double, 2> velocity) {
+    auto thrown = seeds;
+    thrown[7].velocity = velocity;  // the lower right corner of the block
+    SeaSph<2> sea(p, domain, thrown);
+    sea.advance(0.1);
+    return sea.state().gone();
+  };
+  domain.outer_high[0] = 1.2, domain.edge = -0.5;
+  CHECK_THROWS_WITH(gone({20.0, -1.0}), Catch::Contains("over the upper edge") && Catch::Contains("sea.tank.over_edge"));
+  p.left_at_most = 1;
+  CHECK(gone({20.0, -1.0}).over_edge == 1);
+  domain.edge = 0.9;  // now the particle is under it: through the wall
+  CHECK_THROWS_WITH(gone({20.0, -1.0}), Catch::Contains("through its walls"));
+  domain.open = {true, false};
+  CHECK(gone({20.0, -1.0}).through_open_sides == 1);
+  CHECK(gone({20.0, -1.0}).lost == 0);
 }
 
 TEST_CASE("a state that is not a number stops the run", "[sph][fast]") {

@@ -303,7 +303,7 @@ void lost_particles_are_known_to_all() {
   CHECK(everything(sea, MPI_COMM_WORLD).size() == scene.seeds.size() - 1);
   scene.p.lost_at_most = 0;
   SeaSph<3, float> strict(scene.p, scene.domain, scene.seeds, {.comm = MPI_COMM_WORLD, .threads = 1});
-  CHECK_THROWS_WITH(strict.advance(0.02), Catch::Contains("left the domain"));
+  CHECK_THROWS_WITH(strict.advance(0.02), Catch::Contains("left the tank"));
 }
 
 }  // namespace
