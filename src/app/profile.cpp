@@ -136,7 +136,7 @@ Profile measured(const ProfileArguments& arguments, const Mode& mode, const runt
   std::vector<std::string> overrides = arguments.overrides;
   overrides.insert(overrides.end(), mode.overrides.begin(), mode.overrides.end());
   const ReadyScene ready = read_scene(arguments.scene, overrides);
-  const coupling::Scenario& scenario = ready.machine->scenario();
+  const coupling::Scenario& scenario = ready.floating->scenario();
   const runtime::Parts parts = coupling::place(scenario, world, "");
   io::RunDirectory directory(parts.world().comm, folder / mode.folder, io::Existing::overwrite);
   directory.write_scene(parts.world().comm, ready.echo);
@@ -146,7 +146,7 @@ Profile measured(const ProfileArguments& arguments, const Mode& mode, const runt
   settings.keep_runs = true, settings.windows = std::pair<std::int64_t, std::int64_t>(warm_up + 1, last);
   runtime::StopRequest stop(scenario.runtime.wall_limit_s, directory.stop());
   run::Driver driver(directory, parts, settings, stop);
-  run::SystemSimulation simulation(*ready.machine, ready.start.state, parts, settings.records(), mode.moves);
+  run::SystemSimulation simulation(*ready.floating, ready.start.state, parts, settings.records(), mode.moves);
   const io::Summary summary = driver.run(simulation);
   if (summary.exit_code != 0) throw io::MachineFailure(fmt::format("{}: {}", mode.name, summary.exit_reason));
 
@@ -249,12 +249,12 @@ int profile(const ProfileArguments& arguments, const runtime::World& world) {
                                                 : fs::path(arguments.out);
   {
     const ReadyScene ready = read_scene(arguments.scene, arguments.overrides);
-    if (!ready.machine->scenario().resolves_air() || !ready.machine->particle_plan() || !ready.machine->has_interface())
+    if (!ready.floating->scenario().resolves_air() || !ready.floating->particle_plan() || !ready.floating->has_interface())
       throw io::InputError(
           fmt::format("{}: profile sets the air of a resolved rotor beside a sea of particles, and this scene lacks one of "
                       "them; spindrift run ends with a table of where its time went",
                       arguments.scene));
-    const coupling::TimeOptions& time = ready.machine->scenario().time;
+    const coupling::TimeOptions& time = ready.floating->scenario().time;
     if (double(warm_up + arguments.windows) * time.window_s > time.end_s * (1 + 1e-9))
       throw io::InputError(fmt::format("--windows {}: with {} that are not counted they go beyond time.end_s = {:g} s",
                                        arguments.windows, warm_up, time.end_s));

@@ -170,10 +170,10 @@ void Driver::write_recording() const {
   runtime::write_recording(own, settings_.record_graph, world.comm);
 }
 
-io::Summary run(coupling::Machine& machine, const coupling::Start& start, const io::RunDirectory& directory,
+io::Summary run(coupling::FloatingSystem& floating, const coupling::Start& start, const io::RunDirectory& directory,
                 const runtime::Parts& parts, const RunSettings& settings, runtime::StopRequest& stop) {
   Driver driver(directory, parts, settings, stop);
-  SystemSimulation simulation(machine, start.state, parts, settings.records());
+  SystemSimulation simulation(floating, start.state, parts, settings.records());
   return driver.run(simulation);
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 class StillBodies final : public coupling::BodySide {
  public:
-  void aim(const bodies::BodiesState& from, std::int64_t end_tick) override { state_ = from, state_.tick = end_tick; }
+  void prepare(const bodies::BodiesState& from, std::int64_t end_tick) override { state_ = from, state_.tick = end_tick; }
   bodies::BodiesState finish() override { return state_; }
 
  private:
@@ -17,8 +17,8 @@ class StillBodies final : public coupling::BodySide {
 class SilentAir final : public coupling::AirSide {
  public:
   aero::RotorLoad begin(double, const aero::RotorState&) override { return none_; }
-  void aim(double, double, const aero::RotorState&) override {}
-  aero::RotorLoad answer() override { return none_; }
+  void prepare(double, double, const aero::RotorState&) override {}
+  aero::RotorLoad load_at_end() override { return none_; }
   const aero::RotorLoad* written() const override { return &none_; }
 
  private:
