@@ -1,6 +1,7 @@
 // The same recorded work in phases with a barrier after each: what the asynchronous executor is compared with.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "runtime/graph/edges.hpp"
@@ -93,11 +94,12 @@ class BulkSynchronous {
     if (phase.kind == NodeKind::send) return messages(phase);
     const int ranks = int(ranks_.size());
     double longest = 0.0;
+    const double most = phase.kind == NodeKind::collective ? least_s(phase) : std::numeric_limits<double>::infinity();
     std::map<int, std::vector<double>> free;  // by rank: when each of its threads is
     for (const Member& m : phase.members) {
       std::vector<double>& threads = free.try_emplace(m.rank, std::size_t(cluster_.threads), 0.0).first->second;
       double& first = *std::ranges::min_element(threads);
-      first += cost_s(m, phase.kind);
+      first += cost_s(m, phase.kind, most);
       longest = std::max(longest, first);
     }
     if (phase.kind == NodeKind::reduce) ++out_.reductions;
@@ -105,12 +107,22 @@ class BulkSynchronous {
     out_.wall_s += longest + all_to_all_s(cluster_, ranks, bytes);
   }
 
-  double cost_s(const Member& m, NodeKind kind) {
-    const RankRun& rank = ranks_[std::size_t(m.rank)];
-    const auto& ns = rank.run.ns[m.node];
+  /// Of a collective call, the time on the rank that waited least for the others in it.
+  double least_s(const Phase& phase) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Member& m : phase.members) least = std::min(least, recorded_s(m, done_[std::size_t(m.rank)][m.node]));
+    return least;
+  }
+
+  double recorded_s(const Member& m, std::uint32_t execution) const {
+    const auto& ns = ranks_[std::size_t(m.rank)].run.ns[m.node];
+    return execution < ns.size() ? 1e-9 * double(ns[execution]) * speed_factor(cluster_, m.rank) : 0.0;
+  }
+
+  double cost_s(const Member& m, NodeKind kind, double most) {
     const std::uint32_t execution = done_[std::size_t(m.rank)][m.node]++;
     if (kind == NodeKind::reduce && ranks_.size() > 1) return 0.0;  // what it takes is the network's
-    const double s = execution < ns.size() ? 1e-9 * double(ns[execution]) * speed_factor(cluster_, m.rank) : 0.0;
+    const double s = std::min(most, recorded_s(m, execution));
     const std::string module(module_of(node(m).label));
     out_.busy_s += s, out_.busy_of[module] += s, out_.overhead_s += cluster_.task_overhead_s, ++out_.tasks;
     return s + cluster_.task_overhead_s;

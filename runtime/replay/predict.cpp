@@ -49,8 +49,8 @@ class Windows {
       double in_graphs = 0.0;
       for (const RunRecord* run : runs) in_graphs += 1e-9 * double(run->wall_ns);
       out_.outside_s += std::max(0.0, 1e-9 * double(window.wall_ns) - in_graphs);
-      for (const RankRecording& rank : recording_.ranks)
-        for (const RunRecord* run : runs_in(rank, window.number)) out_.work_s += task_s(*run);
+      if (recording_.ranks.size() == 1)
+        for (const RunRecord* run : runs) out_.work_s += task_s(*run);
       ++out_.windows;
       recording_.ranks.size() > 1 ? as_recorded(window.number) : recut_window(runs);
       if (out_.windows > 1) out_.tasks.slices.resize(slices_);
@@ -149,6 +149,8 @@ class Windows {
   Prediction mean() {
     const double n = out_.windows;
     Simulated& tasks = out_.tasks;
+    // Collective calls of several ranks contain the wait for each other: what they did is what is simulated.
+    if (recording_.ranks.size() > 1) out_.work_s = tasks.busy_s;
     out_.repeated = out_.work_s > 0.0 ? repeated_s_ / out_.work_s : 0.0;
     for (double* sum : {&out_.outside_s, &out_.work_s, &tasks.wall_s, &tasks.busy_s, &tasks.overhead_s, &tasks.waiting_s,
                         &tasks.critical_path_s, &tasks.bytes})
@@ -217,7 +219,7 @@ Recording typical(const Recording& recording) {
       double least = double(run.overhead_ns);  // what others took from the machine between two tasks is in it too
       for (const RunRecord* other : alike) least = std::min(least, double(other->overhead_ns));
       run.overhead_ns = std::llround(least);
-      if (rank.rank == 0) wall += double(run.wall_ns = std::max(run.task_ns / recording.threads, std::int64_t(0)));
+      if (rank.rank == 0) wall += double(run.wall_ns = (run.task_ns + run.overhead_ns) / recording.threads);
     }
   }
   out.windows = {{number, std::llround(wall)}};

@@ -1,5 +1,5 @@
 // Sides of a window that take no time, so that the other can be measured alone: bodies that stay where they are, air without
-// load. Used by system_simulation.cpp for `spindrift profile`; tested in tests/coupled/profile_test.py. SPDX-License-Identifier:
+// load. Used by system_simulation.cpp for `spindrift profile`; tested in tests/coupled/machine_test.py. SPDX-License-Identifier:
 // Apache-2.0
 #pragma once
 
