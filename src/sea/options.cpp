@@ -81,10 +81,28 @@ const Section<PotentialOptions>& potential_section() {
                   "Earth x and y of the centre of that volume; its height is in the stiffness.")
           .choice("radiation", &PotentialOptions::radiation,
                   {{"convolution", "memory of the body's velocity, sampled at every step"},
+                   {"state_space", "the same memory by poles fitted to it: less work at small steps"},
                    {"none", "added mass at infinite frequency alone"}},
                   "Waves that the body makes.")
           .number("memory_s", &PotentialOptions::memory_s, "s", "How long the water remembers.", scene::above(0.0).up_to(1e4))
-          .only_if("radiation", {"convolution"})
+          .only_if("radiation", {"convolution", "state_space"})
+          .number(
+              "fit_tolerance", &PotentialOptions::fit_tolerance, "-",
+              "Root mean square error of the fitted memory over that of the memory; what needs more than 24 poles is refused.",
+              scene::between(1e-5, 0.05))
+          .only_if("radiation", {"state_space"})
+          .choice("drift", &PotentialOptions::drift,
+                  {{"none", "no slow drift of second order"},
+                   {"mean", "its mean alone"},
+                   {"newman", "mean and slow part, by Newman's approximation from the mean drift of each frequency"},
+                   {"full", "mean and slow part from the file's matrix of difference frequencies"}},
+                  "Wave loads at differences of frequencies.")
+          .path("drift_file", &PotentialOptions::drift_file,
+                "NAME.7, .8, .9 (mean drift) or NAME.10d, .11d, .12d (difference frequencies); \"full\" needs one of the latter.")
+          .only_if("drift", {"mean", "newman", "full"})
+          .required()
+          .path("sum_frequency_file", &PotentialOptions::sum_frequency_file,
+                "Wave loads at sums of frequencies, NAME.10s, .11s, .12s; without it there are none.")
           .check([](const PotentialOptions& o, const scene::Report& report) {
             if (!o.hydrostatics_file.empty() && !o.volume_m3) report("volume_m3", "must be given with hydrostatics_file");
             if (o.hydrostatics_file.empty() && o.volume_m3) report("volume_m3", "has no effect without hydrostatics_file");

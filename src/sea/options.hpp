@@ -59,8 +59,11 @@ struct PotentialOptions {
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< initial earth coordinates
   std::optional<double> volume_m3;
   std::array<double, 2> buoyancy_centre_m{0.0, 0.0};
-  std::string radiation = "convolution";
+  std::string radiation = "convolution";  ///< convolution, state_space, none
   double memory_s = 60.0;
+  double fit_tolerance = 0.002;                ///< of a state space, share of K
+  std::string drift = "none";                  ///< none, mean, newman, full
+  std::string drift_file, sum_frequency_file;  ///< paths
 };
 
 /// [sea]

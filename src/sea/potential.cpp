@@ -13,14 +13,26 @@ namespace spindrift::sea {
 
 namespace {
 
-// Places in the memory.
-constexpr std::size_t time_at = 0, head_at = 1, history_at = 2;
-
 /// A 6x6 matrix of [force; moment] about a point, moved to the centre of mass; `arm`: from the centre to the point, earth axes.
 Matrix6 moved(const Matrix6& about_point, const Eigen::Vector3d& arm) {
   Matrix6 to_point = Matrix6::Identity();  // motion of the centre to that of the point
   to_point.topRightCorner<3, 3>() = -waves::cross_matrix(arm);
   return to_point.transpose() * about_point * to_point;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (double v : values) sum += v * v;
+  return std::sqrt(sum / double(values.size()));
+}
+
+/// Of the series at some 400 of its samples, which is what the fit can bear; all where there are fewer.
+waves::RadiationPoles fit_poles(const std::vector<double>& series, double step, double tolerance) {
+  constexpr std::size_t most = 400;
+  const std::size_t every = std::max<std::size_t>(1, (series.size() - 1) / most);
+  std::vector<double> samples;
+  for (std::size_t n = 0; n < series.size(); n += every) samples.push_back(series[n]);
+  return waves::fit_radiation_poles(samples, double(every) * step, tolerance);
 }
 
 }  // namespace
@@ -40,11 +52,31 @@ PotentialBody::PotentialBody(const PotentialOptions& o, const SeaEnvironment& en
       point_(initial.attitude.conjugate() * (o.point_m - initial.position)),
       step_(step_s) {
   const WamitScale scale{o.length_m, environment.water_density, environment.gravity};
-  const WamitRadiation radiation = read_radiation(o.radiation_file, scale);
-  const std::size_t steps = o.radiation == "none" ? 0 : std::size_t(std::lround(o.memory_s / step_s));
-  std::vector<double> damping(radiation.omega.size()), series(steps + 1);
-  retardation_.assign(steps + 1, Matrix6::Zero());
-  Matrix6 from_memory = Matrix6::Zero();
+  make_radiation(o, read_radiation(o.radiation_file, scale));
+  if (!o.hydrostatics_file.empty()) {
+    linear_hydrostatics_ = true;
+    stiffness_ = read_hydrostatics(o.hydrostatics_file, scale);
+    const double lift = environment.water_density * environment.gravity * *o.volume_m3;
+    const Eigen::Vector3d at(o.buoyancy_centre_m[0], o.buoyancy_centre_m[1], 0.0);  // its height is in the stiffness
+    buoyancy_ << 0.0, 0.0, lift, (at - Eigen::Vector3d(o.point_m.x(), o.point_m.y(), 0.0)).cross(Eigen::Vector3d(0.0, 0.0, lift));
+  }
+  if (waves.empty()) return;
+  if (o.drift != "none" || !o.sum_frequency_file.empty()) second_order_.emplace(o, scale, waves);
+  const WamitExcitation excitation = read_excitation(o.excitation_file, scale);
+  for (const waves::Component& wave : waves) {
+    const double along = std::cos(wave.direction) * o.point_m.x() + std::sin(wave.direction) * o.point_m.y();
+    exciting_.push_back({wave.angular_frequency, wave.phase + wave.wave_number * along,
+                         wave.amplitude * excitation.at(wave.angular_frequency, wave.direction)});
+  }
+}
+
+/// Added mass at infinite frequency, and the memory: of each pair of modes that the file's damping is more than round-off for.
+void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiation& radiation) {
+  const std::size_t steps = o.radiation == "none" ? 0 : std::size_t(std::lround(o.memory_s / step_));
+  std::vector<double> damping(radiation.omega.size());
+  std::vector<RetardationSeries> all;
+  std::vector<StateSpaceMemory::Fit> fits;
+  Matrix6 from_memory = Matrix6::Zero(), sizes = Matrix6::Zero();
   double largest[6] = {};
   for (const Matrix6& b : radiation.damping)
     for (int i = 0; i < 6; ++i) largest[i] = std::max(largest[i], std::abs(b(i, i)));
@@ -58,52 +90,62 @@ PotentialBody::PotentialBody(const PotentialOptions& o, const SeaEnvironment& en
       // Below this share of the modes' own damping a coefficient is the boundary elements' round-off.
       constexpr double noise = 1e-6;
       const bool remembers = steps > 0 && most > noise * std::sqrt(largest[i] * largest[j]) && most > 0.0;
-      for (std::size_t n = 0; n <= steps && remembers; ++n)
-        retardation_[n](i, j) = series[n] = waves::retardation(radiation.omega, damping, double(n) * step_s);
       const std::size_t last = radiation.omega.size() - 1;
       from_memory(i, j) = 0.5 * (radiation.added_mass[last](i, j) + radiation.added_mass[last](j, i));
       if (!remembers) continue;
-      from_memory(i, j) = waves::infinite_added_mass(from_memory(i, j), radiation.omega[last], series, step_s);
-      Pair pair{i, j, {}};
-      for (double k : series) pair.weight.push_back(k * step_s);
-      pairs_.push_back(std::move(pair));
+      RetardationSeries series{i, j, std::vector<double>(steps + 1)};
+      for (std::size_t n = 0; n <= steps; ++n) series.values[n] = waves::retardation(radiation.omega, damping, double(n) * step_);
+      from_memory(i, j) = waves::infinite_added_mass(from_memory(i, j), radiation.omega[last], series.values, step_);
+      all.push_back(std::move(series));
     }
   infinite_ = radiation.infinite ? Matrix6(0.5 * (*radiation.infinite + radiation.infinite->transpose())) : from_memory;
-  if (steps > 0) memory_size_ = history_at + 6 * (steps + 1);
-
-  if (!o.hydrostatics_file.empty()) {
-    linear_hydrostatics_ = true;
-    stiffness_ = read_hydrostatics(o.hydrostatics_file, scale);
-    const double lift = environment.water_density * environment.gravity * *o.volume_m3;
-    const Eigen::Vector3d at(o.buoyancy_centre_m[0], o.buoyancy_centre_m[1], 0.0);  // its height is in the stiffness
-    buoyancy_ << 0.0, 0.0, lift, (at - Eigen::Vector3d(o.point_m.x(), o.point_m.y(), 0.0)).cross(Eigen::Vector3d(0.0, 0.0, lift));
+  if (steps == 0) return;
+  if (o.radiation == "convolution") {
+    memory_.emplace<ConvolutionMemory>(std::move(all), steps, step_);
+    return;
   }
-  if (waves.empty()) return;
-  const WamitExcitation excitation = read_excitation(o.excitation_file, scale);
-  for (const waves::Component& wave : waves) {
-    const double along = std::cos(wave.direction) * o.point_m.x() + std::sin(wave.direction) * o.point_m.y();
-    exciting_.push_back({wave.angular_frequency, wave.phase + wave.wave_number * along,
-                         wave.amplitude * excitation.at(wave.angular_frequency, wave.direction)});
+  for (const RetardationSeries& s : all)
+    if (s.i == s.j) sizes(s.i, s.i) = root_mean_square(s.values);
+  for (const RetardationSeries& s : all) {
+    // The other half of a pair has the same memory. A pair is as large as its modes' own memory lets it be.
+    const auto mirror = std::ranges::find_if(fits, [&](const auto& f) { return f.i == s.j && f.j == s.i; });
+    const double size = std::sqrt(sizes(s.i, s.i) * sizes(s.j, s.j));
+    StateSpaceMemory::Fit fit{s.i, s.j, {}};
+    if (mirror != fits.end())
+      fit.poles = mirror->poles;
+    else
+      fit.poles = fit_poles(s.values, step_, o.fit_tolerance * size);
+    if (!(fit.poles.error <= o.fit_tolerance * size))
+      throw scene::SceneError(
+          {{o.radiation_file, 0, "", "",
+            "the memory of modes " + std::to_string(s.i + 1) + " and " + std::to_string(s.j + 1) + " is off by " +
+                std::to_string(fit.poles.error / size) +
+                " of itself with 24 poles: take sea.potential.radiation \"convolution\", or a larger fit_tolerance"}});
+    if (!fit.poles.pole.empty()) fits.push_back(std::move(fit));
   }
+  memory_.emplace<StateSpaceMemory>(std::move(fits));
 }
 
-Vector6 PotentialBody::memory_force(double t, const Vector6& velocity) const {
-  if (!recalled_) return Vector6::Zero();
-  // Between the two times of the sums in a straight line; the newest interval by the trapezoidal rule.
-  const double since = std::clamp(t - time_, 0.0, step_), share = since / step_;
-  Vector6 force = (1.0 - share) * now_ + share * later_;
-  force += 0.5 * since * (retardation_[0] * velocity + ((1.0 - share) * retardation_[0] + share * retardation_[1]) * newest_);
-  return -force;
+std::size_t PotentialBody::states() const {
+  const auto* fitted = std::get_if<StateSpaceMemory>(&memory_);
+  return fitted ? fitted->states() : 0;
 }
 
 Wrench PotentialBody::load(double t, double ramp, const Motion& motion) const {
   const PoseOfPoint pose = pose_of(motion, initial_, point_);
-  Vector6 force = buoyancy_ - stiffness_ * pose.displacement + memory_force(t, pose.velocity);
+  Vector6 force = buoyancy_ - stiffness_ * pose.displacement;
+  if (recalled_)
+    std::visit(
+        [&](const auto& memory) {
+          if constexpr (requires { memory.force(t, pose.velocity); }) force += memory.force(t, pose.velocity);
+        },
+        memory_);
   for (const Exciting& e : exciting_) {
     // Re{X exp(i (w t - phase))}
     const double angle = e.omega * t - e.phase, c = std::cos(angle), s = std::sin(angle);
     force += ramp * (e.force.real() * c - e.force.imag() * s);
   }
+  if (second_order_ && ramp > 0.0) force += ramp * ramp * second_order_->at(t);
   Wrench load{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), motion.position};
   load.add_force(force.head<3>(), pose.point);
   load.add_moment(force.tail<3>());
@@ -114,42 +156,43 @@ void PotentialBody::add_added_mass(const Motion& motion, Matrix6& mass) const {
   mass += moved(infinite_, motion.point(point_) - motion.position);
 }
 
+std::size_t PotentialBody::memory_size() const {
+  return std::visit(
+      [](const auto& memory) -> std::size_t {
+        if constexpr (requires { memory.size(); })
+          return memory.size();
+        else
+          return 0;
+      },
+      memory_);
+}
+
 void PotentialBody::begin(double t, const Motion& motion, std::span<double> memory) const {
-  std::fill(memory.begin(), memory.end(), 0.0);  // at rest until now
-  memory[time_at] = t;
   const Vector6 velocity = pose_of(motion, initial_, point_).velocity;
-  std::copy(velocity.data(), velocity.data() + 6, memory.begin() + history_at);
+  std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.size(); }) kind.begin(t, velocity, memory);
+      },
+      memory_);
 }
 
 void PotentialBody::recall(std::span<const double> memory) {
   recalled_ = !memory.empty();
   if (!recalled_) return;
-  time_ = memory[time_at];
-  const std::size_t count = retardation_.size(), head = std::size_t(memory[head_at]);
-  const double* history = memory.data() + history_at;
-  const auto velocity = [&](std::size_t age, int mode) {
-    std::size_t place = head + age;
-    if (place >= count) place -= count;
-    return history[6 * place + std::size_t(mode)];
-  };
-  now_.setZero(), later_.setZero();
-  for (int mode = 0; mode < 6; ++mode) newest_[mode] = velocity(0, mode);
-  for (const Pair& pair : pairs_) {
-    // At t: trapezoidal over ages 0 ... count - 1. A step later, but for the newest interval: over ages 1 ... count - 1.
-    double now = 0.5 * pair.weight[0] * velocity(0, pair.j), later = 0.0;
-    for (std::size_t age = 1; age < count; ++age) now += pair.weight[age] * velocity(age, pair.j);
-    for (std::size_t age = 1; age < count; ++age) later += pair.weight[age] * velocity(age - 1, pair.j);
-    later -= 0.5 * pair.weight[1] * velocity(0, pair.j);
-    now_[pair.i] += now, later_[pair.i] += later;
-  }
+  std::visit(
+      [&](auto& kind) {
+        if constexpr (requires { kind.size(); }) kind.recall(memory);
+      },
+      memory_);
 }
 
 void PotentialBody::remember(double t, const Motion& motion, std::span<double> memory) const {
-  const std::size_t count = retardation_.size();
-  const std::size_t head = memory[head_at] == 0.0 ? count - 1 : std::size_t(memory[head_at]) - 1;
   const Vector6 velocity = pose_of(motion, initial_, point_).velocity;
-  std::copy(velocity.data(), velocity.data() + 6, memory.begin() + std::ptrdiff_t(history_at + 6 * head));
-  memory[time_at] = t, memory[head_at] = double(head);
+  std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.size(); }) kind.remember(t, velocity, memory);
+      },
+      memory_);
 }
 
 }  // namespace spindrift::sea

@@ -1,23 +1,25 @@
 // Potential flow round one floating body: Cummins' equation with the coefficients of a boundary-element code. Added mass at
-// infinite frequency goes on the left-hand side; radiation memory is a convolution with the body's velocity;
-// waves excite by force per amplitude; still water carries by exact buoyancy of the cylinders or by linear
-// stiffness. Small motions about the scene's position, axes of the earth. Theory: docs/theory/sea_engineering.md. Part of
+// infinite frequency goes on the left-hand side; radiation memory is a convolution with the body's velocity or a fitted state
+// space; waves excite by force per amplitude, and to second order; still water carries by exact buoyancy of the cylinders or by
+// linear stiffness. Small motions about the scene's position, axes of the earth. Theory: docs/theory/sea_engineering.md. Part of
 // EngineeringSea; tested in tests/src/sea/potential_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/wrench.hpp"
 #include "kernels/waves/components.hpp"
 #include "src/sea/options.hpp"
+#include "src/sea/radiation.hpp"
+#include "src/sea/second_order.hpp"
 #include "src/sea/wamit.hpp"
 
 namespace spindrift::sea {
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Displacement of a point of a body since the start and the body's rotation as roll, pitch, yaw; velocity of the same, earth
 /// axes.
@@ -38,18 +40,18 @@ class PotentialBody {
   Wrench load(double t, double ramp, const Motion& motion) const;
   void add_added_mass(const Motion& motion, Matrix6& mass) const;
 
-  // Memory as bodies::Memory has it: velocities of the last steps, youngest first from a moving place.
-  std::size_t memory_size() const { return memory_size_; }
+  // Memory as bodies::Memory has it.
+  std::size_t memory_size() const;
   void begin(double t, const Motion& motion, std::span<double> memory) const;
   void recall(std::span<const double> memory);
   void remember(double t, const Motion& motion, std::span<double> memory) const;
 
   const Matrix6& infinite_added_mass() const { return infinite_; }
-  /// K at n steps.
-  const Matrix6& retardation(std::size_t n) const { return retardation_[n]; }
+  /// Numbers that a fitted state space has; 0 of the others.
+  std::size_t states() const;
 
  private:
-  Vector6 memory_force(double t, const Vector6& velocity) const;
+  void make_radiation(const PotentialOptions& options, const WamitRadiation& file);
 
   SeaEnvironment environment_;
   Motion initial_;
@@ -62,18 +64,10 @@ class PotentialBody {
     Eigen::Matrix<std::complex<double>, 6, 1> force;
   };
   std::vector<Exciting> exciting_;
+  std::optional<SecondOrderLoads> second_order_;
   double step_;
-  std::vector<Matrix6> retardation_;  ///< at 0, 1, 2 ... steps; trapezoidal weights not included
-  struct Pair {
-    int i, j;
-    std::vector<double> weight;  ///< K_ij times step
-  };
-  std::vector<Pair> pairs_;  ///< of modes that remember
-  std::size_t memory_size_ = 0;
-  // Recalled: the memory's force now and a step later, apart from the newest interval.
+  std::variant<std::monostate, ConvolutionMemory, StateSpaceMemory> memory_;
   bool recalled_ = false;
-  double time_ = 0.0;
-  Vector6 now_ = Vector6::Zero(), later_ = Vector6::Zero(), newest_ = Vector6::Zero();
 };
 
 }  // namespace spindrift::sea

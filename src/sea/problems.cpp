@@ -55,7 +55,25 @@ void check_potential(const PotentialOptions& o, const WavesOptions& waves, std::
   attempt("radiation_file", o.radiation_file, read_radiation);
   attempt("excitation_file", o.excitation_file, read_excitation);
   attempt("hydrostatics_file", o.hydrostatics_file, read_hydrostatics);
-  if (waves.model == "none") return;
+  if (o.drift == "full")
+    attempt("drift_file", o.drift_file, [](const std::string& path, const WamitScale& scale) {
+      return read_quadratic(path, scale, FrequencyPair::difference);
+    });
+  else
+    attempt("drift_file", o.drift_file, read_drift);
+  attempt("sum_frequency_file", o.sum_frequency_file,
+          [](const std::string& path, const WamitScale& scale) { return read_quadratic(path, scale, FrequencyPair::sum); });
+  if (waves.model == "none") {
+    if (o.drift != "none") problems.push_back({"sea.potential.drift", "has no effect: there are no waves"});
+    if (!o.sum_frequency_file.empty())
+      problems.push_back({"sea.potential.sum_frequency_file", "has no effect: there are no waves"});
+    return;
+  }
+  const bool pairs = o.drift == "full" || !o.sum_frequency_file.empty();
+  if (pairs && waves.model != "airy" && waves.components > int(SecondOrderLoads::most_components))
+    problems.push_back(
+        {"waves.components", "must be at most " + std::to_string(SecondOrderLoads::most_components) +
+                                 " with loads of pairs of frequencies (sea.potential.drift \"full\", sum_frequency_file)"});
   if (o.excitation_file.empty()) problems.push_back({"sea.potential.excitation_file", "must be given: there are waves"});
   if (wave_model(waves.model).second_order)
     problems.push_back(

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "kernels/base/constants.hpp"
@@ -132,19 +133,140 @@ Matrix6 read_hydrostatics(const std::string& path, const WamitScale& s) {
   return stiffness;
 }
 
+namespace {
+
+/// Where a value lies among nodes, clamped to their ends: the node below and the share of the next.
+std::pair<std::size_t, double> place(const std::vector<double>& nodes, double x) {
+  if (nodes.size() == 1) return {0, 0.0};
+  const std::size_t i = interval(nodes, x);
+  return {i, std::clamp((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.0, 1.0)};
+}
+
+/// The heading among the file's, whole turns aside.
+double heading_near(const std::vector<double>& headings, double direction) {
+  double h = direction;
+  while (h > headings.back() + 1e-9) h -= 2.0 * pi;
+  while (h < headings.front() - 1e-9) h += 2.0 * pi;
+  return h;
+}
+
+/// One row of a file of second order.
+struct SecondOrderRow {
+  int line, mode;
+  double first, second;  ///< [rad/s]
+  double heading;        ///< [rad]
+  std::complex<double> transfer;
+};
+
+/// Periods (one or two), headings (two), mode, modulus, phase, real and imaginary part; waves that cross are left out.
+std::vector<SecondOrderRow> second_order_rows(const std::string& path, const WamitScale& s,
+                                              std::initializer_list<std::size_t> counts) {
+  std::vector<SecondOrderRow> rows;
+  for (const Row& row : read_rows(path, counts)) {
+    const std::size_t periods = row.values.size() - 7;
+    for (std::size_t p = 0; p < periods; ++p)
+      if (row.values[p] <= 0.0) refuse(path, row.line, "the period must be positive");
+    const int i = mode(path, row, periods + 2);
+    if (row.values[periods] != row.values[periods + 1]) continue;
+    rows.push_back({row.line, i, 2.0 * pi / row.values[0], 2.0 * pi / row.values[periods - 1],
+                    row.values[periods] * radians_per_degree,
+                    std::complex<double>(row.values[periods + 5], row.values[periods + 6]) * s.density * s.gravity *
+                        power(s.length, i, 0, 1)});
+  }
+  if (rows.empty()) refuse(path, 0, "has no loads of two waves in the same direction");
+  return rows;
+}
+
+std::vector<double> sorted(const std::set<double>& values) { return {values.begin(), values.end()}; }
+std::size_t index_of(const std::vector<double>& values, double value) {
+  return std::size_t(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+}
+
+}  // namespace
+
+WamitDrift read_drift(const std::string& path, const WamitScale& s) {
+  std::set<double> omega, heading;
+  std::vector<SecondOrderRow> rows = second_order_rows(path, s, {8, 9});
+  std::erase_if(rows, [](const SecondOrderRow& r) { return r.first != r.second; });
+  if (rows.empty()) refuse(path, 0, "has no loads of two waves of the same period");
+  for (const SecondOrderRow& r : rows) omega.insert(r.first), heading.insert(r.heading);
+  WamitDrift drift{sorted(omega), sorted(heading), {}};
+  const std::size_t places = drift.omega.size() * drift.heading.size();
+  drift.force.assign(places, Eigen::Matrix<double, 6, 1>::Zero());
+  std::array<std::vector<int>, 6> line;  // by place: where it stands
+  for (const SecondOrderRow& r : rows) {
+    const std::size_t at = index_of(drift.omega, r.first) * drift.heading.size() + index_of(drift.heading, r.heading);
+    std::vector<int>& lines = line[std::size_t(r.mode)];
+    lines.resize(places);
+    if (lines[at] > 0) refuse(path, r.line, "repeats line " + std::to_string(lines[at]));
+    lines[at] = r.line, drift.force[at][r.mode] = r.transfer.real();
+  }
+  for (std::size_t m = 0; m < 6; ++m)
+    if (const auto gap = std::find(line[m].begin(), line[m].end(), 0); gap != line[m].end())
+      refuse(path, 0,
+             "has no load of mode " + std::to_string(m + 1) + " at period " +
+                 std::to_string(2.0 * pi / drift.omega[std::size_t(gap - line[m].begin()) / drift.heading.size()]) +
+                 " s for one of its headings");
+  return drift;
+}
+
+Eigen::Matrix<double, 6, 1> WamitDrift::at(double w, double direction) const {
+  if (w > omega.back()) return Eigen::Matrix<double, 6, 1>::Zero();
+  const auto [f, fs] = place(omega, w);
+  const auto [d, ds] = place(heading, heading_near(heading, direction));
+  const std::size_t n = heading.size(), f1 = std::min(f + 1, omega.size() - 1), d1 = std::min(d + 1, n - 1);
+  const double fades = std::min(w / omega.front(), 1.0);
+  return fades * ((1.0 - fs) * ((1.0 - ds) * force[f * n + d] + ds * force[f * n + d1]) +
+                  fs * ((1.0 - ds) * force[f1 * n + d] + ds * force[f1 * n + d1]));
+}
+
+WamitQuadratic read_quadratic(const std::string& path, const WamitScale& s, FrequencyPair kind) {
+  const std::vector<SecondOrderRow> rows = second_order_rows(path, s, {9});
+  std::set<double> omega, heading;
+  for (const SecondOrderRow& r : rows) omega.insert(r.first), omega.insert(r.second), heading.insert(r.heading);
+  WamitQuadratic q{sorted(omega), sorted(heading), {}, {}};
+  const std::size_t n = q.omega.size(), headings = q.heading.size(), places = n * n * headings;
+  std::array<std::vector<int>, 6> line;
+  for (const SecondOrderRow& r : rows) {
+    const std::size_t m = std::size_t(r.mode), h = index_of(q.heading, r.heading);
+    if (!q.has_mode[m]) q.has_mode[m] = true, q.transfer[m].resize(places), line[m].resize(places);
+    const std::size_t at = (index_of(q.omega, r.first) * n + index_of(q.omega, r.second)) * headings + h;
+    if (line[m][at] > 0) refuse(path, r.line, "repeats line " + std::to_string(line[m][at]));
+    line[m][at] = r.line, q.transfer[m][at] = r.transfer;
+  }
+  // The other order of each pair where the file leaves it out.
+  for (std::size_t m = 0; m < 6; ++m)
+    for (std::size_t at = 0; q.has_mode[m] && at < places; ++at) {
+      if (line[m][at] > 0) continue;
+      const std::size_t h = at % headings, first = at / headings / n, second = at / headings % n,
+                        other = (second * n + first) * headings + h;
+      if (line[m][other] <= 0)
+        refuse(path, 0,
+               "has no load of mode " + std::to_string(m + 1) + " for the periods " + std::to_string(2.0 * pi / q.omega[first]) +
+                   " and " + std::to_string(2.0 * pi / q.omega[second]) + " s");
+      q.transfer[m][at] = kind == FrequencyPair::difference ? std::conj(q.transfer[m][other]) : q.transfer[m][other];
+    }
+  return q;
+}
+
+std::complex<double> WamitQuadratic::at(int mode, double first, double second, double direction) const {
+  if (first > omega.back() || second > omega.back()) return 0.0;
+  const auto [a, as] = place(omega, first);
+  const auto [b, bs] = place(omega, second);
+  const auto [d, ds] = place(heading, heading_near(heading, direction));
+  const std::size_t n = omega.size(), headings = heading.size(), a1 = std::min(a + 1, n - 1), b1 = std::min(b + 1, n - 1),
+                    d1 = std::min(d + 1, headings - 1);
+  const auto of = [&](std::size_t i, std::size_t j) {
+    const auto& all = transfer[std::size_t(mode)];
+    return (1.0 - ds) * all[(i * n + j) * headings + d] + ds * all[(i * n + j) * headings + d1];
+  };
+  return (1.0 - as) * ((1.0 - bs) * of(a, b) + bs * of(a, b1)) + as * ((1.0 - bs) * of(a1, b) + bs * of(a1, b1));
+}
+
 Eigen::Matrix<std::complex<double>, 6, 1> WamitExcitation::at(double w, double direction) const {
   if (w > omega.back()) return Eigen::Matrix<std::complex<double>, 6, 1>::Zero();
-  const auto place = [](const std::vector<double>& nodes, double x) {
-    if (nodes.size() == 1) return std::pair<std::size_t, double>(0, 0.0);
-    const std::size_t i = interval(nodes, x);
-    return std::pair<std::size_t, double>(i, std::clamp((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.0, 1.0));
-  };
-  // The heading among the file's, whole turns aside.
-  double h = direction;
-  while (h > heading.back() + 1e-9) h -= 2.0 * pi;
-  while (h < heading.front() - 1e-9) h += 2.0 * pi;
   const auto [f, fs] = place(omega, w);
-  const auto [d, ds] = place(heading, h);
+  const auto [d, ds] = place(heading, heading_near(heading, direction));
   const std::size_t n = heading.size(), f1 = std::min(f + 1, omega.size() - 1), d1 = std::min(d + 1, n - 1);
   return (1.0 - fs) * ((1.0 - ds) * force[f * n + d] + ds * force[f * n + d1]) +
          fs * ((1.0 - ds) * force[f1 * n + d] + ds * force[f1 * n + d1]);

@@ -60,9 +60,12 @@ struct Heave {
   double step;
 };
 
-Heave move(const Files& files, double start, double end, double step, const std::vector<waves::Component>& waves = {}) {
+Heave move(const Files& files, double start, double end, double step, const std::vector<waves::Component>& waves = {},
+           const std::string& radiation = "convolution") {
   const Motion initial;
-  PotentialBody water(files.options(), {density, 100.0, 10.0}, initial, waves, step);
+  PotentialOptions options = files.options();
+  options.radiation = radiation;
+  PotentialBody water(options, {density, 100.0, 10.0}, initial, waves, step);
   const bodies::Body body{.name = "body", .mass = mass, .inertia = 1e8 * Eigen::Matrix3d::Identity(), .initial = initial};
   bodies::LoadSource sea{
       "sea", [&](double t, std::span<const Motion> m, std::span<Wrench> w) { w[0] += water.load(t, 1.0, m[0]); },
@@ -103,6 +106,46 @@ TEST_CASE("free decay with memory is the exact one within 1 % of the start over 
   double worst = 0.0;
   for (std::size_t n = 0; n < heave.z.size(); ++n) worst = std::max(worst, std::abs(heave.z[n] - exact_decay(double(n) * 0.05)));
   CHECK(worst < 0.01);
+}
+
+TEST_CASE("a state space of few numbers decays as the exact one and as the convolution within 1 %", "[sea][fast]") {
+  const Files files;
+  const Heave fitted = move(files, 1.0, 110.0, 0.05, {}, "state_space"), convolved = move(files, 1.0, 110.0, 0.05);
+  double exact = 0.0, apart = 0.0;
+  for (std::size_t n = 0; n < fitted.z.size(); ++n)
+    exact = std::max(exact, std::abs(fitted.z[n] - exact_decay(double(n) * 0.05))),
+    apart = std::max(apart, std::abs(fitted.z[n] - convolved.z[n]));
+  CHECK(exact < 0.01);
+  CHECK(apart < 0.01);
+  PotentialOptions options = files.options();
+  options.radiation = "state_space";
+  const PotentialBody body(options, {density, 100.0, 10.0}, Motion{}, {}, 0.05);
+  CHECK(body.states() >= 1);
+  CHECK(body.states() < 12);
+  CHECK(body.memory_size() == 7 + 2 * body.states());
+}
+
+TEST_CASE("the state space converges with the step at second order, and answers waves as the convolution within 1 %",
+          "[sea][order][fast]") {
+  const Files files;
+  std::vector<double> h, error;
+  const double fine = move(files, 1.0, 12.0, 0.0125, {}, "state_space").z.back();
+  for (double step : {0.4, 0.2, 0.1})
+    h.push_back(step), error.push_back(std::abs(move(files, 1.0, 12.0, step, {}, "state_space").z.back() - fine));
+  CHECK(observed_order(h, error) > 1.7);
+  const waves::Component wave{.wave_number = 0.049, .angular_frequency = 0.7, .amplitude = 0.5, .phase = 0.3};
+  const Heave fitted = move(files, 0.0, 100.0, 0.1, {wave}, "state_space"), convolved = move(files, 0.0, 100.0, 0.1, {wave});
+  double apart = 0.0, most = 0.0;
+  for (std::size_t n = 0; n < fitted.z.size(); ++n)
+    apart = std::max(apart, std::abs(fitted.z[n] - convolved.z[n])), most = std::max(most, std::abs(convolved.z[n]));
+  CHECK(apart < 0.01 * most);
+}
+
+TEST_CASE("a memory that 24 poles cannot follow is refused by its modes", "[sea][fast]") {
+  const Files files;
+  PotentialOptions options = files.options();
+  options.radiation = "state_space", options.fit_tolerance = 1e-14;
+  CHECK_THROWS_WITH(PotentialBody(options, {density, 100.0, 10.0}, Motion{}, {}, 0.05), Catch::Contains("modes 3 and 3"));
 }
 
 TEST_CASE("the decay converges with the step at second order", "[sea][order][fast]") {
