@@ -68,7 +68,7 @@ StepCost measured_steps(Machine& machine, const coupling::Start& start) {
   StepCost cost;
   cost.steps = double(t.windows()) * double(t.steps_per_window()) * evaluations(machine.scenario());
   cost.rows = std::ceil(double(t.windows()) / machine.scenario().output.history_every) + 1.0;
-  machine.use_full_loads(true);
+  const coupling::FullLoads full(machine);
   bodies::BodiesState state = start.state;
   cost.step_s = least_seconds([&] { return machine.system().advance(state, t.tick_s(), 1).ok(); });
   io::History history;
@@ -81,7 +81,6 @@ StepCost measured_steps(Machine& machine, const coupling::Start& start) {
     return true;
   });
   std::filesystem::remove(file);
-  machine.use_full_loads(false);
   return cost;
 }
 
