@@ -68,7 +68,7 @@ struct Checked {
   Forecast forecast;
 };
 
-/// `forecasts`: with its forecast, for which the machine is made; the replicas of a rung have that of the first.
+/// `forecasts`: with its forecast, for which the floating system is made; the replicas of a rung have that of the first.
 Checked checked(const std::string& file, const std::vector<std::string>& overrides, const scene::Source& overrider,
                 bool forecasts) {
   scene::Document document = scene::load(file, overrides, overrider);
@@ -76,7 +76,7 @@ Checked checked(const std::string& file, const std::vector<std::string>& overrid
   if (!forecasts) return {document.echo(), {}};
   if (scenario.has_flow()) return {document.echo(), has_resolved_rotor(scenario) ? forecast_of_air(scenario) : Forecast{}};
   const ReadyScene ready = read_scene(file, overrides, overrider);
-  return {ready.echo, forecast(*ready.machine, ready.start)};
+  return {ready.echo, forecast(*ready.floating, ready.start)};
 }
 
 /// Misspelt columns are found before anything runs.

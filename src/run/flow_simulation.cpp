@@ -112,7 +112,7 @@ void FlowSimulation::save(io::CheckpointWriter& file) {
   for (const coupling::SavedArray& array : file_.arrays()) write(file, array);
   if (!air_.rotor()) return;
   write_air_settings(file, scenario_);
-  for (const coupling::SavedArray& array : rotor_arrays(*air_.rotor(), coupling::felt_by(*air_.rotor()), world_.rank))
+  for (const coupling::SavedArray& array : rotor_arrays(*air_.rotor(), coupling::computed_loads(*air_.rotor()), world_.rank))
     write(file, array);
 }
 
@@ -122,7 +122,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   if (air_.steady() && march.spent() && march.stands_still())
     begin_again(fmt::format("the flux balance is at {:.2g} and was not halved in the last {} pseudo-steps, CFL {:.2g}",
                             march.balance_drop(), march.still_for(), march.cfl()));
-  FlowCase::Note before = air_.note();
+  FlowCase::Snapshot before = air_.snapshot();
   rows_.clear(), rows_from_ = window;
   for (int retry = 0;; ++retry) {
     march.ease(coupling::share_of_cfl(retry));
@@ -134,10 +134,10 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
         fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}",
                     timeline_.window_end_s(window), march.why(), march.steps(), march.cfl(), march.density_residual(),
                     march.first_density_residual(), solver.trouble());
-    air_.back(before, window, timeline_.window_s());
+    air_.return_to(before, window, timeline_.window_s());
     if (given_up) return {};
     if (retry == coupling::most_retries && begin_again(failure)) {
-      before = air_.note();
+      before = air_.snapshot();
       retry = -1;
       continue;
     }
