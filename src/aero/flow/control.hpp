@@ -23,11 +23,11 @@ struct MarchOptions {
   double load_change = 0.0;   ///< relative change of the loads over load_window steps: done; 0: not looked at
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
-  int still_steps = 120;      ///< pseudo-steps without the flux balance being halved: the march stands still,
-  double still_above = 1e-4;  ///< unless it has come down to this; steep flows pause for up to a hundred steps and then go on
-  int krylov_steps = 18;      ///< most Krylov iterations of a pseudo-step
-  double krylov_drop = 0.05;  ///< of the linear residual: enough
-  int refresh_every = 1;      ///< pseudo-steps between two matrices of the preconditioner, where products are matrix-free
+  int still_steps = 200;            ///< pseudo-steps without the flux balance being halved: the march stands still,
+  double still_above = 1e-4;        ///< unless it has come down to this; steep flows pause for up to 190 steps and then go on
+  int krylov_steps = 18;            ///< most Krylov iterations of a pseudo-step
+  double krylov_drop = 0.05;        ///< of the linear residual: enough
+  int refresh_every = 1;            ///< pseudo-steps between two matrices of the preconditioner, where products are matrix-free
   double matrix_free_below = 0.01;  ///< drop of the residual from which on products are matrix-free; 0: never
 };
 

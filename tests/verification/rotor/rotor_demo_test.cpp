@@ -35,7 +35,9 @@ TEST_CASE("the rotor of default size has the report's thrust to five and its pow
           "[rotor][nightly]") {
   const auto o =
       GENERATE(OperatingCase{6.0, 6.0, 0.896, 498.1e3, 1532.7e3}, OperatingCase{8.0, 6.4257, 0.0, 797.3e3, 3730.7e3},
-               OperatingCase{11.0, 8.8354, 0.0, 1507.4e3, 9698.3e3}, OperatingCase{15.0, 9.6, 10.958, 890.8e3, 10683.7e3});
+               OperatingCase{9.0, 7.229, 0.0, 1009.1e3, 5311.8e3}, OperatingCase{10.0, 8.0322, 0.0, 1245.8e3, 7286.5e3},
+               OperatingCase{11.0, 8.8354, 0.0, 1507.4e3, 9698.3e3}, OperatingCase{13.0, 9.6, 7.266, 1082.0e3, 10648.5e3},
+               OperatingCase{15.0, 9.6, 10.958, 890.8e3, 10683.7e3});
   ResolvedRotor rotor(demo(o.wind, o.rpm, o.pitch_deg));
   rotor.solver().start_uniform();
   rotor.prepare(MPI_COMM_SELF, {.threads = 1});
