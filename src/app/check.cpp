@@ -158,9 +158,8 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
     return;
   }
 
-  machine.use_full_loads(true);
+  const coupling::FullLoads full(machine);
   const coupling::LooseVerdict verdict = loose_verdict(machine, start.state, c);
-  machine.use_full_loads(false);
   fmt::print(
       "\nCoupling of rotor and platform (window {} s): mass at the hub {:.3g} kg, thrust falls {:.4g} kN per m/s, fastest {:.3g} "
       "Hz\n",
@@ -334,9 +333,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     print_doubts(machine, start, stability);
     if (!start.state.motions.empty()) print_modes(machine, stability.linearisation);
   }
-  require_stable(machine, stability);
-  require_stable_lines(machine, start.state);
-  require_stable_coupling(machine, start.state, stability.linearisation);
+  require_limits(machine, start.state, stability);
   if (world.rank != 0) return done;
   if (start.state.motions.empty()) {
     const PartCost cost = print_particles(machine, start);
@@ -344,10 +341,11 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     return done;
   }
   if (machine.rotor()) print_campbell(machine, start, stability.linearisation);
-  machine.use_mean_loads(true);
-  const bodies::Equilibrium equilibrium =
-      start.equilibrium ? *start.equilibrium : find_equilibrium(machine.system(), start.state, 0.0);
-  machine.use_mean_loads(false);
+  const auto equilibrium_now = [&] {
+    const coupling::MeanLoads mean(machine);
+    return find_equilibrium(machine.system(), start.state, 0.0);
+  };
+  const bodies::Equilibrium equilibrium = start.equilibrium ? *start.equilibrium : equilibrium_now();
   if (equilibrium.problem.empty())
     print_equilibrium(machine, equilibrium.state);
   else

@@ -80,7 +80,7 @@ StepCost measured_steps(Machine& machine, const coupling::Start& start) {
   StepCost cost;
   cost.steps = double(t.windows()) * double(t.steps_per_window()) * iterations(s);
   cost.rows = std::ceil(double(t.windows()) / machine.scenario().output.history_every) + 1.0;
-  machine.use_full_loads(true);
+  const coupling::FullLoads full(machine);
   bodies::BodiesState state = start.state;
   machine.reset_clocks();
   const std::int64_t begin_ns = runtime::Clock::now_ns();
@@ -107,7 +107,6 @@ StepCost measured_steps(Machine& machine, const coupling::Start& start) {
     return true;
   });
   std::filesystem::remove(file);
-  machine.use_full_loads(false);
   return cost;
 }
 

@@ -13,7 +13,7 @@
 #include "src/aero/turbine.hpp"
 #include "src/app/forecast.hpp"
 #include "src/coupling/recorder.hpp"
-#include "src/coupling/start.hpp"
+#include "src/coupling/limits.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/text_check.hpp"
@@ -115,7 +115,7 @@ Effect of_column(std::span<const double> t, std::span<const double> x) {
 Outcome run(Scenario scenario, double length_s, const std::vector<std::string>& columns) {
   coupling::Machine machine(std::move(scenario));
   const coupling::Start start = make_start(machine);
-  require_stable(machine, stability(machine, start.state));
+  require_limits(machine, start.state, stability(machine, start.state));
   const std::filesystem::path file = std::filesystem::temp_directory_path() / fmt::format("spindrift_trial_{}.csv", ::getpid());
   Outcome outcome;
   {

@@ -123,10 +123,8 @@ ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
   ready.start = make_start(*ready.machine);
   const coupling::Stability found = stability(*ready.machine, ready.start.state);
   ready.doubts = coupling::doubts(*ready.machine, ready.start, found);
-  require_stable(*ready.machine, found);
-  require_stable_lines(*ready.machine, ready.start.state);
-  require_stable_coupling(*ready.machine, ready.start.state, found.linearisation);
-  (void)stability(*ready.machine, ready.start.state);  // leaves the chart at the start
+  require_limits(*ready.machine, ready.start.state, found);
+  ready.machine->system().open_chart(ready.start.state, 0.0);  // the first solution begins from it
   ready.echo = std::move(echo);
   return ready;
 }

@@ -151,9 +151,8 @@ void doubt_modes(scene::Doubts& doubts, const Machine& machine, const Stability&
 /// Where the machine would come to rest, against where it starts.
 void doubt_statics(scene::Doubts& doubts, Machine& machine, const Start& start) {
   if (machine.particle_plan() || start.equilibrium) return;
-  machine.use_mean_loads(true);
+  const MeanLoads mean(machine);
   const bodies::Equilibrium found = find_equilibrium(machine.system(), start.state, 0.0);
-  machine.use_mean_loads(false);
   if (!found.problem.empty()) return;
   const auto all = machine.system().bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {
@@ -215,7 +214,7 @@ scene::Doubts doubts(Machine& machine, const Start& start, const Stability& stab
   for (const auto& [name, body] : s.bodies) around.masses_kg[name] = body.mass_kg;
   append(all, line_doubts(s.moorings, around));
   double draft = 0.0;
-  machine.use_full_loads(true);
+  const FullLoads full(machine);
   if (s.has_sea() && !start.state.motions.empty()) draft = doubt_floating(all, machine, start);
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), draft));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
@@ -225,7 +224,6 @@ scene::Doubts doubts(Machine& machine, const Start& start, const Stability& stab
     doubt_modes(all, machine, stability);
     doubt_statics(all, machine, start);
   }
-  machine.use_full_loads(false);
   doubt_times(all, machine);
   return all;
 }

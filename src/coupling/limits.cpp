@@ -81,10 +81,9 @@ void require_stable_coupling(Machine& machine, const bodies::BodiesState& state,
   const CouplingOptions& o = machine.scenario().coupling;
   if (!machine.rotor() || !is_loose(o.scheme) || o.accept_unstable || state.motions.empty()) return;
   if (o.scheme == SchemeKind::css && o.predictor_order != 1) return;  // no limit is known
-  machine.use_full_loads(true);
+  const FullLoads full(machine);
   const Campbell frequencies = campbell(machine.scenario(), linearisation, machine.rotor()->state(0.0, state.motions).speed);
   const LooseVerdict verdict = loose_verdict(machine, state, frequencies);
-  machine.use_full_loads(false);
   const std::string scheme = o.scheme == SchemeKind::cps ? "cps" : o.scheme == SchemeKind::cps2 ? "cps2" : "css1";
   for (const LooseVerdict::Scheme& known : verdict.schemes) {
     if (known.name != scheme) continue;
@@ -102,6 +101,12 @@ void require_stable_coupling(Machine& machine, const bodies::BodiesState& state,
                          "limit is {:.3g}; {}",
                          verdict.mass_ratio(), known.mass_ratio_limit, mend));
   }
+}
+
+void require_limits(Machine& machine, const bodies::BodiesState& state, const Stability& stability) {
+  require_stable(machine, stability);
+  require_stable_lines(machine, state);
+  require_stable_coupling(machine, state, stability.linearisation);
 }
 
 }  // namespace spindrift::coupling

@@ -7,6 +7,7 @@
 
 #include "src/bodies/linearise.hpp"
 #include "src/coupling/machine.hpp"
+#include "src/coupling/start.hpp"
 
 namespace spindrift::coupling {
 
@@ -21,5 +22,8 @@ void require_stable_lines(Machine& machine, const bodies::BodiesState& state);
 /// Throws scene::SceneError where the scheme is loose and the window beyond its limit, or the blades' air too heavy for any,
 /// unless coupling.accept_unstable.
 void require_stable_coupling(Machine& machine, const bodies::BodiesState& state, const bodies::Linearisation& linearisation);
+
+/// All limits: of the linearised start (start.hpp), of lines and of the coupling. What `check` and `run` refuse.
+void require_limits(Machine& machine, const bodies::BodiesState& state, const Stability& stability);
 
 }  // namespace spindrift::coupling

@@ -87,10 +87,10 @@ class Machine {
 
   /// Factor on the rotor's loads at time t [s] (start.ramp_s): 0 at the start, 1 after the ramp, with a continuous rate.
   double ramp(double t) const;
-  /// Until told otherwise loads are ramped; the statics and stability ask for their full value.
+  /// Until told otherwise loads are ramped; the statics and stability ask for their full value (FullLoads below).
   void use_full_loads(bool full) { full_loads_ = full; }
   /// For the statics: loads at their full mean value. The water is still but for its current, the wind is without gusts and
-  /// turbulence, the rotor's load is its mean over a turn.
+  /// turbulence, the rotor's load is its mean over a turn (MeanLoads below).
   void use_mean_loads(bool mean) { mean_loads_ = mean; }
 
  private:
@@ -114,5 +114,20 @@ class Machine {
   double body_step_limit_ = std::numeric_limits<double>::infinity();
   std::unique_ptr<bodies::System> system_;
 };
+
+/// Asks for the machine's loads in another way while this lives.
+template <void (Machine::*use)(bool)>
+class LoadsAsked {
+ public:
+  explicit LoadsAsked(Machine& machine) : machine_(machine) { (machine_.*use)(true); }
+  ~LoadsAsked() { (machine_.*use)(false); }
+  LoadsAsked(const LoadsAsked&) = delete;
+  LoadsAsked& operator=(const LoadsAsked&) = delete;
+
+ private:
+  Machine& machine_;
+};
+using FullLoads = LoadsAsked<&Machine::use_full_loads>;
+using MeanLoads = LoadsAsked<&Machine::use_mean_loads>;
 
 }  // namespace spindrift::coupling

@@ -10,8 +10,10 @@ inline constexpr int most_retries = 3;
 /// Of the n-th retry; 0: as the scene asks.
 constexpr int pieces_of_step(int retry) { return 1 << (2 * retry); }         ///< of the bodies' step: 1, 4, 16, 64
 constexpr double share_of_substep(int retry) { return 1.0 / (1 << retry); }  ///< of the sea's limit: 1, 1/2, 1/4, 1/8
+/// Of the CFL number that the air began with.
 constexpr double share_of_cfl(int retry) {
-  return retry == 0 ? 1.0 : retry == 1 ? 1e-1 : retry == 2 ? 1e-2 : 1e-3;
-}  ///< of the CFL number that the air began with
+  constexpr double shares[most_retries + 1] = {1.0, 1e-1, 1e-2, 1e-3};
+  return shares[retry];
+}
 
 }  // namespace spindrift::coupling

@@ -33,22 +33,6 @@ void move_to_start(Machine& machine, bodies::BodiesState& state) {
   state = assembly.state;
 }
 
-/// Mean loads while this lives.
-class MeanLoads {
- public:
-  explicit MeanLoads(Machine& machine) : machine_(machine) { machine_.use_mean_loads(true); }
-  ~MeanLoads() { machine_.use_mean_loads(false); }
-  MeanLoads(const MeanLoads&) = delete;
-  MeanLoads& operator=(const MeanLoads&) = delete;
-
- private:
-  Machine& machine_;
-};
-
-}  // namespace
-
-namespace {
-
 Start start_without_memory(Machine& machine) {
   if (machine.system().bodies().empty()) return {};  // water alone
   bodies::Assembly assembly = machine.system().assemble();
