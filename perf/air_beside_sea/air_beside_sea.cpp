@@ -11,7 +11,7 @@
 #include "runtime/mpi/environment.hpp"
 #include "runtime/trace/intervals.hpp"
 #include "runtime/trace/trace_of.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/scene/document.hpp"
 
 using namespace spindrift;
@@ -52,9 +52,9 @@ void measure(perf::Group& group, const std::string& form, const std::vector<std:
   std::vector<std::string> all{"start.air_steps=20"};
   all.insert(all.end(), settings.begin(), settings.end());
   scene::Document document = scene::load(SPINDRIFT_SOURCE_DIR "/inputs/leble_barakos/case3_demo.toml", all);
-  Machine machine(read_scenario(document));
-  machine.fill_sea(make_start(machine).state.motions, runtime::World{MPI_COMM_SELF, 0, 1});
-  Alone sides(machine);
+  FloatingSystem floating(read_scenario(document));
+  floating.fill_sea(make_start(floating).state.motions, runtime::World{MPI_COMM_SELF, 0, 1});
+  Alone sides(floating);
   WindowTasks tasks(*sides.air, *sides.bodies, MPI_COMM_SELF, {.records = std::size_t(1) << 20});
   for (int n = 0; n < warm_ups; ++n) sides.window(tasks, Run::both);  // priorities follow measured costs
   const std::int64_t from = runtime::Clock::now_ns();

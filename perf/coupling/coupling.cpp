@@ -34,9 +34,9 @@ void meet() {
 /// The coupled run's own window, placed as given.
 struct Coupled {
   Coupled(scene::Document document, const runtime::Parts& p)
-      : parts(p), machine(read_scenario(document)), state(make_start(machine).state) {
-    if (parts.has(sea_part)) machine.fill_sea(state.motions, parts.mine());
-    window = std::make_unique<CoupledWindow>(machine, make_sides(machine, state.motions, parts), parts.mine().comm);
+      : parts(p), floating(read_scenario(document)), state(make_start(floating).state) {
+    if (parts.has(sea_part)) floating.fill_sea(state.motions, parts.mine());
+    window = std::make_unique<CoupledWindow>(floating, make_sides(floating, state.motions, parts), parts.mine().comm);
     window->begin(state);
   }
   double advance(int threads) {
@@ -44,7 +44,7 @@ struct Coupled {
     return perf::seconds([&] { window->advance(state); });
   }
   const runtime::Parts& parts;
-  Machine machine;
+  FloatingSystem floating;
   bodies::BodiesState state;
   std::unique_ptr<CoupledWindow> window;
 };
@@ -68,9 +68,9 @@ void measure(perf::Group& group, const runtime::Parts& parts) {
   omp_set_num_threads(2);
   const runtime::Parts alone = runtime::World{MPI_COMM_SELF, 0, 1};
   scene::Document document = demo();
-  Machine machine(read_scenario(document));
-  machine.fill_sea(make_start(machine).state.motions, alone.mine());
-  Alone sides(machine);
+  FloatingSystem floating(read_scenario(document));
+  floating.fill_sea(make_start(floating).state.motions, alone.mine());
+  Alone sides(floating);
   WindowTasks two(*sides.air, *sides.bodies, MPI_COMM_SELF, {.records = std::size_t(1) << 20}),
       one(*sides.air, *sides.bodies, MPI_COMM_SELF, {});
   // Executors take the number of threads that stands when they first run.

@@ -52,7 +52,7 @@ const Domain<3> domain{{-0.5, -0.5, -0.1}, {2.1, 1.2, 2.0}};
 template <class Real>
 std::unique_ptr<SeaSph<3, Real>> make_sea(const Parameters& p, const std::vector<Seed<3>>& seeds, int threads,
                                           const Domain<3>& box = domain) {
-  return std::make_unique<SeaSph<3, Real>>(p, box, seeds, Machine{.threads = threads});
+  return std::make_unique<SeaSph<3, Real>>(p, box, seeds, Resources{.threads = threads});
 }
 
 /// Particle evaluations per second over steps that last about `seconds_wanted`.
@@ -119,7 +119,7 @@ double mean_neighbours(const Parameters& p, const std::vector<Seed<3>>& seeds) {
   SeaSph<3, float> sea(p, domain, seeds);
   sea.evaluate();
   std::vector<float> sums(sea.store().slots(), 0.0f);
-  Meetings<3, float> meets;
+  NeighbourLists<3, float> meets;
   meets.reserve(sea.store().clusters());
   const LawCount law{KernelWendland<3, float>(p.h())};
   for (int g = 0; g < sea.columns().groups(); ++g)
@@ -150,7 +150,7 @@ int main(int argc, char** argv) {
     diffusing.diffusion = DiffusionChoice::fourtakas;
     const auto plain = make_sea<float>(p, seeds, 1), with = make_sea<float>(diffusing, seeds, 1);
     const double dt = 0.5 * plain->step_limit();
-    for (SeaSph<3, float>* sea : {plain.get(), with.get()}) sea->set_pace({.dt = dt, .steps_per_look = 2});
+    for (SeaSph<3, float>* sea : {plain.get(), with.get()}) sea->set_step_control({.dt = dt, .steps_per_check = 2});
     group.at_most("fourtakas_extra",
                   perf::paired_ratio([&] { with->advance(2.0 * dt); }, [&] { plain->advance(2.0 * dt); }).median - 1.0, "-", 0.15,
                   perf::Ceiling::none, "windows of 2 steps in turns");
@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
     const double dt = 0.5 * one_thread->step_limit(), duration = 4.0 * dt;
     double best_one = 1e300, best_two = 1e300;
     for (SeaSph<3, float>* sea : {one_thread.get(), two_threads.get()})
-      sea->set_pace({.dt = dt, .steps_per_look = 4}), sea->advance(duration);
+      sea->set_step_control({.dt = dt, .steps_per_check = 4}), sea->advance(duration);
     for (int n = 0; n < 7; ++n) {
       best_one = std::min(best_one, perf::seconds([&] { one_thread->advance(duration); }));
       best_two = std::min(best_two, perf::seconds([&] { two_threads->advance(duration); }));
@@ -221,7 +221,7 @@ int main(int argc, char** argv) {
     const std::vector<Seed<3>> tank = paper_tank(paper, box);
     const auto sea = make_sea<float>(paper, tank, std::min(threads, 2), box);
     constexpr double dt = 2e-4;
-    sea->set_pace({.dt = dt, .steps_per_look = 2});
+    sea->set_step_control({.dt = dt, .steps_per_check = 2});
     sea->advance(2 * dt);
     double best = 1e300;
     for (int n = 0; n < 2; ++n) best = std::min(best, perf::seconds([&] { sea->advance(2 * dt); }) / 2);

@@ -22,11 +22,11 @@
 #include "src/app/scene_file.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/doubts.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/limits.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/memory_limits.hpp"
 #include "src/coupling/recorder.hpp"
-#include "src/coupling/room.hpp"
 #include "src/coupling/start.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
@@ -35,10 +35,10 @@ namespace spindrift::app {
 
 namespace {
 
-using coupling::Machine;
+using coupling::FloatingSystem;
 
-void print_models(const Machine& machine) {
-  const coupling::Scenario& s = machine.scenario();
+void print_models(const FloatingSystem& floating) {
+  const coupling::Scenario& s = floating.scenario();
   fmt::print("\nWhat will be modelled\n");
   fmt::print("  {:<10}{}\n", "bodies", coupling::describe_bodies(s));
   fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
@@ -48,11 +48,11 @@ void print_models(const Machine& machine) {
 }
 
 /// Of a sea of particles: how many, how large, how long. Nothing of it is made but a list of places.
-PartCost print_particles(const Machine& machine, const coupling::Start& start) {
-  const coupling::Scenario& s = machine.scenario();
-  const sea::ParticleCensus census = particle_census(*machine.particle_plan(), start.state.motions);
-  const sph::Parameters& p = machine.particle_plan()->parameters;
-  const double steps_per_window = particle_steps(machine, census);
+PartCost print_particles(const FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::Scenario& s = floating.scenario();
+  const sea::ParticleCensus census = particle_census(*floating.particle_plan(), start.state.motions);
+  const sph::Parameters& p = floating.particle_plan()->parameters;
+  const double steps_per_window = particle_steps(floating, census);
   fmt::print("\nSea of particles\n");
   fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls,
              census.bodies);
@@ -63,24 +63,24 @@ PartCost print_particles(const Machine& machine, const coupling::Start& start) {
   fmt::print("  {:<22}{:.4g} m/s, {:.3g} m spacing, support {:.3g} m\n", "speed of sound", p.eos.c0, p.spacing, p.reach());
   fmt::print("  {:<22}{:.4g} s at rest, set by {}{}; {:.0f} to a window\n", "largest step", census.step_s, census.step_set_by,
              s.time.step_s ? fmt::format("; the scene asks for {} s", *s.time.step_s) : "", steps_per_window);
-  return cost_of_particles(machine, census, steps_per_window);
+  return cost_of_particles(floating, census, steps_per_window);
 }
 
-void print_doubts(Machine& machine, const coupling::Start& start, const coupling::Stability& stability) {
-  const scene::Doubts doubts = coupling::doubts(machine, start, stability);
+void print_doubts(FloatingSystem& floating, const coupling::Start& start, const coupling::Stability& stability) {
+  const scene::Doubts doubts = coupling::doubts(floating, start, stability);
   if (doubts.empty()) return;
   fmt::print("\nDoubts: possible, but it looks like a slip\n");
   for (const scene::Doubt& doubt : doubts) fmt::print("  warning: {}\n", text(doubt));
 }
 
 /// `start_s`: processor time up to the first step.
-void print_steps(Machine& machine, const coupling::Start& start, double start_s) {
-  const coupling::Timeline& t = machine.timeline();
-  const StepCost cost = measured_steps(machine, start);
+void print_steps(FloatingSystem& floating, const coupling::Start& start, double start_s) {
+  const coupling::Timeline& t = floating.timeline();
+  const StepCost cost = measured_steps(floating, start);
   const double seconds = start_s + cost.core_seconds() + output_seconds;
   fmt::print("\nSize and cost\n");
   fmt::print("  {:<22}{} windows of {} s, {} step{} each ({})\n", "time", t.windows(), t.window_s(), t.steps_per_window(),
-             t.steps_per_window() == 1 ? "" : "s", name(machine.system().integrator()));
+             t.steps_per_window() == 1 ? "" : "s", name(floating.multibody().integrator()));
   fmt::print(
       "  {:<22}{:.3g} ({:.3g} s on one core, {:.0f} times real time): {:.3g} s to start and for files, {:.3g} steps of {:.3g} "
       "us{} and {:.3g} rows of history of {:.3g} us, measured now\n",
@@ -91,23 +91,23 @@ void print_steps(Machine& machine, const coupling::Start& start, double start_s)
   fmt::print("  {:<22}{:.0f} MB\n", "memory", (resident_memory() + output_bytes) / 1e6);
 }
 
-void print_equilibrium(Machine& machine, const bodies::BodiesState& state) {
-  const auto bodies = machine.system().bodies();
+void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& state) {
+  const auto bodies = floating.multibody().bodies();
   fmt::print("\nStatic equilibrium under the mean loads: wind, current, still water (displacements of the reference points)\n");
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const coupling::ReferenceMotion m = coupling::reference_motion(
-        state.motions[b], bodies[b].initial, machine.reference_point(b), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+        state.motions[b], bodies[b].initial, floating.reference_point(b), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     const Eigen::Vector3d degrees = m.angles / radians_per_degree;
     fmt::print("  {:<16}x {:+.3f}  y {:+.3f}  z {:+.3f} m   roll {:+.3f}  pitch {:+.3f}  yaw {:+.3f} deg\n", bodies[b].name,
                m.displacement.x(), m.displacement.y(), m.displacement.z(), degrees.x(), degrees.y(), degrees.z());
   }
-  if (machine.moorings())
-    for (std::size_t line = 0; line < machine.moorings()->size(); ++line)
-      fmt::print("  {:<16}{:+.4g} kN\n", machine.moorings()->name(line),
-                 1e-3 * machine.moorings()->tension(line, state.motions).fairlead);
+  if (floating.moorings())
+    for (std::size_t line = 0; line < floating.moorings()->size(); ++line)
+      fmt::print("  {:<16}{:+.4g} kN\n", floating.moorings()->name(line),
+                 1e-3 * floating.moorings()->tension(line, state.motions).fairlead);
 }
 
-void print_modes(const Machine& machine, const bodies::Linearisation& linearisation) {
+void print_modes(const FloatingSystem& floating, const bodies::Linearisation& linearisation) {
   fmt::print("\nModes about the start\n");
   std::size_t free = 0;
   for (const bodies::Mode& mode : linearisation.modes)
@@ -120,10 +120,10 @@ void print_modes(const Machine& machine, const bodies::Linearisation& linearisat
       fmt::print("  {:<34}rate {:+.3g} 1/s\n", mode.name, mode.eigenvalue.real());
   if (free > 0)
     fmt::print("  {} of {} are free: neither stiffness nor damping{}\n", free, linearisation.modes.size(),
-               machine.particle_plan() && !machine.sea() ? "; that of the particles is not known before they are there" : "");
-  const coupling::TimeOptions& time = machine.scenario().time;
+               floating.particle_plan() && !floating.sea() ? "; that of the particles is not known before they are there" : "");
+  const coupling::TimeOptions& time = floating.scenario().time;
   const std::string asked =
-      machine.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());
+      floating.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());
   fmt::print("\nLargest stable step (the scene {}, with {})\n", asked, name(time.integrator));
   for (const Integrator integrator : {Integrator::rk4, Integrator::symplectic, Integrator::explicit_euler}) {
     const bodies::StepLimit limit = step_limit(integrator, linearisation);
@@ -139,9 +139,9 @@ void print_modes(const Machine& machine, const bodies::Linearisation& linearisat
 /// Blank where there is none.
 std::string hertz(double f) { return f > 0.0 ? fmt::format("{:.4f}", f) : "-"; }
 
-void print_campbell(Machine& machine, const coupling::Start& start, const bodies::Linearisation& linearisation) {
-  const double speed = machine.rotor()->state(0.0, start.state.motions).speed;
-  const coupling::Campbell c = campbell(machine.scenario(), linearisation, speed);
+void print_campbell(FloatingSystem& floating, const coupling::Start& start, const bodies::Linearisation& linearisation) {
+  const double speed = floating.rotor()->state(0.0, start.state.motions).speed;
+  const coupling::Campbell c = campbell(floating.scenario(), linearisation, speed);
   fmt::print("\nFrequencies [Hz]: rotor, waves and platform (wind and most probable waves by sea state after Lee et al. 1985)\n");
   fmt::print("  {:<14}{:>10}{:>10}{:>10}{:>10}{:>10}   within {:.0f} %\n", "", "wind m/s", "height m", "waves", "1P", "3P",
              100.0 * coupling::close);
@@ -152,18 +152,18 @@ void print_campbell(Machine& machine, const coupling::Start& start, const bodies
     fmt::print("\n");
   }
   for (double wind : c.meets_waves_m_s) fmt::print("  1P meets the most probable waves at a wind of {:.1f} m/s\n", wind);
-  if (machine.scenario().coupling.scheme == coupling::SchemeKind::monolithic) {
+  if (floating.scenario().coupling.scheme == coupling::SchemeKind::monolithic) {
     fmt::print(
         "\nCoupling of rotor and platform: monolithic; the rotor answers in every evaluation of the bodies, nothing lags\n");
     return;
   }
 
-  const coupling::FullLoads full(machine);
-  const coupling::LooseVerdict verdict = loose_verdict(machine, start.state, c);
+  const coupling::FullLoads full(floating);
+  const coupling::LooseVerdict verdict = loose_verdict(floating, start.state, c);
   fmt::print(
       "\nCoupling of rotor and platform (window {} s): mass at the hub {:.3g} kg, thrust falls {:.4g} kN per m/s, fastest {:.3g} "
       "Hz\n",
-      machine.timeline().window_s(), verdict.hub_mass_kg, 1e-3 * verdict.slope_N_s_m, verdict.fastest_Hz);
+      floating.timeline().window_s(), verdict.hub_mass_kg, 1e-3 * verdict.slope_N_s_m, verdict.fastest_Hz);
   fmt::print("  1P {} Hz, 3P {} Hz; added mass of the blades' air {:.3g} kg, {:.2g} of the mass at the hub\n",
              hertz(c.rows.back().once), hertz(c.rows.back().thrice), verdict.air_mass_kg, verdict.mass_ratio());
   bool will_do = false;
@@ -186,10 +186,10 @@ void print_far_sides(const aero::RotorGridOptions& grid) {
 }
 
 /// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
-PartCost print_air(const Machine& machine, const coupling::Start& start, bool calibrate) {
-  const coupling::Scenario& s = machine.scenario();
+PartCost print_air(const FloatingSystem& floating, const coupling::Start& start, bool calibrate) {
+  const coupling::Scenario& s = floating.scenario();
   aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
-  setup.rotor.speed = machine.rotor()->state(0.0, start.state.motions).speed;
+  setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
   fmt::print("\nResolved air (estimates above take the rotor's load from blade elements)\n");
   fmt::print("  {:<22}{} in {} sector{}, {} rows of faces along each blade\n", "cells", size.cells, size.sectors,
@@ -298,7 +298,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   const double begin_s = processor_seconds();
   scene::Document document = load_scene(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
-  coupling::require_room(scenario, coupling::machine_memory() * world.size);
+  coupling::require_memory(scenario, coupling::machine_memory() * world.size);
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
     // Grids of millions of cells take minutes: they are not made.
     constexpr long made_at_most = 300'000;
@@ -322,41 +322,41 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     return done;
   }
   const coupling::Scenario asked = scenario;
-  Machine machine(std::move(scenario));
-  const coupling::Start start = make_start(machine);
-  const coupling::Stability stability = coupling::stability(machine, start.state);
+  FloatingSystem floating(std::move(scenario));
+  const coupling::Start start = make_start(floating);
+  const coupling::Stability stability = coupling::stability(floating, start.state);
   const double start_s = processor_seconds() - begin_s;
   if (world.rank == 0) {
     fmt::print("{}: valid\n", arguments.scene);
-    print_models(machine);
+    print_models(floating);
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
-    print_doubts(machine, start, stability);
-    if (!start.state.motions.empty()) print_modes(machine, stability.linearisation);
+    print_doubts(floating, start, stability);
+    if (!start.state.motions.empty()) print_modes(floating, stability.linearisation);
   }
-  require_limits(machine, start.state, stability);
+  require_limits(floating, start.state, stability);
   if (world.rank != 0) return done;
   if (start.state.motions.empty()) {
-    const PartCost cost = print_particles(machine, start);
-    print_cost(std::span(&cost, 1), machine.scenario().time.end_s, world.size);
+    const PartCost cost = print_particles(floating, start);
+    print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size);
     return done;
   }
-  if (machine.rotor()) print_campbell(machine, start, stability.linearisation);
+  if (floating.rotor()) print_campbell(floating, start, stability.linearisation);
   const auto equilibrium_now = [&] {
-    const coupling::MeanLoads mean(machine);
-    return find_equilibrium(machine.system(), start.state, 0.0);
+    const coupling::MeanLoads mean(floating);
+    return find_equilibrium(floating.multibody(), start.state, 0.0);
   };
   const bodies::Equilibrium equilibrium = start.equilibrium ? *start.equilibrium : equilibrium_now();
   if (equilibrium.problem.empty())
-    print_equilibrium(machine, equilibrium.state);
+    print_equilibrium(floating, equilibrium.state);
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", equilibrium.problem);
   std::vector<PartCost> parts;
-  if (machine.scenario().resolves_air()) parts.push_back(print_air(machine, start, arguments.calibrate));
-  if (machine.particle_plan())
-    parts.push_back(print_particles(machine, start));
+  if (floating.scenario().resolves_air()) parts.push_back(print_air(floating, start, arguments.calibrate));
+  if (floating.particle_plan())
+    parts.push_back(print_particles(floating, start));
   else
-    print_steps(machine, start, start_s);
-  if (!parts.empty()) print_cost(parts, machine.scenario().time.end_s, world.size);
+    print_steps(floating, start, start_s);
+  if (!parts.empty()) print_cost(parts, floating.scenario().time.end_s, world.size);
   if (!arguments.columns.empty()) print_omissions(asked, arguments.columns);
   return done;
 }

@@ -7,7 +7,7 @@
 
 namespace spindrift::app {
 
-/// A part of the machine that has a solver of its own.
+/// A part of the floating system that has a solver of its own.
 struct PartCost {
   std::string name;               ///< "air", "sea"
   double count = 0.0;             ///< of `things`

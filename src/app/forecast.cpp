@@ -21,7 +21,7 @@ namespace spindrift::app {
 
 namespace {
 
-using coupling::Machine;
+using coupling::FloatingSystem;
 
 /// Least processor time of one call, over blocks of calls that take about a tenth of a second together.
 template <class Call>
@@ -74,31 +74,31 @@ double processor_seconds() {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-StepCost measured_steps(Machine& machine, const coupling::Start& start) {
-  const coupling::Timeline& t = machine.timeline();
-  const coupling::Scenario& s = machine.scenario();
+StepCost measured_steps(FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::Timeline& t = floating.timeline();
+  const coupling::Scenario& s = floating.scenario();
   StepCost cost;
   cost.steps = double(t.windows()) * double(t.steps_per_window()) * iterations(s);
-  cost.rows = std::ceil(double(t.windows()) / machine.scenario().output.history_every) + 1.0;
-  const coupling::FullLoads full(machine);
+  cost.rows = std::ceil(double(t.windows()) / floating.scenario().output.history_every) + 1.0;
+  const coupling::FullLoads full(floating);
   bodies::BodiesState state = start.state;
-  machine.reset_clocks();
+  floating.reset_clocks();
   const std::int64_t begin_ns = runtime::Clock::now_ns();
-  cost.step_s = least_seconds([&] { return machine.system().advance(state, t.tick_s(), 1).ok(); });
+  cost.step_s = least_seconds([&] { return floating.multibody().advance(state, t.tick_s(), 1).ok(); });
   if (exchanges(s)) {
     const double wall_ns = double(runtime::Clock::now_ns() - begin_ns);
-    for (std::size_t n = 0; n < machine.clocks().size(); ++n) {
-      const coupling::SourceClock clock = machine.clocks()[n];
-      if (machine.system().loads()[n].name != "rotor" || clock.calls == 0) continue;
+    for (std::size_t n = 0; n < floating.clocks().size(); ++n) {
+      const coupling::SourceClock clock = floating.clocks()[n];
+      if (floating.multibody().loads()[n].name != "rotor" || clock.calls == 0) continue;
       const double share = std::min(1.0, double(clock.ns) / wall_ns);
       cost.exchanges = double(t.windows()) * iterations(s);
       cost.exchange_s = cost.step_s * share / (s.time.integrator == Integrator::rk4 ? 4.0 : 1.0);
       cost.step_s *= 1.0 - share;
     }
   }
-  machine.reset_clocks();
+  floating.reset_clocks();
   io::History history;
-  coupling::Recorder recorder(machine, history);
+  coupling::Recorder recorder(floating, history);
   const std::filesystem::path file = std::filesystem::temp_directory_path() / fmt::format("spindrift_rows_{}.csv", ::getpid());
   history.open(file);
   state = start.state;
@@ -110,17 +110,17 @@ StepCost measured_steps(Machine& machine, const coupling::Start& start) {
   return cost;
 }
 
-double particle_steps(const Machine& machine, const sea::ParticleCensus& census) {
-  const coupling::TimeOptions& time = machine.scenario().time;
-  const double step = std::min({time.step_s.value_or(census.step_s), machine.body_step_limit(), census.step_s, time.window_s});
+double particle_steps(const FloatingSystem& floating, const sea::ParticleCensus& census) {
+  const coupling::TimeOptions& time = floating.scenario().time;
+  const double step = std::min({time.step_s.value_or(census.step_s), floating.body_step_limit(), census.step_s, time.window_s});
   return std::ceil(time.window_s / step * (1.0 - 1e-9));
 }
 
-PartCost cost_of_particles(const Machine& machine, const sea::ParticleCensus& census, double steps_per_window) {
-  const coupling::Scenario& s = machine.scenario();
-  const sph::Parameters& p = machine.particle_plan()->parameters;
+PartCost cost_of_particles(const FloatingSystem& floating, const sea::ParticleCensus& census, double steps_per_window) {
+  const coupling::Scenario& s = floating.scenario();
+  const sph::Parameters& p = floating.particle_plan()->parameters;
   const double evaluations = steps_per_window / s.time.window_s * (p.step == sph::StepChoice::verlet ? 1.0 : 2.0);
-  const int notes = machine.rotor() && is_strong(s.coupling.scheme) ? 2 : 1;
+  const int notes = floating.rotor() && is_strong(s.coupling.scheme) ? 2 : 1;
   return {.name = "sea",
           .count = double(census.particles()),
           .things = "particles",
@@ -155,11 +155,11 @@ PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::Resolved
   return cost;
 }
 
-Forecast forecast(Machine& machine, const coupling::Start& start) {
-  const coupling::Scenario& s = machine.scenario();
+Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::Scenario& s = floating.scenario();
   Forecast f{.core_seconds = output_seconds};
   io::History history;
-  const coupling::Recorder recorder(machine, history);
+  const coupling::Recorder recorder(floating, history);
   if (!s.resolves_air() && (!s.has_rotor() || s.coupling.scheme == coupling::SchemeKind::monolithic)) f.columns = names(history);
   const auto add = [&](const PartCost& part) {
     f.core_seconds += part.core_seconds_per_work * (part.work_before + part.work_per_second * s.time.end_s);
@@ -167,17 +167,17 @@ Forecast forecast(Machine& machine, const coupling::Start& start) {
   };
   if (s.resolves_air()) {
     aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
-    setup.rotor.speed = machine.rotor()->state(0.0, start.state.motions).speed;
+    setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;
     const bool strong = is_strong(s.coupling.scheme);
     add(cost_of_air(setup, aero::resolved_rotor_size(setup),
                     (strong ? s.coupling.samples : 1.0) * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps,
                     strong ? 2 : 1, true));
   }
-  if (machine.particle_plan()) {
-    const sea::ParticleCensus census = particle_census(*machine.particle_plan(), start.state.motions);
-    add(cost_of_particles(machine, census, particle_steps(machine, census)));
+  if (floating.particle_plan()) {
+    const sea::ParticleCensus census = particle_census(*floating.particle_plan(), start.state.motions);
+    add(cost_of_particles(floating, census, particle_steps(floating, census)));
   } else {
-    f.core_seconds += measured_steps(machine, start).core_seconds();
+    f.core_seconds += measured_steps(floating, start).core_seconds();
   }
   f.bytes += resident_memory() + output_bytes;
   return f;

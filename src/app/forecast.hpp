@@ -9,7 +9,7 @@
 #include "src/aero/grid/multi_block.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/app/cost.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
 
 namespace spindrift::app {
@@ -18,26 +18,26 @@ namespace spindrift::app {
 /// history, by the processor's own clock.
 struct StepCost {
   double steps = 0.0, exchanges = 0.0, rows = 0.0;
-  double step_s = 0.0, exchange_s = 0.0, row_s = 0.0;  ///< of one, the fastest of a few: others on the machine only add
+  double step_s = 0.0, exchange_s = 0.0, row_s = 0.0;  ///< of one, the fastest of a few: others on the computer only add
   double core_seconds() const { return steps * step_s + exchanges * exchange_s + rows * row_s; }
 };
-StepCost measured_steps(coupling::Machine& machine, const coupling::Start& start);
+StepCost measured_steps(coupling::FloatingSystem& floating, const coupling::Start& start);
 
 /// Of a sea of particles as its census counts it.
-PartCost cost_of_particles(const coupling::Machine& machine, const sea::ParticleCensus& census, double steps_per_window);
+PartCost cost_of_particles(const coupling::FloatingSystem& floating, const sea::ParticleCensus& census, double steps_per_window);
 
 /// Of a resolved rotor with so many pseudo-steps at most per simulated second and before t = 0; notes: states kept.
 PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, double per_second, double before,
                      int notes, bool calibrate);
 
 /// Substeps of a window beside particles.
-double particle_steps(const coupling::Machine& machine, const sea::ParticleCensus& census);
+double particle_steps(const coupling::FloatingSystem& floating, const sea::ParticleCensus& census);
 
 struct Forecast {
   double core_seconds = 0.0, bytes = 0.0;
   std::vector<std::string> columns;  ///< of history.csv; empty where only the run itself knows
 };
-Forecast forecast(coupling::Machine& machine, const coupling::Start& start);
+Forecast forecast(coupling::FloatingSystem& floating, const coupling::Start& start);
 /// Air without bodies: a resolved rotor, or the flow on a grid.
 Forecast forecast_of_air(const coupling::Scenario& scenario);
 /// Of the flow on a grid that stands, whatever is in it.

@@ -12,8 +12,8 @@
 
 #include "src/aero/turbine.hpp"
 #include "src/app/forecast.hpp"
-#include "src/coupling/recorder.hpp"
 #include "src/coupling/limits.hpp"
+#include "src/coupling/recorder.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/text_check.hpp"
@@ -113,14 +113,14 @@ Effect of_column(std::span<const double> t, std::span<const double> x) {
 
 /// The scene for `length_s`, rows and all.
 Outcome run(Scenario scenario, double length_s, const std::vector<std::string>& columns) {
-  coupling::Machine machine(std::move(scenario));
-  const coupling::Start start = make_start(machine);
-  require_limits(machine, start.state, stability(machine, start.state));
+  coupling::FloatingSystem floating(std::move(scenario));
+  const coupling::Start start = make_start(floating);
+  require_limits(floating, start.state, stability(floating, start.state));
   const std::filesystem::path file = std::filesystem::temp_directory_path() / fmt::format("spindrift_trial_{}.csv", ::getpid());
   Outcome outcome;
   {
     io::History history;
-    coupling::Recorder recorder(machine, history);
+    coupling::Recorder recorder(floating, history);
     std::vector<std::string> known;
     for (const io::Column& column : history.columns()) known.push_back(column.name);
     for (const std::string& column : columns)
@@ -131,15 +131,15 @@ Outcome run(Scenario scenario, double length_s, const std::vector<std::string>& 
       }
     history.open(file);
     bodies::BodiesState state = start.state;
-    const coupling::Timeline& time = machine.timeline();
+    const coupling::Timeline& time = floating.timeline();
     const double begin = processor_seconds();
     const auto write_row = [&](double t) { recorder.fill(history.row(t), state, t), history.write(); };
     write_row(0.0);
     for (std::int64_t window = 1; double(window) * time.window_s() <= length_s * (1.0 + 1e-12); ++window) {
       for (std::int64_t n = 0; n < time.steps_per_window(); ++n)
-        if (const bodies::StepReport report = machine.system().advance(state, time.tick_s(), 1); !report.ok())
-          throw machine.system().failure(report, state, time.tick_s());
-      if (window % machine.scenario().output.history_every == 0) write_row(time.window_end_s(window));
+        if (const bodies::StepReport report = floating.multibody().advance(state, time.tick_s(), 1); !report.ok())
+          throw floating.multibody().failure(report, state, time.tick_s());
+      if (window % floating.scenario().output.history_every == 0) write_row(time.window_end_s(window));
     }
     outcome.core_seconds = processor_seconds() - begin;
     history.flush();
@@ -150,7 +150,7 @@ Outcome run(Scenario scenario, double length_s, const std::vector<std::string>& 
   return outcome;
 }
 
-/// Least of two, as others on the machine only add.
+/// Least of two, as others on the computer only add.
 Outcome timed(const Scenario& scenario, double length_s, const std::vector<std::string>& columns) {
   Outcome first = run(scenario, length_s, columns);
   first.core_seconds = std::min(first.core_seconds, run(scenario, length_s, columns).core_seconds);
@@ -163,9 +163,9 @@ Trial try_omissions(const Scenario& scenario, const std::vector<std::string>& co
   Trial trial;
   double pace = 0.0;  // core-seconds per simulated second
   {
-    coupling::Machine machine{Scenario(scenario)};
-    const coupling::Start start = make_start(machine);
-    pace = measured_steps(machine, start).core_seconds() / scenario.time.end_s;
+    coupling::FloatingSystem floating{Scenario(scenario)};
+    const coupling::Start start = make_start(floating);
+    pace = measured_steps(floating, start).core_seconds() / scenario.time.end_s;
   }
   const double windows =
       std::max(3.0, std::floor(std::min(scenario.time.end_s, most_core_seconds / pace) / scenario.time.window_s));

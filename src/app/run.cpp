@@ -17,8 +17,8 @@
 #include "src/app/scene_run.hpp"
 #include "src/coupling/doubts.hpp"
 #include "src/coupling/limits.hpp"
+#include "src/coupling/memory_limits.hpp"
 #include "src/coupling/placement.hpp"
-#include "src/coupling/room.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/history_statistics.hpp"
@@ -116,15 +116,15 @@ void print_summary(const io::Summary& summary, const io::RunDirectory& directory
 }  // namespace
 
 namespace {
-/// Machine and start of a scene that is not of the air alone.
+/// Floating system and start of a scene that is not of the air alone.
 ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
   ReadyScene ready;
-  ready.machine = std::make_unique<coupling::Machine>(std::move(scenario));
-  ready.start = make_start(*ready.machine);
-  const coupling::Stability found = stability(*ready.machine, ready.start.state);
-  ready.doubts = coupling::doubts(*ready.machine, ready.start, found);
-  require_limits(*ready.machine, ready.start.state, found);
-  ready.machine->system().open_chart(ready.start.state, 0.0);  // the first solution begins from it
+  ready.floating = std::make_unique<coupling::FloatingSystem>(std::move(scenario));
+  ready.start = make_start(*ready.floating);
+  const coupling::Stability found = stability(*ready.floating, ready.start.state);
+  ready.doubts = coupling::doubts(*ready.floating, ready.start, found);
+  require_limits(*ready.floating, ready.start.state, found);
+  ready.floating->multibody().open_chart(ready.start.state, 0.0);  // the first solution begins from it
   ready.echo = std::move(echo);
   return ready;
 }
@@ -133,7 +133,7 @@ ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
 ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
   scene::Document document = load_scene(path, overrides, overrider);
   coupling::Scenario scenario = coupling::read_scenario(document);
-  coupling::require_room(scenario, coupling::machine_memory());
+  coupling::require_memory(scenario, coupling::machine_memory());
   return made_ready(std::move(scenario), document.echo());
 }
 
@@ -147,7 +147,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     scene::Document document = load_scene(arguments.scene, arguments.overrides, overrider);
     read.emplace();
     scenario = coupling::read_scenario(document);
-    coupling::require_room(*scenario, coupling::machine_memory() * started.size);  // of as many machines as there may be
+    coupling::require_memory(*scenario, coupling::machine_memory() * started.size);  // of as many machines as there may be
     echo = document.echo();
     return coupling::Started{arguments.fluid, echo,
                              fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n", arguments.out,
@@ -176,7 +176,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     for (const scene::Doubt& doubt : system->doubts) spdlog::warn("{}", text(doubt));
   runtime::StopRequest stop(scenario->runtime.wall_limit_s, directory.stop());
   io::Summary summary = summary_of(directory, world, [&] {
-    return system ? run::run(*system->machine, system->start, directory, parts, settings, stop)
+    return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)
                   : run::run_flow(*scenario, directory, parts, settings, stop);
   });
   const std::string& title = scenario->output.title;

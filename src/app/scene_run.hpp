@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/app/commands.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
 #include "src/io/summary.hpp"
 #include "src/scene/document.hpp"
@@ -18,7 +18,7 @@ namespace spindrift::app {
 /// A scene ready to run: every check has passed, stability of the step among them.
 struct ReadyScene {
   std::string echo;  ///< the scene with every default
-  std::unique_ptr<coupling::Machine> machine;
+  std::unique_ptr<coupling::FloatingSystem> floating;
   coupling::Start start;
   scene::Doubts doubts;  ///< what looks like a slip
 };

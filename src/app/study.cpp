@@ -68,7 +68,7 @@ struct Checked {
   Forecast forecast;
 };
 
-/// `forecasts`: with its forecast, for which the machine is made; the replicas of a rung have that of the first.
+/// `forecasts`: with its forecast, for which the floating system is made; the replicas of a rung have that of the first.
 Checked checked(const std::string& file, const std::vector<std::string>& overrides, const scene::Source& overrider,
                 bool forecasts) {
   scene::Document document = scene::load(file, overrides, overrider);
@@ -78,7 +78,7 @@ Checked checked(const std::string& file, const std::vector<std::string>& overrid
   if (scenario.has_flow()) return {document.echo(), forecast_of_air(scenario)};
   const ReadyScene ready = read_scene(file, overrides, overrider);
   const double start_s = processor_seconds() - before;
-  Checked checked{ready.echo, forecast(*ready.machine, ready.start)};
+  Checked checked{ready.echo, forecast(*ready.floating, ready.start)};
   checked.forecast.core_seconds += start_s;
   return checked;
 }

@@ -19,7 +19,7 @@
 
 namespace spindrift::coupling {
 
-class Machine;
+class FloatingSystem;
 
 class AirSide {
  public:
@@ -29,23 +29,23 @@ class AirSide {
   /// it has been restored. Collective.
   virtual aero::RotorLoad begin(double t, const aero::RotorState& now) = 0;
   /// What is to come: `dt` seconds, at whose end `t` the rotor is in this state.
-  virtual void aim(double t, double dt, const aero::RotorState& at_end) = 0;
+  virtual void prepare(double t, double dt, const aero::RotorState& at_end) = 0;
   /// Records the tasks that do it.
   virtual Tasks record(runtime::Graph&) { return Tasks::none; }
   /// Their executors are gone.
   virtual void forget_tasks() {}
   /// To be called once they have run: the load at the end, ramped as the scene asks. Throws NumericalFailure,
   /// and runtime::StopAsked where the work was given up.
-  virtual aero::RotorLoad answer() = 0;
-  /// With the steps of this retry from here on (retries.hpp); after back().
+  virtual aero::RotorLoad load_at_end() = 0;
+  /// With the steps of this retry from here on (retries.hpp); after return_to().
   virtual void ease(int /*retry*/) {}
   /// The load to be written to history, where it is not simply that of the rotor's state now.
   virtual const aero::RotorLoad* written() const { return nullptr; }
 
   /// Notes the state to go back to: of a window, and of the piece of it that is being iterated.
-  enum Note { window, piece };
-  virtual void keep(Note) {}
-  virtual void back(Note) {}
+  enum Snapshot { window, piece };
+  virtual void take_snapshot(Snapshot) {}
+  virtual void return_to(Snapshot) {}
 
   virtual std::vector<SavedArray> saved() const { return {}; }
   virtual void restore(const io::CheckpointReader&) {}
@@ -59,14 +59,15 @@ class AirSide {
   virtual void write_fields(std::int64_t /*number*/, double /*t*/) {}
   virtual void write_span() {}
   /// Sentences for the log since it was last asked.
-  virtual std::vector<std::string> news() { return {}; }
+  virtual std::vector<std::string> log_lines() { return {}; }
 };
 
-/// Resolved where the scene resolves it, else an engineering one. The machine outlives it. `now`: of the rotor at the start.
-std::unique_ptr<AirSide> make_air(const Machine& machine, const aero::RotorState& now, const runtime::World& world);
-/// Of a machine whose rotor, if it has one, loads the bodies as they go: nothing to do.
+/// Resolved where the scene resolves it, else an engineering one. The floating system outlives it. `now`: of the rotor at the
+/// start.
+std::unique_ptr<AirSide> make_air(const FloatingSystem& floating, const aero::RotorState& now, const runtime::World& world);
+/// Of a floating system whose rotor, if it has one, loads the bodies as they go: nothing to do.
 std::unique_ptr<AirSide> make_no_air();
-/// Answers by the machine's engineering rotor.
-std::unique_ptr<AirSide> make_engineering_air(const Machine& machine);
+/// Answers by the floating system's engineering rotor.
+std::unique_ptr<AirSide> make_engineering_air(const FloatingSystem& floating);
 
 }  // namespace spindrift::coupling

@@ -5,7 +5,7 @@
 
 #include "kernels/base/failure.hpp"
 #include "runtime/trace/clock.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/retries.hpp"
 #include "src/coupling/sea_window.hpp"
 
@@ -16,8 +16,8 @@ namespace {
 /// The bodies' own steps, one after the other.
 class Steps final : public BodySide {
  public:
-  explicit Steps(Machine& machine) : machine_(machine) {}
-  void aim(const bodies::BodiesState& from, std::int64_t end_tick) override { state_ = from, end_ = end_tick; }
+  explicit Steps(FloatingSystem& floating) : floating_(floating) {}
+  void prepare(const bodies::BodiesState& from, std::int64_t end_tick) override { state_ = from, end_ = end_tick; }
   Tasks record(runtime::Graph& graph) override {
     graph.task("bodies/steps", {runtime::updates(graph.datum())}, [this] { advance(); });
     return Tasks::single;
@@ -31,19 +31,19 @@ class Steps final : public BodySide {
  private:
   void advance() {
     const std::int64_t begin = runtime::Clock::now_ns();
-    const double tick_s = machine_.timeline().tick_s();
+    const double tick_s = floating_.timeline().tick_s();
     failure_.reset();
     while (state_.tick < end_ && !failure_) try {
-        const bodies::StepReport report = machine_.system().advance(state_, tick_s, 1, pieces_);
+        const bodies::StepReport report = floating_.multibody().advance(state_, tick_s, 1, pieces_);
         if (report.ok())
           ++steps_;
         else
-          failure_ = machine_.system().failure(report, state_, tick_s);
+          failure_ = floating_.multibody().failure(report, state_, tick_s);
       } catch (const NumericalFailure& failure) { failure_ = failure; }  // of what remembers: a line
     own_ns_ += runtime::Clock::now_ns() - begin;
   }
 
-  Machine& machine_;
+  FloatingSystem& floating_;
   std::optional<NumericalFailure> failure_;
   bodies::BodiesState state_;
   std::int64_t end_ = 0;
@@ -52,9 +52,9 @@ class Steps final : public BodySide {
 
 }  // namespace
 
-std::unique_ptr<BodySide> make_body_side(Machine& machine) {
-  if (machine.particles()) return make_particle_side(machine);
-  return std::make_unique<Steps>(machine);
+std::unique_ptr<BodySide> make_body_side(FloatingSystem& floating) {
+  if (floating.particles()) return make_particle_side(floating);
+  return std::make_unique<Steps>(floating);
 }
 
 }  // namespace spindrift::coupling

@@ -13,14 +13,14 @@
 
 namespace spindrift::coupling {
 
-class Machine;
+class FloatingSystem;
 
 class BodySide {
  public:
   virtual ~BodySide() = default;
 
   /// What is to come: from this state to the end tick.
-  virtual void aim(const bodies::BodiesState& from, std::int64_t end_tick) = 0;
+  virtual void prepare(const bodies::BodiesState& from, std::int64_t end_tick) = 0;
   /// Records the tasks that do it.
   virtual Tasks record(runtime::Graph&) { return Tasks::none; }
   /// Once they have run: the state at the end. Throws NumericalFailure, and runtime::StopAsked where the work was given up.
@@ -31,9 +31,9 @@ class BodySide {
   virtual bool outdated() const { return false; }
   virtual void forget_tasks() {}
 
-  // What is not in the bodies' state (particles) is noted and gone back to; numbered as AirSide::Note.
-  virtual void keep(int) {}
-  virtual void back(int) {}
+  // What is not in the bodies' state (particles) is noted and gone back to; numbered as AirSide::Snapshot.
+  virtual void take_snapshot(int) {}
+  virtual void return_to(int) {}
 
   std::int64_t steps() const { return steps_; }    ///< of the bodies, or substeps of the sea, so far
   std::int64_t own_ns() const { return own_ns_; }  ///< spent on the bodies and all that they ask
@@ -42,7 +42,7 @@ class BodySide {
   std::int64_t steps_ = 0, own_ns_ = 0;
 };
 
-/// The machine outlives it. Of a machine with particles: after Machine::fill_sea.
-std::unique_ptr<BodySide> make_body_side(Machine& machine);
+/// The floating system outlives it. Of a floating system with particles: after FloatingSystem::fill_sea.
+std::unique_ptr<BodySide> make_body_side(FloatingSystem& floating);
 
 }  // namespace spindrift::coupling

@@ -113,13 +113,13 @@ double missed_part(SchemeKind scheme, int order, double omega, double window) {
   return worst;
 }
 
-LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, const Campbell& campbell) {
+LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& state, const Campbell& campbell) {
   LooseVerdict verdict;
-  const aero::RotorLoads& rotor = *machine.rotor();
+  const aero::RotorLoads& rotor = *floating.rotor();
   aero::RotorState hub = rotor.state(0.0, state.motions);
-  bodies::System& system = machine.system();
+  bodies::System& system = floating.multibody();
   if (!system.open_chart(state, 0.0).ok() || system.freedoms() == 0) return verdict;
-  const std::string& body = machine.scenario().rotor.body;
+  const std::string& body = floating.scenario().rotor.body;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {
     if (system.bodies()[b].name != body) continue;
     const bodies::Pull thrust{b, hub.hub, hub.axis};
@@ -138,7 +138,7 @@ LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, c
   for (const auto& [name, f] : campbell.platform) verdict.fastest_Hz = std::max(verdict.fastest_Hz, f);
   verdict.fastest_Hz = std::max({verdict.fastest_Hz, campbell.rows.back().wave, campbell.rows.back().thrice});
 
-  const double window = machine.timeline().window_s(), omega = 2 * pi * verdict.fastest_Hz;
+  const double window = floating.timeline().window_s(), omega = 2 * pi * verdict.fastest_Hz;
   const auto add = [&](const char* name, SchemeKind kind, int order, auto polynomial, auto mass_polynomial) {
     const double mass_limit = stability_ratio(mass_polynomial);
     const double ratio = stability_ratio(polynomial);
@@ -148,7 +148,7 @@ LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, c
     const bool stable = window <= 0.5 * limit && verdict.mass_ratio() <= 0.5 * mass_limit;
     verdict.schemes.push_back({name, limit, missed, mass_limit, stable && missed <= acceptable});
   };
-  verdict.air_mass_kg = blades_added_mass(machine.scenario());
+  verdict.air_mass_kg = blades_added_mass(floating.scenario());
   add("cps", SchemeKind::cps, 0, cps_damping_polynomial, cps_polynomial);
   add("cps2", SchemeKind::cps2, 1, cps2_damping_polynomial, cps2_polynomial);
   add(

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "src/bodies/linearise.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 
 namespace spindrift::coupling {
 
@@ -46,7 +46,7 @@ Campbell campbell(const Scenario& scenario, const bodies::Linearisation& lineari
 /// Part of a load going as exp(i omega t) that a scheme's assumption misses, at its worst within a window.
 double missed_part(SchemeKind scheme, int order, double omega, double window);
 
-/// How a loose scheme fares on the machine.
+/// How a loose scheme fares on the floating system.
 struct LooseVerdict {
   double hub_mass_kg = 0.0;  ///< that the hub's axial motion feels, the water's included
   double air_mass_kg = 0.0;  ///< that blades moving across their chords carry along, where a turbine file tells
@@ -63,6 +63,6 @@ struct LooseVerdict {
   std::vector<Scheme> schemes;  ///< cps, cps2, css1
 };
 inline constexpr double acceptable = 0.02;
-LooseVerdict loose_verdict(Machine& machine, const bodies::BodiesState& state, const Campbell& campbell);
+LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& state, const Campbell& campbell);
 
 }  // namespace spindrift::coupling

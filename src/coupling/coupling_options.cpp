@@ -32,7 +32,7 @@ const scene::Section<CouplingOptions>& coupling_section() {
     return all;
   }();
   static const auto section =
-      scene::Section<CouplingOptions>("coupling", "How the rotor and the rest of the machine share a window.")
+      scene::Section<CouplingOptions>("coupling", "How the rotor and the rest of the floating system share a window.")
           .choice("scheme", &CouplingOptions::scheme,
                   {{"automatic", SchemeKind::automatic, "cps2 for a resolved rotor, monolithic for others"},
                    {"monolithic", SchemeKind::monolithic,

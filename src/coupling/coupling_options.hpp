@@ -1,6 +1,6 @@
-// [coupling]: how the rotor and the rest of the machine share a window. Declared in coupling_options.cpp, read by scenario.cpp,
-// acted on by window.cpp; schemes in kernels/coupling. Tested in tests/src/coupling/window_test.cpp. SPDX-License-Identifier:
-// Apache-2.0
+// [coupling]: how the rotor and the rest of the floating system share a window. Declared in coupling_options.cpp, read by
+// scenario.cpp, acted on by window.cpp; schemes in kernels/coupling. Tested in tests/src/coupling/window_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/coupling/waveform.hpp"

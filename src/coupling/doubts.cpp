@@ -19,10 +19,10 @@ namespace {
 
 void append(scene::Doubts& to, const scene::Doubts& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-double weight(const Machine& machine) {
+double weight(const FloatingSystem& floating) {
   double mass = 0.0;
-  for (const auto& body : machine.scenario().bodies) mass += body.options.mass_kg;
-  return mass * std::abs(machine.scenario().environment.gravity_m_s2);
+  for (const auto& body : floating.scenario().bodies) mass += body.options.mass_kg;
+  return mass * std::abs(floating.scenario().environment.gravity_m_s2);
 }
 
 /// Deepest point of the body's shapes below still water where it starts, its highest and, of shapes, whether it has any.
@@ -69,8 +69,8 @@ double volume(const bodies::BodyOptions& body) {
 
 /// Draft of the deepest body that the water carries; doubts about bodies below the bed and about weights that the water cannot
 /// carry at all, or that hardly press it aside.
-double doubt_floating(scene::Doubts& doubts, const Machine& machine, const Start& start) {
-  const Scenario& s = machine.scenario();
+double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start) {
+  const Scenario& s = floating.scenario();
   double draft = 0.0, displaced = 0.0;
   bool any = false;
   std::string first;
@@ -92,7 +92,8 @@ double doubt_floating(scene::Doubts& doubts, const Machine& machine, const Start
   const bool held = std::any_of(s.joints.begin(), s.joints.end(), [](const auto& joint) {
     return std::find(joint.options.bodies.begin(), joint.options.bodies.end(), "earth") != joint.options.bodies.end();
   });
-  const double all = s.environment.water_density_kg_m3 * displaced, mass = weight(machine) / std::abs(s.environment.gravity_m_s2);
+  const double all = s.environment.water_density_kg_m3 * displaced,
+               mass = weight(floating) / std::abs(s.environment.gravity_m_s2);
   const bool falls = draft < 0.02 * std::cbrt(displaced);
   if (held || falls) return draft;
   const std::string key = "bodies." + first + ".mass_kg",
@@ -107,12 +108,12 @@ double doubt_floating(scene::Doubts& doubts, const Machine& machine, const Start
 }
 
 /// Loads that nothing in the scene balances throw a body off at once.
-void doubt_acceleration(scene::Doubts& doubts, Machine& machine, const Start& start) {
-  if (machine.particle_plan()) return;  // its water is not there yet
-  const bodies::Evaluation& now = machine.system().evaluate(start.state, 0.0);
+void doubt_acceleration(scene::Doubts& doubts, FloatingSystem& floating, const Start& start) {
+  if (floating.particle_plan()) return;  // its water is not there yet
+  const bodies::Evaluation& now = floating.multibody().evaluate(start.state, 0.0);
   if (!now.report.ok()) return;
-  const double gravity = std::abs(machine.scenario().environment.gravity_m_s2), bound = 1.2 * std::max(gravity, 1.0);
-  const auto all = machine.system().bodies();
+  const double gravity = std::abs(floating.scenario().environment.gravity_m_s2), bound = 1.2 * std::max(gravity, 1.0);
+  const auto all = floating.multibody().bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {
     const double a = now.acceleration[b].norm();
     if (a <= bound) continue;
@@ -121,15 +122,15 @@ void doubt_acceleration(scene::Doubts& doubts, Machine& machine, const Start& st
       if (now.by_source[s][b].force.norm() > now.by_source[worst][b].force.norm()) worst = s;
     doubts.push_back({"bodies." + all[b].name,
                       fmt::format("starts with an acceleration of {:.4g} m/s2, mostly by {} ({:.3g} N)", a,
-                                  machine.system().loads()[worst].name, now.by_source[worst][b].force.norm()),
+                                  floating.multibody().loads()[worst].name, now.by_source[worst][b].force.norm()),
                       fmt::format("up to {:.3g} m/s2, a free fall", bound),
                       "look at the units of mass, sizes and stiffness, or start in equilibrium"});
   }
 }
 
 /// Modes that grow: what the statics call unstable (metacentric height), and damping of the wrong sign.
-void doubt_modes(scene::Doubts& doubts, const Machine& machine, const Stability& stability) {
-  if (machine.particle_plan() || machine.has_waves()) return;  // its drag, quadratic in the motion, is not in the modes
+void doubt_modes(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
+  if (floating.particle_plan() || floating.has_waves()) return;  // its drag, quadratic in the motion, is not in the modes
   double fastest = 0.0;
   for (const bodies::Mode& mode : stability.linearisation.modes) fastest = std::max(fastest, std::abs(mode.eigenvalue));
   for (const bodies::Mode& mode : stability.linearisation.modes) {
@@ -148,17 +149,17 @@ void doubt_modes(scene::Doubts& doubts, const Machine& machine, const Stability&
   }
 }
 
-/// Where the machine would come to rest, against where it starts.
-void doubt_statics(scene::Doubts& doubts, Machine& machine, const Start& start) {
-  if (machine.particle_plan() || start.equilibrium) return;
-  const MeanLoads mean(machine);
-  const bodies::Equilibrium found = find_equilibrium(machine.system(), start.state, 0.0);
+/// Where the floating system would come to rest, against where it starts.
+void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start& start) {
+  if (floating.particle_plan() || start.equilibrium) return;
+  const MeanLoads mean(floating);
+  const bodies::Equilibrium found = find_equilibrium(floating.multibody(), start.state, 0.0);
   if (!found.problem.empty()) return;
-  const auto all = machine.system().bodies();
+  const auto all = floating.multibody().bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {
-    const bodies::BodyOptions& body = machine.scenario().bodies[b].options;
+    const bodies::BodyOptions& body = floating.scenario().bodies[b].options;
     if (bodies::extent(body) == 0.0) continue;
-    const ReferenceMotion m = reference_motion(found.state.motions[b], all[b].initial, machine.reference_point(b),
+    const ReferenceMotion m = reference_motion(found.state.motions[b], all[b].initial, floating.reference_point(b),
                                                Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     const double turned = m.angles.head<2>().cwiseAbs().maxCoeff() / radians_per_degree, heave = m.displacement.z();
     if (turned > 30.0 || std::abs(heave) > bodies::extent(body))
@@ -168,8 +169,8 @@ void doubt_statics(scene::Doubts& doubts, Machine& machine, const Start& start) 
   }
 }
 
-void doubt_times(scene::Doubts& doubts, const Machine& machine) {
-  const Scenario& s = machine.scenario();
+void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
+  const Scenario& s = floating.scenario();
   const bool wavy = s.has_waves() && s.waves.period_s > 0.0;
   if (wavy && s.time.window_s > s.waves.period_s / 8.0 && s.has_rotor() && s.coupling.scheme != SchemeKind::monolithic)
     doubts.push_back({"time.window_s", fmt::format("{:.4g} s under waves of {:.4g} s", s.time.window_s, s.waves.period_s),
@@ -187,17 +188,17 @@ void doubt_times(scene::Doubts& doubts, const Machine& machine) {
                       "one period at least", "the run ends before the first wave has passed"});
 }
 
-void doubt_rotor(scene::Doubts& doubts, const Machine& machine, const Start& start) {
-  const Scenario& s = machine.scenario();
-  const aero::RotorState now = machine.rotor()->state(0.0, start.state.motions);
+void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start) {
+  const Scenario& s = floating.scenario();
+  const aero::RotorState now = floating.rotor()->state(0.0, start.state.motions);
   aero::RotorAtStart rotor{.hub = now.hub, .axis = now.axis, .speed = now.speed, .over_water = s.has_sea()};
   if (s.rotor.diameter_m) rotor.radius = 0.5 * *s.rotor.diameter_m;
   if (!s.rotor.turbine.empty()) rotor.radius = aero::read_turbine(s.rotor.turbine).planform.span.back();
   if (!s.resolves_air()) {
-    const aero::RotorLoad load = machine.rotor()->load(0.0, now);
+    const aero::RotorLoad load = floating.rotor()->load(0.0, now);
     rotor.thrust = load.thrust;
     if (s.aero.model == "bem" || load.torque != 0.0) rotor.power = load.power;
-    if (const double carried = weight(machine); carried > 0.0 && std::abs(load.thrust) > 0.5 * carried)
+    if (const double carried = weight(floating); carried > 0.0 && std::abs(load.thrust) > 0.5 * carried)
       doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start", load.thrust),
                         fmt::format("up to half the weight of all bodies, {:.3g} N", carried), "look at its unit: N, not kN"});
   }
@@ -206,25 +207,25 @@ void doubt_rotor(scene::Doubts& doubts, const Machine& machine, const Start& sta
 
 }  // namespace
 
-scene::Doubts doubts(Machine& machine, const Start& start, const Stability& stability) {
-  const Scenario& s = machine.scenario();
+scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability) {
+  const Scenario& s = floating.scenario();
   scene::Doubts all = body_doubts(s.bodies);
-  moorings::LineSurroundings around{s.has_sea() ? s.environment.water_depth_m : -1.0, weight(machine),
+  moorings::LineSurroundings around{s.has_sea() ? s.environment.water_depth_m : -1.0, weight(floating),
                                     s.environment.water_density_kg_m3, s.environment.gravity_m_s2, s.time.step()};
   for (const auto& [name, body] : s.bodies) around.masses_kg[name] = body.mass_kg;
   append(all, line_doubts(s.moorings, around));
   double draft = 0.0;
-  const FullLoads full(machine);
-  if (s.has_sea() && !start.state.motions.empty()) draft = doubt_floating(all, machine, start);
+  const FullLoads full(floating);
+  if (s.has_sea() && !start.state.motions.empty()) draft = doubt_floating(all, floating, start);
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), draft));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
-  if (machine.rotor()) doubt_rotor(all, machine, start);
+  if (floating.rotor()) doubt_rotor(all, floating, start);
   if (!start.state.motions.empty()) {
-    doubt_acceleration(all, machine, start);
-    doubt_modes(all, machine, stability);
-    doubt_statics(all, machine, start);
+    doubt_acceleration(all, floating, start);
+    doubt_modes(all, floating, stability);
+    doubt_statics(all, floating, start);
   }
-  doubt_times(all, machine);
+  doubt_times(all, floating);
   return all;
 }
 

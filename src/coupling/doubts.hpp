@@ -1,6 +1,6 @@
-// Doubts about a scene as a whole: those of its modules, and those that only the machine can tell (weight against buoyancy,
-// accelerations at the start, modes that grow, statics far from the start, step and window against what moves). Printed by
-// `spindrift check` and logged as warnings by `spindrift run`; tested by tests/coupled/blunders_test.py.
+// Doubts about a scene as a whole: those of its modules, and those that only the floating system can tell (weight against
+// buoyancy, accelerations at the start, modes that grow, statics far from the start, step and window against what moves). Printed
+// by `spindrift check` and logged as warnings by `spindrift run`; tested by tests/coupled/blunders_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift::coupling {
 
-/// `start` and `stability`: as make_start and stability gave them. Changes nothing in the machine but its scratch.
-scene::Doubts doubts(Machine& machine, const Start& start, const Stability& stability);
+/// `start` and `stability`: as make_start and stability gave them. Changes nothing in the floating system but its scratch.
+scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability);
 
 }  // namespace spindrift::coupling

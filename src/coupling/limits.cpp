@@ -19,8 +19,8 @@ namespace spindrift::coupling {
 
 namespace {
 
-[[noreturn]] void refuse(const Machine& machine, std::string key, std::string value, std::string message) {
-  throw scene::SceneError({{machine.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
+[[noreturn]] void refuse(const FloatingSystem& floating, std::string key, std::string value, std::string message) {
+  throw scene::SceneError({{floating.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
 }
 
 /// The place of a point that the scene gives on the body as it describes it; nothing for the earth, which does not move.
@@ -36,8 +36,8 @@ std::optional<bodies::Pull> pull_at(const Scenario& s, const bodies::BodiesState
 
 }  // namespace
 
-bodies::StepLimit taut_line_limit(Machine& machine, const bodies::BodiesState& state) {
-  const Scenario& s = machine.scenario();
+bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::BodiesState& state) {
+  const Scenario& s = floating.scenario();
   bodies::StepLimit limit{std::numeric_limits<double>::infinity(), "", 0.0};
   for (const auto& [name, line] : s.moorings) {
     if (!line.tension_only) continue;  // others are seen by the linearisation as they are
@@ -48,7 +48,7 @@ bodies::StepLimit taut_line_limit(Machine& machine, const bodies::BodiesState& s
     std::vector<bodies::Pull> pulls;
     if (fairlead) pulls.push_back({fairlead->body, fairlead->point, along});
     if (anchor) pulls.push_back({anchor->body, anchor->point, -along});
-    const double inverse_mass = bodies::mobility(machine.system(), state, pulls);
+    const double inverse_mass = bodies::mobility(floating.multibody(), state, pulls);
     const double stiffness = line.stiffness_N_m ? *line.stiffness_N_m : *line.axial_stiffness_N / line.rest_length_m;
     const double decay = 0.5 * line.damping_N_s_m * inverse_mass;
     const std::complex<double> root = std::sqrt(std::complex<double>(decay * decay - stiffness * inverse_mass));
@@ -59,54 +59,55 @@ bodies::StepLimit taut_line_limit(Machine& machine, const bodies::BodiesState& s
   return limit;
 }
 
-void require_stable_lines(Machine& machine, const bodies::BodiesState& state) {
-  const bodies::StepLimit limit = taut_line_limit(machine, state);
-  const TimeOptions& time = machine.scenario().time;
-  if (machine.particle_plan() && !time.step_s) {
+void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& state) {
+  const bodies::StepLimit limit = taut_line_limit(floating, state);
+  const TimeOptions& time = floating.scenario().time;
+  if (floating.particle_plan() && !time.step_s) {
     constexpr double margin = 0.9;
-    if (limit.step_s > 0.0) machine.limit_body_step(std::min(machine.body_step_limit(), margin * limit.step_s));
+    if (limit.step_s > 0.0) floating.limit_body_step(std::min(floating.body_step_limit(), margin * limit.step_s));
     return;
   }
   // A window in which rk4 finds its step too long is tried again with pieces of it; the others cannot tell.
   const double step = time.step(), least = time.integrator == Integrator::rk4 ? step / pieces_of_step(most_retries) : step;
   if (least <= limit.step_s) return;
-  refuse(machine, "moorings." + limit.mode + ".tension_only", "true",
+  refuse(floating, "moorings." + limit.mode + ".tension_only", "true",
          fmt::format("when this line snaps taut, {} needs steps of at most {:.3g} s with the masses at its ends, and a window "
                      "that fails is tried again with {:.3g} s at least (time.step_s is {} s): give a shorter step, a softer "
                      "line or heavier bodies",
-                     name(machine.system().integrator()), limit.step_s, least, step));
+                     name(floating.multibody().integrator()), limit.step_s, least, step));
 }
 
-void require_stable_coupling(Machine& machine, const bodies::BodiesState& state, const bodies::Linearisation& linearisation) {
-  const CouplingOptions& o = machine.scenario().coupling;
-  if (!machine.rotor() || !is_loose(o.scheme) || o.accept_unstable || state.motions.empty()) return;
+void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
+                             const bodies::Linearisation& linearisation) {
+  const CouplingOptions& o = floating.scenario().coupling;
+  if (!floating.rotor() || !is_loose(o.scheme) || o.accept_unstable || state.motions.empty()) return;
   if (o.scheme == SchemeKind::css && o.predictor_order != 1) return;  // no limit is known
-  const FullLoads full(machine);
-  const Campbell frequencies = campbell(machine.scenario(), linearisation, machine.rotor()->state(0.0, state.motions).speed);
-  const LooseVerdict verdict = loose_verdict(machine, state, frequencies);
+  const FullLoads full(floating);
+  const Campbell frequencies = campbell(floating.scenario(), linearisation, floating.rotor()->state(0.0, state.motions).speed);
+  const LooseVerdict verdict = loose_verdict(floating, state, frequencies);
   const std::string scheme = o.scheme == SchemeKind::cps ? "cps" : o.scheme == SchemeKind::cps2 ? "cps2" : "css1";
   for (const LooseVerdict::Scheme& known : verdict.schemes) {
     if (known.name != scheme) continue;
     const char* mend = "iterate (coupling.scheme = \"iqn_ils\"), or say coupling.accept_unstable = true";
-    const double window = machine.timeline().window_s();
+    const double window = floating.timeline().window_s();
     if (window > known.window_limit_s)
       refuse(
-          machine, "time.window_s", fmt::format("{}", window),
+          floating, "time.window_s", fmt::format("{}", window),
           fmt::format("is above the limit of {:.3g} s at which {} turns the rotor's damping ({:.3g} kN per m/s on {:.3g} kg at "
                       "the hub) into growth: shorten it, {}",
                       known.window_limit_s, scheme, 1e-3 * verdict.slope_N_s_m, verdict.hub_mass_kg, mend));
     if (verdict.mass_ratio() > known.mass_ratio_limit)
-      refuse(machine, "coupling.scheme", "\"" + scheme + "\"",
+      refuse(floating, "coupling.scheme", "\"" + scheme + "\"",
              fmt::format("is unstable at any window: the air that the blades carry along is {:.3g} of the mass at the hub, the "
                          "limit is {:.3g}; {}",
                          verdict.mass_ratio(), known.mass_ratio_limit, mend));
   }
 }
 
-void require_limits(Machine& machine, const bodies::BodiesState& state, const Stability& stability) {
-  require_stable(machine, stability);
-  require_stable_lines(machine, state);
-  require_stable_coupling(machine, state, stability.linearisation);
+void require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability) {
+  require_stable(floating, stability);
+  require_stable_lines(floating, state);
+  require_stable_coupling(floating, state, stability.linearisation);
 }
 
 }  // namespace spindrift::coupling

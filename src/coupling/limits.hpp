@@ -1,29 +1,30 @@
-// Limits on steps and windows that the linearised machine of start.hpp does not show: lines that are slack at the start and snap
-// taut later, and loose coupling of rotor and bodies. Scenes beyond them are refused, by `check` and by `run` alike. Tested in
-// tests/src/coupling/limits_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Limits on steps and windows that the linearised floating system of start.hpp does not show: lines that are slack at the start
+// and snap taut later, and loose coupling of rotor and bodies. Scenes beyond them are refused, by `check` and by `run` alike.
+// Tested in tests/src/coupling/limits_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 
 #include "src/bodies/linearise.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
 
 namespace spindrift::coupling {
 
 /// Of the tension-only line whose spring, taut, is the stiffest for what its ends move: joints and added mass are in it. step_s
 /// infinite where there is none.
-bodies::StepLimit taut_line_limit(Machine& machine, const bodies::BodiesState& state);
+bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::BodiesState& state);
 
 /// Throws scene::SceneError where a taut line needs a smaller step than the scene's may become (retries.hpp). Where particles
 /// choose the step, it is limited.
-void require_stable_lines(Machine& machine, const bodies::BodiesState& state);
+void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& state);
 
 /// Throws scene::SceneError where the scheme is loose and the window beyond its limit, or the blades' air too heavy for any,
 /// unless coupling.accept_unstable.
-void require_stable_coupling(Machine& machine, const bodies::BodiesState& state, const bodies::Linearisation& linearisation);
+void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
+                             const bodies::Linearisation& linearisation);
 
 /// All limits: of the linearised start (start.hpp), of lines and of the coupling. What `check` and `run` refuse.
-void require_limits(Machine& machine, const bodies::BodiesState& state, const Stability& stability);
+void require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability);
 
 }  // namespace spindrift::coupling

@@ -36,7 +36,7 @@ struct EnvironmentOptions {
 struct StartOptions {
   bool equilibrium = false;
   double ramp_s = 0.0;
-  std::string file;   ///< checkpoint of the same machine; empty: none
+  std::string file;   ///< checkpoint of the same floating system; empty: none
   int air_steps = 0;  ///< resolved rotor on bodies: pseudo-steps of its air before t = 0
   std::string air;    ///< the same: a file of the run whose air it starts from
 };

@@ -20,35 +20,36 @@ ReferenceMotion reference_motion(const Motion& now, const Motion& initial, const
           .omega_rate = omega_rate};
 }
 
-Recorder::Recorder(Machine& machine, io::History& history) : machine_(machine) {
-  const auto bodies = machine.system().bodies();
-  const auto loads = machine.system().loads();
+Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(floating) {
+  const auto bodies = floating.multibody().bodies();
+  const auto loads = floating.multibody().loads();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies_.emplace_back(history, bodies[b].name + ".", motion_columns());
     for (std::size_t s = 0; s < loads.size(); ++s)
-      if (machine.loads_body(s, b))
+      if (floating.loads_body(s, b))
         loads_.push_back({s, b, {history, bodies[b].name + "." + loads[s].name + ".", wrench_columns()}});
   }
-  for (const bodies::Joint& joint : machine.system().joints()) joints_.emplace_back(history, joint.name + ".", wrench_columns());
-  if (machine.rotor()) rotor_.emplace(history, "rotor.", rotor_columns()), hub_.emplace(history, "rotor.", hub_columns());
-  if (machine.rotor() && machine.rotor()->is_controlled()) {
+  for (const bodies::Joint& joint : floating.multibody().joints())
+    joints_.emplace_back(history, joint.name + ".", wrench_columns());
+  if (floating.rotor()) rotor_.emplace(history, "rotor.", rotor_columns()), hub_.emplace(history, "rotor.", hub_columns());
+  if (floating.rotor() && floating.rotor()->is_controlled()) {
     drive_.emplace(history, "rotor.", drive_columns());
-    for (std::size_t blade = 1; blade <= machine.rotor()->drive_blades(); ++blade)
+    for (std::size_t blade = 1; blade <= floating.rotor()->drive_blades(); ++blade)
       pitches_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", pitch_columns());
   }
-  if (machine.moorings())
-    for (std::size_t line = 0; line < machine.moorings()->size(); ++line) {
-      const std::string prefix = machine.moorings()->name(line) + ".";
+  if (floating.moorings())
+    for (std::size_t line = 0; line < floating.moorings()->size(); ++line) {
+      const std::string prefix = floating.moorings()->name(line) + ".";
       moorings_.emplace_back(history, prefix, mooring_columns());
       anchors_.emplace_back();
-      if (machine.moorings()->is_dynamic(line)) anchors_.back().emplace(history, prefix, anchor_columns());
+      if (floating.moorings()->is_dynamic(line)) anchors_.back().emplace(history, prefix, anchor_columns());
     }
-  if (machine.has_waves()) waves_.emplace(history, "waves.", wave_columns());
-  if (machine.particle_plan()) declare_particles(history);
+  if (floating.has_waves()) waves_.emplace(history, "waves.", wave_columns());
+  if (floating.particle_plan()) declare_particles(history);
 }
 
 void Recorder::declare_particles(io::History& history) {
-  const sea::ParticlePlan& plan = *machine_.particle_plan();
+  const sea::ParticlePlan& plan = *floating_.particle_plan();
   water_.emplace(history, "sea.", water_columns());
   if (plan.wavemaker) paddle_.emplace(history, "wavemaker.", paddle_columns());
   for (const sea::GaugeOptions& gauge : plan.gauges) gauges_.emplace_back(history, gauge.name + ".", gauge_columns());
@@ -56,8 +57,8 @@ void Recorder::declare_particles(io::History& history) {
 }
 
 void Recorder::fill_particles(std::span<double> row, double t) const {
-  const sea::ParticlePlan& plan = *machine_.particle_plan();
-  const sea::ParticleSea& sea = *machine_.particles();
+  const sea::ParticlePlan& plan = *floating_.particle_plan();
+  const sea::ParticleSea& sea = *floating_.particles();
   water_->fill(row, {double(sea.lost()), sea.extent()});
   if (paddle_) paddle_->fill(row, sea.paddle(t));
   std::vector<std::array<double, 2>> places;
@@ -76,30 +77,30 @@ void Recorder::fill_particles(std::span<double> row, double t) const {
 void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, double t) {
   // Bodies that are held before t = 0 are as they start: drivers and loads that depend on time begin there.
   static const bodies::Evaluation nothing;
-  const bodies::Evaluation& now = state.motions.empty() ? nothing : machine_.system().evaluate(state, std::max(t, 0.0));
-  const auto bodies = machine_.system().bodies();
+  const bodies::Evaluation& now = state.motions.empty() ? nothing : floating_.multibody().evaluate(state, std::max(t, 0.0));
+  const auto bodies = floating_.multibody().bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    bodies_[b].fill(row, reference_motion(state.motions[b], bodies[b].initial, machine_.reference_point(b), now.acceleration[b],
+    bodies_[b].fill(row, reference_motion(state.motions[b], bodies[b].initial, floating_.reference_point(b), now.acceleration[b],
                                           now.angular_acceleration[b]));
   for (const Load& load : loads_) load.columns.fill(row, now.by_source[load.source][load.body]);
   for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].fill(row, now.joint_reactions[j]);
-  if (machine_.rotor()) {
-    const aero::RotorState rotor = machine_.rotor()->state(t, state.motions);
-    rotor_->fill(row, {machine_.written_rotor_load(t, rotor), rotor.azimuth / radians_per_degree, rotor.speed / rad_s_per_rpm});
+  if (floating_.rotor()) {
+    const aero::RotorState rotor = floating_.rotor()->state(t, state.motions);
+    rotor_->fill(row, {floating_.written_rotor_load(t, rotor), rotor.azimuth / radians_per_degree, rotor.speed / rad_s_per_rpm});
     hub_->fill(row, rotor);
     if (drive_) {
-      const aero::RotorLoads::Drive drive = machine_.rotor()->drive();
+      const aero::RotorLoads::Drive drive = floating_.rotor()->drive();
       drive_->fill(row, drive);
       for (std::size_t blade = 0; blade < pitches_.size(); ++blade) pitches_[blade].fill(row, drive.pitch[blade]);
     }
   }
   for (std::size_t line = 0; line < moorings_.size(); ++line) {
-    const moorings::LineTension tension = machine_.moorings()->tension(line, state.motions);
+    const moorings::LineTension tension = floating_.moorings()->tension(line, state.motions);
     moorings_[line].fill(row, tension);
     if (anchors_[line]) anchors_[line]->fill(row, tension);
   }
-  if (machine_.particles()) fill_particles(row, t);
-  if (waves_) waves_->fill(row, machine_.sea()->elevation(0.0, 0.0, t));
+  if (floating_.particles()) fill_particles(row, t);
+  if (waves_) waves_->fill(row, floating_.sea()->elevation(0.0, 0.0, t));
 }
 
 }  // namespace spindrift::coupling

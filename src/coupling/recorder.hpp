@@ -10,7 +10,7 @@
 
 #include "src/bodies/system.hpp"
 #include "src/coupling/columns.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/io/history.hpp"
 
 namespace spindrift::coupling {
@@ -21,8 +21,8 @@ ReferenceMotion reference_motion(const Motion& now, const Motion& initial, const
 
 class Recorder {
  public:
-  /// Declares the columns in `history`. The machine outlives the recorder.
-  Recorder(Machine& machine, io::History& history);
+  /// Declares the columns in `history`. The floating system outlives the recorder.
+  Recorder(FloatingSystem& floating, io::History& history);
 
   /// Fills the row of time t [s].
   void fill(std::span<double> row, const bodies::BodiesState& state, double t);
@@ -37,7 +37,7 @@ class Recorder {
   void declare_particles(io::History& history);
   void fill_particles(std::span<double> row, double t) const;
 
-  Machine& machine_;
+  FloatingSystem& floating_;
   std::vector<Group<ReferenceMotion>> bodies_;
   std::vector<Load> loads_;
   std::vector<Group<Wrench>> joints_;

@@ -21,9 +21,9 @@
 #include "src/coupling/air_file.hpp"
 #include "src/coupling/air_output.hpp"
 #include "src/coupling/columns.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/grid_progress.hpp"
-#include "src/coupling/machine.hpp"
 #include "src/coupling/retries.hpp"
 #include "src/coupling/saved_air.hpp"
 #include "src/io/progress.hpp"
@@ -40,23 +40,23 @@ Eigen::Quaterniond hub_attitude(const aero::RotorState& s) {
 
 /// The rotor where it is, upright as the scene describes it: an equilibrium leans it, and steady flow wants the wind along the
 /// axis.
-aero::RotorState upright(const Machine& machine, aero::RotorState now) {
+aero::RotorState upright(const FloatingSystem& floating, aero::RotorState now) {
   std::vector<Motion> described;
-  for (const auto& body : machine.scenario().bodies) described.push_back(described_motion(body.options));
-  const aero::RotorState as_described = machine.rotor()->state(0.0, described);
+  for (const auto& body : floating.scenario().bodies) described.push_back(described_motion(body.options));
+  const aero::RotorState as_described = floating.rotor()->state(0.0, described);
   now.axis = as_described.axis, now.up = as_described.up;
   return now;
 }
 
 /// The scene's rotor in this state. Azimuth counts from the upright that the grid's frame has by itself.
-aero::ResolvedRotorSetup setup_at(const Machine& machine, const aero::RotorState& now) {
-  aero::ResolvedRotorSetup setup = resolved_rotor_setup(machine.scenario());
+aero::ResolvedRotorSetup setup_at(const FloatingSystem& floating, const aero::RotorState& now) {
+  aero::ResolvedRotorSetup setup = resolved_rotor_setup(floating.scenario());
   setup.rotor.hub_m = now.hub, setup.rotor.axis = now.axis, setup.rotor.speed = now.speed, setup.rotor.azimuth = 0.0;
   const Eigen::Quaterniond own = aero::hub_pose(setup.rotor).hub.attitude;
   const Eigen::Vector3d up = own.conjugate() * now.up;
   setup.rotor.azimuth = now.azimuth + std::atan2(-up.y(), up.z());
-  if (machine.scenario().time.window_s > 0.0 && is_strong(machine.scenario().coupling.scheme))
-    setup.dt /= machine.scenario().coupling.samples;
+  if (floating.scenario().time.window_s > 0.0 && is_strong(floating.scenario().coupling.scheme))
+    setup.dt /= floating.scenario().coupling.samples;
   return setup;
 }
 
@@ -66,24 +66,24 @@ constexpr const char* choice_name = "air/preconditioner";
 
 class ResolvedAir final : public AirSide {
  public:
-  ResolvedAir(const Machine& machine, const aero::RotorState& now, const runtime::World& world)
-      : machine_(machine),
+  ResolvedAir(const FloatingSystem& floating, const aero::RotorState& now, const runtime::World& world)
+      : floating_(floating),
         world_(world),
-        first_(upright(machine, now)),
-        setup_(setup_at(machine, first_)),
+        first_(upright(floating, now)),
+        setup_(setup_at(floating, first_)),
         state_(now),
         size_(aero::resolved_rotor_size(setup_)),
-        felt_{{}, std::vector<aero::RotorLoad>(std::size_t(size_.sectors))} {}
+        computed_{{}, std::vector<aero::RotorLoad>(std::size_t(size_.sectors))} {}
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     const runtime::Span span("aero/start");
-    aim(t, 0.0, now);
+    prepare(t, 0.0, now);
     if (rotor_) {  // restored, for windows of another length or by another scheme: the grid stands where the last prediction had
                    // put it
       place_at(state_, saved_dt_);
       return load_;
     }
-    const StartOptions& start = machine_.scenario().start;
+    const StartOptions& start = floating_.scenario().start;
     if (automatic()) choose(start.air_steps > 0);
     const TileStates settled = start.air_steps > 0 ? settled_air(start.air_steps) : TileStates();
     if (!rotor_) make();
@@ -99,11 +99,11 @@ class ResolvedAir final : public AirSide {
       rotor_->solver().add_velocity([&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
         return (setup_.profile.share(x.z()) - share_at_hub()) * setup_.wind;
       });
-    if (!start.air.empty()) take_up(start.air);
-    return load_ = ramped(leant(felt_.rotor));
+    if (!start.air.empty()) start_from_saved_air(start.air);
+    return load_ = ramped(along_axis(computed_.rotor));
   }
 
-  void aim(double t, double dt, const aero::RotorState& at_end) override {
+  void prepare(double t, double dt, const aero::RotorState& at_end) override {
     t_ = t, state_ = at_end;
     if (dt == 0.0) return;
     rotor_->solver().next_time_step(dt);
@@ -118,7 +118,7 @@ class ResolvedAir final : public AirSide {
 
   void forget_tasks() override { rotor_->solver().forget_graphs(); }
 
-  aero::RotorLoad answer() override {
+  aero::RotorLoad load_at_end() override {
     const aero::March& march = rotor_->solver().march();
     if (march.verdict() == aero::Verdict::stopped) throw runtime::StopAsked();
     if (march.verdict() == aero::Verdict::failed)
@@ -126,9 +126,9 @@ class ResolvedAir final : public AirSide {
           fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
                       march.steps(), march.cfl(), rotor_->solver().trouble(), setup_.flow.cfl_max),
           "aero/rotor", long(rotor_->solver().time_steps()), t_);
-    const long windows = machine_.timeline().windows(), unconverged = march.unconverged();
+    const long windows = floating_.timeline().windows(), unconverged = march.unconverged();
     if (march.spent() && unconverged == 1)
-      news_.push_back(
+      log_lines_.push_back(
           fmt::format("warning: air: the step to t = {:g} s spent its {} pseudo-steps; the flux balance has fallen by {:.2g} of "
                       "{:.2g} asked for",
                       t_, march.steps() - 1, march.balance_drop(), setup_.flow.drop));
@@ -140,25 +140,25 @@ class ResolvedAir final : public AirSide {
                       t_, unconverged, march.ended(), setup_.flow.max_pseudo_steps, setup_.flow.drop,
                       setup_.flow.unconverged_share, march.balance_drop()),
           "aero/rotor", long(rotor_->solver().time_steps()), t_);
-    felt_ = felt_by(*rotor_);
-    return load_ = ramped(leant(felt_.rotor));
+    computed_ = computed_loads(*rotor_);
+    return load_ = ramped(along_axis(computed_.rotor));
   }
   void ease(int retry) override {
     if (rotor_) rotor_->solver().march().ease(share_of_cfl(retry));
   }
   const aero::RotorLoad* written() const override { return &load_; }
 
-  void keep(Note note) override { notes_[note].emplace(rotor_->snapshot(), load_, felt_); }
-  void back(Note note) override {
-    rotor_->restore(notes_[note]->air);
-    load_ = notes_[note]->load, felt_ = notes_[note]->felt;
+  void take_snapshot(Snapshot slot) override { snapshots_[slot].emplace(rotor_->snapshot(), load_, computed_); }
+  void return_to(Snapshot slot) override {
+    rotor_->restore(snapshots_[slot]->air);
+    load_ = snapshots_[slot]->load, computed_ = snapshots_[slot]->computed;
   }
 
   std::vector<SavedArray> saved() const override {
     std::vector<SavedArray> arrays = file_->arrays();
-    for (SavedArray& array : rotor_arrays(*rotor_, felt_, world_.rank)) arrays.push_back(std::move(array));
-    arrays.push_back(answer_array({load_, setup_.dt}, world_.rank));
-    if (machine_.scenario().aero.flow->preconditioner == "auto") {
+    for (SavedArray& array : rotor_arrays(*rotor_, computed_, world_.rank)) arrays.push_back(std::move(array));
+    arrays.push_back(rotor_load_array({load_, setup_.dt}, world_.rank));
+    if (floating_.scenario().aero.flow->preconditioner == "auto") {
       const double number = double(std::ranges::find(choices, setup_.flow.preconditioner) - choices.begin());
       arrays.push_back({choice_name, 1, {}});
       if (world_.rank == 0) arrays.back().pieces.push_back({0, {number}});
@@ -169,15 +169,15 @@ class ResolvedAir final : public AirSide {
     const runtime::Span span("aero/start");
     if (automatic() && file.has(choice_name)) {
       setup_.flow.preconditioner = choices.at(std::size_t(file.read<double>(choice_name).at(0)));
-      news_.push_back(fmt::format("air: preconditioner \"{}\" (as before the restart)", setup_.flow.preconditioner));
+      log_lines_.push_back(fmt::format("air: preconditioner \"{}\" (as before the restart)", setup_.flow.preconditioner));
     }
     make();
     tell_size();
     file_->read(file);
     if (automatic()) choose_for_rotor();  // the run that left it had named one
-    felt_ = felt_in(file, size_.sectors);
-    const SavedAnswer answer = answer_in(file);
-    load_ = answer.load, saved_dt_ = answer.dt;
+    computed_ = computed_loads_in(file, size_.sectors);
+    const SavedRotorLoad saved = rotor_load_in(file);
+    load_ = saved.load, saved_dt_ = saved.dt;
   }
 
   std::vector<io::Column> columns() const override {
@@ -190,28 +190,29 @@ class ResolvedAir final : public AirSide {
   std::vector<double> values() const override {
     std::vector<double> values;
     for (const auto& c : march_columns()) values.push_back(c.value(rotor_->solver().march()));
-    for (const aero::RotorLoad& blade : felt_.blades)
+    for (const aero::RotorLoad& blade : computed_.blades)
       for (const auto& c : blade_columns()) values.push_back(c.value(blade));
     return values;
   }
 
   void open_output(const io::RunDirectory& directory, double resume_s) override {
     directory_ = &directory;
-    if (machine_.scenario().aero.flow->preconditioner == "auto" && world_.rank == 0)
+    if (floating_.scenario().aero.flow->preconditioner == "auto" && world_.rank == 0)
       write_choice(directory, setup_.flow.preconditioner);
     output_ = std::make_unique<AirOutput>(world_.comm, rotor_->solver(), rotor_->store(), directory.fields(),
                                           AirOutput::Choice{.walls = setup_.flow.surfaces, .moves = true, .resume_s = resume_s});
   }
   void write_fields(std::int64_t number, double t) override { output_->write(number, t); }
   void write_span() override { coupling::write_span(world_, rotor_->span_loads(), *directory_); }
-  std::vector<std::string> news() override { return std::exchange(news_, {}); }
+  std::vector<std::string> log_lines() override { return std::exchange(log_lines_, {}); }
 
  private:
-  struct Noted {
-    Noted(aero::ResolvedRotor::Snapshot a, const aero::RotorLoad& l, const FeltLoad& f) : air(std::move(a)), load(l), felt(f) {}
+  struct Saved {
+    Saved(aero::ResolvedRotor::Snapshot a, const aero::RotorLoad& l, const ComputedLoads& f)
+        : air(std::move(a)), load(l), computed(f) {}
     aero::ResolvedRotor::Snapshot air;
     aero::RotorLoad load;
-    FeltLoad felt;
+    ComputedLoads computed;
   };
 
   /// Whether the preconditioner is still to be chosen.
@@ -221,7 +222,7 @@ class ResolvedAir final : public AirSide {
     const aero::Choice choice = aero::choose_preconditioner(rotor_->solver(), world_.comm);
     setup_.flow.preconditioner = choice.preconditioner;
     rotor_->solver().use(aero::make_preconditioner(choice.preconditioner, rotor_->solver().setting().common));
-    news_.push_back(fmt::format("air: preconditioner \"{}\" ({})", choice.preconditioner, choice.reason));
+    log_lines_.push_back(fmt::format("air: preconditioner \"{}\" ({})", choice.preconditioner, choice.reason));
   }
   /// In the wind as it comes, before anything settles: so a scene that names the outcome runs alike. The rotor stays unless one
   /// is to settle first.
@@ -247,12 +248,12 @@ class ResolvedAir final : public AirSide {
     return pose;
   }
   /// Thrust and torque of one sector along the axis as it is now.
-  aero::RotorLoad leant(aero::RotorLoad load) const {
+  aero::RotorLoad along_axis(aero::RotorLoad load) const {
     if (!whole()) load.force = load.thrust * state_.axis, load.moment = load.torque * state_.axis;
     return load;
   }
   aero::RotorLoad ramped(aero::RotorLoad load) const {
-    const double ramp = machine_.ramp(t_);
+    const double ramp = floating_.ramp(t_);
     load.thrust *= ramp, load.torque *= ramp, load.power *= ramp, load.force *= ramp, load.moment *= ramp;
     return load;
   }
@@ -292,7 +293,7 @@ class ResolvedAir final : public AirSide {
     spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held.solver().cells());
     held.solver().start_uniform();
     held.solver().march().ease(share_of_cfl(retry));
-    held.prepare(world_.comm, {.watchdog_s = machine_.scenario().runtime.watchdog_s});
+    held.prepare(world_.comm, {.watchdog_s = floating_.scenario().runtime.watchdog_s});
     const aero::March& march = held.solver().march();
     const auto begin = std::chrono::steady_clock::now();
     double said_s = 0.0;
@@ -311,17 +312,17 @@ class ResolvedAir final : public AirSide {
       throw NumericalFailure(fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}",
                                          march.why(), march.steps(), march.cfl(), held.solver().trouble()),
                              "aero/rotor", march.steps(), 0.0);
-    felt_ = felt_by(held);
+    computed_ = computed_loads(held);
     const auto& rows = held.solver().rows();
     constexpr std::size_t look_back = 20;
     const std::string change =
         rows.size() > look_back + 1
             ? fmt::format(", {:+.2g} % in the last {}",
-                          100.0 * (felt_.rotor.thrust / held.load(rows[rows.size() - 1 - look_back]).thrust - 1.0), look_back)
+                          100.0 * (computed_.rotor.thrust / held.load(rows[rows.size() - 1 - look_back]).thrust - 1.0), look_back)
             : std::string();
-    news_.push_back(fmt::format("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}",
-                                march.steps() - 1, 1e-3 * felt_.rotor.thrust, change,
-                                march.density_residual() / march.first_density_residual()));
+    log_lines_.push_back(fmt::format("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}",
+                                     march.steps() - 1, 1e-3 * computed_.rotor.thrust, change,
+                                     march.density_residual() / march.first_density_residual()));
     TileStates states;
     for (std::size_t n = 0; n < held.solver().tiles().size(); ++n)
       held.solver().save(int(n), states.emplace_back(held.solver().saved_size(int(n))));
@@ -347,40 +348,43 @@ class ResolvedAir final : public AirSide {
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
   }
   void tell_size() {
-    news_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB", rotor_->solver().cells(), rotor_->store().tiling().size(),
-                                1e-6 * double(rotor_->solver().bytes() + rotor_->store().bytes()) * world_.size));
-    if (const std::string note = aero::far_side_note(setup_.grid); !note.empty()) news_.push_back("air: " + note);
+    log_lines_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB", rotor_->solver().cells(),
+                                     rotor_->store().tiling().size(),
+                                     1e-6 * double(rotor_->solver().bytes() + rotor_->store().bytes()) * world_.size));
+    if (const std::string note = aero::far_side_note(setup_.grid); !note.empty()) log_lines_.push_back("air: " + note);
   }
 
   /// The flow that another run left, carried to where the blades start, upright.
-  void take_up(const std::string& file) {
+  void start_from_saved_air(const std::string& file) {
     const io::CheckpointReader saved = open_saved(world_.comm, file);
-    felt_ = start_from(saved, machine_.scenario(), *rotor_, aero::hub_pose(setup_.rotor));
-    news_.push_back(fmt::format("air taken from {}: thrust {:.4g} kN", saved.path().string(), 1e-3 * felt_.rotor.thrust));
+    computed_ = start_from(saved, floating_.scenario(), *rotor_, aero::hub_pose(setup_.rotor));
+    log_lines_.push_back(
+        fmt::format("air taken from {}: thrust {:.4g} kN", saved.path().string(), 1e-3 * computed_.rotor.thrust));
   }
 
-  const Machine& machine_;
+  const FloatingSystem& floating_;
   const runtime::World world_;
   aero::RotorState first_;  ///< at the start, upright
   aero::ResolvedRotorSetup setup_;
   std::shared_ptr<const aero::MadeRotorGrid> grid_;  ///< until rotor_ has it
   std::unique_ptr<aero::ResolvedRotor> rotor_;       ///< made by begin() or restore()
   std::optional<AirFile> file_;
-  double t_ = 0.0, saved_dt_ = 0.0;  ///< of the last aim; step of the run that left the restored state
-  aero::RotorState state_;           ///< of the last aim
+  double t_ = 0.0, saved_dt_ = 0.0;  ///< of the last prepare(); step of the run that left the restored state
+  aero::RotorState state_;           ///< of the last prepare()
   aero::ResolvedRotorSize size_;
-  FeltLoad felt_;         ///< after the last step, as it is
-  aero::RotorLoad load_;  ///< the last answer: along the axis now, ramped
-  std::array<std::optional<Noted>, 2> notes_;
-  std::vector<std::string> news_;
+  ComputedLoads computed_;  ///< after the last step, as it is
+  aero::RotorLoad load_;    ///< the last load_at_end(): along the axis now, ramped
+  std::array<std::optional<Saved>, 2> snapshots_;
+  std::vector<std::string> log_lines_;
   const io::RunDirectory* directory_ = nullptr;
   std::unique_ptr<AirOutput> output_;
 };
 
 }  // namespace
 
-std::unique_ptr<AirSide> make_resolved_air(const Machine& machine, const aero::RotorState& now, const runtime::World& world) {
-  return std::make_unique<ResolvedAir>(machine, now, world);
+std::unique_ptr<AirSide> make_resolved_air(const FloatingSystem& floating, const aero::RotorState& now,
+                                           const runtime::World& world) {
+  return std::make_unique<ResolvedAir>(floating, now, world);
 }
 
 }  // namespace spindrift::coupling

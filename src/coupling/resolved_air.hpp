@@ -8,6 +8,7 @@
 
 namespace spindrift::coupling {
 
-std::unique_ptr<AirSide> make_resolved_air(const Machine& machine, const aero::RotorState& now, const runtime::World& world);
+std::unique_ptr<AirSide> make_resolved_air(const FloatingSystem& floating, const aero::RotorState& now,
+                                           const runtime::World& world);
 
 }  // namespace spindrift::coupling

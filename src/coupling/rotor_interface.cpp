@@ -7,21 +7,21 @@
 
 namespace spindrift::coupling {
 
-RotorInterface::RotorInterface(const Machine& machine) : machine_(machine) {
-  // Loads in accelerations of the whole machine, lengths in hub heights over its centre of mass: rows then compare.
+RotorInterface::RotorInterface(const FloatingSystem& floating) : floating_(floating) {
+  // Loads in accelerations of the whole floating system, lengths in hub heights over its centre of mass: rows then compare.
   double mass = 0.0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   std::vector<Motion> start;
-  for (const auto& [name, body] : machine.scenario().bodies) {
+  for (const auto& [name, body] : floating.scenario().bodies) {
     start.push_back(described_motion(body));
     mass += body.mass_kg, centre += body.mass_kg * body.centre_m;
   }
-  length_ = std::max(1.0, (machine.rotor()->state(0.0, start).hub - centre / mass).norm());
+  length_ = std::max(1.0, (floating.rotor()->state(0.0, start).hub - centre / mass).norm());
   force_ = mass;
 }
 
 Vector RotorInterface::motion(double t, std::span<const Motion> bodies, double near) const {
-  const aero::RotorState s = machine_.rotor()->state(t, bodies);
+  const aero::RotorState s = floating_.rotor()->state(t, bodies);
   Vector m(motion_rows);
   m << s.hub / length_, s.hub_velocity / length_, s.omega - s.speed * s.axis, s.axis, s.up,
       near + std::remainder(s.azimuth - near, 2 * pi), s.speed;
@@ -50,7 +50,7 @@ aero::RotorState RotorInterface::state(double t, const Vector& m) const {
   s.azimuth = 2 * pi * (turns - std::floor(turns));
   s.speed = m[16];
   s.omega = m.segment<3>(6) + s.speed * s.axis;
-  s.relative_wind = machine_.rotor()->relative_wind(t, s.hub, s.hub_velocity, s.axis);
+  s.relative_wind = floating_.rotor()->relative_wind(t, s.hub, s.hub_velocity, s.axis);
   return s;
 }
 
@@ -61,7 +61,7 @@ Vector RotorInterface::rows(const aero::RotorLoad& load) const {
 }
 
 void RotorInterface::add_load(const Vector& load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
-  machine_.rotor()->add_at_hub(bodies, wrenches, force_ * load.head<3>(), force_ * length_ * load.tail<3>());
+  floating_.rotor()->add_at_hub(bodies, wrenches, force_ * load.head<3>(), force_ * length_ * load.tail<3>());
 }
 
 }  // namespace spindrift::coupling

@@ -1,14 +1,14 @@
-// What the rotor and the rest of the machine tell each other, as rows of plain numbers that compare: motion of the hub one way,
-// load at the hub the other. Motion: hub, its velocity (over the reference length), angular velocity of what carries the rotor,
-// rotor axis and its upright (as unit vectors: no angle to wrap), azimuth with whole turns, rate. Load: force over weight-like
-// scale, moment over that and the length. Used by window.cpp; tested in tests/src/coupling/window_test.cpp.
+// What the rotor and the rest of the floating system tell each other, as rows of plain numbers that compare: motion of the hub
+// one way, load at the hub the other. Motion: hub, its velocity (over the reference length), angular velocity of what carries the
+// rotor, rotor axis and its upright (as unit vectors: no angle to wrap), azimuth with whole turns, rate. Load: force over
+// weight-like scale, moment over that and the length. Used by window.cpp; tested in tests/src/coupling/window_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
 
 #include "kernels/coupling/scheme.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 
 namespace spindrift::coupling {
 
@@ -16,8 +16,8 @@ class RotorInterface {
  public:
   static constexpr Eigen::Index motion_rows = 17, load_rows = 6;
 
-  /// The machine has a rotor.
-  explicit RotorInterface(const Machine& machine);
+  /// The floating system has a rotor.
+  explicit RotorInterface(const FloatingSystem& floating);
 
   /// `near`: an azimuth [rad] within half a turn of the true one, whole turns counted.
   Vector motion(double t, std::span<const Motion> bodies, double near) const;
@@ -35,7 +35,7 @@ class RotorInterface {
   void add_load(const Vector& load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
 
  private:
-  const Machine& machine_;
+  const FloatingSystem& floating_;
   double length_ = 1.0, force_ = 1.0;  ///< scales [m], [N]
 };
 

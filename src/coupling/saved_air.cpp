@@ -22,7 +22,7 @@ namespace spindrift::coupling {
 namespace {
 
 constexpr const char *settings_name = "air/settings", *pose_name = "air/pose", *load_name = "air/load",
-                     *answer_name = "air/answer", *grid_name = "air/grid";
+                     *rotor_load_name = "air/answer", *grid_name = "air/grid";
 
 /// The parameters of a section as lines "heading.key = value"; of all keys where none are named.
 void add_lines(std::string& lines, const scene::SectionBase& section, const std::string& heading, const void* options,
@@ -95,18 +95,18 @@ void write_air_settings(io::CheckpointWriter& file, const Scenario& scenario) {
   file.write<std::byte>(settings_name, std::as_bytes(std::span(lines)));
 }
 
-FeltLoad felt_by(const aero::ResolvedRotor& rotor) {
-  FeltLoad felt{rotor.load(), {}};
-  for (int b = 1; b <= rotor.grid_blades(); ++b) felt.blades.push_back(rotor.blade_load(b));
-  return felt;
+ComputedLoads computed_loads(const aero::ResolvedRotor& rotor) {
+  ComputedLoads computed{rotor.load(), {}};
+  for (int b = 1; b <= rotor.grid_blades(); ++b) computed.blades.push_back(rotor.blade_load(b));
+  return computed;
 }
 
-std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const FeltLoad& felt, int rank) {
+std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const ComputedLoads& computed, int rank) {
   const Eigen::Matrix3d attitude = rotor.pose().attitude().toRotationMatrix();
   std::vector<double> pose(attitude.data(), attitude.data() + 9), loads;
   pose.push_back(rotor.pose().speed);
-  append(loads, felt.rotor);
-  for (const aero::RotorLoad& blade : felt.blades) append(loads, blade);
+  append(loads, computed.rotor);
+  for (const aero::RotorLoad& blade : computed.blades) append(loads, blade);
   std::vector<SavedArray> arrays;
   for (auto& [name, values] :
        {std::pair{pose_name, pose}, std::pair{load_name, loads}, std::pair{grid_name, measure(rotor.grid())}}) {
@@ -116,7 +116,7 @@ std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const Fel
   return arrays;
 }
 
-FeltLoad felt_in(const io::CheckpointReader& file, int blades) {
+ComputedLoads computed_loads_in(const io::CheckpointReader& file, int blades) {
   std::vector<aero::RotorLoad> loads;
   const std::vector<double> saved = file.read<double>(load_name);
   for (std::size_t n = 0; n + load_numbers <= saved.size(); n += load_numbers) loads.push_back(load_at(saved.data() + n));
@@ -125,21 +125,21 @@ FeltLoad felt_in(const io::CheckpointReader& file, int blades) {
   return {loads[0], {loads.begin() + 1, loads.end()}};
 }
 
-SavedArray answer_array(const SavedAnswer& answer, int rank) {
+SavedArray rotor_load_array(const SavedRotorLoad& saved, int rank) {
   std::vector<double> values;
-  append(values, answer.load);
-  values.push_back(answer.dt);
-  SavedArray array{answer_name, load_numbers + 1, {}};
+  append(values, saved.load);
+  values.push_back(saved.dt);
+  SavedArray array{rotor_load_name, load_numbers + 1, {}};
   if (rank == 0) array.pieces.push_back({0, std::move(values)});
   return array;
 }
-SavedAnswer answer_in(const io::CheckpointReader& file) {
-  const std::vector<double> values = file.read<double>(answer_name);
+SavedRotorLoad rotor_load_in(const io::CheckpointReader& file) {
+  const std::vector<double> values = file.read<double>(rotor_load_name);
   return {load_at(values.data()), values[load_numbers]};
 }
 
-FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
-                    const aero::RotorPose& start) {
+ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
+                         const aero::RotorPose& start) {
   const auto refuse = [&](const std::string& why) {
     throw io::InputError(fmt::format("start.air: {}: {}", file.path().string(), why));
   };
@@ -180,12 +180,12 @@ FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, 
     solver.load(n, values);
   }
   solver.forget();
-  FeltLoad felt = felt_in(file, rotor.grid_blades());
+  ComputedLoads computed = computed_loads_in(file, rotor.grid_blades());
   if (turned) {
-    felt.rotor.force = by * felt.rotor.force, felt.rotor.moment = by * felt.rotor.moment;
-    for (aero::RotorLoad& blade : felt.blades) blade.force = by * blade.force, blade.moment = by * blade.moment;
+    computed.rotor.force = by * computed.rotor.force, computed.rotor.moment = by * computed.rotor.moment;
+    for (aero::RotorLoad& blade : computed.blades) blade.force = by * blade.force, blade.moment = by * blade.moment;
   }
-  return felt;
+  return computed;
 }
 
 }  // namespace spindrift::coupling

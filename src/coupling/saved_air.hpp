@@ -1,6 +1,6 @@
 // Air that one run leaves for another to start from (start.air; Leble & Barakos 2016, section 4.6): beside tiles and march, a
 // checkpoint of a resolved rotor says on which grid and with which settings it was made, where the rotor was and what load it
-// felt. Written by src/run, read by resolved_air.cpp; tested in tests/coupled/machine_test.py.
+// computed. Written by src/run, read by resolved_air.cpp; tested in tests/coupled/machine_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,27 +23,27 @@ io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file
 void write_air_settings(io::CheckpointWriter& file, const Scenario& scenario);
 
 /// What a rotor feels as a whole, and each blade of its grid (blade 1 first).
-struct FeltLoad {
+struct ComputedLoads {
   aero::RotorLoad rotor;
   std::vector<aero::RotorLoad> blades;
 };
-FeltLoad felt_by(const aero::ResolvedRotor& rotor);
+ComputedLoads computed_loads(const aero::ResolvedRotor& rotor);
 
 /// Pose, loads and a measure of the grid of a rotor. `rank`: among those that have the air.
-std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const FeltLoad& felt, int rank);
+std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const ComputedLoads& computed, int rank);
 
-FeltLoad felt_in(const io::CheckpointReader& file, int blades);
+ComputedLoads computed_loads_in(const io::CheckpointReader& file, int blades);
 /// What the air of a coupled run last answered and its physical step [s], for a run that goes on from there.
-struct SavedAnswer {
+struct SavedRotorLoad {
   aero::RotorLoad load;
   double dt;
 };
-SavedArray answer_array(const SavedAnswer& answer, int rank);
-SavedAnswer answer_in(const io::CheckpointReader& file);
+SavedArray rotor_load_array(const SavedRotorLoad& saved, int rank);
+SavedRotorLoad rotor_load_in(const io::CheckpointReader& file);
 
-/// Gives `rotor` the flow of the file, carried along with the blades to `start`, without a past. Returns what was felt,
+/// Gives `rotor` the flow of the file, carried along with the blades to `start`, without a past. Returns what was computed,
 /// turned likewise. Throws io::InputError naming the key where the file's air is another one.
-FeltLoad start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
-                    const aero::RotorPose& start);
+ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
+                         const aero::RotorPose& start);
 
 }  // namespace spindrift::coupling

@@ -1,6 +1,6 @@
 // A scene, read and checked: the options of every module, side by side, and the rules between them.
-// From here on nobody sees the parser. Built by read_scenario; used by Machine; tested in tests/src/coupling/scenario_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// From here on nobody sees the parser. Built by read_scenario; used by FloatingSystem; tested in
+// tests/src/coupling/scenario_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>

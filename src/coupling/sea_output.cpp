@@ -16,16 +16,17 @@ io::Field field_named(const std::string& name) {
 
 }  // namespace
 
-SeaOutput::SeaOutput(const Machine& machine, const std::filesystem::path& folder, const runtime::World& world, double resume_s)
-    : machine_(machine), writes_(world.rank == 0) {
-  const auto& options = machine.scenario().sea.fields;
-  if (!machine.particles() || !options) return;
+SeaOutput::SeaOutput(const FloatingSystem& floating, const std::filesystem::path& folder, const runtime::World& world,
+                     double resume_s)
+    : floating_(floating), writes_(world.rank == 0) {
+  const auto& options = floating.scenario().sea.fields;
+  if (!floating.particles() || !options) return;
   std::vector<io::Field> fields;
   for (const std::string& name : options->particles) fields.push_back(field_named(name));
   if (!fields.empty()) particles_ = std::make_unique<io::ParticleFields>(world.comm, folder, "particles", fields, resume_s);
   if (options->surface_spacing_m == 0.0) return;
-  const sph::TankPlan& tank = machine.particle_plan()->tank;
-  const bool planar = machine.particle_plan()->options.planar();
+  const sph::TankPlan& tank = floating.particle_plan()->tank;
+  const bool planar = floating.particle_plan()->options.planar();
   const auto cells = [&](double length) { return std::max(1, int(std::lround(length / options->surface_spacing_m))); };
   nx_ = cells(tank.x[1] - tank.x[0]), dx_ = (tank.x[1] - tank.x[0]) / nx_;
   ny_ = planar ? 1 : cells(tank.y[1] - tank.y[0]), dy_ = planar ? dx_ : (tank.y[1] - tank.y[0]) / ny_;
@@ -39,8 +40,8 @@ void SeaOutput::write(std::int64_t number, double t) {
 }
 
 void SeaOutput::write_particles(std::int64_t tick, double t) {
-  const sea::FieldsOptions& options = *machine_.scenario().sea.fields;
-  const sea::ParticleSample sample = machine_.particles()->sample(options.low_m, options.high_m, options.solids);
+  const sea::FieldsOptions& options = *floating_.scenario().sea.fields;
+  const sea::ParticleSample sample = floating_.particles()->sample(options.low_m, options.high_m, options.solids);
   std::vector<std::span<const double>> fields;
   for (const std::string& name : options.particles)
     fields.push_back(name == "velocity"   ? sample.velocity
@@ -52,14 +53,14 @@ void SeaOutput::write_particles(std::int64_t tick, double t) {
 
 /// One layer of cells from the bed to the surface, whose upper corners are heights read there and whose value is the middle's.
 void SeaOutput::write_surface(std::int64_t tick, double t) {
-  const sph::TankPlan& tank = machine_.particle_plan()->tank;
-  const double y0 = machine_.particle_plan()->options.planar() ? -0.5 * dy_ : tank.y[0];
+  const sph::TankPlan& tank = floating_.particle_plan()->tank;
+  const double y0 = floating_.particle_plan()->options.planar() ? -0.5 * dy_ : tank.y[0];
   std::vector<std::array<double, 2>> corners, middles;
   for (int j = 0; j <= ny_; ++j)
     for (int i = 0; i <= nx_; ++i) corners.push_back({tank.x[0] + i * dx_, y0 + j * dy_});
   for (int j = 0; j < ny_; ++j)
     for (int i = 0; i < nx_; ++i) middles.push_back({tank.x[0] + (i + 0.5) * dx_, y0 + (j + 0.5) * dy_});
-  std::vector<double> heights = machine_.particles()->surface(corners), elevation = machine_.particles()->surface(middles);
+  std::vector<double> heights = floating_.particles()->surface(corners), elevation = floating_.particles()->surface(middles);
   const auto wet = [&](double height, double x) { return std::isfinite(height) ? height : tank.bed_at(x); };
   if (!writes_) return surface_->write(tick, t, {});
   std::vector<double> points;

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "runtime/mpi/environment.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/io/fields.hpp"
 
 namespace spindrift::coupling {
@@ -16,7 +16,7 @@ namespace spindrift::coupling {
 class SeaOutput {
  public:
   /// Collective. Files go to `folder`; a restart goes on after resume_s.
-  SeaOutput(const Machine& machine, const std::filesystem::path& folder, const runtime::World& world,
+  SeaOutput(const FloatingSystem& floating, const std::filesystem::path& folder, const runtime::World& world,
             double resume_s = io::from_the_start);
   /// The state at time t [s], as files of this number. Collective.
   void write(std::int64_t number, double t);
@@ -25,7 +25,7 @@ class SeaOutput {
   void write_particles(std::int64_t tick, double t);
   void write_surface(std::int64_t tick, double t);
 
-  const Machine& machine_;
+  const FloatingSystem& floating_;
   bool writes_;  ///< this rank hands the surface in: all ranks have all of it
   std::unique_ptr<io::ParticleFields> particles_;
   std::unique_ptr<io::GridFields> surface_;

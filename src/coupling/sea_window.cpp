@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "runtime/trace/clock.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/retries.hpp"
 
 namespace spindrift::coupling {
@@ -20,9 +20,9 @@ std::vector<Motion> at_rest(std::vector<Motion> motions) {
   return motions;
 }
 
-std::int64_t choose_substep(const Machine& machine, std::int64_t tick, std::int64_t left, double limit) {
-  const double tick_s = machine.timeline().tick_s(), t = double(tick) * tick_s;
-  if (const std::optional<double>& step = machine.scenario().time.step_s) {
+std::int64_t choose_substep(const FloatingSystem& floating, std::int64_t tick, std::int64_t left, double limit) {
+  const double tick_s = floating.timeline().tick_s(), t = double(tick) * tick_s;
+  if (const std::optional<double>& step = floating.scenario().time.step_s) {
     if (*step > limit)
       throw NumericalFailure(
           fmt::format("t = {:.6g} s: sea: the step of {:.4g} s is above what is stable now, {:.4g} s; leave out time.step_s, "
@@ -48,19 +48,19 @@ std::int64_t substep_ticks(std::int64_t left, double limit) {
   return 2 * ((half + steps - 1) / steps);
 }
 
-void evaluate_particles(Machine& machine, const bodies::BodiesState& state) {
-  const double t = double(state.tick) * machine.timeline().tick_s();
-  machine.particles()->evaluate(t, t < 0.0 ? at_rest(state.motions) : state.motions);
+void evaluate_particles(FloatingSystem& floating, const bodies::BodiesState& state) {
+  const double t = double(state.tick) * floating.timeline().tick_s();
+  floating.particles()->evaluate(t, t < 0.0 ? at_rest(state.motions) : state.motions);
 }
 
 namespace {
 
 class ParticleSide final : public BodySide, sea::WindowDriver {
  public:
-  ParticleSide(Machine& machine, DriverFunction between)
-      : machine_(machine), sea_(*machine.particles()), between_(std::move(between)) {}
+  ParticleSide(FloatingSystem& floating, DriverFunction between)
+      : floating_(floating), sea_(*floating.particles()), between_(std::move(between)) {}
 
-  void aim(const bodies::BodiesState& from, std::int64_t end_tick) override {
+  void prepare(const bodies::BodiesState& from, std::int64_t end_tick) override {
     state_ = from, end_ = end_tick, held_ = from.tick < 0;
     // A released body moves at once; a held one must not carry its start velocity into the water.
     if (held_) held_motions_ = at_rest(from.motions);
@@ -78,18 +78,18 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
   bool outdated() const override { return sea_.outdated(); }
   void forget_tasks() override { sea_.forget_tasks(); }
   void ease(int retry) override { retry_ = retry; }
-  void keep(int note) override {
+  void take_snapshot(int slot) override {
     if (note == 0) sea_.balance();
-    sea_.keep(note);
+    sea_.take_snapshot(slot);
   }
-  void back(int note) override { sea_.back(note); }
+  void return_to(int slot) override { sea_.return_to(slot); }
 
  private:
   Step choose(double limit) override {
     // A step that the scene gives stays.
-    const double share = machine_.scenario().time.step_s ? 1.0 : share_of_substep(retry_);
-    ticks_ = choose_substep(machine_, state_.tick, end_ - state_.tick, share * std::min(limit, machine_.body_step_limit()));
-    const Step step{double(ticks_) * machine_.timeline().tick_s(), state_.tick + ticks_ == end_};
+    const double share = floating_.scenario().time.step_s ? 1.0 : share_of_substep(retry_);
+    ticks_ = choose_substep(floating_, state_.tick, end_ - state_.tick, share * std::min(limit, floating_.body_step_limit()));
+    const Step step{double(ticks_) * floating_.timeline().tick_s(), state_.tick + ticks_ == end_};
     if (!sea_.moves_solids()) {  // nobody will ask
       std::vector<Motion> motions;
       move(false, motions), move(true, motions);
@@ -104,18 +104,18 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
       next_.tick += ticks;
       motions = held_ ? held_motions_ : state_.motions;
     } else {
-      const double tick_s = machine_.timeline().tick_s();
-      const bodies::StepReport report = machine_.system().advance(next_, tick_s, ticks, pieces_of_step(retry_));
-      if (!report.ok()) throw machine_.system().failure(report, state_, tick_s);
+      const double tick_s = floating_.timeline().tick_s();
+      const bodies::StepReport report = floating_.multibody().advance(next_, tick_s, ticks, pieces_of_step(retry_));
+      if (!report.ok()) throw floating_.multibody().failure(report, state_, tick_s);
       motions = next_.motions;
     }
     if (to_end) std::swap(state_, next_), ++steps_;
     own_ns_ += runtime::Clock::now_ns() - begin;
     return t;
   }
-  double time(std::int64_t tick) const { return double(tick) * machine_.timeline().tick_s(); }
+  double time(std::int64_t tick) const { return double(tick) * floating_.timeline().tick_s(); }
 
-  Machine& machine_;
+  FloatingSystem& floating_;
   sea::ParticleSea& sea_;
   DriverFunction between_;
   bodies::BodiesState state_, next_;
@@ -127,8 +127,8 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
 
 }  // namespace
 
-std::unique_ptr<BodySide> make_particle_side(Machine& machine, DriverFunction between) {
-  return std::make_unique<ParticleSide>(machine, std::move(between));
+std::unique_ptr<BodySide> make_particle_side(FloatingSystem& floating, DriverFunction between) {
+  return std::make_unique<ParticleSide>(floating, std::move(between));
 }
 
 }  // namespace spindrift::coupling

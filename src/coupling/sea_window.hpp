@@ -18,10 +18,10 @@ namespace spindrift::coupling {
 /// Before t = 0 it holds the bodies where they start. `between` returns what the sea is driven by in place of the bodies it is
 /// given, for those who want to hear what passes between the two.
 using DriverFunction = std::function<sea::WindowDriver&(sea::WindowDriver& bodies)>;
-std::unique_ptr<BodySide> make_particle_side(Machine& machine, DriverFunction between = {});
+std::unique_ptr<BodySide> make_particle_side(FloatingSystem& floating, DriverFunction between = {});
 
 /// Evaluates the water's loads on the bodies as they stand.
-void evaluate_particles(Machine& machine, const bodies::BodiesState& state);
+void evaluate_particles(FloatingSystem& floating, const bodies::BodiesState& state);
 
 /// Ticks of the next substep, even, so that what is left of a window is shared out evenly: `left` ticks (even), `limit` in ticks.
 /// 0 where the limit is below two ticks.

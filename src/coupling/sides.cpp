@@ -9,7 +9,7 @@
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/stop_request.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
 
@@ -29,14 +29,14 @@ std::string text(Unpacker& from) {
 /// files are not what they should be, all throw.
 template <class Pack, class Unpack>
 void answer_of(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpack) {
-  enum class End : char { answer, numerical, input, stop };
+  enum class End : char { result, numerical, input, stop };
   Packer parcel;
   const auto failed = [&](End end, const std::exception& e) {
     parcel = Packer();
     parcel.put_one(end), put(parcel, e.what());
   };
   if (parts.has(part)) try {
-      parcel.put_one(End::answer);
+      parcel.put_one(End::result);
       pack(parcel);
     } catch (const NumericalFailure& f) {
       failed(End::numerical, f), put(parcel, f.place);
@@ -47,7 +47,7 @@ void answer_of(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpa
   const runtime::Bytes bytes = parts.share(part, parcel.take());
   Unpacker from(bytes);
   const End end = from.one<End>();
-  if (end == End::answer) return unpack(from);
+  if (end == End::result) return unpack(from);
   const std::string what = text(from);
   if (end == End::input) throw io::InputError(what);
   if (end == End::stop) throw runtime::StopAsked();
@@ -79,7 +79,7 @@ class SharedAir final : public AirSide {
           const std::vector<io::Column> columns = own_->columns();
           to.put_one(own_->written() != nullptr), to.put_one(columns.size());
           for (const io::Column& c : columns) put(to, c.name), put(to, c.unit), put(to, c.meaning);
-          for (const std::string& sentence : own_->news()) put(to, sentence);
+          for (const std::string& sentence : own_->log_lines()) put(to, sentence);
         },
         [&](Unpacker& from) {
           writes_ = from.one<bool>();
@@ -87,35 +87,35 @@ class SharedAir final : public AirSide {
             std::string name = text(from), unit = text(from);
             columns_.push_back({std::move(name), std::move(unit), text(from)});
           }
-          while (!from.done()) news_.push_back(text(from));
+          while (!from.done()) log_lines_.push_back(text(from));
         });
   }
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     return show([&] { return own_->begin(t, now); });
   }
-  void aim(double t, double dt, const aero::RotorState& at_end) override {
-    if (own_) own_->aim(t, dt, at_end);
+  void prepare(double t, double dt, const aero::RotorState& at_end) override {
+    if (own_) own_->prepare(t, dt, at_end);
   }
   Tasks record(runtime::Graph& graph) override { return own_ ? own_->record(graph) : Tasks::none; }
   void forget_tasks() override {
     if (own_) own_->forget_tasks();
   }
-  aero::RotorLoad answer() override {
-    return show([&] { return own_->answer(); });
+  aero::RotorLoad load_at_end() override {
+    return show([&] { return own_->load_at_end(); });
   }
   void ease(int retry) override {
     if (own_) own_->ease(retry);
   }
   const aero::RotorLoad* written() const override { return writes_ ? &shown_.load : nullptr; }
 
-  void keep(Note note) override {
-    notes_[note] = shown_;
-    if (own_) own_->keep(note);
+  void take_snapshot(Snapshot slot) override {
+    snapshots_[slot] = shown_;
+    if (own_) own_->take_snapshot(slot);
   }
-  void back(Note note) override {
-    shown_ = notes_[note];
-    if (own_) own_->back(note);
+  void return_to(Snapshot slot) override {
+    shown_ = snapshots_[slot];
+    if (own_) own_->return_to(slot);
   }
   std::vector<SavedArray> saved() const override { return own_ ? own_->saved() : std::vector<SavedArray>(); }
   void restore(const io::CheckpointReader& file) override {
@@ -135,14 +135,14 @@ class SharedAir final : public AirSide {
   void write_span() override {
     if (own_) own_->write_span();
   }
-  std::vector<std::string> news() override { return std::exchange(news_, {}); }
+  std::vector<std::string> log_lines() override { return std::exchange(log_lines_, {}); }
 
  private:
   struct Shown {
     aero::RotorLoad load;
     std::vector<double> values;
   };
-  /// Has the air's ranks do `work`, which gives a load, and all ranks know load, values and news after it.
+  /// Has the air's ranks do `work`, which gives a load, and all ranks know load, values and lines for the log after it.
   template <class Work>
   aero::RotorLoad show(Work&& work) {
     answer_of(
@@ -150,11 +150,11 @@ class SharedAir final : public AirSide {
         [&](Packer& to) {
           put(to, work());
           to.put(std::span<const double>(own_->values()));
-          for (const std::string& sentence : own_->news()) put(to, sentence);
+          for (const std::string& sentence : own_->log_lines()) put(to, sentence);
         },
         [&](Unpacker& from) {
           shown_.load = rotor_load(from), shown_.values = from.many<double>();
-          while (!from.done()) news_.push_back(text(from));
+          while (!from.done()) log_lines_.push_back(text(from));
         });
     return shown_.load;
   }
@@ -163,17 +163,17 @@ class SharedAir final : public AirSide {
   bool writes_ = false;
   std::vector<io::Column> columns_;
   Shown shown_;
-  std::array<Shown, 2> notes_;
-  std::vector<std::string> news_;
+  std::array<Shown, 2> snapshots_;
+  std::vector<std::string> log_lines_;
 };
 
 class SharedBodies final : public BodySide {
  public:
   SharedBodies(const runtime::Parts& parts, std::unique_ptr<BodySide> own) : parts_(parts), own_(std::move(own)) {}
 
-  void aim(const bodies::BodiesState& from, std::int64_t end_tick) override {
+  void prepare(const bodies::BodiesState& from, std::int64_t end_tick) override {
     state_ = from;
-    if (own_) own_->aim(from, end_tick);
+    if (own_) own_->prepare(from, end_tick);
   }
   Tasks record(runtime::Graph& graph) override { return own_ ? own_->record(graph) : Tasks::none; }
   bodies::BodiesState finish() override {
@@ -198,11 +198,11 @@ class SharedBodies final : public BodySide {
   void forget_tasks() override {
     if (own_) own_->forget_tasks();
   }
-  void keep(int note) override {
-    if (own_) own_->keep(note);
+  void take_snapshot(int slot) override {
+    if (own_) own_->take_snapshot(slot);
   }
-  void back(int note) override {
-    if (own_) own_->back(note);
+  void return_to(int slot) override {
+    if (own_) own_->return_to(slot);
   }
 
  private:
@@ -237,12 +237,13 @@ void on_parts(const runtime::Parts& parts, const std::function<void()>& work) {
   }
 }
 
-Sides make_sides(Machine& machine, std::span<const Motion> start, const runtime::Parts& parts) {
+Sides make_sides(FloatingSystem& floating, std::span<const Motion> start, const runtime::Parts& parts) {
   Sides sides;
   on_parts(parts, [&] {
     if (parts.has(air_part))
-      sides.air = machine.has_interface() ? make_air(machine, machine.rotor()->state(0.0, start), parts.mine()) : make_no_air();
-    if (parts.has(sea_part)) sides.bodies = make_body_side(machine);
+      sides.air =
+          floating.has_interface() ? make_air(floating, floating.rotor()->state(0.0, start), parts.mine()) : make_no_air();
+    if (parts.has(sea_part)) sides.bodies = make_body_side(floating);
   });
   if (!parts.split()) return sides;
   return {share_air(parts, std::move(sides.air)), share_bodies(parts, std::move(sides.bodies))};

@@ -22,9 +22,9 @@ struct Sides {
   std::unique_ptr<BodySide> bodies;
 };
 
-/// `start`: of the bodies; of a machine with particles: after Machine::fill_sea on the sea's ranks. Both machine and parts
-/// outlive them. Collective; a failure is thrown on all ranks alike.
-Sides make_sides(Machine& machine, std::span<const Motion> start, const runtime::Parts& parts);
+/// `start`: of the bodies; of a floating system with particles: after FloatingSystem::fill_sea on the sea's ranks. Both floating
+/// system and parts outlive them. Collective; a failure is thrown on all ranks alike.
+Sides make_sides(FloatingSystem& floating, std::span<const Motion> start, const runtime::Parts& parts);
 
 /// Runs `work` on every rank, each for the parts it has. What is wrong with the user's scene or files (scene::SceneError,
 /// io::InputError, alike on all ranks of a part) is thrown on all ranks, as io::InputError; anything else ends the program.

@@ -12,13 +12,13 @@ namespace spindrift::coupling {
 
 namespace {
 
-[[noreturn]] void refuse(const Machine& machine, std::string key, std::string value, std::string message) {
-  throw scene::SceneError({{machine.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
+[[noreturn]] void refuse(const FloatingSystem& floating, std::string key, std::string value, std::string message) {
+  throw scene::SceneError({{floating.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
 }
 
 /// Moves the bodies from where the scene describes them to how they start, as far as their joints allow.
-void move_to_start(Machine& machine, bodies::BodiesState& state) {
-  const bodies::NamedBodies& bodies = machine.scenario().bodies;
+void move_to_start(FloatingSystem& floating, bodies::BodiesState& state) {
+  const bodies::NamedBodies& bodies = floating.scenario().bodies;
   bool moved = false;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const bodies::BodyOptions& o = bodies[b].options;
@@ -28,23 +28,23 @@ void move_to_start(Machine& machine, bodies::BodiesState& state) {
     moved = true;
   }
   if (!moved) return;
-  const bodies::Assembly assembly = machine.system().assemble_from(state, 0.0);
-  if (!assembly.contradiction.empty()) refuse(machine, "bodies", "", "with these displacements: " + assembly.contradiction);
+  const bodies::Assembly assembly = floating.multibody().assemble_from(state, 0.0);
+  if (!assembly.contradiction.empty()) refuse(floating, "bodies", "", "with these displacements: " + assembly.contradiction);
   state = assembly.state;
 }
 
-Start start_without_memory(Machine& machine) {
-  if (machine.system().bodies().empty()) return {};  // water alone
-  bodies::Assembly assembly = machine.system().assemble();
-  if (!assembly.contradiction.empty()) refuse(machine, "joints", "", assembly.contradiction);
+Start start_without_memory(FloatingSystem& floating) {
+  if (floating.multibody().bodies().empty()) return {};  // water alone
+  bodies::Assembly assembly = floating.multibody().assemble();
+  if (!assembly.contradiction.empty()) refuse(floating, "joints", "", assembly.contradiction);
   Start start{std::move(assembly.state), assembly.degrees_of_freedom, std::move(assembly.redundant), {}};
-  move_to_start(machine, start.state);
-  if (!machine.scenario().start.equilibrium) return start;
+  move_to_start(floating, start.state);
+  if (!floating.scenario().start.equilibrium) return start;
 
-  const MeanLoads mean(machine);
-  start.equilibrium = find_equilibrium(machine.system(), start.state, 0.0);
+  const MeanLoads mean(floating);
+  start.equilibrium = find_equilibrium(floating.multibody(), start.state, 0.0);
   const bodies::Equilibrium& found = *start.equilibrium;
-  if (!found.problem.empty()) refuse(machine, "start.equilibrium", "true", found.problem);
+  if (!found.problem.empty()) refuse(floating, "start.equilibrium", "true", found.problem);
   for (const std::string& direction : found.free_directions)
     start.notes.push_back(
         fmt::format("{}: neither load nor stiffness; the equilibrium leaves it where the scene puts it", direction));
@@ -55,63 +55,65 @@ Start start_without_memory(Machine& machine) {
 
 }  // namespace
 
-Start make_start(Machine& machine) {
-  Start start = start_without_memory(machine);
-  machine.system().begin_memory(start.state, 0.0);
+Start make_start(FloatingSystem& floating) {
+  Start start = start_without_memory(floating);
+  floating.multibody().begin_memory(start.state, 0.0);
   return start;
 }
 
-Stability stability(Machine& machine, const bodies::BodiesState& state) {
+Stability stability(FloatingSystem& floating, const bodies::BodiesState& state) {
   if (state.motions.empty()) return {{}, {std::numeric_limits<double>::infinity(), "", {}}};
-  const MeanLoads mean(machine);
-  Stability result{linearise(machine.system(), state, 0.0), {}};
-  result.limit = step_limit(machine.system().integrator(), result.linearisation);
+  const MeanLoads mean(floating);
+  Stability result{linearise(floating.multibody(), state, 0.0), {}};
+  result.limit = step_limit(floating.multibody().integrator(), result.linearisation);
   return result;
 }
 
 namespace {
 
 /// Particles choose their step where the scene does not: the bodies' limit joins theirs. A given step must keep to both.
-void require_stable_particles(Machine& machine, const Stability& stability) {
+void require_stable_particles(FloatingSystem& floating, const Stability& stability) {
   if (!stability.linearisation.report.ok())
-    refuse(machine, "bodies", "", "the start cannot be evaluated: " + machine.system().describe(stability.linearisation.report));
+    refuse(floating, "bodies", "",
+           "the start cannot be evaluated: " + floating.multibody().describe(stability.linearisation.report));
   constexpr double margin = 0.9;  // the water adds stiffness that the linearisation does not see
   const double bodies = margin * stability.limit.step_s;
   if (bodies == 0.0)
-    refuse(machine, "time.integrator", std::string(name(machine.system().integrator())),
+    refuse(floating, "time.integrator", std::string(name(floating.multibody().integrator())),
            fmt::format("is unstable at any step for {}, which is undamped; use rk4 or symplectic", stability.limit.mode));
-  machine.limit_body_step(bodies);
-  const std::optional<double>& step = machine.scenario().time.step_s;
+  floating.limit_body_step(bodies);
+  const std::optional<double>& step = floating.scenario().time.step_s;
   if (!step) return;
-  const sph::Parameters& p = machine.particle_plan()->parameters;
+  const sph::Parameters& p = floating.particle_plan()->parameters;
   const double sound = p.cfl * p.h() / p.eos.c0;
   if (*step > sound)
     refuse(
-        machine, "time.step_s", fmt::format("{}", *step),
+        floating, "time.step_s", fmt::format("{}", *step),
         fmt::format(
             "is above the limit of {:.4g} s that the speed of sound of {:.4g} m/s sets (sea.particles.cfl {}); leave it out and "
             "the sea takes the largest step that is stable",
             sound, p.eos.c0, p.cfl));
   if (*step > bodies)
-    refuse(machine, "time.step_s", fmt::format("{}", *step),
+    refuse(floating, "time.step_s", fmt::format("{}", *step),
            fmt::format("is above the limit of {:.4g} s of {}", bodies, stability.limit.mode));
 }
 
 }  // namespace
 
-void require_stable(Machine& machine, const Stability& stability) {
-  if (machine.particle_plan()) return require_stable_particles(machine, stability);
-  const double step = machine.timeline().tick_s();
+void require_stable(FloatingSystem& floating, const Stability& stability) {
+  if (floating.particle_plan()) return require_stable_particles(floating, stability);
+  const double step = floating.timeline().tick_s();
   const bodies::StepLimit& limit = stability.limit;
   if (!stability.linearisation.report.ok())
-    refuse(machine, "bodies", "", "the start cannot be evaluated: " + machine.system().describe(stability.linearisation.report));
+    refuse(floating, "bodies", "",
+           "the start cannot be evaluated: " + floating.multibody().describe(stability.linearisation.report));
   if (step <= limit.step_s) return;
-  const std::string integrator(name(machine.system().integrator()));
+  const std::string integrator(name(floating.multibody().integrator()));
   if (limit.step_s == 0.0)
-    refuse(machine, "time.integrator", integrator,
+    refuse(floating, "time.integrator", integrator,
            fmt::format("is unstable at any step for {}, which is undamped (eigenvalue {:.3g}{:+.3g}i 1/s); use rk4 or symplectic",
                        limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));
-  refuse(machine, "time.step_s", fmt::format("{}", step),
+  refuse(floating, "time.step_s", fmt::format("{}", step),
          fmt::format("is above the limit of {:.4g} s that {} has for {} (eigenvalue {:.3g}{:+.3g}i 1/s)", limit.step_s,
                      integrator, limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));
 }

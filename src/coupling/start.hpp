@@ -8,7 +8,7 @@
 
 #include "src/bodies/linearise.hpp"
 #include "src/bodies/statics.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 
 namespace spindrift::coupling {
 
@@ -20,16 +20,16 @@ struct Start {
 };
 
 /// Throws scene::SceneError where joints contradict each other or no equilibrium exists.
-Start make_start(Machine& machine);
+Start make_start(FloatingSystem& floating);
 
 /// Stability of the bodies' integrator about the state, under the mean loads.
 struct Stability {
   bodies::Linearisation linearisation;
   bodies::StepLimit limit;
 };
-Stability stability(Machine& machine, const bodies::BodiesState& state);
+Stability stability(FloatingSystem& floating, const bodies::BodiesState& state);
 
 /// Throws scene::SceneError where time.step_s exceeds the limit, naming the mode.
-void require_stable(Machine& machine, const Stability& stability);
+void require_stable(FloatingSystem& floating, const Stability& stability);
 
 }  // namespace spindrift::coupling

@@ -67,35 +67,35 @@ std::optional<CoupledWindow::AnyScheme> CoupledWindow::make_strong(const Couplin
   return std::nullopt;
 }
 
-CoupledWindow::CoupledWindow(Machine& machine, Sides sides, MPI_Comm comm, std::size_t records)
-    : machine_(machine),
-      options_(machine.scenario().coupling),
-      air_(sides.air                 ? std::move(sides.air)
-           : machine.has_interface() ? make_engineering_air(machine)
-                                     : make_no_air()),
-      bodies_(sides.bodies ? std::move(sides.bodies) : make_body_side(machine)),
-      tasks_(*air_, *bodies_, comm, {.records = records, .watchdog_s = machine.scenario().runtime.watchdog_s}),
+CoupledWindow::CoupledWindow(FloatingSystem& floating, Sides sides, MPI_Comm comm, std::size_t records)
+    : floating_(floating),
+      options_(floating.scenario().coupling),
+      air_(sides.air                  ? std::move(sides.air)
+           : floating.has_interface() ? make_engineering_air(floating)
+                                      : make_no_air()),
+      bodies_(sides.bodies ? std::move(sides.bodies) : make_body_side(floating)),
+      tasks_(*air_, *bodies_, comm, {.records = records, .watchdog_s = floating.scenario().runtime.watchdog_s}),
       loads_(options_.predictor_order),
       motions_(1),
       load_now_(RotorInterface::load_rows) {
-  if (!machine.has_interface()) return;
-  interface_.emplace(machine);
+  if (!floating.has_interface()) return;
+  interface_.emplace(floating);
   loose_ = make_loose(options_), strong_ = make_strong(options_);
-  machine_.replace_rotor_loads([this](double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
-    felt_(t, load_now_);
+  floating_.replace_rotor_loads([this](double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
+    rotor_signal_(t, load_now_);
     interface_->add_load(load_now_, bodies, wrenches);
   });
-  machine_.write_rotor_load(air_->written());
+  floating_.write_rotor_load(air_->written());
 }
 
 CoupledWindow::~CoupledWindow() {
-  machine_.replace_rotor_loads({});
-  machine_.write_rotor_load(nullptr);
+  floating_.replace_rotor_loads({});
+  floating_.write_rotor_load(nullptr);
 }
 
 template <class Signal>
-void CoupledWindow::feel(const Signal& signal) {
-  felt_ = [&signal](double t, Vector& out) { signal.at(t, out); };
+void CoupledWindow::use_signal(const Signal& signal) {
+  rotor_signal_ = [&signal](double t, Vector& out) { signal.at(t, out); };
 }
 
 void CoupledWindow::begin(const bodies::BodiesState& state) {
@@ -105,11 +105,11 @@ void CoupledWindow::begin(const bodies::BodiesState& state) {
   const Vector load = interface_->rows(air_->begin(t, interface_->state(t, motion)));
   if (loose_) {
     loose_->begin(t, motion, load);
-    feel(loose_->load());
+    use_signal(loose_->load());
   } else {
     motions_.add(t, motion), loads_.add(t, load);
     signal_ = Waveform(options_.interpolation, {t}, {load});
-    feel(signal_);
+    use_signal(signal_);
   }
 }
 
@@ -123,11 +123,11 @@ bool CoupledWindow::finish(bodies::BodiesState& state) {
   return trouble_.empty() && !stopped_;
 }
 
-Vector CoupledWindow::answer() {
+Vector CoupledWindow::load_at_end() {
   ++totals_.rotor_calls;
   Vector rows = not_finite(RotorInterface::load_rows);
   try {
-    rows = interface_->rows(air_->answer());
+    rows = interface_->rows(air_->load_at_end());
   } catch (const NumericalFailure& failure) { trouble_ = failure.what(); } catch (const runtime::StopAsked&) {
     stopped_ = true;
   }
@@ -135,28 +135,28 @@ Vector CoupledWindow::answer() {
 }
 
 bool CoupledWindow::move(bodies::BodiesState& state, std::int64_t end) {
-  bodies_->aim(state, end);
+  bodies_->prepare(state, end);
   tasks_.run(Run::bodies);
   return finish(state);
 }
 
 Vector CoupledWindow::air_load(double t, double dt, const Vector& motion) {
-  air_->aim(t, dt, interface_->state(t, motion));
+  air_->prepare(t, dt, interface_->state(t, motion));
   tasks_.run(Run::air);
-  return answer();
+  return load_at_end();
 }
 
 WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
   trouble_.clear(), stopped_ = false;
   const std::int64_t begin = runtime::Clock::now_ns();
-  air_->keep(AirSide::window), bodies_->keep(AirSide::window);
-  totals_.keep_ns += runtime::Clock::now_ns() - begin;
+  air_->take_snapshot(AirSide::window), bodies_->take_snapshot(AirSide::window);
+  totals_.snapshot_ns += runtime::Clock::now_ns() - begin;
   air_->ease(retry), bodies_->ease(retry);
   // Before t = 0 the sea settles round bodies that are held; the air waits.
   last_ = !interface_ || state.tick < 0 ? advance_bodies(state) : loose_ ? advance_loose(state) : advance_strong(state);
   last_.stopped = stopped_;
   last_.of_a_side = !last_.failure.empty() && !trouble_.empty();
-  if (!last_.ok()) air_->back(AirSide::window), bodies_->back(AirSide::window);
+  if (!last_.ok()) air_->return_to(AirSide::window), bodies_->return_to(AirSide::window);
   ++totals_.windows;
   totals_.evaluations += last_.log.evaluations, totals_.probes += last_.log.probes;
   totals_.retries += last_.log.retries, totals_.cuts += last_.log.cuts;
@@ -166,7 +166,7 @@ WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
 WindowReport CoupledWindow::advance_bodies(bodies::BodiesState& state) {
   WindowReport report;
   bodies::BodiesState end = state;
-  if (move(end, state.tick + machine_.timeline().steps_per_window()))
+  if (move(end, state.tick + floating_.timeline().steps_per_window()))
     state = std::move(end);
   else
     report.failure = trouble_;
@@ -192,22 +192,22 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
       return w.options_.scheme == SchemeKind::cps ? RotorInterface::turned(given, end_s - begin) : given;
     }
     Vector move(const Extrapolation& load, double begin, double end_s) {
-      w.feel(load);
+      w.use_signal(load);
       return w.move(state, end) ? motion_at(begin, end_s) : not_finite(RotorInterface::motion_rows);
     }
     Vector load(const Waveform& motion, double begin, double end_s) {
-      return w.air_load(end_s, w.machine_.timeline().window_s(), shown(motion, begin, end_s));
+      return w.air_load(end_s, w.floating_.timeline().window_s(), shown(motion, begin, end_s));
     }
     std::pair<Vector, Vector> both(const Extrapolation& load, const Waveform& motion, double begin, double end_s) {
-      w.feel(load);
-      w.bodies_->aim(state, end);
-      w.air_->aim(end_s, w.machine_.timeline().window_s(), w.interface_->state(end_s, shown(motion, begin, end_s)));
+      w.use_signal(load);
+      w.bodies_->prepare(state, end);
+      w.air_->prepare(end_s, w.floating_.timeline().window_s(), w.interface_->state(end_s, shown(motion, begin, end_s)));
       w.tasks_.run(Run::both);
       const bool moved = w.finish(state);
-      return {moved ? motion_at(begin, end_s) : not_finite(RotorInterface::motion_rows), w.answer()};
+      return {moved ? motion_at(begin, end_s) : not_finite(RotorInterface::motion_rows), w.load_at_end()};
     }
   };
-  const std::int64_t end = state.tick + machine_.timeline().steps_per_window();
+  const std::int64_t end = state.tick + floating_.timeline().steps_per_window();
   Parts parts{*this, state, end, loose_->motion().last()};
   const std::vector<double> before = history();
   WindowReport report;
@@ -226,7 +226,7 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
         "t = {:g} s: coupling: the loads on the rotor came out apart from those assumed by {:.3g} of them, window after window "
         "({} in a row by more than {:g} of the larger, the limit is {}): the loose scheme is unstable at a window of {:g} s; "
         "iterate (coupling.scheme = \"iqn_ils\") or shorten time.window_s",
-        time(state.tick), report.mismatch, loose_->apart(), Staggered::far_apart, most_apart, machine_.timeline().window_s());
+        time(state.tick), report.mismatch, loose_->apart(), Staggered::far_apart, most_apart, floating_.timeline().window_s());
     restore(before);
     return report;
   }
@@ -239,8 +239,8 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
 class CoupledWindow::Pieces {
  public:
   Pieces(CoupledWindow& window, const bodies::BodiesState& start)
-      : w_(window), start_(start), length_(window.machine_.timeline().steps_per_window()), end_(start.tick + length_) {
-    keep();
+      : w_(window), start_(start), length_(window.floating_.timeline().steps_per_window()), end_(start.tick + length_) {
+    save_start();
   }
 
   Vector evaluate(const Vector& x) {
@@ -276,11 +276,11 @@ class CoupledWindow::Pieces {
     show(given_loads);
     Vector motions(samples() * RotorInterface::motion_rows), loads(load_rows());
     for (int s = 1; s <= samples(); ++s) {
-      w_.bodies_->aim(state_, tick(s));
-      w_.air_->aim(w_.time(tick(s)), dt(),
-                   w_.interface_->state(w_.time(tick(s)), part(given_motions, s, RotorInterface::motion_rows)));
+      w_.bodies_->prepare(state_, tick(s));
+      w_.air_->prepare(w_.time(tick(s)), dt(),
+                       w_.interface_->state(w_.time(tick(s)), part(given_motions, s, RotorInterface::motion_rows)));
       w_.tasks_.run(Run::both);
-      const bool moved = w_.finish(state_), loaded = put_load(s, w_.answer(), loads);
+      const bool moved = w_.finish(state_), loaded = put_load(s, w_.load_at_end(), loads);
       if (!moved || !loaded) return {not_finite(motions.size()), not_finite(loads.size())};
       put_motion(s, motions);
     }
@@ -301,7 +301,7 @@ class CoupledWindow::Pieces {
   }
   void accept() {
     start_ = state_;
-    keep();
+    save_start();
     const double t = w_.time(start_.tick);
     w_.loads_.add(t, end_load_), w_.motions_.add(t, end_motion_);
   }
@@ -315,11 +315,11 @@ class CoupledWindow::Pieces {
   double load_size() const { return end_load_.norm(); }
 
  private:
-  void keep() { w_.air_->keep(AirSide::piece), w_.bodies_->keep(AirSide::piece); }
+  void save_start() { w_.air_->take_snapshot(AirSide::piece), w_.bodies_->take_snapshot(AirSide::piece); }
   void restore(Run sides) {
     w_.trouble_.clear();
-    if (has_air(sides)) w_.air_->back(AirSide::piece);
-    if (has_bodies(sides)) w_.bodies_->back(AirSide::piece), state_ = start_;
+    if (has_air(sides)) w_.air_->return_to(AirSide::piece);
+    if (has_bodies(sides)) w_.bodies_->return_to(AirSide::piece), state_ = start_;
   }
   /// The signal through the loads at the samples.
   void show(const Vector& loads) {
@@ -328,7 +328,7 @@ class CoupledWindow::Pieces {
     for (int s = 1; s <= samples(); ++s)
       times.push_back(w_.time(tick(s))), values.push_back(part(loads, s, RotorInterface::load_rows));
     w_.signal_ = Waveform(w_.options_.interpolation, std::move(times), std::move(values));
-    w_.feel(w_.signal_);
+    w_.use_signal(w_.signal_);
   }
   void put_motion(int s, Vector& motions) {
     const double t = w_.time(tick(s));
@@ -340,7 +340,7 @@ class CoupledWindow::Pieces {
     loads.segment((s - 1) * RotorInterface::load_rows, RotorInterface::load_rows) = load;
     return load.allFinite();
   }
-  double dt() const { return double(length_ / samples()) * w_.machine_.timeline().tick_s(); }
+  double dt() const { return double(length_ / samples()) * w_.floating_.timeline().tick_s(); }
   int samples() const { return w_.options_.samples; }
   Eigen::Index load_rows() const { return samples() * RotorInterface::load_rows; }
   std::int64_t tick(int sample) const { return start_.tick + sample * (length_ / samples()); }
@@ -374,7 +374,7 @@ WindowReport CoupledWindow::advance_strong(bodies::BodiesState& state) {
 }
 
 std::string CoupledWindow::describe(const WindowLog& log, const bodies::BodiesState& state) const {
-  const double begin = time(state.tick), window = machine_.timeline().window_s();
+  const double begin = time(state.tick), window = floating_.timeline().window_s();
   if (log.bound == Bound::not_finite && !trouble_.empty()) return trouble_;
   if (log.bound == Bound::not_finite)
     return fmt::format("t = {:g} s: the rotor's load over the window of {:g} s is not a finite number", begin, window);
@@ -402,8 +402,8 @@ std::vector<double> CoupledWindow::history() {
 bool CoupledWindow::restore(std::span<const double> values) {
   Loader loader{values};
   visit(loader);
-  if (loose_) feel(loose_->load());
-  if (strong_) feel(signal_);
+  if (loose_) use_signal(loose_->load());
+  if (strong_) use_signal(signal_);
   return loader.intact && loader.in.empty();
 }
 

@@ -1,9 +1,9 @@
-// A window shared by the rotor and the rest of the machine (bodies, sea, moorings, advanced in their own steps): the rotor is
-// asked once per window and sample, and the bodies see its loads as a signal in time, by a loose scheme or iterated until both
-// agree. Where there is no such interface (no rotor, or coupling.scheme = "monolithic") a window is the bodies' steps alone. What
-// iterates is a pure function of a snapshot in memory, so a window may be repeated, cut, or begun again after a restart. Schemes:
-// kernels/coupling. Called by src/run; tested in tests/src/coupling/window_test.cpp and tests/coupled/schemes_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// A window shared by the rotor and the rest of the floating system (bodies, sea, moorings, advanced in their own steps): the
+// rotor is asked once per window and sample, and the bodies see its loads as a signal in time, by a loose scheme or iterated
+// until both agree. Where there is no such interface (no rotor, or coupling.scheme = "monolithic") a window is the bodies' steps
+// alone. What iterates is a pure function of a snapshot in memory, so a window may be repeated, cut, or begun again after a
+// restart. Schemes: kernels/coupling. Called by src/run; tested in tests/src/coupling/window_test.cpp and
+// tests/coupled/schemes_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@
 #include "kernels/coupling/solve_window.hpp"
 #include "kernels/coupling/staggered.hpp"
 #include "src/coupling/columns.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/rotor_interface.hpp"
 #include "src/coupling/sides.hpp"
 #include "src/coupling/window_tasks.hpp"
@@ -43,9 +43,9 @@ struct WindowReport {
 
 class CoupledWindow {
  public:
-  /// The machine outlives the window; where it has an interface its bodies take the rotor's loads from here on. `sides`: the
-  /// engineering rotor, and the bodies, where none are given. `comm`: of the ranks that share its tasks.
-  explicit CoupledWindow(Machine& machine, Sides sides = {}, MPI_Comm comm = MPI_COMM_SELF, std::size_t records = 0);
+  /// The floating system outlives the window; where it has an interface its bodies take the rotor's loads from here on. `sides`:
+  /// the engineering rotor, and the bodies, where none are given. `comm`: of the ranks that share its tasks.
+  explicit CoupledWindow(FloatingSystem& floating, Sides sides = {}, MPI_Comm comm = MPI_COMM_SELF, std::size_t records = 0);
   ~CoupledWindow();
   CoupledWindow(const CoupledWindow&) = delete;
   CoupledWindow& operator=(const CoupledWindow&) = delete;
@@ -63,7 +63,7 @@ class CoupledWindow {
   /// Totals since the object was made.
   struct Totals {
     std::int64_t windows = 0, evaluations = 0, probes = 0, retries = 0, cuts = 0, body_steps = 0, rotor_calls = 0;
-    std::int64_t keep_ns = 0;  ///< noting the state at the start of each window
+    std::int64_t snapshot_ns = 0;  ///< noting the state at the start of each window
   };
   const Totals& totals() const { return totals_; }
   AirSide& air() { return *air_; }
@@ -86,22 +86,22 @@ class CoupledWindow {
   static std::optional<Staggered> make_loose(const CouplingOptions& options);
   static std::optional<AnyScheme> make_strong(const CouplingOptions& options);
 
-  double time(std::int64_t tick) const { return double(tick) * machine_.timeline().tick_s(); }
+  double time(std::int64_t tick) const { return double(tick) * floating_.timeline().tick_s(); }
   /// After the tasks: the bodies at the end, or false, or load rows, not finite, where a side fails (then trouble_).
   bool finish(bodies::BodiesState& state);
-  Vector answer();
+  Vector load_at_end();
   /// Bodies alone, or air alone for `dt` seconds that end at `t` with this motion.
   bool move(bodies::BodiesState& state, std::int64_t end);
   Vector air_load(double t, double dt, const Vector& motion);
   WindowReport advance_bodies(bodies::BodiesState& state);
   template <class Signal>
-  void feel(const Signal& signal);
+  void use_signal(const Signal& signal);
   WindowReport advance_loose(bodies::BodiesState& state);
   WindowReport advance_strong(bodies::BodiesState& state);
   std::string describe(const WindowLog& log, const bodies::BodiesState& state) const;
   void visit(auto& v);
 
-  Machine& machine_;
+  FloatingSystem& floating_;
   const CouplingOptions options_;
   std::optional<RotorInterface> interface_;
   std::unique_ptr<AirSide> air_;
@@ -111,7 +111,7 @@ class CoupledWindow {
   std::optional<AnyScheme> strong_;
   Extrapolation loads_, motions_;  ///< strong: at the ends of the last pieces
   Waveform signal_;                ///< strong: loads over the piece
-  std::function<void(double, Vector&)> felt_;
+  std::function<void(double, Vector&)> rotor_signal_;
   Vector load_now_;      ///< scratch of the right-hand side
   std::string trouble_;  ///< of the side that failed last
   bool stopped_ = false;

@@ -24,8 +24,8 @@ class WindowTasks {
   /// `options`: but for the threads.
   WindowTasks(AirSide& air, BodySide& bodies, MPI_Comm comm, const runtime::ExecutorOptions& options);
 
-  /// @pre the sides named have been given what to do (AirSide::aim, BodySide::aim). @post their tasks have run; their results are
-  /// to be asked for.
+  /// @pre the sides named have been given what to do (AirSide::prepare, BodySide::prepare). @post their tasks have run; their
+  /// results are to be asked for.
   void run(Run sides);
 
   /// The executor that tells most of where time went: of both sides, else of one; null where none has run.

@@ -147,10 +147,10 @@ void Driver::describe_times() {
   if (settings_.trace) write_chrome_trace(traces, directory_.trace().string());
 }
 
-io::Summary run(coupling::Machine& machine, const coupling::Start& start, const io::RunDirectory& directory,
+io::Summary run(coupling::FloatingSystem& floating, const coupling::Start& start, const io::RunDirectory& directory,
                 const runtime::Parts& parts, const RunSettings& settings, runtime::StopRequest& stop) {
   Driver driver(directory, parts, settings, stop);
-  SystemSimulation simulation(machine, start.state, parts, settings.records());
+  SystemSimulation simulation(floating, start.state, parts, settings.records());
   return driver.run(simulation);
 }
 

@@ -11,7 +11,7 @@
 #include "runtime/mpi/parts.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "runtime/trace/ledger.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
 #include "src/io/history.hpp"
 #include "src/io/run_directory.hpp"
@@ -58,7 +58,7 @@ class Driver {
 };
 
 /// Runs a floating system, or the air alone, as Driver::run does.
-io::Summary run(coupling::Machine& machine, const coupling::Start& start, const io::RunDirectory& directory,
+io::Summary run(coupling::FloatingSystem& floating, const coupling::Start& start, const io::RunDirectory& directory,
                 const runtime::Parts& parts, const RunSettings& settings, runtime::StopRequest& stop);
 io::Summary run_flow(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::Parts& parts,
                      const RunSettings& settings, runtime::StopRequest& stop);

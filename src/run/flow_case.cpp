@@ -138,13 +138,13 @@ void FlowCase::move(std::int64_t window, double window_s) {
   if (motion_) solver_->move_to(motion_->poses(double(window + 1) * window_s));
 }
 
-FlowCase::Note FlowCase::note() const {
-  Note note{.tiles = {}, .march = solver_->save_march(), .set_up = solver_->save_set_up()};
-  for (int n = 0; n < int(solver_->tiles().size()); ++n) solver_->save(n, note.tiles.emplace_back(solver_->saved_size(n)));
-  return note;
+FlowCase::Snapshot FlowCase::snapshot() const {
+  Snapshot snapshot{.tiles = {}, .march = solver_->save_march(), .set_up = solver_->save_set_up()};
+  for (int n = 0; n < int(solver_->tiles().size()); ++n) solver_->save(n, snapshot.tiles.emplace_back(solver_->saved_size(n)));
+  return snapshot;
 }
 
-void FlowCase::back(const Note& to, std::int64_t window, double window_s) {
+void FlowCase::return_to(const Snapshot& to, std::int64_t window, double window_s) {
   for (int n = 0; n < int(to.tiles.size()); ++n) solver_->load(n, to.tiles[std::size_t(n)]);
   solver_->load_march(to.march);
   solver_->load_set_up(to.set_up);

@@ -38,13 +38,13 @@ class FlowCase {
   void move(std::int64_t window, double window_s);
 
   /// The state at the end of a window, kept in memory to go back to.
-  struct Note {
+  struct Snapshot {
     std::vector<std::vector<double>> tiles;
     std::vector<double> march;
     aero::FlowSolver::SetUpNote set_up;
   };
-  Note note() const;
-  void back(const Note& to, std::int64_t window, double window_s);
+  Snapshot snapshot() const;
+  void return_to(const Snapshot& to, std::int64_t window, double window_s);
 
   /// Grid sequencing of grids that are no rotor's: the flow settles on coarser grids first, the coarsest before the others, their
   /// tiles spread over the ranks like the fine one's. What a drop is counted from stays the residual of the undisturbed flow on

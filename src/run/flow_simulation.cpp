@@ -104,14 +104,14 @@ void FlowSimulation::save(io::CheckpointWriter& file) {
   for (const coupling::SavedArray& array : file_.arrays()) write(file, array);
   if (!air_.rotor()) return;
   write_air_settings(file, scenario_);
-  for (const coupling::SavedArray& array : rotor_arrays(*air_.rotor(), coupling::felt_by(*air_.rotor()), world_.rank))
+  for (const coupling::SavedArray& array : rotor_arrays(*air_.rotor(), coupling::computed_loads(*air_.rotor()), world_.rank))
     write(file, array);
 }
 
 Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   aero::FlowSolver& solver = air_.solver();
   aero::March& march = solver.march();
-  const FlowCase::Note before = air_.note();
+  const FlowCase::Snapshot before = air_.snapshot();
   rows_.clear(), rows_from_ = window;
   for (int retry = 0;; ++retry) {
     march.ease(coupling::share_of_cfl(retry));
@@ -123,7 +123,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
         fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}",
                     timeline_.window_end_s(window), march.why(), march.steps(), march.cfl(), march.density_residual(),
                     march.first_density_residual(), solver.trouble());
-    air_.back(before, window, timeline_.window_s());
+    air_.return_to(before, window, timeline_.window_s());
     if (given_up) return {};
     if (retry == coupling::most_retries)
       return {.failure = fmt::format("{}; {} retries, the last from a CFL number {:g} as large", failure, retry,

@@ -21,48 +21,50 @@ using coupling::air_part, coupling::sea_part;
 
 namespace {
 
-/// The particles of a checkpoint into the machine's sea, which must be the same sea.
-void restore_particles(const coupling::Machine& machine, const io::CheckpointReader& file) {
-  if (!machine.particles()) return;
+/// The particles of a checkpoint into the floating system's sea, which must be the same sea.
+void restore_particles(const coupling::FloatingSystem& floating, const io::CheckpointReader& file) {
+  if (!floating.particles()) return;
   try {
-    sea::ParticleState state = machine.particles()->room();
+    sea::ParticleState state = floating.particles()->layout();
     if (file.size("sea/particles") != state.total)
       throw std::invalid_argument("its sea has " + std::to_string(file.size("sea/particles")) +
                                   " values of particles, this one " + std::to_string(state.total));
     const io::Slice<double> mine{state.first, state.values};
     file.read<double>("sea/particles", std::span(&mine, 1));
     state.time_s = file.number("sea/time_s"), state.steps = file.integer("sea/steps");
-    machine.particles()->restore(state);
+    floating.particles()->restore(state);
   } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
 }
 
 /// The particles that the scene starts from, on the ranks that have the sea. Collective; throws on all ranks alike.
-void fill_sea(coupling::Machine& machine, std::span<const Motion> start, const runtime::Parts& parts) {
+void fill_sea(coupling::FloatingSystem& floating, std::span<const Motion> start, const runtime::Parts& parts) {
   coupling::on_parts(parts, [&] {
-    if (parts.has(sea_part)) machine.fill_sea(start, parts.mine());
+    if (parts.has(sea_part)) floating.fill_sea(start, parts.mine());
   });
-  const auto& initial = machine.scenario().sea.initial;
-  if (!machine.particle_plan() || !initial || initial->state != "file") return;
+  const auto& initial = floating.scenario().sea.initial;
+  if (!floating.particle_plan() || !initial || initial->state != "file") return;
   const io::CheckpointReader file = coupling::open_saved(parts.world().comm, initial->file);
-  coupling::on_parts(parts, [&] { restore_particles(machine, file); });
+  coupling::on_parts(parts, [&] { restore_particles(floating, file); });
 }
 
-coupling::Sides sides_in_filled_sea(coupling::Machine& machine, std::span<const Motion> start, const runtime::Parts& parts) {
+coupling::Sides sides_in_filled_sea(coupling::FloatingSystem& floating, std::span<const Motion> start,
+                                    const runtime::Parts& parts) {
   {
     const runtime::Span span("sea/start");
-    fill_sea(machine, start, parts);
+    fill_sea(floating, start, parts);
   }
-  return make_sides(machine, start, parts);
+  return make_sides(floating, start, parts);
 }
 
 /// Particles and surface, as [sea.fields] asks for them.
 class SeaFields final : public Output {
  public:
-  SeaFields(const coupling::Machine& machine, const std::filesystem::path& folder, const runtime::World& world, double resume_s)
-      : machine_(machine), output_(machine, folder, world, resume_s) {
-    const auto& options = machine.scenario().sea.fields;
-    if (!machine.particles() || !options) return;
-    const coupling::Timeline& timeline = machine.timeline();
+  SeaFields(const coupling::FloatingSystem& floating, const std::filesystem::path& folder, const runtime::World& world,
+            double resume_s)
+      : floating_(floating), output_(floating, folder, world, resume_s) {
+    const auto& options = floating.scenario().sea.fields;
+    if (!floating.particles() || !options) return;
+    const coupling::Timeline& timeline = floating.timeline();
     every_.windows = Every::count(options->interval_s, timeline);
     every_.origin = every_.from = std::llround(options->from_s / timeline.window_s());
     every_.to = options->to_s ? std::llround(*options->to_s / timeline.window_s()) : timeline.windows();
@@ -76,9 +78,10 @@ class SeaFields final : public Output {
 
  private:
   void write(std::int64_t window) {
-    output_.write(machine_.timeline().tick_of_window(window) - machine_.first_tick(), machine_.timeline().window_end_s(window));
+    output_.write(floating_.timeline().tick_of_window(window) - floating_.first_tick(),
+                  floating_.timeline().window_end_s(window));
   }
-  const coupling::Machine& machine_;
+  const coupling::FloatingSystem& floating_;
   coupling::SeaOutput output_;
   Every every_;
 };
@@ -86,8 +89,8 @@ class SeaFields final : public Output {
 /// Fields of the air every output.air_interval_s after t = 0 and at the end, where loads along the blades are written too.
 class AirFields final : public Output {
  public:
-  AirFields(const coupling::Machine& machine, coupling::AirSide& air) : machine_(machine), air_(air) {
-    every_.windows = every_.from = Every::count(machine.scenario().output.air_interval_s, machine.timeline());
+  AirFields(const coupling::FloatingSystem& floating, coupling::AirSide& air) : floating_(floating), air_(air) {
+    every_.windows = every_.from = Every::count(floating.scenario().output.air_interval_s, floating.timeline());
   }
   std::string_view label() const override { return "output/air"; }
   bool due(const Windows& done) const override { return every_.due(done) && done.now < done.last; }
@@ -96,52 +99,52 @@ class AirFields final : public Output {
 
  private:
   void write(std::int64_t window) {
-    air_.write_fields(machine_.timeline().tick_of_window(window) - machine_.first_tick(),
-                      machine_.timeline().window_end_s(window));
+    air_.write_fields(floating_.timeline().tick_of_window(window) - floating_.first_tick(),
+                      floating_.timeline().window_end_s(window));
   }
-  const coupling::Machine& machine_;
+  const coupling::FloatingSystem& floating_;
   coupling::AirSide& air_;
   Every every_;
 };
 
 }  // namespace
 
-SystemSimulation::SystemSimulation(coupling::Machine& machine, bodies::BodiesState start, const runtime::Parts& parts,
+SystemSimulation::SystemSimulation(coupling::FloatingSystem& floating, bodies::BodiesState start, const runtime::Parts& parts,
                                    std::size_t records)
-    : machine_(machine),
+    : floating_(floating),
       parts_(parts),
       state_(std::move(start)),
-      window_(machine, sides_in_filled_sea(machine, state_.motions, parts), parts.mine().comm, records) {}
+      window_(floating, sides_in_filled_sea(floating, state_.motions, parts), parts.mine().comm, records) {}
 
 std::int64_t SystemSimulation::file_number(std::int64_t window) const {
-  return machine_.timeline().tick_of_window(window) - machine_.first_tick();
+  return floating_.timeline().tick_of_window(window) - floating_.first_tick();
 }
 
 std::int64_t SystemSimulation::begin() {
-  std::int64_t window = -machine_.held_windows();
-  if (machine_.scenario().start.file.empty()) {
+  std::int64_t window = -floating_.held_windows();
+  if (floating_.scenario().start.file.empty()) {
     window_.begin(state_);  // rotor and bodies begin at t = 0, whatever is held before
-    state_.tick = machine_.first_tick();
+    state_.tick = floating_.first_tick();
   } else {
     window = take_over();
   }
-  log_news();
-  if (machine_.particles()) {
+  write_log_lines();
+  if (floating_.particles()) {
     const runtime::Span span("sea/start");
-    evaluate_particles(machine_, state_);
+    evaluate_particles(floating_, state_);
   }
   start_clocks();
   return window;
 }
 
-/// start.file: the state that another run of the same machine left, whatever its windows and its march.
+/// start.file: the state that another run of the same floating system left, whatever its windows and its march.
 std::int64_t SystemSimulation::take_over() {
-  const io::CheckpointReader file(parts_.world().comm, machine_.scenario().start.file);
+  const io::CheckpointReader file(parts_.world().comm, floating_.scenario().start.file);
   const auto refuse = [&](const std::string& why) {
     throw io::InputError(fmt::format("{} (start.file): {}", file.path().string(), why));
   };
 
-  const coupling::Timeline& timeline = machine_.timeline();
+  const coupling::Timeline& timeline = floating_.timeline();
   const double t = file.number("time_s");
   const std::optional<std::int64_t> windows =
       t == 0.0 ? std::optional<std::int64_t>(0) : coupling::whole_ratio(t, timeline.window_s());
@@ -156,7 +159,7 @@ std::int64_t SystemSimulation::take_over() {
   restore_fluids(file);
   // What the scheme has learnt goes along where scheme and window are the same; else it begins with the state alone.
   const bool same = file.has("coupling/history") &&
-                    file.integer("coupling/scheme") == std::int64_t(machine_.scenario().coupling.scheme) &&
+                    file.integer("coupling/scheme") == std::int64_t(floating_.scenario().coupling.scheme) &&
                     file.number("window_s") == timeline.window_s();
   if (!same || !window_.restore(file.read<double>("coupling/history"))) window_.begin(state_);
   spdlog::info("from t = {:g} s of {}", t, file.path().string());
@@ -171,14 +174,14 @@ void SystemSimulation::restore(const io::CheckpointReader& file) {
   if (!window_.restore(history))
     throw io::InputError(file.path().string() + ": its coupling history is that of another coupling.scheme");
   restore_fluids(file);
-  log_news();
+  write_log_lines();
   start_clocks();
 }
 
 void SystemSimulation::restore_fluids(const io::CheckpointReader& file) {
   coupling::on_parts(parts_, [&] {
     window_.air().restore(file);
-    restore_particles(machine_, file);
+    restore_particles(floating_, file);
   });
 }
 
@@ -188,14 +191,14 @@ void SystemSimulation::save(io::CheckpointWriter& file) {
   file.set("steps", steps_);
   file.write<double>("bodies/state", packed);
   if (const std::vector<double> history = window_.history(); !history.empty()) {
-    file.set("coupling/scheme", std::int64_t(machine_.scenario().coupling.scheme));
+    file.set("coupling/scheme", std::int64_t(floating_.scenario().coupling.scheme));
     file.write<double>("coupling/history", history);
   }
   coupling::write(file, parts_, air_part, window_.air().saved());
-  if (machine_.scenario().resolves_air()) write_air_settings(file, machine_.scenario());
-  if (!machine_.particle_plan()) return;
+  if (floating_.scenario().resolves_air()) write_air_settings(file, floating_.scenario());
+  if (!floating_.particle_plan()) return;
   sea::ParticleState particles;
-  if (parts_.has(sea_part)) particles = machine_.particles()->save();
+  if (parts_.has(sea_part)) particles = floating_.particles()->save();
   file.set("sea/time_s", particles.time_s);  // as rank 0 has it, which has the sea
   file.set("sea/steps", particles.steps);
   coupling::write(file, parts_, sea_part, {{"sea/particles", particles.total, {{particles.first, std::move(particles.values)}}}});
@@ -203,7 +206,7 @@ void SystemSimulation::save(io::CheckpointWriter& file) {
 
 Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
   const auto begin = std::chrono::steady_clock::now();
-  const double end_s = machine_.timeline().window_end_s(window + 1);
+  const double end_s = floating_.timeline().window_end_s(window + 1);
   const std::int64_t steps = window_.bodies().steps();
   coupling::WindowReport report = window_.advance(state_);
   for (int retry = 1; report.of_a_side && !report.stopped && retry <= coupling::most_retries; ++retry) {
@@ -220,24 +223,24 @@ Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
     spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}", end_s, report.log.retries,
                  report.log.cuts, report.log.evaluations, bound_name(report.log.bound));
   if (!report.ok()) return {.failure = report.failure};
-  steps_ += machine_.particle_plan() ? window_.bodies().steps() - steps : machine_.timeline().steps_per_window();
+  steps_ += floating_.particle_plan() ? window_.bodies().steps() - steps : floating_.timeline().steps_per_window();
   return {.windows = 1};
 }
 
 /// Start-up is not in the windows' times. Collective.
 void SystemSimulation::start_clocks() {
-  machine_.reset_clocks();
+  floating_.reset_clocks();
   core_seconds_[3] = runtime::summed(parts_.world().comm, {1e-9 * double(parts_.waited_ns())})[0];
 }
 
-void SystemSimulation::log_news() {
-  for (const std::string& sentence : window_.air().news()) spdlog::info("{}", sentence);
+void SystemSimulation::write_log_lines() {
+  for (const std::string& sentence : window_.air().log_lines()) spdlog::info("{}", sentence);
 }
 
 /// A line of log.txt for a window: how it went, and core-seconds of each side on all ranks; not for single evaluations of a
 /// system without fluids, which are too short to be worth a line. Collective.
 void SystemSimulation::log_window(const coupling::WindowReport& report, double end_s, double wall_s) {
-  const bool resolved = machine_.scenario().resolves_air() || machine_.particle_plan();
+  const bool resolved = floating_.scenario().resolves_air() || floating_.particle_plan();
   if (!resolved && !window_.iterates()) return;
   const coupling::WindowTasks& tasks = window_.tasks();
   const double bodies = parts_.has(sea_part) ? 1e-9 * double(window_.bodies().own_ns()) : 0.0;
@@ -259,7 +262,7 @@ void SystemSimulation::log_window(const coupling::WindowReport& report, double e
 }
 
 void SystemSimulation::declare(io::History& history) {
-  recorder_.emplace(machine_, history);
+  recorder_.emplace(floating_, history);
   window_.declare(history);
 }
 
@@ -267,23 +270,23 @@ bool SystemSimulation::has_rows() const { return parts_.has(sea_part); }
 
 void SystemSimulation::fill_row(std::int64_t window, std::span<double> row) {
   // Loads that are evaluated once more for the row are the output's time.
-  const std::vector<coupling::SourceClock> clocks(machine_.clocks().begin(), machine_.clocks().end());
-  recorder_->fill(row, state_, machine_.timeline().window_end_s(window));
-  machine_.set_clocks(clocks);
+  const std::vector<coupling::SourceClock> clocks(floating_.clocks().begin(), floating_.clocks().end());
+  recorder_->fill(row, state_, floating_.timeline().window_end_s(window));
+  floating_.set_clocks(clocks);
   window_.put(row);
 }
 
 std::vector<std::unique_ptr<Output>> SystemSimulation::outputs(const io::RunDirectory& directory, double resume_s) {
   window_.air().open_output(directory, resume_s);
   std::vector<std::unique_ptr<Output>> outputs;
-  outputs.push_back(std::make_unique<SeaFields>(machine_, directory.fields(), parts_.mine(), resume_s));
-  outputs.push_back(std::make_unique<AirFields>(machine_, window_.air()));
+  outputs.push_back(std::make_unique<SeaFields>(floating_, directory.fields(), parts_.mine(), resume_s));
+  outputs.push_back(std::make_unique<AirFields>(floating_, window_.air()));
   return outputs;
 }
 
 void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) {
   summary.counts.emplace_back("steps", steps_);
-  if (machine_.has_interface()) {
+  if (floating_.has_interface()) {
     const coupling::CoupledWindow::Totals& totals = window_.totals();
     summary.counts.emplace_back("coupling_evaluations", totals.evaluations);
     summary.counts.emplace_back("coupling_retries", totals.retries);
@@ -291,7 +294,7 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
     summary.counts.emplace_back("rotor_evaluations", totals.rotor_calls);
     summary.counts.emplace_back("step_evaluations", totals.body_steps);
   }
-  if (const sea::ParticleSea* sea = machine_.particles()) {
+  if (const sea::ParticleSea* sea = floating_.particles()) {
     summary.counts.emplace_back("particles", std::int64_t(sea->particles()));
     summary.counts.emplace_back("particle_evaluations", sea->evaluations());
     summary.counts.emplace_back("particle_sorts", sea->sorts());
@@ -299,10 +302,10 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
   }
   // Bodies beside particles move within tasks of the sea, and ask for their loads within their own.
   if (parts_.has(sea_part)) {
-    if (machine_.particles()) ledger.move("sea", "bodies/substeps", window_.bodies().own_ns(), window_.bodies().steps());
-    const auto clocks = machine_.clocks();
+    if (floating_.particles()) ledger.move("sea", "bodies/substeps", window_.bodies().own_ns(), window_.bodies().steps());
+    const auto clocks = floating_.clocks();
     for (std::size_t s = 0; s < clocks.size(); ++s)
-      ledger.move("bodies", machine_.system().loads()[s].name + "/loads", clocks[s].ns, clocks[s].calls);
+      ledger.move("bodies", floating_.multibody().loads()[s].name + "/loads", clocks[s].ns, clocks[s].calls);
   }
   if (parts_.split()) describe_sides(summary, ledger);
 }

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "runtime/mpi/parts.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/window.hpp"
 #include "src/run/simulation.hpp"
@@ -14,11 +14,12 @@ namespace spindrift::run {
 
 class SystemSimulation final : public Simulation {
  public:
-  /// `start`: of the bodies at t = 0. `records`: of the trace, per thread. Machine and parts outlive it. Collective.
-  SystemSimulation(coupling::Machine& machine, bodies::BodiesState start, const runtime::Parts& parts, std::size_t records);
+  /// `start`: of the bodies at t = 0. `records`: of the trace, per thread. The floating system and parts outlive it. Collective.
+  SystemSimulation(coupling::FloatingSystem& floating, bodies::BodiesState start, const runtime::Parts& parts,
+                   std::size_t records);
 
-  const coupling::Scenario& scenario() const override { return machine_.scenario(); }
-  const coupling::Timeline& timeline() const override { return machine_.timeline(); }
+  const coupling::Scenario& scenario() const override { return floating_.scenario(); }
+  const coupling::Timeline& timeline() const override { return floating_.timeline(); }
   std::int64_t file_number(std::int64_t window) const override;
 
   std::int64_t begin() override;
@@ -37,11 +38,11 @@ class SystemSimulation final : public Simulation {
   std::int64_t take_over();
   void restore_fluids(const io::CheckpointReader& file);
   void start_clocks();
-  void log_news();
+  void write_log_lines();
   void log_window(const coupling::WindowReport& report, double end_s, double wall_s);
   void describe_sides(io::Summary& summary, const runtime::Ledger& ledger);
 
-  coupling::Machine& machine_;
+  coupling::FloatingSystem& floating_;
   const runtime::Parts& parts_;
   bodies::BodiesState state_;
   std::int64_t steps_ = 0;  ///< of the bodies in all windows, repeated ones counted once

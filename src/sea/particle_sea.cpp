@@ -109,9 +109,9 @@ class Sea final : public ParticleSea {
   void record(runtime::Graph& graph, WindowDriver& driver, int first_tag) override {
     driver_ = &driver;
     sph::SeaState<dim, Real>& state = sea_.state();
-    state.pace = {.choose = [this](double limit) {
+    state.step_control = {.choose = [this](double limit) {
       const WindowDriver::Step step = driver_->choose(limit);
-      return sph::Pace::Choice{step.dt, step.last};
+      return sph::StepControl::Choice{step.dt, step.last};
     }};
     if (moves_solids())
       state.move_bodies = [this](const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) {
@@ -142,9 +142,9 @@ class Sea final : public ParticleSea {
     const std::string what = failure->what(), told = what.starts_with("t = ") ? "" : "t = " + sph::in_words(t_) + " s: ";
     throw NumericalFailure(told + what, failure->place, failure->step, told.empty() ? failure->time_s : t_, failure->limit);
   }
-  void keep(int note) override { notes_[std::size_t(note)] = {sea_.save(), loads_, contacts_, motions_}; }
-  void back(int note) override {
-    const Noted& n = notes_[std::size_t(note)];
+  void take_snapshot(int slot) override { snapshots_[std::size_t(slot)] = {sea_.save(), loads_, contacts_, motions_}; }
+  void return_to(int slot) override {
+    const Saved& n = snapshots_[std::size_t(slot)];
     sea_.restore(n.sea);
     loads_ = n.loads, contacts_ = n.contacts, motions_ = n.motions;
   }
@@ -222,11 +222,11 @@ class Sea final : public ParticleSea {
   }
 
   ParticleState save() const override {
-    ParticleState state = room();
+    ParticleState state = layout();
     state.values = sph::by_identity(sea_, particles_, comm_).values;
     return state;
   }
-  ParticleState room() const override {
+  ParticleState layout() const override {
     const std::size_t size = sph::values_per_particle<dim>(sea_.parameters());
     const auto mine = sph::identities_of(particles_, runtime::rank_in(comm_), ranks_);
     return {std::int64_t(mine.first * size), std::int64_t(particles_ * size),
@@ -303,7 +303,7 @@ class Sea final : public ParticleSea {
   bool settling_ = false;
   double t_ = 0.0;  ///< at the window's start
   // Windows as tasks.
-  struct Noted {
+  struct Saved {
     sph::Saved<dim> sea;
     std::vector<Wrench> loads, contacts;
     std::vector<Motion> motions;
@@ -311,7 +311,7 @@ class Sea final : public ParticleSea {
   WindowDriver* driver_ = nullptr;
   std::vector<std::unique_ptr<sph::StepTasks<dim, Real>>> tasks_;
   bool moved_ = false;  ///< groups went to other ranks
-  std::array<Noted, 2> notes_;
+  std::array<Saved, 2> snapshots_;
 };
 
 template <int dim, class Real>

@@ -133,8 +133,8 @@ class ParticleSea {
   /// Throws the NumericalFailure of the window, or runtime::StopAsked where it was given up.
   virtual void close() = 0;
   /// Notes the state (0, 1), and goes back to it bit for bit.
-  virtual void keep(int note) = 0;
-  virtual void back(int note) = 0;
+  virtual void take_snapshot(int slot) = 0;
+  virtual void return_to(int slot) = 0;
 
   /// Of the last evaluation, by body of the scene, each about the place of its centre of mass then; zero for bodies without
   /// shapes.
@@ -164,7 +164,7 @@ class ParticleSea {
 
   virtual ParticleState save() const = 0;
   /// Which values restore() wants on this rank.
-  virtual ParticleState room() const = 0;
+  virtual ParticleState layout() const = 0;
   virtual void restore(const ParticleState& state) = 0;
 
   virtual std::size_t particles() const = 0;

@@ -28,11 +28,11 @@ TEST_CASE("case 1 settles where the paper finds its machine, and where the stati
   CHECK(mean("platform.x_m") == Approx(0.215).margin(0.03));
 
   scene::Document document = scene::load(case1, {"start.equilibrium=true"});
-  Machine machine(read_scenario(document));
-  const Start rest = make_start(machine);
+  FloatingSystem floating(read_scenario(document));
+  const Start rest = make_start(floating);
   const Motion& platform = rest.state.motions[0];
-  const Motion described = described_motion(machine.scenario().bodies[0].options);
-  const Eigen::Vector3d at = platform.point(machine.reference_point(0)) - described.point(machine.reference_point(0));
+  const Motion described = described_motion(floating.scenario().bodies[0].options);
+  const Eigen::Vector3d at = platform.point(floating.reference_point(0)) - described.point(floating.reference_point(0));
   CHECK(at.x() == Approx(mean("platform.x_m")).margin(0.005));
   CHECK(at.z() == Approx(mean("platform.z_m")).margin(0.005));
   CHECK(euler_angles(platform.attitude).y() / radians_per_degree == Approx(mean("platform.pitch_deg")).margin(0.05));
@@ -44,10 +44,10 @@ TEST_CASE("case 1 settles where the paper finds its machine, and where the stati
 
 TEST_CASE("the equilibrium of case 3 has the thrust of a rotor that turns", "[coupled][fast]") {
   scene::Document document = scene::load(input("leble_barakos/case3_engineering.toml"));  // its waves grow from nothing
-  Machine machine(read_scenario(document));
-  const Start rest = make_start(machine);
-  const aero::RotorState rotor = machine.rotor()->state(0.0, rest.state.motions);
-  CHECK(machine.rotor()->load(0.0, rotor, 1.0).thrust == Approx(1.50e6).epsilon(0.03));
+  FloatingSystem floating(read_scenario(document));
+  const Start rest = make_start(floating);
+  const aero::RotorState rotor = floating.rotor()->state(0.0, rest.state.motions);
+  CHECK(floating.rotor()->load(0.0, rotor, 1.0).thrust == Approx(1.50e6).epsilon(0.03));
   const Eigen::Vector3d angles = euler_angles(rest.state.motions[0].attitude) / radians_per_degree;
   CHECK(angles.y() == Approx(5.2).margin(0.4));
   CHECK(std::abs(angles.z()) < 1.5);  // the torque of a shaft that leans

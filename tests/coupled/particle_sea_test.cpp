@@ -15,8 +15,8 @@ namespace {
 std::string refusal(const std::string& file, const std::vector<std::string>& overrides) {
   try {
     scene::Document document = scene::load(test::input(file), overrides);
-    Machine machine(read_scenario(document));
-    require_stable(machine, stability(machine, make_start(machine).state));
+    FloatingSystem floating(read_scenario(document));
+    require_stable(floating, stability(floating, make_start(floating).state));
   } catch (const scene::SceneError& e) { return e.what(); }
   return "";
 }

@@ -55,21 +55,21 @@ class Listening final : public AirSide {
  public:
   explicit Listening(std::unique_ptr<AirSide> inner) : inner_(std::move(inner)) {}
   aero::RotorLoad begin(double t, const aero::RotorState& now) override { return inner_->begin(t, now); }
-  void aim(double t, double dt, const aero::RotorState& s) override {
+  void prepare(double t, double dt, const aero::RotorState& s) override {
     motion << std::setprecision(17) << t << ' ' << dt;
     for (const Eigen::Vector3d& v : {s.hub, s.hub_velocity, s.axis, s.up, s.omega})
       motion << ' ' << v.x() << ' ' << v.y() << ' ' << v.z();
     motion << ' ' << s.azimuth << ' ' << s.speed << '\n';
-    inner_->aim(t, dt, s);
+    inner_->prepare(t, dt, s);
   }
   Tasks record(runtime::Graph& graph) override { return inner_->record(graph); }
-  aero::RotorLoad answer() override {
-    answers.push_back(inner_->answer());
+  aero::RotorLoad load_at_end() override {
+    answers.push_back(inner_->load_at_end());
     return answers.back();
   }
   const aero::RotorLoad* written() const override { return inner_->written(); }
-  void keep(Note n) override { inner_->keep(n); }
-  void back(Note n) override { inner_->back(n); }
+  void take_snapshot(Snapshot n) override { inner_->take_snapshot(n); }
+  void return_to(Snapshot n) override { inner_->return_to(n); }
 
   std::ostringstream motion;
   std::vector<aero::RotorLoad> answers;
@@ -84,31 +84,31 @@ TEST_CASE("what the air answers is what the bodies feel, and its motion from a f
           "[coupled][air][fast]") {
   const std::string sectors = GENERATE("sectors = \"one\"\n", "sectors = \"all\"\n");
   INFO(sectors);
-  Machine machine(on_platform(tiny + sectors, quick));
-  bodies::BodiesState state = make_start(machine).state;
-  const aero::RotorState first = machine.rotor()->state(0.0, state.motions);
-  auto owned = std::make_unique<Listening>(make_air(machine, first, alone));
+  FloatingSystem floating(on_platform(tiny + sectors, quick));
+  bodies::BodiesState state = make_start(floating).state;
+  const aero::RotorState first = floating.rotor()->state(0.0, state.motions);
+  auto owned = std::make_unique<Listening>(make_air(floating, first, alone));
   const Listening& heard = *owned;
-  CoupledWindow window(machine, {std::move(owned), nullptr});
+  CoupledWindow window(floating, {std::move(owned), nullptr});
   window.begin(state);
   for (int n = 0; n < 3; ++n) REQUIRE(window.advance(state).ok());
   const aero::RotorLoad& load = heard.answers.back();
   CHECK(load.thrust > 3e5);
 
-  const bodies::Evaluation& now = machine.system().evaluate(state, 0.3);
-  const std::size_t rotor = machine.system().loads().size() - 1;
-  REQUIRE(machine.system().loads()[rotor].name == "rotor");
+  const bodies::Evaluation& now = floating.multibody().evaluate(state, 0.3);
+  const std::size_t rotor = floating.multibody().loads().size() - 1;
+  REQUIRE(floating.multibody().loads()[rotor].name == "rotor");
   std::size_t b = 0;
-  while (machine.system().bodies()[b].name != "rotor") ++b;
-  const Wrench& felt = now.by_source[rotor][b];
-  const Eigen::Vector3d arm = machine.rotor()->state(0.3, state.motions).hub - state.motions[b].position;
-  CHECK((felt.force - load.force).norm() < 1e-13 * load.force.norm());
-  CHECK((felt.moment - load.moment - arm.cross(load.force)).norm() < 1e-13 * load.moment.norm());
+  while (floating.multibody().bodies()[b].name != "rotor") ++b;
+  const Wrench& computed = now.by_source[rotor][b];
+  const Eigen::Vector3d arm = floating.rotor()->state(0.3, state.motions).hub - state.motions[b].position;
+  CHECK((computed.force - load.force).norm() < 1e-13 * load.force.norm());
+  CHECK((computed.moment - load.moment - arm.cross(load.force)).norm() < 1e-13 * load.moment.norm());
 
   const Folder folder("motion");
   std::filesystem::create_directories(folder.path());
   std::ofstream(folder.path() / "motion.txt") << heard.motion.str();
-  const std::unique_ptr<AirSide> again = make_air(machine, first, alone);
+  const std::unique_ptr<AirSide> again = make_air(floating, first, alone);
   again->begin(0.0, first);
   runtime::Graph graph;
   REQUIRE(again->record(graph) != Tasks::none);
@@ -120,9 +120,9 @@ TEST_CASE("what the air answers is what the bodies feel, and its motion from a f
     aero::RotorState s;
     for (Eigen::Vector3d* v : {&s.hub, &s.hub_velocity, &s.axis, &s.up, &s.omega}) file >> v->x() >> v->y() >> v->z();
     file >> s.azimuth >> s.speed;
-    again->aim(t, dt, s);
+    again->prepare(t, dt, s);
     executor.run();
-    const aero::RotorLoad answer = again->answer();
+    const aero::RotorLoad answer = again->load_at_end();
     CHECK(answer.force == heard.answers.at(count).force);
     CHECK(answer.moment == heard.answers.at(count).moment);
     ++count;
@@ -138,9 +138,9 @@ TEST_CASE("wind that grows with height tilts a rotor whose air has settled in th
     std::vector<std::string> settings = quick;
     if (grows)
       settings.insert(settings.end(), {"wind.profile='power_law'", "wind.shear_exponent=0.2", "wind.reference_height_m=119.0"});
-    Machine machine(on_platform(tiny + "sectors = \"all\"\n", settings));
-    const aero::RotorState first = machine.rotor()->state(0.0, make_start(machine).state.motions);
-    const std::unique_ptr<AirSide> air = make_air(machine, first, alone);
+    FloatingSystem floating(on_platform(tiny + "sectors = \"all\"\n", settings));
+    const aero::RotorState first = floating.rotor()->state(0.0, make_start(floating).state.motions);
+    const std::unique_ptr<AirSide> air = make_air(floating, first, alone);
     air->begin(0.0, first);
     runtime::Graph graph;
     REQUIRE(air->record(graph) != Tasks::none);
@@ -149,9 +149,9 @@ TEST_CASE("wind that grows with height tilts a rotor whose air has settled in th
     for (int n = 1; n <= 6; ++n) {
       aero::RotorState s = first;
       s.azimuth += 0.1 * n * s.speed;
-      air->aim(0.1 * n, 0.1, s);
+      air->prepare(0.1 * n, 0.1, s);
       executor.run();
-      load = air->answer();
+      load = air->load_at_end();
       UNSCOPED_INFO("window " << n << ": thrust " << load.thrust << ", tilt " << load.moment.y());
     }
     tilt[grows] = load.moment.y(), thrust[grows] = load.thrust;
@@ -164,12 +164,12 @@ TEST_CASE("wind that grows with height tilts a rotor whose air has settled in th
 
 TEST_CASE("thrust falls as the hub of the demo's rotor moves downwind", "[coupled][air][nightly]") {
   // Hub at -1 and +1 m/s from t = 0 on, after the air has settled. The first second sees the wake of the hub at rest.
-  Machine machine(on_platform("sectors = \"one\"\n", {"aero.flow.cfl_max=100.0", "aero.flow.drop=1e-2",
-                                                      "aero.flow.max_pseudo_steps=8", "start.air_steps=150"}));
-  const aero::RotorState first = machine.rotor()->state(0.0, make_start(machine).state.motions);
+  FloatingSystem floating(on_platform("sectors = \"one\"\n", {"aero.flow.cfl_max=100.0", "aero.flow.drop=1e-2",
+                                                              "aero.flow.max_pseudo_steps=8", "start.air_steps=150"}));
+  const aero::RotorState first = floating.rotor()->state(0.0, make_start(floating).state.motions);
   std::vector<double> thrust[2];
   for (int side = 0; side < 2; ++side) {
-    const std::unique_ptr<AirSide> air = make_air(machine, first, alone);
+    const std::unique_ptr<AirSide> air = make_air(floating, first, alone);
     air->begin(0.0, first);
     runtime::Graph graph;
     REQUIRE(air->record(graph) != Tasks::none);
@@ -177,9 +177,9 @@ TEST_CASE("thrust falls as the hub of the demo's rotor moves downwind", "[couple
     for (int n = 1; n <= 50; ++n) {
       aero::RotorState s = first;
       s.hub += (side ? 0.1 : -0.1) * n * first.axis, s.azimuth += 0.1 * n * first.speed;
-      air->aim(0.1 * n, 0.1, s);
+      air->prepare(0.1 * n, 0.1, s);
       executor.run();
-      thrust[side].push_back(air->answer().thrust);
+      thrust[side].push_back(air->load_at_end().thrust);
     }
   }
   for (const int n : {9, 19, 29, 39, 49})

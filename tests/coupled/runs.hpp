@@ -36,12 +36,12 @@ inline std::string input(const std::string& name) { return std::string(SPINDRIFT
 inline io::Summary run_scene(const std::string& file, const std::vector<std::string>& overrides, const std::filesystem::path& out,
                              const run::RunSettings& settings = {.quiet = true}) {
   scene::Document document = scene::load(file, overrides);
-  Machine machine(read_scenario(document));
-  const Start start = make_start(machine);
+  FloatingSystem floating(read_scenario(document));
+  const Start start = make_start(floating);
   const runtime::World world{MPI_COMM_WORLD, 0, 1};
   const io::RunDirectory directory(world.comm, out, settings.restart ? io::Existing::resume : io::Existing::refuse);
   runtime::StopRequest stop;
-  return run::run(machine, start, directory, world, settings, stop);
+  return run::run(floating, start, directory, world, settings, stop);
 }
 
 inline std::string text_of(const std::filesystem::path& file) {

@@ -94,10 +94,10 @@ struct Seen {
 };
 Seen seen(const sea::ParticleSea& sea) { return {{sea.loads().begin(), sea.loads().end()}, sea.extent().kinetic_energy}; }
 
-std::unique_ptr<Machine> platform() {
+std::unique_ptr<FloatingSystem> platform() {
   scene::Document document = scene::load(test::input("leble_barakos/case1_demo.toml"),
                                          {"sea.particles.spacing_m=4.0", "sea.initial.settle_s=0.1", "time.end_s=0.3"});
-  return std::make_unique<Machine>(read_scenario(document));
+  return std::make_unique<FloatingSystem>(read_scenario(document));
 }
 
 }  // namespace
@@ -109,31 +109,31 @@ TEST_CASE("bodies' motion from a file gives the sea's bits of moving bodies", "[
   std::vector<Seen> moved;
   {
     std::ofstream file(folder.path() / "motion.txt");
-    const std::unique_ptr<Machine> machine = platform();
-    bodies::BodiesState state = make_start(*machine).state;
-    machine->fill_sea(state.motions, alone);
-    state.tick = machine->first_tick();
+    const std::unique_ptr<FloatingSystem> floating = platform();
+    bodies::BodiesState state = make_start(*floating).state;
+    floating->fill_sea(state.motions, alone);
+    state.tick = floating->first_tick();
     Heard heard(file);
-    const std::unique_ptr<BodySide> side =
-        make_particle_side(*machine, [&heard](sea::WindowDriver& bodies) -> sea::WindowDriver& { return heard.between(bodies); });
+    const std::unique_ptr<BodySide> side = make_particle_side(
+        *floating, [&heard](sea::WindowDriver& bodies) -> sea::WindowDriver& { return heard.between(bodies); });
     runtime::Graph graph;
     REQUIRE(side->record(graph) != Tasks::none);
     runtime::Executor executor(std::move(graph), {.threads = 2});
     for (int n = 0; n < 4; ++n) {
       REQUIRE_FALSE(side->outdated());
-      write(file, double(state.tick) * machine->timeline().tick_s()), write(file, double(state.tick < 0)),
+      write(file, double(state.tick) * floating->timeline().tick_s()), write(file, double(state.tick < 0)),
           write(file, state.motions);
-      side->aim(state, state.tick + machine->timeline().steps_per_window());
+      side->prepare(state, state.tick + floating->timeline().steps_per_window());
       executor.run();
       state = side->finish();
-      moved.push_back(seen(*machine->particles()));
+      moved.push_back(seen(*floating->particles()));
     }
     CHECK(state.motions[0].velocity.norm() > 1e-3);  // they do move
   }
   std::ifstream file(folder.path() / "motion.txt");
-  const std::unique_ptr<Machine> machine = platform();
-  machine->fill_sea(make_start(*machine).state.motions, alone);
-  sea::ParticleSea& sea = *machine->particles();
+  const std::unique_ptr<FloatingSystem> floating = platform();
+  floating->fill_sea(make_start(*floating).state.motions, alone);
+  sea::ParticleSea& sea = *floating->particles();
   Read read(file);
   runtime::Graph graph;
   sea.record(graph, read, first_tag);

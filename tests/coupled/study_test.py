@@ -68,7 +68,7 @@ class Study(unittest.TestCase):
     def result(self):
         return json.loads((self.out / "study.json").read_text())
 
-    def test_the_answer_names_rung_cost_and_confidence_and_a_second_call_runs_nothing(self):
+    def test_the_rotor_load_names_rung_cost_and_confidence_and_a_second_call_runs_nothing(self):
         done = self.study()
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertRegex(done.stdout, r"answer: cheapest within 5 % of the deviation of buoy.z_m: 'base-step_0\.\d+'; costs .* confidence")

@@ -100,8 +100,8 @@ void Sorting<dim, Real>::migrate(MPI_Comm comm) {
       continue;
     }
     const int group = int(key_[slot]) / store_.owners;
-    if (territory_.owns(group)) continue;
-    runtime::Packer& to = away[std::size_t(territory_.rank_of_group[std::size_t(group)])];
+    if (subdomain_.owns(group)) continue;
+    runtime::Packer& to = away[std::size_t(subdomain_.rank_of_group[std::size_t(group)])];
     to.put_one(key_[slot]);
     to.put_one(store_.id[slot]);
     for (const Array<double>* array : arrays) to.put_one((*array)[slot]);
@@ -124,11 +124,11 @@ void Sorting<dim, Real>::migrate(MPI_Comm comm) {
 
   // Count, then put each particle into its bin.
   std::vector<std::uint32_t> place(std::size_t(columns_.groups()), 0);  // of a group among the own ones
-  for (std::size_t n = 0; n < territory_.own.size(); ++n) place[std::size_t(territory_.own[n])] = std::uint32_t(n);
+  for (std::size_t n = 0; n < subdomain_.own.size(); ++n) place[std::size_t(subdomain_.own[n])] = std::uint32_t(n);
   const auto bin_of = [&](std::uint32_t key) {
     return bin(place[key / std::uint32_t(store_.owners)], int(key % std::uint32_t(store_.owners)));
   };
-  first_.assign(territory_.own.size() * std::size_t(store_.owners) + 1, 0);
+  first_.assign(subdomain_.own.size() * std::size_t(store_.owners) + 1, 0);
   for (const std::uint32_t key : key_)
     if (key != no_particle) ++first_[bin_of(key) + 1];
   for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
@@ -157,8 +157,8 @@ void Sorting<dim, Real>::lay_out() {
   store_.groups.assign(std::size_t(columns_.groups()), Group{});
   store_.owner.clear();
   store_.longest = 0;
-  for (std::size_t own = 0; own < territory_.own.size(); ++own) {
-    Group& group = store_.groups[std::size_t(territory_.own[own])];
+  for (std::size_t own = 0; own < subdomain_.own.size(); ++own) {
+    Group& group = store_.groups[std::size_t(subdomain_.own[own])];
     group.fluid = std::uint32_t(store_.owner.size());
     for (int owner = 0; owner < store_.owners; ++owner) {
       if (owner == 1) group.solid = std::uint32_t(store_.owner.size());
@@ -203,7 +203,7 @@ void Sorting<dim, Real>::anchor(int part) {
 
 template <int dim, class Real>
 void Sorting<dim, Real>::show(MPI_Comm comm) {
-  show_halo(store_, columns_, territory_, comm);
+  exchange_halo_structure(store_, columns_, subdomain_, comm);
   source_ = {};
 }
 
@@ -227,10 +227,10 @@ void Sorting<dim, Real>::make_anchors() {
 }
 
 template <int dim, class Real>
-void show_halo(Store<dim, Real>& store, const Columns<dim>& columns, const Territory& territory, MPI_Comm comm) {
+void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& columns, const Subdomain& subdomain, MPI_Comm comm) {
   store.corner = columns.domain().low;
   std::vector<runtime::Bytes> parcels(std::size_t(runtime::ranks_in(comm)));
-  for (const Territory::Border& border : territory.borders) {
+  for (const Subdomain::Border& border : subdomain.borders) {
     runtime::Packer packer;
     for (const int g : border.shown) {
       const Group& group = store.groups[std::size_t(g)];
@@ -245,7 +245,7 @@ void show_halo(Store<dim, Real>& store, const Columns<dim>& columns, const Terri
   if (runtime::ranks_in(comm) > 1) {
     const auto came = runtime::exchange(comm, parcels);
     const auto append = [](auto& to, const auto& values) { to.insert(to.end(), values.begin(), values.end()); };
-    for (const Territory::Border& border : territory.borders) {
+    for (const Subdomain::Border& border : subdomain.borders) {
       runtime::Unpacker from(came[std::size_t(border.rank)]);
       for (const int g : border.seen) {
         Group& group = store.groups[std::size_t(g)];
@@ -272,7 +272,7 @@ void show_halo(Store<dim, Real>& store, const Columns<dim>& columns, const Terri
 }
 
 template <int dim, class Real>
-void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, const Territory& territory,
+void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, const Subdomain& subdomain,
           MPI_Comm comm, double anchor_step) {
   // A provisional order, one owner per cluster, which the sort then replaces.
   const auto extra_planes = store.extra_planes;
@@ -285,7 +285,7 @@ void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Colum
     return columns.domain().contains(seed.position) ? columns.group(seed.position) : 0;  // the sort lists those outside as lost
   };
   for (std::size_t n = 0; n < seeds.size(); ++n)
-    if (territory.owns(group_of(seeds[n]))) of_owner[seeds[n].owner].push_back(std::uint32_t(n));
+    if (subdomain.owns(group_of(seeds[n]))) of_owner[seeds[n].owner].push_back(std::uint32_t(n));
   for (int owner = 0; owner < store.owners; ++owner) {
     for (const std::uint32_t n : of_owner[std::size_t(owner)]) {
       for (int k = 0; k < dim; ++k) store.x[k].push_back(seeds[n].position[k]), store.v[k].push_back(seeds[n].velocity[k]);
@@ -299,13 +299,13 @@ void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Colum
       store.x[k].resize(clusters * cluster_size, 0.0), store.v[k].resize(clusters * cluster_size, 0.0);
     store.owner.resize(clusters, std::uint16_t(owner));
   }
-  Sorting<dim, Real>(store, columns, territory, anchor_step).all(comm);
+  Sorting<dim, Real>(store, columns, subdomain, anchor_step).all(comm);
 }
 
 #define SPINDRIFT_SPH_INSTANTIATE(dim, Real)                                                                                    \
   template class Sorting<dim, Real>;                                                                                            \
-  template void show_halo<dim, Real>(Store<dim, Real>&, const Columns<dim>&, const Territory&, MPI_Comm);                       \
-  template void fill<dim, Real>(Store<dim, Real>&, std::span<const Seed<dim>>, const Columns<dim>&, const Territory&, MPI_Comm, \
+  template void exchange_halo_structure<dim, Real>(Store<dim, Real>&, const Columns<dim>&, const Subdomain&, MPI_Comm);         \
+  template void fill<dim, Real>(Store<dim, Real>&, std::span<const Seed<dim>>, const Columns<dim>&, const Subdomain&, MPI_Comm, \
                                 double);
 SPINDRIFT_SPH_INSTANTIATE(2, float)
 SPINDRIFT_SPH_INSTANTIATE(2, double)

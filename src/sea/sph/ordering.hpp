@@ -11,7 +11,7 @@
 
 #include "runtime/mpi/exchange.hpp"
 #include "src/sea/sph/store.hpp"
-#include "src/sea/sph/territory.hpp"
+#include "src/sea/sph/subdomain.hpp"
 
 namespace spindrift::sph {
 
@@ -19,10 +19,10 @@ template <int dim, class Real>
 class Sorting {
  public:
   static constexpr int parts = 32;
-  Sorting(Store<dim, Real>& store, const Columns<dim>& columns, const Territory& territory, double anchor_step)
+  Sorting(Store<dim, Real>& store, const Columns<dim>& columns, const Subdomain& subdomain, double anchor_step)
       : store_(store),
         columns_(columns),
-        territory_(territory),
+        subdomain_(subdomain),
         anchor_step_(anchor_step),
         arrays_(store.deviation_before.empty() ? 2 * dim + 2 : 3 * dim + 3) {}
 
@@ -53,7 +53,7 @@ class Sorting {
 
   Store<dim, Real>& store_;
   const Columns<dim>& columns_;
-  const Territory& territory_;
+  const Subdomain& subdomain_;
   double anchor_step_;
   int arrays_;  // of a particle: position, velocity, deviation, those of one step earlier with Verlet's step, identity
   std::vector<std::uint32_t> key_;  // group * owners + owner, of each slot
@@ -64,22 +64,22 @@ class Sorting {
 
 /// Shows and sees the structure of the halo (clusters, owners, identities, anchors) and makes room for the planes. Collective.
 template <int dim, class Real>
-void show_halo(Store<dim, Real>& store, const Columns<dim>& columns, const Territory& territory, MPI_Comm comm);
+void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& columns, const Subdomain& subdomain, MPI_Comm comm);
 
-/// Fills an empty store with the seeds in the territory's groups; identities are the places in `seeds`, which all ranks have.
+/// Fills an empty store with the seeds in the subdomain's groups; identities are the places in `seeds`, which all ranks have.
 /// Collective.
 template <int dim, class Real>
-void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, const Territory& territory,
+void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, const Subdomain& subdomain,
           MPI_Comm comm, double anchor_step);
 
 /// The same where one rank has all.
 template <int dim, class Real>
 void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, double anchor_step) {
-  fill(store, seeds, columns, whole_territory(columns), MPI_COMM_SELF, anchor_step);
+  fill(store, seeds, columns, whole_subdomain(columns), MPI_COMM_SELF, anchor_step);
 }
 template <int dim, class Real>
 void sort(Store<dim, Real>& store, const Columns<dim>& columns, double anchor_step) {
-  const Territory whole = whole_territory(columns);
+  const Subdomain whole = whole_subdomain(columns);
   Sorting<dim, Real>(store, columns, whole, anchor_step).all(MPI_COMM_SELF);
 }
 

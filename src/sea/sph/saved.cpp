@@ -129,7 +129,7 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
   store.groups.assign(std::size_t(sea.columns.groups()), Group{});
   std::size_t clusters = 0;
   store.longest = 0;
-  for (const int g : sea.territory.own) {
+  for (const int g : sea.subdomain.own) {
     const Place& place = places[std::size_t(g)];
     if (place.piece == nullptr) throw std::invalid_argument("sea: a saved state lacks group " + std::to_string(g));
     Group& group = store.groups[std::size_t(g)];
@@ -141,7 +141,7 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
   for (int k = 0; k < dim; ++k) store.anchor[k].resize(clusters);
   for_arrays<Store<dim, Real>, dim>(store, sea.p.step == StepChoice::verlet,
                                     [&](auto& array) { array.resize(clusters * cluster_size); });
-  for (const int g : sea.territory.own) {
+  for (const int g : sea.subdomain.own) {
     const Place& place = places[std::size_t(g)];
     const Saved<dim>& piece = *place.piece;
     const std::size_t to = store.groups[std::size_t(g)].fluid, count = place.water + place.solid;
@@ -165,7 +165,7 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
   plan.acceleration = n[6], plan.limit = n[7], plan.drift = n[8], plan.solid_drift = n[9], plan.way = n[10];
   plan.solid_way = n[11], plan.solid_path = n[13];
   for (const Saved<dim>& piece : pieces)
-    plan.shifted = std::max(plan.shifted, piece.plan[12]);  // each rank's own since the last look
+    plan.shifted = std::max(plan.shifted, piece.plan[12]);  // each rank's own since the last check of the limits
   sea.work = {long(n[14]), long(n[15]), long(n[16])};
   if (s.motions.size() != 13 * sea.solids.size())
     throw std::invalid_argument("sea: a saved state has " + std::to_string(s.motions.size() / 13) + " bodies, the scene " +

@@ -37,7 +37,7 @@ struct Saved {
 template <int dim, class Real>
 Saved<dim> save_groups(const SeaState<dim, Real>& sea, std::span<const int> groups);
 
-/// Makes the store hold the own groups of the territory, found in the pieces; then show_halo must follow. Throws
+/// Makes the store hold the own groups of the subdomain, found in the pieces; then exchange_halo_structure must follow. Throws
 /// std::invalid_argument where a group is missing or given twice.
 template <int dim, class Real>
 void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces);

@@ -12,7 +12,7 @@ namespace spindrift::sph {
 template <int dim, class Real>
 void set_schemes(SeaState<dim, Real>& sea) {
   const Parameters& p = sea.p;
-  const Schemes<dim, Real> schemes(sea.store, sea.columns, sea.territory, p);
+  const Schemes<dim, Real> schemes(sea.store, sea.columns, sea.subdomain, p);
   sea.rates = schemes.rates(), sea.strain = schemes.strain(), sea.boundary = schemes.boundary(sea.ghosts);
   sea.filter = schemes.filter(), sea.shifting = schemes.shifting();
   auto& planes = sea.store.extra_planes;

@@ -10,22 +10,22 @@
 #include "kernels/sph/kernel_wendland.hpp"
 #include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/parameters.hpp"
+#include "src/sea/sph/subdomain.hpp"
 #include "src/sea/sph/sweep_pairs.hpp"
-#include "src/sea/sph/territory.hpp"
 
 namespace spindrift::sph {
 
 template <int dim, class Real>
-using GroupSweep = std::function<void(Real* sums, int group, Meetings<dim, Real>&)>;
+using GroupSweep = std::function<void(Real* sums, int group, NeighbourLists<dim, Real>&)>;
 template <int dim, class Real>
 using GroupBoundary = std::function<void(Store<dim, Real>&, int group, Candidates<dim, Real>&)>;
 
-/// Makes sweeps over one store; the store, the columns and the territory must outlive them.
+/// Makes sweeps over one store; the store, the columns and the subdomain must outlive them.
 template <int dim, class Real>
 class Schemes {
  public:
-  Schemes(const Store<dim, Real>& store, const Columns<dim>& columns, const Territory& territory, const Parameters& p)
-      : store_(store), columns_(columns), territory_(territory), p_(p) {
+  Schemes(const Store<dim, Real>& store, const Columns<dim>& columns, const Subdomain& subdomain, const Parameters& p)
+      : store_(store), columns_(columns), subdomain_(subdomain), p_(p) {
     double length = 0.0;
     for (int k = 0; k < dim; ++k) length += columns.domain().high[k] - columns.domain().low[k];
     reach_ = float(p.reach() + 4e-7 * length);  // boxes are floats from the corner of the domain
@@ -50,15 +50,15 @@ class Schemes {
   GroupSweep<dim, Real> laminar() const;
   template <class Water, class Solid>
   GroupSweep<dim, Real> sweep(const Water& water, const Solid& solid) const {
-    return [&store = store_, &columns = columns_, &territory = territory_, reach = reach_, water, solid](
-               Real* sums, int group, Meetings<dim, Real>& meets) {
-      sweep_pairs(store, sums, columns, group, reach, meets, water, solid, [&](int other) { return territory.owns(other); });
+    return [&store = store_, &columns = columns_, &subdomain = subdomain_, reach = reach_, water, solid](
+               Real* sums, int group, NeighbourLists<dim, Real>& meets) {
+      sweep_pairs(store, sums, columns, group, reach, meets, water, solid, [&](int other) { return subdomain.owns(other); });
     };
   }
 
   const Store<dim, Real>& store_;
   const Columns<dim>& columns_;
-  const Territory& territory_;
+  const Subdomain& subdomain_;
   const Parameters& p_;
   float reach_;
 };

@@ -28,13 +28,13 @@ Parameters with_room_for_ghosts(Parameters p, std::span<const Seed<dim>> seeds) 
 
 template <int dim, class Real>
 SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds,
-                          Machine machine)
-    : machine_(std::move(machine)),
-      comm_(machine_.comm),
+                          Resources resources)
+    : resources_(std::move(resources)),
+      comm_(resources_.comm),
       s_(with_room_for_ghosts(parameters, seeds), domain),
       particles_(seeds.size()) {
-  if (machine_.threads <= 0) machine_.threads = omp_get_max_threads();
-  std::vector<int> rank_of_group = machine_.rank_of_group;
+  if (resources_.threads <= 0) resources_.threads = omp_get_max_threads();
+  std::vector<int> rank_of_group = resources_.rank_of_group;
   if (rank_of_group.empty()) {
     std::vector<GroupCount> counts(std::size_t(s_.columns.groups()));
     for (int g = 0; g < s_.columns.groups(); ++g) counts[std::size_t(g)] = {g, 0, 0};
@@ -53,7 +53,7 @@ SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domai
   s_.ghosts = Ghosts<dim>(seeds);
   set_territory(std::move(rank_of_group));
   set_schemes(s_);
-  fill(s_.store, seeds, s_.columns, s_.territory, comm_.get(), s_.p.anchor_step());
+  fill(s_.store, seeds, s_.columns, s_.subdomain, comm_.get(), s_.p.anchor_step());
   if (s_.p.step == StepChoice::verlet) s_.store.v_before = s_.store.v, s_.store.deviation_before = s_.store.deviation;
 }
 
@@ -63,7 +63,7 @@ void SeaSph<dim, Real>::set_territory(std::vector<int> rank_of_group) {
     throw std::invalid_argument("sea: ranks are given for " + std::to_string(rank_of_group.size()) + " groups of " +
                                 std::to_string(s_.columns.groups()));
   forget_programs();
-  s_.territory = territory_of(s_.columns, std::move(rank_of_group), comm_.rank(), s_.ghosts.empty() ? 1 : 2);
+  s_.subdomain = subdomain_of(s_.columns, std::move(rank_of_group), comm_.rank(), s_.ghosts.empty() ? 1 : 2);
 }
 
 template <int dim, class Real>
@@ -77,13 +77,13 @@ template <class Record>
 void SeaSph<dim, Real>::run(std::unique_ptr<Program>& program, Record&& record) {
   if (!program) {
     runtime::Graph graph(comm_.get());
-    auto tasks = std::make_unique<StepTasks<dim, Real>>(s_, graph, machine_.threads);
+    auto tasks = std::make_unique<StepTasks<dim, Real>>(s_, graph, resources_.threads);
     record(*tasks);
     const bool is_window = &program == &window_;
     program.reset(
-        new Program{std::move(tasks), runtime::Executor(std::move(graph), {.threads = machine_.threads,
-                                                                           .records = is_window ? machine_.records : 0,
-                                                                           .random_schedule = machine_.random_schedule})});
+        new Program{std::move(tasks), runtime::Executor(std::move(graph), {.threads = resources_.threads,
+                                                                           .records = is_window ? resources_.records : 0,
+                                                                           .random_schedule = resources_.random_schedule})});
   }
   program->executor.run();
   if (s_.plan.failure) throw NumericalFailure(*s_.plan.failure);
@@ -164,9 +164,10 @@ void SeaSph<dim, Real>::advance(double duration) {
 }
 
 template <int dim, class Real>
-void SeaSph<dim, Real>::set_pace(Pace pace) {
-  if (pace.steps_per_look < 1 || pace.dt < 0.0) throw std::invalid_argument("sea: a pace needs steps_per_look >= 1 and dt >= 0");
-  s_.pace = pace;
+void SeaSph<dim, Real>::set_step_control(StepControl step_control) {
+  if (step_control.steps_per_check < 1 || step_control.dt < 0.0)
+    throw std::invalid_argument("sea: a step_control needs steps_per_check >= 1 and dt >= 0");
+  s_.step_control = step_control;
   window_ = nullptr;
 }
 
@@ -196,7 +197,7 @@ void SeaSph<dim, Real>::gather_contacts() {
     std::array<double, 6> load;
   };
   runtime::Packer mine;
-  for (const int g : s_.territory.own)
+  for (const int g : s_.subdomain.own)
     for (const Touch& touch : s_.touches[std::size_t(g)]) {
       const Eigen::Vector3d &f = touch.wrench.force, &m = touch.wrench.moment;
       mine.put_one(Part{g, touch.on, touch.of, {f[0], f[1], f[2], m[0], m[1], m[2]}});
@@ -233,7 +234,7 @@ void SeaSph<dim, Real>::place_body(std::uint16_t owner, const Motion& motion) {
   for (Solid& solid : s_.solids) {
     if (solid.owner != owner) continue;
     s_.set_motion(solid, motion);
-    for (const int g : s_.territory.own) place(s_.store, s_.columns.domain(), solid, g);
+    for (const int g : s_.subdomain.own) place(s_.store, s_.columns.domain(), solid, g);
   }
 }
 
@@ -244,7 +245,7 @@ Wrench SeaSph<dim, Real>::load_on(std::uint16_t owner, const Eigen::Vector3d& ab
     std::array<double, 6> load;
   };
   runtime::Packer mine;
-  for (const int g : s_.territory.own) {
+  for (const int g : s_.subdomain.own) {
     const Wrench w = load(s_.store, owner, s_.p.mass(dim), about, g);
     if (w.force != Eigen::Vector3d::Zero() || w.moment != Eigen::Vector3d::Zero())
       mine.put_one(Part{g, {w.force[0], w.force[1], w.force[2], w.moment[0], w.moment[1], w.moment[2]}});
@@ -261,19 +262,19 @@ Wrench SeaSph<dim, Real>::load_on(std::uint16_t owner, const Eigen::Vector3d& ab
 
 template <int dim, class Real>
 Saved<dim> SeaSph<dim, Real>::save() const {
-  return save_groups(s_, s_.territory.own);
+  return save_groups(s_, s_.subdomain.own);
 }
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::restore(std::span<const Saved<dim>> pieces) {
   restore_groups(s_, pieces);
-  show_halo(s_.store, s_.columns, s_.territory, comm_.get());
+  exchange_halo_structure(s_.store, s_.columns, s_.subdomain, comm_.get());
 }
 
 template <int dim, class Real>
 std::vector<GroupCount> SeaSph<dim, Real>::counts() const {
   runtime::Packer mine;
-  for (const int g : s_.territory.own) {
+  for (const int g : s_.subdomain.own) {
     const Group& group = s_.store.groups[std::size_t(g)];
     mine.put_one(GroupCount{g, int(group.solid - group.fluid), int(group.end - group.solid)});
   }
@@ -285,14 +286,14 @@ std::vector<GroupCount> SeaSph<dim, Real>::counts() const {
 
 template <int dim, class Real>
 double SeaSph<dim, Real>::imbalance() const {
-  return runtime::partition_quality(block_graph(s_.columns, counts()), s_.territory.rank_of_group, comm_.size()).imbalance[0];
+  return runtime::partition_quality(block_graph(s_.columns, counts()), s_.subdomain.rank_of_group, comm_.size()).imbalance[0];
 }
 
 template <int dim, class Real>
 bool SeaSph<dim, Real>::repartition() {
   const runtime::BlockGraph graph = block_graph(s_.columns, counts());
-  const auto now = runtime::partition_quality(graph, s_.territory.rank_of_group, comm_.size());
-  if (now.imbalance[0] <= machine_.repartition_above) return false;
+  const auto now = runtime::partition_quality(graph, s_.subdomain.rank_of_group, comm_.size());
+  if (now.imbalance[0] <= resources_.repartition_above) return false;
   const runtime::Partition better = runtime::partition_blocks(graph, {.ranks = comm_.size()}, comm_.get());
   if (better.quality.imbalance[0] > 0.9 * now.imbalance[0]) return false;  // not worth the move
   return repartition(better.rank_of_block);
@@ -300,11 +301,11 @@ bool SeaSph<dim, Real>::repartition() {
 
 template <int dim, class Real>
 bool SeaSph<dim, Real>::repartition(std::vector<int> rank_of_group) {
-  if (rank_of_group == s_.territory.rank_of_group) return false;
+  if (rank_of_group == s_.subdomain.rank_of_group) return false;
   std::vector<runtime::Bytes> parcels;
   for (int r = 0; r < comm_.size(); ++r) {
     std::vector<int> theirs;
-    for (const int g : s_.territory.own)
+    for (const int g : s_.subdomain.own)
       if (rank_of_group.at(std::size_t(g)) == r) theirs.push_back(g);
     runtime::Packer packer;
     save_groups(s_, theirs).put(packer);

@@ -18,7 +18,7 @@
 namespace spindrift::sph {
 
 /// Where a sea runs. Every member of SeaSph is to be called by all ranks of `comm` alike.
-struct Machine {
+struct Resources {
   MPI_Comm comm = MPI_COMM_SELF;
   int threads = 0;  ///< 0: as OMP_NUM_THREADS says
   std::optional<std::uint64_t> random_schedule = {};
@@ -31,13 +31,13 @@ template <int dim, class Real = float>
 class SeaSph {
  public:
   /// All ranks give all seeds; each keeps those in its groups.
-  SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds, Machine machine = {});
+  SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds, Resources resources = {});
   SeaSph(const SeaSph&) = delete;  // its tasks refer to its state
   SeaSph& operator=(const SeaSph&) = delete;
 
   /// Steps up to exactly `duration` [s] later, as one graph: bodies are moved by the hook.
   void advance(double duration);
-  void set_pace(Pace pace);
+  void set_step_control(StepControl step_control);
   void set_bodies(MoveBodies move);
 
   /// One step no longer than dt_max [s]; returns its length. Solids stay; with moving ones use the three parts.
@@ -90,7 +90,7 @@ class SeaSph {
 
   const Parameters& parameters() const { return s_.p; }
   const Columns<dim>& columns() const { return s_.columns; }
-  const Territory& territory() const { return s_.territory; }
+  const Subdomain& subdomain() const { return s_.subdomain; }
   const Store<dim, Real>& store() const { return s_.store; }
   Store<dim, Real>& store() { return s_.store; }
   const SeaState<dim, Real>& state() const { return s_; }
@@ -114,7 +114,7 @@ class SeaSph {
   std::vector<GroupCount> counts() const;
   void gather_contacts();
 
-  Machine machine_;
+  Resources resources_;
   runtime::Communicator comm_;
   SeaState<dim, Real> s_;
   std::unique_ptr<Program> sort_, begin_, half_, end_, window_;

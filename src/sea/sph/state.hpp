@@ -21,8 +21,8 @@
 #include "src/sea/sph/ordering.hpp"
 #include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/solids.hpp"
+#include "src/sea/sph/subdomain.hpp"
 #include "src/sea/sph/sweep_pairs.hpp"
-#include "src/sea/sph/territory.hpp"
 
 namespace spindrift::sph {
 
@@ -39,16 +39,16 @@ struct Work {
 };
 
 /// How the steps of a window are chosen.
-struct Pace {
+struct StepControl {
   double dt = 0.0;  ///< a fixed step [s]; 0: as the limits allow
   /// Steps between two looks at the limits (and sorts). 1: before each, with a reduction over all ranks in each step.
-  int steps_per_look = 1;
+  int steps_per_check = 1;
   /// A step chosen by who counts time himself, and whether the window ends with it.
   struct Choice {
     double dt;
     bool last;
   };
-  /// With steps_per_look 1: asked before each step for one not above the limit [s], on all ranks alike; may throw
+  /// With steps_per_check 1: asked before each step for one not above the limit [s], on all ranks alike; may throw
   /// NumericalFailure.
   std::function<Choice(double limit)> choose = {};
 };
@@ -70,15 +70,15 @@ struct Plan {
   long steps = 0;
   double left = 0.0;                                    ///< of the window [s]
   double dt = 0.0;                                      ///< of the steps planned [s]
-  int planned = 0;                                      ///< steps until the next look
-  double speed = 0.0, acceleration = 0.0, limit = 0.0;  ///< largest at the last look, and what they allow [s]
+  int planned = 0;                                      ///< steps until the next check of the limits
+  double speed = 0.0, acceleration = 0.0, limit = 0.0;  ///< largest at the last check of the limits, and what they allow [s]
   StepLimits limits{};
   double drift = 0.0, solid_drift = 0.0;  ///< bounds on the way since the last sort [m]
-  double way = 0.0, solid_way = 0.0;      ///< and since the last look
-  double shifted = 0.0;                   ///< largest way by shifting since the last look
+  double way = 0.0, solid_way = 0.0;      ///< and since the last check of the limits
+  double shifted = 0.0;                   ///< largest way by shifting since the last check of the limits
   double solid_path = 0.0;                ///< of bodies in all [m]
   bool sort = false;
-  bool last = false;                        ///< the step planned ends the window (Pace::choose)
+  bool last = false;                        ///< the step planned ends the window (StepControl::choose)
   std::optional<NumericalFailure> failure;  ///< set where the numerics gave up; what is left of the window does nothing
   bool stopped = false;                     ///< the run was asked to stop: likewise
   bool ended() const { return failure || stopped; }
@@ -91,11 +91,11 @@ struct SeaState {
   SeaState(const SeaState&) = delete;  // sweeps refer to it
   SeaState& operator=(const SeaState&) = delete;
 
-  using Sweep = std::function<void(Real* sums, int group, Meetings<dim, Real>&)>;
+  using Sweep = std::function<void(Real* sums, int group, NeighbourLists<dim, Real>&)>;
 
   Parameters p;
   Columns<dim> columns;
-  Territory territory;
+  Subdomain subdomain;
   Store<dim, Real> store;
   std::vector<Solid> solids;
   Ghosts<dim> ghosts;                                           ///< of modified walls
@@ -106,7 +106,7 @@ struct SeaState {
   std::vector<std::vector<Touch>> touches;  ///< of each own group, at the last evaluation
   MoveBodies move_bodies;
   std::function<void(int group, double dt)> after_step;  ///< what else a step does to the particles of a group (damping zones)
-  Pace pace;
+  StepControl step_control;
   Plan plan;
   Work work;
 
@@ -126,7 +126,7 @@ struct SeaState {
                                     "sea", plan.steps, plan.time, double(p.lost_at_most));
   }
   /// Takes in the extremes of the state at n.
-  void look(double speed2, double acceleration2, double shifted) {
+  void check_limits(double speed2, double acceleration2, double shifted) {
     plan.speed = std::sqrt(speed2), plan.acceleration = std::sqrt(acceleration2);
     plan.shifted = shifted;
     plan.drift += shifted;
@@ -153,33 +153,33 @@ struct SeaState {
   /// Chooses the next steps of a window.
   void choose_steps() {
     if (plan.ended()) return void(plan.planned = 0);
-    if (pace.choose) {
+    if (step_control.choose) {
       try {
-        const Pace::Choice choice = pace.choose(plan.limit);
+        const StepControl::Choice choice = step_control.choose(plan.limit);
         plan.last = choice.last;
         start_steps(choice.dt, 1);
       } catch (const NumericalFailure& failure) { plan.failure = failure, plan.planned = 0; }
-    } else if (pace.dt > 0.0) {
-      if (pace.dt > plan.limit * (1.0 + 1e-12))
-        plan.failure = NumericalFailure("sea: the fixed step of " + in_words(pace.dt) + " s is beyond the limit of " +
+    } else if (step_control.dt > 0.0) {
+      if (step_control.dt > plan.limit * (1.0 + 1e-12))
+        plan.failure = NumericalFailure("sea: the fixed step of " + in_words(step_control.dt) + " s is beyond the limit of " +
                                             in_words(plan.limit) + " s (largest speed " + in_words(plan.speed) +
                                             " m/s, acceleration " + in_words(plan.acceleration) + " m/s2)",
                                         "sea", plan.steps, plan.time, plan.limit);
-      const double steps_left = std::round(plan.left / pace.dt);
-      start_steps(pace.dt, plan.failure ? 0 : int(std::min<double>(pace.steps_per_look, steps_left)));
-    } else if (pace.steps_per_look == 1) {
+      const double steps_left = std::round(plan.left / step_control.dt);
+      start_steps(step_control.dt, plan.failure ? 0 : int(std::min<double>(step_control.steps_per_check, steps_left)));
+    } else if (step_control.steps_per_check == 1) {
       start_steps(std::min(plan.limit, plan.left), 1);
     } else {
-      constexpr double margin = 0.9;  // the limits may tighten before the next look
+      constexpr double margin = 0.9;  // the limits may tighten before the next check of the limits
       const double count = std::ceil(plan.left / (margin * plan.limit));
-      const bool last = count <= pace.steps_per_look;
-      start_steps(last ? plan.left / count : margin * plan.limit, last ? int(count) : pace.steps_per_look);
+      const bool last = count <= step_control.steps_per_check;
+      start_steps(last ? plan.left / count : margin * plan.limit, last ? int(count) : step_control.steps_per_check);
     }
   }
   void finish_steps() {
-    const bool last = pace.choose     ? plan.last
-                      : pace.dt > 0.0 ? std::round(plan.left / pace.dt) <= plan.planned
-                                      : plan.dt * plan.planned >= plan.left * (1.0 - 1e-12);
+    const bool last = step_control.choose     ? plan.last
+                      : step_control.dt > 0.0 ? std::round(plan.left / step_control.dt) <= plan.planned
+                                              : plan.dt * plan.planned >= plan.left * (1.0 - 1e-12);
     for (int n = 0; n < plan.planned; ++n) plan.time += plan.dt;
     plan.steps += plan.planned, work.steps = plan.steps;
     work.evaluations += plan.planned * (p.step == StepChoice::symplectic ? 2 : 1);

@@ -96,7 +96,7 @@ SPINDRIFT_INLINE void particle_against_chosen(Vec<V, Law::sum_planes>& to_i, con
 
 /// What one cluster meets in a sweep, found anew for each.
 template <int dim, class Real>
-struct Meetings {
+struct NeighbourLists {
   Candidates<dim, Real> water, solid;
   void reserve(std::size_t clusters) { water.reserve(clusters), solid.reserve(clusters); }
   void clear() { water.clear(), solid.clear(); }
@@ -105,8 +105,8 @@ struct Meetings {
 /// The pairs of cluster `mine` with all that it meets. Pairs inside a cluster of water are computed from both ends, one-sided.
 /// `inside`: with the pairs inside the cluster.
 template <bool is_water, class LawWater, class LawSolid, int dim, class Real>
-void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t mine, Meetings<dim, Real>& meets, float reach,
-                   bool inside, const LawWater& water, const LawSolid& solid) {
+void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t mine, NeighbourLists<dim, Real>& meets,
+                   float reach, bool inside, const LawWater& water, const LawSolid& solid) {
   using V = LineWide<Real>;
   const Real* state = store.pack_of(mine);
   constexpr int planes = LawWater::sum_planes;
@@ -140,7 +140,7 @@ void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t 
 /// in the order in which that rank computes them, so that the sums of own groups have the same bits on any number of ranks.
 template <class LawWater, class LawSolid, int dim, class Real, class IsOwn>
 void sweep_pairs(const Store<dim, Real>& store, Real* all_sums, const Columns<dim>& columns, int group, float reach,
-                 Meetings<dim, Real>& meets, const LawWater& water, const LawSolid& solid, IsOwn&& is_own) {
+                 NeighbourLists<dim, Real>& meets, const LawWater& water, const LawSolid& solid, IsOwn&& is_own) {
   const Group& own = store.groups[group];
   const bool all = is_own(group);
   const std::array<double, dim> here{};
@@ -172,7 +172,7 @@ void sweep_pairs(const Store<dim, Real>& store, Real* all_sums, const Columns<di
 /// The same where this rank owns all groups.
 template <class LawWater, class LawSolid, int dim, class Real>
 void sweep_pairs(const Store<dim, Real>& store, Real* all_sums, const Columns<dim>& columns, int group, float reach,
-                 Meetings<dim, Real>& meets, const LawWater& water, const LawSolid& solid) {
+                 NeighbourLists<dim, Real>& meets, const LawWater& water, const LawSolid& solid) {
   sweep_pairs(store, all_sums, columns, group, reach, meets, water, solid, [](int) { return true; });
 }
 

@@ -40,9 +40,9 @@ void bundle(const Store<dim, Real>& store, const std::vector<int>& groups, std::
 
 template <int dim, class Real>
 struct StepTasks<dim, Real>::Shared {
-  Shared(SeaState<dim, Real>& sea) : sorting(sea.store, sea.columns, sea.territory, sea.p.anchor_step()) {}
+  Shared(SeaState<dim, Real>& sea) : sorting(sea.store, sea.columns, sea.subdomain, sea.p.anchor_step()) {}
   Sorting<dim, Real> sorting;
-  std::vector<Meetings<dim, Real>> meetings;  // one per thread
+  std::vector<NeighbourLists<dim, Real>> neighbour_lists;  // one per thread
   std::vector<double> extremes;  // partials by bundle: speed, acceleration (squares), way by shifting, a request to stop
   double extreme[4] = {};
   std::vector<double> partial_loads, loads;  // by body group and body: force, moment
@@ -59,14 +59,14 @@ struct StepTasks<dim, Real>::Shared {
 template <int dim, class Real>
 StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph, int threads, int first_tag)
     : sea_(sea), graph_(graph), next_tag_(first_tag), path_(sea.plan.solid_path), shared_(std::make_shared<Shared>(sea)) {
-  const Territory& territory = sea.territory;
+  const Subdomain& subdomain = sea.subdomain;
   sea.touches.resize(std::size_t(sea.columns.groups()));
-  shared_->meetings.resize(std::size_t(threads));
-  bundle(sea.store, territory.own, clusters_per_pass, bundles_);
+  shared_->neighbour_lists.resize(std::size_t(threads));
+  bundle(sea.store, subdomain.own, clusters_per_pass, bundles_);
   std::vector<std::vector<int>> colours(std::size_t(sea.columns.colours()));
   for (int g = 0; g < sea.columns.groups(); ++g) {
-    bool swept = territory.owns(g);  // a group of another rank is swept for its pairs with mine
-    sea.columns.for_forward(g, [&](const Neighbour<dim>& near) { swept = swept || territory.owns(near.group); });
+    bool swept = subdomain.owns(g);  // a group of another rank is swept for its pairs with mine
+    sea.columns.for_forward(g, [&](const Neighbour<dim>& near) { swept = swept || subdomain.owns(near.group); });
     if (swept) colours[std::size_t(sea.columns.colour(g))].push_back(g);
   }
   for (const std::vector<int>& colour : colours) bundle(sea.store, colour, clusters_per_pairs, pair_bundles_);
@@ -75,9 +75,9 @@ StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph,
   // Places follow the own groups, so that a thread keeps its region; groups of the halo have none.
   for (Data* data : {&state_, &planes_, &walls_, &sums_, &stress_, &touches_, &extra_[0], &extra_[1], &extra_[2]}) {
     data->resize(std::size_t(sea.columns.groups()));
-    for (std::size_t n = 0; n < territory.own.size(); ++n)
-      (*data)[std::size_t(territory.own[n])] = graph.datum(float(n) / float(territory.own.size()));
-    for (const Territory::Border& border : territory.borders)
+    for (std::size_t n = 0; n < subdomain.own.size(); ++n)
+      (*data)[std::size_t(subdomain.own[n])] = graph.datum(float(n) / float(subdomain.own.size()));
+    for (const Subdomain::Border& border : subdomain.borders)
       for (const int g : border.seen) (*data)[std::size_t(g)] = graph.datum();
   }
   extremes_ = graph.data(bundles_.size());
@@ -98,7 +98,7 @@ StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph,
         if (a == ring && b == 0) b = std::uint8_t(ring + 1);
         if (b == ring && a == 0) a = std::uint8_t(ring + 1);
       });
-  for (const int g : territory.own)
+  for (const int g : subdomain.own)
     if (region[std::size_t(g)] > 0) body_groups_.push_back(g);
   if (sea.has_contacts())
     for (int on = 1; on < sea.store.owners; ++on)
@@ -118,8 +118,8 @@ void StepTasks<dim, Real>::window() {
     graph_.task("sea/order", {updates(plan_)}, [&sea] { sea.plan.sort = sea.sort_is_due() && !sea.plan.ended(); });
     sort();
     steps(true);
-    if (sea.pace.steps_per_look > 1)
-      graph_.repeat("sea/substeps", std::uint32_t(sea.pace.steps_per_look - 1), [&] { steps(false); });
+    if (sea.step_control.steps_per_check > 1)
+      graph_.repeat("sea/substeps", std::uint32_t(sea.step_control.steps_per_check - 1), [&] { steps(false); });
     graph_.task("sea/clock", {updates(plan_)}, [&sea] { sea.finish_steps(); });
     graph_.until("sea/until", {reads(plan_)}, [&sea] { return !(sea.plan.left > 0.0); });
   });
@@ -268,7 +268,7 @@ void StepTasks<dim, Real>::set_walls() {
       }
     }
     graph_.task(name("walls", b), uses, if_active([&sea = sea_, &groups = bundles_[b], shared](const Context& context, int) {
-                  Candidates<dim, Real>& water = shared->meetings[std::size_t(context.thread)].water;
+                  Candidates<dim, Real>& water = shared->neighbour_lists[std::size_t(context.thread)].water;
                   water.reserve((dim == 2 ? 5 : 25) * sea.store.longest);
                   for (const int g : groups) sea.boundary(sea.store, g, water);
                 }));
@@ -309,7 +309,7 @@ void StepTasks<dim, Real>::show(const std::string& what, bool stress) {
     for (const int g : groups) clusters += store.groups[std::size_t(g)].end - store.groups[std::size_t(g)].fluid;
     return clusters * size;
   };
-  for (const Territory::Border& border : sea_.territory.borders) {
+  for (const Subdomain::Border& border : sea_.subdomain.borders) {
     const auto rank = std::size_t(border.rank);
     Message& message = *shared_->messages.emplace_back(std::make_unique<Message>());
     const Datum out = graph_.datum(), in = graph_.datum();
@@ -375,14 +375,14 @@ void StepTasks<dim, Real>::sweep_pairs(const std::string& label, const Sweep& sw
     for (const int g : pair_bundles_[b]) {
       touch(g);
       sea_.columns.for_forward(g, [&](const Neighbour<dim>& near) {
-        if (sea_.territory.owns(g) || sea_.territory.owns(near.group)) touch(near.group);
+        if (sea_.subdomain.owns(g) || sea_.subdomain.owns(near.group)) touch(near.group);
       });
     }
     graph_.task(name(label, b), uses,
                 if_active([&sea = sea_, &groups = pair_bundles_[b], shared, &sweep, sums](const Context& context, int) {
-                  Meetings<dim, Real>& meetings = shared->meetings[std::size_t(context.thread)];
-                  meetings.reserve(9 * sea.store.longest);
-                  for (const int g : groups) sweep(sums(), g, meetings);
+                  NeighbourLists<dim, Real>& neighbour_lists = shared->neighbour_lists[std::size_t(context.thread)];
+                  neighbour_lists.reserve(9 * sea.store.longest);
+                  for (const int g : groups) sweep(sums(), g, neighbour_lists);
                 }));
   }
 }
@@ -428,9 +428,9 @@ void StepTasks<dim, Real>::limits() {
   const Datum result = graph_.datum();
   graph_.reduce("sea/limits", {reads(extremes_), writes(result)},
                 {runtime::Reduction::Operation::max, shared->extremes, shared->extreme});
-  graph_.task("sea/look", {reads(result), updates(plan_)}, [&sea, shared] {
+  graph_.task("sea/limits", {reads(result), updates(plan_)}, [&sea, shared] {
     if (sea.plan.ended()) return;
-    sea.look(shared->extreme[0], shared->extreme[1], shared->extreme[2]);
+    sea.check_limits(shared->extreme[0], shared->extreme[1], shared->extreme[2]);
     sea.plan.stopped = shared->extreme[3] > 0.0;
   });
 }
@@ -543,7 +543,7 @@ void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& lab
     graph_.task(name(label + "/apply", b), uses, if_active([&groups = bundles_[b], &plan = sea_.plan, apply] {
                   double farthest = 0.0;
                   for (const int g : groups) farthest = std::max(farthest, apply(g));
-                  // This rank's until the next look takes the maximum of all; a maximum needs no order.
+                  // This rank's until the next check of the limits takes the maximum of all; a maximum needs no order.
                   const std::atomic_ref<double> shifted(plan.shifted);
                   for (double before = shifted.load(); before < farthest && !shifted.compare_exchange_weak(before, farthest);) {}
                 }));

@@ -1,6 +1,6 @@
 // The step of the sea as tasks of a runtime::Graph. `tasks.cpp` read top to bottom is the algorithm. Data that tasks share are
 // the groups' (state, planes, sums); colours fix the order of the sums, ranks exchange planes, and substeps of different regions
-// overlap. Between two looks at the limits nothing but data orders; a look is a reduction over all ranks.
+// overlap. Between two checks of the limits nothing but data orders; a check is a reduction over all ranks.
 // Called by sea_sph.cpp, or to record the sea into the graph of a whole machine; tested in tests/src/sea/sph/tasks_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -17,10 +17,10 @@ const std::string case3 = SPINDRIFT_SOURCE_DIR "/inputs/leble_barakos/case3_engi
 }
 
 TEST_CASE("1P of the DTU rotor and the sea states are the paper's, and meet near 9 m/s", "[coupling][fast]") {
-  const auto machine = machine_of(case3, {});
-  const Start start = make_start(*machine);
-  const Stability s = stability(*machine, start.state);
-  const Campbell c = campbell(machine->scenario(), s.linearisation, 8.8 * rad_s_per_rpm);
+  const auto floating = machine_of(case3, {});
+  const Start start = make_start(*floating);
+  const Stability s = stability(*floating, start.state);
+  const Campbell c = campbell(floating->scenario(), s.linearisation, 8.8 * rad_s_per_rpm);
   REQUIRE(c.rows.size() == sea_states.size() + 1);
   CHECK(c.rows[1].wave == Approx(1 / 7.5));
   CHECK(c.rows[2].wave == Approx(1 / 8.8));
@@ -38,10 +38,10 @@ TEST_CASE("1P of the DTU rotor and the sea states are the paper's, and meet near
 
 TEST_CASE("a loose scheme will do for the paper's machine at windows of 0.02 s, not at 5 s", "[coupling][fast]") {
   const auto verdict_at = [](const std::string& window) {
-    const auto machine = machine_of(case3, {"time.end_s=10.0", "time.window_s=" + window, "time.step_s=0.02"});
-    const Start start = make_start(*machine);
-    const Campbell c = campbell(machine->scenario(), stability(*machine, start.state).linearisation, 8.8 * rad_s_per_rpm);
-    return loose_verdict(*machine, start.state, c);
+    const auto floating = machine_of(case3, {"time.end_s=10.0", "time.window_s=" + window, "time.step_s=0.02"});
+    const Start start = make_start(*floating);
+    const Campbell c = campbell(floating->scenario(), stability(*floating, start.state).linearisation, 8.8 * rad_s_per_rpm);
+    return loose_verdict(*floating, start.state, c);
   };
   const LooseVerdict fine = verdict_at("0.02"), coarse = verdict_at("5.0");
   CHECK(fine.slope_N_s_m == Approx(162.5e3).epsilon(0.03));
@@ -58,13 +58,13 @@ TEST_CASE("a loose scheme will do for the paper's machine at windows of 0.02 s, 
 }
 
 TEST_CASE("no loose scheme will do where the air weighs as much as the machine", "[coupling][fast]") {
-  const auto machine = machine_of(
+  const auto floating = machine_of(
       case3, {"time.end_s=10.0", "time.window_s=0.02", "time.step_s=0.02", "environment.air_density_kg_m3=99.0",
               "bodies.platform.mass_kg=2000", "bodies.rotor.mass_kg=1000", "bodies.platform.inertia_kg_m2=[1e7, 1e7, 1e7]",
               "bodies.rotor.inertia_kg_m2=[1e6, 1e6, 1e6]", "start.equilibrium=false", "sea.added_mass_coefficient=0.0"});
-  const Start start = make_start(*machine);
-  const Campbell c = campbell(machine->scenario(), stability(*machine, start.state).linearisation, 8.8 * rad_s_per_rpm);
-  const LooseVerdict verdict = loose_verdict(*machine, start.state, c);
+  const Start start = make_start(*floating);
+  const Campbell c = campbell(floating->scenario(), stability(*floating, start.state).linearisation, 8.8 * rad_s_per_rpm);
+  const LooseVerdict verdict = loose_verdict(*floating, start.state, c);
   CHECK(verdict.mass_ratio() > 1.0);
   for (const auto& scheme : verdict.schemes) CHECK_FALSE(scheme.will_do);
 }

@@ -22,11 +22,11 @@ TEST_CASE("a slack line is held to what it needs taut", "[coupling][fast]") {
     return all;
   };
   const auto require = [&](const std::vector<std::string>& overrides) {
-    Machine machine(test::scenario(test::buoy, overrides));
-    require_stable_lines(machine, make_start(machine).state);
+    FloatingSystem floating(test::scenario(test::buoy, overrides));
+    require_stable_lines(floating, make_start(floating).state);
   };
-  Machine machine(test::scenario(test::buoy, with({"time.integrator='symplectic'"})));
-  const bodies::StepLimit limit = taut_line_limit(machine, make_start(machine).state);
+  FloatingSystem floating(test::scenario(test::buoy, with({"time.integrator='symplectic'"})));
+  const bodies::StepLimit limit = taut_line_limit(floating, make_start(floating).state);
   CHECK(limit.mode == "chain");
   CHECK(limit.step_s >= 2.0 / std::sqrt(1e5) * (1.0 - 1e-9));  // added mass makes it longer
   CHECK(limit.step_s < 2.0 * 2.0 / std::sqrt(1e5));
@@ -34,6 +34,6 @@ TEST_CASE("a slack line is held to what it needs taut", "[coupling][fast]") {
   CHECK_NOTHROW(require(with({"time.integrator='symplectic'", "time.step_s=0.005"})));
   CHECK_NOTHROW(require(with({"time.step_s=0.05"})));  // rk4 tries a window that fails again with smaller steps
   CHECK_THROWS_WITH(require(with({"time.step_s=0.1", "moorings.chain.stiffness_N_m=1e12"})), Contains("tried again"));
-  Machine two_way(test::scenario(test::buoy));
+  FloatingSystem two_way(test::scenario(test::buoy));
   CHECK(std::isinf(taut_line_limit(two_way, make_start(two_way).state).step_s));  // the linearisation sees it
 }

@@ -20,10 +20,10 @@ class ToldAir final : public AirSide {
   aero::RotorLoad begin(double t, const aero::RotorState&) override {
     if (t > 50.0) throw io::InputError("no such air");
     t_ = t;
-    return answer();
+    return load_at_end();
   }
-  void aim(double t, double, const aero::RotorState&) override { t_ = t; }
-  aero::RotorLoad answer() override {
+  void prepare(double t, double, const aero::RotorState&) override { t_ = t; }
+  aero::RotorLoad load_at_end() override {
     if (t_ < 0.0) throw NumericalFailure("the air gave up", "aero/rotor", 7, t_, 0.5);
     load_.thrust = t_, load_.force = {1.0 / 3.0 * t_, 2.0, 3.0}, load_.moment = {4.0, 5.0, 1e300};
     return load_;
@@ -31,7 +31,7 @@ class ToldAir final : public AirSide {
   const aero::RotorLoad* written() const override { return &load_; }
   std::vector<io::Column> columns() const override { return {{"air.told", "s", "when"}}; }
   std::vector<double> values() const override { return {2.0 * t_}; }
-  std::vector<std::string> news() override { return {"aimed", "hit"}; }
+  std::vector<std::string> log_lines() override { return {"aimed", "hit"}; }
 
  private:
   double t_ = 0.0;
@@ -40,7 +40,7 @@ class ToldAir final : public AirSide {
 
 class ToldBodies final : public BodySide {
  public:
-  void aim(const bodies::BodiesState& from, std::int64_t end_tick) override { state_ = from, state_.tick = end_tick; }
+  void prepare(const bodies::BodiesState& from, std::int64_t end_tick) override { state_ = from, state_.tick = end_tick; }
   bodies::BodiesState finish() override {
     if (state_.tick > 100) throw NumericalFailure("the sea gave up", "sea", long(state_.tick), 1.0, 0.25);
     steps_ += 3, own_ns_ += 11;
@@ -63,22 +63,22 @@ TEST_CASE("the air's answer, columns and sentences are on every rank, and so is 
   const auto air = share_air(parts, parts.has(air_part) ? std::make_unique<ToldAir>() : nullptr);
   REQUIRE(air->columns().size() == 1);
   CHECK(air->columns()[0].name == "air.told");
-  CHECK(air->news() == std::vector<std::string>{"aimed", "hit"});
-  CHECK(air->news().empty());
+  CHECK(air->log_lines() == std::vector<std::string>{"aimed", "hit"});
+  CHECK(air->log_lines().empty());
   CHECK(air->begin(1.0, {}).thrust == 1.0);
-  air->keep(AirSide::window);
-  air->aim(5.0, 0.1, {});
-  const aero::RotorLoad load = air->answer();
+  air->take_snapshot(AirSide::window);
+  air->prepare(5.0, 0.1, {});
+  const aero::RotorLoad load = air->load_at_end();
   CHECK(load.thrust == 5.0);
   CHECK((load.force == Eigen::Vector3d(1.0 / 3.0 * 5.0, 2.0, 3.0) && load.moment == Eigen::Vector3d(4.0, 5.0, 1e300)));
   CHECK(air->values() == std::vector<double>{10.0});
   REQUIRE(air->written());
   CHECK(air->written()->thrust == 5.0);
-  air->back(AirSide::window);
+  air->return_to(AirSide::window);
   CHECK(air->written()->thrust == 1.0);
-  air->aim(-1.0, 0.1, {});
+  air->prepare(-1.0, 0.1, {});
   try {
-    air->answer();
+    air->load_at_end();
     FAIL("a failure of the air is not noticed");
   } catch (const NumericalFailure& f) {
     CHECK(std::string(f.what()) == "the air gave up");
@@ -92,11 +92,11 @@ TEST_CASE("the bodies' state and steps are on every rank, and so is the sea's fa
   const auto side = share_bodies(parts, parts.has(sea_part) ? std::make_unique<ToldBodies>() : nullptr);
   bodies::BodiesState state;
   state.motions.resize(1), state.joint_angles.resize(1), state.independent.resize(6), state.active.resize(2);
-  side->aim(state, 42);
+  side->prepare(state, 42);
   const bodies::BodiesState end = side->finish();
   CHECK((end.tick == 42 && end.motions[0].position.x() == 1.0 / 3.0 && end.joint_angles[0] == 2.0 && end.independent[1] == 1));
   CHECK((side->steps() == 3 && side->own_ns() == 11));
-  side->aim(state, 101);
+  side->prepare(state, 101);
   CHECK_THROWS_AS(side->finish(), NumericalFailure);
 }
 

@@ -1,5 +1,5 @@
-// The state a run starts from, its stability, and that a scene pays only for what it names: src/coupling/start.hpp, machine.hpp.
-// SPDX-License-Identifier: Apache-2.0
+// The state a run starts from, its stability, and that a scene pays only for what it names: src/coupling/start.hpp,
+// floating_system.hpp. SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/start.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,13 +13,13 @@ using Catch::Contains;
 
 TEST_CASE("the buoy rests where weight, buoyancy and chain balance", "[coupling][fast]") {
   // k_water = rho g pi R^2 = 31416 N/m; the chain is relaxed at the draft of 2 m, where weight = buoyancy: heave 0.
-  Machine machine(test::scenario(test::buoy, {"start.equilibrium=true"}));
-  const Start start = make_start(machine);
+  FloatingSystem floating(test::scenario(test::buoy, {"start.equilibrium=true"}));
+  const Start start = make_start(floating);
   REQUIRE(start.equilibrium);
   CHECK(start.state.motions[0].position.z() == Approx(-1.5).margin(1e-7));
 
   // A force of 4.1416e4 N downwards sinks it by 1 m against both springs.
-  Machine pressed(test::scenario(
+  FloatingSystem pressed(test::scenario(
       std::string(test::buoy) + "[[bodies.buoy.forces]]\npoint_m=[0.0,0.0,-1.5]\nforce_N=[0.0,0.0,-31415.926535897932]\n",
       {"start.equilibrium=true"}));
   // The chain goes up by what the buoy goes down: k_water z + k_chain z = -F.
@@ -30,20 +30,22 @@ TEST_CASE("the buoy rests where weight, buoyancy and chain balance", "[coupling]
 TEST_CASE("the equilibrium is that under the mean loads, whatever wave stands there at t = 0", "[coupling][fast]") {
   // Waves of 2 m over a buoy with a draft of 2 m.
   const Eigen::Vector3d still =
-      make_start(*std::make_unique<Machine>(test::scenario(test::buoy, {"start.equilibrium=true"}))).state.motions[0].position;
+      make_start(*std::make_unique<FloatingSystem>(test::scenario(test::buoy, {"start.equilibrium=true"})))
+          .state.motions[0]
+          .position;
   for (int seed = 1; seed <= 20; ++seed) {
-    Machine machine(
+    FloatingSystem floating(
         test::scenario(test::buoy, {"start.equilibrium=true", "sea.model='morison'", "waves.model='jonswap'",
                                     "waves.height_m=2.0", "waves.period_s=6.0", "waves.seed=" + std::to_string(seed)}));
-    const Eigen::Vector3d at = make_start(machine).state.motions[0].position;
+    const Eigen::Vector3d at = make_start(floating).state.motions[0].position;
     CHECK((at - still).norm() < 1e-6);
   }
 }
 
 TEST_CASE("a displaced start is the described position moved and turned about the reference point", "[coupling][fast]") {
-  Machine machine(
+  FloatingSystem floating(
       test::scenario(test::buoy, {"bodies.buoy.displacement_m=[0.0,0.0,0.5]", "bodies.buoy.velocity_m_s=[0.1,0.0,0.0]"}));
-  const Start start = make_start(machine);
+  const Start start = make_start(floating);
   CHECK(start.state.motions[0].position.z() == Approx(-1.0).margin(1e-14));
   CHECK(start.state.motions[0].velocity.x() == Approx(0.1));
 }
@@ -51,26 +53,26 @@ TEST_CASE("a displaced start is the described position moved and turned about th
 TEST_CASE("a step above the limit of the integrator is refused with limit and mode", "[coupling][fast]") {
   // Heave of the moored buoy: omega^2 = (31416 + 10000) / 6283; symplectic limit 2 / omega.
   const double limit = 2.0 / std::sqrt((31415.926535897932 + 1e4) / 6283.185307179586);
-  Machine machine(test::scenario(test::buoy, {"time.integrator='symplectic'"}));
-  const Stability s = stability(machine, make_start(machine).state);
+  FloatingSystem floating(test::scenario(test::buoy, {"time.integrator='symplectic'"}));
+  const Stability s = stability(floating, make_start(floating).state);
   CHECK(s.limit.step_s == Approx(limit).epsilon(2e-3));
   CHECK(s.limit.mode == "heave of buoy");
-  CHECK_NOTHROW(require_stable(machine, s));
+  CHECK_NOTHROW(require_stable(floating, s));
 
-  Machine bold(test::scenario(test::buoy, {"time.integrator='symplectic'", "time.window_s=1.0", "time.step_s=1.0"}));
+  FloatingSystem bold(test::scenario(test::buoy, {"time.integrator='symplectic'", "time.window_s=1.0", "time.step_s=1.0"}));
   CHECK_THROWS_WITH(require_stable(bold, stability(bold, make_start(bold).state)),
                     Contains("time.step_s") && Contains("heave of buoy"));
-  Machine naive(test::scenario(test::buoy, {"time.integrator='explicit_euler'"}));
+  FloatingSystem naive(test::scenario(test::buoy, {"time.integrator='explicit_euler'"}));
   CHECK_THROWS_WITH(require_stable(naive, stability(naive, make_start(naive).state)), Contains("undamped"));
 }
 
 TEST_CASE("a scene has the sources of load that it names and no others", "[coupling][fast]") {
-  const auto names = [](Machine& machine) {
+  const auto names = [](FloatingSystem& floating) {
     std::vector<std::string> result;
-    for (const bodies::LoadSource& source : machine.system().loads()) result.push_back(source.name);
+    for (const bodies::LoadSource& source : floating.multibody().loads()) result.push_back(source.name);
     return result;
   };
-  Machine full(test::scenario(test::buoy));
+  FloatingSystem full(test::scenario(test::buoy));
   CHECK(names(full) == std::vector<std::string>{"gravity", "moorings", "sea"});
   const std::string bare = R"(
 [time]
@@ -81,6 +83,6 @@ mass_kg = 1.0
 inertia_kg_m2 = [1.0, 1.0, 1.0]
 centre_m = [0.0, 0.0, 0.0]
 )";
-  Machine empty(test::scenario(bare));
+  FloatingSystem empty(test::scenario(bare));
   CHECK(names(empty) == std::vector<std::string>{"gravity"});
 }

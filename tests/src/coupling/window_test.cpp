@@ -54,9 +54,9 @@ TEST_CASE("a window is a pure function of state and history", "[coupling][fast]"
   const std::string scheme =
       GENERATE("cps", "cps2", "css", "aitken", "iqn_ils", "ibqn_ls", "interface_gmres", "newton", "steepest_descent");
   INFO(scheme);
-  Machine machine(scenario(floater, {"coupling.scheme=" + scheme}));
-  CoupledWindow window(machine);
-  bodies::BodiesState state = make_start(machine).state;
+  FloatingSystem floating(scenario(floater, {"coupling.scheme=" + scheme}));
+  CoupledWindow window(floating);
+  bodies::BodiesState state = make_start(floating).state;
   window.begin(state);
   for (int n = 0; n < 4; ++n) REQUIRE(window.advance(state).ok());
   const std::vector<double> history = window.history();
@@ -73,10 +73,10 @@ TEST_CASE("a window is a pure function of state and history", "[coupling][fast]"
 }
 
 TEST_CASE("a window that fails says why and leaves state and history as they were", "[coupling][fast]") {
-  Machine machine(scenario(floater, {"coupling.scheme=relaxation", "coupling.relaxation=0.01", "coupling.max_evaluations=3",
-                                     "coupling.max_cuts=0", "coupling.tolerance=1e-12"}));
-  CoupledWindow window(machine);
-  bodies::BodiesState state = make_start(machine).state;
+  FloatingSystem floating(scenario(floater, {"coupling.scheme=relaxation", "coupling.relaxation=0.01",
+                                             "coupling.max_evaluations=3", "coupling.max_cuts=0", "coupling.tolerance=1e-12"}));
+  CoupledWindow window(floating);
+  bodies::BodiesState state = make_start(floating).state;
   window.begin(state);
   const std::vector<double> history = window.history();
   std::vector<double> before(state.packed_size()), after(before);
@@ -91,21 +91,21 @@ TEST_CASE("a window that fails says why and leaves state and history as they wer
 }
 
 TEST_CASE("the rotor is asked once per window by loose schemes, and its load balances what the body feels", "[coupling][fast]") {
-  Machine machine(scenario(floater, {"coupling.scheme=cps"}));
-  CoupledWindow window(machine);
-  bodies::BodiesState state = make_start(machine).state;
+  FloatingSystem floating(scenario(floater, {"coupling.scheme=cps"}));
+  CoupledWindow window(floating);
+  bodies::BodiesState state = make_start(floating).state;
   window.begin(state);
-  const aero::RotorLoad first = machine.rotor()->load(0.0, machine.rotor()->state(0.0, state.motions));
+  const aero::RotorLoad first = floating.rotor()->load(0.0, floating.rotor()->state(0.0, state.motions));
   for (int n = 0; n < 3; ++n) REQUIRE(window.advance(state).ok());
   CHECK(window.totals().rotor_calls == 3);
   CHECK(window.totals().body_steps == 15);
   CHECK(first.thrust > 0.0);
   // What the bodies feel at the end of the window is what the rotor answered: same force, moment about the centre of mass from
   // the hub.
-  const bodies::Evaluation& now = machine.system().evaluate(state, 0.3);
-  const std::size_t rotor = machine.system().loads().size() - 1;
-  REQUIRE(machine.system().loads()[rotor].name == "rotor");
+  const bodies::Evaluation& now = floating.multibody().evaluate(state, 0.3);
+  const std::size_t rotor = floating.multibody().loads().size() - 1;
+  REQUIRE(floating.multibody().loads()[rotor].name == "rotor");
   const Wrench& w = now.by_source[rotor][0];
-  const aero::RotorState hub = machine.rotor()->state(0.3, state.motions);
+  const aero::RotorState hub = floating.rotor()->state(0.3, state.motions);
   CHECK((w.moment - (hub.hub - state.motions[0].position).cross(w.force)).norm() < 1e-9 * w.moment.norm());
 }

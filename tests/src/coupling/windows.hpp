@@ -1,4 +1,4 @@
-// A machine marched by its coupling scheme in memory, for tests that compare schemes. SPDX-License-Identifier: Apache-2.0
+// A floating system marched by its coupling scheme in memory, for tests that compare schemes. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
@@ -19,19 +19,19 @@ struct March {
   std::string failure;
 };
 
-inline std::unique_ptr<Machine> machine_of(const std::string& file, const std::vector<std::string>& overrides) {
+inline std::unique_ptr<FloatingSystem> machine_of(const std::string& file, const std::vector<std::string>& overrides) {
   scene::Document document = scene::load(file, overrides);
-  return std::make_unique<Machine>(read_scenario(document));
+  return std::make_unique<FloatingSystem>(read_scenario(document));
 }
 
 /// To the end of the run, or to the first failure.
 inline March march(const std::string& file, const std::vector<std::string>& overrides) {
-  const std::unique_ptr<Machine> machine = machine_of(file, overrides);
-  bodies::BodiesState state = make_start(*machine).state;
-  const Timeline& t = machine->timeline();
+  const std::unique_ptr<FloatingSystem> floating = machine_of(file, overrides);
+  bodies::BodiesState state = make_start(*floating).state;
+  const Timeline& t = floating->timeline();
   March m;
   std::optional<CoupledWindow> window;
-  if (machine->scenario().coupling.scheme != SchemeKind::monolithic) window.emplace(*machine).begin(state);
+  if (floating->scenario().coupling.scheme != SchemeKind::monolithic) window.emplace(*floating).begin(state);
   for (std::int64_t n = 0; n < t.windows() && m.failure.empty(); ++n) {
     if (window) {
       const WindowReport report = window->advance(state);
@@ -39,7 +39,7 @@ inline March march(const std::string& file, const std::vector<std::string>& over
       m.mismatch += report.mismatch / double(t.windows());
     } else {
       for (std::int64_t step = 0; step < t.steps_per_window(); ++step)
-        if (!machine->system().advance(state, t.tick_s(), 1).ok()) m.failure = "a step failed";
+        if (!floating->multibody().advance(state, t.tick_s(), 1).ok()) m.failure = "a step failed";
     }
     m.pitch.push_back(euler_angles(state.motions[0].attitude).y());
   }

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "kernels/base/constants.hpp"
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
@@ -156,10 +156,10 @@ TEST_CASE("the deck's platform, rotor, water, lines and waves are the scene's", 
 
 TEST_CASE("an imported scene is a machine that stands and moves", "[import][fast]") {
   const SmallDeck deck;
-  coupling::Machine machine(deck.scenario());
-  coupling::Start start = make_start(machine);
-  REQUIRE(machine.rotor());
-  for (int n = 0; n < 20; ++n) REQUIRE(machine.system().advance(start.state, machine.timeline().tick_s(), 1).ok());
+  coupling::FloatingSystem floating(deck.scenario());
+  coupling::Start start = make_start(floating);
+  REQUIRE(floating.rotor());
+  for (int n = 0; n < 20; ++n) REQUIRE(floating.multibody().advance(start.state, floating.timeline().tick_s(), 1).ok());
 }
 
 TEST_CASE("what the scene cannot say is told", "[import][fast]") {

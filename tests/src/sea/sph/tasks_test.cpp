@@ -98,14 +98,14 @@ MoveBodies falling(double mass) {
 
 constexpr double window = 0.02;
 
-Everything run(const Scene& scene, Machine machine, int windows, Pace pace = {}, double* imbalance = nullptr) {
-  const MPI_Comm comm = machine.comm;
-  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, std::move(machine));
+Everything run(const Scene& scene, Resources resources, int windows, StepControl step_control = {}, double* imbalance = nullptr) {
+  const MPI_Comm comm = resources.comm;
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, std::move(resources));
   if (scene.box.position.norm() > 0) {
     sea.add_body(2, scene.box, scene.touching_mass);
     sea.set_bodies(falling(6.0));
   }
-  sea.set_pace(pace);
+  sea.set_step_control(step_control);
   for (int n = 0; n < windows; ++n) sea.advance(window);
   CHECK(sea.time() == Approx(windows * window));
   CHECK(sea.work().sorts > 0);
@@ -141,22 +141,22 @@ TEST_CASE("a window as one graph has the bits of its steps one by one", "[sph][t
 
 TEST_CASE("threads and schedules leave every bit, with a body in the loop", "[sph][tasks][fast]") {
   const Scene scene(true, StepChoice::symplectic, GENERATE(false, true));
-  const Pace pace = GENERATE(Pace{}, Pace{.steps_per_look = 5});
-  const Everything expected = run(scene, {.threads = 1}, 2, pace);
-  CHECK(same(run(scene, {.threads = 2}, 2, pace), expected));
-  if (scene.touching_mass == 0.0) CHECK(same(run(scene, {.threads = 3}, 2, pace), expected));
+  const StepControl step_control = GENERATE(StepControl{}, StepControl{.steps_per_check = 5});
+  const Everything expected = run(scene, {.threads = 1}, 2, step_control);
+  CHECK(same(run(scene, {.threads = 2}, 2, step_control), expected));
+  if (scene.touching_mass == 0.0) CHECK(same(run(scene, {.threads = 3}, 2, step_control), expected));
   for (std::uint64_t seed = 1; seed <= (scene.touching_mass == 0.0 ? 3u : 1u); ++seed)
-    CHECK(same(run(scene, {.threads = int(1 + seed % 3), .random_schedule = seed}, 2, pace), expected));
+    CHECK(same(run(scene, {.threads = int(1 + seed % 3), .random_schedule = seed}, 2, step_control), expected));
 }
 
 TEST_CASE("fixed steps are made in full and refused beyond their limit", "[sph][tasks][fast]") {
   const Scene scene;
   SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 1});
-  sea.set_pace({.dt = 2e-4, .steps_per_look = 8});
+  sea.set_step_control({.dt = 2e-4, .steps_per_check = 8});
   sea.advance(0.004);
   CHECK(sea.work().steps == 20);
   CHECK(sea.time() == Approx(0.004).epsilon(1e-12));
-  sea.set_pace({.dt = 2e-3, .steps_per_look = 8});
+  sea.set_step_control({.dt = 2e-3, .steps_per_check = 8});
   CHECK_THROWS_WITH(sea.advance(0.004), Catch::Contains("fixed step") && Catch::Contains("beyond the limit"));
 }
 
@@ -243,17 +243,19 @@ void same_bits_on_ranks() {
   const int ranks = runtime::ranks_in(world);
   const int kind = GENERATE(0, 1, 2);
   const Scene scene(kind > 0, StepChoice::symplectic, kind == 2);
-  const Pace pace = kind > 0 ? Pace{} : Pace{.steps_per_look = 6};
-  const Everything expected = run(scene, {.threads = 1}, 3, pace);
+  const StepControl step_control = kind > 0 ? StepControl{} : StepControl{.steps_per_check = 6};
+  const Everything expected = run(scene, {.threads = 1}, 3, step_control);
   const SeaSph<3, float> probe(scene.p, scene.domain, scene.seeds, {.threads = 1});
-  CHECK(same(run(scene, {.comm = world, .threads = 1}, 3, pace), expected));
-  CHECK(same(run(scene, {.comm = world, .threads = 2, .random_schedule = std::uint64_t(7 + runtime::rank_in(world))}, 3, pace),
-             expected));
-  CHECK(same(run(scene, {.comm = world, .threads = 1, .rank_of_group = striped(probe, ranks)}, 3, pace), expected));
+  CHECK(same(run(scene, {.comm = world, .threads = 1}, 3, step_control), expected));
+  CHECK(same(
+      run(scene, {.comm = world, .threads = 2, .random_schedule = std::uint64_t(7 + runtime::rank_in(world))}, 3, step_control),
+      expected));
+  CHECK(same(run(scene, {.comm = world, .threads = 1, .rank_of_group = striped(probe, ranks)}, 3, step_control), expected));
   const std::vector<int> last(std::size_t(probe.columns().groups()), ranks - 1);  // others have no particle
-  CHECK(same(run(scene, {.comm = world, .threads = 1, .repartition_above = 1e9, .rank_of_group = last}, 3, pace), expected));
+  CHECK(same(run(scene, {.comm = world, .threads = 1, .repartition_above = 1e9, .rank_of_group = last}, 3, step_control),
+             expected));
   double imbalance = 0.0;  // all on one rank at the start, dealt out after the first window
-  CHECK(same(run(scene, {.comm = world, .threads = 1, .rank_of_group = last}, 3, pace, &imbalance), expected));
+  CHECK(same(run(scene, {.comm = world, .threads = 1, .rank_of_group = last}, 3, step_control, &imbalance), expected));
   CHECK(imbalance < 0.8 * ranks);
 }
 
@@ -262,7 +264,8 @@ void restart_on_other_ranks() {
   const MPI_Comm world = MPI_COMM_WORLD;
   const Scene scene(true);
   const auto make = [&](MPI_Comm comm, int threads) {
-    auto sea = std::make_unique<SeaSph<3, float>>(scene.p, scene.domain, scene.seeds, Machine{.comm = comm, .threads = threads});
+    auto sea =
+        std::make_unique<SeaSph<3, float>>(scene.p, scene.domain, scene.seeds, Resources{.comm = comm, .threads = threads});
     sea->add_body(2, scene.box);
     sea->set_bodies(falling(6.0));
     return sea;

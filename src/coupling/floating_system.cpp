@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/coupling/machine.hpp"
+#include "src/coupling/floating_system.hpp"
 
 #include <algorithm>
 
@@ -45,7 +45,7 @@ aero::AeroOptions engineering_rung(const Scenario& s) {
 
 }  // namespace
 
-Machine::Machine(Scenario scenario)
+FloatingSystem::FloatingSystem(Scenario scenario)
     : scenario_(std::move(scenario)), timeline_(scenario_.time.window_s, scenario_.tick_s(), scenario_.time.end_s) {
   const Scenario& s = scenario_;
   const std::vector<Motion> start = described_motions(s.bodies);
@@ -181,7 +181,7 @@ Machine::Machine(Scenario scenario)
 }
 
 /// Wraps the source so that its time is counted; two readings of the clock, 16 ns, per evaluation.
-void Machine::add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadSource source, std::vector<bool> on) {
+void FloatingSystem::add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadSource source, std::vector<bool> on) {
   const std::size_t index = sources.size();
   const auto clocked = [this, index](auto inner) {
     return [this, index, inner](double t, auto motions, auto out) {
@@ -203,11 +203,11 @@ void Machine::add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadS
   loaded_.push_back(std::move(on));
 }
 
-void Machine::fill_sea(std::span<const Motion> start, const runtime::World& world) {
+void FloatingSystem::fill_sea(std::span<const Motion> start, const runtime::World& world) {
   if (particle_plan_) particles_ = sea::ParticleSea::make(*particle_plan_, start, world);
 }
 
-double Machine::ramp(double t) const {
+double FloatingSystem::ramp(double t) const {
   const double length = scenario_.start.ramp_s;
   if (full_loads_ || t >= length) return 1.0;
   const double x = std::max(0.0, t / length);

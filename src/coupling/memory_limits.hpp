@@ -1,6 +1,6 @@
 // Whether a scene fits into the memory of the machine: counted in double precision from its keys, before any of it is made.
 // Called by `run` and `check` before all else; what is counted is the least that a scene takes, so that nothing that fits is
-// refused. Tested in tests/src/coupling/room_test.cpp and by the malformed scenes. SPDX-License-Identifier: Apache-2.0
+// refused. Tested in tests/src/coupling/memory_limits_test.cpp and by the malformed scenes. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace spindrift::coupling {
 
 /// A part of a scene that grows with a key.
-struct Room {
+struct Demand {
   std::string key, value;  ///< that would mend it
   std::string things;      ///< "particles"
   double count = 0.0, bytes = 0.0;
@@ -19,10 +19,10 @@ struct Room {
 };
 
 /// What the scene takes at least, and what would fit into so much.
-std::vector<Room> room_of(const Scenario& scenario, double memory_bytes);
+std::vector<Demand> demands_of(const Scenario& scenario, double memory_bytes);
 /// Throws scene::SceneError where a part is beyond `memory_bytes` or has more things than can be counted: key, count, bytes, and
 /// the value that would fit.
-void require_room(const Scenario& scenario, double memory_bytes);
+void require_memory(const Scenario& scenario, double memory_bytes);
 
 /// What this process may use of this machine [bytes]: its memory, or the limit of its control group.
 double machine_memory();

@@ -1,4 +1,4 @@
-// The machine that a scene describes: bodies with every source of load that the scene names, and nothing else.
+// The floating system that a scene describes: bodies with every source of load that the scene names, and nothing else.
 // Built by src/app from a Scenario; advanced by src/run; tested in tests/src/coupling.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -28,11 +28,11 @@ struct SourceClock {
   std::int64_t ns = 0, calls = 0;
 };
 
-class Machine {
+class FloatingSystem {
  public:
-  explicit Machine(Scenario scenario);
-  Machine(const Machine&) = delete;
-  Machine& operator=(const Machine&) = delete;
+  explicit FloatingSystem(Scenario scenario);
+  FloatingSystem(const FloatingSystem&) = delete;
+  FloatingSystem& operator=(const FloatingSystem&) = delete;
 
   const Scenario& scenario() const { return scenario_; }
   const Timeline& timeline() const { return timeline_; }
@@ -115,19 +115,19 @@ class Machine {
   std::unique_ptr<bodies::System> system_;
 };
 
-/// Asks for the machine's loads in another way while this lives.
-template <void (Machine::*use)(bool)>
+/// Asks for the floating system's loads in another way while this lives.
+template <void (FloatingSystem::*use)(bool)>
 class LoadsAsked {
  public:
-  explicit LoadsAsked(Machine& machine) : machine_(machine) { (machine_.*use)(true); }
-  ~LoadsAsked() { (machine_.*use)(false); }
+  explicit LoadsAsked(FloatingSystem& floating) : floating_(floating) { (floating_.*use)(true); }
+  ~LoadsAsked() { (floating_.*use)(false); }
   LoadsAsked(const LoadsAsked&) = delete;
   LoadsAsked& operator=(const LoadsAsked&) = delete;
 
  private:
-  Machine& machine_;
+  FloatingSystem& floating_;
 };
-using FullLoads = LoadsAsked<&Machine::use_full_loads>;
-using MeanLoads = LoadsAsked<&Machine::use_mean_loads>;
+using FullLoads = LoadsAsked<&FloatingSystem::use_full_loads>;
+using MeanLoads = LoadsAsked<&FloatingSystem::use_mean_loads>;
 
 }  // namespace spindrift::coupling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/coupling/room.hpp"
+#include "src/coupling/memory_limits.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -38,17 +38,17 @@ double particles(const Scenario& s, double spacing, double top) {
   return std::max(0.0, water) / std::pow(spacing, 3) + std::max(0.0, wall) / (spacing * spacing);
 }
 
-Room sea_room(const Scenario& s, double memory) {
+Demand sea_demand(const Scenario& s, double memory) {
   const double d = s.sea.particles->spacing_m, top = s.sea.tank->top_m, count = particles(s, d, top);
   // High walls are mended by their height, the rest by the spacing.
   const bool walls =
       particles(s, d, std::min(top, 0.0)) < 0.5 * count && particles(s, d, std::min(top, 0.0)) * of_particle < memory;
-  Room room{walls ? "sea.tank.top_m" : "sea.particles.spacing_m",
-            fmt::format("{}", walls ? top : d),
-            "particles",
-            count,
-            count * of_particle,
-            {}};
+  Demand demand{walls ? "sea.tank.top_m" : "sea.particles.spacing_m",
+                fmt::format("{}", walls ? top : d),
+                "particles",
+                count,
+                count * of_particle,
+                {}};
   double fits = walls ? top : d, fails = fits;
   for (int step = 0; step < 200 && particles(s, walls ? d : fits, walls ? fits : top) * of_particle > memory; ++step)
     fails = fits, fits *= walls ? 0.5 : 2.0;
@@ -56,8 +56,8 @@ Room sea_room(const Scenario& s, double memory) {
     const double middle = std::sqrt(fits * fails);
     (particles(s, walls ? d : middle, walls ? middle : top) * of_particle > memory ? fails : fits) = middle;
   }
-  room.that_fits = fmt::format("{} {:.2g}", walls ? "at most" : "at least", fits * (walls ? 0.95 : 1.05));
-  return room;
+  demand.that_fits = fmt::format("{} {:.2g}", walls ? "at most" : "at least", fits * (walls ? 0.95 : 1.05));
+  return demand;
 }
 
 double cells_made(const aero::GenerateOptions& g) {
@@ -81,43 +81,43 @@ std::string bytes_text(double bytes) {
 
 }  // namespace
 
-std::vector<Room> room_of(const Scenario& s, double memory) {
-  std::vector<Room> rooms;
+std::vector<Demand> demands_of(const Scenario& s, double memory) {
+  std::vector<Demand> demands;
   const double bodies = double(s.bodies.size());
   if (bodies > 100.0)
-    rooms.push_back({"bodies", "", "bodies", bodies, 36.0 * bodies * bodies * of_number,
-                     fmt::format("at most {:.0f} bodies", std::sqrt(memory / (36.0 * of_number)))});
-  if (s.has_particles() && s.sea.particles && s.sea.tank) rooms.push_back(sea_room(s, memory));
+    demands.push_back({"bodies", "", "bodies", bodies, 36.0 * bodies * bodies * of_number,
+                       fmt::format("at most {:.0f} bodies", std::sqrt(memory / (36.0 * of_number)))});
+  if (s.has_particles() && s.sea.particles && s.sea.tank) demands.push_back(sea_demand(s, memory));
   if (s.sea.model == "morison") {
     double length = 0.0;
     for (const auto& body : s.bodies)
       for (const bodies::CylinderOptions& c : body.options.cylinders) length += (c.end_m - c.start_m).norm();
     const double count = length / s.sea.strip_length_m;
-    rooms.push_back({"sea.strip_length_m", fmt::format("{}", s.sea.strip_length_m), "strips", count, count * of_strip,
-                     fmt::format("at least {:.2g}", std::max(length * of_strip / memory, length / 1e6) * 1.05)});
-    if (count > 1e6) rooms.back().bytes = std::max(rooms.back().bytes, 2.0 * memory);  // a step would take seconds
+    demands.push_back({"sea.strip_length_m", fmt::format("{}", s.sea.strip_length_m), "strips", count, count * of_strip,
+                       fmt::format("at least {:.2g}", std::max(length * of_strip / memory, length / 1e6) * 1.05)});
+    if (count > 1e6) demands.back().bytes = std::max(demands.back().bytes, 2.0 * memory);  // a step would take seconds
   }
   if (s.has_flow() && s.aero.flow && s.aero.flow->generate) {
     const double count = cells_made(*s.aero.flow->generate);
-    rooms.push_back({key_of(*s.aero.flow->generate), "", "cells", count, count * of_cell,
-                     fmt::format("at most {:.3g} cells", memory / of_cell)});
+    demands.push_back({key_of(*s.aero.flow->generate), "", "cells", count, count * of_cell,
+                       fmt::format("at most {:.3g} cells", memory / of_cell)});
   }
   if (s.resolves_air() && s.aero.grid) {
     aero::ResolvedRotorSetup setup = resolved_rotor_setup(s);
     const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
-    rooms.push_back({"aero.grid.resolution", fmt::format("{}", setup.grid.resolution), "cells", double(size.cells), size.bytes,
-                     fmt::format("some {:.2g}", setup.grid.resolution * std::cbrt(memory / std::max(size.bytes, 1.0)))});
+    demands.push_back({"aero.grid.resolution", fmt::format("{}", setup.grid.resolution), "cells", double(size.cells), size.bytes,
+                       fmt::format("some {:.2g}", setup.grid.resolution * std::cbrt(memory / std::max(size.bytes, 1.0)))});
   }
-  return rooms;
+  return demands;
 }
 
-void require_room(const Scenario& s, double memory) {
+void require_memory(const Scenario& s, double memory) {
   std::vector<scene::Problem> problems;
-  for (const Room& room : room_of(s, memory))
-    if (room.count > most_things || !(room.bytes <= memory))
-      problems.push_back({s.source, 0, room.key, room.value,
-                          fmt::format("makes {:.4g} {}, which take {} or more; there are {}; {} would fit", room.count,
-                                      room.things, bytes_text(room.bytes), bytes_text(memory), room.that_fits)});
+  for (const Demand& demand : demands_of(s, memory))
+    if (demand.count > most_things || !(demand.bytes <= memory))
+      problems.push_back({s.source, 0, demand.key, demand.value,
+                          fmt::format("makes {:.4g} {}, which take {} or more; there are {}; {} would fit", demand.count,
+                                      demand.things, bytes_text(demand.bytes), bytes_text(memory), demand.that_fits)});
   if (!problems.empty()) throw scene::SceneError(problems);
 }
 

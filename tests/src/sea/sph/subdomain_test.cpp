@@ -1,6 +1,6 @@
 // What ranks own, show and see fits together, and costs follow the pairs.
 // SPDX-License-Identifier: Apache-2.0
-#include "src/sea/sph/territory.hpp"
+#include "src/sea/sph/subdomain.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -14,13 +14,13 @@ TEST_CASE("what one rank shows is what the other sees, and every neighbour of an
   const Columns<3> columns(Domain<3>{{0, 0, 0}, {7, 5, 1}, {periodic, false, false}}, 1.0, 1.0);
   std::vector<int> rank_of_group(std::size_t(columns.groups()));
   for (std::size_t g = 0; g < rank_of_group.size(); ++g) rank_of_group[g] = int(g * g % 7) % ranks;
-  std::vector<Territory> territories;
-  for (int r = 0; r < ranks; ++r) territories.push_back(territory_of(columns, rank_of_group, r, rings));
-  std::map<std::pair<int, int>, const Territory::Border*> border;
+  std::vector<Subdomain> subdomains;
+  for (int r = 0; r < ranks; ++r) subdomains.push_back(subdomain_of(columns, rank_of_group, r, rings));
+  std::map<std::pair<int, int>, const Subdomain::Border*> border;
   std::size_t owned = 0;
-  for (const Territory& t : territories) {
+  for (const Subdomain& t : subdomains) {
     owned += t.own.size();
-    for (const Territory::Border& b : t.borders) border[{t.rank, b.rank}] = &b;
+    for (const Subdomain::Border& b : t.borders) border[{t.rank, b.rank}] = &b;
   }
   CHECK(owned == rank_of_group.size());
   for (const auto& [between, b] : border) {
@@ -42,7 +42,7 @@ TEST_CASE("what one rank shows is what the other sees, and every neighbour of an
 
 TEST_CASE("one rank has no border", "[sph][fast]") {
   const Columns<2> columns(Domain<2>{{0, 0}, {7, 1}}, 1.0, 1.0);
-  const Territory whole = whole_territory(columns);
+  const Subdomain whole = whole_subdomain(columns);
   CHECK(whole.borders.empty());
   CHECK(int(whole.own.size()) == columns.groups());
 }

@@ -1,6 +1,6 @@
 // Which rank owns which group, which groups of others it sees (its halo) and which of its own it shows to whom. Pairs across a
 // border are computed on both sides, in the order of the whole scene, so that sums do not depend on ranks (tasks.cpp).
-// Called by ordering.cpp, sea_sph.cpp and tasks.cpp; tested in tests/src/sea/sph/territory_test.cpp.
+// Called by ordering.cpp, sea_sph.cpp and tasks.cpp; tested in tests/src/sea/sph/subdomain_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace spindrift::sph {
 
-struct Territory {
+struct Subdomain {
   /// A rank with groups beside mine. Both lists ascend, so that what one rank shows is what the other sees.
   struct Border {
     int rank = 0;
@@ -31,8 +31,8 @@ struct Territory {
 
 /// rings: how many columns away a sweep reads (1 for pairs; 2 where ghost nodes of walls read further).
 template <int dim>
-Territory territory_of(const Columns<dim>& columns, std::vector<int> rank_of_group, int rank, int rings = 1) {
-  Territory t{.rank = rank, .rank_of_group = std::move(rank_of_group)};
+Subdomain subdomain_of(const Columns<dim>& columns, std::vector<int> rank_of_group, int rank, int rings = 1) {
+  Subdomain t{.rank = rank, .rank_of_group = std::move(rank_of_group)};
   const int groups = columns.groups();
   t.owned.resize(std::size_t(groups));
   std::vector<std::vector<int>> around(std::size_t(groups), std::vector<int>{});
@@ -64,8 +64,8 @@ Territory territory_of(const Columns<dim>& columns, std::vector<int> rank_of_gro
 
 /// All groups on one rank.
 template <int dim>
-Territory whole_territory(const Columns<dim>& columns) {
-  return territory_of(columns, std::vector<int>(std::size_t(columns.groups()), 0), 0);
+Subdomain whole_subdomain(const Columns<dim>& columns) {
+  return subdomain_of(columns, std::vector<int>(std::size_t(columns.groups()), 0), 0);
 }
 
 /// What a group costs, counted, in clusters of water and of walls: each cluster meets those of its own and of the neighbouring

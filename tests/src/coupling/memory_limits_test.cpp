@@ -1,6 +1,6 @@
-// What scenes take: src/coupling/room.hpp.
+// What scenes take: src/coupling/memory_limits.hpp.
 // SPDX-License-Identifier: Apache-2.0
-#include "src/coupling/room.hpp"
+#include "src/coupling/memory_limits.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -17,7 +17,7 @@ Scenario scenario(const std::string& scene, const std::vector<std::string>& over
   return read_scenario(document);
 }
 void require(const std::string& scene, const std::vector<std::string>& overrides, double memory = 16e9) {
-  require_room(scenario(scene, overrides), memory);
+  require_memory(scenario(scene, overrides), memory);
 }
 }  // namespace
 
@@ -33,7 +33,7 @@ TEST_CASE("what no machine holds is named with the number that would fit", "[cou
 
 TEST_CASE("the number that would fit does", "[coupling][fast]") {
   const Scenario tank = scenario("validation/dam_break/koshizuka_oka.toml", {"sea.particles.spacing_m=1e-6"});
-  const Room room = room_of(tank, 16e9).at(0);
+  const Room room = demands_of(tank, 16e9).at(0);
   REQUIRE(room.that_fits.starts_with("at least "));
   CHECK_NOTHROW(require("validation/dam_break/koshizuka_oka.toml", {"sea.particles.spacing_m=" + room.that_fits.substr(9)}));
 }
