@@ -10,6 +10,7 @@
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
 #include "src/aero/flow/sweep_model.hpp"
+#include "src/aero/flow_size.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/aero/rotor_grid/layout.hpp"
@@ -102,6 +103,21 @@ ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
   size.bytes = size.sectors * sector_bytes(kind, spec) + nodes + (kind.moving() ? state : 0.0);
   size.bytes_of_checkpoint = state;
   size.core_seconds_per_pseudo_step = double(size.cells) * (setup.flow.viscous == "none" ? inviscid_seconds : viscous_seconds);
+  return size;
+}
+
+FlowSize flow_size(const FlowOptions& flow, const MultiBlockGrid& grid) {
+  const Kind kind = kind_of(flow);
+  FlowSize size;
+  double nodes = 0.0;
+  for (const Block& b : grid.blocks) {
+    size.cells += long(b.ni) * b.nj * b.nk;
+    size.bytes += block_bytes(kind, {b.ni, b.nj, b.nk});
+    nodes += 3.0 * sizeof(double) * double(b.ni + 1) * (b.nj + 1) * (b.nk + 1);
+  }
+  size.bytes += nodes;
+  size.bytes_of_checkpoint = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
+  size.core_seconds_per_pseudo_step = double(size.cells) * (flow.viscous == "none" ? inviscid_seconds : viscous_seconds);
   return size;
 }
 

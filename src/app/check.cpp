@@ -74,19 +74,22 @@ void print_doubts(FloatingSystem& floating, const coupling::Start& start, const 
   for (const scene::Doubt& doubt : doubts) fmt::print("  warning: {}\n", text(doubt));
 }
 
-void print_steps(FloatingSystem& floating, const coupling::Start& start) {
+/// `start_s`: processor time up to the first step.
+void print_steps(FloatingSystem& floating, const coupling::Start& start, double start_s) {
   const coupling::Timeline& t = floating.timeline();
   const StepCost cost = measured_steps(floating, start);
-  const double seconds = cost.core_seconds();
+  const double seconds = start_s + cost.core_seconds() + output_seconds;
   fmt::print("\nSize and cost\n");
   fmt::print("  {:<22}{} windows of {} s, {} step{} each ({})\n", "time", t.windows(), t.window_s(), t.steps_per_window(),
              t.steps_per_window() == 1 ? "" : "s", name(floating.multibody().integrator()));
   fmt::print(
-      "  {:<22}{:.3g} ({:.3g} s on one core, {:.0f} times real time): {:.3g} steps of {:.3g} us and {:.3g} rows of history of "
-      "{:.3g} us, measured now\n",
-      "predicted core-hours", seconds / 3600.0, seconds, t.windows() * t.window_s() / seconds, cost.steps, 1e6 * cost.step_s,
+      "  {:<22}{:.3g} ({:.3g} s on one core, {:.0f} times real time): {:.3g} s to start and for files, {:.3g} steps of {:.3g} "
+      "us{} and {:.3g} rows of history of {:.3g} us, measured now\n",
+      "predicted core-hours", seconds / 3600.0, seconds, t.windows() * t.window_s() / seconds, start_s + output_seconds,
+      cost.steps, 1e6 * cost.step_s,
+      cost.exchanges > 0.0 ? fmt::format(", {:.3g} loads of the rotor of {:.3g} us", cost.exchanges, 1e6 * cost.exchange_s) : "",
       cost.rows, 1e6 * cost.row_s);
-  fmt::print("  {:<22}{:.0f} MB\n", "memory", peak_memory() / 1e6);
+  fmt::print("  {:<22}{:.0f} MB\n", "memory", (resident_memory() + output_bytes) / 1e6);
 }
 
 void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& state) {
@@ -202,7 +205,6 @@ PartCost print_air(const FloatingSystem& floating, const coupling::Start& start,
 void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, bool calibrate, int ranks) {
   const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
-  const bool steady = setup.dt == 0.0;
   fmt::print("{}: valid\n\nWhat will be modelled\n", source);
   fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, setup.flow.viscous == "none" ? "inviscid" : setup.flow.turbulence,
              setup.flow.flux);
@@ -210,8 +212,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors,
              size.sectors == 1 ? ", periodic" : "s", size.stations);
   print_far_sides(setup.grid);
-  const PartCost cost =
-      cost_of_air(setup, size, (steady ? 1.0 : setup.flow.max_pseudo_steps) / s.time.window_s, 0.0, 1, calibrate);
+  const PartCost cost = cost_of_air(setup, size, pseudo_steps_per_second(s), 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks);
 }
 
@@ -296,6 +297,7 @@ void print_omissions(const coupling::Scenario& scenario, const std::vector<std::
 }  // namespace
 
 int check(const CheckArguments& arguments, const runtime::World& world) {
+  const double begin_s = processor_seconds();
   scene::Document document = load_scene(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
   coupling::require_memory(scenario, coupling::machine_memory() * world.size);
@@ -318,12 +320,15 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
                aero::describe_flow_grid(*scenario.aero.flow));
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
     print_first_cells(scenario, grid);
+    const PartCost cost = cost_of_flow(scenario, grid);
+    print_cost(std::span(&cost, 1), scenario.time.end_s, world.size);
     return done;
   }
   const coupling::Scenario asked = scenario;
   FloatingSystem floating(std::move(scenario));
   const coupling::Start start = make_start(floating);
   const coupling::Stability stability = coupling::stability(floating, start.state);
+  const double start_s = processor_seconds() - begin_s;
   if (world.rank == 0) {
     fmt::print("{}: valid\n", arguments.scene);
     print_models(floating);
@@ -353,7 +358,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   if (floating.particle_plan())
     parts.push_back(print_particles(floating, start));
   else
-    print_steps(floating, start);
+    print_steps(floating, start, start_s);
   if (!parts.empty()) print_cost(parts, floating.scenario().time.end_s, world.size);
   if (!arguments.columns.empty()) print_omissions(asked, arguments.columns);
   return done;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/aero/grid/multi_block.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/app/cost.hpp"
 #include "src/coupling/floating_system.hpp"
@@ -13,11 +14,12 @@
 
 namespace spindrift::app {
 
-/// Bodies with the loads of engineering models: steps and rows of history, by the processor's own clock.
+/// Bodies with the loads of engineering models: steps, exchanges with a rotor that is not evaluated in every step, rows of
+/// history, by the processor's own clock.
 struct StepCost {
-  double steps = 0.0, rows = 0.0;
-  double step_s = 0.0, row_s = 0.0;  ///< of one, the fastest of a few: others on the computer only add
-  double core_seconds() const { return steps * step_s + rows * row_s; }
+  double steps = 0.0, exchanges = 0.0, rows = 0.0;
+  double step_s = 0.0, exchange_s = 0.0, row_s = 0.0;  ///< of one, the fastest of a few: others on the computer only add
+  double core_seconds() const { return steps * step_s + exchanges * exchange_s + rows * row_s; }
 };
 StepCost measured_steps(coupling::FloatingSystem& floating, const coupling::Start& start);
 
@@ -36,11 +38,21 @@ struct Forecast {
   std::vector<std::string> columns;  ///< of history.csv; empty where only the run itself knows
 };
 Forecast forecast(coupling::FloatingSystem& floating, const coupling::Start& start);
-/// A resolved rotor without bodies.
+/// Air without bodies: a resolved rotor, or the flow on a grid.
 Forecast forecast_of_air(const coupling::Scenario& scenario);
+/// Of the flow on a grid that stands, whatever is in it.
+PartCost cost_of_flow(const coupling::Scenario& scenario, const aero::MultiBlockGrid& grid);
+/// Pseudo-steps at most per simulated second, of which a steady flow takes one per window.
+double pseudo_steps_per_second(const coupling::Scenario& scenario);
 
+/// Of a run's history, log and the libraries that write them, beside what a check takes [bytes]; measured.
+inline constexpr double output_bytes = 4.5e6;
+/// Processor time of the same: folder, log, scene, summary, checkpoint [s].
+inline constexpr double output_seconds = 0.015;
 /// Memory of this process at its largest so far [bytes].
 double peak_memory();
+/// The same now: what was given back is not in it [bytes].
+double resident_memory();
 /// Processor time of all threads of this process so far [s].
 double processor_seconds();
 

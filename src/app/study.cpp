@@ -74,9 +74,13 @@ Checked checked(const std::string& file, const std::vector<std::string>& overrid
   scene::Document document = scene::load(file, overrides, overrider);
   const coupling::Scenario scenario = coupling::read_scenario(document);
   if (!forecasts) return {document.echo(), {}};
-  if (scenario.has_flow()) return {document.echo(), has_resolved_rotor(scenario) ? forecast_of_air(scenario) : Forecast{}};
+  const double before = processor_seconds();
+  if (scenario.has_flow()) return {document.echo(), forecast_of_air(scenario)};
   const ReadyScene ready = read_scene(file, overrides, overrider);
-  return {ready.echo, forecast(*ready.floating, ready.start)};
+  const double start_s = processor_seconds() - before;
+  Checked checked{ready.echo, forecast(*ready.floating, ready.start)};
+  checked.forecast.core_seconds += start_s;
+  return checked;
 }
 
 /// Misspelt columns are found before anything runs.

@@ -249,6 +249,8 @@ class Program(unittest.TestCase):
             number = lambda pattern: float(re.search(pattern, text).group(1))
             return {"cells": number(r"air +(\d+) cells"), "water": number(r"\((\d+) water"), "hours": number(r"predicted core-hours +(\S+) core-hours"),
                     "rate": number(r"\((\S+) us per cell"), "memory": re.search(r"memory +(\S+) GB", text), "verdict": "A loose scheme will do." in text}
+        air = spindrift("check", ROOT / "inputs/tutorials/wing_section.toml").stdout   # on a grid of its own
+        self.assertGreater(float(re.search(r"predicted core-hours +(\S+) core-hours", air).group(1)), 1e-3)
         demo, workstation, paper = cost("demo"), cost("workstation"), cost("paper")
         self.assertTrue(demo["hours"] < workstation["hours"] < paper["hours"])
         self.assertLess(demo["hours"], 0.2)
