@@ -204,6 +204,13 @@ class Judge:
             return 0.0
         return measures.all_within([estimates[m].within(self.metrics[m]["target"]) for m in self.targets()])
 
+    def why_unsure(self, rung):
+        """Why no confidence can be stated for the rung; empty where one can."""
+        if not self.plan["replicas"]:
+            return "the study has no replicas"
+        unknown = [self.metrics[m]["column"] for m in self.targets() if self.estimates[rung["name"]][m].error is None]
+        return f"too few replicas show the scatter of {' and '.join(dict.fromkeys(unknown))}" if unknown else ""
+
     def shortfall(self, rung):
         """Largest error over its target; without targets the first metric's error."""
         estimates = self.estimates[rung["name"]]
@@ -218,8 +225,7 @@ class Judge:
         return [r for r in self.rungs if not self.is_reference(r) and self.failed(r) is None and math.isfinite(self.shortfall(r))]
 
     def good(self):
-        least = self.confidence if self.plan["replicas"] else 1.0
-        return sorted((r for r in self.candidates() if self.targets() and self.confidence_of(r) >= least),
+        return sorted((r for r in self.candidates() if self.targets() and self.confidence_of(r) >= (1.0 if self.why_unsure(r) else self.confidence)),
                       key=lambda r: self.costs[r["name"]]["core_s"])
 
     def choose(self):
@@ -378,11 +384,11 @@ class Judge:
             if near is None:
                 return f"nothing is known to be within {wanted}: no run can be compared"
             tail = (f"the nearest, '{near['name']}', is at {number(self.shortfall(near))} of its worst target"
-                    + (f", confidence {percent(self.confidence_of(near))}" if self.plan["replicas"] else ""))
+                    + ("" if self.why_unsure(near) else f", confidence {percent(self.confidence_of(near))}"))
             return f"nothing is known to be within {wanted}; {tail}"
         cost = self.costs[answer["name"]]
-        sure = (f"confidence {percent(self.confidence_of(answer))}" if self.plan["replicas"]
-                else "confidence not known: the study has no replicas")
+        why = self.why_unsure(answer)
+        sure = f"confidence not known: {why}" if why else f"confidence {percent(self.confidence_of(answer))}"
         return (f"cheapest within {wanted}: '{answer['name']}'; costs {number(cost['core_s'])} core-s and "
                 f"{cost['memory'] / 1e6:.0f} MB a run; {sure}")
 
@@ -395,7 +401,7 @@ class Judge:
         for rung in self.rungs:
             row = {"name": rung["name"], "variant": rung["variant"], "at": rung["at"], "cost": self.costs[rung["name"]],
                    "failed": self.failed(rung), "on_front": rung["name"] in on_front, "is_reference": self.is_reference(rung),
-                   "confidence": self.confidence_of(rung) if self.plan["replicas"] and self.targets() else None, "errors": {}}
+                   "confidence": self.confidence_of(rung) if self.targets() and not self.why_unsure(rung) else None, "errors": {}}
             for m, metric in enumerate(self.metrics):
                 e = self.estimates[rung["name"]][m]
                 known = math.isfinite(e.value)

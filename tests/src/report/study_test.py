@@ -88,6 +88,12 @@ class Answer(unittest.TestCase):
         self.assertGreater(errors["high"], errors["low"])
         self.assertTrue(any("stands in" in text for text in result["not_tested"]))
 
+    def test_one_replica_each_claims_no_confidence_although_the_study_has_replicas(self):
+        result = Synthetic(LADDER, COSTS, own=0.0, dear={name: 1 for name in LADDER}).judge().result()
+        self.assertEqual(result["answer"], "coarse")
+        self.assertIn("confidence not known: too few replicas", result["sentence"])
+        self.assertTrue(all(rung["confidence"] is None for rung in result["rungs"]))
+
     def test_a_run_that_failed_is_kept_with_its_reason(self):
         study = Synthetic(LADDER, COSTS)
         study.results["curve/replica_2"].update(exit_code=3, reason="blew up at t = 3 s")
