@@ -253,7 +253,7 @@ const Section<SensorOptions>& sensor_section() {
           .vector("high_m", &SensorOptions::high_m, "m", "Highest corner.")
           .required()
           .number("mean_over_s", &SensorOptions::mean_over_s, "s",
-                  "Time before each row over which it is averaged; one window where absent.", positive())
+                  "Time before each row over which it is averaged; one window where absent.", not_negative())
           .check([](const SensorOptions& o, const scene::Report& report) {
             for (int k = 0; k < 3; ++k)
               if (o.high_m[k] < o.low_m[k]) return report("high_m", "must not be below low_m along any axis");
