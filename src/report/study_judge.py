@@ -423,4 +423,4 @@ class Judge:
                 "next": self.next_spend(answer), "not_tested": self.not_tested(left_out),
                 "limits": [{"metric": self.metrics[m]["name"], "of": variant, "order": l["order"], "allowance": l["allowance"], "why": l["why"]}
                            for (m, variant, _), l in self.limits.items()],
-                "core_s_spent": sum(sum(r["core_s"]) for r in self.results.values())}
+                "core_s_spent": math.fsum(s for r in self.results.values() for s in r["core_s"])}
