@@ -402,7 +402,9 @@ class MachineRun(Machine):
             second = self.rows(name + "_second")
             self.assertAlmostEqual(second[0]["time_s"], until, delta=1e-12)  # the row of the start itself
             self.assertGreater(second[0]["rotor.thrust_N"], 3e5)
-            self.assertEqual(second[1:], after)  # the same windows: the same bits
+            # The same windows: the same bits, but for work, which counts from the start of each run.
+            bits = lambda rows: [{name: value for name, value in row.items() if not name.startswith("energy.") or name == "energy.kinetic_J"} for row in rows]
+            self.assertEqual(bits(second[1:]), bits(after))
             # Another window, scheme and march from the same state: close, and not the same.
             self.spindrift(text, name + "_third", settings=[*start, "time.window_s=0.05", "coupling.scheme='cps'", "aero.flow.cfl_max=10"])
             third = self.rows(name + "_third")
