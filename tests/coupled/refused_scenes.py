@@ -130,7 +130,7 @@ sea.tank.top_m=-100.0
 sea.tank.x_m=[10.0, -10.0]
 sea.tank.x_m=[0.0]
 sea.tank.y_m=[0.0, 0.0]
-sea.tank.sides_x="open"
+sea.tank.sides_x="ajar"
 sea.fields.interval_s=-1.0
 sea.initial.state="calm"
 """,
