@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <iterator>
 
@@ -20,6 +22,14 @@ Polar blend(const std::vector<Polar>& polars, double thickness) {
   const Polar &thick = *above, &thin = *(above - 1);
   const double s = (thickness - thin.thickness) / (thick.thickness - thin.thickness);
   Polar mix{thickness, {}, {}, {}};
+  if (thin.stall && thick.stall) {
+    const auto between = [&](double StallOptions::*value) {
+      return (1.0 - s) * (*thin.stall).*value + s * (*thick.stall).*value;
+    };
+    mix.stall = {between(&StallOptions::normal_slope), between(&StallOptions::zero_lift), between(&StallOptions::drag_0),
+                 between(&StallOptions::critical_normal), between(&StallOptions::critical_normal_low)};
+    if (thin.stall->normal_slope * thick.stall->normal_slope == 0.0) mix.stall->normal_slope = 0.0;
+  }
   std::set_union(thin.attack.begin(), thin.attack.end(), thick.attack.begin(), thick.attack.end(),
                  std::back_inserter(mix.attack));
   for (const double a : mix.attack) {
@@ -30,6 +40,12 @@ Polar blend(const std::vector<Polar>& polars, double thickness) {
     mix.lift.push_back(at(&Polar::lift)), mix.drag.push_back(at(&Polar::drag));
   }
   return mix;
+}
+
+DynamicStallBeddoesLeishman leishman_of(const Polar& polar) {
+  if (!polar.stall) return DynamicStallBeddoesLeishman::of(polar.attack, polar.lift, polar.drag);
+  const StallOptions& s = *polar.stall;
+  return {s.zero_lift, s.normal_slope, s.drag_0, s.critical_normal, s.critical_normal_low, true};
 }
 
 }  // namespace
@@ -49,7 +65,7 @@ BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::st
     const Polar polar = blend(turbine.polars, middle(p.thickness));
     elements_.push_back({0.5 * (radius(i) + radius(i + 1)), 0.5 * (axial(i) + axial(i + 1)), -downwind / length, outward / length,
                          length, middle(p.chord), middle(p.twist), attack_.size(), polar.attack.size(),
-                         DynamicStallOye::of(polar.attack, polar.lift)});
+                         DynamicStallOye::of(polar.attack, polar.lift), leishman_of(polar)});
     attack_.insert(attack_.end(), polar.attack.begin(), polar.attack.end());
     lift_.insert(lift_.end(), polar.lift.begin(), polar.lift.end());
     drag_.insert(drag_.end(), polar.drag.begin(), polar.drag.end());
@@ -130,15 +146,23 @@ DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& ro
   for_each_place(wind, rotor, t, [&](const Place& at) {
     const Element& e = at.element;
     const auto section = [&](double a) { return polar(e, a); };
+    const bool leishman = unsteady_.stall == UnsteadyFlow::Stall::beddoes_leishman;
     ElementState s;
-    if (memory.empty()) {
+    if (memory.empty() && !leishman) {
       s = skewed(at.ring, balance(at), at.normal_wind, at.tangential_wind, at.skew, at.across, section);
+    } else if (memory.empty()) {
+      const Induced induced = steady(at);
+      const double beta = prandtl_glauert(flow(at, induced).speed);
+      s = forces(at, induced, [&](double a) { return e.leishman.still(std::remainder(a, 2.0 * pi), beta, section); });
     } else {
       const Past past = recalled(memory, at.index);
       const Induced induced = unsteady_.inflow ? Induced{past.normal.now, past.tangential.now} : steady(at);
+      const double beta = leishman ? prandtl_glauert(flow(at, induced).speed) : 1.0;
       s = forces(at, induced, [&](double a) {
+        const double attack = std::remainder(a, 2.0 * pi);
+        if (leishman) return e.leishman.force(past.leishman, attack, beta, section);
         SectionForce f = section(a);
-        if (unsteady_.stall) f.lift = e.stall.lift(std::remainder(a, 2.0 * pi), f.lift, past.separation);
+        if (unsteady_.stall == UnsteadyFlow::Stall::oye) f.lift = e.stall.lift(attack, f.lift, past.separation);
         return f;
       });
     }
@@ -150,32 +174,50 @@ DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& ro
 }
 
 std::size_t BladeElementMomentum::memory_size() const {
-  return unsteady_.inflow || unsteady_.stall ? past_size * elements_.size() * std::size_t(blades_) : 0;
+  return unsteady_.inflow || unsteady_.stall != UnsteadyFlow::Stall::none ? past_size() * elements_.size() * std::size_t(blades_)
+                                                                          : 0;
 }
 
-BladeElementMomentum::Past BladeElementMomentum::recalled(std::span<const double> memory, std::size_t index) {
-  const auto m = memory.subspan(past_size * index, past_size);
-  return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6], m[7]};
+BladeElementMomentum::Past BladeElementMomentum::recalled(std::span<const double> memory, std::size_t index) const {
+  const auto m = memory.subspan(past_size() * index, past_size());
+  Past past{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, m[6], m[7], {}};
+  if (past_size() == short_past) return past;
+  std::array<double, DynamicStallBeddoesLeishman::state_size> values;
+  std::copy(m.begin() + short_past, m.end(), values.begin());
+  past.leishman = std::bit_cast<DynamicStallBeddoesLeishman::State>(values);
+  return past;
 }
 
-void BladeElementMomentum::store(const Past& p, std::span<double> memory, std::size_t index) {
-  const double values[past_size] = {p.normal.steady,     p.normal.middle,  p.normal.now, p.tangential.steady,
-                                    p.tangential.middle, p.tangential.now, p.separation, p.still_separation};
-  std::copy(std::begin(values), std::end(values), memory.begin() + std::ptrdiff_t(past_size * index));
+void BladeElementMomentum::store(const Past& p, std::span<double> memory, std::size_t index) const {
+  const double values[short_past] = {p.normal.steady,     p.normal.middle,  p.normal.now, p.tangential.steady,
+                                     p.tangential.middle, p.tangential.now, p.separation, p.still_separation};
+  const auto m = memory.subspan(past_size() * index, past_size());
+  std::copy(std::begin(values), std::end(values), m.begin());
+  if (past_size() == short_past) return;
+  const auto more = std::bit_cast<std::array<double, DynamicStallBeddoesLeishman::state_size>>(p.leishman);
+  std::copy(more.begin(), more.end(), m.begin() + short_past);
 }
 
-BladeElementMomentum::Separation BladeElementMomentum::separation(const Place& at, const Induced& induced) const {
+BladeElementMomentum::Flow BladeElementMomentum::flow(const Place& at, const Induced& induced) const {
   const ElementState s = forces(at, induced, [](double) { return SectionForce{}; });
-  const double attack = std::remainder(s.attack, 2.0 * pi);
-  return {at.element.stall.separation(attack, polar(at.element, attack).lift), s.speed};
+  return {std::remainder(s.attack, 2.0 * pi), s.speed};
+}
+
+double BladeElementMomentum::prandtl_glauert(double speed) const {
+  const double mach = std::min(speed / unsteady_.speed_of_sound, 0.8);
+  return std::sqrt(1.0 - mach * mach);
 }
 
 void BladeElementMomentum::begin(const Wind& wind, const DiscMotion& rotor, double t, std::span<double> memory) const {
   for_each_place(wind, rotor, t, [&](const Place& at) {
     const Induced induced = steady(at);
     const auto [normal, tangential] = induced;
-    const double f = separation(at, induced).still;
-    store({{normal, normal, normal}, {tangential, tangential, tangential}, f, f}, memory, at.index);
+    const auto [attack, speed] = flow(at, induced);
+    const double f = still_separation(at.element, attack);
+    Past past{{normal, normal, normal}, {tangential, tangential, tangential}, f, f, {}};
+    if (past_size() == long_past)
+      past.leishman = at.element.leishman.settled(attack, prandtl_glauert(speed), [&](double a) { return polar(at.element, a); });
+    store(past, memory, at.index);
   });
 }
 
@@ -199,9 +241,13 @@ void BladeElementMomentum::remember(const Wind& wind, const DiscMotion& rotor, d
     } else {
       past.normal = {normal, normal, normal}, past.tangential = {tangential, tangential, tangential};
     }
-    const auto [still, speed] = separation(at, {past.normal.now, past.tangential.now});
+    const auto [attack, speed] = flow(at, {past.normal.now, past.tangential.now});
+    const double still = still_separation(at.element, attack);
     past.separation = DynamicStallOye::advance(past.separation, past.still_separation, still, h, at.ring.chord, speed);
     past.still_separation = still;
+    if (past_size() == long_past)
+      past.leishman = at.element.leishman.advance(past.leishman, attack, prandtl_glauert(speed), h, at.ring.chord, speed,
+                                                  [&](double a) { return polar(at.element, a); });
     store(past, memory, at.index);
   });
 }

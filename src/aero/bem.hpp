@@ -14,6 +14,7 @@
 
 #include "kernels/rotor/blade_element.hpp"
 #include "kernels/rotor/dynamic_inflow_oye.hpp"
+#include "kernels/rotor/dynamic_stall_beddoes_leishman.hpp"
 #include "kernels/rotor/dynamic_stall_oye.hpp"
 #include "src/aero/tower.hpp"
 #include "src/aero/turbine.hpp"
@@ -42,7 +43,9 @@ struct DiscLoad {
 struct UnsteadyFlow {
   bool inflow = false;                  ///< the wake, by Oye's filters
   std::optional<double> inflow_time{};  ///< tau_1 [s]; absent: by wind and induction
-  bool stall = false;                   ///< separation, by Oye's lag
+  enum class Stall { none, oye, beddoes_leishman };
+  Stall stall = Stall::none;
+  double speed_of_sound = 340.0;  ///< for Beddoes & Leishman [m/s]
 };
 
 class BladeElementMomentum {
@@ -76,6 +79,7 @@ class BladeElementMomentum {
     double length, chord, twist;         ///< [m], [m], [rad]
     std::size_t first, rows;             ///< its polar in attack_, lift_, drag_
     DynamicStallOye stall;
+    DynamicStallBeddoesLeishman leishman;
   };
   /// An element of one blade in the flow.
   struct Place {
@@ -94,10 +98,13 @@ class BladeElementMomentum {
   struct Past {
     DynamicInflowOye::Induced normal, tangential;  ///< [m/s]
     double separation, still_separation;           ///< f, and that of the polar
+    DynamicStallBeddoesLeishman::State leishman;
   };
-  static constexpr std::size_t past_size = 8;
-  static Past recalled(std::span<const double> memory, std::size_t index);
-  static void store(const Past& past, std::span<double> memory, std::size_t index);
+  /// Numbers for each element of each blade; the last part for Beddoes & Leishman only.
+  static constexpr std::size_t short_past = 8, long_past = short_past + DynamicStallBeddoesLeishman::state_size;
+  std::size_t past_size() const { return unsteady_.stall == UnsteadyFlow::Stall::beddoes_leishman ? long_past : short_past; }
+  Past recalled(std::span<const double> memory, std::size_t index) const;
+  void store(const Past& past, std::span<double> memory, std::size_t index) const;
 
   SectionForce polar(const Element& e, double attack) const;
   template <class Visit>
@@ -107,11 +114,13 @@ class BladeElementMomentum {
   Induced steady(const Place& at) const;
   template <class Section>
   ElementState forces(const Place& at, const Induced& induced, const Section& section) const;
-  /// Where the element's polar separates in this flow, and how fast it moves.
-  struct Separation {
-    double still, speed;  ///< f [-]; relative to the air [m/s]
+  /// The element's angle of attack and speed relative to the air [rad], [m/s].
+  struct Flow {
+    double attack, speed;
   };
-  Separation separation(const Place& at, const Induced& induced) const;
+  Flow flow(const Place& at, const Induced& induced) const;
+  double prandtl_glauert(double speed) const;
+  double still_separation(const Element& e, double attack) const { return e.stall.separation(attack, polar(e, attack).lift); }
   Annulus annulus(const Element& e, double blade_pitch) const;
 
   std::variant<InductionMadsen, InductionBuhl> induction_;

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
+#include "src/aero/bladed_library.hpp"
 #include "src/aero/options.hpp"
 #include "src/scene/document.hpp"
 
@@ -41,6 +45,53 @@ scene::Section<PitchGainOptions> gain_section(const char* name, const char* help
       .flag("constant_power", &PitchGainOptions::constant_power, "Above rated; false: constant torque.");
 }
 
+/// Records that the program fills, or that answer it.
+bool is_taken(int record) {
+  constexpr std::array others{1, 28, 35, 36, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 55, 56, 61, 62, 63, 64, 65, 102, 107};
+  return std::ranges::find(others, record) != others.end() ||
+         std::ranges::find(BladedLibrary::records, record) != BladedLibrary::records.end();
+}
+
+const scene::Section<RecordOptions>& record_section() {
+  static const auto section =
+      scene::Section<RecordOptions>("records",
+                                    "A number that a controller library is told once, besides what the program tells it.")
+          .integer("record", &RecordOptions::record, "-", "Its place in the interface's array, counted from 1.",
+                   scene::between(1, 3000))
+          .required()
+          .number("value", &RecordOptions::value, "-", "What stands there.")
+          .required()
+          .check([](const RecordOptions& o, const scene::Report& report) {
+            if (is_taken(o.record)) report("record", "is filled by the program or by the library");
+          });
+  return section;
+}
+
+const scene::Section<DriveTrainOptions>& drive_train_section() {
+  using scene::positive, scene::not_negative, scene::between;
+  static const auto section =
+      scene::Section<DriveTrainOptions>("drive_train", "What a controller library turns and pitches.")
+          .number("rotor_inertia_kg_m2", &DriveTrainOptions::rotor_inertia_kg_m2, "kg m2", "Blades and hub about the shaft.",
+                  positive())
+          .required()
+          .number("generator_inertia_kg_m2", &DriveTrainOptions::generator_inertia_kg_m2, "kg m2",
+                  "Generator, as felt on the low-speed shaft.", not_negative())
+          .number("gear_ratio", &DriveTrainOptions::gear_ratio, "-", "Generator speed over rotor speed.", positive())
+          .number("generator_efficiency", &DriveTrainOptions::generator_efficiency, "-", "Electrical over shaft power.",
+                  between(0.1, 1.0))
+          .number("brake_torque_N_m", &DriveTrainOptions::brake_torque_N_m, "N m", "Of the brake, on the low-speed shaft.",
+                  not_negative())
+          .degrees("feather_deg", &DriveTrainOptions::feather, "Pitch of feathered blades.", between(45.0, 120.0))
+          .degrees("max_pitch_rate_deg_s", &DriveTrainOptions::max_pitch_rate,
+                   "Largest rate of the blades' pitch (degrees a second).", between(0.01, 100.0))
+          .number("servo_frequency_Hz", &DriveTrainOptions::servo_frequency_Hz, "Hz",
+                  "Of the pitch servo; without it blades go where they are asked to as fast as they may.", positive())
+          .number("servo_damping", &DriveTrainOptions::servo_damping, "-", "Its damping ratio.", between(0.1, 2.0))
+          .degrees("max_pitch_acceleration_deg_s2", &DriveTrainOptions::max_pitch_acceleration,
+                   "Its largest acceleration (degrees per second squared).", between(0.01, 1000.0));
+  return section;
+}
+
 void check_controller(const ControllerOptions& o, const scene::Report& report) {
   if (!(o.min_speed < o.rated_speed)) report("min_speed_rpm", "must be below rated_speed_rpm");
   if (o.max_torque_N_m * o.rated_speed < o.rated_power_W / o.generator_efficiency)
@@ -55,7 +106,9 @@ const scene::Section<ControlOptions>& control_section() {
       scene::Section<ControlOptions>("control", "Who turns the rotor and pitches its blades.")
           .choice("model", &ControlOptions::model,
                   {{"none", ControlModel::none, "rotor speed and pitch as [rotor] or its bearing has them"},
-                   {"dtu", ControlModel::dtu, "generator torque and collective pitch by the Basic DTU controller"}},
+                   {"dtu", ControlModel::dtu, "generator torque and collective pitch by the Basic DTU controller"},
+                   {"library", ControlModel::library,
+                    "by a library with Bladed's interface (DISCON), called once after every accepted step"}},
                   "Control of the turbine.")
           .path("file", &ControlOptions::file, "Constants of the controller and the drive train; else those the turbine names.")
           .only_if("model", {"dtu"})
@@ -70,7 +123,23 @@ const scene::Section<ControlOptions>& control_section() {
                   "How the turbine stands at the start.")
           .only_if("model", {"dtu"})
           .tables("events", &ControlOptions::events, event_section(), "What happens when.")
-          .only_if("model", {"dtu"});
+          .only_if("model", {"dtu", "library"})
+          .path("library", &ControlOptions::library, "The library, a shared object of this machine.")
+          .only_if("model", {"library"})
+          .required()
+          .path("input_file", &ControlOptions::input_file, "File whose name the library is given (DISCON.IN).")
+          .only_if("model", {"library"})
+          .text("procedure", &ControlOptions::procedure, "Name of the library's procedure.")
+          .only_if("model", {"library"})
+          .text("output_name", &ControlOptions::output_name, "Beginning of the names of files that the library may write.")
+          .only_if("model", {"library"})
+          .flag("individual_pitch", &ControlOptions::individual_pitch, "Blades are asked for pitch one by one.")
+          .only_if("model", {"library"})
+          .tables("records", &ControlOptions::records, record_section(), "Further numbers for the library.")
+          .only_if("model", {"library"})
+          .table("drive_train", &ControlOptions::drive_train, drive_train_section(), "What the library turns and pitches.")
+          .only_if("model", {"library"})
+          .required();
   return section;
 }
 
@@ -131,12 +200,36 @@ ControllerOptions read_controller(const std::string& path) {
   return options;
 }
 
-void check_control(scene::Document& doc, const ControlOptions& control, const RotorOptions& rotor,
-                   const std::optional<Operation>& operation, int blades) {
-  if (!rotor.joint.empty())
-    doc.problem("rotor.joint",
-                "must be left out with [control]: the drive train turns the rotor within rotor.body, whose mass "
-                "and inertia are those with the rotor");
+DriveTrainOptions drive_train_of(const ControllerOptions& c) {
+  return {.rotor_inertia_kg_m2 = c.rotor_inertia_kg_m2,
+          .generator_inertia_kg_m2 = c.generator_inertia_kg_m2,
+          .generator_efficiency = c.generator_efficiency,
+          .brake_torque_N_m = c.brake_torque_N_m,
+          .feather = c.feather,
+          .max_pitch_rate = c.max_pitch_rate,
+          .max_pitch_acceleration = c.max_pitch_acceleration,
+          .servo_frequency_Hz = c.servo_frequency_Hz,
+          .servo_damping = c.servo_damping};
+}
+
+namespace {
+
+void check_library(scene::Document& doc, const ControlOptions& control, int blades) {
+  if (blades > BladedLibrary::most_blades)
+    doc.problem("control.model",
+                fmt::format("\"library\" has places for {} blades, the rotor has {}", BladedLibrary::most_blades, blades));
+  if (control.procedure.empty()) doc.problem("control.procedure", "must not be empty");
+  for (std::size_t i = 0; i < control.events.size(); ++i)
+    if (const ControlEvent what = control.events[i].what; what == ControlEvent::start_up || what == ControlEvent::shut_down)
+      doc.problem(fmt::format("control.events[{}].what", i),
+                  "is the library's business: give emergency_stop, grid_loss or blade_stuck");
+  if (control.library.empty() || control.procedure.empty()) return;
+  try {
+    const BladedLibrary library(control, blades);
+  } catch (const scene::SceneError& e) { doc.problem("control.library", e.what()); }
+}
+
+void check_controller_file(scene::Document& doc, const ControlOptions& control, const std::optional<Operation>& operation) {
   if (control.file.empty()) return doc.problem("control.file", "must be given: rotor.turbine names no controller");
   try {
     const ControllerOptions c = read_controller(control.file);
@@ -147,6 +240,20 @@ void check_control(scene::Document& doc, const ControlOptions& control, const Ro
                                               "tip-speed ratio to hold",
                                               control.file));
   } catch (const scene::SceneError& e) { doc.problem("control.file", e.what()); }
+}
+
+}  // namespace
+
+void check_control(scene::Document& doc, const ControlOptions& control, const RotorOptions& rotor,
+                   const std::optional<Operation>& operation, int blades) {
+  if (!rotor.joint.empty())
+    doc.problem("rotor.joint",
+                "must be left out with [control]: the drive train turns the rotor within rotor.body, whose mass "
+                "and inertia are those with the rotor");
+  if (control.model == ControlModel::library)
+    check_library(doc, control, blades);
+  else
+    check_controller_file(doc, control, operation);
   for (std::size_t i = 0; i < control.events.size(); ++i) {
     const EventOptions& event = control.events[i];
     if (i > 0 && event.time_s < control.events[i - 1].time_s)

@@ -19,7 +19,7 @@ namespace spindrift::aero {
 
 struct RotorOptions;
 
-enum class ControlModel { none, dtu };
+enum class ControlModel { none, dtu, library };
 enum class Tuning { fixed_foundation, floating };
 enum class ControlStart { operating, parked };
 enum class ControlEvent { start_up, shut_down, emergency_stop, grid_loss, blade_stuck };
@@ -31,6 +31,25 @@ struct EventOptions {
   int blade = 1;  ///< of blade_stuck
 };
 
+/// [control.drive_train]: what a controller library turns and pitches. Torques and inertias on the low-speed shaft, but for the
+/// gear's ratio.
+struct DriveTrainOptions {
+  double rotor_inertia_kg_m2 = 0.0, generator_inertia_kg_m2 = 0.0;
+  double gear_ratio = 1.0;
+  double generator_efficiency = 1.0;
+  double brake_torque_N_m = 0.0;
+  double feather = 1.5707963267948966, max_pitch_rate = 0.17453292519943295;  ///< [rad], [rad/s]
+  double max_pitch_acceleration = 0.2617993877991494;                         ///< of a servo [rad/s2]
+  std::optional<double> servo_frequency_Hz;                                   ///< absent: blades are where they are asked to be
+  double servo_damping = 0.7;
+};
+
+/// [[control.records]]
+struct RecordOptions {
+  int record = 1;
+  double value = 0.0;
+};
+
 /// [control]
 struct ControlOptions {
   ControlModel model = ControlModel::none;
@@ -38,6 +57,12 @@ struct ControlOptions {
   Tuning tuning = Tuning::fixed_foundation;
   ControlStart start = ControlStart::operating;
   std::vector<EventOptions> events;
+  // of "library"
+  std::string library, input_file;  ///< paths
+  std::string procedure = "DISCON", output_name = "controller";
+  bool individual_pitch = false;
+  std::vector<RecordOptions> records;
+  std::optional<DriveTrainOptions> drive_train;
 };
 
 /// [pitch_gains] of a controller file.
@@ -68,6 +93,9 @@ struct ControllerOptions {
 
 const scene::Section<ControlOptions>& control_section();
 const scene::Section<ControllerOptions>& controller_section();
+
+/// What of a controller file is the drive train.
+DriveTrainOptions drive_train_of(const ControllerOptions& controller);
 
 /// Throws scene::SceneError with all that is wrong with the file.
 ControllerOptions read_controller(const std::string& path);

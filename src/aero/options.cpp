@@ -113,9 +113,15 @@ const scene::Section<AeroOptions>& aero_section() {
           .only_if("model", {"bem"})
           .only_if("dynamic_inflow", {"oye"})
           .choice("dynamic_stall", &AeroOptions::dynamic_stall,
-                  {{"none", "the polars at every instant"}, {"oye", "separation lags by the passage of four chords, after Oye"}},
+                  {{"none", "the polars at every instant"},
+                   {"oye", "separation lags by the passage of four chords, after Oye"},
+                   {"beddoes_leishman", "lags of wake, pressure and separation, and a vortex from the leading edge"}},
                   "How the blades' sections stall and recover.")
           .only_if("model", {"bem"})
+          .number("speed_of_sound_m_s", &AeroOptions::speed_of_sound_m_s, "m/s",
+                  "For Prandtl and Glauert's factor on the slope of attached flow.", scene::between(100.0, 2000.0))
+          .only_if("model", {"bem"})
+          .only_if("dynamic_stall", {"beddoes_leishman"})
           .table("tower", &AeroOptions::tower, tower_section(), "The tower in the wind.")
           .only_if("model", {"thrust_curve", "bem"})
           .table("grid", &AeroOptions::grid, rotor_grid_section(), "The grid round the resolved rotor.")

@@ -41,6 +41,7 @@ struct AeroOptions {
   std::string induction = "madsen";
   std::string dynamic_inflow = "none", dynamic_stall = "none";
   std::optional<double> inflow_time_s;  ///< absent: by wind and induction
+  double speed_of_sound_m_s = 340.0;    ///< of dynamic stall after Beddoes & Leishman
   std::optional<TowerOptions> tower;
   std::optional<FlowOptions> flow;       ///< blade_resolved
   std::optional<RotorGridOptions> grid;  ///< resolved rotor

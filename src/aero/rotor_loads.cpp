@@ -34,7 +34,8 @@ double diameter_of(const RotorOptions& rotor) {
 }  // namespace
 
 RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,
-                       const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control)
+                       const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control,
+                       double step_s)
     : placement_(placement),
       start_azimuth_(rotor.azimuth),
       speed_(rotor.speed),
@@ -56,13 +57,21 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
   if (aero.model == "thrust_curve") model_ = ThrustCurve(aero, rotor, air_density);
   if (aero.model == "bem")
     model_ = BladeElementMomentum(read_turbine(rotor.turbine), aero.induction, air_density,
-                                  {aero.dynamic_inflow == "oye", aero.inflow_time_s, aero.dynamic_stall == "oye"});
+                                  {.inflow = aero.dynamic_inflow == "oye",
+                                   .inflow_time = aero.inflow_time_s,
+                                   .stall = aero.dynamic_stall == "oye"                ? UnsteadyFlow::Stall::oye
+                                            : aero.dynamic_stall == "beddoes_leishman" ? UnsteadyFlow::Stall::beddoes_leishman
+                                                                                       : UnsteadyFlow::Stall::none,
+                                   .speed_of_sound = aero.speed_of_sound_m_s});
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
   const int blades = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
-  control_.emplace(control, read_controller(control.file),
-                   rotor.operation.empty() ? std::nullopt : std::optional(read_operation(rotor.operation)), blades, rotor.azimuth,
-                   rotor.speed, rotor.blade_pitch);
+  if (control.model == ControlModel::library)
+    control_.emplace(control, blades, rotor.azimuth, rotor.speed, rotor.blade_pitch, step_s);
+  else
+    control_.emplace(control, read_controller(control.file),
+                     rotor.operation.empty() ? std::nullopt : std::optional(read_operation(rotor.operation)), blades,
+                     rotor.azimuth, rotor.speed, rotor.blade_pitch);
   speed_ = control_->start_speed(), blade_pitch_ = control_->start_pitch();
 }
 
@@ -140,10 +149,24 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
   return load;
 }
 
+TurbineControl::Measured RotorLoads::measured(double t, const RotorState& now) const {
+  TurbineControl::Measured m{.torque = load(t, now).torque, .wind = now.relative_wind};
+  if (!control_->library()) return m;
+  const Eigen::Vector3d wind = wind_.at(t, now.hub), up = Eigen::Vector3d::UnitZ(), carrier = now.omega - now.speed * now.axis;
+  Eigen::Vector3d along(now.axis.x(), now.axis.y(), 0.0);
+  along = along.norm() > 0.0 ? Eigen::Vector3d(along.normalized()) : Eigen::Vector3d::UnitX();
+  Eigen::Matrix3d nacelle;  // rows: downwind, left, up
+  nacelle << along.transpose(), up.cross(along).transpose(), up.transpose();
+  m.wind_speed = std::hypot(wind.x(), wind.y());
+  m.yaw_error = m.wind_speed > 0.0 ? std::atan2(along.cross(wind).z(), along.dot(wind)) : 0.0;
+  m.velocity = nacelle * now.hub_velocity, m.turning = nacelle * carrier;
+  return m;
+}
+
 void RotorLoads::begin(double t, std::span<const Motion> bodies, std::span<double> memory) {
   recall({});
   const RotorState now = state(t, bodies);
-  if (control_) control_->begin(t, load(t, now).torque, now.relative_wind, memory.first(control_size()));
+  if (control_) control_->begin(t, measured(t, now), memory.first(control_size()));
   if (flow_size() > 0)
     std::get<BladeElementMomentum>(model_).begin(wind_, disc_motion(now, memory), t, memory.subspan(control_size()));
   recall(memory);
@@ -151,7 +174,7 @@ void RotorLoads::begin(double t, std::span<const Motion> bodies, std::span<doubl
 
 void RotorLoads::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const {
   const RotorState now = state(t, bodies);
-  if (control_) control_->advance(t, h, load(t, now).torque, now.relative_wind, memory.first(control_size()));
+  if (control_) control_->advance(t, h, measured(t, now), memory.first(control_size()));
   if (flow_size() > 0)
     std::get<BladeElementMomentum>(model_).remember(wind_, disc_motion(now, memory), t, h, memory.subspan(control_size()));
 }

@@ -47,10 +47,11 @@ struct RotorLoad {
 
 class RotorLoads {
  public:
-  /// `start`: initial motions of all bodies, in the order of every later call. Data files have been checked (check_rotor); throws
-  /// scene::SceneError where one cannot be read.
+  /// `start`: initial motions of all bodies, in the order of every later call; `step_s`: of the bodies. Data files have been
+  /// checked (check_rotor); throws scene::SceneError where one cannot be read.
   RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density_kg_m3,
-             const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control = {});
+             const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control = {},
+             double step_s = 0.0);
 
   /// Adds the load, times `ramp`, to the rotor body's wrench.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp = 1.0) const;
@@ -85,9 +86,12 @@ class RotorLoads {
     std::span<const double> pitch;                           ///< of each blade [rad]
   };
   Drive drive() const;
+  /// Null where no library controls the rotor.
+  BladedLibrary* library() const { return control_ ? control_->library() : nullptr; }
 
  private:
   RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp) const;
+  TurbineControl::Measured measured(double t, const RotorState& now) const;
   std::size_t control_size() const { return control_ ? control_->memory_size() : 0; }
   std::size_t flow_size() const;
   DiscMotion disc_motion(const RotorState& now, std::span<const double> memory) const;

@@ -16,6 +16,21 @@ namespace spindrift::aero {
 
 namespace {
 
+const scene::Section<StallOptions>& stall_section() {
+  static const auto section =
+      scene::Section<StallOptions>("stall", "Attached flow about a section, and how it ends.")
+          .number("normal_slope", &StallOptions::normal_slope, "1/rad",
+                  "Of the normal force in attached flow; 0: no dynamic stall.", scene::between(0.0, 20.0))
+          .required()
+          .degrees("zero_lift_deg", &StallOptions::zero_lift, "Angle of attack without lift.", scene::between(-30.0, 30.0))
+          .number("drag_0", &StallOptions::drag_0, "-", "Drag coefficient there.", scene::not_negative())
+          .number("critical_normal", &StallOptions::critical_normal, "-",
+                  "Coefficient of normal force at which the leading edge separates.", scene::positive())
+          .number("critical_normal_low", &StallOptions::critical_normal_low, "-", "The same at negative angles.",
+                  scene::between(-10.0, 0.0));
+  return section;
+}
+
 const scene::Section<PolarOptions>& polar_section() {
   static const auto section =
       scene::Section<PolarOptions>("polars", "Lift and drag of one relative thickness.")
@@ -24,7 +39,11 @@ const scene::Section<PolarOptions>& polar_section() {
           .required()
           .path("file", &PolarOptions::file,
                 "CSV file with columns alpha_deg from -180 to 180, cl, cd; cm may be there and is not used.")
-          .required();
+          .required()
+          .table("stall", &PolarOptions::stall, stall_section(),
+                 "For aero.dynamic_stall = \"beddoes_leishman\", in place of what the polar says: normal force above the "
+                 "straight line "
+                 "is lost, as in AeroDyn.");
   return section;
 }
 
@@ -57,7 +76,8 @@ Polar read_polar(const PolarOptions& options) {
     file.fail(-1, "alpha_deg must go from -180 to 180: a blade may meet any wind");
   for (std::size_t i = 0; i < file.rows(); ++i)
     if (file["cd"][i] < 0.0) file.fail(int(i), "cd must not be negative");
-  return {0.01 * options.thickness_pct, column(file, "alpha_deg", radians_per_degree), column(file, "cl"), column(file, "cd")};
+  return {0.01 * options.thickness_pct, column(file, "alpha_deg", radians_per_degree), column(file, "cl"), column(file, "cd"),
+          options.stall};
 }
 
 Aerofoil read_aerofoil(const OutlineOptions& options) {

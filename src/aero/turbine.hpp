@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,18 @@ class Section;
 
 namespace spindrift::aero {
 
+/// Of a polar, for dynamic stall after Beddoes & Leishman: in place of what the polar itself says.
+struct StallOptions {
+  double normal_slope = 0.0;                                 ///< of the normal force in attached flow [1/rad]; 0: no stall
+  double zero_lift = 0.0;                                    ///< [rad]
+  double drag_0 = 0.0;                                       ///< at that angle
+  double critical_normal = 2.0, critical_normal_low = -2.0;  ///< normal force at which the leading edge separates
+};
+
 struct PolarOptions {
   double thickness_pct = 0.0;
   std::string file;  ///< path
+  std::optional<StallOptions> stall;
 };
 
 struct OutlineOptions {
@@ -43,6 +53,7 @@ struct Polar {
   double thickness = 0.0;      ///< over chord [-]
   std::vector<double> attack;  ///< increasing from -pi to pi [rad]
   std::vector<double> lift, drag;
+  std::optional<StallOptions> stall{};  ///< absent: what the polar says
 };
 
 /// The outline of a section of chord 1.

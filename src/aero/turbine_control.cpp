@@ -41,13 +41,12 @@ ControllerDtu law_of(const ControlOptions& options, const ControllerOptions& o, 
 TurbineControl::TurbineControl(const ControlOptions& options, const ControllerOptions& controller,
                                const std::optional<Operation>& operation, int blades, double start_azimuth, double start_speed,
                                double start_pitch)
-    : law_(law_of(options, controller, operation)),
-      options_(controller),
+    : drive_train_(drive_train_of(controller)),
+      law_(law_of(options, controller, operation)),
+      stop_pitch_rate_(controller.stop_pitch_rate),
       events_(options.events),
       blades_(blades),
       inertia_(controller.rotor_inertia_kg_m2 + controller.generator_inertia_kg_m2),
-      rotor_inertia_(controller.rotor_inertia_kg_m2),
-      efficiency_(controller.generator_efficiency),
       start_azimuth_(start_azimuth),
       start_speed_(start_speed),
       start_pitch_(start_pitch),
@@ -55,6 +54,18 @@ TurbineControl::TurbineControl(const ControlOptions& options, const ControllerOp
   if (operation) below_rated_ = operation->below_rated();
   if (starts_parked_) start_speed_ = 0.0, start_pitch_ = controller.feather;
 }
+
+TurbineControl::TurbineControl(const ControlOptions& options, int blades, double start_azimuth, double start_speed,
+                               double start_pitch, double step_s)
+    : drive_train_(*options.drive_train),
+      events_(options.events),
+      blades_(blades),
+      inertia_(drive_train_.rotor_inertia_kg_m2 + drive_train_.generator_inertia_kg_m2),
+      start_azimuth_(start_azimuth),
+      start_speed_(start_speed),
+      start_pitch_(start_pitch),
+      library_(std::make_unique<BladedLibrary>(options, blades)),
+      step_(step_s) {}
 
 double TurbineControl::least_pitch(double wind) const {
   return below_rated_.pitch.empty() ? 0.0 : interpolate_linear(below_rated_.wind, below_rated_.pitch, wind);
@@ -71,21 +82,43 @@ void TurbineControl::store(const State& s, std::span<double> memory) {
   std::copy(values.begin(), values.end(), memory.begin());
 }
 
-void TurbineControl::begin(double t, double aero_torque, double wind, std::span<double> memory) const {
-  State s{t, start_azimuth_, start_speed_, 0.0, 0.0, 0.0, double(Mode::parked), start_pitch_, {}};
+TurbineControl::Rows TurbineControl::rows(std::span<double> memory) const {
+  const std::size_t n = std::size_t(blades_), after = head + 4 * n;
+  Rows rows{memory.subspan(head, n),
+            memory.subspan(head + n, n),
+            memory.subspan(head + 2 * n, n),
+            memory.subspan(head + 3 * n, n),
+            {},
+            {}};
+  if (library_) rows.velocity = memory.subspan(after, 3), rows.turning = memory.subspan(after + 3, 3);
+  return rows;
+}
+
+void TurbineControl::begin(double t, const Measured& measured, std::span<double> memory) const {
+  std::ranges::fill(memory, 0.0);
+  State s{t, start_azimuth_, start_speed_, 0.0, 0.0, 0.0, double(Mode::parked), start_pitch_, 0.0, 0.0, {}};
+  const Rows rows = this->rows(memory);
+  std::ranges::fill(rows.pitch, start_pitch_), std::ranges::fill(rows.asked, start_pitch_);
+  if (library_) {
+    s.mode = double(Mode::operating);
+    s.shaft_torque = measured.torque;
+    std::copy_n(measured.velocity.data(), 3, rows.velocity.begin()),
+        std::copy_n(measured.turning.data(), 3, rows.turning.begin());
+    ask_library(t, 0.0, measured, s, rows);
+    return store(s, memory);
+  }
   if (!starts_parked_) {
     s.mode = double(Mode::operating);
-    s.generator_torque = std::clamp(aero_torque, 0.0, law_.max_torque);
+    s.generator_torque = std::clamp(measured.torque, 0.0, law_.max_torque);
   }
   s.shaft_torque = s.generator_torque;
-  s.controller = settled(law_, start_speed_, wind, start_pitch_, least_pitch(wind), s.generator_torque);
+  s.controller = settled(law_, start_speed_, measured.wind, start_pitch_, least_pitch(measured.wind), s.generator_torque);
   store(s, memory);
-  std::fill_n(memory.begin() + std::ptrdiff_t(head), blades_, start_pitch_);
 }
 
 /// Largest torque of the brake [N m].
 double TurbineControl::brake(const State& s) const {
-  return s.mode == double(Mode::parked) || s.mode == double(Mode::braked) ? options_.brake_torque_N_m : 0.0;
+  return s.mode == double(Mode::parked) || s.mode == double(Mode::braked) ? drive_train_.brake_torque_N_m : s.brake_torque;
 }
 
 /// Events of this step.
@@ -112,50 +145,110 @@ void TurbineControl::happen(double t, double h, State& s, std::span<double> stuc
   }
 }
 
-void TurbineControl::advance(double t, double h, double aero_torque, double wind, std::span<double> memory) const {
-  State s = state(memory);
-  const std::span<double> pitch = memory.subspan(head, std::size_t(blades_)),
-                          rate = memory.subspan(head + std::size_t(blades_), std::size_t(blades_)),
-                          stuck = memory.subspan(head + 2 * std::size_t(blades_), std::size_t(blades_));
-  // The shaft first, under the torque that the generator had: Adams-Bashforth, second order.
-  const double acceleration = (aero_torque - s.generator_torque) / inertia_;
-  const double before = s.speed;
-  s.speed += h * (1.5 * acceleration - 0.5 * s.acceleration);
-  if (const double stop = h * brake(s) / inertia_; stop > 0.0) s.speed -= std::clamp(s.speed, -stop, stop);
-  s.acceleration = acceleration;
-  s.shaft_torque = aero_torque - inertia_ * (s.speed - before) / h;
-  s.azimuth += 0.5 * h * (before + s.speed), s.time = t;
+/// Blades on their way to feather; the generator's torque is up to the caller.
+void TurbineControl::feather(double h, double rate, State& s, const Rows& rows) const {
+  s.asked = s.mode == double(Mode::parked) ? drive_train_.feather : std::min(s.asked + h * rate, drive_train_.feather);
+  std::ranges::fill(rows.asked, s.asked);
+}
 
-  happen(t, h, s, stuck);
-  double measured = 0.0;
-  for (double p : pitch) measured += p / blades_;
+/// Our own controller, at the end of a step.
+void TurbineControl::ask_law(double h, const Measured& measured, State& s, const Rows& rows) const {
+  double pitch = 0.0;
+  for (double p : rows.pitch) pitch += p / blades_;
   const double least = least_pitch(s.controller.wind);
-  s.controller = spindrift::advance(law_, s.controller, s.speed, measured, wind, h, [this](double w) { return least_pitch(w); });
+  s.controller =
+      spindrift::advance(law_, s.controller, s.speed, pitch, measured.wind, h, [this](double w) { return least_pitch(w); });
   if (s.mode == double(Mode::operating)) {
     s.asked = s.controller.pitch, s.generator_torque = s.controller.torque;
   } else if (s.mode == double(Mode::starting)) {
     s.generator_torque = 0.0;
-    s.asked = std::max(s.asked - h * options_.stop_pitch_rate, std::max(least, s.controller.pitch));
+    s.asked = std::max(s.asked - h * stop_pitch_rate_, std::max(least, s.controller.pitch));
     if (s.controller.speed >= law_.min_speed) {
       s.mode = double(Mode::operating);
       s.controller = settled(law_, s.controller.speed, s.controller.wind, std::max(s.asked, least), least, 0.0);
     }
   } else {
-    const double to_feather = s.mode == double(Mode::stopping) ? options_.stop_pitch_rate : options_.max_pitch_rate;
-    s.asked = std::min(s.asked + h * to_feather, options_.feather);
     const double k_torque = s.speed > 0.0 ? law_.torque_gain * s.speed * s.speed : 0.0;
     s.generator_torque =
         s.mode == double(Mode::stopping) && s.speed > law_.min_speed ? std::min(s.generator_torque, k_torque) : 0.0;
-    if (s.mode == double(Mode::parked)) s.asked = options_.feather;
+    return feather(h, s.mode == double(Mode::stopping) ? stop_pitch_rate_ : drive_train_.max_pitch_rate, s, rows);
   }
-  for (std::size_t b = 0; b < pitch.size(); ++b) {
-    if (stuck[b] != 0.0) {
-      rate[b] = 0.0;
-      continue;
+  std::ranges::fill(rows.asked, s.asked);
+}
+
+/// The library, at the end of a step of h; at the start of the run without one.
+void TurbineControl::ask_library(double t, double h, const Measured& measured, State& s, const Rows& rows) const {
+  const double gear = drive_train_.gear_ratio;
+  Eigen::Map<Eigen::Vector3d> velocity(rows.velocity.data()), turning(rows.turning.data());
+  const Eigen::Vector3d acceleration = h > 0.0 ? Eigen::Vector3d((measured.velocity - velocity) / h) : Eigen::Vector3d::Zero(),
+                        turned = h > 0.0 ? Eigen::Vector3d((measured.turning - turning) / h) : Eigen::Vector3d::Zero();
+  velocity = measured.velocity, turning = measured.turning;
+  const auto pitch = [&](std::size_t blade) { return float(blade < rows.pitch.size() ? rows.pitch[blade] : 0.0); };
+  const double turn = std::fmod(s.azimuth, 2.0 * pi);
+  const BladedLibrary::Asked asked = library_->call(
+      std::int64_t(s.calls), {.time = float(t),
+                              .step = float(h > 0.0 ? h : step_),
+                              .pitch_1 = pitch(0),
+                              .asked_pitch = float(rows.asked[0]),
+                              .shaft_power = float(s.shaft_torque * s.speed),
+                              .electrical_power = float(drive_train_.generator_efficiency * s.generator_torque * s.speed),
+                              .generator_speed = float(gear * s.speed),
+                              .rotor_speed = float(s.speed),
+                              .generator_torque = float(s.generator_torque / gear),
+                              .yaw_error = float(measured.yaw_error),
+                              .wind = float(measured.wind_speed),
+                              .pitch_2 = pitch(1),
+                              .pitch_3 = pitch(2),
+                              .fore_aft = float(acceleration.x()),
+                              .side_to_side = float(acceleration.y()),
+                              .azimuth = float(turn < 0.0 ? turn + 2.0 * pi : turn),
+                              .rolling = float(turned.x()),
+                              .nodding = float(turned.y()),
+                              .yawing = float(turned.z()),
+                              .shaft_torque = float(s.shaft_torque)});
+  s.calls += 1.0;
+  if (s.mode != double(Mode::operating)) {
+    s.generator_torque = 0.0;
+    return feather(h, drive_train_.max_pitch_rate, s, rows);
+  }
+  s.generator_torque = gear * asked.generator_torque;
+  s.brake_torque = asked.brake ? drive_train_.brake_torque_N_m : gear * asked.brake_torque;
+  s.asked = 0.0;
+  for (std::size_t b = 0; b < rows.asked.size(); ++b) rows.asked[b] = asked.pitch[b], s.asked += asked.pitch[b] / blades_;
+}
+
+void TurbineControl::turn_blades(double h, const Rows& rows) const {
+  for (std::size_t b = 0; b < rows.pitch.size(); ++b) {
+    double &pitch = rows.pitch[b], &rate = rows.rate[b];
+    if (rows.stuck[b] != 0.0) {
+      rate = 0.0;
+    } else if (drive_train_.servo_frequency_Hz) {
+      pitch_servo(rows.asked[b], 2.0 * pi * *drive_train_.servo_frequency_Hz, drive_train_.servo_damping,
+                  drive_train_.max_pitch_rate, drive_train_.max_pitch_acceleration, h, pitch, rate);
+    } else {
+      pitch += std::clamp(rows.asked[b] - pitch, -h * drive_train_.max_pitch_rate, h * drive_train_.max_pitch_rate);
     }
-    pitch_servo(s.asked, 2.0 * pi * options_.servo_frequency_Hz, options_.servo_damping, options_.max_pitch_rate,
-                options_.max_pitch_acceleration, h, pitch[b], rate[b]);
   }
+}
+
+void TurbineControl::advance(double t, double h, const Measured& measured, std::span<double> memory) const {
+  State s = state(memory);
+  const Rows rows = this->rows(memory);
+  // The shaft first, under the torque that the generator had: Adams-Bashforth, second order.
+  const double acceleration = (measured.torque - s.generator_torque) / inertia_;
+  const double before = s.speed;
+  s.speed += h * (1.5 * acceleration - 0.5 * s.acceleration);
+  if (const double stop = h * brake(s) / inertia_; stop > 0.0) s.speed -= std::clamp(s.speed, -stop, stop);
+  s.acceleration = acceleration;
+  s.shaft_torque = measured.torque - inertia_ * (s.speed - before) / h;
+  s.azimuth += 0.5 * h * (before + s.speed), s.time = t;
+
+  happen(t, h, s, rows.stuck);
+  if (library_)
+    ask_library(t, h, measured, s, rows);
+  else
+    ask_law(h, measured, s, rows);
+  turn_blades(h, rows);
   store(s, memory);
 }
 

@@ -1,14 +1,18 @@
 // The drive train with its controller: rotor speed from aerodynamic and generator torque, pitch of each blade by a servo, modes
 // of operation by events in time. All that it remembers is a row of plain numbers that the caller keeps, so that windows repeat
-// and runs go on from it. Laws: kernels/rotor/controller_dtu.hpp; docs/theory/rotor_engineering.md. Used by rotor_loads.cpp;
+// and runs go on from it; a controller library keeps more, which bladed_library.hpp brings to where the row stands. Laws:
+// kernels/rotor/controller_dtu.hpp; docs/theory/rotor_engineering.md. Used by rotor_loads.cpp;
 // tested in tests/src/aero/turbine_control_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "kernels/rotor/controller_dtu.hpp"
+#include "src/aero/bladed_library.hpp"
 #include "src/aero/control_options.hpp"
 
 namespace spindrift::aero {
@@ -23,28 +27,42 @@ class TurbineControl {
     double generator_torque;  ///< from now on, on the shaft [N m]
     double shaft_torque;      ///< of the last step, on what carries the rotor, brake included [N m]
     double mode;              ///< one of Mode
-    double asked;             ///< pitch that all blades are asked for [rad]
+    double asked;             ///< pitch that the blades are asked for, their mean [rad]
+    double brake_torque;      ///< of the brake from now on, at most [N m]
+    double calls;             ///< that a library has had
     ControllerDtuState controller;
+  };
+  /// What is measured at the end of a step; what only libraries look at may be left out.
+  struct Measured {
+    double torque = 0.0;                       ///< of the air, at the speed and pitch that the memory has [N m]
+    double wind = 0.0;                         ///< along the axis, that the hub meets [m/s]
+    double wind_speed = 0.0, yaw_error = 0.0;  ///< horizontal, at the hub [m/s]; of it, from the axis [rad]
+    /// Of the hub [m/s] and of what carries the rotor [rad/s]: downwind, to the left seen downwind, and up.
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), turning = Eigen::Vector3d::Zero();
   };
   enum class Mode { parked, starting, operating, stopping, tripped, braked };
 
   TurbineControl(const ControlOptions& options, const ControllerOptions& controller, const std::optional<Operation>& operation,
                  int blades, double start_azimuth, double start_speed, double start_pitch);
+  /// Of options whose model is "library", called at steps of `step_s`.
+  TurbineControl(const ControlOptions& options, int blades, double start_azimuth, double start_speed, double start_pitch,
+                 double step_s);
 
-  std::size_t memory_size() const { return head + 3 * std::size_t(blades_); }
+  std::size_t memory_size() const { return head + 4 * std::size_t(blades_) + (library_ ? 6 : 0); }
   std::size_t blades() const { return std::size_t(blades_); }
-  const ControllerDtu& controller() const { return law_; }
-  double inertia() const { return inertia_; }              ///< of rotor and generator about the shaft [kg m2]
-  double rotor_inertia() const { return rotor_inertia_; }  ///< of what turns with the blades [kg m2]
-  double efficiency() const { return efficiency_; }
+  double inertia() const { return inertia_; }                                ///< of rotor and generator about the shaft [kg m2]
+  double rotor_inertia() const { return drive_train_.rotor_inertia_kg_m2; }  ///< of what turns with the blades [kg m2]
+  double efficiency() const { return drive_train_.generator_efficiency; }
+  /// Null where the controller is our own.
+  BladedLibrary* library() const { return library_.get(); }
   /// Speed and pitch with which a run begins.
   double start_speed() const { return start_speed_; }
   double start_pitch() const { return start_pitch_; }
 
-  /// Settled at the start, under this torque of the air [N m] in this wind along the axis [m/s].
-  void begin(double t, double aero_torque, double wind, std::span<double> memory) const;
-  /// From t - h to t, at whose end the air puts this torque on the rotor (at the speed and pitch that the memory has).
-  void advance(double t, double h, double aero_torque, double wind, std::span<double> memory) const;
+  /// Settled at the start; a library's first call.
+  void begin(double t, const Measured& measured, std::span<double> memory) const;
+  /// From t - h to t.
+  void advance(double t, double h, const Measured& measured, std::span<double> memory) const;
 
   static State state(std::span<const double> memory);
   std::span<const double> pitch(std::span<const double> memory) const { return memory.subspan(head, std::size_t(blades_)); }
@@ -52,17 +70,29 @@ class TurbineControl {
  private:
   static constexpr std::size_t head = sizeof(State) / sizeof(double);
   static void store(const State& s, std::span<double> memory);
+  /// Of each blade [rad], [rad/s], 1 where it is stuck, [rad]; of libraries, whose last step's motion is kept too.
+  struct Rows {
+    std::span<double> pitch, rate, stuck, asked, velocity, turning;
+  };
+  Rows rows(std::span<double> memory) const;
   double least_pitch(double wind) const;
   void happen(double t, double h, State& s, std::span<double> stuck) const;
   double brake(const State& s) const;
+  void ask_law(double h, const Measured& measured, State& s, const Rows& rows) const;
+  void ask_library(double t, double h, const Measured& measured, State& s, const Rows& rows) const;
+  void feather(double h, double rate, State& s, const Rows& rows) const;
+  void turn_blades(double h, const Rows& rows) const;
 
+  DriveTrainOptions drive_train_;
   ControllerDtu law_;
-  ControllerOptions options_;
-  Operation below_rated_;  ///< least pitch against wind
+  double stop_pitch_rate_ = 0.0;  ///< [rad/s]
+  Operation below_rated_;         ///< least pitch against wind
   std::vector<EventOptions> events_;
   int blades_;
-  double inertia_, rotor_inertia_, efficiency_, start_azimuth_, start_speed_, start_pitch_;
-  bool starts_parked_;
+  double inertia_, start_azimuth_, start_speed_, start_pitch_;
+  bool starts_parked_ = false;
+  std::unique_ptr<BladedLibrary> library_;
+  double step_ = 0.0;  ///< that a library is told of at its first call [s]
 };
 
 }  // namespace spindrift::aero

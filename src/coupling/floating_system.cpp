@@ -155,8 +155,8 @@ FloatingSystem::FloatingSystem(Scenario scenario)
     add_source(sources, std::move(source), on);
   }
   if (s.has_rotor()) {
-    rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start,
-                   s.control);
+    rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start, s.control,
+                   timeline_.tick_s());
     std::vector<bool> on(names.size());
     on[std::size_t(index_of(names, s.rotor.body))] = true;
     bodies::LoadSource source{"rotor",

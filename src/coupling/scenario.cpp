@@ -256,7 +256,11 @@ Scenario read_scenario(scene::Document& document) {
   check_lines(document, s.moorings, bodies, s.environment.water_density_kg_m3);
   if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
   if (s.is_controlled() && s.coupling.scheme != SchemeKind::monolithic)
-    document.problem("coupling.scheme", "must be \"monolithic\" with [control]: the controller steps with the bodies");
+    document.problem("coupling.scheme",
+                     s.control.model == aero::ControlModel::library
+                         ? "must be \"monolithic\" with a controller library: it is called once after every accepted step of the "
+                           "bodies, and no window may be repeated"
+                         : "must be \"monolithic\" with [control]: the controller steps with the bodies");
   if ((s.aero.dynamic_inflow != "none" || s.aero.dynamic_stall != "none") && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",
                      "must be \"monolithic\" with aero.dynamic_inflow or aero.dynamic_stall: the flow steps with the bodies");
@@ -286,7 +290,9 @@ std::string describe_rotor(const Scenario& s) {
   if (s.rotor.operating_point == "table")
     text += fmt::format(", {:.4g} rpm and blade pitch {:.4g} deg of its operating table", s.rotor.speed / rad_s_per_rpm,
                         s.rotor.blade_pitch / radians_per_degree);
-  if (s.is_controlled())
+  if (s.control.model == aero::ControlModel::library)
+    text += fmt::format(", controlled by the library {}", s.control.library);
+  else if (s.is_controlled())
     text += fmt::format(", controlled by {} ({}{})", s.control.file,
                         s.control.tuning == aero::Tuning::floating ? "floating gains" : "gains of a fixed foundation",
                         s.control.events.empty() ? "" : fmt::format(", {} events", s.control.events.size()));

@@ -191,11 +191,16 @@ class Importer {
       carry("dynamic inflow after Oye");
     }
     if (const int model = ad.integer({"UA_Mod", "UAMod"}, 0); model > 0 && stalls) {
-      text += "dynamic_stall = \"oye\"\n";
-      if (model != 5)
-        leave_out(fmt::format("the dynamic stall model of UA_Mod {}: Oye's instead{}", model,
-                              model <= 3 ? ", on polars limited as UA_Mod 1 to 3 limits them" : ""));
-      carry("dynamic stall after Oye");
+      // 1 to 3, 4 and 5: kinds of Beddoes and Leishman's model; 6: Oye's.
+      const bool leishman = model <= 5;
+      text += fmt::format("dynamic_stall = \"{}\"\n", leishman ? "beddoes_leishman" : "oye");
+      if (leishman)
+        text += fmt::format("speed_of_sound_m_s = {:.9g}\n", main_.number({"SpdSound"}, ad.number({"SpdSound"}, 340.0)));
+      if (model != 6)
+        leave_out(fmt::format("what the dynamic stall model of UA_Mod {} has beside {}{}", model,
+                              leishman ? "Beddoes and Leishman's" : "Oye's",
+                              model <= 3 ? ": time constants that change within a stall, of each polar" : ""));
+      carry(leishman ? "dynamic stall after Beddoes and Leishman" : "dynamic stall after Oye");
     }
     return text;
   }
@@ -228,13 +233,80 @@ class Importer {
   }
 
   void servo() {
-    if (main_.integer({"CompServo"}, 0) == 1)
-      leave_out(
-          fmt::format("ServoDyn: the rotor keeps its speed and pitch; give [control] (inertia of rotor and generator about the "
-                      "shaft: {:.6g} kg m2)",
-                      rotor_inertia(*elastodyn_, rotor_)));
-    else if (elastodyn_->flag({"GenDOF"}, false))
-      leave_out("GenDOF without ServoDyn: the rotor keeps its speed");
+    const bool turns = elastodyn_->flag({"GenDOF"}, false);
+    if (main_.integer({"CompServo"}, 0) != 1) {
+      if (turns) leave_out("GenDOF without ServoDyn: the rotor keeps its speed");
+      return;
+    }
+    const Deck deck(main_.path({"ServoFile"}));
+    const bool rotor = scene_.str().find("[rotor]") != std::string::npos;
+    std::string why;
+    if (!rotor)
+      why = "there are no aerodynamics";
+    else if (!turns)
+      why = "GenDOF is off";
+    else if (deck.integer({"PCMode"}, 0) != 5 || deck.integer({"VSContrl"}, 0) != 5)
+      why = "pitch and torque are not both those of a library (PCMode and VSContrl 5)";
+    else if (const std::filesystem::path library = deck.path({"DLL_FileName"}); !std::filesystem::exists(library))
+      why = fmt::format("its library {} is not there", library.string());
+    if (why.empty()) return library(deck);
+    leave_out(fmt::format(
+        "ServoDyn ({}): the rotor keeps its speed and pitch; give [control] (inertia of rotor and generator about the "
+        "shaft: {:.6g} kg m2)",
+        why, rotor_inertia(*elastodyn_, rotor_)));
+  }
+
+  /// A library with Bladed's interface, where the deck has it: it may look for files beside itself.
+  void library(const Deck& deck) {
+    const auto absolute = [](const std::filesystem::path& path) {
+      return std::filesystem::absolute(path).lexically_normal().string();
+    };
+    const double gear = elastodyn_->number({"GBRatio"}, 1.0), generator = gear * gear * elastodyn_->number({"GenIner"}, 0.0);
+    scene_ << "\n[control]\nmodel = \"library\"\nlibrary = \"" << absolute(deck.path({"DLL_FileName"})) << "\"\n";
+    if (const std::string input = deck.text({"DLL_InFile"}); std::filesystem::is_regular_file(deck.beside(input)))
+      scene_ << "input_file = \"" << absolute(deck.beside(input)) << "\"\n";
+    else
+      leave_out(fmt::format("DLL_InFile {} is not there: the library is given no file", input));
+    if (deck.has("DLL_ProcName")) scene_ << "procedure = \"" << deck.text({"DLL_ProcName"}) << "\"\n";
+    if (deck.integer({"Ptch_Cntrl"}, 0) == 1) scene_ << "individual_pitch = true\n";
+    struct Record {
+      int record;
+      const char* name;
+      double unit;
+    };
+    const double rate = deck.number({"PtchRate_Max"}, 0.0);
+    std::string records;
+    for (const Record& r : {Record{5, "Ptch_SetPnt", radians_per_degree}, Record{6, "Ptch_Min", radians_per_degree},
+                            Record{7, "Ptch_Max", radians_per_degree}, Record{8, "PtchRate_Min", radians_per_degree},
+                            Record{9, "PtchRate_Max", radians_per_degree}, Record{13, "GenPwr_Dem", 1.0},
+                            Record{16, "Gain_OM", 1.0}, Record{17, "GenSpd_MinOM", rad_s_per_rpm},
+                            Record{18, "GenSpd_MaxOM", rad_s_per_rpm}, Record{19, "GenSpd_Dem", rad_s_per_rpm},
+                            Record{22, "GenTrq_Dem", 1.0}, Record{37, "NacYaw_North", -radians_per_degree}})
+      if (const double value = deck.number({r.name}, 0.0); value != 0.0)
+        records += fmt::format("[[control.records]]\nrecord = {}\nvalue = {:.9g}\n", r.record, r.unit * value);
+    scene_ << records << "[control.drive_train]\n"
+           << fmt::format("rotor_inertia_kg_m2 = {:.9g}\ngenerator_inertia_kg_m2 = {:.9g}\ngear_ratio = {:.9g}\n",
+                          rotor_inertia(*elastodyn_, rotor_) - generator, generator, gear);
+    if (const double efficiency = deck.number({"GenEff"}, 100.0); efficiency != 100.0)
+      scene_ << fmt::format("generator_efficiency = {:.9g}\n", 0.01 * efficiency);
+    if (const double brake = deck.number({"HSSBrTqF"}, 0.0); brake > 0.0)
+      scene_ << fmt::format("brake_torque_N_m = {:.9g}\n", gear * brake);
+    if (rate > 0.0) scene_ << fmt::format("max_pitch_rate_deg_s = {:.9g}\n", rate);
+    carry(fmt::format("control: {}", deck.path({"DLL_FileName"}).filename().string()));
+    const double interval = deck.number({"DLL_DT"}, 0.0), steps = interval > 0.0 ? window / interval : 0.0;
+    if (steps >= 1.0 && std::abs(steps - std::round(steps)) < 1e-6 * steps)
+      step_ = interval;
+    else
+      leave_out(fmt::format("DLL_DT: the library is called every {} s, the bodies' step", step_));
+    if (deck.integer({"DLL_NumTrq"}, 0) > 0) leave_out("the table of torque over speed for the library (DLL_NumTrq)");
+    if (deck.flag({"EXavrSWAP_Enable"}, false)) leave_out("records from 1000 on (EXavrSWAP_Enable)");
+    if (deck.flag({"DLL_Ramp"}, false)) leave_out("DLL_Ramp: pitch is asked for in steps");
+    if (elastodyn_->number({"GBoxEff"}, 100.0) != 100.0) leave_out("GBoxEff: the gear has no loss");
+    for (const auto& [key, off] :
+         {std::pair{"YCMode", 0}, std::pair{"HSSBrMode", 0}, std::pair{"AfCmode", 0}, std::pair{"CCmode", 0},
+          std::pair{"NumBStC", 0}, std::pair{"NumNStC", 0}, std::pair{"NumTStC", 0}, std::pair{"NumSStC", 0}})
+      if (deck.integer({key}, off) != off) leave_out(fmt::format("ServoDyn's {} {}", key, deck.integer({key}, off)));
+    leave_out("moments of the blades' roots and of the hub are 0 to the library (records 30 to 32, 69 to 78)");
   }
 
   void structure() {
@@ -270,12 +342,12 @@ class Importer {
 
     std::string sea = fmt::format("\n[sea]\nmodel = \"{}\"\n", potential ? "potential" : "morison");
     sea += members(hd, potential);
-    if (potential) sea += potential_flow(hd, still);
+    if (potential)
+      sea += potential_flow(hd, still);
+    else
+      for (const char* key : {"MnDrift", "NewmanApp", "DiffQTF", "SumQTF"})
+        if (hd.integer({key}, 0) != 0) leave_out(fmt::format("{} without PotMod 1", key));
     sea += matrices(hd);
-    for (const auto& [key, name] :
-         {std::pair{"MnDrift", "mean drift"}, std::pair{"NewmanApp", "Newman's drift"},
-          std::pair{"DiffQTF", "difference-frequency loads"}, std::pair{"SumQTF", "sum-frequency loads"}})
-      if (hd.integer({key}, 0) != 0) leave_out(std::string(name) + " (" + key + ")");
     if (waves.integer({"CurrMod"}, 0) != 0) leave_out("the current");
     water_ = sea + wave_section(waves);
     carry(fmt::format("sea: {}", potential ? "potential flow with drag of strips" : "Morison strips"));
@@ -297,12 +369,35 @@ class Importer {
     text += fmt::format("length_m = {:.9g}\nvolume_m3 = {:.9g}\nbuoyancy_centre_m = [{:.9g}, {:.9g}]\n",
                         hd.number({"WAMITULEN"}, 1.0), hd.number({"PtfmVol0"}), hd.number({"PtfmCOBxt"}, 0.0),
                         hd.number({"PtfmCOByt"}, 0.0));
-    if (hd.integer({"RdtnMod"}, 1) == 0)
-      text += "radiation = \"none\"\n";
-    else
-      text += fmt::format("memory_s = {:.9g}\n", hd.number({"RdtnTMax"}, 60.0));
-    if (hd.integer({"RdtnMod"}, 1) == 2)
-      leave_out("the state space of radiation (RdtnMod 2): convolution with the .1 file instead");
+    if (hd.integer({"RdtnMod"}, 1) == 0) text += "radiation = \"none\"\n";
+    if (hd.integer({"RdtnMod"}, 1) == 1) text += fmt::format("memory_s = {:.9g}\n", hd.number({"RdtnTMax"}, 60.0));
+    if (hd.integer({"RdtnMod"}, 1) == 2) {
+      text += "radiation = \"state_space\"\n";
+      leave_out("the matrices of the radiation's state space (RdtnMod 2, .ss): poles fitted to the .1 file instead");
+    }
+    return text + second_order(hd, with, name, still);
+  }
+
+  /// Drift and sums of frequencies: a number in the deck is the ending of WAMIT's file.
+  template <class With>
+  std::string second_order(const Deck& hd, const With& with, const std::string& name, bool still) {
+    std::string text;
+    for (const auto& [key, drift] : {std::pair{"MnDrift", "mean"}, std::pair{"NewmanApp", "newman"}, std::pair{"DiffQTF", "full"},
+                                     std::pair{"SumQTF", ""}}) {
+      const int kind = hd.integer({key}, 0);
+      if (kind == 0) continue;
+      const bool pairs = key == std::string("DiffQTF") || key == std::string("SumQTF");
+      if (kind < (pairs ? 10 : 7) || kind > 12)
+        hd.fail(hd.find({key}), fmt::format("is {}: {} are known", kind, pairs ? "0, 10, 11 and 12" : "0 and 7 to 12"));
+      if (still) {
+        leave_out(fmt::format("{} {}: there are no waves", key, kind));
+        continue;
+      }
+      const std::string ending = fmt::format(".{}{}", kind, kind < 10 ? "" : drift[0] == '\0' ? "s" : "d");
+      copy(with(ending.c_str()));
+      text += drift[0] == '\0' ? fmt::format("sum_frequency_file = \"{}{}\"\n", name, ending)
+                               : fmt::format("drift = \"{}\"\ndrift_file = \"{}{}\"\n", drift, name, ending);
+    }
     return text;
   }
 
@@ -467,19 +562,20 @@ class Importer {
   }
 
   void write() {
-    constexpr double window = 0.1, step = 0.05;  // a rigid platform's shortest period is some seconds
     const double end = window * std::max(1.0, std::round(main_.number({"TMax"}) / window));
     std::ofstream out(folder_ / "scene.toml");
     out << fmt::format("# From the OpenFAST deck {}, by spindrift import.\n", main_.file().filename().string());
     if (!left_out_.empty()) out << "# Left out:\n";
     for (const std::string& what : left_out_) out << "# - " << what << "\n";
-    out << fmt::format("[time]\nend_s = {:.9g}\nwindow_s = {}\nstep_s = {}\n", end, window, step) << scene_.str() << water_;
+    out << fmt::format("[time]\nend_s = {:.9g}\nwindow_s = {}\nstep_s = {}\n", end, window, step_) << scene_.str() << water_;
     out << fmt::format("\n[output]\ntitle = \"{}\"\n", main_.file().stem().string());
     if (!out.flush()) throw std::runtime_error((folder_ / "scene.toml").string() + ": cannot be written");
   }
 
+  static constexpr double window = 0.1;
   Deck main_;
   std::filesystem::path folder_;
+  double step_ = 0.05;  // a rigid platform's shortest period is some seconds
   std::optional<Deck> elastodyn_;
   RotorFrame rotor_;
   double gravity_ = 9.80665, depth_ = 0.0, water_density_ = 1025.0, axial_drag_ = 0.0, axial_added_ = 0.0;

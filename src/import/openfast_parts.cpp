@@ -141,21 +141,21 @@ struct PolarRow {
   double alpha, lift, drag;  ///< [deg], [-], [-]
 };
 
-/// What the Beddoes-Leishman models of AeroDyn (UA_Mod 1 to 3) make of a polar in steady flow: normal force of C_nalpha (alpha -
-/// alpha_0)
-/// ((1 + sqrt f)/2)^2 with the separation point f, at most 1, that the polar has by the same law (Leishman & Beddoes 1989;
-/// Damiani & Hayman 2019, NREL/TP-5000-66347). Lift above the file's straight line is lost. Beyond 30 degrees the polar stays.
-void limit_by_separation(const Deck& file, std::vector<PolarRow>& polar) {
-  const double slope = file.number({"C_nalpha"}, 0.0), zero = file.number({"alpha0"}, 0.0), drag_0 = file.number({"Cd0"}, 0.0);
-  if (slope <= 0.0) return;
-  for (PolarRow& row : polar) {
-    if (std::abs(row.alpha) > 30.0) continue;
-    const double a = row.alpha * radians_per_degree, sine = std::sin(a), cosine = std::cos(a);
-    const double straight = slope * (a - zero * radians_per_degree), normal = row.lift * cosine + (row.drag - drag_0) * sine;
-    const double root = straight == 0.0 ? 1.0 : 2.0 * std::sqrt(std::max(normal / straight, 0.0)) - 1.0;  // sqrt f
-    if (root < 1.0) continue;                         // f below 1 gives the polar back
-    row.lift = straight / cosine, row.drag = drag_0;  // with the chordwise force straight tan(a) of full suction
+/// What the Beddoes-Leishman models of AeroDyn (UA_Mod 1 to 3) are told of a polar, as a turbine file has it; no stall where the
+/// polar says nothing (Leishman & Beddoes 1989; Damiani & Hayman 2019, NREL/TP-5000-66347).
+std::string stall_of(const Deck& file) {
+  if (!file.flag({"InclUAdata"}, false)) return ", stall = { normal_slope = 0.0 }";
+  for (const char* name :
+       {"C_nalpha", "alpha0", "Cd0", "Cn1", "Cn2"}) {  // what AeroDyn finds from the polar, the program does too
+    std::string word = file.text({name});
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (word == "default") return "";
   }
+  return fmt::format(
+      ", stall = {{ normal_slope = {:.9g}, zero_lift_deg = {:.9g}, drag_0 = {:.9g}, critical_normal = {:.9g}, "
+      "critical_normal_low = {:.9g} }}",
+      file.number({"C_nalpha"}), file.number({"alpha0"}), std::max(file.number({"Cd0"}), 0.0),
+      std::max(file.number({"Cn1"}), 1e-3), std::min(file.number({"Cn2"}), 0.0));
 }
 
 }  // namespace
@@ -221,10 +221,10 @@ std::vector<std::string> write_turbine(const Deck& ad, const RotorFrame& r, cons
       if (!rows_of_polar.empty() && now.alpha <= rows_of_polar.back().alpha) continue;  // a doubled row closes the circle
       rows_of_polar.push_back(now);
     }
-    if (const int model = ad.integer({"UA_Mod", "UAMod"}, 0); unsteady && model >= 1 && model <= 3)
-      limit_by_separation(file, rows_of_polar);
     for (const PolarRow& row : rows_of_polar) csv << fmt::format("{:.9g},{:.9g},{:.9g}\n", row.alpha, row.lift, row.drag);
-    turbine << fmt::format("  {{ thickness_pct = {:.9g}, file = \"{}\" }},\n", label(polar), out);
+    const int model = ad.integer({"UA_Mod", "UAMod"}, 0);
+    turbine << fmt::format("  {{ thickness_pct = {:.9g}, file = \"{}\"{} }},\n", label(polar), out,
+                           unsteady && model >= 1 && model <= 3 ? stall_of(file) : "");
   }
   turbine << "]\n";
   return left_out;

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <cstring>
 #include <tuple>
 #include <utility>
 
@@ -36,6 +37,26 @@ void restore_particles(const coupling::FloatingSystem& floating, const io::Check
     if (file.has("sea/sensors")) state.sensors = file.read<double>("sea/sensors");
     floating.particles()->restore(state);
   } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
+}
+
+/// What a controller library was told, so that a run that goes on can tell it again; nothing without one.
+constexpr const char* library_log = "control/calls";
+
+void save_library(const coupling::FloatingSystem& floating, io::CheckpointWriter& file) {
+  const aero::BladedLibrary* library = floating.rotor() ? floating.rotor()->library() : nullptr;
+  if (library) file.write<std::byte>(library_log, std::as_bytes(library->log()));
+}
+
+void restore_library(const coupling::FloatingSystem& floating, const io::CheckpointReader& file) {
+  aero::BladedLibrary* library = floating.rotor() ? floating.rotor()->library() : nullptr;
+  if (!library) return;
+  const std::vector<std::byte> bytes = file.read<std::byte>(library_log);
+  std::vector<aero::BladedLibrary::Told> log(bytes.size() / sizeof(aero::BladedLibrary::Told));
+  if (log.size() * sizeof(aero::BladedLibrary::Told) != bytes.size())
+    throw io::InputError(
+        fmt::format("{}: array {} is that of another version of the program", file.path().string(), library_log));
+  std::memcpy(log.data(), bytes.data(), bytes.size());
+  library->set_log(log);
 }
 
 /// The particles that the scene starts from, on the ranks that have the sea. Collective; throws on all ranks alike.
@@ -170,6 +191,7 @@ std::int64_t SystemSimulation::take_over() {
   state_.unpack(std::span(bodies).first(state_.packed_size()));
   state_.work = work;
   state_.tick = timeline.tick_of_window(*windows);
+  restore_library(floating_, file);
   restore_fluids(file);
   // What the scheme has learnt goes along where scheme and window are the same; else it begins with the state alone.
   const bool same = file.has("coupling/history") &&
@@ -187,6 +209,7 @@ void SystemSimulation::restore(const io::CheckpointReader& file) {
       file.has("coupling/history") ? file.read<double>("coupling/history") : std::vector<double>();
   if (!window_.restore(history))
     throw io::InputError(file.path().string() + ": its coupling history is that of another coupling.scheme");
+  restore_library(floating_, file);
   restore_fluids(file);
   write_log_lines();
   start_clocks();
@@ -209,6 +232,7 @@ void SystemSimulation::save(io::CheckpointWriter& file) {
     file.set("coupling/scheme", std::int64_t(floating_.scenario().coupling.scheme));
     file.write<double>("coupling/history", history);
   }
+  save_library(floating_, file);
   coupling::write(file, parts_, air_part, window_.air().saved());
   if (floating_.scenario().resolves_air()) write_air_settings(file, floating_.scenario());
   if (!floating_.particle_plan()) return;
@@ -233,6 +257,8 @@ Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
         coupling::share_of_cfl(retry));
     report = window_.advance(state_, retry);
   }
+  if (aero::BladedLibrary* library = floating_.rotor() ? floating_.rotor()->library() : nullptr)
+    for (const std::string& warning : library->take_warnings()) spdlog::warn("{}", warning);
   if (report.stopped) return {};
   log_window(report, end_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   if (report.log.retries > 0)

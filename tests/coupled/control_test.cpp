@@ -18,7 +18,8 @@ std::vector<std::string> with(std::vector<std::string> overrides) {
   overrides.insert(overrides.end(), quick.begin(), quick.end());
   return overrides;
 }
-scene::Columns history_of(const Folder& folder) { return scene::read_columns((folder.path() / "history.csv").string()); }
+scene::Columns history_of(const std::filesystem::path& folder) { return scene::read_columns((folder / "history.csv").string()); }
+scene::Columns history_of(const Folder& folder) { return history_of(folder.path()); }
 }  // namespace
 
 TEST_CASE("from 6 to 25 m/s the DTU turbine turns within 1 % of its table and gives its power within 2 %", "[coupled][fast]") {
@@ -95,4 +96,97 @@ TEST_CASE("turbulence of a seed is the same in a run broken off and continued", 
   REQUIRE(run_scene(scene_file, overrides, folder.path() / "parts", {.until_s = 4.0, .quiet = true}).exit_code == 0);
   REQUIRE(run_scene(scene_file, overrides, folder.path() / "parts", {.restart = true, .quiet = true}).exit_code == 0);
   CHECK(text_of(folder.path() / "whole/history.csv") == text_of(folder.path() / "parts/history.csv"));
+}
+
+namespace {
+
+/// The DTU turbine with the tests' library on its shaft: K omega^2 on the generator's side of a gear of 50.
+struct LibraryRun {
+  Folder folder;
+  std::filesystem::path input;
+  explicit LibraryRun(const std::string& name, const std::string& text) : folder(name), input(folder.path().string() + ".in") {
+    std::ofstream(input) << text;
+  }
+  ~LibraryRun() { std::filesystem::remove(input); }
+  std::vector<std::string> overrides(std::vector<std::string> more) const {
+    more.insert(more.end(),
+                {"control.model='library'", "control.library='" SPINDRIFT_TEST_CONTROLLER "'",
+                 "control.input_file='" + input.string() + "'",
+                 "control.drive_train={rotor_inertia_kg_m2=1.563e8, generator_inertia_kg_m2=3.751e6, gear_ratio=50.0, "
+                 "generator_efficiency=0.94}"});
+    return more;
+  }
+};
+// K of the table, 1.2e7 N m s2 and some on the rotor's side: Q_g = Q / 50, omega_g = 50 omega.
+constexpr const char* optimal = "gain 97.6";
+
+}  // namespace
+
+TEST_CASE("a library that holds K omega squared holds the table's tip-speed ratio", "[coupled][fast]") {
+  const LibraryRun run("library", optimal);
+  REQUIRE(run_scene(scene_file, with(run.overrides({"wind.speed_m_s=9.0", "time.end_s=300.0"})), run.folder.path()).exit_code ==
+          0);
+  const scene::Columns history = history_of(run.folder), table = scene::read_columns(input("turbines/dtu_10mw_operation.csv"));
+  REQUIRE(table["wind_m_s"][5] == 9.0);
+  const double power = mean_of_last(history, "rotor.power_W", 30.0);
+  CHECK(mean_of_last(history, "rotor.rpm", 30.0) == Approx(table["speed_rpm"][5]).epsilon(0.01));
+  CHECK(power == Approx(table["power_W"][5]).epsilon(0.02));
+  CHECK(mean_of_last(history, "rotor.electrical_power_W", 30.0) == Approx(0.94 * power).epsilon(1e-3));
+}
+
+TEST_CASE("a library is called once at the start and once after every step, and told the end", "[coupled][fast]") {
+  const std::filesystem::path log = std::filesystem::temp_directory_path() / ("spindrift_calls_" + std::to_string(getpid()));
+  std::filesystem::remove(log);
+  const LibraryRun run("library_calls", std::string(optimal) + "\nlog " + log.string());
+  REQUIRE(run_scene(scene_file, run.overrides({"time.end_s=2.0", "time.step_s=0.05"}), run.folder.path()).exit_code == 0);
+  std::ifstream in(log);
+  std::vector<double> status, time;
+  std::string name;
+  for (double s, t; in >> s >> t >> name;) status.push_back(s), time.push_back(t);
+  REQUIRE(status.size() == 42);
+  CHECK((status.front() == 0.0 && status.back() == -1.0));
+  for (std::size_t n = 0; n + 1 < status.size(); ++n) {
+    CHECK(time[n] == Approx(0.05 * double(n)).margin(1e-6));
+    CHECK(status[n] == (n == 0 ? 0.0 : 1.0));
+  }
+  std::filesystem::remove(log);
+}
+
+TEST_CASE("a run under a library broken off and continued is the unbroken run, bit for bit", "[coupled][fast]") {
+  const LibraryRun run("library_restart", std::string(optimal) + "\npitch 0.05\nfrom 12.0\ncontactor 0");
+  const std::vector<std::string> overrides = run.overrides({"time.end_s=20.0", "wind.speed_m_s=10.0"});
+  REQUIRE(run_scene(scene_file, overrides, run.folder.path() / "whole").exit_code == 0);
+  REQUIRE(run_scene(scene_file, overrides, run.folder.path() / "parts", {.until_s = 7.0, .quiet = true}).exit_code == 0);
+  REQUIRE(run_scene(scene_file, overrides, run.folder.path() / "parts", {.restart = true, .quiet = true}).exit_code == 0);
+  CHECK(text_of(run.folder.path() / "whole/history.csv") == text_of(run.folder.path() / "parts/history.csv"));
+  const scene::Columns history = history_of(run.folder.path() / "whole");
+  CHECK(history["rotor.electrical_power_W"][20] > 1e6);
+  CHECK(history["rotor.electrical_power_W"][30] == 0.0);
+}
+
+TEST_CASE("a library that gives up ends the run with its words, exit code 3 and the state saved", "[coupled][fast]") {
+  const LibraryRun run("library_fails", std::string(optimal) + "\nfail_from 3.0");
+  const io::Summary summary = run_scene(scene_file, run.overrides({"time.end_s=20.0"}), run.folder.path());
+  CHECK(summary.exit_code == 3);
+  CHECK_THAT(summary.exit_reason, Catch::Matchers::Contains("pitch bearing is lost"));
+}
+
+TEST_CASE("a library is refused where windows repeat, where it does not fit and where it is none", "[coupled][fast]") {
+  const LibraryRun run("library_refused", optimal);
+  const auto refusal = [&](std::vector<std::string> more) -> std::string {
+    std::vector<std::string> overrides = run.overrides({});
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    try {
+      scene::Document document = scene::load(scene_file, overrides);
+      read_scenario(document);
+    } catch (const scene::SceneError& e) { return e.what(); }
+    return "";
+  };
+  CHECK(refusal({}).empty());
+  CHECK(refusal({"coupling.scheme='iqn_ils'"}).find("coupling.scheme") != std::string::npos);
+  CHECK(refusal({"control.library='" + run.input.string() + "'"}).find("is no library that can be loaded") != std::string::npos);
+  CHECK(refusal({"control.procedure='CONTROLLER'"}).find("has no procedure CONTROLLER") != std::string::npos);
+  CHECK(refusal({"control.events=[{what='shut_down', time_s=1.0}]"}).find("is the library's business") != std::string::npos);
+  CHECK(refusal({"control.records=[{record=47, value=1.0}]"}).find("is filled by the program") != std::string::npos);
+  CHECK(refusal({"control.tuning='floating'"}).find("control.tuning") != std::string::npos);
 }

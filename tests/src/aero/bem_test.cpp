@@ -204,9 +204,11 @@ std::vector<double> after_pitch_step(const UnsteadyFlow& unsteady, double degree
 
 TEST_CASE("settled, a rotor whose wake and separation take time has the loads of steady flow", "[aero][fast]") {
   const BladeElementMomentum steady(dtu(), "madsen", 1.225);
-  const UnsteadyFlow both{.inflow = true, .stall = true}, stall{.stall = true};
+  using Stall = UnsteadyFlow::Stall;
+  const UnsteadyFlow both{.inflow = true, .stall = Stall::oye}, stall{.stall = Stall::oye},
+      vortex{.stall = Stall::beddoes_leishman}, all{.inflow = true, .stall = Stall::beddoes_leishman};
   const double wind = GENERATE(6.0, 11.0, 20.0), tilt = GENERATE(0.0, 0.3);  // stalled at 20 m/s
-  for (const UnsteadyFlow& unsteady : {both, stall}) {
+  for (const UnsteadyFlow& unsteady : {both, stall, vortex, all}) {
     const BladeElementMomentum bem(dtu(), "madsen", 1.225, unsteady);
     const DiscMotion rotor = spinning(8.836, 0.0, tilt);
     std::vector<double> memory(bem.memory_size());
@@ -215,6 +217,31 @@ TEST_CASE("settled, a rotor whose wake and separation take time has the loads of
     CHECK((a.force - b.force).norm() < 1e-9 * a.force.norm());
     CHECK((a.moment - b.moment).norm() < 1e-9 * a.moment.norm());
   }
+}
+
+TEST_CASE("with given slopes the wake is that of the whole polar, loads are those of the limited one", "[aero][fast]") {
+  // A plate of 2 pi alpha cn whose given slope is 0.9 of it: induction as before, normal force a tenth less.
+  Turbine plates = dtu();
+  plates.polars.resize(1);
+  Polar& polar = plates.polars[0];
+  polar.attack.clear(), polar.lift.clear(), polar.drag.clear();
+  for (int n = -360; n <= 360; ++n) {
+    const double a = 0.5 * n * radians_per_degree, normal = std::abs(a) < 0.5 ? 2.0 * pi * a : 0.0;
+    polar.attack.push_back(a), polar.lift.push_back(normal * std::cos(a)), polar.drag.push_back(normal * std::sin(a));
+  }
+  const UnsteadyFlow unsteady{.stall = UnsteadyFlow::Stall::beddoes_leishman, .speed_of_sound = 1e6};
+  const auto thrust = [&](double slope) {
+    plates.polars[0].stall = StallOptions{.normal_slope = slope};
+    return BladeElementMomentum(plates, "madsen", 1.225, unsteady)({11, 0, 0}, spinning(8.836)).force.x();
+  };
+  plates.polars[0].stall.reset();
+  const double free = BladeElementMomentum(plates, "madsen", 1.225)({11, 0, 0}, spinning(8.836)).force.x();
+  CHECK(thrust(2.0 * pi * 1.001) == Approx(free).epsilon(2e-3));
+  CHECK(thrust(0.9 * 2.0 * pi) == Approx(0.9 * free).epsilon(2e-3));
+  // Sound at twice the tip's speed or so makes the slope steeper again.
+  const UnsteadyFlow slow{.stall = UnsteadyFlow::Stall::beddoes_leishman, .speed_of_sound = 200.0};
+  CHECK(BladeElementMomentum(plates, "madsen", 1.225, slow)({11, 0, 0}, spinning(8.836)).force.x() >
+        1.01 * thrust(0.9 * 2.0 * pi));
 }
 
 TEST_CASE("after a pitch step thrust overshoots and settles with the published time constant of the wake", "[aero][fast]") {

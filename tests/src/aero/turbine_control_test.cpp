@@ -29,11 +29,11 @@ TurbineControl made(const ControlOptions& options = {.model = ControlModel::dtu}
 TEST_CASE("the shaft obeys Newton: torque in less torque out is inertia times acceleration", "[aero][fast]") {
   const TurbineControl control = made();
   std::vector<double> memory(control.memory_size());
-  control.begin(0.0, 5e6, 9.0, memory);
+  control.begin(0.0, {5e6, 9.0}, memory);
   double before = TurbineControl::state(memory).speed;
   for (int n = 1; n <= 200; ++n) {
     const double torque = 5e6 + 1e6 * std::sin(0.1 * n);
-    control.advance(0.05 * n, 0.05, torque, 9.0, memory);
+    control.advance(0.05 * n, 0.05, {torque, 9.0}, memory);
     const TurbineControl::State s = TurbineControl::state(memory);
     CHECK(control.inertia() * (s.speed - before) / 0.05 == Approx(torque - s.shaft_torque).epsilon(1e-9));
     before = s.speed;
@@ -44,10 +44,10 @@ TEST_CASE("after a loss of grid the generator is off, the blades feather at thei
   const TurbineControl control =
       made({.model = ControlModel::dtu, .events = {{.what = ControlEvent::grid_loss, .time_s = 1.0}}}, 1.005, 0.2);
   std::vector<double> memory(control.memory_size());
-  control.begin(0.0, 10e6, 15.0, memory);
+  control.begin(0.0, {10e6, 15.0}, memory);
   double fastest = 0.0, last = 0.2;
   for (int n = 1; n <= 400; ++n) {
-    control.advance(0.05 * n, 0.05, n > 20 ? 0.0 : 10e6, 15.0, memory);
+    control.advance(0.05 * n, 0.05, {n > 20 ? 0.0 : 10e6, 15.0}, memory);
     if (n >= 20) CHECK(TurbineControl::state(memory).generator_torque == 0.0);
     fastest = std::max(fastest, (control.pitch(memory)[0] - last) / 0.05), last = control.pitch(memory)[0];
   }
@@ -60,8 +60,8 @@ TEST_CASE("a stuck blade stays while the others pitch", "[aero][fast]") {
                                        .events = {{.what = ControlEvent::blade_stuck, .time_s = 1.0, .blade = 2},
                                                   {.what = ControlEvent::shut_down, .time_s = 2.0}}});
   std::vector<double> memory(control.memory_size());
-  control.begin(0.0, 5e6, 9.0, memory);
-  for (int n = 1; n <= 400; ++n) control.advance(0.05 * n, 0.05, 0.0, 9.0, memory);
+  control.begin(0.0, {5e6, 9.0}, memory);
+  for (int n = 1; n <= 400; ++n) control.advance(0.05 * n, 0.05, {0.0, 9.0}, memory);
   CHECK(control.pitch(memory)[1] == 0.0);
   CHECK(control.pitch(memory)[0] > 0.5);
   CHECK(control.pitch(memory)[0] == control.pitch(memory)[2]);

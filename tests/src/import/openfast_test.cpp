@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "kernels/base/constants.hpp"
+#include "src/aero/turbine.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
 #include "src/scene/document.hpp"
@@ -31,7 +32,8 @@ struct SmallDeck {
         "CompAero\n"
         "0 CompServo\n1 CompSeaSt\n1 CompHydro\n0 CompSub\n1 CompMooring\n0 CompIce\n9.80665 Gravity\n1.225 AirDens\n1025 "
         "WtrDens\n"
-        "200 WtrDpth\n0 MSL2SWL\n\"ed.dat\" EDFile\n\"ifw.dat\" InflowFile\n\"ad.dat\" AeroFile\n\"sea.dat\" "
+        "200 WtrDpth\n0 MSL2SWL\n\"srv.dat\" ServoFile\n\"ed.dat\" EDFile\n\"ifw.dat\" InflowFile\n\"ad.dat\" "
+        "AeroFile\n\"sea.dat\" "
         "SeaStFile\n\"hd.dat\" HydroFile\n"
         "\"map.dat\" MooringFile\n";
     files["ed.dat"] =
@@ -45,6 +47,10 @@ struct SmallDeck {
         "HubIner\n"
         "100 GenIner\n100000 NacMass\n500000 NacYIner\n3000000 PtfmMass\n2e9 PtfmRIner\n2e9 PtfmPIner\n5e7 PtfmYIner\n"
         "\"blade.dat\" BldFile(1)\n\"blade.dat\" BldFile(2)\n\"blade.dat\" BldFile(3)\n50 GBRatio\n\"tower.dat\" TwrFile\n";
+    files["srv.dat"] =
+        "---\n0 PCMode\n0 VSContrl\n95 GenEff\n100 HSSBrTqF\n\"lib.so\" DLL_FileName\n\"DISCON.IN\" DLL_InFile\n\"DISCON\" "
+        "DLL_ProcName\n"
+        "0.025 DLL_DT\n1 Ptch_Cntrl\n90 Ptch_Max\n8 PtchRate_Max\n2.3 Gain_OM\n1200 GenSpd_Dem\n0 DLL_NumTrq\n";
     files["blade.dat"] =
         "--- BLADE\n2 NBlInpSt\n1.0 AdjBlMs\nBlFract StrcTwst BMassDen FlpStff EdgStff\n(-) (deg) (kg/m) (Nm^2) (Nm^2)\n"
         "0 0 300 1 1\n1 0 100 1 1\n";
@@ -166,11 +172,10 @@ TEST_CASE("what the scene cannot say is told", "[import][fast]") {
   SmallDeck deck;
   deck.replace("ed.dat", "False FlapDOF1", "True FlapDOF1");
   deck.replace("ad.dat", "0 UA_Mod", "3 UA_Mod");
-  deck.replace("hd.dat", "0 DiffQTF", "12 DiffQTF");
   deck.replace("main.fst", "0 CompServo", "1 CompServo");
   std::string all;
   for (const std::string& what : deck.import().left_out) all += what + "\n";
-  for (const char* word : {"bending of the blades", "dynamic stall model of UA_Mod 3", "difference-frequency", "ServoDyn"})
+  for (const char* word : {"bending of the blades", "the dynamic stall model of UA_Mod 3 has", "ServoDyn (GenDOF is off)"})
     CHECK(all.find(word) != std::string::npos);
   std::ostringstream scene;
   scene << std::ifstream(deck.folder / "scene/scene.toml").rdbuf();
@@ -199,15 +204,98 @@ TEST_CASE("MoorDyn's lines and older names are read too", "[import][fast]") {
 }
 
 TEST_CASE("what takes time in AeroDyn's flow is turned on as the deck says", "[import][fast]") {
-  const auto [wake, filter, stall] = GENERATE(table<std::string, std::string, std::string>(
-      {{"1 Wake_Mod", "0", "0 UA_Mod"}, {"1 Wake_Mod", "2", "3 UA_Mod"}, {"1 Wake_Mod", "1", "5 UA_Mod"}}));
+  const auto [wake, filter, stall] = GENERATE(table<std::string, std::string, std::string>({{"1 Wake_Mod", "0", "0 UA_Mod"},
+                                                                                            {"1 Wake_Mod", "2", "3 UA_Mod"},
+                                                                                            {"1 Wake_Mod", "1", "5 UA_Mod"},
+                                                                                            {"1 Wake_Mod", "1", "6 UA_Mod"}}));
   SmallDeck deck;
   deck.replace("ad.dat", "1 Wake_Mod", wake + "\n" + filter + " DBEMT_Mod\n12.5 tau1_const");
   deck.replace("ad.dat", "0 UA_Mod", stall);
   const coupling::Scenario s = deck.scenario();
   CHECK(s.aero.dynamic_inflow == (filter == "0" ? "none" : "oye"));
   CHECK(s.aero.inflow_time_s.value_or(0.0) == (filter == "1" ? 12.5 : 0.0));
-  CHECK(s.aero.dynamic_stall == (stall == "0 UA_Mod" ? "none" : "oye"));
+  CHECK(s.aero.dynamic_stall == (stall == "0 UA_Mod" ? "none" : stall == "6 UA_Mod" ? "oye" : "beddoes_leishman"));
+}
+
+TEST_CASE("what AeroDyn is told of stall is the turbine's, its polars stay whole", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("ad.dat", "0 UA_Mod", "3 UA_Mod");
+  deck.replace("main.fst", "1.225 AirDens", "1.225 AirDens\n335 SpdSound");
+  const std::string numbers = "! a flat plate\nTrue InclUAdata\n-2 alpha0\n6.1 C_nalpha\n1.5 Cn1\n-0.9 Cn2\n0.011 Cd0\n";
+  deck.replace("foil.dat", "! a flat plate\n", numbers);
+  const coupling::Scenario s = deck.scenario();
+  CHECK(s.aero.speed_of_sound_m_s == 335.0);
+  const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine);
+  REQUIRE(turbine.polars.size() == 2);
+  const aero::Polar& foil = turbine.polars[0];  // the thinner label
+  REQUIRE(foil.stall);
+  CHECK((foil.stall->normal_slope == 6.1 && foil.stall->drag_0 == 0.011 && foil.stall->critical_normal == 1.5));
+  CHECK(foil.stall->zero_lift == Approx(-2.0 * radians_per_degree));
+  CHECK(foil.stall->critical_normal_low == -0.9);
+  CHECK(foil.lift[3] == 1.4);
+  CHECK(turbine.polars[1].stall->normal_slope == 0.0);
+  // What AeroDyn finds by itself is left to the polar; a number that is none is refused by its line.
+  deck.replace("foil.dat", "6.1 C_nalpha", "\"Default\" C_nalpha");
+  CHECK(!aero::read_turbine(deck.scenario().rotor.turbine).polars[0].stall);
+  deck.replace("foil.dat", "\"Default\" C_nalpha", "steep C_nalpha");
+  CHECK(deck.refusal().find("foil.dat:4") != std::string::npos);
+}
+
+TEST_CASE("a controller library of a deck is the scene's, with its drive train and its numbers", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("main.fst", "0 CompServo", "1 CompServo");
+  deck.replace("ed.dat", "False GenDOF", "True GenDOF");
+  deck.replace("srv.dat", "0 PCMode\n0 VSContrl", "5 PCMode\n5 VSContrl");
+  deck.files["lib.so"] = "none", deck.files["DISCON.IN"] = "1.0";
+  const decks::Imported imported = deck.import();
+  scene::Document document = scene::load(imported.scene.string(), {"control.library='" SPINDRIFT_TEST_CONTROLLER "'"});
+  const coupling::Scenario s = coupling::read_scenario(document);
+  REQUIRE(s.control.model == aero::ControlModel::library);
+  CHECK(s.control.input_file == (deck.folder / "deck/DISCON.IN").string());
+  CHECK(s.control.individual_pitch);
+  CHECK(s.time.step_s.value() == 0.025);
+  const aero::DriveTrainOptions& drive = *s.control.drive_train;
+  CHECK((drive.gear_ratio == 50.0 && drive.generator_efficiency == 0.95 && drive.brake_torque_N_m == 5000.0));
+  CHECK(drive.generator_inertia_kg_m2 == 100.0 * 50.0 * 50.0);
+  CHECK(drive.rotor_inertia_kg_m2 > 50000.0);
+  CHECK(drive.max_pitch_rate == Approx(8.0 * radians_per_degree));
+  const auto record = [&](int number) {
+    for (const aero::RecordOptions& r : s.control.records)
+      if (r.record == number) return r.value;
+    return 0.0;
+  };
+  CHECK(record(7) == Approx(0.5 * pi));
+  CHECK(record(16) == 2.3);
+  CHECK(record(19) == Approx(1200.0 * rad_s_per_rpm));
+  deck.replace("srv.dat", "lib.so", "other.dll");
+  std::string all;
+  for (const std::string& what : deck.import().left_out) all += what + "\n";
+  CHECK(all.find("other.dll is not there") != std::string::npos);
+  deck.replace("srv.dat", "other.dll", "lib.so");
+  deck.replace("srv.dat", "\"DISCON.IN\" DLL_InFile", "\"none.in\" DLL_InFile");
+  all.clear();
+  for (const std::string& what : deck.import().left_out) all += what + "\n";
+  CHECK(all.find("none.in is not there") != std::string::npos);
+  deck.replace("srv.dat", "90 Ptch_Max", "wide Ptch_Max");
+  CHECK(deck.refusal().find("srv.dat:11") != std::string::npos);
+}
+
+TEST_CASE("a deck's drift and sum frequencies are the scene's", "[import][fast]") {
+  const auto [line, drift, ending] = GENERATE(table<std::string, std::string, std::string>({{"0 MnDrift", "mean", ".8"},
+                                                                                            {"0 NewmanApp", "newman", ".12d"},
+                                                                                            {"0 DiffQTF", "full", ".12d"},
+                                                                                            {"0 SumQTF", "none", ".12s"}}));
+  SmallDeck deck;
+  deck.replace("hd.dat", line, (ending == ".8" ? "8" : "12") + line.substr(1));
+  deck.files["wamit/spar.8"] = "20 0 0 1 1 0 0.1 0\n5 0 0 1 1 0 0.2 0\n";
+  deck.files["wamit/spar.12d"] = deck.files["wamit/spar.12s"] =
+      "20 20 0 0 1 1 0 0.1 0\n20 5 0 0 1 1 0 0.1 0.1\n5 5 0 0 1 1 0 0.2 0\n";
+  const coupling::Scenario s = deck.scenario();
+  CHECK(s.sea.potential->drift == drift);
+  const std::string& file = drift == "none" ? s.sea.potential->sum_frequency_file : s.sea.potential->drift_file;
+  CHECK(file.substr(file.size() - ending.size()) == ending);
+  deck.replace("hd.dat", (ending == ".8" ? "8" : "12") + line.substr(1), "5" + line.substr(1));
+  CHECK(deck.refusal().find("hd.dat:") != std::string::npos);
 }
 
 TEST_CASE("a deck with something wrong is refused by file and line", "[import][fast]") {
