@@ -85,7 +85,8 @@ void measure(perf::Group& group, const runtime::Parts& parts) {
   Coupled split(demo(), parts);
   meet(), split.advance(1);
 
-  const double tasks_before = shared.window->tasks().wall_seconds(), kept_before = 1e-9 * double(shared.window->totals().snapshot_ns);
+  const double tasks_before = shared.window->tasks().wall_seconds(),
+               kept_before = 1e-9 * double(shared.window->totals().snapshot_ns);
   std::vector<double> both, air, sea, air_one, sea_one, sum_ratio, in_shared, in_split, gain;
   for (int n = 0; n < rounds; ++n) {
     omp_set_num_threads(2);
