@@ -10,7 +10,6 @@
 #include <bit>
 #include <cfenv>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -89,7 +88,7 @@ BladedLibrary::~BladedLibrary() { end(); }
 void BladedLibrary::load() {
   end();
   const KeptFloatingPoint kept;
-  loaded_ = new Loaded(options_.library, options_.procedure);
+  loaded_ = std::make_unique<Loaded>(options_.library, options_.procedure);
   calls_ = 0, stale_ = false;
   swap_.assign(swap_size, 0.0f);
   const auto set = [this](int record, double value) { swap_[std::size_t(record - 1)] = float(value); };
@@ -107,19 +106,18 @@ void BladedLibrary::end() {
       swap_[0] = -1.0f;
       tell(last_);
     } catch (const NumericalFailure&) {}  // the run is over
-  delete loaded_;
-  loaded_ = nullptr;
+  loaded_.reset();
 }
 
 BladedLibrary::Asked BladedLibrary::tell(const Told& told) {
   last_ = told;
   const auto values = std::bit_cast<std::array<float, records.size()>>(told);
   for (std::size_t i = 0; i < records.size(); ++i) swap_[std::size_t(records[i] - 1)] = values[i];
-  std::vector<char> input(options_.input_file.empty() ? std::size_t(1) : fs::absolute(options_.input_file).string().size() + 1),
-      output(text_size + 1), message(text_size + 1);
-  if (!options_.input_file.empty()) std::strcpy(input.data(), fs::absolute(options_.input_file).c_str());
-  std::copy_n(options_.output_name.begin(), std::min(options_.output_name.size(), text_size), output.begin());
-  swap_[49] = float(input.size());
+  // The library may write into its texts, so each call has its own.
+  std::string input = options_.input_file.empty() ? "" : fs::absolute(options_.input_file).string();
+  std::string output = options_.output_name.substr(0, text_size), message(text_size + 1, '\0');
+  output.resize(text_size + 1);
+  swap_[49] = float(input.size() + 1);
 
   int fail = 0;
   {
@@ -127,7 +125,7 @@ BladedLibrary::Asked BladedLibrary::tell(const Told& told) {
     loaded_->call(swap_.data(), &fail, input.data(), output.data(), message.data());
   }
   message.back() = '\0';
-  std::string said(message.data());
+  std::string said(message.c_str());
   said.erase(said.find_last_not_of(" \n\r\t") + 1);
   const auto give_up = [&](const std::string& what) {
     stale_ = true;

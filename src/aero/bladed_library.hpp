@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -69,7 +70,7 @@ class BladedLibrary {
 
   ControlOptions options_;
   int blades_;
-  Loaded* loaded_ = nullptr;
+  std::unique_ptr<Loaded> loaded_;
   std::int64_t calls_ = 0;  ///< of the copy that is loaded
   bool stale_ = false;      ///< that copy gave up, or was told another log
   Told last_;

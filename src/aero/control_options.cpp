@@ -82,13 +82,13 @@ const scene::Section<DriveTrainOptions>& drive_train_section() {
           .number("brake_torque_N_m", &DriveTrainOptions::brake_torque_N_m, "N m", "Of the brake, on the low-speed shaft.",
                   not_negative())
           .degrees("feather_deg", &DriveTrainOptions::feather, "Pitch of feathered blades.", between(45.0, 120.0))
-          .degrees("max_pitch_rate_deg_s", &DriveTrainOptions::max_pitch_rate,
-                   "Largest rate of the blades' pitch (degrees a second).", between(0.01, 100.0))
+          .degrees("max_pitch_rate_deg_s", &DriveTrainOptions::max_pitch_rate, "Largest rate of the blades' pitch.",
+                   between(0.01, 100.0), "deg/s")
           .number("servo_frequency_Hz", &DriveTrainOptions::servo_frequency_Hz, "Hz",
                   "Of the pitch servo; without it blades go where they are asked to as fast as they may.", positive())
           .number("servo_damping", &DriveTrainOptions::servo_damping, "-", "Its damping ratio.", between(0.1, 2.0))
-          .degrees("max_pitch_acceleration_deg_s2", &DriveTrainOptions::max_pitch_acceleration,
-                   "Its largest acceleration (degrees per second squared).", between(0.01, 1000.0));
+          .degrees("max_pitch_acceleration_deg_s2", &DriveTrainOptions::max_pitch_acceleration, "Its largest acceleration.",
+                   between(0.01, 1000.0), "deg/s2");
   return section;
 }
 
@@ -167,12 +167,10 @@ const scene::Section<ControllerOptions>& controller_section() {
                   positive())
           .number("filter_damping", &ControllerOptions::filter_damping, "-", "Its damping ratio.", between(0.1, 2.0))
           .degrees("max_pitch_deg", &ControllerOptions::max_pitch, "Largest pitch of operation.", between(1.0, 120.0))
-          .degrees("max_pitch_rate_deg_s", &ControllerOptions::max_pitch_rate,
-                   "Largest rate of the blades' pitch (degrees a "
-                   "second).",
-                   between(0.01, 100.0))
+          .degrees("max_pitch_rate_deg_s", &ControllerOptions::max_pitch_rate, "Largest rate of the blades' pitch.",
+                   between(0.01, 100.0), "deg/s")
           .degrees("max_pitch_acceleration_deg_s2", &ControllerOptions::max_pitch_acceleration,
-                   "Largest acceleration of the blades' pitch (degrees per second squared).", between(0.01, 1000.0))
+                   "Largest acceleration of the blades' pitch.", between(0.01, 1000.0), "deg/s2")
           .number("servo_frequency_Hz", &ControllerOptions::servo_frequency_Hz, "Hz", "Of the pitch servo.", positive())
           .number("servo_damping", &ControllerOptions::servo_damping, "-", "Its damping ratio.", between(0.1, 2.0))
           .degrees("switch_pitch_deg", &ControllerOptions::switch_pitch, "Full load begins this far above the least pitch.",
@@ -187,8 +185,8 @@ const scene::Section<ControllerOptions>& controller_section() {
           .number("brake_torque_N_m", &ControllerOptions::brake_torque_N_m, "N m", "Of the brake, on the low-speed shaft.",
                   not_negative())
           .degrees("feather_deg", &ControllerOptions::feather, "Pitch of feathered blades.", between(45.0, 120.0))
-          .degrees("stop_pitch_rate_deg_s", &ControllerOptions::stop_pitch_rate,
-                   "Rate of pitch in a shut-down and a start-up (degrees a second).", between(0.01, 100.0))
+          .degrees("stop_pitch_rate_deg_s", &ControllerOptions::stop_pitch_rate, "Rate of pitch in a shut-down and a start-up.",
+                   between(0.01, 100.0), "deg/s")
           .check(check_controller);
   return section;
 }

@@ -31,6 +31,12 @@ double diameter_of(const RotorOptions& rotor) {
   return rotor.turbine.empty() ? 0.0 : 2.0 * BladeElementMomentum(read_turbine(rotor.turbine), "madsen", 1.0).tip_radius();
 }
 
+UnsteadyFlow::Stall stall_named(std::string_view name) {
+  if (name == "oye") return UnsteadyFlow::Stall::oye;
+  if (name == "beddoes_leishman") return UnsteadyFlow::Stall::beddoes_leishman;
+  return UnsteadyFlow::Stall::none;
+}
+
 }  // namespace
 
 RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,
@@ -59,9 +65,7 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
     model_ = BladeElementMomentum(read_turbine(rotor.turbine), aero.induction, air_density,
                                   {.inflow = aero.dynamic_inflow == "oye",
                                    .inflow_time = aero.inflow_time_s,
-                                   .stall = aero.dynamic_stall == "oye"                ? UnsteadyFlow::Stall::oye
-                                            : aero.dynamic_stall == "beddoes_leishman" ? UnsteadyFlow::Stall::beddoes_leishman
-                                                                                       : UnsteadyFlow::Stall::none,
+                                   .stall = stall_named(aero.dynamic_stall),
                                    .speed_of_sound = aero.speed_of_sound_m_s});
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;

@@ -12,7 +12,7 @@ namespace spindrift::moorings {
 
 namespace {
 
-bool hangs(const LineOptions& line) { return line_model(line.model).hangs; }
+bool hangs(const LineOptions& line) { return line_models().named(line.model).hangs; }
 
 void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N) {
   if (line.rest_length_m == 0.0) return;  // a table has none
@@ -87,7 +87,8 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     const double weight_N_m = weight_in_water(line, around.water_density_kg_m3, around.gravity_m_s2);
     doubt_length(doubts, at, line, around.weight_N);
     doubt_material(doubts, at, line, weight_N_m);
-    if (line_model(line.model).make_dynamic) doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
+    if (line_models().named(line.model).make_dynamic)
+      doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
     if (depth_m < 0.0 || line.anchor_body != "earth") continue;
     const double above = line.anchor_m.z() + depth_m;
     if (above < -0.01 * depth_m - 0.5)

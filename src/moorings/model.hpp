@@ -6,7 +6,6 @@
 
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "kernels/mooring/line.hpp"
 #include "kernels/mooring/line_lumped_mass.hpp"
 #include "src/moorings/options.hpp"
+#include "src/scene/models.hpp"
 
 namespace spindrift::moorings {
 
@@ -57,11 +57,6 @@ struct LineModel {
   LineLumpedMass (*make_dynamic)(const LineOptions&, const LineEnvironment&) = nullptr;
 };
 
-/// In the order in which the reference names them.
-std::span<const LineModel* const> line_models();
-/// @pre the name is one of them.
-const LineModel& line_model(std::string_view name);
-/// Names of the models that read the key.
-std::vector<std::string> line_models_with(std::string_view key);
+scene::Models<LineModel> line_models();
 
 }  // namespace spindrift::moorings

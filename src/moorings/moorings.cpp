@@ -51,7 +51,7 @@ Moorings::End Moorings::attach(const std::string& body, const Eigen::Vector3d& p
 
 void Moorings::add(const std::string& name, const LineOptions& o) {
   Line line{name, attach(o.body, o.fairlead_m), attach(o.anchor_body, o.anchor_m), {}, {}};
-  const LineModel& model = line_model(o.model);
+  const LineModel& model = line_models().named(o.model);
   line.model = model.make(o, environment_);
   if (model.make_dynamic) {
     const LineLumpedMass dynamic = model.make_dynamic(o, environment_);

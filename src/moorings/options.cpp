@@ -15,13 +15,6 @@ namespace spindrift::moorings {
 
 namespace {
 
-/// Names and meanings, as the list of models has them.
-std::vector<scene::Choice> model_choices() {
-  std::vector<scene::Choice> choices;
-  for (const LineModel* model : line_models()) choices.push_back({std::string(model->name), std::string(model->help)});
-  return choices;
-}
-
 const scene::Section<ClumpOptions>& clump_section() {
   using scene::positive, scene::not_negative;
   static const auto section =
@@ -45,7 +38,7 @@ void check_line(const LineOptions& o, const scene::Report& report) {
     if (clump.mass_kg == 0.0 && clump.volume_m3 == 0.0) report("clumps", "has one without mass and volume");
   }
   if (o.anchor_body == o.body) report("anchor_body", "is the body that carries the fairlead: a line ties two different things");
-  const auto hanging = line_models_with("bed_contact");
+  const auto hanging = line_models().with("bed_contact");
   if (std::ranges::find(hanging, o.model) != hanging.end() && o.bed_contact && o.anchor_body != "earth")
     report("bed_contact", "must be false for a line between two bodies: only an anchor on \"earth\" lies on the bed");
 }
@@ -57,7 +50,7 @@ const scene::Section<LineOptions>& line_section() {
   static const auto section =
       scene::Section<LineOptions>("moorings", "A mooring line: its model, its two ends, its properties.")
           .named()
-          .choice("model", &LineOptions::model, model_choices(), "Model of the line.")
+          .choice("model", &LineOptions::model, line_models().choices(), "Model of the line.")
           .text("body", &LineOptions::body, "Body that carries the fairlead.")
           .required()
           .vector("fairlead_m", &LineOptions::fairlead_m, "m", "Fairlead, initial earth coordinates; it moves with its body.")
@@ -66,66 +59,66 @@ const scene::Section<LineOptions>& line_section() {
           .vector("anchor_m", &LineOptions::anchor_m, "m", "Anchor, initial earth coordinates; may lie outside the tank.")
           .required()
           .number("rest_length_m", &LineOptions::rest_length_m, "m", "Unstretched length.", positive())
-          .only_if("model", line_models_with("rest_length_m"))
+          .only_if("model", line_models().with("rest_length_m"))
           .required()
           .number("axial_stiffness_N", &LineOptions::axial_stiffness_N, "N",
                   "Axial stiffness EA; the spring's is EA over the rest length.", positive())
-          .only_if("model", line_models_with("axial_stiffness_N"))
+          .only_if("model", line_models().with("axial_stiffness_N"))
           .number("stiffness_N_m", &LineOptions::stiffness_N_m, "N/m", "Stiffness of the whole line: force per lengthening.",
                   positive())
-          .only_if("model", line_models_with("stiffness_N_m"))
+          .only_if("model", line_models().with("stiffness_N_m"))
           .number("damping_N_s_m", &LineOptions::damping_N_s_m, "N s/m", "Force per rate of lengthening.", not_negative())
-          .only_if("model", line_models_with("damping_N_s_m"))
+          .only_if("model", line_models().with("damping_N_s_m"))
           .flag("tension_only", &LineOptions::tension_only, "The line goes slack instead of pushing.")
-          .only_if("model", line_models_with("tension_only"))
+          .only_if("model", line_models().with("tension_only"))
           .number("weight_N_m", &LineOptions::weight_N_m, "N/m", "Weight in water per unstretched length.", positive())
-          .only_if("model", line_models_with("weight_N_m"))
+          .only_if("model", line_models().with("weight_N_m"))
           .required()
           .flag("bed_contact", &LineOptions::bed_contact, "The line may lie on a flat bed at the level of its lower end.")
-          .only_if("model", line_models_with("bed_contact"))
+          .only_if("model", line_models().with("bed_contact"))
           .number("bed_friction", &LineOptions::bed_friction, "-", "Friction coefficient between line and bed.", not_negative())
-          .only_if("model", line_models_with("bed_friction"))
+          .only_if("model", line_models().with("bed_friction"))
           .only_if("bed_contact", {"true"})
           .integer("segments", &LineOptions::segments, "-", "Equal segments, between point masses.", scene::between(2, 1000))
-          .only_if("model", line_models_with("segments"))
+          .only_if("model", line_models().with("segments"))
           .number("diameter_m", &LineOptions::diameter_m, "m",
                   "Diameter of a cylinder of the line's volume: 1.8 times the bar of a studless chain.", positive())
-          .only_if("model", line_models_with("diameter_m"))
+          .only_if("model", line_models().with("diameter_m"))
           .required()
           .number("mass_kg_m", &LineOptions::mass_kg_m, "kg/m", "Mass per unstretched length, dry.", positive())
-          .only_if("model", line_models_with("mass_kg_m"))
+          .only_if("model", line_models().with("mass_kg_m"))
           .required()
           .number("damping_ratio", &LineOptions::damping_ratio, "-",
                   "Internal damping, as a share of the critical one of a segment between its two masses.",
                   scene::between(0.0, 1.0))
-          .only_if("model", line_models_with("damping_ratio"))
+          .only_if("model", line_models().with("damping_ratio"))
           .number("drag_coefficient", &LineOptions::drag_coefficient, "-",
                   "Drag across the line, on its diameter; studless chain by default.", not_negative())
-          .only_if("model", line_models_with("drag_coefficient"))
+          .only_if("model", line_models().with("drag_coefficient"))
           .number("axial_drag_coefficient", &LineOptions::axial_drag_coefficient, "-",
                   "Drag along the line, on its circumference; studless chain by default.", not_negative())
-          .only_if("model", line_models_with("axial_drag_coefficient"))
+          .only_if("model", line_models().with("axial_drag_coefficient"))
           .number("added_mass_coefficient", &LineOptions::added_mass_coefficient, "-",
                   "Added mass across the line, on the displaced one.", not_negative())
-          .only_if("model", line_models_with("added_mass_coefficient"))
+          .only_if("model", line_models().with("added_mass_coefficient"))
           .number("axial_added_mass_coefficient", &LineOptions::axial_added_mass_coefficient, "-",
                   "Added mass along the line, on the displaced one.", not_negative())
-          .only_if("model", line_models_with("axial_added_mass_coefficient"))
+          .only_if("model", line_models().with("axial_added_mass_coefficient"))
           .number("bed_stiffness_Pa_m", &LineOptions::bed_stiffness_Pa_m, "Pa/m",
                   "Pressure of the bed under the line's diameter per depth of sinking in.", positive())
-          .only_if("model", line_models_with("bed_stiffness_Pa_m"))
+          .only_if("model", line_models().with("bed_stiffness_Pa_m"))
           .only_if("bed_contact", {"true"})
           .number("bed_damping_Pa_s_m", &LineOptions::bed_damping_Pa_s_m, "Pa s/m",
                   "Pressure of the bed under the line's diameter per speed of sinking in.", not_negative())
-          .only_if("model", line_models_with("bed_damping_Pa_s_m"))
+          .only_if("model", line_models().with("bed_damping_Pa_s_m"))
           .only_if("bed_contact", {"true"})
           .tables("clumps", &LineOptions::clumps, clump_section(), "Weights and floats on the line.")
-          .only_if("model", line_models_with("clumps"))
+          .only_if("model", line_models().with("clumps"))
           .path("table", &LineOptions::table,
                 "CSV file with columns distance_m, tension_N: both increasing. Below the first row its tension holds, beyond the "
                 "last "
                 "the last slope goes on.")
-          .only_if("model", line_models_with("table"))
+          .only_if("model", line_models().with("table"))
           .required()
           .one_of({"axial_stiffness_N", "stiffness_N_m"})
           .check(check_line);

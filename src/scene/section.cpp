@@ -67,9 +67,7 @@ std::vector<std::string> SectionBase::faults() const {
     if (find(p.key) != &p) fault(p, "is declared twice");
     if (p.help.empty() || p.help.back() != '.') fault(p, "needs a sentence that ends with a full stop");
     if (takes_numbers(p.kind) && p.unit.empty()) fault(p, "needs a unit, '-' where it has none");
-    const bool rate =
-        p.unit == "deg" && (p.key.ends_with("_deg_s") || p.key.ends_with("_deg_s2"));  // of an angle given in degrees
-    if (!rate && !p.key.ends_with(unit_suffix(p.unit))) fault(p, "does not name its unit " + p.unit);
+    if (!p.key.ends_with(unit_suffix(p.unit))) fault(p, "does not name its unit " + p.unit);
     if (takes_numbers(p.kind) && !p.required && !p.optional && !in_range(p, options.get()))
       fault(p, "has a default outside its range: " + printed(p, options.get()));
     if (p.kind == Kind::choice && p.member.size(options.get()) == p.choices.size()) fault(p, "has a default that is no choice");

@@ -129,10 +129,10 @@ class Section : public SectionBase {
   Section& number(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
     return add(Kind::number, std::move(key), m, std::move(unit), std::move(help), range);
   }
-  /// Degrees in the file, radians in the options.
+  /// Degrees in the file, radians in the options. `unit`: of a rate "deg/s", of its rate "deg/s2".
   template <class M>
-  Section& degrees(std::string key, M Options::*m, std::string help, Range range = any()) {
-    return scaled(number_like<M>(), std::move(key), m, "deg", std::move(help), range, radians_per_degree);
+  Section& degrees(std::string key, M Options::*m, std::string help, Range range = any(), std::string unit = "deg") {
+    return scaled(number_like<M>(), std::move(key), m, std::move(unit), std::move(help), range, radians_per_degree);
   }
   /// Revolutions per minute in the file, rad/s in the options.
   template <class M>

@@ -20,7 +20,7 @@ double wave_length(double period_s, const SeaEnvironment& e) {
 scene::Doubts wave_doubts(const WavesOptions& w, const SeaEnvironment& e) {
   scene::Doubts doubts;
   if (w.model == "none" || w.period_s <= 0.0 || w.height_m <= 0.0) return doubts;
-  const WaveModel& model = wave_model(w.model);
+  const WaveModel& model = wave_models().named(w.model);
   const double length = wave_length(w.period_s, e), steepness = w.height_m / length;
   // Miche (1944): regular waves break beyond 0.142 tanh(kd). Sea states beyond 1/15 at the peak are not met (DNV-RP-C205, 3.5.5).
   const double limit = !model.regular ? 1.0 / 15.0 : 0.142 * std::tanh(2.0 * pi * e.water_depth / length);

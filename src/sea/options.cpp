@@ -111,15 +111,9 @@ const Section<PotentialOptions>& potential_section() {
 }
 
 std::vector<scene::Choice> wave_choices() {
-  std::vector<scene::Choice> choices{{"none", "still water"}};
-  for (const WaveModel* model : wave_models()) choices.push_back({std::string(model->name), std::string(model->help)});
+  std::vector<scene::Choice> choices = wave_models().choices();
+  choices.insert(choices.begin(), {"none", "still water"});
   return choices;
-}
-
-std::vector<std::string> any_waves() {
-  std::vector<std::string> names;
-  for (const WaveModel* model : wave_models()) names.emplace_back(model->name);
-  return names;
 }
 
 }  // namespace
@@ -131,39 +125,39 @@ const Section<WavesOptions>& waves_section() {
           .number("height_m", &WavesOptions::height_m, "m", "Crest to trough; of a sea state, the significant height.",
                   scene::positive())
           .required()
-          .only_if("model", any_waves())
+          .only_if("model", wave_models().names())
           .number("period_s", &WavesOptions::period_s, "s", "Period; of a sea state, the peak period.", scene::positive())
           .required()
-          .only_if("model", any_waves())
+          .only_if("model", wave_models().names())
           .degrees("direction_deg", &WavesOptions::direction, "Towards which the waves travel: 0 along x, 90 along y.",
                    scene::between(-360.0, 360.0))
-          .only_if("model", any_waves())
+          .only_if("model", wave_models().names())
           .degrees("phase_deg", &WavesOptions::phase, "Phase at the origin at time 0; 0 is a crest.",
                    scene::between(-360.0, 360.0))
-          .only_if("model", wave_models_with("phase_deg"))
+          .only_if("model", wave_models().with("phase_deg"))
           .number("ramp_s", &WavesOptions::ramp_s, "s", "Time over which the waves grow smoothly from nothing.",
                   scene::not_negative())
-          .only_if("model", any_waves())
+          .only_if("model", wave_models().names())
           .choice("stretching", &WavesOptions::stretching,
                   {{"wheeler", "profiles are squeezed or stretched to the surface"},
                    {"vertical", "constant above still water"},
                    {"extrapolated", "the formula is used up to the surface"}},
                   "How linear kinematics reach the moving surface; a Stokes wave is always extrapolated.")
-          .only_if("model", wave_models_with("stretching"))
+          .only_if("model", wave_models().with("stretching"))
           .integer("seed", &WavesOptions::seed, "-",
                    "Seed of the random phases; the same seed gives the same sea on every machine.", scene::not_negative())
-          .only_if("model", wave_models_with("seed"))
+          .only_if("model", wave_models().with("seed"))
           .integer("components", &WavesOptions::components, "-", "Number of harmonics.", scene::between(8, 20000))
-          .only_if("model", wave_models_with("components"))
+          .only_if("model", wave_models().with("components"))
           .choice("spacing", &WavesOptions::spacing,
                   {{"equal_energy", "each harmonic carries the same energy; the sea does not repeat"},
                    {"equal_frequency", "equal steps of frequency; the sea repeats after 2 pi / step"}},
                   "How the frequencies of the harmonics are chosen.")
-          .only_if("model", wave_models_with("spacing"))
+          .only_if("model", wave_models().with("spacing"))
           .number("peak_enhancement", &WavesOptions::peak_enhancement, "-",
                   "Gamma of the JONSWAP spectrum; where not given, from height and period after DNV-RP-C205.",
                   scene::between(1.0, 7.0))
-          .only_if("model", wave_models_with("peak_enhancement"));
+          .only_if("model", wave_models().with("peak_enhancement"));
   return section;
 }
 

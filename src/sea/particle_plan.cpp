@@ -65,7 +65,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
   for (const BoxOptions& box : o.water) plan.tank.water.push_back(block_of(box));
   for (const BoxOptions& box : o.obstacles) plan.tank.obstacles.push_back(block_of(box));
   if (waves.model != "none") plan.waves = WaveField(waves, environment).components();
-  plan.second_order = waves.model != "none" && wave_model(waves.model).second_order;
+  plan.second_order = waves.model != "none" && wave_models().named(waves.model).second_order;
   if (starts_in_waves(o)) plan.tank.waves = plan.waves;
   if (o.initial && o.initial->state == "standing") {
     for (waves::Component& c : plan.tank.waves) c.amplitude *= 0.5, c.speed_amplitude *= 0.5;
@@ -139,9 +139,10 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (o.wavemaker) {
     const WavemakerOptions& w = *o.wavemaker;
     const double bed = t.bed_m.empty() ? -depth : t.bed_m.front()[1];
-    if (w.type == "flap" && waved && wave_model(waves.model).second_order)
+    if (w.type == "flap" && waved && wave_models().named(waves.model).second_order)
       wrong("sea.wavemaker.type", "a flap makes waves of first order: use a piston for " + waves.model);
-    if (w.stroke_m && !(waved && wave_model(waves.model).regular)) wrong("sea.wavemaker.stroke_m", "is that of a regular wave");
+    if (w.stroke_m && !(waved && wave_models().named(waves.model).regular))
+      wrong("sea.wavemaker.stroke_m", "is that of a regular wave");
     if (w.hinge_m && !(*w.hinge_m >= bed && *w.hinge_m < 0.0))
       wrong("sea.wavemaker.hinge_m", fmt::format("must lie between the bed at {} m and still water", bed));
     if (o.initial && w.start_s < -o.initial->settle_s)

@@ -75,7 +75,7 @@ void check_potential(const PotentialOptions& o, const WavesOptions& waves, std::
         {"waves.components", "must be at most " + std::to_string(SecondOrderLoads::most_components) +
                                  " with loads of pairs of frequencies (sea.potential.drift \"full\", sum_frequency_file)"});
   if (o.excitation_file.empty()) problems.push_back({"sea.potential.excitation_file", "must be given: there are waves"});
-  if (wave_model(waves.model).second_order)
+  if (wave_models().named(waves.model).second_order)
     problems.push_back(
         {"waves.model", "must not be '" + waves.model + "': sea.model 'potential' is linear in the waves; use 'airy'"});
 }
@@ -138,7 +138,7 @@ std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaE
   if (!problems.empty()) return problems;
   const auto wave = waves::wave_properties(options.period_s, environment.water_depth, environment.gravity);
   // Highest wave before it breaks, after Miche (1944), for regular waves; half of it for the significant height of a sea.
-  const WaveModel& model = wave_model(options.model);
+  const WaveModel& model = wave_models().named(options.model);
   const double breaking = 0.142 * wave.length * std::tanh(wave.relative_depth), most = model.regular ? breaking : 0.5 * breaking;
   if (options.height_m > most)
     problems.push_back(

@@ -12,7 +12,7 @@ namespace spindrift::sea {
 WaveField::WaveField(const WavesOptions& options, const SeaEnvironment& environment)
     : depth_(environment.water_depth), ramp_end_(options.ramp_s) {
   if (options.model == "none" || options.height_m == 0.0) return;
-  const WaveModel& model = wave_model(options.model);
+  const WaveModel& model = wave_models().named(options.model);
   components_ = model.components(options, environment);
   groups_.resize((components_.size() + lanes - 1) / lanes);
   for (std::size_t i = 0; i < components_.size(); ++i)

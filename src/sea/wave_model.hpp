@@ -4,12 +4,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kernels/waves/components.hpp"
+#include "src/scene/models.hpp"
 #include "src/sea/options.hpp"
 
 namespace spindrift::sea {
@@ -27,12 +27,8 @@ struct WaveModel {
   void (*check)(const WavesOptions&, const SeaEnvironment&, std::vector<OptionProblem>&) = nullptr;
 };
 
-/// In the order in which the reference names them; "none" is not among them.
-std::span<const WaveModel* const> wave_models();
-/// @pre the name is one of them.
-const WaveModel& wave_model(std::string_view name);
-/// Names of the models that read the key; of all for a key that all read.
-std::vector<std::string> wave_models_with(std::string_view key);
+/// "none" is not among them.
+scene::Models<WaveModel> wave_models();
 
 /// The linear regular wave of height, period, direction and phase.
 waves::Component airy_wave(const WavesOptions& options, const SeaEnvironment& environment);

@@ -1,8 +1,6 @@
 // The list of kinds of waves, and what several of them are made of: see wave_model.hpp. SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <array>
 
-#include "kernels/base/assert.hpp"
 #include "kernels/base/constants.hpp"
 #include "kernels/waves/dispersion.hpp"
 #include "kernels/waves/realisation.hpp"
@@ -24,20 +22,7 @@ const std::array models{
 
 }  // namespace
 
-std::span<const WaveModel* const> wave_models() { return models; }
-
-const WaveModel& wave_model(std::string_view name) {
-  const auto found = std::ranges::find(models, name, &WaveModel::name);
-  SPINDRIFT_ASSERT(found != models.end(), "waves of an unknown kind");
-  return **found;
-}
-
-std::vector<std::string> wave_models_with(std::string_view key) {
-  std::vector<std::string> names;
-  for (const WaveModel* model : models)
-    if (std::ranges::find(model->keys, key) != model->keys.end()) names.emplace_back(model->name);
-  return names;
-}
+scene::Models<WaveModel> wave_models() { return scene::Models<WaveModel>(models); }
 
 waves::Component airy_wave(const WavesOptions& options, const SeaEnvironment& environment) {
   const double omega = 2.0 * pi / options.period_s, amplitude = 0.5 * options.height_m;

@@ -22,6 +22,8 @@ class Prefix(unittest.TestCase):
         cls.prefix, cls.runs = pathlib.Path(cls.folder.name) / "prefix", pathlib.Path(cls.folder.name) / "runs"
         done = start("cmake", "--install", cls.build, "--prefix", cls.prefix)
         assert done.returncode == 0, done.stderr
+        cls.pages = cls.build / "pages"   # where reports and pictures of them are kept
+        cls.pages.mkdir(exist_ok=True)
         cls.program, cls.inputs = cls.prefix / "bin/spindrift", cls.prefix / "share/spindrift/inputs"
 
     def run_scene(self, name, *more):

@@ -18,12 +18,6 @@ from installed import start
 class Installed(installed.Prefix):
     build = BUILD
 
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.pages = BUILD / "pages"
-        cls.pages.mkdir(exist_ok=True)
-
     def test_everything_is_there(self):
         for name in ("bin/spindrift", "share/spindrift/report/spindrift_report.py", "share/spindrift/report/templates/page.html",
                      "share/man/man1/spindrift.1", "share/bash-completion/completions/spindrift"):

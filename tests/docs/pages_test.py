@@ -72,8 +72,6 @@ class Pages(installed.Prefix):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.pages = BUILD / "pages"
-        cls.pages.mkdir(exist_ok=True)
         cls.browser = browser.Browser()
         cls.addClassCleanup(cls.browser.close)
 
