@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/graph/graph.hpp"
+#include "runtime/graph/sizes.hpp"
 #include "src/aero/grid/store.hpp"
 
 namespace spindrift::aero {
@@ -88,7 +89,7 @@ void record_halo(runtime::Graph& graph, const GridStore& grid, const std::vector
     for (const GhostLink& link : tiling.into(tile))
       if (grid.owns(link.from)) uses.push_back(reads((*field.inside)[std::size_t(local[std::size_t(link.from)])]));
     for (const Incoming& in : incoming[n]) uses.push_back(reads(in.datum));
-    graph.task(
+    const std::uint32_t task = graph.task(
         field.label + "/" + std::to_string(tile), uses, [field, &grid, &tiling, tile, n, from = incoming[n], active, boundaries] {
           if (!active()) return;
           for (const GhostLink& link : tiling.into(tile))
@@ -99,6 +100,10 @@ void record_halo(runtime::Graph& graph, const GridStore& grid, const std::vector
                       field.view(tile));
           boundaries(int(n));
         });
+    for (const GhostLink& link : tiling.into(tile))
+      if (grid.owns(link.from))
+        set_bytes(graph, task, (*field.inside)[std::size_t(local[std::size_t(link.from)])],
+                  packed_size(link, components, field.layers) * sizeof(T));
   }
 }
 

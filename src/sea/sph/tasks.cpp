@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "runtime/graph/sizes.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "src/sea/sph/filters.hpp"
 #include "src/sea/sph/step.hpp"
@@ -80,6 +81,12 @@ StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph,
       (*data)[std::size_t(subdomain.own[n])] = graph.datum(float(n) / float(subdomain.own.size()));
     for (const Subdomain::Border& border : subdomain.borders)
       for (const int g : border.seen) (*data)[std::size_t(g)] = graph.datum();
+  }
+  for (const int g : subdomain.own) {
+    const Group& group = sea.store.groups[std::size_t(g)];
+    const std::size_t of_plane = (group.end - group.fluid) * cluster_size * sizeof(Real);
+    for (const Data* data : {&planes_, &walls_}) runtime::set_bytes(graph, (*data)[std::size_t(g)], pack_planes<dim> * of_plane);
+    runtime::set_bytes(graph, stress_[std::size_t(g)], sea.store.stress_planes * of_plane);
   }
   extremes_ = graph.data(bundles_.size());
   shared_->extremes.resize(4 * bundles_.size());
