@@ -80,6 +80,7 @@ std::vector<std::uint32_t> assign_levels(Program& program, const Graph& graph) {
   for (std::uint32_t n = 0; n < n_nodes; ++n) {
     const double share = longest[urgency_of[n]] > 0 ? to_go[n] / longest[urgency_of[n]] : 0.0;
     program.slots[n].level = std::uint8_t(first_level[urgency_of[n]] + std::min(band - 1, int(share * band)));
+    if (program.slots[n].action == Action::collective) program.slots[n].level = max_levels - 1;  // other ranks wait inside theirs
     ++room[program.slots[n].level];
   }
   return room;

@@ -17,8 +17,9 @@ constexpr std::size_t join_width = 16;
 Action action_of(const Graph::Recorded& g, std::uint32_t node) {
   switch (g.nodes[node].kind) {
     case NodeKind::task:
-    case NodeKind::collective:
       return Action::work;
+    case NodeKind::collective:
+      return g.takes_turns ? Action::collective : Action::collective_here;
     case NodeKind::until:
       return Action::until;
     case NodeKind::loop:

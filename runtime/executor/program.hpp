@@ -18,8 +18,9 @@
 
 namespace spindrift::runtime {
 
-/// What to do with a node that has all its tokens. message: send, receive, or reduction over several ranks.
-enum class Action : std::uint8_t { work, until, loop, message, reduce_here, join };
+/// What to do with a node that has all its tokens. message: send, receive, or reduction over several ranks. collective: first it
+/// waits for its turn among several ranks.
+enum class Action : std::uint8_t { work, until, loop, message, reduce_here, collective, collective_here, join };
 inline constexpr std::uint16_t no_home = 0xffff;
 
 struct alignas(64) Slot {
@@ -29,7 +30,7 @@ struct alignas(64) Slot {
   std::uint32_t first = 0, last = 0;  ///< in Program::successors
   std::uint32_t loop = 0;             ///< body it is in, index in Program::loops
   std::uint32_t join = no_node;       ///< told at the end of the last iteration; no_node if a successor tells for it
-  std::uint32_t payload = 0;          ///< by action: work, predicate, loop, message, reduction
+  std::uint32_t payload = 0;          ///< by action: work, predicate, loop, message, reduction, collective
   std::uint16_t home = no_home;       ///< thread that should run it
   Action action = Action::work;
   std::uint8_t level = 0;  ///< of priority, highest first

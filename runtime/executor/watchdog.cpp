@@ -64,8 +64,8 @@ SPINDRIFT_LOOKS_ON std::string dump(const Team& team, int lines) {
           (e.distance == 0 || slot.step != loop.base))
         missing += (missing.empty() ? " waits for " : ", ") + nodes[e.from].label;
     text += "  " + nodes[n].label + " (iteration " + std::to_string(slot.step - loop.base) + ")";
-    if (missing.empty() && slot.action == Action::message) {
-      if (nodes[n].kind == NodeKind::reduce) {
+    if (missing.empty() && (slot.action == Action::message || slot.action == Action::collective)) {
+      if (nodes[n].kind == NodeKind::reduce || nodes[n].kind == NodeKind::collective) {
         missing = " waits for the other ranks";
       } else {
         const Message& m = team.graph.recorded().messages[slot.payload];

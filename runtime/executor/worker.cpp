@@ -109,7 +109,7 @@ void Worker::ready(std::uint32_t slot, std::uint32_t step) {
     if (s.join != no_node) return token(s.join, step);
     return close_iteration(program_.loops[s.loop], step);
   }
-  if (s.action == Action::message) {
+  if (s.action == Action::message || s.action == Action::collective) {
     rearm(s);
     return team_.messages.post(slot);
   }
@@ -235,9 +235,16 @@ bool Worker::run(std::uint32_t slot, Body&& body) {
   return true;
 }
 
+/// A collective call that is not needed this time takes no time.
+void Worker::skip(std::uint32_t slot) {
+  const std::int64_t now = Clock::now_ns();
+  if (team_.recording) record(slot, context(slots_[slot]), Activity::task, now, now, 0);
+  complete(slot);
+}
+
 void Worker::fire(std::uint32_t slot) {
   Slot& s = slots_[slot];
-  rearm(s);
+  if (s.action != Action::collective) rearm(s);  // that one was before it waited for its turn
   Graph::Recorded& graph = team_.graph.recorded();
   switch (s.action) {
     case Action::work:
@@ -252,6 +259,16 @@ void Worker::fire(std::uint32_t slot) {
             if (graph.reductions[s.payload]->active()) graph.reductions[s.payload]->finish();
           }))
         complete(slot);
+      return;
+    case Action::collective_here:
+      if (!graph.collectives[s.payload].needed()) return skip(slot);
+      if (run(slot, [&](const Context&) { graph.collectives[s.payload].make(); })) complete(slot);
+      return;
+    case Action::collective:
+      if (run(slot, [&](const Context&) { graph.collectives[s.payload].make(); })) {
+        team_.messages.made_call();
+        complete(slot);
+      }
       return;
     case Action::message:
     case Action::join:
@@ -289,6 +306,7 @@ void Worker::complete_message(const Messages::Completion& completion) {
   Graph::Recorded& graph = team_.graph.recorded();
   Slot& s = slots_[completion.node];
   const NodeKind kind = graph.nodes[completion.node].kind;
+  if (kind == NodeKind::collective) return completion.active ? schedule(completion.node) : skip(completion.node);
   try {
     if (kind == NodeKind::reduce && completion.active) graph.reductions[s.payload]->finish();
     if (kind == NodeKind::receive && completion.active && graph.messages[s.payload].received)

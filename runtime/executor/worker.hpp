@@ -67,6 +67,7 @@ class alignas(64) Worker {
   void schedule(std::uint32_t slot);
   void rearm(Slot& slot);
   void fire(std::uint32_t slot);
+  void skip(std::uint32_t slot);
   template <class Body>
   bool run(std::uint32_t slot, Body&& body);
   void ask(std::uint32_t slot);

@@ -61,6 +61,14 @@ std::uint32_t add_message(Graph::Recorded& g, NodeKind kind, std::string label, 
   return add_node(g, kind, std::move(label), uses, g.messages.size() - 1);
 }
 
+/// Of the label's module, made at its first use.
+const Graph::Recorded::InOrder& in_order(Graph& graph, Graph::Recorded::OfModules& of, const std::string& label) {
+  const std::string module = label.substr(0, label.find('/'));
+  const auto found = of.find(module);
+  if (found != of.end()) return found->second;
+  return of.emplace(module, Graph::Recorded::InOrder{Communicator(graph.recorded().comm.get()), graph.datum()}).first->second;
+}
+
 }  // namespace
 
 Graph::Graph(MPI_Comm comm) : recorded_(std::make_unique<Recorded>()) { recorded_->comm = Communicator(comm); }
@@ -86,18 +94,16 @@ std::uint32_t Graph::add_work(NodeKind kind, std::string label, const Uses& uses
   return add_node(*recorded_, kind, std::move(label), uses, recorded_->works.size() - 1);
 }
 
-std::uint32_t Graph::collective(std::string label, const Uses& uses, std::function<void(MPI_Comm)> work) {
+std::uint32_t Graph::collective(std::string label, const Uses& uses, std::function<void(MPI_Comm)> work,
+                                std::function<bool()> active) {
   Recorded& g = *recorded_;
-  if (g.collectives.get() == MPI_COMM_NULL) {
-    g.collectives = Communicator(g.comm.get());
-    g.collective_order = datum();
-  }
+  g.takes_turns = g.comm.size() > 1;
+  if (g.takes_turns && g.turns.get() == MPI_COMM_NULL) g.turns = Communicator(g.comm.get());
+  const Recorded::InOrder& in = in_order(*this, g.collectives_of, label);
+  g.collectives.push_back({std::move(work), std::move(active), in.comm.get(), std::uint32_t(g.nodes.size())});
   Uses ordered = uses;
-  // Ranks would wait for each other if they took two collective calls in different orders. One rank waits for nobody: there the
-  // order would only tie the loops of two modules together, whole loop after whole loop.
-  if (g.comm.size() > 1) ordered.push_back(updates(g.collective_order));
-  return add_work(NodeKind::collective, std::move(label), ordered,
-                  [comm = g.collectives.get(), work = std::move(work)](const Context&) { work(comm); });
+  if (g.takes_turns) ordered.push_back(updates(in.order));
+  return add_node(g, NodeKind::collective, std::move(label), ordered, g.collectives.size() - 1);
 }
 
 std::uint32_t Graph::send(std::string label, const Uses& uses, Message message) {
@@ -110,13 +116,10 @@ std::uint32_t Graph::receive(std::string label, const Uses& uses, Message messag
 
 std::uint32_t Graph::reduce(std::string label, const Uses& uses, Reduction reduction) {
   Recorded& g = *recorded_;
-  const std::string module = label.substr(0, label.find('/'));
-  auto of = g.reductions_of.find(module);
-  if (of == g.reductions_of.end())
-    of = g.reductions_of.emplace(module, Recorded::Reductions{Communicator(g.comm.get()), datum()}).first;
-  g.reductions.push_back(std::make_unique<Allreduce>(label, std::move(reduction), of->second.comm.get(), g.comm.size()));
+  const Recorded::InOrder& in = in_order(*this, g.reductions_of, label);
+  g.reductions.push_back(std::make_unique<Allreduce>(label, std::move(reduction), in.comm.get(), g.comm.size()));
   Uses ordered = uses;
-  if (g.comm.size() > 1) ordered.push_back(updates(of->second.order));
+  if (g.comm.size() > 1) ordered.push_back(updates(in.order));
   return add_node(g, NodeKind::reduce, std::move(label), ordered, g.reductions.size() - 1);
 }
 

@@ -98,10 +98,11 @@ class Graph {
   std::uint32_t task(std::string label, const Uses& uses, F&& work) {
     return add_work(NodeKind::task, std::move(label), uses, as_work(std::forward<F>(work)));
   }
-  /// A blocking library call that all ranks make together: one task on a communicator of its own. On several ranks all
-  /// collective tasks of a graph run in the order of recording, and so do the loops that they are in; on one rank data order them
-  /// alone.
-  std::uint32_t collective(std::string label, const Uses& uses, std::function<void(MPI_Comm)> work);
+  /// A blocking library call that all ranks make together: one task on a communicator of its module. On several ranks the calls
+  /// of a module run in the order of recording, those of different modules in an order that the ranks agree on (mpi/turns.hpp);
+  /// on one rank data order them alone. All ranks record the same calls. `active` as in Reduction: where false it is not made.
+  std::uint32_t collective(std::string label, const Uses& uses, std::function<void(MPI_Comm)> work,
+                           std::function<bool()> active = {});
 
   std::uint32_t send(std::string label, const Uses& uses, Message message);
   std::uint32_t receive(std::string label, const Uses& uses, Message message);

@@ -17,9 +17,19 @@ struct Graph::Recorded {
   std::vector<Node> nodes;
   std::vector<Touch> touched;
   std::vector<std::uint32_t> payload;  ///< by node: index into the table of its kind below
-  std::vector<Work> works;             ///< task, collective
+  std::vector<Work> works;             ///< task
   std::vector<Message> messages;       ///< send, receive
   std::vector<std::unique_ptr<Allreduce>> reductions;
+  struct Collective {
+    std::function<void(MPI_Comm)> work;
+    std::function<bool()> active;
+    MPI_Comm comm;
+    std::uint32_t node;
+    bool needed() const { return !active || active(); }
+    void make() const { work(comm); }
+  };
+  std::vector<Collective> collectives;            ///< the same on all ranks
+  bool takes_turns = false;                       ///< there are collective calls and several ranks to agree on their order
   std::vector<std::function<bool()>> predicates;  ///< until
   std::vector<Limits> limits;                     ///< loop
   std::vector<std::uint32_t> until_of;            ///< by index of `limits`: the until node or no_node
@@ -33,16 +43,16 @@ struct Graph::Recorded {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> orders;
   std::uint32_t open = no_node;  ///< loop being recorded
 
-  /// MPI takes the reductions of a communicator in one order on all ranks: that of recording, by a datum that each updates.
-  struct Reductions {
+  /// MPI takes what all ranks do on a communicator in one order: that of recording, by a datum that each updates.
+  struct InOrder {
     Communicator comm;
     Datum order;
   };
-  std::map<std::string, Reductions, std::less<>> reductions_of;  ///< by module
+  using OfModules = std::map<std::string, InOrder, std::less<>>;
+  OfModules reductions_of, collectives_of;
 
-  Communicator comm;         ///< messages and control
-  Communicator collectives;  ///< of all collective tasks, which are in order
-  Datum collective_order;
+  Communicator comm;                              ///< messages and control
+  Communicator turns;                             ///< announcements of mpi/turns
   std::set<std::tuple<NodeKind, int, int>> tags;  ///< to find two messages that could take each other's place
 
   std::vector<Edge> edges;  ///< valid if edges_known

@@ -38,8 +38,10 @@ Messages::Messages(Graph::Recorded& graph) : graph_(graph), control_(graph.comm.
   for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
     const NodeKind kind = graph.nodes[n].kind;
     const bool reduces = kind == NodeKind::reduce && graph.reductions[graph.payload[n]]->needs_messages();
-    if (kind == NodeKind::send || kind == NodeKind::receive || reduces) operation_nodes_.push_back(n);
+    const bool calls = kind == NodeKind::collective && graph.takes_turns;
+    if (kind == NodeKind::send || kind == NodeKind::receive || reduces || calls) operation_nodes_.push_back(n);
   }
+  if (graph.takes_turns) turns_.emplace(graph);
   const std::uint32_t room = std::uint32_t(count());
   posted_.reserve(std::span(&room, 1));
   requests_.resize(count());
@@ -66,11 +68,13 @@ void Messages::post(std::uint32_t node) {
 bool Messages::active(std::uint32_t node) const {
   const std::uint32_t at = graph_.payload[node];
   if (graph_.nodes[node].kind == NodeKind::reduce) return graph_.reductions[at]->active();
+  if (graph_.nodes[node].kind == NodeKind::collective) return graph_.collectives[at].needed();
   return !graph_.messages[at].active || graph_.messages[at].active();
 }
 
 void Messages::start(std::uint32_t node, std::int64_t now) {
   const Node& recorded = graph_.nodes[node];
+  if (recorded.kind == NodeKind::collective) return turns_->come(graph_.payload[node]);
   const std::size_t at = std::size_t(active_);
   MPI_Request& request = requests_[at];
   if (recorded.kind == NodeKind::reduce) {
@@ -138,6 +142,11 @@ bool Messages::poll(std::vector<Completion>& done) {
       outstanding_.fetch_sub(n, std::memory_order_relaxed);
     }
   }
+  if (turns_)
+    if (const auto call = turns_->next()) {
+      done.push_back({graph_.collectives[*call].node, 0, Clock::now_ns()});
+      outstanding_.fetch_sub(1, std::memory_order_relaxed);
+    }
   if (control_request_ != MPI_REQUEST_NULL) {
     int received = 0;
     MPI_Test(&control_request_, &received, MPI_STATUS_IGNORE);
@@ -167,6 +176,7 @@ void Messages::abandon(const Notice* tell) {
          std::this_thread::sleep_for(std::chrono::microseconds(100)))
       MPI_Testall(int(sends.size()), sends.data(), &sent, MPI_STATUSES_IGNORE);
   }
+  if (turns_) turns_->abandon();
   for (int i = 0; i < active_; ++i) {
     const auto at = std::size_t(i);
     const NodeKind kind = graph_.nodes[node_of_[at]].kind;

@@ -1,7 +1,8 @@
-// Sends, receives and reductions as tasks: posted without blocking, completed by whoever polls. One thread at a time is inside
-// MPI (try-lock): Open MPI progresses only inside its calls, and MPI_THREAD_MULTIPLE is free as long as callers do not meet. Also
-// carries the notice that a rank has failed, so that the others stop within a poll instead of waiting for its messages. Used by
-// executor/worker; tested in tests/runtime/messages_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Sends, receives, reductions and turns of collective calls as tasks: posted without blocking, completed by whoever polls. One
+// thread at a time is inside MPI (try-lock): Open MPI progresses only inside its calls, and MPI_THREAD_MULTIPLE is free as long
+// as callers do not meet. Also carries the notice that a rank has failed, so that the others stop within a poll instead of
+// waiting for its messages. Used by executor/worker; tested in tests/runtime/messages_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <atomic>
@@ -11,6 +12,7 @@
 
 #include "runtime/executor/ready_queue.hpp"
 #include "runtime/graph/recorded.hpp"
+#include "runtime/mpi/turns.hpp"
 
 namespace spindrift::runtime {
 
@@ -48,6 +50,8 @@ class Messages {
   void post(std::uint32_t node);
   /// Starts what was posted, adds what completed; false if another thread is at it.
   bool poll(std::vector<Completion>& done);
+  /// Any thread: the collective call that completed last has been made; the next one may have its turn.
+  void made_call() { turns_->made(); }
   /// Another rank's notice, once, after the poll that received it.
   std::optional<Notice> notice();
 
@@ -60,6 +64,7 @@ class Messages {
   void retire(int request);
   Graph::Recorded& graph_;
   std::vector<std::uint32_t> operation_nodes_;
+  std::optional<Turns> turns_;  ///< where there are collective calls of several ranks
   ReadyQueue posted_;
   std::atomic<int> outstanding_{0};
   std::atomic_flag busy_ = ATOMIC_FLAG_INIT;

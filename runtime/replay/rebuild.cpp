@@ -18,8 +18,12 @@ Graph rebuilt(const GraphRecord& record, int ranks) {
     g.nodes.push_back({from.label, from.kind, from.loop, first, std::uint32_t(g.touched.size()), from.place});
     g.message_bytes.push_back(0);
     switch (from.kind) {
-      case NodeKind::task:
       case NodeKind::collective:
+        g.takes_turns = ranks > 1;
+        g.payload.push_back(std::uint32_t(g.collectives.size()));
+        g.collectives.push_back({[](MPI_Comm) {}, {}, MPI_COMM_NULL, n});
+        break;
+      case NodeKind::task:
         g.payload.push_back(std::uint32_t(g.works.size()));
         g.works.push_back([](const Context&) {});
         break;

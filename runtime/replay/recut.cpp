@@ -308,12 +308,12 @@ class Cutter {
   void finish(RankRun& rank) const {
     GraphRecord& graph = rank.graph;
     if (count_ > 1) {
-      std::map<std::string, std::uint32_t> order;  // of the reductions of a module; of all collective tasks
+      std::map<std::pair<NodeKind, std::string>, std::uint32_t> order;  // of the reductions and of the calls of a module
       for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
         const NodeKind kind = graph.nodes[n].kind;
         if (kind != NodeKind::reduce && kind != NodeKind::collective) continue;
-        const std::string of = kind == NodeKind::collective ? "" : std::string(module_of(graph.nodes[n].label));
-        const auto [datum, is_new] = order.emplace(of, std::uint32_t(graph.data.size()));
+        const auto [datum, is_new] =
+            order.emplace(std::pair(kind, std::string(module_of(graph.nodes[n].label))), std::uint32_t(graph.data.size()));
         if (is_new) graph.data.push_back({});
         const std::uint32_t ordered = datum->second;
         for (std::uint32_t at = n; at != no_node; at = graph.nodes[at].loop)

@@ -76,8 +76,11 @@ struct Rank {
   int current = 0;                                     ///< thread on whose behalf tokens are given
   double end_s = -1.0;
   Path end_path = 0.0;
-  std::map<std::string, std::uint32_t, std::less<>> reduced;  ///< by module
-  std::uint32_t collectives = 0;
+  std::map<std::string, std::uint32_t, std::less<>> reduced;      ///< by module
+  std::map<std::string, std::uint32_t, std::less<>> ready_calls;  ///< by module
+  std::uint32_t calls = 0;
+  std::deque<std::pair<std::uint32_t, Path>> in_turn;  ///< collective calls that all ranks are ready for
+  bool making = false;                                 ///< one of them
 };
 
 class Simulation {
@@ -147,7 +150,7 @@ class Simulation {
       return close_iteration(r, rank.program.loops[s.loop], step, begin);
     }
     rank.begin_path[slot] = begin;
-    if (s.action == Action::message) {
+    if (s.action == Action::message || s.action == Action::collective) {
       rearm(rank, s);
       return post(r, slot, begin);
     }
@@ -287,7 +290,7 @@ class Simulation {
   void fire(int r, int t, std::uint32_t slot) {
     Rank& rank = *ranks_[std::size_t(r)];
     Slot& s = rank.program.slots[slot];
-    rearm(rank, s);
+    if (s.action != Action::collective) rearm(rank, s);
     rank.current = t;
     const Path before = rank.begin_path[slot];
     if (s.action == Action::loop) return enter(r, s.payload, rank.program.loops[s.payload].min, before);
@@ -302,9 +305,10 @@ class Simulation {
     rank.threads_of[std::size_t(t)].busy = true;
     if (!s.placed) s.home = std::uint16_t(t);
     ++out_.tasks;
-    const NodeRecord& node = rank.of.graph.nodes[slot];
-    if (node.kind == NodeKind::collective && group_size_.at(rank.of.group) > 1)
-      return meet({rank.of.group, "", rank.collectives++}, r, t, slot, before, cost, 0.0);
+    if (s.action == Action::collective) {
+      meet({rank.of.group, "", rank.calls++}, r, t, slot, before, cost, 0.0);
+      return;
+    }
     occupy(r, t, slot, now_, cost, before + cost);
   }
 
@@ -323,10 +327,15 @@ class Simulation {
     Thread& thread = rank.threads_of[std::size_t(t)];
     thread.busy = false, thread.idle_since = now_;
     rank.current = t;
-    if (rank.program.slots[slot].action == Action::until)
+    const Action action = rank.program.slots[slot].action;
+    if (action == Action::until)
       answer(r, slot, path);
     else
       complete(r, slot, path);
+    if (action == Action::collective) {
+      rank.making = false;
+      next_call(rank);
+    }
     if (rank.threads_of.size() > 1) add(now_ + steal_after_s, What::look, r, t, no_node, 0.0);
   }
 
@@ -339,8 +348,22 @@ class Simulation {
     while (!rank.noticed.empty()) {
       const auto [slot, path] = rank.noticed.front();
       rank.noticed.pop_front();
-      complete(r, slot, path);
+      if (rank.program.slots[slot].action != Action::collective) {
+        complete(r, slot, path);
+        continue;
+      }
+      rank.in_turn.emplace_back(slot, path);
+      next_call(rank);
     }
+  }
+
+  static void next_call(Rank& rank) {
+    if (rank.making || rank.in_turn.empty()) return;
+    rank.making = true;
+    const auto [slot, path] = rank.in_turn.front();
+    rank.in_turn.pop_front();
+    rank.begin_path[slot] = path;
+    schedule(rank, slot);
   }
 
   // ---- network
@@ -354,7 +377,16 @@ class Simulation {
     const NodeRecord& node = rank.of.graph.nodes[slot];
     if (node.kind == NodeKind::reduce) {
       const std::string module(module_of(node.label));
-      return meet({rank.of.group, module, rank.reduced[module]++}, r, -1, slot, path, 0.0, double(node.bytes));
+      if (meet({rank.of.group, module, rank.reduced[module]++}, r, -1, slot, path, 0.0, double(node.bytes))) ++out_.reductions;
+      return;
+    }
+    if (node.kind == NodeKind::collective) {
+      const std::string ready = std::string(module_of(node.label)) + " is ready";
+      if (recorded_s(rank, slot, rank.program.slots[slot].step) == 0.0) return complete(r, slot, path);  // was not needed
+      // Waits for the last rank, then for the announcement.
+      const double announcement_s = all_to_all_s(cluster_, group_size_.at(rank.of.group), 0.0);
+      meet({rank.of.group, ready, rank.ready_calls[ready]++}, r, -1, slot, path, announcement_s, 0.0);
+      return;
     }
     const bool sends = node.kind == NodeKind::send;
     auto& ends = under_way_[sends ? std::tuple(r, node.peer, node.tag) : std::tuple(node.peer, r, node.tag)];
@@ -381,8 +413,8 @@ class Simulation {
     }
   }
 
-  /// A reduction or collective call: it goes on when the last rank of the group has come.
-  void meet(std::tuple<int, std::string, std::uint32_t> key, int r, int t, std::uint32_t slot, Path path, double cost,
+  /// A reduction or collective call: it goes on when the last rank of the group has come. True if this was the last.
+  bool meet(std::tuple<int, std::string, std::uint32_t> key, int r, int t, std::uint32_t slot, Path path, double cost,
             double bytes) {
     Meeting& meeting = meetings_[key];
     meeting.come.push_back({r, t, slot});
@@ -390,15 +422,15 @@ class Simulation {
     // Recorded on several ranks, the call contains the wait for the others: the last to come waits least.
     meeting.cost = meeting.come.size() == 1 ? cost : std::min(meeting.cost, cost);
     const int size = group_size_.at(std::get<0>(key));
-    if (int(meeting.come.size()) < size) return;
+    if (int(meeting.come.size()) < size) return false;
     const double steps_s = all_to_all_s(cluster_, size, bytes);
-    if (t < 0) ++out_.reductions;
     for (const auto& [rank, thread, at] : meeting.come)
       if (thread >= 0)
         occupy(rank, thread, at, now_, meeting.cost + steps_s, meeting.path + meeting.cost + steps_s);
       else
         add(now_ + meeting.cost + steps_s, What::message_ends, rank, -1, at, meeting.path + meeting.cost + steps_s);
     meetings_.erase(key);
+    return true;
   }
 
   Simulated result() {

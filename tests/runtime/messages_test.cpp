@@ -5,7 +5,10 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <random>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "runtime/executor/executor.hpp"
 #include "runtime/graph/recorded.hpp"
@@ -124,7 +127,7 @@ TEST_CASE("a long task that polls lets a large message pass meanwhile", "[runtim
   CHECK(executor.bytes(1) == 8u << 20);
 }
 
-TEST_CASE("collective calls run in the order of recording on every rank, whatever the schedule", "[runtime][mpi2]") {
+TEST_CASE("collective calls of a module run in the order of recording on every rank, whatever the schedule", "[runtime][mpi2]") {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     int sums[3] = {0, 0, 0};
     Graph g(MPI_COMM_WORLD);
@@ -139,6 +142,55 @@ TEST_CASE("collective calls run in the order of recording on every rank, whateve
     CHECK(sums[1] == 4);
     CHECK(sums[2] == 6);
   }
+}
+
+/// Two modules, each a loop of calls after work of random length, on ranks of one thread: calls in both orders are ready on
+/// different ranks at once.
+void calls_of_two_modules(std::uint64_t seed) {
+  constexpr int steps = 12;
+  std::vector<std::string> made;
+  int sums[2] = {0, 0}, calls[2] = {0, 0};
+  Graph g(MPI_COMM_WORLD);
+  const int rank = rank_of(MPI_COMM_WORLD);
+  std::minstd_rand draw(unsigned(seed * 31 + std::uint64_t(rank) + 1));
+  const std::string modules[2] = {"air", "sea"};
+  for (std::size_t m = 0; m < 2; ++m) {
+    const Datum d = g.datum();
+    g.repeat(modules[m] + "/steps", steps, [&] {
+      g.task(modules[m] + "/work", {updates(d)}, [&draw, &calls, m] {
+        ++calls[m];
+        const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(draw() % 200);
+        while (std::chrono::steady_clock::now() < end) {}
+      });
+      g.collective(
+          modules[m] + "/library", {updates(d)},
+          [&, m](MPI_Comm comm) {
+            made.push_back(modules[m]);
+            MPI_Allreduce(&calls[m], &sums[m], 1, MPI_INT, MPI_SUM, comm);
+          },
+          [&calls, m] { return calls[m] % 3 != 0; });
+    });
+  }
+  for (const Edge& edge : g.edges()) CHECK(g.nodes()[edge.from].module() == g.nodes()[edge.to].module());
+  Executor(std::move(g), {.threads = 1}).run(2);
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  CHECK(sums[0] == ranks * (2 * steps - 1));
+  CHECK(sums[1] == ranks * (2 * steps - 1));
+  CHECK(made.size() == 2 * 2 * steps * 2 / 3);
+  // All ranks made them in one order.
+  std::string order;
+  for (const std::string& module : made) order += module[0];
+  std::string first = order;
+  MPI_Bcast(first.data(), int(first.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
+  CHECK(order == first);
+}
+
+TEST_CASE("collective calls of two modules find one order, and nothing else ties the modules together", "[runtime][mpi2]") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) calls_of_two_modules(seed);
+}
+TEST_CASE("the same on four ranks", "[runtime][mpi4]") {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) calls_of_two_modules(seed);
 }
 
 TEST_CASE("a message may change its size from step to step", "[runtime][mpi2]") {

@@ -52,9 +52,9 @@ class StepGraph {
       if (common()) {
         Uses uses{reads(decision_), writes(built_)};
         uses.push_back(reads(matrix_));
-        g_.collective("aero/preconditioner", uses, [this](MPI_Comm comm) {
-          if (s_.refreshes()) s_.preconditioner_->refresh_common(comm);
-        });
+        g_.collective(
+            "aero/preconditioner", uses, [this](MPI_Comm comm) { s_.preconditioner_->refresh_common(comm); },
+            [this] { return s_.refreshes(); });
       }
       g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = urgency + 1}, [&] { krylov_iteration(); });
       update();
@@ -236,9 +236,8 @@ class StepGraph {
   void common_part(const char* label) {
     Uses uses{reads(decision_), reads(built_), writes(common_)};
     uses.push_back(reads(gathered_));
-    g_.collective(label, uses, [this](MPI_Comm comm) {
-      if (s_.solving_) s_.preconditioner_->common(comm);
-    });
+    g_.collective(
+        label, uses, [this](MPI_Comm comm) { s_.preconditioner_->common(comm); }, [this] { return s_.solving_; });
   }
 
   void update() {

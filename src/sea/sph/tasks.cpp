@@ -248,9 +248,9 @@ void StepTasks<dim, Real>::sort() {
       });
   };
   const auto together = [&](const std::string& label, auto&& work) {
-    graph_.collective(label, {updates(order_), updates(plan_), updates(part)}, [&sea, shared, work](MPI_Comm comm) {
-      if (sea.plan.sort) work(shared->sorting, comm);
-    });
+    graph_.collective(
+        label, {updates(order_), updates(plan_), updates(part)}, [shared, work](MPI_Comm comm) { work(shared->sorting, comm); },
+        [&sea] { return sea.plan.sort; });
   };
   serial("sea/sort/begin", [](S& s) { s.begin(); });
   parallel("sort/classify", S::parts, [](S& s, int n) { s.classify(n); });
