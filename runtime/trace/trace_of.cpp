@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <utility>
 
 #include "runtime/executor/executor.hpp"
 #include "runtime/executor/worker.hpp"
@@ -139,7 +141,19 @@ RankTrace trace_of(const Team& team, int rank) {
   return trace;
 }
 
-std::vector<RankTrace> gather_traces(const RankTrace& own, MPI_Comm comm) {
+RankTrace by_module(const RankTrace& trace) {
+  RankTrace out{.rank = trace.rank, .threads = trace.threads, .complete_until = trace.complete_until};
+  std::map<std::pair<std::string_view, NodeKind>, TaskCost> sums;
+  for (const TraceNode& node : trace.nodes) {
+    TaskCost& sum = sums[{module_of(node.label), node.kind}];
+    sum.total_ns += node.cost.total_ns, sum.count += node.cost.count;
+  }
+  for (const auto& [of, cost] : sums) out.nodes.push_back({.label = std::string(of.first), .kind = of.second, .cost = cost});
+  return out;
+}
+
+std::vector<RankTrace> gather_traces(const RankTrace& mine, MPI_Comm comm) {
+  const RankTrace own = mine.records.empty() ? by_module(mine) : mine;
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);

@@ -18,8 +18,12 @@ struct Team;
 RankTrace trace_of(const Executor& executor, int rank = 0);
 RankTrace trace_of(const Team& team, int rank = 0);
 
-/// All ranks' traces on rank 0 of `comm` (elsewhere nothing), times on the clock of its rank 0. Collective.
+/// The same sums of a trace without records: a node per module and kind, no edges.
+RankTrace by_module(const RankTrace& trace);
+
+/// All ranks' traces on rank 0 of `comm` (elsewhere nothing), times on the clock of its rank 0; those without records by_module.
+/// Collective.
 /// The clocks are compared by the fastest of 20 round trips: good to half of it, about 1 us within a machine.
-std::vector<RankTrace> gather_traces(const RankTrace& own, MPI_Comm comm);
+std::vector<RankTrace> gather_traces(const RankTrace& mine, MPI_Comm comm);
 
 }  // namespace spindrift::runtime

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "runtime/trace/trace_of.hpp"
 #include "tests/runtime/trace/synthetic.hpp"
 
 using namespace spindrift::runtime;
@@ -121,6 +122,18 @@ TEST_CASE("without records the totals stand and the rest is unknown", "[trace][f
   CHECK(std::isnan(e.overlap_gain));
   CHECK(e.recorded == 0.0);
   CHECK_THAT(efficiency_table(e), Catch::Contains("no records were kept"));
+
+  // Ranks send no more than these totals are made of.
+  std::vector<RankTrace> sums;
+  for (const RankTrace& trace : traces) sums.push_back(by_module(trace));
+  CHECK(by_module(two_modules()[0]).nodes.size() == 2);
+  const Efficiency of_sums = efficiency_of(sums);
+  REQUIRE(of_sums.modules.size() == e.modules.size());
+  for (std::size_t m = 0; m < e.modules.size(); ++m) {
+    CHECK(of_sums.modules[m].busy_s == Approx(e.modules[m].busy_s));
+    CHECK(of_sums.modules[m].calls == e.modules[m].calls);
+  }
+  CHECK(of_sums.parallel == e.parallel);
 }
 
 TEST_CASE("a recorded part stands for the whole of idle time", "[trace][fast]") {
