@@ -8,15 +8,13 @@
 #include <cmath>
 
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow/sweep_model.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
 
 namespace spindrift::aero {
 
 namespace {
-
-/// By an eddy viscosity of the grid's size alone.
-bool resolves_eddies(std::string_view turbulence) { return turbulence.starts_with("les_"); }
 
 const scene::Section<PatchOptions>& patch_section() {
   static const auto section =
@@ -37,6 +35,12 @@ const scene::Section<PatchOptions>& patch_section() {
                   "Boundary condition.")
           .flag("loads", &PatchOptions::loads, "Whether the force on it (of a wall) is summed into the flow's columns.");
   return section;
+}
+
+std::vector<scene::Choice> turbulence_choices() {
+  std::vector<scene::Choice> choices = closures().choices();
+  choices.insert(choices.begin(), {"none", "laminar"});
+  return choices;
 }
 
 }  // namespace
@@ -63,29 +67,13 @@ const scene::Section<FlowOptions>& flow_section() {
           .choice("viscous", &FlowOptions::viscous,
                   {{"none", "inviscid"}, {"thin_layer", "differences across faces only"}, {"full", "all gradients"}},
                   "Viscous terms.")
-          .choice("turbulence", &FlowOptions::turbulence,
-                  {{"none", "laminar"},
-                   {"sa", "Spalart-Allmaras"},
-                   {"sa_neg", "Spalart-Allmaras, negative variant"},
-                   {"sst", "k-omega SST 2003"},
-                   {"sst_2003_vm", "SST 2003, production by vorticity, without 2/3 k"},
-                   {"sst_1994", "k-omega SST 1994"},
-                   {"sst_v", "SST 1994, production by vorticity"},
-                   {"sst_vm", "SST 1994, production by vorticity, without 2/3 k"},
-                   {"k_omega", "k-omega of Wilcox 2006"},
-                   {"k_omega_1988", "k-omega of Wilcox 1988; depends on the stream's omega"},
-                   {"des97", "detached eddies by Spalart-Allmaras, 1997"},
-                   {"ddes", "delayed detached eddies by Spalart-Allmaras, 2006: boundary layers stay modelled"},
-                   {"les_wale", "large eddies, WALE; three dimensions only"},
-                   {"les_smagorinsky", "large eddies, Smagorinsky; three dimensions only"}},
-                  "Turbulence model.")
+          .choice("turbulence", &FlowOptions::turbulence, turbulence_choices(), "Turbulence model.")
           .only_if("viscous", {"thin_layer", "full"})
           .choice("wall_distance", &FlowOptions::wall_distance,
                   {{"exact", "to the nearest point of all walls"},
                    {"poisson", "from Poisson's equation (Spalding): smooth, larger than the exact one where walls are convex"}},
                   "Distance from walls that the turbulence model sees.")
-          .only_if("turbulence", {"sa", "sa_neg", "sst", "sst_2003_vm", "sst_1994", "sst_v", "sst_vm", "k_omega", "k_omega_1988",
-                                  "des97", "ddes"})
+          .only_if("turbulence", closures().with("wall_distance"))
           .choice("flux", &FlowOptions::flux,
                   {{"roe_low_mach", "Roe with Rieper's scaling: accurate at any Mach number below one and above"},
                    {"roe", "Roe"},
@@ -214,7 +202,7 @@ const scene::Section<FlowOptions>& flow_section() {
           .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2", "Area of the coefficients in history.csv.",
                   above(0.0).up_to(1e9))
           .check([](const FlowOptions& o, const scene::Report& report) {
-            const bool transports = o.viscous != "none" && o.turbulence != "none" && !resolves_eddies(o.turbulence);
+            const bool transports = o.viscous != "none" && model_sweeps(o.turbulence).equations > 0;
             for (const PatchOptions& b : o.boundaries)
               if (b.condition == Condition::wall_law && !transports)
                 report("boundaries",
@@ -288,7 +276,8 @@ std::vector<std::string> wall_patches(const FlowOptions& options) {
 }
 
 std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling) {
-  if (options.viscous != "none" && resolves_eddies(options.turbulence) && tiling.planar)
+  if (options.viscous != "none" && options.turbulence != "none" && closures().named(options.turbulence).resolves_eddies &&
+      tiling.planar)
     throw scene::SceneError({{.key = "aero.flow.turbulence",
                               .value = fmt::format("\"{}\"", options.turbulence),
                               .message = "resolves eddies: the grid must have three dimensions"}});

@@ -1,15 +1,16 @@
 // A list of models of one kind, from which a key of a scene chooses by name. A model has `name` and `help` (what the reference
-// says of it) and `keys` (those of the scene that it reads). Used by src/moorings/model.hpp and src/sea/wave_model.hpp; tested
+// says of it) and `keys` (those of the scene that it reads). Used by src/moorings/model.hpp, src/sea/wave_model.hpp and
+// src/aero/flow/sweep_model.hpp; tested
 // through tests/src/moorings and tests/src/sea. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "kernels/base/assert.hpp"
 #include "src/scene/section.hpp"
 
 namespace spindrift::scene {
@@ -23,10 +24,10 @@ class Models {
   auto begin() const { return models_.begin(); }
   auto end() const { return models_.end(); }
 
-  /// @pre the name is one of them.
+  /// Throws std::invalid_argument where none has the name.
   const Model& named(std::string_view name) const {
     const auto found = std::ranges::find(models_, name, &Model::name);
-    SPINDRIFT_ASSERT(found != models_.end(), "a model that is in no list");
+    if (found == models_.end()) throw std::invalid_argument("no model has the name \"" + std::string(name) + "\"");
     return **found;
   }
   std::vector<std::string> names() const {

@@ -5,9 +5,11 @@
 
 namespace spindrift::aero {
 
-std::span<const ModelSweeps> sweeps_of_k_omega() {
-  static const ModelSweeps models[]{SweepsOf<turbulence::KOmega1988>::table(), SweepsOf<turbulence::KOmega>::table()};
-  return models;
-}
+extern const Closure k_omega_closure{
+    "k_omega", "k-omega of Wilcox 2006", {"wall_distance"}, SweepsOf<turbulence::KOmega>::table()};
+extern const Closure k_omega_1988_closure{"k_omega_1988",
+                                          "k-omega of Wilcox 1988; depends on the stream's omega",
+                                          {"wall_distance"},
+                                          SweepsOf<turbulence::KOmega1988>::table()};
 
 }  // namespace spindrift::aero

@@ -5,9 +5,12 @@
 
 namespace spindrift::aero {
 
-std::span<const ModelSweeps> sweeps_of_les() {
-  static const ModelSweeps models[]{ClosuresOf<turbulence::Smagorinsky>::table(), ClosuresOf<turbulence::Wale>::table()};
-  return models;
-}
+extern const Closure les_wale_closure{
+    "les_wale", "large eddies, WALE; three dimensions only", {}, ClosuresOf<turbulence::Wale>::table(), true};
+extern const Closure les_smagorinsky_closure{"les_smagorinsky",
+                                             "large eddies, Smagorinsky; three dimensions only",
+                                             {},
+                                             ClosuresOf<turbulence::Smagorinsky>::table(),
+                                             true};
 
 }  // namespace spindrift::aero

@@ -5,9 +5,8 @@
 
 namespace spindrift::aero {
 
-std::span<const ModelSweeps> sweeps_of_sa() {
-  static const ModelSweeps models[]{SweepsOf<turbulence::Sa>::table(), SweepsOf<turbulence::SaNeg>::table()};
-  return models;
-}
+extern const Closure sa_closure{"sa", "Spalart-Allmaras", {"wall_distance"}, SweepsOf<turbulence::Sa>::table()};
+extern const Closure sa_neg_closure{
+    "sa_neg", "Spalart-Allmaras, negative variant", {"wall_distance"}, SweepsOf<turbulence::SaNeg>::table()};
 
 }  // namespace spindrift::aero

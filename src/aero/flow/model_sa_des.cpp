@@ -5,9 +5,11 @@
 
 namespace spindrift::aero {
 
-std::span<const ModelSweeps> sweeps_of_sa_des() {
-  static const ModelSweeps models[]{SweepsOf<turbulence::Des97>::table(), SweepsOf<turbulence::Ddes>::table()};
-  return models;
-}
+extern const Closure des97_closure{
+    "des97", "detached eddies by Spalart-Allmaras, 1997", {"wall_distance"}, SweepsOf<turbulence::Des97>::table()};
+extern const Closure ddes_closure{"ddes",
+                                  "delayed detached eddies by Spalart-Allmaras, 2006: boundary layers stay modelled",
+                                  {"wall_distance"},
+                                  SweepsOf<turbulence::Ddes>::table()};
 
 }  // namespace spindrift::aero

@@ -5,9 +5,10 @@
 
 namespace spindrift::aero {
 
-std::span<const ModelSweeps> sweeps_of_sst_2003() {
-  static const ModelSweeps models[]{SweepsOf<turbulence::Sst>::table(), SweepsOf<turbulence::Sst2003Vm>::table()};
-  return models;
-}
+extern const Closure sst_closure{"sst", "k-omega SST 2003", {"wall_distance"}, SweepsOf<turbulence::Sst>::table()};
+extern const Closure sst_2003_vm_closure{"sst_2003_vm",
+                                         "SST 2003, production by vorticity, without 2/3 k",
+                                         {"wall_distance"},
+                                         SweepsOf<turbulence::Sst2003Vm>::table()};
 
 }  // namespace spindrift::aero

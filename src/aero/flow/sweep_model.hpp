@@ -4,16 +4,17 @@
 // wall_function). SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "src/aero/flow/sweep_jacobian.hpp"
 #include "src/aero/flow/sweep_viscous.hpp"
+#include "src/scene/models.hpp"
 
 namespace spindrift::aero {
 
 struct ModelSweeps {
-  std::string_view name = "none";
   int equations = 0;                    ///< 0 with closures: an algebraic eddy viscosity
   std::array<double, 2> lowest{};       ///< bounds that updates respect
   std::array<double, 2> wall_spread{};  ///< diffusivity on a no-slip wall over the laminar viscosity
@@ -26,15 +27,18 @@ struct ModelSweeps {
   const turbulence::WallLaw& (*wall_law)() = nullptr;  ///< the closure's own law of the wall, solved for when first asked for
 };
 
+/// A turbulence model that a scene may choose: a variable in a file model_*.cpp and its line in closures.inc.
+struct Closure {
+  std::string_view name, help;
+  std::vector<std::string> keys;  ///< of [aero.flow] that it reads
+  ModelSweeps sweeps;
+  bool resolves_eddies = false;  ///< in three dimensions only
+};
+
+/// "none" is not among them.
+scene::Models<Closure> closures();
 /// By the name in the scene; "none" has no functions. Throws where no model has the name.
 const ModelSweeps& model_sweeps(std::string_view name);
-/// The families of models, one model_*.cpp each.
-std::span<const ModelSweeps> sweeps_of_sa();
-std::span<const ModelSweeps> sweeps_of_sa_des();
-std::span<const ModelSweeps> sweeps_of_sst();
-std::span<const ModelSweeps> sweeps_of_sst_2003();
-std::span<const ModelSweeps> sweeps_of_k_omega();
-std::span<const ModelSweeps> sweeps_of_les();
 
 /// Added to the pseudo-time [kg/s] of k where its residual makes it grow: 1.1 times the rate of growth, so that an implicit
 /// update grows it at most elevenfold. A Newton step longer than the time in which k grows points to k = 0 instead, the laminar

@@ -76,7 +76,7 @@ struct ClosuresOf {
   }
   static ModelSweeps table() {
     ModelSweeps t;
-    t.name = Model::name, t.closures = closures;
+    t.closures = closures;
     return t;
   }
 };
