@@ -1,6 +1,6 @@
 // libFuzzer target over the scene reader, with the sections of the program and the rules between them, and with example sections
 // of every kind: any bytes are either a scene or a SceneError, and the echo of a scene that reads well reads back to itself.
-// Built with -DSPINDRIFT_FUZZ=ON (clang); run by ci/fuzz_scene; seeds in tests/src/scene/seeds. SPDX-License-Identifier:
+// Built with -DSPINDRIFT_FUZZ=ON (clang); run by ci/fuzz; seeds in tests/src/scene/seeds. SPDX-License-Identifier:
 // Apache-2.0
 #include <algorithm>
 #include <cstdint>
