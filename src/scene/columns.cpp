@@ -89,6 +89,14 @@ Columns read_blank_columns(const std::string& path, std::vector<std::string> nam
   table.file_ = path;
   table.names_ = std::move(names);
   table.values_.resize(table.names_.size());
+  const auto is_number = [](std::string_view cell) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    return error == std::errc() && end == cell.data() + cell.size();
+  };
+  // A title, unless it is a row like those that follow.
+  if (const auto cells = split_at_blanks(text); cells.size() == table.names_.size() && std::ranges::all_of(cells, is_number))
+    table.add_row(cells, 1);
   for (int line = 2; std::getline(in, text); ++line)
     if (const auto cells = split_at_blanks(text); !cells.empty()) table.add_row(cells, line);
   return table;

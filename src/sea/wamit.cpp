@@ -25,7 +25,7 @@ struct Row {
   std::vector<double> values;
 };
 
-/// Rows of numbers; a first line of words is skipped, as WAMIT may write one.
+/// Rows of numbers; a first line mostly of words is skipped, as WAMIT may write one.
 std::vector<Row> read_rows(const std::string& path, std::initializer_list<std::size_t> counts) {
   std::ifstream file(path);
   if (!file) refuse(path, 0, "cannot be read");
@@ -35,7 +35,8 @@ std::vector<Row> read_rows(const std::string& path, std::initializer_list<std::s
     std::istringstream words(text);
     Row row{line, {}};
     std::string word;
-    bool numbers = true;
+    std::string bad;  // the first word that is no number
+    std::size_t words_in_line = 0;
     while (words >> word) {
       std::replace(word.begin(), word.end(), 'D', 'E');
       std::size_t used = 0;
@@ -43,15 +44,15 @@ std::vector<Row> read_rows(const std::string& path, std::initializer_list<std::s
       try {
         value = std::stod(word, &used);
       } catch (const std::exception&) { used = 0; }
-      if (used != word.size() || !std::isfinite(value)) {
-        numbers = false;
-        break;
-      }
-      row.values.push_back(value);
+      ++words_in_line;
+      if (used == word.size() && std::isfinite(value))
+        row.values.push_back(value);
+      else if (bad.empty())
+        bad = word;
     }
-    if (!numbers) {
-      if (rows.empty() && line == 1) continue;
-      refuse(path, line, "'" + word + "' is not a finite number");
+    if (!bad.empty()) {
+      if (line == 1 && 2 * row.values.size() < words_in_line) continue;
+      refuse(path, line, "'" + bad + "' is not a finite number");
     }
     if (row.values.empty()) continue;
     if (std::find(counts.begin(), counts.end(), row.values.size()) == counts.end())

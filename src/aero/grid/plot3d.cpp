@@ -107,7 +107,8 @@ std::vector<Number> numbers_of(const std::filesystem::path& file, const std::str
     const char* start = buffer[0] == '+' ? buffer + 1 : buffer;
     double value = 0;
     const auto [stop, error] = std::from_chars(start, end, value);
-    if (error != std::errc() || stop != end) refuse(file, line, std::string(first, last), "is not a number");
+    if (error != std::errc() || stop != end || !std::isfinite(value))
+      refuse(file, line, std::string(first, last), "is not a finite number");
     return value;
   };
   const char *at = text.data(), *end = at + text.size();
@@ -155,12 +156,7 @@ MultiBlockGrid formatted(const std::filesystem::path& file, const std::string& t
     std::vector<double> x;
     for (const Index& n : blocks) {
       x.clear();
-      for (std::size_t p = 0; p < count(n) * a.dimensions; ++p) {
-        const Number& number = numbers[at + p];
-        if (!std::isfinite(number.value))
-          refuse(file, number.line, fmt::format("{}", number.value), "a coordinate must be finite");
-        x.push_back(number.value);
-      }
+      for (std::size_t p = 0; p < count(n) * a.dimensions; ++p) { x.push_back(numbers[at + p].value); }
       at += count(n) * (a.dimensions + a.blanked);
       add_block(grid, file, n, a.dimensions, width, x);
     }
@@ -180,10 +176,20 @@ T from_bytes(const char* at, bool swapped) {
   return std::bit_cast<T>(bytes);
 }
 
+/// The first record, of one to three integers, between two marks of its size: then all of the file is records.
+bool begins_with_record(const std::string& bytes, bool swapped) {
+  const auto word = [&](std::size_t at) {
+    return at + 4 <= bytes.size() ? from_bytes<std::int32_t>(bytes.data() + at, swapped) : -1;
+  };
+  const std::int32_t size = word(0);
+  return (size == 4 || size == 8 || size == 12) && word(4 + std::size_t(size)) == size;
+}
+
 MultiBlockGrid binary(const std::filesystem::path& file, const std::string& bytes, double width) {
   for (const bool swapped : {false, true})
     for (const bool records : {true, false})
       for (const Arrangement& a : arrangements) {
+        if (!records && begins_with_record(bytes, swapped)) continue;
         const auto word = [&](std::size_t at) {
           return at + 4 <= bytes.size() ? long(from_bytes<std::int32_t>(bytes.data() + at, swapped)) : -1L;
         };

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/readers/readers.hpp"
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "runtime/replay/recording_file.hpp"
+#include "src/aero/control_options.hpp"
+#include "src/aero/grid/cgns.hpp"
+#include "src/aero/grid/connect.hpp"
+#include "src/aero/grid/neutral_map.hpp"
+#include "src/aero/grid/plot3d.hpp"
+#include "src/aero/operation.hpp"
+#include "src/aero/turbine.hpp"
+#include "src/aero/turbulence_box.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/machine_failure.hpp"
+#include "src/moorings/table_file.hpp"
+#include "src/scene/columns.hpp"
+#include "src/sea/wamit.hpp"
+
+namespace spindrift::testing {
+
+namespace {
+
+using Path = const std::string&;
+using Write = std::function<void(Path)>;
+
+Write text(std::string words) {
+  return [words = std::move(words)](Path file) { std::ofstream(file) << words; };
+}
+/// A file of inputs/ in its place.
+Write input(std::string name) {
+  return [name = std::move(name)](Path file) {
+    std::filesystem::copy_file(std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/" + name, file,
+                               std::filesystem::copy_options::overwrite_existing);
+  };
+}
+
+/// Two blocks side by side, four and two cells.
+aero::MultiBlockGrid small_grid() {
+  aero::MultiBlockGrid grid;
+  for (int b = 0; b < 2; ++b) {
+    aero::Block& block = grid.blocks.emplace_back(aero::Block{.name = b == 0 ? "left" : "right", .ni = 2 - b, .nj = 2, .nk = 1});
+    for (int k = 0; k <= block.nk; ++k)
+      for (int j = 0; j <= block.nj; ++j)
+        for (int i = 0; i <= block.ni; ++i) block.nodes.emplace_back(2.0 * b + i, j, k);
+  }
+  return grid;
+}
+
+void write_box(Path file) {
+  aero::BtsFile box{.up = 2,
+                    .across = 2,
+                    .tower = 1,
+                    .steps = 3,
+                    .up_m = 5,
+                    .across_m = 5,
+                    .step_s = 0.1f,
+                    .wind = 8,
+                    .hub_height = 90,
+                    .bottom = 80,
+                    .description = "small"};
+  box.grid.assign(3 * 2 * 2 * 3, 5), box.towers.assign(3 * 1 * 3, 4);
+  aero::write_bts(box, file);
+}
+
+void write_checkpoint(Path file) {
+  const std::vector<double> values{1.0, 2.0, 3.0};
+  io::CheckpointWriter writer(MPI_COMM_SELF, file);
+  writer.write("sea/position", std::span<const double>(values));
+  writer.set("time_s", 2.5), writer.set("tick", std::int64_t(7)), writer.set("scene", std::string("a.toml"));
+  writer.commit();
+}
+void read_checkpoint(Path file) {
+  const io::CheckpointReader reader(MPI_COMM_SELF, file);
+  if (reader.has("sea/position")) (void)reader.read<double>("sea/position");
+  if (reader.has("time_s")) (void)reader.number("time_s");
+}
+
+void read_recording(Path file) {
+  try {
+    (void)runtime::read_recording(file);
+  } catch (const std::runtime_error& error) { throw io::InputError(error.what()); }
+}
+void write_recording(Path file) {
+  runtime::RankRecording rank;
+  rank.graphs.resize(1);
+  rank.graphs[0].data.resize(1);
+  rank.graphs[0].nodes.push_back({.label = "sea/a", .uses = {{0, runtime::Access::update}}});
+  runtime::RunRecord run{.window = 1, .wall_ns = 10, .task_ns = 10};
+  run.ns = {{10}}, run.iterations = {{}};
+  rank.runs.push_back(run);
+  runtime::write_recording({.scene = "a.toml", .program = "0", .windows = {{1, 10}}, .ranks = {rank}}, file, MPI_COMM_SELF);
+}
+
+void read_map(Path file) {
+  aero::MultiBlockGrid grid = small_grid();
+  aero::read_neutral_map(grid, file);
+}
+void write_map(Path file) {
+  aero::MultiBlockGrid grid = small_grid();
+  aero::connect_by_coordinates(grid);
+  aero::write_neutral_map(grid, file);
+}
+
+}  // namespace
+
+const std::vector<Reader>& readers() {
+  static const sea::WamitScale scale{10.0, 1025.0, 9.81};
+  static const std::vector<Reader> all{
+      {"columns", true, [](Path f) { (void)scene::read_columns(f); }, text("time_s,a,b\n0,1,2\n1,3,4\n2,5,6\n")},
+      {"blank_columns", true,
+       [](Path f) {
+         (void)scene::read_blank_columns(f, {"a", "b"});
+       },
+       text("a title\n0 1\n1 3\n2 5\n"), true},
+      {"line_table", true, [](Path f) { (void)moorings::read_line_table(f); },
+       text("distance_m,tension_N\n100,0\n110,1e5\n120,3e5\n")},
+      {"controller", true, [](Path f) { (void)aero::read_controller(f); }, input("turbines/dtu_10mw_controller.toml")},
+      {"operation", true, [](Path f) { (void)aero::read_operation(f); }, input("turbines/dtu_10mw_operation.csv")},
+      {"turbine", true, [](Path f) { (void)aero::read_turbine(f); },
+       [](Path f) {
+         input("turbines/dtu_10mw.toml")(f);
+         const auto beside = std::filesystem::path(f).parent_path();
+         std::filesystem::copy(std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines", beside,
+                               std::filesystem::copy_options::recursive | std::filesystem::copy_options::skip_existing);
+       }},
+      {"outline", true, [](Path f) { (void)aero::read_outline(f); }, input("tutorials/naca4412.dat"), true, ".dat"},
+      {"bts", false, [](Path f) { (void)aero::box_of(aero::read_bts(f)); }, write_box},
+      {"mann", false,
+       [](Path f) {
+         (void)aero::read_mann({f, f, f}, {{2, 2, 2}, {5.0, 5.0, 5.0}}, 8.0, 90.0);
+       },
+       text(std::string(32, '\1'))},
+      {"radiation", true, [](Path f) { (void)sea::read_radiation(f, scale); },
+       text("-1 1 1 2.0\n0 1 1 1.5\n4.0 1 1 1.8 0.1\n4.0 3 5 0.2 0.01\n8.0 1 1 1.7 0.2\n8.0 3 5 0.3 0.02\n")},
+      {"excitation", true, [](Path f) { (void)sea::read_excitation(f, scale); },
+       text("4.0 0.0 1 1.0 10.0 0.98 0.17\n4.0 0.0 3 2.0 0.0 2.0 0.0\n8.0 0.0 1 1.2 90.0 0.0 1.2\n8.0 0.0 3 2.1 0.0 2.1 0.0\n")},
+      {"hydrostatics", true, [](Path f) { (void)sea::read_hydrostatics(f, scale); }, text("3 3 12.5\n4 4 -3.0\n5 5 -3.0\n")},
+      {"drift", true, [](Path f) { (void)sea::read_drift(f, scale); },
+       text("4.0 0.0 0.0 1 0.5 0.0 0.5 0.0\n8.0 0.0 0.0 1 0.1 0.0 0.1 0.0\n")},
+      {"quadratic", true, [](Path f) { (void)sea::read_quadratic(f, scale, sea::FrequencyPair::difference); },
+       text("4.0 4.0 0.0 0.0 1 0.5 0.0 0.5 0.0\n4.0 8.0 0.0 0.0 1 0.2 0.0 0.2 0.0\n8.0 8.0 0.0 0.0 1 0.1 0.0 0.1 0.0\n")},
+      {"plot3d", true, [](Path f) { (void)aero::read_plot3d(f); }, [](Path f) { aero::write_plot3d(small_grid(), f); }},
+      {"plot3d_binary", false, [](Path f) { (void)aero::read_plot3d(f); },
+       [](Path f) { aero::write_plot3d(small_grid(), f, aero::Plot3dForm::binary); }},
+      {"map", true, read_map, write_map},
+      {"cgns", false, [](Path f) { (void)aero::read_cgns(f); }, [](Path f) { aero::write_cgns(small_grid(), f); }},
+      {"recording", true, read_recording, write_recording},
+      {"checkpoint", false, read_checkpoint, write_checkpoint},
+  };
+  return all;
+}
+
+}  // namespace spindrift::testing
