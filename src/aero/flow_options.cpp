@@ -126,7 +126,10 @@ const scene::Section<FlowOptions>& flow_section() {
                   "Density residual (as flow.density_residual) that ends a march whatever its drop; 0: not looked at.",
                   between(0.0, 1e6))
           .number("load_change", &FlowOptions::load_change, "-",
-                  "Relative change of the force over 20 pseudo-steps that ends a march; 0: not looked at.", between(0.0, 1.0))
+                  "Relative change of the force over 20 pseudo-steps that ends a march; 0: not looked at. By default 0.001 for a "
+                  "steady "
+                  "resolved rotor, whose far wake settles hundreds of pseudo-steps after its loads, if drop is not 0; else 0.",
+                  between(0.0, 1.0))
           .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.",
                    between(1, 1e6))
           .only_if("time", {"bdf1", "bdf2"})
@@ -259,7 +262,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
              .drop = o.drop,
              .by_balance = o.drop_of == "balance",
              .absolute = o.residual_kg_m3_s,
-             .load_change = o.load_change,
+             .load_change = o.load_change.value_or(0.0),
              .max_steps = o.max_pseudo_steps,
              .krylov_steps = o.krylov_steps,
              .krylov_drop = o.krylov_drop,

@@ -55,7 +55,8 @@ struct FlowOptions {
   std::string preconditioner = "block_ilu";
   int group_cells = 8, direct_groups = 512, common_every = 1, common_steps = 1;  ///< of preconditioners with a common part
   std::string wall_distance = "exact";
-  double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, residual_kg_m3_s = 0.0, load_change = 0.0;
+  double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, residual_kg_m3_s = 0.0;
+  std::optional<double> load_change;  ///< unset: 1e-3 for a steady resolved rotor, else 0
   std::string drop_of = "balance";
   double unconverged_share = 0.05;
   /// On each coarser grid before a steady march; unset: some, where the grid allows it.

@@ -153,7 +153,10 @@ Eigen::Vector3d flow_wind(const Scenario& s) {
 }
 
 aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
-  return {*s.aero.flow,
+  constexpr double usual_load_change = 1e-3;
+  aero::FlowOptions flow = *s.aero.flow;
+  if (!flow.load_change && flow.time == "steady" && flow.drop > 0.0) flow.load_change = usual_load_change;
+  return {std::move(flow),
           *s.aero.grid,
           s.rotor,
           flow_wind(s),
