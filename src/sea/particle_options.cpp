@@ -61,9 +61,10 @@ const Section<ParticleOptions>& particle_section() {
                   "Viscosity of the water.")
           .number("viscosity", &ParticleOptions::viscosity, "-", "Alpha of the artificial viscosity.", between(0.0, 2.0))
           .only_if("viscosity_model", {"artificial"})
-          .number("solid_viscosity", &ParticleOptions::solid_viscosity, "-",
-                  "The same between water and walls or bodies; the paper neglects it (0). That of the water where absent.",
-                  between(0.0, 2.0))
+          .number(
+              "solid_viscosity", &ParticleOptions::solid_viscosity, "-",
+              "The same between water and walls or bodies. Where absent 0, as in the paper; that of the water on no_slip walls.",
+              between(0.0, 2.0))
           .only_if("viscosity_model", {"artificial"})
           .number("kinematic_viscosity_m2_s", &ParticleOptions::kinematic_viscosity_m2_s, "m2/s", "Kinematic viscosity.",
                   not_negative())
@@ -189,15 +190,16 @@ const Section<WavemakerOptions>& wavemaker_section() {
 const Section<DampingZoneOptions>& damping_zone_section() {
   static const auto section =
       Section<DampingZoneOptions>("damping_zones",
-                                  "A stretch of x where the water is brought to rest: dv/dt = -rate s^2 v, s from 0 to 1.")
-          .number("from_m", &DampingZoneOptions::from_m, "m", "x where the damping begins.")
+                                  "A stretch of x or y where the water is brought to rest: dv/dt = -rate s^2 v, s from 0 to 1.")
+          .number("from_m", &DampingZoneOptions::from_m, "m", "Where the damping begins.")
           .required()
-          .number("to_m", &DampingZoneOptions::to_m, "m",
-                  "x where it has its full rate; below from_m for a zone at the lower end.")
+          .number("to_m", &DampingZoneOptions::to_m, "m", "Where it has its full rate; below from_m for a zone at the lower end.")
           .required()
           .number("rate_1_s", &DampingZoneOptions::rate_1_s, "1/s", "Full rate; about the waves' angular frequency times 2 to 5.",
                   positive())
           .required()
+          .choice("axis", &DampingZoneOptions::axis, {{"x", "along the tank"}, {"y", "across it, in 3-D"}},
+                  "Direction of the stretch.")
           .check([](const DampingZoneOptions& o, const scene::Report& report) {
             if (o.from_m == o.to_m) report("to_m", "is where from_m is");
           });

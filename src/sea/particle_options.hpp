@@ -30,7 +30,7 @@ struct ParticleOptions {
   std::optional<double> sound_speed_m_s;
   sph::ViscosityChoice viscosity_model = sph::ViscosityChoice::artificial;
   double viscosity = 0.02;                 ///< alpha of the artificial viscosity
-  std::optional<double> solid_viscosity;   ///< with walls and bodies; that of the water where absent
+  std::optional<double> solid_viscosity;   ///< with walls and bodies; where absent that of the water on no_slip walls, else 0
   double kinematic_viscosity_m2_s = 1e-6;  ///< of the laminar models
   std::optional<double> solid_kinematic_viscosity_m2_s;
   std::string walls = "extrapolated";  ///< dynamic, extrapolated, extrapolated_no_slip, modified, ...
@@ -76,8 +76,9 @@ struct WavemakerOptions {
 
 /// [[sea.damping_zones]]
 struct DampingZoneOptions {
-  double from_m = 0.0, to_m = 0.0;  ///< x: no damping there; full damping there
+  double from_m = 0.0, to_m = 0.0;  ///< no damping there; full damping there
   double rate_1_s = 0.0;
+  std::string axis = "x";  ///< x, y
 };
 
 /// [sea.initial]

@@ -33,12 +33,13 @@ sph::Parameters parameters_of(const SeaOptions& o, const SeaEnvironment& environ
   const double wave_speed = std::sqrt(environment.gravity * deepest_water(o, environment.water_depth));
   p.eos.c0 = s.sound_speed_m_s.value_or(s.sound_speed_factor.value_or(default_sound_speed_factor) * wave_speed);
   p.viscosity = s.viscosity_model;
-  p.alpha = s.viscosity, p.alpha_solid = s.solid_viscosity.value_or(s.viscosity);
+  const bool sticks = s.walls.ends_with("no_slip");
+  p.alpha = s.viscosity, p.alpha_solid = s.solid_viscosity.value_or(sticks ? s.viscosity : 0.0);
   p.nu = s.kinematic_viscosity_m2_s, p.nu_solid = s.solid_kinematic_viscosity_m2_s.value_or(s.kinematic_viscosity_m2_s);
   p.boundary = s.walls == "dynamic"              ? sph::BoundaryChoice::dynamic
                : s.walls.starts_with("modified") ? sph::BoundaryChoice::modified
                                                  : sph::BoundaryChoice::extrapolated;
-  p.wall = s.walls.ends_with("no_slip")      ? sph::WallChoice::no_slip
+  p.wall = sticks                            ? sph::WallChoice::no_slip
            : s.walls == "modified_free_slip" ? sph::WallChoice::free_slip
                                              : sph::WallChoice::still;
   p.contact = s.contact, p.contact_stiffness = s.contact_stiffness, p.contact_damping = s.contact_damping;
@@ -203,10 +204,17 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
                          (!planar && (sensor.low_m[1] < t.y_m[0] || sensor.high_m[1] > t.y_m[1]));
     if (outside) wrong(key, "is outside the tank");
   }
-  for (std::size_t n = 0; n < o.damping_zones.size(); ++n)
-    for (const double x : {o.damping_zones[n].from_m, o.damping_zones[n].to_m})
-      if (!(x >= t.x_m[0] && x <= t.x_m[1]))
-        wrong(fmt::format("sea.damping_zones[{}]", n), fmt::format("reaches x = {} m, outside the tank", x));
+  for (std::size_t n = 0; n < o.damping_zones.size(); ++n) {
+    const DampingZoneOptions& zone = o.damping_zones[n];
+    const std::string key = fmt::format("sea.damping_zones[{}]", n);
+    if (planar && zone.axis == "y") {
+      wrong(key, "is along y: sea.particles.dimensions is 2");
+      continue;
+    }
+    const auto& sides = zone.axis == "y" ? t.y_m : t.x_m;
+    for (const double end : {zone.from_m, zone.to_m})
+      if (!(end >= sides[0] && end <= sides[1])) wrong(key, fmt::format("reaches {} = {} m, outside the tank", zone.axis, end));
+  }
   for (std::size_t n = 0; n < o.water.size(); ++n)
     if (o.water[n].high_m[2] <= -depth) wrong(fmt::format("sea.water[{}]", n), fmt::format("lies below the bed at {} m", -depth));
 

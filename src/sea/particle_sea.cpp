@@ -69,7 +69,8 @@ class Sea final : public ParticleSea {
         loads_(plan.bodies.size()),
         contacts_(plan.bodies.size()),
         motions_(start.begin(), start.end()) {
-    for (const DampingZoneOptions& z : plan.damping_zones) zones_.push_back({z.from_m, z.to_m, z.rate_1_s});
+    for (const DampingZoneOptions& z : plan.damping_zones)
+      zones_.push_back({z.from_m, z.to_m, z.rate_1_s, z.axis == "y" ? 1 : 0});
     if (!zones_.empty() || settle_damping_ > 0.0)
       sea_.state().after_step = [this](int group, double dt) {
         const sph::Group& g = sea_.store().groups[std::size_t(group)];

@@ -10,9 +10,10 @@
 
 namespace spindrift::sph {
 
-/// No damping at x = from, the full rate at x = to and beyond; to < from for a zone at the lower end [m], [1/s].
+/// No damping at `from`, the full rate at `to` and beyond; to < from for a zone at the lower end [m], [1/s]. Axis: 0 x, 1 y.
 struct DampingZone {
   double from, to, rate;
+  int axis = 0;
   double rate_at(double x) const {
     const double s = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return rate * s * s;
@@ -28,7 +29,7 @@ void damp(Store<dim, Real>& store, std::span<const DampingZone> zones, double ev
     if (store.owner[cluster] != 0) continue;
     for (std::size_t slot = cluster * cluster_size; slot < (cluster + 1) * cluster_size; ++slot) {
       double rate = everywhere;
-      for (const DampingZone& zone : zones) rate += zone.rate_at(store.x[0][slot]);
+      for (const DampingZone& zone : zones) rate += zone.rate_at(store.x[zone.axis][slot]);
       if (rate == 0.0) continue;
       const double factor = std::exp(-rate * dt);
       for (int k = 0; k < dim; ++k) {

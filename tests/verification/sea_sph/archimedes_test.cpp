@@ -58,7 +58,7 @@ Lift lift_of(const Held& held, double spacing, double wetted, double duration) {
   motion.attitude = Eigen::AngleAxisd(held.tilt, Eigen::Vector3d::UnitY());
   plan.bodies = {{"body", {held.shape}, motion}};
   Parameters p;
-  p.spacing = spacing, p.h_over_d = 1.5, p.diffusion = DiffusionChoice::fourtakas, p.alpha = p.alpha_solid = 0.02;
+  p.spacing = spacing, p.h_over_d = 1.5, p.diffusion = DiffusionChoice::fourtakas, p.alpha = 0.02, p.alpha_solid = 0.0;
   p.eos = {1000.0, 10.0 * std::sqrt(p.gravity * plan.depth)};
   p.boundary = BoundaryChoice::extrapolated, p.contact = false;
   const auto tank = lay_out<dim>(plan, p);
