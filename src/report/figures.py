@@ -182,7 +182,8 @@ def _draw(runs, panels):
 
 
 def density(time, values):
-    """One-sided power spectral density after Welch: three segments, Hann window, mean removed. (Hz, unit²/Hz), or None if too short."""
+    """One-sided power spectral density after Welch (1967, IEEE Trans. Audio Electroacoust. 15, 70-73): three segments of half the length, each overlapping
+    the next by half; Hann window, mean removed. (Hz, unit²/Hz), or None if too short."""
     keep = np.isfinite(time) & np.isfinite(values)
     time, values = time[keep], values[keep]
     if len(values) < 64 or time[-1] <= time[0]:
@@ -191,10 +192,10 @@ def density(time, values):
     if np.ptp(np.diff(time)) > 1e-6 * step:
         even = time[0] + step * np.arange(len(time))
         time, values = even, np.interp(even, time, values)
-    length = len(values) // 2 * 2 // 3 * 2  # three segments of two thirds, each a sixth after the one before
-    window = np.hanning(length)
-    total = np.zeros(length // 2 + 1)
-    starts = [0, (len(values) - length) // 2, len(values) - length]
+    hop = len(values) // 4
+    length, starts = 2 * hop, (0, hop, 2 * hop)
+    window = np.hanning(length + 1)[:-1]
+    total = np.zeros(hop + 1)
     for start in starts:
         piece = values[start: start + length]
         total += np.abs(np.fft.rfft((piece - piece.mean()) * window)) ** 2
@@ -203,8 +204,8 @@ def density(time, values):
 
 
 def segment_s(time):
-    """Length of the segments that a spectrum of a run is taken over: two thirds of what is left without the first quarter."""
-    return 0.5 * (time[-1] - time[0])
+    """Length of the segments that a spectrum of a run is taken over: half of what is left without the first quarter."""
+    return 0.375 * (time[-1] - time[0])
 
 
 def spectra(runs, panels, marks):

@@ -5,8 +5,6 @@ import math
 
 import numpy as np
 
-import quantities
-
 ROUND = 36  # corners of a circle
 
 
@@ -181,7 +179,7 @@ class Scene3d:
         joint = (self.scene.get("joints") or {}).get(rotor.get("joint", ""), {})
         if "point_m" in joint:
             return np.asarray(joint["point_m"], float)
-        if "rotor.thrust_N" in self.run.columns and not self.bodies:
+        if "rotor.thrust_N" in self.run.columns and ("hub_m" in rotor or not self.bodies):
             return np.asarray(rotor.get("hub_m", [0, 0, 0]), float)
         return None
 
@@ -253,13 +251,14 @@ class Scene3d:
         return Piece("line", name, points, lines=[list(range(len(points)))])
 
     def _support(self, t):
-        """Tower from the deck to the nacelle, and braces from its foot to floats that stand apart."""
+        """Tower from the deck or the foundation to the nacelle, and braces from its foot to floats that stand apart."""
         body, found = self.carrier(), []
         cylinders = self.bodies.get(body, {}).get("cylinders", [])
-        if not cylinders:
+        stands = [j["point_m"][2] for j in (self.scene.get("joints") or {}).values() if set(j.get("bodies", [])) == {"earth", body} and "point_m" in j]
+        hub, tops = self.hub0, [max(c["start_m"][2], c["end_m"][2]) for c in cylinders] or stands
+        if not tops or max(tops) >= hub[2]:
             return found
-        hub = self.hub0
-        deck = max(max(c["start_m"][2], c["end_m"][2]) for c in cylinders)
+        deck = max(tops)
         size = max(3.0, 0.065 * (hub[2] - deck))
         behind = hub + np.array([0.06 * (hub[2] - deck), 0.0, 0.0])   # the tower stands downwind of an upwind rotor
         foot, top = np.array([behind[0], behind[1], deck]), behind - [0.0, 0.0, 0.3 * size]

@@ -255,7 +255,7 @@ def spectra(runs):
         return ""
     length = figures.segment_s(runs[0].time)
     if lowest is not None and length * lowest < 3.0:
-        return safe(f'<p class="facts">None: a spectrum that shows {1.0 / lowest:.3g} s needs a run of {6.0 / lowest:.0f} s.</p>')
+        return safe(f'<p class="facts">None: a spectrum that shows {1.0 / lowest:.3g} s needs a run of {8.0 / lowest:.0f} s.</p>')
     out, words = "", "Power spectral density (Welch, Hann window), without the first quarter of the run."
     if found := marks(runs[0]):
         words += " Marked: " + ", ".join(f"{name} {frequency:.3g} Hz" for name, frequency in found.items()) + "."

@@ -1,6 +1,7 @@
 """Pictures of a run in three dimensions, off screen: floats, tower, nacelle, blades, lines, the water's surface, the wake and the tip vortices.
 VTK draws (python3-vtk9, or the one inside ParaView); what there is to draw comes from geometry.py and the run's fields. Called by
 spindrift_picture.py; tested in tests/src/report/geometry_test.py. SPDX-License-Identifier: Apache-2.0"""
+import functools
 import math
 
 import numpy as np
@@ -9,6 +10,7 @@ import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPlane, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkClipPolyData, vtkPolyDataNormals, vtkTubeFilter
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
@@ -36,9 +38,9 @@ def poly_data(points, polygons=(), lines=()):
     data.SetPoints(places)
     for cells, put in ((polygons, data.SetPolys), (lines, data.SetLines)):
         if len(cells):
-            flat = np.concatenate([np.concatenate([[len(c)], c]) for c in cells]).astype(np.int64)
+            flat = np.insert(cells, 0, cells.shape[1], axis=1).ravel() if isinstance(cells, np.ndarray) else [n for c in cells for n in (len(c), *c)]
             array = vtkCellArray()
-            array.ImportLegacyFormat(numpy_to_vtkIdTypeArray(flat, deep=True))
+            array.ImportLegacyFormat(numpy_to_vtkIdTypeArray(np.asarray(flat, np.int64), deep=True))
             put(array)
     return data
 
@@ -80,6 +82,16 @@ def smooth(data, angle=35.0):
     return normals.GetOutput()
 
 
+def motion(before, after):
+    """The rigid motion between two places of the same points, as VTK's matrix (Kabsch 1976, Acta Cryst. A32, 922)."""
+    centre, moved = before.mean(axis=0), after.mean(axis=0)
+    u, _, v = np.linalg.svd((before - centre).T @ (after - moved))
+    turn = (u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))]) @ v).T
+    matrix = vtkMatrix4x4()
+    matrix.DeepCopy([value for row, shift in zip(turn, moved - turn @ centre) for value in (*row, shift)] + [0, 0, 0, 1])
+    return matrix
+
+
 def wind_colours():
     """Slow air dark violet, free wind pale: viridis, which reads the same in print and for most eyes."""
     import matplotlib
@@ -110,7 +122,7 @@ class Drawing:
         self.renderer.SetUseDepthPeeling(1)   # translucent surfaces in their true order
         self.renderer.SetMaximumNumberOfPeels(4)
         self.window.SetAlphaBitPlanes(1)
-        self.colours, self.placed, self._wake_of, self._water_of = wind_colours(), False, {}, {}
+        self.colours, self.placed, self._wake_of, self._solid = wind_colours(), False, {}, {}
         light = vtkLight()
         light.SetLightTypeToSceneLight()
         light.SetPosition(-300.0, -500.0, 700.0)
@@ -144,13 +156,17 @@ class Drawing:
         look.SetDiffuse(0.8)
         look.SetSpecular(0.35 if kind == "sea" else 0.15)
         look.SetSpecularPower(40 if kind == "sea" else 20)
+        return self.show(kind, actor)
+
+    def show(self, kind, actor):
         self.renderer.AddActor(actor)
         self.seen[kind] = self.seen.get(kind, 0) + 1
         return actor
 
     def solids(self, t):
+        """Bodies are meshed once and moved; lines bend."""
         thick = 0.0035 * self.extent()
-        for piece in self.scene.pieces(t):
+        for n, piece in enumerate(self.scene.pieces(t)):
             if piece.lines:
                 tube = vtkTubeFilter()
                 tube.SetInputData(poly_data(piece.points, lines=piece.lines))
@@ -158,9 +174,14 @@ class Drawing:
                 tube.SetNumberOfSides(8)
                 tube.Update()
                 self.add("line", tube.GetOutput())
+            elif n in self._solid:
+                points, actor = self._solid[n]
+                actor.SetUserMatrix(motion(points, piece.points))
+                self.show(piece.kind, actor)
             else:
-                self.add(piece.kind, smooth(poly_data(piece.points, piece.polygons)))
+                self._solid[n] = piece.points, self.add(piece.kind, smooth(poly_data(piece.points, piece.polygons)))
 
+    @functools.cached_property
     def bounds(self):
         """Lowest and highest corner of what is drawn at the start; of a floating turbine without its lines, which reach far."""
         pieces = self.scene.pieces(self.run.time[0])
@@ -177,7 +198,7 @@ class Drawing:
 
     def extent(self):
         """Length that the picture is about [m]."""
-        low, high = self.bounds()
+        low, high = self.bounds
         return (1.0 if self.scene.hub0 is not None or not self.water_model() else 2.0) * (high - low).max()
 
     def water_model(self):
@@ -277,7 +298,7 @@ class Drawing:
     # ---- picture ------------------------------------------------------------------------------------------------------------------------
 
     def centre(self):
-        low, high = self.bounds()
+        low, high = self.bounds
         return 0.5 * (low + high)
 
     def place_camera(self):

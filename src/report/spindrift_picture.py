@@ -7,6 +7,7 @@
 Turbines and floating bodies are drawn in three dimensions (VTK), sections and tanks in their plane (matplotlib). `spindrift picture` and
 `spindrift film` call it (src/app/report.cpp). SPDX-License-Identifier: Apache-2.0"""
 import argparse
+import multiprocessing
 import os
 import pathlib
 import shutil
@@ -108,34 +109,49 @@ def drawing_of(run, given):
     return scene_picture.Drawing(run, (1600, 900) if given.kind == "picture" else (960, 540), given.camera)
 
 
-def picture(run, given, drawing):
+def picture(run, given):
     import matplotlib.image
-    matplotlib.image.imsave(given.out, drawing.draw(moment(run, given.time)))
+    matplotlib.image.imsave(given.out, drawing_of(run, given).draw(moment(run, given.time)))
 
 
-def film(run, given, drawing):
-    """Frames go to ffmpeg as they are drawn."""
+def begin_frames(given):
+    """In each process of a film."""
+    global draw
+    from run_data import RunData
+    draw = drawing_of(RunData(given.directory), given).draw
+
+
+def frame(t):
+    return draw(t)
+
+
+def film(run, given):
+    """Frames are drawn by one process per core and go to ffmpeg in their order."""
     if shutil.which("ffmpeg") is None:
         fail(4, "a film needs ffmpeg: install the package ffmpeg (ci/setup --pictures does)")
     begin = max(float(run.time[0]), 0.0)
     end, count = float(run.time[-1]), max(2, round(given.seconds * given.rate))
     times = [begin + (end - begin) * n / (count - 1) for n in range(count)]
+    drawing = drawing_of(run, given)
     if hasattr(drawing, "times") and len(drawing.times()) < 3:
         fail(2, f"{given.directory}: fields of {len(drawing.times())} times are no film; write them more often (the section fields of the scene)")
-    first = drawing.draw(times[0])
-    height, width = (n - n % 2 for n in first.shape[:2])
     rate_bits = int(0.9 * 8 * MOST_BYTES / given.seconds)
     codec = (["-c:v", "libvpx-vp9", "-b:v", str(min(rate_bits, 2_500_000)), "-deadline", "realtime", "-cpu-used", "6"] if given.out.suffix == ".webm" else
              ["-c:v", "libx264", "-preset", "veryfast", "-crf", "24", "-maxrate", str(rate_bits), "-bufsize", str(2 * rate_bits), "-movflags", "+faststart"])
-    command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(given.rate), "-i", "-",
-               *codec, "-pix_fmt", "yuv420p", str(given.out)]
+    cores = min(len(os.sched_getaffinity(0)), count)
+    os.environ["LP_NUM_THREADS"] = "1"   # of Mesa, in each process
     said, began = time.monotonic(), time.monotonic()
-    with tempfile.TemporaryFile() as errors:
-        encoder = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=errors)
+    with tempfile.TemporaryFile() as errors, multiprocessing.get_context("spawn").Pool(cores, begin_frames, [given]) as pool:
+        encoder = None
         try:
-            for n, t in enumerate(times):
-                frame = first if n == 0 else drawing.draw(t)
-                encoder.stdin.write(frame[:height, :width].tobytes())
+            # In small shares, so that the cores end together and each reads few fields.
+            for n, image in enumerate(pool.imap(frame, times, chunksize=max(1, min(6, count // (2 * cores))))):
+                height, width = (side - side % 2 for side in image.shape[:2])
+                if encoder is None:
+                    command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(given.rate), "-i", "-",
+                               *codec, "-pix_fmt", "yuv420p", str(given.out)]
+                    encoder = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=errors)
+                encoder.stdin.write(image[:height, :width].tobytes())
                 if time.monotonic() - said > 5.0:
                     said = time.monotonic()
                     print(f"  {said - began:3.0f} s: frame {n + 1} of {count}", flush=True)
@@ -158,7 +174,7 @@ def main():
         if not len(run.time):
             fail(2, f"{given.directory}: history.csv has no rows")
         with Display():
-            (picture if given.kind == "picture" else film)(run, given, drawing_of(run, given))
+            (picture if given.kind == "picture" else film)(run, given)
     except ModuleNotFoundError as missing:
         top = (missing.name or "").split(".")[0]
         fail(4, f"Python at {sys.executable} has no module '{top}': install the package {PACKAGES.get(top, top)} (ci/setup --pictures does)")

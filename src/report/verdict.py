@@ -247,7 +247,7 @@ def _particles(run):
         return None
     lost = run.column("sea.lost_particles")[-1]
     left = run.column("sea.left_particles")[-1] if "sea.left_particles" in run.columns else 0
-    said = [f"{lost:.0f} slipped through walls"] * (lost > 0) + [f"{left:.0f} left over the edge or through open sides"] * (left > 0)
+    said = [f"{lost:.0f} slipped through walls"] * bool(lost > 0) + [f"{left:.0f} left over the edge or through open sides"] * bool(left > 0)
     return Check("good" if lost == 0 else "warn", "Particles", "; ".join(said) or "none left the tank")
 
 

@@ -3,14 +3,10 @@ Usage: aerofoil_test.py SPINDRIFT [Fast|Nightly]"""
 import csv
 import itertools
 import json
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+from running import Folder, spindrift
+
 SCENE = """
 [time]
 end_s = %d
@@ -38,20 +34,12 @@ far_m = 500.0
 """
 
 
-class Runs(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_aerofoil_")
-        self.out = pathlib.Path(self.folder.name) / "run"
-
-    def tearDown(self):
-        self.folder.cleanup()
-
+class Runs(Folder):
     def aerofoil(self, incidence, turbulence="sa", flux="roe_low_mach", refinement=1, steps=600):
         """Exit code, summary and last row of the history."""
-        scene = self.out.parent / "aerofoil.toml"
+        scene = self.path / "aerofoil.toml"
         scene.write_text(SCENE % (steps, incidence, turbulence, flux, refinement))
-        done = subprocess.run([PROGRAM, "run", scene, "--out", self.out, "--overwrite", "--no-report"], capture_output=True, text=True,
-                              timeout=1500)
+        done = spindrift("run", scene, "--out", self.out, "--overwrite", "--no-report", timeout=1500)
         self.words = done.stdout + done.stderr
         self.assertTrue((self.out / "summary.json").exists(), self.words)
         with open(self.out / "history.csv") as file:
@@ -79,8 +67,7 @@ class Fast(Runs):
             self.assertIn(words, summary["exit_reason"])
             self.assertIn(words, self.words)
         self.assertTrue(list((self.out / "checkpoints").iterdir()))
-        again = subprocess.run([PROGRAM, "run", self.out.parent / "aerofoil.toml", "--out", self.out, "--restart", "--no-report"], capture_output=True,
-                               text=True, timeout=600)
+        again = spindrift("run", self.path / "aerofoil.toml", "--out", self.out, "--restart", "--no-report")
         self.assertEqual(again.returncode, 3, again.stdout + again.stderr)  # it has not converged by being looked at
         self.assertEqual(json.loads((self.out / "summary.json").read_text())["exit_reason"], summary["exit_reason"])
 
@@ -89,11 +76,9 @@ class Fast(Runs):
         ways = ("begins again from aero.flow.start = \"wind\" on the grid itself, without coarser grids",
                 "begins again from aero.flow.start = \"wind\" on the grid itself, with the pseudo-time of low_mach = false")
         def marched(out, *more, steps=80, ranks=0):
-            scene = self.out.parent / "aerofoil.toml"
+            scene = self.path / "aerofoil.toml"
             scene.write_text(SCENE % (steps, 10, "sa", "roe_low_mach", 1))
-            launcher = [ROOT / "ci/mpirun", str(ranks)] if ranks else []
-            settings = [word for key in (*steps_of_no_length, "aero.flow.coarse_drop=1.0") for word in ("--set", key)]
-            done = subprocess.run([*launcher, PROGRAM, "run", scene, "--out", out, "--no-report", *settings, *more], capture_output=True, text=True, timeout=600)
+            done = spindrift("run", scene, "--out", out, "--no-report", *more, settings=(*steps_of_no_length, "aero.flow.coarse_drop=1.0"), ranks=ranks)
             return done.returncode, done.stdout + done.stderr
         code, words = marched(self.out)
         self.assertEqual(code, 3, words)

@@ -1,23 +1,13 @@
 """`spindrift check` knows: each slip of tests/extremes/blunders.toml is named. That the scenes of inputs raise no
 doubt is held by program_test.py. Usage: blunders_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
-import pathlib
-import subprocess
-import sys
 import tomllib
 import unittest
 
-ROOT = pathlib.Path(__file__).parents[2]
-PROGRAM = sys.argv.pop(1)
+from running import ROOT, spindrift
+
 SCENES = {"case1": "leble_barakos/case1_engineering.toml", "case2": "leble_barakos/case2_engineering.toml",
           "case3": "leble_barakos/case3_engineering.toml", "oc3": "validation/oc3_heave_decay/oc3_heave_decay.toml"}
 BLUNDERS = tomllib.loads((ROOT / "tests/extremes/blunders.toml").read_text(encoding="utf-8"))["blunder"]
-
-
-def check(scene, overrides=()):
-    words = [PROGRAM, "check", str(scene)]
-    for text in overrides:
-        words += ["--set", text]
-    return subprocess.run(words, capture_output=True, text=True, check=False, timeout=300)
 
 
 def named(said, what):
@@ -33,7 +23,7 @@ class Blunders(unittest.TestCase):
     def test_each_is_named(self):
         for blunder in BLUNDERS:
             with self.subTest(blunder["what"]):
-                said = check(ROOT / "inputs" / SCENES[blunder["scene"]], blunder["set"])
+                said = spindrift("check", ROOT / "inputs" / SCENES[blunder["scene"]], settings=blunder["set"])
                 self.assertIn(said.returncode, (0, 2), said.stderr)
                 self.assertNotIn("unknown key", said.stderr, "a slip of the table")
                 self.assertTrue(named(said, blunder["named"]), f"\n{said.stdout[:3000]}\n{said.stderr}")

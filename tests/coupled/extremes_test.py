@@ -6,14 +6,13 @@ import json
 import math
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import tomllib
 import unittest
 
-ROOT = pathlib.Path(__file__).parents[2]
-PROGRAM = sys.argv.pop(1)
+from running import ROOT, spindrift
+
 BATTERY = tomllib.loads((ROOT / "tests/extremes/battery.toml").read_text(encoding="utf-8"))
 SCENES = BATTERY.pop("scene")
 ENDS = {0: "bounded", 2: "refused", 3: "stopped"}
@@ -32,10 +31,7 @@ def end_of(case):
     """(exit code, what was said, largest place)."""
     scene = SCENES[case["scene"]]
     with tempfile.TemporaryDirectory() as scratch:
-        words = [PROGRAM, "run", str(ROOT / scene["file"]), "--out", scratch + "/out", "--no-report", "--quiet"]
-        for text in scene.get("set", []) + case["set"]:
-            words += ["--set", text]
-        done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=240)
+        done = spindrift("run", ROOT / scene["file"], "--out", scratch + "/out", "--no-report", "--quiet", settings=scene.get("set", []) + case["set"], timeout=240)
         said = (done.stderr + done.stdout).strip()
         if done.returncode == 3 and (summary := pathlib.Path(scratch, "out/summary.json")).exists():
             said = json.loads(summary.read_text())["exit_reason"]

@@ -2,31 +2,15 @@
 Usage: flow_run_test.py SPINDRIFT"""
 import csv
 import json
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
-PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+from running import Folder, ROOT, spindrift
+
 CASES = ROOT / "inputs/validation"
 
 
-def spindrift(*arguments, ranks=0):
-    launcher = [ROOT / "ci/mpirun", str(ranks)] if ranks else []
-    return subprocess.run([*launcher, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-
-
-class FlowRun(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_flow_")
-        self.out = pathlib.Path(self.folder.name) / "run"
-
-    def tearDown(self):
-        self.folder.cleanup()
-
+class FlowRun(Folder):
     def history(self, out=None):
         with open((out or self.out) / "history.csv") as file:
             return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]

@@ -5,15 +5,13 @@ import json
 import os
 import pathlib
 import re
-import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 
-ROOT = pathlib.Path(__file__).parents[2]
-PROGRAM = sys.argv.pop(1)
+from running import ROOT, spindrift
+
 CASE3, OC3 = "inputs/leble_barakos/case3_engineering.toml", "inputs/validation/oc3_heave_decay/oc3_heave_decay.toml"
 PITCH = "platform.pitch_deg"
 SEA_STATE = ["waves.model=jonswap", "waves.height_m=6.0", "waves.period_s=10.0", "bodies.spar.displacement_m=[0.0,0.0,0.0]", "start.equilibrium=true"]
@@ -33,21 +31,15 @@ CASES = [
 
 
 def said(scene, column, overrides):
-    words = [PROGRAM, "check", str(ROOT / scene), "--columns", column]
-    for text in overrides:
-        words += ["--set", text]
-    done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=300)
+    done = spindrift("check", ROOT / scene, "--columns", column, settings=overrides)
     return done.returncode, done.stdout + done.stderr
 
 
 def run(scene, overrides, until, folder):
     """Processor seconds of a run, least of three: what others on the machine do only adds."""
-    words = [PROGRAM, "run", str(ROOT / scene), "--out", folder, "--overwrite", "--no-report", "--quiet", "--until", str(until)]
-    for text in overrides:
-        words += ["--set", text]
     times = []
     for _ in range(3):
-        subprocess.run(words, capture_output=True, check=True, timeout=300)
+        spindrift("run", ROOT / scene, "--out", folder, "--overwrite", "--no-report", "--quiet", "--until", until, settings=overrides).check_returncode()
         times.append(json.loads(pathlib.Path(folder, "summary.json").read_text())["processor_seconds"])
     return min(times)
 

@@ -3,14 +3,11 @@ Same bits by threads, ranks, placements and restarts; starts from saved fluids; 
 import csv
 import json
 import os
-import pathlib
 import subprocess
-import sys
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+from running import Folder, PROGRAM, ROOT
+
 CASES = ROOT / "inputs/leble_barakos"
 
 # 3 000 cells a sector, three pseudo-steps per window: what is tested is the exchange, not the flow.
@@ -80,15 +77,8 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
        "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 
 
-class Machine(unittest.TestCase):
+class Machine(Folder):
     SPLIT = ["coupling.placement='split'"]
-
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_machine_")
-        self.path = pathlib.Path(self.folder.name)
-
-    def tearDown(self):
-        self.folder.cleanup()
 
     def spindrift(self, text, name, *arguments, settings=(), threads=1, ranks=1, code=0):
         scene = self.path / "scene.toml"

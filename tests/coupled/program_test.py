@@ -1,35 +1,20 @@
 """The program as a user meets it: exit codes, messages, run directory, restart, ranks. Usage: program_test.py SPINDRIFT"""
 import json
 import os
-import pathlib
 import re
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+from running import Folder, PROGRAM, ROOT, spindrift
+
 CASE1 = ROOT / "inputs/leble_barakos/case1_engineering.toml"
 CASE2 = ROOT / "inputs/leble_barakos/case2_engineering.toml"
 
 
-def spindrift(*arguments, ranks=0):
-    launcher = [ROOT / "ci/mpirun", str(ranks)] if ranks else []
-    return subprocess.run([*launcher, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-
-
-class Program(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_program_")
-        self.out = pathlib.Path(self.folder.name) / "run"
-
-    def tearDown(self):
-        self.folder.cleanup()
-
+class Program(Folder):
     def run_case(self, *more, scene=CASE1, ranks=0, out=None):
         return spindrift("run", scene, "--out", out or self.out, "--no-report", *more, ranks=ranks)
 

@@ -2,33 +2,22 @@
 came as far as a checkpoint, two runs in one folder. Usage: restart_test.py SPINDRIFT [CLASS...]"""
 import json
 import os
-import pathlib
 import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 import unittest.mock
 
-PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+from running import Folder, PROGRAM, ROOT, spindrift
+
 CASE3 = ROOT / "inputs/leble_barakos/case3_engineering.toml"
 
 
-class Runs(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_restart_")
-        self.path = pathlib.Path(self.folder.name)
-        self.out = self.path / "run"
-
-    def tearDown(self):
-        self.folder.cleanup()
-
+class Runs(Folder):
     def run_case(self, *more, scene=CASE3, code=0, out=None):
-        done = subprocess.run([PROGRAM, "run", scene, "--out", out or self.out, "--no-report", "--quiet", *map(str, more)], capture_output=True, text=True,
-                              timeout=300)
+        done = spindrift("run", scene, "--out", out or self.out, "--no-report", "--quiet", *more)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
 

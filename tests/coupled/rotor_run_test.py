@@ -1,14 +1,10 @@
 """The blade-resolved rotor as a user runs it: history, loads along the span, what `check` says, a restart, what is refused.
 Usage: rotor_run_test.py SPINDRIFT"""
 import csv
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+from running import Folder, ROOT, spindrift
+
 SCENE = ROOT / "inputs/leble_barakos/rotor_demo.toml"
 # 6 400 cells a sector.
 TINY = [f"aero.grid.{key}" for key in ("cells_round=28", "cells_layers=6", "first_cell_chords=4e-3")]
@@ -16,25 +12,13 @@ TINY += ["aero.flow.viscous=none", "aero.flow.blades=no_slip", "aero.flow.krylov
 TURNING = ["aero.flow.time=bdf2", "aero.flow.max_pseudo_steps=3", "aero.flow.drop=0", "time.window_s=0.05", "time.end_s=0.2"]
 
 
-def spindrift(command, *arguments, settings=()):
-    given = [word for s in settings for word in ("--set", s)]
-    return subprocess.run([PROGRAM, command, SCENE, *map(str, arguments), *given], capture_output=True, text=True, timeout=600)
-
-
-class RotorRun(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="spindrift_rotor_")
-        self.out = pathlib.Path(self.folder.name) / "run"
-
-    def tearDown(self):
-        self.folder.cleanup()
-
+class RotorRun(Folder):
     def table(self, name):
         with open(self.out / name) as file:
             return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
     def test_a_steady_run_leaves_thrust_torque_power_and_loads_along_the_span(self):
-        done = spindrift("run", "--out", self.out, settings=[*TINY, "time.end_s=40", "aero.flow.drop=0"])
+        done = spindrift("run", SCENE, "--out", self.out, settings=[*TINY, "time.end_s=40", "aero.flow.drop=0"])
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         last = self.table("history.csv")[-1]
         self.assertGreater(last["rotor.thrust_N"], 3e5)
@@ -50,7 +34,7 @@ class RotorRun(unittest.TestCase):
 
     def test_a_turning_rotor_has_columns_by_blade_and_restarts_with_the_same_digits(self):
         whole = [*TINY, *TURNING, "aero.grid.sectors=all"]
-        done = spindrift("run", "--out", self.out, settings=whole)
+        done = spindrift("run", SCENE, "--out", self.out, settings=whole)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         expected = self.table("history.csv")
         self.assertEqual(len(expected), 4)
@@ -58,8 +42,8 @@ class RotorRun(unittest.TestCase):
         blades = sum(expected[-1][f"rotor.blade_{b}.thrust_N"] for b in (1, 2, 3))
         self.assertAlmostEqual(blades / expected[-1]["rotor.thrust_N"], 1.0, places=10)
         self.out = self.out.with_name("again")
-        self.assertEqual(spindrift("run", "--out", self.out, "--until", 0.1, settings=whole).returncode, 0)
-        again = spindrift("run", "--out", self.out, "--restart", settings=whole)
+        self.assertEqual(spindrift("run", SCENE, "--out", self.out, "--until", 0.1, settings=whole).returncode, 0)
+        again = spindrift("run", SCENE, "--out", self.out, "--restart", settings=whole)
         self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
         self.assertEqual(self.table("history.csv"), expected)
 
@@ -70,7 +54,7 @@ class RotorRun(unittest.TestCase):
             self.assertIn(words, done.stdout)
 
     def test_wind_across_the_axis_is_refused_where_flow_is_to_be_steady(self):
-        done = spindrift("check", settings=["wind.direction_deg=20"])
+        done = spindrift("check", SCENE, settings=["wind.direction_deg=20"])
         self.assertEqual(done.returncode, 2)
         self.assertIn("needs the wind along the rotor axis; it is 20 degrees off", done.stdout + done.stderr)
 

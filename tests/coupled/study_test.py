@@ -2,17 +2,14 @@
 Usage: study_test.py SPINDRIFT [TEST...]. SPDX-License-Identifier: Apache-2.0"""
 import json
 import os
-import pathlib
 import random
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-ROOT = pathlib.Path(__file__).parents[2]
-PROGRAM = sys.argv.pop(1)
+from running import Folder, PROGRAM, ROOT
+
 STUDY = f"""
 [study]
 scene = "{ROOT}/tests/extremes/buoy.toml"
@@ -44,19 +41,11 @@ relative = true
 """
 
 
-class Study(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.scratch.name)
-        self.out = self.folder / "out"
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
+class Study(Folder):
     def words(self, text, *more):
-        file = self.folder / "study.toml"
+        file = self.path / "study.toml"
         file.write_text(text)
-        return [PROGRAM, "study", str(file), "--out", str(self.out), *more]
+        return [str(PROGRAM), "study", str(file), "--out", str(self.out), *more]
 
     def study(self, text=STUDY, *more):
         return subprocess.run(self.words(text, *more), capture_output=True, text=True, check=False, timeout=600)
@@ -133,7 +122,7 @@ class Study(unittest.TestCase):
         whole = self.study()
         self.assertEqual(whole.returncode, 0, whole.stdout)
         values = {r["name"]: {m: e["value"] for m, e in r["errors"].items()} for r in self.result()["rungs"]}
-        answer, self.out = self.result()["answer"], self.folder / "killed"
+        answer, self.out = self.result()["answer"], self.path / "killed"
         dice = random.Random(7)
         kept = {}
         for _ in range(10):

@@ -76,6 +76,17 @@ class Geometry(unittest.TestCase):
         self.assertEqual({kind: len(pieces) for kind, pieces in self.kinds(0.0).items()},
                          {"float": 1, "tower": 1, "nacelle": 1, "brace": 2, "hub": 1, "blade": 3, "line": 1})
 
+    def test_a_turbine_on_the_ground_has_a_tower_from_its_foundation_to_its_hub(self):
+        t = 0.1 * np.arange(11)
+        table = {"time_s": t} | {f"turbine.{name}": 0 * t for name in ("x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg")} | {"rotor.thrust_N": 0 * t}
+        synthetic_run.write(self.folder.with_name("fixed"), table=table, scene="[bodies.turbine]\nmass_kg = 1e6\ncentre_m = [0.0, 0.0, 80.0]\n[joints.foundation]\n"
+                            "type = 'fixed'\nbodies = ['earth', 'turbine']\npoint_m = [0.0, 0.0, 12.0]\n[rotor]\nbody = 'turbine'\nhub_m = [0.0, 0.0, 119.0]\n")
+        self.scene = geometry.Scene3d(RunData(self.folder.with_name("fixed")))
+        found = self.kinds(1.0)
+        self.assertEqual({kind: len(pieces) for kind, pieces in found.items()}, {"tower": 1, "nacelle": 1, "hub": 1, "blade": 3})
+        self.assertAlmostEqual(found["tower"][0].points[:, 2].min(), 12.0)
+        self.assertAlmostEqual(found["hub"][0].points[:, 2].mean(), 119.0)
+
     def test_bodies_are_carried_about_their_reference_point(self):
         start, end = (self.kinds(t)["float"][0].points for t in (0.0, 40.0))
         np.testing.assert_allclose(start.mean(axis=0), [40.0, 0.0, -1.0], atol=1e-9)

@@ -329,7 +329,15 @@ class PartsTest(unittest.TestCase):
         frequency, power = figures.density(t, 3.0 + 2.0 * np.sin(2 * np.pi * 0.31 * t))
         self.assertAlmostEqual(frequency[power.argmax()], 0.31, delta=0.01)
         self.assertAlmostEqual(power.sum() * frequency[0], 2.0, delta=0.02)
+        self.assertAlmostEqual(frequency[0], 1.0 / 150.0)   # segments of half the length
         self.assertIsNone(figures.density(t[:50], t[:50]))
+
+    def test_a_spectrum_takes_every_segment(self):
+        t = 0.05 * np.arange(6000)
+        for begin, share in ((0, 1 / 6), (1500, 1 / 3)):   # half of one segment of three, or of two
+            burst = np.where((t >= 0.05 * begin) & (t < 0.05 * (begin + 1500)), 2.0 * np.sin(2 * np.pi * 0.4 * t), 0.0)
+            frequency, power = figures.density(t, burst)
+            self.assertAlmostEqual(power.sum() * frequency[0] / 2.0, share, delta=0.01)
 
     def test_gradients_of_linear_fields_are_exact_on_skewed_blocks(self):
         k, j, i = np.meshgrid(np.arange(5.0), np.arange(6.0), np.arange(7.0), indexing="ij")
