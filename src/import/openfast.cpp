@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "kernels/base/constants.hpp"
+#include "src/import/hydrodyn_members.hpp"
 #include "src/import/openfast_parts.hpp"
 #include "src/scene/error.hpp"
 
@@ -29,15 +30,21 @@ class Importer {
   Importer(const std::filesystem::path& main_file, const std::filesystem::path& folder) : main_(main_file), folder_(folder) {}
 
   Imported run() {
-    if (main_.integer({"CompElast"}, 1) == 2)
-      leave_out("BeamDyn blades (CompElast 2): masses are those of ElastoDyn's blade files");
     if (!main_.has("EDFile"))
       main_.fail(std::nullopt, "has no line for EDFile: this is not an OpenFAST main file (version 3 to 5)");
+    if (main_.integer({"CompElast"}, 1) == 3) main_.fail(main_.find({"CompElast"}), "is 3: simplified ElastoDyn is not known");
+    if (const auto line = main_.find({"MHK"}); line && (main_.words(*line)[0] == "1" || main_.words(*line)[0] == "2"))
+      main_.fail(line, "has MHK: a rotor in the water is not known");
     elastodyn_.emplace(main_.path({"EDFile"}));
     std::filesystem::create_directories(folder_);
     rotor_ = rotor_frame(*elastodyn_);
+    if (main_.integer({"CompElast"}, 1) == 2)
+      for (int b = 1; b <= rotor_.blades; ++b)
+        rotor_.beamdyn_blades.push_back(Deck(main_.path({fmt::format("BDBldFile({})", b)})).path({"BldFile"}));
+    wet_ = main_.integer({"CompHydro"}, 0) == 1;
+    floats_ = wet_ && main_.integer({"CompSub"}, 0) == 0;
     environment();
-    hydro();  // says whether the platform floats
+    if (wet_) hydro();
     body();
     wind_and_rotor();
     if (floats_) moorings();
@@ -51,18 +58,31 @@ class Importer {
   void leave_out(std::string what) { left_out_.push_back(std::move(what)); }
   void carry(std::string what) { carried_.push_back(std::move(what)); }
 
+  /// Of the main file, or, in decks before version 3, of the module that uses it.
+  double given(const char* name, const char* file, double otherwise) const {
+    return main_.has(name) ? main_.number({name}, otherwise) : Deck(main_.path({file})).number({name}, otherwise);
+  }
+
   void environment() {
     gravity_ = main_.number({"Gravity"}, elastodyn_->number({"Gravity"}, 9.80665));
-    depth_ = main_.number({"WtrDpth"}, 200.0), water_density_ = main_.number({"WtrDens"}, 1025.0);
-    scene_ << fmt::format("\n[environment]\ngravity_m_s2 = {:.9g}\nair_density_kg_m3 = {:.9g}\nwater_density_kg_m3 = {:.9g}\n",
-                          gravity_, main_.number({"AirDens"}, 1.225), water_density_);
-    scene_ << fmt::format("water_depth_m = {:.9g}\n", depth_);
-    if (main_.number({"MSL2SWL"}, 0.0) != 0.0) leave_out("MSL2SWL: still water is at the mean level");
+    scene_ << fmt::format("\n[environment]\ngravity_m_s2 = {:.9g}\n", gravity_);
+    if (main_.integer({"CompAero"}, 0) == 2)
+      scene_ << fmt::format("air_density_kg_m3 = {:.9g}\n", given("AirDens", "AeroFile", 1.225));
+    if (!wet_) return;
+    depth_ = given("WtrDpth", "HydroFile", 200.0), water_density_ = given("WtrDens", "HydroFile", 1025.0);
+    scene_ << fmt::format("water_density_kg_m3 = {:.9g}\nwater_depth_m = {:.9g}\n", water_density_, depth_);
+    if (given("MSL2SWL", "HydroFile", 0.0) != 0.0) leave_out("MSL2SWL: still water is at the mean level");
   }
 
   void body() {
     const Deck& ed = *elastodyn_;
-    const MassSum sum = all_masses(ed, rotor_);
+    MassSum sum = all_masses(ed, rotor_);
+    if (ballast_.mass() > 0.0) {
+      sum.add(ballast_);
+      carry(fmt::format("ballast: {:.6g} kg in filled members", ballast_.mass()));
+    }
+    for (const char* product : {"PtfmXYIner", "PtfmYZIner", "PtfmXZIner"})
+      if (ed.number({product}, 0.0) != 0.0) leave_out(fmt::format("the platform's product of inertia {}", product));
     Eigen::Matrix3d inertia = sum.inertia();
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
@@ -145,13 +165,17 @@ class Importer {
     std::ofstream out(folder_ / "wind.csv");
     out << "# From " << file.file().filename().string() << ".\ntime_s,speed_m_s,direction_deg,vertical_m_s\n";
     double shear = 0.0;
+    bool sheared = false, changes = false;
     for (std::size_t n = 0; n < file.size(); ++n) {
       if (file.words(n).empty()) continue;
       const std::vector<double> row = file.numbers(n, 8);
       out << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", row[0], row[1] + row[7], -row[2], row[3]);
+      if (n > 0 && row[5] != shear) changes = true;
       shear = row[5];
-      if (row[4] != 0.0 || row[6] != 0.0) leave_out("horizontal and linear vertical shear of the uniform wind file");
+      sheared = sheared || row[4] != 0.0 || row[6] != 0.0;
     }
+    if (sheared) leave_out("horizontal and linear vertical shear of the uniform wind file");
+    if (changes) leave_out("changes of the power law's exponent in the uniform wind file: the last is used");
     carry("wind: " + file.file().filename().string());
     std::string text = "table = \"wind.csv\"\n";
     if (shear != 0.0)
@@ -229,7 +253,6 @@ class Importer {
       scene_ << fmt::format("azimuth_deg = {:.9g}\n", azimuth);
     carry(fmt::format("rotor: {} blades, {:.4g} rpm, blade pitch {:.4g} deg", rotor_.blades, ed.number({"RotSpeed"}),
                       ed.number({"BlPitch(1)", "BlPitch1"}, 0.0)));
-    if (ed.number({"NacYaw"}, 0.0) != 0.0) leave_out("NacYaw: the nacelle looks along x");
   }
 
   void servo() {
@@ -239,6 +262,8 @@ class Importer {
       return;
     }
     const Deck deck(main_.path({"ServoFile"}));
+    for (const char* key : {"YCMode", "HSSBrMode", "AfCmode", "CCmode", "NumBStC", "NumNStC", "NumTStC", "NumSStC"})
+      if (const int mode = deck.integer({key}, 0); mode != 0) leave_out(fmt::format("ServoDyn's {} {}", key, mode));
     const bool rotor = scene_.str().find("[rotor]") != std::string::npos;
     std::string why;
     if (!rotor)
@@ -302,10 +327,6 @@ class Importer {
     if (deck.flag({"EXavrSWAP_Enable"}, false)) leave_out("records from 1000 on (EXavrSWAP_Enable)");
     if (deck.flag({"DLL_Ramp"}, false)) leave_out("DLL_Ramp: pitch is asked for in steps");
     if (elastodyn_->number({"GBoxEff"}, 100.0) != 100.0) leave_out("GBoxEff: the gear has no loss");
-    for (const auto& [key, off] :
-         {std::pair{"YCMode", 0}, std::pair{"HSSBrMode", 0}, std::pair{"AfCmode", 0}, std::pair{"CCmode", 0},
-          std::pair{"NumBStC", 0}, std::pair{"NumNStC", 0}, std::pair{"NumTStC", 0}, std::pair{"NumSStC", 0}})
-      if (deck.integer({key}, off) != off) leave_out(fmt::format("ServoDyn's {} {}", key, deck.integer({key}, off)));
     leave_out("moments of the blades' roots and of the hub are 0 to the library (records 30 to 32, 69 to 78)");
   }
 
@@ -316,7 +337,8 @@ class Importer {
     if (any({"FlapDOF1", "FlapDOF2", "EdgeDOF"})) leave_out("bending of the blades: they are rigid");
     if (any({"TwFADOF1", "TwFADOF2", "TwSSDOF1", "TwSSDOF2"})) leave_out("bending of the tower: it is rigid");
     if (any({"YawDOF", "DrTrDOF", "TeetDOF"})) leave_out("motion of yaw bearing, shaft and teeter");
-    for (const auto& [part, name] : {std::pair{"CompSub", "SubDyn"}, std::pair{"CompIce", "ice"}, std::pair{"CompSoil", "soil"}})
+    for (const auto& [part, name] :
+         {std::pair{"CompSub", "SubDyn: what stands on it is fixed"}, std::pair{"CompIce", "ice"}, std::pair{"CompSoil", "soil"}})
       if (main_.integer({part}, 0) != 0) leave_out(name);
   }
 
@@ -328,8 +350,6 @@ class Importer {
   }
 
   void hydro() {
-    floats_ = main_.integer({"CompHydro"}, 0) == 1;
-    if (!floats_) return;
     const Deck hd(main_.path({"HydroFile"}));
     const bool old = !main_.has("SeaStFile");
     std::optional<Deck> sea_state;
@@ -338,17 +358,16 @@ class Importer {
     if (hd.integer({"NBody"}, 1) > 1) hd.fail(hd.find({"NBody"}), "has several bodies: one is carried over");
     const bool potential = hd.integer({"PotMod"}, 0) == 1;
     if (hd.integer({"PotMod"}, 0) == 2) leave_out("FIT (PotMod 2)");
-    const bool still = waves.integer({"WaveMod"}, 0) == 0;
+    const bool still = wave_model(waves) == 0;
 
     std::string sea = fmt::format("\n[sea]\nmodel = \"{}\"\n", potential ? "potential" : "morison");
-    sea += members(hd, potential);
+    sea += current(waves) + members(hd, potential);
     if (potential)
       sea += potential_flow(hd, still);
     else
       for (const char* key : {"MnDrift", "NewmanApp", "DiffQTF", "SumQTF"})
         if (hd.integer({key}, 0) != 0) leave_out(fmt::format("{} without PotMod 1", key));
     sea += matrices(hd);
-    if (waves.integer({"CurrMod"}, 0) != 0) leave_out("the current");
     water_ = sea + wave_section(waves);
     carry(fmt::format("sea: {}", potential ? "potential flow with drag of strips" : "Morison strips"));
   }
@@ -366,14 +385,16 @@ class Importer {
       copy(with(".3"));
     else
       leave_out(name + ".3 is not there: the scene has no excitation, and no waves");
+    const Eigen::Vector3d origin = potential_origin(hd);
+    if (origin.norm() > 0.0) text += "point_m = " + vector(origin) + "\n";
+    if (hd.number({"PtfmRefztRot"}, 0.0) != 0.0) hd.fail(hd.find({"PtfmRefztRot"}), "is not 0: turned WAMIT axes are not known");
     text += fmt::format("length_m = {:.9g}\nvolume_m3 = {:.9g}\nbuoyancy_centre_m = [{:.9g}, {:.9g}]\n",
                         hd.number({"WAMITULEN"}, 1.0), hd.number({"PtfmVol0"}), hd.number({"PtfmCOBxt"}, 0.0),
                         hd.number({"PtfmCOByt"}, 0.0));
     if (hd.integer({"RdtnMod"}, 1) == 0) text += "radiation = \"none\"\n";
     if (hd.integer({"RdtnMod"}, 1) == 1) text += fmt::format("memory_s = {:.9g}\n", hd.number({"RdtnTMax"}, 60.0));
     if (hd.integer({"RdtnMod"}, 1) == 2) {
-      text += "radiation = \"state_space\"\n";
-      leave_out("the matrices of the radiation's state space (RdtnMod 2, .ss): poles fitted to the .1 file instead");
+      leave_out("the matrices of the radiation's state space (RdtnMod 2, .ss): convolution with the .1 file instead");
     }
     return text + second_order(hd, with, name, still);
   }
@@ -405,6 +426,7 @@ class Importer {
     std::string text;
     bool any = false;
     text += "\n[[sea.matrices]]\nbody = \"platform\"\n";
+    if (const Eigen::Vector3d origin = potential_origin(hd); origin.norm() > 0.0) text += "point_m = " + vector(origin) + "\n";
     for (const auto& [deck, key] :
          {std::pair{"AddCLin", "stiffness"}, std::pair{"AddBLin", "damping"}, std::pair{"AddBQuad", "quadratic_damping"}}) {
       const auto line = hd.find({deck});
@@ -422,96 +444,104 @@ class Importer {
       text += fmt::format("{} = [\n{}]\n", key, rows);
     }
     // One value per line, with the name on the first.
-    if (const auto line = hd.find({"AddF0"}))
-      for (std::size_t i = 0; i < 6; ++i)
-        if (hd.to_number(hd.words(*line + i).at(0), *line + i) != 0.0) {
-          leave_out("the constant force AddF0");
-          break;
-        }
+    if (const auto line = hd.find({"AddF0"})) {
+      Eigen::Matrix<double, 6, 1> load;
+      for (std::size_t i = 0; i < 6; ++i) load[Eigen::Index(i)] = hd.numbers(*line + i, 1)[0];
+      if (load.norm() > 0.0)
+        cylinders_ += fmt::format("\n[[bodies.platform.forces]]\npoint_m = {}\nforce_N = {}\nmoment_N_m = {}\n",
+                                  vector(potential_origin(hd)), vector(load.head<3>()), vector(load.tail<3>()));
+    }
     return any ? text : "";
   }
 
-  /// Members as cylinders of the body; their coefficients for all of them.
+  static Eigen::Vector3d potential_origin(const Deck& hd) {
+    return {hd.number({"PtfmRefxt"}, 0.0), hd.number({"PtfmRefyt"}, 0.0), hd.number({"PtfmRefzt"}, 0.0)};
+  }
+
+  /// Members as cylinders of the body. [sea] has the coefficients of the first, [[sea.coefficients]] those that differ.
   std::string members(const Deck& hd, bool potential) {
-    const auto joints = hd.find({"NJoints"});
-    if (!joints || hd.integer({"NJoints"}, 0) == 0) return "";
-    struct Joint {
-      std::string id;
-      Eigen::Vector3d at;
+    const std::vector<Member> all = read_members(hd, depth_, left_out_);
+    ballast_ = read_ballast(hd, all, water_density_);
+    if (all.empty()) return "";
+    struct Keys {
+      double drag, added, axial_drag, axial_added, end_axial_drag, end_axial_added;
+      explicit Keys(const Member& m)
+          : drag(0.5 * (m.start.drag + m.end.drag)),
+            added(0.5 * (m.start.added_mass + m.end.added_mass)),
+            axial_drag(m.start.axial_drag),
+            axial_added(m.start.axial_added_mass),
+            end_axial_drag(m.end.axial_drag),
+            end_axial_added(m.end.axial_added_mass) {}
     };
-    std::vector<Joint> nodes;
-    for (std::size_t n = *joints + 3; n < *joints + 3 + std::size_t(hd.integer({"NJoints"}, 0)); ++n) {
-      const auto row = hd.rows(n, 1, 4)[0];
-      nodes.push_back({row[0], {hd.to_number(row[1], n), hd.to_number(row[2], n), hd.to_number(row[3], n)}});
-    }
-    const std::vector<std::string> sets{"NPropSetsCyl", "NPropSets"};
-    std::vector<std::pair<std::string, double>> diameters;
-    const std::size_t first_set = *hd.find(sets) + 3;
-    for (std::size_t n = first_set; n < first_set + std::size_t(hd.integer(sets, 0)); ++n) {
-      const auto row = hd.rows(n, 1, 2)[0];
-      diameters.emplace_back(row[0], hd.to_number(row[1], n));
-    }
-    // The table of simple coefficients: heading, units, one row. Its heading is the line that begins with SimplCd.
-    double drag = 1.0, added = 1.0;
-    for (std::size_t n = 0; n < hd.size(); ++n)
-      if (!hd.words(n).empty() && (hd.words(n)[0] == "SimplCd" || hd.words(n)[0] == "SimplCd1")) {
-        const std::vector<double> row = hd.numbers(n + 2, 4);
-        drag = row[0], added = row[2];
-        break;
-      }
-    const auto find = [&](const auto& list, const std::string& id, std::size_t line, const char* what) {
-      const auto it = std::find_if(list.begin(), list.end(), [&](const auto& entry) {
-        if constexpr (requires { entry.id; })
-          return entry.id == id;
-        else
-          return entry.first == id;
-      });
-      if (it == list.end()) hd.fail(line, fmt::format("names {} {}, which is in no table", what, id));
-      return *it;
-    };
-    const std::size_t count = std::size_t(hd.integer({"NMembers"}, 0)), first = *hd.find({"NMembers"}) + 3;
-    double strip = 5.0;
-    for (std::size_t n = first; n < first + count; ++n) {
-      const auto row = hd.rows(n, 1, 6)[0];
-      const Joint a = find(nodes, row[1], n, "joint"), b = find(nodes, row[2], n, "joint");
-      const double d1 = find(diameters, row[3], n, "property set").second, d2 = find(diameters, row[4], n, "property set").second;
-      cylinders_ +=
-          fmt::format("\n[[bodies.platform.cylinders]]\nname = \"member_{}\"\nstart_m = {}\nend_m = {}\ndiameter_m = {:.9g}\n",
-                      row[0], vector(a.at), vector(b.at), d1);
-      if (d1 != d2) cylinders_ += fmt::format("end_diameter_m = {:.9g}\n", d2);
-    }
-    if (count > 0) {
-      const std::size_t heading = first - 2, divide = hd.column(heading, {"MDivSize"}), mode = hd.column(heading, {"MCoefMod"});
-      strip = hd.to_number(hd.words(first).at(divide), first);
-      for (std::size_t n = first; n < first + count; ++n)
-        if (hd.words(n).size() > mode && hd.words(n)[mode] != "1") {
-          leave_out("coefficients of members by depth or by member (MCoefMod 2, 3): the simple ones are used");
-          break;
-        }
-    }
-    if (count == 0) return "";
-    if (const auto axial = hd.find({"NAxCoef"}); axial && hd.integer({"NAxCoef"}, 0) > 0) {
-      const std::vector<double> row = hd.numbers(*axial + 3, 3);
-      axial_drag_ = row[1], axial_added_ = row[2];
-      if (hd.integer({"NAxCoef"}, 0) > 1) leave_out("several sets of axial coefficients: the first is used for all ends");
-    }
-    std::string text = fmt::format("drag_coefficient = {:.9g}\naxial_drag_coefficient = {:.9g}\nstrip_length_m = {:.9g}\n", drag,
-                                   axial_drag_, strip);
+    const Keys first(all[0]);
+    std::string text = fmt::format("drag_coefficient = {:.9g}\naxial_drag_coefficient = {:.9g}\nstrip_length_m = {:.9g}\n",
+                                   first.drag, first.axial_drag, all[0].strip_length);
     if (!potential)
-      text += fmt::format("added_mass_coefficient = {:.9g}\naxial_added_mass_coefficient = {:.9g}\n", added, axial_added_);
+      text +=
+          fmt::format("added_mass_coefficient = {:.9g}\naxial_added_mass_coefficient = {:.9g}\n", first.added, first.axial_added);
+    std::string outside;
+    for (const Member& m : all) {
+      cylinders_ += fmt::format("\n[[bodies.platform.cylinders]]\nname = \"{}\"\nstart_m = {}\nend_m = {}\ndiameter_m = {:.9g}\n",
+                                m.name, vector(m.start.at), vector(m.end.at), m.start.diameter);
+      if (m.start.diameter != m.end.diameter) cylinders_ += fmt::format("end_diameter_m = {:.9g}\n", m.end.diameter);
+      const Keys k(m);
+      std::string own;
+      const auto key = [&](const char* name, double value, double otherwise) {
+        if (value != otherwise) own += fmt::format("{} = {:.9g}\n", name, value);
+      };
+      key("drag_coefficient", k.drag, first.drag);
+      key("axial_drag_coefficient", k.axial_drag, first.axial_drag);
+      key("end_axial_drag_coefficient", k.end_axial_drag, k.axial_drag);
+      if (!potential) {
+        key("added_mass_coefficient", k.added, first.added);
+        key("axial_added_mass_coefficient", k.axial_added, first.axial_added);
+        key("end_axial_added_mass_coefficient", k.end_axial_added, k.axial_added);
+      }
+      if (!own.empty()) text += fmt::format("\n[[sea.coefficients]]\ncylinder = \"{}\"\n{}", m.name, own);
+      if (potential && !m.potential) outside += (outside.empty() ? "" : ", ") + m.name;
+    }
+    if (!outside.empty()) leave_out("buoyancy and inertia of members outside the potential flow (PropPot false): " + outside);
     return text;
   }
 
+  /// The part that is the same at all depths; the scene has no other.
+  std::string current(const Deck& waves) {
+    if (waves.integer({"CurrMod"}, 0) == 0) return "";
+    if (waves.integer({"CurrMod"}, 0) != 1) {
+      leave_out("the current of a routine (CurrMod 2)");
+      return "";
+    }
+    if (waves.number({"CurrSSV0"}, 0.0) != 0.0 || waves.number({"CurrNSV0"}, 0.0) != 0.0)
+      leave_out("the currents that change with depth (CurrSSV0, CurrNSV0)");
+    const double speed = waves.number({"CurrDIV"}, 0.0), towards = waves.number({"CurrDIDir"}, 0.0) * radians_per_degree;
+    if (speed == 0.0) return "";
+    carry(fmt::format("current: {:.4g} m/s", speed));
+    return "current_m_s = " + vector({speed * std::cos(towards), speed * std::sin(towards), 0.0}) + "\n";
+  }
+
+  /// 10 where "1P90" stands: a regular wave of given phase.
+  static int wave_model(const Deck& waves) {
+    const auto line = waves.find({"WaveMod"});
+    if (line && waves.words(*line)[0].rfind("1P", 0) == 0) return 10;
+    return waves.integer({"WaveMod"}, 0);
+  }
+
   std::string wave_section(const Deck& waves) {
-    const int model = waves.integer({"WaveMod"}, 0);
+    const int model = wave_model(waves);
     if (model == 0) return "";
     const double height = waves.number({"WaveHs"}, 0.0), period = waves.number({"WaveTp"}, 0.0);
-    if (model != 1 && model != 2) {
+    if (model != 1 && model != 2 && model != 10) {
       leave_out(fmt::format("waves of WaveMod {}", model));
       return "";
     }
     std::string text = fmt::format("\n[waves]\nmodel = \"{}\"\nheight_m = {:.9g}\nperiod_s = {:.9g}\ndirection_deg = {:.9g}\n",
-                                   model == 1 ? "airy" : "jonswap", height, period, waves.number({"WaveDir"}, 0.0));
+                                   model == 2 ? "jonswap" : "airy", height, period, waves.number({"WaveDir"}, 0.0));
+    if (model == 10) {
+      const std::size_t line = *waves.find({"WaveMod"});
+      // HydroDyn's phase runs with time, the scene's with x.
+      text += fmt::format("phase_deg = {:.9g}\n", 0.0 - waves.to_number(waves.words(line)[0].substr(2), line));
+    }
+    if (model == 1) leave_out("the phase of the regular wave: a crest is at the origin at the start");
     if (model == 2) {
       text += fmt::format("seed = {}\n", std::abs(waves.integer({"WaveSeed(1)", "WaveSeed1"}, 1)));
       if (const double peak = waves.number({"WavePkShp"}, 0.0); peak > 0.0)
@@ -519,7 +549,7 @@ class Importer {
       leave_out("the phases of the irregular waves: those of the seed are others than HydroDyn's");
     }
     if (waves.integer({"WaveDirMod"}, 0) != 0) leave_out("directional spreading of the waves");
-    carry(fmt::format("waves: {} {:.4g} m, {:.4g} s", model == 1 ? "regular" : "JONSWAP", height, period));
+    carry(fmt::format("waves: {} {:.4g} m, {:.4g} s", model == 2 ? "JONSWAP" : "regular", height, period));
     return text;
   }
 
@@ -578,8 +608,9 @@ class Importer {
   double step_ = 0.05;  // a rigid platform's shortest period is some seconds
   std::optional<Deck> elastodyn_;
   RotorFrame rotor_;
-  double gravity_ = 9.80665, depth_ = 0.0, water_density_ = 1025.0, axial_drag_ = 0.0, axial_added_ = 0.0;
-  bool floats_ = false;
+  double gravity_ = 9.80665, depth_ = 0.0, water_density_ = 1025.0;
+  bool wet_ = false, floats_ = false;
+  MassSum ballast_;
   std::ostringstream scene_;
   std::string cylinders_, water_;
   std::vector<std::string> left_out_, carried_;

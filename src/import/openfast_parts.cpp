@@ -26,7 +26,8 @@ Eigen::Matrix3d MassSum::inertia() const {
 RotorFrame rotor_frame(const Deck& ed) {
   const double tilt = ed.number({"ShftTilt"}) * radians_per_degree, overhang = ed.number({"OverHang"});
   RotorFrame r;
-  r.axis = Eigen::Vector3d(std::cos(tilt), 0.0, std::sin(tilt));
+  r.yaw = ed.number({"NacYaw"}, 0.0) * radians_per_degree;
+  r.axis = Eigen::Vector3d(std::cos(r.yaw) * std::cos(tilt), std::sin(r.yaw) * std::cos(tilt), std::sin(tilt));
   r.hub = Eigen::Vector3d(0.0, 0.0, ed.number({"TowerHt"}) + ed.number({"Twr2Shft"})) + overhang * r.axis;
   r.blades = ed.integer({"NumBl"}, 3);
   r.hub_radius = ed.number({"HubRad"}), r.tip_radius = ed.number({"TipRad"});
@@ -66,6 +67,25 @@ Density read_density(const Deck& file, const std::vector<std::string>& count, co
   return result;
 }
 
+/// BeamDyn's blade: a station is its share of the length, six rows of stiffness, six of mass, the mass per length first.
+Density read_beamdyn(const Deck& file) {
+  const auto stations = std::size_t(std::clamp(file.number({"station_total"}), 0.0, 1e5));
+  std::vector<std::size_t> lines;
+  std::size_t line = 0;
+  while (line < file.size() && (file.words(line).empty() || file.words(line)[0].find("DISTRIBUTED") == std::string::npos) &&
+         (file.words(line).size() < 2 || file.words(line)[1].find("DISTRIBUTED") == std::string::npos))
+    ++line;
+  for (++line; line < file.size(); ++line)
+    if (!file.words(line).empty()) lines.push_back(line);
+  if (lines.size() < 13 * stations) file.fail(std::nullopt, fmt::format("ends within the properties of {} stations", stations));
+  Density result;
+  for (std::size_t s = 0; s < stations; ++s) {
+    result.at.push_back(file.numbers(lines[13 * s], 1)[0]);
+    result.per_m.push_back(file.numbers(lines[13 * s + 7], 6)[0]);
+  }
+  return result;
+}
+
 /// Calls add(mass, share) for slices of a straight density.
 template <class Add>
 void slice(const Density& d, double length, const Add& add) {
@@ -81,8 +101,10 @@ void add_blades(const Deck& ed, const RotorFrame& r, MassSum& sum) {
   const Eigen::Vector3d up = (Eigen::Vector3d::UnitZ() - r.axis.z() * r.axis).normalized(), side = r.axis.cross(up);
   for (int b = 0; b < r.blades; ++b) {
     const std::string index = std::to_string(b + 1);
-    const Deck blade(ed.path({"BldFile(" + index + ")", "BldFile" + index, "BldFile"}));
-    const Density density = read_density(blade, {"NBlInpSt"}, {"BlFract"}, {"BMassDen"}, {"AdjBlMs"});
+    const Density density = r.beamdyn_blades.empty()
+                                ? read_density(Deck(ed.path({"BldFile(" + index + ")", "BldFile" + index, "BldFile"})),
+                                               {"NBlInpSt"}, {"BlFract"}, {"BMassDen"}, {"AdjBlMs"})
+                                : read_beamdyn(Deck(r.beamdyn_blades[std::size_t(b)]));
     const double azimuth = 2.0 * pi * b / r.blades;
     const Eigen::Vector3d out = std::cos(azimuth) * up + std::sin(azimuth) * side;
     const Eigen::Vector3d along = std::cos(r.precone) * out + std::sin(r.precone) * r.axis;
@@ -110,16 +132,19 @@ MassSum all_masses(const Deck& ed, const RotorFrame& r) {
           {ed.number({"PtfmCMxt"}, 0.0), ed.number({"PtfmCMyt"}, 0.0), ed.number({"PtfmCMzt"}, 0.0)}, platform);
   const double top = ed.number({"TowerHt"}), base = ed.number({"TowerBsHt"}, 0.0);
   const Deck tower(ed.path({"TwrFile"}));
-  slice(read_density(tower, {"NTwInpSt"}, {"HtFract"}, {"TMassDen"}, {"AdjTwMa"}), top - base, [&](double mass, double share) {
-    sum.add(mass, {0.0, 0.0, base + share * (top - base)});
-  });
-  const Eigen::Vector3d nacelle(ed.number({"NacCMxn"}, 0.0), ed.number({"NacCMyn"}, 0.0), top + ed.number({"NacCMzn"}, 0.0));
+  slice(read_density(tower, {"NTwInpSt", "NTwInptSt"}, {"HtFract"}, {"TMassDen"}, {"AdjTwMa"}), top - base,
+        [&](double mass, double share) {
+          sum.add(mass, {0.0, 0.0, base + share * (top - base)});
+        });
+  const Eigen::Vector3d nacelle =
+      Eigen::AngleAxisd(r.yaw, Eigen::Vector3d::UnitZ()) *
+      Eigen::Vector3d(ed.number({"NacCMxn"}, 0.0), ed.number({"NacCMyn"}, 0.0), top + ed.number({"NacCMzn"}, 0.0));
   const double nacelle_mass = ed.number({"NacMass"}, 0.0);
   const double own_yaw = ed.number({"NacYIner"}, 0.0) - nacelle_mass * nacelle.head<2>().squaredNorm();
   sum.add(nacelle_mass, nacelle, Eigen::Vector3d(0.0, 0.0, std::max(own_yaw, 0.0)).asDiagonal());
   sum.add(ed.number({"YawBrMass"}, 0.0), {0.0, 0.0, top});
   sum.add(ed.number({"HubMass"}, 0.0), r.hub + ed.number({"HubCM"}, 0.0) * r.axis,
-          about_axis(ed.number({"HubIner"}, 0.0) + generator_inertia(ed), r.axis));
+          about_axis(ed.number({"HubIner"}, 0.0), r.axis));
   add_blades(ed, r, sum);
   return sum;
 }
@@ -154,7 +179,7 @@ std::string stall_of(const Deck& file) {
   return fmt::format(
       ", stall = {{ normal_slope = {:.9g}, zero_lift_deg = {:.9g}, drag_0 = {:.9g}, critical_normal = {:.9g}, "
       "critical_normal_low = {:.9g} }}",
-      file.number({"C_nalpha"}), file.number({"alpha0"}), std::max(file.number({"Cd0"}), 0.0),
+      std::min(file.number({"C_nalpha"}), 20.0), file.number({"alpha0"}), std::max(file.number({"Cd0"}), 0.0),
       std::max(file.number({"Cn1"}), 1e-3), std::min(file.number({"Cn2"}), 0.0));
 }
 
@@ -215,12 +240,15 @@ std::vector<std::string> write_turbine(const Deck& ad, const RotorFrame& r, cons
     std::ofstream csv(folder / out);
     csv << "# From " << file.file().filename().string() << ".\nalpha_deg,cl,cd\n";
     std::vector<PolarRow> rows_of_polar;
+    bool pushes = false;
     for (std::size_t k = table; k < table + count; ++k) {
       const auto row = file.rows(k, 1, std::max({alpha, lift, drag}) + 1)[0];
-      const PolarRow now{file.to_number(row[alpha], k), file.to_number(row[lift], k), file.to_number(row[drag], k)};
+      PolarRow now{file.to_number(row[alpha], k), file.to_number(row[lift], k), file.to_number(row[drag], k)};
+      if (now.drag < 0.0) now.drag = 0.0, pushes = true;
       if (!rows_of_polar.empty() && now.alpha <= rows_of_polar.back().alpha) continue;  // a doubled row closes the circle
       rows_of_polar.push_back(now);
     }
+    if (pushes) left_out.push_back(fmt::format("{}: negative drag is taken as none", file.file().filename().string()));
     for (const PolarRow& row : rows_of_polar) csv << fmt::format("{:.9g},{:.9g},{:.9g}\n", row.alpha, row.lift, row.drag);
     const int model = ad.integer({"UA_Mod", "UAMod"}, 0);
     turbine << fmt::format("  {{ thickness_pct = {:.9g}, file = \"{}\"{} }},\n", label(polar), out,

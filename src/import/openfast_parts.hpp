@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ class MassSum {
  public:
   /// A part with its own inertia about its centre of mass.
   void add(double mass, const Eigen::Vector3d& at, const Eigen::Matrix3d& inertia = Eigen::Matrix3d::Zero());
+  void add(const MassSum& part) { add(part.mass(), part.centre(), part.inertia()); }
   double mass() const { return mass_; }
   Eigen::Vector3d centre() const { return mass_ > 0.0 ? Eigen::Vector3d(first_ / mass_) : Eigen::Vector3d::Zero(); }
   /// About the centre of mass.
@@ -32,10 +34,12 @@ struct RotorFrame {
   Eigen::Vector3d hub, axis;  ///< [m]; unit, downwind
   int blades = 3;
   double hub_radius = 0.0, tip_radius = 0.0, precone = 0.0;  ///< [m], [m], [rad] positive downwind as in the deck
+  double yaw = 0.0;                                          ///< of the nacelle, from x to y [rad]
+  std::vector<std::filesystem::path> beamdyn_blades{};       ///< where blades are BeamDyn's: a file of properties each
 };
 RotorFrame rotor_frame(const Deck& elastodyn);
 
-/// Platform, tower, nacelle, hub, blades, as ElastoDyn has them.
+/// Platform, tower, nacelle, hub, blades, as ElastoDyn has them. The generator turns with the shaft alone and is not in it.
 MassSum all_masses(const Deck& elastodyn, const RotorFrame& rotor);
 /// Blades, hub and generator about the shaft [kg m2].
 double rotor_inertia(const Deck& elastodyn, const RotorFrame& rotor);

@@ -8,14 +8,16 @@ namespace spindrift::sea {
 namespace {
 
 Coefficients coefficients_of(const std::string& cylinder, const SeaOptions& options) {
-  Coefficients c{options.drag_coefficient, options.added_mass_coefficient, options.axial_drag_coefficient,
-                 options.axial_added_mass_coefficient};
+  const double end_drag = options.axial_drag_coefficient, end_mass = options.axial_added_mass_coefficient;
+  Coefficients c{options.drag_coefficient, options.added_mass_coefficient, {end_drag, end_drag}, {end_mass, end_mass}};
   for (const CoefficientsOptions& own : options.coefficients) {
     if (own.cylinder != cylinder) continue;
     c.drag = own.drag_coefficient.value_or(c.drag);
     c.added_mass = own.added_mass_coefficient.value_or(c.added_mass);
-    c.axial_drag = own.axial_drag_coefficient.value_or(c.axial_drag);
-    c.axial_added_mass = own.axial_added_mass_coefficient.value_or(c.axial_added_mass);
+    c.axial_drag[0] = own.axial_drag_coefficient.value_or(c.axial_drag[0]);
+    c.axial_drag[1] = own.end_axial_drag_coefficient.value_or(c.axial_drag[0]);
+    c.axial_added_mass[0] = own.axial_added_mass_coefficient.value_or(c.axial_added_mass[0]);
+    c.axial_added_mass[1] = own.end_axial_added_mass_coefficient.value_or(c.axial_added_mass[0]);
   }
   return c;
 }
@@ -85,12 +87,12 @@ void add_drag(const WettedStrip& strip, const Coefficients& c, double density, c
     const Eigen::Vector3d relative = water.at(s.arm).velocity - body.velocity_at(s.arm);
     add_at(loads.drag, waves::drag_across(density, c.drag, 2.0 * s.volume / (pi * s.radius), relative, strip.axis), s.arm);
   }
-  for (const End& e : strip.ends)
-    if (e.exposed_area > 0.0)
-      add_at(
-          loads.drag,
-          waves::drag_end(density, c.axial_drag, e.exposed_area, water.at(e.arm).velocity - body.velocity_at(e.arm), strip.axis),
-          e.arm);
+  for (std::size_t i = 0; i < strip.ends.size(); ++i)
+    if (const End& e = strip.ends[i]; e.exposed_area > 0.0)
+      add_at(loads.drag,
+             waves::drag_end(density, c.axial_drag[i], e.exposed_area, water.at(e.arm).velocity - body.velocity_at(e.arm),
+                             strip.axis),
+             e.arm);
 }
 
 void add_morison(const WettedStrip& strip, const Coefficients& c, double density, const Frame& body, const Water& water,
@@ -105,13 +107,14 @@ void add_morison(const WettedStrip& strip, const Coefficients& c, double density
     add_at(loads.inertia, density * s.volume * k.acceleration + added * waves::across(relative, strip.axis), s.arm);
     if (mass) waves::add_point_inertia(added * across, s.arm, *mass);
   }
-  for (const End& e : strip.ends) {
+  for (std::size_t i = 0; i < strip.ends.size(); ++i) {
+    const End& e = strip.ends[i];
     if (e.exposed_area <= 0.0) continue;
     const waves::Kinematics k = water.at(e.arm);
     const double disc = pi * e.radius * e.radius;
-    const double added = waves::added_mass_end(density, c.axial_added_mass, e.radius) * e.exposed_area / disc;
-    add_at(loads.drag, waves::drag_end(density, c.axial_drag, e.exposed_area, k.velocity - body.velocity_at(e.arm), strip.axis),
-           e.arm);
+    const double added = waves::added_mass_end(density, c.axial_added_mass[i], e.radius) * e.exposed_area / disc;
+    add_at(loads.drag,
+           waves::drag_end(density, c.axial_drag[i], e.exposed_area, k.velocity - body.velocity_at(e.arm), strip.axis), e.arm);
     add_at(loads.inertia, added * along * (k.acceleration - body.centripetal_at(e.arm)), e.arm);
     if (mass) waves::add_point_inertia(added * along, e.arm, *mass);
   }

@@ -19,7 +19,11 @@ const Section<CoefficientsOptions>& coefficients_section() {
           .number("axial_drag_coefficient", &CoefficientsOptions::axial_drag_coefficient, "-", "Drag of the exposed ends.",
                   scene::between(0.0, 100.0))
           .number("axial_added_mass_coefficient", &CoefficientsOptions::axial_added_mass_coefficient, "-",
-                  "Added mass of the exposed ends.", scene::between(0.0, 100.0));
+                  "Added mass of the exposed ends.", scene::between(0.0, 100.0))
+          .number("end_axial_drag_coefficient", &CoefficientsOptions::end_axial_drag_coefficient, "-",
+                  "Drag at end_m, where it differs from that at start_m.", scene::between(0.0, 100.0))
+          .number("end_axial_added_mass_coefficient", &CoefficientsOptions::end_axial_added_mass_coefficient, "-",
+                  "Added mass at end_m, where it differs from that at start_m.", scene::between(0.0, 100.0));
   return section;
 }
 

@@ -34,6 +34,7 @@ struct WavesOptions {
 struct CoefficientsOptions {
   std::string cylinder;
   std::optional<double> drag_coefficient, added_mass_coefficient, axial_drag_coefficient, axial_added_mass_coefficient;
+  std::optional<double> end_axial_drag_coefficient, end_axial_added_mass_coefficient;  ///< those of both ends where absent
 };
 
 /// [[sea.damping]]: linear damping of one body in its own axes, e.g. radiation damping or one fitted to decay tests.

@@ -13,7 +13,8 @@
 namespace spindrift::sea {
 
 struct Coefficients {
-  double drag, added_mass, axial_drag, axial_added_mass;
+  double drag, added_mass;                             ///< across
+  std::array<double, 2> axial_drag, axial_added_mass;  ///< of start and end
 };
 
 /// A slice of a cylinder, body axes from the centre of mass. An end that continues in another strip or member has exposed area 0.

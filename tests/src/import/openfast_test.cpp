@@ -147,7 +147,7 @@ TEST_CASE("the deck's platform, rotor, water, lines and waves are the scene's", 
   CHECK(s.wind.shear_exponent == 0.1);
   CHECK(s.sea.model == "potential");
   CHECK(s.sea.drag_coefficient == 0.7);
-  CHECK(s.sea.axial_drag_coefficient == 0.5);
+  CHECK(s.sea.axial_drag_coefficient == 0.25);  // AxCd counts a quarter of density times area, ours a half
   CHECK(s.sea.matrices.at(0).stiffness.at(5)[5] == 5e7);
   CHECK(s.sea.matrices.at(0).damping.at(2)[2] == 2e4);
   CHECK(body.cylinders.at(1).end_diameter_m.value() == 6.0);
@@ -158,6 +158,84 @@ TEST_CASE("the deck's platform, rotor, water, lines and waves are the scene's", 
   CHECK(line.weight_N_m == Approx(9.80665 * (100.0 - 1025.0 * 0.25 * pi * 0.01)));
   CHECK(line.anchor_m.x() == Approx(500.0 * std::cos(120.0 * radians_per_degree)));
   CHECK(line.anchor_m.z() == -200.0);
+}
+
+TEST_CASE("members have the coefficients that the deck gives them, and the ballast in them has mass", "[import][fast]") {
+  SmallDeck deck;
+  const double empty = deck.scenario().bodies[0].options.mass_kg;
+  deck.replace("hd.dat", "1 NAxCoef", "2 NAxCoef");
+  deck.replace("hd.dat", "1 0.5 0 1\n", "1 0.5 0 1\n2 9.6 0 1\n");
+  deck.replace("hd.dat", "1 0 0 -80 1 0", "1 0 0 -80 2 0");
+  deck.replace("hd.dat", "1 1 2 1 1 4 1", "1 1 2 1 1 4 3");
+  deck.replace("hd.dat", "2 2 3 1 2 4 1", "2 2 3 1 2 4 2");
+  deck.replace(
+      "hd.dat", "2 NMembers",
+      "2 NCoefDpth\nDpth DpthCd DpthCdMG DpthCa\n(m) (-) (-) (-)\n0 0.4 0 1\n10 0.8 0 1\n"
+      "1 NCoefMembers\nMemberID MemberCd1 MemberCd2 MemberCa1 MemberCa2\n(-) (-) (-) (-) (-)\n1 0.6 0.6 0.8 0.8\n2 NMembers");
+  deck.files["hd.dat"] += "1 NFillGroups\nFillNumM FillMList FillFSLoc FillDens\n(-) (-) (m) (kg/m^3)\n1 1 -70 2000\n";
+  const coupling::Scenario s = deck.scenario();
+  CHECK(s.sea.drag_coefficient == 0.6);
+  CHECK(s.sea.axial_drag_coefficient == 4.8);
+  REQUIRE(s.sea.coefficients.size() == 2);
+  CHECK(s.sea.coefficients[0].end_axial_drag_coefficient.value() == 0.25);
+  CHECK(s.sea.coefficients[1].drag_coefficient.value() == Approx(0.5));  // 0.6 at 5 m of depth, 0.4 in the air
+  const double ballast = 2000.0 * pi * 3.99 * 3.99 * 10.0;
+  const bodies::BodyOptions& body = s.bodies[0].options;
+  CHECK(body.mass_kg - empty == Approx(ballast));
+  const bodies::BodyOptions light = SmallDeck().scenario().bodies[0].options;
+  CHECK(body.centre_m.z() == Approx((empty * light.centre_m.z() - 75.0 * ballast) / (empty + ballast)));
+}
+
+TEST_CASE("what stands in the bed or on a structure of SubDyn is fixed, and feels no water below the bed", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("main.fst", "0 CompSub", "1 CompSub");
+  deck.replace("main.fst", "200 WtrDpth", "60 WtrDpth");
+  deck.replace("hd.dat", "1 PotMod", "0 PotMod");
+  const coupling::Scenario s = deck.scenario();
+  REQUIRE(s.joints.size() == 1);
+  CHECK(s.bodies[0].options.cylinders.at(0).start_m.z() == -60.0);
+}
+
+TEST_CASE("yaw, current, phase and a constant force of the deck are the scene's", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("ed.dat", "10 RotSpeed", "10 RotSpeed\n30 NacYaw");
+  deck.replace("sea.dat", "1 WaveMod", "1P40 WaveMod");
+  deck.replace("sea.dat", "0 CurrMod", "1 CurrMod\n0 CurrSSV0\n0 CurrNSV0\n2 CurrDIV\n90 CurrDIDir");
+  deck.replace("hd.dat", "0 AddF0", "1e5 AddF0");
+  deck.replace("hd.dat", "1 WAMITULEN", "1 WAMITULEN\n-12 PtfmRefzt");
+  const coupling::Scenario s = deck.scenario();
+  const double yaw = 30.0 * radians_per_degree;
+  CHECK(s.rotor.axis.y() == Approx(std::sin(yaw) * std::cos(6.0 * radians_per_degree)));
+  CHECK(s.rotor.hub_m.y() == Approx(-4.0 * s.rotor.axis.y()));
+  CHECK(s.waves.phase == Approx(-40.0 * radians_per_degree));  // HydroDyn's runs with time, the scene's with x
+  CHECK(s.sea.current_m_s.y() == Approx(2.0));
+  CHECK(s.sea.potential->point_m.z() == -12.0);
+  CHECK(s.sea.matrices.at(0).point_m.z() == -12.0);
+  REQUIRE(s.bodies[0].options.forces.size() == 1);
+  CHECK(s.bodies[0].options.forces[0].force_N.x() == 1e5);
+}
+
+TEST_CASE("blades of BeamDyn have their own masses, and the generator's inertia is the shaft's alone", "[import][fast]") {
+  SmallDeck deck;
+  const bodies::BodyOptions light = deck.scenario().bodies[0].options;
+  deck.replace("ed.dat", "100 GenIner", "1e6 GenIner");
+  CHECK(deck.scenario().bodies[0].options.inertia_kg_m2 == light.inertia_kg_m2);
+  deck.replace("main.fst", "1 CompElast",
+               "2 CompElast\n\"bd.dat\" BDBldFile(1)\n\"bd.dat\" BDBldFile(2)\n\"bd.dat\" BDBldFile(3)");
+  deck.replace("ed.dat", "\"blade.dat\" BldFile(1)", "\"unused\" BldFile(1)");
+  deck.files["bd.dat"] = "---\n\"bdblade.dat\" BldFile - properties\n";
+  std::string stations = "--- BLADE\n2 station_total\n---- DISTRIBUTED PROPERTIES ----\n";
+  for (const auto& [share, mass] : {std::pair{"0", "400"}, std::pair{"1", "200"}}) {
+    stations += std::string(share) + "\n";
+    for (int row = 0; row < 6; ++row) stations += "1e9 0 0 0 0 0\n";
+    stations += std::string("\n") + mass + " 0 0 0 0 0\n";
+    for (int row = 1; row < 6; ++row) stations += "0 0 0 0 0 0\n";
+    stations += "\n";
+  }
+  deck.files["bdblade.dat"] = stations;
+  CHECK(deck.scenario().bodies[0].options.mass_kg - light.mass_kg == Approx(3.0 * 38.0 * 100.0));
+  deck.replace("bdblade.dat", "2 station_total", "3 station_total");
+  CHECK(deck.refusal().find("bdblade.dat") != std::string::npos);
 }
 
 TEST_CASE("an imported scene is a machine that stands and moves", "[import][fast]") {
@@ -313,6 +391,11 @@ TEST_CASE("a deck with something wrong is refused by file and line", "[import][f
       {"hd.dat", "1 NBody", "2 NBody", "hd.dat:5"},
       {"hd.dat", "1 1 2 1 1 4", "1 1 7 1 1 4", "joint 7"},
       {"hd.dat", "1 1 2 1 1 4", "1 1 2 1 5 4", "property set 5"},
+      {"hd.dat", "1 0 0 -80 1 0", "1 0 0 -80 4 0", "axial coefficients 4"},
+      {"hd.dat", "1 1 2 1 1 4 1", "1 1 2 1 1 4 3", "member 1"},
+      {"hd.dat", "1 1 2 1 1 4 1", "1 1 2 1 1 4 2", "no table over depth"},
+      {"main.fst", "0 CompSub", "0 CompSub\n2 MHK", "main.fst:13"},
+      {"main.fst", "1 CompElast", "3 CompElast", "main.fst:6"},
       {"hd.dat", "wamit/spar", "wamit/none", "none.1"},
       {"map.dat", "1 chain 540 1 2", "1 rope 540 1 2", "map.dat:13"},
       {"map.dat", "1 chain 540 1 2", "1 chain 540 1 9", "node 9"},

@@ -184,7 +184,7 @@ TEST_CASE("a joint between members is no end, and coefficients may differ by mem
   SeaOptions options = model("morison");
   const double keel = 0.64 * 1025.0 * 2.0 / 3.0 * pi * 27.0;
   CHECK(added_mass(EngineeringSea(options, {}, tank, {body}), at(0, 0, 0))(2, 2) == Approx(keel));
-  options.coefficients.push_back({"lower", 0.0, 2.0, {}, {}});
+  options.coefficients.push_back({"lower", 0.0, 2.0, {}, {}, {}, {}});
   const EngineeringSea sea(options, {}, tank, {body});
   CHECK(added_mass(sea, at(0, 0, 0))(0, 0) == Approx(1025.0 * pi * 9.0 * (2.0 * 12.0 + 8.0)));
   Motion m = at(0, 0, 0);
@@ -199,6 +199,27 @@ TEST_CASE("a joint between members is no end, and coefficients may differ by mem
   Motion sinking = at(0, 0, 0);
   sinking.velocity = {0, 0, -1};
   CHECK(parts(EngineeringSea(options, {}, tank, {body}), sinking).drag.force.z() == Approx(0.5 * 1025.0 * pi * (16.0 + 7.0)));
+}
+
+TEST_CASE("the two ends of a member may differ in drag and added mass", "[sea][fast]") {
+  // Deep under water, so that both ends are wet.
+  const SeaBody body{"pontoon", {}, {{"member", {{-5, 0, -20}, {5, 0, -20}, 2.0, 2.0}}}};
+  SeaOptions options = model("morison");
+  options.drag_coefficient = options.added_mass_coefficient = 0.0;
+  options.axial_drag_coefficient = options.axial_added_mass_coefficient = 0.0;
+  CoefficientsOptions own{"member", {}, {}, 3.0, 1.0, 0.0, 0.5};
+  Motion m = at(0, 0, 0);
+  m.velocity = {1, 0, 0};
+  const double disc = pi * 4.0, hemisphere = 2.0 / 3.0 * pi * 8.0;
+  for (const double length : {5.0, 100.0}) {  // several strips, and one that has both ends
+    options.strip_length_m = length;
+    options.coefficients = {own};
+    const EngineeringSea sea(options, {}, tank, {body});
+    CHECK(parts(sea, m).drag.force.x() == Approx(-0.5 * 1025.0 * 3.0 * disc));
+    CHECK(added_mass(sea, m)(0, 0) == Approx(1025.0 * hemisphere * 1.5));
+    options.coefficients[0].end_axial_drag_coefficient.reset();
+    CHECK(parts(EngineeringSea(options, {}, tank, {body}), m).drag.force.x() == Approx(-1025.0 * 3.0 * disc));
+  }
 }
 
 TEST_CASE("a spinning body feels the centripetal part of the relative acceleration", "[sea][fast]") {
