@@ -106,6 +106,12 @@ template <class Real>
 SPINDRIFT_INLINE Primitive<Real> no_slip_ghost(const Primitive<Real>& inside, const Vector<Real>& wall) {
   return {inside.p, 2.0 * wall.x - inside.u, 2.0 * wall.y - inside.v, 2.0 * wall.z - inside.w, inside.T};
 }
+/// Temperature of the ghost cell behind a wall that is held at `wall` [K, absolute]: the wall's is the mean of inside and ghost.
+/// At least a tenth of the wall's.
+template <class Real>
+SPINDRIFT_INLINE Real isothermal_ghost(const IdealGas& gas, const Real& inside, double wall) {
+  return max((2.0 * (wall - gas.temperature_reference)) - inside, 0.1 * wall - gas.temperature_reference);
+}
 /// Ghost cell behind a face of known state: linear through the face. Bounded below at a tenth of the absolute face values.
 template <class Real>
 SPINDRIFT_INLINE Primitive<Real> ghost_of_face(const IdealGas& gas, const Primitive<Real>& inside, const Primitive<Real>& face) {

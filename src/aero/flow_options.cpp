@@ -23,7 +23,7 @@ const scene::Section<PatchOptions>& patch_section() {
           .required()
           .choice("condition", &PatchOptions::condition,
                   {{"far_field", Condition::far_field, "characteristic: the undisturbed wind outside"},
-                   {"no_slip", Condition::no_slip, "adiabatic wall"},
+                   {"no_slip", Condition::no_slip, "wall; adiabatic where it has no temperature_K"},
                    {"wall_function", Condition::wall_law,
                     "adiabatic wall on a grid whose first cells stand in the logarithmic layer: friction by the law of the wall"},
                    {"slip", Condition::slip, "wall without friction"},
@@ -33,6 +33,9 @@ const scene::Section<PatchOptions>& patch_section() {
                     "stagnation pressure and temperature of the wind and its direction given, speed from inside"},
                    {"outflow", Condition::outflow_pressure, "pressure given, all else from inside"}},
                   "Boundary condition.")
+          .number("temperature_K", &PatchOptions::temperature_K, "K", "Temperature that the wall is held at. Default: adiabatic.",
+                  scene::between(50.0, 2000.0))
+          .only_if("condition", {"no_slip"})
           .flag("loads", &PatchOptions::loads, "Whether the force on it (of a wall) is summed into the flow's columns.");
   return section;
 }
@@ -74,6 +77,16 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"poisson", "from Poisson's equation (Spalding): smooth, larger than the exact one where walls are convex"}},
                   "Distance from walls that the turbulence model sees.")
           .only_if("turbulence", closures().with("wall_distance"))
+          .number("wind_eddy_viscosity", &FlowOptions::wind_eddy_viscosity, "-",
+                  "Eddy viscosity of the undisturbed air over its laminar one. Default by closure: 0.21 of Spalart-Allmaras "
+                  "(nu tilde three times nu), 0.009 of two equations.",
+                  above(0.0).up_to(1e6))
+          .only_if("turbulence", closures().with("wind_eddy_viscosity"))
+          .number("wind_intensity", &FlowOptions::wind_intensity, "-",
+                  "Intensity of the modelled turbulence of the undisturbed air: root mean square of a component over the wind's "
+                  "speed. Default: k of 9e-9 times the sound speed squared.",
+                  above(0.0).up_to(1.0))
+          .only_if("turbulence", closures().with("wind_intensity"))
           .choice("flux", &FlowOptions::flux,
                   {{"roe_low_mach", "Roe with Rieper's scaling: accurate at any Mach number below one and above"},
                    {"roe", "Roe"},
@@ -247,6 +260,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.viscous = o.viscous != "none";
   s.thin_layer = o.viscous == "thin_layer";
   s.turbulence = s.viscous ? o.turbulence : "none";
+  s.wind_eddy_viscosity = o.wind_eddy_viscosity, s.wind_intensity = o.wind_intensity;
   s.preconditioned = o.low_mach;
   s.physical_far_field = o.physical_far_field;
   s.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
@@ -294,7 +308,7 @@ std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const T
             .message = fmt::format("the grid has no patch \"{}\"; it has: {}", b.patch, fmt::join(tiling.patches, ", "))}});
     if (given[std::size_t(patch)]++ > 0)
       throw scene::SceneError({{.key = "aero.flow.boundaries", .message = fmt::format("patch \"{}\" is given twice", b.patch)}});
-    conditions[std::size_t(patch)] = {b.condition, b.loads && is_closed(b.condition)};
+    conditions[std::size_t(patch)] = {b.condition, b.loads && is_closed(b.condition), b.temperature_K};
   }
   for (std::size_t p = 0; p < given.size(); ++p)
     if (given[p] == 0)

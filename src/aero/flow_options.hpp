@@ -29,7 +29,8 @@ struct PatchCondition;
 struct PatchOptions {
   std::string patch;
   Condition condition = Condition::far_field;
-  bool loads = true;  ///< of walls
+  bool loads = true;                    ///< of walls
+  std::optional<double> temperature_K;  ///< of a no-slip wall; unset: adiabatic
 };
 
 /// Pseudo-steps on each coarser grid of a grid that is no rotor's, where the scene does not say.
@@ -46,6 +47,7 @@ struct FlowOptions {
   std::string viscous = "full", turbulence = "sa";
   std::string flux = "roe_low_mach", limiter = "none";
   double upwinding = 1.0;
+  std::optional<double> wind_eddy_viscosity, wind_intensity;  ///< of the undisturbed air; unset: the closure's own
   bool first_order_turbulence = false;
   Condition blades = Condition::no_slip;  ///< of a resolved rotor in viscous air, where no boundary names them
   std::string start = "wind";

@@ -28,9 +28,9 @@ FlowOptions with_default_patches(FlowOptions o, const Tiling& tiling) {
   for (const std::string& patch : tiling.patches) {
     if (std::ranges::any_of(o.boundaries, [&](const PatchOptions& b) { return b.patch == patch; })) continue;
     if (patch.starts_with("blade_"))
-      o.boundaries.push_back({patch, o.viscous == "none" ? Condition::slip : o.blades, true});
+      o.boundaries.push_back({patch, o.viscous == "none" ? Condition::slip : o.blades, true, {}});
     else
-      o.boundaries.push_back({patch, patch == "hub" ? Condition::slip : Condition::far_field, false});
+      o.boundaries.push_back({patch, patch == "hub" ? Condition::slip : Condition::far_field, false, {}});
   }
   return o;
 }

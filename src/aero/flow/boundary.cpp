@@ -18,8 +18,11 @@ gas::Primitive<double> ghost_state(const FlowBoundary& boundary, const gas::Prim
                                    const BoundarySetting& s) {
   switch (boundary.condition) {
     case Condition::wall_law:
-    case Condition::no_slip:
-      return gas::no_slip_ghost(inside, wall);
+    case Condition::no_slip: {
+      gas::Primitive<double> ghost = gas::no_slip_ghost(inside, wall);
+      if (boundary.temperature) ghost.T = gas::isothermal_ghost(s.gas, inside.T, *boundary.temperature);
+      return ghost;
+    }
     case Condition::slip:
     case Condition::symmetry:
       return gas::mirrored(inside, f);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kernels/turbulence/model_sa.hpp"
 #include "runtime/mpi/exchange.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
@@ -41,6 +42,26 @@ double noise_of(const FlowTile& tile, const FlowSetting& s) {
     }
   });
   return sum;
+}
+
+/// nu tilde over nu of Spalart and Allmaras where nu_t / nu = chi fv1(chi) is given: Newton from above, where that is convex.
+double chi_of(double eddy_viscosity) {
+  constexpr double cv1 = turbulence::SaConstants::cv1, cube = cv1 * cv1 * cv1;
+  double chi = eddy_viscosity + std::pow(eddy_viscosity * cube, 0.25);
+  for (int n = 0; n < 50; ++n) {
+    const double c3 = chi * chi * chi, value = c3 * (chi - eddy_viscosity) - eddy_viscosity * cube;
+    chi -= value / (c3 + 3.0 * chi * chi * (chi - eddy_viscosity));
+  }
+  return chi;
+}
+
+/// What turbulence carries in the undisturbed flow, the closure's own values but for what the setting gives.
+std::array<double, 2> turbulence_of_wind(const FlowSetting& s, int equations, double nu, std::array<double, 2> usual) {
+  if (equations == 1) return {s.wind_eddy_viscosity ? nu * chi_of(*s.wind_eddy_viscosity) : usual[0], 0.0};
+  if (!s.wind_eddy_viscosity && !s.wind_intensity) return usual;
+  const double eddy = s.wind_eddy_viscosity ? nu * *s.wind_eddy_viscosity : usual[0] / usual[1];
+  const double k = s.wind_intensity ? 3.0 * *s.wind_intensity * *s.wind_intensity * gas::kinetic(s.stream) : usual[0];
+  return {k, k / eddy};
 }
 
 }  // namespace
@@ -96,7 +117,8 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     throw std::invalid_argument("flow: " + setting.turbulence + " resolves eddies: the grid must have three dimensions");
   if (model_->equations > 0) {
     const double nu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, setting.stream)) / rho;
-    boundary_.carried = model_->far_field(nu, setting.speed, gas::sound_speed(setting.gas, setting.stream));
+    boundary_.carried = turbulence_of_wind(setting, model_->equations, nu,
+                                           model_->far_field(nu, setting.speed, gas::sound_speed(setting.gas, setting.stream)));
     boundary_.wall_carried = model_->wall;
     // SA: nu tilde of a boundary layer. SST: k, and the omega that goes with both.
     const double eddy = 100.0 * nu, k = 1e-2 * setting.speed * setting.speed;
@@ -142,8 +164,10 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
       const bool law = c.condition == Condition::wall_law;
       if (law && model_->equations == 0)
         throw std::invalid_argument("flow: the law of the wall goes with models that transport turbulence");
+      if (c.temperature && c.condition != Condition::no_slip)
+        throw std::invalid_argument("flow: only walls resolved to the wall can be held at a temperature");
       if (law) t.wall_law = &model_->wall_law();
-      t.boundaries.push_back({where, law ? Condition::no_slip : c.condition, c.loads, law});
+      t.boundaries.push_back({where, law ? Condition::no_slip : c.condition, c.loads, law, c.temperature});
     }
     const int unknowns = t.unknowns();
     t.state = AlignedArray<double>(t.cells.size(unknowns));

@@ -31,7 +31,8 @@ namespace spindrift::aero {
 /// What acts on a patch of the grid.
 struct PatchCondition {
   Condition condition = Condition::far_field;
-  bool loads = false;  ///< its force is summed and reported
+  bool loads = false;                      ///< its force is summed and reported
+  std::optional<double> temperature = {};  ///< that a no-slip wall is held at [K]; unset: adiabatic
 };
 
 /// All that a scene may choose, in SI units; from FlowOptions or written by a test.
@@ -43,7 +44,9 @@ struct FlowSetting {
   std::string flux = "roe_low_mach", limiter = "none", turbulence = "none";
   bool first_order_model =
       false;  ///< turbulence is carried by first-order upwind differences, as in CFL3D and FUN3D; else second order, limited
-  double upwinding = 1.0;  ///< share of the jump between reconstructed states that the flux sees
+  std::optional<double> wind_eddy_viscosity;  ///< of the undisturbed flow over its laminar one; unset: the closure's
+  std::optional<double> wind_intensity;       ///< of its turbulence, of two equations: k = 3/2 (intensity times wind)^2
+  double upwinding = 1.0;                     ///< share of the jump between reconstructed states that the flux sees
   bool viscous = false, thin_layer = false;
   double smooth = 0.0;  ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
   bool preconditioned = true;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "kernels/grid/layout.hpp"
@@ -40,8 +41,9 @@ inline bool is_wall(Condition c) { return is_closed(c) || c == Condition::symmet
 struct FlowBoundary {
   TileBoundary where;
   Condition condition = Condition::far_field;
-  bool loads = false;  ///< counts towards forces
-  bool law = false;    ///< a no-slip wall whose friction follows from the law of the wall
+  bool loads = false;                      ///< counts towards forces
+  bool law = false;                        ///< a no-slip wall whose friction follows from the law of the wall
+  std::optional<double> temperature = {};  ///< that a no-slip wall is held at [K]; unset: adiabatic
 };
 
 struct FlowTile {

@@ -5,8 +5,8 @@
 
 namespace spindrift::aero {
 
-extern const Closure sa_closure{"sa", "Spalart-Allmaras", {"wall_distance"}, SweepsOf<turbulence::Sa>::table()};
-extern const Closure sa_neg_closure{
-    "sa_neg", "Spalart-Allmaras, negative variant", {"wall_distance"}, SweepsOf<turbulence::SaNeg>::table()};
+extern const Closure sa_closure{"sa", "Spalart-Allmaras", one_equation_keys(), SweepsOf<turbulence::Sa>::table()};
+extern const Closure sa_neg_closure{"sa_neg", "Spalart-Allmaras, negative variant", one_equation_keys(),
+                                    SweepsOf<turbulence::SaNeg>::table()};
 
 }  // namespace spindrift::aero

@@ -5,10 +5,11 @@
 
 namespace spindrift::aero {
 
-extern const Closure sst_1994_closure{"sst_1994", "k-omega SST 1994", {"wall_distance"}, SweepsOf<turbulence::Sst1994>::table()};
-extern const Closure sst_v_closure{
-    "sst_v", "SST 1994, production by vorticity", {"wall_distance"}, SweepsOf<turbulence::SstV>::table()};
-extern const Closure sst_vm_closure{
-    "sst_vm", "SST 1994, production by vorticity, without 2/3 k", {"wall_distance"}, SweepsOf<turbulence::SstVm>::table()};
+extern const Closure sst_1994_closure{"sst_1994", "k-omega SST 1994", two_equation_keys(),
+                                      SweepsOf<turbulence::Sst1994>::table()};
+extern const Closure sst_v_closure{"sst_v", "SST 1994, production by vorticity", two_equation_keys(),
+                                   SweepsOf<turbulence::SstV>::table()};
+extern const Closure sst_vm_closure{"sst_vm", "SST 1994, production by vorticity, without 2/3 k", two_equation_keys(),
+                                    SweepsOf<turbulence::SstVm>::table()};
 
 }  // namespace spindrift::aero

@@ -141,7 +141,7 @@ void fold_boundaries(FlowTile& tile, const Entries& entries, const std::array<do
         for (int r = 0; r < 5; ++r) diagonal[to * 5 + r] += factor * beyond[from * 5 + r];
       };
       if (is_wall(boundary.condition)) {
-        add_column(0, 1.0f, 0), add_column(4, 1.0f, 4);
+        add_column(0, 1.0f, 0), add_column(4, boundary.temperature ? -1.0f : 1.0f, 4);
         for (int c = 0; c < 3; ++c) {
           if (boundary.condition == Condition::no_slip) add_column(c + 1, -1.0f, c + 1);
           if (boundary.condition != Condition::no_slip)

@@ -314,4 +314,8 @@ struct SweepsOf : ClosuresOf<Model> {
   }
 };
 
+/// Keys of a closure that transports one quantity, and of one that transports k too.
+inline std::vector<std::string> one_equation_keys() { return {"wall_distance", "wind_eddy_viscosity"}; }
+inline std::vector<std::string> two_equation_keys() { return {"wall_distance", "wind_eddy_viscosity", "wind_intensity"}; }
+
 }  // namespace spindrift::aero

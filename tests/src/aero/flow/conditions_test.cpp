@@ -1,0 +1,93 @@
+// What a scene may give at the sides of the air: temperatures of walls and the turbulence of the wind.
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "kernels/turbulence/model_sa.hpp"
+#include "tests/src/aero/flow/flows.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using namespace spindrift::aero::testing;
+
+namespace {
+
+/// A cell's value of an unknown.
+double value(const FlowTile& tile, int unknown, int j = 0) {
+  return tile.state.data()[unknown * tile.cells.component + tile.cells.at(0, j, 0)];
+}
+
+/// A march of wind through a box from a state in which turbulence is still the wind's; what it carries in the end.
+std::array<double, 2> carried(const std::string& closure, std::optional<double> eddy, std::optional<double> intensity) {
+  FlowSetting s = air(0.1);
+  s.viscous = true, s.turbulence = closure, s.wind_eddy_viscosity = eddy, s.wind_intensity = intensity;
+  s.march.max_steps = 3;
+  const BoxOptions box{.ni = 8, .nj = 8, .nk = 8};
+  const PatchCondition open{Condition::far_field, false};
+  Case c(cartesian_box(box), s,
+         {{"i_min", open}, {"i_max", open}, {"j_min", open}, {"j_max", open}, {"k_min", open}, {"k_max", open}});
+  c.prepare();
+  c.run();
+  const FlowTile& tile = c.solver->tiles().front();
+  return {value(tile, mean_unknowns), tile.turbulence > 1 ? value(tile, mean_unknowns + 1) : 0.0};
+}
+
+}  // namespace
+
+TEST_CASE("air at rest between walls held at two temperatures conducts heat by Fourier's law", "[flow][fast]") {
+  constexpr int cells = 16;
+  const double low = 258.15, high = 318.15;
+  FlowSetting s = air(0.01);
+  s.stream = {};
+  s.viscous = true, s.preconditioned = false;
+  s.gas.viscosity.mu0 = 0.1;
+  s.march.drop = 1e-8, s.march.max_steps = 200;
+  const BoxOptions box{.ni = 4, .nj = cells, .periodic = {true, false, false}};
+  Case c(planar_box(box), s,
+         {{"j_min", {.condition = Condition::no_slip, .temperature = low}},
+          {"j_max", {.condition = Condition::no_slip, .temperature = high}}});
+  c.prepare();
+  c.run();
+  CHECK(c.solver->march().verdict() == Verdict::converged);
+  // The flux, conductivity times slope, is the same at every height, so the integral of viscosity over temperature is linear.
+  const auto integral = [&](double T) {
+    double sum = 0.0;
+    constexpr int parts = 200;
+    for (int n = 0; n < parts; ++n) sum += gas::viscosity(s.gas, low + (n + 0.5) / parts * (T - low)) * (T - low) / parts;
+    return sum;
+  };
+  double largest = 0.0, fastest = 0.0;
+  for (const FlowTile& tile : c.solver->tiles()) {
+    const TileGeometry& g = *tile.geometry;
+    for_rows(tile.box, [&](int k, int j) {
+      for (int i = 0; i < tile.box.ni; ++i) {
+        const std::ptrdiff_t at = tile.cells.at(k, j, i);
+        const double z = g.centre_data.data()[g.cell_box.at(k, j, i) + 2 * g.cell_box.component];
+        const double T = s.gas.temperature_reference + tile.state.data()[at + 4 * tile.cells.component];
+        largest = std::max(largest, std::abs(integral(T) / integral(high) - z));
+        fastest = std::max(fastest, std::abs(tile.state.data()[at + 3 * tile.cells.component]));
+      }
+    });
+  }
+  CHECK(largest < 1e-3);
+  CHECK(fastest < 1e-3);
+}
+
+TEST_CASE("the wind's eddy viscosity and intensity are what its turbulence carries", "[flow][fast]") {
+  const FlowSetting s = air(0.1);
+  const double nu = gas::viscosity(s.gas, s.gas.temperature_reference) / gas::density(s.gas, s.stream);
+  for (const double ratio : {0.01, 0.21, 10.0, 1000.0}) {
+    const double chi = carried("sa", ratio, {})[0] / nu;
+    CHECK(chi * turbulence::SaConstants::fv1(chi) == Approx(ratio).epsilon(1e-6));
+  }
+  const double k = 1.5 * 0.01 * 0.01 * s.speed * s.speed;
+  const auto both = carried("sst", 10.0, 0.01);
+  CHECK(both[0] == Approx(k).epsilon(0.02));  // what decays on the way through the box
+  CHECK(both[0] / both[1] == Approx(10.0 * nu).epsilon(0.02));
+}
+
+TEST_CASE("a wall with a wall function, or no wall, is not held at a temperature", "[flow][fast]") {
+  const BoxOptions box{.ni = 8, .nj = 8, .nk = 8};
+  const PatchCondition warm{.condition = Condition::slip, .temperature = 300.0};
+  CHECK_THROWS_AS(Case(cartesian_box(box), air(0.1), {{"i_min", warm}}), std::invalid_argument);
+}
