@@ -3,7 +3,7 @@ _spindrift() {
   local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]:-} before=${COMP_WORDS[COMP_CWORD-1]}
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=($(compgen -W "run check grid study reference report profile replay picture film help --help --version" -- "$word"))
+    COMPREPLY=($(compgen -W "run check grid study import reference report profile replay picture film help --help --version" -- "$word"))
     return
   fi
   case $before in
@@ -17,9 +17,10 @@ _spindrift() {
   fi
   case $command in
     run | check | grid | study | profile) COMPREPLY=($(compgen -f -X '!*.toml' -- "$word") $(compgen -d -- "$word")) ;;
+    import) COMPREPLY=($(compgen -f -X '!*.fst' -- "$word") $(compgen -d -- "$word")) ;;
     report | picture | film) COMPREPLY=($(compgen -d -- "$word")) ;;
     replay) COMPREPLY=($(compgen -f -X '!*.jsonl' -- "$word") $(compgen -d -- "$word")) ;;
-    help) COMPREPLY=($(compgen -W "run check grid study reference report profile replay picture film" -- "$word")) ;;
+    help) COMPREPLY=($(compgen -W "run check grid study import reference report profile replay picture film" -- "$word")) ;;
   esac
 }
 complete -o filenames -F _spindrift spindrift

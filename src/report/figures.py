@@ -170,7 +170,7 @@ def _draw(runs, panels):
             x, y = envelope(time, values * factor)
             marker = {"marker": "o", "markersize": 3} if len(x) == 1 else {}
             axis.plot(x, y, **_style(lines, r, i), **marker)
-            if several:
+            if several and legend:
                 legend_entries[legend] = i
         _limits(axis, [v * factor for *_, v in drawn])
         axis.set_ylabel(f"{label} [{unit}]" if unit and label != unit else label)

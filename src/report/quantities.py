@@ -65,7 +65,7 @@ def _triple(names, prefix, quantities, labels=None):
 
 
 def bodies_of(names):
-    return list(dict.fromkeys(n.rpartition(".")[0] for n in names if re.search(r"\.(x|y|z)_m$|\.(roll|pitch|yaw)_deg$", n)))
+    return list(dict.fromkeys(n.rpartition(".")[0] for n in names if re.search(r"(?<!\.blade_.)\.((x|y|z)_m|(roll|pitch|yaw)_deg)$", n)))
 
 
 def groups(names):
@@ -103,6 +103,10 @@ def groups(names):
     for rotor in rotors:
         add("rotor", f"{rotor}: loads and speed", "Thrust along the shaft, torque and power of the rotor, its azimuth and speed.",
             _triple(names, rotor, ("thrust", "torque", "power", "azimuth", "rpm")))
+        pitches = [(n.split(".")[-2].replace("_", " "), n) for n in names if re.fullmatch(re.escape(rotor) + r"\.blade_\d+\.pitch_deg", n)]
+        pitches += [("asked", n) for n in names if n == f"{rotor}.asked_pitch_deg"]
+        add("rotor", f"{rotor}: control", "Pitch of the blades and what the controller asks for; the generator.", ([("pitch", pitches)] if pitches else []) +
+            _triple(names, rotor, ("generator_torque", "electrical_power"), {"generator_torque": "torque", "electrical_power": "power"}))
 
     tensions = [(n.rpartition(".")[0], n) for n in names if n.endswith(".tension_N")]
     add("moorings", "Mooring tensions", "Tension of each line at its fairlead.", [("tension", tensions)] if tensions else [])

@@ -253,7 +253,8 @@ class Drawing:
     def _wake(self, blocks, time):
         hub, frame = self.scene.hub(time), self.scene.rotor_frame(time)
         tip = self.scene.blades.tip if self.scene.blades else 0.75 * abs(hub[2])
-        copies = self.scene.blades.count if self.scene.blades and (self.run.scene["aero"].get("grid") or {}).get("sectors") == "one" else 1
+        count = self.scene.blades.count if self.scene.blades else 3   # as geometry.py draws them without a turbine file
+        copies = count if (self.run.scene["aero"].get("grid") or {}).get("sectors") == "one" else 1
         cells = sum(block["velocity"][..., 0].size for block in blocks)
         slow, axial_at, cores, axial_of = [], [], [], []
         for block in blocks:

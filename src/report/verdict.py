@@ -41,6 +41,11 @@ def _value(table, *keys):
     return table
 
 
+def _stands(run):
+    joints = (run.scene.get("joints") or {}).values()
+    return any(joint.get("type") == "fixed" and "earth" in joint.get("bodies", []) for joint in joints)
+
+
 def what_ran(run):
     """One sentence: the kind of scene, its models, how long."""
     scene = run.scene
@@ -48,7 +53,7 @@ def what_ran(run):
     air = {"blade_resolved": "a blade-resolved rotor", "bem": "blade element momentum", "prescribed": "prescribed rotor loads",
            "thrust_curve": "a thrust curve"}.get(_value(scene, "aero", "model"))
     wave = _value(scene, "waves", "height_m")
-    named = {"floating turbine": "A floating turbine", "rotor": "A rotor", "flow": "A flow round walls" if _walls(run) else "A flow",
+    named = {"floating turbine": "A turbine on its foundation" if _stands(run) else "A floating turbine", "rotor": "A rotor", "flow": "A flow round walls" if _walls(run) else "A flow",
              "bodies": "Bodies", "tank": "A tank of water", "run": "A run"}[kind(run)]
     parts = [p for p in ((air if kind(run) == "floating turbine" else None), sea) if p]
     text = named + (f" with {' and '.join(parts)}" if parts else "")

@@ -48,7 +48,7 @@ class RotorRun(Folder):
         self.assertEqual(self.table("history.csv"), expected)
 
     def test_check_tells_size_and_cost(self):
-        done = spindrift("check")
+        done = spindrift("check", SCENE)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         for words in ("blade_resolved", "1 sector, periodic", "cells", "MB", "core-hours"):
             self.assertIn(words, done.stdout)

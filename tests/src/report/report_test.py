@@ -332,6 +332,12 @@ class PartsTest(unittest.TestCase):
         self.assertAlmostEqual(frequency[0], 1.0 / 150.0)   # segments of half the length
         self.assertIsNone(figures.density(t[:50], t[:50]))
 
+    def test_pitch_of_the_blades_belongs_to_the_rotor_and_not_to_bodies(self):
+        names = ["turbine.x_m", "rotor.thrust_N", "rotor.asked_pitch_deg", *(f"rotor.blade_{b}.pitch_deg" for b in (1, 2, 3))]
+        self.assertEqual(quantities.bodies_of(names), ["turbine"])
+        control = next(g for g in quantities.groups(names) if g.title == "rotor: control")
+        self.assertEqual([legend for legend, _ in control.panels[0][1]], ["blade 1", "blade 2", "blade 3", "asked"])
+
     def test_a_spectrum_takes_every_segment(self):
         t = 0.05 * np.arange(6000)
         for begin, share in ((0, 1 / 6), (1500, 1 / 3)):   # half of one segment of three, or of two
