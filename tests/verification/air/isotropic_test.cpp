@@ -6,9 +6,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <random>
 
+#include "kernels/base/constants.hpp"
 #include "tests/src/aero/flow/flows.hpp"
 
 using namespace spindrift;
@@ -17,7 +17,7 @@ using namespace spindrift::aero::testing;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, box_side = 0.18 * pi;  // m
+constexpr double box_side = 0.18 * pi;  // m
 
 struct Spectrum {
   double k, at_42, at_98, at_171;  // 1/cm; cm3/s2

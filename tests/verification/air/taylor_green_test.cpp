@@ -4,8 +4,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
+#include "kernels/base/constants.hpp"
 #include "tests/src/aero/flow/flows.hpp"
 
 using namespace spindrift;
@@ -13,8 +13,6 @@ using namespace spindrift::aero;
 using namespace spindrift::aero::testing;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 gas::Primitive<double> vortex(const FlowSetting& s, const Eigen::Vector3d& x) {
   const double rho = s.gas.pressure_reference / (s.gas.gas_constant * s.gas.temperature_reference), u = s.speed;

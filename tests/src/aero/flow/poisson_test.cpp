@@ -5,16 +5,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "kernels/base/constants.hpp"
 #include "src/aero/grid/generators/box.hpp"
 
 using namespace spindrift;
 using namespace spindrift::aero;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 GridStore store_of(const MultiBlockGrid& grid, int ranks = 1, int rank = 0, const std::vector<std::string>& walls = {},
                    int across = 8) {
