@@ -117,7 +117,7 @@ std::uint32_t Graph::receive(std::string label, const Uses& uses, Message messag
 std::uint32_t Graph::reduce(std::string label, const Uses& uses, Reduction reduction) {
   Recorded& g = *recorded_;
   const Recorded::InOrder& in = in_order(*this, g.reductions_of, label);
-  g.reductions.push_back(std::make_unique<Allreduce>(label, std::move(reduction), in.comm.get(), g.comm.size()));
+  g.reductions.push_back(std::make_shared<Allreduce>(label, std::move(reduction), in.comm.get(), g.comm.size()));
   Uses ordered = uses;
   if (g.comm.size() > 1) ordered.push_back(updates(in.order));
   return add_node(g, NodeKind::reduce, std::move(label), ordered, g.reductions.size() - 1);

@@ -19,7 +19,7 @@ struct Graph::Recorded {
   std::vector<std::uint32_t> payload;  ///< by node: index into the table of its kind below
   std::vector<Work> works;             ///< task
   std::vector<Message> messages;       ///< send, receive
-  std::vector<std::unique_ptr<Allreduce>> reductions;
+  std::vector<std::shared_ptr<Allreduce>> reductions;
   struct Collective {
     std::function<void(MPI_Comm)> work;
     std::function<bool()> active;

@@ -25,6 +25,8 @@ class Communicator {
   ~Communicator();
 
   MPI_Comm get() const { return comm_; }
+  /// Never frees it: something that nobody will complete is under way on it.
+  void leave() { comm_ = MPI_COMM_NULL; }
   int rank() const { return rank_; }
   int size() const { return size_; }
   int ranks_on_node() const { return ranks_on_node_; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <climits>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
@@ -30,6 +31,16 @@ Notice unpacked(const std::vector<char>& bytes) {
 int checked_int(std::size_t bytes) {
   if (bytes > std::size_t(INT_MAX)) throw std::length_error("a message of " + std::to_string(bytes) + " bytes; MPI takes 2 GiB");
   return int(bytes);
+}
+
+/// MPI can neither cancel nor free a collective operation under way, and goes on with it in any later call: its memory and its
+/// communicator must be there until the program ends (Open MPI 4.1 reads them after they were freed).
+void leave_behind(Graph::Recorded& graph) {
+  static std::vector<std::shared_ptr<Allreduce>> left_behind;
+  left_behind.insert(left_behind.end(), graph.reductions.begin(), graph.reductions.end());
+  for (Graph::Recorded::OfModules* of : {&graph.reductions_of, &graph.collectives_of})
+    for (auto& [module, in] : *of) in.comm.leave();
+  graph.turns.leave();
 }
 
 }  // namespace
@@ -177,10 +188,11 @@ void Messages::abandon(const Notice* tell) {
       MPI_Testall(int(sends.size()), sends.data(), &sent, MPI_STATUSES_IGNORE);
   }
   if (turns_) turns_->abandon();
+  if (control_) leave_behind(graph_);
   for (int i = 0; i < active_; ++i) {
     const auto at = std::size_t(i);
     const NodeKind kind = graph_.nodes[node_of_[at]].kind;
-    if (kind == NodeKind::reduce) continue;  // MPI can neither cancel nor free it
+    if (kind == NodeKind::reduce) continue;  // left behind
     if (kind == NodeKind::receive) MPI_Cancel(&requests_[at]);
     MPI_Request_free(&requests_[at]);
   }

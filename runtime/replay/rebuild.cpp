@@ -35,7 +35,7 @@ Graph rebuilt(const GraphRecord& record, int ranks) {
       case NodeKind::reduce: {
         static double nothing = 0.0;
         g.payload.push_back(std::uint32_t(g.reductions.size()));
-        g.reductions.push_back(std::make_unique<Allreduce>(from.label, Reduction{.result = {&nothing, 1}}, MPI_COMM_NULL, ranks));
+        g.reductions.push_back(std::make_shared<Allreduce>(from.label, Reduction{.result = {&nothing, 1}}, MPI_COMM_NULL, ranks));
         break;
       }
       case NodeKind::until:

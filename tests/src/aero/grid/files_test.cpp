@@ -226,11 +226,11 @@ TEST_CASE("bad files are refused with file, line and what is wrong", "[aero][gri
   file.write("");
   expect_refusal([&] { read_plot3d(file.path); }, "is empty");
   file.write("1\n3 3\n0 1 2 0 1 2 0 1 2\n0 0 zero 1 1 1 2 2 2\n");
-  expect_refusal([&] { read_plot3d(file.path); }, "bad.p3d:4 = zero: is not a number");
+  expect_refusal([&] { read_plot3d(file.path); }, "bad.p3d:4 = zero: is not a finite number");
   file.write("1\n3 3\n0 1 2 0 1 2 0 1 2\n0 0 0 1 1 1 2 2\n");
   expect_refusal([&] { read_plot3d(file.path); }, "would be 21 numbers");
   file.write("1\n3 3\n0 1 2 0 1 2 0 1 2\n0 0 0 1 1 nan 2 2 2\n");
-  expect_refusal([&] { read_plot3d(file.path); }, "must be finite");
+  expect_refusal([&] { read_plot3d(file.path); }, "bad.p3d:4 = nan: is not a finite number");
   file.write("1\n1 3\n0 1 2 0 1 2\n");
   expect_refusal([&] { read_plot3d(file.path); }, "at least 2");
   file.write(std::string("\x01\x00\x00\x00\x07\x09\x00\x00", 8));
