@@ -146,18 +146,18 @@ TEST_CASE("sensors of a scene: patches share out a body's load, a wall's pressur
 TEST_CASE("water leaves through open sides and over the edge, counted apart from what slips through walls",
           "[coupled][sea][fast]") {
   const test::Folder open("open_side"), edge("over_edge");
-  const auto run = [&](const std::string& tank, const std::string& sides, const test::Folder& folder) {
-    CHECK(test::run_scene(test::input(dam),
-                          {"sea.particles.spacing_m=0.1", "time.end_s=1.0", "sea.probes=[]", "sea.gauges=[]", tank, sides},
+  const auto run = [&](const std::string& spacing, const std::string& tank, const std::string& sides,
+                       const test::Folder& folder) {
+    CHECK(test::run_scene(test::input(dam), {spacing, "time.end_s=1.0", "sea.probes=[]", "sea.gauges=[]", tank, sides},
                           folder.path())
               .exit_code == 0);
     return scene::read_columns((folder.path() / "history.csv").string());
   };
-  const scene::Columns flowing = run("sea.tank.x_m=[0.0, 3.0]", "sea.tank.sides_x='open'", open);
+  const scene::Columns flowing = run("sea.particles.spacing_m=0.1", "sea.tank.x_m=[0.0, 3.0]", "sea.tank.sides_x='open'", open);
   CHECK(flowing["sea.left_particles"].back() > 100.0);
   CHECK(flowing["sea.x_max_m"].back() < 3.06);
   CHECK(flowing["sea.lost_particles"].back() == 0.0);
-  const scene::Columns splashed = run("sea.tank.x_m=[0.0, 1.6]", "sea.tank.top_m=-1.0", edge);
+  const scene::Columns splashed = run("sea.particles.spacing_m=0.05", "sea.tank.x_m=[0.0, 1.6]", "sea.tank.top_m=-1.0", edge);
   CHECK(splashed["sea.left_particles"].back() > 0.0);
   CHECK(splashed["sea.lost_particles"].back() == 0.0);
 }
