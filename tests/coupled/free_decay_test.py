@@ -1,17 +1,11 @@
 """Heave decay of bodies afloat in 3-D beside linear theory: inputs/validation/free_sphere and free_cylinder as a user runs them.
-
-    python3 free_decay_test.py PATH_TO_SPINDRIFT
-"""
+Usage: free_decay_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
 import csv
 import os
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-SPINDRIFT = sys.argv.pop(1)
-VALIDATION = pathlib.Path(__file__).resolve().parents[2] / "inputs/validation"
+from running import Folder, ROOT, spindrift
+
 # Times [s] and heights (over the start's) of the first turns: Fourier integral of the transfer function of a body let go from rest.
 # Sphere: added mass and damping of Hulme (1982), J. Fluid Mech. 121, table 2, deep water. Cylinder: those of Yeung (1981), Appl. Ocean
 # Res. 3, by matched eigenfunctions for a draft of one radius in a depth of three.
@@ -36,17 +30,15 @@ def times_and_ways(start, found):
     return [t for t, _ in found], [way / ways[0] for way in ways]
 
 
-class FreeDecay(unittest.TestCase):
+class FreeDecay(Folder):
     def decay(self, name, body):
         """Times of the turns, and the ways between them over the first fall. What is displaced too much at the waterline, and the level of
         the tank, move the rest and not these."""
-        with tempfile.TemporaryDirectory() as folder:
-            scene = VALIDATION / name / f"{name}.toml"
-            command = [SPINDRIFT, "run", str(scene), "--out", f"{folder}/run", "--no-report", "--quiet"]
-            done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
-            self.assertEqual(done.returncode, 0, done.stderr)
-            with open(f"{folder}/run/history.csv") as file:
-                rows = [(float(row["time_s"]), float(row[f"{body}.z_m"])) for row in csv.DictReader(file)]
+        done = spindrift("run", ROOT / f"inputs/validation/{name}/{name}.toml", "--out", self.out, "--no-report", "--quiet", timeout=3600,
+                         env={**os.environ, "OMP_NUM_THREADS": "1"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.out / "history.csv") as file:
+            rows = [(float(row["time_s"]), float(row[f"{body}.z_m"])) for row in csv.DictReader(file)]
         rows = [row for row in rows if row[0] >= 0.0]
         return times_and_ways(rows[0][1], turns(*zip(*rows)))
 
