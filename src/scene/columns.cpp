@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <optional>
 
 #include "src/scene/error.hpp"
 
@@ -40,6 +41,13 @@ std::vector<std::string_view> split(std::string_view line) {
   return cells;
 }
 
+std::optional<double> finite_number(std::string_view cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) return {};
+  return value;
+}
+
 [[noreturn]] void fail_at(const std::string& file, int line, const std::string& value, const std::string& message) {
   throw SceneError({Problem{.source = file, .line = line, .key = "", .value = value, .message = message}});
 }
@@ -51,11 +59,10 @@ void Columns::add_row(const std::vector<std::string_view>& cells, int line) {
     fail_at(file_, line, "",
             fmt::format("has {} values where there are {} columns ({})", cells.size(), names_.size(), fmt::join(names_, ", ")));
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(cells[c].data(), cells[c].data() + cells[c].size(), value);
-    if (error != std::errc() || end != cells[c].data() + cells[c].size() || !std::isfinite(value))
+    const std::optional<double> value = finite_number(cells[c]);
+    if (!value)
       fail_at(file_, line, fmt::format("\"{}\"", cells[c]), fmt::format("must be a finite number (column {})", names_[c]));
-    values_[c].push_back(value);
+    values_[c].push_back(*value);
   }
   lines_.push_back(line);
 }
@@ -89,13 +96,10 @@ Columns read_blank_columns(const std::string& path, std::vector<std::string> nam
   table.file_ = path;
   table.names_ = std::move(names);
   table.values_.resize(table.names_.size());
-  const auto is_number = [](std::string_view cell) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    return error == std::errc() && end == cell.data() + cell.size();
-  };
   // A title, unless it is a row like those that follow.
-  if (const auto cells = split_at_blanks(text); cells.size() == table.names_.size() && std::ranges::all_of(cells, is_number))
+  if (const auto cells = split_at_blanks(text); cells.size() == table.names_.size() && std::ranges::all_of(cells, [](auto cell) {
+                                                  return finite_number(cell).has_value();
+                                                }))
     table.add_row(cells, 1);
   for (int line = 2; std::getline(in, text); ++line)
     if (const auto cells = split_at_blanks(text); !cells.empty()) table.add_row(cells, line);

@@ -176,13 +176,15 @@ T from_bytes(const char* at, bool swapped) {
   return std::bit_cast<T>(bytes);
 }
 
+/// The four-byte integer there, -1 past the end.
+long word_at(const std::string& bytes, std::size_t at, bool swapped) {
+  return at + 4 <= bytes.size() ? long(from_bytes<std::int32_t>(bytes.data() + at, swapped)) : -1L;
+}
+
 /// The first record, of one to three integers, between two marks of its size: then all of the file is records.
 bool begins_with_record(const std::string& bytes, bool swapped) {
-  const auto word = [&](std::size_t at) {
-    return at + 4 <= bytes.size() ? from_bytes<std::int32_t>(bytes.data() + at, swapped) : -1;
-  };
-  const std::int32_t size = word(0);
-  return (size == 4 || size == 8 || size == 12) && word(4 + std::size_t(size)) == size;
+  const long size = word_at(bytes, 0, swapped);
+  return (size == 4 || size == 8 || size == 12) && word_at(bytes, 4 + std::size_t(size), swapped) == size;
 }
 
 MultiBlockGrid binary(const std::filesystem::path& file, const std::string& bytes, double width) {
@@ -190,9 +192,7 @@ MultiBlockGrid binary(const std::filesystem::path& file, const std::string& byte
     for (const bool records : {true, false})
       for (const Arrangement& a : arrangements) {
         if (!records && begins_with_record(bytes, swapped)) continue;
-        const auto word = [&](std::size_t at) {
-          return at + 4 <= bytes.size() ? long(from_bytes<std::int32_t>(bytes.data() + at, swapped)) : -1L;
-        };
+        const auto word = [&](std::size_t at) { return word_at(bytes, at, swapped); };
         // Where records are marked, the count and the dimensions are a record each.
         const std::size_t first = records ? 4 : 0, second = records && a.counted ? 8 : 0;
         const auto integer = [&](long n) { return word(first + 4 * std::size_t(n) + (n >= (a.counted ? 1 : 0) ? second : 0)); };
