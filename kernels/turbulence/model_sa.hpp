@@ -4,6 +4,7 @@
 // is kept). Called by src/aero/flow; tested in tests/kernels/turbulence/model_sa_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "kernels/turbulence/model.hpp"
@@ -20,6 +21,16 @@ struct SaConstants {
   static SPINDRIFT_INLINE Real fv1(const Real& chi) {
     const Real cube = chi * chi * chi;
     return cube / (cube + cv1 * cv1 * cv1);
+  }
+  /// nu_tilde over nu where nu_t / nu = chi fv1(chi) is given: Newton from above, where that is convex.
+  static double chi_of(double eddy_viscosity) {
+    constexpr double cube = cv1 * cv1 * cv1;
+    double chi = eddy_viscosity + std::pow(eddy_viscosity * cube, 0.25);
+    for (int n = 0; n < 50; ++n) {
+      const double c3 = chi * chi * chi, value = c3 * (chi - eddy_viscosity) - eddy_viscosity * cube;
+      chi -= value / (c3 + 3.0 * chi * chi * (chi - eddy_viscosity));
+    }
+    return chi;
   }
 };
 

@@ -44,20 +44,10 @@ double noise_of(const FlowTile& tile, const FlowSetting& s) {
   return sum;
 }
 
-/// nu tilde over nu of Spalart and Allmaras where nu_t / nu = chi fv1(chi) is given: Newton from above, where that is convex.
-double chi_of(double eddy_viscosity) {
-  constexpr double cv1 = turbulence::SaConstants::cv1, cube = cv1 * cv1 * cv1;
-  double chi = eddy_viscosity + std::pow(eddy_viscosity * cube, 0.25);
-  for (int n = 0; n < 50; ++n) {
-    const double c3 = chi * chi * chi, value = c3 * (chi - eddy_viscosity) - eddy_viscosity * cube;
-    chi -= value / (c3 + 3.0 * chi * chi * (chi - eddy_viscosity));
-  }
-  return chi;
-}
-
 /// What turbulence carries in the undisturbed flow, the closure's own values but for what the setting gives.
 std::array<double, 2> turbulence_of_wind(const FlowSetting& s, int equations, double nu, std::array<double, 2> usual) {
-  if (equations == 1) return {s.wind_eddy_viscosity ? nu * chi_of(*s.wind_eddy_viscosity) : usual[0], 0.0};
+  if (equations == 1)
+    return {s.wind_eddy_viscosity ? nu * turbulence::SaConstants::chi_of(*s.wind_eddy_viscosity) : usual[0], 0.0};
   if (!s.wind_eddy_viscosity && !s.wind_intensity) return usual;
   const double eddy = s.wind_eddy_viscosity ? nu * *s.wind_eddy_viscosity : usual[0] / usual[1];
   const double k = s.wind_intensity ? 3.0 * *s.wind_intensity * *s.wind_intensity * gas::kinetic(s.stream) : usual[0];

@@ -5,9 +5,9 @@
 
 namespace spindrift::aero {
 
-extern const Closure k_omega_closure{"k_omega", "k-omega of Wilcox 2006", two_equation_keys(),
+extern const Closure k_omega_closure{turbulence::KOmega::name, "k-omega of Wilcox 2006", two_equation_keys(),
                                      SweepsOf<turbulence::KOmega>::table()};
-extern const Closure k_omega_1988_closure{"k_omega_1988", "k-omega of Wilcox 1988; depends on the stream's omega",
+extern const Closure k_omega_1988_closure{turbulence::KOmega1988::name, "k-omega of Wilcox 1988; depends on the stream's omega",
                                           two_equation_keys(), SweepsOf<turbulence::KOmega1988>::table()};
 
 }  // namespace spindrift::aero

@@ -6,8 +6,8 @@
 namespace spindrift::aero {
 
 extern const Closure les_wale_closure{
-    "les_wale", "large eddies, WALE; three dimensions only", {}, ClosuresOf<turbulence::Wale>::table(), true};
-extern const Closure les_smagorinsky_closure{"les_smagorinsky",
+    turbulence::Wale::name, "large eddies, WALE; three dimensions only", {}, ClosuresOf<turbulence::Wale>::table(), true};
+extern const Closure les_smagorinsky_closure{turbulence::Smagorinsky::name,
                                              "large eddies, Smagorinsky; three dimensions only",
                                              {},
                                              ClosuresOf<turbulence::Smagorinsky>::table(),

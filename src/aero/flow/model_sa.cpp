@@ -5,8 +5,8 @@
 
 namespace spindrift::aero {
 
-extern const Closure sa_closure{"sa", "Spalart-Allmaras", one_equation_keys(), SweepsOf<turbulence::Sa>::table()};
-extern const Closure sa_neg_closure{"sa_neg", "Spalart-Allmaras, negative variant", one_equation_keys(),
+extern const Closure sa_closure{turbulence::Sa::name, "Spalart-Allmaras", one_equation_keys(), SweepsOf<turbulence::Sa>::table()};
+extern const Closure sa_neg_closure{turbulence::SaNeg::name, "Spalart-Allmaras, negative variant", one_equation_keys(),
                                     SweepsOf<turbulence::SaNeg>::table()};
 
 }  // namespace spindrift::aero

@@ -5,11 +5,11 @@
 
 namespace spindrift::aero {
 
-extern const Closure sst_1994_closure{"sst_1994", "k-omega SST 1994", two_equation_keys(),
+extern const Closure sst_1994_closure{turbulence::Sst1994::name, "k-omega SST 1994", two_equation_keys(),
                                       SweepsOf<turbulence::Sst1994>::table()};
-extern const Closure sst_v_closure{"sst_v", "SST 1994, production by vorticity", two_equation_keys(),
+extern const Closure sst_v_closure{turbulence::SstV::name, "SST 1994, production by vorticity", two_equation_keys(),
                                    SweepsOf<turbulence::SstV>::table()};
-extern const Closure sst_vm_closure{"sst_vm", "SST 1994, production by vorticity, without 2/3 k", two_equation_keys(),
-                                    SweepsOf<turbulence::SstVm>::table()};
+extern const Closure sst_vm_closure{turbulence::SstVm::name, "SST 1994, production by vorticity, without 2/3 k",
+                                    two_equation_keys(), SweepsOf<turbulence::SstVm>::table()};
 
 }  // namespace spindrift::aero
