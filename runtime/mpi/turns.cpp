@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/mpi/turns.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace spindrift::runtime {
 
 Turns::~Turns() {
   int finalized = 0;
   MPI_Finalized(&finalized);
-  if (abandoned_ || finalized) return;
+  if (finalized) return;
   for (Arrival& arrival : arrivals_) MPI_Wait(&arrival.all_ready, MPI_STATUS_IGNORE);
   for (auto& announcement : announcements_) MPI_Wait(&announcement->sent, MPI_STATUS_IGNORE);
+}
+
+/// MPI may still write to what was to be announced: it stays until the program ends.
+void Turns::abandon() {
+  static std::deque<std::unique_ptr<Announcement>> left_behind;
+  std::ranges::move(announcements_, std::back_inserter(left_behind));
+  announcements_.clear(), arrivals_.clear();
 }
 
 void Turns::come(std::uint32_t call) {

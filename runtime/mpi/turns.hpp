@@ -32,7 +32,7 @@ class Turns {
   /// The call whose turn it is, once; none while another is being made.
   std::optional<std::uint32_t> next();
   void made() { making_.store(false, std::memory_order_release); }  ///< any thread: the call of the last turn is over
-  void abandon() { abandoned_ = true; }                             ///< others may never come
+  void abandon();                                                   ///< others may never come
 
  private:
   struct Arrival {
@@ -51,7 +51,6 @@ class Turns {
   std::deque<std::unique_ptr<Announcement>> announcements_;  ///< in order; MPI holds their addresses
   std::deque<std::uint32_t> in_turn_;
   std::atomic<bool> making_{false};
-  bool abandoned_ = false;
 };
 
 }  // namespace spindrift::runtime
