@@ -95,9 +95,10 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   if (draft_m > 0.0 && draft_m < 2.0 * spacing)
     doubts.push_back({"sea.particles.spacing_m", fmt::format("{:.4g} m for a draft of {:.4g} m", spacing, draft_m),
                       "below half the draft", "a body two particles deep does not float rightly; take a tenth of the draft"});
-  if (const double ratio = sea.particles->smoothing_over_spacing; ratio < 1.1 || ratio > 3.0)
-    doubts.push_back({"sea.particles.smoothing_over_spacing", fmt::format("{:.4g}", ratio), "1.1 to 3",
-                      ratio < 1.1 ? "too few neighbours for the sums" : "the cost goes with its cube"});
+  const double least = sea.particles->kernel == sph::KernelChoice::quintic ? 1.4 : 1.1;
+  if (const double ratio = sea.particles->smoothing_over_spacing; ratio < least || ratio > 3.0)
+    doubts.push_back({"sea.particles.smoothing_over_spacing", fmt::format("{:.4g}", ratio), fmt::format("{:.4g} to 3", least),
+                      ratio < least ? "too few neighbours for the sums of this kernel" : "the cost goes with its cube"});
   if (const auto& factor = sea.particles->sound_speed_factor; factor && (*factor < 8.0 || *factor > 60.0))
     doubts.push_back({"sea.particles.sound_speed_factor", fmt::format("{:.4g}", *factor),
                       "8 to 60: ten keeps density within one per cent (Monaghan 1994)",

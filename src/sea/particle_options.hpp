@@ -25,7 +25,7 @@ struct ParticleOptions {
   std::string dimensions = "3";
   double width_m = 1.0;  ///< 2-D: loads are those of this width of sea
   double smoothing_over_spacing = 1.5;
-  sph::KernelChoice kernel = sph::KernelChoice::wendland;
+  sph::KernelChoice kernel = sph::KernelChoice::quintic;
   std::optional<double> sound_speed_factor;  ///< times sqrt(g depth); 10 where neither is given
   std::optional<double> sound_speed_m_s;
   sph::ViscosityChoice viscosity_model = sph::ViscosityChoice::artificial;

@@ -18,7 +18,7 @@ SPINDRIFT = sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = ROOT / "inputs/validation/wave_tank/small_tank.toml"
 HEIGHT, PERIOD = 0.12, 1.5
-COARSE = [f"waves.height_m={HEIGHT}", "sea.particles.spacing_m=0.04", "sea.particles.smoothing_over_spacing=2.0"]
+COARSE = [f"waves.height_m={HEIGHT}", "sea.particles.spacing_m=0.04"]
 
 sys.dont_write_bytecode = True  # none beside the script
 loader = importlib.machinery.SourceFileLoader("wave_analysis", str(ROOT / "ci/wave_analysis"))

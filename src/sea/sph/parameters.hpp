@@ -9,7 +9,7 @@
 
 namespace spindrift::sph {
 
-enum class KernelChoice { wendland, cubic };
+enum class KernelChoice { quintic, wendland, cubic };
 enum class DiffusionChoice { none, molteni, fourtakas };
 enum class StepChoice { symplectic, verlet };
 enum class FilterChoice { none, shepard, mls };
@@ -56,7 +56,7 @@ struct Parameters {
   bool laminar() const { return viscosity != ViscosityChoice::artificial; }
   bool sub_particle() const { return viscosity == ViscosityChoice::laminar_sps; }
   double h() const { return h_over_d * spacing; }
-  double reach() const { return 2.0 * h(); }  // both kernels end at 2 h
+  double reach() const { return 2.0 * h(); }  // all kernels end at 2 h
   double mass(int dim) const { return mass_factor * eos.rho0 * std::pow(spacing, dim); }
   double drift() const { return drift_over_d * spacing; }
   /// Anchors stand on multiples of this power of two, about a quarter of a spacing.

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 
 #include "kernels/sph/kernel_cubic.hpp"
+#include "kernels/sph/kernel_quintic.hpp"
 #include "kernels/sph/kernel_wendland.hpp"
 #include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/parameters.hpp"
@@ -43,8 +45,15 @@ class Schemes {
  private:
   template <class Result = GroupSweep<dim, Real>, class Make>
   Result with_kernel(Make&& make) const {
-    if (p_.kernel == KernelChoice::cubic) return make(KernelCubic<dim, Real>(p_.h()));
-    return make(KernelWendland<dim, Real>(p_.h()));
+    switch (p_.kernel) {
+      case KernelChoice::quintic:
+        return make(KernelQuintic<dim, Real>(p_.h()));
+      case KernelChoice::wendland:
+        return make(KernelWendland<dim, Real>(p_.h()));
+      case KernelChoice::cubic:
+        return make(KernelCubic<dim, Real>(p_.h()));
+    }
+    throw std::logic_error("no such kernel");
   }
   GroupSweep<dim, Real> artificial() const;
   GroupSweep<dim, Real> laminar() const;

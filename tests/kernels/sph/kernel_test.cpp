@@ -7,12 +7,13 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/sph/kernel_cubic.hpp"
+#include "kernels/sph/kernel_quintic.hpp"
 #include "kernels/sph/kernel_wendland.hpp"
 
 using namespace spindrift;
 using namespace spindrift::sph;
 
-#define KERNELS KernelWendland<2>, KernelWendland<3>, KernelCubic<2>, KernelCubic<3>
+#define KERNELS KernelWendland<2>, KernelWendland<3>, KernelCubic<2>, KernelCubic<3>, KernelQuintic<2>, KernelQuintic<3>
 
 TEMPLATE_TEST_CASE("the integral of a kernel over space is one", "[sph][fast]", KERNELS) {
   const double h = GENERATE(0.01, 1.0, 30.0);
@@ -43,7 +44,7 @@ TEMPLATE_TEST_CASE("a kernel and its slope are exactly zero beyond the support",
 }
 
 TEMPLATE_TEST_CASE("lanes and one number agree on a kernel", "[sph][fast]", (KernelWendland<3, float>), (KernelCubic<3, float>),
-                   (KernelCubic<2, float>)) {
+                   (KernelCubic<2, float>), (KernelQuintic<3, float>), (KernelQuintic<2, float>)) {
   const TestType kernel(0.7);
   for (double r = 0.01; r < 1.6; r += 0.037) {
     const NativeWide<float> r2(r * r);
@@ -70,4 +71,32 @@ TEMPLATE_TEST_CASE("on a lattice a kernel interpolates a quadratic with error of
   };
   CHECK(moment(0.2) / moment(0.1) == Approx(4.0).epsilon(1e-9));
   CHECK(moment(0.1) < 0.03);
+}
+
+namespace {
+
+/// Fourier transform of a kernel in space at wave number k [1/m], by the midpoint rule.
+template <class Kernel>
+double transform(const Kernel& kernel, double k) {
+  const int n = 4000;
+  const double dr = Kernel::support * kernel.h() / n;
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double r = (i + 0.5) * dr;
+    sum += 4.0 * pi * r * kernel.value(r * r) * std::sin(k * r) / k * dr;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("at h/d 1.5 the quintic spline does not see a lattice of particles, nor one a tenth denser", "[sph][fast]") {
+  const double d = 0.2, wave_number = 2.0 * pi / d;
+  const KernelQuintic<3> quintic(1.5 * d);
+  const KernelWendland<3> wendland(1.5 * d);
+  CHECK(transform(quintic, 1e-3) == Approx(1.0).epsilon(1e-5));
+  CHECK(std::abs(transform(quintic, wave_number)) < 1e-8);
+  CHECK(std::abs(transform(quintic, 1.1 * wave_number)) < 2e-6);
+  CHECK(std::abs(transform(quintic, 0.9 * wave_number)) < 1e-5);
+  CHECK(transform(wendland, wave_number) == Approx(3.4e-4).epsilon(0.02));
 }
