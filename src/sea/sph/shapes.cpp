@@ -27,6 +27,19 @@ std::array<int, 3> counts_in_box(const Eigen::Vector3d& edges, double spacing) {
   return best;
 }
 
+/// Distance of the centroid of one of n equal sectors of a ring from its axis; half a ring width more or less would crowd
+/// particles towards the axis and leave the surface too far in.
+double centroid_of_sector(double inner, double outer, int n) {
+  const double half = pi / n;
+  return 2.0 / 3.0 * (outer * outer + outer * inner + inner * inner) / (outer + inner) * std::sin(half) / half;
+}
+
+/// The same of a shell cut into n cones of equal solid angle, of cos 1 - 2/n from the axis to the rim of each.
+double centroid_of_cone(double inner, double outer, int n) {
+  const double square = outer * outer + inner * inner;
+  return 0.75 * (outer + inner) * square / (square + outer * inner) * (1.0 - 1.0 / n);
+}
+
 }  // namespace
 
 Points points_in_box(const Eigen::Vector3d& edges, double spacing) {
@@ -48,7 +61,7 @@ std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing, doubl
   for (int ring = 0; ring < rings; ++ring) {
     area += pi * (2 * ring + 1) * width * width / (spacing * spacing);
     const int n = std::max(1, int(std::lround(area - double(points.size()))));
-    const double r = n == 1 ? 0.0 : width * (ring + 0.5);
+    const double r = n == 1 ? 0.0 : centroid_of_sector(width * ring, width * (ring + 1), n);
     for (int k = 0; k < n; ++k) {
       const double angle = 2.0 * pi * (k + 0.5 * (ring % 2)) / n;
       points.push_back({r * std::cos(angle), r * std::sin(angle)});
@@ -83,7 +96,7 @@ Points points_in_sphere(double radius, double spacing) {
   for (int shell = 0; shell < shells; ++shell) {
     const double volume = 4.0 / 3.0 * pi * std::pow((shell + 1) * width / spacing, 3);
     const int n = std::max(1, int(std::lround(volume - double(points.size()))));
-    const double r = n == 1 ? 0.0 : width * (shell + 0.5);
+    const double r = n == 1 ? 0.0 : centroid_of_cone(width * shell, width * (shell + 1), n);
     for (int k = 0; k < n; ++k) {
       const double z = 1.0 - (2.0 * k + 1.0) / n, ring = std::sqrt(1.0 - z * z);
       points.push_back(r * Eigen::Vector3d(ring * std::cos(golden * k), ring * std::sin(golden * k), z));

