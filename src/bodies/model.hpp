@@ -4,10 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "kernels/rigid/joints.hpp"
 #include "kernels/rigid/motion.hpp"
@@ -54,6 +56,14 @@ struct Memory {
   std::function<void(double t, double h, std::span<const Motion>, std::span<double>)> remember;
 };
 
+/// Inertia of a source that ties the accelerations of two bodies together (a beam between them).
+struct InertialCoupling {
+  std::vector<std::array<int, 2>> pairs;  ///< of bodies i, j
+  /// Adds for each pair the 6x6 matrix of the loads on i, [force; moment] about its centre of mass, per acceleration of j, earth
+  /// axes; its transpose are the loads on j. Signs and what `loads` must not contain as for added mass.
+  std::function<void(double t, std::span<const Motion>, std::span<Matrix6>)> blocks;
+};
+
 /// Loads on the bodies from one cause, kept apart in the output. `loads` ADDS to wrenches about each body's centre of mass (their
 /// points are set); called in every right-hand-side evaluation, so it must not allocate. `added_mass`, where not empty, adds each
 /// body's 6x6 matrix about its centre of mass, rows and columns [force; moment], earth axes: it goes on the left-hand side, so
@@ -64,6 +74,7 @@ struct LoadSource {
   std::function<void(double t, std::span<const Motion>, std::span<Wrench>)> loads;
   std::function<void(double t, std::span<const Motion>, std::span<Matrix6>)> added_mass;
   std::optional<Memory> memory = std::nullopt;
+  std::optional<InertialCoupling> coupling = std::nullopt;
 };
 
 }  // namespace spindrift::bodies

@@ -64,7 +64,10 @@ struct System::Work {
     for (const LoadSource& source : loads) {
       has_added_mass |= bool(source.added_mass);
       if (source.memory) memory_size += source.memory->size;
+      if (source.coupling) pairs.insert(pairs.end(), source.coupling->pairs.begin(), source.coupling->pairs.end());
     }
+    between.resize(pairs.size());
+    between_chart.resize(pairs.size());
     evaluation.acceleration.resize(bodies.size());
     evaluation.angular_acceleration.resize(bodies.size());
     source_power.assign(loads.size(), 0.0);
@@ -77,6 +80,9 @@ struct System::Work {
   void remember(double t, double h, BodiesState& state);
   void gather_loads(double t);
   void gather_mass(double t);
+  void add_blocks(const LoadSource& source, double t, std::size_t first);
+  template <class In, class Out>
+  void add_coupled(const In& in, Out& out) const;
   void gather_forces(bool at_rest);
   void condense();
   bool accelerations(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u);
@@ -104,8 +110,10 @@ struct System::Work {
   StepReport report;
   std::vector<Motion> motions;
   std::vector<Wrench> wrenches;
-  std::vector<Matrix6> added;  // earth axes, SI
-  std::vector<Matrix6> mass;   // chart units: [m L2, I] + added mass turned into (earth translation, body rotation)
+  std::vector<Matrix6> added;             // earth axes, SI
+  std::vector<Matrix6> mass;              // chart units: [m L2, I] + added mass turned into (earth translation, body rotation)
+  std::vector<std::array<int, 2>> pairs;  // of all couplings, in the order of their sources
+  std::vector<Matrix6> between, between_chart;  // of the pairs: as `added`, as `mass`
   Eigen::VectorXd force, inertial;
   Eigen::MatrixXd mass_tangent, condensed;
   Eigen::VectorXd condensed_force, acceleration, x, u;
@@ -197,6 +205,22 @@ void System::Work::clear_step_work() {
 void System::Work::count_power(double weight) {
   const Eigen::VectorXd& bias = mechanism.bias();
   double gain = 0.0, of_sources = 0.0, of_added_mass = 0.0;
+  const auto velocity_of = [&](int b) {
+    Eigen::Matrix<double, 6, 1> velocity;
+    velocity << motions[std::size_t(b)].velocity, motions[std::size_t(b)].omega_earth();
+    return velocity;
+  };
+  const auto rate_of = [&](int b) {
+    Eigen::Matrix<double, 6, 1> rate = bias.segment<6>(Eigen::Index(6 * b));
+    if (mechanism.freedoms() > 0) rate.noalias() += mechanism.tangent().middleRows<6>(Eigen::Index(6 * b)) * acceleration;
+    rate.head<3>() *= mechanism.length();
+    rate.tail<3>() = (mechanism.poses()[std::size_t(b)].axes * rate.tail<3>()).eval();
+    return rate;
+  };
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const auto [i, j] = pairs[p];
+    of_added_mass -= velocity_of(i).dot(between[p] * rate_of(j)) + velocity_of(j).dot(between[p].transpose() * rate_of(i));
+  }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto k = Eigen::Index(6 * b);
     Eigen::Matrix<double, 6, 1> rate = bias.segment<6>(k);
@@ -257,6 +281,37 @@ void System::Work::gather_mass(double t) {
     mass[b].bottomLeftCorner<3, 3>() += l * axes.transpose() * added[b].bottomLeftCorner<3, 3>();
     mass[b].bottomRightCorner<3, 3>() += axes.transpose() * added[b].bottomRightCorner<3, 3>() * axes;
   }
+  if (pairs.empty()) return;
+  std::size_t first = 0;
+  for (Matrix6& block : between) block.setZero();
+  for (const LoadSource& source : loads) {
+    if (!source.coupling) continue;
+    add_blocks(source, t, first);
+    first += source.coupling->pairs.size();
+  }
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const Eigen::Matrix3d &i = mechanism.poses()[std::size_t(pairs[p][0])].axes,
+                          &j = mechanism.poses()[std::size_t(pairs[p][1])].axes;
+    between_chart[p].topLeftCorner<3, 3>() = l * l * between[p].topLeftCorner<3, 3>();
+    between_chart[p].topRightCorner<3, 3>() = l * between[p].topRightCorner<3, 3>() * j;
+    between_chart[p].bottomLeftCorner<3, 3>() = l * i.transpose() * between[p].bottomLeftCorner<3, 3>();
+    between_chart[p].bottomRightCorner<3, 3>() = i.transpose() * between[p].bottomRightCorner<3, 3>() * j;
+  }
+}
+
+/// Adds the blocks of a source to `between`, where its pairs begin at `first`.
+void System::Work::add_blocks(const LoadSource& source, double t, std::size_t first) {
+  source.coupling->blocks(t, motions, std::span(between).subspan(first, source.coupling->pairs.size()));
+}
+
+/// out += (couplings between bodies) in, over rows of all coordinates.
+template <class In, class Out>
+void System::Work::add_coupled(const In& in, Out& out) const {
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const Eigen::Index i = 6 * pairs[p][0], j = 6 * pairs[p][1];
+    out.template middleRows<6>(i).noalias() += between_chart[p] * in.template middleRows<6>(j);
+    out.template middleRows<6>(j).noalias() += between_chart[p].transpose() * in.template middleRows<6>(i);
+  }
 }
 
 /// Generalised forces on all coordinates, gyroscopic moments included.
@@ -285,6 +340,7 @@ void System::Work::condense() {
     const auto k = Eigen::Index(6 * b);
     mass_tangent.middleRows<6>(k).noalias() = mass[b] * tangent.middleRows<6>(k);
   }
+  add_coupled(tangent, mass_tangent);
   condensed.noalias() = tangent.transpose() * mass_tangent;
 }
 
@@ -301,6 +357,7 @@ bool System::Work::accelerations(double t, const Eigen::VectorXd& x, const Eigen
     const auto k = Eigen::Index(6 * b);
     inertial.segment<6>(k).noalias() = mass[b] * mechanism.bias().segment<6>(k);
   }
+  add_coupled(mechanism.bias(), inertial);
   force -= inertial;
   condensed_force.noalias() = mechanism.tangent().transpose() * force;
   if (mechanism.freedoms() == 0) return true;
@@ -510,21 +567,33 @@ const Evaluation& System::evaluate(const BodiesState& state, double t_s) {
     // M bias was taken off the forces above: out of balance = M a - F over all coordinates
     w.inertial.segment<6>(k).noalias() = w.mass[b] * (all.segment<6>(k) - w.mechanism.bias().segment<6>(k));
   }
+  w.add_coupled(Eigen::VectorXd(all - w.mechanism.bias()), w.inertial);
   w.mechanism.reactions(w.inertial - w.force, e.joint_reactions);
+  std::size_t first = 0;
   for (std::size_t s = 0; s < w.loads.size(); ++s) {
     std::vector<Wrench>& of = e.by_source[s];
     for (std::size_t b = 0; b < of.size(); ++b) of[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), w.motions[b].position};
     if (w.loads[s].loads) w.loads[s].loads(t_s, w.motions, of);
+    const auto react = [&](int on, const Matrix6& block, int by) {
+      Eigen::Matrix<double, 6, 1> motion;
+      motion << e.acceleration[std::size_t(by)], e.angular_acceleration[std::size_t(by)];
+      const Eigen::Matrix<double, 6, 1> reaction = block * motion;
+      of[std::size_t(on)].force -= reaction.head<3>();
+      of[std::size_t(on)].moment -= reaction.tail<3>();
+    };
+    if (w.loads[s].coupling) {
+      for (std::size_t p = 0; p < w.loads[s].coupling->pairs.size(); ++p) w.between[first + p].setZero();
+      w.add_blocks(w.loads[s], t_s, first);
+      for (const auto& [i, j] : w.loads[s].coupling->pairs) {
+        react(i, w.between[first], j);
+        react(j, w.between[first].transpose(), i);
+        ++first;
+      }
+    }
     if (!w.loads[s].added_mass) continue;
     for (Matrix6& a : w.added) a.setZero();
     w.loads[s].added_mass(t_s, w.motions, w.added);
-    for (std::size_t b = 0; b < of.size(); ++b) {
-      Eigen::Matrix<double, 6, 1> motion;
-      motion << e.acceleration[b], e.angular_acceleration[b];
-      const Eigen::Matrix<double, 6, 1> reaction = w.added[b] * motion;
-      of[b].force -= reaction.head<3>();
-      of[b].moment -= reaction.tail<3>();
-    }
+    for (std::size_t b = 0; b < of.size(); ++b) react(int(b), w.added[b], int(b));
   }
   return e;
 }

@@ -45,6 +45,32 @@ Table<Wrench> wrench_columns() {
   return table;
 }
 
+Table<bodies::BeamReading> beam_columns() {
+  using Of = const bodies::BeamReading&;
+  static constexpr double degree = radians_per_degree;
+  static constexpr ColumnOf<bodies::BeamReading> table[] = {
+      {"deflection_x_m", "m", "of the end along the beam's x, seen from its start", [](Of b) { return b.displacement[0]; }},
+      {"deflection_y_m", "m", "of the end along its y", [](Of b) { return b.displacement[1]; }},
+      {"turn_x_deg", "deg", "by which the end turns about the beam's x", [](Of b) { return b.rotation[0] / degree; }},
+      {"turn_y_deg", "deg", "about its y", [](Of b) { return b.rotation[1] / degree; }},
+      {"twist_deg", "deg", "about its z, from start to end", [](Of b) { return b.rotation[2] / degree; }},
+      {"start_fx_N", "N", "force at the start, of what is beyond on what is before, along the beam's x there",
+       [](Of b) { return b.start_force[0]; }},
+      {"start_fy_N", "N", "along its y", [](Of b) { return b.start_force[1]; }},
+      {"start_fz_N", "N", "along its z; negative: pressure", [](Of b) { return b.start_force[2]; }},
+      {"start_mx_N_m", "N m", "bending moment at the start about the beam's x there", [](Of b) { return b.start_moment[0]; }},
+      {"start_my_N_m", "N m", "bending moment about its y, of a tower fore-aft", [](Of b) { return b.start_moment[1]; }},
+      {"start_mz_N_m", "N m", "torsion about its z", [](Of b) { return b.start_moment[2]; }},
+      {"end_fx_N", "N", "force at the end, of what is beyond on the beam, along its x there",
+       [](Of b) { return b.end_force[0]; }},
+      {"end_fy_N", "N", "along its y", [](Of b) { return b.end_force[1]; }},
+      {"end_fz_N", "N", "along its z; negative: pressure", [](Of b) { return b.end_force[2]; }},
+      {"end_mx_N_m", "N m", "bending moment at the end about the beam's x there", [](Of b) { return b.end_moment[0]; }},
+      {"end_my_N_m", "N m", "bending moment about its y", [](Of b) { return b.end_moment[1]; }},
+      {"end_mz_N_m", "N m", "torsion about its z", [](Of b) { return b.end_moment[2]; }}};
+  return table;
+}
+
 Table<EnergyRow> energy_columns() {
   using Of = const EnergyRow&;
   using Balance = bodies::EnergyBalance;
@@ -225,10 +251,12 @@ Table<aero::March> march_columns() {
 std::vector<io::ColumnSection> column_sections() {
   return {section_of("BODY.", "each body: its reference point ([bodies.BODY] reference_m, else the centre of mass)",
                      motion_columns()),
-          section_of("BODY.SOURCE.",
-                     "each source of load of a body (gravity, forces, moorings, sea, contact, rotor), about its centre of mass",
-                     wrench_columns()),
+          section_of(
+              "BODY.SOURCE.",
+              "each source of load of a body (gravity, forces, beams, moorings, sea, contact, rotor), about its centre of mass",
+              wrench_columns()),
           section_of("JOINT.", "each joint: its reaction", wrench_columns()),
+          section_of("BEAM.", "each beam: how it is bent and the loads at its ends", beam_columns()),
           section_of("energy.", "scenes with bodies: their balance of energy", energy_columns()),
           section_of("energy.SOURCE.", "each source of load", work_columns()),
           section_of("rotor.", "scenes with a rotor, with bodies or alone", rotor_columns()),

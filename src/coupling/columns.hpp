@@ -8,6 +8,7 @@
 
 #include "kernels/rigid/wrench.hpp"
 #include "src/aero/rotor_loads.hpp"
+#include "src/bodies/beams.hpp"
 #include "src/bodies/state.hpp"
 #include "src/io/column_group.hpp"
 #include "src/moorings/moorings.hpp"
@@ -49,6 +50,7 @@ using Table = std::span<const io::ColumnOf<Source>>;
 
 Table<ReferenceMotion> motion_columns();         ///< BODY.
 Table<Wrench> wrench_columns();                  ///< BODY.SOURCE., JOINT.
+Table<bodies::BeamReading> beam_columns();       ///< BEAM.
 Table<EnergyRow> energy_columns();               ///< energy.
 Table<double> work_columns();                    ///< energy.SOURCE.
 Table<RotorRow> rotor_columns();                 ///< rotor.

@@ -22,6 +22,8 @@ void append(scene::Doubts& to, const scene::Doubts& more) { to.insert(to.end(), 
 double weight(const FloatingSystem& floating) {
   double mass = 0.0;
   for (const auto& body : floating.scenario().bodies) mass += body.options.mass_kg;
+  for (const bodies::Beam& beam : floating.beams())
+    for (const beam::Station& share : beam.link.stations) mass += share.mass;
   return mass * std::abs(floating.scenario().environment.gravity_m_s2);
 }
 

@@ -64,6 +64,16 @@ FloatingSystem::FloatingSystem(Scenario scenario)
     for (const bodies::PointLoad& load : loads) on[std::size_t(load.body)] = true;
     add_source(sources, point_load_source("forces", std::move(loads)), on);
   }
+  std::vector<bodies::Joint> joints = make_joints(s.joints, s.bodies);
+  if (!s.beams.empty()) {
+    beams_ = make_beams(s.beams, s.bodies, bodies, joints);
+    std::vector<bool> on(names.size());
+    for (const bodies::Beam& beam : beams_) {
+      on[std::size_t(beam.j)] = true;
+      if (beam.i != bodies::earth) on[std::size_t(beam.i)] = true;
+    }
+    add_source(sources, beam_source(beams_, gravity_m_s2()), on);
+  }
   if (!s.moorings.empty()) {
     moorings::LineEnvironment around{s.environment.gravity_m_s2, s.environment.water_density_kg_m3};
     if (s.has_waves() || !s.sea.current_m_s.isZero(0.0))
@@ -178,8 +188,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
     add_source(sources, std::move(source), on);
   }
   clocks_.resize(sources.size());
-  multibody_ =
-      std::make_unique<bodies::System>(std::move(bodies), make_joints(s.joints, s.bodies), std::move(sources), s.time.integrator);
+  multibody_ = std::make_unique<bodies::System>(std::move(bodies), std::move(joints), std::move(sources), s.time.integrator);
 }
 
 /// Wraps the source so that its time is counted; two readings of the clock, 16 ns, per evaluation.

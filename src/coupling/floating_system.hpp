@@ -38,6 +38,8 @@ class FloatingSystem {
   const Timeline& timeline() const { return timeline_; }
   bodies::System& multibody() { return *multibody_; }
 
+  std::span<const bodies::Beam> beams() const { return beams_; }
+  Eigen::Vector3d gravity_m_s2() const { return {0.0, 0.0, -scenario_.environment.gravity_m_s2}; }
   const std::optional<moorings::Moorings>& moorings() const { return moorings_; }
   /// Of a scene with particles: its hydrostatics, which statics and linearisation use, where its shapes are cylinders.
   const std::optional<sea::EngineeringSea>& sea() const { return sea_; }
@@ -99,6 +101,7 @@ class FloatingSystem {
 
   Scenario scenario_;
   Timeline timeline_;
+  std::vector<bodies::Beam> beams_;
   std::optional<moorings::Moorings> moorings_;
   std::optional<sea::EngineeringSea> sea_;
   std::optional<aero::RotorLoads> rotor_;

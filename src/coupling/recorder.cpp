@@ -31,6 +31,7 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
   }
   for (const bodies::Joint& joint : floating.multibody().joints())
     joints_.emplace_back(history, joint.name + ".", wrench_columns());
+  for (const bodies::Beam& beam : floating.beams()) beams_.emplace_back(history, beam.name + ".", beam_columns());
   if (!bodies.empty()) {
     energy_.emplace(history, "energy.", energy_columns());
     for (const bodies::LoadSource& source : loads) works_.emplace_back(history, "energy." + source.name + ".", work_columns());
@@ -103,6 +104,9 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
                                           now.angular_acceleration[b]));
   for (const Load& load : loads_) load.columns.fill(row, now.by_source[load.source][load.body]);
   for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].fill(row, now.joint_reactions[j]);
+  for (std::size_t n = 0; n < beams_.size(); ++n)
+    beams_[n].fill(row, read_beam(floating_.beams()[n], state.motions, now.acceleration, now.angular_acceleration,
+                                  floating_.gravity_m_s2()));
   if (energy_) {
     const std::span<const double> work = state.work;
     for (std::size_t s = 0; s < works_.size(); ++s) works_[s].fill(row, work[s]);

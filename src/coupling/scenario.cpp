@@ -33,11 +33,12 @@ void check_names(scene::Document& document, const Scenario& s) {
     for (const std::string& name : all) {
       if (!seen.insert(name).second)
         document.problem(fmt::format("{}.{}", section, name),
-                         fmt::format("\"{}\" is the name of another body, joint or line", name));
+                         fmt::format("\"{}\" is the name of another body, joint, beam or line", name));
     }
   };
   check("bodies", names(s.bodies));
   check("joints", names(s.joints));
+  check("beams", names(s.beams));
   check("moorings", names(s.moorings));
 }
 
@@ -139,11 +140,12 @@ void check_resolved_air(scene::Document& document, const Scenario& s) {
 }  // namespace
 
 std::span<const scene::SectionBase* const> all_sections() {
-  static const std::array<const scene::SectionBase*, 16> sections{
-      &time_section(),         &environment_section(),   &aero::wind_section(),     &aero::aero_section(),
-      &aero::rotor_section(),  &aero::control_section(), &sea::sea_section(),       &sea::waves_section(),
-      &bodies::body_section(), &bodies::joint_section(), &moorings::line_section(), &coupling_section(),
-      &start_section(),        &runtime_section(),       &output_section(),         &checkpoint_section()};
+  static const std::array<const scene::SectionBase*, 17> sections{
+      &time_section(),         &environment_section(),   &aero::wind_section(),   &aero::aero_section(),
+      &aero::rotor_section(),  &aero::control_section(), &sea::sea_section(),     &sea::waves_section(),
+      &bodies::body_section(), &bodies::joint_section(), &bodies::beam_section(), &moorings::line_section(),
+      &coupling_section(),     &start_section(),         &runtime_section(),      &output_section(),
+      &checkpoint_section()};
   return sections;
 }
 
@@ -199,6 +201,7 @@ Scenario read_scenario(scene::Document& document) {
   s.aero = document.read(aero::aero_section());
   s.bodies = document.read_named(bodies::body_section());
   s.joints = document.read_named(bodies::joint_section());
+  s.beams = document.read_named(bodies::beam_section());
   s.rotor = document.read_where(s.has_rotor() || has_resolved_rotor(s), aero::rotor_section(), "aero.model is none");
   s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
                                "aero.model = \"" + s.aero.model + "\" does not look at the wind");
@@ -250,6 +253,7 @@ Scenario read_scenario(scene::Document& document) {
     s.coupling.scheme = s.resolves_air() ? SchemeKind::cps2 : SchemeKind::monolithic;
   check_coupling(document, s.coupling, s.time);
   check_bodies(document, s.bodies, s.joints, s.has_particles());
+  check_beams(document, s.beams, s.bodies);
   for (const auto& [name, body] : s.bodies)
     for (const auto& [shapes, any] : {std::pair{"boxes", !body.boxes.empty()}, std::pair{"spheres", !body.spheres.empty()}})
       if (!s.has_particles() && any)
@@ -282,6 +286,7 @@ Scenario read_scenario(scene::Document& document) {
 std::string describe_bodies(const Scenario& s) {
   std::string text = fmt::format("{} ({})", s.bodies.size(), fmt::join(names(s.bodies), ", "));
   if (!s.joints.empty()) text += fmt::format(", joints: {}", fmt::join(names(s.joints), ", "));
+  if (!s.beams.empty()) text += fmt::format(", beams: {}", fmt::join(names(s.beams), ", "));
   return text;
 }
 

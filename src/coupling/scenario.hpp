@@ -10,6 +10,7 @@
 
 #include "src/aero/control_options.hpp"
 #include "src/aero/options.hpp"
+#include "src/bodies/beam_options.hpp"
 #include "src/bodies/options.hpp"
 #include "src/coupling/coupling_options.hpp"
 #include "src/coupling/options.hpp"
@@ -32,6 +33,7 @@ struct Scenario {
   CouplingOptions coupling;
   bodies::NamedBodies bodies;
   bodies::NamedJoints joints;
+  bodies::NamedBeams beams;
   std::vector<scene::Named<moorings::LineOptions>> moorings;
   aero::AeroOptions aero;
   aero::RotorOptions rotor;
