@@ -192,9 +192,11 @@ TEST_CASE("a scene with an actuator says a turbine, a grid and a time that suit 
     } catch (const scene::SceneError& e) { return e.what(); }
     return {};
   };
-  const std::string grid = "[aero.flow.generate]\nkind = 'box'\n",
+  const std::string grid = "[aero.flow.generate]\nkind = 'box'\nlow_m = [-200, -200, -200]\nhigh_m = [200, 200, 200]\n",
                     turbine = "turbine = '" SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml'\n";
   CHECK(problems("model = 'actuator_disc'\n" + grid, turbine).empty());
+  CHECK_THAT(problems("model = 'actuator_disc'\n" + grid, turbine + "hub_m = [0, 0, 119]\n"),
+             Contains("rotor.hub_m") && Contains("out of the grid, which goes from -200 to 200 m along z"));
   CHECK_THAT(problems("model = 'actuator_disc'\n" + grid, ""), Contains("rotor.turbine") && Contains("must name a turbine file"));
   CHECK_THAT(problems("model = 'actuator_line'\n" + grid, turbine), Contains("aero.flow.time") && Contains("lines turn"));
   CHECK_THAT(problems("model = 'actuator_disc'\n", turbine), Contains("aero.flow") && Contains("must be given"));
