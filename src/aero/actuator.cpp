@@ -18,6 +18,8 @@ constexpr double lifting_width_chords = 0.25;
 constexpr double wake_step = 0.01, least_wake_angle = 0.02;
 /// Part of the disc's own wind below which its wake is not slowed for the correction.
 constexpr double least_disc_wind = 0.25;
+/// How far blades may be off the rotor's plane by cone and prebend, over the radius.
+constexpr double blade_depth = 0.1;
 constexpr int most_iterations = 300;
 constexpr double wind_tolerance = 1e-10;  ///< change of an iteration over the section's speed
 
@@ -48,7 +50,8 @@ double narrowest(const Turbine& turbine, const ActuatorOptions& o, double cell) 
 
 }  // namespace
 
-double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, double radius, MPI_Comm comm) {
+double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const Eigen::Vector3d& axis, double radius,
+                     MPI_Comm comm) {
   double largest = 0.0;
   for (const int tile : store.owned()) {
     const TileGeometry& g = store[tile];
@@ -59,8 +62,10 @@ double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, double 
         for (int i = 0; i < cells.ni; ++i) {
           const std::ptrdiff_t at = g.cell_box.at(k, j, i);
           const double* x = g.centre_data.data() + at;
-          if ((Eigen::Vector3d(x[0], x[c], x[2 * c]) - hub).norm() <= radius)
-            largest = std::max(largest, std::cbrt(g.volume_data.data()[at]));
+          const Eigen::Vector3d arm = Eigen::Vector3d(x[0], x[c], x[2 * c]) - hub;
+          const double along = arm.dot(axis), size = std::cbrt(g.volume_data.data()[at]);
+          if (std::abs(along) <= std::max(blade_depth * radius, 0.5 * size) && (arm - along * axis).norm() <= radius)
+            largest = std::max(largest, size);
         }
   }
   runtime::Packer mine;

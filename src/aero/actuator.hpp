@@ -17,9 +17,10 @@
 
 namespace spindrift::aero {
 
-/// Longest cell, by the cube root of its volume, among those within a radius of the hub [m]; zero where there are none.
-/// Collective.
-double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, double radius, MPI_Comm comm);
+/// Longest cell, by the cube root of its volume, among those at the disc of this hub, axis and radius [m]; zero where there are
+/// none. Collective.
+double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const Eigen::Vector3d& axis, double radius,
+                     MPI_Comm comm);
 
 class Actuator final : public BodyForce {
  public:

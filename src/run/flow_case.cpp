@@ -110,7 +110,7 @@ void FlowCase::make_actuator(const coupling::Scenario& s, const runtime::World& 
                      .azimuth = s.rotor.azimuth,
                      .blade_pitch = s.rotor.blade_pitch,
                      .hub = s.rotor.hub_m};
-  const double cell = aero::cell_at_rotor(*store_, s.rotor.hub_m, turbine.planform.span.back(), world.comm);
+  const double cell = aero::cell_at_rotor(*store_, s.rotor.hub_m, axis, turbine.planform.span.back(), world.comm);
   const auto kind = s.aero.model == "actuator_line" ? aero::Actuator::Kind::lines : aero::Actuator::Kind::disc;
   actuator_ = std::make_shared<aero::Actuator>(turbine, kind, s.aero.actuator.value_or(aero::ActuatorOptions()),
                                                s.environment.air_density_kg_m3, cell);
