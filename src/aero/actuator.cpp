@@ -20,7 +20,7 @@ constexpr double wake_step = 0.01, least_wake_angle = 0.02;
 constexpr double least_disc_wind = 0.25;
 /// How far blades may be off the rotor's plane by cone and prebend, over the radius.
 constexpr double blade_depth = 0.1;
-constexpr int most_iterations = 300;
+constexpr int most_iterations = 300, wake_rounds = 3;
 constexpr double wind_tolerance = 1e-10;  ///< change of an iteration over the section's speed
 
 /// No element longer than this [m]: the kernels of neighbours must overlap.
@@ -253,17 +253,30 @@ const Actuator::WakeMatrix& Actuator::wake(int level) {
   return m;
 }
 
-/// The loads and the wake that they leave, in balance: the winds gain what the width has taken from the wake's velocity.
+/// The loads and the wake that they leave, in balance: the winds gain what the width has taken from the wake's velocity. The
+/// helices have the pitch of the wind that the loaded part of the blades meets, found in a few rounds from that of the samples.
 void Actuator::act_lines() {
-  const std::size_t n = sections_.elements();
-  const double radius = sections_.tip_radius();
-  double wind = 0.0, area = 0.0;
+  std::vector<double> normal, tangential, circulation;
+  for (const Point& p : points_)
+    normal.push_back(p.normal_wind), tangential.push_back(p.tangential_wind), circulation.push_back(p.circulation);
+  for (int round = 0; round < wake_rounds; ++round) balance_lines(wake_angle(), normal, tangential, circulation);
+}
+
+/// Of the helix at the tip, by the winds that the blades meet, weighted with their thrust [rad].
+double Actuator::wake_angle() const {
+  double wind = 0.0, thrust = 0.0;
   for (const Point& p : points_) {
-    const BladeElementMomentum::BladeSection s = sections_.section(p.element);
-    wind += s.radius * s.length * p.normal_wind, area += s.radius * s.length;
+    const double share = std::abs(p.force.dot(rotor_.axis));
+    wind += share * p.normal_wind, thrust += share;
   }
-  const double angle = std::clamp(std::atan2(wind / area, rotor_.omega.dot(rotor_.axis) * radius), least_wake_angle,
-                                  pi - least_wake_angle - wake_step);
+  const double around = rotor_.omega.dot(rotor_.axis) * sections_.tip_radius();
+  return std::clamp(std::atan2(thrust > 0.0 ? wind / thrust : 0.0, around), least_wake_angle, pi - least_wake_angle - wake_step);
+}
+
+/// Winds as sampled; `circulation` is where the iteration begins, and ends.
+void Actuator::balance_lines(double angle, std::span<const double> normal, std::span<const double> tangential,
+                             std::span<double> circulation) {
+  const std::size_t n = sections_.elements();
   const int level = int(std::floor(angle / wake_step));
   const double s = angle / wake_step - level;
   wake(level);
@@ -273,9 +286,7 @@ void Actuator::act_lines() {
     m.normal[k] += s * (high.normal[k] - low.normal[k]);
     m.tangential[k] += s * (high.tangential[k] - low.tangential[k]);
   }
-  std::vector<double> normal(points_.size()), tangential(points_.size()), circulation(points_.size(), 0.0), relax(n);
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    normal[p] = points_[p].normal_wind, tangential[p] = points_[p].tangential_wind, circulation[p] = points_[p].circulation;
+  std::vector<double> relax(n);
   for (std::size_t e = 0; e < n; ++e)  // a section of slope 2 pi answers to a wind with pi times its chord
     relax[e] = 1.0 / (1.0 + pi * sections_.section(e).chord * std::abs(m.normal[e * n + e]));
   for (int iteration = 0; iteration < most_iterations; ++iteration) {

@@ -88,6 +88,9 @@ class Actuator final : public BodyForce {
   void find_cells(Part& part, const FlowTile& tile) const;
   void section_loads(Point& p) const;
   void act_lines();
+  double wake_angle() const;
+  void balance_lines(double angle, std::span<const double> normal, std::span<const double> tangential,
+                     std::span<double> circulation);
   void act_disc();
   const WakeMatrix& wake(int level);
   RotorLoad load_of(std::span<const double> loads) const;

@@ -102,6 +102,24 @@ TEST_CASE("a tip vortex slows the wind at its own blade, and all blades' helices
   CHECK(missing_velocity(0.8, 1.0, 0.0, wake, 0.3, 0.3).axial == 0.0);
 }
 
+TEST_CASE("helices lack on the mean over the azimuth what a disc of their circulation lacks", "[rotor][fast]") {
+  // Three blades of one circulation each: induced velocity of the disc B / (4 pi R tan(angle)), of which the width keeps the
+  // mean.
+  const double wide = std::sqrt(2.0) * 0.2, angle = GENERATE(0.09, 0.13), r = GENERATE(0.6, 0.8, 0.95);
+  const HelicalWake wake{angle, 1.0};
+  constexpr int azimuths = 120, rings = 40;
+  double helices = 0.0, kept = 0.0;
+  for (int n = 0; n < azimuths; ++n)
+    helices += 3.0 / azimuths * missing_velocity(r, 1.0, 2.0 * pi * (n + 0.37) / azimuths, wake, 0.003, wide).axial;
+  for (int k = 0; k < rings; ++k) kept += ring_mean(r, double(k) / rings, double(k + 1) / rings, wide, false);
+  const double disc = 3.0 / (4.0 * pi * std::tan(angle));
+  CHECK(helices == Approx(-disc * (1.0 - kept)).epsilon(3e-3));
+  // The blade itself meets more than the mean: the loss at the tip.
+  double blade = 0.0;
+  for (int b = 0; b < 3; ++b) blade += missing_velocity(r, 1.0, 2.0 * pi * b / 3.0, wake, 0.003, wide).axial;
+  CHECK(blade < helices * (r > 0.9 ? 1.3 : 0.99));
+}
+
 TEST_CASE("the Gaussian mean over rings is that over the plane they fill", "[rotor][fast]") {
   const double width = GENERATE(0.05, 0.2), radius = GENERATE(0.1, 0.5, 0.95, 1.1);
   double sum = 0.0, swirl = 0.0;

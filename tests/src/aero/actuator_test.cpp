@@ -96,6 +96,9 @@ TEST_CASE("what the blades take the air loses: force and power to round-off", "[
   c->prepare();
   c->run();
   REQUIRE(c->solver->march().verdict() != Verdict::failed);
+  // The box's own cells at the disc, though longer ones begin three quarters of a radius upstream.
+  CHECK(cell_at_rotor(*c->store, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), tip_radius(), MPI_COMM_SELF) ==
+        Approx(tip_radius() / 4.0).epsilon(1e-9));
   const RotorLoad load = actuator->load(c->solver->rows().back());
   const std::array<double, 4> sums = source_sums(*c->solver);
   CHECK(load.thrust > 1e5);
@@ -218,6 +221,58 @@ TEST_CASE("a disc of the DTU 10 MW rotor at ten cells to the radius has the thru
     CAPTURE(x, loading);
     CHECK(head_loss(*c->solver, x * tip_radius(), 0.35, 0.8) == Approx(loading).epsilon(0.04));
   }
+}
+
+TEST_CASE("a disc at thirty cells to the radius has the thrust of blade elements, and of ten", "[rotor][long]") {
+  const Wind8 o{.speed = 11.0,
+                .cells = 30.0,
+                .upstream = 5.0,
+                .downstream = 6.0,
+                .side = 5.0,
+                .core_upstream = 0.2,
+                .core_downstream = 0.25};
+  FlowSetting s;
+  s.preconditioner = "coarse";
+  s.march.drop = 5e-3, s.march.max_steps = 40, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
+  const auto c = box(o, s);
+  const auto actuator = act_in(*c, Actuator::Kind::disc, turning(8.8354), o.cells);
+  c->solver->watch([&](const PseudoRow& row) {
+    UNSCOPED_INFO(row.step << ": " << actuator->load(row).thrust << " N, " << actuator->load(row).power << " W");
+  });
+  c->prepare(MPI_COMM_SELF, {});
+  c->run();
+  const double thrust = actuator->load(c->solver->rows().back()).thrust, expected = blade_element_thrust(11.0, 8.8354);
+  CHECK(thrust == Approx(expected).epsilon(0.03));
+}
+
+TEST_CASE("lines at ten cells to the radius have the thrust of blade elements once their wake is there", "[rotor][long]") {
+  const double wind = 11.0, rpm = 8.8354, step = 0.25;
+  const Wind8 o{.speed = wind,
+                .cells = 10.0,
+                .upstream = 4.5,
+                .downstream = 6.5,
+                .side = 4.5,
+                .core_upstream = 0.5,
+                .core_downstream = 1.75};
+  FlowSetting s;
+  s.time_order = 2, s.dt = step, s.physical_far_field = true;
+  s.march.drop = 1e-2, s.march.max_steps = 10, s.march.cfl_start = 5.0, s.march.cfl_max = 1e4, s.march.matrix_free_below = 1e-2;
+  const auto c = box(o, s);
+  const auto actuator = act_in(*c, Actuator::Kind::lines, turning(rpm), o.cells);
+  c->prepare(MPI_COMM_SELF, {});
+  double thrust = 0.0;
+  for (int n = 1; n <= 200; ++n) {  // six radii of wind
+    actuator->place(turning(rpm, n * step * rpm * rad_s_per_rpm));
+    c->run();
+    REQUIRE(c->solver->march().verdict() != Verdict::failed);
+    const RotorLoad load = actuator->load(c->solver->rows().back());
+    c->solver->clear_rows();
+    thrust = load.thrust;
+    if (n % 20 == 0) UNSCOPED_INFO(n * step << " s: " << load.thrust << " N, " << load.power << " W");
+  }
+  const double expected = blade_element_thrust(wind, rpm);
+  CAPTURE(expected);
+  CHECK(thrust == Approx(expected).epsilon(0.05));
 }
 
 TEST_CASE("the declarations of an actuator are sound in themselves", "[rotor][fast]") {
