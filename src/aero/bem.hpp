@@ -66,6 +66,20 @@ class BladeElementMomentum {
   void remember(const Wind& wind, const DiscMotion& rotor, double t, double h, std::span<double> memory) const;
 
   double tip_radius() const { return tip_radius_; }
+  /// Sections as other models need them, which find the wind at the blades by themselves.
+  struct BladeSection {
+    double radius, axial;                ///< of its middle, from the hub [m]; axial downwind
+    double normal_radial, normal_axial;  ///< its normal
+    double length, chord, twist;         ///< [m], [m], [rad]
+  };
+  std::size_t elements() const { return elements_.size(); }
+  BladeSection section(std::size_t element) const {
+    const Element& e = elements_[element];
+    return {e.radius, e.axial, e.normal_radial, e.normal_axial, e.length, e.chord, e.twist};
+  }
+  /// Of the blended polar at any angle of attack [rad].
+  SectionForce section_force(std::size_t element, double attack) const { return polar(elements_[element], attack); }
+  Annulus annulus(std::size_t element, double blade_pitch) const { return annulus(elements_[element], blade_pitch); }
   double radius(std::size_t element) const { return elements_[element].radius; }
   double chord(std::size_t element) const { return elements_[element].chord; }
   /// Of one element by itself; the two winds as in solve_element.

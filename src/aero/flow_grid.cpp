@@ -26,7 +26,32 @@ namespace spindrift::aero {
 
 namespace {
 
+std::array<std::vector<double>, 3> box_nodes(const GenerateOptions& g) {
+  std::array<std::vector<double>, 3> nodes;
+  for (std::size_t d = 0; d < 3; ++d)
+    nodes[d] = stretched_nodes(g.low_m[d], g.core_low_m[d], g.core_high_m[d], g.high_m[d], g.cell_m, g.growth);
+  return nodes;
+}
+
+void check_stretched_box(const GenerateOptions& o, const scene::Report& report) {
+  constexpr double least_cells = 4.0;  // between the core and a side that it does not reach
+  for (std::size_t d = 0; d < 3; ++d) {
+    const char axis = "xyz"[d];
+    if (o.core_high_m[d] <= o.core_low_m[d])
+      report("core_high_m", fmt::format("must be above core_low_m along each axis; along {} it is {} and {}", axis,
+                                        o.core_high_m[d], o.core_low_m[d]));
+    const auto check_side = [&](const char* key, double side, double beyond) {
+      if (beyond == 0.0 || beyond >= least_cells * o.cell_m) return;
+      report(key, fmt::format("must be where the box ends, at {} m along {}, or {:g} cells inside, {} m; found {} m of room",
+                              side, axis, least_cells, least_cells * o.cell_m, beyond));
+    };
+    check_side("core_low_m", o.low_m[d], o.core_low_m[d] - o.low_m[d]);
+    check_side("core_high_m", o.high_m[d], o.high_m[d] - o.core_high_m[d]);
+  }
+}
+
 void check_box(const GenerateOptions& o, const scene::Report& report) {
+  if (o.kind == "stretched_box") check_stretched_box(o, report);
   if (o.kind != "box") return;
   for (std::size_t d = 0; d < 3; ++d) {
     if (o.cells[d] != std::floor(o.cells[d])) report("cells", fmt::format("must be whole numbers; found {}", o.cells[d]));
@@ -71,6 +96,8 @@ MultiBlockGrid section_grid(const GenerateOptions& g, double width) {
 
 MultiBlockGrid generated(const GenerateOptions& g, double width) {
   if (g.kind == "box") return make_box(g);
+  if (g.kind == "stretched_box")
+    return cartesian_box(box_nodes(g), {.patches = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"}});
   if (g.kind == "flat_plate") return flat_plate(g.refinement, width);
   if (g.kind == "naca0012" || g.kind == "aerofoil") return section_grid(g, width);
   if (g.kind == "wing") return extruded(section_grid(g, width), g.span_cells, g.span_m, false);
@@ -97,6 +124,7 @@ const scene::Section<GenerateOptions>& generate_section() {
       scene::Section<GenerateOptions>("generate", "A grid made by the program. Families: every member samples one smooth law.")
           .choice("kind", &GenerateOptions::kind,
                   {{"box", "a box of equal cells; patches x_min ... z_max"},
+                   {"stretched_box", "a box with a core of equal cells that grow beyond it: rotor and wake; the same patches"},
                    {"flat_plate", "NASA's flat plate from x = 0 to 2 m; patches inflow, outflow, symmetry, wall, top"},
                    {"cylinder", "an O round a circular cylinder along y; patches wall, farfield"},
                    {"naca0012", "a C round NACA 0012, chord 1 m from x = 0; patches wall, farfield, outflow"},
@@ -138,9 +166,18 @@ const scene::Section<GenerateOptions>& generate_section() {
                   between(1, 4096))
           .only_if("kind", {"box"})
           .vector("low_m", &GenerateOptions::low_m, "m", "Lowest corner of the box.")
-          .only_if("kind", {"box"})
+          .only_if("kind", {"box", "stretched_box"})
           .vector("high_m", &GenerateOptions::high_m, "m", "Highest corner of the box.")
-          .only_if("kind", {"box"})
+          .only_if("kind", {"box", "stretched_box"})
+          .number("cell_m", &GenerateOptions::cell_m, "m", "Cells of the core.", above(0.0).up_to(1e5))
+          .only_if("kind", {"stretched_box"})
+          .vector("core_low_m", &GenerateOptions::core_low_m, "m", "Lowest corner of the core.")
+          .only_if("kind", {"stretched_box"})
+          .vector("core_high_m", &GenerateOptions::core_high_m, "m", "Highest corner of the core.")
+          .only_if("kind", {"stretched_box"})
+          .number("growth", &GenerateOptions::growth, "-", "Most that a cell beyond the core is longer than the one before it.",
+                  above(1.0).up_to(2.0))
+          .only_if("kind", {"stretched_box"})
           .texts("periodic", &GenerateOptions::periodic, "Axes along which the box repeats, of \"x\", \"y\", \"z\".")
           .only_if("kind", {"box"})
           .check([](const GenerateOptions& o, const scene::Report& report) {
@@ -157,6 +194,15 @@ const scene::Section<GenerateOptions>& generate_section() {
 GeneratedSize generated_size(const GenerateOptions& g) {
   const double n2 = double(g.refinement) * g.refinement;
   if (g.kind == "box") return {g.cells[0] * g.cells[1] * g.cells[2], "aero.flow.generate.cells"};
+  if (g.kind == "stretched_box") {
+    double cells = 1.0;
+    for (std::size_t d = 0; d < 3; ++d) {  // before the nodes themselves, which might not fit
+      const double beyond = std::max(0.0, g.core_low_m[d] - g.low_m[d]) + std::max(0.0, g.high_m[d] - g.core_high_m[d]);
+      cells *= (g.core_high_m[d] - g.core_low_m[d]) / g.cell_m +
+               2.0 * std::log1p(beyond / g.cell_m * (g.growth - 1.0)) / std::log(g.growth);
+    }
+    return {cells, "aero.flow.generate.cell_m"};
+  }
   if (g.kind == "cylinder") return {double(g.around) * g.outward, "aero.flow.generate.around"};
   if (g.kind == "wing") return {112.0 * 32.0 * n2 * g.span_cells, "aero.flow.generate.span_cells"};
   const double base = g.kind == "flat_plate" ? 34.0 * 24.0 : g.kind == "bump" ? 44.0 * 20.0 : 112.0 * 32.0;

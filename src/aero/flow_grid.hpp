@@ -31,6 +31,9 @@ struct GenerateOptions {
   std::array<double, 3> cells{32.0, 1.0, 32.0};  ///< box, along x, y, z; one along y: planar
   std::array<double, 3> low_m{0.0, 0.0, 0.0}, high_m{1.0, 1.0, 1.0};
   std::vector<std::string> periodic;  ///< axes of a box
+  // stretched box
+  double cell_m = 1.0, growth = 1.2;
+  std::array<double, 3> core_low_m{0.0, 0.0, 0.0}, core_high_m{1.0, 1.0, 1.0};
 };
 const scene::Section<GenerateOptions>& generate_section();
 

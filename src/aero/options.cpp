@@ -20,8 +20,10 @@ namespace {
 const std::vector<std::string> prescribed{"prescribed"}, curves{"thrust_curve"}, tabulated{"prescribed", "thrust_curve"};
 
 void check_aero(const AeroOptions& o, const scene::Report& report) {
-  if (o.model == "blade_resolved" && !o.flow)
-    report("flow", "must be given: aero.model \"blade_resolved\" needs a grid and its boundaries");
+  if (o.resolves_air() && !o.flow)
+    report("flow", fmt::format("must be given: aero.model \"{}\" needs a grid and its boundaries", o.model));
+  if (o.acts() && o.grid)
+    report("grid", fmt::format("has no effect: aero.model \"{}\" has no blades in its grid; give [aero.flow.generate]", o.model));
   if (o.flow) {
     const bool file = !o.flow->grid.empty(), made = o.flow->generate.has_value();
     if (o.grid && (file || made))
@@ -32,7 +34,8 @@ void check_aero(const AeroOptions& o, const scene::Report& report) {
   if (o.flow && o.flow->coarse_steps.value_or(0) > 0 && o.grid && o.grid->resolution < least)
     report("grid.resolution",
            fmt::format("= {} must be at least {} with flow.coarse_steps, whose grid has half of it", o.grid->resolution, least));
-  if (o.model != "blade_resolved" && o.flow) report("flow", "has no effect: aero.model is not \"blade_resolved\"");
+  if (!o.resolves_air() && o.flow)
+    report("flow", "has no effect: aero.model is none of \"blade_resolved\", \"actuator_disc\", \"actuator_line\"");
   const bool series = !o.thrust_cosine_N.empty() || !o.thrust_sine_N.empty() || !o.torque_cosine_N_m.empty() ||
                       !o.torque_sine_N_m.empty() || o.torque_N_m != 0.0;
   if (!o.table.empty() && series) report("table", "takes the place of torque_N_m and of all harmonics: give the table or those");
@@ -54,6 +57,8 @@ const scene::Section<AeroOptions>& aero_section() {
                    {"prescribed", "thrust and torque constant, in harmonics of azimuth, or from a table in time"},
                    {"thrust_curve", "thrust and torque from the wind that the hub meets"},
                    {"bem", "blade element momentum on the section tables of rotor.turbine, in quasi-steady balance"},
+                   {"actuator_disc", "the air itself, with the blades' section forces spread over the rotor's disc"},
+                   {"actuator_line", "the air itself, with those forces along blades that turn through its grid"},
                    {"blade_resolved", "the air itself, by finite volumes on the grid of aero.flow"}},
                   "Rung of the ladder.")
           .number("thrust_N", &AeroOptions::thrust_N, "N", "Thrust, or its mean over a turn.")
@@ -125,6 +130,8 @@ const scene::Section<AeroOptions>& aero_section() {
           .table("tower", &AeroOptions::tower, tower_section(), "The tower in the wind.")
           .only_if("model", {"thrust_curve", "bem"})
           .table("grid", &AeroOptions::grid, rotor_grid_section(), "The grid round the resolved rotor.")
+          .table("actuator", &AeroOptions::actuator, actuator_section(), "How blades that the grid does not show act on the air.")
+          .only_if("model", {"actuator_disc", "actuator_line"})
           .table("flow", &AeroOptions::flow, flow_section(), "The resolved air.")
           .one_of({"thrust_N", "table"})
           .one_of({"thrust_coefficient", "curve"})

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/aero/actuator_options.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/rotor_grid/options.hpp"
 #include "src/aero/tower.hpp"
@@ -43,8 +44,13 @@ struct AeroOptions {
   std::optional<double> inflow_time_s;  ///< absent: by wind and induction
   double speed_of_sound_m_s = 340.0;    ///< of dynamic stall after Beddoes & Leishman
   std::optional<TowerOptions> tower;
-  std::optional<FlowOptions> flow;       ///< blade_resolved
+  std::optional<FlowOptions> flow;       ///< blade_resolved, actuators
   std::optional<RotorGridOptions> grid;  ///< resolved rotor
+  std::optional<ActuatorOptions> actuator;
+
+  /// Blades that act on the resolved air without being in its grid.
+  bool acts() const { return model == "actuator_disc" || model == "actuator_line"; }
+  bool resolves_air() const { return model == "blade_resolved" || acts(); }
 };
 
 struct RotorOptions {

@@ -314,6 +314,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   }
   if (scenario.has_flow()) {
     const aero::MultiBlockGrid grid = aero::flow_grid(*scenario.aero.flow);
+    if (scenario.has_actuator()) aero::require_rotor_inside(grid, scenario.rotor);
     if (world.rank != 0) return done;
     fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,

@@ -8,7 +8,7 @@
 
 namespace spindrift::coupling {
 
-inline bool has_resolved_rotor(const Scenario& s) { return s.resolves_air() && s.aero.grid.has_value(); }
+inline bool has_resolved_rotor(const Scenario& s) { return s.aero.model == "blade_resolved" && s.aero.grid.has_value(); }
 /// The undisturbed wind with aero.flow.incidence_deg [m/s].
 Eigen::Vector3d flow_wind(const Scenario& scenario);
 /// Of a scene with a resolved rotor, which is where [rotor] puts it.

@@ -92,7 +92,7 @@ void take_operating_point(scene::Document& document, Scenario& s) {
 /// What the turbine file says where the scene says nothing, and what follows from it. Files that cannot be read are told of by
 /// check_rotor.
 void take_from_turbine(scene::Document& document, Scenario& s) {
-  if (!s.has_rotor() && !has_resolved_rotor(s)) return;
+  if (!s.has_rotor() && !has_resolved_rotor(s) && !s.has_actuator()) return;
   int blades = 3;
   std::optional<aero::Operation> operation;
   try {
@@ -122,6 +122,11 @@ void check_saved_start(scene::Document& document, const Scenario& s) {
 
 /// Rules between a resolved rotor and the bodies that carry it.
 void check_resolved_air(scene::Document& document, const Scenario& s) {
+  if (s.has_actuator())
+    return document.problem("aero.model",
+                            fmt::format("must not be \"{}\" beside [bodies]: its rotor stands at rotor.hub_m and turns "
+                                        "at rotor.speed_rpm; \"bem\" and \"blade_resolved\" go with bodies",
+                                        s.aero.model));
   if (!has_resolved_rotor(s))
     return document.problem("bodies", "have no effect beside an air without a rotor: give [aero.grid], or leave them out");
   aero::RotorOptions rotor = s.rotor;
@@ -202,7 +207,8 @@ Scenario read_scenario(scene::Document& document) {
   s.bodies = document.read_named(bodies::body_section());
   s.joints = document.read_named(bodies::joint_section());
   s.beams = document.read_named(bodies::beam_section());
-  s.rotor = document.read_where(s.has_rotor() || has_resolved_rotor(s), aero::rotor_section(), "aero.model is none");
+  s.rotor = document.read_where(s.has_rotor() || has_resolved_rotor(s) || s.has_actuator(), aero::rotor_section(),
+                                "aero.model is none");
   s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
                                "aero.model = \"" + s.aero.model + "\" does not look at the wind");
   if (!s.wind.steady() && s.resolves_air())
@@ -240,6 +246,7 @@ Scenario read_scenario(scene::Document& document) {
   if (s.resolves_air() && s.aero.grid && s.aero.flow->motion)
     document.problem("aero.flow.motion", "has no effect: the grid of a rotor goes with the rotor");
   if (s.has_flow()) {
+    if (s.has_actuator()) aero::check_actuator(document, s.aero, s.rotor);
     if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s), aero::wind_profile(s.wind));
     if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
     if (has_resolved_rotor(s) && !s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
@@ -293,6 +300,7 @@ std::string describe_bodies(const Scenario& s) {
 std::string describe_rotor(const Scenario& s) {
   if (has_resolved_rotor(s))
     return fmt::format("blade_resolved, {}{}", s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
+  if (s.has_actuator() && s.bodies.empty()) return fmt::format("{}, {}", s.aero.model, s.rotor.turbine);
   if (!s.has_rotor()) return "none";
   std::string text = fmt::format("{} on body {}", s.aero.model, s.rotor.body);
   if (s.rotor.operating_point == "table")

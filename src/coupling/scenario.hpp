@@ -42,7 +42,8 @@ struct Scenario {
   sea::SeaOptions sea;
   sea::WavesOptions waves;
 
-  bool resolves_air() const { return aero.model == "blade_resolved"; }
+  bool resolves_air() const { return aero.resolves_air(); }
+  bool has_actuator() const { return aero.acts(); }
   bool has_flow() const { return resolves_air() && bodies.empty(); }  ///< the air by itself: src/run/flow_simulation.hpp
   bool has_rotor() const { return aero.model != "none" && !has_flow(); }
   bool is_controlled() const { return control.model != aero::ControlModel::none; }

@@ -50,7 +50,7 @@ def what_ran(run):
     """One sentence: the kind of scene, its models, how long."""
     scene = run.scene
     sea = {"sph": "a sea of particles", "morison": "Morison strips", "hydrostatic": "hydrostatics"}.get(_value(scene, "sea", "model"))
-    air = {"blade_resolved": "a blade-resolved rotor", "bem": "blade element momentum", "prescribed": "prescribed rotor loads",
+    air = {"blade_resolved": "a blade-resolved rotor", "actuator_disc": "an actuator disc", "actuator_line": "actuator lines", "bem": "blade element momentum", "prescribed": "prescribed rotor loads",
            "thrust_curve": "a thrust curve"}.get(_value(scene, "aero", "model"))
     wave = _value(scene, "waves", "height_m")
     named = {"floating turbine": "A turbine on its foundation" if _stands(run) else "A floating turbine", "rotor": "A rotor", "flow": "A flow round walls" if _walls(run) else "A flow",

@@ -16,6 +16,7 @@
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/coarsen.hpp"
 #include "src/aero/grid/wall_distance.hpp"
+#include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/grid_progress.hpp"
@@ -90,8 +91,33 @@ void FlowCase::solve(aero::Tiling tiling, const coupling::Scenario& s, const run
   if (setting.time_order == 0) setting.march.max_steps = steps;
   own_solver_ = std::make_unique<aero::FlowSolver>(*store_, setting, std::move(conditions));
   solver_ = own_solver_.get();
+  if (s.has_actuator()) make_actuator(s, world);
   begin(o.start);
   if (motion_) place(0, s.time.window_s);
+}
+
+/// The rotor's blades as forces in the air.
+void FlowCase::make_actuator(const coupling::Scenario& s, const runtime::World& world) {
+  aero::require_rotor_inside(own_grid_, s.rotor);
+  const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine);
+  const aero::RotorPose pose = aero::hub_pose(s.rotor);
+  const Eigen::Matrix3d frame = pose.hub.attitude.toRotationMatrix();
+  const Eigen::Vector3d axis = frame.col(0);
+  rotor_at_start_ = {.hub_velocity = Eigen::Vector3d::Zero(),
+                     .omega = s.rotor.speed * axis,
+                     .axis = axis,
+                     .up = frame.col(2),
+                     .azimuth = s.rotor.azimuth,
+                     .blade_pitch = s.rotor.blade_pitch,
+                     .hub = s.rotor.hub_m};
+  const double cell = aero::cell_at_rotor(*store_, s.rotor.hub_m, axis, turbine.planform.span.back(), world.comm);
+  const auto kind = s.aero.model == "actuator_line" ? aero::Actuator::Kind::lines : aero::Actuator::Kind::disc;
+  actuator_ = std::make_shared<aero::Actuator>(turbine, kind, s.aero.actuator.value_or(aero::ActuatorOptions()),
+                                               s.environment.air_density_kg_m3, cell);
+  actuator_->place(rotor_at_start_);
+  solver_->set_body_force(actuator_);
+  spdlog::info("air: {} at {} points, {:.3g} cells of {:.4g} m to the radius", s.aero.model, actuator_->points().size(),
+               actuator_->tip_radius() / cell, cell);
 }
 
 /// The flow that aero.flow.start names: the wind, air at rest, or a Taylor-Green vortex.
@@ -135,6 +161,13 @@ void FlowCase::place(std::int64_t window, double window_s) {
 void FlowCase::move(std::int64_t window, double window_s) {
   if (rotor_ && !steady()) rotor_->move_to(rotor_->turned(window + 1));
   if (motion_) solver_->move_to(motion_->poses(double(window + 1) * window_s));
+  if (actuator_) place_actuator(steady() ? 0.0 : double(window + 1) * window_s);
+}
+
+void FlowCase::place_actuator(double time) {
+  aero::DiscMotion rotor = rotor_at_start_;
+  rotor.azimuth += time * rotor.omega.dot(rotor.axis);
+  actuator_->place(rotor);
 }
 
 FlowCase::Snapshot FlowCase::snapshot() const {

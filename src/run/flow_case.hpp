@@ -9,6 +9,7 @@
 
 #include "runtime/executor/executor.hpp"
 #include "runtime/mpi/environment.hpp"
+#include "src/aero/actuator.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/grid_motion.hpp"
 #include "src/aero/resolved_rotor.hpp"
@@ -27,13 +28,14 @@ class FlowCase {
   /// Null where the scene has none.
   aero::ResolvedRotor* rotor() { return rotor_.get(); }
   const aero::ResolvedRotor* rotor() const { return rotor_.get(); }
+  const aero::Actuator* actuator() const { return actuator_.get(); }
   const aero::GridMotion* motion() const { return motion_ ? &*motion_ : nullptr; }
   std::size_t blocks() const { return (rotor_ ? rotor_->grid() : own_grid_).blocks.size(); }
   bool steady() const { return solver_->setting().time_order == 0; }
 
   /// Metrics of all tiles; before any march.
   void fill_geometry(MPI_Comm comm);
-  /// Where the walls that move are after so many windows.
+  /// Where the walls that move, and lines of force, are after so many windows.
   void place(std::int64_t window, double window_s);
   /// Where they go in the window that follows.
   void move(std::int64_t window, double window_s);
@@ -65,6 +67,8 @@ class FlowCase {
   FlowCase(aero::MultiBlockGrid grid, const coupling::Scenario& scenario, const runtime::World& world, int steps);
   void solve(aero::Tiling tiling, const coupling::Scenario& scenario, const runtime::World& world, int steps);
   void begin(const std::string& start);
+  void place_actuator(double time);
+  void make_actuator(const coupling::Scenario& scenario, const runtime::World& world);
   void follow_walls(const aero::FlowOptions& options);
 
   std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< has grid, store and solver itself
@@ -72,6 +76,8 @@ class FlowCase {
   std::unique_ptr<aero::GridStore> own_store_;
   std::unique_ptr<aero::FlowSolver> own_solver_;
   std::optional<aero::GridMotion> motion_;  ///< of an unsteady flow
+  std::shared_ptr<aero::Actuator> actuator_;
+  aero::DiscMotion rotor_at_start_{};  ///< of the actuator
   Way way_ = Way::own_grid;
   aero::GridStore* store_ = nullptr;
   aero::FlowSolver* solver_ = nullptr;

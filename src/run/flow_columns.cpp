@@ -62,11 +62,12 @@ Table<WallMotion> wall_motion_columns() {
 
 }  // namespace
 
-FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion, bool steady)
-    : rotor_(rotor), motion_(motion), march_(history, "flow.", pseudo_step_columns()) {
-  if (rotor_) {
+FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::Actuator* actuator,
+                         const aero::GridMotion* motion, bool steady)
+    : rotor_(rotor), actuator_(actuator), motion_(motion), march_(history, "flow.", pseudo_step_columns()) {
+  if (rotor_ || actuator_) {
     rotor_columns_.emplace(history, "rotor.", coupling::rotor_columns());
-    for (int b = 1; b <= rotor_->grid_blades(); ++b)
+    for (int b = 1; b <= (rotor_ ? rotor_->grid_blades() : actuator_->told_blades()); ++b)
       blades_.emplace_back(history, fmt::format("rotor.blade_{}.", b), coupling::blade_columns());
   } else {
     coefficients_.emplace(history, "flow.", coefficient_columns());
@@ -83,6 +84,11 @@ void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetti
     const double turns = rotor_->pose().azimuth / (2.0 * pi);
     rotor_columns_->fill(row, {rotor_->load(p), 360.0 * (turns - std::floor(turns)), rotor_->pose().speed * 30.0 / pi});
     for (std::size_t b = 0; b < blades_.size(); ++b) blades_[b].fill(row, rotor_->blade_load(int(b) + 1, p));
+  } else if (actuator_) {
+    const aero::DiscMotion& now = actuator_->motion();
+    const double turns = now.azimuth / (2.0 * pi);
+    rotor_columns_->fill(row, {actuator_->load(p), 360.0 * (turns - std::floor(turns)), now.omega.dot(now.axis) * 30.0 / pi});
+    for (std::size_t b = 0; b < blades_.size(); ++b) blades_[b].fill(row, actuator_->blade_load(int(b) + 1, p));
   } else {
     const Eigen::Vector3d f(p.force[0], p.force[1], p.force[2]), along = wind.normalized();
     Eigen::Vector3d across = Eigen::Vector3d::UnitZ() - along.z() * along;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "src/aero/actuator.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid_motion.hpp"
@@ -27,8 +28,9 @@ struct WallMotion {
 
 class FlowColumns {
  public:
-  /// Declares them. `rotor`, `motion`: null where the scene has none; they outlive the columns.
-  FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::GridMotion* motion, bool steady);
+  /// Declares them. `rotor`, `actuator`, `motion`: null where the scene has none; they outlive the columns.
+  FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::Actuator* actuator,
+              const aero::GridMotion* motion, bool steady);
   /// `wind`: undisturbed [m/s]; `time` [s]; `unconverged`: windows so far.
   void fill(std::span<double> row, double time, const aero::FlowSetting& setting, const aero::PseudoRow& p,
             const aero::FlowOptions& options, const Eigen::Vector3d& wind, long unconverged) const;
@@ -38,6 +40,7 @@ class FlowColumns {
   using Group = io::ColumnGroup<Source>;
 
   const aero::ResolvedRotor* rotor_;
+  const aero::Actuator* actuator_;
   const aero::GridMotion* motion_;
   std::optional<Group<coupling::RotorRow>> rotor_columns_;
   std::vector<Group<aero::RotorLoad>> blades_;

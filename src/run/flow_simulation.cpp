@@ -210,7 +210,9 @@ std::string FlowSimulation::failure_at_end() const {
 
 std::string FlowSimulation::done() const { return air_.steady() ? "done: the pseudo-steps of the scene are spent" : "done"; }
 
-void FlowSimulation::declare(io::History& history) { columns_.emplace(history, air_.rotor(), air_.motion(), air_.steady()); }
+void FlowSimulation::declare(io::History& history) {
+  columns_.emplace(history, air_.rotor(), air_.actuator(), air_.motion(), air_.steady());
+}
 
 void FlowSimulation::fill_row(std::int64_t window, std::span<double> row) {
   columns_->fill(row, timeline_.window_end_s(window), air_.solver().setting(), rows_.at(std::size_t(window - rows_from_ - 1)),
@@ -237,6 +239,7 @@ void FlowSimulation::write_fields(std::int64_t window) {
     doubts_.push_back(fmt::format("air: {}", doubt));
     spdlog::warn(doubts_.back());
   }
+  if (air_.actuator() && windows_ > 0) coupling::write_span(world_, air_.actuator()->span_loads(), directory_);
   if (!air_.rotor() || windows_ == 0) return;  // a restart that has nothing left to do leaves what there is
   while (last_rows_.size() > averaged(window)) last_rows_.pop_front();
   const std::vector<aero::PseudoRow> rows(last_rows_.begin(), last_rows_.end());

@@ -171,6 +171,33 @@ wind.speed_m_s=0.0
 aero.flow.temperature_K=-1.0
 aero.flow.map="/etc/hostname"
 """,
+    "validation/actuator/disc.toml": """
+rotor.hub_m=[0.0, 0.0, 50.0]
+rotor.hub_m=[1e9, 0.0, 119.0]
+rotor.turbine=""
+rotor.turbine="nowhere.toml"
+rotor.joint="bearing"
+rotor.speed_rpm=8.0
+aero.grid.resolution=1.0 : aero.grid
+aero.actuator.width_cells=0.0
+aero.actuator.width_cells=-2.0
+aero.actuator.width_chords="wide"
+aero.actuator.correction="some"
+aero.model="actuator_line" : aero.flow.time
+aero.model="bem" : rotor.body
+aero.model="actuator_disk" : aero.model
+aero.flow.generate.cell_m=0.0
+aero.flow.generate.cell_m=1e-3
+aero.flow.generate.growth=1.0
+aero.flow.generate.growth=nan
+aero.flow.generate.cells=[10, 10, 10]
+aero.flow.generate.core_low_m=[-1000.0, -116.0, 0.0]
+aero.flow.generate.core_high_m=[-90.0, 116.0, 235.0]
+aero.flow.generate.core_high_m=[1060.0, 116.0, 235.0]
+aero.flow.boundaries[4].condition="sea"
+wind.speed_m_s=0.0
+bodies.float.mass_kg=1e6 : aero.model
+""",
     "validation/naca0012/naca0012.toml": """
 aero.flow.grid="nothing.p3d"
 aero.flow.grid="/dev/zero"

@@ -197,6 +197,14 @@ void FlowSolver::gather_bands(LoadBands bands) {
   load_partials_.resize(tiles_.size() * sums), loads_.resize(sums);
 }
 
+void FlowSolver::set_body_force(std::shared_ptr<BodyForce> force) {
+  if (!pieces_.empty()) throw std::logic_error("flow: a body force comes before the march is recorded");
+  if (grid_.tiling().planar) throw std::invalid_argument("flow: a body force needs a grid of three dimensions");
+  body_force_ = std::move(force);
+  body_force_->attach(tiles_.size());
+  body_partials_.resize(tiles_.size() * body_force_->sums()), body_sums_.resize(body_force_->sums());
+}
+
 void FlowSolver::start_uniform() {
   start([this](const Eigen::Vector3d& x) { return stream_at(setting_.stream, setting_.profile, x.z()); });
 }
@@ -472,7 +480,10 @@ void FlowSolver::judge() {
         force[c] += loads_[p * load_components + c] + loads_[p * load_components + 3 + c];
         moment[c] += loads_[p * load_components + 6 + c];
       }
-  const double load = std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
+  std::vector<double> bodies;
+  if (body_force_) bodies = body_force_->loads();
+  const Eigen::Map<const Eigen::Vector3d> on_bodies(bodies.data());
+  const double load = body_force_ ? on_bodies.norm() : std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
   const double cfl = march_.cfl_of_step();
   Verdict verdict = march_.judge(norms_, load);
   rows_.push_back({.step = int(march_.steps_made()),
@@ -489,7 +500,8 @@ void FlowSolver::judge() {
                    .matrix_free = matrix_free_,
                    .force = {force[0], force[1], force[2]},
                    .moment = {moment[0], moment[1], moment[2]},
-                   .loads = loads_});
+                   .loads = loads_,
+                   .bodies = std::move(bodies)});
   if (watcher_) watcher_(rows_.back());
   if (norm_sums_[6] > 0.0 && verdict == Verdict::go_on && stops_anywhere()) march_.stop(), verdict = march_.verdict();
   if (verdict == Verdict::failed) name_trouble();

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "runtime/graph/graph.hpp"
+#include "src/aero/flow/body_force.hpp"
 #include "src/aero/flow/boundary.hpp"
 #include "src/aero/flow/control.hpp"
 #include "src/aero/flow/flow_tile.hpp"
@@ -84,6 +85,7 @@ struct PseudoRow {
   std::array<double, 3> force{};   ///< of all patches with loads [N]
   std::array<double, 3> moment{};  ///< likewise, about the origin [N m]
   std::vector<double> loads{};     ///< by patch, see patch_loads, then by band, see band_loads
+  std::vector<double> bodies{};    ///< of the force inside the air, BodyForce::loads
 };
 
 class FlowSolver {
@@ -143,6 +145,8 @@ class FlowSolver {
     preconditioner_ = std::move(preconditioner);
     preconditioner_->attach(grid_, tiles_);
   }
+  /// A force inside the air; before record().
+  void set_body_force(std::shared_ptr<BodyForce> force);
   /// Bands whose loads each judgement sums beside those of the patches; before record().
   void gather_bands(LoadBands bands);
   /// Records one march: the whole steady solution, or one physical step. See tasks.cpp.
@@ -294,6 +298,8 @@ class FlowSolver {
   bool solving_ = false, matrix_free_ = false;
   std::vector<PseudoRow> rows_;
   LoadBands bands_;
+  std::shared_ptr<BodyForce> body_force_;  ///< null: none
+  std::vector<double> body_partials_, body_sums_;
   std::function<void(const PseudoRow&)> watcher_;
   /// The cell of each tile that limits its update most, and by what.
   struct Limit {

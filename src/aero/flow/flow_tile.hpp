@@ -64,9 +64,9 @@ struct FlowTile {
   AlignedArray<double> gradients;  ///< 3 each of u v w T and the turbulence unknowns, then closures
   AlignedArray<double> residual;
   AlignedArray<double> before, before_that;  ///< conserved times volume one and two steps ago
-  AlignedArray<double>
-      source;  ///< added to the rate of change of conserved amounts per volume; empty but in manufactured solutions
-  AlignedArray<double> rate;                 ///< V / pseudo-time step [m3/s]
+  AlignedArray<double> source;  ///< added to the rate of change of conserved amounts per volume; empty but under body forces and
+                                ///< in manufactured solutions
+  AlignedArray<double> rate;    ///< V / pseudo-time step [m3/s]
   std::array<AlignedArray<double>, 6> open;  ///< per side with walls: 1 where the flux scheme acts, 0 on wall faces; else empty
   std::array<AlignedArray<double>, 6> law;   ///< likewise: 1 on faces of walls with a wall function; empty where there are none
 

@@ -22,6 +22,7 @@ class StepGraph {
       *data = graph.data(owned_);
     sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(),
     krylov_ = graph.datum(), built_ = graph.datum(), common_ = graph.datum(), total_fraction_ = graph.datum();
+    if (s_.body_force_) samples_ = graph.data(owned_), sampled_ = graph.datum(), forces_ = graph.datum();
   }
 
   /// A common part is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while
@@ -122,19 +123,39 @@ class StepGraph {
         [this](std::size_t n) { s_.slopes(s_.tiles_[n], s_.tiles_[n].state.data()); });
     gradient_ghosts(
         "aero/gradient_ghosts", [this] { return s_.setting_.viscous; }, false, 2);
+    if (s_.body_force_) body_force();
     each(
         "aero/residual",
         [&](std::size_t n) {
-          return Uses{reads(state_[n]), reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]),
-                      reads(past_[n]),  reads(decision_),        writes(residual_[n]), writes(norms_[n])};
+          Uses uses{reads(state_[n]), reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]),
+                    reads(past_[n]),  reads(decision_),        writes(residual_[n]), writes(norms_[n])};
+          if (s_.body_force_) uses.push_back(reads(forces_));
+          return uses;
         },
         [this](std::size_t n) {
           FlowTile& tile = s_.tiles_[n];
+          if (s_.body_force_) s_.body_force_->spread(n, tile);
           s_.evaluate(tile, tile.state.data(), tile.residual.data());
           const std::size_t loads = s_.loads_.size();
           s_.measure(tile, std::span(s_.norm_partials_).subspan(n * s_.norm_sums_.size(), s_.norm_sums_.size()),
                      std::span(s_.load_partials_).subspan(n * loads, loads));
         });
+  }
+  /// Forces inside the air, of the flow as it is: products of the linear solver see them as they stand.
+  void body_force() {
+    const std::size_t width = s_.body_sums_.size();
+    each(
+        "aero/force/sample",
+        [&](std::size_t n) {
+          return Uses{reads(decision_), reads(state_[n]), writes(samples_[n])};
+        },
+        [this, width](std::size_t n) {
+          s_.body_force_->sample(n, s_.tiles_[n], std::span(s_.body_partials_).subspan(n * width, width));
+        });
+    g_.reduce("aero/force/sums", {reads(samples_), reads(decision_), writes(sampled_)},
+              {.partials = s_.body_partials_, .result = s_.body_sums_});
+    g_.task("aero/force/act", {reads(sampled_), reads(decision_), writes(forces_)},
+            [this] { s_.body_force_->act(s_.body_sums_); });
   }
   void judge() {
     g_.reduce("aero/norms", {reads(norms_), writes(sums_)}, {.partials = s_.norm_partials_, .result = s_.norm_sums_});
@@ -352,7 +373,8 @@ class StepGraph {
   Graph& g_;
   std::size_t owned_;
   std::vector<Datum> state_, state_ghosts_, gradients_, gradient_ghosts_, residual_, matrix_, norms_, vectors_, direction_,
-      direction_ghosts_, size_, trial_, trial_ghosts_, dots_, fraction_, past_, gathered_;
+      direction_ghosts_, size_, trial_, trial_ghosts_, dots_, fraction_, past_, gathered_, samples_;
+  Datum sampled_, forces_;
   Datum sums_, decision_, total_size_, total_dots_, krylov_, built_, common_, total_fraction_;
 };
 

@@ -2,6 +2,7 @@
 #include "src/aero/grid/generators/box.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -45,6 +46,72 @@ MultiBlockGrid cartesian_box(const BoxOptions& o) {
   MultiBlockGrid grid;
   grid.blocks.push_back(mapped_block("box", o.ni, o.nj, o.nk, [&](double u, double v, double w) {
     return Eigen::Vector3d(o.low + size.cwiseProduct(Eigen::Vector3d(u, v, w)));
+  }));
+  close_sides(grid, o);
+  return grid;
+}
+
+namespace {
+
+/// Sum of q + q^2 + ... + q^n.
+double growing_cells(double q, int n) {
+  double sum = 0.0, size = 1.0;
+  for (int k = 0; k < n; ++k) size *= q, sum += size;
+  return sum;
+}
+
+/// Sizes of n cells outward from a core with cells of size one, which fill `length`: a geometric progression.
+std::vector<double> sizes_outward(double length, int n) {
+  double low = 0.0, high = 10.0;  // of the ratio
+  for (int bisection = 0; bisection < 200; ++bisection) {
+    const double middle = 0.5 * (low + high);
+    (growing_cells(middle, n) < length ? low : high) = middle;
+  }
+  std::vector<double> sizes(std::size_t(n), 1.0);
+  double size = 1.0, sum = 0.0;
+  for (double& s : sizes) s = size *= low, sum += s;
+  for (double& s : sizes) s *= length / sum;
+  return sizes;
+}
+
+int cells_outward(double length, double growth) {
+  int n = 0;
+  while (length > 0.0 && growing_cells(growth, n) < length * (1.0 - 1e-9)) ++n;
+  return n;
+}
+
+}  // namespace
+
+std::vector<double> stretched_nodes(double low, double core_low, double core_high, double high, double cell, double growth) {
+  constexpr int multiple = 4;
+  int core = std::max(1, int(std::lround((core_high - core_low) / cell)));
+  const double below = core_low - low, above = high - core_high;
+  if (below <= 0.0 && above <= 0.0) core = (core + multiple - 1) / multiple * multiple;
+  const double size = (core_high - core_low) / core;
+  int under = cells_outward(below / size, growth), over = cells_outward(above / size, growth);
+  int& longer = below > above ? under : over;
+  while ((core + under + over) % multiple != 0) ++longer;
+  std::vector<double> nodes;
+  if (under > 0) {
+    const std::vector<double> sizes = sizes_outward(below / size, under);
+    double x = low;
+    for (auto s = sizes.rbegin(); s != sizes.rend(); ++s) nodes.push_back(x), x += size * *s;
+  }
+  for (int n = 0; n <= core; ++n) nodes.push_back(n == core ? core_high : core_low + n * size);
+  if (over > 0) {
+    double x = core_high;
+    for (const double s : sizes_outward(above / size, over)) nodes.push_back(x += size * s);
+    nodes.back() = high;
+  }
+  return nodes;
+}
+
+MultiBlockGrid cartesian_box(const std::array<std::vector<double>, 3>& nodes, BoxOptions o) {
+  o.ni = int(nodes[0].size()) - 1, o.nj = int(nodes[1].size()) - 1, o.nk = int(nodes[2].size()) - 1;
+  MultiBlockGrid grid;
+  grid.blocks.push_back(mapped_block("box", o.ni, o.nj, o.nk, [&](double u, double v, double w) {
+    return Eigen::Vector3d(nodes[0][std::size_t(std::lround(u * o.ni))], nodes[1][std::size_t(std::lround(v * o.nj))],
+                           nodes[2][std::size_t(std::lround(w * o.nk))]);
   }));
   close_sides(grid, o);
   return grid;

@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "src/aero/grid/multi_block.hpp"
 
@@ -25,6 +26,14 @@ struct BoxOptions {
 
 /// i along x, j along y, k along z.
 MultiBlockGrid cartesian_box(const BoxOptions& options);
+
+/// Nodes along an axis [m]: cells of `cell` between core_low and core_high (or a little off, so that they fill it), beyond it
+/// cells that grow from one to the next by at most `growth`. Their number is a multiple of four, for two coarser grids of every
+/// second node. The core reaches a side or stays four cells from it.
+std::vector<double> stretched_nodes(double low, double core_low, double core_high, double high, double cell, double growth);
+
+/// i along x, j along y, k along z, with the nodes given along each; `options` for sides.
+MultiBlockGrid cartesian_box(const std::array<std::vector<double>, 3>& nodes, BoxOptions options);
 
 /// One cell thick: i along x, j along z, k along -y over `options.high.y - options.low.y`; options.nk is not used.
 MultiBlockGrid planar_box(const BoxOptions& options);

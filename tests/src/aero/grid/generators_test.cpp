@@ -188,3 +188,20 @@ TEST_CASE("bump channel and drawn-out wing are sound", "[aero][grid][fast]") {
   CHECK(grid_faults(walled).empty());
   CHECK(walled.boundaries.size() == bump.boundaries.size() + 2);
 }
+
+TEST_CASE("a stretched axis has its core of equal cells, grows no faster than asked and ends where it should", "[grid][fast]") {
+  const double low = GENERATE(-100.0, -50.0, 0.0), high = GENERATE(60.0, 400.0), growth = GENERATE(1.1, 1.3);
+  const std::vector<double> x = stretched_nodes(low, 0.0, 60.0, high, 2.9, growth);
+  CAPTURE(low, high, growth, x.size());
+  CHECK((x.size() - 1) % 4 == 0);
+  CHECK(x.front() == Approx(low).margin(1e-12));
+  CHECK(x.back() == high);
+  double before = 0.0;
+  for (std::size_t n = 0; n + 1 < x.size(); ++n) {
+    const double size = x[n + 1] - x[n];
+    CHECK(size > 0.0);
+    if (x[n] > -1e-9 && x[n + 1] < 60.0 + 1e-9) CHECK(size == Approx(60.0 / std::round(60.0 / size)).epsilon(1e-12));
+    if (n > 0) CHECK(std::max(size / before, before / size) < growth * (1.0 + 1e-6));
+    before = size;
+  }
+}

@@ -1,0 +1,317 @@
+// Actuator disc and lines in the resolved air: what blades take the air loses, to the last bits; the DTU 10 MW rotor against
+// blade elements and momentum theory; what scenes may say. SPDX-License-Identifier: Apache-2.0
+#include "src/aero/actuator.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "src/aero/flow_options.hpp"
+#include "src/aero/options.hpp"
+#include "src/aero/wind.hpp"
+#include "src/scene/document.hpp"
+#include "tests/src/aero/flow/flows.hpp"
+
+using namespace spindrift;
+using namespace spindrift::aero;
+using namespace spindrift::aero::testing;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const Turbine& dtu() {
+  static const Turbine turbine = read_turbine(SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml");
+  return turbine;
+}
+double tip_radius() {
+  static const double radius = BladeElementMomentum(dtu(), "madsen", 1.225).tip_radius();
+  return radius;
+}
+
+DiscMotion turning(double rpm, double azimuth = 0.0) {
+  const double speed = rpm * rad_s_per_rpm;
+  return {.hub_velocity = Eigen::Vector3d::Zero(),
+          .omega = {speed, 0.0, 0.0},
+          .axis = Eigen::Vector3d::UnitX(),
+          .up = Eigen::Vector3d::UnitZ(),
+          .azimuth = azimuth,
+          .blade_pitch = 0.0,
+          .hub = Eigen::Vector3d::Zero()};
+}
+
+/// Air of 1.225 kg/m3 in a box round the rotor, of so many cells to the radius; sides in radii.
+struct Wind8 {
+  double speed = 8.0, cells = 4.0, upstream = 3.0, downstream = 4.0, side = 3.0, core_upstream = 0.75, core_downstream = 1.0;
+};
+std::unique_ptr<Case> box(const Wind8& o, FlowSetting s, int ranks = 1, int rank = 0) {
+  const double R = tip_radius(), cell = R / o.cells, growth = 1.3, core = 1.25 * R;
+  s.gas.temperature_reference = 288.15;
+  s.gas.pressure_reference = 1.225 * s.gas.gas_constant * 288.15;
+  s.stream = {0.0, o.speed, 0.0, 0.0, 0.0}, s.speed = o.speed;
+  const auto across = stretched_nodes(-o.side * R, -core, core, o.side * R, cell, growth);
+  const std::array<std::vector<double>, 3> nodes{
+      stretched_nodes(-o.upstream * R, -o.core_upstream * R, o.core_downstream * R, o.downstream * R, cell, growth), across,
+      across};
+  const PatchCondition open{Condition::far_field, false};
+  std::vector<std::pair<std::string, PatchCondition>> sides;
+  for (const char* side : {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"}) sides.emplace_back(side, open);
+  return std::make_unique<Case>(cartesian_box(nodes, BoxOptions()), s, sides, TilingOptions(), ranks, rank);
+}
+
+std::shared_ptr<Actuator> act_in(Case& c, Actuator::Kind kind, const DiscMotion& motion, double cells,
+                                 const ActuatorOptions& options = {}) {
+  auto actuator = std::make_shared<Actuator>(dtu(), kind, options, 1.225, tip_radius() / cells);
+  actuator->place(motion);
+  c.solver->set_body_force(actuator);
+  return actuator;
+}
+
+/// Sums of the source over all cells: momentum [N] and power [W].
+std::array<double, 4> source_sums(const FlowSolver& solver) {
+  std::array<double, 4> sums{};
+  for (const FlowTile& tile : solver.tiles()) {
+    if (tile.source.size() == 0) continue;
+    const TileGeometry& g = *tile.geometry;
+    for_rows(tile.box, [&](int k, int j) {
+      for (int i = 0; i < tile.box.ni; ++i)
+        for (int c = 0; c < 4; ++c)
+          sums[std::size_t(c)] += g.volume_data.data()[g.cell_box.at(k, j, i)] *
+                                  tile.source.data()[tile.inner.at(k, j, i) + (1 + c) * tile.inner.component];
+    });
+  }
+  return sums;
+}
+
+double blade_element_thrust(double wind, double rpm) {
+  return BladeElementMomentum(dtu(), "madsen", 1.225)(Eigen::Vector3d(wind, 0.0, 0.0), turning(rpm)).force.x();
+}
+
+}  // namespace
+
+TEST_CASE("what the blades take the air loses: force and power to round-off", "[rotor][fast]") {
+  const auto kind = GENERATE(Actuator::Kind::disc, Actuator::Kind::lines);
+  FlowSetting s;
+  s.time_order = kind == Actuator::Kind::lines ? 1 : 0, s.dt = 0.3, s.march.max_steps = 3;
+  const auto c = box({}, s);
+  const auto actuator = act_in(*c, kind, turning(6.4257, 0.7), 4.0);
+  c->prepare();
+  c->run();
+  REQUIRE(c->solver->march().verdict() != Verdict::failed);
+  // The box's own cells at the disc, though longer ones begin three quarters of a radius upstream.
+  CHECK(cell_at_rotor(*c->store, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), tip_radius(), MPI_COMM_SELF) ==
+        Approx(tip_radius() / 4.0).epsilon(1e-9));
+  const RotorLoad load = actuator->load(c->solver->rows().back());
+  const std::array<double, 4> sums = source_sums(*c->solver);
+  CHECK(load.thrust > 1e5);
+  for (int d = 0; d < 3; ++d) CHECK(sums[std::size_t(d)] == Approx(-load.force[d]).margin(1e-12 * load.thrust));
+  double power = 0.0;  // what the air does on the blades at the velocities that they sampled
+  for (const Actuator::Point& p : actuator->points()) power += p.force.dot(p.sampled);
+  CHECK(sums[3] == Approx(-power).epsilon(1e-12));
+  // A uniform stream is sampled exactly, so it was so in the first pseudo-step.
+  const double first = actuator->load(c->solver->rows().front()).thrust;
+  CHECK(first != load.thrust);
+}
+
+TEST_CASE("without a correction blades in an undisturbed stream have the loads of their polars there", "[rotor][fast]") {
+  const auto c = box({.cells = 3.0}, FlowSetting());
+  Actuator actuator(dtu(), Actuator::Kind::lines, {.correction = "none"}, 1.225, tip_radius() / 3.0);
+  actuator.attach(c->solver->tiles().size());
+  actuator.place(turning(6.4257));
+  std::vector<double> sums(actuator.sums(), 0.0), part(actuator.sums());
+  for (std::size_t n = 0; n < c->solver->tiles().size(); ++n) {
+    actuator.sample(n, c->solver->tiles()[n], part);
+    for (std::size_t m = 0; m < sums.size(); ++m) sums[m] += part[m];
+  }
+  actuator.act(sums);
+  const BladeElementMomentum sections(dtu(), "madsen", 1.225);
+  for (const Actuator::Point& p : actuator.points()) {
+    CHECK(p.weight == Approx(1.0).epsilon(0.01));
+    CHECK(p.sampled.x() == Approx(8.0).epsilon(1e-13));
+    const double speed = 6.4257 * rad_s_per_rpm * sections.radius(p.element);
+    CHECK(p.tangential_wind == Approx(speed).epsilon(1e-12));
+  }
+  const DiscMotion still{.hub_velocity = {8.0, 0.0, 0.0},
+                         .omega = Eigen::Vector3d::Zero(),
+                         .axis = Eigen::Vector3d::UnitX(),
+                         .up = Eigen::Vector3d::UnitZ(),
+                         .azimuth = 0.0,
+                         .blade_pitch = 0.0};
+  actuator.place(still);  // a hub that goes with the wind meets none
+  for (std::size_t n = 0; n < c->solver->tiles().size(); ++n) actuator.sample(n, c->solver->tiles()[n], part);
+  actuator.act(sums);
+  for (const double load : actuator.loads()) CHECK(std::abs(load) < 1e-9);
+}
+
+namespace {
+std::vector<double> history(int ranks, int rank, MPI_Comm comm) {
+  FlowSetting s;
+  s.time_order = 1, s.dt = 0.5, s.march.max_steps = 2;
+  const auto c = box({.cells = 3.0}, s, ranks, rank);
+  const auto actuator = act_in(*c, Actuator::Kind::lines, turning(6.4257), 3.0);
+  c->prepare(comm);
+  std::vector<double> all;
+  for (int step = 1; step <= 2; ++step) {
+    actuator->place(turning(6.4257, 0.3 * step));
+    c->run();
+    const std::vector<double> loads = actuator->loads(), more = fingerprint(*c->solver);
+    all.insert(all.end(), loads.begin(), loads.end()), all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+}  // namespace
+
+TEST_CASE("two ranks give the bits of one for lines that turn", "[rotor][mpi2]") {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  CHECK(history(2, rank, MPI_COMM_WORLD) == history(1, 0, MPI_COMM_SELF));
+}
+
+namespace {
+/// Mean loss of total head over dynamic pressure in the plane of cells next to x, where the radius is between two shares of the
+/// rotor's.
+double head_loss(const FlowSolver& solver, double x, double inner, double outer) {
+  const gas::Primitive<double>& stream = solver.setting().stream;
+  const double rho = gas::density(solver.setting().gas, stream), q = 0.5 * rho * stream.u * stream.u;
+  double nearest = 1e300, sum = 0.0, area = 0.0;
+  for (const bool found : {false, true})
+    for (const FlowTile& tile : solver.tiles()) {
+      const TileGeometry& g = *tile.geometry;
+      for_rows(tile.box, [&](int k, int j) {
+        for (int i = 0; i < tile.box.ni; ++i) {
+          const double* centre = g.centre_data.data() + g.cell_box.at(k, j, i);
+          const std::ptrdiff_t c = g.cell_box.component;
+          const double off = std::abs(centre[0] - x), radius = std::hypot(centre[c], centre[2 * c]) / tip_radius();
+          if (!found) nearest = std::min(nearest, off);
+          if (!found || off > nearest + 1e-6 || radius < inner || radius > outer) continue;
+          const auto is =
+              gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
+          const double volume = g.volume_data.data()[g.cell_box.at(k, j, i)];  // cells of one length
+          sum += volume * (1.0 - (is.p + rho * gas::kinetic(is)) / q), area += volume;
+        }
+      });
+    }
+  return sum / area;
+}
+}  // namespace
+
+TEST_CASE("a disc of the DTU 10 MW rotor at ten cells to the radius has the thrust of blade elements and Froude's wake",
+          "[rotor][nightly]") {
+  const auto [wind, rpm] = GENERATE(std::pair{8.0, 6.4257}, std::pair{11.0, 8.8354});
+  const Wind8 o{.speed = wind, .cells = 10.0, .upstream = 5.0, .downstream = 6.0, .side = 5.0, .core_upstream = 0.5};
+  FlowSetting s;
+  s.preconditioner = "coarse";
+  s.march.drop = 5e-4, s.march.max_steps = 80, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
+  const auto c = box(o, s);
+  const auto actuator = act_in(*c, Actuator::Kind::disc, turning(rpm), o.cells);
+  c->prepare(MPI_COMM_SELF, {});
+  c->run();
+  REQUIRE(c->solver->march().verdict() == Verdict::converged);
+  const RotorLoad load = actuator->load(c->solver->rows().back());
+  const double expected = blade_element_thrust(wind, rpm);
+  CAPTURE(wind, load.thrust, expected, load.power, c->solver->rows().size());
+  CHECK(load.thrust == Approx(expected).epsilon(0.03));
+  // Froude: along a streamline through the disc the total head falls by the thrust per area; the wake's slowing follows by
+  // Bernoulli. Between .35 and .8 of the radius, half a radius behind, where streamlines have moved outward by less than a cell.
+  double thrust = 0.0, area = 0.0;
+  for (const SpanLoad& span : actuator->span_loads()) {
+    if (span.radius < 0.35 * tip_radius() || span.radius > 0.8 * tip_radius()) continue;
+    thrust += 3.0 * span.load.normal * span.length, area += 2.0 * pi * span.radius * span.length;
+  }
+  const double loading = thrust / area / (0.5 * 1.225 * wind * wind);
+  for (const double x : {0.5, 1.0}) {
+    CAPTURE(x, loading);
+    CHECK(head_loss(*c->solver, x * tip_radius(), 0.35, 0.8) == Approx(loading).epsilon(0.04));
+  }
+}
+
+TEST_CASE("a disc at thirty cells to the radius has the thrust of blade elements, and of ten", "[rotor][long]") {
+  const Wind8 o{.speed = 11.0,
+                .cells = 30.0,
+                .upstream = 5.0,
+                .downstream = 6.0,
+                .side = 5.0,
+                .core_upstream = 0.2,
+                .core_downstream = 0.25};
+  FlowSetting s;
+  s.preconditioner = "coarse";
+  s.march.drop = 5e-3, s.march.max_steps = 40, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
+  const auto c = box(o, s);
+  const auto actuator = act_in(*c, Actuator::Kind::disc, turning(8.8354), o.cells);
+  c->solver->watch([&](const PseudoRow& row) {
+    UNSCOPED_INFO(row.step << ": " << actuator->load(row).thrust << " N, " << actuator->load(row).power << " W");
+  });
+  c->prepare(MPI_COMM_SELF, {});
+  c->run();
+  const double thrust = actuator->load(c->solver->rows().back()).thrust, expected = blade_element_thrust(11.0, 8.8354);
+  CHECK(thrust == Approx(expected).epsilon(0.03));
+}
+
+TEST_CASE("lines at ten cells to the radius have the thrust of blade elements once their wake is there", "[rotor][long]") {
+  const double wind = 11.0, rpm = 8.8354, step = 0.25;
+  const Wind8 o{.speed = wind,
+                .cells = 10.0,
+                .upstream = 4.5,
+                .downstream = 6.5,
+                .side = 4.5,
+                .core_upstream = 0.5,
+                .core_downstream = 1.75};
+  FlowSetting s;
+  s.time_order = 2, s.dt = step, s.physical_far_field = true;
+  s.march.drop = 1e-2, s.march.max_steps = 10, s.march.cfl_start = 5.0, s.march.cfl_max = 1e4, s.march.matrix_free_below = 1e-2;
+  const auto c = box(o, s);
+  const auto actuator = act_in(*c, Actuator::Kind::lines, turning(rpm), o.cells);
+  c->prepare(MPI_COMM_SELF, {});
+  double thrust = 0.0;
+  for (int n = 1; n <= 200; ++n) {  // six radii of wind
+    actuator->place(turning(rpm, n * step * rpm * rad_s_per_rpm));
+    c->run();
+    REQUIRE(c->solver->march().verdict() != Verdict::failed);
+    const RotorLoad load = actuator->load(c->solver->rows().back());
+    c->solver->clear_rows();
+    thrust = load.thrust;
+    if (n % 20 == 0) UNSCOPED_INFO(n * step << " s: " << load.thrust << " N, " << load.power << " W");
+  }
+  const double expected = blade_element_thrust(wind, rpm);
+  CAPTURE(expected);
+  CHECK(thrust == Approx(expected).epsilon(0.05));
+}
+
+TEST_CASE("the declarations of an actuator are sound in themselves", "[rotor][fast]") {
+  CHECK(actuator_section().faults().empty());
+}
+
+TEST_CASE("a scene with an actuator says a turbine, a grid and a time that suit it", "[rotor][fast]") {
+  const auto problems = [](const std::string& aero, const std::string& rotor) -> std::string {
+    scene::Document doc =
+        scene::parse("[aero]\n" + aero + "[rotor]\n" + rotor, "test.toml", std::filesystem::temp_directory_path());
+    const AeroOptions air = doc.read(aero_section());
+    check_actuator(doc, air, doc.read(rotor_section()));
+    try {
+      doc.finish();
+    } catch (const scene::SceneError& e) { return e.what(); }
+    return {};
+  };
+  const std::string grid = "[aero.flow.generate]\nkind = 'box'\nlow_m = [-200, -200, -200]\nhigh_m = [200, 200, 200]\n",
+                    turbine = "turbine = '" SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml'\n";
+  CHECK(problems("model = 'actuator_disc'\n" + grid, turbine).empty());
+  CHECK_THAT(problems("model = 'actuator_disc'\n" + grid, turbine + "hub_m = [0, 0, 119]\n"),
+             Contains("rotor.hub_m") && Contains("out of the grid, which goes from -200 to 200 m along z"));
+  CHECK_THAT(problems("model = 'actuator_disc'\n" + grid, ""), Contains("rotor.turbine") && Contains("must name a turbine file"));
+  CHECK_THAT(problems("model = 'actuator_line'\n" + grid, turbine), Contains("aero.flow.time") && Contains("lines turn"));
+  CHECK_THAT(problems("model = 'actuator_disc'\n", turbine), Contains("aero.flow") && Contains("must be given"));
+  CHECK_THAT(problems("model = 'actuator_disc'\n[aero.grid]\n[aero.flow]\n", turbine), Contains("has no blades in its grid"));
+  CHECK_THAT(problems("model = 'actuator_disc'\n" + grid + "[aero.actuator]\nwidth_cells = 0.5\n", turbine),
+             Contains("aero.actuator.width_cells"));
+  CHECK_THAT(problems("model = 'bem'\n[aero.actuator]\nwidth_cells = 2.0\n", turbine), Contains("aero.actuator"));
+}
+
+TEST_CASE("a rotor that does not fit into the grid is refused with the grid's size", "[rotor][fast]") {
+  RotorOptions rotor;
+  rotor.turbine = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml";
+  rotor.hub_m = {0.0, 0.0, 119.0};
+  const auto grid = [](double low) {
+    return cartesian_box({.ni = 4, .nj = 4, .nk = 4, .low = {-100.0, -100.0, low}, .high = {100.0, 100.0, 300.0}});
+  };
+  CHECK_NOTHROW(require_rotor_inside(grid(0.0), rotor));
+  CHECK_THROWS_WITH(require_rotor_inside(grid(40.0), rotor), Contains("rotor.hub_m") && Contains("from 40 to 300 m along z"));
+  CHECK_THROWS_WITH(require_rotor_inside(planar_box(BoxOptions()), rotor), Contains("three dimensions"));
+}
