@@ -41,9 +41,10 @@ DiscMotion turning(double rpm, double azimuth = 0.0) {
 /// Air of 1.225 kg/m3 in a box round the rotor, of so many cells to the radius; sides in radii.
 struct Wind8 {
   double speed = 8.0, cells = 4.0, upstream = 3.0, downstream = 4.0, side = 3.0, core_upstream = 0.75, core_downstream = 1.0;
+  double core = 1.25, growth = 1.3;
 };
 std::unique_ptr<Case> box(const Wind8& o, FlowSetting s, int ranks = 1, int rank = 0) {
-  const double R = tip_radius(), cell = R / o.cells, growth = 1.3, core = 1.25 * R;
+  const double R = tip_radius(), cell = R / o.cells, growth = o.growth, core = o.core * R;
   s.gas.temperature_reference = 288.15;
   s.gas.pressure_reference = 1.225 * s.gas.gas_constant * 288.15;
   s.stream = {0.0, o.speed, 0.0, 0.0, 0.0}, s.speed = o.speed;
@@ -226,53 +227,59 @@ TEST_CASE("a disc of the DTU 10 MW rotor at ten cells to the radius has the thru
 TEST_CASE("a disc at thirty cells to the radius has the thrust of blade elements, and of ten", "[rotor][long]") {
   const Wind8 o{.speed = 11.0,
                 .cells = 30.0,
-                .upstream = 5.0,
-                .downstream = 6.0,
-                .side = 5.0,
-                .core_upstream = 0.2,
-                .core_downstream = 0.25};
+                .upstream = 6.0,
+                .downstream = 7.0,
+                .side = 6.0,
+                .core_upstream = 0.25,
+                .core_downstream = 0.15,
+                .core = 1.1,
+                .growth = 1.4};
   FlowSetting s;
   s.preconditioner = "coarse";
   s.march.drop = 5e-3, s.march.max_steps = 40, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
   const auto c = box(o, s);
   const auto actuator = act_in(*c, Actuator::Kind::disc, turning(8.8354), o.cells);
-  c->solver->watch([&](const PseudoRow& row) {
-    UNSCOPED_INFO(row.step << ": " << actuator->load(row).thrust << " N, " << actuator->load(row).power << " W");
-  });
   c->prepare(MPI_COMM_SELF, {});
   c->run();
   const double thrust = actuator->load(c->solver->rows().back()).thrust, expected = blade_element_thrust(11.0, 8.8354);
   CHECK(thrust == Approx(expected).epsilon(0.03));
 }
 
-TEST_CASE("lines at ten cells to the radius have the thrust of blade elements once their wake is there", "[rotor][long]") {
-  const double wind = 11.0, rpm = 8.8354, step = 0.25;
+TEST_CASE("lines at ten cells to the radius go on from a disc's flow with the thrust of blade elements", "[rotor][nightly]") {
+  const double wind = 11.0, rpm = 8.8354, step = 0.3;
   const Wind8 o{.speed = wind,
                 .cells = 10.0,
-                .upstream = 4.5,
-                .downstream = 6.5,
-                .side = 4.5,
-                .core_upstream = 0.5,
-                .core_downstream = 1.75};
+                .upstream = 4.0,
+                .downstream = 5.0,
+                .side = 4.0,
+                .core_upstream = 0.4,
+                .core_downstream = 1.0};
   FlowSetting s;
+  s.preconditioner = "coarse";
+  s.march.drop = 1e-3, s.march.max_steps = 60, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
+  const auto steady = box(o, s);
+  const auto disc = act_in(*steady, Actuator::Kind::disc, turning(rpm), o.cells);
+  steady->prepare(MPI_COMM_SELF, {});
+  steady->run();
+  UNSCOPED_INFO("disc: " << disc->load(steady->solver->rows().back()).thrust << " N");
+  s = FlowSetting();
   s.time_order = 2, s.dt = step, s.physical_far_field = true;
-  s.march.drop = 1e-2, s.march.max_steps = 10, s.march.cfl_start = 5.0, s.march.cfl_max = 1e4, s.march.matrix_free_below = 1e-2;
+  s.march.drop = 1e-2, s.march.max_steps = 10;
   const auto c = box(o, s);
-  const auto actuator = act_in(*c, Actuator::Kind::lines, turning(rpm), o.cells);
+  const auto lines = act_in(*c, Actuator::Kind::lines, turning(rpm), o.cells);
+  c->solver->start_from(*steady->solver);
   c->prepare(MPI_COMM_SELF, {});
-  double thrust = 0.0;
-  for (int n = 1; n <= 200; ++n) {  // six radii of wind
-    actuator->place(turning(rpm, n * step * rpm * rad_s_per_rpm));
+  RotorLoad load;
+  for (int n = 1; n <= 40; ++n) {  // until the helices fill the first radius of the wake
+    lines->place(turning(rpm, n * step * rpm * rad_s_per_rpm));
     c->run();
     REQUIRE(c->solver->march().verdict() != Verdict::failed);
-    const RotorLoad load = actuator->load(c->solver->rows().back());
+    load = lines->load(c->solver->rows().back());
     c->solver->clear_rows();
-    thrust = load.thrust;
-    if (n % 20 == 0) UNSCOPED_INFO(n * step << " s: " << load.thrust << " N, " << load.power << " W");
+    if (n % 5 == 0) UNSCOPED_INFO(n * step << " s: " << load.thrust << " N, " << load.power << " W");
   }
-  const double expected = blade_element_thrust(wind, rpm);
-  CAPTURE(expected);
-  CHECK(thrust == Approx(expected).epsilon(0.05));
+  CHECK(load.thrust ==
+        Approx(blade_element_thrust(wind, rpm)).epsilon(0.05));  // lifting lines load the tips more than Prandtl's factor
 }
 
 TEST_CASE("the declarations of an actuator are sound in themselves", "[rotor][fast]") {
