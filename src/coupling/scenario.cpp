@@ -250,6 +250,7 @@ Scenario read_scenario(scene::Document& document) {
     if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s), aero::wind_profile(s.wind));
     if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
     if (has_resolved_rotor(s) && !s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
+    if (!s.beams.empty()) document.problem("beams", "have no effect: there are no [bodies]");
     if (s.wind.speed_m_s <= 0.0 && !has_resolved_rotor(s))
       document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
     document.finish();
