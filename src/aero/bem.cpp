@@ -140,9 +140,9 @@ ElementState BladeElementMomentum::forces(const Place& at, const Induced& induce
   return skewed(at.ring, level, at.normal_wind, at.tangential_wind, at.skew, at.across, section);
 }
 
-DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& rotor, double t,
-                                          std::span<const double> memory) const {
-  DiscLoad sum;
+template <class Visit>
+void BladeElementMomentum::for_each_force(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
+                                          const Visit& visit) const {
   for_each_place(wind, rotor, t, [&](const Place& at) {
     const Element& e = at.element;
     const auto section = [&](double a) { return polar(e, a); };
@@ -168,9 +168,24 @@ DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& ro
     }
     const double pressure = 0.5 * air_density_ * s.speed * s.speed * e.chord * e.length;
     const Eigen::Vector3d force = pressure * (s.normal * at.normal + s.tangential * at.ahead);
-    sum.force += force, sum.moment += at.arm.cross(force), sum.unbalanced += !s.balanced;
+    visit(at, force, s.balanced);
+  });
+}
+
+DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& rotor, double t,
+                                          std::span<const double> memory) const {
+  DiscLoad sum;
+  for_each_force(wind, rotor, t, memory, [&](const Place& at, const Eigen::Vector3d& force, bool balanced) {
+    sum.force += force, sum.moment += at.arm.cross(force), sum.unbalanced += !balanced;
   });
   return sum;
+}
+
+void BladeElementMomentum::add_root_loads(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
+                                          std::span<Wrench> roots) const {
+  for_each_force(wind, rotor, t, memory, [&](const Place& at, const Eigen::Vector3d& force, bool) {
+    roots[at.index / elements_.size()].add_force(force, at.arm);
+  });
 }
 
 std::size_t BladeElementMomentum::memory_size() const {

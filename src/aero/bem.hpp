@@ -6,12 +6,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "kernels/base/constants.hpp"
+#include "kernels/rigid/wrench.hpp"
 #include "kernels/rotor/blade_element.hpp"
 #include "kernels/rotor/dynamic_inflow_oye.hpp"
 #include "kernels/rotor/dynamic_stall_beddoes_leishman.hpp"
@@ -33,6 +37,12 @@ struct DiscMotion {
   const Tower* tower = nullptr;                   ///< whose flow the blades meet
   TowerFrame tower_frame = {};
 };
+
+/// Way of blade b of so many from the hub, square to the axis.
+inline Eigen::Vector3d blade_direction(const DiscMotion& rotor, int b, int blades) {
+  const double azimuth = rotor.azimuth + 2.0 * pi * b / blades;
+  return std::cos(azimuth) * rotor.up + std::sin(azimuth) * rotor.axis.cross(rotor.up);
+}
 
 struct DiscLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< [N], [N m] about the hub, earth frame
@@ -57,6 +67,10 @@ class BladeElementMomentum {
   /// `memory`: what the flow remembers; without it the flow is steady.
   DiscLoad operator()(const Wind& wind, const DiscMotion& rotor, double t = 0.0, std::span<const double> memory = {}) const;
   DiscLoad operator()(const Eigen::Vector3d& wind, const DiscMotion& rotor) const { return (*this)(Wind{wind}, rotor); }
+
+  /// Adds the same loads blade by blade; points of the wrenches, one to a blade, are from the hub.
+  void add_root_loads(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
+                      std::span<Wrench> roots) const;
 
   // What the flow remembers of its past, element by element, in plain numbers that the caller keeps.
   std::size_t memory_size() const;
@@ -123,6 +137,10 @@ class BladeElementMomentum {
   SectionForce polar(const Element& e, double attack) const;
   template <class Visit>
   void for_each_place(const Wind& wind, const DiscMotion& rotor, double t, const Visit& visit) const;
+  /// visit(place, force [N], whether the element found its induction).
+  template <class Visit>
+  void for_each_force(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
+                      const Visit& visit) const;
   /// In balance with the momentum of its annulus, the wind along the axis.
   ElementState balance(const Place& at) const;
   Induced steady(const Place& at) const;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "src/aero/blade_roots.hpp"
 #include "src/aero/operation.hpp"
 #include "src/aero/prescribed.hpp"
 #include "src/aero/thrust_curve.hpp"
@@ -169,6 +170,10 @@ const scene::Section<RotorOptions>& rotor_section() {
               "operation", &RotorOptions::operation,
               "CSV file with wind_m_s, speed_rpm and, if any, blade_pitch_deg and power_W: steady operation. Without it that of "
               "the turbine file, if it names one; else the rotor speed of the scene stands for every wind.")
+          .path("blade_masses", &RotorOptions::blade_masses,
+                "CSV file with span_m (from the rotor axis along the blade) and mass_kg_m: with it the loads at the blades' "
+                "roots are "
+                "written. The rotor's body has that mass already.")
           .check(check_axis);
   return section;
 }
@@ -199,6 +204,11 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
   if (aero.model == "bem" && rotor.turbine.empty())
     doc.problem("rotor.turbine", "must name a turbine file: aero.model \"bem\" needs the blades");
   try_file("rotor.turbine", rotor.turbine, [&] { read_turbine(rotor.turbine); });
+  if (!rotor.blade_masses.empty() && aero.model != "bem")
+    doc.problem("rotor.blade_masses", "has no effect: only aero.model = \"bem\" knows the loads along a blade");
+  else if (!rotor.turbine.empty())
+    try_file("rotor.blade_masses", rotor.blade_masses,
+             [&] { BladeRoots roots(read_turbine(rotor.turbine), rotor.blade_masses); });
   try_file("rotor.operation", rotor.operation, [&] { read_operation(rotor.operation); });
   try_file("aero.table", aero.table, [&] { Prescribed model(aero); });
   try_file("aero.curve", aero.curve, [&] { ThrustCurve model(aero, rotor, 1.0); });

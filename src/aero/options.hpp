@@ -65,6 +65,7 @@ struct RotorOptions {
   std::string turbine;                    ///< path: blades as data
   std::string operation;                  ///< path: rotor speed, pitch and power against wind
   std::string operating_point = "given";  ///< given, table
+  std::string blade_masses;               ///< path: mass along the blades, for loads at their roots; empty: not written
 };
 
 const scene::Section<AeroOptions>& aero_section();

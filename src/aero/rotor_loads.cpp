@@ -67,6 +67,7 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
                                    .inflow_time = aero.inflow_time_s,
                                    .stall = stall_named(aero.dynamic_stall),
                                    .speed_of_sound = aero.speed_of_sound_m_s});
+  if (!rotor.blade_masses.empty()) roots_.emplace(read_turbine(rotor.turbine), rotor.blade_masses);
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
   const int blades = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
@@ -151,6 +152,31 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
     load.moment -= carrier.cross(Eigen::Vector3d(control_->rotor_inertia() * now.speed * now.axis));
   }
   return load;
+}
+
+std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Motion> bodies, const Eigen::Vector3d& acceleration,
+                                                  const Eigen::Vector3d& omega_rate, const Eigen::Vector3d& gravity,
+                                                  double ramp) const {
+  const Motion& body = bodies[placement_.body];
+  const RotorState now = state(t, bodies);
+  const Eigen::Vector3d arm = now.hub - body.position, turning = body.omega_earth();
+  HubMotion hub{acceleration + omega_rate.cross(arm) + turning.cross(turning.cross(arm)), now.omega, omega_rate};
+  if (!placement_.support) hub.omega_rate += turning.cross(Eigen::Vector3d(now.speed * now.axis));
+  const DiscMotion disc = disc_motion(now, memory_);
+  const int blades = int(roots_->blades());
+  std::vector<Wrench> of_air(roots_->blades());
+  std::vector<BladeRootLoad> loads;
+  for (int b = 0; b < blades; ++b) of_air[std::size_t(b)].point = roots_->root(now.axis, blade_direction(disc, b, blades));
+  const std::span<const double> flow = memory_.empty() ? std::span<const double>() : std::span(memory_).subspan(control_size());
+  std::get<BladeElementMomentum>(model_).add_root_loads(wind_, disc, t, flow, of_air);
+  for (int b = 0; b < blades; ++b) {
+    const Eigen::Vector3d out = blade_direction(disc, b, blades);
+    Wrench& w = of_air[std::size_t(b)];
+    w.force *= ramp, w.moment *= ramp;
+    roots_->add_mass_loads(hub, now.axis, out, gravity, w);
+    loads.push_back(BladeRoots::seen(w, now.axis, out));
+  }
+  return loads;
 }
 
 TurbineControl::Measured RotorLoads::measured(double t, const RotorState& now) const {

@@ -12,6 +12,7 @@
 #include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/wrench.hpp"
 #include "src/aero/bem.hpp"
+#include "src/aero/blade_roots.hpp"
 #include "src/aero/options.hpp"
 #include "src/aero/prescribed.hpp"
 #include "src/aero/thrust_curve.hpp"
@@ -78,6 +79,14 @@ class RotorLoads {
   void recall(std::span<const double> memory) { memory_.assign(memory.begin(), memory.end()); }
   void remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const;
 
+  /// Loads at the blades' roots, one to a blade; none without `rotor.blade_masses`. Acceleration of the rotor's body: of its
+  /// centre of mass and of its turning, earth frame. Of a rotor that no body turns, a change of its speed is left out.
+  std::size_t roots() const { return roots_ ? roots_->blades() : 0; }
+  std::size_t body() const { return std::size_t(placement_.body); }
+  std::vector<BladeRootLoad> root_loads(double t, std::span<const Motion> bodies, const Eigen::Vector3d& acceleration,
+                                        const Eigen::Vector3d& omega_rate, const Eigen::Vector3d& gravity_m_s2,
+                                        double ramp = 1.0) const;
+
   bool is_controlled() const { return control_.has_value(); }
   std::size_t drive_blades() const { return control_ ? control_->blades() : 0; }
   /// What the controller does; of the values recalled last, which must be there.
@@ -107,6 +116,7 @@ class RotorLoads {
   Wind wind_;
   std::optional<TurbineControl> control_;
   std::optional<Tower> tower_;
+  std::optional<BladeRoots> roots_;
   std::vector<double> memory_;  ///< recalled; empty: steady
   std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
 };

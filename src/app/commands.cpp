@@ -228,6 +228,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
     CLI::App* command = cli.add_subcommand("import", "Make a scene from an OpenFAST deck (versions 3 to 5)");
     command->add_option("main", arguments->file, "Main input file (.fst)")->required();
     command->add_option("-o,--output", arguments->out, "Folder for scene.toml and its files")->required();
+    command->add_flag("--flexible-tower", arguments->flexible_tower,
+                      "A tower that bends in the deck becomes a beam of the scene");
     command->callback(
         [arguments, &chosen] { chosen = [arguments](const auto& world) { return import_deck(*arguments, world); }; });
   }

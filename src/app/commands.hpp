@@ -94,6 +94,7 @@ struct ReplayArguments {
 
 struct ImportArguments {
   std::string file, out;
+  bool flexible_tower = false;
 };
 
 int run(const RunArguments& arguments, const runtime::World& world);

@@ -9,7 +9,8 @@ namespace spindrift::app {
 
 int import_deck(const ImportArguments& arguments, const runtime::World& world) {
   if (world.rank != 0) return done;
-  const decks::Imported result = decks::import_openfast(arguments.file, arguments.out);
+  const decks::Imported result = decks::import_openfast(
+      arguments.file, arguments.out, arguments.flexible_tower ? decks::ImportedTower::flexible : decks::ImportedTower::rigid);
   fmt::print("{}\n\nCarried over\n", result.scene.string());
   for (const std::string& what : result.carried) fmt::print("  {}\n", what);
   if (!result.left_out.empty()) fmt::print("\nLeft out\n");

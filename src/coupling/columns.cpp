@@ -124,6 +124,20 @@ Table<aero::RotorLoad> blade_columns() {
   return table;
 }
 
+Table<aero::BladeRootLoad> root_columns() {
+  using Of = const aero::BladeRootLoad&;
+  static constexpr ColumnOf<aero::BladeRootLoad> table[] = {
+      {"root_downwind_N", "N", "force of the blade on the hub along the axis: air, weight and inertia",
+       [](Of l) { return l.downwind; }},
+      {"root_ahead_N", "N", "along the blade's way", [](Of l) { return l.ahead; }},
+      {"root_outward_N", "N", "outward, square to the axis", [](Of l) { return l.outward; }},
+      {"root_flap_N_m", "N m", "flapwise bending moment at the root, positive where the blade is pushed downwind",
+       [](Of l) { return l.flap; }},
+      {"root_edge_N_m", "N m", "edgewise bending moment at the root, positive where the blade is pushed ahead",
+       [](Of l) { return l.edge; }}};
+  return table;
+}
+
 Table<aero::RotorLoads::Drive> drive_columns() {
   using Of = const aero::RotorLoads::Drive&;
   static constexpr double degree = radians_per_degree;
@@ -263,6 +277,7 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("rotor.", "rotors on bodies", hub_columns()),
           section_of("rotor.", "controlled rotors", drive_columns()),
           section_of("rotor.blade_1.", "each blade of a controlled rotor", pitch_columns()),
+          section_of("rotor.blade_1.", "each blade, where rotor.blade_masses is given", root_columns()),
           section_of("rotor.blade_1.", "each blade of the grid of a resolved rotor", blade_columns()),
           section_of("MOORING.", "each line", mooring_columns()),
           section_of("MOORING.", "each line of the model lumped_mass", anchor_columns()),

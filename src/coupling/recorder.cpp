@@ -42,6 +42,8 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
     for (std::size_t blade = 1; blade <= floating.rotor()->drive_blades(); ++blade)
       pitches_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", pitch_columns());
   }
+  for (std::size_t blade = 1; floating.rotor() && blade <= floating.rotor()->roots(); ++blade)
+    roots_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", root_columns());
   if (floating.moorings())
     for (std::size_t line = 0; line < floating.moorings()->size(); ++line) {
       const std::string prefix = floating.moorings()->name(line) + ".";
@@ -121,6 +123,12 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
       drive_->fill(row, drive);
       for (std::size_t blade = 0; blade < pitches_.size(); ++blade) pitches_[blade].fill(row, drive.pitch[blade]);
     }
+  }
+  if (!roots_.empty()) {
+    const std::size_t b = floating_.rotor()->body();
+    const std::vector<aero::BladeRootLoad> of_roots = floating_.rotor()->root_loads(
+        t, state.motions, now.acceleration[b], now.angular_acceleration[b], floating_.gravity_m_s2(), floating_.ramp(t));
+    for (std::size_t blade = 0; blade < roots_.size(); ++blade) roots_[blade].fill(row, of_roots[blade]);
   }
   for (std::size_t line = 0; line < moorings_.size(); ++line) {
     const moorings::LineTension tension = floating_.moorings()->tension(line, state.motions);

@@ -48,6 +48,7 @@ class Recorder {
   std::optional<Group<aero::RotorState>> hub_;
   std::optional<Group<aero::RotorLoads::Drive>> drive_;
   std::vector<Group<double>> pitches_;
+  std::vector<Group<aero::BladeRootLoad>> roots_;
   std::vector<Group<moorings::LineTension>> moorings_;
   std::vector<std::optional<Group<moorings::LineTension>>> anchors_;  ///< of dynamic lines
   std::optional<Group<double>> waves_;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -27,7 +28,8 @@ std::string vector(const Eigen::Vector3d& v) {
 /// One deck on its way to a scene.
 class Importer {
  public:
-  Importer(const std::filesystem::path& main_file, const std::filesystem::path& folder) : main_(main_file), folder_(folder) {}
+  Importer(const std::filesystem::path& main_file, const std::filesystem::path& folder, ImportedTower tower)
+      : main_(main_file), folder_(folder), tower_(tower) {}
 
   Imported run() {
     if (!main_.has("EDFile"))
@@ -41,6 +43,8 @@ class Importer {
     if (main_.integer({"CompElast"}, 1) == 2)
       for (int b = 1; b <= rotor_.blades; ++b)
         rotor_.beamdyn_blades.push_back(Deck(main_.path({fmt::format("BDBldFile({})", b)})).path({"BldFile"}));
+    bends_ = tower_ == ImportedTower::flexible && tower_moves();
+    if (bends_) step_ = flexible_step;
     wet_ = main_.integer({"CompHydro"}, 0) == 1;
     floats_ = wet_ && main_.integer({"CompSub"}, 0) == 0;
     environment();
@@ -74,30 +78,68 @@ class Importer {
     if (given("MSL2SWL", "HydroFile", 0.0) != 0.0) leave_out("MSL2SWL: still water is at the mean level");
   }
 
+  bool tower_moves() const {
+    const auto freedoms = {"TwFADOF1", "TwFADOF2", "TwSSDOF1", "TwSSDOF2"};
+    return std::any_of(freedoms.begin(), freedoms.end(), [&](const char* f) { return elastodyn_->flag({f}, false); });
+  }
+
+  /// Mass, inertia and centre of a body, as a scene has them.
+  void mass_keys(const MassSum& sum) {
+    Eigen::Matrix3d inertia = sum.inertia();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (std::abs(inertia(i, j)) < 1e-9 * inertia.trace()) inertia(i, j) = 0.0;
+    scene_ << fmt::format("mass_kg = {:.10g}\ninertia_kg_m2 = [\n", sum.mass());
+    for (int i = 0; i < 3; ++i)
+      scene_ << fmt::format("  [{:.10g}, {:.10g}, {:.10g}],\n", inertia(i, 0), inertia(i, 1), inertia(i, 2));
+    scene_ << "]\ncentre_m = " << vector(sum.centre()) << "\n";
+  }
+
+  /// Nacelle, hub and blades on the tower's top; `moved` and `turned` (degrees) are the platform's, about `reference`.
+  void flexible_tower(const Eigen::Vector3d& moved, const Eigen::Vector3d& turned, const Eigen::Vector3d& reference) {
+    const MassSum top = top_masses(*elastodyn_, rotor_);
+    const ImportedBeam beam = tower_beam(*elastodyn_);
+    scene_ << "\n[bodies.nacelle]                        # nacelle, hub and blades\n";
+    mass_keys(top);
+    if (floats_ && (moved.norm() > 0.0 || turned.norm() > 0.0)) {
+      const Eigen::Vector3d angle = radians_per_degree * turned, arm = top.centre() - reference;
+      const Eigen::Matrix3d turn =
+          (Eigen::AngleAxisd(angle.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(angle.y(), Eigen::Vector3d::UnitY()) *
+           Eigen::AngleAxisd(angle.x(), Eigen::Vector3d::UnitX()))
+              .toRotationMatrix();
+      scene_ << "displacement_m = " << vector(moved + turn * arm - arm) << "\nrotation_deg = " << vector(turned) << "\n";
+    }
+    std::ofstream(folder_ / "tower.csv") << beam.properties;
+    scene_ << "\n[beams.tower]\nbodies = [\"platform\", \"nacelle\"]\nstart_m = " << vector({0.0, 0.0, beam.base})
+           << "\nend_m = " << vector({0.0, 0.0, beam.top}) << "\nproperties = \"tower.csv\"\n"
+           << fmt::format("damping = [{:.9g}, {:.9g}]\n", beam.damping[0], beam.damping[1]);
+    carry(
+        fmt::format("tower: flexible, {:.6g} m, damping {:.3g} and {:.3g} % of critical; its modes are computed, the file's "
+                    "shapes are not used",
+                    beam.top - beam.base, 100.0 * beam.damping[0], 100.0 * beam.damping[1]));
+  }
+
   void body() {
     const Deck& ed = *elastodyn_;
-    MassSum sum = all_masses(ed, rotor_);
+    MassSum sum = bends_ ? platform_masses(ed) : all_masses(ed, rotor_);
     if (ballast_.mass() > 0.0) {
       sum.add(ballast_);
       carry(fmt::format("ballast: {:.6g} kg in filled members", ballast_.mass()));
     }
     for (const char* product : {"PtfmXYIner", "PtfmYZIner", "PtfmXZIner"})
       if (ed.number({product}, 0.0) != 0.0) leave_out(fmt::format("the platform's product of inertia {}", product));
-    Eigen::Matrix3d inertia = sum.inertia();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        if (std::abs(inertia(i, j)) < 1e-9 * inertia.trace()) inertia(i, j) = 0.0;
-    scene_ << "\n[bodies.platform]                       # platform, tower, nacelle, hub and blades as one rigid body\n"
-           << fmt::format("mass_kg = {:.10g}\ninertia_kg_m2 = [\n", sum.mass());
-    for (int i = 0; i < 3; ++i)
-      scene_ << fmt::format("  [{:.10g}, {:.10g}, {:.10g}],\n", inertia(i, 0), inertia(i, 1), inertia(i, 2));
-    scene_ << "]\ncentre_m = " << vector(sum.centre()) << "\nreference_m = "
-           << vector({ed.number({"PtfmRefxt"}, 0.0), ed.number({"PtfmRefyt"}, 0.0), ed.number({"PtfmRefzt"}, 0.0)}) << "\n";
+    scene_ << (bends_
+                   ? "\n[bodies.platform]\n"
+                   : "\n[bodies.platform]                       # platform, tower, nacelle, hub and blades as one rigid body\n");
+    mass_keys(sum);
+    const Eigen::Vector3d reference(ed.number({"PtfmRefxt"}, 0.0), ed.number({"PtfmRefyt"}, 0.0), ed.number({"PtfmRefzt"}, 0.0));
+    scene_ << "reference_m = " << vector(reference) << "\n";
     const Eigen::Vector3d moved(ed.number({"PtfmSurge"}, 0.0), ed.number({"PtfmSway"}, 0.0), ed.number({"PtfmHeave"}, 0.0));
     const Eigen::Vector3d turned(ed.number({"PtfmRoll"}, 0.0), ed.number({"PtfmPitch"}, 0.0), ed.number({"PtfmYaw"}, 0.0));
     if (floats_ && moved.norm() > 0.0) scene_ << "displacement_m = " << vector(moved) << "\n";
     if (floats_ && turned.norm() > 0.0) scene_ << "rotation_deg = " << vector(turned) << "\n";
     scene_ << cylinders_;
+    if (bends_) flexible_tower(moved, turned, reference);
     carry(fmt::format("body: {:.6g} kg, centre {}", sum.mass(), vector(sum.centre())));
     int free = 0;
     for (const char* freedom : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
@@ -245,7 +287,7 @@ class Importer {
     const int wake = ad.integer({"Wake_Mod", "WakeMod"}, 1);
     if (wake > 2) leave_out("the free-vortex wake (Wake_Mod 3): blade element momentum");
     scene_ << "\n[aero]\nmodel = \"bem\"\ninduction = \"buhl\"\n" << unsteady(ad, wake) << tower(ad);
-    scene_ << "\n[rotor]\nbody = \"platform\"\nturbine = \"turbine.toml\"\n";
+    scene_ << fmt::format("\n[rotor]\nbody = \"{}\"\nturbine = \"turbine.toml\"\n", bends_ ? "nacelle" : "platform");
     scene_ << "hub_m = " << vector(rotor_.hub) << "\naxis = " << vector(rotor_.axis) << "\n";
     scene_ << fmt::format("speed_rpm = {:.9g}\nblade_pitch_deg = {:.9g}\n", ed.number({"RotSpeed"}),
                           ed.number({"BlPitch(1)", "BlPitch1"}, 0.0));
@@ -335,7 +377,8 @@ class Importer {
       return std::any_of(freedoms.begin(), freedoms.end(), [&](const char* f) { return elastodyn_->flag({f}, false); });
     };
     if (any({"FlapDOF1", "FlapDOF2", "EdgeDOF"})) leave_out("bending of the blades: they are rigid");
-    if (any({"TwFADOF1", "TwFADOF2", "TwSSDOF1", "TwSSDOF2"})) leave_out("bending of the tower: it is rigid");
+    if (tower_moves() && !bends_) leave_out("bending of the tower: it is rigid (--flexible-tower makes it a beam)");
+    if (!tower_moves() && tower_ == ImportedTower::flexible) leave_out("--flexible-tower: the deck's tower is rigid");
     if (any({"YawDOF", "DrTrDOF", "TeetDOF"})) leave_out("motion of yaw bearing, shaft and teeter");
     for (const auto& [part, name] :
          {std::pair{"CompSub", "SubDyn: what stands on it is fixed"}, std::pair{"CompIce", "ice"}, std::pair{"CompSoil", "soil"}})
@@ -605,10 +648,13 @@ class Importer {
   static constexpr double window = 0.1;
   Deck main_;
   std::filesystem::path folder_;
-  double step_ = 0.05;  // a rigid platform's shortest period is some seconds
+  double step_ = 0.05;                           // a rigid platform's shortest period is some seconds
+  static constexpr double flexible_step = 0.01;  // a tower's extension is the fastest: some periods to a second
   std::optional<Deck> elastodyn_;
   RotorFrame rotor_;
   double gravity_ = 9.80665, depth_ = 0.0, water_density_ = 1025.0;
+  ImportedTower tower_;
+  bool bends_ = false;  ///< the tower, in the scene
   bool wet_ = false, floats_ = false;
   MassSum ballast_;
   std::ostringstream scene_;
@@ -618,8 +664,8 @@ class Importer {
 
 }  // namespace
 
-Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder) {
-  return Importer(main_file, folder).run();
+Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder, ImportedTower tower) {
+  return Importer(main_file, folder, tower).run();
 }
 
 }  // namespace spindrift::decks

@@ -15,8 +15,12 @@ struct Imported {
   std::vector<std::string> carried;   ///< what the scene has, one line each
 };
 
+/// A tower that bends in the deck (TwFADOF1 ... TwSSDOF2): one rigid body with the platform, or a beam of the scene.
+enum class ImportedTower { rigid, flexible };
+
 /// Reads the deck and writes scene.toml and its files into a folder that is made where it is missing. Throws scene::SceneError
 /// naming file and line of what cannot be read.
-Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder);
+Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder,
+                         ImportedTower tower = ImportedTower::rigid);
 
 }  // namespace spindrift::decks

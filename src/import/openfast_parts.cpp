@@ -124,18 +124,26 @@ double generator_inertia(const Deck& ed) {
 
 }  // namespace
 
-MassSum all_masses(const Deck& ed, const RotorFrame& r) {
-  MassSum sum;
+namespace {
+
+void add_platform(const Deck& ed, MassSum& sum) {
   Eigen::Matrix3d platform =
       Eigen::Vector3d(ed.number({"PtfmRIner"}, 0.0), ed.number({"PtfmPIner"}, 0.0), ed.number({"PtfmYIner"}, 0.0)).asDiagonal();
   sum.add(ed.number({"PtfmMass"}, 0.0),
           {ed.number({"PtfmCMxt"}, 0.0), ed.number({"PtfmCMyt"}, 0.0), ed.number({"PtfmCMzt"}, 0.0)}, platform);
+}
+
+void add_tower(const Deck& ed, MassSum& sum) {
   const double top = ed.number({"TowerHt"}), base = ed.number({"TowerBsHt"}, 0.0);
   const Deck tower(ed.path({"TwrFile"}));
   slice(read_density(tower, {"NTwInpSt", "NTwInptSt"}, {"HtFract"}, {"TMassDen"}, {"AdjTwMa"}), top - base,
         [&](double mass, double share) {
           sum.add(mass, {0.0, 0.0, base + share * (top - base)});
         });
+}
+
+void add_top(const Deck& ed, const RotorFrame& r, MassSum& sum) {
+  const double top = ed.number({"TowerHt"});
   const Eigen::Vector3d nacelle =
       Eigen::AngleAxisd(r.yaw, Eigen::Vector3d::UnitZ()) *
       Eigen::Vector3d(ed.number({"NacCMxn"}, 0.0), ed.number({"NacCMyn"}, 0.0), top + ed.number({"NacCMzn"}, 0.0));
@@ -146,7 +154,48 @@ MassSum all_masses(const Deck& ed, const RotorFrame& r) {
   sum.add(ed.number({"HubMass"}, 0.0), r.hub + ed.number({"HubCM"}, 0.0) * r.axis,
           about_axis(ed.number({"HubIner"}, 0.0), r.axis));
   add_blades(ed, r, sum);
+}
+
+}  // namespace
+
+MassSum all_masses(const Deck& ed, const RotorFrame& r) {
+  MassSum sum;
+  add_platform(ed, sum);
+  add_tower(ed, sum);
+  add_top(ed, r, sum);
   return sum;
+}
+
+MassSum platform_masses(const Deck& ed) {
+  MassSum sum;
+  add_platform(ed, sum);
+  return sum;
+}
+
+MassSum top_masses(const Deck& ed, const RotorFrame& r) {
+  MassSum sum;
+  add_top(ed, r, sum);
+  return sum;
+}
+
+ImportedBeam tower_beam(const Deck& ed) {
+  const Deck file(ed.path({"TwrFile"}));
+  const auto along = [&](const char* column, const char* factor) {
+    return read_density(file, {"NTwInpSt", "NTwInptSt"}, {"HtFract"}, {column}, {factor});
+  };
+  const Density mass = along("TMassDen", "AdjTwMa"), fore_aft = along("TwFAStif", "AdjFASt"),
+                side_side = along("TwSSStif", "AdjSSSt");
+  ImportedBeam beam{
+      .properties = "# From " + file.file().filename().string() + ".\ndistance_m,mass_kg_m,stiffness_x_N_m2,stiffness_y_N_m2\n",
+      .base = ed.number({"TowerBsHt"}, 0.0),
+      .top = ed.number({"TowerHt"})};
+  for (std::size_t n = 0; n < mass.at.size(); ++n)
+    beam.properties += fmt::format("{:.10g},{:.10g},{:.10g},{:.10g}\n", mass.at[n] * (beam.top - beam.base), mass.per_m[n],
+                                   fore_aft.per_m[n], side_side.per_m[n]);
+  for (int mode = 1; mode <= 2; ++mode)
+    beam.damping[mode - 1] =
+        0.005 * (file.number({fmt::format("TwrFADmp({})", mode)}, 0.0) + file.number({fmt::format("TwrSSDmp({})", mode)}, 0.0));
+  return beam;
 }
 
 double rotor_inertia(const Deck& ed, const RotorFrame& r) {

@@ -41,6 +41,18 @@ RotorFrame rotor_frame(const Deck& elastodyn);
 
 /// Platform, tower, nacelle, hub, blades, as ElastoDyn has them. The generator turns with the shaft alone and is not in it.
 MassSum all_masses(const Deck& elastodyn, const RotorFrame& rotor);
+/// The parts of all_masses below the tower, and on top of it.
+MassSum platform_masses(const Deck& elastodyn);
+MassSum top_masses(const Deck& elastodyn, const RotorFrame& rotor);
+
+/// The tower as a beam: file of its properties, heights of its ends, damping of its first and second modes (the mean of both
+/// planes).
+struct ImportedBeam {
+  std::string properties;  ///< CSV
+  double base = 0.0, top = 0.0, damping[2] = {0.0, 0.0};
+};
+ImportedBeam tower_beam(const Deck& elastodyn);
+
 /// Blades, hub and generator about the shaft [kg m2].
 double rotor_inertia(const Deck& elastodyn, const RotorFrame& rotor);
 

@@ -1,9 +1,8 @@
-// Bodies filled with particles. Each particle stands at the centroid of its own piece of the body: the outermost ones about half a
-// spacing inside the surface, because water comes no nearer to them than about half a spacing outside of it. Together they displace
-// the volume of the body. (With particles on the surface a body of n spacings is one spacing too wide, which changes its draft.)
-// Counts and radii are rounded so that number * spacing^dim is the volume as nearly as can be.
-// Called by scenes; tested in tests/src/sea/sph/shapes_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Bodies filled with particles. Each particle stands at the centroid of its own piece of the body: the outermost ones about half
+// a spacing inside the surface, because water comes no nearer to them than about half a spacing outside of it. Together they
+// displace the volume of the body. (With particles on the surface a body of n spacings is one spacing too wide, which changes its
+// draft.) Counts and radii are rounded so that number * spacing^dim is the volume as nearly as can be. Called by scenes; tested
+// in tests/src/sea/sph/shapes_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>

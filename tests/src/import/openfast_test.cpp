@@ -246,6 +246,36 @@ TEST_CASE("an imported scene is a machine that stands and moves", "[import][fast
   for (int n = 0; n < 20; ++n) REQUIRE(floating.multibody().advance(start.state, floating.timeline().tick_s(), 1).ok());
 }
 
+TEST_CASE("a tower that bends in the deck is a beam where it is asked for, of the same mass", "[import][fast]") {
+  SmallDeck deck;
+  const bodies::BodyOptions whole = deck.scenario().bodies[0].options;
+  deck.replace("ed.dat", "False TwFADOF1", "True TwFADOF1");
+  deck.replace("tower.dat", "1.0 AdjTwMa",
+               "1.0 AdjTwMa\n1.0 TwrFADmp(1)\n2.0 TwrFADmp(2)\n1.0 TwrSSDmp(1)\n2.0 TwrSSDmp(2)\n2.0 AdjFASt");
+  deck.replace("tower.dat", "0 4000 1 1", "0 4000 3e11 4e11");
+  deck.replace("tower.dat", "1 2000 1 1", "1 2000 1e11 2e11");
+  CHECK(deck.scenario().beams.empty());  // rigid where it is not asked for
+  const decks::Imported imported =
+      decks::import_openfast(deck.folder / "deck/main.fst", deck.folder / "scene", decks::ImportedTower::flexible);
+  scene::Document document = scene::load(imported.scene.string());
+  const coupling::Scenario s = coupling::read_scenario(document);
+  REQUIRE(s.bodies.size() == 2);
+  REQUIRE(s.beams.size() == 1);
+  const bodies::BeamOptions& beam = s.beams[0].options;
+  CHECK(s.rotor.body == "nacelle");
+  CHECK(beam.damping == std::vector<double>{0.01, 0.02});
+  CHECK(beam.start_m.z() == 10.0);
+  const beam::Properties tower = bodies::read_properties(beam);
+  CHECK(tower.bending_x[0] == Approx(6e11));
+  CHECK(tower.bending_y[1] == Approx(2e11));
+  CHECK(s.bodies[0].options.mass_kg + s.bodies[1].options.mass_kg + 50.0 * 3000.0 == Approx(whole.mass_kg));
+  // Both bodies start as parts of one rigid turbine.
+  const Motion platform = start_motion(s.bodies[0].options), nacelle = start_motion(s.bodies[1].options);
+  const Eigen::Vector3d foot = beam.start_m - s.bodies[0].options.centre_m, top = beam.end_m - s.bodies[1].options.centre_m;
+  CHECK((platform.attitude.conjugate() * (nacelle.point(top) - platform.point(foot)) - Eigen::Vector3d(0, 0, 50.0)).norm() <
+        1e-6);
+}
+
 TEST_CASE("what the scene cannot say is told", "[import][fast]") {
   SmallDeck deck;
   deck.replace("ed.dat", "False FlapDOF1", "True FlapDOF1");

@@ -1,0 +1,55 @@
+// Loads at the roots of rigid blades: of the air, of weight and of the blades' own motion, from their mass along the span.
+// Frames and signs: docs/theory/rotor_engineering.md, "Blade roots". Used by rotor_loads.cpp; tested in
+// tests/src/aero/blade_roots_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernels/rigid/wrench.hpp"
+#include "src/aero/turbine.hpp"
+
+namespace spindrift::aero {
+
+/// What a blade does to the hub: force along the rotor's axis downwind, along the way of the blade, outward along it (square to
+/// the axis), and the moments about its root that these make by the blade's length.
+struct BladeRootLoad {
+  double downwind = 0.0, ahead = 0.0, outward = 0.0;  ///< [N]
+  double flap = 0.0;                                  ///< positive where the blade is pushed downwind [N m]
+  double edge = 0.0;                                  ///< positive where it is pushed ahead [N m]
+};
+
+/// How the hub moves; earth frame, rates of the blades, spin included.
+struct HubMotion {
+  Eigen::Vector3d acceleration;       ///< of the hub [m/s2]
+  Eigen::Vector3d omega, omega_rate;  ///< [rad/s], [rad/s2]
+};
+
+class BladeRoots {
+ public:
+  /// Masses from a CSV file with span_m (from the rotor's axis along the blade, as in the planform) and mass_kg_m. Throws
+  /// scene::SceneError.
+  BladeRoots(const Turbine& turbine, const std::string& path);
+
+  std::size_t blades() const { return std::size_t(blades_); }
+  /// Root of a blade that points along `out`, from the hub [m].
+  Eigen::Vector3d root(const Eigen::Vector3d& axis, const Eigen::Vector3d& out) const {
+    return root_radius_ * out + root_axial_ * axis;
+  }
+  /// Adds weight and inertia of the blade along `out` to a wrench about its root; `point` is from the hub.
+  void add_mass_loads(const HubMotion& hub, const Eigen::Vector3d& axis, const Eigen::Vector3d& out,
+                      const Eigen::Vector3d& gravity_m_s2, Wrench& wrench) const;
+  static BladeRootLoad seen(const Wrench& wrench, const Eigen::Vector3d& axis, const Eigen::Vector3d& out);
+
+ private:
+  struct Point {
+    double mass, radius, axial;  ///< [kg]; from the hub [m], axial downwind
+  };
+  int blades_;
+  double root_radius_, root_axial_;
+  std::vector<Point> points_;
+};
+
+}  // namespace spindrift::aero
