@@ -50,7 +50,8 @@ TEST_CASE("below a support of 2.6 spacings a lattice gives way under shear by a 
   CHECK(stiffness(1.2, 0.01).simple < -0.09);
 }
 
-TEST_CASE("by the quintic spline it has a third of that stiffness at a support of 3 spacings, and never gives way", "[sph][fast]") {
+TEST_CASE("by the quintic spline it has a third of that stiffness at a support of 3 spacings, and never gives way",
+          "[sph][fast]") {
   const Stiffness quintic = stiffness<KernelQuintic<2>>(1.5, 0.01);
   CHECK(quintic.pure == Approx(0.0013).margin(5e-4));
   CHECK(quintic.simple == Approx(0.0088).margin(5e-4));
