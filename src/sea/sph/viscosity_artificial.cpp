@@ -1,37 +1,21 @@
-// The pair sweeps with artificial viscosity: see schemes.hpp.
-// Called through Schemes::rates; tested in tests/src/sea/sph/sweep_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
-#include "kernels/sph/density_diffusion_fourtakas.hpp"
-#include "kernels/sph/density_diffusion_molteni.hpp"
-#include "src/sea/sph/schemes.hpp"
+// Monaghan's artificial viscosity in the pair sweeps: see viscosity.hpp. SPDX-License-Identifier: Apache-2.0
+#include "kernels/sph/viscosity_artificial.hpp"
+
+#include "src/sea/sph/rates.hpp"
 
 namespace spindrift::sph {
 
 template <int dim, class Real>
-GroupSweep<dim, Real> Schemes<dim, Real>::artificial() const {
-  return with_kernel([this](auto kernel) {
-    const auto with = [&](auto diffusion) {
-      using Kernel = decltype(kernel);
-      const Real rho0 = Real(p_.eos.rho0), c0 = Real(p_.eos.c0), h = Real(p_.h());
-      const LawMotion<Kernel, decltype(diffusion), Real> water{kernel, {Real(p_.alpha), c0, h}, diffusion, rho0};
-      // Diffusion acts between water and water only: the density of a wall particle is a boundary condition.
-      const LawMotion<Kernel, DensityDiffusionNone, Real> solid{kernel, {Real(p_.alpha_solid), c0, h}, {}, rho0};
-      return sweep(water, solid);
-    };
-    switch (p_.diffusion) {
-      case DiffusionChoice::molteni:
-        return with(DensityDiffusionMolteni<Real>{Real(p_.delta), Real(p_.eos.c0), Real(p_.h())});
-      case DiffusionChoice::fourtakas:
-        return with(DensityDiffusionFourtakas<Real>(p_.delta, p_.h(), p_.eos, p_.gravity));
-      case DiffusionChoice::none:
-        break;
-    }
-    return with(DensityDiffusionNone{});
-  });
+Viscosity<dim, Real> artificial_viscosity() {
+  return {{.name = "artificial",
+           .help = "Monaghan's, on approaching pairs: steadies and dissipates",
+           .keys = {"viscosity", "solid_viscosity"}},
+          [](const Schemes<dim, Real>& schemes) {
+            const Parameters& p = schemes.parameters();
+            const auto with = [&](double alpha) { return ViscosityArtificial<Real>{Real(alpha), Real(p.eos.c0), Real(p.h())}; };
+            return schemes.along_centres(with(p.alpha), with(p.alpha_solid));
+          }};
 }
-
-// One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for
-// each.
-template GroupSweep<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> Schemes<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>::artificial() const;
+template Viscosity<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL> artificial_viscosity();
 
 }  // namespace spindrift::sph
