@@ -19,6 +19,11 @@ struct Staggering {
   int load_order = 0;    ///< of the loads that S sees
   int motion_order = 0;  ///< of the motion that F sees; serial: the new motion, no prediction
 
+  /// F runs beside S, on the motion of the window's start or on that carried on from earlier windows.
+  bool holds_motion() const { return !serial && motion_order == 0; }
+  bool extrapolates_motion() const { return !serial && motion_order > 0; }
+  bool operator==(const Staggering&) const = default;
+
   static Staggering cps() { return {false, 0, 0}; }
   static Staggering cps2() { return {false, 1, 1}; }
   static Staggering css(int order) { return {true, order, 0}; }
@@ -67,6 +72,7 @@ class Staggered {
   /// scheme is unstable each answers the one before. A ramp that begins with the square of time has no more than three.
   static constexpr double far_apart = 0.45;
   int apart() const { return apart_; }
+  const Staggering& scheme() const { return scheme_; }
   /// Loads by now, and what S is going to see of them.
   const Extrapolation& load() const { return load_; }
   const Extrapolation& motion() const { return motion_; }

@@ -69,7 +69,7 @@ FirstCells expected_first_cells(const MultiBlockGrid& grid, const FlowOptions& o
   for (const WallFace& f : faces) {
     const double x = std::max(f.along - start, 0.01 * length), cf = 0.027 / std::pow(std::max(s.speed * x / nu, 1.0), 1.0 / 7.0);
     const double y_plus = s.speed * std::sqrt(0.5 * cf) * f.distance / nu;
-    (f.condition == Condition::wall_law ? cells.by_law : cells.resolved).push_back({f.area, y_plus});
+    (of(f.condition).wall_law ? cells.by_law : cells.resolved).push_back({f.area, y_plus});
   }
   return cells;
 }

@@ -9,6 +9,7 @@
 
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow/sweep_model.hpp"
+#include "src/scene/cases.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
 
@@ -21,21 +22,11 @@ const scene::Section<PatchOptions>& patch_section() {
       scene::Section<PatchOptions>("boundaries", "What acts on a patch of the grid.")
           .text("patch", &PatchOptions::patch, "Name of the patch in the grid's map.")
           .required()
-          .choice("condition", &PatchOptions::condition,
-                  {{"far_field", Condition::far_field, "characteristic: the undisturbed wind outside"},
-                   {"no_slip", Condition::no_slip, "wall; adiabatic where it has no temperature_K"},
-                   {"wall_function", Condition::wall_law,
-                    "adiabatic wall on a grid whose first cells stand in the logarithmic layer: friction by the law of the wall"},
-                   {"slip", Condition::slip, "wall without friction"},
-                   {"symmetry", Condition::symmetry, "plane of symmetry"},
-                   {"inflow", Condition::inflow_velocity, "wind and temperature given, pressure from inside"},
-                   {"reservoir", Condition::inflow_stagnation,
-                    "stagnation pressure and temperature of the wind and its direction given, speed from inside"},
-                   {"outflow", Condition::outflow_pressure, "pressure given, all else from inside"}},
+          .choice("condition", &PatchOptions::condition, scene::cases<PatchOptions, Condition>(conditions()),
                   "Boundary condition.")
           .number("temperature_K", &PatchOptions::temperature_K, "K", "Temperature that the wall is held at. Default: adiabatic.",
                   scene::between(50.0, 2000.0))
-          .only_if("condition", {"no_slip"})
+          .only_if("condition", conditions().with("temperature_K"))
           .flag("loads", &PatchOptions::loads, "Whether the force on it (of a wall) is summed into the flow's columns.");
   return section;
 }
@@ -59,11 +50,9 @@ const scene::Section<FlowOptions>& flow_section() {
           .table("motion", &FlowOptions::motion, grid_motion_section(), "Walls that turn and heave, in a scene of the air alone.")
           .number("width_m", &FlowOptions::width_m, "m", "Width of a two-dimensional grid.", above(0.0).up_to(1e6))
           .tables("boundaries", &FlowOptions::boundaries, patch_section(), "Conditions by patch; each patch of the grid once.")
-          .choice(
-              "blades", &FlowOptions::blades,
-              {{"no_slip", Condition::no_slip, "resolved to the wall"},
-               {"wall_function", Condition::wall_law, "friction by the law of the wall: first cells in the logarithmic layer"}},
-              "Blades of a resolved rotor in viscous air that no boundary names.")
+          .choice("blades", &FlowOptions::blades,
+                  scene::cases<FlowOptions, Condition>(conditions(), [](const BoundaryCondition& c) { return sticks(c); }),
+                  "Blades of a resolved rotor in viscous air that no boundary names.")
           .number("temperature_K", &FlowOptions::temperature_K, "K", "Temperature of the undisturbed air.", between(50.0, 2000.0))
           .number("viscosity_Pa_s", &FlowOptions::viscosity_Pa_s, "Pa s",
                   "Dynamic viscosity at that temperature (Sutherland's law around it).", above(0.0).up_to(1e3))
@@ -220,12 +209,12 @@ const scene::Section<FlowOptions>& flow_section() {
           .check([](const FlowOptions& o, const scene::Report& report) {
             const bool transports = o.viscous != "none" && model_sweeps(o.turbulence).equations > 0;
             for (const PatchOptions& b : o.boundaries)
-              if (b.condition == Condition::wall_law && !transports)
-                report("boundaries",
-                       fmt::format("patch \"{}\": \"wall_function\" goes with turbulence that is modelled, not \"{}\"", b.patch,
-                                   o.turbulence));
-            if (o.blades == Condition::wall_law && !transports)
-              report("blades", fmt::format("\"wall_function\" goes with turbulence that is modelled, not \"{}\"", o.turbulence));
+              if (of(b.condition).wall_law && !transports)
+                report("boundaries", fmt::format("patch \"{}\": \"{}\" goes with turbulence that is modelled, not \"{}\"",
+                                                 b.patch, of(b.condition).name, o.turbulence));
+            if (of(o.blades).wall_law && !transports)
+              report("blades",
+                     fmt::format("\"{}\" goes with turbulence that is modelled, not \"{}\"", of(o.blades).name, o.turbulence));
             if (o.motion && o.time == "steady" && o.motion->oscillates())
               report("motion", "oscillates, which steady flow cannot follow: take time = \"bdf2\", or pitch_deg alone");
             const bool common = o.preconditioner == "coarse" || o.preconditioner == "pressure_amg" || o.preconditioner == "auto";

@@ -12,6 +12,7 @@
 #include "kernels/coupling/loose_limits.hpp"
 #include "src/aero/operation.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/scene/models.hpp"
 
 namespace spindrift::coupling {
 
@@ -94,15 +95,15 @@ double blades_added_mass(const Scenario& s) {
 
 }  // namespace
 
-double missed_part(SchemeKind scheme, int order, double omega, double window) {
+double missed_part(const Staggering& scheme, double omega, double window) {
   using Phasor = std::complex<double>;
   const auto v = [&](double n) { return std::exp(Phasor(0.0, omega * window * n)); };  // at whole windows from now
   // Load at the end of the window that ends n windows from now, as the scheme has it from the motion it gives the rotor.
   const auto y = [&](double n) {
-    if (scheme == SchemeKind::cps) return v(n - 1);
-    return scheme == SchemeKind::cps2 ? 2.0 * v(n - 1) - v(n - 2) : v(n);
+    if (scheme.holds_motion()) return v(n - 1);
+    return scheme.extrapolates_motion() ? 2.0 * v(n - 1) - v(n - 2) : v(n);
   };
-  const int load_order = scheme == SchemeKind::cps ? 0 : scheme == SchemeKind::cps2 ? 1 : order;
+  const int load_order = scheme.load_order;
   double worst = 0.0;
   for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     Phasor assumed = y(0);
@@ -139,21 +140,17 @@ LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& 
   verdict.fastest_Hz = std::max({verdict.fastest_Hz, campbell.rows.back().wave, campbell.rows.back().thrice});
 
   const double window = floating.timeline().window_s(), omega = 2 * pi * verdict.fastest_Hz;
-  const auto add = [&](const char* name, SchemeKind kind, int order, auto polynomial, auto mass_polynomial) {
-    const double mass_limit = stability_ratio(mass_polynomial);
-    const double ratio = stability_ratio(polynomial);
+  verdict.air_mass_kg = blades_added_mass(floating.scenario());
+  for (const CouplingScheme* scheme : coupling_schemes()) {
+    if (scheme->staggering == nullptr) continue;
+    const double mass_limit = stability_ratio(scheme->limits.added_mass);
+    const double ratio = stability_ratio(scheme->limits.damping);
     const double limit =
         verdict.slope_N_s_m > 0.0 ? ratio * verdict.hub_mass_kg / verdict.slope_N_s_m : std::numeric_limits<double>::infinity();
-    const double missed = missed_part(kind, order, omega, window);
+    const double missed = missed_part(scheme->staggering(CouplingOptions()), omega, window);
     const bool stable = window <= 0.5 * limit && verdict.mass_ratio() <= 0.5 * mass_limit;
-    verdict.schemes.push_back({name, limit, missed, mass_limit, stable && missed <= acceptable});
-  };
-  verdict.air_mass_kg = blades_added_mass(floating.scenario());
-  add("cps", SchemeKind::cps, 0, cps_damping_polynomial, cps_polynomial);
-  add("cps2", SchemeKind::cps2, 1, cps2_damping_polynomial, cps2_polynomial);
-  add(
-      "css1", SchemeKind::css, 1, [](double s) { return css_damping_polynomial(1, s); },
-      [](double r) { return css_polynomial(1, r); });
+    verdict.schemes.push_back({std::string(scheme->judged), limit, missed, mass_limit, stable && missed <= acceptable});
+  }
   return verdict;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/coupling/staggered.hpp"
 #include "src/bodies/linearise.hpp"
 #include "src/coupling/floating_system.hpp"
 
@@ -44,7 +45,7 @@ struct Campbell {
 Campbell campbell(const Scenario& scenario, const bodies::Linearisation& linearisation, double speed);
 
 /// Part of a load going as exp(i omega t) that a scheme's assumption misses, at its worst within a window.
-double missed_part(SchemeKind scheme, int order, double omega, double window);
+double missed_part(const Staggering& scheme, double omega, double window);
 
 /// How a loose scheme fares on the floating system.
 struct LooseVerdict {
@@ -60,7 +61,7 @@ struct LooseVerdict {
     double mass_ratio_limit;  ///< of added mass over mass; above it no window is short enough
     bool will_do;             ///< below half of both limits, and less than `acceptable` missed
   };
-  std::vector<Scheme> schemes;  ///< cps, cps2, css1
+  std::vector<Scheme> schemes;  ///< the loose ones by default options: cps, cps2, css1
 };
 inline constexpr double acceptable = 0.02;
 LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& state, const Campbell& campbell);

@@ -4,13 +4,24 @@
 #include <fmt/format.h>
 
 #include "src/coupling/options.hpp"
+#include "src/scene/cases.hpp"
 #include "src/scene/document.hpp"
 
 namespace spindrift::coupling {
 
 namespace {
 
-using Strings = std::vector<std::string>;
+auto scheme_cases() {
+  auto cases = scene::cases<CouplingOptions, SchemeKind>(coupling_schemes(), 1);
+  cases.insert(cases.begin(), {"automatic", SchemeKind::automatic, "cps2 for a resolved rotor, monolithic for others"});
+  return cases;
+}
+
+std::vector<std::string> loose_or_automatic() {
+  std::vector<std::string> names = coupling_schemes().with("accept_unstable");
+  names.insert(names.begin(), "automatic");
+  return names;
+}
 
 void check_section(const CouplingOptions& o, const scene::Report& report) {
   if (o.interpolation == Interpolation::cubic && is_strong(o.scheme) && o.samples < 3)
@@ -22,34 +33,10 @@ void check_section(const CouplingOptions& o, const scene::Report& report) {
 
 const scene::Section<CouplingOptions>& coupling_section() {
   using scene::above, scene::between;
-  static const Strings strong{"relaxation", "aitken", "steepest_descent", "iqn_ils", "ibqn_ls", "interface_gmres", "newton"},
-      stacked{"relaxation", "aitken", "steepest_descent", "iqn_ils", "interface_gmres", "newton"},
-      learning{"iqn_ils", "ibqn_ls", "interface_gmres"},
-      relaxed{"relaxation", "aitken", "steepest_descent", "iqn_ils", "ibqn_ls", "interface_gmres"};
-  static const Strings predicted = [] {
-    Strings all = strong;
-    all.insert(all.begin(), "css");
-    return all;
-  }();
+  static const auto schemes = coupling_schemes();
   static const auto section =
       scene::Section<CouplingOptions>("coupling", "How the rotor and the rest of the floating system share a window.")
-          .choice("scheme", &CouplingOptions::scheme,
-                  {{"automatic", SchemeKind::automatic, "cps2 for a resolved rotor, monolithic for others"},
-                   {"monolithic", SchemeKind::monolithic,
-                    "the rotor is asked in every evaluation of the bodies: exact, no window between them"},
-                   {"cps", SchemeKind::cps,
-                    "both at once on what they had at the window's start, as in Leble & Barakos (2016): first order"},
-                   {"cps2", SchemeKind::cps2, "both at once on data extrapolated linearly: second order at the same cost"},
-                   {"css", SchemeKind::css,
-                    "bodies first on extrapolated loads, then the rotor on their motion: order predictor_order + 1"},
-                   {"relaxation", SchemeKind::relaxation, "iterated with a constant factor; 1 is the plain fixed point"},
-                   {"aitken", SchemeKind::aitken, "iterated with Aitken's factor"},
-                   {"steepest_descent", SchemeKind::steepest_descent,
-                    "iterated with the factor of steepest descent, two evaluations each"},
-                   {"iqn_ils", SchemeKind::iqn_ils, "interface quasi-Newton, inverse Jacobian by least squares"},
-                   {"ibqn_ls", SchemeKind::ibqn_ls, "interface block quasi-Newton, a model of each part by least squares"},
-                   {"interface_gmres", SchemeKind::interface_gmres, "Newton with a Krylov method on the interface"},
-                   {"newton", SchemeKind::newton, "Newton with a Jacobian by differences, one evaluation per row"}},
+          .choice("scheme", &CouplingOptions::scheme, scheme_cases(),
                   "Monolithic, loose (cps, cps2, css: one evaluation of the rotor per window), or strong (iterated until both "
                   "agree).")
           .choice("composition", &CouplingOptions::composition,
@@ -57,41 +44,41 @@ const scene::Section<CouplingOptions>& coupling_section() {
                    {"parallel", Composition::parallel,
                     "both at once on loads and motion (Jacobi): more evaluations, each of which overlaps"}},
                   "Order of the parts in an evaluation.")
-          .only_if("scheme", stacked)
+          .only_if("scheme", schemes.with("composition"))
           .integer("predictor_order", &CouplingOptions::predictor_order, "-",
                    "Order of the polynomial in time that extrapolates loads: what css bodies see, where strong schemes begin.",
                    between(0, 2))
-          .only_if("scheme", predicted)
+          .only_if("scheme", schemes.with("predictor_order"))
           .number("relaxation", &CouplingOptions::relaxation, "-",
                   "Factor of the scheme, or of its first step. A fluid r times as heavy as the body needs less than 2 / (1 + r).",
                   above(0.0).up_to(1.0))
-          .only_if("scheme", relaxed)
+          .only_if("scheme", schemes.with("relaxation"))
           .number("tolerance", &CouplingOptions::tolerance, "-",
                   "The window is solved when the loads that went in and came out differ by less than this part of them.",
                   above(0.0).up_to(0.1))
-          .only_if("scheme", strong)
+          .only_if("scheme", schemes.with("tolerance"))
           .integer("max_evaluations", &CouplingOptions::max_evaluations, "-",
                    "Evaluations of a window before the fallback: clear what was learned, relax, retry, then cut the window.",
                    between(1, 100000))
-          .only_if("scheme", strong)
+          .only_if("scheme", schemes.with("max_evaluations"))
           .integer("max_cuts", &CouplingOptions::max_cuts, "-",
                    "How often what is left of a window may be halved; after that the run stops.", between(0, 20))
-          .only_if("scheme", strong)
+          .only_if("scheme", schemes.with("max_cuts"))
           .integer("reuse_windows", &CouplingOptions::reuse_windows, "-", "Windows before this one whose differences are kept.",
                    between(0, 1000))
-          .only_if("scheme", learning)
+          .only_if("scheme", schemes.with("reuse_windows"))
           .number("filter", &CouplingOptions::filter, "-", "Differences are dropped where less than this part of them is new.",
                   above(0.0).up_to(0.5))
-          .only_if("scheme", learning)
+          .only_if("scheme", schemes.with("filter"))
           .integer("samples", &CouplingOptions::samples, "-",
                    "Loads and motion exchanged at this many equal parts of the window.", between(1, 100))
-          .only_if("scheme", strong)
+          .only_if("scheme", schemes.with("samples"))
           .choice("interpolation", &CouplingOptions::interpolation,
                   {{"constant", Interpolation::constant, "the value at the end of each part: first order"},
                    {"linear", Interpolation::linear, "straight lines between samples: second order"},
                    {"cubic", Interpolation::cubic, "through the four nearest samples: fourth order"}},
                   "Loads between samples.")
-          .only_if("scheme", strong)
+          .only_if("scheme", schemes.with("interpolation"))
           .choice(
               "placement", &CouplingOptions::placement,
               {{"shared", Placing::shared, "air and sea share all ranks and threads: what one leaves idle the other fills"},
@@ -103,7 +90,7 @@ const scene::Section<CouplingOptions>& coupling_section() {
           .only_if("placement", {"split"})
           .flag("accept_unstable", &CouplingOptions::accept_unstable,
                 "Run a loose scheme at a window beyond the limit that `spindrift check` prints, where it is refused otherwise.")
-          .only_if("scheme", {"automatic", "cps", "cps2", "css"})
+          .only_if("scheme", loose_or_automatic())
           .check(check_section);
   return section;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernels/coupling/waveform.hpp"
+#include "src/coupling/scheme.hpp"
 #include "src/coupling/timeline.hpp"
 
 namespace spindrift::scene {
@@ -15,23 +16,6 @@ class Document;
 namespace spindrift::coupling {
 
 struct TimeOptions;
-
-enum class SchemeKind {
-  automatic,
-  monolithic,
-  cps,
-  cps2,
-  css,
-  relaxation,
-  aitken,
-  steepest_descent,
-  iqn_ils,
-  ibqn_ls,
-  interface_gmres,
-  newton,
-};
-inline constexpr bool is_loose(SchemeKind k) { return k == SchemeKind::cps || k == SchemeKind::cps2 || k == SchemeKind::css; }
-inline constexpr bool is_strong(SchemeKind k) { return k > SchemeKind::css; }
 
 enum class Composition { serial, parallel };
 enum class Placing { shared, split };

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "kernels/coupling/staggered.hpp"
 #include "kernels/rigid/stability.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/retries.hpp"
@@ -81,11 +82,12 @@ void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState
                              const bodies::Linearisation& linearisation) {
   const CouplingOptions& o = floating.scenario().coupling;
   if (!floating.rotor() || !is_loose(o.scheme) || o.accept_unstable || state.motions.empty()) return;
-  if (o.scheme == SchemeKind::css && o.predictor_order != 1) return;  // no limit is known
+  const CouplingScheme& chosen = of(o.scheme);
+  if (chosen.staggering(o) != chosen.staggering(CouplingOptions())) return;  // no limit is known
   const FullLoads full(floating);
   const Campbell frequencies = campbell(floating.scenario(), linearisation, floating.rotor()->state(0.0, state.motions).speed);
   const LooseVerdict verdict = loose_verdict(floating, state, frequencies);
-  const std::string scheme = o.scheme == SchemeKind::cps ? "cps" : o.scheme == SchemeKind::cps2 ? "cps2" : "css1";
+  const std::string scheme(chosen.judged);
   for (const LooseVerdict::Scheme& known : verdict.schemes) {
     if (known.name != scheme) continue;
     const char* mend = "iterate (coupling.scheme = \"iqn_ils\"), or say coupling.accept_unstable = true";

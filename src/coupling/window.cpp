@@ -18,55 +18,6 @@ Vector not_finite(Eigen::Index rows) { return Vector::Constant(rows, std::numeri
 
 }  // namespace
 
-std::optional<Staggered> CoupledWindow::make_loose(const CouplingOptions& o) {
-  switch (o.scheme) {
-    case SchemeKind::cps:
-      return Staggered(Staggering::cps());
-    case SchemeKind::cps2:
-      return Staggered(Staggering::cps2());
-    case SchemeKind::css:
-      return Staggered(Staggering::css(o.predictor_order));
-    case SchemeKind::automatic:
-    case SchemeKind::monolithic:
-    case SchemeKind::relaxation:
-    case SchemeKind::aitken:
-    case SchemeKind::steepest_descent:
-    case SchemeKind::iqn_ils:
-    case SchemeKind::ibqn_ls:
-    case SchemeKind::interface_gmres:
-    case SchemeKind::newton:
-      return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-std::optional<CoupledWindow::AnyScheme> CoupledWindow::make_strong(const CouplingOptions& o) {
-  const LearningOptions learning{o.reuse_windows, o.filter};
-  switch (o.scheme) {
-    case SchemeKind::automatic:
-    case SchemeKind::monolithic:
-    case SchemeKind::cps:
-    case SchemeKind::cps2:
-    case SchemeKind::css:
-      return std::nullopt;
-    case SchemeKind::relaxation:
-      return RelaxationConstant(o.relaxation);
-    case SchemeKind::aitken:
-      return RelaxationAitken(o.relaxation);
-    case SchemeKind::steepest_descent:
-      return RelaxationSteepestDescent(o.relaxation);
-    case SchemeKind::iqn_ils:
-      return IqnIls(o.relaxation, learning);
-    case SchemeKind::ibqn_ls:
-      return IbqnLs(o.relaxation, learning);
-    case SchemeKind::interface_gmres:
-      return InterfaceGmres(o.relaxation, learning);
-    case SchemeKind::newton:
-      return Newton(1e-9);
-  }
-  return std::nullopt;
-}
-
 CoupledWindow::CoupledWindow(FloatingSystem& floating, Sides sides, MPI_Comm comm, std::size_t records)
     : floating_(floating),
       options_(floating.scenario().coupling),
@@ -80,7 +31,9 @@ CoupledWindow::CoupledWindow(FloatingSystem& floating, Sides sides, MPI_Comm com
       load_now_(RotorInterface::load_rows) {
   if (!floating.has_interface()) return;
   interface_.emplace(floating);
-  loose_ = make_loose(options_), strong_ = make_strong(options_);
+  const CouplingScheme& scheme = of(options_.scheme);
+  if (scheme.staggering != nullptr) loose_.emplace(scheme.staggering(options_));
+  if (scheme.strong != nullptr) strong_ = scheme.strong(options_);
   floating_.replace_rotor_loads([this](double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
     rotor_signal_(t, load_now_);
     interface_->add_load(load_now_, bodies, wrenches);
@@ -185,11 +138,11 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
     }
     Vector shown(const Waveform& motion, double begin, double end_s) const {
       // One window is no line to extrapolate: a rotor that stood still for it would jump.
-      if (w.loose_->motion().windows() == 1 && w.options_.scheme == SchemeKind::cps2)
+      if (w.loose_->motion().windows() == 1 && w.loose_->scheme().extrapolates_motion())
         return RotorInterface::carried_on(start, end_s - begin);
       const Vector given = motion.at(end_s);
       // Motion may be held, the rotor turns on.
-      return w.options_.scheme == SchemeKind::cps ? RotorInterface::turned(given, end_s - begin) : given;
+      return w.loose_->scheme().holds_motion() ? RotorInterface::turned(given, end_s - begin) : given;
     }
     Vector move(const Extrapolation& load, double begin, double end_s) {
       w.use_signal(load);
@@ -236,19 +189,19 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
 
 /// The strong window, or the piece of it that is next. x holds the loads at the samples; composed in parallel, the motions as
 /// well.
-class CoupledWindow::Pieces {
+class CoupledWindow::Pieces final : public WindowParts {
  public:
   Pieces(CoupledWindow& window, const bodies::BodiesState& start)
       : w_(window), start_(start), length_(window.floating_.timeline().steps_per_window()), end_(start.tick + length_) {
     save_start();
   }
 
-  Vector evaluate(const Vector& x) {
+  Vector evaluate(const Vector& x) override {
     if (w_.stopped_) return not_finite(x.size());  // what the scheme tries next is of no use
     return w_.options_.composition == Composition::parallel ? parallel_answer(*this, x, load_rows()) : serial_answer(*this, x);
   }
   /// Bodies: loads at the samples to motions at the samples.
-  Vector first(const Vector& loads) {
+  Vector first(const Vector& loads) override {
     restore(Run::bodies);
     show(loads);
     Vector motions(samples() * RotorInterface::motion_rows);
@@ -261,7 +214,7 @@ class CoupledWindow::Pieces {
     return motions;
   }
   /// Rotor: motions to loads.
-  Vector second(const Vector& motions) {
+  Vector second(const Vector& motions) override {
     restore(Run::air);
     Vector loads(load_rows());
     for (int s = 1; s <= samples(); ++s)
@@ -361,7 +314,7 @@ WindowReport CoupledWindow::advance_strong(bodies::BodiesState& state) {
   limits.max_evaluations = options_.max_evaluations, limits.max_cuts = options_.max_cuts;
   limits.fallback_relaxation = 0.1 * options_.relaxation;
   WindowReport report;
-  report.log = std::visit([&](auto& scheme) { return solve_window(pieces, scheme, limits); }, *strong_);
+  report.log = solve_window(pieces, *strong_, limits);
   const double load = pieces.load_size();
   report.mismatch = load > 0.0 ? report.log.residual / load : report.log.residual;
   if (report.log.ok()) {
@@ -388,8 +341,7 @@ std::string CoupledWindow::describe(const WindowLog& log, const bodies::BodiesSt
 
 void CoupledWindow::visit(auto& v) {
   if (loose_) loose_->visit(v);
-  if (strong_)
-    loads_.visit(v), motions_.visit(v), signal_.visit(v), std::visit([&v](auto& scheme) { scheme.visit(v); }, *strong_);
+  if (strong_) loads_.visit(v), motions_.visit(v), signal_.visit(v), strong_->visit(v);
 }
 
 std::vector<double> CoupledWindow::history() {

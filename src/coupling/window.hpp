@@ -11,21 +11,15 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "kernels/coupling/ibqn_ls.hpp"
-#include "kernels/coupling/interface_gmres.hpp"
-#include "kernels/coupling/iqn_ils.hpp"
-#include "kernels/coupling/newton.hpp"
-#include "kernels/coupling/relaxation_aitken.hpp"
-#include "kernels/coupling/relaxation_steepest_descent.hpp"
 #include "kernels/coupling/solve_window.hpp"
 #include "kernels/coupling/staggered.hpp"
 #include "src/coupling/columns.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/rotor_interface.hpp"
 #include "src/coupling/sides.hpp"
+#include "src/coupling/strong_scheme.hpp"
 #include "src/coupling/window_tasks.hpp"
 #include "src/io/history.hpp"
 
@@ -69,7 +63,7 @@ class CoupledWindow {
   AirSide& air() { return *air_; }
   const AirSide& air() const { return *air_; }
   /// Whether a window is one evaluation.
-  bool iterates() const { return strong_.has_value(); }
+  bool iterates() const { return strong_ != nullptr; }
   const WindowTasks& tasks() const { return tasks_; }
   const BodySide& bodies() const { return *bodies_; }
 
@@ -80,11 +74,6 @@ class CoupledWindow {
  private:
   class Pieces;
   friend class Pieces;
-  using AnyScheme =
-      std::variant<RelaxationConstant, RelaxationAitken, RelaxationSteepestDescent, IqnIls, IbqnLs, InterfaceGmres, Newton>;
-  /// The scheme of the scene, if it is one of these.
-  static std::optional<Staggered> make_loose(const CouplingOptions& options);
-  static std::optional<AnyScheme> make_strong(const CouplingOptions& options);
 
   double time(std::int64_t tick) const { return double(tick) * floating_.timeline().tick_s(); }
   /// After the tasks: the bodies at the end, or false, or load rows, not finite, where a side fails (then trouble_).
@@ -107,10 +96,10 @@ class CoupledWindow {
   std::unique_ptr<AirSide> air_;
   std::unique_ptr<BodySide> bodies_;
   WindowTasks tasks_;
-  std::optional<Staggered> loose_;
-  std::optional<AnyScheme> strong_;
-  Extrapolation loads_, motions_;  ///< strong: at the ends of the last pieces
-  Waveform signal_;                ///< strong: loads over the piece
+  std::optional<Staggered> loose_;        ///< the scheme of the scene, where it is one of these
+  std::unique_ptr<StrongScheme> strong_;  ///< likewise
+  Extrapolation loads_, motions_;         ///< strong: at the ends of the last pieces
+  Waveform signal_;                       ///< strong: loads over the piece
   std::function<void(double, Vector&)> rotor_signal_;
   Vector load_now_;      ///< scratch of the right-hand side
   std::string trouble_;  ///< of the side that failed last

@@ -138,7 +138,7 @@ void FlowCase::follow_walls(const aero::FlowOptions& o) {
   std::vector<std::string> held, sliding;
   for (const aero::PatchOptions& b : o.boundaries) {
     if (std::ranges::find(o.motion->patches, b.patch) != o.motion->patches.end()) continue;
-    (b.condition == aero::Condition::symmetry ? sliding : held).push_back(b.patch);
+    (of(b.condition).surface == aero::Surface::mirror ? sliding : held).push_back(b.patch);
   }
   motion_.emplace(own_grid_, *o.motion, held, sliding);
   spdlog::info("air: {}", motion_->description());

@@ -1,7 +1,7 @@
 // A list of models of one kind, from which a key of a scene chooses by name. A model has `name` and `help` (what the reference
-// says of it) and `keys` (those of the scene that it reads). Used by src/moorings/model.hpp, src/sea/wave_model.hpp and
-// src/aero/flow/sweep_model.hpp; tested
-// through tests/src/moorings and tests/src/sea. SPDX-License-Identifier: Apache-2.0
+// says of it) and `keys` (those of the scene that it reads). Used for mooring lines, waves, turbulence closures, conditions of
+// the air, viscosities of particles and coupling schemes (docs/developer/where.md); tested through tests/src/moorings and
+// tests/src/sea. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>

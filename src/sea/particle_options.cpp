@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/particle_options.hpp"
 
+#include "src/scene/cases.hpp"
 #include "src/scene/section.hpp"
 
 namespace spindrift::sea {
@@ -25,6 +26,8 @@ Section<BoxOptions> box(const char* name, const char* help) {
           if (!(o.high_m[k] > o.low_m[k])) return report("high_m", "must be above low_m along every axis");
       });
 }
+
+scene::Models<sph::ViscosityModel> viscosity_models() { return scene::Models<sph::ViscosityModel>(sph::viscosities()); }
 
 void check_span(const std::array<double, 2>& span, const char* key, const scene::Report& report) {
   if (!(span[1] > span[0])) report(key, "must go from the lower to the higher end");
@@ -57,23 +60,20 @@ const Section<ParticleOptions>& particle_section() {
               between(5.0, 400.0))
           .number("sound_speed_m_s", &ParticleOptions::sound_speed_m_s, "m/s", "Speed of sound itself.", positive())
           .choice("viscosity_model", &ParticleOptions::viscosity_model,
-                  {{"artificial", sph::ViscosityChoice::artificial, "Monaghan's, on approaching pairs: steadies and dissipates"},
-                   {"laminar", sph::ViscosityChoice::laminar, "of a viscous fluid"},
-                   {"laminar_sps", sph::ViscosityChoice::laminar_sps, "the same and the stress of unresolved turbulence"}},
-                  "Viscosity of the water.")
+                  scene::cases<ParticleOptions, sph::ViscosityChoice>(viscosity_models()), "Viscosity of the water.")
           .number("viscosity", &ParticleOptions::viscosity, "-", "Alpha of the artificial viscosity.", between(0.0, 2.0))
-          .only_if("viscosity_model", {"artificial"})
+          .only_if("viscosity_model", viscosity_models().with("viscosity"))
           .number(
               "solid_viscosity", &ParticleOptions::solid_viscosity, "-",
               "The same between water and walls or bodies. Where absent 0, as in the paper; that of the water on no_slip walls.",
               between(0.0, 2.0))
-          .only_if("viscosity_model", {"artificial"})
+          .only_if("viscosity_model", viscosity_models().with("solid_viscosity"))
           .number("kinematic_viscosity_m2_s", &ParticleOptions::kinematic_viscosity_m2_s, "m2/s", "Kinematic viscosity.",
                   not_negative())
-          .only_if("viscosity_model", {"laminar", "laminar_sps"})
+          .only_if("viscosity_model", viscosity_models().with("kinematic_viscosity_m2_s"))
           .number("solid_kinematic_viscosity_m2_s", &ParticleOptions::solid_kinematic_viscosity_m2_s, "m2/s",
                   "The same between water and walls or bodies; that of the water where absent.", not_negative())
-          .only_if("viscosity_model", {"laminar", "laminar_sps"})
+          .only_if("viscosity_model", viscosity_models().with("solid_kinematic_viscosity_m2_s"))
           .choice("walls", &ParticleOptions::walls,
                   {{"extrapolated", "pressure carried on from the water beside them (Adami et al. 2012), velocity their own"},
                    {"extrapolated_no_slip", "the same, water sticks"},

@@ -1,21 +1,16 @@
 """Wavemakers in a tank of particles beside the piston of wave_tank_test.cpp: a flap makes Biesel's height, a sea state has its significant
 height at the gauges, and its seed decides it. Runs the program on inputs/validation/wave_tank/small_tank.toml, three particles per height.
-
-    python3 particle_waves_test.py PATH_TO_SPINDRIFT
-"""
+Usage: particle_waves_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
 import csv
 import importlib.machinery
 import importlib.util
 import os
-import pathlib
 import statistics
-import subprocess
 import sys
-import tempfile
 import unittest
 
-SPINDRIFT = sys.argv.pop(1)
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from running import Folder, ROOT, spindrift
+
 SCENE = ROOT / "inputs/validation/wave_tank/small_tank.toml"
 HEIGHT, PERIOD = 0.12, 1.5
 COARSE = [f"waves.height_m={HEIGHT}", "sea.particles.spacing_m=0.04"]
@@ -26,17 +21,10 @@ wave_analysis = importlib.util.module_from_spec(importlib.util.spec_from_loader(
 loader.exec_module(wave_analysis)
 
 
-class ParticleWaves(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
+class ParticleWaves(Folder):
     def run_scene(self, name, *changes):
-        out = pathlib.Path(self.folder.name) / name
-        command = [SPINDRIFT, "run", str(SCENE), "--out", str(out), "--no-report", "--quiet"]
-        for change in COARSE + list(changes):
-            command += ["--set", change]
-        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        out = self.path / name
+        done = spindrift("run", SCENE, "--out", out, "--no-report", "--quiet", settings=[*COARSE, *changes], env={**os.environ, "OMP_NUM_THREADS": "1"})
         self.assertEqual(done.returncode, 0, done.stderr)
         return out
 

@@ -5,7 +5,6 @@ A line of TABLE is a scene of inputs/, then overrides of it, one case each: KEY=
 several overrides of one case are joined by " & ". Without --all only `check` is asked, and `run` of every tenth case."""
 import concurrent.futures
 import os
-import pathlib
 import re
 import resource
 import subprocess
@@ -13,7 +12,8 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+from running import ROOT, spindrift
+
 EVERY = """
 time.end_s=-1.0
 time.end_s=0.0
@@ -229,14 +229,11 @@ def cases():
             yield base, overrides, key.strip() or overrides[0].split("=", 1)[0]
 
 
-def ended(words, folder):
-    def limit():
-        resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
-
+def ended(folder, *words, settings):
     begin = time.time()
     try:
-        done = subprocess.run(words, capture_output=True, text=True, errors="replace", cwd=folder, timeout=30, preexec_fn=limit,
-                              env={**os.environ, "TMPDIR": folder})  # Open MPI keeps files of its own there, which side by side get in each other's way
+        # Open MPI keeps files of its own in TMPDIR, which side by side get in each other's way.
+        done = spindrift(*words, settings=settings, timeout=30, env={**os.environ, "TMPDIR": folder}, cwd=folder)
     except subprocess.TimeoutExpired:
         return None, "still at work after 30 s", time.time() - begin
     return done.returncode, done.stdout + done.stderr, time.time() - begin
@@ -249,20 +246,20 @@ def named(key, said):
 
 
 def main():
-    program, everything = str(pathlib.Path(sys.argv[1]).resolve()), "--all" in sys.argv
+    everything = "--all" in sys.argv
+    resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))  # of the programs too
     faults, slowest = [], 0.0
 
     def one(numbered):
         number, (base, overrides, key) = numbered
         scene = ROOT / "inputs" / base
-        words = [str(scene)] + [w for o in overrides for w in ("--set", o)]
         with tempfile.TemporaryDirectory(prefix="spindrift_refused_") as folder:
-            code, said, seconds = ended([program, "check", *words], folder)
+            code, said, seconds = ended(folder, "check", scene, settings=overrides)
             where = f"{base} --set {' --set '.join(overrides)}"
             if code != 2 or not named(key, said):
                 return seconds, f"{where}\n  check ended with {code}, must name {key}:\n  " + said.strip()[-600:]
             if everything or number % 10 == 0:
-                code, again, _ = ended([program, "run", *words, "--out", "out", "--no-report", "--quiet", "--until", "0"], folder)
+                code, again, _ = ended(folder, "run", scene, "--out", "out", "--no-report", "--quiet", "--until", "0", settings=overrides)
                 if code != 2 or not named(key, again):
                     return seconds, f"{where}\n  check refuses it, run ended with {code}:\n  " + again.strip()[-600:]
         return seconds, None

@@ -10,11 +10,11 @@ PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-def spindrift(*arguments, settings=(), ranks=0, timeout=600, env=None):
+def spindrift(*arguments, settings=(), ranks=0, timeout=600, env=None, cwd=None):
     """The finished program: exit code and what it said. `settings` become --set options; without ranks there is no mpirun."""
     launcher = [ROOT / "ci/mpirun", ranks] if ranks else []
     words = [*launcher, PROGRAM, *arguments, *(word for text in settings for word in ("--set", text))]
-    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, timeout=timeout, env=env)
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, errors="replace", check=False, timeout=timeout, env=env, cwd=cwd)
 
 
 class Folder(unittest.TestCase):

@@ -21,7 +21,7 @@ ResolvedRotorSetup rotor(double wind, double rpm, bool viscous) {
   s.wind = {wind, 0.0, 0.0};
   s.flow.time = "steady", s.flow.cfl = 2.0, s.flow.cfl_max = 100.0, s.flow.drop = 0.0, s.flow.max_pseudo_steps = 40;
   s.flow.viscous = viscous ? "full" : "none", s.flow.turbulence = "sa";
-  if (viscous) s.flow.blades = Condition::wall_law;
+  if (viscous) s.flow.blades = Condition::wall_function;
   return s;
 }
 

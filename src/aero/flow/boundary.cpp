@@ -13,61 +13,20 @@ gas::Primitive<double> load(const FlowTile& tile, const double* state, std::ptrd
   return gas::load_primitive<double>(state + at, std::size_t(tile.cells.component));
 }
 
-gas::Primitive<double> ghost_state(const FlowBoundary& boundary, const gas::Primitive<double>& inside, const gas::Face<double>& f,
-                                   const gas::Vector<double>& wall, const gas::Primitive<double>& stream,
-                                   const BoundarySetting& s) {
-  switch (boundary.condition) {
-    case Condition::wall_law:
-    case Condition::no_slip: {
-      gas::Primitive<double> ghost = gas::no_slip_ghost(inside, wall);
-      if (boundary.temperature) ghost.T = gas::isothermal_ghost(s.gas, inside.T, *boundary.temperature);
-      return ghost;
-    }
-    case Condition::slip:
-    case Condition::symmetry:
-      return gas::mirrored(inside, f);
-    case Condition::inflow_velocity:
-      return gas::inflow_velocity(inside, stream);
-    case Condition::inflow_stagnation:
-      return gas::inflow_reservoir(s.gas, inside, s.profile.uniform() ? s.reservoir : reservoir_of(s.gas, stream));
-    case Condition::outflow_pressure:
-      return gas::outflow_pressure(s.gas, inside, stream, f);
-    case Condition::far_field:
-      break;
-  }
-  return gas::far_field(s.gas, inside, stream, f, s.reference_speed);
-}
-
-/// Behind a slip wall along which the flow turns, pressure and what moves along the wall vary across it: ghosts are the straight
-/// line through the two cells inside. Mirror images have a kink at the wall, which the reconstruction of the next face answers
-/// with a jump.
-struct SlipGhosts {
-  gas::Primitive<double> first, second;
-};
-SlipGhosts slip_ghosts(const gas::Primitive<double>& inside, const gas::Primitive<double>& next, const gas::Face<double>& f,
-                       double weight, bool all) {
-  const gas::Primitive<double> mirror = gas::mirrored(inside, f), mirror_next = gas::mirrored(next, f);
-  const double slope = 2.0 * weight;  // from the cell to its ghost, over the difference of both cells
-  SlipGhosts g{mirror, mirror_next};
-  g.first.p = inside.p + slope * (inside.p - next.p), g.second.p = g.first.p + (inside.p - next.p);
-  if (!all) return g;
-  const double un = gas::normal_velocity(inside, f), un_next = gas::normal_velocity(next, f), du = un - un_next;
-  const gas::Primitive<double> d{0.0, inside.u - next.u - du * f.nx, inside.v - next.v - du * f.ny, inside.w - next.w - du * f.nz,
-                                 inside.T - next.T};
-  const double ghost = 2.0 * f.speed - un, ghost_next = 2.0 * f.speed - un_next;
-  const auto along = [&](double share, double normal) {
-    const double shift = normal - un;
-    return gas::Primitive<double>{0.0, inside.u + share * d.u + shift * f.nx, inside.v + share * d.v + shift * f.ny,
-                                  inside.w + share * d.w + shift * f.nz, inside.T + share * d.T};
-  };
-  const double p = g.first.p, p_next = g.second.p;
-  g.first = along(slope, ghost), g.second = along(slope + 1.0, ghost_next);
-  g.first.p = p, g.second.p = p_next;
-  return g;
-}
-
 /// Index step from a cell out of the tile through a side.
 std::ptrdiff_t outward(const BoxLayout& box, Side side) { return (at_end(side) ? 1 : -1) * box.stride(direction_of(side)); }
+
+int cells_across(const FlowTile& tile, Side side) {
+  const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk};
+  return extent[direction_of(side)];
+}
+
+/// Share of the difference of the two cells at a face by which a value changes from the first of them to the face.
+double wall_weight(const TileGeometry& g, Side side, int k, int j, int i) {
+  const std::ptrdiff_t here = g.cell_box.at(k, j, i), in = -outward(g.cell_box, side);
+  const double v = g.volume_data.data()[here];
+  return v / (v + g.volume_data.data()[here + in]);
+}
 
 }  // namespace
 
@@ -109,42 +68,44 @@ gas::Vector<double> wall_velocity(const TileGeometry& g, Side side, int k, int j
   return {sum[0], sum[1], sum[2]};
 }
 
+gas::Primitive<double> BoundaryFace::next() const {
+  return deep ? load(tile, state, tile.cells.at(k, j, i) - outward(tile.cells, boundary.where.side)) : inside;
+}
+
+gas::Vector<double> BoundaryFace::wall_velocity() const {
+  return aero::wall_velocity(*tile.geometry, boundary.where.side, k, j, i, setting);
+}
+
+gas::Primitive<double> BoundaryFace::stream() const {
+  if (setting.profile.uniform()) return setting.stream;
+  return stream_at(setting.stream, setting.profile, face_centre(*tile.geometry, boundary.where.side, k, j, i).z());
+}
+
+double BoundaryFace::weight() const { return wall_weight(*tile.geometry, boundary.where.side, k, j, i); }
+
 void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
   const TileGeometry& g = *tile.geometry;
   for (const FlowBoundary& boundary : tile.boundaries) {
+    const BoundaryCondition& condition = *boundary.condition;
     const Side side = boundary.where.side;
     const std::ptrdiff_t out = outward(tile.cells, side), component = tile.cells.component;
-    const bool deep = (direction_of(side) == 0 ? tile.box.ni : direction_of(side) == 1 ? tile.box.nj : tile.box.nk) > 1;
+    const bool deep = cells_across(tile, side) > 1;
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const std::ptrdiff_t cell = tile.cells.at(k, j, i);
+      const gas::Primitive<double> inside_mean = load(tile, state, cell);
       const gas::Face<double> f = outward_face(g, side, k, j, i);
-      const gas::Vector<double> wall =
-          boundary.condition == Condition::no_slip ? wall_velocity(g, side, k, j, i, s) : gas::Vector<double>{0.0, 0.0, 0.0};
-      const gas::Primitive<double> first = load(tile, state, cell);
-      // A wall's second ghost mirrors the second cell; behind an open boundary both are alike.
-      const gas::Primitive<double> second = is_wall(boundary.condition) && deep ? load(tile, state, cell - out) : first;
-      SlipGhosts ghosts{};
-      if (boundary.condition == Condition::slip && deep) {
-        const std::ptrdiff_t here = g.cell_box.at(k, j, i), in = -outward(g.cell_box, side);
-        const double v = g.volume_data.data()[here], weight = v / (v + g.volume_data.data()[here + in]);
-        ghosts = slip_ghosts(first, second, f, weight, s.inviscid);
-      } else {
-        const gas::Primitive<double> stream = s.profile.uniform() || is_wall(boundary.condition)
-                                                  ? s.stream
-                                                  : stream_at(s.stream, s.profile, face_centre(g, side, k, j, i).z());
-        ghosts = {ghost_state(boundary, first, f, wall, stream, s), ghost_state(boundary, second, f, wall, stream, s)};
-      }
+      const Ghosts ghosts = condition.ghosts({tile, state, boundary, s, k, j, i, deep, f, inside_mean});
       gas::store_primitive(state + cell + out, std::size_t(component), ghosts.first);
       gas::store_primitive(state + cell + 2 * out, std::size_t(component), ghosts.second);
       if (tile.turbulence == 0) return;
       double inside[2], ghost[2];
       for (int t = 0; t < tile.turbulence; ++t) ghost[t] = inside[t] = state[cell + (mean_unknowns + t) * component];
-      if (boundary.condition == Condition::no_slip && boundary.law && tile.turbulence == 2) {
+      if (condition.wall_law && tile.turbulence == 2) {
         // As inside: no flux of k; omega of that cell is given by the law of the wall.
-      } else if (boundary.condition == Condition::no_slip) {
-        const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, first)) / gas::density(s.gas, first);
+      } else if (sticks(condition)) {
+        const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, inside_mean)) / gas::density(s.gas, inside_mean);
         s.wall_carried(inside, nu, g.wall_distance_data.data()[g.inner_box.at(k, j, i)], ghost);
-      } else if (!is_wall(boundary.condition) && gas::normal_velocity(first, f) < f.speed) {
+      } else if (!is_wall(condition) && gas::normal_velocity(inside_mean, f) < f.speed) {
         for (int t = 0; t < tile.turbulence; ++t) ghost[t] = s.carried[std::size_t(t)];
       }
       for (int t = 0; t < tile.turbulence; ++t)
@@ -154,18 +115,14 @@ void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
 }
 
 double wall_pressure(const FlowTile& tile, const double* state, Side side, int k, int j, int i) {
-  const int d = direction_of(side), extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk};
   const std::ptrdiff_t cell = tile.cells.at(k, j, i), in = -outward(tile.cells, side);
-  if (extent[d] < 2) return state[cell];
-  const TileGeometry& g = *tile.geometry;
-  const std::ptrdiff_t here = g.cell_box.at(k, j, i), step = -outward(g.cell_box, side);
-  const double v = g.volume_data.data()[here], weight = v / (v + g.volume_data.data()[here + step]);
-  return state[cell] + weight * (state[cell] - state[cell + in]);
+  if (cells_across(tile, side) < 2) return state[cell];
+  return state[cell] + wall_weight(*tile.geometry, side, k, j, i) * (state[cell] - state[cell + in]);
 }
 
 void add_wall_pressure(FlowTile& tile, const double* state, double* residual) {
   for (const FlowBoundary& boundary : tile.boundaries) {
-    if (!is_closed(boundary.condition)) continue;
+    if (!is_closed(*boundary.condition)) continue;
     const Side side = boundary.where.side;
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const gas::Conserved<double> flux =
@@ -179,7 +136,7 @@ void add_wall_pressure(FlowTile& tile, const double* state, double* residual) {
 
 void set_open_faces(FlowTile& tile) {
   for (const FlowBoundary& boundary : tile.boundaries) {
-    if (!is_closed(boundary.condition)) continue;
+    if (!is_closed(*boundary.condition)) continue;
     const Side side = boundary.where.side;
     const int d = direction_of(side);
     const auto [a, b] = along(side);
@@ -194,7 +151,7 @@ void set_open_faces(FlowTile& tile) {
         for (int n = boundary.where.low[0]; n < boundary.where.high[0]; ++n) flags.data()[m * row + n] = 1.0 - elsewhere;
     };
     mark(tile.open[std::size_t(side)], 1.0);
-    if (boundary.law) mark(tile.law[std::size_t(side)], 0.0);
+    if (boundary.condition->wall_law) mark(tile.law[std::size_t(side)], 0.0);
     static_cast<void>(a);
   }
 }

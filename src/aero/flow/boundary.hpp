@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "kernels/gas/boundary.hpp"
 #include "kernels/rotor/wind_profile.hpp"
+#include "src/aero/flow/condition.hpp"
 #include "src/aero/flow/flow_tile.hpp"
 
 namespace spindrift::aero {
@@ -26,6 +26,25 @@ struct BoundarySetting {
   /// Ghost value of the turbulence unknowns behind a no-slip wall, of those inside, the laminar nu and the wall distance; null:
   /// none.
   void (*wall_carried)(const double* inside, double nu, double distance, double* ghost) = nullptr;
+};
+
+/// A face as its condition sees it.
+class BoundaryFace {
+ public:
+  const FlowTile& tile;
+  const double* state;
+  const FlowBoundary& boundary;
+  const BoundarySetting& setting;
+  int k, j, i;                    ///< of the cell at it
+  bool deep;                      ///< the tile has more than one cell across
+  gas::Face<double> face;         ///< out of the flow
+  gas::Primitive<double> inside;  ///< the cell at it
+
+  gas::Primitive<double> next() const;        ///< the cell behind it; `inside` where there is none
+  gas::Vector<double> wall_velocity() const;  ///< [m/s]
+  gas::Primitive<double> stream() const;      ///< undisturbed flow at its height
+  /// Share of the difference of both cells by which a value changes from `inside` to the face; where `deep`.
+  double weight() const;
 };
 
 void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& setting);

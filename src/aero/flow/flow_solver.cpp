@@ -151,13 +151,13 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
     t.box = {from.ni, from.nj, from.nk};
     for (const TileBoundary& where : tiling.boundary(index)) {
       const PatchCondition& c = conditions_.at(std::size_t(where.patch));
-      const bool law = c.condition == Condition::wall_law;
-      if (law && model_->equations == 0)
+      const BoundaryCondition& condition = of(c.condition);
+      if (condition.wall_law && model_->equations == 0)
         throw std::invalid_argument("flow: the law of the wall goes with models that transport turbulence");
-      if (c.temperature && c.condition != Condition::no_slip)
+      if (c.temperature && std::ranges::find(condition.keys, "temperature_K") == condition.keys.end())
         throw std::invalid_argument("flow: only walls resolved to the wall can be held at a temperature");
-      if (law) t.wall_law = &model_->wall_law();
-      t.boundaries.push_back({where, law ? Condition::no_slip : c.condition, c.loads, law, c.temperature});
+      if (condition.wall_law) t.wall_law = &model_->wall_law();
+      t.boundaries.push_back({where, &condition, c.loads, c.temperature});
     }
     const int unknowns = t.unknowns();
     t.state = AlignedArray<double>(t.cells.size(unknowns));

@@ -11,6 +11,7 @@
 #include "kernels/grid/layout.hpp"
 #include "kernels/linear/stencil_matrix.hpp"
 #include "kernels/turbulence/wall_law.hpp"
+#include "src/aero/flow/condition.hpp"
 #include "src/aero/grid/aligned.hpp"
 #include "src/aero/grid/store.hpp"
 #include "src/aero/grid/tiling.hpp"
@@ -19,30 +20,11 @@ namespace spindrift::aero {
 
 inline constexpr int mean_unknowns = 5;
 
-/// How the faces of a window behave; from the scene's boundaries by patch name.
-enum class Condition : unsigned char {
-  far_field,
-  inflow_velocity,
-  inflow_stagnation,
-  outflow_pressure,
-  slip,
-  no_slip,
-  symmetry,
-  wall_law
-};
-/// In the solver a wall with the law of the wall is `no_slip` with FlowBoundary::law.
-inline bool sticks(Condition c) { return c == Condition::no_slip || c == Condition::wall_law; }
-/// Through walls goes pressure alone. On a plane of symmetry the scheme acts between mirror images, so that half a flow is the
-/// whole one cell by cell; its mass flux there is none by symmetry.
-inline bool is_closed(Condition c) { return c == Condition::slip || sticks(c); }
-inline bool is_wall(Condition c) { return is_closed(c) || c == Condition::symmetry; }
-
 /// A window of the tile where a condition acts.
 struct FlowBoundary {
   TileBoundary where;
-  Condition condition = Condition::far_field;
+  const BoundaryCondition* condition = nullptr;
   bool loads = false;                      ///< counts towards forces
-  bool law = false;                        ///< a no-slip wall whose friction follows from the law of the wall
   std::optional<double> temperature = {};  ///< that a no-slip wall is held at [K]; unset: adiabatic
 };
 
@@ -57,7 +39,7 @@ struct FlowTile {
   BoxLayout inner;         ///< no ghosts
   linear::CellBox box;
   std::vector<FlowBoundary> boundaries;
-  const turbulence::WallLaw* wall_law = nullptr;  ///< of the closure; where a boundary has `law`
+  const turbulence::WallLaw* wall_law = nullptr;  ///< of the closure; where a boundary has it
 
   AlignedArray<double> state;  ///< unknowns
   AlignedArray<double> trial;  ///< perturbed state of matrix-free products; between pseudo-steps the state before the last one

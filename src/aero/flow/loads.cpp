@@ -11,12 +11,12 @@ namespace {
 template <class Body>
 void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& viscous, Body&& body) {
   for (const FlowBoundary& boundary : tile.boundaries) {
-    if (boundary.condition != Condition::slip && boundary.condition != Condition::no_slip) continue;
+    if (!is_closed(*boundary.condition)) continue;
     const Side side = boundary.where.side;
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
       Eigen::Vector3d friction = Eigen::Vector3d::Zero();
-      if (viscous.active && boundary.condition == Condition::no_slip) {
+      if (viscous.active && sticks(*boundary.condition)) {
         const gas::Conserved<double> flux = wall_friction(tile, state, viscous, side, k, j, i);
         friction = {flux.mx, flux.my, flux.mz};
       }

@@ -72,7 +72,7 @@ WallCell wall_cell(const FlowTile& tile, const double* state, const gas::IdealGa
 void set_wall_law_gradients(FlowTile& tile, const double* state, const gas::IdealGas& gas) {
   const std::ptrdiff_t c = tile.gradient_box.component;
   for (const FlowBoundary& boundary : tile.boundaries) {
-    if (!boundary.law) continue;
+    if (!boundary.condition->wall_law) continue;
     const Side side = boundary.where.side;
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
@@ -103,17 +103,17 @@ void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::Ide
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const double* at = tile.gradients.data() + tile.gradient_box.at(k, j, i);
       double* ghost = tile.gradients.data() + tile.gradient_box.at(k, j, i) + out;
-      if (!is_wall(boundary.condition)) {
+      if (!is_wall(*boundary.condition)) {
         for (int m = 0; m < components; ++m) ghost[m * c] = at[m * c];
         return;
       }
-      const bool sticks = boundary.condition == Condition::no_slip;
+      const bool sticks = aero::sticks(*boundary.condition);
       const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
       const double n[3] = {f.nx, f.ny, f.nz};
       // A wall at rest turns velocities and what turbulence carries about (of a moving one the velocity may vary along it: there
       // the cell's gradient is taken); a mirror turns the velocity's normal component.
       const bool moves = sticks && tile.geometry->moving();
-      const bool free = boundary.law && carried == 2;  // k does not pass such a wall
+      const bool free = boundary.condition->wall_law && carried == 2;  // k does not pass such a wall
       for (int v = 0; v < 4 + carried; ++v)
         if (moves && v < 3)
           for (int d = 0; d < 3; ++d) ghost[(3 * v + d) * c] = at[(3 * v + d) * c];
@@ -131,7 +131,7 @@ void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::Ide
       if (!free) ghost[(eddy + 1) * c] = -at[(eddy + 1) * c];
       const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
       const double mu = gas::viscosity(gas, gas::absolute_temperature(gas, q));
-      if (boundary.law) {
+      if (boundary.condition->wall_law) {
         // The face's share is such that half the difference of cell and ghost over the distance gives the law's friction.
         const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
         ghost[eddy * c] +=

@@ -128,37 +128,20 @@ void add_faces(FlowTile& tile, const double* state, const double* eddy, int d, c
 }
 
 /// What a cell beyond a boundary adds to the diagonal, as its state follows that of the cell inside; it is no neighbour then.
-void fold_boundaries(FlowTile& tile, const Entries& entries, const std::array<double, 3>& inflow) {
+void fold_boundaries(FlowTile& tile, const Entries& entries, const std::array<double, 3>& wind) {
   const linear::StencilMatrix<5> a = tile.mean();
   for (const FlowBoundary& boundary : tile.boundaries) {
+    const BoundaryCondition& condition = *boundary.condition;
     const Side side = boundary.where.side;
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const std::ptrdiff_t cell = (std::ptrdiff_t(k) * tile.box.nj + j) * tile.box.ni + i;
       float *diagonal = a.block(cell, 0), *beyond = a.block(cell, 2 + int(side));
       const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
-      const double n[3] = {f.nx, f.ny, f.nz};
-      const auto add_column = [&](int to, float factor, int from) {
-        for (int r = 0; r < 5; ++r) diagonal[to * 5 + r] += factor * beyond[from * 5 + r];
-      };
-      if (is_wall(boundary.condition)) {
-        add_column(0, 1.0f, 0), add_column(4, boundary.temperature ? -1.0f : 1.0f, 4);
-        for (int c = 0; c < 3; ++c) {
-          if (boundary.condition == Condition::no_slip) add_column(c + 1, -1.0f, c + 1);
-          if (boundary.condition != Condition::no_slip)
-            for (int r = 0; r < 3; ++r) add_column(c + 1, float((r == c ? 1.0 : 0.0) - 2.0 * n[r] * n[c]), r + 1);
-          if (is_closed(boundary.condition))
-            diagonal[c + 1] += float(n[c] * f.area * entries.scale[c + 1][0]);  // pressure of the cell on the wall
-        }
-        if (is_closed(boundary.condition)) diagonal[4] += float(f.speed * f.area * entries.scale[4][0]);
-      } else if (boundary.condition == Condition::inflow_velocity) {
-        add_column(0, 1.0f, 0);
-      } else if (boundary.condition == Condition::inflow_stagnation) {
-        // At constant entropy and total enthalpy dh = dp / rho = -u du; in scaled unknowns at the stream's speed the factors are
-        // these.
-        add_column(0, 1.0f, 0), add_column(0, 1.0f, 4);
-        for (int c = 0; c < 3; ++c) add_column(0, float(-inflow[std::size_t(c)]), c + 1);
-      } else if (boundary.condition == Condition::outflow_pressure) {
-        for (int c = 1; c < 5; ++c) add_column(c, 1.0f, c);
+      if (condition.fold != nullptr) condition.fold({diagonal, beyond, f, wind, boundary.temperature.has_value()});
+      if (is_closed(condition)) {  // pressure of the cell on the wall
+        const double n[3] = {f.nx, f.ny, f.nz};
+        for (int c = 1; c < 4; ++c) diagonal[c] += float(n[c - 1] * f.area * entries.scale[c][0]);
+        diagonal[4] += float(f.speed * f.area * entries.scale[4][0]);
       }
       std::fill_n(beyond, 25, 0.0f);
     });

@@ -165,7 +165,7 @@ struct SweepsOf : ClosuresOf<Model> {
   template <class Body>
   static void for_law_cells(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Body&& body) {
     for (const FlowBoundary& boundary : tile.boundaries) {
-      if (!boundary.law) continue;
+      if (!boundary.condition->wall_law) continue;
       const Side side = boundary.where.side;
       for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
         const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
@@ -268,8 +268,8 @@ struct SweepsOf : ClosuresOf<Model> {
         const std::ptrdiff_t cell = (std::ptrdiff_t(k) * box.nj + j) * box.ni + i;
         float *diagonal = a.block(cell, 0), *beyond = a.block(cell, 2 + int(side));
         // A resolved wall's ghost has the opposite sign; what an open boundary brings in is given.
-        const bool sticks = boundary.condition == Condition::no_slip && !(n == 2 && boundary.law);
-        const float follow = sticks ? -1.0f : is_wall(boundary.condition) ? 1.0f : 0.0f;
+        const bool sticks = aero::sticks(*boundary.condition) && !(n == 2 && boundary.condition->wall_law);
+        const float follow = sticks ? -1.0f : is_wall(*boundary.condition) ? 1.0f : 0.0f;
         for (int e = 0; e < n * n; ++e) diagonal[e] += follow * beyond[e], beyond[e] = 0.0f;
       });
     }

@@ -8,7 +8,6 @@
 #include "kernels/sph/density_diffusion.hpp"
 #include "kernels/sph/kernel.hpp"
 #include "kernels/sph/momentum.hpp"
-#include "kernels/sph/viscosity_artificial.hpp"
 #include "kernels/sph/viscosity_laminar_sps.hpp"
 
 namespace spindrift::sph {
@@ -20,14 +19,14 @@ struct PairState {
   Real deviation, p_rho2;
 };
 
-/// Rates of velocity and density. A law adds to `sum_planes` sums of each partner, each a plane of 16 per cluster. All particles
-/// of a sea have one mass, which is taken out of the sums.
-template <class Kernel, class Diffusion, class Scalar>
+/// Rates of velocity and density; the viscosity acts along the line of centres, as a pressure. A law adds to `sum_planes` sums of
+/// each partner, each a plane of 16 per cluster. All particles of a sea have one mass, which is taken out of the sums.
+template <class Kernel, class Viscosity, class Diffusion, class Scalar>
 struct LawMotion {
   static constexpr int dim = Kernel::dimensions;
   static constexpr int sum_planes = dim + 1;  ///< acceleration, density rate, per unit mass of the partner
   Kernel kernel;
-  ViscosityArtificial<Scalar> viscosity;
+  Viscosity viscosity;
   Diffusion diffusion;
   Scalar rho0;
 
@@ -48,15 +47,15 @@ struct LawMotion {
   }
 };
 
-/// The same with laminar viscosity on all pairs instead of the artificial one on approaching ones, and with `sub_particle` the
-/// stress of unresolved turbulence: then the sweep hands over tau/rho^2 of both partners, `stress_planes` planes per cluster.
-template <class Kernel, class Diffusion, class Scalar, bool sub_particle>
-struct LawLaminar {
+/// The same with a viscosity that acts along the relative velocity, and with `sub_particle` the stress of unresolved turbulence:
+/// then the sweep hands over tau/rho^2 of both partners, `stress_planes` planes per cluster.
+template <class Kernel, class Viscosity, class Diffusion, class Scalar, bool sub_particle>
+struct LawDrag {
   static constexpr int dim = Kernel::dimensions;
   static constexpr int sum_planes = dim + 1;
   static constexpr int stress_planes = sub_particle ? SymmetricTensor<Scalar, dim>::components : 0;
   Kernel kernel;
-  ViscosityLaminar<Scalar> viscosity;
+  Viscosity viscosity;
   Diffusion diffusion;
   Scalar rho0;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kernels/sph/eos_tait.hpp"
+#include "src/sea/sph/viscosity.hpp"
 
 namespace spindrift::sph {
 
@@ -17,7 +18,6 @@ enum class FilterChoice { none, shepard, mls };
 enum class BoundaryChoice { dynamic, extrapolated, modified };
 /// What extrapolated and modified boundaries do to the velocity of their particles: leave the wall's own, or mirror the water's.
 enum class WallChoice { still, no_slip, free_slip };
-enum class ViscosityChoice { artificial, laminar, laminar_sps };
 
 struct Parameters {
   double spacing = 0.0;     ///< d [m]
@@ -52,9 +52,6 @@ struct Parameters {
   double drift_over_d = 0.5;       ///< distance a particle may go between two sorts, in spacings
   double column_over_reach = 1.0;  ///< width of a column of cells over the least possible
 
-  /// Whether viscosity acts on all pairs by the laminar term and, with sub-particle stress, needs a sweep of its own.
-  bool laminar() const { return viscosity != ViscosityChoice::artificial; }
-  bool sub_particle() const { return viscosity == ViscosityChoice::laminar_sps; }
   double h() const { return h_over_d * spacing; }
   double reach() const { return 2.0 * h(); }  // all kernels end at 2 h
   double mass(int dim) const { return mass_factor * eos.rho0 * std::pow(spacing, dim); }

@@ -9,6 +9,36 @@
 
 namespace spindrift::sph {
 
+namespace {
+
+/// In the order of ViscosityChoice.
+template <int dim, class Real>
+const auto& listed_viscosities() {
+#define VISCOSITY(name) name##_viscosity<dim, Real>(),
+  static const std::array all{
+#include "src/sea/sph/viscosities.inc"
+  };
+#undef VISCOSITY
+  return all;
+}
+
+}  // namespace
+
+std::span<const ViscosityModel* const> viscosities() {
+  static const auto models = [] {
+    std::vector<const ViscosityModel*> models;
+    for (const auto& viscosity : listed_viscosities<3, float>()) models.push_back(&viscosity);
+    return models;
+  }();
+  return models;
+}
+const ViscosityModel& of(ViscosityChoice viscosity) { return *viscosities()[std::size_t(viscosity)]; }
+
+template <int dim, class Real>
+GroupSweep<dim, Real> Schemes<dim, Real>::rates() const {
+  return listed_viscosities<dim, Real>()[std::size_t(p_.viscosity)].rates(*this);
+}
+
 template <int dim, class Real>
 void set_schemes(SeaState<dim, Real>& sea) {
   const Parameters& p = sea.p;

@@ -1,5 +1,5 @@
 // The choice of schemes: turns a scene's names into one pair sweep of compiled schemes. Made once per scene, called once per
-// group. The sweeps are compiled in schemes_artificial.cpp, schemes_laminar.cpp and schemes_extra.cpp.
+// group. The sweeps are compiled in viscosity_*.cpp (with rates.hpp) and schemes_extra.cpp.
 // Called by schemes.cpp; tested in tests/src/sea/sph/sweep_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -33,7 +33,14 @@ class Schemes {
     reach_ = float(p.reach() + 4e-7 * length);  // boxes are floats from the corner of the domain
   }
 
-  GroupSweep<dim, Real> rates() const { return p_.laminar() ? laminar() : artificial(); }
+  const Parameters& parameters() const { return p_; }
+  GroupSweep<dim, Real> rates() const;
+  /// Rates with a viscosity that acts along the line of centres (LawMotion): between water and water, and water and solids.
+  template <class Viscosity>
+  GroupSweep<dim, Real> along_centres(const Viscosity& between_water, const Viscosity& with_solid) const;
+  /// The same along the relative velocity (LawDrag), and with `sub_particle` the stress of unresolved turbulence.
+  template <bool sub_particle, class Viscosity>
+  GroupSweep<dim, Real> along_velocity(const Viscosity& between_water, const Viscosity& with_solid) const;
   /// Rates of strain for the sub-particle stress, which `rates` then reads from the store; empty without that stress.
   GroupSweep<dim, Real> strain() const;
   /// Density and velocity of extrapolated or modified walls, for every group between packing and the pair sweeps; empty for
@@ -55,8 +62,6 @@ class Schemes {
     }
     throw std::logic_error("no such kernel");
   }
-  GroupSweep<dim, Real> artificial() const;
-  GroupSweep<dim, Real> laminar() const;
   template <class Water, class Solid>
   GroupSweep<dim, Real> sweep(const Water& water, const Solid& solid) const {
     return [&store = store_, &columns = columns_, &subdomain = subdomain_, reach = reach_, water, solid](
@@ -71,5 +76,16 @@ class Schemes {
   const Parameters& p_;
   float reach_;
 };
+
+/// A viscosity with its sweep of one dimension and precision; the functions NAME_viscosity() of the files viscosity_*.cpp.
+template <int dim, class Real>
+struct Viscosity : ViscosityModel {
+  GroupSweep<dim, Real> (*rates)(const Schemes<dim, Real>&) = nullptr;
+};
+#define VISCOSITY(name)          \
+  template <int dim, class Real> \
+  Viscosity<dim, Real> name##_viscosity();
+#include "src/sea/sph/viscosities.inc"
+#undef VISCOSITY
 
 }  // namespace spindrift::sph

@@ -8,7 +8,7 @@ namespace spindrift::sph {
 
 template <int dim, class Real>
 GroupSweep<dim, Real> Schemes<dim, Real>::strain() const {
-  if (!p_.sub_particle()) return {};
+  if (!of(p_.viscosity).sub_particle) return {};
   return with_kernel([this](auto kernel) {
     const LawStrain<decltype(kernel), Real> law{kernel, Real(p_.eos.rho0)};
     return sweep(law, law);

@@ -163,8 +163,8 @@ struct SeaState {
     plan.speed = std::sqrt(speed2), plan.acceleration = std::sqrt(acceleration2);
     plan.shifted = shifted;
     plan.drift += shifted;
-    plan.limits =
-        step_limits(p.cfl, p.h(), p.eos.c0, plan.speed, plan.acceleration, p.laminar() ? std::max(p.nu, p.nu_solid) : 0.0);
+    const auto kinematic = of(p.viscosity).kinematic;
+    plan.limits = step_limits(p.cfl, p.h(), p.eos.c0, plan.speed, plan.acceleration, kinematic != nullptr ? kinematic(p) : 0.0);
     plan.limits.body = body_limit;
     plan.limit = plan.limits.smallest();
     constexpr double smallest_share = 1e-2;  // of the step of water at rest: speeds of 100 c0 are no flow

@@ -14,6 +14,7 @@
 #include "kernels/sph/density_diffusion_molteni.hpp"
 #include "kernels/sph/kernel_cubic.hpp"
 #include "kernels/sph/kernel_wendland.hpp"
+#include "kernels/sph/viscosity_artificial.hpp"
 #include "kernels/turbulence/model_sa.hpp"
 #include "kernels/turbulence/model_sst.hpp"
 #include "kernels/waves/components.hpp"
@@ -116,12 +117,13 @@ void sea(const char* (&names)[4]) {
   const double h = 0.0104;
   const EosTait eos{1000.0, 34.0};
   const ViscosityArtificial<Scalar> viscosity{Scalar(0.1), Scalar(34.0), Scalar(h)};
-  pairs<Scalar>(names[0], LawMotion<KernelWendland<3, Scalar>, DensityDiffusionFourtakas<Scalar>, Scalar>{
-                              KernelWendland<3, Scalar>(h), viscosity, DensityDiffusionFourtakas<Scalar>(0.1, h, eos, 9.81),
-                              Scalar(1000.0)});
-  pairs<Scalar>(names[1], LawMotion<KernelCubic<3, Scalar>, DensityDiffusionMolteni<Scalar>, Scalar>{
+  pairs<Scalar>(
+      names[0],
+      LawMotion<KernelWendland<3, Scalar>, ViscosityArtificial<Scalar>, DensityDiffusionFourtakas<Scalar>, Scalar>{
+          KernelWendland<3, Scalar>(h), viscosity, DensityDiffusionFourtakas<Scalar>(0.1, h, eos, 9.81), Scalar(1000.0)});
+  pairs<Scalar>(names[1], LawMotion<KernelCubic<3, Scalar>, ViscosityArtificial<Scalar>, DensityDiffusionMolteni<Scalar>, Scalar>{
                               KernelCubic<3, Scalar>(h), viscosity, {Scalar(0.1), Scalar(34.0), Scalar(h)}, Scalar(1000.0)});
-  pairs<Scalar>(names[2], LawLaminar<KernelWendland<2, Scalar>, DensityDiffusionNone, Scalar, false>{
+  pairs<Scalar>(names[2], LawDrag<KernelWendland<2, Scalar>, ViscosityLaminar<Scalar>, DensityDiffusionNone, Scalar, false>{
                               KernelWendland<2, Scalar>(h), {Scalar(1e-3)}, {}, Scalar(1000.0)});
   pairs<Scalar>(names[3], LawStrain<KernelWendland<3, Scalar>, Scalar>{KernelWendland<3, Scalar>(h), Scalar(1000.0)});
 }

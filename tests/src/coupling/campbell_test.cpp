@@ -71,14 +71,13 @@ TEST_CASE("no loose scheme will do where the air weighs as much as the machine",
 
 TEST_CASE("what a scheme misses falls with its order in the window", "[coupling][fast]") {
   const double omega = 1.0;
-  for (const auto& [kind, order, p] : {std::tuple{SchemeKind::cps, 0, 1},
-                                       {SchemeKind::css, 0, 1},
-                                       {SchemeKind::cps2, 1, 2},
-                                       {SchemeKind::css, 1, 2},
-                                       {SchemeKind::css, 2, 3}})
-    CHECK(missed_part(kind, order, omega, 0.02) / missed_part(kind, order, omega, 0.01) ==
-          Approx(std::pow(2.0, p)).epsilon(0.03));
-  CHECK(missed_part(SchemeKind::cps, 0, omega, 0.01) == Approx(0.02).epsilon(0.01));  // two windows late at its end
+  for (const auto& [scheme, p] : {std::pair{Staggering::cps(), 1},
+                                  {Staggering::css(0), 1},
+                                  {Staggering::cps2(), 2},
+                                  {Staggering::css(1), 2},
+                                  {Staggering::css(2), 3}})
+    CHECK(missed_part(scheme, omega, 0.02) / missed_part(scheme, omega, 0.01) == Approx(std::pow(2.0, p)).epsilon(0.03));
+  CHECK(missed_part(Staggering::cps(), omega, 0.01) == Approx(0.02).epsilon(0.01));  // two windows late at its end
 }
 
 TEST_CASE("a load that damps has its own limits under loose coupling", "[coupling][fast]") {

@@ -30,8 +30,8 @@ inline Case plate_case(MultiBlockGrid grid, const FlowSetting& setting, Conditio
   Case c(std::move(grid), setting,
          {{"wall", {wall_condition, true}},
           {"symmetry", {Condition::symmetry, false}},
-          {"inflow", {Condition::inflow_stagnation, false}},
-          {"outflow", {Condition::outflow_pressure, false}},
+          {"inflow", {Condition::reservoir, false}},
+          {"outflow", {Condition::outflow, false}},
           {"top", {Condition::far_field, false}}});
   const WallSurface wall = wall_surface(c.grid, std::array<std::string, 1>{"wall"});
   for (FlowTile& tile : c.solver->tiles()) fill_wall_distance(*tile.geometry, wall);

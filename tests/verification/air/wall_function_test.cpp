@@ -58,7 +58,7 @@ PlateResult law_plate(int n, double y_plus, Condition wall_condition, const std:
 TEST_CASE("a wall function gives a plate's friction and drag on grids whose first cell stands in the logarithmic layer",
           "[flow][fast]") {
   for (const double y_plus : {30.0, 50.0, 100.0}) {
-    const PlateResult law = law_plate(2, y_plus, Condition::wall_law);
+    const PlateResult law = law_plate(2, y_plus, Condition::wall_function);
     CAPTURE(y_plus, law.y_plus, law.friction, law.drag);
     CHECK(law.y_plus == Approx(y_plus).epsilon(0.03));
     CHECK(law.friction == Approx(.0027056).epsilon(0.03));
@@ -70,7 +70,7 @@ TEST_CASE("a wall function gives a plate's friction and drag on grids whose firs
 TEST_CASE("a wall function gives friction also with two equations", "[flow][fast]") {
   for (const auto& [model, same, limit] : {std::tuple{"sst_vm", .0026181, .0026909}, {"k_omega", .0026482, .00272}})
     for (const double y_plus : {30.0, 50.0, 100.0}) {
-      const PlateResult law = law_plate(2, y_plus, Condition::wall_law, model);
+      const PlateResult law = law_plate(2, y_plus, Condition::wall_function, model);
       CAPTURE(model, y_plus, law.y_plus, law.friction, law.drag, law.steps);
       CHECK(law.y_plus == Approx(y_plus).epsilon(0.05));
       CHECK(law.friction == Approx(same).epsilon(0.03));
@@ -80,14 +80,14 @@ TEST_CASE("a wall function gives friction also with two equations", "[flow][fast
 
 TEST_CASE("a wall function on a resolved grid is the resolved wall", "[flow][fast]") {
   for (const double y_plus : {0.5, 1.0}) {
-    const PlateResult law = law_plate(2, y_plus, Condition::wall_law), wall = law_plate(2, y_plus, Condition::no_slip);
+    const PlateResult law = law_plate(2, y_plus, Condition::wall_function), wall = law_plate(2, y_plus, Condition::no_slip);
     CAPTURE(y_plus, law.friction, wall.friction);
     CHECK(law.friction == Approx(wall.friction).epsilon(1e-3));
     CHECK(law.drag == Approx(wall.drag).epsilon(1e-3));
   }
   for (const char* model : {"sst_vm", "k_omega"}) {
     // At a drop of 1e-5 turbulence may still grow near the leading edge, with a hundredth of the drag to come.
-    const PlateResult law = law_plate(2, 0.5, Condition::wall_law, model, 1e-7),
+    const PlateResult law = law_plate(2, 0.5, Condition::wall_function, model, 1e-7),
                       wall = law_plate(2, 0.5, Condition::no_slip, model, 1e-7);
     CAPTURE(model, law.friction, wall.friction);
     CHECK(law.friction == Approx(wall.friction).epsilon(0.01));
@@ -98,7 +98,7 @@ TEST_CASE("a wall function on a resolved grid is the resolved wall", "[flow][fas
 TEST_CASE("with two equations a wall function blends into the resolved wall through the buffer layer", "[flow][fast]") {
   for (const auto& [model, same] : {std::pair{"sst_vm", .0026181}, {"k_omega", .0026482}})
     for (const double y_plus : {1.0, 5.0, 11.0}) {
-      const PlateResult law = law_plate(2, y_plus, Condition::wall_law, model);
+      const PlateResult law = law_plate(2, y_plus, Condition::wall_function, model);
       CAPTURE(model, y_plus, law.friction);
       CHECK(law.friction == Approx(same).epsilon(0.03));
     }

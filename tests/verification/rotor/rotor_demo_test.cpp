@@ -20,7 +20,7 @@ ResolvedRotorSetup demo(double wind, double rpm, double pitch_deg) {
   s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
   s.rotor.hub_m = {0.0, 0.0, 119.0}, s.rotor.speed = rpm * pi / 30.0, s.rotor.blade_pitch = pitch_deg * pi / 180.0;
   s.wind = {wind, 0.0, 0.0};
-  s.flow.time = "steady", s.flow.turbulence = "sa", s.flow.blades = Condition::wall_law, s.flow.preconditioner = "coarse";
+  s.flow.time = "steady", s.flow.turbulence = "sa", s.flow.blades = Condition::wall_function, s.flow.preconditioner = "coarse";
   s.flow.cfl = 2.0, s.flow.cfl_max = 1000.0, s.flow.load_change = 1e-3, s.flow.max_pseudo_steps = 300;
   return s;
 }

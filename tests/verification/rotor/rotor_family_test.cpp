@@ -32,7 +32,7 @@ ResolvedRotorSetup setup(double resolution, double wind, double rpm, int steps) 
   s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
   s.rotor.hub_m = {0.0, 0.0, 119.0}, s.rotor.speed = rpm * pi / 30.0;
   s.wind = {wind, 0.0, 0.0};
-  s.flow.time = "steady", s.flow.turbulence = "sa", s.flow.blades = Condition::wall_law;
+  s.flow.time = "steady", s.flow.turbulence = "sa", s.flow.blades = Condition::wall_function;
   s.flow.cfl = 2.0, s.flow.cfl_max = 1000.0, s.flow.drop = 0.0, s.flow.max_pseudo_steps = steps;
   s.flow.preconditioner = "coarse",
   s.flow.group_cells = 16;  // tile by tile alone, air between far sides that far goes on swaying to and fro

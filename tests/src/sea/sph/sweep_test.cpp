@@ -10,6 +10,7 @@
 #include "kernels/sph/density_diffusion_molteni.hpp"
 #include "kernels/sph/kernel_cubic.hpp"
 #include "kernels/sph/kernel_wendland.hpp"
+#include "kernels/sph/viscosity_artificial.hpp"
 #include "src/sea/sph/sea_sph.hpp"
 #include "tests/src/sea/sph/scenes.hpp"
 
@@ -22,8 +23,10 @@ template <class Kernel, class Diffusion>
 auto all_pairs(const std::vector<Seed<Kernel::dimensions>>& seeds, const Parameters& p, const Diffusion& diffusion,
                const std::array<double, Kernel::dimensions>& period = {}) {
   constexpr int dim = Kernel::dimensions;
-  const LawMotion<Kernel, Diffusion, double> water{Kernel(p.h()), {p.alpha, p.eos.c0, p.h()}, diffusion, p.eos.rho0};
-  const LawMotion<Kernel, DensityDiffusionNone, double> solid{Kernel(p.h()), {p.alpha_solid, p.eos.c0, p.h()}, {}, p.eos.rho0};
+  const LawMotion<Kernel, ViscosityArtificial<>, Diffusion, double> water{
+      Kernel(p.h()), {p.alpha, p.eos.c0, p.h()}, diffusion, p.eos.rho0};
+  const LawMotion<Kernel, ViscosityArtificial<>, DensityDiffusionNone, double> solid{
+      Kernel(p.h()), {p.alpha_solid, p.eos.c0, p.h()}, {}, p.eos.rho0};
   const auto state = [&](const Seed<dim>& seed) {
     PairState<double, dim> s;
     for (int k = 0; k < dim; ++k) s.x[k] = seed.position[k], s.v[k] = seed.velocity[k];
