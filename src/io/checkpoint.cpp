@@ -188,10 +188,15 @@ void require_readable(const fs::path& path) {
   throw InputError(path.string() + ": " + std::strerror(errno) + "; give this user the right to read it");
 }
 
-/// HDF5 guards attributes by checksums of its own: what it reads is what was written.
-void require_version(hid_t file, const fs::path& path) {
+/// HDF5 guards attributes by checksums of its own: what it reads is what was written, and where it reads none the file is
+/// damaged.
+std::int64_t version_of(hid_t file) {
   std::int64_t version = 0;
   hdf5::get_attribute(file, "format_version", H5T_NATIVE_INT64, &version);
+  return version;
+}
+
+void require_version(std::int64_t version, const fs::path& path) {
   if (version != format_version)
     throw InputError(path.string() + ": has format version " + std::to_string(version) + ", this program reads " +
                      std::to_string(format_version) + "; go on with the version of the program that wrote it");
@@ -208,8 +213,15 @@ CheckpointReader::CheckpointReader(MPI_Comm comm, const fs::path& path) : impl_(
       throw DamagedFile(error.what());  // also a listed array that is not there: damage, not another scene
     }
   };
-  damage([&] { together(comm, [&] { impl_->file = hdf5::open(path); }); });
-  together(comm, [&] { require_version(impl_->file.get(), path); });
+  std::int64_t version = 0;
+  damage([&] {
+    together(comm, [&] {
+      impl_->file = hdf5::open(path);
+      hdf5::read_attributes(impl_->file.get());
+      version = version_of(impl_->file.get());
+    });
+  });
+  together(comm, [&] { require_version(version, path); });
   damage([&] { impl_->verify_all(); });
 }
 CheckpointReader::CheckpointReader(CheckpointReader&&) noexcept = default;

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "src/io/machine_failure.hpp"
 
@@ -112,6 +114,19 @@ std::string get_text_attribute(hid_t object, const char* name) {
   checked(H5Aread(attribute.get(), type.get(), text.data()), std::string("attribute ") + name);
   text.resize(std::min(text.find('\0'), text.size()));
   return text;
+}
+
+void read_attributes(hid_t object) {
+  H5O_info_t info;
+  checked(H5Oget_info2(object, &info, H5O_INFO_NUM_ATTRS), "attributes");
+  std::vector<std::byte> value;
+  for (hsize_t n = 0; n < info.num_attrs; ++n) {
+    const Attribute attribute(
+        checked(H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_NATIVE, n, H5P_DEFAULT, H5P_DEFAULT), "an attribute"));
+    const Type type(checked(H5Aget_type(attribute.get()), "type of an attribute"));
+    value.resize(std::max<std::size_t>(H5Aget_storage_size(attribute.get()), H5Tget_size(type.get())));
+    checked(H5Aread(attribute.get(), type.get(), value.data()), "an attribute");
+  }
 }
 
 }  // namespace spindrift::io::hdf5

@@ -63,6 +63,8 @@ void set_attribute(hid_t object, const char* name, hid_t type, const void* value
 void set_attribute(hid_t object, const char* name, const std::string& text);
 /// Throws where it is missing.
 void get_attribute(hid_t object, const char* name, hid_t type, void* value);
+/// Reads every attribute of an object to no end but that damage in one, which HDF5 sees when it reads, is met here.
+void read_attributes(hid_t object);
 std::string get_text_attribute(hid_t object, const char* name);
 
 }  // namespace spindrift::io::hdf5

@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <optional>
 #include <random>
 
 #include "src/io/atomic_file.hpp"
@@ -68,6 +69,13 @@ class FullDisk {
   rlimit before_{};
 };
 
+/// None where the file is refused as damaged, which a restart passes over; any other complaint would end it.
+std::optional<io::CheckpointReader> open_sound(const fs::path& path) {
+  try {
+    return io::CheckpointReader(MPI_COMM_SELF, path);
+  } catch (const io::DamagedFile&) { return std::nullopt; }
+}
+
 }  // namespace
 
 TEST_CASE("a restart passes over a truncated newest checkpoint", "[io][faults][fast]") {
@@ -87,17 +95,19 @@ TEST_CASE("whichever byte of a checkpoint is changed, it is refused or its conte
   const std::string sound = io::read_file(series.path(1));
   const fs::path damaged = folder / "flipped.h5";
   int refused = 0, tried = 0;
-  for (std::size_t at = 0; at < sound.size(); at += sound.size() / 600 + 1, ++tried) {
+  for (std::size_t at = 0; at < sound.size(); at += sound.size() / 3000 + 1, ++tried) {
     std::string content = sound;
     content[at] = static_cast<char>(content[at] ^ (1 << (at % 8)));
     io::write_atomically(damaged, content);
-    try {
-      const io::CheckpointReader reader(MPI_COMM_SELF, damaged);
-      CHECK(reader.read<double>("bodies/motion") == state(1));
-      CHECK(reader.read<std::int64_t>("sea/id") == std::vector<std::int64_t>(10, 1));
-      CHECK(reader.number("time_s") == 0.5);
-      CHECK(reader.integer("tick") == 1);
-    } catch (const io::MachineFailure&) { ++refused; }
+    const auto reader = open_sound(damaged);
+    if (!reader) {
+      ++refused;
+      continue;
+    }
+    CHECK(reader->read<double>("bodies/motion") == state(1));
+    CHECK(reader->read<std::int64_t>("sea/id") == std::vector<std::int64_t>(10, 1));
+    CHECK(reader->number("time_s") == 0.5);
+    CHECK(reader->integer("tick") == 1);
   }
   CHECK(refused > tried / 2);  // the rest of the bytes carry nothing
 }
