@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/actuator.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -398,6 +400,22 @@ std::vector<SpanLoad> Actuator::span_loads() const {
     to.load.normal += share * p.force.dot(rotor_.axis), to.load.tangential += share * p.force.dot(p.ahead);
   }
   return all;
+}
+
+double Actuator::least_weight() const { return std::ranges::min(points_, {}, &Point::weight).weight; }
+
+std::string Actuator::description() const {
+  return fmt::format("{} at {} points, {:.3g} cells of {:.4g} m to the radius",
+                     kind_ == Kind::lines ? "actuator_line" : "actuator_disc", points_.size(), tip_radius() / cell_, cell_);
+}
+
+std::shared_ptr<Actuator> make_actuator(const AeroOptions& aero, const Turbine& turbine, double air_density,
+                                        const GridStore& store, const DiscMotion& rotor, MPI_Comm comm) {
+  const double cell = cell_at_rotor(store, rotor.hub, rotor.axis, turbine.planform.span.back(), comm);
+  const auto kind = aero.model == "actuator_line" ? Actuator::Kind::lines : Actuator::Kind::disc;
+  auto actuator = std::make_shared<Actuator>(turbine, kind, aero.actuator.value_or(ActuatorOptions()), air_density, cell);
+  actuator->place(rotor);
+  return actuator;
 }
 
 }  // namespace spindrift::aero

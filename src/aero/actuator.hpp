@@ -6,13 +6,16 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "src/aero/actuator_options.hpp"
 #include "src/aero/bem.hpp"
 #include "src/aero/flow/body_force.hpp"
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/options.hpp"
 #include "src/aero/resolved_rotor.hpp"
 
 namespace spindrift::aero {
@@ -50,6 +53,10 @@ class Actuator final : public BodyForce {
   std::vector<SpanLoad> span_loads() const;
   double tip_radius() const { return sections_.tip_radius(); }
   double cell() const { return cell_; }
+  /// Least sum of the kernel over the cells at any point: one inside the grid, less where it leaves it. After the last act().
+  double least_weight() const;
+  /// "actuator_line at 99 points, 10 cells of 8.9 m to the radius".
+  std::string description() const;
 
   /// A point of a blade and what was found there last.
   struct Point {
@@ -108,5 +115,9 @@ class Actuator final : public BodyForce {
   std::map<int, WakeMatrix> wakes_;              ///< of helices, by angle
   std::vector<double> ring_axial_, ring_swirl_;  ///< [at][of] of the disc
 };
+
+/// Of a scene's turbine with the rotor where `rotor` says. Collective.
+std::shared_ptr<Actuator> make_actuator(const AeroOptions& aero, const Turbine& turbine, double air_density,
+                                        const GridStore& store, const DiscMotion& rotor, MPI_Comm comm);
 
 }  // namespace spindrift::aero

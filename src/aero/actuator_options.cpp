@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "src/aero/grid/multi_block.hpp"
-#include "src/aero/operation.hpp"
 #include "src/aero/options.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/scene/document.hpp"
@@ -51,7 +50,7 @@ std::string why_outside(const RotorOptions& rotor, const Eigen::Vector3d& low, c
 
 }  // namespace
 
-void check_actuator(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor) {
+void check_actuator(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor, const std::string& hub_key) {
   if (rotor.turbine.empty())
     document.problem("rotor.turbine", fmt::format("must name a turbine file: aero.model \"{}\" needs the blades", aero.model));
   else
@@ -63,14 +62,9 @@ void check_actuator(scene::Document& document, const AeroOptions& aero, const Ro
         const GenerateOptions& box = *aero.flow->generate;
         const auto corner = [](const std::array<double, 3>& x) { return Eigen::Vector3d(x[0], x[1], x[2]); };
         if (const std::string why = why_outside(rotor, corner(box.low_m), corner(box.high_m)); !why.empty())
-          document.problem("rotor.hub_m", why);
+          document.problem(hub_key, why);
       }
     } catch (const scene::SceneError& e) { document.problem("rotor.turbine", e.what()); }
-  if (!rotor.operation.empty()) try {
-      read_operation(rotor.operation);
-    } catch (const scene::SceneError& e) { document.problem("rotor.operation", e.what()); }
-  if (!rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
-  if (!rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
   if (aero.model == "actuator_line" && aero.flow && aero.flow->time == "steady")
     document.problem("aero.flow.time",
                      "must be \"bdf1\" or \"bdf2\": lines turn; aero.model \"actuator_disc\" has the steady flow of their mean");
@@ -78,7 +72,7 @@ void check_actuator(scene::Document& document, const AeroOptions& aero, const Ro
     document.problem("aero.flow.motion", "has no effect: the grid stands, the rotor goes through it");
 }
 
-void require_rotor_inside(const MultiBlockGrid& grid, const RotorOptions& rotor) {
+void require_rotor_inside(const MultiBlockGrid& grid, const RotorOptions& rotor, const std::string& hub_key) {
   if (grid.planar)
     throw scene::SceneError(
         {scene::Problem{.key = "aero.model", .message = "acts on a grid of three dimensions; that of aero.flow is planar"}});
@@ -86,7 +80,7 @@ void require_rotor_inside(const MultiBlockGrid& grid, const RotorOptions& rotor)
   for (const Block& block : grid.blocks)
     for (const Eigen::Vector3d& x : block.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
   if (const std::string why = why_outside(rotor, low, high); !why.empty())
-    throw scene::SceneError({scene::Problem{.key = "rotor.hub_m", .message = why}});
+    throw scene::SceneError({scene::Problem{.key = hub_key, .message = why}});
 }
 
 }  // namespace spindrift::aero

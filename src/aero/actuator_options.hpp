@@ -24,10 +24,11 @@ struct ActuatorOptions {
 };
 const scene::Section<ActuatorOptions>& actuator_section();
 
-/// Rules between [rotor], [aero] and the models that act on the air; problems go to the document.
-void check_actuator(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor);
+/// Rules between [rotor], [aero] and the models that act on the air; problems go to the document. `hub_key`: which puts the hub
+/// where `rotor` has it.
+void check_actuator(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor, const std::string& hub_key);
 
 /// The rotor has to be inside the grid and the grid to have three dimensions; throws scene::SceneError.
-void require_rotor_inside(const MultiBlockGrid& grid, const RotorOptions& rotor);
+void require_rotor_inside(const MultiBlockGrid& grid, const RotorOptions& rotor, const std::string& hub_key);
 
 }  // namespace spindrift::aero

@@ -255,6 +255,17 @@ bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& gri
   return false;
 }
 
+/// Of an actuator that bodies carry; nothing where patches lack a condition.
+std::optional<PartCost> print_actuated_air(const coupling::Scenario& s, int ranks) {
+  const aero::MultiBlockGrid grid = aero::flow_grid(*s.aero.flow);
+  const auto [rotor, hub_key] = coupling::placed_rotor(s);
+  aero::require_rotor_inside(grid, rotor, hub_key);
+  fmt::print("\nResolved air (estimates above take the rotor's load from blade elements)\n  {:<10}{}\n", "grid",
+             aero::describe_flow_grid(*s.aero.flow));
+  if (!print_flow_grid(*s.aero.flow, grid, ranks)) return {};
+  return cost_of_flow(s, grid);
+}
+
 /// What the walls' first cells will see of the boundary layer, before a run tells.
 void print_first_cells(const coupling::Scenario& s, const aero::MultiBlockGrid& grid) {
   const aero::FlowOptions& o = *s.aero.flow;
@@ -314,7 +325,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   }
   if (scenario.has_flow()) {
     const aero::MultiBlockGrid grid = aero::flow_grid(*scenario.aero.flow);
-    if (scenario.has_actuator()) aero::require_rotor_inside(grid, scenario.rotor);
+    if (scenario.has_actuator()) aero::require_rotor_inside(grid, scenario.rotor, "rotor.hub_m");
     if (world.rank != 0) return done;
     fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
@@ -355,7 +366,12 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", equilibrium.problem);
   std::vector<PartCost> parts;
-  if (floating.scenario().resolves_air()) parts.push_back(print_air(floating, start, arguments.calibrate));
+  if (floating.scenario().has_actuator()) {
+    const std::optional<PartCost> air = print_actuated_air(floating.scenario(), world.size);
+    if (!air) return bad_input;
+    parts.push_back(*air);
+  } else if (floating.scenario().resolves_air())
+    parts.push_back(print_air(floating, start, arguments.calibrate));
   if (floating.particle_plan())
     parts.push_back(print_particles(floating, start));
   else

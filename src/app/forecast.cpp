@@ -165,7 +165,8 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
     f.core_seconds += part.core_seconds_per_work * (part.work_before + part.work_per_second * s.time.end_s);
     f.bytes += part.bytes + part.checkpoint_bytes;
   };
-  if (s.resolves_air()) {
+  if (s.has_actuator()) add(cost_of_flow(s, aero::flow_grid(*s.aero.flow)));
+  if (has_resolved_rotor(s)) {
     aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
     setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;
     const bool strong = is_strong(s.coupling.scheme);
@@ -189,16 +190,17 @@ double pseudo_steps_per_second(const coupling::Scenario& s) {
 
 PartCost cost_of_flow(const coupling::Scenario& s, const aero::MultiBlockGrid& grid) {
   const aero::FlowSize size = aero::flow_size(*s.aero.flow, grid);
+  const bool strong = !s.bodies.empty() && is_strong(s.coupling.scheme);
   return {.name = "air",
           .count = double(size.cells),
           .things = "cells",
-          .bytes = size.bytes,
+          .bytes = size.bytes + (strong ? size.bytes_of_checkpoint : 0.0),
           .checkpoint_bytes = size.bytes_of_checkpoint,
-          .work_per_second = pseudo_steps_per_second(s),
+          .work_per_second = (strong ? s.coupling.samples : 1.0) * pseudo_steps_per_second(s),
           .work = "pseudo-steps at most",
           .core_seconds_per_work = size.core_seconds_per_pseudo_step,
           .rate = fmt::format("{:.3g} us per cell, stated", 1e6 * size.core_seconds_per_pseudo_step / double(size.cells)),
-          .work_before = 0.0};
+          .work_before = double(s.start.air_steps)};
 }
 
 Forecast forecast_of_air(const coupling::Scenario& s) {

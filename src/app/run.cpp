@@ -115,7 +115,8 @@ io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& 
   } catch (const io::InputError&) {
     throw;  // the run did not begin
   } catch (const scene::SceneError&) { throw; } catch (const runtime::StopAsked& why) {
-    end(stopped, fmt::format("{}, before the first window; started again, the run begins anew", why.what()));
+    end(stopped, fmt::format("{}, before the first window; with --restart the run begins anew, air that settles where it was",
+                             why.what()));
   } catch (const NumericalFailure& failure) { end(numerical_failure, failure.what()); } catch (const std::exception& failure) {
     end(machine_failure, failure.what());
     if (world.rank == 0) write_summary(directory.summary(), summary, {});

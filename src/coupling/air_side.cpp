@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "kernels/base/failure.hpp"
+#include "src/coupling/actuator_air.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/resolved_air.hpp"
 
@@ -61,6 +62,7 @@ std::unique_ptr<AirSide> make_engineering_air(const FloatingSystem& floating) {
 }
 
 std::unique_ptr<AirSide> make_air(const FloatingSystem& floating, const aero::RotorState& now, const runtime::World& world) {
+  if (floating.scenario().has_actuator()) return make_actuator_air(floating, now, world);
   if (floating.scenario().resolves_air()) return make_resolved_air(floating, now, world);
   return make_engineering_air(floating);
 }

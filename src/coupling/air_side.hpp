@@ -25,6 +25,8 @@ class AirSide {
  public:
   virtual ~AirSide() = default;
 
+  /// Where what settles before the run is kept while it does (settling_file.hpp); before begin(). The directory outlives the air.
+  virtual void settle_in(const io::RunDirectory&) {}
   /// Load on the rotor at the start of the run, where it is in state `now`; what has to settle first, settles here, unless
   /// it has been restored. Collective.
   virtual aero::RotorLoad begin(double t, const aero::RotorState& now) = 0;

@@ -143,13 +143,15 @@ LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& 
   verdict.air_mass_kg = blades_added_mass(floating.scenario());
   for (const CouplingScheme* scheme : coupling_schemes()) {
     if (scheme->staggering == nullptr) continue;
-    const double mass_limit = stability_ratio(scheme->limits.added_mass);
-    const double ratio = stability_ratio(scheme->limits.damping);
+    const bool chosen = scheme == &of(floating.scenario().coupling.scheme);  // others by the default options
+    const CouplingOptions options = chosen ? floating.scenario().coupling : CouplingOptions();
+    const double mass_limit = stability_ratio([&](double ratio) { return scheme->limits.added_mass(options, ratio); });
+    const double ratio = stability_ratio([&](double share) { return scheme->limits.damping(options, share); });
     const double limit =
         verdict.slope_N_s_m > 0.0 ? ratio * verdict.hub_mass_kg / verdict.slope_N_s_m : std::numeric_limits<double>::infinity();
-    const double missed = missed_part(scheme->staggering(CouplingOptions()), omega, window);
+    const double missed = missed_part(scheme->staggering(options), omega, window);
     const bool stable = window <= 0.5 * limit && verdict.mass_ratio() <= 0.5 * mass_limit;
-    verdict.schemes.push_back({std::string(scheme->judged), limit, missed, mass_limit, stable && missed <= acceptable});
+    verdict.schemes.push_back({scheme->judged(options), limit, missed, mass_limit, stable && missed <= acceptable});
   }
   return verdict;
 }

@@ -61,7 +61,7 @@ struct LooseVerdict {
     double mass_ratio_limit;  ///< of added mass over mass; above it no window is short enough
     bool will_do;             ///< below half of both limits, and less than `acceptable` missed
   };
-  std::vector<Scheme> schemes;  ///< the loose ones by default options: cps, cps2, css1
+  std::vector<Scheme> schemes;  ///< the loose ones: cps, cps2, css1; the scene's own by its options
 };
 inline constexpr double acceptable = 0.02;
 LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& state, const Campbell& campbell);

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/coupling/scenario.hpp"
 
@@ -13,5 +15,12 @@ inline bool has_resolved_rotor(const Scenario& s) { return s.aero.model == "blad
 Eigen::Vector3d flow_wind(const Scenario& scenario);
 /// Of a scene with a resolved rotor, which is where [rotor] puts it.
 aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& scenario);
+
+/// The rotor as it is described, with the hub and axis of its bearing where it has one, and the key that puts the hub there.
+struct PlacedRotor {
+  aero::RotorOptions rotor;
+  std::string hub_key;
+};
+PlacedRotor placed_rotor(const Scenario& scenario);
 
 }  // namespace spindrift::coupling

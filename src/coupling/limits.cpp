@@ -83,11 +83,10 @@ void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState
   const CouplingOptions& o = floating.scenario().coupling;
   if (!floating.rotor() || !is_loose(o.scheme) || o.accept_unstable || state.motions.empty()) return;
   const CouplingScheme& chosen = of(o.scheme);
-  if (chosen.staggering(o) != chosen.staggering(CouplingOptions())) return;  // no limit is known
   const FullLoads full(floating);
   const Campbell frequencies = campbell(floating.scenario(), linearisation, floating.rotor()->state(0.0, state.motions).speed);
   const LooseVerdict verdict = loose_verdict(floating, state, frequencies);
-  const std::string scheme(chosen.judged);
+  const std::string scheme = chosen.judged(o);
   for (const LooseVerdict::Scheme& known : verdict.schemes) {
     if (known.name != scheme) continue;
     const char* mend = "iterate (coupling.scheme = \"iqn_ils\"), or say coupling.accept_unstable = true";

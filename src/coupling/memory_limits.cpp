@@ -83,7 +83,7 @@ std::vector<Demand> demands_of(const Scenario& s, double memory) {
                        fmt::format("at least {:.2g}", std::max(length * of_strip / memory, length / 1e6) * 1.05)});
     if (count > 1e6) demands.back().bytes = std::max(demands.back().bytes, 2.0 * memory);  // a step would take seconds
   }
-  if (s.has_flow() && s.aero.flow && s.aero.flow->generate) {
+  if (s.resolves_air() && s.aero.flow && s.aero.flow->generate) {
     const auto [count, key] = aero::generated_size(*s.aero.flow->generate);
     demands.push_back({key, "", "cells", count, count * of_cell, fmt::format("at most {:.3g} cells", memory / of_cell)});
   }

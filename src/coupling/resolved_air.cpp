@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -14,11 +13,10 @@
 #include <vector>
 
 #include "kernels/base/failure.hpp"
-#include "runtime/mpi/stop_request.hpp"
 #include "runtime/trace/ledger.hpp"
-#include "src/aero/flow/choice.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/coupling/air_file.hpp"
+#include "src/coupling/air_march.hpp"
 #include "src/coupling/air_output.hpp"
 #include "src/coupling/columns.hpp"
 #include "src/coupling/floating_system.hpp"
@@ -26,7 +24,6 @@
 #include "src/coupling/grid_progress.hpp"
 #include "src/coupling/retries.hpp"
 #include "src/coupling/saved_air.hpp"
-#include "src/io/progress.hpp"
 
 namespace spindrift::coupling {
 
@@ -60,10 +57,6 @@ aero::ResolvedRotorSetup setup_at(const FloatingSystem& floating, const aero::Ro
   return setup;
 }
 
-/// What preconditioner = "auto" may become, by number in checkpoints.
-constexpr std::array<const char*, 2> choices{"block_ilu", "coarse"};
-constexpr const char* choice_name = "air/preconditioner";
-
 class ResolvedAir final : public AirSide {
  public:
   ResolvedAir(const FloatingSystem& floating, const aero::RotorState& now, const runtime::World& world)
@@ -74,6 +67,8 @@ class ResolvedAir final : public AirSide {
         state_(now),
         size_(aero::resolved_rotor_size(setup_)),
         computed_{{}, std::vector<aero::RotorLoad>(std::size_t(size_.sectors))} {}
+
+  void settle_in(const io::RunDirectory& directory) override { directory_ = &directory; }
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     const runtime::Span span("aero/start");
@@ -100,7 +95,7 @@ class ResolvedAir final : public AirSide {
         return (setup_.profile.share(x.z()) - share_at_hub()) * setup_.wind;
       });
     if (!start.air.empty()) start_from_saved_air(start.air);
-    return load_ = ramped(along_axis(computed_.rotor));
+    return load_ = ramped(along_axis(computed_.rotor), floating_, t_);
   }
 
   void prepare(double t, double dt, const aero::RotorState& at_end) override {
@@ -119,29 +114,9 @@ class ResolvedAir final : public AirSide {
   void forget_tasks() override { rotor_->solver().forget_graphs(); }
 
   aero::RotorLoad load_at_end() override {
-    const aero::March& march = rotor_->solver().march();
-    if (march.verdict() == aero::Verdict::stopped) throw runtime::StopAsked();
-    if (march.verdict() == aero::Verdict::failed)
-      throw NumericalFailure(
-          fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t_, march.why(),
-                      march.steps(), march.cfl(), rotor_->solver().trouble(), setup_.flow.cfl_max),
-          "aero/rotor", long(rotor_->solver().time_steps()), t_);
-    const long windows = floating_.timeline().windows(), unconverged = march.unconverged();
-    if (march.spent() && unconverged == 1)
-      log_lines_.push_back(
-          fmt::format("warning: air: the step to t = {:g} s spent its {} pseudo-steps; the flux balance has fallen by {:.2g} of "
-                      "{:.2g} asked for",
-                      t_, march.steps() - 1, march.balance_drop(), setup_.flow.drop));
-    if (double(unconverged) > setup_.flow.unconverged_share * double(std::max(windows, march.ended())))
-      throw NumericalFailure(
-          fmt::format("t = {:g} s: aero: {} of {} steps spent their {} pseudo-steps without the drop of {:.2g}, more than "
-                      "aero.flow.unconverged_share = {:g} of the run's; the last ended at {:.2g}; try more "
-                      "aero.flow.max_pseudo_steps or a shorter window",
-                      t_, unconverged, march.ended(), setup_.flow.max_pseudo_steps, setup_.flow.drop,
-                      setup_.flow.unconverged_share, march.balance_drop()),
-          "aero/rotor", long(rotor_->solver().time_steps()), t_);
+    require_good_step(rotor_->solver(), floating_, t_, log_lines_);
     computed_ = computed_loads(*rotor_);
-    return load_ = ramped(along_axis(computed_.rotor));
+    return load_ = ramped(along_axis(computed_.rotor), floating_, t_);
   }
   void ease(int retry) override {
     if (rotor_) rotor_->solver().march().ease(share_of_cfl(retry));
@@ -158,18 +133,15 @@ class ResolvedAir final : public AirSide {
     std::vector<SavedArray> arrays = file_->arrays();
     for (SavedArray& array : rotor_arrays(*rotor_, computed_, world_.rank)) arrays.push_back(std::move(array));
     arrays.push_back(rotor_load_array({load_, setup_.dt}, world_.rank));
-    if (floating_.scenario().aero.flow->preconditioner == "auto") {
-      const double number = double(std::ranges::find(choices, setup_.flow.preconditioner) - choices.begin());
-      arrays.push_back({choice_name, 1, {}});
-      if (world_.rank == 0) arrays.back().pieces.push_back({0, {number}});
-    }
+    if (floating_.scenario().aero.flow->preconditioner == "auto")
+      arrays.push_back(choice_array(setup_.flow.preconditioner, world_.rank));
     return arrays;
   }
   void restore(const io::CheckpointReader& file) override {
     const runtime::Span span("aero/start");
-    if (automatic() && file.has(choice_name)) {
-      setup_.flow.preconditioner = choices.at(std::size_t(file.read<double>(choice_name).at(0)));
-      log_lines_.push_back(fmt::format("air: preconditioner \"{}\" (as before the restart)", setup_.flow.preconditioner));
+    if (const std::optional<std::string> named = choice_in(file); automatic() && named) {
+      setup_.flow.preconditioner = *named;
+      log_lines_.push_back(fmt::format("air: preconditioner \"{}\" (as before the restart)", *named));
     }
     make();
     tell_size();
@@ -207,6 +179,12 @@ class ResolvedAir final : public AirSide {
   std::vector<std::string> log_lines() override { return std::exchange(log_lines_, {}); }
 
  private:
+  std::optional<SettlingFile> settling_file() const {
+    const double interval_s = floating_.scenario().checkpoint.wall_interval_s;
+    if (!directory_ || interval_s <= 0.0) return {};
+    return SettlingFile(*directory_, world_, interval_s);
+  }
+
   struct Saved {
     Saved(aero::ResolvedRotor::Snapshot a, const aero::RotorLoad& l, const ComputedLoads& f)
         : air(std::move(a)), load(l), computed(f) {}
@@ -218,12 +196,7 @@ class ResolvedAir final : public AirSide {
   /// Whether the preconditioner is still to be chosen.
   bool automatic() const { return setup_.flow.preconditioner == "auto"; }
   /// By trial on the flow of the moving rotor as it is.
-  void choose_for_rotor() {
-    const aero::Choice choice = aero::choose_preconditioner(rotor_->solver(), world_.comm);
-    setup_.flow.preconditioner = choice.preconditioner;
-    rotor_->solver().use(aero::make_preconditioner(choice.preconditioner, rotor_->solver().setting().common));
-    log_lines_.push_back(fmt::format("air: preconditioner \"{}\" ({})", choice.preconditioner, choice.reason));
-  }
+  void choose_for_rotor() { choose_preconditioner(rotor_->solver(), setup_.flow, world_.comm, log_lines_); }
   /// In the wind as it comes, before anything settles: so a scene that names the outcome runs alike. The rotor stays unless one
   /// is to settle first.
   void choose(bool settles) {
@@ -252,12 +225,6 @@ class ResolvedAir final : public AirSide {
     if (!whole()) load.force = load.thrust * state_.axis, load.moment = load.torque * state_.axis;
     return load;
   }
-  aero::RotorLoad ramped(aero::RotorLoad load) const {
-    const double ramp = floating_.ramp(t_);
-    load.thrust *= ramp, load.torque *= ramp, load.power *= ramp, load.force *= ramp, load.moment *= ramp;
-    return load;
-  }
-
   /// Unknowns of this rank's tiles.
   using TileStates = std::vector<std::vector<double>>;
 
@@ -286,43 +253,21 @@ class ResolvedAir final : public AirSide {
     steady.dt = 0.0;
     steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 0.0, steady.flow.load_change = 0.0;
     steady.profile = {}, steady.wind *= share_at_hub();
-    // A large grid settles in pieces, so that the log shows life; how long they are follows from the grid alone, as the bits do.
-    constexpr double cells_of_a_piece = 2.5e6;  // half a minute of a core
-    const int piece = std::clamp(int(cells_of_a_piece / double(size_.cells)), std::min(10, steps), steps);
+    const int piece = settling_piece(double(size_.cells), steps);  // a large grid shows life in the log
     aero::ResolvedRotor held(steady, world_.size, world_.rank, piece, grid(), grid_progress());
     spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held.solver().cells());
     held.solver().start_uniform();
     held.solver().march().ease(share_of_cfl(retry));
     held.prepare(world_.comm, {.watchdog_s = floating_.scenario().runtime.watchdog_s});
-    const aero::March& march = held.solver().march();
-    const auto begin = std::chrono::steady_clock::now();
-    double said_s = 0.0;
-    for (int done = 0; done == 0 || (march.spent() && done < steps);) {
-      if (done > 0) held.solver().keep_last_row();
-      held.run();
-      done = march.steps() - 1;
-      if (march.verdict() == aero::Verdict::stopped) throw runtime::StopAsked();
-      const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      if (spent_s - said_s < 10.0 || done >= steps) continue;
-      said_s = spent_s;
-      spdlog::info("air settles: {} of {} pseudo-steps, thrust {:.4g} kN, about {} left", done, steps, 1e-3 * held.load().thrust,
-                   io::duration_text(spent_s / done * (steps - done)));
-    }
-    if (march.verdict() == aero::Verdict::failed)
-      throw NumericalFailure(fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}",
-                                         march.why(), march.steps(), march.cfl(), held.solver().trouble()),
-                             "aero/rotor", march.steps(), 0.0);
+    const AirFile state(held.solver(), held.store(), world_);
+    coupling::settle({.solver = held.solver(),
+                      .state = state,
+                      .file = settling_file(),
+                      .first_try = retry == 0,
+                      .run = [&] { held.run(); },
+                      .thrust = [&](const aero::PseudoRow& row) { return held.load(row).thrust; }},
+                     steps, log_lines_);
     computed_ = computed_loads(held);
-    const auto& rows = held.solver().rows();
-    constexpr std::size_t look_back = 20;
-    const std::string change =
-        rows.size() > look_back + 1
-            ? fmt::format(", {:+.2g} % in the last {}",
-                          100.0 * (computed_.rotor.thrust / held.load(rows[rows.size() - 1 - look_back]).thrust - 1.0), look_back)
-            : std::string();
-    log_lines_.push_back(fmt::format("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}",
-                                     march.steps() - 1, 1e-3 * computed_.rotor.thrust, change,
-                                     march.density_residual() / march.first_density_residual()));
     TileStates states;
     for (std::size_t n = 0; n < held.solver().tiles().size(); ++n)
       held.solver().save(int(n), states.emplace_back(held.solver().saved_size(int(n))));

@@ -101,15 +101,21 @@ ComputedLoads computed_loads(const aero::ResolvedRotor& rotor) {
   return computed;
 }
 
-std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const ComputedLoads& computed, int rank) {
-  const Eigen::Matrix3d attitude = rotor.pose().attitude().toRotationMatrix();
-  std::vector<double> pose(attitude.data(), attitude.data() + 9), loads;
-  pose.push_back(rotor.pose().speed);
+SavedArray computed_loads_array(const ComputedLoads& computed, int rank) {
+  std::vector<double> loads;
   append(loads, computed.rotor);
   for (const aero::RotorLoad& blade : computed.blades) append(loads, blade);
-  std::vector<SavedArray> arrays;
-  for (auto& [name, values] :
-       {std::pair{pose_name, pose}, std::pair{load_name, loads}, std::pair{grid_name, measure(rotor.grid())}}) {
+  SavedArray array{load_name, std::int64_t(loads.size()), {}};
+  if (rank == 0) array.pieces.push_back({0, std::move(loads)});
+  return array;
+}
+
+std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const ComputedLoads& computed, int rank) {
+  const Eigen::Matrix3d attitude = rotor.pose().attitude().toRotationMatrix();
+  std::vector<double> pose(attitude.data(), attitude.data() + 9);
+  pose.push_back(rotor.pose().speed);
+  std::vector<SavedArray> arrays{computed_loads_array(computed, rank)};
+  for (auto& [name, values] : {std::pair{pose_name, pose}, std::pair{grid_name, measure(rotor.grid())}}) {
     arrays.push_back({name, std::int64_t(values.size()), {}});
     if (rank == 0) arrays.back().pieces.push_back({0, values});
   }

@@ -29,7 +29,9 @@ struct ComputedLoads {
 };
 ComputedLoads computed_loads(const aero::ResolvedRotor& rotor);
 
-/// Pose, loads and a measure of the grid of a rotor. `rank`: among those that have the air.
+/// `rank`: among those that have the air.
+SavedArray computed_loads_array(const ComputedLoads& computed, int rank);
+/// Pose, loads and a measure of the grid of a rotor.
 std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const ComputedLoads& computed, int rank);
 
 ComputedLoads computed_loads_in(const io::CheckpointReader& file, int blades);

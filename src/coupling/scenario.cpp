@@ -120,26 +120,44 @@ void check_saved_start(scene::Document& document, const Scenario& s) {
   if (s.sea.initial && s.sea.initial->state == "file") document.problem("sea.initial.state", why);
 }
 
-/// Rules between a resolved rotor and the bodies that carry it.
+/// Of a rotor that no body carries.
+void check_standing_actuator(scene::Document& document, const Scenario& s) {
+  aero::check_actuator(document, s.aero, s.rotor, "rotor.hub_m");
+  if (!s.rotor.operation.empty()) try {
+      aero::read_operation(s.rotor.operation);
+    } catch (const scene::SceneError& e) { document.problem("rotor.operation", e.what()); }
+  if (!s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
+  if (!s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
+}
+
+/// Of a rotor that goes through a standing grid with its bodies.
+void check_carried_actuator(scene::Document& document, const Scenario& s) {
+  const auto [rotor, hub_key] = placed_rotor(s);
+  aero::check_actuator(document, s.aero, rotor, hub_key);
+  if (!s.start.air.empty())
+    document.problem("start.air", fmt::format("takes the air of a blade-resolved rotor; that of aero.model \"{}\" settles by "
+                                              "start.air_steps",
+                                              s.aero.model));
+  if (s.aero.flow->start != "wind") document.problem("aero.flow.start", "must be \"wind\" where bodies carry the rotor");
+  if (s.wind.speed_m_s <= 0.0) document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
+}
+
+/// Rules between resolved air and the bodies that carry its rotor.
 void check_resolved_air(scene::Document& document, const Scenario& s) {
-  if (s.has_actuator())
-    return document.problem("aero.model",
-                            fmt::format("must not be \"{}\" beside [bodies]: its rotor stands at rotor.hub_m and turns "
-                                        "at rotor.speed_rpm; \"bem\" and \"blade_resolved\" go with bodies",
-                                        s.aero.model));
+  if (s.aero.flow->time == "steady")
+    document.problem("aero.flow.time", "must be \"bdf1\" or \"bdf2\" where bodies carry the rotor: it moves with them");
+  if (s.coupling.scheme == SchemeKind::monolithic)
+    document.problem("coupling.scheme", "must not be \"monolithic\": resolved air answers once per window; take \"cps2\"");
+  if (s.has_actuator()) return check_carried_actuator(document, s);
   if (!has_resolved_rotor(s))
     return document.problem("bodies", "have no effect beside an air without a rotor: give [aero.grid], or leave them out");
   aero::RotorOptions rotor = s.rotor;
   for (const auto& [name, joint] : s.joints)
     if (name == s.rotor.joint) rotor.axis = joint.axis, rotor.speed = 1.0;  // the bearing's motion gives the speed
   aero::check_resolved_rotor(document, s.aero, rotor, flow_wind(s), aero::wind_profile(s.wind));
-  if (s.aero.flow->time == "steady")
-    document.problem("aero.flow.time", "must be \"bdf1\" or \"bdf2\" where bodies carry the rotor: it moves with them");
   if (s.start.air_steps > 0 && rotor.axis.cross(flow_wind(s)).norm() > 1e-6 * rotor.axis.norm() * flow_wind(s).norm())
     document.problem("start.air_steps",
                      "needs the wind along the rotor's axis: seen from the turning rotor no other flow is steady");
-  if (s.coupling.scheme == SchemeKind::monolithic)
-    document.problem("coupling.scheme", "must not be \"monolithic\": a resolved rotor answers once per window; take \"cps2\"");
 }
 
 }  // namespace
@@ -157,6 +175,16 @@ std::span<const scene::SectionBase* const> all_sections() {
 Eigen::Vector3d flow_wind(const Scenario& s) {
   const double up = s.aero.flow ? s.aero.flow->incidence : 0.0, along = s.wind.speed_m_s * std::cos(up);
   return {along * std::cos(s.wind.direction), along * std::sin(s.wind.direction), s.wind.speed_m_s * std::sin(up)};
+}
+
+PlacedRotor placed_rotor(const Scenario& s) {
+  PlacedRotor placed{s.rotor, "rotor.hub_m"};
+  for (const auto& [name, joint] : s.joints)
+    if (name == s.rotor.joint) {
+      placed.rotor.hub_m = joint.point_m, placed.rotor.axis = joint.axis;
+      placed.hub_key = "joints." + name + ".point_m";
+    }
+  return placed;
 }
 
 aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
@@ -237,7 +265,7 @@ Scenario read_scenario(scene::Document& document) {
     document.problem("aero.flow.wall_distance",
                      "\"poisson\" is for grids that stand: with a resolved rotor it must be \"exact\"");
   if (!(s.has_rotor() && s.resolves_air()) && s.start.air_steps > 0)
-    document.problem("start.air_steps", "has no effect: there is no resolved rotor on a body");
+    document.problem("start.air_steps", "has no effect: there is no rotor in resolved air on a body");
   for (const auto& [key, given] :
        {std::pair{"start.air", !s.start.air.empty()}, std::pair{"output.air_interval_s", s.output.air_interval_s > 0.0}})
     if (!(s.has_rotor() && s.resolves_air()) && given)
@@ -246,7 +274,7 @@ Scenario read_scenario(scene::Document& document) {
   if (s.resolves_air() && s.aero.grid && s.aero.flow->motion)
     document.problem("aero.flow.motion", "has no effect: the grid of a rotor goes with the rotor");
   if (s.has_flow()) {
-    if (s.has_actuator()) aero::check_actuator(document, s.aero, s.rotor);
+    if (s.has_actuator()) check_standing_actuator(document, s);
     if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s), aero::wind_profile(s.wind));
     if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
     if (has_resolved_rotor(s) && !s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
@@ -301,7 +329,8 @@ std::string describe_bodies(const Scenario& s) {
 std::string describe_rotor(const Scenario& s) {
   if (has_resolved_rotor(s))
     return fmt::format("blade_resolved, {}{}", s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
-  if (s.has_actuator() && s.bodies.empty()) return fmt::format("{}, {}", s.aero.model, s.rotor.turbine);
+  if (s.has_actuator())
+    return fmt::format("{}, {}{}", s.aero.model, s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
   if (!s.has_rotor()) return "none";
   std::string text = fmt::format("{} on body {}", s.aero.model, s.rotor.body);
   if (s.rotor.operating_point == "table")

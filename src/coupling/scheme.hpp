@@ -30,8 +30,8 @@ enum class SchemeKind {
 
 /// Characteristic polynomials of a loose scheme, by rising power of the growth per window: kernels/coupling/loose_limits.hpp.
 struct LooseLimits {
-  std::vector<double> (*added_mass)(double ratio);  ///< of the fluid's added mass over the structure's
-  std::vector<double> (*damping)(double share);     ///< of a load c v over a window: c dt / m
+  std::vector<double> (*added_mass)(const CouplingOptions&, double ratio);  ///< of the fluid's added mass over the structure's
+  std::vector<double> (*damping)(const CouplingOptions&, double share);     ///< of a load c v over a window: c dt / m
 };
 
 /// Loose where it has a staggering, strong where it makes an object that iterates, monolithic where it has neither.
@@ -39,8 +39,8 @@ struct CouplingScheme {
   std::string_view name, help;
   std::vector<std::string> keys;
   Staggering (*staggering)(const CouplingOptions&) = nullptr;
-  LooseLimits limits{};     ///< of its staggering by the default options, which
-  std::string_view judged;  ///< check and messages call so
+  LooseLimits limits{};                                     ///< of its staggering
+  std::string (*judged)(const CouplingOptions&) = nullptr;  ///< what check and messages call it
   std::unique_ptr<StrongScheme> (*strong)(const CouplingOptions&) = nullptr;
 };
 

@@ -91,6 +91,9 @@ class SharedAir final : public AirSide {
         });
   }
 
+  void settle_in(const io::RunDirectory& directory) override {
+    if (own_) own_->settle_in(directory);
+  }
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
     return show([&] { return own_->begin(t, now); });
   }

@@ -267,7 +267,7 @@ std::vector<std::string> write_turbine(const Deck& ad, const RotorFrame& r, cons
            << "span_m,chord_m,twist_deg,thickness_pct,prebend_m,sweep_m\n";
   for (const Node& n : rows)
     planform << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", n.span + r.hub_radius, n.chord, n.twist,
-                            label(n.polar), n.bend, n.sweep);
+                            label(n.polar), n.bend, -n.sweep);  // BlSwpAC: positive against the rotation
 
   const auto files = std::size_t(ad.number({"NumAFfiles"}));
   const std::size_t names = *ad.find({"NumAFfiles"}) + 1;

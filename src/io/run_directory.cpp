@@ -18,7 +18,7 @@ namespace {
 /// Everything a run writes; --overwrite removes these and leaves a user's own files alone.
 constexpr std::string_view files_of_a_run[] = {"scene.toml",   "history.csv", "summary.json", "log.txt",
                                                "trace.json",   "report.html", "checkpoints",  "fields",
-                                               "spanwise.csv", "history.out", "history.outb"};
+                                               "spanwise.csv", "history.out", "history.outb", "settling"};
 
 bool holds(const fs::path& folder, std::string_view extension) {
   std::error_code none;
@@ -38,8 +38,9 @@ bool is_used(const fs::path& path) {
 /// Rows of a run that came to no checkpoint.
 constexpr std::string_view rows_before = "history_before_restart.csv";
 
-void remove_run(const fs::path& path) {
-  for (const auto name : files_of_a_run) fs::remove_all(path / name);
+void remove_run(const fs::path& path, std::string_view but = {}) {
+  for (const auto name : files_of_a_run)
+    if (name != but) fs::remove_all(path / name);
 }
 
 /// A folder that --restart finds without a checkpoint: a run that never came that far left nothing worth keeping but its rows.
@@ -52,7 +53,7 @@ void begin_anew(const fs::path& path) {
   spdlog::warn("--restart: no run in {} came as far as a checkpoint: THIS RUN BEGINS ANEW, at the scene's start{}", path.string(),
                fs::exists(history) ? "; the rows that are there are kept as " + kept.filename().string() : std::string());
   if (fs::exists(history)) fs::rename(history, kept);
-  remove_run(path);
+  remove_run(path, "settling");  // air that was settling goes on from there
 }
 
 /// Before anything is changed.
@@ -109,6 +110,13 @@ fs::path RunDirectory::default_path(MPI_Comm comm, const fs::path& scene) {
     chosen = path.string();
   }
   return from_root(comm, chosen);
+}
+
+void RunDirectory::forget_settling(MPI_Comm comm) const {
+  on_root(comm, [&] {
+    std::error_code ignored;
+    fs::remove_all(settling(), ignored);
+  });
 }
 
 void RunDirectory::write_scene(MPI_Comm comm, std::string_view echo) const {

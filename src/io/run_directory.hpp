@@ -46,8 +46,12 @@ class RunDirectory {
   std::filesystem::path trace() const { return path_ / "trace.json"; }
   std::filesystem::path report() const { return path_ / "report.html"; }
   std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
-  std::filesystem::path stop() const { return path_ / "stop"; }  ///< made by who wants the run to stop
+  std::filesystem::path settling() const { return path_ / "settling"; }  ///< of air that settles before the run
+  std::filesystem::path stop() const { return path_ / "stop"; }          ///< made by who wants the run to stop
   std::filesystem::path fields() const { return path_ / "fields"; }
+
+  /// The run has begun: what settled before is in its own checkpoints. Collective.
+  void forget_settling(MPI_Comm comm) const;
 
   /// Rank 0 writes scene.toml: the scene with every default spelled out. Collective.
   void write_scene(MPI_Comm comm, std::string_view echo) const;

@@ -155,8 +155,16 @@ def _spoken(run, name):
     return safe(f'<span title="{escape(_meaning(run, name))}">{escape(quantities.spoken(name))} <small class="code">{escape(name)}</small></span>')
 
 
+_MOTIONS = (".x_m", ".y_m", ".z_m", ".roll_deg", ".pitch_deg", ".yaw_deg")
+
+
+def _still(run, name):
+    """A motion that there is none of: of a turbine on land, say."""
+    return name.endswith(_MOTIONS) and not (abs(run.column(name)) > run.round_off(name)).any()
+
+
 def key_figures(run):
-    names = [n for n in quantities.key_columns(run.columns) if n in run.columns]
+    names = [n for n in quantities.key_columns(run.columns) if n in run.columns and not _still(run, n)]
     if not len(run.time) or not names:
         return ""
 

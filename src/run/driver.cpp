@@ -41,7 +41,7 @@ io::Summary Driver::run(Simulation& simulation) {
   io::History history;
   simulation.declare(history);
   Checkpoints checkpoints(simulation, directory_, history, world.comm);
-  const std::int64_t first = settings_.restart ? checkpoints.resume() : simulation.begin();
+  const std::int64_t first = settings_.restart ? checkpoints.resume() : simulation.begin(directory_);
   // A start that was cut short is not the one that the scene asks for.
   if (!settings_.restart && !stop_.agreed(world.comm).empty()) throw runtime::StopAsked();
   if (settings_.restart) spdlog::info("restart from t = {} s", timeline.window_end_s(first));
@@ -58,6 +58,7 @@ io::Summary Driver::run(Simulation& simulation) {
       const runtime::Span span(output->label());
       output->begin(first);
     }
+  if (!settings_.restart) directory_.forget_settling(world.comm);
 
   while (window < last && summary_.exit_code == 0) {
     ledger_.begin_window(window + 1, settings_.keep(window + 1));

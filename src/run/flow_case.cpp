@@ -7,15 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/partition/partition.hpp"
 #include "runtime/trace/ledger.hpp"
-#include "src/aero/flow/poisson.hpp"
 #include "src/aero/flow/transfer.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
+#include "src/aero/flow_tiles.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/coarsen.hpp"
-#include "src/aero/grid/wall_distance.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
@@ -72,20 +70,8 @@ FlowCase::FlowCase(aero::MultiBlockGrid grid, const coupling::Scenario& s, const
 void FlowCase::solve(aero::Tiling tiling, const coupling::Scenario& s, const runtime::World& world, int steps) {
   const aero::FlowOptions& o = *s.aero.flow;
   std::vector<aero::PatchCondition> conditions = aero::patch_conditions(o, tiling);
-  std::vector<int> ranks(std::size_t(tiling.size()), 0);
-  if (world.size > 1) ranks = runtime::partition_blocks(aero::tile_graph(tiling), {.ranks = world.size}).rank_of_block;
-  own_store_ = std::make_unique<aero::GridStore>(std::move(tiling), std::move(ranks), world.rank);
+  own_store_ = aero::flow_tiles(own_grid_, std::move(tiling), o, world, motion_.has_value());
   store_ = own_store_.get();
-  store_->build_all(own_grid_, motion_.has_value());
-  std::vector<std::string> no_slip;
-  for (const aero::PatchOptions& b : o.boundaries)
-    if (aero::sticks(b.condition)) no_slip.push_back(b.patch);
-  if (o.wall_distance == "poisson") {
-    aero::fill_wall_distance_by_poisson(*store_, no_slip, world.comm);
-  } else {
-    const aero::WallSurface surface = aero::wall_surface(own_grid_, no_slip);
-    for (const int tile : store_->owned()) aero::fill_wall_distance((*store_)[tile], surface);
-  }
   aero::FlowSetting setting =
       aero::flow_setting(o, s.environment.air_density_kg_m3, coupling::flow_wind(s), s.time.window_s, aero::wind_profile(s.wind));
   if (setting.time_order == 0) setting.march.max_steps = steps;
@@ -98,7 +84,7 @@ void FlowCase::solve(aero::Tiling tiling, const coupling::Scenario& s, const run
 
 /// The rotor's blades as forces in the air.
 void FlowCase::make_actuator(const coupling::Scenario& s, const runtime::World& world) {
-  aero::require_rotor_inside(own_grid_, s.rotor);
+  aero::require_rotor_inside(own_grid_, s.rotor, "rotor.hub_m");
   const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine);
   const aero::RotorPose pose = aero::hub_pose(s.rotor);
   const Eigen::Matrix3d frame = pose.hub.attitude.toRotationMatrix();
@@ -110,14 +96,9 @@ void FlowCase::make_actuator(const coupling::Scenario& s, const runtime::World& 
                      .azimuth = s.rotor.azimuth,
                      .blade_pitch = s.rotor.blade_pitch,
                      .hub = s.rotor.hub_m};
-  const double cell = aero::cell_at_rotor(*store_, s.rotor.hub_m, axis, turbine.planform.span.back(), world.comm);
-  const auto kind = s.aero.model == "actuator_line" ? aero::Actuator::Kind::lines : aero::Actuator::Kind::disc;
-  actuator_ = std::make_shared<aero::Actuator>(turbine, kind, s.aero.actuator.value_or(aero::ActuatorOptions()),
-                                               s.environment.air_density_kg_m3, cell);
-  actuator_->place(rotor_at_start_);
+  actuator_ = aero::make_actuator(s.aero, turbine, s.environment.air_density_kg_m3, *store_, rotor_at_start_, world.comm);
   solver_->set_body_force(actuator_);
-  spdlog::info("air: {} at {} points, {:.3g} cells of {:.4g} m to the radius", s.aero.model, actuator_->points().size(),
-               actuator_->tip_radius() / cell, cell);
+  spdlog::info("air: {}", actuator_->description());
 }
 
 /// The flow that aero.flow.start names: the wind, air at rest, or a Taylor-Green vortex.

@@ -70,7 +70,7 @@ void FlowSimulation::record() {
   march_.emplace(std::move(graph), runtime::ExecutorOptions{.records = records_, .watchdog_s = scenario_.runtime.watchdog_s});
 }
 
-std::int64_t FlowSimulation::begin() {
+std::int64_t FlowSimulation::begin(const io::RunDirectory&) {
   const runtime::Span span("aero/start");
   const aero::FlowOptions& options = *scenario_.aero.flow;
   if (options.preconditioner == "auto") {

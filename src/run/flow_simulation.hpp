@@ -25,7 +25,7 @@ class FlowSimulation final : public Simulation {
   const coupling::Timeline& timeline() const override { return timeline_; }
   std::int64_t file_number(std::int64_t window) const override { return window; }
 
-  std::int64_t begin() override;
+  std::int64_t begin(const io::RunDirectory& directory) override;
   void restore(const io::CheckpointReader& file) override;
   void save(io::CheckpointWriter& file) override;
   Advance advance(std::int64_t window, std::int64_t last) override;

@@ -42,8 +42,8 @@ class Simulation {
   virtual std::int64_t file_number(std::int64_t window) const = 0;
 
   /// The state that the scene starts from. Returns the window it is the end of: 0, below where bodies are held first, above where
-  /// start.file continues another run.
-  virtual std::int64_t begin() = 0;
+  /// start.file continues another run. What takes long to settle is kept in the directory.
+  virtual std::int64_t begin(const io::RunDirectory& directory) = 0;
   /// The state of a checkpoint of this run instead. Throws io::InputError where it is another run's.
   virtual void restore(const io::CheckpointReader& file) = 0;
   /// All that restore() wants, of the last window's end; of its start where the window failed.

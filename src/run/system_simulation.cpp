@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/trace/ledger.hpp"
+#include "src/coupling/flow_scene.hpp"
 #include "src/coupling/retries.hpp"
 #include "src/coupling/saved_air.hpp"
 #include "src/coupling/sea_output.hpp"
@@ -151,7 +152,8 @@ std::int64_t SystemSimulation::file_number(std::int64_t window) const {
   return floating_.timeline().tick_of_window(window) - floating_.first_tick();
 }
 
-std::int64_t SystemSimulation::begin() {
+std::int64_t SystemSimulation::begin(const io::RunDirectory& directory) {
+  if (parts_.has(air_part)) window_.air().settle_in(directory);
   std::int64_t window = -floating_.held_windows();
   if (floating_.scenario().start.file.empty()) {
     window_.begin(state_);  // rotor and bodies begin at t = 0, whatever is held before
@@ -234,7 +236,7 @@ void SystemSimulation::save(io::CheckpointWriter& file) {
   }
   save_library(floating_, file);
   coupling::write(file, parts_, air_part, window_.air().saved());
-  if (floating_.scenario().resolves_air()) write_air_settings(file, floating_.scenario());
+  if (has_resolved_rotor(floating_.scenario())) write_air_settings(file, floating_.scenario());
   if (!floating_.particle_plan()) return;
   sea::ParticleState particles;
   if (parts_.has(sea_part)) particles = floating_.particles()->save();

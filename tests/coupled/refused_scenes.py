@@ -191,12 +191,12 @@ aero.flow.generate.cell_m=1e-3
 aero.flow.generate.growth=1.0
 aero.flow.generate.growth=nan
 aero.flow.generate.cells=[10, 10, 10]
-aero.flow.generate.core_low_m=[-1000.0, -116.0, 0.0]
+aero.flow.generate.core_low_m=[-2000.0, -116.0, 0.0]
 aero.flow.generate.core_high_m=[-90.0, 116.0, 235.0]
-aero.flow.generate.core_high_m=[1060.0, 116.0, 235.0]
+aero.flow.generate.core_high_m=[1780.0, 116.0, 235.0]
 aero.flow.boundaries[4].condition="sea"
 wind.speed_m_s=0.0
-bodies.float.mass_kg=1e6 : aero.model
+bodies.float.mass_kg=1e6 : rotor.body
 """,
     "validation/naca0012/naca0012.toml": """
 aero.flow.grid="nothing.p3d"

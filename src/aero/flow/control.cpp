@@ -120,7 +120,8 @@ Verdict March::judge(const Norms& n, double load) {
   density_ = density, mass_ = std::sqrt(n.mass / n.cells), mean_ = total, model_ = std::sqrt(n.model);
   if (fresh) {
     first_ = std::max(density, reference_), before_ = total;
-    first_mean_ = std::max(total, reference_mean_), first_model_ = std::max(std::sqrt(n.model), reference_model_);
+    first_mean_ = std::max({total, reference_mean_, std::sqrt(n.forced)}),
+    first_model_ = std::max(std::sqrt(n.model), reference_model_);
     if (reference_ > 0.0) cfl_ = std::clamp(o_.cfl_start * first_ / density, cfl_, std::max(cfl_, o_.cfl_max));
   }
   first_ = std::max(first_, density);  // what an impulsive start stirs up counts as the start

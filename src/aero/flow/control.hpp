@@ -40,6 +40,7 @@ struct Norms {
   double cells = 1.0;
   double broken = 0.0;  ///< cells whose residual is not finite
   double noise = 0.0;   ///< sum of mean and model that round-off alone may have
+  double forced = 0.0;  ///< of squared scaled forces inside the air: what they do to an undisturbed flow
 };
 
 /// stopped: the run was asked to stop; a steady march goes on from there, a physical step is to be made again.
@@ -87,8 +88,8 @@ class March {
   double density_residual() const { return density_; }
   double mass_residual() const { return mass_; }
   double first_density_residual() const { return first_; }
-  /// The norm of all scaled flux balances over its start: the larger of the mean flow's and of turbulence's, which starts with as
-  /// much as the mean flow at least.
+  /// The norm of all scaled flux balances over its start, or over that of forces inside the air where a step starts nearer its
+  /// end: the larger of the mean flow's and of turbulence's, which starts with as much as the mean flow at least.
   double balance_drop() const;
   /// Marches so far that came to an end, and those of them that ended for want of steps.
   long ended() const { return ended_; }

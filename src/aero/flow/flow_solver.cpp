@@ -17,7 +17,7 @@ namespace spindrift::aero {
 
 namespace {
 
-constexpr int norm_count = 7;
+constexpr int norm_count = 8;
 
 Scales scales_of(const FlowSetting& s) {
   const double rho = gas::density(s.gas, s.stream), u = s.speed;
@@ -460,6 +460,19 @@ void FlowSolver::measure(FlowTile& tile, std::span<double> partial, std::span<do
     partial[0] += density, partial[1] += mean, partial[2] += model, partial[4] += mass;
   });
   partial[6] = runtime::StopRequest::asked() ? 1.0 : 0.0;
+  if (body_force_ && tile.source.size() > 0)
+    for_rows(tile.box, [&](int k, int j) {
+      double forced = 0.0;
+      for (int i = 0; i < tile.box.ni; ++i) {
+        const double* f = tile.source.data() + tile.inner.at(k, j, i);
+        for (int c = 0; c < mean_unknowns; ++c) {
+          const double scaled =
+              f[c * tile.inner.component] * g.volume_data.data()[g.cell_box.at(k, j, i)] / s.residual[std::size_t(c)];
+          forced += scaled * scaled;
+        }
+      }
+      partial[7] += forced;
+    });
   std::fill(loads.begin(), loads.end(), 0.0);
   add_loads(tile, tile.state.data(), viscous_, bands_, loads);
 }
@@ -472,7 +485,8 @@ void FlowSolver::judge() {
             .model = norm_sums_[2],
             .cells = double(cells()),
             .broken = norm_sums_[3],
-            .noise = norm_sums_[5]};
+            .noise = norm_sums_[5],
+            .forced = norm_sums_[7]};
   double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
   for (std::size_t p = 0; p < conditions_.size(); ++p)
     if (conditions_[p].loads)

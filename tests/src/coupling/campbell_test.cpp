@@ -6,6 +6,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/coupling/loose_limits.hpp"
+#include "src/coupling/limits.hpp"
 #include "tests/src/coupling/windows.hpp"
 
 using namespace spindrift;
@@ -13,8 +14,9 @@ using namespace spindrift::coupling;
 using namespace spindrift::coupling::test;
 
 namespace {
+using Catch::Matchers::Contains;
 const std::string case3 = SPINDRIFT_SOURCE_DIR "/inputs/leble_barakos/case3_engineering.toml";
-}
+}  // namespace
 
 TEST_CASE("1P of the DTU rotor and the sea states are the paper's, and meet near 9 m/s", "[coupling][fast]") {
   const auto floating = machine_of(case3, {});
@@ -67,6 +69,34 @@ TEST_CASE("no loose scheme will do where the air weighs as much as the machine",
   const LooseVerdict verdict = loose_verdict(*floating, start.state, c);
   CHECK(verdict.mass_ratio() > 1.0);
   for (const auto& scheme : verdict.schemes) CHECK_FALSE(scheme.will_do);
+}
+
+TEST_CASE("a scene's own loose scheme is judged by the order that it asks for, and refused beyond its limit",
+          "[coupling][fast]") {
+  const auto asked = [](int order, const std::string& window) {
+    return machine_of(case3, {"time.end_s=70.0", "time.window_s=" + window, "time.step_s=0.02", "coupling.scheme=css",
+                              "coupling.predictor_order=" + std::to_string(order)});
+  };
+  const auto judged = [&](int order) {
+    const auto floating = asked(order, "0.02");
+    const Start start = make_start(*floating);
+    const Campbell c = campbell(floating->scenario(), stability(*floating, start.state).linearisation, 8.8 * rad_s_per_rpm);
+    return loose_verdict(*floating, start.state, c).schemes.back();
+  };
+  const LooseVerdict::Scheme zero = judged(0), one = judged(1), two = judged(2);
+  CHECK(zero.name == "css0");
+  CHECK(two.name == "css2");
+  CHECK(zero.mass_ratio_limit == Approx(1.0).epsilon(1e-6));
+  CHECK(two.mass_ratio_limit == Approx(1.0 / 7.0).epsilon(1e-6));
+  CHECK(zero.window_limit_s == Approx(2.0 * one.window_limit_s).epsilon(1e-6));  // Euler's, and those of Adams and Bashforth
+  CHECK(two.window_limit_s == Approx(6.0 / 11.0 * one.window_limit_s).epsilon(1e-6));
+  const auto require = [&](int order) {
+    const auto floating = asked(order, "7");
+    const Start start = make_start(*floating);
+    require_limits(*floating, start.state, stability(*floating, start.state));
+  };
+  CHECK_NOTHROW(require(1));
+  CHECK_THROWS_WITH(require(2), Contains("time.window_s") && Contains("css2"));
 }
 
 TEST_CASE("what a scheme misses falls with its order in the window", "[coupling][fast]") {

@@ -64,7 +64,7 @@ struct SmallDeck {
         "\"adblade.dat\" ADBlFile(3)\n";
     files["adblade.dat"] =
         "---\n===\n4 NumBlNds\nBlSpn BlCrvAC BlSwpAC BlCrvAng BlTwist BlChord BlAFID\n(m) (m) (m) (deg) (deg) (m) (-)\n"
-        "0 0 0 0 12 2.5 1\n10 0.1 0 0 10 3 2\n25 0.5 0 0 4 2.5 2\n38 1.0 0 0 0 1 2\n";
+        "0 0 0 0 12 2.5 1\n10 0.1 0 0 10 3 2\n25 0.5 0 0 4 2.5 2\n38 1.0 0.2 0 0 1 2\n";
     files["root.dat"] = "! a cylinder\n1 NumTabs\n3 NumAlf\n! Alpha Cl Cd Cm\n-180 0 0.5 0\n0 0 0.5 0\n180 0 0.5 0\n";
     files["foil.dat"] =
         "! a flat plate\n1 NumTabs\n5 NumAlf\n! Alpha Cl Cd Cm\n! (deg) (-) (-) (-)\n-180 0 0.02 0\n-15 -1.2 0.1 0\n0 0.3 0.01 "
@@ -143,6 +143,9 @@ TEST_CASE("the deck's platform, rotor, water, lines and waves are the scene's", 
   CHECK(s.rotor.axis.z() == Approx(-std::sin(6.0 * radians_per_degree)));
   CHECK(s.rotor.speed == Approx(10.0 * rad_s_per_rpm));
   CHECK(s.rotor.blade_pitch == Approx(3.0 * radians_per_degree));
+  const aero::Planform planform = aero::read_turbine(s.rotor.turbine).planform;
+  CHECK(planform.prebend.back() == 1.0);
+  CHECK(planform.sweep.back() == -0.2);  // BlSwpAC is positive against the rotation, sweep_m with it
   CHECK(s.wind.speed_m_s == 9.0);
   CHECK(s.wind.shear_exponent == 0.1);
   CHECK(s.sea.model == "potential");

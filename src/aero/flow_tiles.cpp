@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow_tiles.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/partition/partition.hpp"
+#include "src/aero/flow/poisson.hpp"
+#include "src/aero/grid/wall_distance.hpp"
+
+namespace spindrift::aero {
+
+std::unique_ptr<GridStore> flow_tiles(const MultiBlockGrid& grid, Tiling tiling, const FlowOptions& o,
+                                      const runtime::World& world, bool moves) {
+  std::vector<int> ranks(std::size_t(tiling.size()), 0);
+  if (world.size > 1) ranks = runtime::partition_blocks(tile_graph(tiling), {.ranks = world.size}).rank_of_block;
+  auto store = std::make_unique<GridStore>(std::move(tiling), std::move(ranks), world.rank);
+  store->build_all(grid, moves);
+  std::vector<std::string> no_slip;
+  for (const PatchOptions& b : o.boundaries)
+    if (sticks(b.condition)) no_slip.push_back(b.patch);
+  if (o.wall_distance == "poisson") {
+    fill_wall_distance_by_poisson(*store, no_slip, world.comm);
+  } else {
+    const WallSurface surface = wall_surface(grid, no_slip);
+    for (const int tile : store->owned()) fill_wall_distance((*store)[tile], surface);
+  }
+  return store;
+}
+
+}  // namespace spindrift::aero

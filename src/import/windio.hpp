@@ -1,0 +1,16 @@
+// A turbine from a file of the IEA ontology (windIO 1.x, as WISDEM reads it): blades, polars, hub, axis, operating table.
+// Called by src/app/import.cpp; tested in tests/src/import/windio_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "src/import/openfast.hpp"
+
+namespace spindrift::decks {
+
+/// Reads the YAML file and writes turbine.toml, its tables and a scene of the standing rotor at its rated wind into a folder that
+/// is made where it is missing. Throws scene::SceneError naming file, line and key of what cannot be read.
+Imported import_windio(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+}  // namespace spindrift::decks

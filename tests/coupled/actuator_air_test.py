@@ -1,0 +1,153 @@
+"""Actuator disc and lines in resolved air whose turbine stands on bodies: the flow of the same rotor without bodies where they do not move, same bits
+however it is run, what is refused. Usage: actuator_air_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
+import csv
+import os
+import unittest
+
+from running import Folder, ROOT, spindrift
+
+# Four cells to the radius and sides at five radii: what is tested is the exchange, not the flow.
+FLOW = """
+[wind]
+speed_m_s = 11.0
+[rotor]
+turbine = "%s/inputs/turbines/dtu_10mw.toml"
+%%s
+[aero]
+model = "actuator_line"
+[aero.flow]
+time = "bdf2"
+viscous = "none"
+physical_far_field = true
+drop = 1e-2
+max_pseudo_steps = 10
+boundaries = [
+  {patch = "x_min", condition = "far_field"},
+  {patch = "x_max", condition = "far_field"},
+  {patch = "y_min", condition = "far_field"},
+  {patch = "y_max", condition = "far_field"},
+  {patch = "z_min", condition = "symmetry"},
+  {patch = "z_max", condition = "far_field"},
+]
+[aero.flow.generate]
+kind = "stretched_box"
+cell_m = 22.0
+growth = 1.4
+low_m = [-450.0, -450.0, 0.0]
+high_m = [450.0, 450.0, 550.0]
+core_low_m = [-50.0, -110.0, 0.0]
+core_high_m = [50.0, 110.0, 220.0]
+""" % ROOT
+FLOATING = """
+base = "%s/inputs/leble_barakos/platform.toml"
+[time]
+end_s = 2.4
+window_s = 0.3
+step_s = 0.05
+[sea]
+model = "hydrostatic"
+[start]
+air_steps = 10
+""" % ROOT + FLOW % ""
+HELD = """
+[time]
+end_s = 1.5
+window_s = 0.3
+step_s = 0.05
+[bodies.rotor]
+mass_kg = 227962.0
+inertia_kg_m2 = [1.56e8, 7.84e7, 7.84e7]
+centre_m = [0.0, 0.0, 119.0]
+[joints.bearing]
+type = "revolute"
+bodies = ["earth", "rotor"]
+point_m = [0.0, 0.0, 119.0]
+axis = [1.0, 0.0, 0.0]
+[joints.bearing.rotation]
+speed_rpm = 8.8
+""" + FLOW % 'body = "rotor"\njoint = "bearing"'
+ALONE = """
+[time]
+end_s = 1.5
+window_s = 0.3
+""" + FLOW % "hub_m = [0.0, 0.0, 119.0]\naxis = [1.0, 0.0, 0.0]\nspeed_rpm = 8.8"
+
+
+class ActuatorAir(Folder):
+    def run_scene(self, text, name, *arguments, settings=(), ranks=0, threads=1, code=0):
+        scene = self.path / "scene.toml"
+        scene.write_text(text)
+        done = spindrift("run", scene, "--quiet", "--no-report", "--out", self.path / name, *arguments, settings=settings, ranks=ranks,
+                         env={**os.environ, "OMP_NUM_THREADS": str(threads)})
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def rows(self, name):
+        with open(self.path / name / "history.csv") as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def text(self, name):
+        return (self.path / name / "history.csv").read_text()
+
+    def test_a_rotor_whose_body_is_held_has_the_flow_of_the_rotor_alone(self):
+        for model in ("actuator_line", "actuator_disc"):
+            with self.subTest(model):
+                self.run_scene(HELD, model, settings=[f"aero.model={model}"])
+                self.run_scene(ALONE, model + "_alone", settings=[f"aero.model={model}"])
+                held, alone = self.rows(model)[1:], self.rows(model + "_alone")
+                # The air by itself writes a row for each of its pseudo-steps or for each window; the last is the same instant.
+                for column in ("rotor.thrust_N", "rotor.torque_N_m"):
+                    self.assertAlmostEqual(held[-1][column] / alone[-1][column], 1.0, delta=1e-9)
+                self.assertGreater(held[-1]["rotor.thrust_N"], 1e6)
+
+    def test_the_same_bits_however_it_is_run(self):
+        for model, more in (("actuator_line", []), ("actuator_disc", []), ("actuator_line", ["coupling.scheme=iqn_ils"])):
+            with self.subTest(model=model, more=more):
+                settings = [f"aero.model={model}", *more]
+                name = model + "".join(more)
+                self.run_scene(FLOATING, name, settings=settings)
+                self.run_scene(FLOATING, name + "t", settings=settings, threads=2)
+                self.assertEqual(self.text(name), self.text(name + "t"))
+                self.run_scene(FLOATING, name + "r", settings=settings, ranks=2)
+                self.assertEqual(self.text(name), self.text(name + "r"))
+                self.run_scene(FLOATING, name + "p", "--until", 1.2, settings=settings, threads=2)
+                self.run_scene(FLOATING, name + "p", "--restart", settings=settings)
+                self.assertEqual(self.text(name), self.text(name + "p"))
+
+    def test_air_and_sea_on_ranks_of_their_own(self):
+        self.run_scene(FLOATING, "shared")
+        self.run_scene(FLOATING, "split", settings=["coupling.placement=split", "coupling.air_ranks=1"], ranks=2)
+        self.assertEqual(self.text("shared"), self.text("split"))
+
+    def test_lines_tell_each_blade_and_leave_loads_along_the_span(self):
+        self.run_scene(FLOATING, "run")
+        last = self.rows("run")[-1]
+        self.assertAlmostEqual(sum(last[f"rotor.blade_{b}.thrust_N"] for b in (1, 2, 3)) / last["rotor.thrust_N"], 1.0, delta=1e-12)
+        with open(self.path / "run/spanwise.csv") as file:
+            span = list(csv.DictReader(file))
+        thrust = sum(float(s["length_m"]) * float(s["normal_N_m"]) for s in span)
+        self.assertAlmostEqual(thrust / last["rotor.thrust_N"], 1.0, delta=1e-6)
+
+    def test_blades_that_leave_the_grid_end_the_run_by_name(self):
+        said = self.run_scene(FLOATING, "run", settings=["aero.flow.generate.high_m=[450.0, 450.0, 208.5]", "aero.flow.generate.core_high_m=[50.0, 110.0, 208.5]"],
+                              code=3)
+        self.assertIn("blades have left the grid of the air, hub at", said)
+
+    def test_what_cannot_be_is_refused(self):
+        for settings, key, why in (
+            (["aero.flow.time=steady"], "aero.flow.time", 'must be "bdf1" or "bdf2"'),
+            (["coupling.scheme=monolithic"], "coupling.scheme", 'must not be "monolithic"'),
+            ([f"start.air={ROOT}/README.md"], "start.air", "takes the air of a blade-resolved rotor"),
+            (["aero.flow.start=rest"], "aero.flow.start", 'must be "wind"'),
+            (["aero.flow.generate.high_m=[450.0, 450.0, 180.0]", "aero.flow.generate.core_high_m=[50.0, 110.0, 180.0]"], "joints.bearing.point_m",
+             "puts the rotor out of the grid"),
+        ):
+            with self.subTest(key):
+                said = self.run_scene(FLOATING, "run", settings=settings, code=2)
+                self.assertIn(key, said)
+                self.assertIn(why, said)
+                self.assertFalse((self.path / "run").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
