@@ -38,8 +38,8 @@ Turbine with_elements_below(Turbine turbine, double longest) {
         if ((old.*values).empty()) return;
         (p.*values).push_back((1.0 - s) * (old.*values)[i] + s * (old.*values)[i + 1]);
       };
-      for (auto values :
-           {&Planform::span, &Planform::chord, &Planform::twist, &Planform::thickness, &Planform::prebend, &Planform::sweep})
+      for (auto values : {&Planform::span, &Planform::chord, &Planform::twist, &Planform::thickness, &Planform::prebend,
+                          &Planform::sweep, &Planform::polar})
         add(values);
     }
   }
@@ -77,13 +77,14 @@ double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const E
   return largest;
 }
 
-Actuator::Actuator(const Turbine& turbine, Kind kind, const ActuatorOptions& options, double air_density, double cell)
+Actuator::Actuator(const Turbine& turbine, Kind kind, const ActuatorOptions& options, double air_density, double cell,
+                   double kinematic_viscosity)
     : kind_(kind),
       corrected_(options.correction == "filtered"),
       blades_(turbine.blades),
       air_density_(air_density),
       cell_(cell),
-      sections_(with_elements_below(turbine, narrowest(turbine, options, cell)), "madsen", air_density) {
+      sections_(with_elements_below(turbine, narrowest(turbine, options, cell)), "madsen", air_density, {}, kinematic_viscosity) {
   const std::size_t n = sections_.elements();
   for (std::size_t e = 0; e < n; ++e)
     width_.push_back(std::max(options.width_cells * cell, options.width_chords * sections_.section(e).chord));
@@ -201,10 +202,11 @@ void Actuator::spread(std::size_t n, FlowTile& tile) const {
 void Actuator::section_loads(Point& p) const {
   const BladeElementMomentum::BladeSection s = sections_.section(p.element);
   const double pitch = rotor_.pitches.empty() || kind_ == Kind::disc ? rotor_.blade_pitch : rotor_.pitches[std::size_t(p.blade)];
+  const SectionPolars::InUse polars = sections_.polars(p.element, std::hypot(p.normal_wind, p.tangential_wind));
   double lift = 0.0;
   const ElementState state =
       element_forces(sections_.annulus(p.element, pitch), p.normal_wind, p.tangential_wind, [&](double attack) {
-        const SectionForce f = sections_.section_force(p.element, attack);
+        const SectionForce f = polars(attack);
         lift = f.lift;
         return f;
       });
@@ -413,7 +415,8 @@ std::shared_ptr<Actuator> make_actuator(const AeroOptions& aero, const Turbine& 
                                         const GridStore& store, const DiscMotion& rotor, MPI_Comm comm) {
   const double cell = cell_at_rotor(store, rotor.hub, rotor.axis, turbine.planform.span.back(), comm);
   const auto kind = aero.model == "actuator_line" ? Actuator::Kind::lines : Actuator::Kind::disc;
-  auto actuator = std::make_shared<Actuator>(turbine, kind, aero.actuator.value_or(ActuatorOptions()), air_density, cell);
+  auto actuator = std::make_shared<Actuator>(turbine, kind, aero.actuator.value_or(ActuatorOptions()), air_density, cell,
+                                             aero.kinematic_viscosity(air_density));
   actuator->place(rotor);
   return actuator;
 }

@@ -28,8 +28,9 @@ double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const E
 class Actuator final : public BodyForce {
  public:
   enum class Kind { disc, lines };
-  /// `cell`: at the rotor [m]; `air_density` [kg/m3].
-  Actuator(const Turbine& turbine, Kind kind, const ActuatorOptions& options, double air_density, double cell);
+  /// `cell`: at the rotor [m]; `air_density` [kg/m3]; `kinematic_viscosity` [m2/s]: for polars by Reynolds number.
+  Actuator(const Turbine& turbine, Kind kind, const ActuatorOptions& options, double air_density, double cell,
+           double kinematic_viscosity = air_kinematic_viscosity);
 
   /// Where the rotor is and how it moves; the velocities sampled next are those that its blades meet.
   void place(const DiscMotion& rotor);

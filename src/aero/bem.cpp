@@ -6,53 +6,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <iterator>
-
-#include "kernels/base/interpolation.hpp"
 
 namespace spindrift::aero {
 
-namespace {
-
-/// Polar of a thickness between two of the turbine's, on the angles of both; outside them the nearest.
-Polar blend(const std::vector<Polar>& polars, double thickness) {
-  const auto above = std::find_if(polars.begin(), polars.end(), [&](const Polar& p) { return p.thickness >= thickness; });
-  if (above == polars.end()) return polars.back();
-  if (above == polars.begin()) return polars.front();
-  const Polar &thick = *above, &thin = *(above - 1);
-  const double s = (thickness - thin.thickness) / (thick.thickness - thin.thickness);
-  Polar mix{thickness, {}, {}, {}};
-  if (thin.stall && thick.stall) {
-    const auto between = [&](double StallOptions::*value) {
-      return (1.0 - s) * (*thin.stall).*value + s * (*thick.stall).*value;
-    };
-    mix.stall = {between(&StallOptions::normal_slope), between(&StallOptions::zero_lift), between(&StallOptions::drag_0),
-                 between(&StallOptions::critical_normal), between(&StallOptions::critical_normal_low)};
-    if (thin.stall->normal_slope * thick.stall->normal_slope == 0.0) mix.stall->normal_slope = 0.0;
-  }
-  std::set_union(thin.attack.begin(), thin.attack.end(), thick.attack.begin(), thick.attack.end(),
-                 std::back_inserter(mix.attack));
-  for (const double a : mix.attack) {
-    const auto at = [&](const std::vector<double> Polar::*values) {
-      return (1.0 - s) * interpolate_linear(thin.attack, thin.*values, a) +
-             s * interpolate_linear(thick.attack, thick.*values, a);
-    };
-    mix.lift.push_back(at(&Polar::lift)), mix.drag.push_back(at(&Polar::drag));
-  }
-  return mix;
-}
-
-DynamicStallBeddoesLeishman leishman_of(const Polar& polar) {
-  if (!polar.stall) return DynamicStallBeddoesLeishman::of(polar.attack, polar.lift, polar.drag);
-  const StallOptions& s = *polar.stall;
-  return {s.zero_lift, s.normal_slope, s.drag_0, s.critical_normal, s.critical_normal_low, true};
-}
-
-}  // namespace
-
 BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density,
-                                           const UnsteadyFlow& unsteady)
-    : unsteady_(unsteady), blades_(turbine.blades), air_density_(air_density) {
+                                           const UnsteadyFlow& unsteady, double kinematic_viscosity)
+    : unsteady_(unsteady), blades_(turbine.blades), air_density_(air_density), kinematic_viscosity_(kinematic_viscosity) {
   if (induction == InductionBuhl::name) induction_ = InductionBuhl();
   const Planform& p = turbine.planform;
   const double cone_sine = std::sin(turbine.precone), cone_cosine = std::cos(turbine.precone);
@@ -62,22 +21,9 @@ BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::st
   for (std::size_t i = 0; i + 1 < p.span.size(); ++i) {
     const auto middle = [&](const std::vector<double>& values) { return 0.5 * (values[i] + values[i + 1]); };
     const double outward = radius(i + 1) - radius(i), downwind = axial(i + 1) - axial(i), length = std::hypot(outward, downwind);
-    const Polar polar = blend(turbine.polars, middle(p.thickness));
     elements_.push_back({0.5 * (radius(i) + radius(i + 1)), 0.5 * (axial(i) + axial(i + 1)), -downwind / length, outward / length,
-                         length, middle(p.chord), middle(p.twist), attack_.size(), polar.attack.size(),
-                         DynamicStallOye::of(polar.attack, polar.lift), leishman_of(polar)});
-    attack_.insert(attack_.end(), polar.attack.begin(), polar.attack.end());
-    lift_.insert(lift_.end(), polar.lift.begin(), polar.lift.end());
-    drag_.insert(drag_.end(), polar.drag.begin(), polar.drag.end());
+                         length, middle(p.chord), middle(p.twist), SectionPolars(turbine.polars, middle(p.place()))});
   }
-}
-
-SectionForce BladeElementMomentum::polar(const Element& e, double attack) const {
-  const double a = std::remainder(attack, 2.0 * pi);
-  const std::span<const double> angles(attack_.data() + e.first, e.rows);
-  const std::size_t i = interval(angles, a), j = e.first + i;
-  const double s = std::clamp((a - angles[i]) / (angles[i + 1] - angles[i]), 0.0, 1.0);
-  return {(1.0 - s) * lift_[j] + s * lift_[j + 1], (1.0 - s) * drag_[j] + s * drag_[j + 1]};
 }
 
 Annulus BladeElementMomentum::annulus(const Element& e, double blade_pitch) const {
@@ -87,7 +33,7 @@ Annulus BladeElementMomentum::annulus(const Element& e, double blade_pitch) cons
 ElementState BladeElementMomentum::solve(std::size_t element, double normal_wind, double tangential_wind,
                                          double blade_pitch) const {
   const Element& e = elements_[element];
-  const auto section = [&](double a) { return polar(e, a); };
+  const SectionPolars::InUse section = in_use(e, normal_wind, tangential_wind);
   return std::visit(
       [&](const auto& induction) {
         return solve_element(annulus(e, blade_pitch), normal_wind, tangential_wind, induction, section);
@@ -112,16 +58,16 @@ void BladeElementMomentum::for_each_place(const Wind& wind, const DiscMotion& ro
       if (rotor.tower) air = rotor.tower->disturbed(rotor.tower_frame, air, rotor.hub + arm);
       const Eigen::Vector3d relative = air - rotor.hub_velocity;
       const Eigen::Vector3d normal = e.normal_axial * rotor.axis + e.normal_radial * out, met = relative - rotor.omega.cross(arm);
-      visit(Place{index++, e, annulus(e, pitch), arm, normal, ahead, met.dot(normal), -met.dot(ahead), skew,
-                  e.radius / tip_radius_ * out.dot(downstream)});
+      const double normal_wind = met.dot(normal), tangential_wind = -met.dot(ahead);
+      visit(Place{index++, e, annulus(e, pitch), arm, normal, ahead, normal_wind, tangential_wind, skew,
+                  e.radius / tip_radius_ * out.dot(downstream), in_use(e, normal_wind, tangential_wind)});
     }
   }
 }
 
 ElementState BladeElementMomentum::balance(const Place& at) const {
-  const auto section = [&](double a) { return polar(at.element, a); };
   return std::visit(
-      [&](const auto& induction) { return solve_element(at.ring, at.normal_wind, at.tangential_wind, induction, section); },
+      [&](const auto& induction) { return solve_element(at.ring, at.normal_wind, at.tangential_wind, induction, at.polars); },
       induction_);
 }
 
@@ -145,7 +91,7 @@ void BladeElementMomentum::for_each_force(const Wind& wind, const DiscMotion& ro
                                           const Visit& visit) const {
   for_each_place(wind, rotor, t, [&](const Place& at) {
     const Element& e = at.element;
-    const auto section = [&](double a) { return polar(e, a); };
+    const SectionPolars::InUse& section = at.polars;
     const bool leishman = unsteady_.stall == UnsteadyFlow::Stall::beddoes_leishman;
     ElementState s;
     if (memory.empty() && !leishman) {
@@ -153,16 +99,17 @@ void BladeElementMomentum::for_each_force(const Wind& wind, const DiscMotion& ro
     } else if (memory.empty()) {
       const Induced induced = steady(at);
       const double beta = prandtl_glauert(flow(at, induced).speed);
-      s = forces(at, induced, [&](double a) { return e.leishman.still(std::remainder(a, 2.0 * pi), beta, section); });
+      const DynamicStallBeddoesLeishman stall = section.leishman();
+      s = forces(at, induced, [&](double a) { return stall.still(std::remainder(a, 2.0 * pi), beta, section); });
     } else {
       const Past past = recalled(memory, at.index);
       const Induced induced = unsteady_.inflow ? Induced{past.normal.now, past.tangential.now} : steady(at);
       const double beta = leishman ? prandtl_glauert(flow(at, induced).speed) : 1.0;
       s = forces(at, induced, [&](double a) {
         const double attack = std::remainder(a, 2.0 * pi);
-        if (leishman) return e.leishman.force(past.leishman, attack, beta, section);
+        if (leishman) return section.leishman().force(past.leishman, attack, beta, section);
         SectionForce f = section(a);
-        if (unsteady_.stall == UnsteadyFlow::Stall::oye) f.lift = e.stall.lift(attack, f.lift, past.separation);
+        if (unsteady_.stall == UnsteadyFlow::Stall::oye) f.lift = section.oye().lift(attack, f.lift, past.separation);
         return f;
       });
     }
@@ -186,6 +133,22 @@ void BladeElementMomentum::add_root_loads(const Wind& wind, const DiscMotion& ro
   for_each_force(wind, rotor, t, memory, [&](const Place& at, const Eigen::Vector3d& force, bool) {
     roots[at.index / elements_.size()].add_force(force, at.arm);
   });
+}
+
+std::optional<ReynoldsReach> BladeElementMomentum::reynolds(const Wind& wind, const DiscMotion& rotor, double t) const {
+  ReynoldsReach reach;
+  for_each_place(wind, rotor, t, [&](const Place& at) {
+    const SectionPolars& polars = at.element.polars;
+    if (!polars.depend_on_reynolds()) return;
+    const double number = reynolds(at.element, at.normal_wind, at.tangential_wind);
+    const auto widen = [](bool first, double low, double high, double& least, double& greatest) {
+      least = first ? low : std::min(least, low), greatest = first ? high : std::max(greatest, high);
+    };
+    widen(reach.elements++ == 0, number, number, reach.least, reach.greatest);
+    if (number < polars.least_reynolds() || number > polars.greatest_reynolds())
+      widen(reach.outside++ == 0, polars.least_reynolds(), polars.greatest_reynolds(), reach.table_least, reach.table_greatest);
+  });
+  return reach.elements > 0 ? std::optional(reach) : std::nullopt;
 }
 
 std::size_t BladeElementMomentum::memory_size() const {
@@ -228,10 +191,9 @@ void BladeElementMomentum::begin(const Wind& wind, const DiscMotion& rotor, doub
     const Induced induced = steady(at);
     const auto [normal, tangential] = induced;
     const auto [attack, speed] = flow(at, induced);
-    const double f = still_separation(at.element, attack);
+    const double f = at.polars.oye().separation(attack, at.polars(attack).lift);
     Past past{{normal, normal, normal}, {tangential, tangential, tangential}, f, f, {}};
-    if (past_size() == long_past)
-      past.leishman = at.element.leishman.settled(attack, prandtl_glauert(speed), [&](double a) { return polar(at.element, a); });
+    if (past_size() == long_past) past.leishman = at.polars.leishman().settled(attack, prandtl_glauert(speed), at.polars);
     store(past, memory, at.index);
   });
 }
@@ -257,12 +219,12 @@ void BladeElementMomentum::remember(const Wind& wind, const DiscMotion& rotor, d
       past.normal = {normal, normal, normal}, past.tangential = {tangential, tangential, tangential};
     }
     const auto [attack, speed] = flow(at, {past.normal.now, past.tangential.now});
-    const double still = still_separation(at.element, attack);
+    const double still = at.polars.oye().separation(attack, at.polars(attack).lift);
     past.separation = DynamicStallOye::advance(past.separation, past.still_separation, still, h, at.ring.chord, speed);
     past.still_separation = still;
     if (past_size() == long_past)
-      past.leishman = at.element.leishman.advance(past.leishman, attack, prandtl_glauert(speed), h, at.ring.chord, speed,
-                                                  [&](double a) { return polar(at.element, a); });
+      past.leishman =
+          at.polars.leishman().advance(past.leishman, attack, prandtl_glauert(speed), h, at.ring.chord, speed, at.polars);
     store(past, memory, at.index);
   });
 }

@@ -19,7 +19,7 @@
 #include "kernels/rotor/blade_element.hpp"
 #include "kernels/rotor/dynamic_inflow_oye.hpp"
 #include "kernels/rotor/dynamic_stall_beddoes_leishman.hpp"
-#include "kernels/rotor/dynamic_stall_oye.hpp"
+#include "src/aero/section_polars.hpp"
 #include "src/aero/tower.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
@@ -58,11 +58,18 @@ struct UnsteadyFlow {
   double speed_of_sound = 340.0;  ///< for Beddoes & Leishman [m/s]
 };
 
+/// Reynolds numbers of the chord at the elements whose polars depend on it.
+struct ReynoldsReach {
+  double least = 0.0, greatest = 0.0;              ///< that the elements have
+  double table_least = 0.0, table_greatest = 0.0;  ///< of the tables of those that are outside of theirs
+  int elements = 0, outside = 0;                   ///< of all blades
+};
+
 class BladeElementMomentum {
  public:
-  /// `induction`: "madsen" or "buhl".
+  /// `induction`: "madsen" or "buhl". `kinematic_viscosity` [m2/s]: for polars by Reynolds number.
   BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density_kg_m3,
-                       const UnsteadyFlow& unsteady = {});
+                       const UnsteadyFlow& unsteady = {}, double kinematic_viscosity = air_kinematic_viscosity);
 
   /// `memory`: what the flow remembers; without it the flow is steady.
   DiscLoad operator()(const Wind& wind, const DiscMotion& rotor, double t = 0.0, std::span<const double> memory = {}) const;
@@ -79,6 +86,9 @@ class BladeElementMomentum {
   /// After h, at whose end t the rotor moves so.
   void remember(const Wind& wind, const DiscMotion& rotor, double t, double h, std::span<double> memory) const;
 
+  /// Empty where no polar depends on it.
+  std::optional<ReynoldsReach> reynolds(const Wind& wind, const DiscMotion& rotor, double t) const;
+
   double tip_radius() const { return tip_radius_; }
   /// Sections as other models need them, which find the wind at the blades by themselves.
   struct BladeSection {
@@ -91,8 +101,8 @@ class BladeElementMomentum {
     const Element& e = elements_[element];
     return {e.radius, e.axial, e.normal_radial, e.normal_axial, e.length, e.chord, e.twist};
   }
-  /// Of the blended polar at any angle of attack [rad].
-  SectionForce section_force(std::size_t element, double attack) const { return polar(elements_[element], attack); }
+  /// Of an element at this speed relative to the air [m/s]; holds as long as the rotor does.
+  SectionPolars::InUse polars(std::size_t element, double speed) const { return in_use(elements_[element], speed, 0.0); }
   Annulus annulus(std::size_t element, double blade_pitch) const { return annulus(elements_[element], blade_pitch); }
   double radius(std::size_t element) const { return elements_[element].radius; }
   double chord(std::size_t element) const { return elements_[element].chord; }
@@ -105,9 +115,7 @@ class BladeElementMomentum {
     double radius, axial;                ///< of its middle, from the hub [m]; axial downwind
     double normal_radial, normal_axial;  ///< its normal
     double length, chord, twist;         ///< [m], [m], [rad]
-    std::size_t first, rows;             ///< its polar in attack_, lift_, drag_
-    DynamicStallOye stall;
-    DynamicStallBeddoesLeishman leishman;
+    SectionPolars polars;
   };
   /// An element of one blade in the flow.
   struct Place {
@@ -117,6 +125,7 @@ class BladeElementMomentum {
     Eigen::Vector3d arm, normal, ahead;   ///< from the hub [m]; units
     double normal_wind, tangential_wind;  ///< undisturbed, as solve_element has them [m/s]
     double skew, across;                  ///< as `skewed` has them
+    SectionPolars::InUse polars;          ///< at the Reynolds number of those winds
   };
   /// Velocities that the wake induces along the normal and against the motion, before skew [m/s].
   struct Induced {
@@ -134,7 +143,13 @@ class BladeElementMomentum {
   Past recalled(std::span<const double> memory, std::size_t index) const;
   void store(const Past& past, std::span<double> memory, std::size_t index) const;
 
-  SectionForce polar(const Element& e, double attack) const;
+  /// Of these winds across the section [m/s].
+  double reynolds(const Element& e, double normal_wind, double tangential_wind) const {
+    return std::hypot(normal_wind, tangential_wind) * e.chord / kinematic_viscosity_;
+  }
+  SectionPolars::InUse in_use(const Element& e, double normal_wind, double tangential_wind) const {
+    return e.polars.depend_on_reynolds() ? e.polars.at(reynolds(e, normal_wind, tangential_wind)) : e.polars.at_any();
+  }
   template <class Visit>
   void for_each_place(const Wind& wind, const DiscMotion& rotor, double t, const Visit& visit) const;
   /// visit(place, force [N], whether the element found its induction).
@@ -152,15 +167,13 @@ class BladeElementMomentum {
   };
   Flow flow(const Place& at, const Induced& induced) const;
   double prandtl_glauert(double speed) const;
-  double still_separation(const Element& e, double attack) const { return e.stall.separation(attack, polar(e, attack).lift); }
   Annulus annulus(const Element& e, double blade_pitch) const;
 
   std::variant<InductionMadsen, InductionBuhl> induction_;
   UnsteadyFlow unsteady_;
   int blades_;
-  double air_density_, hub_radius_, tip_radius_;
+  double air_density_, kinematic_viscosity_, hub_radius_, tip_radius_;
   std::vector<Element> elements_;
-  std::vector<double> attack_, lift_, drag_;  ///< polars of all elements, blended in thickness
 };
 
 }  // namespace spindrift::aero

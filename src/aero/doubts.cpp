@@ -74,6 +74,17 @@ void doubt_load(scene::Doubts& doubts, const WindOptions& wind, double air_densi
   }
 }
 
+void doubt_reynolds(scene::Doubts& doubts, const ReynoldsReach& reach) {
+  if (reach.outside == 0) return;
+  doubts.push_back(
+      {"rotor.turbine",
+       fmt::format("Reynolds numbers from {:.3g} to {:.3g} along the blades at the start, at {} of {} elements outside "
+                   "of their polars' tables, which go from {:.3g} to {:.3g}",
+                   reach.least, reach.greatest, reach.outside, reach.elements, reach.table_least, reach.table_greatest),
+       "within the tables, beyond which the first or the last one holds",
+       "give polars there, or look at their reynolds and at the viscosity"});
+}
+
 }  // namespace
 
 scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,
@@ -87,6 +98,7 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
   doubt_speed(doubts, speed_key, wind, start, blown);
   if (aero.model != "prescribed") doubt_wind(doubts, wind);
   doubt_load(doubts, wind, air_density, start, blown);
+  if (start.reynolds) doubt_reynolds(doubts, *start.reynolds);
   if (start.over_water && start.hub.z() < start.radius)
     doubts.push_back({rotor.joint.empty() ? "rotor.hub_m" : "joints." + rotor.joint + ".point_m",
                       start.hub.z() < 0.0

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "src/aero/bem.hpp"
 #include "src/aero/options.hpp"
 #include "src/scene/doubt.hpp"
 
@@ -15,6 +16,7 @@ struct RotorAtStart {
   double radius = 0.0;                  ///< [m]; 0 where the scene does not say
   std::optional<double> thrust, power;  ///< at full load [N], [W]
   bool over_water = false;
+  std::optional<ReynoldsReach> reynolds{};
 };
 
 scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,

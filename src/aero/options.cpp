@@ -128,6 +128,9 @@ const scene::Section<AeroOptions>& aero_section() {
                   "For Prandtl and Glauert's factor on the slope of attached flow.", scene::between(100.0, 2000.0))
           .only_if("model", {"bem"})
           .only_if("dynamic_stall", {"beddoes_leishman"})
+          .number("kinematic_viscosity_m2_s", &AeroOptions::kinematic_viscosity_m2_s, "m2/s",
+                  "Of the air, for polars at several Reynolds numbers; default 1.46e-5, air at 15 C.", scene::between(1e-7, 1.0))
+          .only_if("model", {"bem"})
           .table("tower", &AeroOptions::tower, tower_section(), "The tower in the wind.")
           .only_if("model", {"thrust_curve", "bem"})
           .table("grid", &AeroOptions::grid, rotor_grid_section(), "The grid round the resolved rotor.")
@@ -203,7 +206,12 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
   };
   if (aero.model == "bem" && rotor.turbine.empty())
     doc.problem("rotor.turbine", "must name a turbine file: aero.model \"bem\" needs the blades");
-  try_file("rotor.turbine", rotor.turbine, [&] { read_turbine(rotor.turbine); });
+  try_file("rotor.turbine", rotor.turbine, [&] {
+    const bool depends = depends_on_reynolds(read_turbine(rotor.turbine));
+    if (aero.kinematic_viscosity_m2_s && !depends)
+      doc.problem("aero.kinematic_viscosity_m2_s",
+                  fmt::format("has no effect: no section of {} has polars at several Reynolds numbers", rotor.turbine));
+  });
   if (!rotor.blade_masses.empty() && aero.model != "bem")
     doc.problem("rotor.blade_masses", "has no effect: only aero.model = \"bem\" knows the loads along a blade");
   else if (!rotor.turbine.empty())

@@ -13,6 +13,7 @@
 #include "src/aero/flow_options.hpp"
 #include "src/aero/rotor_grid/options.hpp"
 #include "src/aero/tower.hpp"
+#include "src/aero/turbine.hpp"
 #include "src/aero/wind_options.hpp"
 
 namespace spindrift::scene {
@@ -41,8 +42,9 @@ struct AeroOptions {
   // bem
   std::string induction = "madsen";
   std::string dynamic_inflow = "none", dynamic_stall = "none";
-  std::optional<double> inflow_time_s;  ///< absent: by wind and induction
-  double speed_of_sound_m_s = 340.0;    ///< of dynamic stall after Beddoes & Leishman
+  std::optional<double> inflow_time_s;             ///< absent: by wind and induction
+  double speed_of_sound_m_s = 340.0;               ///< of dynamic stall after Beddoes & Leishman
+  std::optional<double> kinematic_viscosity_m2_s;  ///< for polars by Reynolds number; absent: air_kinematic_viscosity
   std::optional<TowerOptions> tower;
   std::optional<FlowOptions> flow;       ///< blade_resolved, actuators
   std::optional<RotorGridOptions> grid;  ///< resolved rotor
@@ -51,6 +53,10 @@ struct AeroOptions {
   /// Blades that act on the resolved air without being in its grid.
   bool acts() const { return model == "actuator_disc" || model == "actuator_line"; }
   bool resolves_air() const { return model == "blade_resolved" || acts(); }
+  /// Of the air that blades meet [m2/s]; of resolved air its own.
+  double kinematic_viscosity(double air_density_kg_m3) const {
+    return flow ? flow->viscosity_Pa_s / air_density_kg_m3 : kinematic_viscosity_m2_s.value_or(air_kinematic_viscosity);
+  }
 };
 
 struct RotorOptions {

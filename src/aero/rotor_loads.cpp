@@ -66,7 +66,8 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
                                   {.inflow = aero.dynamic_inflow == "oye",
                                    .inflow_time = aero.inflow_time_s,
                                    .stall = stall_named(aero.dynamic_stall),
-                                   .speed_of_sound = aero.speed_of_sound_m_s});
+                                   .speed_of_sound = aero.speed_of_sound_m_s},
+                                  aero.kinematic_viscosity(air_density));
   if (!rotor.blade_masses.empty()) roots_.emplace(read_turbine(rotor.turbine), rotor.blade_masses);
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
@@ -152,6 +153,11 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
     load.moment -= carrier.cross(Eigen::Vector3d(control_->rotor_inertia() * now.speed * now.axis));
   }
   return load;
+}
+
+std::optional<ReynoldsReach> RotorLoads::reynolds(double t, const RotorState& now) const {
+  const auto* bem = std::get_if<BladeElementMomentum>(&model_);
+  return bem ? bem->reynolds(wind_, disc_motion(now, memory_), t) : std::nullopt;
 }
 
 std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Motion> bodies, const Eigen::Vector3d& acceleration,

@@ -72,6 +72,9 @@ class RotorLoads {
   }
   RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const { return load(wind_, t, now, ramp); }
 
+  /// Of blade elements; empty where no polar depends on it.
+  std::optional<ReynoldsReach> reynolds(double t, const RotorState& now) const;
+
   // What the rotor remembers from step to step, as bodies::Memory has it: the drive train with its controller, then the flow
   // round the blades. Without values to recall it turns as at the start, in steady flow.
   std::size_t memory_size() const { return control_size() + flow_size(); }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <utility>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/grid/aerofoil.hpp"
@@ -33,17 +35,23 @@ const scene::Section<StallOptions>& stall_section() {
 
 const scene::Section<PolarOptions>& polar_section() {
   static const auto section =
-      scene::Section<PolarOptions>("polars", "Lift and drag of one relative thickness.")
+      scene::Section<PolarOptions>("polars", "Lift and drag of one section of the blade.")
           .number("thickness_pct", &PolarOptions::thickness_pct, "%", "Relative thickness of the section.",
                   scene::between(0.1, 100.0))
-          .required()
+          .integer("number", &PolarOptions::number, "-",
+                   "Of the section, in place of its thickness: the planform's column polar names it.", scene::between(1, 10000))
+          .number("reynolds", &PolarOptions::reynolds, "-",
+                  "Reynolds number of the chord that the file holds for, where a section has files for several, in increasing "
+                  "order; without it the file holds for any.",
+                  scene::positive())
           .path("file", &PolarOptions::file,
                 "CSV file with columns alpha_deg from -180 to 180, cl, cd; cm may be there and is not used.")
           .required()
           .table("stall", &PolarOptions::stall, stall_section(),
                  "For aero.dynamic_stall = \"beddoes_leishman\", in place of what the polar says: normal force above the "
                  "straight line "
-                 "is lost, as in AeroDyn.");
+                 "is lost, as in AeroDyn.")
+          .one_of({"thickness_pct", "number"});
   return section;
 }
 
@@ -76,7 +84,11 @@ Polar read_polar(const PolarOptions& options) {
     file.fail(-1, "alpha_deg must go from -180 to 180: a blade may meet any wind");
   for (std::size_t i = 0; i < file.rows(); ++i)
     if (file["cd"][i] < 0.0) file.fail(int(i), "cd must not be negative");
-  return {0.01 * options.thickness_pct, column(file, "alpha_deg", radians_per_degree), column(file, "cl"), column(file, "cd"),
+  return {options.number ? double(*options.number) : 0.01 * *options.thickness_pct,
+          options.reynolds,
+          column(file, "alpha_deg", radians_per_degree),
+          column(file, "cl"),
+          column(file, "cd"),
           options.stall};
 }
 
@@ -102,9 +114,9 @@ scene::Columns read_points(const std::string& path) {
   return scene::read_blank_columns(path, {"x_c", "y_c"});
 }
 
-Planform read_planform(const std::string& path, double hub_radius) {
+Planform read_planform(const std::string& path, double hub_radius, bool by_number) {
   const scene::Columns file = scene::read_columns(path);
-  file.allow_only({"span_m", "chord_m", "twist_deg", "thickness_pct", "prebend_m", "sweep_m"});
+  file.allow_only({"span_m", "chord_m", "twist_deg", "thickness_pct", "polar", "prebend_m", "sweep_m"});
   file.require_rows(2);
   file.require_increasing("span_m", "distance from the rotor axis along the blade");
   if (std::abs(file["span_m"][0] - hub_radius) > 1e-6 * hub_radius)
@@ -112,12 +124,59 @@ Planform read_planform(const std::string& path, double hub_radius) {
                              hub_radius));
   for (std::size_t i = 0; i < file.rows(); ++i)
     if (file["chord_m"][i] <= 0.0) file.fail(int(i), "chord_m must be positive");
+  if (file.has("polar") && !by_number)
+    file.fail(-1,
+              "has a column polar, but the polars of the turbine file have no number: give them one, or leave the column out");
   return {column(file, "span_m"),
           column(file, "chord_m"),
           column(file, "twist_deg", radians_per_degree),
-          column(file, "thickness_pct", 0.01),
+          by_number && !file.has("thickness_pct") ? std::vector<double>() : column(file, "thickness_pct", 0.01),
           column(file, "prebend_m"),
-          file.has("sweep_m") ? column(file, "sweep_m") : std::vector<double>(file.rows(), 0.0)};
+          file.has("sweep_m") ? column(file, "sweep_m") : std::vector<double>(file.rows(), 0.0),
+          by_number ? column(file, "polar") : std::vector<double>()};
+}
+
+/// "24.1 % thick", "of number 3".
+std::string section_of(const PolarOptions& polar) {
+  return polar.number ? fmt::format("of number {}", *polar.number) : fmt::format("{} % thick", *polar.thickness_pct);
+}
+
+/// All of thickness or all of number; several of one section by increasing Reynolds number, with or without `stall`.
+void check_polars(scene::Document& doc, const std::vector<PolarOptions>& polars) {
+  const auto key = [](std::size_t n, const char* name) { return fmt::format("turbine.polars[{}].{}", n, name); };
+  for (std::size_t n = 0; n < polars.size(); ++n) {
+    const PolarOptions& polar = polars[n];
+    if (!polar.number && !polar.thickness_pct) continue;  // told already
+    if (polar.number.has_value() != polars[0].number.has_value()) {
+      doc.problem(key(n, polar.number ? "number" : "thickness_pct"),
+                  "names a section otherwise than turbine.polars[0] does: all by number or all by thickness_pct");
+      continue;
+    }
+    const auto same = [&](const PolarOptions& p) { return p.number == polar.number && p.thickness_pct == polar.thickness_pct; };
+    const auto before = std::find_if(std::make_reverse_iterator(polars.begin() + std::ptrdiff_t(n)), polars.rend(), same);
+    if (before == polars.rend()) continue;
+    const std::string other = fmt::format("turbine.polars[{}]", polars.rend() - before - 1);
+    if (!polar.reynolds || !before->reynolds)
+      doc.problem(polar.reynolds ? other + ".reynolds" : key(n, "reynolds"),
+                  fmt::format("must be given: two polars are {}, {} and turbine.polars[{}]", section_of(polar), other, n));
+    else if (*polar.reynolds <= *before->reynolds)
+      doc.problem(key(n, "reynolds"), fmt::format("must be more than {:g}, that of {}, which is {} too", *before->reynolds, other,
+                                                  section_of(polar)));
+    else if (polar.stall.has_value() != before->stall.has_value())
+      doc.problem(polar.stall ? other + ".stall" : key(n, "stall"),
+                  fmt::format("must be given: of the polars {} all say something of stall or none does", section_of(polar)));
+  }
+}
+
+/// Between the least and the greatest number of the polars. Throws scene::SceneError by file and line.
+void check_numbers(const std::string& path, const std::vector<PolarOptions>& polars) {
+  const scene::Columns file = scene::read_columns(path);
+  const auto [least, greatest] = std::minmax_element(
+      polars.begin(), polars.end(), [](const PolarOptions& a, const PolarOptions& b) { return *a.number < *b.number; });
+  for (std::size_t i = 0; i < file.rows(); ++i)
+    if (const double n = file["polar"][i]; n < *least->number || n > *greatest->number)
+      file.fail(int(i), fmt::format("polar = {}: the polars of the turbine have numbers from {} to {}", n, *least->number,
+                                    *greatest->number));
 }
 
 }  // namespace
@@ -134,9 +193,11 @@ const scene::Section<TurbineOptions>& turbine_section() {
           .path(
               "planform", &TurbineOptions::planform,
               "CSV file from root to tip: span_m (from the rotor axis along the blade), chord_m, twist_deg (nose into the wind), "
-              "thickness_pct, prebend_m (downwind); sweep_m may be there and is not used by blade element momentum.")
+              "thickness_pct, prebend_m (downwind); sweep_m may be there and is not used by blade element momentum. Where polars "
+              "have numbers a column polar says which, 2.5 being half of polar 2 and half of 3; thickness_pct may then be left "
+              "out.")
           .required()
-          .tables("polars", &TurbineOptions::polars, polar_section(), "Lift and drag for the thicknesses along the blade.")
+          .tables("polars", &TurbineOptions::polars, polar_section(), "Lift and drag for the sections along the blade.")
           .tables("aerofoils", &TurbineOptions::aerofoils, aerofoil_section(),
                   "Outlines for the thicknesses along the blade: what a resolved blade's surface is made from.")
           .path("operation", &TurbineOptions::operation, "Operating table, for scenes that give no rotor.operation.")
@@ -177,18 +238,32 @@ std::vector<Eigen::Vector2d> read_outline(const std::string& path) {
   return outline;
 }
 
+bool depends_on_reynolds(const Turbine& turbine) {
+  return std::adjacent_find(turbine.polars.begin(), turbine.polars.end(),
+                            [](const Polar& a, const Polar& b) { return a.place == b.place; }) != turbine.polars.end();
+}
+
 Turbine read_turbine(const std::string& path) {
   scene::Document doc = scene::load(path);
   const TurbineOptions options = doc.read(turbine_section());
   if (options.polars.empty()) doc.problem("turbine.polars", "must have at least one entry");
+  check_polars(doc, options.polars);
   doc.finish();
-  Turbine turbine{
-      options.blades, options.hub_radius_m, options.precone, read_planform(options.planform, options.hub_radius_m), {}, {}};
+  const bool by_number = options.polars[0].number.has_value();
+  Turbine turbine{options.blades,
+                  options.hub_radius_m,
+                  options.precone,
+                  read_planform(options.planform, options.hub_radius_m, by_number),
+                  {},
+                  {}};
+  if (by_number) check_numbers(options.planform, options.polars);
   for (const PolarOptions& polar : options.polars) turbine.polars.push_back(read_polar(polar));
   for (const OutlineOptions& aerofoil : options.aerofoils) turbine.aerofoils.push_back(read_aerofoil(aerofoil));
   const auto thinner = [](const auto& a, const auto& b) { return a.thickness < b.thickness; };
   std::sort(turbine.aerofoils.begin(), turbine.aerofoils.end(), thinner);
   if (!turbine.aerofoils.empty()) {
+    if (turbine.planform.thickness.empty())
+      scene::read_columns(options.planform).fail(-1, "has no column thickness_pct, by which turbine.aerofoils have their places");
     const double thin = turbine.aerofoils.front().thickness, thick = turbine.aerofoils.back().thickness;
     for (std::size_t m = 0; m < turbine.planform.span.size(); ++m) {
       const double t = turbine.planform.thickness[m];
@@ -206,7 +281,9 @@ Turbine read_turbine(const std::string& path) {
         doc.problem("turbine.aerofoils", fmt::format("two outlines are {} % thick", 100.0 * turbine.aerofoils[a].thickness));
     doc.finish();
   }
-  std::sort(turbine.polars.begin(), turbine.polars.end(), thinner);
+  std::sort(turbine.polars.begin(), turbine.polars.end(), [](const Polar& a, const Polar& b) {
+    return std::pair(a.place, a.reynolds.value_or(0.0)) < std::pair(b.place, b.reynolds.value_or(0.0));
+  });
   return turbine;
 }
 

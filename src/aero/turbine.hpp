@@ -16,6 +16,8 @@ class Section;
 
 namespace spindrift::aero {
 
+inline constexpr double air_kinematic_viscosity = 1.46e-5;  ///< of air at 15 C [m2/s], ISO 2533
+
 /// Of a polar, for dynamic stall after Beddoes & Leishman: in place of what the polar itself says.
 struct StallOptions {
   double normal_slope = 0.0;                                 ///< of the normal force in attached flow [1/rad]; 0: no stall
@@ -25,8 +27,10 @@ struct StallOptions {
 };
 
 struct PolarOptions {
-  double thickness_pct = 0.0;
-  std::string file;  ///< path
+  std::optional<double> thickness_pct;
+  std::optional<int> number;       ///< in place of a thickness
+  std::optional<double> reynolds;  ///< absent: the only polar of its thickness or number
+  std::string file;                ///< path
   std::optional<StallOptions> stall;
 };
 
@@ -50,8 +54,9 @@ const scene::Section<TurbineOptions>& turbine_section();
 
 /// Lift and drag against angle of attack, over the whole circle.
 struct Polar {
-  double thickness = 0.0;      ///< over chord [-]
-  std::vector<double> attack;  ///< increasing from -pi to pi [rad]
+  double place = 0.0;                ///< along Planform::place(): thickness over chord [-], or a number
+  std::optional<double> reynolds{};  ///< of the chord; absent: the only polar of its place
+  std::vector<double> attack;        ///< increasing from -pi to pi [rad]
   std::vector<double> lift, drag;
   std::optional<StallOptions> stall{};  ///< absent: what the polar says
 };
@@ -68,16 +73,20 @@ struct Planform {
   std::vector<double> span;       ///< distance from the rotor axis along the coned blade axis [m]
   std::vector<double> chord;      ///< [m]
   std::vector<double> twist;      ///< nose into the wind positive [rad]
-  std::vector<double> thickness;  ///< over chord [-]
+  std::vector<double> thickness;  ///< over chord [-]; may be empty where polars go by number
   std::vector<double> prebend;    ///< offset of the centre line across the blade axis, downwind positive [m]
   std::vector<double> sweep;      ///< the same in the rotor's plane, towards the leading edge positive [m]
+  std::vector<double> polar{};    ///< number of the polar, with a fraction between two; empty: polars go by thickness
+
+  /// By which sections find their polars.
+  const std::vector<double>& place() const { return polar.empty() ? thickness : polar; }
 };
 
 struct Turbine {
   int blades = 3;
   double hub_radius = 0.0, precone = 0.0;  ///< [m], [rad]
   Planform planform;
-  std::vector<Polar> polars;        ///< by increasing thickness
+  std::vector<Polar> polars;        ///< by increasing place, at one place by increasing Reynolds number
   std::vector<Aerofoil> aerofoils;  ///< by increasing thickness; none where the file gives none
 };
 
@@ -90,6 +99,9 @@ TurbineFiles turbine_files(const std::string& path);
 /// Outline of an aerofoil over its chord, in the order of `Aerofoil::outline`, from CSV (x_c, y_c) or a Selig file (.dat). Throws
 /// scene::SceneError where no grid could go round it.
 std::vector<Eigen::Vector2d> read_outline(const std::string& path);
+
+/// Some section has polars at several Reynolds numbers.
+bool depends_on_reynolds(const Turbine& turbine);
 
 /// Throws scene::SceneError with all that is wrong with the file and the data files that it names.
 Turbine read_turbine(const std::string& path);

@@ -229,8 +229,9 @@ void add_commands(CLI::App& cli, Command& chosen) {
         cli.add_subcommand("import", "Make a scene from an OpenFAST deck (versions 3 to 5) or a windIO turbine (1.x)");
     command->add_option("main", arguments->file, "Main input file (.fst), or turbine (.yaml)")->required();
     command->add_option("-o,--output", arguments->out, "Folder for scene.toml and its files")->required();
-    command->add_flag("--flexible-tower", arguments->flexible_tower,
-                      "A tower that bends in the deck becomes a beam of the scene");
+    command->add_flag(
+        "--flexible-tower", arguments->flexible_tower,
+        "A tower that bends in the deck becomes a beam of the scene; of a windIO turbine the table of one is written");
     command->callback(
         [arguments, &chosen] { chosen = [arguments](const auto& world) { return import_deck(*arguments, world); }; });
   }

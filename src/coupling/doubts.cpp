@@ -196,6 +196,7 @@ void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const St
   aero::RotorAtStart rotor{.hub = now.hub, .axis = now.axis, .speed = now.speed, .over_water = s.has_sea()};
   if (s.rotor.diameter_m) rotor.radius = 0.5 * *s.rotor.diameter_m;
   if (!s.rotor.turbine.empty()) rotor.radius = aero::read_turbine(s.rotor.turbine).planform.span.back();
+  if (s.aero.model != "blade_resolved") rotor.reynolds = floating.rotor()->reynolds(0.0, now);
   if (!s.resolves_air()) {
     const aero::RotorLoad load = floating.rotor()->load(0.0, now);
     rotor.thrust = load.thrust;

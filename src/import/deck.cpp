@@ -169,6 +169,13 @@ std::size_t Deck::column(std::size_t heading, const std::vector<std::string>& na
   fail(heading, fmt::format("has no column {}", fmt::join(names, " or ")));
 }
 
+Deck Deck::part(std::size_t first, std::size_t last) const {
+  Deck lines;
+  lines.file_ = file_;
+  lines.lines_.assign(lines_.begin() + std::ptrdiff_t(first), lines_.begin() + std::ptrdiff_t(last));
+  return lines;
+}
+
 void Deck::fail(std::optional<std::size_t> line, const std::string& what) const {
   throw scene::SceneError({{file_.string(), line ? lines_[*line].number : 0, "", "", what}});
 }

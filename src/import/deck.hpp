@@ -39,10 +39,14 @@ class Deck {
   /// Column of a table whose heading is this line; throws where there is none.
   std::size_t column(std::size_t heading, const std::vector<std::string>& names) const;
 
+  /// Lines `first` up to `last`, without the last, as a deck of their own.
+  Deck part(std::size_t first, std::size_t last) const;
+
   double to_number(const std::string& word, std::size_t line) const;
   [[noreturn]] void fail(std::optional<std::size_t> line, const std::string& what) const;
 
  private:
+  Deck() = default;
   struct Line {
     int number;
     std::vector<std::string> words;

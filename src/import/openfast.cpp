@@ -280,13 +280,19 @@ class Importer {
       return;
     }
     const Deck ad(main_.path({"AeroFile"}));
-    for (std::string& what : write_turbine(ad, rotor_, folder_)) leave_out(std::move(what));
+    WrittenTurbine turbine = write_turbine(ad, rotor_, folder_);
+    for (std::string& what : turbine.left_out) leave_out(std::move(what));
     scene_ << wind(Deck(main_.path({"InflowFile"})));
     if (ad.integer({"Wake_Mod", "WakeMod"}, 1) == 0)
       leave_out("no induction (Wake_Mod 0): blades are in balance with their wake");
     const int wake = ad.integer({"Wake_Mod", "WakeMod"}, 1);
     if (wake > 2) leave_out("the free-vortex wake (Wake_Mod 3): blade element momentum");
-    scene_ << "\n[aero]\nmodel = \"bem\"\ninduction = \"buhl\"\n" << unsteady(ad, wake) << tower(ad);
+    scene_ << "\n[aero]\nmodel = \"bem\"\ninduction = \"buhl\"\n";
+    if (turbine.by_reynolds) {
+      scene_ << fmt::format("kinematic_viscosity_m2_s = {:.9g}\n", ad.number({"KinVisc"}, main_.number({"KinVisc"})));
+      carry("polars at several Reynolds numbers (AFTabMod 2)");
+    }
+    scene_ << unsteady(ad, wake) << tower(ad);
     scene_ << fmt::format("\n[rotor]\nbody = \"{}\"\nturbine = \"turbine.toml\"\n", bends_ ? "nacelle" : "platform");
     scene_ << "hub_m = " << vector(rotor_.hub) << "\naxis = " << vector(rotor_.axis) << "\n";
     scene_ << fmt::format("speed_rpm = {:.9g}\nblade_pitch_deg = {:.9g}\n", ed.number({"RotSpeed"}),

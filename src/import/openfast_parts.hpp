@@ -56,8 +56,12 @@ ImportedBeam tower_beam(const Deck& elastodyn);
 /// Blades, hub and generator about the shaft [kg m2].
 double rotor_inertia(const Deck& elastodyn, const RotorFrame& rotor);
 
-/// Writes planform, polars and turbine.toml; returns what was left out.
-std::vector<std::string> write_turbine(const Deck& aerodyn, const RotorFrame& rotor, const std::filesystem::path& folder);
+struct WrittenTurbine {
+  std::vector<std::string> left_out;
+  bool by_reynolds = false;  ///< some polar depends on the Reynolds number
+};
+/// Writes planform, polars and turbine.toml.
+WrittenTurbine write_turbine(const Deck& aerodyn, const RotorFrame& rotor, const std::filesystem::path& folder);
 
 struct ImportedLine {
   Eigen::Vector3d anchor, fairlead;

@@ -3,7 +3,6 @@
 #include "src/import/windio.hpp"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,108 +11,12 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
-#include "src/scene/error.hpp"
+#include "src/import/windio_file.hpp"
+#include "src/import/windio_tower.hpp"
 
 namespace spindrift::decks {
 
 namespace {
-
-/// A value of the file with its name from the top, for messages.
-class Key {
- public:
-  Key(std::filesystem::path file, YAML::Node node, std::string name = {})
-      : file_(std::move(file)), node_(std::move(node)), name_(std::move(name)) {}
-
-  [[noreturn]] void fail(const std::string& what) const {
-    const YAML::Mark mark = node_.Mark();
-    std::string value = node_.IsScalar() ? node_.Scalar() : "";
-    throw scene::SceneError({{file_.string(), mark.is_null() ? 0 : mark.line + 1, name_, value.substr(0, 60), what}});
-  }
-  bool has(const std::string& key) const {
-    require_map();
-    return bool(node_[key]) && !node_[key].IsNull();
-  }
-  Key at(const std::string& key) const {
-    if (!has(key)) fail(fmt::format("has no \"{}\"", key));
-    return {file_, node_[key], name_.empty() ? key : name_ + "." + key};
-  }
-  std::vector<Key> entries() const {
-    if (!node_.IsSequence() || node_.size() == 0) fail("must be a list of at least one entry");
-    std::vector<Key> all;
-    for (std::size_t i = 0; i < node_.size(); ++i) all.push_back({file_, node_[i], fmt::format("{}[{}]", name_, i)});
-    return all;
-  }
-  double number() const {
-    double value = 0.0;
-    if (!node_.IsScalar() || !YAML::convert<double>::decode(node_, value) || !std::isfinite(value)) fail("must be a number");
-    return value;
-  }
-  double positive() const {
-    const double value = number();
-    if (value <= 0.0) fail("must be > 0");
-    return value;
-  }
-  /// An angle [rad] within a quarter of a turn: files of windIO 2 have degrees.
-  double angle() const {
-    const double value = number();
-    if (std::abs(value) > 0.5 * pi) fail("must be an angle in radians, within -pi/2 and pi/2 (windIO 1.x)");
-    return value;
-  }
-  int count() const {
-    const double value = number();
-    if (value < 1.0 || value > 12.0 || value != std::floor(value)) fail("must be a whole number from 1 to 12");
-    return int(value);
-  }
-  std::string text() const {
-    if (!node_.IsScalar()) fail("must be a word");
-    return node_.Scalar();
-  }
-
- private:
-  void require_map() const {
-    if (!node_.IsMap()) fail("must be a table of keys");
-  }
-  std::filesystem::path file_;
-  YAML::Node node_;
-  std::string name_;
-};
-
-struct Curve {
-  std::vector<double> x, y;
-};
-
-std::vector<double> numbers(const Key& list) {
-  std::vector<double> values;
-  for (const Key& entry : list.entries()) values.push_back(entry.number());
-  return values;
-}
-
-void require_increasing(const Key& grid, const std::vector<double>& x) {
-  if (x.size() < 2) grid.fail("must have at least two entries");
-  for (std::size_t i = 1; i < x.size(); ++i)
-    if (x[i] <= x[i - 1]) grid.entries()[i].fail(fmt::format("must be more than the entry before it, {:g}", x[i - 1]));
-}
-
-Curve curve(const Key& key) {
-  Curve c{numbers(key.at("grid")), numbers(key.at("values"))};
-  require_increasing(key.at("grid"), c.x);
-  if (c.x.size() != c.y.size()) key.at("values").fail(fmt::format("has {} entries, grid has {}", c.y.size(), c.x.size()));
-  return c;
-}
-
-/// Along the blade, from 0 at the root to 1 at the tip.
-void require_whole_span(const Key& grid, const std::vector<double>& x) {
-  if (x.front() != 0.0 || x.back() != 1.0)
-    grid.fail(fmt::format("must go from 0 to 1, goes from {:g} to {:g}", x.front(), x.back()));
-}
-
-Curve along_blade(const Key& key) {
-  Curve c = curve(key);
-  require_whole_span(key.at("grid"), c.x);
-  return c;
-}
-
-double at(const Curve& c, double x) { return interpolate_linear(c.x, c.y, x); }
 
 /// The monotone cubic through thicknesses, by which WISDEM blends polars between the positions of two.
 std::vector<double> monotone_at(const Curve& c, const std::vector<double>& x) {
@@ -127,7 +30,7 @@ std::vector<double> monotone_at(const Curve& c, const std::vector<double>& x) {
 struct Position {
   double span;
   std::string airfoil;
-  double label;  ///< thickness_pct of the turbine file
+  double place;  ///< thickness_pct or number of the turbine file
 };
 
 struct Foil {
@@ -135,34 +38,31 @@ struct Foil {
   double thickness;
 };
 
-/// The polars of each stretch of one name, told apart by their thickness where it falls from root to tip, else by a label.
-bool label_by_thickness(std::vector<Position>& positions, const std::map<std::string, Foil>& foils) {
+/// The polars of each stretch of one name, told apart by their thickness where it falls from root to tip, else by number.
+bool place_by_thickness(std::vector<Position>& positions, const std::map<std::string, Foil>& foils) {
   bool falls = true;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    positions[i].label = 100.0 * foils.at(positions[i].airfoil).thickness;
-    if (i > 0 && positions[i].airfoil != positions[i - 1].airfoil) falls &= positions[i].label < positions[i - 1].label;
+    positions[i].place = 100.0 * foils.at(positions[i].airfoil).thickness;
+    if (i > 0 && positions[i].airfoil != positions[i - 1].airfoil) falls &= positions[i].place < positions[i - 1].place;
   }
   if (falls) return true;
-  std::size_t stretch = 0;
-  const auto stretches = std::size_t(1 + std::count_if(positions.begin() + 1, positions.end(),
-                                                       [](const Position& p) { return p.airfoil != (&p - 1)->airfoil; }));
+  int number = 1;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (i > 0 && positions[i].airfoil != positions[i - 1].airfoil) ++stretch;
-    positions[i].label = 100.0 - 80.0 * double(stretch) / double(std::max<std::size_t>(stretches - 1, 1));
+    if (i > 0 && positions[i].airfoil != positions[i - 1].airfoil) ++number;
+    positions[i].place = number;
   }
   return false;
 }
 
-/// Of a section's polars that whose Reynolds number is nearest, by their ratio.
-Key nearest_polar(const Foil& foil, double reynolds) {
-  const std::vector<Key> polars = foil.key.at("polars").entries();
-  if (polars.size() == 1) return polars[0];
-  std::size_t best = 0;
-  std::vector<double> distance;
-  for (const Key& polar : polars) distance.push_back(std::abs(std::log(polar.at("re").positive() / reynolds)));
-  for (std::size_t i = 1; i < distance.size(); ++i)
-    if (distance[i] < distance[best]) best = i;
-  return polars[best];
+/// Of a section, by Reynolds number; zero where there is one polar. A map, for nodes of YAML must not be assigned to each other.
+std::map<double, Key> polars_of(const Foil& foil) {
+  const std::vector<Key> entries = foil.key.at("polars").entries();
+  if (entries.size() == 1) return {{0.0, entries[0]}};
+  std::map<double, Key> polars;
+  for (const Key& entry : entries)
+    if (!polars.try_emplace(entry.at("re").positive(), entry).second)
+      entry.at("re").fail("is the Reynolds number of another polar of this airfoil");
+  return polars;
 }
 
 void write_polar(const Key& polar, const std::filesystem::path& file, const std::string& head) {
@@ -180,7 +80,7 @@ void write_polar(const Key& polar, const std::filesystem::path& file, const std:
   std::set_union(lift.x.begin(), lift.x.end(), drag.x.begin(), drag.x.end(), std::back_inserter(angles));
   std::ofstream csv(file);
   csv << head << "alpha_deg,cl,cd\n";
-  for (const double a : angles) csv << fmt::format("{:.9g},{:.9g},{:.9g}\n", a / radians_per_degree, at(lift, a), at(drag, a));
+  for (const double a : angles) csv << fmt::format("{:.9g},{:.9g},{:.9g}\n", a / radians_per_degree, lift.at(a), drag.at(a));
 }
 
 struct Operating {
@@ -200,18 +100,6 @@ Operating read_operating(const Key& control, double tip_radius) {
     supervisory.at("Vin").fail(
         fmt::format("must be below the wind at which the greatest speed is reached, {:g} m/s", o.rated_wind));
   return o;
-}
-
-YAML::Node load_yaml(const std::filesystem::path& file) {
-  std::error_code none;
-  if (std::filesystem::is_directory(file, none)) throw scene::SceneError({{file.string(), 0, "", "", "is a directory"}});
-  try {
-    return YAML::LoadFile(file.string());
-  } catch (const YAML::BadFile&) {
-    throw scene::SceneError({{file.string(), 0, "", "", "cannot be read"}});
-  } catch (const YAML::ParserException& e) {
-    throw scene::SceneError({{file.string(), e.mark.line + 1, "", "", "is no YAML: " + e.msg}});
-  }
 }
 
 /// What the blade is made of, along its span from 0 at the root to 1 at the tip.
@@ -268,18 +156,18 @@ Blade read_blade(const Key& top, const std::map<std::string, Foil>& foils) {
   Blade b{.count = top.at("assembly").at("number_of_blades").count(),
           .hub_radius = 0.5 * hub.at("diameter").positive(),
           .cone = hub.at("cone_angle").angle(),
-          .chord = along_blade(shape.at("chord")),
-          .twist = along_blade(shape.at("twist")),
-          .out = along_blade(axis.at("z")),
-          .bend = along_blade(axis.at("x")),
-          .sweep = along_blade(axis.at("y")),
+          .chord = along_span(shape.at("chord")),
+          .twist = along_span(shape.at("twist")),
+          .out = along_span(axis.at("z")),
+          .bend = along_span(axis.at("x")),
+          .sweep = along_span(axis.at("y")),
           .positions = read_positions(shape.at("airfoil_position"), foils)};
   for (std::size_t i = 0; i < b.chord.y.size(); ++i)
     if (b.chord.y[i] <= 0.0) shape.at("chord").at("values").entries()[i].fail("a chord must be > 0 m");
   for (std::size_t i = 0; i < b.twist.y.size(); ++i) shape.at("twist").at("values").entries()[i].angle();
   for (std::size_t i = 1; i < b.out.y.size(); ++i)
     if (b.out.y[i] <= b.out.y[i - 1]) axis.at("z").at("values").entries()[i].fail("must be more than the entry before it");
-  b.by_thickness = label_by_thickness(b.positions, foils);
+  b.by_thickness = place_by_thickness(b.positions, foils);
   return b;
 }
 
@@ -308,41 +196,44 @@ std::vector<double> stations_of(const Blade& b) {
 /// Sweep in the file is positive towards the trailing edge, in the planform towards the leading one.
 void write_planform(const Blade& b, const std::vector<double>& stations, const std::filesystem::path& file,
                     const std::string& head) {
-  Curve label;
-  for (const Position& p : b.positions) label.x.push_back(p.span), label.y.push_back(p.label);
-  const std::vector<double> thickness = monotone_at(label, stations);
+  Curve along;
+  for (const Position& p : b.positions) along.x.push_back(p.span), along.y.push_back(p.place);
+  const std::vector<double> place = monotone_at(along, stations);
   std::ofstream planform(file);
-  planform << head << (b.by_thickness ? "" : "# thickness_pct tells polars apart: it is a label, not a thickness.\n")
-           << "span_m,chord_m,twist_deg,thickness_pct,prebend_m,sweep_m\n";
+  planform << head << "span_m,chord_m,twist_deg," << (b.by_thickness ? "thickness_pct" : "polar") << ",prebend_m,sweep_m\n";
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const double s = stations[i];
-    planform << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", b.hub_radius + at(b.out, s), at(b.chord, s),
-                            at(b.twist, s) / radians_per_degree, thickness[i], at(b.bend, s), -at(b.sweep, s));
+    planform << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", b.hub_radius + b.out.at(s), b.chord.at(s),
+                            b.twist.at(s) / radians_per_degree, place[i], b.bend.at(s), -b.sweep.at(s));
   }
 }
 
-/// The blade's polars, one file to a stretch of one airfoil. Returns the lines that name them in the turbine file.
-std::string write_polars(const Blade& b, const std::map<std::string, Foil>& foils, const Operating& operating, const Site& site,
-                         const std::filesystem::path& folder, const std::string& head, std::vector<std::string>& left_out) {
+/// Writes the blade's polars, one file to a Reynolds number of a stretch of one airfoil. Returns the lines that name them in the
+/// turbine file.
+std::string write_polars(const Blade& b, const std::map<std::string, Foil>& foils, const std::filesystem::path& folder,
+                         const std::string& head) {
   std::string lines;
-  for (std::size_t i = 0, polars = 0; i < b.positions.size(); ++i) {
-    if (i > 0 && b.positions[i].airfoil == b.positions[i - 1].airfoil) continue;
-    std::size_t last = i;
-    while (last + 1 < b.positions.size() && b.positions[last + 1].airfoil == b.positions[i].airfoil) ++last;
-    const Foil& foil = foils.at(b.positions[i].airfoil);
-    const double middle = 0.5 * (b.positions[i].span + b.positions[last].span),
-                 speed = std::hypot(operating.most * (b.hub_radius + at(b.out, middle)), operating.rated_wind),
-                 reynolds = site.density * speed * at(b.chord, middle) / site.viscosity;
-    const Key polar = nearest_polar(foil, reynolds);
-    if (const std::size_t given = foil.key.at("polars").entries().size(); given > 1)
-      left_out.push_back(fmt::format(
-          "airfoil {} at span {:.2f}: of {} polars that of Reynolds number {:.3g} is used, the nearest to {:.3g} at rated wind",
-          b.positions[i].airfoil, middle, given, polar.at("re").number(), reynolds));
-    const std::string name = fmt::format("polar_{}.csv", ++polars);
-    write_polar(polar, folder / name, fmt::format("{}# {}.\n", head, b.positions[i].airfoil));
-    lines += fmt::format("  {{ thickness_pct = {:.9g}, file = \"{}\" }},\n", b.positions[i].label, name);
+  int stretches = 0;
+  for (std::size_t i = 0; i < b.positions.size(); ++i) {
+    const Position& here = b.positions[i];
+    if (i > 0 && here.airfoil == b.positions[i - 1].airfoil) continue;
+    ++stretches;
+    const std::map<double, Key> polars = polars_of(foils.at(here.airfoil));
+    const bool one = polars.size() == 1;
+    int n = 0;
+    for (const auto& [reynolds, polar] : polars) {
+      const std::string name = one ? fmt::format("polar_{}.csv", stretches) : fmt::format("polar_{}_{}.csv", stretches, ++n);
+      write_polar(polar, folder / name, fmt::format("{}# {}.\n", head, here.airfoil));
+      lines += fmt::format("  {{ {} = {:.9g}, {}file = \"{}\" }},\n", b.by_thickness ? "thickness_pct" : "number", here.place,
+                           one ? "" : fmt::format("reynolds = {:.9g}, ", reynolds), name);
+    }
   }
   return lines;
+}
+
+/// Some airfoil of the blade has polars at several Reynolds numbers.
+bool depends_on_reynolds(const Blade& b, const std::map<std::string, Foil>& foils) {
+  return std::ranges::any_of(b.positions, [&](const Position& p) { return polars_of(foils.at(p.airfoil)).size() > 1; });
 }
 
 void write_operation(const Operating& o, double tip_radius, const std::filesystem::path& file, const std::string& head) {
@@ -359,7 +250,8 @@ void write_operation(const Operating& o, double tip_radius, const std::filesyste
 }
 
 /// The shaft of an upwind rotor points down the wind and down: its axis leans by the tilt.
-void write_scene(const Site& site, double wind, const std::filesystem::path& file, const std::string& head) {
+void write_scene(const Site& site, double wind, bool by_reynolds, const std::string& tower, const std::filesystem::path& file,
+                 const std::string& head) {
   std::ofstream scene(file);
   scene << head << "# The rotor stands in the wind at which its greatest speed is reached.\n"
         << "[time]\nend_s = 10.0\nwindow_s = 0.5\nstep_s = 0.05\n\n"
@@ -367,12 +259,15 @@ void write_scene(const Site& site, double wind, const std::filesystem::path& fil
         << fmt::format("centre_m = [0.0, 0.0, {:.9g}]\n\n", site.hub_height)
         << "[joints.foundation]\ntype = \"fixed\"\nbodies = [\"earth\", \"turbine\"]\npoint_m = [0.0, 0.0, 0.0]\n\n"
         << fmt::format("[environment]\nair_density_kg_m3 = {:.9g}\n\n[wind]\nspeed_m_s = {:.9g}\n\n", site.density, wind)
-        << "[aero]\nmodel = \"bem\"\n\n"
+        << "[aero]\nmodel = \"bem\"\n"
+        << (by_reynolds ? fmt::format("kinematic_viscosity_m2_s = {:.9g}\n", site.viscosity / site.density) : "") << tower << "\n"
         << fmt::format(
                "[rotor]\nbody = \"turbine\"\nturbine = \"turbine.toml\"\nhub_m = [{:.9g}, 0.0, {:.9g}]\n"
                "axis = [{:.9g}, 0.0, {:.9g}]\noperating_point = \"table\"\n",
                -site.overhang, site.hub_height, std::cos(site.tilt), -std::sin(site.tilt));
 }
+
+bool has_shape(const Key& tower) { return tower.has("outer_shape_bem"); }
 
 void tell_left_out(const Key& top, const Blade& b, std::vector<std::string>& left_out) {
   const Key assembly = top.at("assembly"), parts = top.at("components");
@@ -385,29 +280,31 @@ void tell_left_out(const Key& top, const Blade& b, std::vector<std::string>& lef
   if (std::ranges::any_of(b.sweep.y, [](double y) { return y != 0.0; }))
     left_out.push_back("sweep of the blades stands in the planform; blade elements do not use it");
   left_out.push_back("outlines of the airfoils and their pitch axis: a resolved blade needs [turbine] aerofoils");
-  left_out.push_back("masses and stiffness of blades, hub, nacelle and tower: the rotor stands in the scene");
+  left_out.push_back("masses of blades, hub and nacelle, and what bends: the rotor stands in the scene");
   left_out.push_back("pitch above rated wind and the controller: the file gives no pitch table");
-  for (const char* part : {"tower", "monopile", "floating_platform", "mooring"})
+  if (parts.has("tower") && !has_shape(parts.at("tower"))) left_out.push_back("components.tower, which has no outer_shape_bem");
+  for (const char* part : {"monopile", "floating_platform", "mooring"})
     if (parts.has(part)) left_out.push_back(fmt::format("components.{}", part));
 }
 
-std::vector<std::string> carried_over(const Blade& b, std::size_t stations, const Site& site, const Operating& o) {
+std::vector<std::string> carried_over(const Blade& b, std::size_t stations, const Site& site, const Operating& o,
+                                      bool by_reynolds) {
   std::vector<std::string> carried{
       fmt::format("{} blades of {} stations from {:g} to {:g} m, cone {:g} degrees, prebend {:g} m", b.count, stations,
                   b.hub_radius, b.hub_radius + b.out.y.back(), b.cone / radians_per_degree, b.bend.y.back()),
       fmt::format("hub {:g} m above the sea, {:g} m ahead of the tower, tilt {:g} degrees", site.hub_height, site.overhang,
                   site.tilt / radians_per_degree),
       fmt::format("operation at tip-speed ratio {:g} from {:g} to {:.4g} m/s", o.ratio, o.cut_in, o.rated_wind)};
+  if (by_reynolds) carried.push_back("polars at all their Reynolds numbers");
   if (!b.by_thickness)
-    carried.push_back(
-        "polars by position: thickness_pct of the turbine file is a label, since thickness does not fall from root to tip");
+    carried.push_back("polars by number, which column polar of the planform names: thickness does not fall from root to tip");
   return carried;
 }
 
 }  // namespace
 
-Imported import_windio(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  const Key top(file, load_yaml(file)), blade_key = top.at("components").at("blade");
+Imported import_windio(const std::filesystem::path& file, const std::filesystem::path& folder, ImportedTower tower) {
+  const Key top = load_windio(file), blade_key = top.at("components").at("blade");
   if (blade_key.has("outer_shape"))
     blade_key.at("outer_shape").fail("is windIO 2.x; files of windIO 1.x (outer_shape_bem) are read");
   require_upwind(top.at("assembly"));
@@ -422,15 +319,24 @@ Imported import_windio(const std::filesystem::path& file, const std::filesystem:
   std::filesystem::create_directories(folder);
   const std::string head = fmt::format("# From {}.\n", file.filename().string());
   write_planform(blade, stations, folder / "planform.csv", head);
-  const std::string polars = write_polars(blade, foils, operating, site, folder, head, result.left_out);
+  const bool by_reynolds = depends_on_reynolds(blade, foils);
+  const Key parts = top.at("components");
+  const bool stands = parts.has("tower") && has_shape(parts.at("tower"));
+  const std::string tower_keys = stands ? tower_in_the_air(parts.at("tower"), result.left_out) : "";
+  if (tower == ImportedTower::flexible) std::ofstream(folder / "tower.csv") << head << tower_table(top);
+  const std::string polars = write_polars(blade, foils, folder, head);
   std::ofstream(folder / "turbine.toml") << head
                                          << fmt::format(
                                                 "[turbine]\nblades = {}\nhub_radius_m = {:.9g}\nprecone_deg = {:.9g}\n"
                                                 "operation = \"operation.csv\"\nplanform = \"planform.csv\"\npolars = [\n{}]\n",
                                                 blade.count, blade.hub_radius, blade.cone / radians_per_degree, polars);
   write_operation(operating, blade.tip_radius(), folder / "operation.csv", head);
-  write_scene(site, operating.rated_wind, result.scene, head);
-  result.carried = carried_over(blade, stations.size(), site, operating);
+  write_scene(site, operating.rated_wind, by_reynolds, tower_keys, result.scene, head);
+  result.carried = carried_over(blade, stations.size(), site, operating, by_reynolds);
+  if (stands) result.carried.push_back("tower: its flow round the blades, and its drag");
+  if (tower == ImportedTower::flexible)
+    result.carried.push_back(
+        "tower.csv: mass and stiffness of the tower, for [beams.NAME] properties of a scene with the masses on it");
   tell_left_out(top, blade, result.left_out);
   return result;
 }

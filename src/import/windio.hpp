@@ -1,4 +1,4 @@
-// A turbine from a file of the IEA ontology (windIO 1.x, as WISDEM reads it): blades, polars, hub, axis, operating table.
+// A turbine from a file of the IEA ontology (windIO 1.x, as WISDEM reads it): blades, polars, hub, axis, tower, operating table.
 // Called by src/app/import.cpp; tested in tests/src/import/windio_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -10,7 +10,9 @@
 namespace spindrift::decks {
 
 /// Reads the YAML file and writes turbine.toml, its tables and a scene of the standing rotor at its rated wind into a folder that
-/// is made where it is missing. Throws scene::SceneError naming file, line and key of what cannot be read.
-Imported import_windio(const std::filesystem::path& file, const std::filesystem::path& folder);
+/// is made where it is missing; of a flexible tower the table of a beam, tower.csv, besides. Throws scene::SceneError naming
+/// file, line and key of what cannot be read.
+Imported import_windio(const std::filesystem::path& file, const std::filesystem::path& folder,
+                       ImportedTower tower = ImportedTower::rigid);
 
 }  // namespace spindrift::decks

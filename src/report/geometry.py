@@ -121,7 +121,7 @@ class Blades:
         s = np.linspace(0, 2 * np.pi, 41)[:-1]
         for m in range(len(table["span_m"])):
             chord, twist = table["chord_m"][m], math.radians(table["twist_deg"][m])
-            thickness = table["thickness_pct"][m]
+            thickness = table["thickness_pct"][m] if "thickness_pct" in table else 20.0  # of polars by number a planform may have none
             if outlines:
                 o = min(outlines, key=lambda entry: abs(entry[0] - thickness))[1]
                 at = np.linspace(0, len(o["x_c"]) - 1, 40).astype(int)

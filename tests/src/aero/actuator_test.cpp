@@ -143,6 +143,49 @@ TEST_CASE("without a correction blades in an undisturbed stream have the loads o
 }
 
 namespace {
+
+/// Circulation at the points of lines in a stream of 8 m/s, no correction [m2/s].
+std::vector<double> circulation_in_stream(const Turbine& turbine, double kinematic_viscosity) {
+  Actuator actuator(turbine, Actuator::Kind::lines, {.correction = "none"}, 1.225, tip_radius() / 3.0, kinematic_viscosity);
+  actuator.place(turning(6.4257));
+  std::vector<double> sums(actuator.sums(), 0.0), all;
+  for (std::size_t n = 0; n < sums.size(); n += 4) sums[n] = 1.0, sums[n + 1] = 8.0;
+  actuator.act(sums);
+  for (const Actuator::Point& p : actuator.points()) all.push_back(p.circulation);
+  return all;
+}
+
+/// Each polar at two Reynolds numbers, at the higher one with 1.2 times the lift.
+Turbine lifting_more(double low, double high) {
+  Turbine turbine = dtu();
+  turbine.polars.clear();
+  for (Polar polar : dtu().polars) {
+    polar.reynolds = low, turbine.polars.push_back(polar);
+    polar.reynolds = high, turbine.polars.push_back(polar);
+    for (double& lift : turbine.polars.back().lift) lift *= 1.2;
+  }
+  return turbine;
+}
+
+}  // namespace
+
+TEST_CASE("points of an actuator have the polars of the Reynolds number that they meet", "[rotor][fast]") {
+  constexpr double nu = 1.5e-5;
+  const std::vector<double> one = circulation_in_stream(dtu(), nu);
+  CHECK(circulation_in_stream(lifting_more(1e9, 1e10), nu) == one);  // all below the first table
+  const std::vector<double> above = circulation_in_stream(lifting_more(1.0, 2.0), nu);
+  for (std::size_t n = 0; n < one.size(); ++n) CHECK(above[n] == Approx(1.2 * one[n]).epsilon(1e-12));
+  // Of one point, whose Reynolds number is the geometric mean of the tables', the mean.
+  Actuator actuator(dtu(), Actuator::Kind::lines, {.correction = "none"}, 1.225, tip_radius() / 3.0);
+  const std::size_t n = actuator.points().size() / 6, element = actuator.points()[n].element;
+  const std::vector<SpanLoad> along = actuator.span_loads();
+  const double arm = along[element].radius * 6.4257 * rad_s_per_rpm;
+  actuator.place(turning(6.4257));
+  const double normal = 8.0 * actuator.points()[n].normal.x(), reynolds = std::hypot(normal, arm) * along[element].chord / nu;
+  CHECK(circulation_in_stream(lifting_more(0.25 * reynolds, 4.0 * reynolds), nu)[n] == Approx(1.1 * one[n]).epsilon(1e-12));
+}
+
+namespace {
 std::vector<double> history(int ranks, int rank, MPI_Comm comm) {
   FlowSetting s;
   s.time_order = 1, s.dt = 0.5, s.march.max_steps = 2;

@@ -338,18 +338,85 @@ TEST_CASE("what AeroDyn is told of stall is the turbine's, its polars stay whole
   CHECK(s.aero.speed_of_sound_m_s == 335.0);
   const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine);
   REQUIRE(turbine.polars.size() == 2);
-  const aero::Polar& foil = turbine.polars[0];  // the thinner label
+  const aero::Polar& foil = turbine.polars[1];  // after the root's
   REQUIRE(foil.stall);
   CHECK((foil.stall->normal_slope == 6.1 && foil.stall->drag_0 == 0.011 && foil.stall->critical_normal == 1.5));
   CHECK(foil.stall->zero_lift == Approx(-2.0 * radians_per_degree));
   CHECK(foil.stall->critical_normal_low == -0.9);
   CHECK(foil.lift[3] == 1.4);
-  CHECK(turbine.polars[1].stall->normal_slope == 0.0);
+  CHECK(turbine.polars[0].stall->normal_slope == 0.0);
   // What AeroDyn finds by itself is left to the polar; a number that is none is refused by its line.
   deck.replace("foil.dat", "6.1 C_nalpha", "\"Default\" C_nalpha");
-  CHECK(!aero::read_turbine(deck.scenario().rotor.turbine).polars[0].stall);
+  CHECK(!aero::read_turbine(deck.scenario().rotor.turbine).polars[1].stall);
   deck.replace("foil.dat", "\"Default\" C_nalpha", "steep C_nalpha");
   CHECK(deck.refusal().find("foil.dat:4") != std::string::npos);
+}
+
+namespace {
+
+/// The plate's file with a second table, of half its lift; Reynolds numbers in millions.
+void add_second_table(SmallDeck& deck, const std::string& first, const std::string& second) {
+  std::string table = deck.files["foil.dat"].substr(deck.files["foil.dat"].find("5 NumAlf"));
+  deck.replace("foil.dat", "1 NumTabs\n", "2 NumTabs\n" + first + " Re\n0 UserProp\n");
+  table.replace(table.find("15 1.4"), 6, "15 0.7");
+  deck.files["foil.dat"] += second + " Re\n0 UserProp\n" + table;
+  deck.replace("main.fst", "1.225 AirDens", "1.225 AirDens\n1.5e-5 KinVisc");
+}
+
+}  // namespace
+
+TEST_CASE("tables over the Reynolds number are the turbine's where AFTabMod is 2", "[import][fast]") {
+  SmallDeck deck;
+  add_second_table(deck, "0.75", "5");
+  deck.replace("ad.dat", "1 InCol_Alfa", "2 AFTabMod\n1 InCol_Alfa");
+  const coupling::Scenario s = deck.scenario();
+  CHECK(s.aero.kinematic_viscosity_m2_s == 1.5e-5);
+  const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine);
+  CHECK(turbine.planform.polar == std::vector<double>{1, 2, 2, 2});
+  REQUIRE(turbine.polars.size() == 3);
+  CHECK(!turbine.polars[0].reynolds);
+  CHECK((turbine.polars[1].reynolds == 0.75e6 && turbine.polars[1].lift[3] == 1.4));
+  CHECK((turbine.polars[2].reynolds == 5e6 && turbine.polars[2].lift[3] == 0.7));
+  // AeroDyn's own viscosity goes before that of the main file.
+  deck.replace("ad.dat", "2 AFTabMod", "1.6e-5 KinVisc\n2 AFTabMod");
+  CHECK(deck.scenario().aero.kinematic_viscosity_m2_s == 1.6e-5);
+}
+
+TEST_CASE("of several tables the first is used where AFTabMod is 1, and told", "[import][fast]") {
+  SmallDeck deck;
+  add_second_table(deck, "0.75", "5");
+  const std::vector<std::string> notes = deck.import().left_out;
+  CHECK(std::count(notes.begin(), notes.end(), "foil.dat: the first of its 2 tables is used, as AFTabMod 1 has it") == 1);
+  const coupling::Scenario s = deck.scenario();
+  CHECK(!s.aero.kinematic_viscosity_m2_s);
+  CHECK(aero::read_turbine(s.rotor.turbine).polars[1].lift[3] == 1.4);
+}
+
+TEST_CASE("tables that AFTabMod cannot choose among are refused by file and line", "[import][fast]") {
+  const auto [mode, first, second, tabs, said] = GENERATE(table<std::string, std::string, std::string, std::string, std::string>({
+      {"3", "1", "1", "2 NumTabs", "ad.dat:7"},       // a property that a controller changes
+      {"4", "1", "2", "2 NumTabs", "ad.dat:7"},       // no such mode
+      {"2", "2", "1", "2 NumTabs", "foil.dat:13"},    // falls
+      {"2", "2", "2", "2 NumTabs", "foil.dat:13"},    // the same
+      {"2", "-2", "2", "2 NumTabs", "foil.dat:3"},    // negative
+      {"2", "many", "2", "2 NumTabs", "foil.dat:3"},  // no number
+      {"2", "1", "2", "3 NumTabs", "foil.dat:2"},     // two tables are there
+      {"2", "1", "2", "0 NumTabs", "foil.dat:2"},
+  }));
+  SmallDeck deck;
+  add_second_table(deck, first, second);
+  deck.replace("foil.dat", "2 NumTabs", tabs);
+  deck.replace("ad.dat", "1 InCol_Alfa", mode + " AFTabMod\n1 InCol_Alfa");
+  CHECK_THAT(deck.refusal(), Catch::Matchers::Contains(said));
+}
+
+TEST_CASE("an aerofoil that comes twice along the blade has a number for each stretch", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("adblade.dat", "38 1.0 0.2 0 0 1 2", "38 1.0 0.2 0 0 1 1");
+  const aero::Turbine turbine = aero::read_turbine(deck.scenario().rotor.turbine);
+  CHECK(turbine.planform.polar == std::vector<double>{1, 2, 2, 3});
+  REQUIRE(turbine.polars.size() == 3);
+  CHECK(turbine.polars[2].drag == turbine.polars[0].drag);
 }
 
 TEST_CASE("a controller library of a deck is the scene's, with its drive train and its numbers", "[import][fast]") {

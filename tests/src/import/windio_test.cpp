@@ -7,9 +7,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
+#include "src/aero/turbine.hpp"
+#include "src/coupling/scenario.hpp"
+#include "src/scene/columns.hpp"
+#include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
 
 namespace {
@@ -35,7 +41,22 @@ components:
         x: {grid: [0.0, 1.0], values: [0.0, -2.0]}
         y: {grid: [0.0, 1.0], values: [0.0, 0.5]}
         z: {grid: [0.0, 1.0], values: [0.0, 50.0]}
-  tower: {}
+  tower:
+    outer_shape_bem:
+      reference_axis:
+        x: {grid: [0.0, 1.0], values: [0.0, 0.0]}
+        y: {grid: [0.0, 1.0], values: [0.0, 0.0]}
+        z: {grid: [0.0, 1.0], values: [10.0, 85.0]}
+      outer_diameter: {grid: [0.0, 0.4, 0.4, 1.0], values: [8.0, 8.0, 6.0, 5.0]}
+      drag_coefficient: {grid: [0.0, 1.0], values: [0.5, 0.7]}
+    internal_structure_2d_fem:
+      outfitting_factor: 1.1
+      layers:
+        - {name: wall, material: steel, thickness: {grid: [0.0, 1.0], values: [0.05, 0.05]}}
+        - {name: lining, material: wood, thickness: {grid: [0.0, 1.0], values: [0.1, 0.1]}}
+materials:
+  - {name: steel, rho: 7800, E: 2.0e11, G: 7.9e10}
+  - {name: wood, rho: 500, E: 1.0e10, nu: 0.25}
 airfoils:
   - name: root
     relative_thickness: 1.0
@@ -66,7 +87,7 @@ spindrift::scene::Problem windio_refusal(const std::string& text) {
   const WindioFolder folder;
   std::ofstream(folder.path / "t.yaml") << text;
   try {
-    spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out");
+    spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out", spindrift::decks::ImportedTower::flexible);
   } catch (const spindrift::scene::SceneError& e) { return e.problems().at(0); }
   FAIL("not refused:\n" << text);
   return {};
@@ -88,23 +109,79 @@ TEST_CASE("a windIO turbine is carried over with its axes and polars", "[fast]")
   CHECK(text_of(imported.scene).find("hub_m = [-5, 0.0, 90]\n") != std::string::npos);
   CHECK(text_of(imported.scene).find("axis = [0.99875026, 0.0, -0.0499791693]\n") !=
         std::string::npos);  // down the wind and down
-  CHECK(std::ranges::count(imported.left_out, "components.tower") == 1);
 }
 
-TEST_CASE("of several polars that of the nearest Reynolds number is carried over, and told", "[fast]") {
-  // At rated wind the tip meets 62 m/s with a chord of 2 m half way out: some 8 million.
-  const std::string others =
-      R"({re: 2e4, c_l: {grid: [-3.141, 3.141], values: [9.0, 9.0]}, c_d: {grid: [-3.141, 3.141], values: [0.3, 0.3]}},)";
+TEST_CASE("all Reynolds numbers of an airfoil are carried over, with the viscosity of the air", "[fast]") {
+  // In the file the larger one first; the tip's 0.4 at 1 million and 0.9 at 4 million.
+  const std::string other =
+      R"({re: 4e6, c_l: {grid: [-3.141, 0.0, 3.141], values: [0.0, 0.9, 0.0]}, c_d: {grid: [-3.141, 3.141], values: [0.3, 0.3]}},)";
   const WindioFolder folder;
   std::ofstream(folder.path / "t.yaml") << replaced("polars: [{re: 1e6, c_l: {grid: [-3.141, 0.0, 3.141]",
-                                                    "polars: [" + others + "{re: 1e6, c_l: {grid: [-3.141, 0.0, 3.141]");
+                                                    "polars: [" + other + "{re: 1e6, c_l: {grid: [-3.141, 0.0, 3.141]");
   const auto imported = spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out");
-  const std::string polar = text_of(folder.path / "out/polar_2.csv");
-  CHECK(polar.find("\n0,0.4,0.01\n") != std::string::npos);
-  CHECK(polar.find(",9,") == std::string::npos);
-  CHECK(std::ranges::any_of(imported.left_out, [](const std::string& note) {
-    return note.find("airfoil tip") == 0 && note.find("of 2 polars that of Reynolds number 1e+06") != std::string::npos;
-  }));
+  const std::string turbine = text_of(folder.path / "out/turbine.toml"), scene = text_of(imported.scene);
+  CHECK(turbine.find("{ thickness_pct = 100, file = \"polar_1.csv\" }") != std::string::npos);
+  CHECK(turbine.find("{ thickness_pct = 20, reynolds = 1000000, file = \"polar_2_1.csv\" },\n"
+                     "  { thickness_pct = 20, reynolds = 4000000, file = \"polar_2_2.csv\" }") != std::string::npos);
+  CHECK(text_of(folder.path / "out/polar_2_1.csv").find("\n0,0.4,0.01\n") != std::string::npos);
+  CHECK(text_of(folder.path / "out/polar_2_2.csv").find("\n0,0.9,0.3\n") != std::string::npos);
+  CHECK(scene.find("kinematic_viscosity_m2_s = 1.46938776e-05\n") != std::string::npos);  // 1.8e-5 / 1.225
+  const spindrift::aero::Turbine read = spindrift::aero::read_turbine((folder.path / "out/turbine.toml").string());
+  CHECK(read.polars.size() == 3);
+  CHECK(spindrift::aero::depends_on_reynolds(read));
+}
+
+TEST_CASE("airfoils whose thickness does not fall along the span are told apart by number", "[fast]") {
+  std::string text = replaced("relative_thickness: 1.0", "relative_thickness: 0.2");
+  text.replace(text.find("[root, root, tip]"), 17, "[tip, root, tip]");
+  const WindioFolder folder;
+  std::ofstream(folder.path / "t.yaml") << text;
+  spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out");
+  const spindrift::aero::Turbine read = spindrift::aero::read_turbine((folder.path / "out/turbine.toml").string());
+  REQUIRE(read.polars.size() == 3);
+  CHECK(read.planform.polar == std::vector<double>{1.0, 2.0, 3.0});
+  CHECK(read.planform.span[1] == 12.0);
+  CHECK(read.polars[1].drag[0] == 0.5);
+  CHECK(read.polars[2].lift == read.polars[0].lift);
+}
+
+TEST_CASE("a windIO tower is what the wind meets, and on demand the table of a beam", "[fast]") {
+  const WindioFolder folder;
+  std::ofstream(folder.path / "t.yaml") << small_turbine;
+  const auto imported = spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out");
+  CHECK(!fs::exists(folder.path / "out/tower.csv"));
+  spindrift::scene::Document document = spindrift::scene::load(imported.scene.string());
+  const auto scene = spindrift::coupling::read_scenario(document);
+  REQUIRE(scene.aero.tower);
+  // Foot, the step at 40 m over a millionth of the height, top: height, diameter and drag.
+  const auto& stations = scene.aero.tower->stations;
+  REQUIRE(stations.size() == 4);
+  CHECK(stations[0] == std::array<double, 3>{10.0, 8.0, 0.5});
+  CHECK(stations[1] == std::array<double, 3>{40.0, 8.0, 0.58});
+  CHECK(stations[2][0] == Approx(40.0).margin(1e-4));
+  CHECK(stations[2][1] == 6.0);
+  CHECK(stations[3] == std::array<double, 3>{85.0, 5.0, 0.7});
+
+  spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out", spindrift::decks::ImportedTower::flexible);
+  const auto table = spindrift::scene::read_columns((folder.path / "out/tower.csv").string());
+  REQUIRE(table.rows() == 4);
+  CHECK(table["distance_m"][3] == 75.0);
+  // At the foot a tube of steel from 8 to 7.9 m in diameter, in it one of wood to 7.7 m; the mass with a tenth more.
+  const double pi = 3.14159265358979, steel = pi / 4 * (8.0 * 8.0 - 7.9 * 7.9), wood = pi / 4 * (7.9 * 7.9 - 7.7 * 7.7),
+               bent_steel = pi / 64 * (std::pow(8.0, 4) - std::pow(7.9, 4)),
+               bent_wood = pi / 64 * (std::pow(7.9, 4) - std::pow(7.7, 4));
+  CHECK(table["mass_kg_m"][0] == Approx(1.1 * (7800 * steel + 500 * wood)).epsilon(1e-8));
+  CHECK(table["axial_N"][0] == Approx(2e11 * steel + 1e10 * wood).epsilon(1e-8));
+  CHECK(table["stiffness_x_N_m2"][0] == Approx(2e11 * bent_steel + 1e10 * bent_wood).epsilon(1e-8));
+  CHECK(table["stiffness_y_N_m2"][0] == table["stiffness_x_N_m2"][0]);
+  CHECK(table["torsion_N_m2"][0] == Approx(2 * (7.9e10 * bent_steel + 4e9 * bent_wood)).epsilon(1e-8));
+  // A file without the shape of its tower has none in the scene.
+  std::string bare = small_turbine;
+  bare.replace(bare.find("  tower:\n"), bare.find("materials:") - bare.find("  tower:\n"), "  tower: {}\n");
+  std::ofstream(folder.path / "t.yaml") << bare;
+  const auto none = spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "bare");
+  CHECK(std::ranges::count(none.left_out, "components.tower, which has no outer_shape_bem") == 1);
+  CHECK(text_of(none.scene).find("[aero.tower]") == std::string::npos);
 }
 
 TEST_CASE("malformed windIO files are refused by line and key", "[fast]") {
@@ -112,7 +189,7 @@ TEST_CASE("malformed windIO files are refused by line and key", "[fast]") {
     std::string from, to, key;
     int line;
   };
-  const std::string shape = "components.blade.outer_shape_bem.";
+  const std::string shape = "components.blade.outer_shape_bem.", tower = "components.tower.";
   const std::vector<Fault> faults = {
       {"hub_height: 90.0", "hub_height: tall", "assembly.hub_height", 1},
       {"hub_height: 90.0", "hub_height: .nan", "assembly.hub_height", 1},
@@ -130,14 +207,27 @@ TEST_CASE("malformed windIO files are refused by line and key", "[fast]") {
       {"[3.0, 1.0]", "[3.0]", shape + "chord.values", 8},
       {"[0.2, 0.0]", "[11.0, 0.0]", shape + "twist.values[0]", 9},
       {"[0.0, 50.0]", "[50.0, 0.0]", shape + "reference_axis.z.values[1]", 13},
-      {"relative_thickness: 1.0", "relative_thickness: 24", "airfoils[0].relative_thickness", 17},
-      {"name: tip", "name: root", "airfoils[1].name", 19},
-      {"[0.01, 0.01]", "[0.01, -0.01]", "airfoils[1].polars[0].c_d.values[1]", 21},
-      {"[-3.141, 0.0, 3.141]", "[-3.141, 4.0, 3.141]", "airfoils[1].polars[0].c_l.grid[2]", 21},
-      {"[-3.141, 0.0, 3.141]", "[-1.0, 0.0, 3.141]", "airfoils[1].polars[0].c_l.grid", 21},
-      {"VS_maxspd: 1.2", "VS_maxspd: 0.2", "control.torque.VS_maxspd", 23},
-      {"Vin: 3.0", "Vin: 30.0", "control.supervisory.Vin", 24},
-      {"air_density: 1.225, ", "", "environment", 25},
+      {"relative_thickness: 1.0", "relative_thickness: 24", "airfoils[0].relative_thickness", 32},
+      {"name: tip", "name: root", "airfoils[1].name", 34},
+      {"{re: 1e6, c_l: {grid: [-3.141, 0.0, 3.141]", "{re: 1e6}, {re: 1e6, c_l: {grid: [-3.141, 0.0, 3.141]",
+       "airfoils[1].polars[1].re", 36},
+      {"{re: 1e6, c_l: {grid: [-3.141, 0.0, 3.141]", "{re: 1e6}, {re: -1, c_l: {grid: [-3.141, 0.0, 3.141]",
+       "airfoils[1].polars[1].re", 36},
+      {"{re: 1e6, c_l: {grid: [-3.141, 0.0, 3.141]", "{re: 1e6}, {c_l: {grid: [-3.141, 0.0, 3.141]", "airfoils[1].polars[1]", 36},
+      {"[0.01, 0.01]", "[0.01, -0.01]", "airfoils[1].polars[0].c_d.values[1]", 36},
+      {"[-3.141, 0.0, 3.141]", "[-3.141, 4.0, 3.141]", "airfoils[1].polars[0].c_l.grid[2]", 36},
+      {"[-3.141, 0.0, 3.141]", "[-1.0, 0.0, 3.141]", "airfoils[1].polars[0].c_l.grid", 36},
+      {"VS_maxspd: 1.2", "VS_maxspd: 0.2", "control.torque.VS_maxspd", 38},
+      {"Vin: 3.0", "Vin: 30.0", "control.supervisory.Vin", 39},
+      {"[10.0, 85.0]", "[85.0, 10.0]", tower + "outer_shape_bem.reference_axis.z.values[1]", 19},
+      {"[8.0, 8.0, 6.0, 5.0]", "[8.0, 8.0, 6.0, 0.0]", tower + "outer_shape_bem.outer_diameter.values[3]", 20},
+      {"[8.0, 8.0, 6.0, 5.0]", "[8.0, 8.0, 6.0]", tower + "outer_shape_bem.outer_diameter.values", 20},
+      {"[0.5, 0.7]", "[0.5, -0.7]", tower + "outer_shape_bem.drag_coefficient.values[1]", 21},
+      {"outfitting_factor: 1.1", "outfitting_factor: none", tower + "internal_structure_2d_fem.outfitting_factor", 23},
+      {"material: wood", "material: cork", tower + "internal_structure_2d_fem.layers[1].material", 26},
+      {"values: [0.1, 0.1]", "values: [0.1, 4.1]", tower + "internal_structure_2d_fem.layers", 25},
+      {"rho: 7800", "rho: heavy", "materials[0].rho", 28},
+      {"air_density: 1.225, ", "", "environment", 40},
   };
   for (const Fault& f : faults) {
     INFO(f.from << " -> " << f.to);

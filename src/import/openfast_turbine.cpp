@@ -1,0 +1,189 @@
+// AeroDyn's blade and aerofoil files as a turbine file. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <map>
+
+#include "kernels/base/constants.hpp"
+#include "src/import/openfast_parts.hpp"
+
+namespace spindrift::decks {
+
+namespace {
+
+/// What AFTabMod makes of aerofoil files with several tables.
+enum class Tables { first, by_reynolds, by_property };
+
+Tables tables_named(const Deck& ad) {
+  const int mode = ad.integer({"AFTabMod"}, 1);
+  if (mode < 1 || mode > 3) ad.fail(ad.find({"AFTabMod"}), fmt::format("AFTabMod is {}: 1, 2 or 3 is known", mode));
+  return Tables(mode - 1);
+}
+
+struct BladeNode {
+  double span, bend, sweep, twist, chord;
+  int polar;  ///< number of its aerofoil file
+};
+
+std::vector<BladeNode> read_nodes(const Deck& blade) {
+  const auto nodes = std::size_t(blade.number({"NumBlNds"}));
+  const std::size_t heading = *blade.find({"NumBlNds"}) + 1, first = heading + 2;
+  const auto column = [&](const char* name) { return blade.column(heading, {name}); };
+  std::vector<BladeNode> read;
+  std::size_t line = first;
+  for (const auto& row : blade.rows(first, nodes, column("BlAFID") + 1)) {
+    const auto at = [&](const char* name) { return blade.to_number(row[column(name)], line); };
+    read.push_back({at("BlSpn"), at("BlCrvAC"), at("BlSwpAC"), at("BlTwist"), at("BlChord"), int(at("BlAFID"))});
+    ++line;
+  }
+  if (read.size() < 2) blade.fail(blade.find({"NumBlNds"}), "NumBlNds: at least 2 nodes make a blade");
+  return read;
+}
+
+/// The tables of an aerofoil file, each with the lines above it.
+std::vector<Deck> split_tables(const Deck& file, int count) {
+  std::vector<Deck> tables;
+  for (std::size_t begin = 0; int(tables.size()) < count;) {
+    const Deck rest = file.part(begin, file.size());
+    const auto line = rest.find({"NumAlf"});
+    if (!line) file.fail(file.find({"NumTabs"}), fmt::format("NumTabs is {}, but {} tables are there", count, tables.size()));
+    const int rows = rest.integer({"NumAlf"}, 0);
+    if (rows < 2) rest.fail(line, fmt::format("NumAlf is {}: at least 2 rows make a polar", rows));
+    rest.rows(*line + 1, std::size_t(rows), 1);
+    const std::size_t end = begin + *line + 1 + std::size_t(rows);
+    tables.push_back(file.part(begin, end));
+    begin = end;
+  }
+  return tables;
+}
+
+/// Reynolds numbers of the tables, which files have in millions.
+std::vector<double> reynolds_of(const std::vector<Deck>& tables) {
+  std::vector<double> numbers;
+  for (const Deck& table : tables) {
+    const double number = 1e6 * table.number({"Re"});
+    if (number <= 0.0) table.fail(table.find({"Re"}), "Re must be > 0 (millions)");
+    if (!numbers.empty() && number <= numbers.back())
+      table.fail(table.find({"Re"}),
+                 fmt::format("Re must be more than {:g}, that of the table before it (AFTabMod 2)", 1e-6 * numbers.back()));
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+/// What the Beddoes-Leishman models of AeroDyn (UA_Mod 1 to 3) are told of a polar, as a turbine file has it; no stall where the
+/// polar says nothing (Leishman & Beddoes 1989; Damiani & Hayman 2019, NREL/TP-5000-66347).
+std::string stall_of(const Deck& table) {
+  if (!table.flag({"InclUAdata"}, false)) return ", stall = { normal_slope = 0.0 }";
+  for (const char* name :
+       {"C_nalpha", "alpha0", "Cd0", "Cn1", "Cn2"}) {  // what AeroDyn finds from the polar, the program does too
+    std::string word = table.text({name});
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (word == "default") return "";
+  }
+  return fmt::format(
+      ", stall = {{ normal_slope = {:.9g}, zero_lift_deg = {:.9g}, drag_0 = {:.9g}, critical_normal = {:.9g}, "
+      "critical_normal_low = {:.9g} }}",
+      std::min(table.number({"C_nalpha"}), 20.0), table.number({"alpha0"}), std::max(table.number({"Cd0"}), 0.0),
+      std::max(table.number({"Cn1"}), 1e-3), std::min(table.number({"Cn2"}), 0.0));
+}
+
+/// Columns of angle, lift and drag.
+struct Columns {
+  std::size_t alpha, lift, drag;
+};
+
+/// Returns whether some drag was negative.
+bool write_table(const Deck& table, const Columns& column, const std::filesystem::path& file, const std::string& head) {
+  const std::size_t first = *table.find({"NumAlf"}) + 1, count = std::size_t(table.number({"NumAlf"}));
+  std::ofstream csv(file);
+  csv << head << "alpha_deg,cl,cd\n";
+  bool pushes = false;
+  double before = -1e9;
+  for (std::size_t k = first; k < first + count; ++k) {
+    const auto row = table.rows(k, 1, std::max({column.alpha, column.lift, column.drag}) + 1)[0];
+    const auto at = [&](std::size_t c) { return table.to_number(row[c], k); };
+    const double alpha = at(column.alpha), lift = at(column.lift), drag = at(column.drag);
+    pushes |= drag < 0.0;
+    if (alpha <= before) continue;  // a doubled row closes the circle
+    csv << fmt::format("{:.9g},{:.9g},{:.9g}\n", alpha, lift, std::max(drag, 0.0));
+    before = alpha;
+  }
+  return pushes;
+}
+
+/// Writes the polars of one aerofoil file. Returns what the turbine file says of each, after its number.
+std::vector<std::string> write_foil(const Deck& ad, const Deck& file, const std::string& name,
+                                    const std::filesystem::path& folder, std::vector<std::string>& left_out) {
+  const Tables mode = tables_named(ad);
+  const std::string title = file.file().filename().string();
+  const int given = file.integer({"NumTabs"}, 1);
+  if (given < 1) file.fail(file.find({"NumTabs"}), fmt::format("NumTabs is {}: at least one table makes a polar", given));
+  if (given > 1 && mode == Tables::by_property)
+    ad.fail(ad.find({"AFTabMod"}),
+            fmt::format("AFTabMod is 3, and {} has {} tables: a property that a controller changes (flaps) is not known; "
+                        "AFTabMod 1 takes the first table",
+                        title, given));
+  if (given > 1 && mode == Tables::first)
+    left_out.push_back(fmt::format("{}: the first of its {} tables is used, as AFTabMod 1 has it", title, given));
+  const std::vector<Deck> tables = split_tables(file, mode == Tables::by_reynolds ? given : 1);
+  const std::vector<double> reynolds = tables.size() > 1 ? reynolds_of(tables) : std::vector<double>();
+  const Columns column{std::size_t(ad.number({"InCol_Alfa"}, 1) - 1), std::size_t(ad.number({"InCol_Cl"}, 2) - 1),
+                       std::size_t(ad.number({"InCol_Cd"}, 3) - 1)};
+  const bool unsteady = !ad.has("AFAeroMod") || ad.integer({"AFAeroMod"}, 1) == 2;  // older decks have a switch of their own
+  const int model = ad.integer({"UA_Mod", "UAMod"}, 0);
+  std::vector<std::string> said, stall;
+  bool pushes = false, tells = unsteady && model >= 1 && model <= 3;
+  for (std::size_t n = 0; n < tables.size(); ++n) {
+    const std::string csv = reynolds.empty() ? name + ".csv" : fmt::format("{}_{}.csv", name, n + 1);
+    pushes |= write_table(tables[n], column, folder / csv, fmt::format("# From {}.\n", title));
+    said.push_back((reynolds.empty() ? "" : fmt::format("reynolds = {:.9g}, ", reynolds[n])) + fmt::format("file = \"{}\"", csv));
+    if (tells) stall.push_back(stall_of(tables[n]));
+    if (tells && stall.back().empty()) tells = false;  // all tables of a section say something of stall or none does
+  }
+  for (std::size_t n = 0; tells && n < said.size(); ++n) said[n] += stall[n];
+  if (pushes) left_out.push_back(fmt::format("{}: negative drag is taken as none", title));
+  return said;
+}
+
+}  // namespace
+
+WrittenTurbine write_turbine(const Deck& ad, const RotorFrame& r, const std::filesystem::path& folder) {
+  WrittenTurbine written;
+  const Deck blade(ad.path({"ADBlFile(1)", "ADBlFile1"}));
+  const std::vector<BladeNode> nodes = read_nodes(blade);
+
+  // Each stretch of one aerofoil has a number, so that an element between two stations has the mean of theirs.
+  std::ofstream planform(folder / "planform.csv");
+  planform << "# From " << blade.file().filename().string() << ".\nspan_m,chord_m,twist_deg,polar,prebend_m,sweep_m\n";
+  std::vector<int> stretches;
+  for (const BladeNode& n : nodes) {
+    if (stretches.empty() || stretches.back() != n.polar) stretches.push_back(n.polar);
+    planform << fmt::format("{:.9g},{:.9g},{:.9g},{},{:.9g},{:.9g}\n", n.span + r.hub_radius, n.chord, n.twist, stretches.size(),
+                            n.bend, -n.sweep);  // BlSwpAC: positive against the rotation
+  }
+
+  const auto files = std::size_t(ad.number({"NumAFfiles"}));
+  const std::size_t names = *ad.find({"NumAFfiles"}) + 1;
+  std::ofstream turbine(folder / "turbine.toml");
+  turbine << "# From " << ad.file().filename().string() << ".\n[turbine]\n"
+          << fmt::format("blades = {}\nhub_radius_m = {:.9g}\nprecone_deg = {:.9g}\nplanform = \"planform.csv\"\npolars = [\n",
+                         r.blades, nodes[0].span + r.hub_radius, -r.precone / radians_per_degree);
+  std::map<int, std::vector<std::string>> foils;
+  for (std::size_t n = 0; n < stretches.size(); ++n) {
+    const int polar = stretches[n];
+    if (polar < 1 || std::size_t(polar) > files)
+      blade.fail(std::nullopt, fmt::format("names polar {}; {} has {}", polar, ad.file().filename().string(), files));
+    if (!foils.contains(polar))
+      foils[polar] = write_foil(ad, Deck(ad.beside(ad.words(names + std::size_t(polar) - 1)[0]), '!'),
+                                fmt::format("polar_{}", polar), folder, written.left_out);
+    written.by_reynolds |= foils[polar].size() > 1;
+    for (const std::string& said : foils[polar]) turbine << fmt::format("  {{ number = {}, {} }},\n", n + 1, said);
+  }
+  turbine << "]\n";
+  return written;
+}
+
+}  // namespace spindrift::decks
