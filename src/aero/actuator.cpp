@@ -29,7 +29,7 @@ constexpr double wind_tolerance = 1e-10;  ///< change of an iteration over the s
 Turbine with_elements_below(Turbine turbine, double longest) {
   const Planform old = turbine.planform;
   Planform& p = turbine.planform;
-  p = {};
+  p = {}, turbine.elements_at_stations = false;
   for (std::size_t i = 0; i + 1 < old.span.size(); ++i) {
     const int pieces = std::max(1, int(std::ceil((old.span[i + 1] - old.span[i]) / longest)));
     for (int n = 0; n < pieces + (i + 2 == old.span.size()); ++n) {

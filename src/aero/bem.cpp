@@ -16,13 +16,11 @@ BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::st
   const Planform& p = turbine.planform;
   const double cone_sine = std::sin(turbine.precone), cone_cosine = std::cos(turbine.precone);
   const auto radius = [&](std::size_t i) { return p.span[i] * cone_cosine + p.prebend[i] * cone_sine; };
-  const auto axial = [&](std::size_t i) { return p.prebend[i] * cone_cosine - p.span[i] * cone_sine; };
   hub_radius_ = radius(0), tip_radius_ = radius(p.span.size() - 1);
-  for (std::size_t i = 0; i + 1 < p.span.size(); ++i) {
-    const auto middle = [&](const std::vector<double>& values) { return 0.5 * (values[i] + values[i + 1]); };
-    const double outward = radius(i + 1) - radius(i), downwind = axial(i + 1) - axial(i), length = std::hypot(outward, downwind);
-    elements_.push_back({0.5 * (radius(i) + radius(i + 1)), 0.5 * (axial(i) + axial(i + 1)), -downwind / length, outward / length,
-                         length, middle(p.chord), middle(p.twist), SectionPolars(turbine.polars, middle(p.place()))});
+  for (const BladePiece& piece : blade_pieces(turbine)) {
+    const double across = std::hypot(piece.outward, piece.downwind);
+    elements_.push_back({piece.radius, piece.axial, -piece.downwind / across, piece.outward / across, piece.length, piece.chord,
+                         piece.twist, SectionPolars(turbine.polars, piece.place)});
   }
 }
 
@@ -51,18 +49,35 @@ void BladeElementMomentum::for_each_place(const Wind& wind, const DiscMotion& ro
   for (int b = 0; b < blades_; ++b) {
     const double azimuth = rotor.azimuth + 2.0 * pi * b / blades_;
     const Eigen::Vector3d out = std::cos(azimuth) * rotor.up + std::sin(azimuth) * side, ahead = rotor.axis.cross(out);
-    const double pitch = rotor.pitches.empty() ? rotor.blade_pitch : rotor.pitches[std::size_t(b)];
+    const double pitch = rotor.pitch(b);
+    const BladeAxes axes = rotor.bent ? blade_axes(rotor, out, rotor.bent->precone, pitch) : BladeAxes{};
     for (const Element& e : elements_) {
-      const Eigen::Vector3d arm = e.axial * rotor.axis + e.radius * out;
+      Eigen::Vector3d arm = e.axial * rotor.axis + e.radius * out;
+      Eigen::Vector3d normal = e.normal_axial * rotor.axis + e.normal_radial * out;
+      Eigen::Vector3d own = rotor.hub_velocity;
+      Annulus ring = annulus(e, pitch);
+      if (rotor.bent) {
+        bend(*rotor.bent, axes, b, std::size_t(&e - elements_.data()), arm, normal, own);
+        ring.radius = arm.dot(out), ring.tip_radius += ring.radius - e.radius;
+      }
       Eigen::Vector3d air = wind.at(t, rotor.hub + arm);
       if (rotor.tower) air = rotor.tower->disturbed(rotor.tower_frame, air, rotor.hub + arm);
-      const Eigen::Vector3d relative = air - rotor.hub_velocity;
-      const Eigen::Vector3d normal = e.normal_axial * rotor.axis + e.normal_radial * out, met = relative - rotor.omega.cross(arm);
+      const Eigen::Vector3d relative = air - own, met = relative - rotor.omega.cross(arm);
       const double normal_wind = met.dot(normal), tangential_wind = -met.dot(ahead);
-      visit(Place{index++, e, annulus(e, pitch), arm, normal, ahead, normal_wind, tangential_wind, skew,
+      visit(Place{index++, e, ring, arm, normal, ahead, normal_wind, tangential_wind, skew,
                   e.radius / tip_radius_ * out.dot(downstream), in_use(e, normal_wind, tangential_wind)});
     }
   }
+}
+
+void BladeElementMomentum::bend(const BentBlades& bent, const BladeAxes& axes, int blade, std::size_t element,
+                                Eigen::Vector3d& arm, Eigen::Vector3d& normal, Eigen::Vector3d& velocity) {
+  const BentBlades::Section& s = bent.sections[element];
+  const Eigen::Vector3d q = bent.amplitude(blade), rate = bent.rate(blade), inward = s.shortening * q;
+  const Eigen::Vector2d displacement = s.value * q, swing = s.value * rate, slope = s.slope * q;
+  arm += displacement.x() * axes.x + displacement.y() * axes.y - 0.5 * q.dot(inward) * axes.along;
+  velocity += swing.x() * axes.x + swing.y() * axes.y - rate.dot(inward) * axes.along;
+  normal = (normal - normal.dot(slope.x() * axes.x + slope.y() * axes.y) * axes.along).normalized();
 }
 
 ElementState BladeElementMomentum::balance(const Place& at) const {
@@ -124,6 +139,24 @@ DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& ro
   DiscLoad sum;
   for_each_force(wind, rotor, t, memory, [&](const Place& at, const Eigen::Vector3d& force, bool balanced) {
     sum.force += force, sum.moment += at.arm.cross(force), sum.unbalanced += !balanced;
+  });
+  return sum;
+}
+
+DiscLoad BladeElementMomentum::on_modes(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
+                                        std::span<double> modal) const {
+  DiscLoad sum;
+  std::ranges::fill(modal, 0.0);
+  int blade = -1;
+  BladeAxes axes;
+  for_each_force(wind, rotor, t, memory, [&](const Place& at, const Eigen::Vector3d& force, bool balanced) {
+    sum.force += force, sum.moment += at.arm.cross(force), sum.unbalanced += !balanced;
+    if (const int b = int(at.index / elements_.size()); b != blade)
+      blade = b, axes = blade_axes(rotor, blade_direction(rotor, b, blades_), rotor.bent->precone, rotor.pitch(b));
+    const BentBlades::Section& s = rotor.bent->sections[at.index % elements_.size()];
+    Eigen::Map<Eigen::Vector3d>(modal.data() + beam::BladeModes::count * blade) +=
+        s.value.transpose() * Eigen::Vector2d(force.dot(axes.x), force.dot(axes.y)) -
+        force.dot(axes.along) * s.shortening * rotor.bent->amplitude(blade);
   });
   return sum;
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/beam/blade.hpp"
 #include "kernels/rigid/wrench.hpp"
 #include "kernels/rotor/blade_element.hpp"
 #include "kernels/rotor/dynamic_inflow_oye.hpp"
@@ -26,6 +27,28 @@
 
 namespace spindrift::aero {
 
+/// Way of the bent blade: along its coned axis outward, and the two ways of its modes, which turn with its pitch; units, earth
+/// frame.
+struct BladeAxes {
+  Eigen::Vector3d along, x, y;  ///< at a pitch of zero x is downwind and y ahead
+};
+
+/// Blades that are bent by their modes.
+struct BentBlades {
+  /// What modes of amplitude 1 do at the middle of an element.
+  struct Section {
+    beam::BladeModes::Shape value, slope;
+    beam::BladeModes::Square shortening;  ///< as in beam::BladePoint
+  };
+  double precone = 0.0;                       ///< [rad]
+  std::span<const Section> sections;          ///< of the elements of a blade
+  std::span<const double> amplitudes, rates;  ///< of the modes of blade 1, of blade 2 and so on
+
+  using Modal = Eigen::Map<const Eigen::Vector3d>;
+  Modal amplitude(int blade) const { return Modal(amplitudes.data() + beam::BladeModes::count * blade); }
+  Modal rate(int blade) const { return Modal(rates.data() + beam::BladeModes::count * blade); }
+};
+
 /// The rotor as its blades see it; earth frame.
 struct DiscMotion {
   Eigen::Vector3d hub_velocity;                   ///< [m/s]
@@ -36,12 +59,23 @@ struct DiscMotion {
   std::span<const double> pitches = {};           ///< of each blade [rad]; none: all have blade_pitch
   const Tower* tower = nullptr;                   ///< whose flow the blades meet
   TowerFrame tower_frame = {};
+  const BentBlades* bent = nullptr;  ///< rigid without
+
+  double pitch(int blade) const { return pitches.empty() ? blade_pitch : pitches[std::size_t(blade)]; }
 };
 
 /// Way of blade b of so many from the hub, square to the axis.
 inline Eigen::Vector3d blade_direction(const DiscMotion& rotor, int b, int blades) {
   const double azimuth = rotor.azimuth + 2.0 * pi * b / blades;
   return std::cos(azimuth) * rotor.up + std::sin(azimuth) * rotor.axis.cross(rotor.up);
+}
+
+/// Of a blade that points along `out`.
+inline BladeAxes blade_axes(const DiscMotion& rotor, const Eigen::Vector3d& out, double precone, double pitch) {
+  const double c = std::cos(precone), s = std::sin(precone);
+  const Eigen::Vector3d downwind = c * rotor.axis + s * out, ahead = rotor.axis.cross(out);
+  return {c * out - s * rotor.axis, std::cos(pitch) * downwind + std::sin(pitch) * ahead,
+          std::cos(pitch) * ahead - std::sin(pitch) * downwind};
 }
 
 struct DiscLoad {
@@ -74,6 +108,9 @@ class BladeElementMomentum {
   /// `memory`: what the flow remembers; without it the flow is steady.
   DiscLoad operator()(const Wind& wind, const DiscMotion& rotor, double t = 0.0, std::span<const double> memory = {}) const;
   DiscLoad operator()(const Eigen::Vector3d& wind, const DiscMotion& rotor) const { return (*this)(Wind{wind}, rotor); }
+  /// The same on bent blades, with its force on their modes: `modal` gets as many numbers as `rotor.bent` has amplitudes [N].
+  DiscLoad on_modes(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
+                    std::span<double> modal) const;
 
   /// Adds the same loads blade by blade; points of the wrenches, one to a blade, are from the hub.
   void add_root_loads(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
@@ -110,7 +147,7 @@ class BladeElementMomentum {
   ElementState solve(std::size_t element, double normal_wind, double tangential_wind, double blade_pitch) const;
 
  private:
-  /// Between two stations of the planform.
+  /// One of blade_pieces.
   struct Element {
     double radius, axial;                ///< of its middle, from the hub [m]; axial downwind
     double normal_radial, normal_axial;  ///< its normal
@@ -143,6 +180,9 @@ class BladeElementMomentum {
   Past recalled(std::span<const double> memory, std::size_t index) const;
   void store(const Past& past, std::span<double> memory, std::size_t index) const;
 
+  /// The element of a bent blade, from where it is on the rigid one.
+  static void bend(const BentBlades& bent, const BladeAxes& axes, int blade, std::size_t element, Eigen::Vector3d& arm,
+                   Eigen::Vector3d& normal, Eigen::Vector3d& velocity);
   /// Of these winds across the section [m/s].
   double reynolds(const Element& e, double normal_wind, double tangential_wind) const {
     return std::hypot(normal_wind, tangential_wind) * e.chord / kinematic_viscosity_;

@@ -1,4 +1,4 @@
-// Loads at the roots of rigid blades: of the air, of weight and of the blades' own motion, from their mass along the span.
+// Loads at the roots of blades: of the air, of weight and of the blades' own motion, from their mass along the span.
 // Frames and signs: docs/theory/rotor_engineering.md, "Blade roots". Used by rotor_loads.cpp; tested in
 // tests/src/aero/blade_roots_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -10,6 +10,10 @@
 
 #include "kernels/rigid/wrench.hpp"
 #include "src/aero/turbine.hpp"
+
+namespace spindrift::scene {
+class Columns;
+}
 
 namespace spindrift::aero {
 
@@ -27,11 +31,23 @@ struct HubMotion {
   Eigen::Vector3d omega, omega_rate;  ///< [rad/s], [rad/s2]
 };
 
+/// Mass along a blade, straight lines between the rows.
+struct BladeMasses {
+  std::vector<double> span, mass;  ///< from the rotor's axis along the blade, as in the planform [m]; [kg/m]
+};
+/// From a CSV file with span_m and mass_kg_m. Throws scene::SceneError.
+BladeMasses read_blade_masses(const Turbine& turbine, const std::string& path);
+/// The same columns of a file that has others too.
+BladeMasses blade_masses_of(const Turbine& turbine, const scene::Columns& file);
+
+/// What bending adds to a piece of a blade, from the rigid blade; earth frame.
+struct MassMotion {
+  Eigen::Vector3d displacement, acceleration;  ///< [m], [m/s2]
+};
+
 class BladeRoots {
  public:
-  /// Masses from a CSV file with span_m (from the rotor's axis along the blade, as in the planform) and mass_kg_m. Throws
-  /// scene::SceneError.
-  BladeRoots(const Turbine& turbine, const std::string& path);
+  BladeRoots(const Turbine& turbine, const BladeMasses& masses);
 
   std::size_t blades() const { return std::size_t(blades_); }
   /// Root of a blade that points along `out`, from the hub [m].
@@ -40,7 +56,9 @@ class BladeRoots {
   }
   /// Adds weight and inertia of the blade along `out` to a wrench about its root; `point` is from the hub.
   void add_mass_loads(const HubMotion& hub, const Eigen::Vector3d& axis, const Eigen::Vector3d& out,
-                      const Eigen::Vector3d& gravity_m_s2, Wrench& wrench) const;
+                      const Eigen::Vector3d& gravity_m_s2, Wrench& wrench, std::span<const MassMotion> bent = {}) const;
+  /// Where the masses are, along the blade from the rotor's axis [m]: two to a row of the table.
+  static std::vector<double> stations(const BladeMasses& masses);
   static BladeRootLoad seen(const Wrench& wrench, const Eigen::Vector3d& axis, const Eigen::Vector3d& out);
 
  private:

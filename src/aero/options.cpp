@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "src/aero/blade_roots.hpp"
+#include "src/aero/flexible_blades.hpp"
 #include "src/aero/operation.hpp"
 #include "src/aero/prescribed.hpp"
 #include "src/aero/thrust_curve.hpp"
@@ -46,6 +47,11 @@ void check_aero(const AeroOptions& o, const scene::Report& report) {
 
 void check_axis(const RotorOptions& o, const scene::Report& report) {
   if (o.axis.norm() == 0.0) report("axis", "must not be zero");
+}
+
+void check_damping(const RotorOptions& o, const scene::Report& report) {
+  if (o.blade_structure.empty() && o.blade_damping != RotorOptions().blade_damping)
+    report("blade_damping", "has no effect without blade_structure: the blades are rigid");
 }
 
 }  // namespace
@@ -177,7 +183,17 @@ const scene::Section<RotorOptions>& rotor_section() {
                 "CSV file with span_m (from the rotor axis along the blade) and mass_kg_m: with it the loads at the blades' "
                 "roots are "
                 "written. The rotor's body has that mass already.")
-          .check(check_axis);
+          .path("blade_structure", &RotorOptions::blade_structure,
+                "CSV file with span_m (from the rotor axis along the blade), mass_kg_m, flap_N_m2, edge_N_m2 (stiffness against "
+                "bending square to the chord and along it) and twist_deg (of the chord, nose into the wind): with it the blades "
+                "bend in three modes, and loads at their roots are written. The rotor's body has their mass already.")
+          .numbers("blade_damping", &RotorOptions::blade_damping, "-",
+                   "Structural damping of the blades' modes, first flapwise, first edgewise, second flapwise: ratio to the "
+                   "critical one.",
+                   scene::between(0.0, 0.5))
+          .size(3, 3)
+          .check(check_axis)
+          .check(check_damping);
   return section;
 }
 
@@ -216,7 +232,14 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
     doc.problem("rotor.blade_masses", "has no effect: only aero.model = \"bem\" knows the loads along a blade");
   else if (!rotor.turbine.empty())
     try_file("rotor.blade_masses", rotor.blade_masses,
-             [&] { BladeRoots roots(read_turbine(rotor.turbine), rotor.blade_masses); });
+             [&] { read_blade_masses(read_turbine(rotor.turbine), rotor.blade_masses); });
+  if (!rotor.blade_structure.empty() && aero.model != "bem")
+    doc.problem("rotor.blade_structure", "has no effect: only aero.model = \"bem\" has blades that bend");
+  else if (!rotor.blade_structure.empty() && !rotor.blade_masses.empty())
+    doc.problem("rotor.blade_masses", "is given beside rotor.blade_structure, which has masses too: one of the two");
+  else if (!rotor.turbine.empty())
+    try_file("rotor.blade_structure", rotor.blade_structure,
+             [&] { read_blade_structure(read_turbine(rotor.turbine), rotor.blade_structure); });
   try_file("rotor.operation", rotor.operation, [&] { read_operation(rotor.operation); });
   try_file("aero.table", aero.table, [&] { Prescribed model(aero); });
   try_file("aero.curve", aero.curve, [&] { ThrustCurve model(aero, rotor, 1.0); });

@@ -72,6 +72,8 @@ struct RotorOptions {
   std::string operation;                  ///< path: rotor speed, pitch and power against wind
   std::string operating_point = "given";  ///< given, table
   std::string blade_masses;               ///< path: mass along the blades, for loads at their roots; empty: not written
+  std::string blade_structure;            ///< path: mass and stiffness along blades that bend; empty: rigid
+  std::vector<double> blade_damping{0.005, 0.005, 0.005};  ///< of their modes, share of the critical one
 };
 
 const scene::Section<AeroOptions>& aero_section();

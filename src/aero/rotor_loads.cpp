@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/rotor_loads.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
@@ -41,12 +42,13 @@ UnsteadyFlow::Stall stall_named(std::string_view name) {
 
 RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,
                        const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control,
-                       double step_s)
+                       double step_s, const Eigen::Vector3d& gravity)
     : placement_(placement),
       start_azimuth_(rotor.azimuth),
       speed_(rotor.speed),
       blade_pitch_(rotor.blade_pitch),
-      wind_(wind_of(wind, {placement.hub, diameter_of(rotor)})) {
+      wind_(wind_of(wind, {placement.hub, diameter_of(rotor)})),
+      gravity_(gravity) {
   const Motion& body = start[placement.body];
   const Eigen::Vector3d axis = placement.axis.normalized();
   hub_ = body.attitude.conjugate() * (placement.hub - body.position);
@@ -68,7 +70,16 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
                                    .stall = stall_named(aero.dynamic_stall),
                                    .speed_of_sound = aero.speed_of_sound_m_s},
                                   aero.kinematic_viscosity(air_density));
-  if (!rotor.blade_masses.empty()) roots_.emplace(read_turbine(rotor.turbine), rotor.blade_masses);
+  if (!rotor.blade_masses.empty()) {
+    const Turbine turbine = read_turbine(rotor.turbine);
+    roots_.emplace(turbine, read_blade_masses(turbine, rotor.blade_masses));
+  }
+  if (!rotor.blade_structure.empty() && aero.model == "bem") {
+    const Turbine turbine = read_turbine(rotor.turbine);
+    const BladeStructure structure = read_blade_structure(turbine, rotor.blade_structure);
+    roots_.emplace(turbine, structure.masses);
+    flexible_.emplace(turbine, structure, rotor.blade_damping);
+  }
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
   const int blades = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
@@ -126,19 +137,66 @@ DiscMotion RotorLoads::disc_motion(const RotorState& now, std::span<const double
   return motion;
 }
 
-RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, double ramp) const {
+HubField RotorLoads::hub_field(const RotorState& now) const {
+  HubField field{now.omega, Eigen::Vector3d::Zero(), gravity_};
+  if (!placement_.support) field.omega_rate = (now.omega - now.speed * now.axis).cross(Eigen::Vector3d(now.speed * now.axis));
+  return field;
+}
+
+FlexibleBlades::Bending RotorLoads::settled(const Wind& wind, double t, const RotorState& now, DiscMotion motion,
+                                            std::span<const double> flow) const {
+  const auto& bem = std::get<BladeElementMomentum>(model_);
+  FlexibleBlades::Bending bending;
+  const std::size_t used = std::size_t(FlexibleBlades::modes * flexible_->blades());
+  OnModes air{};
+  constexpr int most = 50;  // the air's force hardly changes with bending: each pass leaves a tenth or less of the error
+  constexpr double enough = 1e-12;
+  for (int pass = 0; pass < most; ++pass) {
+    const FlexibleBlades::Bending before = bending;
+    const BentBlades bent = flexible_->bent(before);
+    motion.bent = &bent;
+    bem.on_modes(wind, motion, t, flow, std::span(air).first(used));
+    flexible_->settle(motion, hub_field(now), air, bending);
+    double change = 0.0, size = 0.0;
+    for (std::size_t k = 0; k < used; ++k)
+      change = std::max(change, std::abs(bending.amplitudes[k] - before.amplitudes[k])),
+      size = std::max(size, std::abs(bending.amplitudes[k]));
+    if (change <= enough * size) break;
+  }
+  return bending;
+}
+
+RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, double ramp, bool at_rest) const {
   RotorLoad load;
   if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) {
-    const std::span<const double> flow = memory_.empty() ? std::span<const double>() : std::span(memory_).subspan(control_size());
-    const DiscLoad disc = (*bem)(wind, disc_motion(now, memory_), t, flow);
+    const std::span<const double> memory(memory_), flow = flow_part(memory);
+    DiscMotion motion = disc_motion(now, memory);
+    DiscLoad disc;
+    Eigen::Matrix<double, 6, 1> reaction = Eigen::Matrix<double, 6, 1>::Zero();
+    if (flexible_) {
+      const bool moves = !memory.empty() && !at_rest;
+      const FlexibleBlades::Bending bending =
+          moves ? flexible_->predicted(bending_part(memory), t) : settled(wind, t, now, motion, flow);
+      const BentBlades bent = flexible_->bent(bending);
+      motion.bent = &bent;
+      OnModes air{};
+      disc = bem->on_modes(wind, motion, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * flexible_->blades())));
+      reaction = flexible_->reaction(motion, hub_field(now), bending, air);
+    } else {
+      disc = (*bem)(wind, motion, t, flow);
+    }
     load.force = ramp * disc.force, load.moment = ramp * disc.moment;
-    load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis);
+    load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis), load.shaft_torque = load.torque;
+    if (flexible_) {
+      load.force += ramp * reaction.head<3>(), load.moment += ramp * reaction.tail<3>();
+      load.shaft_torque += ramp * reaction.tail<3>().dot(now.axis);
+    }
   } else {
     AxialLoad axial;
     const double pitch = control_ && !memory_.empty() ? mean(control_->pitch(memory_)) : blade_pitch_;
     if (const auto* prescribed = std::get_if<Prescribed>(&model_)) axial = (*prescribed)(t, now.azimuth);
     if (const auto* curve = std::get_if<ThrustCurve>(&model_)) axial = (*curve)(now.relative_wind, now.speed, pitch);
-    load.thrust = ramp * axial.thrust, load.torque = ramp * axial.torque;
+    load.thrust = ramp * axial.thrust, load.torque = ramp * axial.torque, load.shaft_torque = load.torque;
     load.force = load.thrust * thrust_direction_.value_or(now.axis), load.moment = load.torque * now.axis;
   }
   load.power = load.torque * now.speed;
@@ -148,7 +206,7 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
   }
   if (control_) {
     // The body feels what the shaft gives it, and the turning of the spinning rotor's axis.
-    if (!memory_.empty()) load.moment += (ramp * TurbineControl::state(memory_).shaft_torque - load.torque) * now.axis;
+    if (!memory_.empty()) load.moment += (ramp * TurbineControl::state(memory_).shaft_torque - load.shaft_torque) * now.axis;
     const Eigen::Vector3d carrier = now.omega - now.speed * now.axis;
     load.moment -= carrier.cross(Eigen::Vector3d(control_->rotor_inertia() * now.speed * now.axis));
   }
@@ -168,25 +226,45 @@ std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Moti
   const Eigen::Vector3d arm = now.hub - body.position, turning = body.omega_earth();
   HubMotion hub{acceleration + omega_rate.cross(arm) + turning.cross(turning.cross(arm)), now.omega, omega_rate};
   if (!placement_.support) hub.omega_rate += turning.cross(Eigen::Vector3d(now.speed * now.axis));
-  const DiscMotion disc = disc_motion(now, memory_);
+  DiscMotion disc = disc_motion(now, memory_);
+  const auto& bem = std::get<BladeElementMomentum>(model_);
   const int blades = int(roots_->blades());
   std::vector<Wrench> of_air(roots_->blades());
   std::vector<BladeRootLoad> loads;
   for (int b = 0; b < blades; ++b) of_air[std::size_t(b)].point = roots_->root(now.axis, blade_direction(disc, b, blades));
-  const std::span<const double> flow = memory_.empty() ? std::span<const double>() : std::span(memory_).subspan(control_size());
-  std::get<BladeElementMomentum>(model_).add_root_loads(wind_, disc, t, flow, of_air);
+  const std::span<const double> memory(memory_), flow = flow_part(memory);
+  FlexibleBlades::Bending bending;
+  BentBlades bent;
+  OnModes air{};
+  if (flexible_) {
+    bending = memory.empty() ? settled(wind_, t, now, disc, flow) : flexible_->predicted(bending_part(memory), t);
+    bent = flexible_->bent(bending), disc.bent = &bent;
+    bem.on_modes(wind_, disc, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * blades)));
+  }
+  bem.add_root_loads(wind_, disc, t, flow, of_air);
   for (int b = 0; b < blades; ++b) {
     const Eigen::Vector3d out = blade_direction(disc, b, blades);
     Wrench& w = of_air[std::size_t(b)];
     w.force *= ramp, w.moment *= ramp;
-    roots_->add_mass_loads(hub, now.axis, out, gravity, w);
+    std::vector<MassMotion> moved;
+    if (flexible_) {
+      Eigen::Matrix<double, 6, 1> beyond;
+      const HubField field = hub_field(now);
+      beyond << hub.acceleration, hub.omega_rate - field.omega_rate;
+      moved = flexible_->mass_motions(disc, b, field, beyond, bending, air);
+    }
+    roots_->add_mass_loads(hub, now.axis, out, gravity, w, moved);
     loads.push_back(BladeRoots::seen(w, now.axis, out));
   }
   return loads;
 }
 
 TurbineControl::Measured RotorLoads::measured(double t, const RotorState& now) const {
-  TurbineControl::Measured m{.torque = load(t, now).torque, .wind = now.relative_wind};
+  TurbineControl::Measured m{.torque = load(t, now).shaft_torque, .wind = now.relative_wind};
+  if (flexible_ && !memory_.empty()) {
+    const Eigen::Matrix3d turning = flexible_->added_mass(disc_motion(now, memory_)).bottomRightCorner<3, 3>();
+    m.bending_inertia = -now.axis.dot(turning * now.axis);
+  }
   if (!control_->library()) return m;
   const Eigen::Vector3d wind = wind_.at(t, now.hub), up = Eigen::Vector3d::UnitZ(), carrier = now.omega - now.speed * now.axis;
   Eigen::Vector3d along(now.axis.x(), now.axis.y(), 0.0);
@@ -203,16 +281,63 @@ void RotorLoads::begin(double t, std::span<const Motion> bodies, std::span<doubl
   recall({});
   const RotorState now = state(t, bodies);
   if (control_) control_->begin(t, measured(t, now), memory.first(control_size()));
-  if (flow_size() > 0)
-    std::get<BladeElementMomentum>(model_).begin(wind_, disc_motion(now, memory), t, memory.subspan(control_size()));
+  if (flow_size() > 0) std::get<BladeElementMomentum>(model_).begin(wind_, disc_motion(now, memory), t, flow_part(memory));
+  if (flexible_) {
+    // At rest in the turning rotor: amplitudes go with the azimuth, and so have rates.
+    const std::span<const double> flow = flow_part(std::span<const double>(memory));
+    constexpr double soon = 0.02;  // [s]
+    RotorState later = now;
+    later.azimuth += soon * now.speed;
+    DiscMotion motion = disc_motion(now, memory);
+    FlexibleBlades::Bending bending = settled(wind_, t, now, motion, flow);
+    const FlexibleBlades::Bending next = settled(wind_, t, later, disc_motion(later, memory), flow);
+    for (std::size_t k = 0; k < bending.rates.size(); ++k) bending.rates[k] = (next.amplitudes[k] - bending.amplitudes[k]) / soon;
+    const BentBlades bent = flexible_->bent(bending);
+    motion.bent = &bent;
+    OnModes air{};
+    std::get<BladeElementMomentum>(model_).on_modes(
+        wind_, motion, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * flexible_->blades())));
+    flexible_->begin(t, motion, hub_field(now), bending, air, bending_part(memory));
+  }
   recall(memory);
 }
 
 void RotorLoads::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const {
   const RotorState now = state(t, bodies);
   if (control_) control_->advance(t, h, measured(t, now), memory.first(control_size()));
-  if (flow_size() > 0)
-    std::get<BladeElementMomentum>(model_).remember(wind_, disc_motion(now, memory), t, h, memory.subspan(control_size()));
+  const std::span<double> flow = flow_part(memory);
+  DiscMotion motion = disc_motion(now, memory);
+  FlexibleBlades::Bending bending;
+  BentBlades bent;
+  if (flexible_) bending = flexible_->predicted(bending_part(memory), t), bent = flexible_->bent(bending), motion.bent = &bent;
+  if (flow_size() > 0) std::get<BladeElementMomentum>(model_).remember(wind_, motion, t, h, flow);
+  if (flexible_) {
+    OnModes air{};
+    std::get<BladeElementMomentum>(model_).on_modes(
+        wind_, motion, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * flexible_->blades())));
+    flexible_->advance(t, h, motion, hub_field(now), air, bending_part(memory));
+  }
+}
+
+std::vector<Eigen::Vector2d> RotorLoads::tips(double t, std::span<const Motion> bodies) const {
+  const RotorState now = state(t, bodies);
+  const std::span<const double> memory(memory_);
+  const DiscMotion motion = disc_motion(now, memory);
+  const FlexibleBlades::Bending bending =
+      memory.empty() ? settled(wind_, t, now, motion, {}) : flexible_->predicted(bending_part(memory), t);
+  std::vector<Eigen::Vector2d> tips;
+  for (int b = 0; b < flexible_->blades(); ++b) tips.push_back(flexible_->tip(motion, b, bending));
+  return tips;
+}
+
+void RotorLoads::add_added_mass(double t, std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> matrices) const {
+  if (memory_.empty()) return;
+  const RotorState now = state(t, bodies);
+  const Eigen::Vector3d arm = now.hub - bodies[std::size_t(placement_.body)].position;
+  // Acceleration of the hub from that of the body: a + alpha x arm.
+  Eigen::Matrix<double, 6, 6> to_hub = Eigen::Matrix<double, 6, 6>::Identity();
+  to_hub.topRightCorner<3, 3>() << 0.0, arm.z(), -arm.y(), -arm.z(), 0.0, arm.x(), arm.y(), -arm.x(), 0.0;
+  matrices[std::size_t(placement_.body)] += to_hub.transpose() * flexible_->added_mass(disc_motion(now, memory_)) * to_hub;
 }
 
 RotorLoads::Drive RotorLoads::drive() const {
@@ -236,7 +361,7 @@ void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::s
   const double first = now.azimuth;
   for (int place = 0; place < places; ++place) {
     now.azimuth = whole_turns_off(first + 2.0 * pi * place / places);
-    const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places);
+    const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places, true);
     add_at_hub(bodies, wrenches, load.force, load.moment);
   }
 }

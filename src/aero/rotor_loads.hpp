@@ -13,6 +13,7 @@
 #include "kernels/rigid/wrench.hpp"
 #include "src/aero/bem.hpp"
 #include "src/aero/blade_roots.hpp"
+#include "src/aero/flexible_blades.hpp"
 #include "src/aero/options.hpp"
 #include "src/aero/prescribed.hpp"
 #include "src/aero/thrust_curve.hpp"
@@ -40,9 +41,10 @@ struct RotorState {
 };
 
 struct RotorLoad {
-  double thrust = 0.0;                                                                ///< [N]
-  double torque = 0.0;                                                                ///< [N m]
-  double power = 0.0;                                                                 ///< torque times rotor speed [W]
+  double thrust = 0.0;        ///< [N]
+  double torque = 0.0;        ///< [N m]
+  double power = 0.0;         ///< torque times rotor speed [W]
+  double shaft_torque = 0.0;  ///< of the blades on the hub: of the air and, where they bend, their inertia [N m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< all of it, about the hub, earth frame
 };
 
@@ -52,13 +54,18 @@ class RotorLoads {
   /// checked (check_rotor); throws scene::SceneError where one cannot be read.
   RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density_kg_m3,
              const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control = {},
-             double step_s = 0.0);
+             double step_s = 0.0, const Eigen::Vector3d& gravity_m_s2 = Eigen::Vector3d::Zero());
 
   /// Adds the load, times `ramp`, to the rotor body's wrench.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp = 1.0) const;
 
   /// The same under the mean wind (the scene's own at the start, without gusts and turbulence), as a mean over a turn of blade 1.
   void add_mean_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+
+  /// Blades that bend do not follow the rotor's body at once: adds what they take off its inertia, about its centre of mass,
+  /// earth axes, [force; moment]. Rigid ones, and blades under mean loads, are masses of the body.
+  bool has_added_mass() const { return flexible_.has_value(); }
+  void add_added_mass(double t, std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> matrices) const;
 
   /// Adds a load known from elsewhere, about the hub, to the rotor body's wrench.
   void add_at_hub(std::span<const Motion> bodies, std::span<Wrench> wrenches, const Eigen::Vector3d& force,
@@ -76,8 +83,8 @@ class RotorLoads {
   std::optional<ReynoldsReach> reynolds(double t, const RotorState& now) const;
 
   // What the rotor remembers from step to step, as bodies::Memory has it: the drive train with its controller, then the flow
-  // round the blades. Without values to recall it turns as at the start, in steady flow.
-  std::size_t memory_size() const { return control_size() + flow_size(); }
+  // round the blades, then their bending. Without values to recall it turns as at the start, in steady flow.
+  std::size_t memory_size() const { return control_size() + flow_size() + bending_size(); }
   void begin(double t, std::span<const Motion> bodies, std::span<double> memory);
   void recall(std::span<const double> memory) { memory_.assign(memory.begin(), memory.end()); }
   void remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const;
@@ -89,6 +96,11 @@ class RotorLoads {
   std::vector<BladeRootLoad> root_loads(double t, std::span<const Motion> bodies, const Eigen::Vector3d& acceleration,
                                         const Eigen::Vector3d& omega_rate, const Eigen::Vector3d& gravity_m_s2,
                                         double ramp = 1.0) const;
+
+  /// Null where blades are rigid.
+  const FlexibleBlades* flexible() const { return flexible_ ? &*flexible_ : nullptr; }
+  /// Bending of each blade's tip, downwind and ahead [m].
+  std::vector<Eigen::Vector2d> tips(double t, std::span<const Motion> bodies) const;
 
   bool is_controlled() const { return control_.has_value(); }
   std::size_t drive_blades() const { return control_ ? control_->blades() : 0; }
@@ -102,10 +114,26 @@ class RotorLoads {
   BladedLibrary* library() const { return control_ ? control_->library() : nullptr; }
 
  private:
-  RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp) const;
+  /// `settled`: bent blades are at rest under this wind, whatever is remembered.
+  RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, bool settled = false) const;
   TurbineControl::Measured measured(double t, const RotorState& now) const;
   std::size_t control_size() const { return control_ ? control_->memory_size() : 0; }
   std::size_t flow_size() const;
+  std::size_t bending_size() const { return flexible_ ? flexible_->memory_size() : 0; }
+  /// What is remembered of the flow and of the bending.
+  template <class T>
+  std::span<T> flow_part(std::span<T> memory) const {
+    return memory.empty() ? memory : memory.subspan(control_size(), flow_size());
+  }
+  template <class T>
+  std::span<T> bending_part(std::span<T> memory) const {
+    return memory.empty() ? memory : memory.subspan(control_size() + flow_size());
+  }
+  HubField hub_field(const RotorState& now) const;
+  /// Forces of the air on the modes of all blades.
+  using OnModes = std::array<double, std::size_t(FlexibleBlades::modes) * FlexibleBlades::max_blades>;
+  FlexibleBlades::Bending settled(const Wind& wind, double t, const RotorState& now, DiscMotion motion,
+                                  std::span<const double> flow) const;
   DiscMotion disc_motion(const RotorState& now, std::span<const double> memory) const;
   /// Attitude of what carries azimuth zero.
   Eigen::Quaterniond support_attitude(std::span<const Motion> bodies) const;
@@ -120,6 +148,8 @@ class RotorLoads {
   std::optional<TurbineControl> control_;
   std::optional<Tower> tower_;
   std::optional<BladeRoots> roots_;
+  std::optional<FlexibleBlades> flexible_;
+  Eigen::Vector3d gravity_;     ///< [m/s2]
   std::vector<double> memory_;  ///< recalled; empty: steady
   std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
 };

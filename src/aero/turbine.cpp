@@ -197,12 +197,43 @@ const scene::Section<TurbineOptions>& turbine_section() {
               "have numbers a column polar says which, 2.5 being half of polar 2 and half of 3; thickness_pct may then be left "
               "out.")
           .required()
+          .choice(
+              "elements", &TurbineOptions::elements,
+              {{"between_stations", "from each row of the planform to the next, with the mean of both"},
+               {"at_stations",
+                "round each row, from half-way to half-way, with its own section: AeroDyn's sum over nodes. The first and the "
+                "last row carry no load"}},
+              "What blade elements are.")
           .tables("polars", &TurbineOptions::polars, polar_section(), "Lift and drag for the sections along the blade.")
           .tables("aerofoils", &TurbineOptions::aerofoils, aerofoil_section(),
                   "Outlines for the thicknesses along the blade: what a resolved blade's surface is made from.")
           .path("operation", &TurbineOptions::operation, "Operating table, for scenes that give no rotor.operation.")
           .path("controller", &TurbineOptions::controller, "Controller file, for scenes that give no control.file.");
   return section;
+}
+
+std::vector<BladePiece> blade_pieces(const Turbine& turbine) {
+  const Planform& p = turbine.planform;
+  const double sine = std::sin(turbine.precone), cosine = std::cos(turbine.precone);
+  const auto radius = [&](std::size_t i) { return p.span[i] * cosine + p.prebend[i] * sine; };
+  const auto axial = [&](std::size_t i) { return p.prebend[i] * cosine - p.span[i] * sine; };
+  std::vector<BladePiece> pieces;
+  if (turbine.elements_at_stations) {
+    for (std::size_t i = 1; i + 1 < p.span.size(); ++i) {
+      const double outward = 0.5 * (radius(i + 1) - radius(i - 1)), downwind = 0.5 * (axial(i + 1) - axial(i - 1));
+      const double length = 0.5 * (std::hypot(radius(i + 1) - radius(i), axial(i + 1) - axial(i)) +
+                                   std::hypot(radius(i) - radius(i - 1), axial(i) - axial(i - 1)));
+      pieces.push_back({p.span[i], radius(i), axial(i), outward, downwind, length, p.chord[i], p.twist[i], p.place()[i]});
+    }
+    return pieces;
+  }
+  for (std::size_t i = 0; i + 1 < p.span.size(); ++i) {
+    const auto middle = [&](const std::vector<double>& values) { return 0.5 * (values[i] + values[i + 1]); };
+    const double outward = radius(i + 1) - radius(i), downwind = axial(i + 1) - axial(i);
+    pieces.push_back({middle(p.span), 0.5 * (radius(i) + radius(i + 1)), 0.5 * (axial(i) + axial(i + 1)), outward, downwind,
+                      std::hypot(outward, downwind), middle(p.chord), middle(p.twist), middle(p.place())});
+  }
+  return pieces;
 }
 
 TurbineFiles turbine_files(const std::string& path) {
@@ -257,6 +288,9 @@ Turbine read_turbine(const std::string& path) {
                   {},
                   {}};
   if (by_number) check_numbers(options.planform, options.polars);
+  turbine.elements_at_stations = options.elements == "at_stations";
+  if (turbine.elements_at_stations && turbine.planform.span.size() < 3)
+    doc.problem("turbine.elements", "= \"at_stations\" needs a planform of three rows or more"), doc.finish();
   for (const PolarOptions& polar : options.polars) turbine.polars.push_back(read_polar(polar));
   for (const OutlineOptions& aerofoil : options.aerofoils) turbine.aerofoils.push_back(read_aerofoil(aerofoil));
   const auto thinner = [](const auto& a, const auto& b) { return a.thickness < b.thickness; };

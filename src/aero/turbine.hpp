@@ -45,6 +45,7 @@ struct TurbineOptions {
   double hub_radius_m = 0.0;
   double precone = 0.0;  ///< [rad], positive: blades lean upwind
   std::string planform;  ///< path
+  std::string elements = "between_stations";
   std::vector<PolarOptions> polars;
   std::vector<OutlineOptions> aerofoils;
   std::string operation, controller;  ///< paths
@@ -88,7 +89,20 @@ struct Turbine {
   Planform planform;
   std::vector<Polar> polars;        ///< by increasing place, at one place by increasing Reynolds number
   std::vector<Aerofoil> aerofoils;  ///< by increasing thickness; none where the file gives none
+  bool elements_at_stations = false;
 };
+
+/// A piece of a blade that blade elements take for one section; from the hub along the rotor's axis and square to it.
+struct BladePiece {
+  double span;               ///< of its middle, along the coned blade from the rotor's axis [m]
+  double radius, axial;      ///< of its middle; axial downwind [m]
+  double outward, downwind;  ///< from its inner end to its outer one [m]
+  double length;             ///< [m]
+  double chord, twist;       ///< [m], [rad]
+  double place;              ///< among the polars, as Planform::place
+};
+/// From root to tip: between the stations, or round all but the first and the last, where the loss at the ends leaves no load.
+std::vector<BladePiece> blade_pieces(const Turbine& turbine);
 
 /// What a turbine file says besides its blades: paths of its operating table and its controller, empty where it names none.
 struct TurbineFiles {

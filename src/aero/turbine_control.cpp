@@ -235,12 +235,13 @@ void TurbineControl::advance(double t, double h, const Measured& measured, std::
   State s = state(memory);
   const Rows rows = this->rows(memory);
   // The shaft first, under the torque that the generator had: Adams-Bashforth, second order.
-  const double acceleration = (measured.torque - s.generator_torque) / inertia_;
+  const double inertia = inertia_ - measured.bending_inertia;
+  const double acceleration = (measured.torque - s.generator_torque) / inertia;
   const double before = s.speed;
   s.speed += h * (1.5 * acceleration - 0.5 * s.acceleration);
-  if (const double stop = h * brake(s) / inertia_; stop > 0.0) s.speed -= std::clamp(s.speed, -stop, stop);
+  if (const double stop = h * brake(s) / inertia; stop > 0.0) s.speed -= std::clamp(s.speed, -stop, stop);
   s.acceleration = acceleration;
-  s.shaft_torque = measured.torque - inertia_ * (s.speed - before) / h;
+  s.shaft_torque = measured.torque - inertia * (s.speed - before) / h;
   s.azimuth += 0.5 * h * (before + s.speed), s.time = t;
 
   happen(t, h, s, rows.stuck);

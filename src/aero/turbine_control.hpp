@@ -34,11 +34,12 @@ class TurbineControl {
   };
   /// What is measured at the end of a step; what only libraries look at may be left out.
   struct Measured {
-    double torque = 0.0;                       ///< of the air, at the speed and pitch that the memory has [N m]
+    double torque = 0.0;                       ///< of the blades, at the speed and pitch that the memory has [N m]
     double wind = 0.0;                         ///< along the axis, that the hub meets [m/s]
     double wind_speed = 0.0, yaw_error = 0.0;  ///< horizontal, at the hub [m/s]; of it, from the axis [rad]
     /// Of the hub [m/s] and of what carries the rotor [rad/s]: downwind, to the left seen downwind, and up.
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), turning = Eigen::Vector3d::Zero();
+    double bending_inertia = 0.0;  ///< of the rotor, that bends instead of following the shaft [kg m2]
   };
   enum class Mode { parked, starting, operating, stopping, tripped, braked };
 

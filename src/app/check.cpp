@@ -108,6 +108,18 @@ void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& stat
                  1e-3 * floating.moorings()->tension(line, state.motions).fairlead);
 }
 
+void print_blade_modes(const FloatingSystem& floating) {
+  if (!floating.rotor() || !floating.rotor()->flexible()) return;
+  const aero::FlexibleBlades& blades = *floating.rotor()->flexible();
+  const double speed = floating.scenario().rotor.speed;
+  const auto hertz = [](const auto& omega) {
+    return fmt::format("{:.3f}, {:.3f}, {:.3f} Hz", omega[0] / (2.0 * pi), omega[1] / (2.0 * pi), omega[2] / (2.0 * pi));
+  };
+  fmt::print("\nBlades of {:.0f} kg bend with {} at rest", blades.mass(), hertz(blades.omega()));
+  if (speed != 0.0) fmt::print(", {} at {:.2f} rpm", hertz(blades.omega_turning(speed)), speed / rad_s_per_rpm);
+  fmt::print(" (held hub)\n");
+}
+
 void print_modes(const FloatingSystem& floating, const bodies::Linearisation& linearisation) {
   fmt::print("\nModes about the start\n");
   std::size_t free = 0;
@@ -346,7 +358,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     print_models(floating);
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
     print_doubts(floating, start, stability);
-    if (!start.state.motions.empty()) print_modes(floating, stability.linearisation);
+    if (!start.state.motions.empty()) print_modes(floating, stability.linearisation), print_blade_modes(floating);
   }
   require_limits(floating, start.state, stability);
   if (world.rank != 0) return done;

@@ -232,6 +232,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->add_flag(
         "--flexible-tower", arguments->flexible_tower,
         "A tower that bends in the deck becomes a beam of the scene; of a windIO turbine the table of one is written");
+    command->add_flag("--rigid-blades", arguments->rigid_blades, "Blades that bend in the deck stay rigid in the scene");
     command->callback(
         [arguments, &chosen] { chosen = [arguments](const auto& world) { return import_deck(*arguments, world); }; });
   }

@@ -184,8 +184,16 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
   return f;
 }
 
+/// Flow without walls on a standing grid falls by about an order in a pseudo-step: the implicit steps are as large as they may
+/// be.
+bool steps_expected(const coupling::Scenario& s) {
+  return s.has_actuator() && s.aero.flow->time != "steady" && s.aero.flow->drop > 0.0;
+}
+
 double pseudo_steps_per_second(const coupling::Scenario& s) {
-  return (s.aero.flow->time == "steady" ? 1.0 : s.aero.flow->max_pseudo_steps) / s.time.window_s;
+  const aero::FlowOptions& flow = *s.aero.flow;
+  const double most = flow.time == "steady" ? 1.0 : flow.max_pseudo_steps;
+  return (steps_expected(s) ? std::min(most, std::ceil(-std::log10(flow.drop))) : most) / s.time.window_s;
 }
 
 PartCost cost_of_flow(const coupling::Scenario& s, const aero::MultiBlockGrid& grid) {
@@ -197,7 +205,7 @@ PartCost cost_of_flow(const coupling::Scenario& s, const aero::MultiBlockGrid& g
           .bytes = size.bytes + (strong ? size.bytes_of_checkpoint : 0.0),
           .checkpoint_bytes = size.bytes_of_checkpoint,
           .work_per_second = (strong ? s.coupling.samples : 1.0) * pseudo_steps_per_second(s),
-          .work = "pseudo-steps at most",
+          .work = steps_expected(s) ? "pseudo-steps, one to an order of drop" : "pseudo-steps at most",
           .core_seconds_per_work = size.core_seconds_per_pseudo_step,
           .rate = fmt::format("{:.3g} us per cell, stated", 1e6 * size.core_seconds_per_pseudo_step / double(size.cells)),
           .work_before = double(s.start.air_steps)};

@@ -5,6 +5,7 @@
 #include "src/app/commands.hpp"
 #include "src/import/openfast.hpp"
 #include "src/import/windio.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::app {
 
@@ -12,9 +13,13 @@ int import_deck(const ImportArguments& arguments, const runtime::World& world) {
   if (world.rank != 0) return done;
   const std::string ending = std::filesystem::path(arguments.file).extension().string();
   const bool windio = ending == ".yaml" || ending == ".yml";
+  if (windio && arguments.rigid_blades)
+    throw scene::SceneError({{"command line", 0, "--rigid-blades", "", "has no effect: windIO's blades are carried over rigid"}});
   const auto tower = arguments.flexible_tower ? decks::ImportedTower::flexible : decks::ImportedTower::rigid;
-  const decks::Imported result = windio ? decks::import_windio(arguments.file, arguments.out, tower)
-                                        : decks::import_openfast(arguments.file, arguments.out, tower);
+  const decks::Imported result =
+      windio ? decks::import_windio(arguments.file, arguments.out, tower)
+             : decks::import_openfast(arguments.file, arguments.out, tower,
+                                      arguments.rigid_blades ? decks::ImportedBlades::rigid : decks::ImportedBlades::as_in_deck);
   fmt::print("{}\n\nCarried over\n", result.scene.string());
   for (const std::string& what : result.carried) fmt::print("  {}\n", what);
   if (!result.left_out.empty()) fmt::print("\nLeft out\n");

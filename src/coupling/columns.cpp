@@ -138,6 +138,14 @@ Table<aero::BladeRootLoad> root_columns() {
   return table;
 }
 
+Table<Eigen::Vector2d> tip_columns() {
+  using Of = const Eigen::Vector2d&;
+  static constexpr ColumnOf<Eigen::Vector2d> table[] = {
+      {"tip_downwind_m", "m", "bending of the blade's tip downwind, square to the blade", [](Of tip) { return tip.x(); }},
+      {"tip_ahead_m", "m", "bending of the blade's tip along its way", [](Of tip) { return tip.y(); }}};
+  return table;
+}
+
 Table<aero::RotorLoads::Drive> drive_columns() {
   using Of = const aero::RotorLoads::Drive&;
   static constexpr double degree = radians_per_degree;
@@ -277,7 +285,8 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("rotor.", "rotors on bodies", hub_columns()),
           section_of("rotor.", "controlled rotors", drive_columns()),
           section_of("rotor.blade_1.", "each blade of a controlled rotor", pitch_columns()),
-          section_of("rotor.blade_1.", "each blade, where rotor.blade_masses is given", root_columns()),
+          section_of("rotor.blade_1.", "each blade, where rotor.blade_masses or rotor.blade_structure is given", root_columns()),
+          section_of("rotor.blade_1.", "each blade that bends", tip_columns()),
           section_of("rotor.blade_1.", "each blade of the grid of a resolved rotor", blade_columns()),
           section_of("MOORING.", "each line", mooring_columns()),
           section_of("MOORING.", "each line of the model lumped_mass", anchor_columns()),

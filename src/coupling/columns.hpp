@@ -57,7 +57,8 @@ Table<RotorRow> rotor_columns();                 ///< rotor.
 Table<aero::RotorState> hub_columns();           ///< rotor.
 Table<aero::RotorLoads::Drive> drive_columns();  ///< rotor., of a controlled one
 Table<double> pitch_columns();                   ///< rotor.blade_N., likewise
-Table<aero::BladeRootLoad> root_columns();       ///< rotor.blade_N., where blade masses are given
+Table<aero::BladeRootLoad> root_columns();
+Table<Eigen::Vector2d> tip_columns();            ///< rotor.blade_N., where blade masses are given
 Table<aero::RotorLoad> blade_columns();          ///< rotor.blade_N.
 Table<moorings::LineTension> mooring_columns();  ///< MOORING.
 Table<moorings::LineTension> anchor_columns();   ///< MOORING., of a dynamic line

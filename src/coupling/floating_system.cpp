@@ -166,7 +166,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
   }
   if (s.has_rotor()) {
     rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start, s.control,
-                   timeline_.tick_s());
+                   timeline_.tick_s(), gravity_m_s2());
     std::vector<bool> on(names.size());
     on[std::size_t(index_of(names, s.rotor.body))] = true;
     bodies::LoadSource source{"rotor",
@@ -179,6 +179,10 @@ FloatingSystem::FloatingSystem(Scenario scenario)
                                   rotor_->add_loads(t, m, w, ramp(t));
                               },
                               {}};
+    if (rotor_->has_added_mass())
+      source.added_mass = [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
+        if (!mean_loads_) rotor_->add_added_mass(t, m, a);
+      };
     if (rotor_->memory_size() > 0)
       source.memory = {
           rotor_->memory_size(),

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "kernels/base/constants.hpp"
 #include "kernels/coupling/staggered.hpp"
 #include "kernels/rigid/stability.hpp"
 #include "src/coupling/campbell.hpp"
@@ -105,9 +106,28 @@ void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState
   }
 }
 
+void require_bending_blades(const FloatingSystem& floating) {
+  if (!floating.rotor() || !floating.rotor()->flexible()) return;
+  const aero::FlexibleBlades& blades = *floating.rotor()->flexible();
+  const Scenario& s = floating.scenario();
+  constexpr double per_step = 1.0;  // radians of the fastest mode: amplitudes go on as parabolas within a step
+  const double fastest = blades.omega_turning(s.rotor.speed).back(), step = s.time.step();
+  if (step * fastest > per_step)
+    refuse(floating, "time.step_s", fmt::format("{}", step),
+           fmt::format("is too long for blades whose fastest mode has {:.3g} Hz (rotor.blade_structure): at most {:.3g} s",
+                       fastest / (2.0 * pi), per_step / fastest));
+  const double mass = blades.blades() * blades.mass();
+  for (const auto& body : s.bodies)
+    if (body.name == s.rotor.body && body.options.mass_kg < mass)
+      refuse(floating, "bodies." + body.name + ".mass_kg", fmt::format("{}", body.options.mass_kg),
+             fmt::format("must be more than that of the {} blades it carries, {:.4g} kg by rotor.blade_structure",
+                         blades.blades(), mass));
+}
+
 void require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability) {
   require_stable(floating, stability);
   require_stable_lines(floating, state);
+  require_bending_blades(floating);
   require_stable_coupling(floating, state, stability.linearisation);
 }
 

@@ -24,6 +24,9 @@ void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& s
 void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
                              const bodies::Linearisation& linearisation);
 
+/// Throws scene::SceneError where the blades that bend are faster than the bodies' step can follow, or heavier than their body.
+void require_bending_blades(const FloatingSystem& floating);
+
 /// All limits: of the linearised start (start.hpp), of lines and of the coupling. What `check` and `run` refuse.
 void require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability);
 

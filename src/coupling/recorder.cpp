@@ -44,6 +44,8 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
   }
   for (std::size_t blade = 1; floating.rotor() && blade <= floating.rotor()->roots(); ++blade)
     roots_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", root_columns());
+  for (std::size_t blade = 1; floating.rotor() && floating.rotor()->flexible() && blade <= floating.rotor()->roots(); ++blade)
+    tips_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", tip_columns());
   if (floating.moorings())
     for (std::size_t line = 0; line < floating.moorings()->size(); ++line) {
       const std::string prefix = floating.moorings()->name(line) + ".";
@@ -129,6 +131,10 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     const std::vector<aero::BladeRootLoad> of_roots = floating_.rotor()->root_loads(
         t, state.motions, now.acceleration[b], now.angular_acceleration[b], floating_.gravity_m_s2(), floating_.ramp(t));
     for (std::size_t blade = 0; blade < roots_.size(); ++blade) roots_[blade].fill(row, of_roots[blade]);
+  }
+  if (!tips_.empty()) {
+    const std::vector<Eigen::Vector2d> tips = floating_.rotor()->tips(t, state.motions);
+    for (std::size_t blade = 0; blade < tips_.size(); ++blade) tips_[blade].fill(row, tips[blade]);
   }
   for (std::size_t line = 0; line < moorings_.size(); ++line) {
     const moorings::LineTension tension = floating_.moorings()->tension(line, state.motions);

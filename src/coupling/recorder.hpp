@@ -49,6 +49,7 @@ class Recorder {
   std::optional<Group<aero::RotorLoads::Drive>> drive_;
   std::vector<Group<double>> pitches_;
   std::vector<Group<aero::BladeRootLoad>> roots_;
+  std::vector<Group<Eigen::Vector2d>> tips_;
   std::vector<Group<moorings::LineTension>> moorings_;
   std::vector<std::optional<Group<moorings::LineTension>>> anchors_;  ///< of dynamic lines
   std::optional<Group<double>> waves_;

@@ -298,6 +298,9 @@ Scenario read_scenario(scene::Document& document) {
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, bodies, s.environment.water_density_kg_m3);
   if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
+  if (!s.rotor.blade_structure.empty() && s.coupling.scheme != SchemeKind::monolithic)
+    document.problem("coupling.scheme",
+                     "must be \"monolithic\" with rotor.blade_structure: blades that bend step with the bodies");
   if (s.is_controlled() && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",
                      s.control.model == aero::ControlModel::library

@@ -28,8 +28,9 @@ std::string vector(const Eigen::Vector3d& v) {
 /// One deck on its way to a scene.
 class Importer {
  public:
-  Importer(const std::filesystem::path& main_file, const std::filesystem::path& folder, ImportedTower tower)
-      : main_(main_file), folder_(folder), tower_(tower) {}
+  Importer(const std::filesystem::path& main_file, const std::filesystem::path& folder, ImportedTower tower,
+           ImportedBlades blades)
+      : main_(main_file), folder_(folder), tower_(tower), blades_(blades) {}
 
   Imported run() {
     if (!main_.has("EDFile"))
@@ -277,6 +278,7 @@ class Importer {
     if (main_.integer({"CompAero"}, 0) == 1) leave_out("AeroDyn 14 or AeroDisk (CompAero 1): no aerodynamics in the scene");
     if (!aero || !blows) {
       carry("no aerodynamics");
+      if (any({"FlapDOF1", "FlapDOF2", "EdgeDOF"})) leave_out("bending of the blades: they are rigid without aerodynamics");
       return;
     }
     const Deck ad(main_.path({"AeroFile"}));
@@ -299,8 +301,33 @@ class Importer {
                           ed.number({"BlPitch(1)", "BlPitch1"}, 0.0));
     if (const double azimuth = ed.number({"Azimuth"}, 0.0); azimuth != 0.0)
       scene_ << fmt::format("azimuth_deg = {:.9g}\n", azimuth);
+    blade_bending();
     carry(fmt::format("rotor: {} blades, {:.4g} rpm, blade pitch {:.4g} deg", rotor_.blades, ed.number({"RotSpeed"}),
                       ed.number({"BlPitch(1)", "BlPitch1"}, 0.0)));
+  }
+
+  bool any(std::initializer_list<const char*> freedoms) const {
+    return std::any_of(freedoms.begin(), freedoms.end(), [&](const char* f) { return elastodyn_->flag({f}, false); });
+  }
+
+  /// Follows [rotor].
+  void blade_bending() {
+    if (!any({"FlapDOF1", "FlapDOF2", "EdgeDOF"})) return;
+    if (blades_ == ImportedBlades::rigid) return leave_out("bending of the blades: they are rigid (--rigid-blades)");
+    if (!rotor_.beamdyn_blades.empty()) return leave_out("bending of BeamDyn's blades: they are rigid");
+    const ImportedBending bending = decks::blade_bending(*elastodyn_, rotor_);
+    // Half a radian of the fastest mode to a step, whole steps to a window.
+    const double turning = elastodyn_->number({"RotSpeed"}) * rad_s_per_rpm, fastest = std::hypot(bending.fastest, 2.0 * turning);
+    longest_step_ = window / std::ceil(window * fastest / 0.5);
+    step_ = std::min(step_, longest_step_);
+    std::ofstream(folder_ / "blade_structure.csv") << bending.structure;
+    scene_ << fmt::format("blade_structure = \"blade_structure.csv\"\nblade_damping = [{:.9g}, {:.9g}, {:.9g}]\n",
+                          bending.damping[0], bending.damping[1], bending.damping[2]);
+    carry("blades that bend, two modes flapwise and one edgewise, from their mass and stiffness");
+    if (!any({"FlapDOF1"}) || !any({"FlapDOF2"}) || !any({"EdgeDOF"}))
+      leave_out("FlapDOF1, FlapDOF2, EdgeDOF: not all are on, the blades here bend in all three");
+    if (elastodyn_->number({"TipMass(1)", "TipMass1"}, 0.0) != 0.0) leave_out("TipMass in the bending of the blades");
+    if (!bending.alike) leave_out("differences between the blades: all bend as blade 1");
   }
 
   void servo() {
@@ -367,7 +394,7 @@ class Importer {
     if (rate > 0.0) scene_ << fmt::format("max_pitch_rate_deg_s = {:.9g}\n", rate);
     carry(fmt::format("control: {}", deck.path({"DLL_FileName"}).filename().string()));
     const double interval = deck.number({"DLL_DT"}, 0.0), steps = interval > 0.0 ? window / interval : 0.0;
-    if (steps >= 1.0 && std::abs(steps - std::round(steps)) < 1e-6 * steps)
+    if (steps >= 1.0 && std::abs(steps - std::round(steps)) < 1e-6 * steps && interval <= longest_step_ * (1.0 + 1e-9))
       step_ = interval;
     else
       leave_out(fmt::format("DLL_DT: the library is called every {} s, the bodies' step", step_));
@@ -379,10 +406,6 @@ class Importer {
   }
 
   void structure() {
-    const auto any = [&](std::initializer_list<const char*> freedoms) {
-      return std::any_of(freedoms.begin(), freedoms.end(), [&](const char* f) { return elastodyn_->flag({f}, false); });
-    };
-    if (any({"FlapDOF1", "FlapDOF2", "EdgeDOF"})) leave_out("bending of the blades: they are rigid");
     if (tower_moves() && !bends_) leave_out("bending of the tower: it is rigid (--flexible-tower makes it a beam)");
     if (!tower_moves() && tower_ == ImportedTower::flexible) leave_out("--flexible-tower: the deck's tower is rigid");
     if (any({"YawDOF", "DrTrDOF", "TeetDOF"})) leave_out("motion of yaw bearing, shaft and teeter");
@@ -655,11 +678,13 @@ class Importer {
   Deck main_;
   std::filesystem::path folder_;
   double step_ = 0.05;                           // a rigid platform's shortest period is some seconds
+  double longest_step_ = window;                 // that blades which bend can follow
   static constexpr double flexible_step = 0.01;  // a tower's extension is the fastest: some periods to a second
   std::optional<Deck> elastodyn_;
   RotorFrame rotor_;
   double gravity_ = 9.80665, depth_ = 0.0, water_density_ = 1025.0;
   ImportedTower tower_;
+  ImportedBlades blades_;
   bool bends_ = false;  ///< the tower, in the scene
   bool wet_ = false, floats_ = false;
   MassSum ballast_;
@@ -670,8 +695,9 @@ class Importer {
 
 }  // namespace
 
-Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder, ImportedTower tower) {
-  return Importer(main_file, folder, tower).run();
+Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder, ImportedTower tower,
+                         ImportedBlades blades) {
+  return Importer(main_file, folder, tower, blades).run();
 }
 
 }  // namespace spindrift::decks

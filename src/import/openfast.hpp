@@ -17,10 +17,11 @@ struct Imported {
 
 /// A tower that bends in the deck (TwFADOF1 ... TwSSDOF2): one rigid body with the platform, or a beam of the scene.
 enum class ImportedTower { rigid, flexible };
+enum class ImportedBlades { rigid, as_in_deck };
 
 /// Reads the deck and writes scene.toml and its files into a folder that is made where it is missing. Throws scene::SceneError
 /// naming file and line of what cannot be read.
 Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder,
-                         ImportedTower tower = ImportedTower::rigid);
+                         ImportedTower tower = ImportedTower::rigid, ImportedBlades blades = ImportedBlades::as_in_deck);
 
 }  // namespace spindrift::decks

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/beam/blade.hpp"
 
 namespace spindrift::decks {
 
@@ -196,6 +197,40 @@ ImportedBeam tower_beam(const Deck& ed) {
     beam.damping[mode - 1] =
         0.005 * (file.number({fmt::format("TwrFADmp({})", mode)}, 0.0) + file.number({fmt::format("TwrSSDmp({})", mode)}, 0.0));
   return beam;
+}
+
+ImportedBending blade_bending(const Deck& ed, const RotorFrame& r) {
+  const auto path = [&](int blade) {
+    const std::string index = std::to_string(blade);
+    return ed.path({"BldFile(" + index + ")", "BldFile" + index, "BldFile"});
+  };
+  const Deck file(path(1));
+  const auto along = [&](const char* column, const std::vector<std::string>& factor) {
+    return read_density(file, {"NBlInpSt"}, {"BlFract"}, {column}, factor);
+  };
+  const Density mass = along("BMassDen", {"AdjBlMs"}), flap = along("FlpStff", {"AdjFlSt"}), edge = along("EdgStff", {"AdjEdSt"}),
+                twist = along("StrcTwst", {"(no factor)"});
+  ImportedBending bending{.structure = "# From " + file.file().filename().string() +
+                                       ".\nspan_m,mass_kg_m,flap_N_m2,edge_N_m2,twist_deg\n"};
+  beam::BladeTable table;
+  for (std::size_t n = 0; n < mass.at.size(); ++n) {
+    if (!(mass.per_m[n] > 0.0 && flap.per_m[n] > 0.0 && edge.per_m[n] > 0.0) || (n > 0 && mass.at[n] <= mass.at[n - 1]))
+      file.fail(file.find({"NBlInpSt"}),
+                fmt::format("has a table whose station {} has no mass or stiffness, or is not farther out "
+                            "than the one before",
+                            n + 1));
+    table.position.push_back((mass.at[n] - mass.at[0]) * (r.tip_radius - r.hub_radius));
+    table.mass.push_back(mass.per_m[n]), table.flap.push_back(flap.per_m[n]), table.edge.push_back(edge.per_m[n]);
+    table.twist.push_back(twist.per_m[n] * radians_per_degree);
+    bending.structure +=
+        fmt::format("{:.10g},{:.10g},{:.10g},{:.10g},{:.10g}\n", r.hub_radius + mass.at[n] * (r.tip_radius - r.hub_radius),
+                    mass.per_m[n], flap.per_m[n], edge.per_m[n], twist.per_m[n]);
+  }
+  bending.fastest = beam::BladeModes(table).omega().back();
+  int k = 0;
+  for (const char* name : {"BldFlDmp(1)", "BldEdDmp(1)", "BldFlDmp(2)"}) bending.damping[k++] = 0.01 * file.number({name}, 0.0);
+  for (int b = 2; b <= r.blades; ++b) bending.alike = bending.alike && path(b) == path(1);
+  return bending;
 }
 
 double rotor_inertia(const Deck& ed, const RotorFrame& r) {

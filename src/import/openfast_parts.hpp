@@ -53,6 +53,15 @@ struct ImportedBeam {
 };
 ImportedBeam tower_beam(const Deck& elastodyn);
 
+/// Blades that bend: the table that a scene takes as rotor.blade_structure, and damping of the modes.
+struct ImportedBending {
+  std::string structure;                ///< CSV
+  double damping[3] = {0.0, 0.0, 0.0};  ///< ratio to the critical one: first flapwise, first edgewise, second flapwise
+  double fastest = 0.0;                 ///< of these modes at rest [rad/s]
+  bool alike = true;                    ///< all blades have one file; else it is that of blade 1
+};
+ImportedBending blade_bending(const Deck& elastodyn, const RotorFrame& rotor);
+
 /// Blades, hub and generator about the shaft [kg m2].
 double rotor_inertia(const Deck& elastodyn, const RotorFrame& rotor);
 

@@ -169,8 +169,9 @@ WrittenTurbine write_turbine(const Deck& ad, const RotorFrame& r, const std::fil
   const std::size_t names = *ad.find({"NumAFfiles"}) + 1;
   std::ofstream turbine(folder / "turbine.toml");
   turbine << "# From " << ad.file().filename().string() << ".\n[turbine]\n"
-          << fmt::format("blades = {}\nhub_radius_m = {:.9g}\nprecone_deg = {:.9g}\nplanform = \"planform.csv\"\npolars = [\n",
-                         r.blades, nodes[0].span + r.hub_radius, -r.precone / radians_per_degree);
+          << fmt::format("blades = {}\nhub_radius_m = {:.9g}\nprecone_deg = {:.9g}\nplanform = \"planform.csv\"\n{}polars = [\n",
+                         r.blades, nodes[0].span + r.hub_radius, -r.precone / radians_per_degree,
+                         nodes.size() > 2 ? "elements = \"at_stations\"   # as AeroDyn sums over its nodes\n" : "");
   std::map<int, std::vector<std::string>> foils;
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const int polar = stretches[n];

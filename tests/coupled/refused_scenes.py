@@ -103,6 +103,16 @@ time.integrator="explicit_euler" : time.integrator
 aero.thrust_N="large"
 sea.model="ocean"
 """,
+    "leble_barakos/flexible_blades.toml": """
+time.step_s=0.1
+rotor.blade_structure="nothing.csv"
+rotor.blade_structure="/dev/zero"
+rotor.blade_damping=[0.005]
+rotor.blade_damping=[0.005, -0.01, 0.005]
+rotor.blade_masses="../turbines/dtu_10mw/blade_masses.csv"
+coupling.scheme="cps"
+bodies.rotor.mass_kg=100000.0
+""",
     "leble_barakos/case3_engineering.toml": EVERY + WATER + BODIES + ROTOR + """
 coupling.scheme="cps2" & time.window_s=5.0 : time.window_s
 coupling.scheme="cps" & time.window_s=20.0 : time.window_s

@@ -265,3 +265,22 @@ TEST_CASE("after a pitch step thrust overshoots and settles with the published t
   const double t1 = 2.5 * far, t2 = 3.5 * far;
   CHECK((t2 - t1) / std::log(left(t1) / left(t2)) == Approx(far).epsilon(0.04));
 }
+
+TEST_CASE("elements between stations and round them have one limit", "[aero][fast]") {
+  const auto thrust = [](int pieces, bool at_stations) {
+    Turbine t = dtu();
+    const Planform rows = t.planform;
+    t.planform = {}, t.elements_at_stations = at_stations;
+    for (std::size_t i = 0; i + 1 < rows.span.size(); ++i)
+      for (int n = 0; n < pieces + (i + 2 == rows.span.size()); ++n)
+        for (auto values : {&Planform::span, &Planform::chord, &Planform::twist, &Planform::thickness, &Planform::prebend})
+          (t.planform.*values).push_back(((pieces - n) * (rows.*values)[i] + n * (rows.*values)[i + 1]) / pieces);
+    const Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+    return BladeElementMomentum(t, "madsen", 1.225)(
+               Eigen::Vector3d(11.0, 0, 0), {Eigen::Vector3d::Zero(), 0.925 * axis, axis, Eigen::Vector3d::UnitZ(), 0.0, 0.0})
+        .force.x();
+  };
+  const double coarse = thrust(1, true) / thrust(1, false) - 1.0, fine = thrust(4, true) / thrust(4, false) - 1.0;
+  CHECK(std::abs(coarse) < 0.01);
+  CHECK(std::abs(fine) < 0.4 * std::abs(coarse));
+}

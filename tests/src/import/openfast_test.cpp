@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "kernels/base/constants.hpp"
+#include "src/aero/flexible_blades.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
@@ -281,16 +282,39 @@ TEST_CASE("a tower that bends in the deck is a beam where it is asked for, of th
 
 TEST_CASE("what the scene cannot say is told", "[import][fast]") {
   SmallDeck deck;
-  deck.replace("ed.dat", "False FlapDOF1", "True FlapDOF1");
+  deck.replace("ed.dat", "False FlapDOF1", "False FlapDOF1\nTrue YawDOF");
   deck.replace("ad.dat", "0 UA_Mod", "3 UA_Mod");
   deck.replace("main.fst", "0 CompServo", "1 CompServo");
   std::string all;
   for (const std::string& what : deck.import().left_out) all += what + "\n";
-  for (const char* word : {"bending of the blades", "the dynamic stall model of UA_Mod 3 has", "ServoDyn (GenDOF is off)"})
+  for (const char* word :
+       {"motion of yaw bearing, shaft and teeter", "the dynamic stall model of UA_Mod 3 has", "ServoDyn (GenDOF is off)"})
     CHECK(all.find(word) != std::string::npos);
   std::ostringstream scene;
   scene << std::ifstream(deck.folder / "scene/scene.toml").rdbuf();
-  CHECK(scene.str().find("# - bending of the blades") != std::string::npos);
+  CHECK(scene.str().find("# - motion of yaw bearing") != std::string::npos);
+}
+
+TEST_CASE("blades that bend in the deck bend in the scene, in steps that follow them", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("ed.dat", "False FlapDOF1", "True FlapDOF1\nTrue FlapDOF2\nTrue EdgeDOF");
+  deck.replace("blade.dat", "1.0 AdjBlMs\n", "1.0 AdjBlMs\n2.0 AdjFlSt\n1.5 BldFlDmp(1)\n2.5 BldFlDmp(2)\n3.5 BldEdDmp(1)\n");
+  deck.replace("blade.dat", "0 0 300 1 1\n1 0 100 1 1\n", "0 9 300 1e9 3e9\n0.5 6 200 3e8 1e9\n1 0 100 1e7 1e8\n");
+  deck.replace("blade.dat", "2 NBlInpSt", "3 NBlInpSt");
+  const coupling::Scenario s = deck.scenario();
+  const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine);
+  CHECK(turbine.elements_at_stations);
+  const aero::BladeStructure structure = aero::read_blade_structure(turbine, s.rotor.blade_structure);
+  CHECK(structure.masses.span == std::vector{2.0, 21.0, 40.0});
+  CHECK(structure.masses.mass == std::vector{300.0, 200.0, 100.0});
+  CHECK(structure.flap == std::vector{2e9, 6e8, 2e7});
+  CHECK(structure.edge == std::vector{3e9, 1e9, 1e8});
+  CHECK(structure.twist[1] == Approx(6.0 * radians_per_degree));
+  for (std::size_t mode = 0; mode < 3; ++mode)  // flapwise, edgewise, second flapwise
+    CHECK(s.rotor.blade_damping[mode] == Approx(std::array{.015, .035, .025}[mode]));
+  const double fastest = aero::FlexibleBlades(turbine, structure, s.rotor.blade_damping).omega().back();
+  CHECK(s.time.step() * fastest <= .5);
+  CHECK(s.time.window_s / s.time.step() == Approx(std::round(s.time.window_s / s.time.step())));
 }
 
 TEST_CASE("MoorDyn's lines and older names are read too", "[import][fast]") {

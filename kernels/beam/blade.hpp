@@ -1,0 +1,152 @@
+// Bending modes of a twisted blade that is clamped at its root, and what a pull along the blade adds to their stiffness: cubic
+// Hermite elements in both planes (Cook, Malkus, Plesha & Witt 2002, sections 2.3, 11.3, 18.3), tied by the twist of the
+// principal axes. Used by src/aero/flexible_blades.cpp; tested in tests/kernels/beam/blade_test.cpp. Theory:
+// docs/theory/structure.md. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "kernels/base/interpolation.hpp"
+#include "kernels/beam/euler_bernoulli.hpp"
+
+namespace spindrift::beam {
+
+/// What varies along a blade, straight lines between positions that increase. x is downwind, y ahead, at a pitch of zero.
+struct BladeTable {
+  std::vector<double> position;    ///< from the root along the blade's axis, beginning at 0 [m]
+  std::vector<double> mass;        ///< [kg/m]
+  std::vector<double> flap, edge;  ///< stiffness E I against bending square to the chord and along it [N m2]
+  std::vector<double> twist;       ///< of the chord out of the rotor's plane, nose into the wind positive [rad]
+};
+
+/// The slowest modes of a blade at rest; generalised mass 1, stiffness omega^2.
+class BladeModes {
+ public:
+  static constexpr int count = 3;  ///< of a usual blade first flapwise, first edgewise, second flapwise
+  using Shape = Eigen::Matrix<double, 2, count>;
+  using Square = Eigen::Matrix<double, count, count>;
+
+  static constexpr int elements = 24;
+
+  explicit BladeModes(const BladeTable& table) : length_(table.position.back()) {
+    const Eigen::Index plane = 2 * (elements + 1), free = 2 * (plane - 2);
+    const double h = length_ / elements;
+    Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(2 * plane, 2 * plane), stiffness = mass;
+    const Table positions{table.position, table.mass, {}};
+    for (int e = 0; e < elements; ++e)
+      detail::integrate(positions, e * h, (e + 1) * h, [&](double at, double weight) {
+        const detail::Hermite shape(at / h - e, h);
+        const auto value = [&](const std::vector<double>& of) { return interpolate_linear(table.position, of, at); };
+        const double c = std::cos(value(table.twist)), s = std::sin(value(table.twist));
+        const double flap = value(table.flap), edge = value(table.edge);
+        const Eigen::Matrix4d m = weight * value(table.mass) * shape.value * shape.value.transpose();
+        const Eigen::Matrix4d k = weight * shape.curvature * shape.curvature.transpose();
+        const Eigen::Index x = 2 * e, y = plane + 2 * e;
+        mass.block<4, 4>(x, x) += m, mass.block<4, 4>(y, y) += m;
+        stiffness.block<4, 4>(x, x) += (flap * c * c + edge * s * s) * k;
+        stiffness.block<4, 4>(y, y) += (flap * s * s + edge * c * c) * k;
+        stiffness.block<4, 4>(x, y) += (flap - edge) * s * c * k, stiffness.block<4, 4>(y, x) += (flap - edge) * s * c * k;
+      });
+    // Slopes in units of 1/h, so that the entries compare; the root's four are left out.
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index k = 2; k < plane; ++k) kept.push_back(k);
+    for (Eigen::Index k = 2; k < plane; ++k) kept.push_back(plane + k);
+    Eigen::VectorXd unit(free);
+    for (Eigen::Index k = 0; k < free; ++k) unit[k] = k % 2 ? 1.0 / h : 1.0;
+    const auto scaled = [&](const Eigen::MatrixXd& full) -> Eigen::MatrixXd {
+      return unit.asDiagonal() * Eigen::MatrixXd(full(kept, kept)) * unit.asDiagonal();
+    };
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled(stiffness), scaled(mass));
+    for (int k = 0; k <= elements; ++k) node_.push_back(k * h);
+    nodal_.setZero(2 * plane, count);
+    for (int k = 0; k < count; ++k) {
+      omega_[std::size_t(k)] = std::sqrt(std::max(0.0, eigen.eigenvalues()[k]));
+      const Eigen::VectorXd mode = unit.cwiseProduct(eigen.eigenvectors().col(k));
+      for (Eigen::Index i = 0; i < free; ++i) nodal_(kept[std::size_t(i)], k) = mode[i];
+      const Eigen::Vector2d tip(nodal_(plane - 2, k), nodal_(2 * plane - 2, k));
+      if ((std::abs(tip.x()) > std::abs(tip.y()) ? tip.x() : tip.y()) < 0.0) nodal_.col(k) *= -1.0;
+    }
+  }
+
+  double length() const { return length_; }
+  const std::array<double, count>& omega() const { return omega_; }  ///< rising [rad/s]
+
+  /// Displacement of a section at this distance from the root by modes of amplitude 1, rows x and y, and its slope.
+  Shape value(double at) const {
+    return sampled(at, [](const detail::Hermite& h) -> const Eigen::Vector4d& { return h.value; });
+  }
+  Shape slope(double at) const {
+    return sampled(at, [](const detail::Hermite& h) -> const Eigen::Vector4d& { return h.slope; });
+  }
+
+ private:
+  template <class Of>
+  Shape sampled(double at, const Of& of) const {
+    const std::size_t e = interval(node_, at);
+    const double h = node_[e + 1] - node_[e];
+    const detail::Hermite hermite((at - node_[e]) / h, h);
+    const Eigen::Index plane = nodal_.rows() / 2, first = Eigen::Index(2 * e);
+    Shape shape;
+    shape.row(0) = of(hermite).transpose() * nodal_.middleRows<4>(first);
+    shape.row(1) = of(hermite).transpose() * nodal_.middleRows<4>(plane + first);
+    return shape;
+  }
+
+  double length_;
+  std::array<double, count> omega_{};
+  std::vector<double> node_;  ///< distances from the root [m]
+  Eigen::MatrixXd nodal_;     ///< deflections and slopes of the nodes in turn, of x and then of y; a column for each mode
+};
+
+/// A piece of a blade: what loads that go with its mass, and pulls along the blade, do to the modes.
+struct BladePoint {
+  double at, mass;                ///< distance from the root [m], [kg]
+  BladeModes::Shape value;        ///< of the modes there
+  BladeModes::Square shortening;  ///< the point comes inward by q^T shortening q / 2 [1/m]
+};
+
+/// Of a point at this distance from the root: integral of the products of the slopes from the root to it.
+inline BladeModes::Square blade_shortening(const BladeModes& modes, double at) {
+  const double h = modes.length() / BladeModes::elements;
+  BladeModes::Square sum = BladeModes::Square::Zero();
+  for (int e = 0; e < BladeModes::elements && e * h < at; ++e) {
+    const double half = 0.5 * (std::min((e + 1) * h, at) - e * h);  // slopes are parabolas there: exact
+    for (std::size_t g = 0; g < detail::gauss_point.size(); ++g) {
+      const BladeModes::Shape slope = modes.slope(e * h + half * (1.0 + detail::gauss_point[g]));
+      sum += half * detail::gauss_weight[g] * slope.transpose() * slope;
+    }
+  }
+  return sum;
+}
+
+/// Two points to an element, that keep its mass, first and second moment.
+inline std::vector<BladePoint> blade_points(const BladeTable& table, const BladeModes& modes) {
+  const Table positions{table.position, table.mass, {}};
+  const double h = modes.length() / BladeModes::elements;
+  std::vector<BladePoint> points;
+  for (int e = 0; e < BladeModes::elements; ++e) {
+    double m = 0.0, first = 0.0, second = 0.0;
+    detail::integrate(positions, e * h, (e + 1) * h, [&](double at, double weight) {
+      const double own = weight * interpolate_linear(table.position, table.mass, at);
+      m += own, first += own * at, second += own * at * at;
+    });
+    const double middle = first / m, apart = std::sqrt(std::max(0.0, second / m - middle * middle));
+    for (const double at : {middle - apart, middle + apart})
+      points.push_back({at, 0.5 * m, modes.value(at), blade_shortening(modes, at)});
+  }
+  return points;
+}
+
+/// Stiffness that a pull along the blade adds, `per_mass(at)` [m/s2] outward on every piece of mass: the work of its shortening.
+template <class PerMass>
+BladeModes::Square tension_stiffness(const std::vector<BladePoint>& points, const PerMass& per_mass) {
+  BladeModes::Square k = BladeModes::Square::Zero();
+  for (const BladePoint& p : points) k += p.mass * per_mass(p.at) * p.shortening;
+  return k;
+}
+
+}  // namespace spindrift::beam
