@@ -109,6 +109,7 @@ def draw(study, metric, axis, numbered=True):
     _decades(axis.xaxis, min(costs), max(costs)), _decades(axis.yaxis, min(lows), max(highs))
     _name(axis, [label[1:] for label in sorted(labels)])
     if lenders := _lenders(study, metric):
+        axis.plot([], [], "-", color=figures.PALETTE[7], linewidth=1.0, label=f"{100 * study['confidence']:g} % interval, own scatter")
         axis.plot([], [], ":", color=figures.PALETTE[7], linewidth=1.2, label="scatter of " + ", ".join(lenders))
         axis.legend(loc="lower left", fontsize=7.5, frameon=False)
     axis.set_xlabel("processor time of one run [core-s]")

@@ -314,7 +314,7 @@ class PartsTest(unittest.TestCase):
         bars = {line.get_xdata()[0]: line for line in axis.lines if len(line.get_xdata()) == 2 and len(set(line.get_xdata())) == 1 and line.get_ydata()[0] < line.get_ydata()[1]}
         self.assertEqual({cost: bar.get_linestyle() for cost, bar in bars.items()}, {1.0: "-", 1e3: ":", 1e5: ":"})
         self.assertEqual([max(bars[cost].get_ydata()) for cost in (1e3, 1e5)], [0.12, 0.1])
-        self.assertEqual([text.get_text() for text in axis.get_legend().get_texts()], ["scatter of rich"])
+        self.assertEqual([text.get_text() for text in axis.get_legend().get_texts()], ["95 % interval, own scatter", "scatter of rich"])
         self.assertIn("fine: reference, 0", [text.get_text() for text in axis.texts])
         figures.plt.close(figure)
         self.assertIn("scatter of rich", study_page._error_text(study["rungs"][1]["errors"]["surge"], metric))
