@@ -250,6 +250,7 @@ def print_result(result, folder):
                 text += f" ({e['low']:.2g} ... {e['high']:.2g})"
             line += f"{text:>26}"
         notes = ["reference"] if rung["is_reference"] else ["on the front"] if rung["on_front"] else []
+        notes += [f"scatter of {n}" for n in dict.fromkeys(e["scatter_of"] for e in rung["errors"].values() if e["scatter_of"])]
         say(line + "  " + ", ".join(notes + ([rung["failed"]] if rung["failed"] else [])))
     say(f"\nanswer: {result['sentence']}")
     if result["scene"]:

@@ -127,21 +127,28 @@ class Judge:
             limit = self._limit(rung, m)
             theirs, allowance = limit["values"], limit["allowance"]
         pairs = [(a, b) for a, b in zip(mine, theirs) if math.isfinite(a) and math.isfinite(b)]
-        gaps = [measures.wrapped(a - b) if metric["measure"] == "phase" else a - b for a, b in pairs]
+        gaps = [measures.gap(metric, a, b) for a, b in pairs]
         known = [b for b in theirs if math.isfinite(b)]
         return gaps, sum(known) / len(known) if known else math.nan, allowance
 
     def _history_differences(self, rung, metric):
-        reference, gaps = self.plan["reference"], []
+        reference = self.plan["reference"]
+        if reference["variant"]:
+            other = self.by_name.get(reference["variant"])
+            return self._gaps_of_histories(rung, other, metric) if other else []
+        done = [run["name"] for run in rung["runs"] if self._done(run)]
+        return self._gaps(metric, [(name, reference["history"]) for name in done if reference["history"]])
+
+    def _gaps_of_histories(self, rung, other, metric):
+        """Of two rungs, paired by replica; a rung that replicas do not touch stands beside each of the other's."""
         runs = rung["runs"] * len(self.plan["replicas"]["points"]) if rung.get("fixed") else rung["runs"]
-        for n, run in enumerate(runs):
-            other = reference["history"]
-            if reference["variant"]:
-                theirs = self.by_name.get(reference["variant"], {"runs": []})["runs"]
-                other = theirs[n]["name"] if n < len(theirs) and self._done(theirs[n]) else None
-            if other and self._done(run):
-                (t, x), (t_ref, x_ref) = self.history(run["name"]), self.history(other)
-                gaps.append(measures.difference(metric, t, x(metric["column"]), t_ref, x_ref(metric["column"])))
+        return self._gaps(metric, [(a["name"], b["name"]) for a, b in zip(runs, other["runs"]) if self._done(a) and self._done(b)])
+
+    def _gaps(self, metric, pairs):
+        gaps = []
+        for mine, other in pairs:
+            (t, x), (t_ref, x_ref) = self.history(mine), self.history(other)
+            gaps.append(measures.difference(metric, t, x(metric["column"]), t_ref, x_ref(metric["column"])))
         return [g for g in gaps if math.isfinite(g)]
 
     def _estimate(self, rung, m):
@@ -156,43 +163,46 @@ class Judge:
         return result
 
     def _borrow(self):
-        """A rung without replicas of its difference takes the scatter of the next cheaper one that has them; where the reference is the one
-        without, the scatter against the dearest rung that has some stands in for that against the reference."""
+        """A rung with too few replicas of its difference takes the scatter of the next cheaper one that has its own, or else of the cheapest
+        that has. Where the reference has too few, a rung's own scatter is that of its difference from the dearest other rung that has replicas."""
         if not self.plan["replicas"]:
             return
         for m in range(len(self.metrics)):
-            rows = {r["name"]: self.estimates[r["name"]][m] for r in self.rungs if not self.is_reference(r)}
-            lenders = {name: (e.error * math.sqrt(e.count), e.freedom, name) for name, e in rows.items() if e.error is not None}
-            if not lenders:
-                lenders = self._scatter_among(m)
+            rows = {r["name"]: self.estimates[r["name"]][m] for r in self.rungs}
+            lenders = {r["name"]: measures.Scatter.of(e) for r in self.rungs
+                       if (e := rows[r["name"]]).error is not None and not self.is_reference(r)} or self._scatter_among(m)
             for name, own in rows.items():
-                if own.error is not None or not math.isfinite(own.value) or not lenders:
-                    continue
-                if name not in lenders:
-                    cheaper = [n for n in lenders if self.costs[n]["core_s"] <= self.costs[name]["core_s"]] or list(lenders)
-                    scatter, freedom, lender = lenders[max(cheaper, key=lambda n: self.costs[n]["core_s"])]
-                else:
-                    scatter, freedom, lender = lenders[name]
-                own.error, own.freedom, own.lender = scatter / math.sqrt(max(1, own.count)), freedom, lender
+                if own.error is None and math.isfinite(own.value) and lenders:
+                    lender = name if name in lenders else self._next_cheaper(name, lenders)
+                    own.take(lenders[lender], None if lender == name else lender)
+
+    def _next_cheaper(self, name, names):
+        cost = {n: self.costs[n]["core_s"] for n in (name, *names)}
+        return max((n for n in names if cost[n] <= cost[name]), key=cost.get, default=min(names, key=cost.get))
 
     def _scatter_among(self, m):
-        """By rung with replicas: the scatter of its paired difference from the dearest other such rung."""
-        scale_of = self.metrics[m]
-        rich = sorted((r for r in self.rungs if sum(math.isfinite(v) for v in self.quantities[r["name"]][m]) > 1),
-                      key=lambda r: self.costs[r["name"]]["core_s"])
+        """By rung with replicas, or that they do not touch: the scatter of its paired difference from the dearest other rung with replicas."""
+        rich = sorted((r for r in self.rungs if self._finished(r) > 1), key=lambda r: self.costs[r["name"]]["core_s"])
         found = {}
-        for rung in rich:
-            others = [r for r in rich if r is not rung]
-            if not others:
-                continue
-            theirs = self.quantities[others[-1]["name"]][m]
-            gaps = [a - b for a, b in zip(self.quantities[rung["name"]][m], theirs) if math.isfinite(a) and math.isfinite(b)]
-            own = [abs(b) for b in theirs if math.isfinite(b)]
-            scale = sum(own) / len(own) if scale_of["relative"] else scale_of["divide_by"]
-            if len(gaps) > 1 and scale:
-                e = measures.estimate([g / scale for g in gaps])
-                found[rung["name"]] = (e.error * math.sqrt(e.count), e.freedom, others[-1]["name"])
+        for rung in rich + [r for r in self.rungs if r.get("fixed") and self._finished(r)]:
+            other = next((r for r in reversed(rich) if r is not rung), None)
+            gaps = self._scaled_gaps(rung, other, m) if other else []
+            if len(gaps) > 1:
+                found[rung["name"]] = measures.Scatter.of(measures.estimate(gaps), against=other["name"])
         return found
+
+    def _finished(self, rung):
+        return sum(self._done(run) for run in rung["runs"])
+
+    def _scaled_gaps(self, rung, other, m):
+        """Of two rungs, paired by replica, in units of the target's."""
+        metric = self.metrics[m]
+        if metric["measure"] in measures.OF_TWO_HISTORIES:
+            return [g / metric["divide_by"] for g in self._gaps_of_histories(rung, other, metric)]
+        pairs = [(a, b) for a, b in zip(self.quantities[rung["name"]][m], self.quantities[other["name"]][m])
+                 if math.isfinite(a) and math.isfinite(b)]
+        scale = (sum(abs(b) for _, b in pairs) / len(pairs) if pairs else 0.0) if metric["relative"] else metric["divide_by"]
+        return [measures.gap(metric, a, b) / scale for a, b in pairs] if scale else []
 
     # Verdict -------------------------------------------------------------------------------------------------------------------
     def targets(self):
@@ -369,10 +379,19 @@ class Judge:
         for rung in self.rungs:
             if (why := self.failed(rung)) is not None:
                 said.append(f"'{rung['name']}', which failed: {why}")
-        lenders = sorted({e.lender for row in self.estimates.values() for e in row if e.lender})
-        if lenders:
-            said.append("the scatter of differences with one replica: that of " + ", ".join(f"'{n}'" for n in lenders) + " stands in for it")
-        return said
+        return said + self._stand_ins()
+
+    def _stand_ins(self):
+        """Sentences: which scatter stands in for one that was not measured."""
+        borrowers, against = {}, set()
+        for name, row in self.estimates.items():
+            for e in row:
+                if e.lender:
+                    borrowers.setdefault(e.lender, {})[f"'{name}'"] = None
+                elif e.against:
+                    against.add(e.against)
+        return [f"scatter of {', '.join(names)}, too few replicas: the scatter of '{lender}' stands in for it" for lender, names in sorted(borrowers.items())] + [
+            f"scatter against the reference, which has too few replicas: that against '{name}' stands in for it" for name in sorted(against)]
 
     # Result --------------------------------------------------------------------------------------------------------------------
     def sentence(self, answer):
@@ -384,13 +403,19 @@ class Judge:
             if near is None:
                 return f"nothing is known to be within {wanted}: no run can be compared"
             tail = (f"the nearest, '{near['name']}', is at {number(self.shortfall(near))} of its worst target"
-                    + ("" if self.why_unsure(near) else f", confidence {percent(self.confidence_of(near))}"))
+                    + ("" if self.why_unsure(near) else f", {self._confidence_words(near)}"))
             return f"nothing is known to be within {wanted}; {tail}"
         cost = self.costs[answer["name"]]
         why = self.why_unsure(answer)
-        sure = f"confidence not known: {why}" if why else f"confidence {percent(self.confidence_of(answer))}"
+        sure = f"confidence not known: {why}" if why else self._confidence_words(answer)
         return (f"cheapest within {wanted}: '{answer['name']}'; costs {number(cost['core_s'])} core-s and "
                 f"{cost['memory'] / 1e6:.0f} MB a run; {sure}")
+
+    def _confidence_words(self, rung):
+        """The confidence, and whose scatter it rests on where that is borrowed."""
+        rests_on = dict.fromkeys(f"the borrowed scatter of '{e.lender}'" if e.lender else f"scatter against '{e.against}', as the reference has too few replicas"
+                                 for m in self.targets() if (e := self.estimates[rung["name"]][m]).lender or e.against)
+        return f"confidence {percent(self.confidence_of(rung))}" + (f" by {' and '.join(rests_on)}" if rests_on else "")
 
     def result(self, left_out=()):
         answer = self.choose()
@@ -410,7 +435,8 @@ class Judge:
                 scatter = measures.estimate(values) if values else None
                 row["errors"][metric["name"]] = {
                     "error": abs(e.value) if known else None, "signed": e.value if known else None, "low": low, "high": high,
-                    "replicas": e.count, "scatter_of": e.lender, "value": sum(values) / len(values) if values else None,
+                    "replicas": e.count, "scatter_of": e.lender, "scatter_against": e.against,
+                    "value": sum(values) / len(values) if values else None,
                     "scatter": scatter.error * math.sqrt(len(values)) if scatter and scatter.error is not None else None}
             rungs.append(row)
         base = answer or (min(self.candidates(), key=self.shortfall) if self.candidates() else None)

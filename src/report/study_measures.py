@@ -121,6 +121,11 @@ def wrapped(degrees):
     return (degrees + 180.0) % 360.0 - 180.0
 
 
+def gap(metric, a, b):
+    """Of two quantities; of two phases the shorter way round."""
+    return wrapped(a - b) if metric["measure"] == "phase" else a - b
+
+
 def student_cdf(t, freedom):
     """Probability below t of Student's distribution with an integer number of degrees of freedom (closed form, Abramowitz & Stegun
     26.7.3 and 26.7.4); above 200 the normal one."""
@@ -155,11 +160,18 @@ def student_quantile(probability, freedom):
 
 class Estimate:
     """A mean of paired differences: `value`, its standard error (None: no replicas, none known), degrees of freedom, and what else it
-    may be off by for sure (`allowance`, of a limit). `lender`: the rung whose scatter stands in for its own."""
+    may be off by for sure (`allowance`, of a limit). `lender`: the rung whose scatter stands in for its own; `against`: the rung against
+    which that scatter was found, where it is not the reference."""
 
-    def __init__(self, value, error=None, freedom=0, allowance=0.0, lender=None, count=1):
+    def __init__(self, value, error=None, freedom=0, allowance=0.0, count=1):
         self.value, self.error, self.freedom = value, error, freedom
-        self.allowance, self.lender, self.count = allowance, lender, count
+        self.allowance, self.count = allowance, count
+        self.lender = self.against = None
+
+    def take(self, scatter, lender):
+        """The standard error of a mean of `count` differences with that scatter."""
+        self.error, self.freedom = scatter.deviation / math.sqrt(max(1, self.count)), scatter.freedom
+        self.lender, self.against = lender, scatter.against
 
     def half(self, confidence):
         """Half the width of the interval."""
@@ -184,6 +196,17 @@ class Estimate:
             return 1.0 if room_above >= 0.0 and room_below >= 0.0 else 0.0
         inside = student_cdf(room_above / self.error, self.freedom) - student_cdf(-room_below / self.error, self.freedom)
         return max(0.0, inside)
+
+
+class Scatter:
+    """Standard deviation of single paired differences and its degrees of freedom; `against`: as of an Estimate."""
+
+    def __init__(self, deviation, freedom, against=None):
+        self.deviation, self.freedom, self.against = deviation, freedom, against
+
+    @classmethod
+    def of(cls, estimate, against=None):
+        return cls(estimate.error * math.sqrt(estimate.count), estimate.freedom, against)
 
 
 def estimate(differences):

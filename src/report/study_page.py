@@ -45,6 +45,15 @@ def _points(study, metric):
             if (rung["errors"][metric["name"]]["error"] or 0.0) > 0.0 and not rung["is_reference"] and rung["cost"]["core_s"]]
 
 
+def _reference(study, metric):
+    """The reference with its error, which is zero: [] where it is no rung or has no cost."""
+    return [(r, r["errors"][metric["name"]]) for r in study["rungs"] if r["is_reference"] and (r["cost"]["core_s"] or 0.0) > 0.0]
+
+
+def _lenders(study, metric):
+    return list(dict.fromkeys(e["scatter_of"] for r in study["rungs"] if (e := r["errors"][metric["name"]])["scatter_of"]))
+
+
 def _name(axis, labels, size=7.5):
     """Writes names beside their points, the first first, where none lies on another, on a point or across the edge; what finds no place has its row in
     the table."""
@@ -76,7 +85,7 @@ def draw(study, metric, axis, numbered=True):
         low, high = max(e["low"] * unit, floor), e["high"] * unit
         lows.append(low), highs.append(high)
         colour = figures.PALETTE[1] if rung["name"] == study["answer"] else figures.PALETTE[0 if rung["on_front"] else 7]
-        axis.plot([cost, cost], [low, high], "-", color=colour, linewidth=1.0, alpha=0.7)
+        axis.plot([cost, cost], [low, high], ":" if e["scatter_of"] else "-", color=colour, linewidth=1.2 if e["scatter_of"] else 1.0, alpha=0.8)
         axis.plot([rung["cost"]["low"], rung["cost"]["high"]], [error, error], "-", color=colour, linewidth=1.0, alpha=0.7)
         axis.plot(cost, error, "o", color=colour, markersize=6 if rung["on_front"] else 4.5)
         name = rung["name"] if len(points) <= LABELLED or not numbered else str(1 + [r["name"] for r in study["rungs"]].index(rung["name"]))
@@ -86,12 +95,23 @@ def draw(study, metric, axis, numbered=True):
     if metric["target"]:
         axis.axhline(metric["target"] * unit, color=figures.PALETTE[6], linestyle="--", linewidth=0.9)
         lows.append(metric["target"] * unit), highs.append(metric["target"] * unit)
+    bottom = min(lows) / 1.5
+    for rung, e in _reference(study, metric):
+        cost, high = rung["cost"]["core_s"], e["high"] * unit
+        highs.append(max(high, bottom))
+        axis.plot([cost, cost], [bottom, max(high, bottom)], ":" if e["scatter_of"] else "-", color=figures.PALETTE[2], linewidth=1.2, alpha=0.8)
+        axis.plot(cost, bottom, "D", color=figures.PALETTE[2], markersize=7, clip_on=False, zorder=3)
+        labels.append((False, cost, bottom, f"{rung['name']}: reference, 0"))
     axis.set_xscale("log"), axis.set_yscale("log")
-    costs = [r["cost"]["core_s"] for r, _ in points]
+    costs = [r["cost"]["core_s"] for r, _ in points + _reference(study, metric)]
     axis.set_xlim(min(costs) / 1.8, max(costs) * 1.8)
-    axis.set_ylim(min(lows) / 1.5, max(highs) * 1.6)
+    axis.set_ylim(bottom, max(highs) * 1.6)
     _decades(axis.xaxis, min(costs), max(costs)), _decades(axis.yaxis, min(lows), max(highs))
     _name(axis, [label[1:] for label in sorted(labels)])
+    if lenders := _lenders(study, metric):
+        axis.plot([], [], "-", color=figures.PALETTE[7], linewidth=1.0, label=f"{100 * study['confidence']:g} % interval, own scatter")
+        axis.plot([], [], ":", color=figures.PALETTE[7], linewidth=1.2, label="scatter of " + ", ".join(lenders))
+        axis.legend(loc="lower left", fontsize=7.5, frameon=False)
     axis.set_xlabel("processor time of one run [core-s]")
     axis.set_ylabel(f"error of the {WORDS[metric['measure']].removesuffix(' of')} [{'%' if _in_percent(metric) else metric['column'].rsplit('_', 1)[-1]}]")
     return True
@@ -104,9 +124,15 @@ def _figure(study, metric):
         return ""
     what = f"{WORDS[metric['measure']]} {metric['column']}"
     target = f"; the dashed line is the target, {_plain(metric['target'] * _unit(metric))}{' %' if _in_percent(metric) else ''}" if metric["target"] else ""
+    borrowed = f"Dotted bars: scatter of {', '.join(_lenders(study, metric))}. " if _lenders(study, metric) else ""
     bars = f"Bars are {100 * study['confidence']:g} % intervals from {study['replicas']} replicas, paired with the reference. " if study["replicas"] else ""
     return (f"<figure><h3>{page.escape(metric['name'])}: {page.escape(what)}</h3>{figures.as_html(figure, 'Error against cost: ' + what)}"
-            f"<figcaption>{bars}The line joins what nothing beats in both error and cost, over all targets{page.escape(target)}.</figcaption></figure>")
+            f"<figcaption>{bars}{page.escape(borrowed)}The line joins what nothing beats in both error and cost, over all targets{page.escape(target)}.</figcaption></figure>")
+
+
+def borrowed_words(e):
+    """", scatter of other" where the interval rests on another rung's scatter."""
+    return f", scatter of {e['scatter_of']}" if e["scatter_of"] else ""
 
 
 def _error_text(e, metric):
@@ -115,7 +141,7 @@ def _error_text(e, metric):
     unit, sign = _unit(metric), " %" if _in_percent(metric) else ""
     text = f"{page.number(e['error'] * unit, 3)}{sign}"
     if e["high"] > e["low"]:
-        text += f" <small>{page.number(e['low'] * unit, 2)} to {page.number(e['high'] * unit, 2)}</small>"
+        text += f" <small>{page.number(e['low'] * unit, 2)} to {page.number(e['high'] * unit, 2)}{page.escape(borrowed_words(e))}</small>"
     return text
 
 

@@ -302,6 +302,23 @@ class PartsTest(unittest.TestCase):
         self.assertFalse(html_page.section("k", "t", one + one)["half"])
         self.assertFalse(html_page.section("k", "t", one.replace("<figure", '<figure class="wide"'))["half"])
 
+    def test_a_borrowed_bar_is_dotted_and_names_its_lender_and_the_reference_stands_at_its_cost(self):
+        def rung(name, cost, error, high, lender=None):
+            e = {"error": error, "signed": error, "low": 0.0, "high": high, "replicas": 1, "scatter_of": lender, "value": None}
+            return {"name": name, "cost": {"core_s": cost, "low": cost, "high": cost}, "on_front": True, "is_reference": error == 0.0, "errors": {"surge": e}}
+        metric = {"name": "surge", "column": "a.x_m", "measure": "rms", "relative": False, "divide_by": 1.0, "target": 0.1}
+        study = {"answer": "rich", "confidence": 0.95, "replicas": 4, "metrics": [metric],
+                 "rungs": [rung("rich", 1.0, 0.2, 0.3), rung("dear", 1e3, 0.02, 0.12, "rich"), rung("fine", 1e5, 0.0, 0.1, "rich")]}
+        figure, axis = figures.plt.subplots()
+        self.assertTrue(study_page.draw(study, metric, axis))
+        bars = {line.get_xdata()[0]: line for line in axis.lines if len(line.get_xdata()) == 2 and len(set(line.get_xdata())) == 1 and line.get_ydata()[0] < line.get_ydata()[1]}
+        self.assertEqual({cost: bar.get_linestyle() for cost, bar in bars.items()}, {1.0: "-", 1e3: ":", 1e5: ":"})
+        self.assertEqual([max(bars[cost].get_ydata()) for cost in (1e3, 1e5)], [0.12, 0.1])
+        self.assertEqual([text.get_text() for text in axis.get_legend().get_texts()], ["95 % interval, own scatter", "scatter of rich"])
+        self.assertIn("fine: reference, 0", [text.get_text() for text in axis.texts])
+        figures.plt.close(figure)
+        self.assertIn("scatter of rich", study_page._error_text(study["rungs"][1]["errors"]["surge"], metric))
+
     def test_names_of_a_crowd_of_rungs_do_not_lie_on_each_other(self):
         figure, axis = figures.plt.subplots(figsize=(6.4, 3.9))
         axis.set_xscale("log"), axis.set_yscale("log"), axis.set_xlim(0.4, 4.0), axis.set_ylim(1e-3, 1.0)

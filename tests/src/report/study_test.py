@@ -84,9 +84,10 @@ class Answer(unittest.TestCase):
     def test_a_reference_too_dear_for_replicas_borrows_the_scatter_of_the_next_rung(self):
         result = Synthetic(LADDER, COSTS, dear={"fine": 1}).judge().result()
         errors = next(r for r in result["rungs"] if r["name"] == "coarse")["errors"]["mean"]
-        self.assertEqual(errors["scatter_of"], "good")
+        self.assertEqual((errors["scatter_of"], errors["scatter_against"]), (None, "good"))
         self.assertGreater(errors["high"], errors["low"])
-        self.assertTrue(any("stands in" in text for text in result["not_tested"]))
+        self.assertTrue(any("against 'good' stands in" in text for text in result["not_tested"]))
+        self.assertRegex(result["sentence"], "confidence .* by scatter against '(good|coarse)', as the reference has too few replicas")
 
     def test_one_replica_each_claims_no_confidence_although_the_study_has_replicas(self):
         result = Synthetic(LADDER, COSTS, own=0.0, dear={name: 1 for name in LADDER}).judge().result()
@@ -100,6 +101,73 @@ class Answer(unittest.TestCase):
         result = study.judge().result()
         self.assertEqual(result["answer"], "coarse")
         self.assertTrue(any("blew up" in text for text in result["not_tested"]))
+
+
+RMS = dict(MEAN, name="rms", measure="rms", relative=False, target=4.0)
+
+
+class Borrowed(unittest.TestCase):
+    """Rungs of constant histories at two replicas or one, so that the rms difference of two is that of two numbers."""
+
+    VALUES = {"first": [2.0], "still": [5.0], "cheap": [1.0, 4.0], "rich": [0.0, 1.0], "dear": [0.5], "fine": [0.0]}
+    COSTS = {"first": 0.5, "still": 1.0, "cheap": 2.0, "rich": 10.0, "dear": 50.0, "fine": 100.0}
+
+    def errors(self, values, metric=RMS):
+        study = Synthetic(dict.fromkeys(values, 0.0), self.COSTS, replicas=2, dear={n: len(v) for n, v in values.items()}, metric=metric)
+        for rung in study.plan["rungs"]:
+            rung["fixed"] = rung["name"] == "still"
+            for run, value in zip(rung["runs"], values[rung["name"]]):
+                study.histories[run["name"]] = (np.linspace(0.0, 10.0, 11), lambda column, v=value: np.full(11, v))
+        result = study.judge().result()
+        return result, {r["name"]: r["errors"][metric["name"]] for r in result["rungs"]}
+
+    def half(self, error):
+        return error["high"] - error["error"]
+
+    def test_the_scatter_of_an_rms_is_that_against_the_dearest_rung_with_replicas(self):
+        _, errors = self.errors(self.VALUES)  # 'cheap' differs from 'rich' by 1 and 3: mean 2, deviation sqrt(2)
+        self.assertEqual((errors["cheap"]["scatter_of"], errors["cheap"]["scatter_against"]), (None, "rich"))
+        self.assertEqual((errors["rich"]["scatter_of"], errors["rich"]["scatter_against"]), (None, "cheap"))
+        self.assertEqual(errors["cheap"]["error"], 1.0)
+        self.assertAlmostEqual(self.half(errors["cheap"]), 12.706 * math.sqrt(2.0), delta=1e-3)  # Student, one degree of freedom
+
+    def test_one_replica_takes_the_scatter_of_the_next_cheaper_rung(self):
+        result, errors = self.errors(self.VALUES)
+        self.assertEqual((errors["dear"]["scatter_of"], errors["dear"]["error"]), ("rich", 0.5))
+        self.assertAlmostEqual(self.half(errors["dear"]), 12.706 * math.sqrt(2.0), delta=1e-3)
+        self.assertTrue(any("'dear'" in text and "the scatter of 'rich' stands in" in text for text in result["not_tested"]))
+
+    def test_the_reference_has_no_error_and_the_bar_of_its_scatter(self):
+        _, errors = self.errors(self.VALUES)
+        self.assertEqual((errors["fine"]["scatter_of"], errors["fine"]["error"], errors["fine"]["low"]), ("rich", 0.0, 0.0))
+        self.assertAlmostEqual(errors["fine"]["high"], 12.706 * math.sqrt(2.0), delta=1e-3)
+
+    def test_still_water_scatters_by_what_it_is_compared_with(self):
+        _, errors = self.errors(self.VALUES)  # 5 and 4 from 'rich'
+        self.assertEqual((errors["still"]["scatter_of"], errors["still"]["scatter_against"]), (None, "rich"))
+        self.assertAlmostEqual(self.half(errors["still"]), 12.706 * math.sqrt(0.5), delta=1e-3)
+
+    def test_where_none_is_cheaper_the_cheapest_lends(self):
+        values = {n: v for n, v in self.VALUES.items() if n != "still"}
+        self.assertEqual(self.errors(values)[1]["first"]["scatter_of"], "cheap")
+
+    def test_a_reference_with_replicas_leaves_to_each_rung_its_own_scatter(self):
+        result, errors = self.errors(dict(self.VALUES, fine=[0.0, 0.0]))
+        self.assertEqual([errors[n]["scatter_of"] for n in ("first", "still", "cheap", "rich", "dear", "fine")],
+                         ["still", None, None, None, "rich", None])
+        self.assertTrue(all(e["scatter_against"] is None for e in errors.values()))
+        self.assertFalse(any("against '" in text for text in result["not_tested"]))
+
+    def test_the_answer_says_that_its_confidence_is_borrowed(self):
+        values = {"cheap": [9.0, 9.1], "rich": [9.0, 9.3], "dear": [0.5], "fine": [0.0]}
+        result, errors = self.errors(values)
+        self.assertEqual(result["answer"], "dear")
+        self.assertRegex(result["sentence"], r"confidence 9\d(\.\d)? % by the borrowed scatter of 'rich'$")
+
+    def test_one_rung_with_replicas_has_nothing_to_scatter_against(self):
+        result, errors = self.errors({"cheap": [1.0, 4.0], "dear": [0.5], "fine": [0.0]})
+        self.assertTrue(all(e["high"] == e["low"] for e in errors.values()))
+        self.assertIn("confidence not known: too few replicas", result["sentence"])
 
 
 class Sources(unittest.TestCase):
