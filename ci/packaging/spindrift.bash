@@ -17,7 +17,7 @@ _spindrift() {
   fi
   case $command in
     run | check | grid | study | profile) COMPREPLY=($(compgen -f -X '!*.toml' -- "$word") $(compgen -d -- "$word")) ;;
-    import) COMPREPLY=($(compgen -f -X '!*.fst' -- "$word") $(compgen -d -- "$word")) ;;
+    import) COMPREPLY=($(compgen -f -X '!*.fst' -- "$word") $(compgen -f -X '!*.yaml' -- "$word") $(compgen -d -- "$word")) ;;
     report | picture | film) COMPREPLY=($(compgen -d -- "$word")) ;;
     replay) COMPREPLY=($(compgen -f -X '!*.jsonl' -- "$word") $(compgen -d -- "$word")) ;;
     help) COMPREPLY=($(compgen -W "run check grid study import reference report profile replay picture film" -- "$word")) ;;

@@ -14,6 +14,7 @@
 #include "src/app/forecast.hpp"
 #include "src/coupling/limits.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/coupling/timeline.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/text_check.hpp"
@@ -35,11 +36,16 @@ struct Choice {
 
 const std::vector<Choice>& choices() {
   static const std::vector<Choice> all{
-      {"step twice as long",
+      {"longer step",
        [](Scenario& s) -> std::optional<std::string> {
-         const double step = 2.0 * s.time.step();
-         s.time.step_s = step, s.time.window_s = std::max(s.time.window_s, step);
-         return fmt::format("time.step_s = {:g}", step);
+         const std::int64_t steps = coupling::whole_ratio(s.time.window_s, s.time.step()).value_or(1);
+         const std::int64_t windows = coupling::whole_ratio(s.time.end_s, s.time.window_s).value_or(1);
+         if (steps > 1) {
+           s.time.step_s = s.time.window_s / double((steps + 1) / 2);
+           return fmt::format("time.step_s = {:.12g}", *s.time.step_s);
+         }
+         s.time.window_s *= 2.0, s.time.step_s = s.time.window_s, s.time.end_s = s.time.window_s * double((windows + 1) / 2);
+         return fmt::format("time.step_s = {0:g}, time.window_s = {0:g}", s.time.window_s);
        }},
       {"rows half as often",
        [](Scenario& s) -> std::optional<std::string> {

@@ -15,7 +15,7 @@ struct Effect {
 };
 
 struct Omission {
-  std::string name;             ///< "step twice as long"
+  std::string name;             ///< "longer step"
   std::string keys;             ///< what to write: "time.step_s = 0.1"
   std::vector<Effect> effects;  ///< by column asked for
   double saving = 0.0;          ///< of the processor time, 0 ... 1; negative where it costs more

@@ -70,19 +70,20 @@ class Sea final : public ParticleSea {
         contacts_(plan.bodies.size()),
         motions_(start.begin(), start.end()) {
     for (const DampingZoneOptions& z : plan.damping_zones)
-      zones_.push_back({z.from_m, z.to_m, z.rate_1_s, z.axis == "y" ? 1 : 0});
-    if (!zones_.empty() || settle_damping_ > 0.0)
-      sea_.state().after_step = [this](int group, double dt) {
-        const sph::Group& g = sea_.store().groups[std::size_t(group)];
-        sph::damp(sea_.store(), std::span<const sph::DampingZone>(zones_), settling_ ? settle_damping_ : 0.0, dt, g.fluid,
-                  g.solid);
-      };
+      sea_.state().damping.zones.push_back({z.from_m, z.to_m, z.rate_1_s, z.axis == "y" ? 1 : 0});
+    steps_.steps.choose = [this](double limit) {
+      const WindowDriver::Step step = driver_->choose(limit);
+      return sph::StepControl::Choice{step.dt, step.last};
+    };
     if (tank.paddle) {
       wavemaker_.emplace(wavemaker_of(plan)), paddle_ = *tank.paddle;
       sea_.add_body(paddle_, wavemaker_->at_rest());
     }
     const auto mine = sph::identities_of(particles_, world.rank, world.size);
-    for (std::size_t id = mine.first; id < mine.last; ++id) owner_.push_back(tank.seeds[id].owner);
+    owner_.reserve(mine.last - mine.first);
+    tank.seeds.for_each([&](std::size_t id, const sph::Seed<dim>& seed) {
+      if (id >= mine.first && id < mine.last) owner_.push_back(seed.owner);
+    });
     std::size_t shaped = 0;
     for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
       if (plan.bodies[b].shapes.empty()) continue;
@@ -111,16 +112,11 @@ class Sea final : public ParticleSea {
   }
   void record(runtime::Graph& graph, WindowDriver& driver, int first_tag) override {
     driver_ = &driver;
-    sph::SeaState<dim, Real>& state = sea_.state();
-    state.step_control = {.choose = [this](double limit) {
-      const WindowDriver::Step step = driver_->choose(limit);
-      return sph::StepControl::Choice{step.dt, step.last};
-    }};
     if (moves_solids())
-      state.move_bodies = [this](const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) {
+      steps_.move_bodies = [this](const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) {
         move(half, loads, motions);
       };
-    tasks_.push_back(std::make_unique<sph::StepTasks<dim, Real>>(state, graph, omp_get_max_threads(), first_tag));
+    tasks_.push_back(sea_.tasks(steps_, graph, omp_get_max_threads(), first_tag));
     tasks_.back()->window();
     moved_ = false;
   }
@@ -130,7 +126,7 @@ class Sea final : public ParticleSea {
   }
   void forget_tasks() override { tasks_.clear(); }
   void open(double t, std::span<const Motion> bodies, bool settling) override {
-    settling_ = settling, t_ = t;
+    sea_.state().damping.everywhere = settling ? settle_damping_ : 0.0, t_ = t;
     place(t, bodies);
     sph::Plan& plan = sea_.state().plan;
     plan.left = 1.0;                               // until the driver calls a step the last
@@ -339,11 +335,9 @@ class Sea final : public ParticleSea {
   std::vector<std::uint16_t> owner_;  ///< of this rank's run of identities
   std::optional<sph::Wavemaker> wavemaker_;
   std::uint16_t paddle_ = 0;
-  std::vector<sph::DampingZone> zones_;
   std::vector<std::uint16_t> owner_of_body_;  ///< 0: it has no particles
   std::vector<Wrench> loads_, contacts_;
   std::vector<Motion> motions_;
-  bool settling_ = false;
   double t_ = 0.0;  ///< at the window's start
   // Windows as tasks.
   struct Saved {
@@ -353,6 +347,7 @@ class Sea final : public ParticleSea {
     std::vector<sph::PatchRecord> records;
   };
   WindowDriver* driver_ = nullptr;
+  sph::StepDriver steps_;  ///< asks driver_
   std::vector<std::unique_ptr<sph::StepTasks<dim, Real>>> tasks_;
   bool moved_ = false;  ///< groups went to other ranks
   std::array<Saved, 2> snapshots_;

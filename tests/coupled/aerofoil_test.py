@@ -35,11 +35,11 @@ far_m = 500.0
 
 
 class Runs(Folder):
-    def aerofoil(self, incidence, turbulence="sa", flux="roe_low_mach", refinement=1, steps=600):
+    def aerofoil(self, incidence, turbulence="sa", flux="roe_low_mach", refinement=1, steps=600, settings=()):
         """Exit code, summary and last row of the history."""
         scene = self.path / "aerofoil.toml"
         scene.write_text(SCENE % (steps, incidence, turbulence, flux, refinement))
-        done = spindrift("run", scene, "--out", self.out, "--overwrite", "--no-report", timeout=1500)
+        done = spindrift("run", scene, "--out", self.out, "--overwrite", "--no-report", timeout=1500, settings=settings)
         self.words = done.stdout + done.stderr
         self.assertTrue((self.out / "summary.json").exists(), self.words)
         with open(self.out / "history.csv") as file:
@@ -112,6 +112,17 @@ class Nightly(Runs):
                     if (refinement, turbulence, flux, incidence) == (2, "sa", "roe_low_mach", 15):
                         self.assertTrue(1.49 < last["flow.lift_coefficient"] < 1.57)
         self.assertGreaterEqual(converged, 36)
+
+    def test_low_mach_numbers_converge_with_the_same_settings_to_the_lift_of_air_without_compression(self):
+        _, _, plain = self.aerofoil(10)
+        for mach in (0.05, 0.01, 0.003):
+            speed = 51.04 * mach / 0.15
+            code, _, last = self.aerofoil(10, settings=(f"wind.speed_m_s={speed}", f"aero.flow.viscosity_Pa_s={1.225 * speed / 6e6}"))
+            print(mach, code, last["flow.pseudo_steps"], "%.5f %.5f" % (last["flow.lift_coefficient"], last["flow.drag_coefficient"]), flush=True)
+            self.assertEqual(code, 0, self.words)
+            prandtl_glauert = ((1.0 - mach**2) / (1.0 - 0.15**2)) ** 0.5
+            self.assertAlmostEqual(last["flow.lift_coefficient"] * prandtl_glauert / plain["flow.lift_coefficient"], 1.0, delta=0.01)
+            self.assertAlmostEqual(last["flow.drag_coefficient"] / plain["flow.drag_coefficient"], 1.0, delta=0.05)
 
 
 if __name__ == "__main__":

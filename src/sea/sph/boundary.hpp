@@ -10,6 +10,7 @@
 #include "kernels/sph/boundary_extrapolated.hpp"
 #include "kernels/sph/boundary_modified.hpp"
 #include "src/sea/sph/parameters.hpp"
+#include "src/sea/sph/seeds.hpp"
 #include "src/sea/sph/solids.hpp"
 #include "src/sea/sph/sweep_pairs.hpp"
 
@@ -20,14 +21,14 @@ template <int dim>
 class Ghosts {
  public:
   Ghosts() = default;
-  explicit Ghosts(std::span<const Seed<dim>> seeds) {
+  explicit Ghosts(const SeedStream<dim>& seeds) {
     const std::array<double, dim> none{};
-    for (std::size_t n = 0; n < seeds.size(); ++n) {
-      if (seeds[n].owner == 0 || seeds[n].ghost == none) continue;
-      if (offset_.empty()) first_ = std::uint32_t(n);
-      offset_.resize(n - first_ + 1);
-      offset_.back() = seeds[n].ghost;
-    }
+    seeds.for_each([&](std::size_t id, const Seed<dim>& seed) {
+      if (seed.owner == 0 || seed.ghost == none) return;
+      if (offset_.empty()) first_ = std::uint32_t(id);
+      offset_.resize(id - first_ + 1);
+      offset_.back() = seed.ghost;
+    });
     built_ = offset_;
   }
   bool empty() const { return offset_.empty(); }

@@ -1,10 +1,11 @@
 // Where waves die away: the velocity of the water decays at a rate that grows quadratically over a zone, exactly over each step
-// (v exp(-rate s^2 dt)), so that no rate is too large. Called by particle_sea.cpp for each group after a step; tested in
+// (v exp(-rate s^2 dt)), so that no rate is too large. Called by tasks.cpp for each group after a step; tested in
 // tests/src/sea/sph/wave_tank_parts_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "src/sea/sph/store.hpp"
 
@@ -20,11 +21,17 @@ struct DampingZone {
   }
 };
 
-/// Damps the water in some clusters; `everywhere` [1/s] comes on top of the zones.
+/// What damps the water after each step; nothing by default.
+struct Damping {
+  std::vector<DampingZone> zones;
+  double everywhere = 0.0;  ///< on top of the zones [1/s]: of water that settles
+  bool acts() const { return !zones.empty() || everywhere != 0.0; }
+};
+
+/// Damps the water in some clusters over a step of dt [s].
 template <int dim, class Real>
-void damp(Store<dim, Real>& store, std::span<const DampingZone> zones, double everywhere, double dt, std::size_t first,
-          std::size_t last) {
-  if (zones.empty() && everywhere == 0.0) return;
+void damp(Store<dim, Real>& store, const Damping& damping, double dt, std::size_t first, std::size_t last) {
+  const auto& [zones, everywhere] = damping;
   for (std::size_t cluster = first; cluster < last; ++cluster) {
     if (store.owner[cluster] != 0) continue;
     for (std::size_t slot = cluster * cluster_size; slot < (cluster + 1) * cluster_size; ++slot) {
@@ -42,8 +49,8 @@ void damp(Store<dim, Real>& store, std::span<const DampingZone> zones, double ev
 
 /// All of it.
 template <int dim, class Real>
-void damp(Store<dim, Real>& store, std::span<const DampingZone> zones, double everywhere, double dt) {
-  damp(store, zones, everywhere, dt, 0, store.clusters());
+void damp(Store<dim, Real>& store, const Damping& damping, double dt) {
+  if (damping.acts()) damp(store, damping, dt, 0, store.clusters());
 }
 
 }  // namespace spindrift::sph

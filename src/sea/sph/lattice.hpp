@@ -8,7 +8,7 @@
 
 #include "kernels/sph/eos_tait.hpp"
 #include "src/sea/sph/parameters.hpp"
-#include "src/sea/sph/store.hpp"
+#include "src/sea/sph/seeds.hpp"
 
 namespace spindrift::sph {
 

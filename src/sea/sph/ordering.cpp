@@ -273,40 +273,58 @@ void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& column
 }
 
 template <int dim, class Real>
-void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, const Subdomain& subdomain,
+void fill(Store<dim, Real>& store, const SeedStream<dim>& seeds, const Columns<dim>& columns, const Subdomain& subdomain,
           MPI_Comm comm, double anchor_step) {
   // A provisional order, one owner per cluster, which the sort then replaces.
   const auto extra_planes = store.extra_planes;
   const int stress_planes = store.stress_planes;
   store = {};
   store.extra_planes = extra_planes, store.stress_planes = stress_planes;
-  for (const Seed<dim>& seed : seeds) store.owners = std::max<int>(store.owners, seed.owner + 1);
-  std::vector<std::vector<std::uint32_t>> of_owner(std::size_t(store.owners));
-  const auto group_of = [&](const Seed<dim>& seed) {
-    return columns.domain().contains(seed.position) ? columns.group(seed.position) : 0;  // the sort lists those outside as lost
+  const auto mine = [&](const Seed<dim>& seed) {  // the sort lists those outside as lost
+    return subdomain.owns(columns.domain().contains(seed.position) ? columns.group(seed.position) : 0);
   };
-  for (std::size_t n = 0; n < seeds.size(); ++n)
-    if (subdomain.owns(group_of(seeds[n]))) of_owner[seeds[n].owner].push_back(std::uint32_t(n));
-  for (int owner = 0; owner < store.owners; ++owner) {
-    for (const std::uint32_t n : of_owner[std::size_t(owner)]) {
-      for (int k = 0; k < dim; ++k) store.x[k].push_back(seeds[n].position[k]), store.v[k].push_back(seeds[n].velocity[k]);
-      store.deviation.push_back(seeds[n].deviation);
-      store.id.push_back(n);
-    }
+  std::size_t water = 0;
+  seeds.for_each([&](std::size_t, const Seed<dim>& seed) {
+    store.owners = std::max<int>(store.owners, seed.owner + 1);
+    water += seed.owner == 0 && mine(seed);
+  });
+  const auto add = [&](std::size_t id, const Seed<dim>& seed) {
+    for (int k = 0; k < dim; ++k) store.x[k].push_back(seed.position[k]), store.v[k].push_back(seed.velocity[k]);
+    store.deviation.push_back(seed.deviation);
+    store.id.push_back(std::uint32_t(id));
+  };
+  const auto finish_owner = [&](int owner) {
     const std::size_t clusters = (store.id.size() + cluster_size - 1) / cluster_size;
     store.id.resize(clusters * cluster_size, no_particle);
     store.deviation.resize(clusters * cluster_size, 0.0);
     for (int k = 0; k < dim; ++k)
       store.x[k].resize(clusters * cluster_size, 0.0), store.v[k].resize(clusters * cluster_size, 0.0);
     store.owner.resize(clusters, std::uint16_t(owner));
+  };
+  // Most seeds are water: it goes where it belongs at once. Solids wait for it to end.
+  store.id.reserve(water), store.deviation.reserve(water);
+  for (int k = 0; k < dim; ++k) store.x[k].reserve(water), store.v[k].reserve(water);
+  std::vector<std::vector<std::pair<std::size_t, Seed<dim>>>> of_solid(std::size_t(store.owners));
+  seeds.for_each([&](std::size_t id, const Seed<dim>& seed) {
+    if (!mine(seed)) return;
+    if (seed.owner == 0)
+      add(id, seed);
+    else
+      of_solid[seed.owner].emplace_back(id, seed);
+  });
+  finish_owner(0);
+  for (int owner = 1; owner < store.owners; ++owner) {
+    for (const auto& [id, seed] : of_solid[std::size_t(owner)]) add(id, seed);
+    finish_owner(owner);
+    of_solid[std::size_t(owner)] = {};
   }
   Sorting<dim, Real>(store, columns, subdomain, anchor_step).all(comm);
 }
 
-#define SPINDRIFT_SPH_INSTANTIATE(dim, Real)                                                                                    \
-  template class Sorting<dim, Real>;                                                                                            \
-  template void exchange_halo_structure<dim, Real>(Store<dim, Real>&, const Columns<dim>&, const Subdomain&, MPI_Comm);         \
-  template void fill<dim, Real>(Store<dim, Real>&, std::span<const Seed<dim>>, const Columns<dim>&, const Subdomain&, MPI_Comm, \
+#define SPINDRIFT_SPH_INSTANTIATE(dim, Real)                                                                                \
+  template class Sorting<dim, Real>;                                                                                        \
+  template void exchange_halo_structure<dim, Real>(Store<dim, Real>&, const Columns<dim>&, const Subdomain&, MPI_Comm);     \
+  template void fill<dim, Real>(Store<dim, Real>&, const SeedStream<dim>&, const Columns<dim>&, const Subdomain&, MPI_Comm, \
                                 double);
 SPINDRIFT_SPH_INSTANTIATE(2, float)
 SPINDRIFT_SPH_INSTANTIATE(2, double)

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/mpi/exchange.hpp"
+#include "src/sea/sph/seeds.hpp"
 #include "src/sea/sph/store.hpp"
 #include "src/sea/sph/subdomain.hpp"
 
@@ -66,15 +67,14 @@ class Sorting {
 template <int dim, class Real>
 void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& columns, const Subdomain& subdomain, MPI_Comm comm);
 
-/// Fills an empty store with the seeds in the subdomain's groups; identities are the places in `seeds`, which all ranks have.
-/// Collective.
+/// Fills an empty store with the seeds in the subdomain's groups; all ranks give the same stream, and keep no others. Collective.
 template <int dim, class Real>
-void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, const Subdomain& subdomain,
+void fill(Store<dim, Real>& store, const SeedStream<dim>& seeds, const Columns<dim>& columns, const Subdomain& subdomain,
           MPI_Comm comm, double anchor_step);
 
 /// The same where one rank has all.
 template <int dim, class Real>
-void fill(Store<dim, Real>& store, std::span<const Seed<dim>> seeds, const Columns<dim>& columns, double anchor_step) {
+void fill(Store<dim, Real>& store, const SeedStream<dim>& seeds, const Columns<dim>& columns, double anchor_step) {
   fill(store, seeds, columns, whole_subdomain(columns), MPI_COMM_SELF, anchor_step);
 }
 template <int dim, class Real>

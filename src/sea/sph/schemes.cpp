@@ -40,20 +40,20 @@ GroupSweep<dim, Real> Schemes<dim, Real>::rates() const {
 }
 
 template <int dim, class Real>
-void set_schemes(SeaState<dim, Real>& sea) {
+Sweeps<dim, Real> sweeps_over(SeaState<dim, Real>& sea) {
   const Parameters& p = sea.p;
   const Schemes<dim, Real> schemes(sea.store, sea.columns, sea.subdomain, p);
-  sea.rates = schemes.rates(), sea.strain = schemes.strain(), sea.boundary = schemes.boundary(sea.ghosts);
-  sea.filter = schemes.filter(), sea.shifting = schemes.shifting();
+  Sweeps<dim, Real> sweeps{schemes.rates(), schemes.strain(), schemes.filter(), schemes.shifting(), schemes.boundary(sea.ghosts)};
   auto& planes = sea.store.extra_planes;
-  if (sea.filter) planes[of_filter] = p.filter == FilterChoice::mls ? FilterMls<dim>::planes : FilterShepard::planes;
-  if (sea.shifting) planes[of_shifting] = Shifting<dim>::planes;
-  if (sea.strain) planes[of_strain] = sea.store.stress_planes = SymmetricTensor<double, dim>::components;
+  if (sweeps.filter) planes[of_filter] = p.filter == FilterChoice::mls ? FilterMls<dim>::planes : FilterShepard::planes;
+  if (sweeps.shifting) planes[of_shifting] = Shifting<dim>::planes;
+  if (sweeps.strain) planes[of_strain] = sea.store.stress_planes = SymmetricTensor<double, dim>::components;
+  return sweeps;
 }
 
-template void set_schemes(SeaState<2, float>&);
-template void set_schemes(SeaState<2, double>&);
-template void set_schemes(SeaState<3, float>&);
-template void set_schemes(SeaState<3, double>&);
+template Sweeps<2, float> sweeps_over(SeaState<2, float>&);
+template Sweeps<2, double> sweeps_over(SeaState<2, double>&);
+template Sweeps<3, float> sweeps_over(SeaState<3, float>&);
+template Sweeps<3, double> sweeps_over(SeaState<3, double>&);
 
 }  // namespace spindrift::sph

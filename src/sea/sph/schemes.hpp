@@ -22,6 +22,13 @@ using GroupSweep = std::function<void(Real* sums, int group, NeighbourLists<dim,
 template <int dim, class Real>
 using GroupBoundary = std::function<void(Store<dim, Real>&, int group, Candidates<dim, Real>&)>;
 
+/// All sweeps over one sea with the scene's schemes; each empty where the scene has none.
+template <int dim, class Real>
+struct Sweeps {
+  GroupSweep<dim, Real> rates, strain, filter, shifting;
+  GroupBoundary<dim, Real> boundary;
+};
+
 /// Makes sweeps over one store; the store, the columns and the subdomain must outlive them.
 template <int dim, class Real>
 class Schemes {
@@ -87,5 +94,12 @@ struct Viscosity : ViscosityModel {
   Viscosity<dim, Real> name##_viscosity();
 #include "src/sea/sph/viscosities.inc"
 #undef VISCOSITY
+
+template <int dim, class Real>
+struct SeaState;
+/// The sweeps of the scene's schemes over a sea, which must outlive them; gives its store the planes of sums that they need
+/// (schemes.cpp, which alone takes long to compile).
+template <int dim, class Real>
+Sweeps<dim, Real> sweeps_over(SeaState<dim, Real>& sea);
 
 }  // namespace spindrift::sph

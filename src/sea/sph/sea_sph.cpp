@@ -15,10 +15,11 @@ namespace {
 /// Ghost nodes may see no farther than two columns: so far reach the uses of tasks and the halos of ranks. Widens columns for
 /// those that lie far in.
 template <int dim>
-Parameters with_room_for_ghosts(Parameters p, std::span<const Seed<dim>> seeds) {
+Parameters with_room_for_ghosts(Parameters p, const SeedStream<dim>& seeds) {
   double farthest = 0.0;
-  for (const Seed<dim>& seed : seeds)
+  seeds.for_each([&](std::size_t, const Seed<dim>& seed) {
     for (int k = 0; k < dim - 1; ++k) farthest = std::max(farthest, std::abs(seed.ghost[k]));
+  });
   const double least = p.reach() + 2.0 * p.drift();
   p.column_over_reach = std::max(p.column_over_reach, 0.5 * (farthest + least) / least);
   return p;
@@ -27,7 +28,7 @@ Parameters with_room_for_ghosts(Parameters p, std::span<const Seed<dim>> seeds) 
 }  // namespace
 
 template <int dim, class Real>
-SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds,
+SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domain, const SeedStream<dim>& seeds,
                           Resources resources)
     : resources_(std::move(resources)),
       comm_(resources_.comm),
@@ -38,11 +39,11 @@ SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domai
   if (rank_of_group.empty()) {
     std::vector<GroupCount> counts(std::size_t(s_.columns.groups()));
     for (int g = 0; g < s_.columns.groups(); ++g) counts[std::size_t(g)] = {g, 0, 0};
-    for (const Seed<dim>& seed : seeds)
-      if (domain.contains(seed.position)) {
-        GroupCount& count = counts[std::size_t(s_.columns.group(seed.position))];
-        ++(seed.owner == 0 ? count.water : count.solid);
-      }
+    seeds.for_each([&](std::size_t, const Seed<dim>& seed) {
+      if (!domain.contains(seed.position)) return;
+      GroupCount& count = counts[std::size_t(s_.columns.group(seed.position))];
+      ++(seed.owner == 0 ? count.water : count.solid);
+    });
     for (GroupCount& c : counts)
       c.water = (c.water + cluster_size - 1) / cluster_size, c.solid = (c.solid + cluster_size - 1) / cluster_size;
     rank_of_group =
@@ -52,7 +53,7 @@ SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domai
   }
   s_.ghosts = Ghosts<dim>(seeds);
   set_territory(std::move(rank_of_group));
-  set_schemes(s_);
+  sweeps_ = sweeps_over(s_);
   fill(s_.store, seeds, s_.columns, s_.subdomain, comm_.get(), s_.p.anchor_step());
   if (s_.p.step == StepChoice::verlet) s_.store.v_before = s_.store.v, s_.store.deviation_before = s_.store.deviation;
 }
@@ -77,7 +78,7 @@ template <class Record>
 void SeaSph<dim, Real>::run(std::unique_ptr<Program>& program, Record&& record) {
   if (!program) {
     runtime::Graph graph(comm_.get());
-    auto tasks = std::make_unique<StepTasks<dim, Real>>(s_, graph, resources_.threads);
+    auto tasks = std::make_unique<StepTasks<dim, Real>>(s_, sweeps_, driver_, graph, resources_.threads);
     record(*tasks);
     const bool is_window = &program == &window_;
     program.reset(
@@ -97,7 +98,7 @@ void SeaSph<dim, Real>::sort() {
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::sort_if_due() {
-  if (s_.sort_is_due()) sort();
+  if (s_.plan.sort_is_due(s_.p.drift())) sort();
 }
 
 template <int dim, class Real>
@@ -119,7 +120,7 @@ double SeaSph<dim, Real>::step_limit() {
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::start_step(double dt) {
-  s_.start_steps(dt, 1);
+  s_.plan.start_steps(dt, 1);
   s_.plan.shifted = 0.0;
 }
 
@@ -143,7 +144,7 @@ void SeaSph<dim, Real>::end_step() {
     tasks.filters();
   });
   s_.plan.left = s_.plan.dt;
-  s_.finish_steps();
+  s_.plan.finish_steps(driver_.steps, s_.p.step, s_.work);
 }
 
 template <int dim, class Real>
@@ -167,13 +168,13 @@ template <int dim, class Real>
 void SeaSph<dim, Real>::set_step_control(StepControl step_control) {
   if (step_control.steps_per_check < 1 || step_control.dt < 0.0)
     throw std::invalid_argument("sea: a step_control needs steps_per_check >= 1 and dt >= 0");
-  s_.step_control = step_control;
+  driver_.steps = std::move(step_control);
   window_ = nullptr;
 }
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::set_bodies(MoveBodies move) {
-  s_.move_bodies = std::move(move);
+  driver_.move_bodies = std::move(move);
   window_ = nullptr;
 }
 

@@ -30,8 +30,8 @@ struct Resources {
 template <int dim, class Real = float>
 class SeaSph {
  public:
-  /// All ranks give all seeds; each keeps those in its groups.
-  SeaSph(const Parameters& parameters, const Domain<dim>& domain, std::span<const Seed<dim>> seeds, Resources resources = {});
+  /// All ranks give the same stream; each keeps those in its groups.
+  SeaSph(const Parameters& parameters, const Domain<dim>& domain, const SeedStream<dim>& seeds, Resources resources = {});
   SeaSph(const SeaSph&) = delete;  // its tasks refer to its state
   SeaSph& operator=(const SeaSph&) = delete;
 
@@ -100,6 +100,10 @@ class SeaSph {
   Store<dim, Real>& store() { return s_.store; }
   const SeaState<dim, Real>& state() const { return s_; }
   SeaState<dim, Real>& state() { return s_; }
+  /// Records a window of this sea into the graph of a whole run; `driver` must outlive it. See StepTasks.
+  std::unique_ptr<StepTasks<dim, Real>> tasks(const StepDriver& driver, runtime::Graph& graph, int threads, int first_tag) {
+    return std::make_unique<StepTasks<dim, Real>>(s_, sweeps_, driver, graph, threads, first_tag);
+  }
   const Work& work() const { return s_.work; }
   double time() const { return s_.plan.time; }
   std::size_t particles() const { return particles_; }  ///< of all ranks, as seeded
@@ -122,6 +126,8 @@ class SeaSph {
   Resources resources_;
   runtime::Communicator comm_;
   SeaState<dim, Real> s_;
+  Sweeps<dim, Real> sweeps_;  ///< over s_
+  StepDriver driver_;         ///< of the windows of advance()
   std::unique_ptr<Program> sort_, begin_, half_, end_, window_;
   std::vector<Touch> contacts_;
   std::size_t particles_ = 0;

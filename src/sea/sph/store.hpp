@@ -77,14 +77,4 @@ struct Store {
   }
 };
 
-/// One particle as scenes make them, before they are in a store.
-template <int dim>
-struct Seed {
-  std::array<double, dim> position, velocity{};
-  double deviation = 0.0;   ///< rho - rho0 [kg/m3]
-  std::uint16_t owner = 0;  ///< 0 water, 1 + n the solid n
-  /// Of a particle of a modified boundary: from it to its ghost node, its mirror image in the water; zero for a dynamic one [m].
-  std::array<double, dim> ghost{};
-};
-
 }  // namespace spindrift::sph

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <type_traits>
 
 #include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/lattice.hpp"
@@ -76,30 +79,86 @@ void set_in_motion(Seed<dim>& seed, std::span<const waves::Component> waves, dou
   seed.position = from_earth<dim>(x + way), seed.velocity = from_earth<dim>(v);
 }
 
+/// Lays out a tank. What needs neighbours (water that bodies displace or move aside) is found once and kept; all else is made
+/// anew at each visit.
 template <int dim>
-class Builder {
+class Layout {
  public:
-  Builder(const TankPlan& plan, Parameters& p)
+  using Visit = typename SeedStream<dim>::Visit;
+
+  Layout(const TankPlan& plan, const Parameters& p)
       : plan_(plan), p_(p), lattice_(plan, p.spacing), layers_(int(std::ceil(p.reach() / p.spacing - 1e-9)) - 1) {
-    const bool heavy = p.gravity > 0.0;
-    p.mass_factor = lattice_.cell() / std::pow(p.spacing, dim) * (heavy ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0);
-    row_mass_ = p.eos.rho0 * lattice_.edge[dim - 1] * (heavy ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0);
+    const double ratio = p.gravity > 0.0 ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0;
+    p_.mass_factor = lattice_.cell() / std::pow(p.spacing, dim) * ratio;
+    row_mass_ = p.eos.rho0 * lattice_.edge[dim - 1] * ratio;
+    cell_volume_ = lattice_.cell() / std::pow(p.spacing, dim);
+    fill_bodies();
+    find_displaced_water();
   }
 
-  TankParticles<dim> build() {
-    result_.cell_volume = lattice_.cell() / std::pow(p_.spacing, dim);
-    fill_bodies();
-    add_water();
-    if (displaced_ > 0.0) take_displaced_water();
-    result_.water = result_.seeds.size();
-    add_walls();
-    result_.walls = result_.seeds.size() - result_.water;
+  double mass_factor() const { return p_.mass_factor; }
+  /// Finds where the water beside bodies stands, and counts. To be called once.
+  TankParticles<dim> settle() {
+    TankParticles<dim> result;
+    result.cell_volume = cell_volume_;
     std::uint16_t owner = wall_owner + 1;
-    if (plan_.paddle) add_paddle(*(result_.paddle = owner++));
-    for (std::size_t b = 0; b < plan_.bodies.size(); ++b) add_body(b, owner++);
-    if (!plan_.bodies.empty()) fit_water_to_bodies();
-    set_domain();
-    return std::move(result_);
+    if (plan_.paddle) result.paddle = owner++;
+    for (const Points& points : points_) result.bodies.push_back(owner++), result.body_particles.push_back(points.size());
+    // Of the water beside bodies: those that move and all that they stand between, air too, so that the surface stays.
+    std::vector<std::array<double, dim>> points, fixed = std::move(air_);
+    double lowest = 1e300, highest = plan_.top;
+    std::vector<Moved> aside;
+    visit([&](std::size_t id, const Seed<dim>& seed) {
+      const bool water = seed.owner == water_owner;
+      ++count_, result.water += water, result.walls += seed.owner == wall_owner;
+      if (seed.owner > wall_owner) highest = std::max(highest, seed.position[dim - 1]);
+      if (!plan_.bodies.empty()) {
+        const double distance = distance_to_bodies(to_earth<dim>(seed.position));
+        if (water && distance < 0.5 * near_bodies * p_.spacing) {
+          aside.push_back({id, seed.position, seed.deviation}), points.push_back(seed.position);
+          return;
+        }
+        if (distance < near_bodies * p_.spacing) fixed.push_back(seed.position);
+      }
+      lowest = std::min(lowest, seed.position[dim - 1]);
+    });
+    pack_evenly<dim>(points, fixed, spacing_of_cells());
+    for (std::size_t n = 0; n < aside.size(); ++n) {
+      Moved& moved = aside[n];
+      const double risen = points[n][dim - 1] - moved.position[dim - 1];
+      moved.position = points[n];
+      lowest = std::min(lowest, moved.position[dim - 1]);
+      if (p_.gravity > 0.0)
+        moved.deviation = p_.eos.deviation(std::max(0.0, p_.eos.pressure(moved.deviation) - p_.eos.rho0 * p_.gravity * risen));
+    }
+    moved_ = std::move(aside);
+    result.domain = domain(lowest, highest);
+    return result;
+  }
+
+  /// Of a settled layout, which it keeps.
+  static SeedStream<dim> stream(std::shared_ptr<const Layout> layout) {
+    return {layout->count_, [layout](const Visit& visit) { layout->visit(visit); }};
+  }
+  /// All seeds in the order of their identities.
+  void visit(const Visit& visit) const {
+    std::size_t id = 0, of_lattice = 0;
+    auto taken = taken_.begin();
+    auto moved = moved_.begin();
+    visit_water([&](const Seed<dim>& seed, double) {
+      if (taken != taken_.end() && *taken == of_lattice++) return void(++taken);
+      if (moved != moved_.end() && moved->id == id) {
+        Seed<dim> aside = seed;
+        aside.position = moved->position, aside.deviation = moved->deviation, ++moved;
+        return visit(id++, aside);
+      }
+      visit(id++, seed);
+    });
+    const auto next = [&](const Seed<dim>& seed) { visit(id++, seed); };
+    visit_walls(next);
+    std::uint16_t owner = wall_owner + 1;
+    if (plan_.paddle) visit_paddle(owner++, next);
+    for (std::size_t b = 0; b < plan_.bodies.size(); ++b) visit_body(b, owner++, next);
   }
 
  private:
@@ -150,30 +209,55 @@ class Builder {
     return double(inside) / all;
   }
 
+  double spacing_of_cells() const { return p_.spacing * std::pow(cell_volume_, 1.0 / dim); }
   void fill_bodies() {
-    const double spacing = p_.spacing * std::pow(result_.cell_volume, 1.0 / dim);
     for (const TankPlan::Body& body : plan_.bodies) {
-      points_.push_back(fill_body(body.shapes, spacing, cut));
+      points_.push_back(fill_body(body.shapes, spacing_of_cells(), cut));
       double far = 0.0;
       for (const Eigen::Vector3d& point : points_.back()) far = std::max(far, point.cwiseAbs().maxCoeff());
       extent_.push_back(far + 2.0 * near_bodies * p_.spacing);
     }
   }
 
-  void add_water() {
+  /// As many particles of the lattice as the bodies displace, those deepest inside; and the places of the air over the water,
+  /// near bodies.
+  void find_displaced_water() {
+    if (plan_.bodies.empty()) return;
+    std::size_t of_lattice = 0;
+    double displaced = 0.0;  // in particles
+    std::vector<std::pair<double, std::size_t>> inside;
+    visit_water(
+        [&](const Seed<dim>& seed, double distance) {
+          displaced += share_of_bodies(seed.position, distance);
+          if (distance < p_.spacing) inside.push_back({distance, of_lattice});
+          ++of_lattice;
+        },
+        [&](const std::array<double, dim>& x) { air_.push_back(x); });
+    if (displaced <= 0.0) return;
+    std::sort(inside.begin(), inside.end());
+    inside.resize(std::min(inside.size(), std::size_t(std::lround(displaced))));
+    for (const auto& [distance, n] : inside) taken_.push_back(n);
+    std::sort(taken_.begin(), taken_.end());
+  }
+
+  /// water(seed, distance to bodies) for each place of water, also where bodies are; air(place) near bodies, where it is given.
+  template <class Water, class Air = std::nullptr_t>
+  void visit_water(Water&& water, Air&& air = {}) const {
     if (plan_.water.empty()) {
-      add_water_in({{-1e300, -1e300, -1e300}, {1e300, 1e300, 0.0}}, 0.0);
+      visit_water_in({{-1e300, -1e300, -1e300}, {1e300, 1e300, 0.0}}, 0.0, water, air);
       return;
     }
-    for (const TankPlan::Block& block : plan_.water) add_water_in(block, block.high[2]);
+    for (const TankPlan::Block& block : plan_.water) visit_water_in(block, block.high[2], water, air);
   }
   /// Rows from the surface down, each with the weight of the rows above it.
-  void add_water_in(const TankPlan::Block& block, double surface) {
+  template <class Water, class Air>
+  void visit_water_in(const TankPlan::Block& block, double surface, Water& water, Air& air) const {
+    constexpr bool with_air = !std::is_same_v<std::remove_cvref_t<Air>, std::nullptr_t>;
     std::array<int, dim> low{}, high = lattice_.count;
-    if (!plan_.bodies.empty()) high[dim - 1] += int(near_bodies);  // air over the water, for bodies that pierce the surface
+    if (with_air) high[dim - 1] += int(near_bodies);  // for bodies that pierce the surface
     for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
       std::array<double, dim> x = lattice_.at(index), under = x;
-      if (x[dim - 1] > surface && x[dim - 1] < surface + near_bodies * lattice_.edge[dim - 1] && !plan_.bodies.empty())
+      if (x[dim - 1] > surface && x[dim - 1] < surface + near_bodies * lattice_.edge[dim - 1] && with_air)
         under[dim - 1] = surface - 0.5 * lattice_.edge[dim - 1];
       if (!inside<dim>(block, under) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x)) return;
       Seed<dim> seed{.position = x};
@@ -187,52 +271,16 @@ class Builder {
       const bool in_tank =
           plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
       if (!in_tank) return;
-      const double distance = distance_to_bodies(to_earth<dim>(seed.position));
-      if (x[dim - 1] <= surface) {  // at rest: a crest is water
-        displaced_ += share_of_bodies(seed.position, distance);
-        result_.seeds.push_back(seed);
-      } else if (distance > 0.0 && distance < near_bodies * p_.spacing) {
-        air_.push_back(seed.position);
+      if constexpr (with_air) {
+        const double distance = distance_to_bodies(to_earth<dim>(seed.position));
+        if (x[dim - 1] <= surface)  // at rest: a crest is water
+          water(seed, distance);
+        else if (distance > 0.0 && distance < near_bodies * p_.spacing)
+          air(seed.position);
+      } else {
+        if (x[dim - 1] <= surface) water(seed, 0.0);
       }
     });
-  }
-  /// As many particles as the bodies displace, those deepest inside.
-  void take_displaced_water() {
-    std::vector<std::pair<double, std::size_t>> inside;
-    for (std::size_t n = 0; n < result_.seeds.size(); ++n) {
-      const double distance = distance_to_bodies(to_earth<dim>(result_.seeds[n].position));
-      if (distance < p_.spacing) inside.push_back({distance, n});
-    }
-    std::sort(inside.begin(), inside.end());
-    inside.resize(std::min(inside.size(), std::size_t(std::lround(displaced_))));
-    std::vector<std::uint8_t> taken(result_.seeds.size(), 0);
-    for (const auto& [distance, n] : inside) taken[n] = 1;
-    std::size_t kept = 0;
-    for (std::size_t n = 0; n < taken.size(); ++n)
-      if (!taken[n]) result_.seeds[kept++] = result_.seeds[n];
-    result_.seeds.resize(kept);
-  }
-  /// Moves the water beside bodies until it stands evenly there, at the pressure of its new depth. Air counts as water does, so
-  /// that the surface stays.
-  void fit_water_to_bodies() {
-    std::vector<std::size_t> moved;
-    std::vector<std::array<double, dim>> points, fixed = air_;
-    for (std::size_t n = 0; n < result_.seeds.size(); ++n) {
-      const auto& x = result_.seeds[n].position;
-      const double distance = distance_to_bodies(to_earth<dim>(x));
-      if (n < result_.water && distance < 0.5 * near_bodies * p_.spacing)
-        moved.push_back(n), points.push_back(x);
-      else if (distance < near_bodies * p_.spacing)
-        fixed.push_back(x);
-    }
-    pack_evenly<dim>(points, fixed, p_.spacing * std::pow(result_.cell_volume, 1.0 / dim));
-    for (std::size_t n = 0; n < moved.size(); ++n) {
-      Seed<dim>& seed = result_.seeds[moved[n]];
-      const double risen = points[n][dim - 1] - seed.position[dim - 1];
-      seed.position = points[n];
-      if (p_.gravity > 0.0)
-        seed.deviation = p_.eos.deviation(std::max(0.0, p_.eos.pressure(seed.deviation) - p_.eos.rho0 * p_.gravity * risen));
-    }
   }
 
   double surface_of_scene() const {
@@ -241,13 +289,13 @@ class Builder {
     for (const auto& block : plan_.water) highest = std::max(highest, block.high[2]);
     return highest;
   }
-  void add_wall_particle(const std::array<double, dim>& x, std::uint16_t owner) {
+  Seed<dim> wall_particle(const std::array<double, dim>& x, std::uint16_t owner) const {
     Seed<dim> seed{.position = x};
     // Beside boxes of water that do not fill the tank walls start without pressure: water will come to them.
     seed.deviation = plan_.water.empty() ? deviation_at(x[dim - 1], surface_of_scene()) : 0.0;
     seed.owner = owner;
     if (plan_.modified_walls) seed.ghost = ghost_of_wall(x, owner);
-    result_.seeds.push_back(seed);
+    return seed;
   }
 
   /// Mirror image in the faces that a wall particle lies beyond; of an obstacle's particle in its nearest face, as far in as
@@ -291,7 +339,8 @@ class Builder {
   }
 
   /// Layers of the lattice under the bed and behind the sides, and obstacles. Behind a paddle the bed and the long sides go on.
-  void add_walls() {
+  template <class Next>
+  void visit_walls(Next&& next) const {
     const int behind = plan_.paddle ? layers_ + int(std::ceil(plan_.paddle_reach / lattice_.edge[0])) + 1 : layers_;
     std::array<int, dim> low{}, high = lattice_.count;
     low[0] = walled(0) ? -behind : 0;
@@ -317,11 +366,12 @@ class Builder {
       if constexpr (dim == 3) wall = wall || (walled(1) && (index[1] < 0 || index[1] >= lattice_.count[1]));
       bool in_tank = index[0] >= 0 && index[0] < lattice_.count[0];
       if constexpr (dim == 3) in_tank = in_tank && index[1] >= 0 && index[1] < lattice_.count[1];
-      if ((wall || (in_tank && is_obstacle(x))) && !is_core(x)) add_wall_particle(x, wall_owner);
+      if ((wall || (in_tank && is_obstacle(x))) && !is_core(x)) next(wall_particle(x, wall_owner));
     });
   }
 
-  void add_paddle(std::uint16_t owner) {
+  template <class Next>
+  void visit_paddle(std::uint16_t owner, Next&& next) const {
     std::array<int, dim> low{}, high = lattice_.count;
     low[0] = -layers_, high[0] = 0;
     // Under the hinge of a flap there is a fixed wall; it comes first, because a body's particles are added in one run.
@@ -329,11 +379,12 @@ class Builder {
       for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
         const std::array<double, dim> x = lattice_.at(index);
         const bool fixed = plan_.paddle->flap && x[dim - 1] < plan_.paddle->hinge;
-        if (x[dim - 1] > plan_.bed_at(plan_.x[0]) && fixed != moving) add_wall_particle(x, moving ? owner : wall_owner);
+        if (x[dim - 1] > plan_.bed_at(plan_.x[0]) && fixed != moving) next(wall_particle(x, moving ? owner : wall_owner));
       });
   }
 
-  void add_body(std::size_t b, std::uint16_t owner) {
+  template <class Next>
+  void visit_body(std::size_t b, std::uint16_t owner, Next&& next) const {
     const TankPlan::Body& body = plan_.bodies[b];
     for (const Eigen::Vector3d& point : points_[b]) {
       const Eigen::Vector3d x = body.motion.point(point);
@@ -341,15 +392,13 @@ class Builder {
       seed.deviation = plan_.water.empty() ? deviation_at(x[2], 0.0) : 0.0;
       seed.owner = owner;
       if (plan_.modified_walls) seed.ghost = ghost_of_body(body, point);
-      result_.seeds.push_back(seed);
+      next(seed);
     }
-    result_.bodies.push_back(owner);
-    result_.body_particles.push_back(points_[b].size());
   }
 
   /// Room for walls, the paddle's way, splashes and bodies; sides that repeat or are open have exactly their length.
-  void set_domain() {
-    Domain<dim>& domain = result_.domain;
+  Domain<dim> domain(double lowest, double highest) const {
+    Domain<dim> domain;
     const double margin = (layers_ + 2) * p_.spacing;
     domain.low[0] = plan_.x[0] - margin - (plan_.paddle ? plan_.paddle_reach + margin : 0.0),
     domain.high[0] = plan_.x[1] + margin;
@@ -366,32 +415,40 @@ class Builder {
       domain.outer_high[k] = side[1] + outside;
     }
     domain.edge = plan_.top - p_.spacing;
-    double lowest = 1e300, highest = plan_.top;
-    for (const Seed<dim>& seed : result_.seeds) {
-      lowest = std::min(lowest, seed.position[dim - 1]);
-      if (seed.owner > wall_owner) highest = std::max(highest, seed.position[dim - 1]);
-    }
     domain.low[dim - 1] = lowest - margin;
     domain.high[dim - 1] = highest + 2.0 * (highest + plan_.depth) + margin;
+    return domain;
   }
 
-  const TankPlan& plan_;
-  Parameters& p_;
+  /// Water that was moved aside.
+  struct Moved {
+    std::size_t id;
+    std::array<double, dim> position;
+    double deviation;
+  };
+  TankPlan plan_;
+  Parameters p_;
   Lattice<dim> lattice_;
   int layers_;
-  double row_mass_;  ///< mass per area of a row of water [kg/m2]
+  double row_mass_ = 0.0;     ///< mass per area of a row of water [kg/m2]
+  double cell_volume_ = 0.0;  ///< of the lattice over spacing^dim
   std::vector<Points> points_;
   std::vector<double> extent_;
   std::vector<std::array<double, dim>> air_;  ///< places of the lattice over the water, near bodies
-  double displaced_ = 0.0;                    ///< by bodies, in particles of water
-  TankParticles<dim> result_;
+  std::vector<std::size_t> taken_;            ///< places of the lattice that bodies displace, rising
+  std::vector<Moved> moved_;                  ///< rising identities
+  std::size_t count_ = 0;
 };
 
 }  // namespace
 
 template <int dim>
 TankParticles<dim> lay_out(const TankPlan& plan, Parameters& p) {
-  return Builder<dim>(plan, p).build();
+  const auto layout = std::make_shared<Layout<dim>>(plan, p);
+  p.mass_factor = layout->mass_factor();
+  TankParticles<dim> tank = layout->settle();
+  tank.seeds = Layout<dim>::stream(layout);
+  return tank;
 }
 template TankParticles<2> lay_out<2>(const TankPlan&, Parameters&);
 template TankParticles<3> lay_out<3>(const TankPlan&, Parameters&);

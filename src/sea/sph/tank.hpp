@@ -13,6 +13,7 @@
 #include "kernels/waves/components.hpp"
 #include "src/sea/sph/body_shapes.hpp"
 #include "src/sea/sph/parameters.hpp"
+#include "src/sea/sph/seeds.hpp"
 #include "src/sea/sph/store.hpp"
 #include "src/sea/sph/wavemaker.hpp"
 
@@ -49,7 +50,7 @@ inline constexpr std::uint16_t water_owner = 0, wall_owner = 1;
 /// What came out of it.
 template <int dim>
 struct TankParticles {
-  std::vector<Seed<dim>> seeds;
+  SeedStream<dim> seeds;  ///< water, walls, paddle, bodies; made anew at each visit
   Domain<dim> domain;
   std::size_t water = 0, walls = 0;
   std::optional<std::uint16_t> paddle;  ///< owner

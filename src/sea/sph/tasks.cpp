@@ -59,8 +59,15 @@ struct StepTasks<dim, Real>::Shared {
 };
 
 template <int dim, class Real>
-StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph, int threads, int first_tag)
-    : sea_(sea), graph_(graph), next_tag_(first_tag), path_(sea.plan.solid_path), shared_(std::make_shared<Shared>(sea)) {
+StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, const Sweeps<dim, Real>& sweeps, const StepDriver& driver,
+                                runtime::Graph& graph, int threads, int first_tag)
+    : sea_(sea),
+      sweeps_(sweeps),
+      driver_(driver),
+      graph_(graph),
+      next_tag_(first_tag),
+      path_(sea.plan.solid_path),
+      shared_(std::make_shared<Shared>(sea)) {
   const Subdomain& subdomain = sea.subdomain;
   sea.touches.resize(std::size_t(sea.columns.groups()));
   shared_->neighbour_lists.resize(std::size_t(threads));
@@ -98,7 +105,7 @@ template <int dim, class Real>
 void StepTasks<dim, Real>::find_bodies() {
   SeaState<dim, Real>& sea = sea_;
   const Subdomain& subdomain = sea.subdomain;
-  if (!sea.move_bodies) return;
+  if (!driver_.move_bodies) return;
   // Bodies load the groups they are in and two rings round these: path_limit sees to it that none goes farther.
   std::vector<std::uint8_t> region(std::size_t(sea.columns.groups()), 0);
   for (const Solid& solid : sea.solids)
@@ -132,7 +139,7 @@ void StepTasks<dim, Real>::find_sensors() {
   std::size_t sums = 0;
   for (const Patch& patch : sea.patches) {
     sums += sums_of(patch);
-    if (body_of(patch, sea.solids) && sea.move_bodies)
+    if (body_of(patch, sea.solids) && driver_.move_bodies)
       sensor_groups_.insert(sensor_groups_.end(), body_groups_.begin(), body_groups_.end());
     else
       for (const int g : groups_near(patch, sea.solids, sea.columns, sea.p.reach() + 2.0 * sea.p.drift()))
@@ -151,12 +158,14 @@ template <int dim, class Real>
 void StepTasks<dim, Real>::window() {
   SeaState<dim, Real>& sea = sea_;
   graph_.loop("sea/looks", {.min = 1, .urgency = 1}, [&] {
-    graph_.task("sea/order", {updates(plan_)}, [&sea] { sea.plan.sort = sea.sort_is_due() && !sea.plan.ended(); });
+    graph_.task("sea/order", {updates(plan_)},
+                [&sea] { sea.plan.sort = sea.plan.sort_is_due(sea.p.drift()) && !sea.plan.ended(); });
     sort();
     steps(true);
-    if (sea.step_control.steps_per_check > 1)
-      graph_.repeat("sea/substeps", std::uint32_t(sea.step_control.steps_per_check - 1), [&] { steps(false); });
-    graph_.task("sea/clock", {updates(plan_)}, [&sea] { sea.finish_steps(); });
+    if (driver_.steps.steps_per_check > 1)
+      graph_.repeat("sea/substeps", std::uint32_t(driver_.steps.steps_per_check - 1), [&] { steps(false); });
+    graph_.task("sea/clock", {updates(plan_)},
+                [&sea, &driver = driver_] { sea.plan.finish_steps(driver.steps, sea.p.step, sea.work); });
     graph_.until("sea/until", {reads(plan_)}, [&sea] { return !(sea.plan.left > 0.0); });
   });
 }
@@ -171,8 +180,8 @@ void StepTasks<dim, Real>::steps(bool first) {
     graph_.task("sea/plan", {updates(plan_)}, [&sea] { sea.plan.planned = sea.plan.ended() ? 0 : 1; });
     evaluate(Half::begin);
     limits();
-    graph_.task("sea/steps", {updates(plan_)}, [&sea] {
-      sea.choose_steps();
+    graph_.task("sea/steps", {updates(plan_)}, [&sea, &driver = driver_] {
+      sea.plan.choose_steps(driver.steps);
       sea.plan.shifted = 0.0;
     });
   } else {
@@ -203,7 +212,7 @@ void StepTasks<dim, Real>::evaluate(Half half) {
   set_walls();
   stress();
   sweep_pairs(
-      "pairs", sea_.rates, [&store = sea_.store] { return store.sums.data(); }, sums_, bool(sea_.strain));
+      "pairs", sweeps_.rates, [&store = sea_.store] { return store.sums.data(); }, sums_, bool(sweeps_.strain));
   contacts();
 }
 
@@ -287,7 +296,7 @@ void StepTasks<dim, Real>::pack(Half half) {
 /// their ghost nodes, up to two columns away.
 template <int dim, class Real>
 void StepTasks<dim, Real>::set_walls() {
-  if (!sea_.boundary) return;
+  if (!sweeps_.boundary) return;
   const auto shared = shared_;
   std::vector<std::vector<int>> around(std::size_t(sea_.columns.groups()));
   for (int g = 0; g < sea_.columns.groups(); ++g)
@@ -305,10 +314,11 @@ void StepTasks<dim, Real>::set_walls() {
         for (const int far : around[std::size_t(near)]) uses.push_back(reads(planes_[std::size_t(far)]));
       }
     }
-    graph_.task(name("walls", b), uses, if_active([&sea = sea_, &groups = bundles_[b], shared](const Context& context, int) {
+    graph_.task(name("walls", b), uses,
+                if_active([&sea = sea_, &sweeps = sweeps_, &groups = bundles_[b], shared](const Context& context, int) {
                   Candidates<dim, Real>& water = shared->neighbour_lists[std::size_t(context.thread)].water;
                   water.reserve((dim == 2 ? 5 : 25) * sea.store.longest);
-                  for (const int g : groups) sea.boundary(sea.store, g, water);
+                  for (const int g : groups) sweeps.boundary(sea.store, g, water);
                 }));
   }
   show("walls/halo", false);
@@ -317,10 +327,10 @@ void StepTasks<dim, Real>::set_walls() {
 /// Sub-particle stress from a sweep of its own.
 template <int dim, class Real>
 void StepTasks<dim, Real>::stress() {
-  if (!sea_.strain) return;
+  if (!sweeps_.strain) return;
   clear(of_strain, "strain");
   sweep_pairs(
-      "strain", sea_.strain, [&store = sea_.store] { return store.extra_sums[of_strain].data(); }, extra_[of_strain]);
+      "strain", sweeps_.strain, [&store = sea_.store] { return store.extra_sums[of_strain].data(); }, extra_[of_strain]);
   for (std::size_t b = 0; b < bundles_.size(); ++b) {
     Uses uses = of_groups(bundles_[b], writes, stress_);
     for (const int g : bundles_[b])
@@ -468,7 +478,7 @@ void StepTasks<dim, Real>::limits() {
                 {runtime::Reduction::Operation::max, shared->extremes, shared->extreme});
   graph_.task("sea/limits", {reads(result), updates(plan_)}, [&sea, shared] {
     if (sea.plan.ended()) return;
-    sea.check_limits(shared->extreme[0], shared->extreme[1], shared->extreme[2]);
+    sea.plan.check_limits(sea.p, sea.body_limit, shared->extreme[0], shared->extreme[1], shared->extreme[2]);
     sea.plan.stopped = shared->extreme[3] > 0.0;
   });
 }
@@ -476,7 +486,7 @@ void StepTasks<dim, Real>::limits() {
 /// Loads of each body group by group, summed in the order of the groups; one task moves the bodies; their particles follow.
 template <int dim, class Real>
 void StepTasks<dim, Real>::bodies(Half half) {
-  if (!sea_.move_bodies) return;
+  if (!driver_.move_bodies) return;
   const auto shared = shared_;
   SeaState<dim, Real>& sea = sea_;
   const std::size_t solids = sea.solids.size();
@@ -507,35 +517,36 @@ void StepTasks<dim, Real>::bodies(Half half) {
   const Datum sum = graph_.datum();
   graph_.reduce("sea/loads/" + when, {reads(partial_loads_), writes(sum)},
                 {runtime::Reduction::Operation::sum, shared->partial_loads, shared->loads});
-  graph_.task("sea/bodies/" + when, {reads(sum), reads(plan_), updates(loads_)},
-              if_active([&sea, shared, half, &touching = touching_, farthest = path_limit()](const Context&, int n) {
-                shared->wrenches.clear(), shared->motions.clear(), shared->contacts.clear();
-                for (std::size_t t = 0; t < touching.size(); ++t) {
-                  const double* from = &shared->loads[6 * (sea.solids.size() + t)];
-                  Touch touch{std::uint16_t(touching[t].first), std::uint16_t(touching[t].second), {}};
-                  for (int k = 0; k < 3; ++k) touch.wrench.force[k] = from[k], touch.wrench.moment[k] = from[3 + k];
-                  if (touch.wrench.force != Eigen::Vector3d::Zero()) shared->contacts.push_back(touch);
-                }
-                for (std::size_t s = 0; s < sea.solids.size(); ++s) {
-                  const double* from = &shared->loads[6 * s];
-                  Wrench w{.point = sea.solids[s].motion.position};
-                  for (int k = 0; k < 3; ++k) w.force[k] = from[k], w.moment[k] = from[3 + k];
-                  shared->wrenches.push_back(w), shared->motions.push_back(sea.solids[s].motion);
-                }
-                const Plan& plan = sea.plan;
-                double begin = plan.time;
-                for (int done = 0; done < n; ++done) begin += plan.dt;  // as the clock will add them up
-                const bool last = half == Half::middle || sea.p.step == StepChoice::verlet;
-                sea.move_bodies(
-                    {half == Half::begin ? 0 : 1, begin, begin + (last ? plan.dt : 0.5 * plan.dt), plan.dt, shared->contacts},
-                    shared->wrenches, shared->motions);
-                for (std::size_t s = 0; s < sea.solids.size(); ++s) sea.set_motion(sea.solids[s], shared->motions[s]);
-                if (plan.solid_path > farthest)
-                  sea.plan.failure =
-                      NumericalFailure("sea: bodies went " + in_words(plan.solid_path) + " m in one window, the limit is " +
-                                           in_words(farthest) + " m (a column of cells and a half); shorten time.window_s",
-                                       "sea", plan.steps, plan.time, farthest);
-              }));
+  graph_.task(
+      "sea/bodies/" + when, {reads(sum), reads(plan_), updates(loads_)},
+      if_active([&sea, &driver = driver_, shared, half, &touching = touching_, farthest = path_limit()](const Context&, int n) {
+        shared->wrenches.clear(), shared->motions.clear(), shared->contacts.clear();
+        for (std::size_t t = 0; t < touching.size(); ++t) {
+          const double* from = &shared->loads[6 * (sea.solids.size() + t)];
+          Touch touch{std::uint16_t(touching[t].first), std::uint16_t(touching[t].second), {}};
+          for (int k = 0; k < 3; ++k) touch.wrench.force[k] = from[k], touch.wrench.moment[k] = from[3 + k];
+          if (touch.wrench.force != Eigen::Vector3d::Zero()) shared->contacts.push_back(touch);
+        }
+        for (std::size_t s = 0; s < sea.solids.size(); ++s) {
+          const double* from = &shared->loads[6 * s];
+          Wrench w{.point = sea.solids[s].motion.position};
+          for (int k = 0; k < 3; ++k) w.force[k] = from[k], w.moment[k] = from[3 + k];
+          shared->wrenches.push_back(w), shared->motions.push_back(sea.solids[s].motion);
+        }
+        const Plan& plan = sea.plan;
+        double begin = plan.time;
+        for (int done = 0; done < n; ++done) begin += plan.dt;  // as the clock will add them up
+        const bool last = half == Half::middle || sea.p.step == StepChoice::verlet;
+        driver.move_bodies(
+            {half == Half::begin ? 0 : 1, begin, begin + (last ? plan.dt : 0.5 * plan.dt), plan.dt, shared->contacts},
+            shared->wrenches, shared->motions);
+        for (std::size_t s = 0; s < sea.solids.size(); ++s) sea.set_motion(sea.solids[s], shared->motions[s]);
+        if (plan.solid_path > farthest)
+          sea.plan.failure =
+              NumericalFailure("sea: bodies went " + in_words(plan.solid_path) + " m in one window, the limit is " +
+                                   in_words(farthest) + " m (a column of cells and a half); shorten time.window_s",
+                               "sea", plan.steps, plan.time, farthest);
+      }));
   for (const int g : body_groups_)
     graph_.task(name("place/" + when, std::size_t(g)),
                 {reads(order_), reads(plan_), reads(loads_), updates(state_[std::size_t(g)])}, if_active([&sea, g] {
@@ -587,7 +598,9 @@ void StepTasks<dim, Real>::correct() {
                       correct_verlet(sea.store, sea.p, g, sea.plan.dt, join);
                     else
                       correct_symplectic(sea.store, sea.p, g, sea.plan.dt);
-                    if (sea.after_step) sea.after_step(g, sea.plan.dt);
+                    if (!sea.damping.acts()) continue;
+                    const Group& group = sea.store.groups[std::size_t(g)];
+                    damp(sea.store, sea.damping, sea.plan.dt, group.fluid, group.solid);
                   }
                 }));
   }
@@ -640,16 +653,16 @@ void StepTasks<dim, Real>::clear(std::size_t which, const std::string& label) {
 template <int dim, class Real>
 void StepTasks<dim, Real>::filters() {
   SeaState<dim, Real>& sea = sea_;
-  if (sea.filter)
+  if (sweeps_.filter)
     extra_sweep(
-        0, "filter", sea.filter, [&sea](int n) { return (sea.plan.steps + n + 1) % sea.p.filter_every == 0; },
+        0, "filter", sweeps_.filter, [&sea](int n) { return (sea.plan.steps + n + 1) % sea.p.filter_every == 0; },
         [&sea](int g) {
           sea.p.filter == FilterChoice::mls ? apply_mls(sea.store, sea.store.extra_sums[0], g)
                                             : apply_shepard(sea.store, sea.store.extra_sums[0], g);
           return 0.0;
         });
-  if (sea.shifting)
-    extra_sweep(1, "shifting", sea.shifting, {},
+  if (sweeps_.shifting)
+    extra_sweep(1, "shifting", sweeps_.shifting, {},
                 [&sea](int g) { return apply_shifting(sea.store, sea.store.extra_sums[1], sea.p, g, sea.plan.dt); });
 }
 
@@ -662,7 +675,7 @@ double StepTasks<dim, Real>::path_limit() const {
 
 template <int dim, class Real>
 bool StepTasks<dim, Real>::outdated() const {
-  return sea_.move_bodies && sea_.plan.solid_path > path_ + 0.5 * (path_limit() - path_);
+  return driver_.move_bodies && sea_.plan.solid_path > path_ + 0.5 * (path_limit() - path_);
 }
 
 // One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/graph/graph.hpp"
+#include "src/sea/sph/schemes.hpp"
 #include "src/sea/sph/state.hpp"
 
 namespace spindrift::sph {
@@ -17,9 +18,11 @@ namespace spindrift::sph {
 template <int dim, class Real>
 class StepTasks {
  public:
-  /// The sea, and this, must outlive the graph's executor. threads: of that executor. first_tag: of the messages, which take as
-  /// many tags as there are exchanges in what is recorded.
-  StepTasks(SeaState<dim, Real>& sea, runtime::Graph& graph, int threads, int first_tag = 0);
+  /// The sea, its sweeps, its driver, and this, must outlive the graph's executor. What the driver's steps_per_check is, and
+  /// whether it moves bodies, is read here. threads: of that executor. first_tag: of the messages, which take as many tags as
+  /// there are exchanges in what is recorded.
+  StepTasks(SeaState<dim, Real>& sea, const Sweeps<dim, Real>& sweeps, const StepDriver& driver, runtime::Graph& graph,
+            int threads, int first_tag = 0);
   StepTasks(const StepTasks&) = delete;
   StepTasks& operator=(const StepTasks&) = delete;
 
@@ -31,7 +34,7 @@ class StepTasks {
   void sort();               ///< does its work where plan.sort is set
   void evaluate(Half half);  ///< planes and rates at n, or at n + 1/2
   void limits();             ///< after evaluate(begin): plan.limit
-  void bodies(Half half);    ///< loads, motions, places; nothing without SeaState::move_bodies
+  void bodies(Half half);    ///< loads, motions, places; nothing without StepDriver::move_bodies
   void sensors();            ///< notes what sensors read at the last evaluation; nothing without them
   void correct();            ///< to n + 1
   void filters();            ///< density filter and shifting, where the step is due
@@ -41,7 +44,7 @@ class StepTasks {
 
  private:
   using Data = std::vector<runtime::Datum>;
-  using Sweep = typename SeaState<dim, Real>::Sweep;
+  using Sweep = GroupSweep<dim, Real>;
   /// Which of the planned steps a task is part of, seen from within it.
   using Step = std::function<int(const runtime::Context&)>;
 
@@ -67,6 +70,8 @@ class StepTasks {
 
   struct Shared;  // what tasks use while they run, beside the sea
   SeaState<dim, Real>& sea_;
+  const Sweeps<dim, Real>& sweeps_;
+  const StepDriver& driver_;
   runtime::Graph& graph_;
   int next_tag_;
   double path_;                                 // of bodies when this was recorded [m]

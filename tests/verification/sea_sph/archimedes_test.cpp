@@ -58,18 +58,16 @@ Lift lift_of(const Held& held, double spacing, double wetted, double duration) {
   motion.attitude = Eigen::AngleAxisd(held.tilt, Eigen::Vector3d::UnitY());
   plan.bodies = {{"body", {held.shape}, motion}};
   Parameters p;
-  p.spacing = spacing, p.h_over_d = 1.5, p.diffusion = DiffusionChoice::fourtakas, p.alpha = 0.02, p.alpha_solid = 0.0;
+  p.spacing = spacing, p.h_over_d = 1.5, p.kernel = KernelChoice::quintic;
+  p.diffusion = DiffusionChoice::fourtakas, p.alpha = 0.02, p.alpha_solid = 0.0;
   p.eos = {1000.0, 10.0 * std::sqrt(p.gravity * plan.depth)};
   p.boundary = BoundaryChoice::extrapolated, p.contact = false;
   const auto tank = lay_out<dim>(plan, p);
   SeaSph<dim> sea(p, tank.domain, tank.seeds);
   sea.add_body(tank.bodies[0], motion);
-  sea.state().after_step = [&](int group, double dt) {  // calms the start
-    const Group& g = sea.store().groups[std::size_t(group)];
-    damp(sea.store(), std::span<const DampingZone>(), sea.time() < 0.5 * duration ? 2.0 : 0.0, dt, g.fluid, g.solid);
-  };
   double force = 0.0, lasted = 0.0, first = 0.0;
   while (sea.time() < duration) {
+    sea.state().damping.everywhere = sea.time() < 0.5 * duration ? 2.0 : 0.0;  // calms the start
     const double dt = sea.begin_step(1.0), load = sea.load_on(tank.bodies[0], motion.position).force[2];
     if (sea.work().steps == 0) first = load;
     if (sea.time() > 0.6 * duration) force += dt * load, lasted += dt;

@@ -16,7 +16,7 @@ namespace {
 
 Store<3, float> sorted_store(const std::vector<Seed<3>>& seeds, const Columns<3>& columns) {
   Store<3, float> store;
-  fill(store, std::span<const Seed<3>>(seeds), columns, 0.25);
+  fill(store, SeedStream<3>(seeds), columns, 0.25);
   return store;
 }
 

@@ -87,8 +87,8 @@ TEST_CASE("a damped velocity decays exactly and only in the zone and in the wate
   const Domain<2> domain{{-1.0, -1.0}, {11.0, 1.0}};
   Store<2, float> store;
   fill<2, float>(store, seeds, Columns<2>(domain, 1.0, 1.0), 0.25);
-  const std::vector<DampingZone> zones{{4.0, 8.0, 3.0}};
-  damp(store, std::span<const DampingZone>(zones), 0.0, 0.1);
+  const Damping zones{.zones = {{4.0, 8.0, 3.0}}};
+  damp(store, zones, 0.1);
   for (std::size_t slot = 0; slot < store.slots(); ++slot) {
     if (store.id[slot] == no_particle) continue;
     const double s = std::clamp((store.x[0][slot] - 4.0) / 4.0, 0.0, 1.0);
@@ -103,8 +103,8 @@ TEST_CASE("a damping zone across the tank brakes by y alone", "[sea][sph][fast]"
   for (int n = 0; n < 40; ++n) seeds.push_back({.position = {5.0 - 0.1 * n, 0.25 * n, 0.0}, .velocity = {1.0, 0.0, 0.0}});
   Store<3, float> store;
   fill<3, float>(store, seeds, Columns<3>({{-1.0, -1.0, -1.0}, {11.0, 11.0, 1.0}}, 1.0, 1.0), 0.25);
-  const std::vector<DampingZone> zones{{.from = 4.0, .to = 8.0, .rate = 3.0, .axis = 1}};
-  damp(store, std::span<const DampingZone>(zones), 0.0, 0.1);
+  const Damping zones{.zones = {{.from = 4.0, .to = 8.0, .rate = 3.0, .axis = 1}}};
+  damp(store, zones, 0.1);
   for (std::size_t slot = 0; slot < store.slots(); ++slot) {
     if (store.id[slot] == no_particle) continue;
     const double s = std::clamp((store.x[1][slot] - 4.0) / 4.0, 0.0, 1.0);

@@ -1,0 +1,82 @@
+// The steps of a window: how long they are, how many until the limits are looked at again, when the particles are sorted, why a
+// window ends before its time. All ranks have the same `Plan`: it is computed from global extremes and sums only. Called by
+// tasks.cpp and sea_sph.cpp; tested in tests/src/sea/sph/step_plan_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdio>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "kernels/base/failure.hpp"
+#include "kernels/sph/time_step.hpp"
+#include "src/sea/sph/parameters.hpp"
+
+namespace spindrift::sph {
+
+/// A number as messages have it.
+inline std::string in_words(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// Counters of a run, for reports and benchmarks.
+struct Work {
+  long steps = 0, evaluations = 0, sorts = 0;
+};
+
+/// How the steps of a window are chosen.
+struct StepControl {
+  double dt = 0.0;  ///< a fixed step [s]; 0: as the limits allow
+  /// Steps between two looks at the limits (and sorts). 1: before each, with a reduction over all ranks in each step.
+  int steps_per_check = 1;
+  /// A step chosen by who counts time himself, and whether the window ends with it.
+  struct Choice {
+    double dt;
+    bool last;
+  };
+  /// With steps_per_check 1: asked before each step for one not above the limit [s], on all ranks alike; may throw
+  /// NumericalFailure.
+  std::function<Choice(double limit)> choose = {};
+};
+
+/// Where the run stands.
+struct Plan {
+  double time = 0.0;
+  long steps = 0;
+  double left = 0.0;                                    ///< of the window [s]
+  double dt = 0.0;                                      ///< of the steps planned [s]
+  int planned = 0;                                      ///< steps until the next check of the limits
+  double speed = 0.0, acceleration = 0.0, limit = 0.0;  ///< largest at the last check of the limits, and what they allow [s]
+  StepLimits limits{};
+  double drift = 0.0, solid_drift = 0.0;  ///< bounds on the way since the last sort [m]
+  double way = 0.0, solid_way = 0.0;      ///< and since the last check of the limits
+  double shifted = 0.0;                   ///< largest way by shifting since the last check of the limits
+  double solid_path = 0.0;                ///< of bodies in all [m]
+  bool sort = false;
+  bool last = false;                        ///< the step planned ends the window (StepControl::choose)
+  std::optional<NumericalFailure> failure;  ///< set where the numerics gave up; what is left of the window does nothing
+  bool stopped = false;                     ///< the run was asked to stop: likewise
+
+  bool ended() const { return failure || stopped; }
+  /// Whether to sort before the next steps: they may go twice as far as those before. drift: that particles may go between two
+  /// sorts [m].
+  bool sort_is_due(double drift) const;
+  /// The particles have been sorted: what follows depends on them alone.
+  void sorted();
+  /// Takes in the extremes of the state at n (squares of speed and acceleration, way by shifting [m]) and finds the largest
+  /// stable step; body_limit [s] is that of light bodies. A step that no flow would need is a failure.
+  void check_limits(const Parameters& p, double body_limit, double speed2, double acceleration2, double shifted);
+  /// The next `count` steps are dt [s] long.
+  void start_steps(double dt, int count);
+  /// Chooses the next steps of a window from `left` and `limit`; after it `planned` is 0 where the window has ended. A fixed step
+  /// beyond the limit, and what StepControl::choose throws, become `failure`.
+  void choose_steps(const StepControl& control);
+  /// The steps planned were made: clocks and counters.
+  void finish_steps(const StepControl& control, StepChoice step, Work& work);
+  /// A body has gone `way` [m].
+  void count_way_of_body(double way) { solid_drift += way, solid_way += way, solid_path += way; }
+};
+
+}  // namespace spindrift::sph

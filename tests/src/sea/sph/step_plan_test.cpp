@@ -1,0 +1,105 @@
+// The steps of a window as plain numbers: they end where the window does, none is beyond the limit, and failures are named.
+// SPDX-License-Identifier: Apache-2.0
+#include "src/sea/sph/step_plan.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+using namespace spindrift;
+using namespace spindrift::sph;
+
+namespace {
+
+Parameters still_water() {
+  Parameters p;
+  p.spacing = 0.1, p.eos = {1000.0, 30.0};
+  return p;
+}
+
+/// Runs a window of one second with a limit that grows and shrinks; returns the lengths of its steps.
+std::vector<double> steps_of_window(const StepControl& control) {
+  Plan plan;
+  Work work;
+  plan.left = 1.0;
+  std::vector<double> made;
+  for (int n = 0; plan.left > 0.0 && n < 10000; ++n) {
+    plan.limit = 0.01 * (1.0 + 0.5 * std::sin(double(n)));
+    plan.choose_steps(control);
+    REQUIRE_FALSE(plan.failure);
+    REQUIRE(plan.planned > 0);
+    CHECK(plan.dt <= plan.limit * (1.0 + 1e-12));
+    for (int k = 0; k < plan.planned; ++k) made.push_back(plan.dt);
+    plan.finish_steps(control, StepChoice::symplectic, work);
+  }
+  CHECK(plan.time == Approx(1.0).epsilon(1e-12));
+  CHECK(work.steps == long(made.size()));
+  CHECK(work.evaluations == 2 * work.steps);
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("the steps of a window add up to it and stay below the limit", "[sph][step_plan][fast]") {
+  SECTION("one by one") { CHECK(steps_of_window({}).size() > 66); }
+  SECTION("some at a time, with a margin for limits that tighten") {
+    const auto several = steps_of_window({.steps_per_check = 7});
+    CHECK(several.size() > steps_of_window({}).size());
+  }
+  SECTION("fixed ones") {
+    const auto fixed = steps_of_window({.dt = 4e-3, .steps_per_check = 3});
+    CHECK(fixed.size() == 250);
+  }
+  SECTION("chosen from outside") {
+    int asked = 0;
+    const auto chosen = steps_of_window({.choose = [&](double) { return StepControl::Choice{1e-3, ++asked == 1000}; }});
+    CHECK(chosen.size() == 1000);
+  }
+}
+
+TEST_CASE("steps that cannot be made end the window with a failure that says why", "[sph][step_plan][fast]") {
+  Plan plan;
+  plan.left = 1.0;
+  SECTION("a fixed step beyond the limit") {
+    plan.limit = 1e-3;
+    plan.choose_steps({.dt = 2e-3});
+    REQUIRE(plan.failure);
+    CHECK_THAT(plan.failure->what(), Catch::Contains("0.002 s is beyond the limit of 0.001 s"));
+    CHECK(plan.planned == 0);
+  }
+  SECTION("a driver that gives up") {
+    plan.choose_steps({.choose = [](double) -> StepControl::Choice {
+      throw NumericalFailure("bodies: no step is small enough", "bodies", 3, 0.5, 1.0);
+    }});
+    REQUIRE(plan.failure);
+    CHECK_THAT(plan.failure->what(), Catch::Contains("bodies: no step"));
+    CHECK(plan.planned == 0);
+  }
+  SECTION("particles that fly at a hundred times the speed of sound") {
+    const double speed = 1e4 * still_water().eos.c0;
+    plan.check_limits(still_water(), 1e9, speed * speed, 1e12 * speed * speed, 0.0);
+    REQUIRE(plan.failure);
+    CHECK_THAT(plan.failure->what(), Catch::Contains("the stable step fell to"));
+  }
+  Work work;
+  plan.finish_steps({}, StepChoice::symplectic, work);
+  CHECK(plan.left == 0.0);
+  CHECK(work.steps == 0);
+}
+
+TEST_CASE("particles are sorted before they could leave their cells, bodies' ways counted", "[sph][step_plan][fast]") {
+  const Parameters p = still_water();
+  Plan plan;
+  plan.check_limits(p, 1e9, 4.0, 0.0, 0.0);  // 2 m/s
+  CHECK(plan.limit == Approx(plan.limits.smallest()));
+  int steps = 0;
+  for (; !plan.sort_is_due(p.drift()); ++steps) plan.start_steps(1e-3, 1);
+  CHECK(steps * 2.0 * 1e-3 <= p.drift());
+  CHECK((steps + 3) * 2.0 * 1e-3 > p.drift());
+  plan.sorted();
+  CHECK_FALSE(plan.sort_is_due(p.drift()));
+  plan.count_way_of_body(1.1 * p.drift());
+  CHECK(plan.sort_is_due(p.drift()));
+  plan.sorted();
+  CHECK(plan.solid_path == Approx(1.1 * p.drift()));
+}
