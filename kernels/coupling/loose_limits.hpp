@@ -6,23 +6,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <complex>
-
-#include "kernels/coupling/scheme.hpp"
+#include <vector>
 
 namespace spindrift::coupling {
 
 /// Modulus of the largest root of c[0] + c[1] z + ... + c[n] z^n, by the companion matrix; leading zeros are dropped.
-inline double largest_root(std::vector<double> c) {
-  while (c.size() > 1 && c.back() == 0.0) c.pop_back();
-  const auto n = Eigen::Index(c.size()) - 1;
-  if (n <= 0) return 0.0;
-  Matrix companion = Matrix::Zero(n, n);
-  for (Eigen::Index i = 0; i + 1 < n; ++i) companion(i + 1, i) = 1.0;
-  for (Eigen::Index i = 0; i < n; ++i) companion(i, n - 1) = -c[std::size_t(i)] / c[std::size_t(n)];
-  return Eigen::EigenSolver<Matrix>(companion, false).eigenvalues().cwiseAbs().maxCoeff();
-}
+double largest_root(std::vector<double> c);
 
 // Characteristic polynomials of the acceleration under loads of ratio r, by rising power of the growth z; stable when every root
 // is within 1. S answers a_{n+1} = the load it is given (per mass), F answers y_{n+1} = -r (given velocity_{n+1} - given

@@ -5,7 +5,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <complex>
 #include <span>
@@ -40,52 +39,6 @@ inline std::complex<double> pole_response(std::complex<double> p, double s, doub
 
 /// The fewest poles (`most_poles` at most, pairs counted twice) that reproduce K at 0, h, 2h ... to a root mean square of
 /// `tolerance`; the best found where none does. At least nine samples.
-inline RadiationPoles fit_radiation_poles(std::span<const double> samples, double h, double tolerance, int most_poles = 24) {
-  const Eigen::Index count = Eigen::Index(samples.size()), half = (count + 1) / 2;
-  const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(samples.data(), count);
-  Eigen::MatrixXd hankel(half, count - half + 1);
-  for (Eigen::Index i = 0; i < hankel.rows(); ++i)
-    for (Eigen::Index j = 0; j < hankel.cols(); ++j) hankel(i, j) = y[i + j];
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(hankel, Eigen::ComputeThinU);
-  RadiationPoles best;
-  best.error = std::sqrt(y.squaredNorm() / double(count));
-  if (best.error <= tolerance) return best;
-  const Eigen::Index most = std::min<Eigen::Index>(most_poles, hankel.cols() - 1);
-  for (Eigen::Index order = 1; order <= most; ++order) {
-    if (svd.singularValues()[order - 1] <= 1e-14 * svd.singularValues()[0]) break;
-    // One sample later is one application of the system's matrix: U shifted by a row.
-    const Eigen::MatrixXd u = svd.matrixU().leftCols(order);
-    const Eigen::MatrixXd shift = u.topRows(half - 1).colPivHouseholderQr().solve(u.bottomRows(half - 1));
-    // U holds the observability matrix up to a change of base, which keeps the eigenvalues.
-    const Eigen::VectorXcd roots = Eigen::EigenSolver<Eigen::MatrixXd>(shift, false).eigenvalues();
-    RadiationPoles fit;
-    for (const std::complex<double>& root : roots) {
-      const bool decays = std::abs(root) > 1e-12 && std::abs(root) < 1.0 - 1e-9;
-      const bool sampled = root.imag() > 0.0 || (root.imag() == 0.0 && root.real() > 0.0);  // one of a pair; no sign changes
-      if (decays && sampled) fit.pole.push_back(std::log(root) / h);
-    }
-    if (fit.pole.empty()) continue;
-    Eigen::MatrixXd base(count, 2 * Eigen::Index(fit.pole.size()));
-    Eigen::Index columns = 0;
-    for (const std::complex<double>& p : fit.pole) {
-      for (Eigen::Index n = 0; n < count; ++n) {
-        const std::complex<double> e = std::exp(p * (double(n) * h));
-        base(n, columns) = e.real();
-        if (p.imag() != 0.0) base(n, columns + 1) = -e.imag();
-      }
-      columns += p.imag() != 0.0 ? 2 : 1;
-    }
-    const Eigen::VectorXd c = base.leftCols(columns).colPivHouseholderQr().solve(y);
-    Eigen::Index column = 0;
-    for (const std::complex<double>& p : fit.pole) {
-      fit.weight.emplace_back(c[column], p.imag() != 0.0 ? c[column + 1] : 0.0);
-      column += p.imag() != 0.0 ? 2 : 1;
-    }
-    fit.error = std::sqrt((base.leftCols(columns) * c - y).squaredNorm() / double(count));
-    if (fit.error < best.error) best = fit;
-    if (best.error <= tolerance) break;
-  }
-  return best;
-}
+RadiationPoles fit_radiation_poles(std::span<const double> samples, double h, double tolerance, int most_poles = 24);
 
 }  // namespace spindrift::waves
