@@ -14,12 +14,12 @@
 
 namespace spindrift::aero {
 
-namespace {
-
 /// A wind in time from a file.
 struct WindTable {
   std::vector<double> time, speed, direction, vertical;
 };
+
+namespace {
 
 WindTable read_wind_table(const std::string& path) {
   const scene::Columns file = scene::read_columns(path);

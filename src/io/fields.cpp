@@ -16,8 +16,6 @@ namespace spindrift::io {
 namespace fs = std::filesystem;
 using hdf5::SharedFile;
 
-namespace {
-
 /// What grids and particles share: the folder, the series, and the naming of files.
 struct Series {
   MPI_Comm comm;
@@ -37,6 +35,8 @@ struct Series {
     on_root(comm, [&] { xdmf->append(time_s, grid); });
   }
 };
+
+namespace {
 
 std::string item(const std::string& dimensions, const char* type, int bytes, const std::string& file, const std::string& path) {
   return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:/{}</DataItem>",

@@ -8,7 +8,10 @@ namespace spindrift::scene {
 struct ParserLost {};
 }  // namespace spindrift::scene
 #define TOML_ASSERT(condition) ((condition) ? static_cast<void>(0) : throw ::spindrift::scene::ParserLost{})
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wterminate"  // some of its functions are noexcept
 #include <toml++/toml.h>
+#pragma GCC diagnostic pop
 
 #include <algorithm>
 #include <sstream>
