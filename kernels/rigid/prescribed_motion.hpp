@@ -36,6 +36,13 @@ class CubicTable {
   }
   bool empty() const { return t_.empty(); }
 
+  /// Of the slopes of the straight lines between its points.
+  double steepest() const {
+    double most = 0.0;
+    for (std::size_t k = 0; k + 1 < t_.size(); ++k) most = std::max(most, std::abs((y_[k + 1] - y_[k]) / (t_[k + 1] - t_[k])));
+    return most;
+  }
+
   Drive at(double t) const {
     if (t <= t_.front()) return {y_.front(), 0.0, 0.0};
     if (t >= t_.back()) return {y_.back(), 0.0, 0.0};
@@ -66,6 +73,8 @@ struct PrescribedMotion {
     }
     return d;
   }
+  /// An upper bound of the rate's size, that of a table by its straight lines.
+  double fastest() const { return std::abs(rate) + std::abs(amplitude * omega) + table.steepest(); }
 };
 
 }  // namespace spindrift

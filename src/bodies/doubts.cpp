@@ -3,26 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
+
+#include "src/bodies/extent.hpp"
 
 namespace spindrift::bodies {
 
 namespace {
-
-Eigen::AlignedBox3d box_of(const BodyOptions& body) {
-  Eigen::AlignedBox3d box;
-  for (const CylinderOptions& c : body.cylinders)
-    for (const Eigen::Vector3d& end : {c.start_m, c.end_m}) {
-      const double radius = 0.5 * std::max(c.diameter_m, c.end_diameter_m.value_or(c.diameter_m));
-      box.extend(end + Eigen::Vector3d::Constant(radius)), box.extend(end - Eigen::Vector3d::Constant(radius));
-    }
-  for (const BoxOptions& b : body.boxes) box.extend(b.centre_m + 0.5 * b.size_m), box.extend(b.centre_m - 0.5 * b.size_m);
-  for (const SphereOptions& s : body.spheres)
-    box.extend(s.centre_m + Eigen::Vector3d::Constant(0.5 * s.diameter_m)),
-        box.extend(s.centre_m - Eigen::Vector3d::Constant(0.5 * s.diameter_m));
-  return box;
-}
 
 /// Mass spread over a shape gives radii of gyration of its own size; a tower on top adds to them.
 void doubt_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body, double size) {
@@ -39,18 +26,13 @@ void doubt_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptio
 
 }  // namespace
 
-double extent(const BodyOptions& body) {
-  const Eigen::AlignedBox3d box = box_of(body);
-  return box.isEmpty() ? 0.0 : 0.5 * box.diagonal().norm();
-}
-
 scene::Doubts body_doubts(const NamedBodies& bodies) {
   scene::Doubts doubts;
   for (const auto& [name, body] : bodies) {
     const std::string at = "bodies." + name;
     const double size = extent(body);
     doubt_inertia(doubts, at, body, size);
-    if (const Eigen::AlignedBox3d box = box_of(body); !box.isEmpty())
+    if (const Eigen::AlignedBox3d box = bounds(body); !box.isEmpty())
       if (const double off = std::sqrt(box.squaredExteriorDistance(body.centre_m)); off > 2.0 * size)
         doubts.push_back({at + ".centre_m", fmt::format("{:.4g} m away from its shapes", off),
                           fmt::format("within {:.3g} m of them", 2.0 * size),

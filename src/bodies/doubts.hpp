@@ -9,7 +9,4 @@ namespace spindrift::bodies {
 
 scene::Doubts body_doubts(const NamedBodies& bodies);
 
-/// Half of the diagonal of the box round the body's shapes [m]; 0 where it has none.
-double extent(const BodyOptions& body);
-
 }  // namespace spindrift::bodies

@@ -9,6 +9,7 @@
 #include "src/aero/doubts.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/bodies/doubts.hpp"
+#include "src/bodies/extent.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/moorings/doubts.hpp"
 #include "src/sea/doubts.hpp"
@@ -220,7 +221,9 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   double draft = 0.0;
   const FullLoads full(floating);
   if (s.has_sea() && !start.state.motions.empty()) draft = doubt_floating(all, floating, start);
-  if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), draft));
+  if (s.has_sea())
+    append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment),
+                           {draft, bodies::entry_speed(s.bodies, s.joints, s.environment.gravity_m_s2)}));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
   if (floating.rotor()) doubt_rotor(all, floating, start);
   if (!start.state.motions.empty()) {

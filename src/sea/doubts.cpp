@@ -71,7 +71,7 @@ void doubt_coefficients(scene::Doubts& doubts, const SeaOptions& sea) {
 
 }  // namespace
 
-scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const SeaEnvironment& e, double draft_m) {
+scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const SeaEnvironment& e, const BodiesInSea& bodies) {
   scene::Doubts doubts;
   if (sea.model == "none") return doubts;
   doubt_water(doubts, e);
@@ -92,8 +92,8 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
     doubts.push_back({"sea.particles.spacing_m", fmt::format("{:.4g} m for waves {:.4g} m high", spacing, waves.height_m),
                       "below twice the height: a wave within half a particle is not there",
                       "take a tenth of the height to see it well"});
-  if (draft_m > 0.0 && draft_m < 2.0 * spacing)
-    doubts.push_back({"sea.particles.spacing_m", fmt::format("{:.4g} m for a draft of {:.4g} m", spacing, draft_m),
+  if (bodies.draft > 0.0 && bodies.draft < 2.0 * spacing)
+    doubts.push_back({"sea.particles.spacing_m", fmt::format("{:.4g} m for a draft of {:.4g} m", spacing, bodies.draft),
                       "below half the draft", "a body two particles deep does not float rightly; take a tenth of the draft"});
   const double least = sea.particles->kernel == sph::KernelChoice::quintic ? 1.4 : 1.1;
   if (const double ratio = sea.particles->smoothing_over_spacing; ratio < least || ratio > 3.0)
@@ -103,6 +103,11 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
     doubts.push_back({"sea.particles.sound_speed_factor", fmt::format("{:.4g}", *factor),
                       "8 to 60: ten keeps density within one per cent (Monaghan 1994)",
                       *factor < 8.0 ? "the water is compressible" : "the step is needlessly small"});
+  if (const auto& c = sea.particles->sound_speed_m_s; c && *c < 10.0 * bodies.entry_speed)
+    doubts.push_back({"sea.particles.sound_speed_m_s",
+                      fmt::format("{:.4g} m/s where a body meets the water at {:.3g} m/s", *c, bodies.entry_speed),
+                      "ten times that speed or more; the default is twenty times",
+                      "the water gives way as a spring: the body is stopped too hard"});
   return doubts;
 }
 

@@ -26,7 +26,7 @@ struct ParticleOptions {
   double width_m = 1.0;  ///< 2-D: loads are those of this width of sea
   double smoothing_over_spacing = 1.5;
   sph::KernelChoice kernel = sph::KernelChoice::quintic;
-  std::optional<double> sound_speed_factor;  ///< times sqrt(g depth); 10 where neither is given
+  std::optional<double> sound_speed_factor;  ///< times sqrt(g depth)
   std::optional<double> sound_speed_m_s;
   sph::ViscosityChoice viscosity_model = sph::ViscosityChoice::artificial;
   double viscosity = 0.02;                 ///< alpha of the artificial viscosity

@@ -54,8 +54,9 @@ struct ParticlePlan {
   std::vector<ProbeOptions> probes;
   std::vector<SensorOptions> sensors;
 };
+/// `entry_speed` [m/s]: the greatest at which a body meets the water.
 ParticlePlan particle_plan(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
-                           std::vector<ParticleBody> bodies);
+                           std::vector<ParticleBody> bodies, double entry_speed);
 
 /// What is wrong with a sea of particles beyond what one section sees.
 std::vector<OptionProblem> particle_problems(const SeaOptions& options, const WavesOptions& waves,

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/bodies/extent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spindrift::bodies {
+
+Eigen::AlignedBox3d bounds(const BodyOptions& body) {
+  Eigen::AlignedBox3d box;
+  for (const CylinderOptions& c : body.cylinders)
+    for (const Eigen::Vector3d& end : {c.start_m, c.end_m}) {
+      const double radius = 0.5 * std::max(c.diameter_m, c.end_diameter_m.value_or(c.diameter_m));
+      box.extend(end + Eigen::Vector3d::Constant(radius)), box.extend(end - Eigen::Vector3d::Constant(radius));
+    }
+  for (const BoxOptions& b : body.boxes) box.extend(b.centre_m + 0.5 * b.size_m), box.extend(b.centre_m - 0.5 * b.size_m);
+  for (const SphereOptions& s : body.spheres)
+    box.extend(s.centre_m + Eigen::Vector3d::Constant(0.5 * s.diameter_m)),
+        box.extend(s.centre_m - Eigen::Vector3d::Constant(0.5 * s.diameter_m));
+  return box;
+}
+
+double extent(const BodyOptions& body) {
+  const Eigen::AlignedBox3d box = bounds(body);
+  return box.isEmpty() ? 0.0 : 0.5 * box.diagonal().norm();
+}
+
+double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, double gravity) {
+  double fastest = 0.0;
+  for (const auto& [name, body] : bodies) {
+    const Eigen::AlignedBox3d box = bounds(body);
+    if (box.isEmpty()) continue;
+    const bool held = std::ranges::any_of(joints, [&name = name](const auto& joint) {
+      return std::ranges::find(joint.options.bodies, name) != joint.options.bodies.end();
+    });
+    const double height = held ? 0.0 : std::max(0.0, box.min().z() + body.displacement_m.z());
+    const double speed = body.velocity_m_s.norm() + body.omega_rad_s.norm() * extent(body);
+    fastest = std::max(fastest, std::sqrt(speed * speed + 2.0 * gravity * height));
+  }
+  for (const Joint& joint : make_joints(joints, bodies)) {
+    if ((joint.i == earth) == (joint.j == earth)) continue;
+    const BodyOptions& body = bodies[std::size_t(joint.i == earth ? joint.j : joint.i)].options;
+    const Eigen::AlignedBox3d box = bounds(body);
+    if (box.isEmpty()) continue;
+    const double reach = (box.center() - joint.point).norm() + extent(body);
+    const double along = joint.translation ? joint.translation->fastest() : 0.0;
+    fastest = std::max(fastest, along + (joint.rotation ? joint.rotation->fastest() * reach : 0.0));
+  }
+  return fastest;
+}
+
+}  // namespace spindrift::bodies

@@ -1,0 +1,20 @@
+// How large the shapes of a body are, and how fast it meets the water. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "src/bodies/options.hpp"
+
+namespace spindrift::bodies {
+
+/// Round the body's shapes where the scene describes them, earth axes [m]; empty where it has none.
+Eigen::AlignedBox3d bounds(const BodyOptions& body);
+
+/// Half of the diagonal of `bounds` [m]; 0 where there are none.
+double extent(const BodyOptions& body);
+
+/// A bound of the speed at which shapes meet still water at z = 0 [m/s]: their speed at the start, and what a fall from above
+/// the water adds to it where no joint holds the body; the speed of joints that drive a body from the earth.
+double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, double gravity);
+
+}  // namespace spindrift::bodies
