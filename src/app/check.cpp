@@ -61,7 +61,8 @@ PartCost print_particles(const FloatingSystem& floating, const coupling::Start& 
     fmt::print("  {:<22}{:.6g} m3 displaced by its particles, {:.6g} m3 at the start; {}\n", body.name, body.volume_m3,
                body.wetted_m3,
                body.rise_m ? fmt::format("by its own weight alone it floats {:+.4g} m from there", *body.rise_m) : "it sinks");
-  fmt::print("  {:<22}{:.4g} m/s, {:.3g} m spacing, support {:.3g} m\n", "speed of sound", p.eos.c0, p.spacing, p.reach());
+  fmt::print("  {:<22}{:.4g} m/s ({}), {:.3g} m spacing, support {:.3g} m\n", "speed of sound", p.eos.c0,
+             floating.particle_plan()->sound_speed_from, p.spacing, p.reach());
   fmt::print("  {:<22}{:.4g} s at rest, set by {}{}; {:.0f} to a window\n", "largest step", census.step_s, census.step_set_by,
              s.time.step_s ? fmt::format("; the scene asks for {} s", *s.time.step_s) : "", steps_per_window);
   return cost_of_particles(floating, census, steps_per_window);

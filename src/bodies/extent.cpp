@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace spindrift::bodies {
 
@@ -25,15 +26,15 @@ double extent(const BodyOptions& body) {
   return box.isEmpty() ? 0.0 : 0.5 * box.diagonal().norm();
 }
 
-double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, double gravity) {
+double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, const NamedBeams& beams, double gravity) {
+  std::set<std::string> held;
+  for (const auto& joint : joints) held.insert(joint.options.bodies.begin(), joint.options.bodies.end());
+  for (const auto& beam : beams) held.insert(beam.options.bodies.begin(), beam.options.bodies.end());
   double fastest = 0.0;
   for (const auto& [name, body] : bodies) {
     const Eigen::AlignedBox3d box = bounds(body);
     if (box.isEmpty()) continue;
-    const bool held = std::ranges::any_of(joints, [&name = name](const auto& joint) {
-      return std::ranges::find(joint.options.bodies, name) != joint.options.bodies.end();
-    });
-    const double height = held ? 0.0 : std::max(0.0, box.min().z() + body.displacement_m.z());
+    const double height = held.contains(name) ? 0.0 : std::max(0.0, box.min().z() + body.displacement_m.z());
     const double speed = body.velocity_m_s.norm() + body.omega_rad_s.norm() * extent(body);
     fastest = std::max(fastest, std::sqrt(speed * speed + 2.0 * gravity * height));
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "src/bodies/beam_options.hpp"
 #include "src/bodies/options.hpp"
 
 namespace spindrift::bodies {
@@ -14,7 +15,7 @@ Eigen::AlignedBox3d bounds(const BodyOptions& body);
 double extent(const BodyOptions& body);
 
 /// A bound of the speed at which shapes meet still water at z = 0 [m/s]: their speed at the start, and what a fall from above
-/// the water adds to it where no joint holds the body; the speed of joints that drive a body from the earth.
-double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, double gravity);
+/// the water adds to it where no joint or beam holds the body; the speed of joints that drive a body from the earth.
+double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, const NamedBeams& beams, double gravity);
 
 }  // namespace spindrift::bodies

@@ -223,7 +223,7 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   if (s.has_sea() && !start.state.motions.empty()) draft = doubt_floating(all, floating, start);
   if (s.has_sea())
     append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment),
-                           {draft, bodies::entry_speed(s.bodies, s.joints, s.environment.gravity_m_s2)}));
+                           {draft, bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2)}));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
   if (floating.rotor()) doubt_rotor(all, floating, start);
   if (!start.state.motions.empty()) {

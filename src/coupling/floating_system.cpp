@@ -108,7 +108,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
   if (s.has_particles()) {
     const std::vector<sea::ParticleBody> shaped = particle_bodies(s.bodies);
     particle_plan_ = sea::particle_plan(s.sea, s.waves, sea_environment(s.environment), shaped,
-                                        bodies::entry_speed(s.bodies, s.joints, s.environment.gravity_m_s2));
+                                        bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2));
     for (sea::SensorOptions& sensor : particle_plan_->sensors)
       if (sensor.mean_over_s == 0.0) sensor.mean_over_s = s.time.window_s;
     std::vector<bool> on(names.size());

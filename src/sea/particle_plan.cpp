@@ -37,17 +37,28 @@ bool breaks(const SeaOptions& o) {
 
 bool starts_in_waves(const SeaOptions& o) { return o.initial && (o.initial->state == "waves" || o.initial->state == "standing"); }
 
-sph::Parameters parameters_of(const SeaOptions& o, const SeaEnvironment& environment, double entry_speed) {
+struct SoundSpeed {
+  double value;  ///< [m/s]
+  std::string from;
+};
+SoundSpeed sound_speed(const SeaOptions& o, const SeaEnvironment& environment, double entry_speed) {
+  const ParticleOptions& p = *o.particles;
+  if (p.sound_speed_m_s) return {*p.sound_speed_m_s, "the scene's"};
+  const double default_factor = breaks(o) ? sound_speed_factor_of_a_dam : default_sound_speed_factor;
+  const double factor = p.sound_speed_factor.value_or(default_factor), entry = sound_over_entry_speed * entry_speed;
+  const double waves = factor * std::sqrt(environment.gravity * deepest_water(o, environment.water_depth));
+  if (!p.sound_speed_factor && entry > waves)
+    return {entry,
+            fmt::format("{:g} times the {:.3g} m/s at which a body enters the water", sound_over_entry_speed, entry_speed)};
+  return {waves, fmt::format("{:g} sqrt(g depth)", factor)};
+}
+
+sph::Parameters parameters_of(const SeaOptions& o, const SeaEnvironment& environment, double sound_speed) {
   const ParticleOptions& s = *o.particles;
   sph::Parameters p;
   p.spacing = s.spacing_m, p.h_over_d = s.smoothing_over_spacing, p.kernel = s.kernel;
   p.eos.rho0 = environment.water_density;
-  const double wave_speed = std::sqrt(environment.gravity * deepest_water(o, environment.water_depth));
-  p.eos.c0 = s.sound_speed_m_s ? *s.sound_speed_m_s
-             : s.sound_speed_factor
-                 ? *s.sound_speed_factor * wave_speed
-                 : std::max((breaks(o) ? sound_speed_factor_of_a_dam : default_sound_speed_factor) * wave_speed,
-                            sound_over_entry_speed * entry_speed);
+  p.eos.c0 = sound_speed;
   p.viscosity = s.viscosity_model;
   const bool sticks = s.walls.ends_with("no_slip");
   p.alpha = s.viscosity, p.alpha_solid = s.solid_viscosity.value_or(sticks ? s.viscosity : 0.0);
@@ -73,8 +84,11 @@ sph::TankPlan::Block block_of(const BoxOptions& box) { return {box.low_m, box.hi
 
 ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const SeaEnvironment& environment,
                            std::vector<ParticleBody> bodies, double entry_speed) {
-  ParticlePlan plan{
-      .options = *o.particles, .parameters = parameters_of(o, environment, entry_speed), .bodies = std::move(bodies)};
+  const SoundSpeed sound = sound_speed(o, environment, entry_speed);
+  ParticlePlan plan{.options = *o.particles,
+                    .parameters = parameters_of(o, environment, sound.value),
+                    .sound_speed_from = sound.from,
+                    .bodies = std::move(bodies)};
   const TankOptions& t = *o.tank;
   plan.tank.x = t.x_m, plan.tank.y = t.y_m, plan.tank.depth = environment.water_depth, plan.tank.top = t.top_m;
   plan.tank.periodic = {t.sides_x == "periodic", t.sides_y == "periodic"};

@@ -43,6 +43,7 @@ struct ParticleBody {
 struct ParticlePlan {
   ParticleOptions options;
   sph::Parameters parameters;
+  std::string sound_speed_from;         ///< what it follows from, in words
   sph::TankPlan tank;                   ///< without the bodies
   std::vector<ParticleBody> bodies;     ///< by body of the scene
   std::vector<waves::Component> waves;  ///< of [waves]

@@ -35,18 +35,26 @@ NamedJoints rail(std::optional<DriverOptions> translation) {
 }  // namespace
 
 TEST_CASE("a free body enters the water with the speed of its fall, a floating one with that of its start", "[bodies][fast]") {
-  CHECK(entry_speed(ball(0.0), {}, gravity) == 0.0);
-  CHECK(entry_speed(ball(0.0, {3.0, 0.0, -4.0}), {}, gravity) == Approx(5.0));
-  CHECK(entry_speed(ball(1.5), {}, gravity) == Approx(std::sqrt(2.0 * gravity * 1.0)));
-  CHECK(entry_speed(ball(1.5, {0.0, 0.0, -2.0}), {}, gravity) == Approx(std::sqrt(4.0 + 2.0 * gravity * 1.0)));
+  CHECK(entry_speed(ball(0.0), {}, {}, gravity) == 0.0);
+  CHECK(entry_speed(ball(0.0, {3.0, 0.0, -4.0}), {}, {}, gravity) == Approx(5.0));
+  CHECK(entry_speed(ball(1.5), {}, {}, gravity) == Approx(std::sqrt(2.0 * gravity * 1.0)));
+  CHECK(entry_speed(ball(1.5, {0.0, 0.0, -2.0}), {}, {}, gravity) == Approx(std::sqrt(4.0 + 2.0 * gravity * 1.0)));
 }
 
 TEST_CASE("a body on a joint does not fall; one that is driven from the earth comes with the driver's speed", "[bodies][fast]") {
-  CHECK(entry_speed(ball(1.5), rail({}), gravity) == 0.0);
+  CHECK(entry_speed(ball(1.5), rail({}), {}, gravity) == 0.0);
   DriverOptions steady, swing;
   steady.rate = -2.0, swing.amplitude = 0.5, swing.period_s = 3.14159265358979;
-  CHECK(entry_speed(ball(1.5), rail(steady), gravity) == Approx(2.0));
-  CHECK(entry_speed(ball(1.5), rail(swing), gravity) == Approx(1.0));
+  CHECK(entry_speed(ball(1.5), rail(steady), {}, gravity) == Approx(2.0));
+  CHECK(entry_speed(ball(1.5), rail(swing), {}, gravity) == Approx(1.0));
+}
+
+TEST_CASE("a nacelle on a flexible tower does not fall into the water", "[bodies][fast]") {
+  BeamOptions tower;
+  tower.bodies = {"platform", "ball"};
+  NamedBeams beams;
+  beams.push_back({"tower", tower});
+  CHECK(entry_speed(ball(100.0), {}, beams, gravity) == 0.0);
 }
 
 TEST_CASE("a rotor that turns on a platform does not count", "[bodies][fast]") {
@@ -59,5 +67,5 @@ TEST_CASE("a rotor that turns on a platform does not count", "[bodies][fast]") {
   bearing.rotation.emplace().rate = 1.0;
   NamedJoints joints;
   joints.push_back({"bearing", bearing});
-  CHECK(entry_speed(bodies, joints, gravity) == 0.0);
+  CHECK(entry_speed(bodies, joints, {}, gravity) == 0.0);
 }
