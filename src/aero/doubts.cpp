@@ -57,11 +57,13 @@ void doubt_load(scene::Doubts& doubts, const WindOptions& wind, double air_densi
   // Turbines of 5 to 15 MW are rated at 320 to 410 W per square metre swept.
   constexpr double most = 600.0;
   if (start.power && *start.power > most * area)
-    doubts.push_back({"rotor",
-                      fmt::format("a power of {:.3g} MW at the start, {:.3g} W per square metre swept", 1e-6 * *start.power,
-                                  *start.power / area),
-                      fmt::format("up to {:.0f} W/m2: above rated wind blades are pitched", most),
-                      "look at wind.speed_m_s, or give rotor.blade_pitch_deg"});
+    doubts.push_back(
+        {"rotor",
+         fmt::format("a power of {:.3g} MW at the start, {:.3g} W per square metre swept", 1e-6 * *start.power,
+                     *start.power / area),
+         fmt::format("up to {:.0f} W/m2: above rated wind blades are pitched", most),
+         "look at wind.speed_m_s; rotor.operating_point = \"table\" takes speed and pitch from the turbine's table, or give "
+         "rotor.blade_pitch_deg"});
   if (blown && start.power && *start.power < 0.0)
     doubts.push_back({"rotor", fmt::format("a power of {:.3g} MW at the start: the rotor drives the air", 1e-6 * *start.power),
                       "above zero in wind", "look at the rotor's speed and rotor.blade_pitch_deg"});

@@ -131,7 +131,8 @@ void print_modes(const FloatingSystem& floating, const bodies::Linearisation& li
       fmt::print("  {:<34}period {:8.3f} s ({:.4f} Hz)   damping {:.2f} % of critical\n", mode.name, mode.period_s(),
                  1.0 / mode.period_s(), 100.0 * mode.damping_ratio());
     else
-      fmt::print("  {:<34}rate {:+.3g} 1/s\n", mode.name, mode.eigenvalue.real());
+      fmt::print("  {:<34}rate {:+.3g} 1/s{}\n", mode.name, mode.eigenvalue.real(),
+                 mode.eigenvalue.real() > 1e-4 ? ", grows by itself" : "");
   if (free > 0)
     fmt::print("  {} of {} are free: neither stiffness nor damping{}\n", free, linearisation.modes.size(),
                floating.particle_plan() && !floating.sea() ? "; that of the particles is not known before they are there" : "");

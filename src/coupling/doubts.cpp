@@ -132,23 +132,32 @@ void doubt_acceleration(scene::Doubts& doubts, FloatingSystem& floating, const S
 }
 
 /// Modes that grow: what the statics call unstable (metacentric height), and damping of the wrong sign.
+/// What holds a rigid motion of this name where it is: the metacentric height roll and pitch, lines all others.
+std::string what_holds(const std::string& mode) {
+  if (mode.starts_with("roll") || mode.starts_with("pitch"))
+    return "look at the height of the centre of mass (the metacentric height must be above zero), at the shapes and at the lines";
+  return "look at the lines, at the loads that turn with it and at the shapes";
+}
+
 void doubt_modes(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
-  if (floating.particle_plan() || floating.has_waves()) return;  // its drag, quadratic in the motion, is not in the modes
+  if (floating.particle_plan()) return;
+  const bool drag = floating.has_waves();  // quadratic in the motion, it is not in the modes: only what no drag holds is told
   double fastest = 0.0;
   for (const bodies::Mode& mode : stability.linearisation.modes) fastest = std::max(fastest, std::abs(mode.eigenvalue));
   for (const bodies::Mode& mode : stability.linearisation.modes) {
     const double rate = mode.eigenvalue.real(), size = std::abs(mode.eigenvalue);
     if (rate <= 1e-3 * size || rate <= 1e-4 || size < 1e-6 * fastest) continue;
     const double doubling = std::log(2.0) / rate;
-    if (mode.eigenvalue.imag() > 1e-9 * fastest)
+    const bool swings = mode.eigenvalue.imag() > 1e-9 * fastest;
+    if (drag && (swings || doubling > 60.0)) continue;
+    if (swings)
       doubts.push_back({"bodies",
                         fmt::format("{} grows by itself: damping {:.3g} % of critical, doubling in {:.3g} s", mode.name,
                                     100.0 * mode.damping_ratio(), doubling),
                         "damping above zero", "look at the signs of damping, or at a rotor whose thrust rises with the wind"});
     else
       doubts.push_back({"bodies", fmt::format("{} leaves the start by itself, doubling in {:.3g} s", mode.name, doubling),
-                        "a start that is stable: metacentric height above zero",
-                        "look at the height of the centre of mass, at the shapes and at the lines"});
+                        "a start that is stable", what_holds(mode.name)});
   }
 }
 
@@ -167,7 +176,8 @@ void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start&
     const double turned = m.angles.head<2>().cwiseAbs().maxCoeff() / radians_per_degree, heave = m.displacement.z();
     if (turned > 30.0 || std::abs(heave) > bodies::extent(body))
       doubts.push_back({"bodies." + all[b].name,
-                        fmt::format("rests {:+.3g} m higher and heeled by {:.3g} degrees", heave, turned),
+                        fmt::format("rests {:.3g} m {} and heeled by {:.3g} degrees", std::abs(heave),
+                                    heave > 0.0 ? "higher" : "lower", turned),
                         "less than its size, and 30 degrees", "look at the loads, the weight and its place"});
   }
 }

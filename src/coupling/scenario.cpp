@@ -237,8 +237,9 @@ Scenario read_scenario(scene::Document& document) {
   s.beams = document.read_named(bodies::beam_section());
   s.rotor = document.read_where(s.has_rotor() || has_resolved_rotor(s) || s.has_actuator(), aero::rotor_section(),
                                 "aero.model is none");
-  s.wind = document.read_where(s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
-                               "aero.model = \"" + s.aero.model + "\" does not look at the wind");
+  s.wind = document.read_where(
+      s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
+      "aero.model = \"" + s.aero.model + "\" does not look at the wind; thrust_curve, bem and resolved air do");
   if (!s.wind.steady() && s.resolves_air())
     document.problem("wind", "must be steady beside a resolved rotor: leave out table, event and turbulence");
   try {
@@ -251,7 +252,7 @@ Scenario read_scenario(scene::Document& document) {
   take_from_turbine(document, s);
   s.sea = document.read(sea::sea_section());
   s.waves = document.read_where(s.sea.model == "morison" || s.sea.model == "potential" || s.has_particles(), sea::waves_section(),
-                                "sea.model is none of morison, potential, sph");
+                                "sea.model is \"" + s.sea.model + "\"; morison, potential and sph have waves");
   s.moorings = document.read_named(moorings::line_section());
   s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple");
   s.start = document.read(start_section());

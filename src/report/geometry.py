@@ -216,6 +216,14 @@ class Scene3d:
         except (OSError, KeyError, ValueError, IndexError):
             return None
 
+    def corners(self, body):
+        """Points on the shapes of a body as the scene describes it, (n, 3); none where it has none."""
+        given, points = self.bodies[body], []
+        points += [frustum(c["start_m"], c["end_m"], c["diameter_m"], c.get("end_diameter_m"))[0] for c in given.get("cylinders", []) if "start_m" in c]
+        points += [box(b["centre_m"], b["size_m"])[0] for b in given.get("boxes", [])]
+        points += [sphere(b["centre_m"], b["diameter_m"])[0] for b in given.get("spheres", [])]
+        return np.concatenate(points) if points else np.empty((0, 3))
+
     # ---- pieces -------------------------------------------------------------------------------------------------------------------------
 
     def pieces(self, t):

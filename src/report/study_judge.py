@@ -318,6 +318,8 @@ class Judge:
 
     def next_spend(self, answer):
         """One sentence: where the next core-second tells most."""
+        if not self.plan["reference"]:
+            return "a [reference], to know errors"
         if not self.metrics or not self.candidates():
             return "nothing can be said: no run can be compared"
         if self.targets() and answer is None:
@@ -395,6 +397,8 @@ class Judge:
 
     # Result --------------------------------------------------------------------------------------------------------------------
     def sentence(self, answer):
+        if not self.plan["reference"]:
+            return "no reference: the table has each rung's own values"
         if not self.targets():
             return "no metric has a target: the front shows what each error costs"
         wanted = " and ".join(target_words(self.metrics[m]) for m in self.targets())

@@ -146,11 +146,12 @@ def _error_text(e, metric):
 
 
 def _table(study):
-    head = "".join(f"<th>{page.escape(m['name'])}</th><th>value</th>" for m in study["metrics"])
+    judged = bool(study["reference"])
+    head = "".join(f"<th>error of {page.escape(m['name'])}</th>" * judged + f"<th>{page.escape(m['name'])}</th>" for m in study["metrics"])
     sure = any(r["confidence"] is not None for r in study["rungs"])
     rows = ""
     for number, rung in enumerate(study["rungs"], 1):
-        errors = "".join(f"<td>{_error_text(rung['errors'][m['name']], m)}</td>"
+        errors = "".join(f"<td>{_error_text(rung['errors'][m['name']], m)}</td>" * judged +
                          f"<td>{page.number(value, 4) if (value := rung['errors'][m['name']]['value']) is not None else '-'}</td>"
                          for m in study["metrics"])
         cost, notes = rung["cost"], []
@@ -186,17 +187,17 @@ def build(folder):
     sentence = study["sentence"][0].upper() + study["sentence"][1:]
     reference = study["reference"] or {}
     against = (f"the rung '{reference['variant']}'" if reference.get("variant") else pathlib.Path(reference["history"]).name
-               if reference.get("history") else f"Richardson's limit along {reference['limit']}" if reference.get("limit") else "nothing")
+               if reference.get("history") else f"Richardson's limit along {reference['limit']}" if reference.get("limit") else "")
     scene = f"<p>The scene to run: <code>{page.escape(folder / study['scene'])}</code></p>" if study["scene"] else ""
     status = (f'<div class="status{"" if found else " warn"}"><p><strong class="headline">{page.escape(sentence)}.</strong></p>{scene}'
               f"<p>Next best spend: {page.escape(study['next'])}.</p></div>")
     limits = "".join(f"<li>{page.escape(l['metric'])} of {page.escape(l['of'])}: " + (page.escape(l["why"]) if l["why"] else
                      f"order {page.number(l['order'], 3) if l['order'] else 'not needed'}") + "</li>" for l in study["limits"])
     left = "".join(f"<li>{page.escape(text)}</li>" for text in study["not_tested"])
-    drawn = "".join(_figure(study, m) for m in study["metrics"])
+    drawn = "".join(_figure(study, m) for m in study["metrics"]) if reference else ""
     sections = [section("figures", "Error against cost", f'<div class="figures">{drawn}</div>' if drawn else ""), section("rungs", "Rungs", _table(study)),
                 section("budget", f"Where the error of {study['budget_of']} comes from", _budget(study)),
                 section("limits", "Limits", f"<ul>{limits}</ul>" if limits else ""), section("not-tested", "What was not tested", f"<ul>{left}</ul>" if left else "")]
     return html_page.render(title=f"Study {pathlib.Path(study['study']).stem}", eyebrow=f"Spindrift study · {study['study']}",
-                            facts=f"{len(study['rungs'])} rungs · {page.number(study['core_s_spent'], 3)} core-s spent · errors are against {against}",
+                            facts=f"{len(study['rungs'])} rungs · {page.number(study['core_s_spent'], 3)} core-s spent" + (f" · errors are against {against}" if against else ""),
                             verdicts=[], before=html_page.safe(status), sections=[s for s in sections if s])

@@ -6,6 +6,7 @@ import numpy as np
 
 import quantities
 import words
+from geometry import Scene3d
 
 EXITS = {0: "Done", 2: "Bad input", 3: "Numerical failure", 4: "Machine failure", 5: "Stopped on request"}
 ORDER = {"bad": 0, "warn": 1, "good": 2}
@@ -163,6 +164,47 @@ def _draft(run):
                  f"{100 * abs(off) / draft:.0f} % of the draft: finer particles bring it nearer")
 
 
+def _places(run):
+    """Bodies that turn over, go under, or pass through a bed that nothing in the sea holds up (particles have one)."""
+    sea, found = _value(run.scene, "sea", "model"), []
+    if not sea or sea == "none" or len(run.time) < 2:
+        return found
+    scene, depth = Scene3d(run), _value(run.scene, "environment", "water_depth_m") or math.inf
+    rows = np.unique(np.linspace(0, len(run.time) - 1, 400).astype(int))
+    serious = "bad" if kind(run) == "floating turbine" else "warn"
+    moored = serious == "bad" or bool(run.scene.get("moorings"))
+    for body in scene.bodies:
+        points = scene.corners(body)
+        if not len(points):
+            continue
+        centre, top = points.mean(axis=0), np.array([0.0, 0.0, 1.0])
+        low, high, upright = [], [], []
+        for t in run.time[rows]:
+            z = scene.moved(body, np.vstack([points, centre, centre + top]), t)[:, 2]
+            low.append(z[:-2].min()), high.append(z[:-2].max()), upright.append(z[-1] - z[-2])
+        size = points[:, 2].max() - points[:, 2].min()
+        low, high, upright, at = np.array(low), np.array(high), np.array(upright), run.time[rows]
+        if upright.min() < 0.0 and _has_a_top(scene.bodies[body], points):
+            found.append(Check(serious, "Upright", f"{body} has turned over at t = {words.number(at[int((upright < 0.0).argmax())])} s"))
+        afloat = high >= -0.05 * size
+        if moored and points[:, 2].max() > 0.0 and not afloat[-1]:
+            last = np.flatnonzero(afloat)[-1] if afloat.any() else 0
+            found.append(Check(serious, "Afloat", f"{body} is wholly under water after t = {words.number(at[last])} s"))
+        passed = low < min(-depth, points[:, 2].min()) - 0.002 * min(depth, 1e3)
+        if sea != "sph" and passed.any():
+            settled = passed & (at >= run.time[run.mean_range()[0]][0])
+            found.append(Check("bad" if settled.any() else "warn", "Bed", f"{body} reaches {words.number(float(-depth - low.min()), 3)} m under the bed, first at t = "
+                               f"{words.number(at[int(passed.argmax())])} s: nothing in this sea holds it up there"
+                               + ("" if settled.any() else "; not within the stretch of the means")))
+    return found
+
+
+def _has_a_top(body, points):
+    """Is there a right way up? Not of balls and of flat or lying bodies."""
+    size = np.ptp(points, axis=0)
+    return bool(body.get("cylinders") or body.get("boxes")) and size[2] > 0.2 * size[:2].max()
+
+
 def _power(run):
     """Mean power against that of the turbine's operation table at this wind."""
     wind, table = _value(run.scene, "wind", "speed_m_s"), run.operation()
@@ -291,9 +333,17 @@ def _settled(run):
         if name in run.columns:
             values = run.column(name)
             change = words.mean(run.time[second], values[second]) - words.mean(run.time[first], values[first])
-            if abs(change) > max(least, 0.1 * abs(words.mean(run.time[chosen], values[chosen]))):
+            shaped = Scene3d(run).corners(body) if body in (run.scene.get("bodies") or {}) else []
+            height = float(np.ptp(shaped[:, 2])) if len(shaped) else math.inf
+            allowed = max(least, 0.1 * abs(words.mean(run.time[chosen], values[chosen])))
+            if text == "heave":   # of a small body a small way is much
+                allowed = min(allowed, 0.05 * height)
+            if abs(change) > allowed:
                 unit = quantities.unit_of(name, run.described)
                 moving.append(f"{text} by {words.number(change, 2)} {unit}")
+    asked = _value(run.scene, "output", "means_over_s")
+    if isinstance(asked, (int, float)) and run.time[-1] - run.time[0] < 1.2 * asked and not moving and kind(run) == "floating turbine":
+        return Check("warn", "Settled", f"not known: the run is hardly longer than the stretch of its means (output.means_over_s = {words.number(asked)}), which begins with the start")
     if moving:
         return Check("warn", "Settled", "not yet: between the halves of the stretch of the means, " + ", ".join(moving) + " changed")
     return Check("good", "Settled", "means of both halves of their stretch agree")
@@ -306,6 +356,7 @@ def health(run):
     found += [Check("bad", "Numbers", s) for s in said]
     if not said and len(run.time):
         found.append(Check("good", "Numbers", f"all {run.values.size:,} of history.csv are finite"))
+    found += _places(run)
     found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _particles(run), _settled(run)) if c]
     found += _windows(run) + _budgets(run)
     if warnings := run.summary.get("warnings"):

@@ -135,7 +135,9 @@ const Section<MetricOptions>& metric_section() {
   static const auto section = [] {
     std::vector<Section<MetricOptions>::Case<Measure>> words;
     for (const MeasureWord& m : measures) words.push_back({m.word, m.measure, m.help});
-    return Section<MetricOptions>("metrics", "An error: how a history column differs from the reference's.")
+    return Section<MetricOptions>(
+               "metrics",
+               "A number from a history column, and how it differs from the reference's; without a reference the number alone.")
         .named()
         .text("column", &MetricOptions::column, "Column of history.csv.")
         .required()
@@ -255,7 +257,17 @@ Study read_study(const std::string& path, const std::vector<std::string>& overri
   if (study.variants.empty() && study.study.scene.empty()) doc.problem("study.scene", "is required where there are no variants");
   for (const auto& [name, axis] : study.axes) check_points(doc, "axes." + name, axis);
   if (study.replicas) check_points(doc, "replicas", *study.replicas);
-  if (!study.metrics.empty() && !study.reference) doc.problem("metrics", "need a [reference] to measure against");
+  if (!study.reference)  // a sweep: values alone
+    for (const auto& [name, metric] : study.metrics) {
+      const auto needs = [&, &name = name](const char* key) {
+        doc.problem(fmt::format("metrics.{}.{}", name, key), "needs a [reference] to measure against");
+      };
+      if (of_two_histories(metric.measure))
+        doc.problem(fmt::format("metrics.{}.measure", name),
+                    "rms and max compare two histories and need a [reference]; mean and the others do not");
+      if (metric.target) needs("target");
+      if (metric.relative) needs("relative");
+    }
   check_runs(doc, study);
   doc.finish();
   return study;

@@ -287,6 +287,35 @@ class PartsTest(unittest.TestCase):
             run.values[run.columns.index("float.z_m")] = 0.05 * t
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Settled"], "warn")
 
+    def test_health_tells_of_floats_that_turn_over_go_under_or_pass_through_the_bed(self):
+        t = 0.1 * np.arange(400)
+        table = {"time_s": t, **{f"float.{c}": 0 * t for c in ("x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg")}, "rotor.thrust_N": 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder) / "run"
+            synthetic_run.write(folder, table=table)
+            run = RunData(folder)
+            cylinder = {"start_m": [0, 0, -14.0], "end_m": [0, 0, 12.0], "diameter_m": 8.0}
+            run.scene = {"sea": {"model": "morison"}, "environment": {"water_depth_m": 20.0}, "bodies": {"float": {"cylinders": [cylinder]}}}
+
+            def titles(**columns):
+                for name, values in columns.items():
+                    run.values[run.columns.index(f"float.{name}")] = values
+                found = {c.title: c for c in verdict.health(run) if c.title in ("Upright", "Afloat", "Bed")}
+                for name in columns:
+                    run.values[run.columns.index(f"float.{name}")] = 0.0
+                return {title: (c.level, c.text) for title, c in found.items()}
+
+            self.assertEqual(titles(), {})
+            self.assertEqual(titles(z_m=-5.7 + 0 * t, pitch_deg=3.0 + 0 * t), {})
+            level, text = titles(z_m=-8.0 * (t > 20.0))["Bed"]
+            self.assertEqual(level, "bad")
+            self.assertIn("float reaches 2.00 m under the bed, first at t = 20.1", text)
+            run.scene["environment"]["water_depth_m"] = 300.0
+            self.assertEqual(titles(roll_deg=4.5 * t)["Upright"][0], "bad")
+            self.assertIn("after t = 20", titles(z_m=-20.0 * (t > 20.05))["Afloat"][1])
+            del run.columns[run.columns.index("rotor.thrust_N")]   # a body that is dropped may sink
+            self.assertEqual(titles(z_m=-20.0 * (t > 20.0)), {})
+
     def test_a_scene_that_takes_all_pseudo_steps_is_judged_by_what_they_reach(self):
         t = np.linspace(0, 10, 101)
         for reached, level in ((0.012, "good"), (0.4, "warn")):
