@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 int report(const ReportArguments& arguments, const runtime::World& world) {
   if (world.rank != 0) return done;
-  report::Request request{.directories = {arguments.directories.begin(), arguments.directories.end()}};
+  report::Request request{.directories = {arguments.directories.begin(), arguments.directories.end()}, .says_verdict = true};
   if (!arguments.out.empty()) request.out = arguments.out;
   if (!arguments.png.empty()) request.png = arguments.png;
   const report::Outcome made = report::write(request);

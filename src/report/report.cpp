@@ -78,6 +78,7 @@ fs::path page_of(const Request& request) {
 Outcome write(const Request& request) {
   std::vector<std::string> words = {"--out", page_of(request)};
   if (request.png) words.insert(words.end(), {"--png", *request.png});
+  if (request.says_verdict) words.push_back("--verdict");
   words.push_back("--");
   words.insert(words.end(), request.directories.begin(), request.directories.end());
   return start("spindrift_report.py", std::move(words));

@@ -15,6 +15,7 @@ struct Request {
   std::vector<std::filesystem::path> directories;  ///< of runs; more than one: laid over each other
   std::optional<std::filesystem::path> out;        ///< default: report.html in the first, comparison.html for several
   std::optional<std::filesystem::path> png;        ///< also a picture of the first run
+  bool says_verdict = false;                       ///< prints what a run came to, and what stands against it
 };
 
 /// What a program of this folder came to: its exit code (0 done, 2 bad input, 4 a package or the disk is missing), and one

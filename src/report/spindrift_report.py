@@ -22,7 +22,17 @@ def arguments():
     parser.add_argument("directories", nargs="+", type=pathlib.Path, metavar="DIR")
     parser.add_argument("--out", type=pathlib.Path, help="default: report.html in DIR, comparison.html for several")
     parser.add_argument("--png", type=pathlib.Path, help="also draw a picture of the first run")
+    parser.add_argument("--verdict", action="store_true", help="also print what a run came to")
     return parser.parse_args()
+
+
+def say_verdict(run):
+    """The report's first lines, for who looks at the terminal."""
+    import verdict
+    came_to = "; ".join(f"{text} {value} {unit}".strip() for text, value, unit in verdict.answers(run))
+    for line in (came_to, f"verdict: {verdict.headline(verdict.health(run))[1]}"):
+        if line:
+            print(line, flush=True)
 
 
 def fail(code, words):
@@ -88,6 +98,8 @@ def main():
         guarded(lambda: surfaces(runs[0]))
     if given.png:
         guarded(lambda: picture.draw(runs[0], given.png))
+    if given.verdict and len(runs) == 1:
+        say_verdict(runs[0])
 
 
 if __name__ == "__main__":

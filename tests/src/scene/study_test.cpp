@@ -85,7 +85,7 @@ TEST_CASE("what is wrong with a study is told like what is wrong with a scene", 
   CHECK(complaint(dir, "[metrics.m]\ncolumn = \"x\"\n") ==
         file + ":3: metrics.m.measure: rms and max compare two histories and need a [reference]; mean and the others do not");
   CHECK(complaint(dir, "[metrics.m]\ncolumn = \"x\"\nmeasure = \"mean\"\ntarget = 1.0\n") ==
-        file + ":6: metrics.m.target: needs a [reference] to measure against");
+        file + ":6: metrics.m.target = 1.0: needs a [reference] to measure against");
   CHECK(complaint(dir, "[axes.a]\nkey = \"x.y\"\nvalues = [\"a\", \"a\"]\n") ==
         file + ": variants: two runs would be called 'base-a_a'");
   CHECK(complaint(dir, "[study2]\n") == file + ":3: study2: unknown section; did you mean [study]?");
