@@ -83,7 +83,7 @@ void march(perf::Group& group, const std::string& name, double mach, bool sequen
     transfer(*coarse.solver, *c.solver);
     c.solver->march().begin_after_look();
   }
-  c.solver->watch([&](const PseudoRow& row) {
+  c.solver->judgement().watch([&](const PseudoRow& row) {
     h.cost.push_back((perf::user_seconds() - begin) / cells * 1e6);
     h.by_volume.push_back(row.density_residual), h.balance.push_back(row.mass_residual);
     h.drag.push_back(coefficients(s, row.force).drag);

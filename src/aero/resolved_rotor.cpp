@@ -153,13 +153,13 @@ std::vector<BlockPose> ResolvedRotor::block_poses(const RotorPose& pose, double 
 }
 
 void ResolvedRotor::move_to(const RotorPose& pose, double pitch) {
-  solver_->move_to(block_poses(pose, pitch));
+  solver_->motion().move_to(block_poses(pose, pitch));
   pose_before_ = pose_, pitch_before_ = pitch_;
   pose_ = pose, pitch_ = pitch;
 }
 
 void ResolvedRotor::place(const RotorPose& before, const RotorPose& now, double pitch_before, double pitch) {
-  solver_->place(block_poses(before, pitch_before), block_poses(now, pitch));
+  solver_->motion().place(block_poses(before, pitch_before), block_poses(now, pitch));
   pose_before_ = before, pose_ = now, pitch_before_ = pitch_before, pitch_ = pitch;
 }
 
@@ -185,7 +185,7 @@ RotorLoad ResolvedRotor::load(const PseudoRow& row) const {
 }
 
 RotorLoad ResolvedRotor::blade_load(int blade) const {
-  return blade_load(solver_->loads(store_->tiling().patch(fmt::format("blade_{}", blade))));
+  return blade_load(solver_->judgement().patch(store_->tiling().patch(fmt::format("blade_{}", blade))));
 }
 
 RotorLoad ResolvedRotor::blade_load(int blade, const PseudoRow& row) const {
@@ -237,7 +237,7 @@ std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const double> sums) co
 }
 
 std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const PseudoRow> rows) const {
-  std::vector<double> mean(solver_->load_sums().size(), 0.0);
+  std::vector<double> mean(solver_->judgement().load_sums().size(), 0.0);
   for (const PseudoRow& row : rows)
     for (std::size_t n = 0; n < mean.size(); ++n) mean[n] += row.loads[n] / double(rows.size());
   return span_loads(std::span<const double>(mean));
@@ -262,28 +262,19 @@ RotorLoad ResolvedRotor::advance(const RotorPose& end, double pitch) {
   march_->run();
   const March& march = solver_->march();
   if (march.verdict() == Verdict::failed)
-    throw NumericalFailure(
-        fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}){}", march.why(), march.steps(), march.cfl(), solver_->trouble()),
-        "aero/rotor", long(solver_->time_steps()), double(solver_->time_steps()) * setup_.dt);
+    throw NumericalFailure(fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}){}", march.why(), march.steps(), march.cfl(),
+                                       solver_->judgement().trouble()),
+                           "aero/rotor", long(solver_->time_steps()), double(solver_->time_steps()) * setup_.dt);
   return load();
 }
 
 ResolvedRotor::Snapshot ResolvedRotor::snapshot() const {
-  Snapshot s{.tiles = {},
-             .march = solver_->save_march(),
-             .set_up = solver_->save_set_up(),
-             .before = pose_before_,
-             .now = pose_,
-             .pitch_before = pitch_before_,
-             .pitch = pitch_};
-  for (int n = 0; n < int(solver_->tiles().size()); ++n) solver_->save(n, s.tiles.emplace_back(solver_->saved_size(n)));
-  return s;
+  return {
+      .air = solver_->restart().snapshot(), .before = pose_before_, .now = pose_, .pitch_before = pitch_before_, .pitch = pitch_};
 }
 
 void ResolvedRotor::restore(const Snapshot& s) {
-  for (int n = 0; n < int(s.tiles.size()); ++n) solver_->load(n, s.tiles[std::size_t(n)]);
-  solver_->load_march(s.march);
-  solver_->load_set_up(s.set_up);
+  solver_->restart().restore(s.air);
   pose_before_ = s.before, pose_ = s.now, pitch_before_ = s.pitch_before, pitch_ = s.pitch;
   if (s.pitch_before != 0.0 || s.pitch != 0.0) place(s.before, s.now, s.pitch_before, s.pitch);
 }

@@ -75,7 +75,7 @@ class ResolvedRotor {
   void move_to(const RotorPose& pose, double pitch = 0.0);
   /// Where it is now and was one step ago, without flow in between: starts away from the scene's own pose.
   void place(const RotorPose& before, const RotorPose& now, double pitch_before = 0.0, double pitch = 0.0);
-  /// Restarts: the solver has been placed by FlowSolver::load_march.
+  /// Restarts: the solver has been placed by FlowRestart::load_march.
   void placed_at(std::int64_t step);
 
   /// Of the whole rotor after the last march, about the hub; one sector's load stands for all blades.
@@ -87,7 +87,7 @@ class ResolvedRotor {
   RotorLoad blade_load(int blade, const PseudoRow& row) const;
   int grid_blades() const { return int(stations_.size()); }
   /// Along the blades of the grid from root to tip, the same on every rank: after the last march, or the mean over rows of it.
-  std::vector<SpanLoad> span_loads() const { return span_loads(solver_->load_sums()); }
+  std::vector<SpanLoad> span_loads() const { return span_loads(solver_->judgement().load_sums()); }
   std::vector<SpanLoad> span_loads(std::span<const PseudoRow> rows) const;
 
   // For whoever couples: a window may be tried, undone and tried again.
@@ -98,9 +98,7 @@ class ResolvedRotor {
   /// One physical step that ends in this pose; the load at its end. Throws NumericalFailure naming place and limit. Collective.
   RotorLoad advance(const RotorPose& end, double pitch = 0.0);
   struct Snapshot {
-    std::vector<std::vector<double>> tiles;
-    std::vector<double> march;
-    FlowSolver::SetUpNote set_up;
+    FlowSnapshot air;
     RotorPose before, now;
     double pitch_before = 0.0, pitch = 0.0;
   };

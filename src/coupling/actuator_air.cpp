@@ -67,14 +67,10 @@ class ActuatorAir final : public AirSide {
       return load_;
     }
     const int steps = floating_.scenario().start.air_steps;
-    const TileStates settled = steps > 0 ? settled_air(steps) : TileStates();
+    const aero::TileStates settled = steps > 0 ? settled_air(steps) : aero::TileStates();
     make();
     if (flow_.preconditioner == "auto") choose_preconditioner(*solver_, flow_, world_.comm, log_lines_);
-    for (std::size_t n = 0; n < settled.size(); ++n) {
-      std::vector<double> values(solver_->saved_size(int(n)));  // the past stays empty: the first step is of first order
-      std::ranges::copy(settled[n], values.begin());
-      solver_->load(int(n), values);
-    }
+    solver_->restart().load_tiles(settled);  // the past stays empty: the first step is of first order
     return load_ = ramped(computed_.rotor, floating_, t_);
   }
 
@@ -106,15 +102,11 @@ class ActuatorAir final : public AirSide {
   const aero::RotorLoad* written() const override { return &load_; }
 
   void take_snapshot(Snapshot slot) override {
-    Saved saved{
-        .tiles = {}, .march = solver_->save_march(), .set_up = solver_->save_set_up(), .load = load_, .computed = computed_};
-    for (int n = 0; n < int(solver_->tiles().size()); ++n) solver_->save(n, saved.tiles.emplace_back(solver_->saved_size(n)));
-    snapshots_[slot] = std::move(saved);
+    snapshots_[slot] = Saved{.air = solver_->restart().snapshot(), .load = load_, .computed = computed_};
   }
   void return_to(Snapshot slot) override {
     const Saved& saved = *snapshots_[slot];
-    for (int n = 0; n < int(saved.tiles.size()); ++n) solver_->load(n, saved.tiles[std::size_t(n)]);
-    solver_->load_march(saved.march), solver_->load_set_up(saved.set_up);
+    solver_->restart().restore(saved.air);
     load_ = saved.load, computed_ = saved.computed;
   }
 
@@ -160,8 +152,6 @@ class ActuatorAir final : public AirSide {
   std::vector<std::string> log_lines() override { return std::exchange(log_lines_, {}); }
 
  private:
-  /// Unknowns of this rank's tiles.
-  using TileStates = std::vector<std::vector<double>>;
   std::optional<SettlingFile> settling_file() const {
     const double interval_s = floating_.scenario().checkpoint.wall_interval_s;
     if (!directory_ || interval_s <= 0.0) return {};
@@ -169,9 +159,7 @@ class ActuatorAir final : public AirSide {
   }
 
   struct Saved {
-    TileStates tiles;
-    std::vector<double> march;
-    aero::FlowSolver::SetUpNote set_up;
+    aero::FlowSnapshot air;
     aero::RotorLoad load;
     ComputedLoads computed;
   };
@@ -215,7 +203,7 @@ class ActuatorAir final : public AirSide {
   }
 
   /// Tried again where it fails.
-  TileStates settled_air(int steps) {
+  aero::TileStates settled_air(int steps) {
     for (int retry = 0;; ++retry) try {
         return settled_air(steps, retry);
       } catch (const NumericalFailure& failure) {
@@ -227,7 +215,7 @@ class ActuatorAir final : public AirSide {
 
   /// Steady flow of the blades' mean over the disc, hub held where it starts: lines go on from it. Each of them is told as its
   /// share of the disc until the first step has been made.
-  TileStates settled_air(int steps, int retry) {
+  aero::TileStates settled_air(int steps, int retry) {
     const Scenario& s = floating_.scenario();
     aero::FlowOptions steady = flow_;
     steady.time = "steady", steady.drop = 0.0, steady.load_change = 0.0;
@@ -255,10 +243,7 @@ class ActuatorAir final : public AirSide {
            steps, log_lines_);
     computed_.rotor = disc->load(solver->rows().back());
     for (aero::RotorLoad& blade : computed_.blades) blade = share_of(computed_.rotor, turbine_.blades);
-    TileStates states;
-    for (std::size_t n = 0; n < solver->tiles().size(); ++n)
-      solver->save(int(n), states.emplace_back(solver->saved_size(int(n))));
-    return states;
+    return solver->restart().save_tiles();
   }
   static aero::RotorLoad share_of(aero::RotorLoad load, int blades) {
     load.thrust /= blades, load.torque /= blades, load.power /= blades, load.force /= blades, load.moment /= blades;

@@ -16,24 +16,25 @@ constexpr const char* set_up_name = "flow/set_up";
 
 AirFile::AirFile(aero::FlowSolver& solver, const aero::GridStore& store, const runtime::World& world)
     : solver_(solver), world_(world) {
-  const std::int64_t per_cell = solver.tiles().empty() ? 0 : std::int64_t(solver.saved_size(0)) / solver.tiles()[0].box.count();
+  const std::int64_t per_cell =
+      solver.tiles().empty() ? 0 : std::int64_t(solver.restart().size(0)) / solver.tiles()[0].box.count();
   for (const aero::Tile& tile : store.tiling().tiles) starts_.push_back(total_), total_ += tile.count() * per_cell;
 }
 
 std::vector<SavedArray> AirFile::arrays() const {
   SavedArray march{"flow/march", 0, {}}, tiles{"flow/tiles", total_, {}};
-  std::vector<double> values = solver_.save_march();
+  std::vector<double> values = solver_.restart().save_march();
   march.total = std::int64_t(values.size());
   if (world_.rank == 0) march.pieces.push_back({0, std::move(values)});
   for (int n = 0; n < int(solver_.tiles().size()); ++n) {
     tiles.pieces.push_back(
-        {starts_[std::size_t(solver_.tiles()[std::size_t(n)].index)], std::vector<double>(solver_.saved_size(n))});
-    solver_.save(n, tiles.pieces.back().values);
+        {starts_[std::size_t(solver_.tiles()[std::size_t(n)].index)], std::vector<double>(solver_.restart().size(n))});
+    solver_.restart().save(n, tiles.pieces.back().values);
   }
   std::vector<SavedArray> arrays{std::move(march), std::move(tiles)};
-  if (!solver_.keeps_set_up()) return arrays;
+  if (!solver_.restart().keeps_set_up()) return arrays;
   const std::vector<std::int64_t> starts = set_up_starts();
-  aero::FlowSolver::SetUpNote note = solver_.save_set_up();
+  aero::SetUpNote note = solver_.restart().save_set_up();
   SavedArray& set_up = arrays.emplace_back(SavedArray{set_up_name, starts.back(), {}});
   for (std::size_t n = 0; n < note.tiles.size(); ++n)
     set_up.pieces.push_back({starts[std::size_t(solver_.tiles()[n].index)], std::move(note.tiles[n])});
@@ -43,7 +44,7 @@ std::vector<SavedArray> AirFile::arrays() const {
 std::vector<std::int64_t> AirFile::set_up_starts() const {
   std::vector<std::int64_t> sizes(starts_.size() + 1), mine;
   for (int n = 0; n < int(solver_.tiles().size()); ++n)
-    mine.insert(mine.end(), {solver_.tiles()[std::size_t(n)].index, std::int64_t(solver_.set_up_size(n))});
+    mine.insert(mine.end(), {solver_.tiles()[std::size_t(n)].index, std::int64_t(solver_.restart().set_up_size(n))});
   runtime::Packer parcel;
   parcel.put(std::span<const std::int64_t>(mine));
   for (const runtime::Bytes& bytes : runtime::exchange_all(world_.comm, parcel.take())) {
@@ -59,22 +60,22 @@ void AirFile::read(const io::CheckpointReader& file) const {
     throw io::InputError(
         fmt::format("{}: its air has {} values, this one {}", file.path().string(), file.size("flow/tiles"), total_));
   for (int n = 0; n < int(solver_.tiles().size()); ++n) {
-    std::vector<double> values(solver_.saved_size(n));
+    std::vector<double> values(solver_.restart().size(n));
     const io::Slice<double> slice{starts_[std::size_t(solver_.tiles()[std::size_t(n)].index)], values};
     file.read<double>("flow/tiles", std::span(&slice, 1));
-    solver_.load(n, values);
+    solver_.restart().load(n, values);
   }
-  solver_.load_march(file.read<double>("flow/march"));
-  if (!solver_.keeps_set_up()) return;
+  solver_.restart().load_march(file.read<double>("flow/march"));
+  if (!solver_.restart().keeps_set_up()) return;
   const std::vector<std::int64_t> starts = set_up_starts();
   if (!file.has(set_up_name) || file.size(set_up_name) != starts.back()) return;  // of another march: the next step makes its own
-  aero::FlowSolver::SetUpNote note;
+  aero::SetUpNote note;
   for (int n = 0; n < int(solver_.tiles().size()); ++n) {
-    std::vector<double>& values = note.tiles.emplace_back(solver_.set_up_size(n));
+    std::vector<double>& values = note.tiles.emplace_back(solver_.restart().set_up_size(n));
     const io::Slice<double> slice{starts[std::size_t(solver_.tiles()[std::size_t(n)].index)], values};
     file.read<double>(set_up_name, std::span(&slice, 1));
   }
-  solver_.load_set_up(note);
+  solver_.restart().load_set_up(note);
 }
 
 }  // namespace spindrift::coupling

@@ -30,7 +30,7 @@ void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& flo
   if (march.verdict() == aero::Verdict::stopped) throw runtime::StopAsked();
   if (march.verdict() == aero::Verdict::failed)
     throw NumericalFailure(fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t,
-                                       march.why(), march.steps(), march.cfl(), solver.trouble(), flow.cfl_max),
+                                       march.why(), march.steps(), march.cfl(), solver.judgement().trouble(), flow.cfl_max),
                            "aero/rotor", long(solver.time_steps()), t);
   const long windows = floating.timeline().windows(), unconverged = march.unconverged();
   if (march.spent() && unconverged == 1)
@@ -67,7 +67,7 @@ void settle(Settling settling, int steps, std::vector<std::string>& log_lines) {
   const auto begin = std::chrono::steady_clock::now();
   double said_s = 0.0;
   for (int done = before; done == before || (march.spent() && done < steps);) {
-    if (done > before) solver.keep_last_row();
+    if (done > before) solver.judgement().keep_last_row();
     settling.run();
     done = march.steps() - 1;
     if (march.verdict() == aero::Verdict::stopped) throw runtime::StopAsked();
@@ -81,7 +81,7 @@ void settle(Settling settling, int steps, std::vector<std::string>& log_lines) {
   if (march.verdict() == aero::Verdict::failed)
     throw NumericalFailure(
         fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}{}", march.why(),
-                    march.steps(), march.cfl(), solver.trouble(),
+                    march.steps(), march.cfl(), solver.judgement().trouble(),
                     settling.file ? settling.file->save_failed(march.steps(), settling.state.arrays()) : std::string()),
         "aero/rotor", march.steps(), 0.0);
   const auto& rows = solver.rows();

@@ -14,7 +14,7 @@ namespace spindrift::coupling {
 namespace {
 
 bool on_wall(const aero::FlowSolver& solver, const aero::TileBoundary& b) {
-  return aero::is_closed(solver.conditions()[std::size_t(b.patch)].condition);
+  return aero::is_closed(solver.judgement().conditions()[std::size_t(b.patch)].condition);
 }
 
 }  // namespace

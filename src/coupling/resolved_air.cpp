@@ -80,18 +80,14 @@ class ResolvedAir final : public AirSide {
     }
     const StartOptions& start = floating_.scenario().start;
     if (automatic()) choose(start.air_steps > 0);
-    const TileStates settled = start.air_steps > 0 ? settled_air(start.air_steps) : TileStates();
+    const aero::TileStates settled = start.air_steps > 0 ? settled_air(start.air_steps) : aero::TileStates();
     if (!rotor_) make();
     tell_size();
-    for (std::size_t n = 0; n < settled.size(); ++n) {
-      std::vector<double> values(rotor_->solver().saved_size(int(n)));  // the past stays empty: the first step is of first order
-      std::ranges::copy(settled[n], values.begin());
-      rotor_->solver().load(int(n), values);
-    }
+    rotor_->solver().restart().load_tiles(settled);  // the past stays empty: the first step is of first order
     // A profile is no steady flow for turning blades: what settled has the hub's wind, and the rest of the profile is added to
     // its flow.
     if (!settled.empty() && !setup_.profile.uniform())
-      rotor_->solver().add_velocity([&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+      aero::add_velocity(rotor_->solver().tiles(), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
         return (setup_.profile.share(x.z()) - share_at_hub()) * setup_.wind;
       });
     if (!start.air.empty()) start_from_saved_air(start.air);
@@ -225,8 +221,6 @@ class ResolvedAir final : public AirSide {
     if (!whole()) load.force = load.thrust * state_.axis, load.moment = load.torque * state_.axis;
     return load;
   }
-  /// Unknowns of this rank's tiles.
-  using TileStates = std::vector<std::vector<double>>;
 
   /// Made once for the solver that settles and the one that moves: minutes at the paper's size.
   const std::shared_ptr<const aero::MadeRotorGrid>& grid() {
@@ -235,7 +229,7 @@ class ResolvedAir final : public AirSide {
   }
 
   /// Tried again where it fails.
-  TileStates settled_air(int steps) {
+  aero::TileStates settled_air(int steps) {
     for (int retry = 0;; ++retry) try {
         return settle(steps, retry);
       } catch (const NumericalFailure& failure) {
@@ -248,7 +242,7 @@ class ResolvedAir final : public AirSide {
   /// A steady march seen from the turning rotor, hub held where it starts, upright; the physical steps go on from its flow, which
   /// does not know of a lean that an equilibrium gave the rotor. Its solver is gone before the moving one is made: two would not
   /// fit where one does.
-  TileStates settle(int steps, int retry) {
+  aero::TileStates settle(int steps, int retry) {
     aero::ResolvedRotorSetup steady = setup_;
     steady.dt = 0.0;
     steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 0.0, steady.flow.load_change = 0.0;
@@ -268,10 +262,7 @@ class ResolvedAir final : public AirSide {
                       .thrust = [&](const aero::PseudoRow& row) { return held.load(row).thrust; }},
                      steps, log_lines_);
     computed_ = computed_loads(held);
-    TileStates states;
-    for (std::size_t n = 0; n < held.solver().tiles().size(); ++n)
-      held.solver().save(int(n), states.emplace_back(held.solver().saved_size(int(n))));
-    return states;
+    return held.solver().restart().save_tiles();
   }
 
   /// The grid where the rotor is, with a last step of `dt` at its velocity.

@@ -179,11 +179,11 @@ ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scena
   for (int n = 0; n < int(solver.tiles().size()); ++n) {
     const aero::FlowTile& tile = solver.tiles()[std::size_t(n)];
     const auto count = std::size_t(tile.box.count()), unknowns = std::size_t(tile.unknowns());
-    std::vector<double> values(solver.saved_size(n), 0.0);
+    std::vector<double> values(solver.restart().size(n), 0.0);
     const io::Slice<double> slice{first[std::size_t(tile.index)] * per_cell, std::span(values).first(count * unknowns)};
     file.read<double>("flow/tiles", std::span(&slice, 1));
     if (turned) turn(values, count, by);
-    solver.load(n, values);
+    solver.restart().load(n, values);
   }
   solver.forget();
   ComputedLoads computed = computed_loads_in(file, rotor.grid_blades());

@@ -10,7 +10,7 @@ aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::Worl
   aero::FirstCells mine, all;
   for (const aero::FlowTile& tile : solver.tiles())
     for (const aero::WallPoint& p : solver.wall_points(tile)) {
-      const aero::BoundaryCondition& c = of(solver.conditions()[std::size_t(p.patch)].condition);
+      const aero::BoundaryCondition& c = of(solver.judgement().conditions()[std::size_t(p.patch)].condition);
       if (sticks(c)) (c.wall_law ? mine.by_law : mine.resolved).push_back({p.area, p.y_plus});
     }
   runtime::Packer packer;

@@ -136,12 +136,12 @@ void FlowCase::fill_geometry(MPI_Comm comm) {
 }
 
 void FlowCase::place(std::int64_t window, double window_s) {
-  solver_->place(motion_->poses(double(window - 1) * window_s), motion_->poses(double(window) * window_s));
+  solver_->motion().place(motion_->poses(double(window - 1) * window_s), motion_->poses(double(window) * window_s));
 }
 
 void FlowCase::move(std::int64_t window, double window_s) {
   if (rotor_ && !steady()) rotor_->move_to(rotor_->turned(window + 1));
-  if (motion_) solver_->move_to(motion_->poses(double(window + 1) * window_s));
+  if (motion_) solver_->motion().move_to(motion_->poses(double(window + 1) * window_s));
   if (actuator_) place_actuator(steady() ? 0.0 : double(window + 1) * window_s);
 }
 
@@ -151,16 +151,8 @@ void FlowCase::place_actuator(double time) {
   actuator_->place(rotor);
 }
 
-FlowCase::Snapshot FlowCase::snapshot() const {
-  Snapshot snapshot{.tiles = {}, .march = solver_->save_march(), .set_up = solver_->save_set_up()};
-  for (int n = 0; n < int(solver_->tiles().size()); ++n) solver_->save(n, snapshot.tiles.emplace_back(solver_->saved_size(n)));
-  return snapshot;
-}
-
-void FlowCase::return_to(const Snapshot& to, std::int64_t window, double window_s) {
-  for (int n = 0; n < int(to.tiles.size()); ++n) solver_->load(n, to.tiles[std::size_t(n)]);
-  solver_->load_march(to.march);
-  solver_->load_set_up(to.set_up);
+void FlowCase::return_to(const aero::FlowSnapshot& to, std::int64_t window, double window_s) {
+  solver_->restart().restore(to);
   if (rotor_ && !steady()) rotor_->placed_at(window);
   if (motion_) place(window, window_s);
   solver_->clear_rows();

@@ -41,13 +41,8 @@ class FlowCase {
   void move(std::int64_t window, double window_s);
 
   /// The state at the end of a window, kept in memory to go back to.
-  struct Snapshot {
-    std::vector<std::vector<double>> tiles;
-    std::vector<double> march;
-    aero::FlowSolver::SetUpNote set_up;
-  };
-  Snapshot snapshot() const;
-  void return_to(const Snapshot& to, std::int64_t window, double window_s);
+  aero::FlowSnapshot snapshot() const { return solver_->restart().snapshot(); }
+  void return_to(const aero::FlowSnapshot& to, std::int64_t window, double window_s);
 
   /// How a steady march that is no rotor's begins and steps, in the order in which they are tried.
   enum class Way : std::uint8_t { coarser_grids, own_grid, physical_pseudo_time };

@@ -122,7 +122,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   if (air_.steady() && march.spent() && march.stands_still())
     begin_again(fmt::format("the flux balance is at {:.2g} and was not halved in the last {} pseudo-steps, CFL {:.2g}",
                             march.balance_drop(), march.still_for(), march.cfl()));
-  FlowCase::Snapshot before = air_.snapshot();
+  aero::FlowSnapshot before = air_.snapshot();
   rows_.clear(), rows_from_ = window;
   for (int retry = 0;; ++retry) {
     march.ease(coupling::share_of_cfl(retry));
@@ -133,7 +133,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
     const std::string failure =
         fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}",
                     timeline_.window_end_s(window), march.why(), march.steps(), march.cfl(), march.density_residual(),
-                    march.first_density_residual(), solver.trouble());
+                    march.first_density_residual(), solver.judgement().trouble());
     air_.return_to(before, window, timeline_.window_s());
     if (given_up) return {};
     if (retry == coupling::most_retries && begin_again(failure)) {
@@ -158,7 +158,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
     if (march.verdict() == aero::Verdict::converged && !march.spent())
       advance.settled = fmt::format("{}; flux balance down to {:.2g}, density residual to {:.2g}", march.why(),
                                     march.balance_drop(), density_drop(march));
-    solver.keep_last_row();
+    solver.judgement().keep_last_row();
   } else {
     rows_ = {solver.rows().back()};
     solver.clear_rows();

@@ -42,7 +42,7 @@ Choice choose_preconditioner(FlowSolver& solver, MPI_Comm comm, int threads) {
     s.time_order = 0;
     s.march.cfl_start = s.march.cfl_max = std::min(s.march.cfl_max, trial_cfl);
     s.march.max_steps = 1, s.march.drop = 0.0, s.march.absolute = 0.0, s.march.matrix_free_below = 0.0;
-    FlowSolver trial(solver.grid(), s, solver.conditions());
+    FlowSolver trial(solver.grid(), s, solver.judgement().conditions());
     const int groups = s.preconditioner == "coarse" ? coarse_groups(solver.grid().tiling(), s.common.group_cells) : 0;
     trial.start_from(solver);
     runtime::Graph graph(comm);

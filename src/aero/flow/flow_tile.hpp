@@ -28,6 +28,13 @@ struct FlowBoundary {
   std::optional<double> temperature = {};  ///< that a no-slip wall is held at [K]; unset: adiabatic
 };
 
+/// The cell of a tile that limits its update most, and by what.
+struct UpdateLimit {
+  double fraction = 1.0;  ///< of the update that it allows; -1: none, a matrix was singular
+  Index cell{};
+  const char* what = "";
+};
+
 struct FlowTile {
   TileGeometry* geometry = nullptr;
   int index = 0;           ///< in the tiling
@@ -56,6 +63,9 @@ struct FlowTile {
   AlignedArray<float> direction;                     ///< with one ghost: what the operator is applied to
   std::vector<AlignedArray<float>> vectors;          ///< of the Krylov cycle: [cell][5], then [cell][turbulence]
   std::vector<AlignedArray<float>> directions_kept;  ///< of flexible GMRES and GCG
+
+  UpdateLimit limit;
+  double noise = 0.0;  ///< squared norm of what round-off leaves of its balances
 
   int unknowns() const { return mean_unknowns + turbulence; }
   std::size_t vector_size() const { return std::size_t(box.count()) * unknowns(); }

@@ -11,7 +11,7 @@
 #include "runtime/executor/executor.hpp"
 #include "src/aero/flow/boundary.hpp"
 #include "src/aero/flow/numbering.hpp"
-#include "src/aero/flow/tasks.hpp"
+#include "src/aero/flow/halo.hpp"
 #include "src/aero/hypre/multigrid.hpp"
 
 namespace spindrift::aero {

@@ -3,26 +3,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/tasks.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
-#include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow/halo.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
 
 namespace spindrift::aero {
 
 using namespace runtime;
 
+namespace {
+
+/// Of each owned tile, in the graph: its cells, and its ghosts.
+struct HaloData {
+  const std::vector<Datum>&inside, &ghosts;
+};
+
+/// Ghosts of centres and volumes, from tiles here and on other ranks.
+void record_centres(Graph& graph, TileArrays& arrays, const TileMotion& motion, RecordedGraphs& recorded, const HaloData& of,
+                    const std::vector<Use>& control) {
+  const auto view = [&arrays](int t) -> TileGeometry& { return arrays.grid[t]; };
+  const auto layout = [&arrays](const Tile& t) { return cell_layout(t, cell_ghosts, arrays.planar()); };
+  const HaloField<double> centre{"aero/centres",
+                                 [view](int t) { return view(t).centre(); },
+                                 layout,
+                                 {Quantity::point},
+                                 cell_ghosts,
+                                 &of.inside,
+                                 &of.ghosts,
+                                 6,
+                                 &motion.periodic()};
+  const HaloField<double> volume{"aero/volumes",
+                                 [view](int t) { return view(t).volume(); },
+                                 layout,
+                                 {Quantity::scalar},
+                                 cell_ghosts,
+                                 &of.inside,
+                                 &of.ghosts,
+                                 7,
+                                 &motion.periodic()};
+  const auto always = [] { return true; };
+  const auto nothing = [](int) {};
+  record_halo<double>(graph, arrays.grid, arrays.local, centre, recorded.double_buffers, always, nothing, control);
+  record_halo<double>(graph, arrays.grid, arrays.local, volume, recorded.double_buffers, always, nothing, control);
+}
+
 /// Names of what the tasks share, and the pieces of the graph.
 class StepGraph {
  public:
-  StepGraph(FlowSolver& solver, Graph& graph) : s_(solver), g_(graph), owned_(solver.tiles_.size()) {
+  StepGraph(const MarchParts& parts, RecordedGraphs& recorded, Graph& graph)
+      : arrays_(parts.arrays),
+        time_(parts.time),
+        motion_(parts.motion),
+        residual_of_(parts.residual),
+        system_(parts.system),
+        judged_(parts.judgement),
+        recorded_(recorded),
+        g_(graph),
+        owned_(arrays_.tiles.size()) {
     for (auto* data : {&state_, &state_ghosts_, &gradients_, &gradient_ghosts_, &residual_, &matrix_, &norms_, &vectors_,
                        &direction_, &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &dots_, &fraction_, &past_, &gathered_})
       *data = graph.data(owned_);
     sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(),
     krylov_ = graph.datum(), built_ = graph.datum(), common_ = graph.datum(), total_fraction_ = graph.datum();
-    if (s_.body_force_) samples_ = graph.data(owned_), sampled_ = graph.datum(), forces_ = graph.datum();
+    if (judged_.body_force()) samples_ = graph.data(owned_), sampled_ = graph.datum(), forces_ = graph.datum();
   }
 
   /// A common part is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while
@@ -37,10 +82,10 @@ class StepGraph {
 
  private:
   void record_march(int urgency) {
-    if (s_.setting_.time_order > 0) begin_time_step();
+    if (time_.unsteady()) begin_time_step();
     begin();
-    if (s_.moves()) move_grid();
-    g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(s_.march_.options().max_steps) + 2, .urgency = urgency}, [&] {
+    if (motion_.moves()) move_grid();
+    g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(judged_.march().options().max_steps) + 2, .urgency = urgency}, [&] {
       residual_of_state();
       judge();
       each(
@@ -49,23 +94,27 @@ class StepGraph {
             return Uses{reads(decision_),     reads(state_[n]),           reads(state_ghosts_[n]),
                         reads(gradients_[n]), reads(gradient_ghosts_[n]), writes(matrix_[n])};
           },
-          [this](std::size_t n) { s_.build_matrix(s_.tiles_[n]); });
+          [this](std::size_t n) {
+            if (judged_.solving()) system_.build(tile(n), judged_.march().cfl(), judged_.refreshes());
+          });
       if (common()) {
         Uses uses{reads(decision_), writes(built_)};
         uses.push_back(reads(matrix_));
         g_.collective(
-            "aero/preconditioner", uses, [this](MPI_Comm comm) { s_.preconditioner_->refresh_common(comm); },
-            [this] { return s_.refreshes(); });
+            "aero/preconditioner", uses, [this](MPI_Comm comm) { system_.preconditioner().refresh_common(comm); },
+            [this] { return judged_.refreshes(); });
       }
       g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = urgency + 1}, [&] { krylov_iteration(); });
       update();
-      g_.until("aero/converged", {reads(decision_)}, [this] { return ends_march(s_.march_.verdict()); });
+      g_.until("aero/converged", {reads(decision_)}, [this] { return ends_march(judged_.march().verdict()); });
     });
   }
 
-  int columns() const { return s_.cycle_.most_columns(); }
-  bool common() const { return s_.preconditioner_->has_common(); }
-  std::string of(const char* path, std::size_t n) const { return std::string(path) + "/" + std::to_string(s_.tiles_[n].index); }
+  int columns() const { return system_.cycle().most_columns(); }
+  bool common() const { return system_.preconditioner().has_common(); }
+  std::string of(const char* path, std::size_t n) const {
+    return std::string(path) + "/" + std::to_string(arrays_.tiles[n].index);
+  }
   template <class UsesOf, class Work>
   void each(const char* path, UsesOf&& uses, Work work) {
     for (std::size_t n = 0; n < owned_; ++n) g_.task(of(path, n), uses(n), [work, n] { work(n); });
@@ -78,27 +127,19 @@ class StepGraph {
         [&](std::size_t n) {
           return Uses{reads(state_[n]), updates(past_[n])};
         },
-        [this](std::size_t n) { s_.begin_time_step(s_.tiles_[n]); });
+        [this](std::size_t n) { residual_of_.keep_past(tile(n)); });
   }
   void begin() {
     Uses uses{updates(decision_)};
     uses.push_back(reads(past_));
     g_.task("aero/begin", uses, [this] {
-      if (s_.setting_.time_order > 0 || s_.march_.steps() == 0)
-        s_.march_.begin_step();
-      else
-        s_.resume();
-      s_.solving_ = true;
-      s_.preconditioner_->begin(s_.time_steps_);
-      if (s_.setting_.time_order > 0) {
-        const bool second = s_.setting_.time_order > 1 && s_.time_steps_ > 0;
-        s_.weights_ = second ? bdf2(s_.setting_.dt / s_.dt_before_) : bdf1;
-        s_.implicit_.physical_rate = s_.weights_.now / s_.setting_.dt;
-        s_.boundary_.weights = s_.weights_;
-        s_.poses_before_ = std::exchange(s_.poses_, s_.poses_next_);
-        s_.dt_before_ = s_.setting_.dt;
-        ++s_.time_steps_;
-      }
+      judged_.begin();
+      system_.preconditioner().begin(time_.steps);
+      if (!time_.unsteady()) return;
+      time_.begin_step();
+      residual_of_.begin_step();
+      system_.set_physical_rate(time_.weights.now / time_.dt);
+      motion_.begin_step();
     });
   }
 
@@ -109,8 +150,8 @@ class StepGraph {
         [&](std::size_t n) {
           return Uses{reads(decision_), reads(past_[n]), updates(state_[n])};
         },
-        [this](std::size_t n) { s_.move_tile(s_.tiles_[n]); });
-    s_.record_centres(g_, state_, state_ghosts_, {reads(decision_)});
+        [this](std::size_t n) { motion_.move(tile(n)); });
+    record_centres(g_, arrays_, motion_, recorded_, {state_, state_ghosts_}, {reads(decision_)});
   }
 
   void residual_of_state() {
@@ -120,48 +161,46 @@ class StepGraph {
         [&](std::size_t n) {
           return Uses{reads(decision_), reads(state_[n]), reads(state_ghosts_[n]), writes(gradients_[n])};
         },
-        [this](std::size_t n) { s_.slopes(s_.tiles_[n], s_.tiles_[n].state.data()); });
+        [this](std::size_t n) { residual_of_.gradients(tile(n), tile(n).state.data()); });
     gradient_ghosts(
-        "aero/gradient_ghosts", [this] { return s_.setting_.viscous; }, false, 2);
-    if (s_.body_force_) body_force();
+        "aero/gradient_ghosts", [this] { return residual_of_.has_friction(); }, false, 2);
+    if (judged_.body_force()) body_force();
     each(
         "aero/residual",
         [&](std::size_t n) {
           Uses uses{reads(state_[n]), reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]),
                     reads(past_[n]),  reads(decision_),        writes(residual_[n]), writes(norms_[n])};
-          if (s_.body_force_) uses.push_back(reads(forces_));
+          if (judged_.body_force()) uses.push_back(reads(forces_));
           return uses;
         },
         [this](std::size_t n) {
-          FlowTile& tile = s_.tiles_[n];
-          if (s_.body_force_) s_.body_force_->spread(n, tile);
-          s_.evaluate(tile, tile.state.data(), tile.residual.data());
-          const std::size_t loads = s_.loads_.size();
-          s_.measure(tile, std::span(s_.norm_partials_).subspan(n * s_.norm_sums_.size(), s_.norm_sums_.size()),
-                     std::span(s_.load_partials_).subspan(n * loads, loads));
+          if (judged_.body_force()) judged_.body_force()->spread(n, tile(n));
+          residual_of_.evaluate(tile(n), tile(n).state.data(), tile(n).residual.data());
+          judged_.measure(n, system_, residual_of_.viscous());
         });
   }
   /// Forces inside the air, of the flow as it is: products of the linear solver see them as they stand.
   void body_force() {
-    const std::size_t width = s_.body_sums_.size();
     each(
         "aero/force/sample",
         [&](std::size_t n) {
           return Uses{reads(decision_), reads(state_[n]), writes(samples_[n])};
         },
-        [this, width](std::size_t n) {
-          s_.body_force_->sample(n, s_.tiles_[n], std::span(s_.body_partials_).subspan(n * width, width));
-        });
+        [this](std::size_t n) { judged_.body_force()->sample(n, tile(n), judged_.force_samples.of(n)); });
+    TileSums& sums = judged_.force_samples;
     g_.reduce("aero/force/sums", {reads(samples_), reads(decision_), writes(sampled_)},
-              {.partials = s_.body_partials_, .result = s_.body_sums_});
+              {.partials = sums.partials, .result = sums.result});
     g_.task("aero/force/act", {reads(sampled_), reads(decision_), writes(forces_)},
-            [this] { s_.body_force_->act(s_.body_sums_); });
+            [this] { judged_.body_force()->act(judged_.force_samples.result); });
   }
   void judge() {
-    g_.reduce("aero/norms", {reads(norms_), writes(sums_)}, {.partials = s_.norm_partials_, .result = s_.norm_sums_});
+    g_.reduce("aero/norms", {reads(norms_), writes(sums_)}, {.partials = judged_.norms.partials, .result = judged_.norms.result});
     const Datum loads = g_.datum();
-    g_.reduce("aero/loads", {reads(norms_), writes(loads)}, {.partials = s_.load_partials_, .result = s_.loads_});
-    g_.task("aero/judge", {reads(sums_), reads(loads), updates(decision_)}, [this] { s_.judge(); });
+    g_.reduce("aero/loads", {reads(norms_), writes(loads)}, {.partials = judged_.loads.partials, .result = judged_.loads.result});
+    g_.task("aero/judge", {reads(sums_), reads(loads), updates(decision_)}, [this] {
+      judged_.judge();
+      if (judged_.solving()) system_.begin(judged_.mean_norm(), judged_.model_norm(), judged_.refreshes());
+    });
   }
 
   void krylov_iteration() {
@@ -177,7 +216,7 @@ class StepGraph {
         Uses uses = direction_uses(n);
         uses.push_back(reads(krylov_)), uses.push_back(reads(residual_[n]));
         g_.task(of("aero/krylov/direction", n), uses, [this, n](const Context& c) {
-          s_.make_vector(s_.tiles_[n], int(c.iteration));
+          vector(n, int(c.iteration));
           direction(n, int(c.iteration));
         });
       }
@@ -186,8 +225,8 @@ class StepGraph {
         Uses uses = vector_uses(n);
         uses.push_back(writes(gathered_[n])), uses.push_back(reads(built_));
         g_.task(of("aero/krylov/vector", n), uses, [this, n](const Context& c) {
-          s_.make_vector(s_.tiles_[n], int(c.iteration));
-          if (s_.solving_) s_.preconditioner_->gather(s_.tiles_[n], s_.cycle_.source(s_.tiles_[n], int(c.iteration)));
+          vector(n, int(c.iteration));
+          if (judged_.solving()) system_.preconditioner().gather(tile(n), system_.cycle().source(tile(n), int(c.iteration)));
         });
       }
       common_part("aero/krylov/common");
@@ -198,7 +237,8 @@ class StepGraph {
       }
     }
     g_.reduce("aero/krylov/size", {reads(size_), reads(decision_), writes(total_size_)},
-              {Reduction::Operation::max, s_.size_partials_, {&s_.direction_size_, 1}, [this] { return perturbs(); }});
+              {Reduction::Operation::max, system_.direction_size.partials, system_.direction_size.result,
+               [this] { return judged_.perturbs(); }});
     // w = A z: by the stored blocks, or by the residual of a state a little further along z.
     const HaloField<float> direction{"aero/krylov/direction_ghosts",
                                      [this](int t) { return tile_of(t).direction_view(); },
@@ -208,17 +248,17 @@ class StepGraph {
                                      &direction_,
                                      &direction_ghosts_,
                                      3,
-                                     &s_.periodic_};
+                                     &motion_.periodic()};
     record_halo<float>(
-        g_, s_.grid_, s_.local_, direction, s_.float_buffers_, [this] { return s_.solving_ && !s_.matrix_free_; }, [](int) {},
-        {reads(decision_)});
+        g_, arrays_.grid, arrays_.local, direction, recorded_.float_buffers,
+        [this] { return judged_.solving() && !judged_.matrix_free(); }, [](int) {}, {reads(decision_)});
     each(
         "aero/krylov/perturb",
         [&](std::size_t n) {
           return Uses{reads(decision_), reads(state_[n]), reads(total_size_), reads(direction_[n]), writes(trial_[n])};
         },
         [this](std::size_t n) {
-          if (perturbs()) s_.perturb(s_.tiles_[n]);
+          if (judged_.perturbs()) system_.perturb(tile(n));
         });
     ghosts_of("aero/krylov/trial_ghosts", trial_, trial_ghosts_, true, 4);
     each(
@@ -227,30 +267,33 @@ class StepGraph {
           return Uses{reads(decision_), reads(trial_[n]), reads(trial_ghosts_[n]), writes(gradients_[n])};
         },
         [this](std::size_t n) {
-          if (perturbs()) s_.slopes(s_.tiles_[n], s_.tiles_[n].trial.data());
+          if (judged_.perturbs()) residual_of_.gradients(tile(n), tile(n).trial.data());
         });
     gradient_ghosts(
-        "aero/krylov/gradient_ghosts", [this] { return perturbs() && s_.setting_.viscous; }, true, 5);
+        "aero/krylov/gradient_ghosts", [this] { return judged_.perturbs() && residual_of_.has_friction(); }, true, 5);
     for (std::size_t n = 0; n < owned_; ++n)
       g_.task(of("aero/krylov/product", n),
               {reads(decision_), reads(direction_[n]), reads(direction_ghosts_[n]), reads(total_size_), reads(trial_[n]),
                reads(trial_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(matrix_[n]), reads(past_[n]),
                reads(residual_[n]), updates(vectors_[n]), writes(dots_[n])},
-              [this, n](const Context& c) { s_.product(s_.tiles_[n], int(c.iteration), dots_of(n)); });
+              [this, n](const Context& c) {
+                if (judged_.solving())
+                  system_.product(tile(n), int(c.iteration), judged_.march().cfl(), judged_.matrix_free(), system_.dots.of(n));
+              });
     g_.reduce("aero/krylov/dots", {reads(dots_), reads(decision_), writes(total_dots_)},
-              {.partials = s_.dot_partials_, .result = s_.dots_, .active = [this] { return s_.solving_; }});
+              {.partials = system_.dots.partials, .result = system_.dots.result, .active = [this] { return judged_.solving(); }});
     g_.task("aero/krylov/append", {reads(total_dots_), reads(decision_), updates(krylov_)}, [this] {
-      if (s_.solving_) s_.cycle_.append(s_.dots_);
+      if (judged_.solving()) system_.append();
     });
-    g_.until("aero/krylov/enough", {reads(krylov_), reads(decision_)}, [this] {
-      return !s_.solving_ || s_.cycle_.breakdown() ||
-             s_.cycle_.residual_norm() <= s_.march_.options().krylov_drop * s_.linear_norm_;
-    });
+    g_.until("aero/krylov/enough", {reads(krylov_), reads(decision_)},
+             [this] { return !judged_.solving() || system_.solved(judged_.march().options().krylov_drop); });
   }
 
+  void vector(std::size_t n, int iteration) {
+    if (judged_.solving()) system_.make_vector(tile(n), iteration);
+  }
   void direction(std::size_t n, int iteration) {
-    s_.precondition_vector(s_.tiles_[n], iteration);
-    s_.size_partials_[n] = s_.spread_direction(s_.tiles_[n], iteration);
+    system_.direction_size.of(n)[0] = judged_.solving() ? system_.make_direction(tile(n), iteration) : 0.0;
   }
   /// Between what tiles gather and what they make of it; one task of all ranks, beside others of this rank that wait for none of
   /// it.
@@ -258,18 +301,18 @@ class StepGraph {
     Uses uses{reads(decision_), reads(built_), writes(common_)};
     uses.push_back(reads(gathered_));
     g_.collective(
-        label, uses, [this](MPI_Comm comm) { s_.preconditioner_->common(comm); }, [this] { return s_.solving_; });
+        label, uses, [this](MPI_Comm comm) { system_.preconditioner().common(comm); }, [this] { return judged_.solving(); });
   }
 
   void update() {
     g_.task("aero/solution", {reads(decision_), updates(krylov_)}, [this] {
-      if (s_.solving_) s_.cycle_.finish();
+      if (judged_.solving()) system_.cycle().finish();
     });
     const auto update_uses = [&](std::size_t n) {
       return Uses{reads(decision_), reads(krylov_),       reads(matrix_[n]),
                   reads(state_[n]), updates(vectors_[n]), writes(fraction_[n])};
     };
-    const bool between = common() && s_.cycle_.precondition_at_end();
+    const bool between = common() && system_.cycle().precondition_at_end();
     if (between) {
       each(
           "aero/combine",
@@ -277,8 +320,9 @@ class StepGraph {
             return Uses{reads(decision_), reads(krylov_), reads(built_), updates(vectors_[n]), writes(gathered_[n])};
           },
           [this](std::size_t n) {
-            s_.combine(s_.tiles_[n]);
-            if (s_.solving_) s_.preconditioner_->gather(s_.tiles_[n], s_.cycle_.solution(s_.tiles_[n]));
+            if (!judged_.solving()) return;
+            system_.cycle().combine(tile(n));
+            system_.preconditioner().gather(tile(n), system_.cycle().solution(tile(n)));
           });
       common_part("aero/common");
     }
@@ -290,25 +334,39 @@ class StepGraph {
           return uses;
         },
         [this, between](std::size_t n) {
-          if (!between) s_.combine(s_.tiles_[n]);
-          s_.precondition_solution(s_.tiles_[n]);
-          s_.fraction_partials_[n] = s_.find_update(s_.tiles_[n]);
+          double& fraction = system_.fraction.of(n)[0];
+          fraction = 1.0;
+          if (!judged_.solving()) return;
+          if (!between) system_.cycle().combine(tile(n));
+          system_.solve_for_update(tile(n));
+          fraction = system_.update_fraction(tile(n));
         });
     g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
-              {Reduction::Operation::min, s_.fraction_partials_, {&s_.fraction_, 1}});
+              {Reduction::Operation::min, system_.fraction.partials, system_.fraction.result});
     g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
-      if (!s_.solving_) return;
-      if (s_.fraction_ < 0.0)
-        s_.march_.not_updated();
+      if (!judged_.solving()) return;
+      if (system_.fraction.one() < 0.0)
+        judged_.march().not_updated();
       else
-        s_.march_.updated(s_.fraction_, s_.cycle_.columns(), s_.cycle_.residual_norm() / s_.linear_norm_);
+        judged_.march().updated(system_.fraction.one(), system_.cycle().columns(), system_.linear_drop());
     });
     each(
         "aero/apply",
         [&](std::size_t n) {
           return Uses{reads(decision_), reads(total_fraction_), reads(vectors_[n]), updates(state_[n]), updates(trial_[n])};
         },
-        [this](std::size_t n) { s_.apply_update(s_.tiles_[n]); });
+        [this](std::size_t n) { apply(tile(n)); });
+  }
+
+  /// The state after the judgement: a step further, back where it was, or as it is.
+  void apply(FlowTile& tile) const {
+    const March& march = judged_.march();
+    if (march.verdict() == Verdict::go_on) return system_.apply_update(tile);
+    if (march.verdict() == Verdict::rejected) {
+      std::copy_n(tile.trial.data(), tile.trial.size(), tile.state.data());
+      return;
+    }
+    if (march.verdict() == Verdict::failed && march.rejections() > 0) std::swap(tile.state, tile.trial);
   }
 
   // ---- ghosts
@@ -322,19 +380,19 @@ class StepGraph {
                                   &inside,
                                   &ghosts,
                                   tag,
-                                  &s_.periodic_};
+                                  &motion_.periodic()};
     record_halo<double>(
-        g_, s_.grid_, s_.local_, field, s_.double_buffers_, [this, trial] { return !trial || perturbs(); },
+        g_, arrays_.grid, arrays_.local, field, recorded_.double_buffers, [this, trial] { return !trial || judged_.perturbs(); },
         [this, trial](int n) {
-          FlowTile& tile = s_.tiles_[std::size_t(n)];
-          fill_boundaries(tile, trial ? tile.trial.data() : tile.state.data(), s_.boundary_);
+          FlowTile& t = tile(std::size_t(n));
+          residual_of_.fill_ghosts(t, trial ? t.trial.data() : t.state.data());
         },
         {reads(decision_)});
   }
   void gradient_ghosts(const char* label, std::function<bool()> active, bool trial, int tag) {
     std::vector<Quantity> quantities{Quantity::tensor, Quantity::vector};
     for (int t = 0; t < turbulence(); ++t) quantities.push_back(Quantity::vector);
-    if (!s_.tiles_.empty() && s_.tiles_[0].eddies)
+    if (!arrays_.tiles.empty() && tile(0).eddies)
       quantities.insert(quantities.end(), std::size_t(2 + turbulence()), Quantity::scalar);
     const HaloField<double> field{label,
                                   [this](int t) { return tile_of(t).gradient_view(); },
@@ -344,12 +402,11 @@ class StepGraph {
                                   &gradients_,
                                   &gradient_ghosts_,
                                   tag,
-                                  &s_.periodic_};
-    record_halo<double>(g_, s_.grid_, s_.local_, field, s_.double_buffers_, active,
+                                  &motion_.periodic()};
+    record_halo<double>(g_, arrays_.grid, arrays_.local, field, recorded_.double_buffers, active,
                         [this, trial](int n) {
-                          FlowTile& tile = s_.tiles_[std::size_t(n)];
-                          fill_boundary_gradients(tile, trial ? tile.trial.data() : tile.state.data(), s_.setting_.gas,
-                                                  s_.model_->wall_spread);
+                          FlowTile& t = tile(std::size_t(n));
+                          residual_of_.fill_gradient_ghosts(t, trial ? t.trial.data() : t.state.data());
                         },
                         {reads(decision_)});
   }
@@ -360,16 +417,18 @@ class StepGraph {
   }
   static constexpr int gradient_ghosts_count = aero::gradient_ghosts;
 
-  FlowTile& tile_of(int tile) { return s_.tiles_[std::size_t(s_.local_[std::size_t(tile)])]; }
-  bool planar() const { return s_.grid_.tiling().planar; }
-  int turbulence() const { return s_.tiles_.empty() ? 0 : s_.tiles_[0].turbulence; }
-  bool perturbs() const { return s_.solving_ && s_.matrix_free_; }
-  std::span<double> dots_of(std::size_t n) {
-    const std::size_t width = s_.dots_.size();
-    return std::span(s_.dot_partials_).subspan(n * width, width);
-  }
+  FlowTile& tile(std::size_t n) const { return arrays_.tiles[n]; }
+  FlowTile& tile_of(int index) const { return arrays_.owned(index); }
+  bool planar() const { return arrays_.planar(); }
+  int turbulence() const { return arrays_.tiles.empty() ? 0 : tile(0).turbulence; }
 
-  FlowSolver& s_;
+  TileArrays& arrays_;
+  PhysicalTime& time_;
+  TileMotion& motion_;
+  FlowResidual& residual_of_;
+  ImplicitSystem& system_;
+  Judgement& judged_;
+  RecordedGraphs& recorded_;
   Graph& g_;
   std::size_t owned_;
   std::vector<Datum> state_, state_ghosts_, gradients_, gradient_ghosts_, residual_, matrix_, norms_, vectors_, direction_,
@@ -378,37 +437,22 @@ class StepGraph {
   Datum sums_, decision_, total_size_, total_dots_, krylov_, built_, common_, total_fraction_;
 };
 
-void FlowSolver::record(Graph& graph) {
+}  // namespace
+
+void record_march(Graph& graph, const MarchParts& parts, RecordedGraphs& recorded) {
   // The pieces of the graph live on in its tasks.
-  auto pieces = std::make_shared<StepGraph>(*this, graph);
+  auto pieces = std::make_shared<StepGraph>(parts, recorded, graph);
   pieces->record();
-  pieces_.push_back(std::move(pieces));
+  recorded.pieces.push_back(std::move(pieces));
 }
 
-void FlowSolver::record_geometry(Graph& graph) {
-  const std::vector<Datum> nodes = graph.data(tiles_.size()), ghosts = graph.data(tiles_.size());
-  for (std::size_t n = 0; n < tiles_.size(); ++n)
-    graph.task("aero/geometry/" + std::to_string(tiles_[n].index), {writes(nodes[n])}, [] {});
-  if (tiles_.empty()) graph.task("aero/geometry", {}, [] {});  // a coarse grid may have fewer tiles than there are ranks
-  record_centres(graph, nodes, ghosts, {});
-}
-
-/// Ghosts of centres and volumes, from tiles here and on other ranks.
-void FlowSolver::record_centres(Graph& graph, const std::vector<Datum>& nodes, const std::vector<Datum>& ghosts,
-                                const std::vector<Use>& control) {
-  const auto view = [this](int t) -> TileGeometry& { return grid_[t]; };
-  const auto layout = [this](const Tile& t) { return cell_layout(t, cell_ghosts, grid_.tiling().planar); };
-  const HaloField<double> centre{
-      "aero/centres", [view](int t) { return view(t).centre(); }, layout, {Quantity::point}, cell_ghosts, &nodes, &ghosts, 6,
-      &periodic_};
-  const HaloField<double> volume{
-      "aero/volumes", [view](int t) { return view(t).volume(); }, layout, {Quantity::scalar}, cell_ghosts, &nodes, &ghosts, 7,
-      &periodic_};
-  const auto always = [] { return true; };
-  record_halo<double>(
-      graph, grid_, local_, centre, double_buffers_, always, [](int) {}, control);
-  record_halo<double>(
-      graph, grid_, local_, volume, double_buffers_, always, [](int) {}, control);
+void record_geometry(Graph& graph, TileArrays& arrays, const TileMotion& motion, RecordedGraphs& recorded) {
+  const std::vector<Datum> inside = graph.data(arrays.tiles.size()), ghosts = graph.data(arrays.tiles.size());
+  const HaloData of{inside, ghosts};
+  for (std::size_t n = 0; n < arrays.tiles.size(); ++n)
+    graph.task("aero/geometry/" + std::to_string(arrays.tiles[n].index), {writes(of.inside[n])}, [] {});
+  if (arrays.tiles.empty()) graph.task("aero/geometry", {}, [] {});  // a coarse grid may have fewer tiles than there are ranks
+  record_centres(graph, arrays, motion, recorded, of, {});
 }
 
 }  // namespace spindrift::aero

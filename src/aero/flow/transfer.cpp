@@ -109,7 +109,7 @@ void begin_with(const FlowSolver& coarse, FlowSolver& fine, const CellPlace& pla
   if (march.verdict() == Verdict::failed)
     throw NumericalFailure(
         fmt::format("aero: on the coarser grid of the start (aero.flow.coarse_steps): {} (pseudo-step {}, CFL {:.3g}){}",
-                    march.why(), march.steps(), march.cfl(), coarse.trouble()),
+                    march.why(), march.steps(), march.cfl(), coarse.judgement().trouble()),
         "aero", march.steps(), 0.0);
   transfer(coarse, fine, place, comm);
 }

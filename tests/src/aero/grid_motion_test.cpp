@@ -128,10 +128,10 @@ TEST_CASE("a uniform stream stays one while a grid follows an aerofoil that pitc
   s.march = {.drop = 0.0, .max_steps = 2, .krylov_steps = 10, .matrix_free_below = 0.0};
   Case c(naca0012({.n = 1, .far = 20.0}), s, {}, {}, 1, 0, true);
   const GridMotion motion(c.grid, o, outer, {});
-  c.solver->place(motion.poses(-s.dt), motion.poses(0.0));
+  c.solver->motion().place(motion.poses(-s.dt), motion.poses(0.0));
   c.prepare();
   for (int n = 1; n <= 10; ++n) {
-    c.solver->move_to(motion.poses(n * s.dt));
+    c.solver->motion().move_to(motion.poses(n * s.dt));
     c.run();
   }
   const double of_bound = stream_deviation(*c.solver) / 1e-12;  // printed with digits

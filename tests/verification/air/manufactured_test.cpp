@@ -176,7 +176,7 @@ Errors errors(int n, bool planar) {
     for (int t = 0; t < carried; ++t)
       tile.state.data()[tile.cells.at(k, j, i) + (mean_unknowns + t) * tile.cells.component] = m.at(x).value[5 + t];
   });
-  c.solver->set_source([&](const Point& x, std::array<double, 7>& values) { m.source(x, values); });
+  set_source(c.solver->tiles(), [&](const Point& x, std::array<double, 7>& values) { m.source(x, values); });
   c.prepare();
   c.run();
   CAPTURE(n, planar, Model::name, c.solver->march().steps(), c.solver->march().why());

@@ -57,14 +57,14 @@ constexpr std::size_t averaged = 40;
 Point march(ResolvedRotor& rotor, double wind, const std::string& name) {
   const std::clock_t begin = std::clock();
   rotor.prepare(MPI_COMM_SELF);
-  rotor.solver().watch([&](const PseudoRow& row) {  // hours may pass
+  rotor.solver().judgement().watch([&](const PseudoRow& row) {  // hours may pass
     if (row.step % 10 != 0) return;
     fmt::print("  {} step {}: CFL {:.0f}, density residual {:.3g}, thrust {:.1f} kN\n", name, row.step, row.cfl,
                row.density_residual, 1e-3 * rotor.load(row).thrust);
     std::fflush(stdout);
   });
   rotor.run();
-  rotor.solver().watch({});
+  rotor.solver().judgement().watch({});
   const March& m = rotor.solver().march();
   CAPTURE(name, m.why(), m.rejections());
   CHECK(m.verdict() == Verdict::converged);
@@ -169,7 +169,7 @@ TEST_CASE(
 TEST_CASE("thrust grows with the wind at fixed speed of rotation as that of blade elements does", "[rotor][long]") {
   ResolvedRotor more(going_on(setup(resolutions[1], 11.5, rpm, 80)));
   more.solver().start_from(member(1).rotor->solver());
-  more.solver().add_velocity([](const Eigen::Vector3d&) { return Eigen::Vector3d(0.5, 0.0, 0.0); });
+  add_velocity(more.solver().tiles(), [](const Eigen::Vector3d&) { return Eigen::Vector3d(0.5, 0.0, 0.0); });
   const double slope = (march(more, 11.5, "n = 2.1, 11.5 m/s").thrust - member(1).at11.thrust) / 0.5;
   fmt::print("dT/dU {:.1f} kN per m/s\n", 1e-3 * slope);
   CHECK(slope == Approx(162e3).epsilon(0.15));

@@ -55,22 +55,14 @@ inline std::vector<double> fingerprint(const FlowSolver& solver) {
 /// What would be saved of this rank's tiles, one after the other.
 inline std::vector<double> state_of(const FlowSolver& solver) {
   std::vector<double> all;
-  for (int n = 0; n < int(solver.tiles().size()); ++n) {
-    std::vector<double> tile(solver.saved_size(n));
-    solver.save(n, tile);
-    all.insert(all.end(), tile.begin(), tile.end());
-  }
+  for (const std::vector<double>& tile : solver.restart().save_tiles()) all.insert(all.end(), tile.begin(), tile.end());
   return all;
 }
 
 /// As by a checkpoint: the state and the march of one solver into another of the same tiles.
 inline void carry_over(const FlowSolver& from, FlowSolver& to) {
-  for (int n = 0; n < int(from.tiles().size()); ++n) {
-    std::vector<double> saved(from.saved_size(n));
-    from.save(n, saved);
-    to.load(n, saved);
-  }
-  to.load_march(from.save_march());
+  to.restart().load_tiles(from.restart().save_tiles());
+  to.restart().load_march(from.restart().save_march());
 }
 
 /// A grid with its solver on one rank, or a part of it on several.

@@ -42,7 +42,7 @@ Case carried_swirl(const FlowSetting& setting, int threads = 1, int ranks = 1, i
   c.prepare(ranks > 1 ? MPI_COMM_WORLD : MPI_COMM_SELF, {.threads = threads});
   return c;
 }
-FlowSolver::SetUpNote of_another(FlowSolver::SetUpNote note) {
+SetUpNote of_another(SetUpNote note) {
   note.number = 0;
   return note;
 }
@@ -57,7 +57,7 @@ TEST_CASE("a set-up kept over physical steps goes on over a restart with the sam
       whole.run(std::uint32_t(before + 2));
       first.run(std::uint32_t(before));
       carry_over(*first.solver, *second.solver);
-      second.solver->load_set_up(of_another(first.solver->save_set_up()));
+      second.solver->restart().load_set_up(of_another(first.solver->restart().save_set_up()));
       second.run(2);
       CHECK(state_of(*whole.solver) == state_of(*second.solver));
       carry_over(*first.solver, *forgetful.solver);  // without it a set-up of its own is made at once
@@ -74,20 +74,13 @@ TEST_CASE("windows undone and done again, with or without a new set-up in them, 
     Case once = carried_swirl(s), twice = carried_swirl(s);
     once.run(2 * every + 1);
     for (int step = 0; step < 2 * every + 1; ++step) {
-      const FlowSolver& from = *twice.solver;
-      std::vector<std::vector<double>> tiles;
-      for (int n = 0; n < int(from.tiles().size()); ++n) from.save(n, tiles.emplace_back(from.saved_size(n)));
-      const std::vector<double> march = from.save_march();
-      const FlowSolver::SetUpNote set_up = from.save_set_up();
-      for (int n = 0; n < int(tiles.size()); ++n) {  // from a state that is off a little: a window that will be undone
-        std::vector<double> off = tiles[std::size_t(n)];
-        for (double& value : off) value *= 1.001;
-        twice.solver->load(n, off);
-      }
+      const FlowSnapshot start = twice.solver->restart().snapshot();
+      TileStates off = start.tiles;  // a little off: a window that will be undone
+      for (std::vector<double>& tile : off)
+        for (double& value : tile) value *= 1.001;
+      twice.solver->restart().load_tiles(off);
       twice.run();
-      for (int n = 0; n < int(tiles.size()); ++n) twice.solver->load(n, tiles[std::size_t(n)]);
-      twice.solver->load_march(march);
-      twice.solver->load_set_up(set_up);
+      twice.solver->restart().restore(start);
       twice.run();
     }
     CHECK(state_of(*once.solver) == state_of(*twice.solver));

@@ -49,7 +49,7 @@ double free_stream(double ratio, double acoustic_cfl, int steps, bool deforms) {
         return x + Vector3d(0.03 * std::sin(c * t + 3.0 * x[1]), 0.03 * std::sin(2.0 * x[0] - c * t),
                             ratio * 0.05 * std::sin(c * t + 2.0 * x[0]));
       };
-    run.solver->move_to({pose});
+    run.solver->motion().move_to({pose});
     run.run();
   }
   return stream_deviation(*run.solver) / (1e-12 * std::max(1.0, acoustic_cfl * 1e-3));
@@ -103,7 +103,7 @@ std::vector<double> vortex_on_moving_grid(int steps, int order, bool moving) {
     pose.shape = [wave](const Vector3d& x) -> Vector3d {
       return x + wave * Vector3d(std::sin(6.0 * x[2]), 0.0, std::sin(4.0 * (x[0] + x[2])));
     };
-    c.solver->move_to({pose});
+    c.solver->motion().move_to({pose});
     c.run();
     REQUIRE_FALSE(c.solver->march().spent());
   }
@@ -203,7 +203,7 @@ TEST_CASE("a march on a moving grid restarts with the same bits", "[flow][fast]"
     return c;
   };
   const auto step = [&](Case& c, int n) {
-    c.solver->move_to({turned(Vector3d(0.2, -0.1, 0.3) * (n * n * 0.1), Vector3d(0.05 * n, 0.0, 0.02 * n * n))});
+    c.solver->motion().move_to({turned(Vector3d(0.2, -0.1, 0.3) * (n * n * 0.1), Vector3d(0.05 * n, 0.0, 0.02 * n * n))});
     c.run();
   };
   Case whole = make(), first = make(), second = make();
@@ -212,5 +212,5 @@ TEST_CASE("a march on a moving grid restarts with the same bits", "[flow][fast]"
   carry_over(*first.solver, *second.solver);
   for (int n = 3; n <= 4; ++n) step(second, n);
   CHECK(state_of(*whole.solver) == state_of(*second.solver));
-  CHECK_THROWS_AS(whole.solver->move_to({BlockPose{}, BlockPose{}, BlockPose{}}), std::invalid_argument);
+  CHECK_THROWS_AS(whole.solver->motion().move_to({BlockPose{}, BlockPose{}, BlockPose{}}), std::invalid_argument);
 }

@@ -100,9 +100,9 @@ void same_bits(int ranks) {
   CHECK(fingerprint(*whole.solver) == fingerprint(*part.solver));
   for (std::size_t n = 0; n < part.solver->tiles().size(); ++n) {
     const int tile = part.solver->tiles()[n].index;
-    std::vector<double> mine(part.solver->saved_size(int(n))), same(mine.size());
-    part.solver->save(int(n), mine);
-    whole.solver->save(tile, same);
+    std::vector<double> mine(part.solver->restart().size(int(n))), same(mine.size());
+    part.solver->restart().save(int(n), mine);
+    whole.solver->restart().save(tile, same);
     CHECK(mine == same);
   }
 }
@@ -130,7 +130,7 @@ TEST_CASE("a state without a finite residual is refused by name, not marched on"
   c.prepare();
   c.run();
   CHECK(c.solver->march().verdict() == Verdict::failed);
-  CHECK(c.solver->trouble().find("no finite residual in the row of block 0 cell (") != std::string::npos);
+  CHECK(c.solver->judgement().trouble().find("no finite residual in the row of block 0 cell (") != std::string::npos);
 }
 
 // The vectors of the linear solver are made as iterations come to them. Steady marches come to all of them; a physical step keeps

@@ -1,0 +1,58 @@
+// The residual of a tile's state: fluxes, sources, the physical time derivative, and the gradients and ghosts that they need.
+// Reads the grid where it is; decides nothing. Called by tasks.cpp and by matrix-free products; tested in
+// tests/src/aero/flow/solver_test.cpp and tests/verification/air. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "src/aero/flow/boundary.hpp"
+#include "src/aero/flow/flow_setting.hpp"
+#include "src/aero/flow/flow_tile.hpp"
+#include "src/aero/flow/loads.hpp"
+#include "src/aero/flow/physical_time.hpp"
+#include "src/aero/flow/sweep_convective.hpp"
+#include "src/aero/flow/sweep_model.hpp"
+#include "src/aero/flow/sweep_viscous.hpp"
+
+namespace spindrift::aero {
+
+class FlowResidual {
+ public:
+  /// `time` is to outlive it. Throws std::invalid_argument where the setting does not go together.
+  FlowResidual(const FlowSetting& setting, const ModelSweeps& model, const PhysicalTime& time);
+
+  /// A physical step begins: its length and weights as the time has them.
+  void begin_step();
+  void set_dt(double dt) { boundary_.dt = dt; }
+  /// The state as it is becomes the past. @pre the grid has not moved yet.
+  void keep_past(FlowTile& tile) const;
+
+  void fill_ghosts(FlowTile& tile, double* state) const { fill_boundaries(tile, state, boundary_); }
+  void fill_gradient_ghosts(FlowTile& tile, const double* state) const;
+  /// Gradients, and what the turbulence model makes of them. @pre ghosts are filled
+  void gradients(FlowTile& tile, const double* state) const;
+  /// @pre ghosts, gradients and their ghosts are those of `state`
+  void evaluate(FlowTile& tile, double* state, double* residual) const;
+
+  const ModelSweeps& model() const { return model_; }
+  const BoundarySetting& boundary() const { return boundary_; }
+  const ViscousSetting& viscous() const { return viscous_; }
+  bool has_friction() const { return viscous_.active; }
+  /// What is seen on the walls of a tile.
+  std::vector<WallPoint> wall_points(const FlowTile& tile) const;
+
+ private:
+  void add_turning(const FlowTile& tile, const double* state, double* residual) const;
+  void add_time_derivative(const FlowTile& tile, const double* state, double* residual) const;
+
+  gas::IdealGas gas_;
+  const ModelSweeps& model_;
+  const PhysicalTime& time_;
+  ConvectiveSetting convective_;
+  ViscousSetting viscous_;
+  BoundarySetting boundary_;
+  std::array<double, 3> omega_{};  ///< of a frame that turns steadily [rad/s]
+};
+
+}  // namespace spindrift::aero

@@ -1,0 +1,105 @@
+// What is known of a state after each pseudo-step, and what follows from it: norms and loads of all tiles, the row of the march,
+// whether it goes on, back, or ends, and where it failed. Owned by FlowSolver, called by tasks.cpp; tested in
+// tests/src/aero/flow/solver_test.cpp. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/aero/flow/body_force.hpp"
+#include "src/aero/flow/control.hpp"
+#include "src/aero/flow/flow_residual.hpp"
+#include "src/aero/flow/implicit_system.hpp"
+#include "src/aero/flow/loads.hpp"
+#include "src/aero/flow/tile_arrays.hpp"
+#include "src/aero/flow/tile_sums.hpp"
+
+namespace spindrift::aero {
+
+/// What a pseudo-step did; one row for each since the last clear.
+struct PseudoRow {
+  int step = 0, krylov = 0, rejections = 0, matrices = 0;  ///< matrices made so far
+  double cfl = 0.0, density_residual = 0.0, mass_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, balance_drop = 0.0,
+         fraction = 1.0;
+  bool matrix_free = false;
+  std::array<double, 3> force{};   ///< of all patches with loads [N]
+  std::array<double, 3> moment{};  ///< likewise, about the origin [N m]
+  std::vector<double> loads{};     ///< by patch, see patch_loads, then by band, see band_loads
+  std::vector<double> bodies{};    ///< of the force inside the air, BodyForce::loads
+};
+
+class Judgement {
+ public:
+  /// `arrays` is to outlive it.
+  Judgement(const FlowSetting& setting, std::vector<PatchCondition> conditions, TileArrays& arrays);
+
+  /// Before the march is recorded.
+  void gather_bands(LoadBands bands);
+  void set_body_force(std::shared_ptr<BodyForce> force);
+  /// Null: none.
+  BodyForce* body_force() const { return body_force_.get(); }
+
+  /// A march begins, or goes on.
+  void begin();
+  /// A tile's part of `norms` and `loads`. @pre its residual is that of its state
+  void measure(std::size_t owned, const ImplicitSystem& system, const ViscousSetting& viscous);
+  /// One place where the march goes on, back, or ends: after the sums over all tiles. Leaves a row.
+  void judge();
+  /// After judge(): squared scaled norms of the mean flow and of turbulence.
+  double mean_norm() const { return norms_.mean; }
+  double model_norm() const { return norms_.model; }
+  /// Whether a pseudo-step is to be made, with products free of a matrix, with a fresh matrix.
+  bool solving() const { return solving_; }
+  bool perturbs() const { return solving_ && matrix_free_; }
+  bool matrix_free() const { return matrix_free_; }
+  bool refreshes() const { return solving_ && march_.refresh(); }
+
+  March& march() { return march_; }
+  const March& march() const { return march_; }
+  const std::vector<PatchCondition>& conditions() const { return conditions_; }
+  /// Of all pseudo-steps since the last clear.
+  const std::vector<PseudoRow>& rows() const { return rows_; }
+  void clear_rows() { rows_.clear(); }
+  /// Between two chunks of a steady march: its last row will be judged again.
+  void keep_last_row();
+  /// Called with each row as it is made: progress, clocks.
+  void watch(std::function<void(const PseudoRow&)> watcher) { watcher_ = std::move(watcher); }
+  /// Where a march failed on this rank: block, cell and the limit that bound there; empty where none did.
+  const std::string& trouble() const { return trouble_; }
+  /// Loads by patch and by band as last judged, the same on every rank.
+  std::span<const double> load_sums() const { return loads.result; }
+  PatchLoads patch(int patch) const { return patch_loads(loads.result, patch); }
+
+  TileSums norms, loads, force_samples;
+
+ private:
+  void name_trouble();
+  std::size_t patch_sums() const;
+
+  std::vector<PatchCondition> conditions_;
+  TileArrays& arrays_;
+  March march_;
+  Norms norms_;
+  LoadBands bands_;
+  std::shared_ptr<BodyForce> body_force_;
+  int max_steps_;  ///< of one run of the march
+  bool unsteady_;
+  /// Whether a march that ends before its time goes on with the same bits: a physical step begins anew, and a steady march where
+  /// nothing outlives a pseudo-step.
+  bool stops_anywhere_;
+  bool solving_ = false, matrix_free_ = false;
+  int matrices_ = 0;  ///< made so far
+  std::vector<PseudoRow> rows_;
+  std::function<void(const PseudoRow&)> watcher_;
+  std::string trouble_;
+};
+
+/// Where the flow is farthest from its balance, as last judged: cells of the mean flow and of turbulence, a sentence. Collective.
+std::string worst_cells(const TileArrays& arrays, const ImplicitSystem& system, MPI_Comm comm);
+
+}  // namespace spindrift::aero

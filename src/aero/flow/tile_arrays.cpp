@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/flow/tile_arrays.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "src/aero/flow/boundary.hpp"
+#include "src/aero/flow/sweep.hpp"
+
+namespace spindrift::aero {
+
+std::size_t FlowTile::bytes() const {
+  std::size_t sum = state.bytes() + trial.bytes() + source.bytes() + gradients.bytes() + residual.bytes() + before.bytes() +
+                    before_that.bytes() + rate.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() + direction.bytes();
+  for (const auto& v : vectors) sum += v.bytes();
+  for (const auto& v : directions_kept) sum += v.bytes();
+  for (const auto& v : open) sum += v.bytes();
+  for (const auto& v : law) sum += v.bytes();
+  return sum;
+}
+
+TileArrays::TileArrays(GridStore& store, const FlowSetting& setting, std::span<const PatchCondition> conditions,
+                       const ModelSweeps& model)
+    : grid(store) {
+  const Tiling& tiling = grid.tiling();
+  if (model.closures != nullptr && model.equations == 0 && tiling.planar)
+    throw std::invalid_argument("flow: " + setting.turbulence + " resolves eddies: the grid must have three dimensions");
+  local.assign(std::size_t(tiling.size()), -1);
+  for (const int index : grid.owned()) {
+    local[std::size_t(index)] = int(tiles.size());
+    const Tile& from = tiling.tiles[std::size_t(index)];
+    if (from.ni > longest_row)
+      throw std::invalid_argument("flow: a tile has rows of " + std::to_string(from.ni) + " cells; the sweeps hold " +
+                                  std::to_string(longest_row));
+    FlowTile& t = tiles.emplace_back();
+    t.geometry = &grid[index];
+    t.index = index;
+    if (!setting.frame_omega.isZero()) turn_frame(*t.geometry, setting.frame_omega, setting.frame_centre, tiling.planar);
+    t.directions = tiling.planar ? 2 : 3;
+    t.turbulence = model.equations;
+    t.eddies = model.closures != nullptr;
+    t.cells = cell_layout(from, state_ghosts, tiling.planar);
+    t.gradient_box = cell_layout(from, gradient_ghosts, tiling.planar);
+    t.inner = BoxLayout(from.ni, from.nj, from.nk);
+    t.box = {from.ni, from.nj, from.nk};
+    for (const TileBoundary& where : tiling.boundary(index)) {
+      if (std::size_t(where.patch) >= conditions.size()) throw std::invalid_argument("flow: a patch has no condition");
+      const PatchCondition& c = conditions[std::size_t(where.patch)];
+      const BoundaryCondition& condition = aero::of(c.condition);
+      if (condition.wall_law && model.equations == 0)
+        throw std::invalid_argument("flow: the law of the wall goes with models that transport turbulence");
+      if (c.temperature && std::ranges::find(condition.keys, "temperature_K") == condition.keys.end())
+        throw std::invalid_argument("flow: only walls resolved to the wall can be held at a temperature");
+      if (condition.wall_law) t.wall_law = &model.wall_law();
+      t.boundaries.push_back({where, &condition, c.loads, c.temperature});
+    }
+    const int unknowns = t.unknowns();
+    t.state = AlignedArray<double>(t.cells.size(unknowns));
+    t.trial = AlignedArray<double>(t.cells.size(unknowns));
+    t.gradients = AlignedArray<double>(t.gradient_box.size(gradient_components(t.turbulence, t.eddies)));
+    t.residual = AlignedArray<double>(t.inner.size(unknowns));
+    t.rate = AlignedArray<double>(t.inner.size(1));
+    if (setting.time_order > 0) t.before = AlignedArray<double>(t.inner.size(unknowns));
+    if (setting.time_order > 1) t.before_that = AlignedArray<double>(t.inner.size(unknowns));
+    t.mean_matrix = AlignedArray<float>(linear::StencilMatrix<5>::size(t.box, t.directions));
+    if (t.turbulence == 1) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<1>::size(t.box, t.directions));
+    if (t.turbulence == 2) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<2>::size(t.box, t.directions));
+    t.direction = AlignedArray<float>(t.gradient_box.size(unknowns));
+    set_open_faces(t);
+  }
+}
+
+long TileArrays::cells() const {
+  long sum = 0;
+  for (const Tile& tile : grid.tiling().tiles) sum += tile.count();
+  return sum;
+}
+
+std::size_t TileArrays::bytes() const {
+  std::size_t sum = 0;
+  for (const FlowTile& tile : tiles) sum += tile.bytes();
+  return sum;
+}
+
+}  // namespace spindrift::aero
