@@ -23,6 +23,8 @@ struct Motion {
     return velocity + attitude * omega.cross(body_point);
   }
   Eigen::Vector3d omega_earth() const { return attitude * omega; }
+
+  friend bool operator==(const Motion&, const Motion&) = default;
 };
 
 }  // namespace spindrift

@@ -134,23 +134,25 @@ void BladeElementMomentum::for_each_force(const Wind& wind, const DiscMotion& ro
   });
 }
 
-DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& rotor, double t,
-                                          std::span<const double> memory) const {
+DiscLoad BladeElementMomentum::operator()(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
+                                          std::span<Wrench> roots) const {
   DiscLoad sum;
   for_each_force(wind, rotor, t, memory, [&](const Place& at, const Eigen::Vector3d& force, bool balanced) {
     sum.force += force, sum.moment += at.arm.cross(force), sum.unbalanced += !balanced;
+    add_root_load(at, force, roots);
   });
   return sum;
 }
 
 DiscLoad BladeElementMomentum::on_modes(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
-                                        std::span<double> modal) const {
+                                        std::span<double> modal, std::span<Wrench> roots) const {
   DiscLoad sum;
   std::ranges::fill(modal, 0.0);
   int blade = -1;
   BladeAxes axes;
   for_each_force(wind, rotor, t, memory, [&](const Place& at, const Eigen::Vector3d& force, bool balanced) {
     sum.force += force, sum.moment += at.arm.cross(force), sum.unbalanced += !balanced;
+    add_root_load(at, force, roots);
     if (const int b = int(at.index / elements_.size()); b != blade)
       blade = b, axes = blade_axes(rotor, blade_direction(rotor, b, blades_), rotor.bent->precone, rotor.pitch(b));
     const BentBlades::Section& s = rotor.bent->sections[at.index % elements_.size()];
@@ -159,13 +161,6 @@ DiscLoad BladeElementMomentum::on_modes(const Wind& wind, const DiscMotion& roto
         force.dot(axes.along) * s.shortening * rotor.bent->amplitude(blade);
   });
   return sum;
-}
-
-void BladeElementMomentum::add_root_loads(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
-                                          std::span<Wrench> roots) const {
-  for_each_force(wind, rotor, t, memory, [&](const Place& at, const Eigen::Vector3d& force, bool) {
-    roots[at.index / elements_.size()].add_force(force, at.arm);
-  });
 }
 
 std::optional<ReynoldsReach> BladeElementMomentum::reynolds(const Wind& wind, const DiscMotion& rotor, double t) const {

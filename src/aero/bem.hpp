@@ -105,16 +105,14 @@ class BladeElementMomentum {
   BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density_kg_m3,
                        const UnsteadyFlow& unsteady = {}, double kinematic_viscosity = air_kinematic_viscosity);
 
-  /// `memory`: what the flow remembers; without it the flow is steady.
-  DiscLoad operator()(const Wind& wind, const DiscMotion& rotor, double t = 0.0, std::span<const double> memory = {}) const;
+  /// `memory`: what the flow remembers; without it the flow is steady. `roots`, where given, one to a blade: the same loads blade
+  /// by blade are added; their points are from the hub.
+  DiscLoad operator()(const Wind& wind, const DiscMotion& rotor, double t = 0.0, std::span<const double> memory = {},
+                      std::span<Wrench> roots = {}) const;
   DiscLoad operator()(const Eigen::Vector3d& wind, const DiscMotion& rotor) const { return (*this)(Wind{wind}, rotor); }
   /// The same on bent blades, with its force on their modes: `modal` gets as many numbers as `rotor.bent` has amplitudes [N].
-  DiscLoad on_modes(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
-                    std::span<double> modal) const;
-
-  /// Adds the same loads blade by blade; points of the wrenches, one to a blade, are from the hub.
-  void add_root_loads(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
-                      std::span<Wrench> roots) const;
+  DiscLoad on_modes(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory, std::span<double> modal,
+                    std::span<Wrench> roots = {}) const;
 
   // What the flow remembers of its past, element by element, in plain numbers that the caller keeps.
   std::size_t memory_size() const;
@@ -196,6 +194,9 @@ class BladeElementMomentum {
   template <class Visit>
   void for_each_force(const Wind& wind, const DiscMotion& rotor, double t, std::span<const double> memory,
                       const Visit& visit) const;
+  void add_root_load(const Place& at, const Eigen::Vector3d& force, std::span<Wrench> roots) const {
+    if (!roots.empty()) roots[at.index / elements_.size()].add_force(force, at.arm);
+  }
   /// In balance with the momentum of its annulus, the wind along the axis.
   ElementState balance(const Place& at) const;
   Induced steady(const Place& at) const;

@@ -166,24 +166,49 @@ FlexibleBlades::Bending RotorLoads::settled(const Wind& wind, double t, const Ro
   return bending;
 }
 
-RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, double ramp, bool at_rest) const {
+void RotorLoads::fill_air_load(const Wind& wind, double t, const RotorState& now, bool at_rest, AirLoad& load) const {
+  const auto& bem = std::get<BladeElementMomentum>(model_);
+  const std::span<const double> memory(memory_), flow = flow_part(memory);
+  DiscMotion motion = disc_motion(now, memory);
+  const int blades = int(roots());
+  load.roots.resize(std::size_t(blades));
+  for (int b = 0; b < blades; ++b)
+    load.roots[std::size_t(b)] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                  roots_->root(now.axis, blade_direction(motion, b, blades))};
+  if (!flexible_) {
+    load.disc = bem(wind, motion, t, flow, load.roots);
+    return;
+  }
+  const bool moves = !memory.empty() && !at_rest;
+  load.bending = moves ? flexible_->predicted(bending_part(memory), t) : settled(wind, t, now, motion, flow);
+  const BentBlades bent = flexible_->bent(load.bending);
+  motion.bent = &bent;
+  load.disc = bem.on_modes(wind, motion, t, flow,
+                           std::span(load.on_modes).first(std::size_t(FlexibleBlades::modes * flexible_->blades())), load.roots);
+}
+
+const RotorLoads::AirLoad& RotorLoads::air_load(double t, const RotorState& now) const {
+  if (last_.known && last_.t == t && last_.now == now) return last_;
+  fill_air_load(wind_, t, now, false, last_);
+  last_.known = true, last_.t = t, last_.now = now;
+  return last_;
+}
+
+RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
+  const bool of_sections = std::holds_alternative<BladeElementMomentum>(model_);
+  return load(wind_, t, now, ramp, of_sections ? &air_load(t, now) : nullptr);
+}
+
+RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, double ramp, const AirLoad* air) const {
   RotorLoad load;
-  if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) {
-    const std::span<const double> memory(memory_), flow = flow_part(memory);
-    DiscMotion motion = disc_motion(now, memory);
-    DiscLoad disc;
+  if (air) {
+    const DiscLoad& disc = air->disc;
     Eigen::Matrix<double, 6, 1> reaction = Eigen::Matrix<double, 6, 1>::Zero();
     if (flexible_) {
-      const bool moves = !memory.empty() && !at_rest;
-      const FlexibleBlades::Bending bending =
-          moves ? flexible_->predicted(bending_part(memory), t) : settled(wind, t, now, motion, flow);
-      const BentBlades bent = flexible_->bent(bending);
+      DiscMotion motion = disc_motion(now, memory_);
+      const BentBlades bent = flexible_->bent(air->bending);
       motion.bent = &bent;
-      OnModes air{};
-      disc = bem->on_modes(wind, motion, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * flexible_->blades())));
-      reaction = flexible_->reaction(motion, hub_field(now), bending, air);
-    } else {
-      disc = (*bem)(wind, motion, t, flow);
+      reaction = flexible_->reaction(motion, hub_field(now), air->bending, air->on_modes);
     }
     load.force = ramp * disc.force, load.moment = ramp * disc.moment;
     load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis), load.shaft_torque = load.torque;
@@ -226,32 +251,22 @@ std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Moti
   const Eigen::Vector3d arm = now.hub - body.position, turning = body.omega_earth();
   HubMotion hub{acceleration + omega_rate.cross(arm) + turning.cross(turning.cross(arm)), now.omega, omega_rate};
   if (!placement_.support) hub.omega_rate += turning.cross(Eigen::Vector3d(now.speed * now.axis));
+  const AirLoad& air = air_load(t, now);
   DiscMotion disc = disc_motion(now, memory_);
-  const auto& bem = std::get<BladeElementMomentum>(model_);
   const int blades = int(roots_->blades());
-  std::vector<Wrench> of_air(roots_->blades());
   std::vector<BladeRootLoad> loads;
-  for (int b = 0; b < blades; ++b) of_air[std::size_t(b)].point = roots_->root(now.axis, blade_direction(disc, b, blades));
-  const std::span<const double> memory(memory_), flow = flow_part(memory);
-  FlexibleBlades::Bending bending;
   BentBlades bent;
-  OnModes air{};
-  if (flexible_) {
-    bending = memory.empty() ? settled(wind_, t, now, disc, flow) : flexible_->predicted(bending_part(memory), t);
-    bent = flexible_->bent(bending), disc.bent = &bent;
-    bem.on_modes(wind_, disc, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * blades)));
-  }
-  bem.add_root_loads(wind_, disc, t, flow, of_air);
+  if (flexible_) bent = flexible_->bent(air.bending), disc.bent = &bent;
   for (int b = 0; b < blades; ++b) {
     const Eigen::Vector3d out = blade_direction(disc, b, blades);
-    Wrench& w = of_air[std::size_t(b)];
+    Wrench w = air.roots[std::size_t(b)];
     w.force *= ramp, w.moment *= ramp;
     std::vector<MassMotion> moved;
     if (flexible_) {
       Eigen::Matrix<double, 6, 1> beyond;
       const HubField field = hub_field(now);
       beyond << hub.acceleration, hub.omega_rate - field.omega_rate;
-      moved = flexible_->mass_motions(disc, b, field, beyond, bending, air);
+      moved = flexible_->mass_motions(disc, b, field, beyond, air.bending, air.on_modes);
     }
     roots_->add_mass_loads(hub, now.axis, out, gravity, w, moved);
     loads.push_back(BladeRoots::seen(w, now.axis, out));
@@ -358,10 +373,13 @@ void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::s
   mean_wind.in_time = nullptr;
   RotorState now = state(t, bodies);
   now.relative_wind = (mean_wind.at(t, now.hub) - now.hub_velocity).dot(now.axis);
+  const bool of_sections = std::holds_alternative<BladeElementMomentum>(model_);
+  AirLoad air;
   const double first = now.azimuth;
   for (int place = 0; place < places; ++place) {
     now.azimuth = whole_turns_off(first + 2.0 * pi * place / places);
-    const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places, true);
+    if (of_sections) fill_air_load(mean_wind, t, now, true, air);
+    const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places, of_sections ? &air : nullptr);
     add_at_hub(bodies, wrenches, load.force, load.moment);
   }
 }

@@ -38,6 +38,8 @@ struct RotorState {
   Eigen::Vector3d axis, up;           ///< unit, earth frame; blade 1 is along `up` at azimuth zero
   Eigen::Vector3d omega;              ///< of the blades, earth frame [rad/s]
   double relative_wind = 0.0;         ///< along the axis, seen from the hub [m/s]
+
+  friend bool operator==(const RotorState&, const RotorState&) = default;
 };
 
 struct RotorLoad {
@@ -77,7 +79,7 @@ class RotorLoads {
                        const Eigen::Vector3d& axis) const {
     return (wind_.at(t, hub) - hub_velocity).dot(axis);
   }
-  RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const { return load(wind_, t, now, ramp); }
+  RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const;
 
   /// Of blade elements; empty where no polar depends on it.
   std::optional<ReynoldsReach> reynolds(double t, const RotorState& now) const;
@@ -86,7 +88,7 @@ class RotorLoads {
   // round the blades, then their bending. Without values to recall it turns as at the start, in steady flow.
   std::size_t memory_size() const { return control_size() + flow_size() + bending_size(); }
   void begin(double t, std::span<const Motion> bodies, std::span<double> memory);
-  void recall(std::span<const double> memory) { memory_.assign(memory.begin(), memory.end()); }
+  void recall(std::span<const double> memory) { memory_.assign(memory.begin(), memory.end()), last_.known = false; }
   void remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const;
 
   /// Loads at the blades' roots, one to a blade; none without `rotor.blade_masses`. Acceleration of the rotor's body: of its
@@ -114,8 +116,6 @@ class RotorLoads {
   BladedLibrary* library() const { return control_ ? control_->library() : nullptr; }
 
  private:
-  /// `settled`: bent blades are at rest under this wind, whatever is remembered.
-  RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, bool settled = false) const;
   TurbineControl::Measured measured(double t, const RotorState& now) const;
   std::size_t control_size() const { return control_ ? control_->memory_size() : 0; }
   std::size_t flow_size() const;
@@ -132,6 +132,21 @@ class RotorLoads {
   HubField hub_field(const RotorState& now) const;
   /// Forces of the air on the modes of all blades.
   using OnModes = std::array<double, std::size_t(FlexibleBlades::modes) * FlexibleBlades::max_blades>;
+  /// What the air does to blades of sections.
+  struct AirLoad {
+    bool known = false;
+    double t = 0.0;
+    RotorState now;
+    DiscLoad disc;
+    std::vector<Wrench> roots;  ///< one to a blade, about the root; none without roots_
+    FlexibleBlades::Bending bending;
+    OnModes on_modes{};
+  };
+  void fill_air_load(const Wind& wind, double t, const RotorState& now, bool at_rest, AirLoad& load) const;
+  /// Under the scene's own wind. What was asked for last is not computed again: a row of history asks for what a step did.
+  const AirLoad& air_load(double t, const RotorState& now) const;
+  /// `air`: null for models without blades.
+  RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, const AirLoad* air) const;
   FlexibleBlades::Bending settled(const Wind& wind, double t, const RotorState& now, DiscMotion motion,
                                   std::span<const double> flow) const;
   DiscMotion disc_motion(const RotorState& now, std::span<const double> memory) const;
@@ -152,6 +167,7 @@ class RotorLoads {
   Eigen::Vector3d gravity_;     ///< [m/s2]
   std::vector<double> memory_;  ///< recalled; empty: steady
   std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
+  mutable AirLoad last_;
 };
 
 }  // namespace spindrift::aero

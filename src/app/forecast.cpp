@@ -16,6 +16,7 @@
 #include "src/aero/flow_size.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/run/flow_columns.hpp"
 
 namespace spindrift::app {
 
@@ -44,6 +45,18 @@ std::vector<std::string> names(const io::History& history) {
   std::vector<std::string> result;
   for (const io::Column& column : history.columns()) result.push_back(column.name);
   return result;
+}
+
+/// Columns that the air and the exchange with it add, by the beginnings of their names. Some scenes have fewer of them: a name
+/// that none has is a mistake all the same.
+void add_columns_of_air(std::vector<std::string>& names, std::initializer_list<std::string_view> prefixes) {
+  constexpr int most_blades = 3;
+  for (const io::ColumnSection& section : run::all_columns())
+    for (const io::Column& column : section.columns) {
+      if (std::ranges::find(prefixes, section.prefix) != prefixes.end()) names.push_back(section.prefix + column.name);
+      for (int blade = 1; blade <= most_blades && section.prefix == "rotor.blade_1."; ++blade)
+        names.push_back(fmt::format("rotor.blade_{}.{}", blade, column.name));
+    }
 }
 
 /// Has a rotor whose loads come once in an iteration of a window, not in every evaluation of the bodies.
@@ -85,6 +98,7 @@ StepCost measured_steps(FloatingSystem& floating, const coupling::Start& start) 
   floating.reset_clocks();
   const std::int64_t begin_ns = runtime::Clock::now_ns();
   cost.step_s = least_seconds([&] { return floating.multibody().advance(state, t.tick_s(), 1).ok(); });
+  const double step_alone = cost.step_s;
   if (exchanges(s)) {
     const double wall_ns = double(runtime::Clock::now_ns() - begin_ns);
     for (std::size_t n = 0; n < floating.clocks().size(); ++n) {
@@ -102,10 +116,14 @@ StepCost measured_steps(FloatingSystem& floating, const coupling::Start& start) 
   const std::filesystem::path file = std::filesystem::temp_directory_path() / fmt::format("spindrift_rows_{}.csv", ::getpid());
   history.open(file);
   state = start.state;
-  cost.row_s = least_seconds([&] {
-    recorder.fill(history.row(0.0), state, 0.0), history.write();
+  // A row after each step, as in a run: the step that follows begins with what the row had to know.
+  const double both = least_seconds([&] {
+    if (!floating.multibody().advance(state, t.tick_s(), 1).ok()) return false;
+    const double now = double(state.tick) * t.tick_s();
+    recorder.fill(history.row(now), state, now), history.write();
     return true;
   });
+  cost.row_s = std::max(0.0, both - step_alone);
   std::filesystem::remove(file);
   return cost;
 }
@@ -160,7 +178,8 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
   Forecast f{.core_seconds = output_seconds};
   io::History history;
   const coupling::Recorder recorder(floating, history);
-  if (!s.resolves_air() && (!s.has_rotor() || s.coupling.scheme == coupling::SchemeKind::monolithic)) f.columns = names(history);
+  f.columns = names(history);
+  if (s.resolves_air() || exchanges(s)) add_columns_of_air(f.columns, {"air.", "coupling."});
   const auto add = [&](const PartCost& part) {
     f.core_seconds += part.core_seconds_per_work * (part.work_before + part.work_per_second * s.time.end_s);
     f.bytes += part.bytes + part.checkpoint_bytes;
@@ -219,9 +238,10 @@ Forecast forecast_of_air(const coupling::Scenario& s) {
   } else {
     cost = cost_of_flow(s, aero::flow_grid(*s.aero.flow));
   }
-  return {.core_seconds = cost.core_seconds_per_work * cost.work_per_second * s.time.end_s,
-          .bytes = cost.bytes + cost.checkpoint_bytes + resident_memory() + output_bytes,
-          .columns = {}};
+  Forecast f{.core_seconds = cost.core_seconds_per_work * cost.work_per_second * s.time.end_s,
+             .bytes = cost.bytes + cost.checkpoint_bytes + resident_memory() + output_bytes};
+  add_columns_of_air(f.columns, {"flow.", "rotor."});
+  return f;
 }
 
 }  // namespace spindrift::app

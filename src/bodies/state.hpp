@@ -40,6 +40,8 @@ struct BodiesState {
   void pack(std::span<double> out) const;
   /// Reads what pack() wrote into a state of the same system (sizes are those of this state).
   void unpack(std::span<const double> in);
+
+  friend bool operator==(const BodiesState&, const BodiesState&) = default;
 };
 
 }  // namespace spindrift::bodies

@@ -56,6 +56,7 @@ struct System::Work {
         support(supports(bodies, joints)),
         motions(bodies.size()),
         wrenches(bodies.size()),
+        of_source(loads.size(), std::vector<Wrench>(bodies.size())),
         added(bodies.size()),
         mass(bodies.size()) {
     force.setZero(mechanism.coordinates());
@@ -72,7 +73,6 @@ struct System::Work {
     evaluation.angular_acceleration.resize(bodies.size());
     source_power.assign(loads.size(), 0.0);
     step_work.assign(loads.size() + EnergyBalance::count, 0.0);
-    evaluation.by_source.assign(loads.size(), std::vector<Wrench>(bodies.size()));
     evaluation.joint_reactions.resize(joints.size());
   }
 
@@ -91,7 +91,9 @@ struct System::Work {
   void size_for_freedoms();
   StepReport open(BodiesState& state, double t, bool choose);
   bool close(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u);
-  bool advance(double t, double t_end, double h);
+  bool advance(double t, double t_end, double h, bool evaluated);
+  bool knows(const BodiesState& state, double t) const;
+  double kinetic_of_opened();
   bool within_bounds();
   double power(std::span<const Wrench> loads) const;
   void clear_step_work();
@@ -109,8 +111,9 @@ struct System::Work {
 
   StepReport report;
   std::vector<Motion> motions;
-  std::vector<Wrench> wrenches;
-  std::vector<Matrix6> added;             // earth axes, SI
+  std::vector<Wrench> wrenches;                // of all sources
+  std::vector<std::vector<Wrench>> of_source;  // [source][body], without what added mass takes
+  std::vector<Matrix6> added;                  // earth axes, SI
   std::vector<Matrix6> mass;              // chart units: [m L2, I] + added mass turned into (earth translation, body rotation)
   std::vector<std::array<int, 2>> pairs;  // of all couplings, in the order of their sources
   std::vector<Matrix6> between, between_chart;  // of the pairs: as `added`, as `mass`
@@ -121,6 +124,14 @@ struct System::Work {
   IntegratorWork integration;
   BodiesState opened;
   Evaluation evaluation;
+  /// The state that evaluate() was last asked for and nothing else since: a step from there begins with its accelerations.
+  struct Known {
+    bool valid = false;
+    double t = 0.0, kinetic = 0.0;
+    BodiesState state;
+  } known;
+  bool loads_from_outside = false;
+  std::vector<Matrix6> of_one_source;           // scratch of evaluate()
   std::vector<double> source_power, step_work;  ///< of the last evaluation [W]; over the step, divided by its length
   double step_gain = 0.0;                       ///< rate of the kinetic energy over the step [W]
 };
@@ -140,6 +151,7 @@ void System::Work::size_for_freedoms() {
 }
 
 StepReport System::Work::open(BodiesState& state, double t, bool choose) {
+  known.valid = false;
   report = mechanism.open(state, t, choose);
   if (mass_tangent.cols() != mechanism.freedoms()) size_for_freedoms();
   return report;
@@ -176,15 +188,18 @@ void System::Work::remember(double t, double h, BodiesState& state) {
 }
 
 void System::Work::gather_loads(double t) {
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    wrenches[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), motions[b].position};
-  double before = 0.0;
+  const auto clear = [this](std::vector<Wrench>& on) {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      on[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), motions[b].position};
+  };
+  clear(wrenches);
   for (std::size_t s = 0; s < loads.size(); ++s) {
+    clear(of_source[s]);
     if (!loads[s].loads) continue;
-    loads[s].loads(t, motions, wrenches);
-    const double so_far = power(wrenches);
-    source_power[s] = so_far - before;
-    before = so_far;
+    loads[s].loads(t, motions, of_source[s]);
+    source_power[s] = power(of_source[s]);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      wrenches[b].force += of_source[s][b].force, wrenches[b].moment += of_source[s][b].moment;
   }
 }
 
@@ -240,8 +255,9 @@ void System::Work::count_power(double weight) {
   step_gain += weight * gain;
 }
 
-/// Adds the step's work to that of the run. False where the steps themselves made or lost more energy than half of what the loads
-/// did: no solution of the equations does. Forward Euler, which gains energy by its nature, is counted and not judged.
+/// Adds the step's work to that of the run. False where a step by rk4 made or lost more energy than a thousandth of what the
+/// loads have turned over: a load that sets in within the step; or where the steps together did more than half of it: no solution
+/// of the equations does. Forward Euler, which gains energy by its nature, is counted and not judged.
 bool System::Work::count_work(double h, double kinetic_before) {
   const auto after_sources = std::span(opened.work).subspan(loads.size());
   for (std::size_t s = 0; s < loads.size(); ++s) {
@@ -251,12 +267,17 @@ bool System::Work::count_work(double h, double kinetic_before) {
   for (const auto slot : {EnergyBalance::added_mass, EnergyBalance::joints})
     after_sources[slot] += h * step_work[loads.size() + slot];
   double& error = after_sources[EnergyBalance::error];
-  error += kinetic_energy_of(bodies, motions) - kinetic_before - h * step_gain;
-  constexpr double most = 0.5, slow = 0.05;  // m/s: of all mass together, so that rest is no division by zero
+  const double made = kinetic_energy_of(bodies, motions) - kinetic_before - h * step_gain;
+  error += made;
+  constexpr double most = 0.5, most_of_a_step = 1e-3, slow = 0.05;  // m/s: of all mass together, so that rest is no division by 0
   double mass = 0.0;
   for (const Body& body : bodies) mass += body.mass;
   const double scale = after_sources[EnergyBalance::throughput] + std::abs(after_sources[EnergyBalance::joints]) +
                        std::abs(after_sources[EnergyBalance::added_mass]) + kinetic_before + 0.5 * mass * slow * slow;
+  if (integrator == Integrator::rk4 && std::abs(made) > most_of_a_step * scale) {
+    report.value = 0.5 * h;
+    return fail(StepReport::Trouble::stiff, -1);
+  }
   if (integrator == Integrator::explicit_euler || std::abs(error) <= most * scale) return true;
   report.value = error;
   return fail(StepReport::Trouble::energy, -1);
@@ -387,26 +408,25 @@ bool System::Work::close(double t, const Eigen::VectorXd& x, const Eigen::Vector
   return true;
 }
 
-/// `opened` from t to t_end, which is h later.
-bool System::Work::advance(double t, double t_end, double h) {
+/// `opened` from t to t_end, which is h later. `evaluated`: as evaluate() left it at t.
+bool System::Work::advance(double t, double t_end, double h, bool evaluated) {
   recall(opened.memory);
-  if (!open(opened, t, false).ok()) return false;
+  if (!evaluated && !open(opened, t, false).ok()) return false;
+  known.valid = false;
   u = mechanism.open_velocity();
   const bool counts = !opened.work.empty();
-  double kinetic_before = 0.0;
-  if (counts) {
-    mechanism.motions(motions);
-    kinetic_before = kinetic_energy_of(bodies, motions);
-    clear_step_work();
-  }
+  const double kinetic_before = evaluated ? known.kinetic : kinetic_of_opened();
+  clear_step_work();
   const std::span<const double> weights = evaluation_weights(integrator);
   std::size_t evaluations = 0;
   const auto rates = [&, this](double time, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
                                Eigen::VectorXd& u_rate) {
-    if (!accelerations(time, x, u)) return false;
+    const bool is_known = evaluated && evaluations == 0;  // every integrator begins at the start of the step
+    if (!is_known && !accelerations(time, x, u)) return false;
     mechanism.chart_rate(x_rate);
     u_rate = acceleration;
-    if (counts) count_power(weights[evaluations++]);
+    if (counts) count_power(weights[evaluations]);
+    ++evaluations;
     return true;
   };
   const bool done = step(integrator, rates, t, h, u, integration) && close(t_end, integration.x, u);
@@ -425,6 +445,16 @@ bool System::Work::advance(double t, double t_end, double h) {
   remember(t_end, h, opened);
   return std::ranges::all_of(opened.memory, [](double v) { return std::isfinite(v); }) ||
          fail(StepReport::Trouble::not_finite, -1);
+}
+
+/// [J], where open() has put the bodies.
+double System::Work::kinetic_of_opened() {
+  mechanism.motions(motions);
+  return kinetic_energy_of(bodies, motions);
+}
+
+bool System::Work::knows(const BodiesState& state, double t) const {
+  return known.valid && !loads_from_outside && known.t == t && known.state == state;
 }
 
 /// Loads are those of a flat earth.
@@ -449,6 +479,10 @@ std::span<const Joint> System::joints() const { return w_->joints; }
 std::span<const LoadSource> System::loads() const { return w_->loads; }
 Integrator System::integrator() const { return w_->integrator; }
 double System::reference_length() const { return w_->mechanism.length(); }
+void System::set_loads_from_outside(bool outside) {
+  w_->loads_from_outside = outside;
+  w_->known.valid = false;
+}
 
 Assembly System::assemble(double t_s) {
   BodiesState start;
@@ -538,10 +572,11 @@ StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks
   Work& w = *w_;
   const double begin = double(state.tick) * tick_s, length = double(ticks) * tick_s, h = length / pieces;
   const double end = double(state.tick + ticks) * tick_s;
-  w.opened = state;
+  const bool known = w.knows(state, begin);
+  if (!known) w.opened = state;
   for (int piece = 0; piece < pieces; ++piece) {
     const double t = piece == 0 ? begin : begin + piece * h;
-    if (!w.advance(t, piece + 1 == pieces ? end : begin + (piece + 1) * h, h)) return w.report;
+    if (!w.advance(t, piece + 1 == pieces ? end : begin + (piece + 1) * h, h, known && piece == 0)) return w.report;
   }
   w.opened.tick = state.tick + ticks;
   std::swap(state, w.opened);
@@ -555,6 +590,7 @@ const Evaluation& System::evaluate(const BodiesState& state, double t_s) {
   w.recall(w.opened.memory);
   e.report = w.open(w.opened, t_s, false);
   if (!e.report.ok()) return e;
+  w.known.kinetic = w.kinetic_of_opened();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(w.mechanism.freedoms());
   w.accelerations(t_s, zero, w.mechanism.open_velocity());
   e.report = w.report;
@@ -569,11 +605,9 @@ const Evaluation& System::evaluate(const BodiesState& state, double t_s) {
   }
   w.add_coupled(Eigen::VectorXd(all - w.mechanism.bias()), w.inertial);
   w.mechanism.reactions(w.inertial - w.force, e.joint_reactions);
-  std::size_t first = 0;
+  e.by_source = w.of_source;
   for (std::size_t s = 0; s < w.loads.size(); ++s) {
     std::vector<Wrench>& of = e.by_source[s];
-    for (std::size_t b = 0; b < of.size(); ++b) of[b] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), w.motions[b].position};
-    if (w.loads[s].loads) w.loads[s].loads(t_s, w.motions, of);
     const auto react = [&](int on, const Matrix6& block, int by) {
       Eigen::Matrix<double, 6, 1> motion;
       motion << e.acceleration[std::size_t(by)], e.angular_acceleration[std::size_t(by)];
@@ -581,20 +615,21 @@ const Evaluation& System::evaluate(const BodiesState& state, double t_s) {
       of[std::size_t(on)].force -= reaction.head<3>();
       of[std::size_t(on)].moment -= reaction.tail<3>();
     };
-    if (w.loads[s].coupling) {
-      for (std::size_t p = 0; p < w.loads[s].coupling->pairs.size(); ++p) w.between[first + p].setZero();
-      w.add_blocks(w.loads[s], t_s, first);
-      for (const auto& [i, j] : w.loads[s].coupling->pairs) {
-        react(i, w.between[first], j);
-        react(j, w.between[first].transpose(), i);
-        ++first;
+    if (const auto& coupling = w.loads[s].coupling) {
+      w.of_one_source.assign(coupling->pairs.size(), Matrix6::Zero());
+      coupling->blocks(t_s, w.motions, w.of_one_source);
+      for (std::size_t p = 0; p < coupling->pairs.size(); ++p) {
+        const auto [i, j] = coupling->pairs[p];
+        react(i, w.of_one_source[p], j);
+        react(j, w.of_one_source[p].transpose(), i);
       }
     }
     if (!w.loads[s].added_mass) continue;
-    for (Matrix6& a : w.added) a.setZero();
-    w.loads[s].added_mass(t_s, w.motions, w.added);
-    for (std::size_t b = 0; b < of.size(); ++b) react(int(b), w.added[b], int(b));
+    w.of_one_source.assign(w.bodies.size(), Matrix6::Zero());
+    w.loads[s].added_mass(t_s, w.motions, w.of_one_source);
+    for (std::size_t b = 0; b < of.size(); ++b) react(int(b), w.of_one_source[b], int(b));
   }
+  w.known.valid = true, w.known.t = t_s, w.known.state = state;
   return e;
 }
 

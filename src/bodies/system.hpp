@@ -75,6 +75,9 @@ class System {
   std::span<const Joint> joints() const;
   std::span<const LoadSource> loads() const;
   Integrator integrator() const;
+  /// Whether loads follow also from what is set between steps (another module's), and not from time, motions and memory alone. If
+  /// not, as at first, a step from a state that was just evaluated does not evaluate it again.
+  void set_loads_from_outside(bool outside);
   double reference_length() const;  ///< [m] largest arm of a joint, rounded to a power of two; 1 without joints
 
   /// Consistent state at time `t_s` from the bodies' initial motions (tick 0).

@@ -215,6 +215,11 @@ void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const St
     if (const double carried = weight(floating); carried > 0.0 && std::abs(load.thrust) > 0.5 * carried)
       doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start", load.thrust),
                         fmt::format("up to half the weight of all bodies, {:.3g} N", carried), "look at its unit: N, not kN"});
+    else if (constexpr double least = 1e-4;
+             carried > 0.0 && s.aero.model == "prescribed" && load.thrust != 0.0 && std::abs(load.thrust) < least * carried)
+      doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start", load.thrust),
+                        fmt::format("{:g} of the weight of all bodies, {:.3g} N, at least", least, carried),
+                        "look at its unit: N, not kN"});
   }
   append(doubts, rotor_doubts(s.aero, s.rotor, s.wind, s.environment.air_density_kg_m3, rotor));
 }

@@ -195,6 +195,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
   }
   clocks_.resize(sources.size());
   multibody_ = std::make_unique<bodies::System>(std::move(bodies), std::move(joints), std::move(sources), s.time.integrator);
+  loads_changed();
 }
 
 /// Wraps the source so that its time is counted; two readings of the clock, 16 ns, per evaluation.
@@ -219,6 +220,13 @@ void FloatingSystem::add_source(std::vector<bodies::LoadSource>& sources, bodies
   sources.push_back(std::move(source));
   loaded_.push_back(std::move(on));
 }
+
+void FloatingSystem::replace_rotor_loads(RotorLoadFunction loads) {
+  rotor_elsewhere_ = std::move(loads);
+  loads_changed();
+}
+
+void FloatingSystem::loads_changed() { multibody_->set_loads_from_outside(rotor_elsewhere_ || particle_plan_); }
 
 void FloatingSystem::fill_sea(std::span<const Motion> start, const runtime::World& world) {
   if (particle_plan_) particles_ = sea::ParticleSea::make(*particle_plan_, start, world);

@@ -54,7 +54,7 @@ class FloatingSystem {
   /// Bodies take the rotor's load from `loads` instead of asking the rotor as they go; an empty one undoes it. For coupling
   /// windows.
   using RotorLoadFunction = std::function<void(double, std::span<const Motion>, std::span<Wrench>)>;
-  void replace_rotor_loads(RotorLoadFunction loads) { rotor_elsewhere_ = std::move(loads); }
+  void replace_rotor_loads(RotorLoadFunction loads);
   /// The rotor's load as history has it: what a coupling window wrote here, else that of its state.
   aero::RotorLoad written_rotor_load(double t, const aero::RotorState& now) const {
     return rotor_written_ ? *rotor_written_ : rotor_->load(t, now, ramp(t));
@@ -90,13 +90,15 @@ class FloatingSystem {
   /// Factor on the rotor's loads at time t [s] (start.ramp_s): 0 at the start, 1 after the ramp, with a continuous rate.
   double ramp(double t) const;
   /// Until told otherwise loads are ramped; the statics and stability ask for their full value (FullLoads below).
-  void use_full_loads(bool full) { full_loads_ = full; }
+  void use_full_loads(bool full) { full_loads_ = full, loads_changed(); }
   /// For the statics: loads at their full mean value. The water is still but for its current, the wind is without gusts and
   /// turbulence, the rotor's load is its mean over a turn (MeanLoads below).
-  void use_mean_loads(bool mean) { mean_loads_ = mean; }
+  void use_mean_loads(bool mean) { mean_loads_ = mean, loads_changed(); }
 
  private:
   const sea::EngineeringSea& sea_now() const { return mean_loads_ && still_sea_ ? *still_sea_ : *sea_; }
+  /// What loads follow from besides time and motions has changed.
+  void loads_changed();
   void add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadSource source, std::vector<bool> on);
 
   Scenario scenario_;

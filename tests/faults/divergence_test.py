@@ -1,6 +1,7 @@
 """The table of tests/faults/divergence.toml: numerical trouble in every module ends with exit code 3, a summary with time, module, place, value and
 limit, and a checkpoint that loads; or the run is done after retries that its log names. Usage: divergence_test.py SPINDRIFT [--table] [PART...]
 SPDX-License-Identifier: Apache-2.0"""
+import csv
 import json
 import os
 import pathlib
@@ -27,6 +28,20 @@ def run(case, out, *more):
     return done.returncode, done.stderr + done.stdout
 
 
+def energy_made(out):
+    """By the steps of the bodies, over what was put in: the largest ratio of all rows. 0 where the scene has no bodies."""
+    with open(out / "history.csv", encoding="utf-8") as file:
+        rows = [{key: float(value) for key, value in row.items() if key.startswith("energy.")} for row in csv.DictReader(file)]
+    if not rows or "energy.steps_J" not in rows[0]:
+        return 0.0
+    put_in = max(row["energy.kinetic_J"] for row in rows[:1])
+    worst = 0.0
+    for row in rows:
+        put_in = max(put_in, sum(abs(value) for key, value in row.items() if key.endswith("work_J")))
+        worst = max(worst, row["energy.steps_J"] / max(put_in, 1.0))
+    return worst
+
+
 def ended(case):
     """(How, what was said, what is wrong with it: '' where nothing is)."""
     with tempfile.TemporaryDirectory(prefix="spindrift_diverged_") as scratch:
@@ -37,6 +52,8 @@ def ended(case):
         summary = json.loads((out / "summary.json").read_text())
         if summary["exit_code"] != code:
             return f"code {code}", said.strip()[-300:], "another code in the summary"
+        if (made := energy_made(out)) > 0.01:
+            return f"code {code}", summary["exit_reason"], f"the steps made {made:.3g} of the energy put in"
         retries = re.findall(r"warning *:? *(.*\(retry \d of \d\).*)", (out / "log.txt").read_text())
         if code == 0:
             return "retried" if retries else "done", retries[0][:200] if retries else "", "" if retries else "neither stopped nor retried"

@@ -1,5 +1,6 @@
 // Recording of halos: which task of which tile waits for which ghosts, by copies on one rank and by one message per pair of
-// ranks. Used by tasks.cpp and poisson.cpp; tested through tests/src/aero/flow/solver_test.cpp. SPDX-License-Identifier: Apache-2.0
+// ranks. Used by tasks.cpp and poisson.cpp; tested through tests/src/aero/flow/solver_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <deque>

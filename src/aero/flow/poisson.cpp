@@ -10,8 +10,8 @@
 
 #include "runtime/executor/executor.hpp"
 #include "src/aero/flow/boundary.hpp"
-#include "src/aero/flow/numbering.hpp"
 #include "src/aero/flow/halo.hpp"
+#include "src/aero/flow/numbering.hpp"
 #include "src/aero/hypre/multigrid.hpp"
 
 namespace spindrift::aero {

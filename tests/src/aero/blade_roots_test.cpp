@@ -71,7 +71,7 @@ TEST_CASE("the wind's loads at all roots make up the rotor's thrust and torque",
   const DiscLoad all = bem(wind, rotor);
   std::vector<Wrench> at_root(3);
   for (int b = 0; b < 3; ++b) at_root[std::size_t(b)].point = roots.root(downwind, blade_direction(rotor, b, 3));
-  bem.add_root_loads(wind, rotor, 0.0, {}, at_root);
+  bem(wind, rotor, 0.0, {}, at_root);
   Wrench sum;
   for (const Wrench& w : at_root) sum += w.about(Vector3d::Zero());
   CHECK((sum.force - all.force).norm() < 1e-9 * all.force.norm());

@@ -266,7 +266,7 @@ TEST_CASE("a turning periodic sector with a common part kept over steps: same bi
     for (int n = 1; n <= 3; ++n) one.advance(one.turned(n)), three.advance(three.turned(n));
     CHECK(testing::state_of(one.solver()) == testing::state_of(three.solver()));
     ResolvedRotor::Snapshot saved = three.snapshot();  // step 4 goes on with the set-up of step 3
-    saved.air.set_up.number = 0;                           // another rotor's
+    saved.air.set_up.number = 0;                       // another rotor's
     again.restore(saved);
     one.advance(one.turned(4)), again.advance(again.turned(4));
     CHECK(testing::state_of(one.solver()) == testing::state_of(again.solver()));

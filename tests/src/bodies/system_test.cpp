@@ -124,6 +124,46 @@ TEST_CASE("a step is a pure function of the state: saved, restored and repeated 
   CHECK(state.tick == 1277);
 }
 
+TEST_CASE("a state that was evaluated costs its step one evaluation less and changes no bit of it", "[bodies][fast]") {
+  const Integrator integrator = GENERATE(Integrator::rk4, Integrator::symplectic, Integrator::explicit_euler);
+  int calls = 0;
+  double push = 1.0;  // set from outside
+  const auto make = [&] {
+    Body arm = examples::body("arm", 3.0, {1, 2, 3}, {1, 0, 0});
+    arm.initial.attitude = Eigen::AngleAxisd(0.4, Vector3d(1, 2, 3).normalized());
+    std::vector<LoadSource> loads{
+        gravity_source(std::vector<Body>{arm}, 9.81),
+        {"push",
+         [&](double t, std::span<const Motion> m, std::span<Wrench> w) {
+           ++calls;
+           w[0].force += push * Vector3d(std::cos(t), 0.1 * m[0].velocity.x(), -m[0].position.z());
+         },
+         {}},
+        {"water", {}, [](double, auto, std::span<Matrix6> a) { a[0](0, 0) += 2.0, a[0](2, 2) += 0.5; }}};
+    return System({arm}, {examples::joint("pivot", JointType::spherical, earth, 0, {0, 0, 0}, {0, 1, 0})}, loads, integrator);
+  };
+  System plain = make(), told = make();
+  BodiesState a = examples::start(plain), b = examples::start(told);
+  plain.begin(a, 0.0), told.begin(b, 0.0);
+  const int in_a_step = int(evaluation_weights(integrator).size());
+  for (int n = 0; n < 20; ++n) {
+    REQUIRE(plain.advance(a, 0.01, 1).ok());
+    calls = 0;
+    REQUIRE(told.evaluate(b, 0.01 * double(b.tick)).report.ok());
+    REQUIRE(told.advance(b, 0.01, 1).ok());
+    CHECK(calls == in_a_step);
+    CHECK(a == b);
+  }
+  // Loads that change between steps are asked for anew, if it was said that they do.
+  told.set_loads_from_outside(true);
+  BodiesState c = b;
+  static_cast<void>(told.evaluate(b, 0.01 * double(b.tick)));
+  push = 2.0;
+  REQUIRE(told.advance(b, 0.01, 1).ok());
+  REQUIRE(plain.advance(c, 0.01, 1).ok());
+  CHECK(b == c);
+}
+
 TEST_CASE("a load that is not a number stops the step, names the body and leaves the state as it was", "[bodies][fast]") {
   std::vector<Body> bodies{examples::body("good", 1, {1, 1, 1}, {0, 0, 0}), examples::body("bad", 1, {1, 1, 1}, {1, 0, 0})};
   System system(bodies, {}, {{"broken", [](double t, auto, std::span<Wrench> w) { w[1].force.x() += t > 0.5 ? NAN : 0.0; }, {}}});
