@@ -85,6 +85,14 @@ double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, con
       doubts.push_back({"bodies." + name, fmt::format("reaches down to z = {:.4g} m", r.low),
                         fmt::format("above the bed at {:.4g} m", -s.environment.water_depth_m),
                         "look at its shapes, displacement_m and environment.water_depth_m"});
+    else if (constexpr double least = 2.0; floating.particle_plan() && r.low < 0.0) {
+      const double gap = r.low + s.environment.water_depth_m, spacing = s.sea.particles->spacing_m;
+      if (gap < least * spacing && gap > 1e-6)
+        doubts.push_back({"bodies." + name,
+                          fmt::format("starts {:.3g} m above the bed, {:.2g} spacings of the particles", gap, gap / spacing),
+                          fmt::format("{:g} spacings at least", least),
+                          "take smaller particles or deeper water: where no particle fits nothing carries it"});
+    }
     if (r.low < 0.0) draft = std::max(draft, -r.low);
     any = any || r.low < 0.0;
     displaced += volume(body);

@@ -191,6 +191,10 @@ def _places(run):
             last = np.flatnonzero(afloat)[-1] if afloat.any() else 0
             found.append(Check(serious, "Afloat", f"{body} is wholly under water after t = {words.number(at[last])} s"))
         passed = low < min(-depth, points[:, 2].min()) - 0.002 * min(depth, 1e3)
+        if sea == "sph" and serious == "bad" and passed.any():
+            settled = passed & (at >= run.time[run.mean_range()[0]][0])
+            found.append(Check("bad" if settled.any() else "warn", "Bed", f"{body} lies on the bed, first at t = {words.number(at[int(passed.argmax())])} s: where no "
+                               "particle fits nothing carries it" + ("" if settled.any() else "; not within the stretch of the means")))
         if sea != "sph" and passed.any():
             settled = passed & (at >= run.time[run.mean_range()[0]][0])
             found.append(Check("bad" if settled.any() else "warn", "Bed", f"{body} reaches {words.number(float(-depth - low.min()), 3)} m under the bed, first at t = "

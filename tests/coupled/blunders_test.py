@@ -6,7 +6,8 @@ import unittest
 from running import ROOT, spindrift
 
 SCENES = {"case1": "leble_barakos/case1_engineering.toml", "case2": "leble_barakos/case2_engineering.toml",
-          "case3": "leble_barakos/case3_engineering.toml", "oc3": "validation/oc3_heave_decay/oc3_heave_decay.toml"}
+          "case3": "leble_barakos/case3_engineering.toml", "case1_demo": "leble_barakos/case1_demo.toml",
+          "oc3": "validation/oc3_heave_decay/oc3_heave_decay.toml"}
 BLUNDERS = tomllib.loads((ROOT / "tests/extremes/blunders.toml").read_text(encoding="utf-8"))["blunder"]
 
 
