@@ -212,7 +212,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   });
   const std::string& title = scenario->output.title;
   summary.title = title.empty() ? std::filesystem::path(arguments.scene).stem().string() : title;
-  summary.scene = arguments.scene;
+  summary.scene = arguments.scene, summary.overrides = arguments.overrides;
   take_stock(summary, since, world);
   if (world.rank == 0) {
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);

@@ -80,6 +80,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary, co
   Json json = {{"format", "spindrift-summary-1"},
                {"title", summary.title},
                {"scene", summary.scene},
+               {"set", summary.overrides},
                {"exit_code", summary.exit_code},
                {"exit_reason", summary.exit_reason},
                {"numerical_trouble", summary.numerical_trouble},

@@ -31,7 +31,8 @@ struct Efficiency {
 };
 
 struct Summary {
-  std::string title, scene;  ///< scene: the path given on the command line
+  std::string title, scene;            ///< scene: the path given on the command line
+  std::vector<std::string> overrides;  ///< of its keys, from there too
   int exit_code = 0;         ///< 0 done, 2 bad input, 3 numerical failure, 4 machine failure, 5 stopped on request
   std::string exit_reason;   ///< one sentence
   std::vector<std::string> numerical_trouble;  ///< one sentence each: what, where, when

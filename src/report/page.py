@@ -35,6 +35,12 @@ def verdict_of(run, name=""):
             "answers": verdict.answers(run), "span": "" if not len(run.time) else "At the end of the march." if verdict.is_steady(run) else f"Means over {run.mean_range()[1]}."}
 
 
+def scene_as_given(run):
+    """The file, and the keys that the command line changed: a title stays that of the file."""
+    changed = run.summary.get("set") or []
+    return (run.summary.get("scene") or run.name) + (" with " + ", ".join(changed) if changed else "")
+
+
 def facts(run):
     s, said = run.summary, []
     steady = verdict.is_steady(run)
@@ -409,7 +415,7 @@ def build(runs, progress=lambda words: None):
                   section("time-spent", "Where the time was spent", where_time(one) + counts(one), True),
                   section("efficiency", "Parallel efficiency", efficiency(one), True), section("scene", "Scene", scene(one), True),
                   section("log", "Log", log(one), True)]
-        return html_page.render(title=one.title, eyebrow=f"Spindrift run · {one.summary.get('scene') or one.name}", facts=facts(one),
+        return html_page.render(title=one.title, eyebrow=f"Spindrift run · {scene_as_given(one)}", facts=facts(one),
                                 verdicts=[verdict_of(one)], sections=[s for s in found if s], footer=footer(runs))
     found = [section("differences", "Differences of the scenes", differences(runs)), section("key-figures", "Key figures", compared_figures(runs)),
              *shown[:-2], section("spectra", "Spectra of motions", spectra(runs)), *shown[-2:]]

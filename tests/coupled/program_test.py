@@ -19,12 +19,13 @@ class Program(Folder):
         return spindrift("run", scene, "--out", out or self.out, "--no-report", *more, ranks=ranks)
 
     def test_a_run_leaves_everything_the_documentation_names(self):
-        done = self.run_case("--until", 2, "--trace")
+        done = self.run_case("--until", 2, "--trace", "--set", "aero.thrust_N=1.4e6")
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in ("scene.toml", "history.csv", "summary.json", "log.txt", "checkpoints", "trace.json"):
             self.assertTrue((self.out / name).exists(), name)
         summary = json.loads((self.out / "summary.json").read_text())
         self.assertEqual(summary["exit_code"], 0)
+        self.assertEqual(summary["set"], ["aero.thrust_N=1.4e6"])
         json.loads((self.out / "trace.json").read_text())
 
     def recorded(self, *more, ranks=0):

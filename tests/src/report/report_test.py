@@ -101,6 +101,10 @@ class ReportTest(unittest.TestCase):
         self.assertIn("Zero throughout: sway", parsed.text)
         self.assertLess(len(text), 600_000)
 
+    def test_keys_that_the_command_line_changed_stand_beside_the_scene(self):
+        _, parsed = self.page(set=["wind.speed_m_s=18", "time.end_s=60"])
+        self.assertIn("with wind.speed_m_s=18, time.end_s=60", parsed.text)
+
     def test_what_a_run_lacks_has_no_section(self):
         t = 0.1 * np.arange(200)
         table = {"time_s": t, "ball.z_m": np.sin(t)}
@@ -310,6 +314,9 @@ class PartsTest(unittest.TestCase):
             level, text = titles(z_m=-8.0 * (t > 20.0))["Bed"]
             self.assertEqual(level, "bad")
             self.assertIn("float reaches 2.00 m under the bed, first at t = 20.1", text)
+            run.scene["sea"]["model"] = "sph"
+            self.assertIn("float lies on the bed, first at t = 20.1", titles(z_m=-8.0 * (t > 20.0))["Bed"][1])
+            run.scene["sea"]["model"] = "morison"
             run.scene["environment"]["water_depth_m"] = 300.0
             self.assertEqual(titles(roll_deg=4.5 * t)["Upright"][0], "bad")
             self.assertIn("after t = 20", titles(z_m=-20.0 * (t > 20.05))["Afloat"][1])
