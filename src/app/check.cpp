@@ -201,10 +201,24 @@ void print_far_sides(const aero::RotorGridOptions& grid) {
 }
 
 /// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
+/// Makes the grid of a resolved rotor: whether it can be made and shared out is known then. Not of millions of cells, which takes
+/// minutes.
+void try_grid(const aero::ResolvedRotorSetup& setup, int ranks) {
+  constexpr long made_at_most = 300'000;
+  if (aero::resolved_rotor_size(setup).cells > made_at_most) return;
+  const std::shared_ptr<const aero::MadeRotorGrid> made = aero::made_rotor_grid(setup);
+  aero::require_ranks(std::size_t(aero::make_tiling(made->grid, aero::blade_patches(made->grid)).size()), ranks);
+}
+
+aero::ResolvedRotorSetup resolved_rotor_on(const FloatingSystem& floating, const coupling::Start& start) {
+  aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(floating.scenario());
+  setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;
+  return setup;
+}
+
 PartCost print_air(const FloatingSystem& floating, const coupling::Start& start, bool calibrate) {
   const coupling::Scenario& s = floating.scenario();
-  aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
-  setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;
+  const aero::ResolvedRotorSetup setup = resolved_rotor_on(floating, start);
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
   fmt::print("\nResolved air (estimates above take the rotor's load from blade elements)\n");
   fmt::print("  {:<22}{} in {} sector{}, {} rows of faces along each blade\n", "cells", size.cells, size.sectors,
@@ -327,13 +341,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   coupling::Scenario scenario = coupling::read_scenario(document);
   coupling::require_memory(scenario, coupling::machine_memory() * world.size);
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
-    // Grids of millions of cells take minutes: they are not made.
-    constexpr long made_at_most = 300'000;
-    const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(scenario);
-    if (aero::resolved_rotor_size(setup).cells <= made_at_most) {
-      const std::shared_ptr<const aero::MadeRotorGrid> made = aero::made_rotor_grid(setup);
-      aero::require_ranks(std::size_t(aero::make_tiling(made->grid, aero::blade_patches(made->grid)).size()), world.size);
-    }
+    try_grid(coupling::resolved_rotor_setup(scenario), world.size);
     if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size);
     return done;
   }
@@ -354,6 +362,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   FloatingSystem floating(std::move(scenario));
   const coupling::Start start = make_start(floating);
   const coupling::Stability stability = coupling::stability(floating, start.state);
+  if (has_resolved_rotor(floating.scenario())) try_grid(resolved_rotor_on(floating, start), world.size);
   const double start_s = processor_seconds() - begin_s;
   if (world.rank == 0) {
     fmt::print("{}: valid\n", arguments.scene);

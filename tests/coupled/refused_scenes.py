@@ -144,6 +144,13 @@ sea.tank.sides_x="ajar"
 sea.fields.interval_s=-1.0
 sea.initial.state="calm"
 """,
+    "leble_barakos/case3_demo.toml": """
+aero.grid.coarsen=3
+aero.grid.coarsen=5
+aero.grid.y_plus=-1.0
+start.air_steps=-1
+coupling.scheme="css" & time.window_s=60.0 & time.end_s=600.0 : time.window_s
+""",
     "leble_barakos/rotor_demo.toml": EVERY + """
 wind.speed_m_s=-11.0
 rotor.turbine="nothing.toml"
