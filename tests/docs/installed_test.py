@@ -1,5 +1,6 @@
 """An installation into an empty prefix: the program with its report, pictures, completion, man page and Python module. The pages in a browser:
 pages_test.py. Usage: installed_test.py BUILD. Needs cmake, python3-vtk9, xvfb, ffmpeg (ci/setup --pictures). SPDX-License-Identifier: Apache-2.0"""
+import ast
 import pathlib
 import re
 import shutil
@@ -58,22 +59,55 @@ class Installed(installed.Prefix):
 
     def test_picture_and_film_show_floats_tower_rotor_lines_sea_and_wake(self):
         import matplotlib.image
-        run = self.run_scene("leble_barakos/case3_demo.toml", "--until", 1, "--set", "start.air_steps=30", "--set", "sea.fields.interval_s=0.5")
+        run = self.run_scene("leble_barakos/case3_demo.toml", "--until", 1, "--set", "start.air_steps=30")
         done = start(self.program, "picture", run)
         self.assertEqual(done.returncode, 0, done.stderr)
-        pixels = matplotlib.image.imread(run / "picture.png")[..., :3]
+        self.find_parts(matplotlib.image.imread(run / "picture.png")[..., :3], 1.0)
+        shutil.copy(run / "picture.png", self.pages / "picture.png")
+        for ending in ("mp4", "webm"):   # of 12 s, as by default
+            out = self.pages / f"film.{ending}"
+            done = start(self.program, "film", run, "-o", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertGreater(out.stat().st_size, 10_000)
+            self.assertLess(out.stat().st_size, 5 << 20)
+            probe = start("ffprobe", "-v", "error", "-show_entries", "format=duration", "-of", "csv=p=0", out)
+            self.assertAlmostEqual(float(probe.stdout), 12.0, delta=0.2)
+            frames = []
+            for second in (0.5, 6.0, 11.5):
+                still = self.pages / "frame.png"
+                done = start("ffmpeg", "-y", "-loglevel", "error", "-ss", second, "-i", out, "-frames:v", 1, still)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                frames.append(matplotlib.image.imread(still)[..., :3])
+                self.find_parts(frames[-1], frames[-1].shape[0] * frames[-1].shape[1] / (1600 * 900))
+            self.assertGreater((abs(frames[2] - frames[0]).max(axis=2) > 0.1).sum(), 1000)   # it moves
+
+    def find_parts(self, pixels, scale):
+        """Floats, tower and blades, lines, sea and wake by their colours; `scale`: pixels of this picture over those of 1600 x 900."""
         r, g, b = pixels[..., 0], pixels[..., 1], pixels[..., 2]
         for what, seen, least in (("floats", (r > 0.7) & (g > 0.5) & (b < 0.3), 2000), ("tower and blades", (r > 0.85) & (g > 0.85) & (b > 0.85) & (abs(r - b) < 0.04), 2000),
                                   ("lines", (r > 0.6) & (g < 0.4) & (b < 0.35), 150), ("sea", (b > r + 0.15) & (b < 0.65), 20_000),
                                   ("wake", (g > r + 0.1) & (g > b), 2000)):
-            self.assertGreater(seen.sum(), least, what)
-        shutil.copy(run / "picture.png", self.pages / "picture.png")
-        for ending in ("mp4", "webm"):
-            out = self.pages / f"film.{ending}"
-            done = start(self.program, "film", run, "-o", out, "--seconds", 2)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertGreater(out.stat().st_size, 10_000)
-            self.assertLess(out.stat().st_size, 5 << 20)
+            self.assertGreater(seen.sum(), least * scale, what)
+
+    def test_a_picture_holds_every_part(self):
+        """Three floats, tower and three blades, three lines, sea and wake, as actors."""
+        run = self.run_scene("leble_barakos/case3_demo.toml", "--until", 1, "--set", "start.air_steps=30")
+        done = start("/usr/bin/python3", "-B", "-c", f"""
+import pathlib, sys
+sys.path.insert(0, {str(self.prefix / "share/spindrift/report")!r})
+import spindrift_picture
+from run_data import RunData
+with spindrift_picture.Display():
+    import scene_picture
+    drawing = scene_picture.Drawing(RunData(pathlib.Path({str(run)!r})), (320, 180))
+    drawing.draw(1.0)
+    print(drawing.seen)
+    del drawing   # before the display goes
+""")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        seen = ast.literal_eval(done.stdout)
+        for kind, least in (("float", 3), ("tower", 1), ("nacelle", 1), ("blade", 3), ("line", 3), ("sea", 1), ("wake", 1)):
+            self.assertGreaterEqual(seen.get(kind, 0), least, f"{kind}: {seen}")
 
 
 if __name__ == "__main__":
