@@ -340,6 +340,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   scene::Document document = load_scene(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
   coupling::require_memory(scenario, coupling::machine_memory() * world.size);
+  if (scenario.has_flow()) require_expected_columns(document, scenario.output, columns_of_air_alone());
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
     try_grid(coupling::resolved_rotor_setup(scenario), world.size);
     if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size);
@@ -360,6 +361,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   }
   const coupling::Scenario asked = scenario;
   FloatingSystem floating(std::move(scenario));
+  require_expected_columns(document, asked.output, columns_of(floating));
   const coupling::Start start = make_start(floating);
   const coupling::Stability stability = coupling::stability(floating, start.state);
   if (has_resolved_rotor(floating.scenario())) try_grid(resolved_rotor_on(floating, start), world.size);

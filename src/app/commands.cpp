@@ -197,7 +197,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
   }
   {
     auto arguments = std::make_shared<GridArguments>();
-    CLI::App* command = cli.add_subcommand("grid", "Make the rotor's grid, print its quality, write it as Plot3D or CGNS");
+    CLI::App* command =
+        cli.add_subcommand("grid", "Make the grid of a rotor or of a flow, print its quality, write it as Plot3D or CGNS");
     add_scene(*command, *arguments);
     command
         ->add_option("-o,--output", arguments->files,
@@ -207,7 +208,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->footer(
         "Examples:\n"
         "  spindrift grid inputs/leble_barakos/rotor_demo.toml\n"
-        "  spindrift grid inputs/leble_barakos/rotor_demo.toml -o rotor.cgns");
+        "  spindrift grid inputs/leble_barakos/rotor_demo.toml -o rotor.cgns\n"
+        "  spindrift grid inputs/validation/naca0012/family.toml -o wing.cgns");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return grid(*arguments, world); }; });
   }
   {

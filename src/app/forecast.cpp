@@ -17,6 +17,7 @@
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/run/flow_columns.hpp"
+#include "src/scene/value.hpp"
 
 namespace spindrift::app {
 
@@ -173,13 +174,36 @@ PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::Resolved
   return cost;
 }
 
-Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
-  const coupling::Scenario& s = floating.scenario();
-  Forecast f{.core_seconds = output_seconds};
+std::vector<std::string> columns_of(FloatingSystem& floating) {
   io::History history;
   const coupling::Recorder recorder(floating, history);
-  f.columns = names(history);
-  if (s.resolves_air() || exchanges(s)) add_columns_of_air(f.columns, {"air.", "coupling."});
+  std::vector<std::string> found = names(history);
+  const coupling::Scenario& s = floating.scenario();
+  if (s.resolves_air() || exchanges(s)) add_columns_of_air(found, {"air.", "coupling."});
+  return found;
+}
+
+std::vector<std::string> columns_of_air_alone() {
+  std::vector<std::string> found;
+  add_columns_of_air(found, {"flow.", "rotor."});
+  return found;
+}
+
+void require_expected_columns(scene::Document& document, const coupling::OutputOptions& output,
+                              const std::vector<std::string>& known) {
+  for (std::size_t n = 0; n < output.expected.size(); ++n) {
+    const std::string& column = output.expected[n].column;
+    if (std::ranges::find(known, column) != known.end()) continue;
+    const std::string near = scene::nearest(column, known);
+    document.problem(fmt::format("output.expected[{}].column", n),
+                     "is no column of this scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  }
+  document.finish();
+}
+
+Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::Scenario& s = floating.scenario();
+  Forecast f{.core_seconds = output_seconds, .columns = columns_of(floating)};
   const auto add = [&](const PartCost& part) {
     f.core_seconds += part.core_seconds_per_work * (part.work_before + part.work_per_second * s.time.end_s);
     f.bytes += part.bytes + part.checkpoint_bytes;
@@ -240,7 +264,7 @@ Forecast forecast_of_air(const coupling::Scenario& s) {
   }
   Forecast f{.core_seconds = cost.core_seconds_per_work * cost.work_per_second * s.time.end_s,
              .bytes = cost.bytes + cost.checkpoint_bytes + resident_memory() + output_bytes};
-  add_columns_of_air(f.columns, {"flow.", "rotor."});
+  f.columns = columns_of_air_alone();
   return f;
 }
 

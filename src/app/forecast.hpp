@@ -11,6 +11,7 @@
 #include "src/app/cost.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
+#include "src/scene/document.hpp"
 
 namespace spindrift::app {
 
@@ -37,6 +38,12 @@ struct Forecast {
   double core_seconds = 0.0, bytes = 0.0;
   std::vector<std::string> columns;  ///< of history.csv; empty where only the run itself knows
 };
+/// Those of bodies with all that acts on them; of air alone. Some scenes have fewer columns of the air.
+std::vector<std::string> columns_of(coupling::FloatingSystem& floating);
+std::vector<std::string> columns_of_air_alone();
+/// Throws SceneError where [[output.expected]] names a column that the scene does not have.
+void require_expected_columns(scene::Document& document, const coupling::OutputOptions& output,
+                              const std::vector<std::string>& known);
 Forecast forecast(coupling::FloatingSystem& floating, const coupling::Start& start);
 /// Air without bodies: a resolved rotor, or the flow on a grid.
 Forecast forecast_of_air(const coupling::Scenario& scenario);

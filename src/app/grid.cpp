@@ -1,13 +1,17 @@
-// spindrift grid: makes the rotor's grid of a scene, prints its quality, writes it as Plot3D with a neutral map file or as CGNS.
-// SPDX-License-Identifier: Apache-2.0
+// spindrift grid: makes the grid of a scene, a rotor's or that of a flow round walls, prints its quality, writes it as Plot3D
+// with a neutral map file or as CGNS. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <variant>
 
+#include "src/aero/flow_grid.hpp"
+#include "src/aero/flow_options.hpp"
 #include "src/aero/grid/cgns.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/neutral_map.hpp"
 #include "src/aero/grid/plot3d.hpp"
+#include "src/aero/grid/quality.hpp"
 #include "src/aero/rotor_grid/quality.hpp"
 #include "src/aero/rotor_grid/rotor_grid.hpp"
 #include "src/app/commands.hpp"
@@ -19,29 +23,37 @@ namespace spindrift::app {
 
 namespace {
 
+/// Of a rotor.
 struct Wanted {
   aero::RotorGridOptions options;
   aero::Turbine turbine;
   aero::RotorGridSpec spec;
 };
+using WantedGrid = std::variant<Wanted, aero::FlowOptions>;
 
 /// A scene may be as short as [rotor] turbine and [aero.grid]; what else it has must be right, but need not be all that a run
 /// needs.
-Wanted read(const SceneArguments& arguments) {
+WantedGrid read(const SceneArguments& arguments) {
   scene::Document document = load_scene(arguments.scene, arguments.overrides);
   const aero::AeroOptions air = document.read(aero::aero_section());
   const aero::RotorOptions rotor = document.read(aero::rotor_section());
   const aero::WindOptions wind = document.read(aero::wind_section());
   for (const scene::SectionBase* section : coupling::all_sections())
     if (section->name() != "aero" && section->name() != "rotor" && section->name() != "wind") document.read_any(*section);
-  if (rotor.turbine.empty()) document.problem("rotor.turbine", "must name a turbine file: the grid is made round its blades");
+  if (air.flow && (air.flow->generate || !air.flow->grid.empty())) {
+    document.finish();
+    return *air.flow;
+  }
+  if (rotor.turbine.empty())
+    document.problem("rotor.turbine",
+                     "must name a turbine file, round whose blades the grid is made; or a flow has aero.flow.generate");
   const aero::RotorGridOptions options = air.grid.value_or(aero::RotorGridOptions());
   if (options.y_plus && rotor.speed == 0.0 && wind.speed_m_s == 0.0)
     document.problem("aero.grid.y_plus", "needs wind.speed_m_s or rotor.speed_rpm: y+ follows from the speed of the air");
   document.finish();
   aero::Turbine turbine = aero::read_turbine(rotor.turbine);
   const aero::RotorGridSpec spec = rotor_grid_spec(options, turbine, rotor.blade_pitch, rotor.speed, wind.speed_m_s);
-  return {options, std::move(turbine), spec};
+  return Wanted{options, std::move(turbine), spec};
 }
 
 /// By the ending: .cgns, or .p3d and .xyz (binary), .p3dfmt (formatted), each with a .nmf beside it.
@@ -60,8 +72,15 @@ void write(const aero::MultiBlockGrid& grid, const std::filesystem::path& file) 
 }  // namespace
 
 int grid(const GridArguments& arguments, const runtime::World& world) {
-  const Wanted wanted = read(arguments);
+  const WantedGrid asked = read(arguments);
   if (world.rank != 0) return done;
+  if (const auto* flow = std::get_if<aero::FlowOptions>(&asked)) {
+    const aero::MultiBlockGrid grid = flow_grid(*flow);  // sound, or refused
+    fmt::print("{}\n{}", describe_flow_grid(*flow), describe(grid_quality(grid), grid));
+    for (const std::string& file : arguments.files) write(grid, file);
+    return done;
+  }
+  const Wanted& wanted = std::get<Wanted>(asked);
   const aero::MultiBlockGrid grid = make_rotor_grid(wanted.turbine, wanted.spec);
   const aero::RotorGridQuality quality = rotor_grid_quality(grid, {"blade_"});
   fmt::print("{}", describe_quality(grid, quality));

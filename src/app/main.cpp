@@ -51,6 +51,27 @@ std::string unknown_command(const CLI::App& cli, int argc, char** argv) {
                      near.empty() ? fmt::format("known: {}", fmt::join(known, ", ")) : fmt::format("did you mean '{}'?", near));
 }
 
+/// The first option that its command does not have, and which was meant. Empty where there is none such.
+std::string unknown_option(const CLI::App& cli, int argc, char** argv) {
+  if (argc < 3) return {};
+  const auto commands = cli.get_subcommands([&](const CLI::App* one) { return one->get_name() == argv[1]; });
+  if (commands.empty()) return {};
+  const CLI::App* command = commands.front();
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string_view(argv[i]).find('='));
+    if (word == "--") return {};
+    if (!word.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end()) continue;
+    const std::string near = scene::nearest(word, known);
+    return fmt::format(
+        "{}: there is no option '{}'; {}", argv[1], word,
+        near.empty() ? fmt::format("spindrift {} --help lists them", argv[1]) : fmt::format("did you mean '{}'?", near));
+  }
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -67,6 +88,12 @@ int main(int argc, char** argv) {
   }
   try {
     cli.parse(argc, argv);
+  } catch (const CLI::ExtrasError& e) {
+    if (const std::string unknown = unknown_option(cli, argc, argv); !unknown.empty())
+      fmt::print(stderr, "error: {}\n", unknown);
+    else
+      cli.exit(e);
+    return app::bad_input;
   } catch (const CLI::ParseError& e) { return cli.exit(e) == 0 ? 0 : app::bad_input; }
   try {
     int code = app::done;

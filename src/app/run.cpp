@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -110,11 +111,21 @@ io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& 
     summary.ranks = world.size;
     if (code == numerical_failure) summary.numerical_trouble.push_back(why);
   };
+  // A new run says what it was refused for; one that goes on keeps the summary that it has.
+  const auto refused = [&](const std::string& why) {
+    if (world.rank != 0 || std::filesystem::exists(directory.summary())) return;
+    end(bad_input, why);
+    write_summary(directory.summary(), summary, {});
+  };
   try {
     return run();
-  } catch (const io::InputError&) {
-    throw;  // the run did not begin
-  } catch (const scene::SceneError&) { throw; } catch (const runtime::StopAsked& why) {
+  } catch (const io::InputError& refusal) {
+    refused(refusal.what());
+    throw;
+  } catch (const scene::SceneError& refusal) {
+    refused(refusal.what());
+    throw;
+  } catch (const runtime::StopAsked& why) {
     end(stopped, fmt::format("{}, before the first window; with --restart the run begins anew, air that settles where it was",
                              why.what()));
   } catch (const NumericalFailure& failure) { end(numerical_failure, failure.what()); } catch (const std::exception& failure) {
@@ -143,16 +154,29 @@ void print_summary(const io::Summary& summary, const io::RunDirectory& directory
 
 namespace {
 /// Floating system and start of a scene that is not of the air alone.
-ReadyScene made_ready(coupling::Scenario scenario, std::string echo) {
+ReadyScene made_ready(coupling::Scenario scenario, scene::Document& document) {
   ReadyScene ready;
   ready.floating = std::make_unique<coupling::FloatingSystem>(std::move(scenario));
+  require_expected_columns(document, ready.floating->scenario().output, columns_of(*ready.floating));
   ready.start = make_start(*ready.floating);
   const coupling::Stability found = stability(*ready.floating, ready.start.state);
   ready.doubts = coupling::doubts(*ready.floating, ready.start, found);
   require_limits(*ready.floating, ready.start.state, found);
+  ready.modes = found.linearisation.modes;
   ready.floating->multibody().open_chart(ready.start.state, 0.0);  // the first solution begins from it
-  ready.echo = std::move(echo);
+  ready.echo = document.echo();
   return ready;
+}
+/// Those that have a stiffness or a damping.
+std::vector<io::ModeLine> lines_of(const std::vector<bodies::Mode>& modes) {
+  std::vector<io::ModeLine> lines;
+  for (const bodies::Mode& mode : modes) {
+    if (mode.eigenvalue == 0.0) continue;
+    const bool oscillates = std::abs(mode.eigenvalue.imag()) > 1e-6;
+    lines.push_back(
+        {mode.name, oscillates ? 1.0 / mode.period_s() : 0.0, oscillates ? mode.damping_ratio() : mode.eigenvalue.real()});
+  }
+  return lines;
 }
 }  // namespace
 
@@ -160,21 +184,22 @@ ReadyScene read_scene(const std::string& path, const std::vector<std::string>& o
   scene::Document document = load_scene(path, overrides, overrider);
   coupling::Scenario scenario = coupling::read_scenario(document);
   coupling::require_memory(scenario, coupling::machine_memory());
-  return made_ready(std::move(scenario), document.echo());
+  return made_ready(std::move(scenario), document);
 }
 
 SceneRun run_scene(const RunArguments& arguments, const runtime::World& started, const scene::Source& overrider) {
   const double since = processor_seconds();
   io::start_log(started.rank, arguments.quiet);
+  std::optional<scene::Document> document;
   std::optional<coupling::Scenario> scenario;
   std::string echo;
   std::optional<scene::FileRecord> read;
   coupling::agree(started, [&] {
-    scene::Document document = load_scene(arguments.scene, arguments.overrides, overrider);
+    document = load_scene(arguments.scene, arguments.overrides, overrider);
     read.emplace();
-    scenario = coupling::read_scenario(document);
+    scenario = coupling::read_scenario(*document);
     coupling::require_memory(*scenario, coupling::machine_memory() * started.size);  // of as many machines as there may be
-    echo = document.echo();
+    echo = document->echo();
     return coupling::Started{
         arguments.fluid, echo,
         fmt::format("--out {}\n--until {}\n--restart {}\n--overwrite {}\n--trace {}\n--record-graph {}\n--windows {}\n",
@@ -186,7 +211,10 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   io::start_log(world.rank, arguments.quiet);
   // Every check has passed before the run directory is made.
   std::optional<ReadyScene> system;
-  if (!scenario->has_flow()) system = made_ready(*scenario, echo);
+  if (!scenario->has_flow())
+    system = made_ready(*scenario, *document);
+  else
+    require_expected_columns(*document, scenario->output, columns_of_air_alone());
   require_writable(arguments, world.comm);
   io::RunDirectory directory = open_directory(arguments, world.comm);
   require_same_run(directory, scene::Identity::of(echo, read->files()), arguments, world.comm);
@@ -213,6 +241,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   const std::string& title = scenario->output.title;
   summary.title = title.empty() ? std::filesystem::path(arguments.scene).stem().string() : title;
   summary.scene = arguments.scene, summary.overrides = arguments.overrides;
+  if (system) summary.modes = lines_of(system->modes);
   take_stock(summary, since, world);
   if (world.rank == 0) {
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);

@@ -21,6 +21,7 @@ struct ReadyScene {
   std::unique_ptr<coupling::FloatingSystem> floating;
   coupling::Start start;
   scene::Doubts doubts;  ///< what looks like a slip
+  std::vector<bodies::Mode> modes;
 };
 /// `overrider`: whose overrides they are; names of files in them start at its folder.
 ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides,

@@ -639,6 +639,8 @@ double System::constraint_residual(const BodiesState& state, double t_s) {
   return w_->mechanism.residual();
 }
 
+double System::constraint_residual_now() { return w_->mechanism.residual(); }
+
 double System::kinetic_energy(const BodiesState& state) const { return kinetic_energy_of(w_->bodies, state.motions); }
 
 std::string System::describe(const StepReport& r) const {

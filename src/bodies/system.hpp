@@ -98,6 +98,8 @@ class System {
 
   /// Largest residual of all constraints over the reference length.
   double constraint_residual(const BodiesState& state, double t_s);
+  /// The same at the state that was evaluated last; nothing is solved for it.
+  double constraint_residual_now();
   /// Kinetic energy [J], added mass not included.
   double kinetic_energy(const BodiesState& state) const;
 

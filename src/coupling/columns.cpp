@@ -71,6 +71,13 @@ Table<bodies::BeamReading> beam_columns() {
   return table;
 }
 
+Table<double> constraint_columns() {
+  static constexpr ColumnOf<double> table[] = {{"constraint_residual", "-",
+                                                "largest residual of all joints' constraints, over the largest arm of a joint",
+                                                [](const double& r) { return r; }}};
+  return table;
+}
+
 Table<EnergyRow> energy_columns() {
   using Of = const EnergyRow&;
   using Balance = bodies::EnergyBalance;
@@ -279,6 +286,7 @@ std::vector<io::ColumnSection> column_sections() {
               wrench_columns()),
           section_of("JOINT.", "each joint: its reaction", wrench_columns()),
           section_of("BEAM.", "each beam: how it is bent and the loads at its ends", beam_columns()),
+          section_of("joints.", "scenes with joints", constraint_columns()),
           section_of("energy.", "scenes with bodies: their balance of energy", energy_columns()),
           section_of("energy.SOURCE.", "each source of load", work_columns()),
           section_of("rotor.", "scenes with a rotor, with bodies or alone", rotor_columns()),

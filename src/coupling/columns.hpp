@@ -51,6 +51,7 @@ using Table = std::span<const io::ColumnOf<Source>>;
 Table<ReferenceMotion> motion_columns();         ///< BODY.
 Table<Wrench> wrench_columns();                  ///< BODY.SOURCE., JOINT.
 Table<bodies::BeamReading> beam_columns();       ///< BEAM.
+Table<double> constraint_columns();              ///< joints.
 Table<EnergyRow> energy_columns();               ///< energy.
 Table<double> work_columns();                    ///< energy.SOURCE.
 Table<RotorRow> rotor_columns();                 ///< rotor.

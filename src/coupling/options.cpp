@@ -85,6 +85,25 @@ const scene::Section<StartOptions>& start_section() {
   return section;
 }
 
+const scene::Section<ExpectedOptions>& expected_section() {
+  static const auto section =
+      scene::Section<ExpectedOptions>(
+          "expected", "What the scene should give, by somebody else's account: the report sets it beside what it gave.")
+          .text("column", &ExpectedOptions::column, "Column of history.csv.")
+          .required()
+          .number("mean", &ExpectedOptions::mean, "-", "Its mean, in the column's unit.")
+          .required()
+          .number("within", &ExpectedOptions::within, "-", "How far the mean may be from it, in the same unit.",
+                  scene::not_negative())
+          .required()
+          .number("from_s", &ExpectedOptions::from_s, "s",
+                  "The mean is that from here to the end of the run; over output.means_over_s where absent.",
+                  scene::not_negative())
+          .text("source", &ExpectedOptions::source, "Who says so: a paper with its table, a theory, a measurement.")
+          .required();
+  return section;
+}
+
 const scene::Section<OutputOptions>& output_section() {
   static const auto section =
       scene::Section<OutputOptions>("output", "What a run writes.")
@@ -100,9 +119,12 @@ const scene::Section<OutputOptions>& output_section() {
                   "Length of the time before the end over which summary.json, and spanwise.csv of a steady flow, give means; 0: "
                   "the last third of the run.",
                   scene::between(0.0, 1e6))
-          .number("air_interval_s", &OutputOptions::air_interval_s, "s",
-                  "Resolved rotor on a body: simulated time between fields of its air; 0: at the end alone.",
-                  scene::between(0.0, 1e6));
+          .number(
+              "air_interval_s", &OutputOptions::air_interval_s, "s",
+              "Resolved rotor on a body: simulated time between fields of its air; 0: at the end alone; that of sea.fields where "
+              "absent.",
+              scene::between(0.0, 1e6))
+          .tables("expected", &OutputOptions::expected, expected_section(), "References that the report compares with.");
   return section;
 }
 

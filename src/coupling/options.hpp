@@ -41,6 +41,14 @@ struct StartOptions {
   std::string air;    ///< the same: a file of the run whose air it starts from
 };
 
+/// [[output.expected]]: what somebody else says of the mean of a column.
+struct ExpectedOptions {
+  std::string column;
+  double mean = 0.0, within = 0.0;
+  std::optional<double> from_s;  ///< stretch of the mean, to the end; that of output.means_over_s where absent
+  std::string source;
+};
+
 struct OutputOptions {
   std::string title;
   std::string openfast = "none";
@@ -48,7 +56,8 @@ struct OutputOptions {
   double means_over_s = 0.0;  ///< 0: the last third of the run
   /// Length of the end of a run over which means are taken [s].
   double mean_length(double end_s) const { return means_over_s > 0.0 ? std::min(means_over_s, end_s) : end_s / 3.0; }
-  double air_interval_s = 0.0;  ///< between fields of the resolved air; 0: at the end alone
+  std::optional<double> air_interval_s;  ///< between fields of the resolved air; 0: at the end alone
+  std::vector<ExpectedOptions> expected;
 };
 
 struct CheckpointOptions {

@@ -31,6 +31,7 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
   }
   for (const bodies::Joint& joint : floating.multibody().joints())
     joints_.emplace_back(history, joint.name + ".", wrench_columns());
+  if (!joints_.empty()) constraints_.emplace(history, "joints.", constraint_columns());
   for (const bodies::Beam& beam : floating.beams()) beams_.emplace_back(history, beam.name + ".", beam_columns());
   if (!bodies.empty()) {
     energy_.emplace(history, "energy.", energy_columns());
@@ -108,6 +109,7 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
                                           now.angular_acceleration[b]));
   for (const Load& load : loads_) load.columns.fill(row, now.by_source[load.source][load.body]);
   for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].fill(row, now.joint_reactions[j]);
+  if (constraints_) constraints_->fill(row, floating_.multibody().constraint_residual_now());
   for (std::size_t n = 0; n < beams_.size(); ++n)
     beams_[n].fill(row, read_beam(floating_.beams()[n], state.motions, now.acceleration, now.angular_acceleration,
                                   floating_.gravity_m_s2()));

@@ -42,6 +42,7 @@ class Recorder {
   std::vector<Load> loads_;
   std::vector<Group<Wrench>> joints_;
   std::vector<Group<bodies::BeamReading>> beams_;
+  std::optional<Group<double>> constraints_;
   std::optional<Group<EnergyRow>> energy_;
   std::vector<Group<double>> works_;  ///< by source of load
   std::optional<Group<RotorRow>> rotor_;

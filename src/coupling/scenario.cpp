@@ -268,7 +268,7 @@ Scenario read_scenario(scene::Document& document) {
   if (!(s.has_rotor() && s.resolves_air()) && s.start.air_steps > 0)
     document.problem("start.air_steps", "has no effect: there is no rotor in resolved air on a body");
   for (const auto& [key, given] :
-       {std::pair{"start.air", !s.start.air.empty()}, std::pair{"output.air_interval_s", s.output.air_interval_s > 0.0}})
+       {std::pair{"start.air", !s.start.air.empty()}, std::pair{"output.air_interval_s", s.output.air_interval_s.has_value()}})
     if (!(s.has_rotor() && s.resolves_air()) && given)
       document.problem(key, "has no effect: there is no resolved rotor on a body");
   if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");

@@ -46,6 +46,8 @@ struct Scenario {
   bool has_actuator() const { return aero.acts(); }
   bool has_flow() const { return resolves_air() && bodies.empty(); }  ///< the air by itself: src/run/flow_simulation.hpp
   bool has_rotor() const { return aero.model != "none" && !has_flow(); }
+  /// Simulated time between fields of resolved air round a rotor on bodies; 0: at the end alone.
+  double air_interval_s() const { return output.air_interval_s.value_or(sea.fields ? sea.fields->interval_s : 0.0); }
   bool is_controlled() const { return control.model != aero::ControlModel::none; }
   bool has_sea() const { return sea.model != "none"; }
   bool has_waves() const { return has_sea() && waves.model != "none"; }

@@ -99,6 +99,9 @@ void write_summary(const std::filesystem::path& path, const Summary& summary, co
   for (const PartTime& part : summary.parts)
     json["parts"].push_back(
         {{"name", part.name}, {"seconds", part.seconds}, {"core_seconds", part.core_seconds}, {"calls", part.calls}});
+  json["modes"] = Json::array();
+  for (const ModeLine& mode : summary.modes)
+    json["modes"].push_back({{"name", mode.name}, {"frequency_Hz", mode.frequency_Hz}, {"damping", mode.damping}});
   json["efficiency"] = Json::array();
   for (const Efficiency& line : summary.efficiency)
     json["efficiency"].push_back({{"name", line.name}, {"value", line.value}, {"meaning", line.meaning}});

@@ -30,11 +30,18 @@ struct Efficiency {
   std::string meaning;
 };
 
+/// A mode of the bodies about the start, as `spindrift check` prints it.
+struct ModeLine {
+  std::string name;
+  double frequency_Hz;  ///< damped; 0 where it does not oscillate
+  double damping;       ///< of critical; of those that do not oscillate the rate [1/s]
+};
+
 struct Summary {
   std::string title, scene;            ///< scene: the path given on the command line
   std::vector<std::string> overrides;  ///< of its keys, from there too
-  int exit_code = 0;         ///< 0 done, 2 bad input, 3 numerical failure, 4 machine failure, 5 stopped on request
-  std::string exit_reason;   ///< one sentence
+  int exit_code = 0;                   ///< 0 done, 2 bad input, 3 numerical failure, 4 machine failure, 5 stopped on request
+  std::string exit_reason;             ///< one sentence
   std::vector<std::string> numerical_trouble;  ///< one sentence each: what, where, when
   std::int64_t warnings = 0;
 
@@ -46,6 +53,7 @@ struct Summary {
   double peak_memory_bytes = 0;  ///< of all ranks together, each at its largest
   std::vector<PartTime> parts;
   std::vector<Efficiency> efficiency;
+  std::vector<ModeLine> modes;  ///< of bodies that have any
 
   int ranks = 1, threads = 1;  ///< threads per rank
   std::vector<Column> columns;

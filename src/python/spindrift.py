@@ -137,21 +137,38 @@ class Field:
 
 
 class Study:
-    """The folder of a study: `runs` (a table of dicts: name, core_seconds, errors, on_front), `cheapest`, the runs themselves."""
+    """The folder of a study: `rungs` (dicts as in study.json: name, cost, errors by metric, on_front, failed), `front` (their names), `answer` (the name of
+    the cheapest that meets all targets, None where none does), `sentence`, `metrics`."""
 
     def __init__(self, directory):
         self.directory = pathlib.Path(directory)
         path = self.directory / "study.json"
         if not path.exists():
             raise FileNotFoundError(f"{self.directory} is not the folder of a study: it has no study.json")
-        found = json.loads(path.read_text(encoding="utf-8"))
-        self.metrics, self.runs, self.cheapest = found.get("metrics", []), found["runs"], found.get("cheapest_within_targets")
+        self.summary = json.loads(path.read_text(encoding="utf-8"))
+        self.rungs, self.metrics = self.summary["rungs"], self.summary["metrics"]
+        self.front, self.answer, self.sentence = self.summary["front"], self.summary["answer"], self.summary["sentence"]
 
-    def front(self):
-        """Names of the runs that no other one beats in both error and cost."""
-        return [r["name"] for r in self.runs if r["on_front"]]
+    def __repr__(self):
+        return f"<spindrift.Study {self.directory}: {len(self.rungs)} rungs, {self.sentence}>"
+
+    def rung(self, name):
+        found = [r for r in self.rungs if r["name"] == name]
+        if not found:
+            raise KeyError(f"{self.directory}: no rung '{name}'; there are: {', '.join(r['name'] for r in self.rungs)}")
+        return found[0]
+
+    def error(self, name, metric):
+        """Error of a rung in a metric, and its interval (low, high)."""
+        e = self.rung(name)["errors"][metric]
+        return e["error"], (e["low"], e["high"])
+
+    def core_seconds(self, name):
+        """Cost of a run of a rung [core-s]."""
+        return self.rung(name)["cost"]["core_s"]
 
     def open(self, name):
+        """The run of a rung, or of a replica of it (its folder's name)."""
         return Run(self.directory / name)
 
 

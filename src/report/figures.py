@@ -208,6 +208,15 @@ def segment_s(time):
     return 0.375 * (time[-1] - time[0])
 
 
+def _name_marks(axis, marks, top):
+    """Names at the tops of their lines, one below the other where lines stand close."""
+    last, down = -np.inf, 0
+    for name, mark in sorted(marks.items(), key=lambda entry: entry[1]):
+        down = down + 1 if mark - last < 0.12 * top else 0
+        last = mark
+        axis.annotate(name, (mark, 1.0), xycoords=("data", "axes fraction"), xytext=(2, -1 - 9 * down), textcoords="offset points", fontsize=7.5, va="top")
+
+
 def spectra(runs, panels, marks):
     """Spectra of motions with lines at `marks` {name: Hz}; None where there is nothing that moves for long enough."""
     ready = []
@@ -233,10 +242,11 @@ def spectra(runs, panels, marks):
             axis.semilogy(*envelope(frequency, power), color=PALETTE[r % len(PALETTE)], linestyle=DASHES[r % len(DASHES)])
         peak = max(power[frequency <= top].max(initial=1e-300) for _, frequency, power in lines)
         for name, mark in marks.items():
-            if mark <= top:
-                axis.axvline(mark, color=INK, linewidth=0.7, linestyle=DASHES[1])
-                if axis is axes.flat[0]:
-                    axis.annotate(name, (mark, 1.0), xycoords=("data", "axes fraction"), xytext=(2, -1), textcoords="offset points", fontsize=7.5, va="top")
+            # A mode is marked where its motion is drawn.
+            if mark <= top and (name == label or name not in quantities.AXES.values()):
+                axis.axvline(mark, color=INK, linewidth=0.7, linestyle=DASHES[2 if name == label else 1])
+        if axis is axes.flat[0]:
+            _name_marks(axis, {name: mark for name, mark in marks.items() if mark <= top and name not in quantities.AXES.values()}, top)
         axis.set_xlim(0.0, top)
         axis.set_ylim(peak * 1e-6, peak * 5.0)
         axis.set_ylabel(f"{label} [{quantities.unit_of(column)}²/Hz]")
@@ -245,6 +255,59 @@ def spectra(runs, panels, marks):
     axes[-1, 0].set_xlabel("frequency [Hz]")
     figure.align_ylabels()
     return figure
+
+
+def campbell(rows, wave_Hz, rpm, blades):
+    """Frequencies over the rotor's speed: modes [(name, Hz)] and waves lie flat, the rotor's turning and its blades' passing rise; marked is the speed of the run."""
+    figure, axis = plt.subplots(figsize=(5.4, 3.0), layout="constrained")
+    fastest, top = 1.3 * rpm, 1.25 * blades * rpm / 60.0
+    speeds = np.array([0.0, fastest])
+    for n, (name, times) in enumerate((("1P", 1), (f"{blades}P", blades))):
+        axis.plot(speeds, times * speeds / 60.0, color=PALETTE[n])
+        axis.annotate(name, (fastest, times * fastest / 60.0), xytext=(-3, 4), textcoords="offset points", ha="right", fontsize=7.5, color=PALETTE[n], annotation_clip=True)
+    if wave_Hz:
+        axis.axhline(wave_Hz, color=PALETTE[4], linestyle=DASHES[1])
+        axis.annotate("waves", (0.0, wave_Hz), xytext=(3, 2), textcoords="offset points", fontsize=7.5, color=PALETTE[4])
+    taken = [wave_Hz] if wave_Hz else []
+    for name, frequency in sorted(rows, key=lambda row: row[1]):
+        if frequency > top:
+            continue
+        axis.axhline(frequency, color=INK, linewidth=0.7)
+        free = all(abs(frequency - other) > 0.055 * top for other in taken)   # names do not lie on each other
+        if free:
+            axis.annotate(name, (0.42 * fastest, frequency), xytext=(0, 2), textcoords="offset points", fontsize=7.5)
+            taken.append(frequency)
+    axis.axvline(rpm, color=INK, linewidth=0.7, linestyle=DASHES[2])
+    axis.set_xlim(0.0, fastest)
+    axis.set_ylim(0.0, top)
+    axis.set_xlabel("rotor speed [rpm]")
+    axis.set_ylabel("frequency [Hz]")
+    return figure
+
+
+def timeline(tasks, count=400):
+    """What each thread did, task by task, in a stretch of about `count` tasks from the middle of a trace: (figure, {module: legend_mark})."""
+    starts, ends = np.array([t[0] for t in tasks]), np.array([t[1] for t in tasks])
+    order = np.argsort(starts)
+    middle = order[max(0, len(order) // 2 - count // 2): len(order) // 2 + (count + 1) // 2]
+    begin, end = starts[middle].min(), starts[middle].max()
+    shown = [tasks[n] for n in np.flatnonzero((ends > begin) & (starts < end))]
+    total = {}
+    for start, stop, module, _ in shown:
+        total[module] = total.get(module, 0.0) + min(stop, end) - max(start, begin)
+    modules = sorted(total, key=lambda m: -total[m])[:len(PALETTE)]
+    threads = sorted({t[3] for t in shown}, key=str)[:16]
+    figure, axis = plt.subplots(figsize=(8.2, 0.42 * len(threads) + 0.9), layout="constrained")
+    for row, thread in enumerate(threads):
+        for m, module in enumerate(modules):
+            bars = [(1e3 * (max(s, begin) - begin), 1e3 * (min(e, end) - max(s, begin))) for s, e, what, where in shown if where == thread and what == module]
+            axis.broken_barh(bars, (row - 0.36, 0.72), color=PALETTE[m], linewidth=0)
+    axis.set_yticks(range(len(threads)), [f"rank {rank}, thread {thread}" for rank, thread in threads])
+    axis.set_xlim(0.0, 1e3 * (end - begin))
+    axis.set_xlabel("time [ms]")
+    axis.grid(axis="y", visible=False)
+    axis.invert_yaxis()
+    return figure, {module: legend_mark(m, 0) for m, module in enumerate(modules)}
 
 
 def power_of_ten(value):

@@ -13,7 +13,7 @@ STATE = '''# Opens the fields of this run in ParaView:  paraview --script={folde
 import pathlib
 from paraview.simple import *
 
-folder = pathlib.Path({folder!r})
+folder = pathlib.Path(__file__).resolve().parent if "__file__" in globals() else pathlib.Path({folder!r})
 view = GetActiveViewOrCreate("RenderView")
 
 

@@ -22,6 +22,7 @@ GROUPS = {"motion": ("Motions", False), "forces": ("Forces by source", False), "
           "rotor": ("Rotor", False), "moorings": ("Lines", False), "sea": ("Gauges, probes, paddle", False),
           "rates": ("Velocities and accelerations", True), "other": ("Other columns", True)}
 LOG_LINES = 80
+MOST_SPECTRA = 4   # bodies
 LEVEL = re.compile(r"\d{4}-\d\d-\d\d [\d:.]+ (\w+) ")   # of a line of log.txt that begins a message
 
 
@@ -183,6 +184,19 @@ def key_figures(run):
     return table(names) + (safe(f"<details><summary>All {len(run.columns) - 1} columns</summary>{table(rest)}</details>") if rest else "")
 
 
+def expected(run):
+    """The scene's references beside what the run gave."""
+    rows = []
+    for r in verdict.references(run):
+        unit, factor = quantities.scaled(quantities.unit_of(r.column, run.described), abs(r.wanted))
+        off = r.found - r.wanted
+        share = f" ({100.0 * off / abs(r.wanted):+.1f} %)".replace("-", "−") if r.wanted and not r.why_not else ""
+        outcome = {True: "met", False: "not met", None: f"not compared: {r.why_not}"}[r.agrees()]
+        rows.append([_spoken(run, r.column), unit, f"{number(factor * r.wanted)} ± {number(factor * r.within, 2)}", "–" if r.why_not else number(factor * r.found),
+                     "–" if r.why_not else number(factor * off, 2) + share, outcome, f"{r.source}{f'; mean {r.span}' if r.span else ''}"])
+    return parts.table(["Quantity", "Unit", "Expected", "Found", "Difference", "Outcome", "By"], rows, (5, 6)) if rows else ""
+
+
 def compared_figures(runs):
     """Means of each run, and how far each is from the first."""
     names = [n for n in quantities.key_columns(runs[0].columns) if all(n in r.columns for r in runs)]
@@ -263,6 +277,41 @@ def marks(run):
     return found
 
 
+def modes_of(run, body):
+    """{motion: frequency in Hz} of the modes that are named after a body."""
+    found = {}
+    for mode in run.summary.get("modes") or []:
+        motion, _, owner = str(mode.get("name", "")).partition(" of ")
+        if owner == body and motion in quantities.AXES.values() and (mode.get("frequency_Hz") or 0.0) > 0.0:
+            found.setdefault(motion, mode["frequency_Hz"])
+    return found
+
+
+def modes(run):
+    """Modes of the bodies about the start, and where the rotor's frequencies and the waves meet them."""
+    found = [m for m in run.summary.get("modes") or [] if isinstance(m, dict) and isinstance(m.get("frequency_Hz"), (int, float))]
+    if not found:
+        return ""
+    swing = [m for m in found if m["frequency_Hz"] > 0.0]
+    rows = [[m["name"], number(1.0 / m["frequency_Hz"]), number(m["frequency_Hz"]), f"{100.0 * m['damping']:.2f} %"] for m in swing]
+    rows += [[m["name"], "–", "–", f"rate {m['damping']:+.3g} 1/s"] for m in found if m["frequency_Hz"] <= 0.0]
+    out = parts.table(["Mode about the start", "Period [s]", "Frequency [Hz]", "Damping, of critical"], rows)
+    at = marks(run)
+    if swing and "1P" in at:
+        named = [(m["name"], m["frequency_Hz"]) for m in swing]
+        figure = figures.campbell(named, at.get("wave"), 60.0 * at["1P"], run.blades())
+        out += safe('<div class="figures">') + safe(_figure("Campbell diagram", None, figure, "Modes about the start do not know the rotor's speed; dotted: that of the run.")) + safe("</div>")
+    return out
+
+
+def timeline(run):
+    """Tasks of each thread, where --trace kept them."""
+    if len(run.tasks) < 10:
+        return ""
+    figure, legend = figures.timeline(run.tasks)
+    return safe(f'<div class="figures">{_figure("Tasks of each thread", legend, figure, "A stretch from the middle of trace.json, which Perfetto shows whole.")}</div>')
+
+
 def spectra(runs):
     names, lowest = runs[0].columns, min(marks(runs[0]).values(), default=None)
     if not len(runs[0].time):
@@ -273,14 +322,21 @@ def spectra(runs):
     out, words = "", "Power spectral density (Welch, Hann window), without the first quarter of the run."
     if found := marks(runs[0]):
         words += " Marked: " + ", ".join(f"{name} {frequency:.3g} Hz" for name, frequency in found.items()) + "."
-    for body in quantities.bodies_of(names)[:1]:
+    drawn = {}
+    for body in quantities.bodies_of(names)[:MOST_SPECTRA]:
         for title, wanted in (("displacement", ("x", "y", "z")), ("attitude", ("roll", "pitch", "yaw"))):
             panels = [(quantities.AXES[quantities.quantity_of(n)], n) for n in names
                       if n.rpartition(".")[0] == body and quantities.quantity_of(n) in wanted]
-            figure = figures.spectra(runs, panels, found)
+            own = {motion: f for motion, f in modes_of(runs[0], body).items() if motion in [label for label, _ in panels] and f * length >= 2.0}
+            figure = figures.spectra(runs, panels, found | own)
             if figure is not None:
-                out += _figure(f"{body}: spectra of {title}", _run_legend(runs), figure, words)
-    return safe(f'<div class="figures">{out}</div>') if out else ""
+                dotted = " Dotted: the motion's own mode about the start, " + ", ".join(f"{m} {f:.3g} Hz" for m, f in own.items()) + "." if own else ""
+                drawn.setdefault(body, []).append(_figure(f"{body}: spectra of {title}", _run_legend(runs), figure, words + dotted))
+    first, *others = drawn.values() or [[]]
+    out = f'<div class="figures">{"".join(first)}</div>' if first else ""
+    if others:
+        out += f'<details><summary>Other bodies</summary><div class="figures">{"".join("".join(o) for o in others)}</div></details>'
+    return safe(out)
 
 
 def sea(run):
@@ -405,14 +461,14 @@ def build(runs, progress=lambda words: None):
     over_time = time_figures(runs)
     shown = [section(key, title, over_time[key], fold) for key, (title, fold) in GROUPS.items()]
     if one:
-        found = [section("picture", "Picture", drawn(one)), section("key-figures", "Key figures", key_figures(one)), *shown[:-2]]
+        found = [section("picture", "Picture", drawn(one)), section("expected", "Expected and found", expected(one)), section("key-figures", "Key figures", key_figures(one)), *shown[:-2]]
         progress("pictures of the sea")
         found.append(section("sea-pictures", "The sea", sea(one)))
         progress("pictures of the air")
         found.append(section("flow", "The flow", flow(one)))
         progress("spectra")
-        found += [section("spectra", "Spectra of motions", spectra(runs)), section("model", "What was modelled", model(one), True), *shown[-2:],
-                  section("time-spent", "Where the time was spent", where_time(one) + counts(one), True),
+        found += [section("modes", "Modes", modes(one), True), section("spectra", "Spectra of motions", spectra(runs)), section("model", "What was modelled", model(one), True), *shown[-2:],
+                  section("time-spent", "Where the time was spent", where_time(one) + timeline(one) + counts(one), True),
                   section("efficiency", "Parallel efficiency", efficiency(one), True), section("scene", "Scene", scene(one), True),
                   section("log", "Log", log(one), True)]
         return html_page.render(title=one.title, eyebrow=f"Spindrift run · {scene_as_given(one)}", facts=facts(one),

@@ -23,6 +23,7 @@ class RunData:
         self.summary = self._json("summary.json")
         self.columns, self.values = self._history()  # names; array[column, row]
         self.log = self._text("log.txt").splitlines()
+        self.tasks = []
         self.trace = self._trace()
         self._round_off = {}  # by unit
         self.described = {c.get("name"): c for c in self.summary.get("columns", []) if isinstance(c, dict)}
@@ -148,7 +149,7 @@ class RunData:
         return np.array(rows).reshape(-1, width)
 
     def _trace(self):
-        """Seconds by task label (its first two parts), of the complete events of trace.json."""
+        """Seconds by task label (its first two parts), of the complete events of trace.json; `tasks`: (start [s], end [s], module, (rank, thread)) of each."""
         path = self.folder / "trace.json"
         if not path.exists():
             return {}
@@ -161,8 +162,10 @@ class RunData:
             seconds = {}
             for event in events:
                 if event.get("ph") == "X":
-                    label = "/".join(str(event.get("name", "")).split("/")[:2])
-                    seconds[label] = seconds.get(label, 0.0) + 1e-6 * float(event.get("dur", 0.0))
+                    words, took, start = str(event.get("name", "")).split("/"), 1e-6 * float(event.get("dur", 0.0)), 1e-6 * float(event.get("ts", 0.0))
+                    label = "/".join(words[:2])
+                    seconds[label] = seconds.get(label, 0.0) + took
+                    self.tasks.append((start, start + took, words[0], (event.get("pid", 0), event.get("tid", 0))))
             return seconds
         except (ValueError, AttributeError, TypeError) as error:
             self.notes.append(f"trace.json cannot be read: {error}")

@@ -166,7 +166,8 @@ def film(run, given):
 def main():
     given = arguments()
     if not (given.directory / "history.csv").exists():
-        fail(2, f"{given.directory} is not a run directory: it has no history.csv")
+        why = "it has no history.csv" if given.directory.is_dir() else "it is a file" if given.directory.exists() else "there is nothing of that name"
+        fail(2, f"{given.directory} is not a run directory: {why}; name the folder of a run (run SCENE --out FOLDER)")
     given.out = given.out or given.directory / ("picture.png" if given.kind == "picture" else "film.mp4")
     try:
         from run_data import RunData

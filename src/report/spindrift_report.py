@@ -76,9 +76,10 @@ def main():
     given = arguments()
     for folder in given.directories:
         if not folder.is_dir():
-            fail(2, f"{folder} is not a run directory: {'it is a file' if folder.exists() else 'there is nothing of that name'}")
+            fail(2, f"{folder} is not a run directory: {'it is a file' if folder.exists() else 'there is nothing of that name'}; "
+                    "name the folder of a run (run SCENE --out FOLDER)")
         if not any((folder / name).exists() for name in ("history.csv", "summary.json", "scene.toml", "study.json")):
-            fail(2, f"{folder} is not a run directory: it has neither history.csv nor summary.json")
+            fail(2, f"{folder} is not a run directory: it has neither history.csv nor summary.json; name the folder of a run (run SCENE --out FOLDER)")
     try:
         import page
         import picture

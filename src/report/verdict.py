@@ -110,6 +110,45 @@ def answers(run):
     return said
 
 
+class Reference:
+    """What [[output.expected]] says of a column's mean, and what the run gave. `found` is nan, and `why_not` says why, where the run cannot tell."""
+
+    def __init__(self, run, entry):
+        self.column, self.wanted, self.within, self.source = entry["column"], float(entry["mean"]), float(entry["within"]), str(entry.get("source", ""))
+        self.found, self.span, self.why_not = math.nan, "", ""
+        end, asked = (float(run.time[-1]) if len(run.time) else math.nan), _value(run.scene, "time", "end_s")
+        if self.column not in run.columns or not len(run.time):
+            self.why_not = "the run has no such column"
+        elif is_steady(run):
+            self.found, self.span = float(run.column(self.column)[-1]), "at the end"
+        elif isinstance(asked, (int, float)) and end < asked * (1.0 - 1e-6):
+            self.why_not = f"the run ended at {end:.6g} s of {asked:.6g} s"
+        else:
+            begin = entry.get("from_s")
+            chosen, self.span = run.mean_range() if begin is None else (run.time >= begin - 1e-9, f"{begin:.4g} to {end:.4g} s")
+            if chosen.any():
+                self.found = words.mean(run.time[chosen], run.column(self.column)[chosen])
+            else:
+                self.why_not = f"the run has no rows after {begin:.6g} s"
+
+    def agrees(self):
+        """None where the run cannot tell."""
+        return None if self.why_not else bool(abs(self.found - self.wanted) <= self.within)
+
+
+def references(run):
+    found = _value(run.scene, "output", "expected")
+    return [Reference(run, entry) for entry in found if isinstance(entry, dict) and {"column", "mean", "within"} <= set(entry)] if isinstance(found, list) else []
+
+
+def _references(run):
+    told = [r for r in references(run) if r.agrees() is not None]
+    if not told:
+        return None
+    off = [quantities.spoken(r.column) for r in told if not r.agrees()]
+    return Check("warn" if off else "good", "Expected", f"{len(told) - len(off)} of {len(told)} references met" + (f"; not met: {', '.join(off)}" if off else ""))
+
+
 # ---- health -----------------------------------------------------------------------------------------------------------------------------
 
 
@@ -361,7 +400,7 @@ def health(run):
     if not said and len(run.time):
         found.append(Check("good", "Numbers", f"all {run.values.size:,} of history.csv are finite"))
     found += _places(run)
-    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _particles(run), _settled(run)) if c]
+    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _particles(run), _settled(run), _references(run)) if c]
     found += _windows(run) + _budgets(run)
     if warnings := run.summary.get("warnings"):
         found.append(Check("warn", "Log", f"{warnings} warning{'s' if warnings != 1 else ''}"))

@@ -118,11 +118,11 @@ class SeaFields final : public Output {
   Every every_;
 };
 
-/// Fields of the air every output.air_interval_s after t = 0 and at the end, where loads along the blades are written too.
+/// Fields of the air at intervals after t = 0 and at the end, where loads along the blades are written too.
 class AirFields final : public Output {
  public:
   AirFields(const coupling::FloatingSystem& floating, coupling::AirSide& air) : floating_(floating), air_(air) {
-    every_.windows = every_.from = Every::count(floating.scenario().output.air_interval_s, floating.timeline());
+    every_.windows = every_.from = Every::count(floating.scenario().air_interval_s(), floating.timeline());
   }
   std::string_view label() const override { return "output/air"; }
   bool due(const Windows& done) const override { return every_.due(done) && done.now < done.last; }

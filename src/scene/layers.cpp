@@ -24,7 +24,7 @@ constexpr std::size_t most_files = 64;  // in one scene, bases of bases counted;
 std::optional<std::string> read_file(const fs::path& path, std::string& why_not) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) return why_not = error && error.value() != ENOENT ? error.message() : "no such file", std::nullopt;
+  if (!fs::exists(status)) return why_not = error && error.value() != ENOENT ? error.message() : absent_file(path), std::nullopt;
   if (fs::is_directory(status)) return why_not = "is a directory, not a scene file", std::nullopt;
   std::ifstream in(path, std::ios::binary);
   if (!in) return why_not = fmt::format("cannot be opened: {}", std::strerror(errno)), std::nullopt;

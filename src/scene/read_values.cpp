@@ -147,7 +147,7 @@ void Reader::path(const Parameter& p, const Value& value, const std::string& key
     return wrong(value, key, fmt::format("must be the name of a file{}", aside(p)));
   const fs::path path = (fs::path(document_.sources_[std::size_t(value.where.source)].directory) / value.text).lexically_normal();
   std::error_code error;
-  if (!fs::exists(path, error)) return wrong(value, key, fmt::format("no such file: {}{}", path.string(), aside(p)));
+  if (!fs::exists(path, error)) return wrong(value, key, fmt::format("{}: {}{}", path.string(), absent_file(path), aside(p)));
   if (fs::is_directory(path, error))
     return wrong(value, key, fmt::format("is a directory, not a file: {}{}", path.string(), aside(p)));
   if (!fs::is_regular_file(path, error))

@@ -179,4 +179,20 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   return best;
 }
 
+std::string absent_file(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error))
+    return "no such file: there is no folder " + fs::absolute(folder).lexically_normal().string();
+  std::vector<std::string> names;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end && names.size() < 10'000; entry.increment(error))
+    if (std::error_code of_entry; !entry->is_directory(of_entry) && entry->path().extension() == path.extension())
+      names.push_back(entry->path().filename().string());
+  std::sort(names.begin(), names.end());
+  const std::string near = nearest(path.filename().string(), names);
+  return near.empty() ? "no such file in " + fs::canonical(folder, error).string()
+                      : "no such file; did you mean '" + (path.parent_path() / near).string() + "'?";
+}
+
 }  // namespace spindrift::scene

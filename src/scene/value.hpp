@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,5 +47,7 @@ std::string toml_key(std::string_view key);      ///< bare where TOML allows it,
 
 /// The known word nearest to `word` (edit distance at most a third of its length), or empty.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
+/// What to say of a file that is not there: the file of its folder that was meant, or that there is no such folder.
+std::string absent_file(const std::filesystem::path& path);
 
 }  // namespace spindrift::scene

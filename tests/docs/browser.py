@@ -120,3 +120,12 @@ class Browser:
         import matplotlib.image
         path.write_bytes(base64.b64decode(self.ask("Page.captureScreenshot", format="png")["data"]))
         return matplotlib.image.imread(path)[..., :3]
+
+    def part(self, box):
+        """The pixels of a box (left, top, right, bottom) of the page [CSS pixels], wherever on the page it lies."""
+        import io
+        import matplotlib.image
+        left, top, right, bottom = box
+        clip = {"x": left, "y": top, "width": right - left, "height": bottom - top, "scale": 1}
+        data = self.ask("Page.captureScreenshot", format="png", clip=clip, captureBeyondViewport=True)["data"]
+        return matplotlib.image.imread(io.BytesIO(base64.b64decode(data)))[..., :3]

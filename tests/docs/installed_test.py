@@ -20,7 +20,7 @@ class Installed(installed.Prefix):
     build = BUILD
 
     def test_everything_is_there(self):
-        for name in ("bin/spindrift", "share/spindrift/report/spindrift_report.py", "share/spindrift/report/templates/page.html",
+        for name in ("bin/spindrift", "share/spindrift/report/spindrift_report.py", "share/spindrift/report/templates/page.html", "share/spindrift/report/templates/parts.html", "share/spindrift/report/style.css",
                      "share/man/man1/spindrift.1", "share/bash-completion/completions/spindrift"):
             self.assertTrue((self.prefix / name).exists(), name)
         sources = {p.name for p in (ROOT / "src/report").glob("*.py")}

@@ -1,4 +1,4 @@
-"""Fifty mistakes of users: commands, paths, formats, keys, physics. Each ends with the right code and says what, where, the value and what to do.
+"""Fifty mistakes of users: commands, paths, formats, keys, physics. Each ends with code 2 and says what, where, the value and what to do.
 Usage: mistakes_test.py PROGRAM. SPDX-License-Identifier: Apache-2.0"""
 import os
 import pathlib
@@ -22,85 +22,118 @@ def check(*overrides, scene=CASE1):
     return ("check", scene, *(word for text in overrides for word in ("--set", text)))
 
 
-# (command line, exit code, what the message must hold)
+# What was typed | what the answer says is wrong | where (command, option, file or key) | the value | what to do
 MISTAKES = [
     # commands
-    (("rnu", CASE1), 2, ["rnu", "did you mean 'run'"]),
-    ((str(CASE1),), 2, ["spindrift run"]),
-    (("simulate", CASE1), 2, ["simulate", "run, check"]),
-    (("run",), 2, ["scene"]),
-    (("run", CASE1, "--untill", "3"), 2, ["untill"]),
-    (("run", CASE1, "--until", "-3"), 2, ["-3 s", "before the start"]),
-    (("run", CASE1, "--until", "soon"), 2, ["soon", "seconds"]),
-    (("run", CASE1, "--restart"), 2, ["--out"]),
-    (("run", CASE1, "--fluid", "water"), 2, ["water", "air"]),
-    (("help", "rnu"), 2, ["rnu"]),
+    (("rnu", CASE1), "there is no command", "", "'rnu'", "did you mean 'run'"),
+    ((str(CASE1),), "is a file", "", str(CASE1), "spindrift run"),
+    (("simulate", CASE1), "there is no command", "", "'simulate'", "known: run, check"),
+    (("run",), "scene is required", "", "", "--help"),
+    (("run", CASE1, "--untill", "3"), "there is no option", "run:", "'--untill'", "did you mean '--until'"),
+    (("check", CASE1, "--colour"), "there is no option", "check:", "'--colour'", "spindrift check --help"),
+    (("run", CASE1, "--until", "-3"), "before the start", "--until", "-3 s", "give a time >= 0"),
+    (("run", CASE1, "--until", "soon"), "is no number", "--until", "'soon'", "seconds"),
+    (("run", CASE1, "--restart"), "requires", "--restart", "", "--out"),
+    (("run", CASE1, "--fluid", "water"), "not in", "--fluid", "water", "{air,sea}"),
+    (("help", "rnu"), "there is no command", "help", "'rnu'", "--help"),
     # paths
-    (("run", "nowhere.toml"), 2, ["nowhere.toml"]),
-    (("run", STUDY), 2, ["steps.toml", "study", "spindrift study"]),
-    (("check", STUDY), 2, ["spindrift study"]),
-    (("study", CASE1), 2, ["spindrift run"]),
-    (("run", TURBINE), 2, ["turbine file", "rotor.turbine"]),
-    (("run", ROOT / "README.md"), 2, ["README.md"]),
-    (("report", "nowhere"), 2, ["nowhere is not a run directory"]),
-    (("report", "EMPTY"), 2, ["not a run directory", "history.csv"]),
-    (("picture", "EMPTY"), 2, ["not a run directory"]),
-    (("film", "nowhere"), 2, ["nowhere"]),
-    (check('rotor.turbine="none.toml"', scene=CASE3), 2, ["none.toml"]),
+    (("run", "nowhere.toml"), "no such file", "nowhere.toml", "", "in FOLDER"),
+    (("run", ROOT / "inputs/tutorials/pendulun.toml"), "no such file", "pendulun.toml", "", "did you mean '" + str(ROOT / "inputs/tutorials/pendulum.toml")),
+    (("run", ROOT / "input/tutorials/pendulum.toml"), "no such file", "pendulum.toml", "", f"there is no folder {ROOT}/input/tutorials"),
+    (("run", STUDY), "a study, not a scene", "steps.toml", "", "spindrift study"),
+    (("check", STUDY), "a study, not a scene", "steps.toml", "", "spindrift study"),
+    (("study", CASE1), "a scene, not a study", "case1_engineering.toml", "", "spindrift run"),
+    (("run", TURBINE), "a turbine file, not a scene", "dtu_10mw.toml", "", "rotor.turbine"),
+    (("run", ROOT / "README.md"), "is not TOML", "README.md:3", "saw 's'", "expected '='"),
+    (("report", "nowhere"), "not a run directory", "nowhere", "there is nothing of that name", "run SCENE --out FOLDER"),
+    (("report", "EMPTY"), "not a run directory", "EMPTY", "neither history.csv nor summary.json", "run SCENE --out FOLDER"),
+    (("picture", "EMPTY"), "not a run directory", "EMPTY", "no history.csv", "run SCENE --out FOLDER"),
+    (("film", "nowhere"), "not a run directory", "nowhere", "there is nothing of that name", "run SCENE --out FOLDER"),
+    (check('rotor.turbine="none.toml"', scene=CASE3), "no such file", "rotor.turbine", "none.toml", "inputs/turbines"),
     # formats
-    (("grid", ROTOR, "-o", "x.vtk"), 2, ["x.vtk", ".cgns"]),
-    (("picture", "EMPTY", "-o", "x.tiff"), 2, ["x.tiff", ".png"]),
-    (("film", "EMPTY", "-o", "x.avi"), 2, ["x.avi", ".mp4"]),
-    (("report", "EMPTY", "-o", "x.pdf"), 2, ["x.pdf", ".html"]),
-    (check('aero.flow.grid="nowhere.cgns"', 'without=["aero.flow.generate"]', scene=WING), 2, ["nowhere.cgns"]),
+    (("grid", ROTOR, "-o", "x.vtk"), "an ending that is not known", "--output", "'x.vtk'", "write one of .cgns, .p3d"),
+    (("picture", "EMPTY", "-o", "x.tiff"), "an ending that is not known", "--output", "'x.tiff'", "write one of .png"),
+    (("film", "EMPTY", "-o", "x.avi"), "an ending that is not known", "--output", "'x.avi'", "write one of .mp4, .webm"),
+    (("report", "EMPTY", "-o", "x.pdf"), "an ending that is not known", "--out", "'x.pdf'", "write one of .html"),
+    (check('aero.flow.grid="nowhere.cgns"', 'without=["aero.flow.generate"]', scene=WING), "no such file", "aero.flow.grid", "nowhere.cgns", "CGNS (.cgns), or Plot3D"),
     # keys
-    (check("time.end=60"), 2, ["time.end", "end_s"]),
-    (check("time.window_s=-0.1"), 2, ["time.window_s", "-0.1", "> 0"]),
-    (check("time.window_s=fast"), 2, ["time.window_s", "fast"]),
-    (check("tiem.window_s=0.1"), 2, ["tiem", "time"]),
-    (check("sea.model=morisson"), 2, ["morisson", "morison"]),
-    (check("aero.thurst_N=1"), 2, ["thurst_N", "thrust_N"]),
-    (check("bodies.platform.mass_kg=0"), 2, ["mass_kg", "0", "> 0"]),
-    (check("bodies.platform.centre_m=[0.0, 1.0]"), 2, ["centre_m", "3"]),
-    (check("moorings.line_downwind.body=barge"), 2, ["barge", "platform"]),
-    (check("joints.bearing.type=hinge"), 2, ["hinge", "revolute"]),
-    (check("time"), 2, ["time", "="]),
-    (check("sea.particles.spacing_m=1.0"), 2, ["sea.particles", "sph"]),
-    (check("checkpoint.keep=2.5"), 2, ["keep", "2.5"]),
-    (("reference", "windw"), 2, ["windw", "did you mean"]),
+    (check("time.end=60"), "unknown key", "time.end", "60", "did you mean 'end_s'"),
+    (check("time.window_s=-0.1"), "must be", "time.window_s", "-0.1", "> 0 and <= 1000 s"),
+    (check("time.window_s=fast"), "not a text", "time.window_s", '"fast"', "must be a number in s"),
+    (check("tiem.window_s=0.1"), "unknown section", "tiem", "", "did you mean [time]"),
+    (check("sea.model=morisson"), "must be one of", "sea.model", '"morisson"', 'did you mean "morison"'),
+    (check("aero.thurst_N=1"), "unknown key", "aero.thurst_N", "1", "did you mean 'thrust_N'"),
+    (check("bodies.platform.mass_kg=0"), "must be", "bodies.platform.mass_kg", "= 0", "> 0 kg"),
+    (check("bodies.platform.centre_m=[0.0, 1.0]"), "not a list of 2", "bodies.platform.centre_m", "[0.0, 1.0]", "a list of 3 numbers in m"),
+    (check("moorings.line_downwind.body=barge"), "not in [bodies]", "moorings.line_downwind.body", '"barge"', "known: platform, rotor"),
+    (check("joints.bearing.type=hinge"), "must be one of", "joints.bearing.type", '"hinge"', '"revolute"'),
+    (check("time"), "is no override", "time", "", "SECTION.KEY=VALUE"),
+    (check("sea.particles.spacing_m=1.0"), "has no effect here", "sea.particles", "model is morison", "only where model is sph"),
+    (check("checkpoint.keep=2.5"), "not a number with a decimal point", "checkpoint.keep", "2.5", "must be an integer"),
+    (("reference", "windw"), "no such section or key", "", "windw", "did you mean 'wind'"),
     # physics
-    (check("time.integrator=explicit_euler"), 2, ["explicit_euler", "platform"]),
-    (check("time.step_s=0.03"), 2, ["step_s", "window"]),
-    (check("waves.height_m=20.0", scene=CASE3), 2, ["waves.height_m", "20", "break"]),
-    (check("waves.model=airy", "waves.period_s=0.0", scene=CASE3), 2, ["period_s", "0"]),
-    (check("environment.water_depth_m=-20.0"), 2, ["water_depth_m", "-20"]),
-    (check("sea.particles.spacing_m=0.7", scene=BOX), 2, ["spacing_m", "0.7"]),
-    (check("sea.tank.x_m=[1.0, -1.0]", scene=BOX), 2, ["sea.tank.x_m"]),
-    (check("wind.speed_m_s=0.0", scene=WING), 2, ["wind.speed_m_s"]),
-    (check("aero.flow.generate.far_m=2.0", scene=WING), 2, ["far_m", "5 chords"]),
-    (check('aero.flow.boundaries=[{patch="wall", condition="no_slip"}]', scene=WING), 2, ["farfield", "no condition yet", "boundaries = ["]),
-    (check('aero.flow.boundaries=[{patch="wall", condition="sticky"}]', scene=WING), 2, ["sticky", "no_slip"]),
+    (check("time.integrator=explicit_euler"), "is unstable at any step", "time.integrator", "explicit_euler", "use rk4 or symplectic"),
+    (check("time.step_s=0.03"), "must divide the window of 0.1 s", "time.step_s", "0.03", "nearest: 0.0333"),
+    (check("waves.height_m=20.0", scene=CASE3), "breaks above", "waves.height_m", "20 m", "12.42 m"),
+    (check("waves.model=airy", "waves.period_s=0.0", scene=CASE3), "must be", "waves.period_s", "0.0", "> 0 s"),
+    (check("environment.water_depth_m=-20.0"), "must be", "environment.water_depth_m", "-20.0", "> 0 and <= 12000 m"),
+    (check("sea.particles.spacing_m=0.7", scene=BOX), "fewer than 4 particles", "sea.particles.spacing_m", "0.7", "over the depth of 0.6 m"),
+    (check("sea.tank.x_m=[1.0, -1.0]", scene=BOX), "from the lower to the higher end", "sea.tank.x_m", "[1.0, -1.0]", "must go"),
+    (check("wind.speed_m_s=0.0", scene=WING), "the resolved air flows", "wind.speed_m_s", "0.0", "must be > 0"),
+    (check("aero.flow.generate.far_m=2.0", scene=WING), "found 2", "aero.flow.generate.far_m", "2.0", "at least 5 chords"),
+    (check('aero.flow.boundaries=[{patch="wall", condition="no_slip"}]', scene=WING), "no condition yet", "farfield", "448 faces", "boundaries = ["),
+    (check('aero.flow.boundaries=[{patch="wall", condition="sticky"}]', scene=WING), "must be one of", "aero.flow.boundaries[0].condition", '"sticky"', '"no_slip"'),
+]
+
+# The same in a file of one's own: (its lines after `base`, the line at fault, what, key, value, what to do).
+WRITTEN = [
+    (CASE1, ["[time]", "end_s = 10", "windw_s = 0.1"], 4, "unknown key", "time.windw_s", "0.1", "did you mean 'window_s'"),
+    (CASE1, ["[time]", "end_s = \"ten\""], 3, "not a text", "time.end_s", '"ten"', "must be a number in s"),
+    (CASE1, ["[time", "end_s = 10"], 2, "is not TOML", "", "", ""),
+    (CASE1, ["[time]", "end_s = 10", "end_s = 20"], 4, "is not TOML", "", "end_s", ""),
+    (CASE1, ["[sae]", 'model = "none"'], 2, "unknown section", "sae", "", "did you mean [sea]"),
+    (CASE1, ["[bodies.platform]", "", "mass_kg = -5.0"], 4, "must be", "bodies.platform.mass_kg", "-5.0", "> 0 kg"),
+    (CASE1, ["[moorings.line_downwind]", 'model = "chain"'], 3, "must be one of", "moorings.line_downwind.model", '"chain"', '"catenary"'),
+    (CASE3, ["[waves]", "period_s = 8.8", "height_m = 20.0"], 4, "breaks above", "waves.height_m", "20 m", "12.42 m"),
+    (CASE3, ["[rotor]", 'turbine = "nowhere.toml"'], 3, "no such file", "rotor.turbine", "nowhere.toml", "inputs/turbines"),
+    (BOX, ["[sea.tank]", "# too shallow", "x_m = [1.0, -1.0]"], 4, "from the lower to the higher end", "sea.tank.x_m", "[1.0, -1.0]", "must go"),
 ]
 
 
 class Mistakes(unittest.TestCase):
     def test_there_are_fifty(self):
-        self.assertGreaterEqual(len(MISTAKES), 50)
+        self.assertGreaterEqual(len(MISTAKES) + len(WRITTEN), 60)
+
+    def answer(self, words, folder):
+        environment = dict(os.environ) | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, cwd=folder, env=environment, timeout=120, check=False)
+        said = done.stdout + done.stderr
+        self.assertEqual(done.returncode, 2, said)
+        self.assertLess(len(said.splitlines()), 40, "an answer that floods hides itself:\n" + said)
+        self.assertNotIn("terminate called", said)
+        self.assertNotRegex(said, r"\d{60}")
+        return said
 
     def test_each_is_answered(self):
         with tempfile.TemporaryDirectory(prefix="spindrift_mistakes_") as folder:
+            folder = os.path.realpath(folder)
             (pathlib.Path(folder) / "EMPTY").mkdir()
-            environment = dict(os.environ) | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-            for words, code, wanted in MISTAKES:
+            for words, what, where, value, remedy in MISTAKES:
                 with self.subTest(" ".join(map(str, words))):
-                    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, cwd=folder, env=environment, timeout=120, check=False)
-                    said = done.stdout + done.stderr
-                    self.assertEqual(done.returncode, code, said)
-                    for part in wanted:
+                    said = self.answer(words, folder)
+                    for part in (what, where, value, remedy.replace("in FOLDER", f"in {folder}")):
                         self.assertIn(part, said)
-                    self.assertLess(len(said.splitlines()), 40, "an answer that floods hides itself:\n" + said)
-                    self.assertNotIn("terminate called", said)
-                    self.assertNotRegex(said, r"\d{60}")
+
+    def test_file_and_line_are_named(self):
+        with tempfile.TemporaryDirectory(prefix="spindrift_mistakes_") as folder:
+            scene = pathlib.Path(folder) / "own.toml"
+            for base, lines, line, what, key, value, remedy in WRITTEN:
+                with self.subTest(" / ".join(lines)):
+                    scene.write_text(f'base = "{base}"\n' + "\n".join(lines) + "\n", encoding="utf-8")
+                    said = self.answer(("check", scene), folder)
+                    wrong = next((one for one in said.splitlines() if f"{scene}:{line}: " in one), "")
+                    for part in (what, key, value, remedy):
+                        self.assertIn(part, wrong, said)
 
 
 if __name__ == "__main__":

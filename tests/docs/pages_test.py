@@ -29,7 +29,7 @@ MISSING = """(() => {
 # Of each picture: heading, place, labels with theirs, size of what an <img> holds.
 FIGURES = """[...document.querySelectorAll('figure')].map(figure => {
   const box = r => [r.left + scrollX, r.top + scrollY, r.right + scrollX, r.bottom + scrollY], picture = figure.querySelector('svg, img');
-  return {title: figure.querySelector('h3')?.textContent ?? 'picture', kind: picture.tagName, box: box(picture.getBoundingClientRect()), natural: picture.naturalWidth ?? 1,
+  return {title: figure.querySelector('h3')?.textContent ?? 'picture', kind: picture.tagName, box: box(picture.getBoundingClientRect()), natural: picture.naturalWidth ?? 1, naturalHeight: picture.naturalHeight ?? 1,
           labels: [...picture.querySelectorAll('text')].map(t => [t.textContent, box(t.getBoundingClientRect())])};
 })"""
 # Text whose colour is too near to that of the page.
@@ -99,21 +99,41 @@ class Pages(installed.Prefix):
                 self.assertTrue(found, "no figure")
                 for figure in found:
                     self.look_at_figure(figure, pixels, width)
+        with self.subTest(f"{page.parent.name} on paper"):
+            self.look_at_print(page)
+
+    def look_at_print(self, page):
+        """On paper: white, without the navigation, nothing cut off at the right, folds closed."""
+        self.browser.open(page, 794)
+        self.browser.ask("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "light"}])
+        self.browser.fit()
+        pixels = self.browser.screenshot(self.pages / f"{page.parent.name}_{page.stem}_print.png")
+        self.browser.ask("Emulation.setEmulatedMedia", media="")
+        self.assertGreater(pixels[0, 0].mean(), 0.95)
+        self.assertEqual(self.browser.complaints, [])
+        self.browser.ask("Emulation.setEmulatedMedia", media="print")
+        self.assertEqual(self.browser.run("getComputedStyle(document.querySelector('nav')).display"), "none")
+        self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 794, "cut off at the right")
+        self.browser.ask("Emulation.setEmulatedMedia", media="")
 
     def look_at_figure(self, figure, pixels, width):
         title, (left, top, right, bottom) = figure["title"], figure["box"]
         self.assertGreater(min(right - left, bottom - top), 30, f"{title}: nothing of it is laid out")
         self.assertTrue(0 <= left and right <= width + 0.5, f"{title}: outside of the page")
         self.assertGreater(figure["natural"], 0, f"{title}: the picture cannot be read")
-        if bottom > len(pixels):
-            return
-        part = pixels[int(top):int(np.ceil(bottom)), int(left):int(np.ceil(right))]
+        left, top, right, bottom = int(left), int(top), int(np.ceil(right)), int(np.ceil(bottom))
+        # What lies below the tallest screenshot has one of its own.
+        part = pixels[top:bottom, left:right] if bottom <= len(pixels) else self.browser.part((left, top, right, bottom))
         paper = np.median(part.reshape(-1, 3), axis=0) if figure["kind"] == "img" else pixels[0, 0]
         inked = np.abs(part - paper).max(axis=2) > 0.1
         self.assertGreater(inked[8:-8, 8:-8].mean(), 0.004, f"{title}: empty")
+        edges = ("left", inked[:, 0]), ("right", inked[:, -1]), ("top", inked[0]), ("bottom", inked[-1])
         if figure["kind"] == "img":
-            return
-        for side, edge in (("left", inked[:, 0]), ("right", inked[:, -1]), ("top", inked[0]), ("bottom", inked[-1])):
+            wide, high = figure["natural"], figure["naturalHeight"]
+            self.assertAlmostEqual((right - left) / (bottom - top), wide / high, delta=0.02 * wide / high, msg=f"{title}: stretched")
+            if np.concatenate([edge for _, edge in edges]).mean() > 0.3:
+                return   # a view that fills its frame
+        for side, edge in edges:
             self.assertFalse(edge.any(), f"{title}: clipped at the {side}")
         for n, (words, a) in enumerate(figure["labels"]):
             self.assertTrue(left - 1 <= a[0] and a[2] <= right + 1 and top - 1 <= a[1] and a[3] <= bottom + 1, f"{title}: '{words}' is cut off")

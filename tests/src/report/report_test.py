@@ -105,6 +105,46 @@ class ReportTest(unittest.TestCase):
         _, parsed = self.page(set=["wind.speed_m_s=18", "time.end_s=60"])
         self.assertIn("with wind.speed_m_s=18, time.end_s=60", parsed.text)
 
+    def test_references_of_the_scene_stand_beside_what_was_found(self):
+        expected = '''
+[[output.expected]]
+column = "platform.z_m"
+mean = -0.6
+within = 0.01
+source = "hydrostatics"
+
+[[output.expected]]
+column = "rotor.power_W"
+mean = 9.7e6
+within = 0.1e6
+from_s = 100.0
+source = "Bak et al. 2013"
+'''
+        synthetic_run.write(self.folder / "run", scene=synthetic_run.SCENE + expected)
+        _, parsed = self.page("run")
+        self.assertIn("expected", parsed.sections)
+        text = parsed.text.replace("\n", "")
+        self.assertRegex(text, r"platform heave platform\.z_m\s*m\s*−0\.6000 ± 0\.010\s*−0\.6000.*?methydrostatics; mean 122 to 150 s")
+        self.assertRegex(text, r"rotor power rotor\.power_W\s*MW\s*9\.700 ± 0\.10\s*9\.200\s*−0\.50 \(−5\.2 %\)not metBak et al\. 2013; mean 100 to 150 s")
+        self.assertIn("1 of 2 references met; not met: rotor power", text)
+        # A run that did not come to the scene's end does not tell.
+        synthetic_run.write(self.folder / "short", scene=synthetic_run.SCENE + expected, rows=900)
+        _, parsed = self.page("short")
+        self.assertIn("not compared: the run ended at 89.9 s of 150 s", parsed.text)
+        self.assertNotIn("references met", parsed.text)
+
+    def test_modes_campbell_and_timeline(self):
+        modes = [{"name": "surge of platform", "frequency_Hz": 0.123, "damping": 0.05}, {"name": "pitch of platform", "frequency_Hz": 0.0443, "damping": 0.06},
+                 {"name": "yaw of rotor", "frequency_Hz": 0.0, "damping": -0.2}]
+        trace = {"traceEvents": [{"ph": "X", "name": ("sea/force/1", "aero/step/2")[n % 2], "ts": 100 * n, "dur": 90, "pid": 0, "tid": n % 2} for n in range(50)]}
+        _, parsed = self.page(modes=modes, trace=trace)
+        self.assertIn("modes", parsed.sections)
+        text = parsed.text.replace("\n", "")
+        self.assertIn("surge of platform8.1300.12305.00 %", text)
+        self.assertIn("yaw of rotor––rate -0.2 1/s", text)
+        for words in ("Campbell diagram", "1P", "3P", "Tasks of each thread", "rank 0, thread 1", "the motion's own mode about the start, surge 0.123 Hz"):
+            self.assertIn(words, parsed.text)
+
     def test_what_a_run_lacks_has_no_section(self):
         t = 0.1 * np.arange(200)
         table = {"time_s": t, "ball.z_m": np.sin(t)}

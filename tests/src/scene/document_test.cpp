@@ -203,7 +203,12 @@ TEST_CASE("an empty scene lacks what it must have", "[scene][fast]") {
 
 TEST_CASE("a file that is no scene is told why", "[scene][fast]") {
   const Temporary dir;
-  CHECK_THROWS_WITH(load(dir.path() + "/none.toml"), dir.path() + "/none.toml: no such file");
+  CHECK_THROWS_WITH(load(dir.path() + "/none.toml"), dir.path() + "/none.toml: no such file in " + dir.path());
+  dir.file("spar_in_waves.toml", "");
+  CHECK_THROWS_WITH(load(dir.path() + "/spar_in_wave.toml"),
+                    Catch::Contains("no such file; did you mean '" + dir.path() + "/spar_in_waves.toml'?"));
+  CHECK_THROWS_WITH(load(dir.path() + "/none/spar.toml"),
+                    Catch::Contains("no such file: there is no folder " + dir.path() + "/none"));
   CHECK_THROWS_WITH(load(dir.path()), dir.path() + ": is a directory, not a scene file");
   CHECK_THROWS_WITH(load("/dev/zero"), Catch::Contains("bytes; a scene has at most"));
   CHECK_THROWS_WITH(load(dir.file("a.toml", "x = ") + "/b.toml"), Catch::Contains("a.toml/b.toml: Not a directory"));
@@ -217,6 +222,6 @@ TEST_CASE("a path is an existing file beside the scene that names it", "[scene][
   doc.finish();
   Document gone = load(dir.file("sub/gone.toml", "[sea]\ntable = \"forces.csv\"\n"));
   gone.read(example::sea_section());
-  CHECK_THROWS_WITH(gone.finish(),
-                    Catch::Contains("gone.toml:2: sea.table = \"forces.csv\": no such file: " + dir.path() + "/sub/forces.csv"));
+  CHECK_THROWS_WITH(gone.finish(), Catch::Contains("gone.toml:2: sea.table = \"forces.csv\": " + dir.path() +
+                                                   "/sub/forces.csv: no such file in " + dir.path() + "/sub"));
 }
