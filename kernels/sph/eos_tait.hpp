@@ -53,6 +53,13 @@ struct EosTait {
     const double s = std::log1p(mass * gravity / stiffness()) / gamma;
     return c0 * c0 / ((gamma - 1.0) * gravity) * std::expm1((gamma - 1.0) * s);
   }
+  /// Work of compression per mass [J/kg] from rho0 to rho0 + deviation, the integral of p/rho^2 d rho. With s = 1 + e it is
+  /// B/rho0 [(s^6 - 1)/6 - e/s], here without the digits that cancel.
+  double compression_energy(double deviation) const {
+    const double e = deviation / rho0;
+    const double series = 3.5 + e * (35.0 / 6.0 + e * (35.0 / 6.0 + e * (3.5 + e * (7.0 / 6.0 + e * (1.0 / 6.0)))));
+    return stiffness() / rho0 * (e * e * series) / (1.0 + e);
+  }
   double sound_speed(double deviation) const {
     const double s = 1.0 + deviation / rho0;
     return c0 * s * s * s;

@@ -198,7 +198,14 @@ Table<WaterRow> water_columns() {
        [](Of w) { return w.left; }},
       {"x_max_m", "m", "farthest water along x: the front of a broken dam", [](Of w) { return w.extent.x_max; }},
       {"z_max_m", "m", "highest water", [](Of w) { return w.extent.z_max; }},
-      {"kinetic_energy_J", "J", "of the water", [](Of w) { return w.extent.kinetic_energy; }}};
+      {"mass_kg", "kg", "of the water in the tank", [](Of w) { return w.extent.mass; }},
+      {"kinetic_energy_J", "J", "of the water", [](Of w) { return w.extent.kinetic_energy; }},
+      {"potential_energy_J", "J", "of the water over z = 0, by its weight", [](Of w) { return w.extent.potential_energy; }},
+      {"compression_energy_J", "J", "of the water, against its pressure", [](Of w) { return w.extent.compression_energy; }},
+      {"work_of_solids_J", "J", "work of bodies, paddle and drive on the water so far",
+       [](Of w) { return w.extent.work_of_solids; }},
+      {"dissipated_J", "J", "taken by viscosity, density diffusion and walls so far", [](Of w) { return w.extent.dissipated; }},
+      {"absorbed_J", "J", "taken by damping zones so far", [](Of w) { return w.extent.absorbed; }}};
   return table;
 }
 

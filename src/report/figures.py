@@ -258,28 +258,35 @@ def spectra(runs, panels, marks):
 
 
 def campbell(rows, wave_Hz, rpm, blades):
-    """Frequencies over the rotor's speed: modes [(name, Hz)] and waves lie flat, the rotor's turning and its blades' passing rise; marked is the speed of the run."""
-    figure, axis = plt.subplots(figsize=(5.4, 3.0), layout="constrained")
-    fastest, top = 1.3 * rpm, 1.25 * blades * rpm / 60.0
-    speeds = np.array([0.0, fastest])
+    """Frequencies over the rotor's speed, logarithmic: modes [(name, Hz)] and waves lie flat, the rotor's turning and its blades' passing rise; marked is the speed
+    of the run."""
+    figure, axis = plt.subplots(figsize=(5.4, 3.4), layout="constrained")
+    fastest, flat = 1.3 * rpm, [f for _, f in rows] + ([wave_Hz] if wave_Hz else [])
+    low, top = 0.6 * min(flat + [0.1 * rpm / 60.0]), 2.0 * max(blades * fastest / 60.0, 0.0)
+    speeds = np.linspace(0.01, 1.0, 200) * fastest
     for n, (name, times) in enumerate((("1P", 1), (f"{blades}P", blades))):
-        axis.plot(speeds, times * speeds / 60.0, color=PALETTE[n])
-        axis.annotate(name, (fastest, times * fastest / 60.0), xytext=(-3, 4), textcoords="offset points", ha="right", fontsize=7.5, color=PALETTE[n], annotation_clip=True)
+        axis.semilogy(speeds, times * speeds / 60.0, color=PALETTE[n])
+        axis.annotate(name, (0.97 * fastest, times * 0.97 * fastest / 60.0), xytext=(0, 3), textcoords="offset points", ha="right", fontsize=7.5)
     if wave_Hz:
         axis.axhline(wave_Hz, color=PALETTE[4], linestyle=DASHES[1])
-        axis.annotate("waves", (0.0, wave_Hz), xytext=(3, 2), textcoords="offset points", fontsize=7.5, color=PALETTE[4])
-    taken = [wave_Hz] if wave_Hz else []
-    for name, frequency in sorted(rows, key=lambda row: row[1]):
-        if frequency > top:
+    together = []   # modes that lie too near to be named one by one: [(frequency of the first, names)]
+    for name, frequency in sorted(rows + ([("waves", wave_Hz)] if wave_Hz else []), key=lambda row: row[1]):
+        if frequency >= top:
             continue
-        axis.axhline(frequency, color=INK, linewidth=0.7)
-        free = all(abs(frequency - other) > 0.055 * top for other in taken)   # names do not lie on each other
-        if free:
-            axis.annotate(name, (0.42 * fastest, frequency), xytext=(0, 2), textcoords="offset points", fontsize=7.5)
-            taken.append(frequency)
+        if name != "waves":
+            axis.axhline(frequency, color=INK, linewidth=0.7)
+        if together and np.log(frequency / together[-1][0]) < 0.07 * np.log(top / low):
+            together[-1][1].append(name)
+        else:
+            together.append((frequency, [name]))
+    for frequency, names in together:
+        highest = max(f for name, f in rows + [("waves", wave_Hz or 0.0)] if name in names)
+        axis.annotate(", ".join(names), (0.97 * fastest, highest), xytext=(0, 1.5), textcoords="offset points", fontsize=7.5, ha="right")
     axis.axvline(rpm, color=INK, linewidth=0.7, linestyle=DASHES[2])
     axis.set_xlim(0.0, fastest)
-    axis.set_ylim(0.0, top)
+    axis.set_ylim(low, top)
+    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
+    axis.yaxis.set_minor_locator(NullLocator())
     axis.set_xlabel("rotor speed [rpm]")
     axis.set_ylabel("frequency [Hz]")
     return figure

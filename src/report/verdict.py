@@ -298,6 +298,28 @@ def _energy(run):
     return Check("good" if share < 0.02 else "warn", "Energy", text + ("" if share < 0.02 else ": try a smaller time.step_s"))
 
 
+def _water(run):
+    """The balance of the water's energy: what comes from solids and goes to viscosity and damping zones, against what the water has."""
+    stored = ["sea.kinetic_energy_J", "sea.potential_energy_J", "sea.compression_energy_J"]
+    flows = ["sea.work_of_solids_J", "sea.dissipated_J", "sea.absorbed_J"]
+    if not set(stored + flows) <= set(run.columns) or len(run.time) < 2:
+        return None
+    gained = sum(float(run.column(n)[-1] - run.column(n)[0]) for n in stored)
+    work, dissipated, absorbed = (float(run.column(n)[-1] - run.column(n)[0]) for n in flows)
+    made = gained - work + dissipated + absorbed
+    turned = max(abs(work) + abs(dissipated) + abs(absorbed), float(np.ptp(run.column(stored[0]))))   # over; of a sea at rest next to nothing
+    if not turned > 1e-9 * float(np.abs(run.column(stored[1])).max()):
+        return None
+    hours, share = (run.time[-1] - run.time[0]) / 3600.0, abs(made) / turned
+    unit, factor = quantities.scaled("J", max(abs(work), abs(dissipated), abs(absorbed)))
+    said = f"work of bodies and paddle {words.number(factor * work, 3)} {unit}, dissipated {words.number(factor * dissipated, 3)}, absorbed in zones {words.number(factor * absorbed, 3)}"
+    text = (f"{said}; unexplained {words.number(factor * made, 2)} {unit} ({words.number(100 * share, 2)} % of what was turned over, {words.number(factor * made / hours, 2)} {unit} an hour)")
+    mass = run.column("sea.mass_kg") if "sea.mass_kg" in run.columns else None
+    if mass is not None and mass[-1] != mass[0]:
+        text += f"; mass changed by {words.number(100 * (mass[-1] / mass[0] - 1), 2)} %"
+    return Check("good" if share < 0.05 else "warn", "Water", text + ("" if share < 0.05 else ": by time steps, shifting, density filters or lost particles"))
+
+
 def _windows(run):
     found = []
     if "coupling.mismatch" in run.columns:
@@ -352,7 +374,7 @@ def _budgets(run):
         values = values[np.isfinite(values)]
         if len(values):
             unit = quantities.unit_of(name, run.described)
-            found.append(Check("good", quantities.spoken(name), f"at most {words.number(float(np.abs(values).max()), 2)} {unit}".strip()))
+            found.append(Check("good", quantities.spoken(name).capitalize(), f"at most {words.number(float(np.abs(values).max()), 2)} {unit}".strip()))
     return found
 
 
@@ -400,7 +422,7 @@ def health(run):
     if not said and len(run.time):
         found.append(Check("good", "Numbers", f"all {run.values.size:,} of history.csv are finite"))
     found += _places(run)
-    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _particles(run), _settled(run), _references(run)) if c]
+    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _water(run), _particles(run), _settled(run), _references(run)) if c]
     found += _windows(run) + _budgets(run)
     if warnings := run.summary.get("warnings"):
         found.append(Check("warn", "Log", f"{warnings} warning{'s' if warnings != 1 else ''}"))

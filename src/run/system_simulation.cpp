@@ -36,6 +36,10 @@ void restore_particles(const coupling::FloatingSystem& floating, const io::Check
     file.read<double>("sea/particles", std::span(&mine, 1));
     state.time_s = file.number("sea/time_s"), state.steps = file.integer("sea/steps");
     if (file.has("sea/sensors")) state.sensors = file.read<double>("sea/sensors");
+    if (file.has("sea/energy")) {
+      const std::vector<std::int64_t> sums = file.read<std::int64_t>("sea/energy");
+      if (sums.size() == 3) state.energy = {sums[0], sums[1], sums[2]};
+    }
     floating.particles()->restore(state);
   } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
 }
@@ -242,6 +246,8 @@ void SystemSimulation::save(io::CheckpointWriter& file) {
   if (parts_.has(sea_part)) particles = floating_.particles()->save();
   file.set("sea/time_s", particles.time_s);  // as rank 0 has it, which has the sea
   file.set("sea/steps", particles.steps);
+  const std::array sums{particles.energy.onto_water, particles.energy.from_solids, particles.energy.absorbed};
+  file.write<std::int64_t>("sea/energy", sums);
   if (!floating_.particle_plan()->sensors.empty()) file.write<double>("sea/sensors", particles.sensors);
   coupling::write(file, parts_, sea_part, {{"sea/particles", particles.total, {{particles.first, std::move(particles.values)}}}});
 }

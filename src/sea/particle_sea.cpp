@@ -183,7 +183,9 @@ class Sea final : public ParticleSea {
   Extent extent() const override {
     struct Part {
       double x_max = -1e300, z_max = -1e300;
-      BinnedSum speed2;
+      std::int64_t particles = 0;
+      BinnedSum speed2, height, compression;
+      sph::EnergyFlow flow;
     };
     const Store<dim, Real>& store = sea_.store();
     Part all;
@@ -191,18 +193,31 @@ class Sea final : public ParticleSea {
       all.x_max = std::max(all.x_max, store.x[0][slot]), all.z_max = std::max(all.z_max, store.x[dim - 1][slot]);
       double speed2 = 0.0;
       for (int k = 0; k < dim; ++k) speed2 += store.v[k][slot] * store.v[k][slot];
-      all.speed2.add(speed2);
+      all.speed2.add(speed2), all.height.add(store.x[dim - 1][slot]);
+      all.compression.add(sea_.parameters().eos.compression_energy(store.deviation[slot])), ++all.particles;
     });
+    all.flow = sea_.state().energy;
     if (ranks_ > 1) {
       runtime::Packer mine;
       mine.put_one(std::exchange(all, {}));
       for (const runtime::Bytes& bytes : runtime::exchange_all(comm_, mine.take())) {
         const Part part = runtime::Unpacker(bytes).template one<Part>();
         all.x_max = std::max(all.x_max, part.x_max), all.z_max = std::max(all.z_max, part.z_max), all.speed2.add(part.speed2);
+        all.height.add(part.height), all.compression.add(part.compression), all.particles += part.particles;
+        all.flow = sum(all.flow, part.flow);
       }
     }
-    const double half = 0.5 * sea_.parameters().spacing;
-    return {all.x_max + half, all.z_max + half, 0.5 * sea_.parameters().mass(dim) * width_ * all.speed2.value()};
+    const sph::Parameters& p = sea_.parameters();
+    const double half = 0.5 * p.spacing, mass = p.mass(dim) * width_, quantum = sph::energy_quantum(p, dim) * width_;
+    return {.x_max = all.x_max + half,
+            .z_max = all.z_max + half,
+            .mass = mass * double(all.particles),
+            .kinetic_energy = 0.5 * mass * all.speed2.value(),
+            .potential_energy = mass * p.gravity * all.height.value(),
+            .compression_energy = mass * all.compression.value(),
+            .work_of_solids = quantum * double(all.flow.from_solids),
+            .dissipated = quantum * double(all.flow.from_solids - all.flow.onto_water),
+            .absorbed = quantum * double(all.flow.absorbed)};
   }
 
   ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high,
@@ -231,6 +246,13 @@ class Sea final : public ParticleSea {
     ParticleState state = layout();
     state.values = sph::by_identity(sea_, particles_, comm_).values;
     for (const sph::PatchRecord& record : sea_.state().records) record.pack(state.sensors);
+    state.energy = sea_.state().energy;
+    if (ranks_ > 1) {
+      runtime::Packer mine;
+      mine.put_one(std::exchange(state.energy, {}));
+      for (const runtime::Bytes& bytes : runtime::exchange_all(comm_, mine.take()))
+        state.energy = sum(state.energy, runtime::Unpacker(bytes).template one<sph::EnergyFlow>());
+    }
     return state;
   }
   ParticleState layout() const override {
@@ -240,12 +262,14 @@ class Sea final : public ParticleSea {
             std::int64_t(particles_ * size),
             std::vector<double>((mine.last - mine.first) * size),
             {},
+            {},
             sea_.time(),
             sea_.work().steps};
   }
   void restore(const ParticleState& state) override {
     sph::set_by_identity<dim, Real>(sea_, sph::identities_of(particles_, runtime::rank_in(comm_), ranks_), state.values, owner_,
                                     state.time_s, long(state.steps));
+    sea_.state().energy = runtime::rank_in(comm_) == 0 ? state.energy : sph::EnergyFlow{};
     // A sea with other sensors than the state's begins their means anew.
     std::vector<std::span<const double>> records;
     for (std::span<const double> rest = state.sensors; !rest.empty();) {

@@ -25,6 +25,7 @@
 #include "runtime/graph/graph.hpp"
 #include "runtime/mpi/environment.hpp"
 #include "src/sea/options.hpp"
+#include "src/sea/sph/energy_sums.hpp"
 #include "src/sea/sph/sensors.hpp"
 #include "src/sea/sph/tank.hpp"
 #include "src/sea/wave_field.hpp"
@@ -96,6 +97,7 @@ struct ParticleState {
   std::int64_t first = 0, total = 0;  ///< of `values` among those of all ranks
   std::vector<double> values;
   std::vector<double> sensors;  ///< what they have read, the same on all ranks
+  sph::EnergyFlow energy;       ///< of all ranks, the same on all of them
   double time_s = 0.0;
   std::int64_t steps = 0;
 };
@@ -163,7 +165,9 @@ class ParticleSea {
   virtual sph::Wavemaker::Stroke paddle(double t_s) const = 0;
   /// Farthest and highest water [m], kinetic energy of the water [J] (2-D: of the scene's width).
   struct Extent {
-    double x_max, z_max, kinetic_energy;
+    double x_max, z_max;
+    double mass, kinetic_energy, potential_energy, compression_energy;  ///< [kg], [J]; potential: from still water, z = 0
+    double work_of_solids, dissipated, absorbed;                        ///< since the sea was made [J]: energy_flow.hpp
   };
   virtual Extent extent() const = 0;
   virtual ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high,

@@ -28,6 +28,7 @@ int arrays(const Parameters& p) {
 template <int dim>
 void Saved<dim>::put(runtime::Packer& packer) const {
   packer.put_one(plan);
+  packer.put_one(energy);
   packer.put(std::span(motions));
   packer.put(std::span(groups));
   packer.put(std::span(owner));
@@ -41,6 +42,7 @@ template <int dim>
 Saved<dim> Saved<dim>::take(runtime::Unpacker& from) {
   Saved s;
   s.plan = from.one<std::array<double, numbers>>();
+  s.energy = from.one<EnergyFlow>();
   s.motions = from.many<double>();
   s.groups = from.many<std::int32_t>();
   s.owner = from.many<std::uint16_t>();
@@ -73,6 +75,7 @@ Saved<dim> save_groups(const SeaState<dim, Real>& sea, std::span<const int> grou
             double(sea.work.steps),
             double(sea.work.evaluations),
             double(sea.work.sorts)};
+  s.energy = sea.energy;
   for (const Solid& solid : sea.solids) {
     const Motion& m = solid.motion;
     for (int k = 0; k < 3; ++k) s.motions.push_back(m.position[k]);
@@ -166,6 +169,7 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
   plan.solid_way = n[11], plan.solid_path = n[13];
   for (const Saved<dim>& piece : pieces)
     plan.shifted = std::max(plan.shifted, piece.plan[12]);  // each rank's own since the last check of the limits
+  sea.energy = s.energy;
   sea.work = {long(n[14]), long(n[15]), long(n[16])};
   if (s.motions.size() != 13 * sea.solids.size())
     throw std::invalid_argument("sea: a saved state has " + std::to_string(s.motions.size() / 13) + " bodies, the scene " +

@@ -17,6 +17,7 @@ template <int dim>
 struct Saved {
   static constexpr int numbers = 17;
   std::array<double, numbers> plan{};   ///< time, drifts, counters (plan_numbers); the same on all ranks
+  EnergyFlow energy;                    ///< of the rank
   std::vector<double> motions;          ///< 13 per body: position, attitude (x, y, z, w), velocity, omega
   std::vector<std::int32_t> groups;     ///< 3 per group: index, clusters of water, clusters of solids
   std::vector<std::uint16_t> owner;     ///< per cluster
@@ -26,7 +27,7 @@ struct Saved {
   std::vector<LostParticle<dim>> lost;  ///< of all ranks
 
   std::size_t bytes() const {
-    return sizeof plan + motions.size() * 8 + groups.size() * 4 + owner.size() * 2 + (anchor.size() + values.size()) * 8 +
+    return sizeof plan + sizeof energy + motions.size() * 8 + groups.size() * 4 + owner.size() * 2 + (anchor.size() + values.size()) * 8 +
            id.size() * 4 + lost.size() * sizeof(LostParticle<dim>);
   }
   void put(runtime::Packer& packer) const;

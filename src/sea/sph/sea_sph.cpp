@@ -350,7 +350,9 @@ bool SeaSph<dim, Real>::repartition(std::vector<int> rank_of_group) {
     pieces.push_back(Saved<dim>::take(from));
   }
   set_territory(std::move(rank_of_group));
+  const EnergyFlow mine = s_.energy;  // sums over ranks do not know whose groups they came from
   restore(pieces);
+  s_.energy = mine;
   return true;
 }
 

@@ -14,6 +14,7 @@
 #include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/contact.hpp"
 #include "src/sea/sph/damping.hpp"
+#include "src/sea/sph/energy_flow.hpp"
 #include "src/sea/sph/ordering.hpp"
 #include "src/sea/sph/parameters.hpp"
 #include "src/sea/sph/sensors.hpp"
@@ -60,6 +61,7 @@ struct SeaState {
   std::vector<Patch> patches;                                   ///< of sensors
   std::vector<PatchRecord> records;                             ///< what they read, by patch
   Damping damping;
+  EnergyFlow energy;  ///< so far
   Plan plan;
   Work work;
 

@@ -594,11 +594,13 @@ void StepTasks<dim, Real>::correct() {
     graph_.task(name("correct", b), uses, if_active([&sea = sea_, &groups = bundles_[b]](const Context&, int n) {
                   const bool join = (sea.plan.steps + n) % sea.p.verlet_join_every == 0;
                   for (const int g : groups) {
+                    sea.energy.add_from_task(energy_flow(sea.store, sea.p, g, sea.plan.dt));
                     if (sea.p.step == StepChoice::verlet)
                       correct_verlet(sea.store, sea.p, g, sea.plan.dt, join);
                     else
                       correct_symplectic(sea.store, sea.p, g, sea.plan.dt);
                     if (!sea.damping.acts()) continue;
+                    sea.energy.add_from_task(damped_energy(sea.store, sea.p, sea.damping, sea.plan.dt, g));
                     const Group& group = sea.store.groups[std::size_t(g)];
                     damp(sea.store, sea.damping, sea.plan.dt, group.fluid, group.solid);
                   }

@@ -331,6 +331,23 @@ class PartsTest(unittest.TestCase):
             run.values[run.columns.index("float.z_m")] = 0.05 * t
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Settled"], "warn")
 
+    def test_health_closes_the_balance_of_the_water(self):
+        t = np.linspace(0.0, 10.0, 101)
+        zero = 0.0 * t
+        table = {"time_s": t, "sea.mass_kg": 1e3 + zero, "sea.kinetic_energy_J": 5.0 * t, "sea.potential_energy_J": 100.0 + t, "sea.compression_energy_J": zero,
+                 "sea.work_of_solids_J": 10.0 * t, "sea.dissipated_J": 3.0 * t, "sea.absorbed_J": t}
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder) / "closed", table=table, scene="", log="")
+            found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder) / "closed"))}["Water"]
+            self.assertEqual(found.level, "good")
+            self.assertIn("work of bodies and paddle 100 J, dissipated 30.0, absorbed in zones 10.0; unexplained 0", found.text)
+            table["sea.dissipated_J"] = zero
+            synthetic_run.write(pathlib.Path(folder) / "open", table=table, scene="", log="")
+            found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder) / "open"))}["Water"]
+            self.assertEqual(found.level, "warn")
+            self.assertIn("unexplained −30", found.text)
+            self.assertIn("J an hour", found.text)
+
     def test_health_tells_of_floats_that_turn_over_go_under_or_pass_through_the_bed(self):
         t = 0.1 * np.arange(400)
         table = {"time_s": t, **{f"float.{c}": 0 * t for c in ("x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg")}, "rotor.thrust_N": 0 * t}
