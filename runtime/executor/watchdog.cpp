@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "runtime/mpi/heartbeat.hpp"
+
 #if defined(__SANITIZE_THREAD__)
 #define SPINDRIFT_LOOKS_ON __attribute__((no_sanitize("thread")))
 #elif defined(__has_feature)
@@ -106,20 +108,30 @@ void Watchdog::watch() {
   std::unique_lock lock(lock_);
   std::uint64_t seen = 0;
   auto since = steady_clock::now();
+  Heartbeat* const heartbeat = Heartbeat::current();
+  bool asking = false;
   while (!leaving_) {
-    changed_.wait_for(lock, duration<double>(std::min(1.0, limit / 4)));
+    changed_.wait_for(lock, duration<double>(std::min(1.0, limit / 8)));
+    if (heartbeat) heartbeat->attend();
     const std::uint64_t now = beats(team_);
     if (!running_ || now != seen) {
       seen = now;
       since = steady_clock::now();
+      asking = false;
       continue;
     }
     const double quiet = duration<double>(steady_clock::now() - since).count();
+    if (heartbeat && quiet > limit / 2) {
+      if (!asking) heartbeat->forget();
+      asking = true;
+      heartbeat->ask();
+    }
     if (quiet < limit) continue;
     since = steady_clock::now();
     const int rank = team_.graph.recorded().comm.rank();
-    const std::string what =
-        "nothing completed for " + std::to_string(int(quiet)) + " s on rank " + std::to_string(rank) + ":\n" + dump(team_);
+    const std::string silent = heartbeat ? heartbeat->silent() : std::string();
+    const std::string what = "nothing completed for " + std::to_string(int(quiet)) + " s on rank " + std::to_string(rank) +
+                             (silent.empty() ? "" : "; " + silent) + ":\n" + dump(team_);
     std::fputs(("watchdog: " + what).c_str(), team_.options.watchdog_file);
     std::fflush(team_.options.watchdog_file);
     if (!inside_a_task(team_)) team_.fail({rank, true, "", what});

@@ -46,9 +46,11 @@ MpiEnvironment::MpiEnvironment(int& argc, char**& argv) {
   }
   MPI_Comm_rank(MPI_COMM_WORLD, &world_.rank);
   MPI_Comm_size(MPI_COMM_WORLD, &world_.size);
+  if (world_.size > 1) heartbeat_ = std::make_unique<Heartbeat>(MPI_COMM_WORLD);
 }
 
 MpiEnvironment::~MpiEnvironment() {
+  heartbeat_.reset();
   MPI_Finalize();
   std::error_code ignored;
   if (!own_folder.empty()) std::filesystem::remove_all(own_folder, ignored);

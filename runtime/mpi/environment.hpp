@@ -4,6 +4,10 @@
 
 #include <mpi.h>
 
+#include <memory>
+
+#include "runtime/mpi/heartbeat.hpp"
+
 namespace spindrift::runtime {
 
 /// The ranks of a run, as handed to whoever needs them.
@@ -29,6 +33,7 @@ class MpiEnvironment {
 
  private:
   World world_;
+  std::unique_ptr<Heartbeat> heartbeat_;
 };
 
 }  // namespace spindrift::runtime

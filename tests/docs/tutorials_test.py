@@ -124,7 +124,7 @@ class Tutorials(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             study = spindrift.open_study(folder + "/study")
             self.assertEqual(len(study.rungs), 4)
-            self.assertEqual(study.answer, "rk4-step_0.01")
+            self.assertIn(study.answer, ("rk4-step_0.01", "rk4-step_0.005", "rk4-step_0.0025"))   # all are good enough; which is cheapest the clock says
             self.assertIn(study.answer, study.front)
             for step in ("0.01", "0.005", "0.0025"):
                 said, worth = numbers("study", step + " ")[0]

@@ -197,8 +197,53 @@ def ask(process, out, pick, seconds):
     return begin
 
 
+def processes_of(launcher):
+    """{rank: process} of the program under mpirun."""
+    found = {}
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            if entry.name.isdigit() and os.path.realpath(entry / "exe") == PROGRAM:
+                environment = dict(word.partition(b"=")[::2] for word in (entry / "environ").read_bytes().split(b"\0"))
+                if environment.get(b"SPINDRIFT_FAULT", b"").decode() == launcher:
+                    found[int(environment[b"OMPI_COMM_WORLD_RANK"])] = int(entry.name)
+        except (OSError, KeyError):
+            continue
+    return found
+
+
+def stopped_rank(folder, count, pick):
+    """A rank of three that stands still (SIGSTOP) is named within the watchdog's time, and the run ends by itself with 4."""
+    longest = 0.0
+    for n in range(count):
+        out, mark, limit, stopped = folder / f"stopped_{n}", f"{os.getpid()}_{n}", 6.0, n % 3
+        words = ["mpirun", "--oversubscribe", "-n", "3", PROGRAM, "run", *map(str, COUPLED), "--set", "time.end_s=60.0", "--set", f"runtime.watchdog_s={limit}", "--out", str(out), *QUIET]
+        environment = dict(os.environ) | {"SPINDRIFT_FAULT": mark, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        with open(folder / f"said_{n}", "w+", encoding="utf-8") as said:
+            process = subprocess.Popen(words, stdout=said, stderr=subprocess.STDOUT, env=environment)
+            while not (out / "history.csv").exists() or (out / "history.csv").read_bytes().count(b"\n") < 3:
+                assert process.poll() is None, "the run ended before it was stopped"
+                time.sleep(0.1)
+            time.sleep(pick.uniform(0.0, 1.0))
+            victim = processes_of(mark)[stopped]
+            os.kill(victim, signal.SIGSTOP)
+            begin = time.time()
+            try:
+                process.wait(timeout=120)
+            finally:
+                if process.poll() is None:
+                    for one in processes_of(mark).values():
+                        os.kill(one, signal.SIGKILL)
+            took = time.time() - begin
+            said.seek(0)
+            text = said.read()
+        assert process.returncode != 0, f"exit code 0 with a stopped rank\n{text[-2000:]}"
+        assert f"rank {stopped} does not answer" in text, f"rank {stopped} is not named\n{text[-3000:]}"
+        longest = max(longest, took)
+    return f"{count} stopped ranks named, runs ended within {longest:.1f} s of a watchdog of {limit:g} s"
+
+
 def main():
-    fault = {f.__name__: f for f in (kill, flip, truncate, full_disk, two_jobs, signals)}[sys.argv[2]]
+    fault = {f.__name__: f for f in (kill, flip, truncate, full_disk, two_jobs, signals, stopped_rank)}[sys.argv[2]]
     count = int(sys.argv[3]) if len(sys.argv) > 3 else 3
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else random.randrange(10**6)
     os.environ["OMP_NUM_THREADS"] = "1"

@@ -27,8 +27,8 @@ struct Saved {
   std::vector<LostParticle<dim>> lost;  ///< of all ranks
 
   std::size_t bytes() const {
-    return sizeof plan + sizeof energy + motions.size() * 8 + groups.size() * 4 + owner.size() * 2 + (anchor.size() + values.size()) * 8 +
-           id.size() * 4 + lost.size() * sizeof(LostParticle<dim>);
+    return sizeof plan + sizeof energy + motions.size() * 8 + groups.size() * 4 + owner.size() * 2 +
+           (anchor.size() + values.size()) * 8 + id.size() * 4 + lost.size() * sizeof(LostParticle<dim>);
   }
   void put(runtime::Packer& packer) const;
   static Saved take(runtime::Unpacker& from);
