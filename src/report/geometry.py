@@ -114,7 +114,7 @@ class Blades:
 
     def __init__(self, turbine, path, pitch_deg):
         table = columns(path.parent / turbine["planform"])
-        outlines = sorted((a["thickness_pct"], columns(path.parent / a["file"])) for a in turbine.get("aerofoils", [])) if turbine.get("aerofoils") else []
+        outlines = sorted(((a["thickness_pct"], outline(columns(path.parent / a["file"]))) for a in turbine.get("aerofoils", [])), key=lambda entry: entry[0])
         self.count, self.tip = turbine.get("blades", 3), table["span_m"][-1]
         cone, pitch, sections = math.radians(turbine.get("precone_deg", 0.0)), math.radians(pitch_deg), []
         prebend, sweep = (table.get(name, [0.0] * len(table["span_m"])) for name in ("prebend_m", "sweep_m"))
@@ -123,9 +123,7 @@ class Blades:
             chord, twist = table["chord_m"][m], math.radians(table["twist_deg"][m])
             thickness = table["thickness_pct"][m] if "thickness_pct" in table else 20.0  # of polars by number a planform may have none
             if outlines:
-                o = min(outlines, key=lambda entry: abs(entry[0] - thickness))[1]
-                at = np.linspace(0, len(o["x_c"]) - 1, 40).astype(int)
-                x, y = np.array(o["x_c"])[at], np.array(o["y_c"])[at]
+                x, y = between(outlines, thickness)
             else:
                 x, y = 0.5 + 0.5 * np.cos(s), 0.005 * thickness * np.sin(s)
             # As src/aero/rotor_grid/blade_surface.cpp: t towards -y, the way the rotor turns; n downwind; then pitch and precone.
@@ -138,6 +136,34 @@ class Blades:
         self.points, n = np.concatenate(sections), len(sections[0])
         self.polygons = [[m * n + i, m * n + (i + 1) % n, (m + 1) * n + (i + 1) % n, (m + 1) * n + i] for m in range(len(sections) - 1) for i in range(n)]
         self.polygons.append(list(range((len(sections) - 1) * n, len(sections) * n)))
+
+
+PLACES = 0.5 + 0.5 * np.cos(np.linspace(0.0, np.pi, 21))   # along the chord, trailing edge to nose
+
+
+def outline(table):
+    """y/c of an outline at PLACES along one side, then back along the other: outlines of different files point by point."""
+    x, y = np.array(table["x_c"]), np.array(table["y_c"])
+    nose = int(x.argmin())
+    first, second = (x[: nose + 1][::-1], y[: nose + 1][::-1]), (x[nose:], y[nose:])
+    return np.concatenate([np.interp(PLACES, *first), np.interp(PLACES[::-1], *second)[1:-1]])
+
+
+def between(outlines, thickness):
+    """An outline of this thickness [% of the chord], from those to either side in thickness; beyond the thickest one towards a circle."""
+    x = np.concatenate([PLACES, PLACES[::-1][1:-1]])
+    circle = np.concatenate([np.sqrt(PLACES * (1.0 - PLACES)), -np.sqrt(PLACES * (1.0 - PLACES))[::-1][1:-1]])
+    if outline_up(outlines[-1][1]) < 0.0:
+        circle = -circle
+    every = outlines + ([(100.0, circle)] if outlines[-1][0] < 99.0 else [])
+    thick = [entry[0] for entry in every]
+    return x, np.array([np.interp(thickness, thick, side) for side in np.stack([entry[1] for entry in every], axis=1)])
+
+
+def outline_up(y):
+    """Positive where an outline begins with its upper side."""
+    half = len(PLACES)
+    return float(y[:half].mean() - y[half:].mean())
 
 
 def columns(path):
@@ -259,26 +285,69 @@ class Scene3d:
         return Piece("line", name, points, lines=[list(range(len(points)))])
 
     def _support(self, t):
-        """Tower from the deck or the foundation to the nacelle, and braces from its foot to floats that stand apart."""
-        body, found = self.carrier(), []
-        cylinders = self.bodies.get(body, {}).get("cylinders", [])
-        stands = [j["point_m"][2] for j in (self.scene.get("joints") or {}).values() if set(j.get("bodies", [])) == {"earth", body} and "point_m" in j]
-        hub, tops = self.hub0, [max(c["start_m"][2], c["end_m"][2]) for c in cylinders] or stands
-        if not tops or max(tops) >= hub[2]:
-            return found
-        deck = max(tops)
-        size = max(3.0, 0.065 * (hub[2] - deck))
-        behind = hub + np.array([0.06 * (hub[2] - deck), 0.0, 0.0])   # the tower stands downwind of an upwind rotor
-        foot, top = np.array([behind[0], behind[1], deck]), behind - [0.0, 0.0, 0.3 * size]
+        """Tower from the deck or the foundation to the nacelle, and braces from its foot to floats that stand apart. A tower that the scene
+        describes (a beam, or the tower in the wind) stands as described."""
+        body, hub, found = self.carrier(), self.hub0, []
         add = lambda kind, name, made: found.append(Piece(kind, name, self.moved(body, made[0], t), made[1]))
-        add("tower", "tower", frustum(foot, top, size, 0.62 * size, rings=8))
-        add("nacelle", "nacelle", box(behind + [0.02 * hub[2], 0.0, 0.0], [0.11 * hub[2], 0.05 * hub[2], 0.05 * hub[2]]))
+        beams = [self._beam(name, beam, t) for name, beam in (self.scene.get("beams") or {}).items()]
+        below = beams[0][1] if beams else body
+        cylinders = self.bodies.get(below, {}).get("cylinders", [])
+        stands = [j["point_m"][2] for j in (self.scene.get("joints") or {}).values() if set(j.get("bodies", [])) == {"earth", body} and "point_m" in j]
+        stations = ((self.scene.get("aero") or {}).get("tower") or {}).get("stations")
+        tops = [max(c["start_m"][2], c["end_m"][2]) for c in cylinders] or stands or [row[0] for row in (stations or [])[:1]]
+        if not beams and (not tops or max(tops) >= hub[2]):
+            return found
+        deck = max(tops, default=0.0)
+        height = hub[2] - deck
+        size = max(min(3.0, 0.1 * height), 0.065 * height)
+        foot, top = self._axis_of_tower(cylinders, deck, hub, size)
+        if beams:
+            found += [piece for piece, _ in beams]
+        elif stations:
+            x, y = self.scene["aero"]["tower"].get("foot_m", [0.0, 0.0])
+            for (z0, d0, *_), (z1, d1, *_) in zip(stations, stations[1:]):
+                add("tower", "tower", frustum([x, y, z0], [x, y, z1], d0, d1))
+        else:
+            add("tower", "tower", frustum(foot, top, size, 0.62 * size, rings=8))
+        side = 1.0 if top[0] >= hub[0] else -1.0   # of the rotor on which the tower stands
+        front = hub[0] + side * 0.02 * hub[2]
+        back = front + side * max(0.08 * hub[2], abs(top[0] - front) + 0.07 * hub[2])
+        add("nacelle", "nacelle", box([0.5 * (front + back), hub[1], hub[2]], [abs(back - front), 0.05 * hub[2], 0.05 * hub[2]]))
         for c in cylinders:
             end = np.asarray(c["end_m"] if c["end_m"][2] > c["start_m"][2] else c["start_m"], float)
             if np.hypot(*(end - foot)[:2]) > 0.5 * c["diameter_m"] + size:
-                add("brace", "brace", frustum(foot + [0, 0, -0.1 * size], end - [0, 0, 0.1 * size], 0.5 * size))
-                add("brace", "brace", frustum(foot + [0, 0, 2.2 * size], end - [0, 0, 0.1 * size], 0.3 * size))
+                for rise, thick in ((-0.1, 0.5), (2.2, 0.3)):
+                    points, polygons = frustum(foot + [0, 0, rise * size], end - [0, 0, 0.1 * size], thick * size)
+                    found.append(Piece("brace", "brace", self.moved(below, points, t), polygons))
         return found
+
+    @staticmethod
+    def _axis_of_tower(cylinders, deck, hub, size):
+        """Foot and top of a tower that no one described: on the column that reaches the deck near the hub, else downwind of an upwind rotor."""
+        behind = np.array([hub[0] + 0.06 * (hub[2] - deck), hub[1], deck])
+        for c in cylinders:
+            end = np.asarray(c["end_m"] if c["end_m"][2] > c["start_m"][2] else c["start_m"], float)
+            if abs(end[2] - deck) < 1e-6 * max(1.0, abs(deck)) and np.hypot(*(end - hub)[:2]) < 0.2 * (hub[2] - deck):
+                behind = np.array([end[0], end[1], deck])
+                break
+        return behind, np.array([behind[0], behind[1], hub[2] - 0.3 * size])
+
+    def _beam(self, name, beam, t):
+        """A beam of the scene as it is bent: between what its two bodies make of its points. With the body that it stands on."""
+        start, end = np.asarray(beam["start_m"], float), np.asarray(beam["end_m"], float)
+        below, above = (beam.get("bodies") or ["earth", ""])[:2]
+        d0, d1 = self._diameters(beam, 0.065 * np.linalg.norm(end - start))
+        points, polygons = frustum(start, end, d0, d1, rings=16)
+        s = ((points - start) @ (end - start) / np.dot(end - start, end - start))[:, None]
+        share = s * s * (3.0 - 2.0 * s)
+        return Piece("tower", name, (1.0 - share) * self.moved(below, points, t) + share * self.moved(above, points, t), polygons), below
+
+    def _diameters(self, beam, usual):
+        try:
+            found = columns(self.run.folder / beam["properties"])["diameter_m"]
+            return found[0], found[-1]
+        except (OSError, KeyError, ValueError, IndexError):
+            return usual, 0.62 * usual
 
     def _rotor(self, t):
         frame, hub, found = self.rotor_frame(t), self.hub(t), []

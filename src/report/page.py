@@ -3,7 +3,6 @@ Called by spindrift_report.py; tested in tests/src/report. SPDX-License-Identifi
 import base64
 import itertools
 import math
-import re
 
 import numpy as np
 
@@ -15,7 +14,7 @@ import rotor_pictures
 import sea_pictures
 import verdict
 from html_page import escape, parts, safe, section
-from words import duration, mean, number
+from words import LEVEL, duration, mean, number
 
 # {key: (heading, folded)}
 GROUPS = {"motion": ("Motions", False), "forces": ("Forces by source", False), "moments": ("Moments by source", False),
@@ -23,7 +22,6 @@ GROUPS = {"motion": ("Motions", False), "forces": ("Forces by source", False), "
           "rates": ("Velocities and accelerations", True), "other": ("Other columns", True)}
 LOG_LINES = 80
 MOST_SPECTRA = 4   # bodies
-LEVEL = re.compile(r"\d{4}-\d\d-\d\d [\d:.]+ (\w+) ")   # of a line of log.txt that begins a message
 
 
 # ---- what happened -------------------------------------------------------------------------------------------------------------------
@@ -33,7 +31,17 @@ def verdict_of(run, name=""):
     checks = verdict.health(run)
     level, headline = verdict.headline(checks)
     return {"name": name, "level": level, "headline": headline, "checks": checks, "what": verdict.what_ran(run),
-            "answers": verdict.answers(run), "span": "" if not len(run.time) else "At the end of the march." if verdict.is_steady(run) else f"Means over {run.mean_range()[1]}."}
+            "answers": verdict.answers(run), "span": _span(run)}
+
+
+def _span(run):
+    """What the figures of the verdict are taken over."""
+    if not len(run.time):
+        return ""
+    if verdict.is_steady(run):
+        return "At the end of the march."
+    count = verdict.waves_in_means(run)
+    return f"Means over {run.mean_range()[1]}" + (f", {number(count, 3)} waves." if math.isfinite(count) else ".")
 
 
 def scene_as_given(run):

@@ -11,6 +11,7 @@ import quantities
 
 CHUNK_BYTES = 64 << 20
 TRACE_LIMIT_BYTES = 200 << 20
+SILENT = ("output.", "checkpoint.", "runtime.", "time.end_s", "sea.fields.", "coupling.placement", "coupling.air_ranks")   # keys that change no result
 
 
 class RunData:
@@ -30,7 +31,13 @@ class RunData:
 
     @property
     def title(self):
-        return str(self.summary.get("title") or self.name)
+        """The scene's, with what the command line made of it: a picture must not pass for that of another run."""
+        title = str(self.summary.get("title") or self.name)
+        changed = [words for words in map(str, self.summary.get("set") or []) if not words.startswith(SILENT)]
+        if not changed or any(words.startswith("output.title") for words in map(str, self.summary.get("set") or [])):
+            return title
+        said = ", ".join(words.replace("=", " = ", 1) for words in changed)
+        return f"{title}, with " + (said if len(said) <= 60 else f"{len(changed)} keys changed" if len(changed) > 1 else f"{changed[0].partition('=')[0]} changed")
 
     @property
     def time(self):

@@ -23,10 +23,11 @@ import run_fields
 
 # What each kind of piece looks like: colour, opacity.
 COLOURS = {"float": (0.95, 0.72, 0.10), "brace": (0.93, 0.75, 0.25), "tower": (0.90, 0.92, 0.94), "nacelle": (0.80, 0.83, 0.87), "hub": (0.80, 0.83, 0.87),
-           "blade": (0.97, 0.97, 0.98), "line": (1.0, 0.30, 0.16), "sea": (0.16, 0.42, 0.58)}
+           "blade": (0.97, 0.97, 0.98), "line": (1.0, 0.30, 0.16), "sea": (0.16, 0.42, 0.58), "ground": (0.66, 0.69, 0.62)}
 SKY, HAZE = (0.55, 0.70, 0.86), (0.93, 0.96, 0.98)
 VORTEX = 0.02    # Q in units of (wind / 10 m)^2: low enough for the vortices of coarse grids
 FEWEST_FOR_VORTICES = 100_000   # cells round the rotor, below which surfaces of Q are shapes of cells
+NEAR_SEA, FAR_SEA = 8.0, 60.0   # lengths of the scene: where waves are drawn, where the sea ends
 SLOW = 0.9       # of the wind: what is faster is not wake
 CAMERAS = {"scene": (-1.0, -1.15, 0.28), "side": (0.0, -1.0, 0.04), "front": (-1.0, 0.0, 0.06), "top": (0.0, -0.02, 1.0), "rotor": (-1.0, -0.75, 0.18)}
 
@@ -205,8 +206,18 @@ class Drawing:
         model = (self.run.scene.get("sea") or {}).get("model")
         return model if model != "none" else None
 
+    def ground(self):
+        """What a turbine without a sea stands on."""
+        pieces = [p for p in self.scene.pieces(self.run.time[0]) if p.kind == "tower"]
+        if not pieces or self.scene.carrier() not in self.scene.bodies:
+            return
+        level, far, middle = min(p.points[:, 2].min() for p in pieces), FAR_SEA * self.extent(), self.centre()
+        corners = [[middle[0] + i * far, middle[1] + j * far, level] for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        self.add("ground", poly_data(np.array(corners), [[0, 1, 2, 3]]), opacity=0.55)
+
     def water(self, t):
         if not self.water_model():
+            self.ground()
             return
         found = self.fields.surface(t)
         if found is not None:
@@ -214,11 +225,14 @@ class Drawing:
             self.sheet(x, y, z)
             self.sides(x, y, z, tank)
             return
-        reach = 8.0 * self.extent()   # to what looks like a horizon
-        middle = self.centre()
-        x, y = middle[0] + np.linspace(-reach, reach, 801), middle[1] + np.linspace(-reach, reach, 41)
-        z = np.broadcast_to(self.scene.elevation(x, t), (len(y), len(x)))
-        self.sheet(*np.meshgrid(x, y), z)
+        near, far = NEAR_SEA * self.extent(), FAR_SEA * self.extent()   # far: where a flat sea looks as if it ended in the horizon
+        beyond = np.geomspace(near, far, 25)[1:]
+        middle, along = self.centre(), np.concatenate([-beyond[::-1], np.linspace(-near, near, 801), beyond])
+        across = np.concatenate([-beyond[::-1], np.linspace(-near, near, 41), beyond])
+        x, y = np.meshgrid(middle[0] + along, middle[1] + across)
+        # Waves fade out before the sheet is too coarse for them.
+        shown = np.clip(2.0 - 4.0 * np.hypot(x - middle[0], y - middle[1]) / near, 0.0, 1.0)
+        self.sheet(x, y, shown * self.scene.elevation(middle[0] + along, t))
 
     def sheet(self, x, y, z):
         nj, ni = z.shape
@@ -393,6 +407,7 @@ class Drawing:
         self.water(t)
         self.words(t)
         self.legend()
+        self.renderer.SetNearClippingPlaneTolerance(2e-4)   # the sea's far end must not cut off what is near
         self.renderer.ResetCameraClippingRange()
         self.window.Render()
         grab = vtkWindowToImageFilter()

@@ -80,6 +80,10 @@ def main():
                     "name the folder of a run (run SCENE --out FOLDER)")
         if not any((folder / name).exists() for name in ("history.csv", "summary.json", "scene.toml", "study.json")):
             fail(2, f"{folder} is not a run directory: it has neither history.csv nor summary.json; name the folder of a run (run SCENE --out FOLDER)")
+    seen = {}
+    for folder in given.directories:
+        if (twice := seen.setdefault(folder.resolve(), folder)) is not folder:
+            fail(2, f"{folder} is given twice: a run differs from itself by nothing; name another run beside {twice}")
     try:
         import page
         import picture

@@ -414,6 +414,47 @@ def _settled(run):
     return Check("good", "Settled", "means of both halves of their stretch agree")
 
 
+def waves_in_means(run):
+    """How many regular waves the stretch of the means holds; nan where there are none."""
+    waves = run.scene.get("waves") or {}
+    period, height = waves.get("period_s"), waves.get("height_m")
+    if not (isinstance(period, (int, float)) and period > 0 and isinstance(height, (int, float)) and height > 0) or is_steady(run) or len(run.time) < 2:
+        return math.nan
+    chosen = np.flatnonzero(run.mean_range()[0])
+    return float(run.time[chosen[-1]] - run.time[chosen[0]]) / period
+
+
+def _whole_waves(run):
+    """A mean over a part of a wave holds a part of its swing."""
+    count, names = waves_in_means(run), quantities.bodies_of(run.columns)[:1]
+    if not math.isfinite(count) or not names:
+        return None
+    period, whole = run.scene["waves"]["period_s"], int(count + 1e-6)
+    if whole == 0:
+        return Check("warn", "Means", f"over {words.number(count, 2)} of a wave, which say little: output.means_over_s = {words.number(period)} is one wave")
+    chosen, off = run.mean_range()[0], []
+    tail = chosen & (run.time >= run.time[chosen][-1] - whole * period - 1e-9)
+    for text, name, least in (("surge", f"{names[0]}.x_m", 0.02), ("heave", f"{names[0]}.z_m", 0.02), ("pitch", f"{names[0]}.pitch_deg", 0.05), ("thrust", "rotor.thrust_N", 1.0)):
+        if name in run.columns:
+            values = run.column(name)
+            all_of_it, waves = words.mean(run.time[chosen], values[chosen]), words.mean(run.time[tail], values[tail])
+            if abs(all_of_it - waves) > max(least, 0.1 * abs(waves)):
+                unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(waves))
+                off.append(f"{text} {words.number(factor * waves, 3)} for {words.number(factor * all_of_it, 3)} {unit}".strip())
+    return Check("warn", "Means", f"over {words.number(count, 3)} waves; over the last {f'{whole} whole ones' if whole > 1 else 'whole one'}: {', '.join(off)}") if off else None
+
+
+MOST_WARNINGS, LONGEST_WARNING = 3, 240
+
+
+def _warned(run, count):
+    """What the log warns of: the first of its warnings."""
+    said = list(dict.fromkeys(found[2].strip() for line in run.log if (found := words.LEVEL.match(line)) and found[1] == "warning"))
+    shown = [text if len(text) <= LONGEST_WARNING else text[: LONGEST_WARNING - 3] + "..." for text in said[:MOST_WARNINGS]]
+    more = "; the others are in the log" if len(said) > MOST_WARNINGS or count > len(said) > 0 else ""
+    return f": {' | '.join(shown)}{more}" if shown else ""
+
+
 def health(run):
     """All checks that the run's data allow, the worst first."""
     found = [_end(run)]
@@ -422,10 +463,10 @@ def health(run):
     if not said and len(run.time):
         found.append(Check("good", "Numbers", f"all {run.values.size:,} of history.csv are finite"))
     found += _places(run)
-    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _water(run), _particles(run), _settled(run), _references(run)) if c]
+    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _water(run), _particles(run), _settled(run), _whole_waves(run), _references(run)) if c]
     found += _windows(run) + _budgets(run)
     if warnings := run.summary.get("warnings"):
-        found.append(Check("warn", "Log", f"{warnings} warning{'s' if warnings != 1 else ''}"))
+        found.append(Check("warn", "Log", f"{warnings} warning{'s' if warnings != 1 else ''}" + _warned(run, warnings)))
     found += [Check("warn", "Files", note) for note in run.notes]
     return sorted(found, key=lambda c: ORDER[c.level])
 

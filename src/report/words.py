@@ -1,7 +1,10 @@
 """Numbers and stretches of time in words. Called by page.py, verdict.py and study_page.py. SPDX-License-Identifier: Apache-2.0"""
 import math
+import re
 
 import numpy as np
+
+LEVEL = re.compile(r"\d{4}-\d\d-\d\d [\d:.]+ (\w+) +(.*)")   # of a line of log.txt that begins a message: its level, its words
 
 
 def number(value, digits=4):

@@ -87,6 +87,40 @@ class Geometry(unittest.TestCase):
         self.assertAlmostEqual(found["tower"][0].points[:, 2].min(), 12.0)
         self.assertAlmostEqual(found["hub"][0].points[:, 2].mean(), 119.0)
 
+    def drawn(self, name, scene, **angles):
+        """Pieces at the start of a run of this scene, by kind."""
+        t = 0.1 * np.arange(11)
+        bodies = {name for name in ("spar", "nacelle") if f"[bodies.{name}]" in scene}
+        table = {"time_s": t} | {f"{body}.{q}": angles.get(f"{body}_{q}", 0.0) + 0 * t for body in bodies for q in ("x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg")}
+        synthetic_run.write(self.folder.with_name(name), table=table | {"rotor.thrust_N": 0 * t}, scene=scene)
+        self.scene = geometry.Scene3d(RunData(self.folder.with_name(name)))
+        return self.kinds(1.0)
+
+    SPAR = ("[bodies.spar]\nmass_kg = 1e6\ncentre_m = [0.0, 0.0, -80.0]\n[[bodies.spar.cylinders]]\nstart_m = [0.0, 0.0, -120.0]\nend_m = [0.0, 0.0, 10.0]\ndiameter_m = 6.5\n"
+            "[rotor]\nbody = 'spar'\nhub_m = [-5.0, 0.0, 90.0]\n")
+
+    def test_the_tower_of_a_spar_stands_on_its_axis(self):
+        tower = self.drawn("on_spar", self.SPAR)["tower"][0].points
+        foot = tower[tower[:, 2] < tower[:, 2].min() + 1e-9]
+        np.testing.assert_allclose(foot.mean(axis=0), [0.0, 0.0, 10.0], atol=1e-9)
+        self.assertLessEqual(np.hypot(*foot[:, :2].T).max(), 0.5 * 6.5)   # on the hull, not over its edge
+
+    def test_a_tower_that_the_scene_describes_is_drawn_as_described(self):
+        stations = "[aero.tower]\nfoot_m = [1.0, 2.0]\nstations = [[12.0, 6.0, 0.5], [50.0, 5.0, 0.5], [88.0, 4.0, 0.5]]\n"
+        pieces = self.drawn("stations", self.SPAR + stations)["tower"]
+        self.assertEqual(len(pieces), 2)
+        every = np.concatenate([p.points for p in pieces])
+        np.testing.assert_allclose([every[:, 2].min(), every[:, 2].max(), every[:, 0].max()], [12.0, 88.0, 4.0], atol=1e-2)
+
+    def test_a_beam_is_drawn_bent_between_its_bodies(self):
+        beam = ("[bodies.nacelle]\nmass_kg = 1e5\ncentre_m = [0.0, 0.0, 90.0]\n[beams.tower]\nbodies = ['spar', 'nacelle']\nstart_m = [0.0, 0.0, 10.0]\n"
+                "end_m = [0.0, 0.0, 88.0]\nproperties = 'none.csv'\n")
+        found = self.drawn("bent", self.SPAR.replace("body = 'spar'\nhub_m", "body = 'nacelle'\nhub_m") + beam, nacelle_x_m=2.0)
+        self.assertEqual({kind: len(pieces) for kind, pieces in found.items()}, {"float": 1, "tower": 1, "nacelle": 1, "hub": 1, "blade": 3})
+        tower = found["tower"][0].points
+        rows = [tower[abs(tower[:, 2] - z) < 2.5][:, 0].mean() for z in (10.0, 49.0, 88.0)]
+        np.testing.assert_allclose(rows, [0.0, 1.0, 2.0], atol=0.05)
+
     def test_bodies_are_carried_about_their_reference_point(self):
         start, end = (self.kinds(t)["float"][0].points for t in (0.0, 40.0))
         np.testing.assert_allclose(start.mean(axis=0), [40.0, 0.0, -1.0], atol=1e-9)

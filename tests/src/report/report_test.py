@@ -331,6 +331,33 @@ class PartsTest(unittest.TestCase):
             run.values[run.columns.index("float.z_m")] = 0.05 * t
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Settled"], "warn")
 
+    def test_health_names_means_over_parts_of_waves(self):
+        t = 0.1 * np.arange(401)
+        table = {"time_s": t, "float.x_m": 0 * t, "float.z_m": -0.5 + np.sin(2 * np.pi * t / 10.0), "float.pitch_deg": 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder) / "run"
+
+            def means(over):
+                synthetic_run.write(folder, table=table, log="", scene="[waves]\nmodel = 'airy'\nheight_m = 2.0\nperiod_s = 10.0\n[bodies.float]\nmass_kg = 1.0\n",
+                                    ranges={"end": {"from_s": 40.0 - over, "to_s": 40.0}})
+                run = RunData(folder)
+                found = [c for c in verdict.health(run) if c.title == "Means"]
+                return (found[0].level, found[0].text) if found else None, page._span(run)
+
+            self.assertEqual(means(20.0), (None, "Means over 20 to 40 s, 2.00 waves."))
+            (level, text), span = means(15.0)
+            self.assertEqual((level, text), ("warn", "over 1.50 waves; over the last whole one: heave −0.500 for −0.712 m"))
+            self.assertEqual(means(5.0)[0], ("warn", "over 0.50 of a wave, which say little: output.means_over_s = 10.00 is one wave"))
+
+    def test_the_title_says_what_the_command_line_changed(self):
+        t = 0.1 * np.arange(20)
+        for given, title in (([], "A spar"), (["output.means_over_s=3", "time.end_s=4"], "A spar"), (["waves.period_s=30"], "A spar, with waves.period_s = 30"),
+                             (["output.title=Mine", "waves.period_s=30"], "A spar"), ([f"bodies.spar.mass_kg={n}" for n in range(9)], "A spar, with 9 keys changed"),
+                             (["moorings.line.anchor_m=[" + "1.0, " * 30 + "]"], "A spar, with moorings.line.anchor_m changed")):
+            with self.subTest(given), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table={"time_s": t, "a.x_m": t}, scene="", log="", title="A spar", set=given)
+                self.assertEqual(RunData(pathlib.Path(folder)).title, title)
+
     def test_health_closes_the_balance_of_the_water(self):
         t = np.linspace(0.0, 10.0, 101)
         zero = 0.0 * t
