@@ -26,7 +26,7 @@ class Browser:
             os.close(end)
         # The browser reads commands from descriptor 3 and writes answers to 4.
         self.process = subprocess.Popen(["bash", "-c", f'exec "$@" 3<&{theirs} 4>&{back} {theirs}<&- {back}>&-', "bash", CHROMIUM, "--headless=new", "--no-sandbox",
-                                         "--disable-gpu", "--no-first-run", "--force-color-profile=srgb", "--disable-lcd-text", "--hide-scrollbars",
+                                         "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync", "--force-color-profile=srgb", "--disable-lcd-text", "--hide-scrollbars",
                                          "--remote-debugging-pipe", f"--user-data-dir={self.profile.name}", "about:blank"],
                                         pass_fds=(theirs, back), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(theirs), os.close(back)

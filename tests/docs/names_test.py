@@ -21,6 +21,13 @@ FOREIGN = re.compile(r"^(_|std|MPI|hypre|h5py|numpy|np|OMP|omp|HYPRE|H5|METIS|Ei
 PUT_TOGETHER = {"heave_x_m", "heave_y_m", "heave_z_m", "p_ref"}
 # Files of other projects.
 ELSEWHERE = {"tests/quasi_static_chain.cpp"}
+# What the program is built with: {find_package's name: (Debian's package, Spack's, word of the install guide)}.
+NEEDED = {"MPI": ("libopenmpi-dev", "mpi", "MPI"), "HDF5": ("libhdf5-openmpi-dev", "hdf5", "HDF5"), "Eigen3": ("libeigen3-dev", "eigen", "Eigen"),
+          "METIS": ("libmetis-dev", "metis", "METIS"), "HYPRE": ("libhypre-dev", "hypre", "hypre"), "CGNS": ("libcgns-dev", "cgns", "CGNS"),
+          "fmt": ("libfmt-dev", "fmt", "fmt"), "spdlog": ("libspdlog-dev", "spdlog", "spdlog"), "nlohmann_json": ("nlohmann-json3-dev", "nlohmann-json", "nlohmann-json"),
+          "tomlplusplus": ("libtomlplusplus-dev", "tomlplusplus", "toml++"), "CLI11": ("libcli11-dev", "cli11", "CLI11"), "yaml-cpp": ("libyaml-cpp-dev", "yaml-cpp", "yaml-cpp")}
+OF_THE_COMPILER = {"OpenMP", "Threads"}
+OF_THE_TESTS = {"Catch2"}
 
 
 def tracked(*patterns):
@@ -123,6 +130,20 @@ class Names(unittest.TestCase):
                     if key not in self.keys and key not in ("base", "without"):
                         dead.append(f"{page}: {key}")
         self.complain(dead)
+
+    def test_packaging_names_what_is_built_with(self):
+        """Whatever CMake looks for is in Debian's list, in the Spack recipe and in the guide."""
+        text = "\n".join((ROOT / n).read_text(encoding="utf-8") for n in tracked("CMakeLists.txt", "*/CMakeLists.txt") if not n.startswith(("perf/", "tests/")))
+        found = set(re.findall(r"find_package\(([\w-]+)", text)) - OF_THE_COMPILER - OF_THE_TESTS
+        self.assertEqual(found, set(NEEDED))
+        setup, recipe, guide = ((ROOT / n).read_text(encoding="utf-8") for n in ("ci/setup", "ci/packaging/spack/packages/spindrift/package.py", "docs/user/install.md"))
+        for debian, spack, word in NEEDED.values():
+            self.assertRegex(setup, rf"[( ]{re.escape(debian)}[) \n]")
+            self.assertRegex(recipe, rf'depends_on\("{re.escape(spack)}[@ "]')
+            self.assertIn(word, guide)
+        for option in re.findall(r'"(SPINDRIFT_\w+)"', recipe) + re.findall(r"-D(SPINDRIFT_\w+)", (ROOT / "ci/packaging/Containerfile").read_text(encoding="utf-8")):
+            if option != "SPINDRIFT_PYTHON":
+                self.assertIn(option, text)
 
 
 if __name__ == "__main__":
