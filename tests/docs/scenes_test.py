@@ -220,6 +220,9 @@ class Commands(unittest.TestCase):
         for page in TUTORIALS:
             with self.subTest(page.name), tempfile.TemporaryDirectory(prefix="spindrift_tutorial_") as folder:
                 (pathlib.Path(folder) / "inputs").symlink_to(ROOT / "inputs")
+                for name, scene in re.findall(r"Save this as `(runs/[\w./]+)`:\n\n```toml\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S):
+                    (pathlib.Path(folder) / name).parent.mkdir(exist_ok=True)
+                    (pathlib.Path(folder) / name).write_text(scene)
                 for line, command, rest in self.commands(page):
                     words, files, entry = self.shortened(command, shlex.split(rest))
                     if (words and words[0] == "scene.toml") or (not ALL and (command in ("picture", "film") or (files and not entry.get("fast")))):
