@@ -70,6 +70,8 @@ def facts(run):
 def drawn(run):
     """The picture that `spindrift picture` left in the run directory."""
     path = run.folder / "picture.png"
+    if verdict.kind(run) == "flow":   # it is the slice that the page has anyway
+        return ""
     if not path.exists() or path.stat().st_size > 4 << 20:
         return ""
     data = base64.b64encode(path.read_bytes()).decode()
@@ -170,12 +172,12 @@ def _spoken(run, name):
     return safe(f'<span title="{escape(_meaning(run, name))}">{escape(quantities.spoken(name))} <small class="code">{escape(name)}</small></span>')
 
 
-_MOTIONS = (".x_m", ".y_m", ".z_m", ".roll_deg", ".pitch_deg", ".yaw_deg")
+_LEFT_OUT = (".x_m", ".y_m", ".z_m", ".roll_deg", ".pitch_deg", ".yaw_deg", ".torque_N_m", ".power_W")
 
 
 def _still(run, name):
-    """A motion that there is none of: of a turbine on land, say."""
-    return name.endswith(_MOTIONS) and not (abs(run.column(name)) > run.round_off(name)).any()
+    """A motion or load that there is none of: of a turbine on land, of a prescribed thrust."""
+    return name.endswith(_LEFT_OUT) and not (abs(run.column(name)) > run.round_off(name)).any()
 
 
 def key_figures(run):
@@ -215,12 +217,16 @@ def compared_figures(runs):
     for name in names:
         means = [mean(r.time[s[0]], r.column(name)[s[0]]) for r, s in zip(runs, spans)]
         means = [0.0 if abs(m) <= r.round_off(name) else m for m, r in zip(means, runs)]
+        if not any(means) and all(name in r.columns and not (abs(r.column(name)) > r.round_off(name)).any() for r in runs):   # zero throughout, in all
+            continue
         unit, factor = quantities.scaled(quantities.unit_of(name, runs[0].described), max((abs(m) for m in means if math.isfinite(m)), default=0))
         cells = []
         for i, value in enumerate(means):
             change = (value - means[0]) / abs(means[0]) * 100.0 if i and means[0] else math.nan
             cells.append(number(factor * value) + (safe(f" <small>({change:+.2f} %)</small>") if math.isfinite(change) else ""))
         rows.append([_spoken(runs[0], name), unit] + cells)
+    if not rows:
+        return ""
     said = "; ".join(f"{r.name}: {s[1]}" for r, s in zip(runs, spans))
     return (parts.table(["Mean of", "Unit"] + [r.name for r in runs], rows)
             + safe(f'<p class="facts">Means over {escape(said)}. In brackets: difference from the first.</p>'))
@@ -261,7 +267,8 @@ def time_figures(runs):
     out = {}
     for key in GROUPS:
         body = f'<div class="figures">{"".join(shown[key])}</div>' if key in shown else ""
-        body += "".join(f'<p class="facts">{escape(words)}</p>' for words in still.get(key, []) if len(names) > 1 and runs[0].time.size)
+        if key != "motion" or body or key in folded or runs[0].time.size < 2:   # of bodies that all stand there is nothing to tell
+            body += "".join(f'<p class="facts">{escape(words)}</p>' for words in still.get(key, []) if len(names) > 1 and runs[0].time.size)
         if key in folded:
             count = len(folded[key])
             words = f"{count} more figure{'s' if count > 1 else ''}"
@@ -322,7 +329,7 @@ def timeline(run):
 
 def spectra(runs):
     names, lowest = runs[0].columns, min(marks(runs[0]).values(), default=None)
-    if not len(runs[0].time):
+    if not len(runs[0].time) or verdict.is_steady(runs[0]) or not quantities.bodies_of(names):
         return ""
     length = figures.segment_s(runs[0].time)
     if lowest is not None and length * lowest < 3.0:

@@ -62,7 +62,7 @@ class Drawing:
         span = (x[1] - x[0]) / max(z[1] - z[0], 1e-9)
         figure, axis = plt.subplots(figsize=(11.0, float(np.clip(9.4 / span, 1.0, 6.0)) + (2.0 if span > 5.0 else 1.3)), dpi=130, layout="constrained", facecolor="white")
         box = axis.get_window_extent().height / figure.dpi * 72
-        size = max(0.2, min(60.0, (1.15 * spacing * min(box / max(z[1] - z[0], 1e-9), 9.4 * 72 / (x[1] - x[0]))) ** 2)) if np.isfinite(spacing) else 2.0
+        size = max(0.2, min(600.0, (1.15 * spacing * min(box / max(z[1] - z[0], 1e-9), 9.4 * 72 / (x[1] - x[0]))) ** 2)) if np.isfinite(spacing) else 2.0
         if solids.any():
             axis.scatter(position[solids, 0], position[solids, 2], c="#9aa0a6", s=size, linewidths=0)
         drawn = axis.scatter(position[chosen, 0], position[chosen, 2], c=speed[chosen], s=size, linewidths=0, cmap="viridis", vmin=0.0, vmax=self.most or 1.0)

@@ -30,14 +30,26 @@ class RunData:
         self.described = {c.get("name"): c for c in self.summary.get("columns", []) if isinstance(c, dict)}
 
     @property
+    def own_title(self):
+        return str(self.summary.get("title") or self.name)
+
+    @property
     def title(self):
         """The scene's, with what the command line made of it: a picture must not pass for that of another run."""
-        title = str(self.summary.get("title") or self.name)
-        changed = [words for words in map(str, self.summary.get("set") or []) if not words.startswith(SILENT)]
+        return f"{self.own_title}, {self.changed}" if self.changed else self.own_title
+
+    @property
+    def changed(self):
+        """'with waves.period_s = 30': what --set changed of the results, unless it gave a title too."""
+        changed = self.changed_keys()
         if not changed or any(words.startswith("output.title") for words in map(str, self.summary.get("set") or [])):
-            return title
+            return ""
         said = ", ".join(words.replace("=", " = ", 1) for words in changed)
-        return f"{title}, with " + (said if len(said) <= 60 else f"{len(changed)} keys changed" if len(changed) > 1 else f"{changed[0].partition('=')[0]} changed")
+        return "with " + said if len(said) <= 60 else f"with {len(changed)} keys changed" if len(changed) > 1 else f"with {changed[0].partition('=')[0]} changed"
+
+    def changed_keys(self):
+        """What --set changed of the results, as given: KEY=VALUE."""
+        return [words for words in map(str, self.summary.get("set") or []) if not words.startswith(SILENT)]
 
     @property
     def time(self):

@@ -355,10 +355,10 @@ class Drawing:
             actor.SetPosition(x, y)
             self.renderer.AddActor2D(actor)
 
-        title = self.run.title if len(self.run.title) < 80 else self.run.title[:77] + "..."
+        title = self.run.own_title if len(self.run.own_title) < 80 else self.run.own_title[:77] + "..."
         text(title, 0.02 * width, 0.945 * height, 26, bold=True)
         steady = (self.run.scene.get("aero", {}).get("flow") or {}).get("time") == "steady" and not self.scene.bodies
-        text("steady" if steady else f"t = {t:.1f} s", 0.02 * width, 0.905 * height, 22)
+        text(("steady" if steady else f"t = {t:.1f} s") + (f", {self.run.changed}" if self.run.changed else ""), 0.02 * width, 0.905 * height, 22)
         self.scale_bar(text, width, height)
 
     def scale_bar(self, text, width, height):

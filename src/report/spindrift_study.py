@@ -240,7 +240,9 @@ def print_result(result, folder):
     metrics = result["metrics"]
     width = max([len(r["name"]) for r in result["rungs"]] + [4]) + 2
     judged = bool(result["reference"])
-    say(f"\n{'rung':<{width}}{'core-s':>10}{'MB':>7}" + "".join(f"{m['name']:>16}" + f"{'its error':>26}" * judged for m in metrics))
+    valued = {m["name"]: any(rung["errors"][m["name"]]["value"] is not None for rung in result["rungs"]) for m in metrics}
+    say(f"\n{'rung':<{width}}{'core-s':>10}{'MB':>7}" + "".join(f"{m['name']:>16}" * valued[m["name"]] +
+                                                           (f"{'its error' if valued[m['name']] else 'error of ' + m['name']:>26}" * judged) for m in metrics))
     for rung in result["rungs"]:
         memory = rung["cost"]["memory"]
         line = f"{rung['name']:<{width}}{rung['cost']['core_s']:>10.4g}{memory / 1e6 if memory == memory else 0:>7.0f}"
@@ -249,7 +251,7 @@ def print_result(result, folder):
             text = "-" if e["error"] is None else f"{e['error']:.3g}"
             if e["error"] is not None and e["high"] > e["low"]:
                 text += f" ({e['low']:.2g} ... {e['high']:.2g})"
-            line += f"{'-' if e['value'] is None else format(e['value'], '.5g'):>16}" + f"{text:>26}" * judged
+            line += f"{'-' if e['value'] is None else format(e['value'], '.5g'):>16}" * valued[metric["name"]] + f"{text:>26}" * judged
         notes = ["reference"] if rung["is_reference"] else ["on the front"] if rung["on_front"] else []
         notes += [f"scatter of {n}" for n in dict.fromkeys(e["scatter_of"] for e in rung["errors"].values() if e["scatter_of"])]
         say(line + "  " + ", ".join(notes + ([rung["failed"]] if rung["failed"] else [])))

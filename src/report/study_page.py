@@ -145,14 +145,20 @@ def _error_text(e, metric):
     return text
 
 
+def has_values(study, metric):
+    """Measures of one history have values; differences of two have none."""
+    return any(rung["errors"][metric["name"]]["value"] is not None for rung in study["rungs"])
+
+
 def _table(study):
     judged = bool(study["reference"])
-    head = "".join(f"<th>error of {page.escape(m['name'])}</th>" * judged + f"<th>{page.escape(m['name'])}</th>" for m in study["metrics"])
+    valued = {m["name"]: has_values(study, m) for m in study["metrics"]}
+    head = "".join(f"<th>error of {page.escape(m['name'])}</th>" * judged + f"<th>{page.escape(m['name'])}</th>" * valued[m["name"]] for m in study["metrics"])
     sure = any(r["confidence"] is not None for r in study["rungs"])
     rows = ""
     for number, rung in enumerate(study["rungs"], 1):
         errors = "".join(f"<td>{_error_text(rung['errors'][m['name']], m)}</td>" * judged +
-                         f"<td>{page.number(value, 4) if (value := rung['errors'][m['name']]['value']) is not None else '-'}</td>"
+                         f"<td>{page.number(value, 4) if (value := rung['errors'][m['name']]['value']) is not None else '-'}</td>" * valued[m["name"]]
                          for m in study["metrics"])
         cost, notes = rung["cost"], []
         notes += ["<strong>the answer</strong>"] if rung["name"] == study["answer"] else []

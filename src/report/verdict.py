@@ -146,6 +146,9 @@ def _references(run):
     if not told:
         return None
     off = [quantities.spoken(r.column) for r in told if not r.agrees()]
+    if off and (changed := run.changed_keys()):   # references are of the scene as its file has it
+        return Check("good", "Expected", f"not judged, as the command line changed {', '.join(k.partition('=')[0] for k in changed)}; "
+                     f"of the unchanged scene's references {len(told) - len(off)} of {len(told)} are met")
     return Check("warn" if off else "good", "Expected", f"{len(told) - len(off)} of {len(told)} references met" + (f"; not met: {', '.join(off)}" if off else ""))
 
 
@@ -251,6 +254,12 @@ def _has_a_top(body, points):
 def _power(run):
     """Mean power against that of the turbine's operation table at this wind."""
     wind, table = _value(run.scene, "wind", "speed_m_s"), run.operation()
+    if len(run.time) and "rotor.power_W" in run.columns and not is_steady(run):
+        chosen = run.mean_range()[0]
+        power, largest = words.mean(run.time[chosen], run.column("rotor.power_W")[chosen]), float(np.nanmax(np.abs(run.column("rotor.power_W"))))
+        if power < -0.01 * largest:
+            return Check("warn", "Power", f"mean {words.number(1e-6 * power, 3)} MW: the rotor drives the air, as it turns faster than this wind would turn it; "
+                         "blade elements are not made for that, and its loads scatter")
     if table is None or not wind or "rotor.power_W" not in run.columns or not len(run.time):
         return None
     if not {"wind_m_s", "power_W"} <= set(table):
@@ -378,6 +387,27 @@ def _budgets(run):
     return found
 
 
+STILL, LOOKED_BACK = 0.01, 20   # change of a load that counts as none; over so many pseudo-steps (a quarter of a shorter march)
+
+
+def _marched(run):
+    """Has a march to a steady state come to steady loads? A residual may have fallen while they still change."""
+    back = min(LOOKED_BACK, len(run.time) // 4)
+    if not is_steady(run) or back < 2:
+        return None
+    moving = []
+    for text, name in (("thrust", "rotor.thrust_N"), ("power", "rotor.power_W"), ("lift coefficient", "flow.lift_coefficient"), ("drag coefficient", "flow.drag_coefficient")):
+        if name in run.columns:
+            last = run.column(name)[-back:]
+            change, size = float(np.ptp(last)), abs(float(last[-1]))
+            floor = 0.02 * abs(float(run.column("flow.lift_coefficient")[-1])) if text == "drag coefficient" and "flow.lift_coefficient" in run.columns else 0.0
+            if change > STILL * max(size, floor):
+                moving.append(f"{text} by {words.number(100 * change / max(size, 1e-300), 2)} %")
+    if moving:
+        return Check("warn", "Settled", f"not yet: over the last {back} pseudo-steps " + ", ".join(moving) + " changed; give it more (time.end_s)")
+    return Check("good", "Settled", f"loads changed by less than {100 * STILL:g} % over the last {back} pseudo-steps")
+
+
 def _settled(run):
     """Do the means stand for more than their stretch? Halves of the range compared, for the first body and the thrust."""
     if len(run.time) < 20 or kind(run) not in ("floating turbine", "bodies"):
@@ -463,7 +493,7 @@ def health(run):
     if not said and len(run.time):
         found.append(Check("good", "Numbers", f"all {run.values.size:,} of history.csv are finite"))
     found += _places(run)
-    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _water(run), _particles(run), _settled(run), _whole_waves(run), _references(run)) if c]
+    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _water(run), _particles(run), _settled(run), _marched(run), _whole_waves(run), _references(run)) if c]
     found += _windows(run) + _budgets(run)
     if warnings := run.summary.get("warnings"):
         found.append(Check("warn", "Log", f"{warnings} warning{'s' if warnings != 1 else ''}" + _warned(run, warnings)))

@@ -127,6 +127,9 @@ source = "Bak et al. 2013"
         self.assertRegex(text, r"platform heave platform\.z_m\s*m\s*−0\.6000 ± 0\.010\s*−0\.6000.*?methydrostatics; mean 122 to 150 s")
         self.assertRegex(text, r"rotor power rotor\.power_W\s*MW\s*9\.700 ± 0\.10\s*9\.200\s*−0\.50 \(−5\.2 %\)not metBak et al\. 2013; mean 100 to 150 s")
         self.assertIn("1 of 2 references met; not met: rotor power", text)
+        synthetic_run.write(self.folder / "changed", scene=synthetic_run.SCENE + expected, set=["aero.thrust_N=1e6", "time.end_s=150"])
+        _, parsed = self.page("changed")
+        self.assertIn("not judged, as the command line changed aero.thrust_N; of the unchanged scene's references 1 of 2 are met", parsed.text)
         # A run that did not come to the scene's end does not tell.
         synthetic_run.write(self.folder / "short", scene=synthetic_run.SCENE + expected, rows=900)
         _, parsed = self.page("short")
@@ -348,6 +351,26 @@ class PartsTest(unittest.TestCase):
             (level, text), span = means(15.0)
             self.assertEqual((level, text), ("warn", "over 1.50 waves; over the last whole one: heave −0.500 for −0.712 m"))
             self.assertEqual(means(5.0)[0], ("warn", "over 0.50 of a wave, which say little: output.means_over_s = 10.00 is one wave"))
+
+    def test_a_march_whose_loads_still_change_has_not_settled(self):
+        n = np.arange(1.0, 101.0)
+        for change, level in ((0.0, "good"), (0.05, "warn")):
+            with self.subTest(change), tempfile.TemporaryDirectory() as folder:
+                table = {"time_s": n, "flow.density_residual": 10.0 ** (-n / 20), "flow.lift_coefficient": 0.8 * (1 + change * (n > 90)), "flow.drag_coefficient": 0.01 + 0 * n}
+                synthetic_run.write(pathlib.Path(folder), table=table, scene="[aero]\nmodel = 'blade_resolved'\n[aero.flow]\ntime = 'steady'\n", log="")
+                found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}["Settled"]
+                self.assertEqual(found.level, level)
+                if change:
+                    self.assertIn("over the last 20 pseudo-steps lift coefficient by 4.8 % changed", found.text)
+
+    def test_a_rotor_that_drives_the_air_is_named(self):
+        t = 0.1 * np.arange(400)
+        table = {"time_s": t, "float.x_m": 0 * t, "rotor.thrust_N": 1e4 + 0 * t, "rotor.power_W": -6e5 + 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), table=table, scene="[wind]\nspeed_m_s = 0.0\n[bodies.float]\nmass_kg = 1.0\n", log="")
+            found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}["Power"]
+            self.assertEqual(found.level, "warn")
+            self.assertIn("mean −0.600 MW: the rotor drives the air", found.text)
 
     def test_the_title_says_what_the_command_line_changed(self):
         t = 0.1 * np.arange(20)
