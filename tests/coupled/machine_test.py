@@ -420,6 +420,30 @@ class MachineRun(Machine):
             self.assertIn(words, self.spindrift(ENGINEERING, "refused", settings=[setting], code=2))
 
 
+class Ramp(Machine):
+    """A process for every window while the CFL number climbs, on one to four ranks of one and two threads in turn."""
+    WINDOWS = 20
+    SETTINGS = ["aero.flow.cfl=0.005", "aero.flow.cfl_max=1e7", "aero.flow.max_pseudo_steps=2", "start.air_steps=5"]
+
+    def check_restarts(self, text, until_s, first_s):
+        settings = [*self.SETTINGS, f"time.end_s={until_s:g}"]
+        self.spindrift(text, "whole", settings=settings, threads=1)
+        cfl = [row["air.cfl"] for row in self.rows("whole") if row["time_s"] > 0.0]
+        self.assertEqual(len(cfl), self.WINDOWS)
+        self.assertTrue(all(after > before for before, after in zip(cfl[:-1], cfl[1:])), cfl)
+        for n in range(self.WINDOWS):
+            self.spindrift(text, "parts", *(["--restart"] if n > 0 else []), "--until", first_s + 0.1 * n, settings=settings, ranks=1 + n % 4, threads=1 + n // 4 % 2)
+            rows = self.text("parts").splitlines()
+            self.assertEqual(self.text("whole").splitlines()[:len(rows)], rows, f"first after the restart before window {n}")
+        self.assertEqual(self.text("whole"), self.text("parts"))
+
+    def test_twenty_restarts_over_an_engineering_sea_change_no_bit(self):
+        self.check_restarts(ENGINEERING, 2.0, 0.1)
+
+    def test_twenty_restarts_over_a_sea_of_particles_change_no_bit(self):
+        self.check_restarts(PARTICLES, 2.0, 0.1)
+
+
 class Placement(Machine):
     def check_split(self, text, settings, until):
         self.spindrift(text, "shared", settings=settings)

@@ -21,6 +21,17 @@ SCENE = [INPUTS / "leble_barakos/case3_engineering.toml", "--set", "time.end_s=6
 TANK = [INPUTS / "validation/dam_break/koshizuka_oka.toml", "--set", "sea.particles.spacing_m=0.02", "--set", "time.end_s=0.5"]
 AIR = [INPUTS / "leble_barakos/rotor_demo.toml", "--set", "aero.flow.drop=0.0", "--set", "time.end_s=50.0"]
 COUPLED = [INPUTS / "leble_barakos/case3_demo.toml", "--set", "sea.particles.spacing_m=5.0", "--set", "start.air_steps=30", "--set", "time.end_s=0.4"]
+# The same three parts as small as they come, as a file of a job's folder: air that settles, then both fluids, saved at every window or by the default alone.
+JOB = '''base = "%s"
+without = ["sea.fields", "aero.flow.blades"]
+start.air_steps = 30
+time.end_s = 0.6
+time.window_s = 0.1
+sea.particles.spacing_m = 5.0
+aero.grid = {cells_round = 28, cells_layers = 4, cells_span = 8, first_cell_chords = 8e-3}
+aero.flow = {viscous = "none", cfl_max = 100.0, max_pseudo_steps = 3}
+output.expected = []
+''' % (INPUTS / "leble_barakos/case3_demo.toml")
 QUIET = ["--no-report", "--quiet"]
 
 
@@ -69,6 +80,76 @@ def kill(folder, count, pick):
             break
         assert history(out) == expected, f"{out}: another history after {kills} kills"
     return f"{kills} kills in {rounds} runs"
+
+
+def job_script(folder, count, pick):
+    """The script of docs/tutorials/cluster.md as it stands there, killed with all its processes at any time, while the air settles and before the first checkpoint too, and
+    submitted again blindly until it ends with 0: the history is that of the unbroken run."""
+    page = (ROOT / "docs/tutorials/cluster.md").read_text(encoding="utf-8")
+    script = page.partition("```bash\n")[2].partition("```")[0]
+    assert "srun spindrift run" in script and "--restart" in script, "the page has no job script"
+    shims = folder / "bin"   # what a cluster has: ranks by srun, the program on the path
+    shims.mkdir()
+    (shims / "srun").write_text('#!/bin/bash\nif [ "$RANKS" = 1 ]; then exec "$@"; fi\nexec mpirun --oversubscribe -n "$RANKS" "$@"\n')
+    (shims / "spindrift").write_text(f'#!/bin/bash\nexec {PROGRAM} "$@" $MORE\n')
+    for shim in shims.iterdir():
+        shim.chmod(0o755)
+    saved = {False: JOB, True: JOB + "checkpoint.interval_s = 0.1\n"}
+    kills = runs = before_first = 0
+
+    def submit(place, ranks, mark, report):
+        """A job: the scheduler's end of it is the script's."""
+        environment = dict(os.environ) | {"PATH": f"{shims}:{os.environ['PATH']}", "SLURM_CPUS_PER_TASK": "1", "RANKS": str(ranks), "MORE": "--quiet" if report else "--quiet --no-report",
+                                          "SPINDRIFT_FAULT": mark, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        return subprocess.Popen(["bash", "job.sh"], cwd=place, env=environment, stdout=open(place / "said", "w", encoding="utf-8"), stderr=subprocess.STDOUT)
+
+    def placed(name, often):
+        place = folder / name
+        place.mkdir()
+        (place / "job.sh").write_text(script), (place / "scene.toml").write_text(saved[often])
+        return place
+
+    whole_place, begin = placed("unbroken", False), time.time()
+    assert submit(whole_place, 1, "unbroken", False).wait(600) == 0, (whole_place / "said").read_text()[-2000:]
+    expected, seconds = history(whole_place / "run1"), time.time() - begin
+    while kills < count:
+        place, ranks, report, runs = placed(f"job_{runs}", pick.random() < 0.5), 2 if runs % 4 == 3 else 1, runs % 10 == 9, runs + 1
+        most = kills + pick.randint(1, 8)   # of this run: some meet few, some many
+        for attempt in range(1000):
+            mark = f"{os.getpid()}_{runs}_{attempt}"
+            job = submit(place, ranks, mark, report)
+            try:
+                job.wait(pick.uniform(0.0, 0.6 if attempt % 3 == 0 else 1.2 * seconds * ranks) if kills < min(most, count) else 600)
+            except subprocess.TimeoutExpired:
+                for one in everything_of(mark):
+                    try:
+                        os.kill(one, signal.SIGKILL)
+                    except ProcessLookupError:
+                        pass
+                job.wait()
+                while everything_of(mark):   # a scheduler gives the nodes to no other job before
+                    time.sleep(0.01)
+                kills += 1
+                before_first += not list((place / "run1/checkpoints").glob("*.h5"))
+                continue
+            assert job.returncode == 0, f"{place.name}: exit code {job.returncode}\n{(place / 'said').read_text()[-2000:]}"
+            break
+        assert history(place / "run1") == expected, f"{place.name}: another history after {kills} kills"
+        assert json.loads((place / "run1/summary.json").read_text())["exit_code"] == 0
+        shutil.rmtree(place)
+    return f"{kills} kills in {runs} runs, {before_first} of them before the first checkpoint"
+
+
+def everything_of(mark):
+    """Processes of a job, whatever program they run."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            if entry.name.isdigit() and f"SPINDRIFT_FAULT={mark}".encode() in (entry / "environ").read_bytes().split(b"\0") and "State:\tZ" not in (entry / "status").read_text():
+                found.append(int(entry.name))
+        except OSError:
+            continue
+    return found
 
 
 def broken_off(folder):
@@ -243,7 +324,7 @@ def stopped_rank(folder, count, pick):
 
 
 def main():
-    fault = {f.__name__: f for f in (kill, flip, truncate, full_disk, two_jobs, signals, stopped_rank)}[sys.argv[2]]
+    fault = {f.__name__: f for f in (kill, job_script, flip, truncate, full_disk, two_jobs, signals, stopped_rank)}[sys.argv[2]]
     count = int(sys.argv[3]) if len(sys.argv) > 3 else 3
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else random.randrange(10**6)
     os.environ["OMP_NUM_THREADS"] = "1"
