@@ -35,6 +35,28 @@ class Installed(installed.Prefix):
         done = start("cmake", "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_LIBRARY_ARCHITECTURE=x86_64-linux-gnu")
         self.assertIn(str(self.program), done.stdout, done.stderr)
 
+    def test_the_container_has_what_the_program_links(self):
+        """By the packages that its libraries belong to on this Debian; those of the compiler are in every image."""
+        if not shutil.which("dpkg-query"):
+            self.skipTest("no Debian packages here")
+        stage = (ROOT / "ci/packaging/Containerfile").read_text(encoding="utf-8").rpartition("FROM ")[2]
+        needed = re.findall(r"NEEDED.*\[(.+)\]", start("readelf", "-d", self.program).stdout)
+        where = dict(re.findall(r"^\s*(\S+) => (\S+)", start("ldd", self.program).stdout, re.M))
+        self.assertGreater(len(needed), 8)
+        for library in needed:
+            owner = start("dpkg-query", "-S", pathlib.Path(where[library]).resolve()).stdout.partition(":")[0]
+            if owner not in ("", "libc6", "libgcc-s1", "libstdc++6"):
+                self.assertRegex(stage, rf"[ ]{re.escape(owner)}[ \n]", library)
+        for module in ("numpy", "matplotlib", "h5py", "jinja2"):
+            self.assertIn(f"python3-{module}", stage)
+
+    def test_the_module_file_names_folders_that_there_are(self):
+        text = (ROOT / "ci/packaging/spindrift.lua").read_text(encoding="utf-8")
+        named = re.findall(r'prepend_path\("(\w+)", pathJoin\(prefix, "([^"]+)"\)\)', text)
+        self.assertEqual([name for name, _ in named], ["PATH", "MANPATH", "PYTHONPATH"])
+        for _, folder in named:
+            self.assertTrue((self.prefix / folder).is_dir(), folder)
+
     def test_completion_and_man_page_know_every_command(self):
         helped = start(self.program, "--help").stdout
         commands = re.findall(r"^  ([a-z]+)  ", helped, re.M)
