@@ -11,8 +11,8 @@ ROUND = 36  # corners of a circle
 class Piece:
     """A surface of quadrilaterals and triangles, or polylines: `kind` says what it shows (float, tower, nacelle, blade, line, brace)."""
 
-    def __init__(self, kind, name, points, polygons=(), lines=()):
-        self.kind, self.name, self.points = kind, name, np.asarray(points, float)
+    def __init__(self, kind, name, points, polygons=(), lines=(), bends=False):
+        self.kind, self.name, self.points, self.bends = kind, name, np.asarray(points, float), bends   # bends: no rigid motion takes it from one time to another
         self.polygons, self.lines = list(polygons), list(lines)
 
 
@@ -340,7 +340,7 @@ class Scene3d:
         points, polygons = frustum(start, end, d0, d1, rings=16)
         s = ((points - start) @ (end - start) / np.dot(end - start, end - start))[:, None]
         share = s * s * (3.0 - 2.0 * s)
-        return Piece("tower", name, (1.0 - share) * self.moved(below, points, t) + share * self.moved(above, points, t), polygons), below
+        return Piece("tower", name, (1.0 - share) * self.moved(below, points, t) + share * self.moved(above, points, t), polygons, bends=True), below
 
     def _diameters(self, beam, usual):
         try:

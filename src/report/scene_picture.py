@@ -175,6 +175,8 @@ class Drawing:
                 tube.SetNumberOfSides(8)
                 tube.Update()
                 self.add("line", tube.GetOutput())
+            elif piece.bends:
+                self.add(piece.kind, smooth(poly_data(piece.points, piece.polygons)))
             elif n in self._solid:
                 points, actor = self._solid[n]
                 actor.SetUserMatrix(motion(points, piece.points))

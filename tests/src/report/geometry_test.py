@@ -118,6 +118,7 @@ class Geometry(unittest.TestCase):
         found = self.drawn("bent", self.SPAR.replace("body = 'spar'\nhub_m", "body = 'nacelle'\nhub_m") + beam, nacelle_x_m=2.0)
         self.assertEqual({kind: len(pieces) for kind, pieces in found.items()}, {"float": 1, "tower": 1, "nacelle": 1, "hub": 1, "blade": 3})
         tower = found["tower"][0].points
+        self.assertTrue(found["tower"][0].bends)
         rows = [tower[abs(tower[:, 2] - z) < 2.5][:, 0].mean() for z in (10.0, 49.0, 88.0)]
         np.testing.assert_allclose(rows, [0.0, 1.0, 2.0], atol=0.05)
 
