@@ -301,6 +301,11 @@ class Scene3d:
         height = hub[2] - deck
         size = max(min(3.0, 0.1 * height), 0.065 * height)
         foot, top = self._axis_of_tower(cylinders, deck, hub, size)
+        if beams:   # braces and nacelle are drawn to the tower that there is
+            first = next(iter(self.scene["beams"].values()))
+            foot[:2], top[:2] = first["start_m"][:2], first["end_m"][:2]
+        elif stations:
+            foot[:2] = top[:2] = self.scene["aero"]["tower"].get("foot_m", [0.0, 0.0])
         if beams:
             found += [piece for piece, _ in beams]
         elif stations:
