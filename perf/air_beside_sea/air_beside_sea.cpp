@@ -55,7 +55,7 @@ void measure(perf::Group& group, const std::string& form, const std::vector<std:
   FloatingSystem floating(read_scenario(document));
   floating.fill_sea(make_start(floating).state.motions, runtime::World{MPI_COMM_SELF, 0, 1});
   Alone sides(floating);
-  WindowTasks tasks(*sides.air, *sides.bodies, MPI_COMM_SELF, {.records = std::size_t(1) << 20});
+  WindowTasks tasks(*sides.air, *sides.bodies, sides.output, MPI_COMM_SELF, {.records = std::size_t(1) << 20});
   for (int n = 0; n < warm_ups; ++n) sides.window(tasks, Run::both);  // priorities follow measured costs
   const std::int64_t from = runtime::Clock::now_ns();
   double wall_s = 0.0;

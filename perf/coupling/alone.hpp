@@ -36,6 +36,7 @@ struct Alone {
   bodies::BodiesState state;
   std::unique_ptr<AirSide> air;
   std::unique_ptr<BodySide> bodies;
+  OutputTask output;  ///< with nothing to write
   aero::RotorState rotor;
   double air_time = 0.0;
 };

@@ -71,8 +71,8 @@ void measure(perf::Group& group, const runtime::Parts& parts) {
   FloatingSystem floating(read_scenario(document));
   floating.fill_sea(make_start(floating).state.motions, alone.mine());
   Alone sides(floating);
-  WindowTasks two(*sides.air, *sides.bodies, MPI_COMM_SELF, {.records = std::size_t(1) << 20}),
-      one(*sides.air, *sides.bodies, MPI_COMM_SELF, {});
+  WindowTasks two(*sides.air, *sides.bodies, sides.output, MPI_COMM_SELF, {.records = std::size_t(1) << 20}),
+      one(*sides.air, *sides.bodies, sides.output, MPI_COMM_SELF, {});
   // Executors take the number of threads that stands when they first run.
   sides.window(two, Run::both), sides.window(two, Run::air), sides.window(two, Run::bodies);
   omp_set_num_threads(1);

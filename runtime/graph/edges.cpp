@@ -2,6 +2,8 @@
 #include "runtime/graph/edges.hpp"
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 #include "runtime/graph/errors.hpp"
 
@@ -98,6 +100,16 @@ void check_cycles(std::span<const Node> nodes, std::span<const Edge> edges) {
   throw CycleError("tasks wait for each other: " + names);
 }
 
+/// Adds the edges that no datum gave.
+void add_orders(std::span<const std::pair<std::uint32_t, std::uint32_t>> orders, std::vector<Edge>& edges) {
+  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>;
+  std::set<Key> wanted;
+  for (const auto& [before, after] : orders)
+    wanted.insert({before, after, 0}), wanted.insert({after, before, 1});  // neither may get two iterations ahead
+  for (const Edge& e : edges) wanted.erase({e.from, e.to, e.distance});
+  for (const auto& [from, to, distance] : wanted) edges.push_back({from, to, distance});
+}
+
 }  // namespace
 
 Bodies::Bodies(std::span<const Node> nodes) : first_(nodes.size() + 2, 0), members_(nodes.size()) {
@@ -122,10 +134,9 @@ std::vector<Edge> derive_edges(std::span<const Node> nodes, std::span<const Touc
   finder.walk_body(no_node, bodies.of(no_node), edges);
   for (std::uint32_t n = 0; n < nodes.size(); ++n)
     if (nodes[n].kind == NodeKind::loop) finder.walk_body(n, bodies.of(n), edges);
-  for (const auto& [before, after] : orders)
-    for (const Edge e : {Edge{before, after, 0}, Edge{after, before, 1}})  // neither may get two iterations ahead
-      if (std::find(edges.begin(), edges.end(), e) == edges.end()) edges.push_back(e);
-  if (!orders.empty()) check_cycles(nodes, edges);  // without, edges follow the order of recording
+  if (orders.empty()) return edges;  // which follow the order of recording: no cycle
+  add_orders(orders, edges);
+  check_cycles(nodes, edges);
   return edges;
 }
 

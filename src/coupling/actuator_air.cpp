@@ -147,7 +147,7 @@ class ActuatorAir final : public AirSide {
     output_ = std::make_unique<AirOutput>(world_.comm, *solver_, *store_, directory.fields(),
                                           AirOutput::Choice{.walls = flow_.surfaces, .moves = false, .resume_s = resume_s});
   }
-  void write_fields(std::int64_t number, double t) override { output_->write(number, t); }
+  Writing copy_fields(std::int64_t number, double t) override { return output_->copy(number, t); }
   void write_span() override { coupling::write_span(world_, actuator_->span_loads(), *directory_); }
   std::vector<std::string> log_lines() override { return std::exchange(log_lines_, {}); }
 

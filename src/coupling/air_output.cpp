@@ -50,16 +50,27 @@ AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::
       choice.moves, choice.resume_s);
 }
 
-void AirOutput::write(std::int64_t number, double time_s) {
-  write_volume(number, time_s);
-  if (walls_) write_walls(number, time_s);
+Writing AirOutput::copy(std::int64_t number, double time_s) const {
+  Writing volume = copy_volume(number, time_s);
+  if (!walls_) return volume;
+  return [volume = std::move(volume), walls = copy_walls(number, time_s)] { volume(), walls(); };
 }
 
-void AirOutput::write_volume(std::int64_t number, double time_s) {
+namespace {
+
+/// Values of fields, and the memory that they are in.
+struct FieldCopy {
+  std::vector<std::vector<double>> arrays;
+  std::vector<io::GridFields::Values> values;
+};
+
+}  // namespace
+
+Writing AirOutput::copy_volume(std::int64_t number, double time_s) const {
   const int carried = solver_.tiles().empty() ? 0 : solver_.tiles()[0].turbulence;
   const gas::IdealGas& gas = solver_.setting().gas;
-  std::vector<std::vector<double>> kept;
-  std::vector<io::GridFields::Values> values;
+  const auto copy = std::make_shared<FieldCopy>();
+  auto& [kept, values] = *copy;
   kept.reserve(solver_.tiles().size() * std::size_t(4 + carried));
   for (const aero::FlowTile& t : solver_.tiles()) {
     const auto component = [&](int c, double offset) -> std::vector<double>& {
@@ -87,22 +98,20 @@ void AirOutput::write_volume(std::int64_t number, double time_s) {
     for (int c = 0; c < carried; ++c) v.fields.push_back(component(aero::mean_unknowns + c, 0.0));
     values.push_back(std::move(v));
   }
-  volume_->write(number, time_s, values);
+  return [fields = volume_.get(), number, time_s, copy] { fields->write(number, time_s, copy->values); };
 }
 
-void AirOutput::write_walls(std::int64_t number, double time_s) {
+Writing AirOutput::copy_walls(std::int64_t number, double time_s) const {
   const aero::FlowSetting& s = solver_.setting();
   const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
-  std::vector<std::array<std::vector<double>, 5>> kept;
-  std::vector<int> numbers;
+  const auto copy = std::make_shared<FieldCopy>();
   for (const aero::FlowTile& t : solver_.tiles()) {
     const std::vector<aero::WallPoint> points = solver_.wall_points(t);
     std::size_t at = 0;
     int block = first_block_[std::size_t(t.index)];
     for (const aero::FlowBoundary& b : t.boundaries) {
       if (!on_wall(solver_, b.where)) continue;
-      auto& [corners, pressure, cp, cf, y_plus] = kept.emplace_back();
-      numbers.push_back(block++);
+      std::vector<double> corners, pressure, cp, cf, y_plus;
       const int d = aero::direction_of(b.where.side), extent[3] = {t.box.ni, t.box.nj, t.box.nk};
       const auto [along_a, along_b] = aero::along(b.where.side);
       const BoxLayout& nodes = t.geometry->node_box;
@@ -118,14 +127,12 @@ void AirOutput::write_walls(std::int64_t number, double time_s) {
         pressure.push_back(s.gas.pressure_reference + p.pressure), cp.push_back(p.pressure / q), y_plus.push_back(p.y_plus);
         for (const double stress : p.traction) cf.push_back(stress / q);
       }
+      // A span follows a vector's memory, which moving it does not move.
+      copy->values.push_back({block++, corners, {pressure, cp, cf, y_plus}});
+      for (auto* array : {&corners, &pressure, &cp, &cf, &y_plus}) copy->arrays.push_back(std::move(*array));
     }
   }
-  std::vector<io::GridFields::Values> values;
-  for (std::size_t m = 0; m < kept.size(); ++m) {
-    const auto& [corners, pressure, cp, cf, y_plus] = kept[m];
-    values.push_back({numbers[m], corners, {pressure, cp, cf, y_plus}});
-  }
-  walls_->write(number, time_s, values);
+  return [fields = walls_.get(), number, time_s, copy] { fields->write(number, time_s, copy->values); };
 }
 
 void write_choice(const io::RunDirectory& directory, const std::string& preconditioner) {

@@ -11,6 +11,7 @@
 
 #include "runtime/mpi/environment.hpp"
 #include "src/aero/resolved_rotor.hpp"
+#include "src/coupling/output_task.hpp"
 #include "src/io/fields.hpp"
 #include "src/io/run_directory.hpp"
 
@@ -26,12 +27,12 @@ class AirOutput {
   /// The solver is to outlive it. Collective over `comm`.
   AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::GridStore& store, const std::filesystem::path& folder,
             Choice choice);
-  /// The flow as it is. Collective.
-  void write(std::int64_t number, double time_s);
+  /// A copy of the flow as it is, to be written while this object lives.
+  Writing copy(std::int64_t number, double time_s) const;
 
  private:
-  void write_volume(std::int64_t number, double time_s);
-  void write_walls(std::int64_t number, double time_s);
+  Writing copy_volume(std::int64_t number, double time_s) const;
+  Writing copy_walls(std::int64_t number, double time_s) const;
 
   const aero::FlowSolver& solver_;
   std::unique_ptr<io::GridFields> volume_, walls_;

@@ -12,6 +12,7 @@
 #include "runtime/graph/graph.hpp"
 #include "runtime/mpi/environment.hpp"
 #include "src/aero/rotor_loads.hpp"
+#include "src/coupling/output_task.hpp"
 #include "src/coupling/saved_array.hpp"
 #include "src/coupling/tasks.hpp"
 #include "src/io/history.hpp"
@@ -39,6 +40,8 @@ class AirSide {
   /// To be called once they have run: the load at the end, ramped as the scene asks. Throws NumericalFailure,
   /// and runtime::StopAsked where the work was given up.
   virtual aero::RotorLoad load_at_end() = 0;
+  /// Whether load_at_end() asks other ranks: then all ask at once, outside of tasks.
+  virtual bool asks_ranks() const { return false; }
   /// With the steps of this retry from here on (retries.hpp); after return_to().
   virtual void ease(int /*retry*/) {}
   /// The load to be written to history, where it is not simply that of the rotor's state now.
@@ -58,7 +61,8 @@ class AirSide {
   // Files for people, in the run's folder; collective over the ranks of the air.
   /// Where they go; a restart goes on after resume_s.
   virtual void open_output(const io::RunDirectory&, double /*resume_s*/) {}
-  virtual void write_fields(std::int64_t /*number*/, double /*t*/) {}
+  /// A copy of the fields as they are, to be written while the air lives; empty where there are none.
+  virtual Writing copy_fields(std::int64_t /*number*/, double /*t*/) { return {}; }
   virtual void write_span() {}
   /// Sentences for the log since it was last asked.
   virtual std::vector<std::string> log_lines() { return {}; }

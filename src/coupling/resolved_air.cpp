@@ -170,7 +170,7 @@ class ResolvedAir final : public AirSide {
     output_ = std::make_unique<AirOutput>(world_.comm, rotor_->solver(), rotor_->store(), directory.fields(),
                                           AirOutput::Choice{.walls = setup_.flow.surfaces, .moves = true, .resume_s = resume_s});
   }
-  void write_fields(std::int64_t number, double t) override { output_->write(number, t); }
+  Writing copy_fields(std::int64_t number, double t) override { return output_->copy(number, t); }
   void write_span() override { coupling::write_span(world_, rotor_->span_loads(), *directory_); }
   std::vector<std::string> log_lines() override { return std::exchange(log_lines_, {}); }
 

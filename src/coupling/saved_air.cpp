@@ -90,9 +90,9 @@ io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file
   return std::move(*newest);
 }
 
-void write_air_settings(io::CheckpointWriter& file, const Scenario& scenario) {
+void write_air_settings(io::CheckpointCopy& copy, const Scenario& scenario) {
   const std::string lines = settings_of(scenario);
-  file.write<std::byte>(settings_name, std::as_bytes(std::span(lines)));
+  copy.write<std::byte>(settings_name, std::as_bytes(std::span(lines)));
 }
 
 ComputedLoads computed_loads(const aero::ResolvedRotor& rotor) {

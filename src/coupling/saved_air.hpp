@@ -20,7 +20,7 @@ namespace spindrift::coupling {
 io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file);
 
 /// Whereby saved air must be like this scene's: "aero.grid.cells_round = 28" and so on, one a line. Into the checkpoint.
-void write_air_settings(io::CheckpointWriter& file, const Scenario& scenario);
+void write_air_settings(io::CheckpointCopy& copy, const Scenario& scenario);
 
 /// What a rotor feels as a whole, and each blade of its grid (blade 1 first).
 struct ComputedLoads {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/saved_array.hpp"
 
+#include <utility>
+
 namespace spindrift::coupling {
 
 void write(io::CheckpointWriter& file, const SavedArray& array) {
@@ -9,7 +11,11 @@ void write(io::CheckpointWriter& file, const SavedArray& array) {
   file.write<double>(array.name, array.total, slices);
 }
 
-void write(io::CheckpointWriter& file, const runtime::Parts& parts, int part, std::vector<SavedArray> arrays) {
+void write(io::CheckpointCopy& copy, std::vector<SavedArray> arrays) {
+  for (SavedArray& a : arrays) copy.add([array = std::move(a)](io::CheckpointWriter& file) { write(file, array); });
+}
+
+void write(io::CheckpointCopy& copy, const runtime::Parts& parts, int part, std::vector<SavedArray> arrays) {
   runtime::Packer names;
   for (const SavedArray& a : arrays) names.put(std::span<const char>(a.name)), names.put_one(a.total);
   const runtime::Bytes all = parts.share(part, names.take());
@@ -22,7 +28,7 @@ void write(io::CheckpointWriter& file, const runtime::Parts& parts, int part, st
       a.total = from.one<std::int64_t>();
     }
   }
-  for (const SavedArray& a : arrays) write(file, a);
+  write(copy, std::move(arrays));
 }
 
 }  // namespace spindrift::coupling

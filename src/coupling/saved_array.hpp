@@ -24,7 +24,8 @@ struct SavedArray {
 
 /// Collective over the file's ranks.
 void write(io::CheckpointWriter& file, const SavedArray& array);
+void write(io::CheckpointCopy& copy, std::vector<SavedArray> arrays);
 /// The arrays that a part of the ranks has; `arrays` are looked at there alone. Collective over all ranks, which the file is of.
-void write(io::CheckpointWriter& file, const runtime::Parts& parts, int part, std::vector<SavedArray> arrays);
+void write(io::CheckpointCopy& copy, const runtime::Parts& parts, int part, std::vector<SavedArray> arrays);
 
 }  // namespace spindrift::coupling

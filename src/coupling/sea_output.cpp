@@ -2,6 +2,7 @@
 #include "src/coupling/sea_output.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace spindrift::coupling {
 
@@ -34,25 +35,31 @@ SeaOutput::SeaOutput(const FloatingSystem& floating, const std::filesystem::path
                                               std::vector<io::Field>{{"elevation", "m", 1}}, true, resume_s);
 }
 
-void SeaOutput::write(std::int64_t number, double t) {
-  if (particles_) write_particles(number, t);
-  if (surface_) write_surface(number, t);
+Writing SeaOutput::copy(std::int64_t number, double t) const {
+  Writing particles = particles_ ? copy_particles(number, t) : Writing();
+  if (!surface_) return particles;
+  Writing surface = copy_surface(number, t);
+  if (!particles_) return surface;
+  return [particles = std::move(particles), surface = std::move(surface)] { particles(), surface(); };
 }
 
-void SeaOutput::write_particles(std::int64_t tick, double t) {
+Writing SeaOutput::copy_particles(std::int64_t tick, double t) const {
   const sea::FieldsOptions& options = *floating_.scenario().sea.fields;
-  const sea::ParticleSample sample = floating_.particles()->sample(options.low_m, options.high_m, options.solids);
-  std::vector<std::span<const double>> fields;
-  for (const std::string& name : options.particles)
-    fields.push_back(name == "velocity"   ? sample.velocity
-                     : name == "pressure" ? sample.pressure
-                     : name == "density"  ? sample.density
-                                          : sample.owner);
-  particles_->write(tick, t, sample.id, sample.position, fields);
+  const auto sample =
+      std::make_shared<const sea::ParticleSample>(floating_.particles()->sample(options.low_m, options.high_m, options.solids));
+  return [this, &options, sample, tick, t] {
+    std::vector<std::span<const double>> fields;
+    for (const std::string& name : options.particles)
+      fields.push_back(name == "velocity"   ? sample->velocity
+                       : name == "pressure" ? sample->pressure
+                       : name == "density"  ? sample->density
+                                            : sample->owner);
+    particles_->write(tick, t, sample->id, sample->position, fields);
+  };
 }
 
 /// One layer of cells from the bed to the surface, whose upper corners are heights read there and whose value is the middle's.
-void SeaOutput::write_surface(std::int64_t tick, double t) {
+Writing SeaOutput::copy_surface(std::int64_t tick, double t) const {
   const sph::TankPlan& tank = floating_.particle_plan()->tank;
   const double y0 = floating_.particle_plan()->options.planar() ? -0.5 * dy_ : tank.y[0];
   std::vector<std::array<double, 2>> corners, middles;
@@ -62,15 +69,17 @@ void SeaOutput::write_surface(std::int64_t tick, double t) {
     for (int i = 0; i < nx_; ++i) middles.push_back({tank.x[0] + (i + 0.5) * dx_, y0 + (j + 0.5) * dy_});
   std::vector<double> heights = floating_.particles()->surface(corners), elevation = floating_.particles()->surface(middles);
   const auto wet = [&](double height, double x) { return std::isfinite(height) ? height : tank.bed_at(x); };
-  if (!writes_) return surface_->write(tick, t, {});
+  if (!writes_) return [this, tick, t] { surface_->write(tick, t, {}); };
   std::vector<double> points;
   for (int k = 0; k <= 1; ++k)
     for (std::size_t n = 0; n < corners.size(); ++n)
       points.insert(points.end(),
                     {corners[n][0], corners[n][1], k == 0 ? tank.bed_at(corners[n][0]) : wet(heights[n], corners[n][0])});
   for (std::size_t n = 0; n < middles.size(); ++n) elevation[n] = wet(elevation[n], middles[n][0]);
-  const io::GridFields::Values values{0, points, {elevation}};
-  surface_->write(tick, t, std::span(&values, 1));
+  return [this, tick, t, points = std::move(points), elevation = std::move(elevation)] {
+    const io::GridFields::Values values{0, points, {elevation}};
+    surface_->write(tick, t, std::span(&values, 1));
+  };
 }
 
 }  // namespace spindrift::coupling

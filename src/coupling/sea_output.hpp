@@ -9,6 +9,7 @@
 
 #include "runtime/mpi/environment.hpp"
 #include "src/coupling/floating_system.hpp"
+#include "src/coupling/output_task.hpp"
 #include "src/io/fields.hpp"
 
 namespace spindrift::coupling {
@@ -18,12 +19,12 @@ class SeaOutput {
   /// Collective. Files go to `folder`; a restart goes on after resume_s.
   SeaOutput(const FloatingSystem& floating, const std::filesystem::path& folder, const runtime::World& world,
             double resume_s = io::from_the_start);
-  /// The state at time t [s], as files of this number. Collective.
-  void write(std::int64_t number, double t);
+  /// A copy of the state at time t [s], to be written while this object lives, as files of this number. Collective.
+  Writing copy(std::int64_t number, double t) const;
 
  private:
-  void write_particles(std::int64_t tick, double t);
-  void write_surface(std::int64_t tick, double t);
+  Writing copy_particles(std::int64_t tick, double t) const;
+  Writing copy_surface(std::int64_t tick, double t) const;
 
   const FloatingSystem& floating_;
   bool writes_;  ///< this rank hands the surface in: all ranks have all of it

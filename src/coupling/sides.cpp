@@ -104,6 +104,7 @@ class SharedAir final : public AirSide {
   void forget_tasks() override {
     if (own_) own_->forget_tasks();
   }
+  bool asks_ranks() const override { return true; }
   aero::RotorLoad load_at_end() override {
     return show([&] { return own_->load_at_end(); });
   }
@@ -132,9 +133,7 @@ class SharedAir final : public AirSide {
   void open_output(const io::RunDirectory& directory, double resume_s) override {
     if (own_) own_->open_output(directory, resume_s);
   }
-  void write_fields(std::int64_t number, double t) override {
-    if (own_) own_->write_fields(number, t);
-  }
+  Writing copy_fields(std::int64_t number, double t) override { return own_ ? own_->copy_fields(number, t) : Writing(); }
   void write_span() override {
     if (own_) own_->write_span();
   }

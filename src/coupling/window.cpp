@@ -25,7 +25,7 @@ CoupledWindow::CoupledWindow(FloatingSystem& floating, Sides sides, MPI_Comm com
            : floating.has_interface() ? make_engineering_air(floating)
                                       : make_no_air()),
       bodies_(sides.bodies ? std::move(sides.bodies) : make_body_side(floating)),
-      tasks_(*air_, *bodies_, comm, {.records = records, .watchdog_s = floating.scenario().runtime.watchdog_s}),
+      tasks_(*air_, *bodies_, output_, comm, {.records = records, .watchdog_s = floating.scenario().runtime.watchdog_s}),
       loads_(options_.predictor_order),
       motions_(1),
       load_now_(RotorInterface::load_rows) {
@@ -66,49 +66,68 @@ void CoupledWindow::begin(const bodies::BodiesState& state) {
   }
 }
 
-bool CoupledWindow::finish(bodies::BodiesState& state) {
+bool CoupledWindow::take_motion(bodies::BodiesState& state) {
+  bodies_failure_ = {};
   try {
     state = bodies_->finish();
-  } catch (const NumericalFailure& failure) { trouble_ = failure.what(); } catch (const runtime::StopAsked&) {
-    stopped_ = true;
+  } catch (const NumericalFailure& failure) { bodies_failure_.what = failure.what(); } catch (const runtime::StopAsked&) {
+    bodies_failure_.stopped = true;
   }
   totals_.body_steps = bodies_->steps();
-  return trouble_.empty() && !stopped_;
+  return bodies_failure_.none();
 }
 
-Vector CoupledWindow::load_at_end() {
+Vector CoupledWindow::take_load() {
+  air_failure_ = {};
   ++totals_.rotor_calls;
   Vector rows = not_finite(RotorInterface::load_rows);
   try {
     rows = interface_->rows(air_->load_at_end());
-  } catch (const NumericalFailure& failure) { trouble_ = failure.what(); } catch (const runtime::StopAsked&) {
-    stopped_ = true;
+  } catch (const NumericalFailure& failure) { air_failure_.what = failure.what(); } catch (const runtime::StopAsked&) {
+    air_failure_.stopped = true;
   }
   return rows;
 }
 
 bool CoupledWindow::move(bodies::BodiesState& state, std::int64_t end) {
-  bodies_->prepare(state, end);
-  tasks_.run(Run::bodies);
-  return finish(state);
+  bool moved = false;
+  tasks_.run(
+      Run::bodies,
+      {.give = [&] { bodies_->prepare(state, end); }, .take_motion = [&] { moved = take_motion(state); }, .take_load = {}});
+  return moved;
 }
 
 Vector CoupledWindow::air_load(double t, double dt, const Vector& motion) {
-  air_->prepare(t, dt, interface_->state(t, motion));
-  tasks_.run(Run::air);
-  return load_at_end();
+  Vector load;
+  tasks_.run(Run::air, {.give = [&] { air_->prepare(t, dt, interface_->state(t, motion)); },
+                        .take_motion = {},
+                        .take_load = [&] { load = take_load(); }});
+  return load;
+}
+
+std::pair<bool, Vector> CoupledWindow::move_beside_air(bodies::BodiesState& state, std::int64_t end, double t, double dt,
+                                                       const std::function<Vector()>& motion) {
+  std::pair<bool, Vector> result;
+  tasks_.run(Run::both, {.give =
+                             [&] {
+                               bodies_->prepare(state, end);
+                               air_->prepare(t, dt, interface_->state(t, motion()));
+                             },
+                         .take_motion = [&] { result.first = take_motion(state); },
+                         .take_load = [&] { result.second = take_load(); }});
+  return result;
 }
 
 WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
-  trouble_.clear(), stopped_ = false;
+  air_failure_ = bodies_failure_ = {};
   const std::int64_t begin = runtime::Clock::now_ns();
   air_->take_snapshot(AirSide::window), bodies_->take_snapshot(AirSide::window);
   totals_.snapshot_ns += runtime::Clock::now_ns() - begin;
   air_->ease(retry), bodies_->ease(retry);
   // Before t = 0 the sea settles round bodies that are held; the air waits.
   last_ = !interface_ || state.tick < 0 ? advance_bodies(state) : loose_ ? advance_loose(state) : advance_strong(state);
-  last_.stopped = stopped_;
-  last_.of_a_side = !last_.failure.empty() && !trouble_.empty();
+  last_.stopped = stopped();
+  last_.of_a_side = !last_.failure.empty() && !trouble().empty();
   if (!last_.ok()) air_->return_to(AirSide::window), bodies_->return_to(AirSide::window);
   ++totals_.windows;
   totals_.evaluations += last_.log.evaluations, totals_.probes += last_.log.probes;
@@ -122,46 +141,58 @@ WindowReport CoupledWindow::advance_bodies(bodies::BodiesState& state) {
   if (move(end, state.tick + floating_.timeline().steps_per_window()))
     state = std::move(end);
   else
-    report.failure = trouble_;
+    report.failure = trouble();
   return report;
 }
 
+/// A window of a loose scheme, as Staggered asks for it: what each part does with what it is told of the other. Begins at
+/// `state`, which goes along with the bodies.
+class CoupledWindow::LooseParts {
+ public:
+  LooseParts(CoupledWindow& window, const bodies::BodiesState& start, std::int64_t end_tick)
+      : w_(window), state_(start), end_tick_(end_tick), start_motion_(window.loose_->motion().last()) {}
+
+  Vector move(const Extrapolation& load, double begin, double end) {
+    w_.use_signal(load);
+    return w_.move(state_, end_tick_) ? new_motion(begin, end) : not_finite(RotorInterface::motion_rows);
+  }
+  Vector load(const Waveform& motion, double begin, double end) {
+    return w_.air_load(end, w_.floating_.timeline().window_s(), motion_for_air(motion, begin, end));
+  }
+  std::pair<Vector, Vector> both(const Extrapolation& load, const Waveform& motion, double begin, double end) {
+    w_.use_signal(load);
+    auto [moved, new_load] = w_.move_beside_air(state_, end_tick_, end, w_.floating_.timeline().window_s(),
+                                                [&] { return motion_for_air(motion, begin, end); });
+    return {moved ? new_motion(begin, end) : not_finite(RotorInterface::motion_rows), std::move(new_load)};
+  }
+  bodies::BodiesState& state() { return state_; }
+
+ private:
+  /// Of the hub, now that the bodies have moved.
+  Vector new_motion(double begin, double end) const {
+    return w_.interface_->motion(end, state_.motions,
+                                 RotorInterface::azimuth(start_motion_) + (end - begin) * RotorInterface::rate(start_motion_));
+  }
+  /// Of the hub at the end, which the scheme extrapolates or holds.
+  Vector motion_for_air(const Waveform& motion, double begin, double end) const {
+    const Staggering& scheme = w_.loose_->scheme();
+    // One window is no line to extrapolate: a rotor that stood still for it would jump.
+    if (w_.loose_->motion().windows() == 1 && scheme.extrapolates_motion())
+      return RotorInterface::carried_on(start_motion_, end - begin);
+    const Vector given = motion.at(end);
+    // Motion may be held, the rotor turns on.
+    return scheme.holds_motion() ? RotorInterface::turned(given, end - begin) : given;
+  }
+
+  CoupledWindow& w_;
+  bodies::BodiesState state_;
+  std::int64_t end_tick_;
+  Vector start_motion_;  ///< of the hub
+};
+
 WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
-  struct Parts {
-    CoupledWindow& w;
-    bodies::BodiesState state;
-    std::int64_t end;
-    Vector start;  // motion at the window's start
-    Vector motion_at(double begin, double end_s) const {
-      return w.interface_->motion(end_s, state.motions,
-                                  RotorInterface::azimuth(start) + (end_s - begin) * RotorInterface::rate(start));
-    }
-    Vector shown(const Waveform& motion, double begin, double end_s) const {
-      // One window is no line to extrapolate: a rotor that stood still for it would jump.
-      if (w.loose_->motion().windows() == 1 && w.loose_->scheme().extrapolates_motion())
-        return RotorInterface::carried_on(start, end_s - begin);
-      const Vector given = motion.at(end_s);
-      // Motion may be held, the rotor turns on.
-      return w.loose_->scheme().holds_motion() ? RotorInterface::turned(given, end_s - begin) : given;
-    }
-    Vector move(const Extrapolation& load, double begin, double end_s) {
-      w.use_signal(load);
-      return w.move(state, end) ? motion_at(begin, end_s) : not_finite(RotorInterface::motion_rows);
-    }
-    Vector load(const Waveform& motion, double begin, double end_s) {
-      return w.air_load(end_s, w.floating_.timeline().window_s(), shown(motion, begin, end_s));
-    }
-    std::pair<Vector, Vector> both(const Extrapolation& load, const Waveform& motion, double begin, double end_s) {
-      w.use_signal(load);
-      w.bodies_->prepare(state, end);
-      w.air_->prepare(end_s, w.floating_.timeline().window_s(), w.interface_->state(end_s, shown(motion, begin, end_s)));
-      w.tasks_.run(Run::both);
-      const bool moved = w.finish(state);
-      return {moved ? motion_at(begin, end_s) : not_finite(RotorInterface::motion_rows), w.load_at_end()};
-    }
-  };
   const std::int64_t end = state.tick + floating_.timeline().steps_per_window();
-  Parts parts{*this, state, end, loose_->motion().last()};
+  LooseParts parts(*this, state, end);
   const std::vector<double> before = history();
   WindowReport report;
   report.log.evaluations = 1;
@@ -183,7 +214,7 @@ WindowReport CoupledWindow::advance_loose(bodies::BodiesState& state) {
     restore(before);
     return report;
   }
-  state = std::move(parts.state);
+  state = std::move(parts.state());
   return report;
 }
 
@@ -197,7 +228,7 @@ class CoupledWindow::Pieces final : public WindowParts {
   }
 
   Vector evaluate(const Vector& x) override {
-    if (w_.stopped_) return not_finite(x.size());  // what the scheme tries next is of no use
+    if (w_.stopped()) return not_finite(x.size());  // what the scheme tries next is of no use
     return w_.options_.composition == Composition::parallel ? parallel_answer(*this, x, load_rows()) : serial_answer(*this, x);
   }
   /// Bodies: loads at the samples to motions at the samples.
@@ -229,12 +260,9 @@ class CoupledWindow::Pieces final : public WindowParts {
     show(given_loads);
     Vector motions(samples() * RotorInterface::motion_rows), loads(load_rows());
     for (int s = 1; s <= samples(); ++s) {
-      w_.bodies_->prepare(state_, tick(s));
-      w_.air_->prepare(w_.time(tick(s)), dt(),
-                       w_.interface_->state(w_.time(tick(s)), part(given_motions, s, RotorInterface::motion_rows)));
-      w_.tasks_.run(Run::both);
-      const bool moved = w_.finish(state_), loaded = put_load(s, w_.load_at_end(), loads);
-      if (!moved || !loaded) return {not_finite(motions.size()), not_finite(loads.size())};
+      const auto [moved, load] = w_.move_beside_air(state_, tick(s), w_.time(tick(s)), dt(),
+                                                    [&] { return part(given_motions, s, RotorInterface::motion_rows); });
+      if (!put_load(s, load, loads) || !moved) return {not_finite(motions.size()), not_finite(loads.size())};
       put_motion(s, motions);
     }
     end_motion_ = part(motions, samples(), RotorInterface::motion_rows),
@@ -270,7 +298,7 @@ class CoupledWindow::Pieces final : public WindowParts {
  private:
   void save_start() { w_.air_->take_snapshot(AirSide::piece), w_.bodies_->take_snapshot(AirSide::piece); }
   void restore(Run sides) {
-    w_.trouble_.clear();
+    w_.air_failure_.what.clear(), w_.bodies_failure_.what.clear();
     if (has_air(sides)) w_.air_->return_to(AirSide::piece);
     if (has_bodies(sides)) w_.bodies_->return_to(AirSide::piece), state_ = start_;
   }
@@ -328,7 +356,7 @@ WindowReport CoupledWindow::advance_strong(bodies::BodiesState& state) {
 
 std::string CoupledWindow::describe(const WindowLog& log, const bodies::BodiesState& state) const {
   const double begin = time(state.tick), window = floating_.timeline().window_s();
-  if (log.bound == Bound::not_finite && !trouble_.empty()) return trouble_;
+  if (log.bound == Bound::not_finite && !trouble().empty()) return trouble();
   if (log.bound == Bound::not_finite)
     return fmt::format("t = {:g} s: the rotor's load over the window of {:g} s is not a finite number", begin, window);
   return fmt::format(

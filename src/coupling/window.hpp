@@ -11,12 +11,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernels/coupling/solve_window.hpp"
 #include "kernels/coupling/staggered.hpp"
 #include "src/coupling/columns.hpp"
 #include "src/coupling/floating_system.hpp"
+#include "src/coupling/output_task.hpp"
 #include "src/coupling/rotor_interface.hpp"
 #include "src/coupling/sides.hpp"
 #include "src/coupling/strong_scheme.hpp"
@@ -66,22 +68,36 @@ class CoupledWindow {
   bool iterates() const { return strong_ != nullptr; }
   const WindowTasks& tasks() const { return tasks_; }
   const BodySide& bodies() const { return *bodies_; }
+  /// Is written beside the next window.
+  OutputTask& output() { return output_; }
 
   // Columns of history.csv: those of the air, and how the last window went.
   void declare(io::History& history);
   void put(std::span<double> row) const;
 
  private:
+  class LooseParts;
   class Pieces;
+  friend class LooseParts;
   friend class Pieces;
+  /// Why a side did not come to the end of its last run.
+  struct SideFailure {
+    std::string what;      ///< empty: it did, or was stopped
+    bool stopped = false;  ///< given up since the run is to stop
+    bool none() const { return what.empty() && !stopped; }
+  };
 
   double time(std::int64_t tick) const { return double(tick) * floating_.timeline().tick_s(); }
-  /// After the tasks: the bodies at the end, or false, or load rows, not finite, where a side fails (then trouble_).
-  bool finish(bodies::BodiesState& state);
-  Vector load_at_end();
-  /// Bodies alone, or air alone for `dt` seconds that end at `t` with this motion.
+  /// Bodies alone from `state` to the tick `end`; false where they fail. Air alone over `dt` seconds that end at `t` with the hub
+  /// moving so; the load's rows are not finite where it fails. Or both at once, on a motion that is extrapolated as a task.
   bool move(bodies::BodiesState& state, std::int64_t end);
   Vector air_load(double t, double dt, const Vector& motion);
+  std::pair<bool, Vector> move_beside_air(bodies::BodiesState& state, std::int64_t end, double t, double dt,
+                                          const std::function<Vector()>& motion);
+  bool take_motion(bodies::BodiesState& state);
+  Vector take_load();
+  bool stopped() const { return air_failure_.stopped || bodies_failure_.stopped; }
+  const std::string& trouble() const { return air_failure_.what.empty() ? bodies_failure_.what : air_failure_.what; }
   WindowReport advance_bodies(bodies::BodiesState& state);
   template <class Signal>
   void use_signal(const Signal& signal);
@@ -95,15 +111,15 @@ class CoupledWindow {
   std::optional<RotorInterface> interface_;
   std::unique_ptr<AirSide> air_;
   std::unique_ptr<BodySide> bodies_;
+  OutputTask output_;
   WindowTasks tasks_;
   std::optional<Staggered> loose_;        ///< the scheme of the scene, where it is one of these
   std::unique_ptr<StrongScheme> strong_;  ///< likewise
   Extrapolation loads_, motions_;         ///< strong: at the ends of the last pieces
   Waveform signal_;                       ///< strong: loads over the piece
   std::function<void(double, Vector&)> rotor_signal_;
-  Vector load_now_;      ///< scratch of the right-hand side
-  std::string trouble_;  ///< of the side that failed last
-  bool stopped_ = false;
+  Vector load_now_;  ///< scratch of the right-hand side
+  SideFailure air_failure_, bodies_failure_;
   WindowReport last_;
   Totals totals_;
   std::size_t air_column_ = 0;

@@ -1,10 +1,12 @@
 // The sides of a window as one task graph: air and bodies at once, so that what one leaves idle the other fills, or one of them
-// where a scheme wants it alone. Each selection of sides is a program of its own: recorded once, replayed. Between runs a side is
-// given what to do and asked for the result; within one nothing but data orders.
-// Used by window.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
+// where a scheme wants it alone. Each selection of sides is a program of its own: recorded once, replayed. First the sides are
+// given what to do (exchange/extrapolate), at the end each is asked for its result (exchange/hub_motion, exchange/rotor_load);
+// between them nothing but data orders. What outputs of the last window have handed on
+// is written beside them (output_task.hpp). Used by window.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string_view>
 
@@ -19,14 +21,21 @@ enum class Run { air, bodies, both };
 constexpr bool has_air(Run run) { return run != Run::bodies; }
 constexpr bool has_bodies(Run run) { return run != Run::air; }
 
+/// What a run exchanges with its sides.
+struct Exchange {
+  std::function<void()> give;         ///< AirSide::prepare, BodySide::prepare for those that run
+  std::function<void()> take_motion;  ///< BodySide::finish; beside the air, which may not have come to its end
+  std::function<void()> take_load;    ///< AirSide::load_at_end; likewise beside the bodies
+};
+
 class WindowTasks {
  public:
   /// `options`: but for the threads.
-  WindowTasks(AirSide& air, BodySide& bodies, MPI_Comm comm, const runtime::ExecutorOptions& options);
+  WindowTasks(AirSide& air, BodySide& bodies, OutputTask& output, MPI_Comm comm, const runtime::ExecutorOptions& options);
 
-  /// @pre the sides named have been given what to do (AirSide::prepare, BodySide::prepare). @post their tasks have run; their
-  /// results are to be asked for.
-  void run(Run sides);
+  /// Gives the sides named what to do, runs their tasks and takes their results. What `exchange` leaves out is the caller's,
+  /// before or after it.
+  void run(Run sides, const Exchange& exchange = {});
 
   /// The executor that tells most of where time went: of both sides, else of one; null where none has run.
   const runtime::Executor* executor() const;
@@ -35,18 +44,18 @@ class WindowTasks {
   double wall_seconds() const { return 1e-9 * double(wall_ns_); }
 
  private:
-  struct Program {
-    std::unique_ptr<runtime::Executor> executor;
-    bool recorded = false;
-  };
+  using Program = std::unique_ptr<runtime::Executor>;
+  Program record(Run sides);
   void drop();
 
   AirSide& air_;
   BodySide& bodies_;
+  OutputTask& output_;
   MPI_Comm comm_;
   runtime::ExecutorOptions options_;
-  std::array<Program, 3> programs_;  ///< by Run
-  std::array<double, 2> dropped_{};  ///< core-seconds of executors that are gone: of the air, of the sea
+  const Exchange* exchange_ = nullptr;  ///< of the run that is under way
+  std::array<Program, 3> programs_;     ///< by Run
+  std::array<double, 2> dropped_{};     ///< core-seconds of executors that are gone: of the air, of the sea
   std::int64_t wall_ns_ = 0;
 };
 

@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/io/machine_failure.hpp"
@@ -54,6 +55,32 @@ class CheckpointWriter {
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+};
+
+/// What is to stand in a checkpoint, copied, so that it may be written while the state goes on. Filled as a CheckpointWriter is,
+/// without a message between ranks.
+class CheckpointCopy {
+ public:
+  template <class Value>
+  void set(const std::string& name, const Value& value) {
+    add([name, value](CheckpointWriter& file) { file.set(name, value); });
+  }
+  /// An array that is the same on every rank.
+  template <class T>
+  void write(const std::string& name, std::span<const T> values) {
+    add([name, copy = std::vector<T>(values.begin(), values.end())](CheckpointWriter& file) {
+      file.write(name, std::span<const T>(copy));
+    });
+  }
+  /// A part of it: holds what it writes.
+  void add(std::function<void(CheckpointWriter&)> part) { parts_.push_back(std::move(part)); }
+  /// Collective.
+  void write_to(CheckpointWriter& file) const {
+    for (const auto& part : parts_) part(file);
+  }
+
+ private:
+  std::vector<std::function<void(CheckpointWriter&)>> parts_;
 };
 
 /// A file that is no whole checkpoint: truncated, changed, or something else. Other failures to read one say nothing of the file.

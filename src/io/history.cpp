@@ -153,9 +153,12 @@ void History::write() {
 }
 
 void History::flush() {
-  if (!file_.is_open()) return;
   drain();
-  file_.sync();
+  sync();
+}
+
+void History::sync() {
+  if (file_.is_open()) file_.sync();
 }
 
 void History::drain() {

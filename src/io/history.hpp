@@ -42,7 +42,7 @@ class History {
   /// Starts a new file.
   void open(const std::filesystem::path& path);
 
-  /// What is on disk after flush(), as a checkpoint keeps it.
+  /// What is in the file after drain(), as a checkpoint keeps it.
   struct Extent {
     std::int64_t bytes = 0, rows = 0, digest = 0;
   };
@@ -57,14 +57,17 @@ class History {
   std::span<double> row(double time_s);
   /// Appends the row begun. Forces it out where the buffer is full or `flush_interval` has passed.
   void write();
-  /// Everything written so far, on disk. Throws MachineFailure; the file then still ends with a whole row.
+  /// Everything written so far, in the file. Throws MachineFailure; the file then still ends with a whole row.
+  void drain();
+  /// The file on disk as it stands. Throws MachineFailure.
+  void sync();
+  /// Both.
   void flush();
 
   long long rows() const { return rows_; }  ///< written or kept by this object
   std::chrono::duration<double> flush_interval{2.0};
 
  private:
-  void drain();
   void require_whole(const Extent& written, double time_s, double last_s) const;
 
   std::vector<Column> columns_;

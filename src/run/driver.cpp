@@ -36,34 +36,30 @@ runtime::Ledger::Keep RunSettings::keep(std::int64_t window) const {
 }
 
 io::Summary Driver::run(Simulation& simulation) {
-  const runtime::World& world = parts_.world();
+  const MPI_Comm comm = parts_.world().comm;
   const coupling::Timeline& timeline = simulation.timeline();
   io::History history;
   simulation.declare(history);
-  Checkpoints checkpoints(simulation, directory_, history, world.comm);
+  Checkpoints checkpoints(simulation, directory_, history, comm);
   const std::int64_t first = settings_.restart ? checkpoints.resume() : simulation.begin(directory_);
   // A start that was cut short is not the one that the scene asks for.
-  if (!settings_.restart && !stop_.agreed(world.comm).empty()) throw runtime::StopAsked();
+  if (!settings_.restart && !stop_.agreed(comm).empty()) throw runtime::StopAsked();
   if (settings_.restart) spdlog::info("restart from t = {} s", timeline.window_end_s(first));
   std::int64_t window = first, last = last_window(timeline);
   open_history(history, timeline.window_end_s(first), checkpoints.rows());
   HistoryOutput rows(simulation, history);
-  ProgressOutput progress(timeline, first, last, io::progress_style(world.rank, settings_.quiet));
-  std::vector<std::unique_ptr<Output>> fields =
+  ProgressOutput progress(timeline, first, last, io::progress_style(parts_.world().rank, settings_.quiet));
+  const std::vector<std::unique_ptr<Output>> fields =
       simulation.outputs(directory_, settings_.restart ? timeline.window_end_s(first) : io::from_the_start);
   std::vector<Output*> outputs{&rows, &checkpoints, &progress};  // files for people last: they may fail
   for (const auto& output : fields) outputs.push_back(output.get());
-  if (!settings_.restart)
-    for (Output* output : outputs) {
-      const runtime::Span span(output->label());
-      output->begin(first);
-    }
-  if (!settings_.restart) directory_.forget_settling(world.comm);
+  if (!settings_.restart) begin_outputs(outputs, simulation, first);
 
   while (window < last && summary_.exit_code == 0) {
     ledger_.begin_window(window + 1, settings_.keep(window + 1));
     const Advance advance = simulation.advance(window, last);
     ledger_.end_window();
+    write_rest(simulation);  // for what could not be written beside the window, which is told here
 
     const Windows done{window, window + advance.windows, advance.settled.empty() ? last : window + advance.windows};
     window = done.now, last = done.last;
@@ -72,28 +68,52 @@ io::Summary Driver::run(Simulation& simulation) {
     stop_.keep_margin(2.0 * checkpoints.cost_s());
     if (!advance.failure.empty())
       fail(advance.failure);
-    else if (const std::string why = stop_.agreed(world.comm); !why.empty() && window < last)
+    else if (const std::string why = stop_.agreed(comm); !why.empty() && window < last)
       end_early(why);
   }
   if (summary_.exit_code == 0 && summary_.exit_reason.empty() && window == timeline.windows())
     if (const std::string failure = simulation.failure_at_end(); !failure.empty()) fail(failure);
-  for (Output* output : outputs) {
-    const runtime::Span span(output->label());
-    output->finish(window);
-  }
+  finish_outputs(outputs, simulation, window);
 
   if (summary_.exit_reason.empty())
     summary_.exit_reason =
         last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last)) : simulation.done();
   summary_.restarts = checkpoints.restarts();
+  summary_.columns = history.columns();
+  summarise(simulation, first, window);
+  return summary_;
+}
+
+void Driver::begin_outputs(const std::vector<Output*>& outputs, Simulation& simulation, std::int64_t window) const {
+  for (Output* output : outputs) {
+    const runtime::Span span(output->label());
+    output->begin(window);
+  }
+  write_rest(simulation);  // before what settled is forgotten
+  directory_.forget_settling(parts_.world().comm);
+}
+
+void Driver::finish_outputs(const std::vector<Output*>& outputs, Simulation& simulation, std::int64_t window) {
+  for (Output* output : outputs) {
+    const runtime::Span span(output->label());
+    output->finish(window);
+  }
+  write_rest(simulation);
+}
+
+void Driver::summarise(Simulation& simulation, std::int64_t first, std::int64_t window) {
+  const coupling::Timeline& timeline = simulation.timeline();
   summary_.start_time_s = timeline.window_end_s(first), summary_.end_time_s = timeline.window_end_s(window);
   summary_.window_s = timeline.window_s();
   summary_.counts = {{"windows", window - first}};
-  summary_.columns = history.columns();
-  summary_.ranks = world.size;
+  summary_.ranks = parts_.world().size;
   simulation.summarise(summary_, ledger_);
   describe_times();
-  return summary_;
+}
+
+void Driver::write_rest(Simulation& simulation) {
+  const runtime::Span span("output/rest");
+  simulation.output().write_now();
 }
 
 void Driver::take_if_due(Output& output, const Windows& done) {

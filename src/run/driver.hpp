@@ -57,9 +57,14 @@ class Driver {
  private:
   std::int64_t last_window(const coupling::Timeline& timeline) const;
   void open_history(io::History& history, double time_s, const std::optional<io::History::Extent>& written) const;
+  void begin_outputs(const std::vector<Output*>& outputs, Simulation& simulation, std::int64_t window) const;
   static void take_if_due(Output& output, const Windows& done);
+  static void finish_outputs(const std::vector<Output*>& outputs, Simulation& simulation, std::int64_t window);
+  /// What outputs have handed on is on disk; throws where some of it could not be written.
+  static void write_rest(Simulation& simulation);
   void fail(const std::string& failure);
   void end_early(const std::string& why);
+  void summarise(Simulation& simulation, std::int64_t first, std::int64_t window);
   void describe_times();
   void write_recording() const;
 

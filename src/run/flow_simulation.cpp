@@ -66,6 +66,7 @@ void FlowSimulation::use(const std::string& preconditioner, const std::string& r
 
 void FlowSimulation::record() {
   runtime::Graph graph(world_.comm);
+  output_.record(graph);
   air_.solver().record(graph);
   march_.emplace(std::move(graph), runtime::ExecutorOptions{.records = records_, .watchdog_s = scenario_.runtime.watchdog_s});
 }
@@ -106,14 +107,13 @@ void FlowSimulation::restore(const io::CheckpointReader& file) {
   }
 }
 
-void FlowSimulation::save(io::CheckpointWriter& file) {
-  if (!chosen_.empty()) file.set("preconditioner", chosen_);
-  file.set("way", std::int64_t(air_.way()));
-  for (const coupling::SavedArray& array : file_.arrays()) write(file, array);
+void FlowSimulation::save(io::CheckpointCopy& copy) {
+  if (!chosen_.empty()) copy.set("preconditioner", chosen_);
+  copy.set("way", std::int64_t(air_.way()));
+  write(copy, file_.arrays());
   if (!air_.rotor()) return;
-  write_air_settings(file, scenario_);
-  for (const coupling::SavedArray& array : rotor_arrays(*air_.rotor(), coupling::computed_loads(*air_.rotor()), world_.rank))
-    write(file, array);
+  write_air_settings(copy, scenario_);
+  write(copy, rotor_arrays(*air_.rotor(), coupling::computed_loads(*air_.rotor()), world_.rank));
 }
 
 Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
@@ -221,7 +221,7 @@ void FlowSimulation::fill_row(std::int64_t window, std::span<double> row) {
 
 std::vector<std::unique_ptr<Output>> FlowSimulation::outputs(const io::RunDirectory&, double) {
   std::vector<std::unique_ptr<Output>> outputs;
-  outputs.push_back(std::make_unique<FinalFlow>([this](std::int64_t window) { write_fields(window); }));
+  outputs.push_back(std::make_unique<FinalFlow>([this](std::int64_t window) { write_at_end(window); }));
   return outputs;
 }
 
@@ -232,9 +232,11 @@ std::size_t FlowSimulation::averaged(std::int64_t windows) const {
   return std::size_t(std::max(1.0, std::round(length / timeline_.window_s())));
 }
 
-void FlowSimulation::write_fields(std::int64_t window) {
-  coupling::AirOutput(world_.comm, air_.solver(), air_.store(), directory_.fields(), {.walls = scenario_.aero.flow->surfaces})
-      .write(window, timeline_.window_end_s(window));
+void FlowSimulation::write_at_end(std::int64_t window) {
+  const auto fields =
+      std::make_shared<const coupling::AirOutput>(world_.comm, air_.solver(), air_.store(), directory_.fields(),
+                                                  coupling::AirOutput::Choice{.walls = scenario_.aero.flow->surfaces});
+  output_.hand_on([fields, write = fields->copy(window, timeline_.window_end_s(window))] { write(); });
   for (const std::string& doubt : doubts_of(first_cells(air_.solver(), world_))) {
     doubts_.push_back(fmt::format("air: {}", doubt));
     spdlog::warn(doubts_.back());

@@ -27,8 +27,9 @@ class FlowSimulation final : public Simulation {
 
   std::int64_t begin(const io::RunDirectory& directory) override;
   void restore(const io::CheckpointReader& file) override;
-  void save(io::CheckpointWriter& file) override;
+  void save(io::CheckpointCopy& copy) override;
   Advance advance(std::int64_t window, std::int64_t last) override;
+  coupling::OutputTask& output() override { return output_; }
   std::string failure_at_end() const override;
   std::string done() const override;
 
@@ -45,7 +46,7 @@ class FlowSimulation final : public Simulation {
   void use(const std::string& preconditioner, const std::string& reason);
   void record();
   std::size_t averaged(std::int64_t windows) const;
-  void write_fields(std::int64_t window);
+  void write_at_end(std::int64_t window);
 
   const coupling::Scenario& scenario_;
   const io::RunDirectory& directory_;
@@ -55,6 +56,7 @@ class FlowSimulation final : public Simulation {
   FlowCase air_;
   coupling::AirFile file_;
   std::string chosen_;  ///< what preconditioner = "auto" became
+  coupling::OutputTask output_;
   std::optional<runtime::Executor> march_;
   std::optional<FlowColumns> columns_;
   std::vector<aero::PseudoRow> rows_;  ///< of the windows that the last advance() completed

@@ -48,9 +48,10 @@ class Output {
   /// The state that a run begins with, which is the end of `window`; not called after a restart.
   virtual void begin(std::int64_t /*window*/) {}
   virtual bool due(const Windows& done) const = 0;
-  /// @pre due(done); the simulation's state is that of the end of done.now.
+  /// @pre due(done); the simulation's state is that of the end of done.now. What takes long to write is copied, and handed on to
+  /// Simulation::output(), which writes it beside the next window.
   virtual void take(const Windows& done) = 0;
-  /// The run ends here, whatever the reason.
+  /// The run ends here, whatever the reason. As take(); what is handed on is written at once.
   virtual void finish(std::int64_t /*window*/) {}
 };
 

@@ -5,7 +5,9 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 
+#include "src/io/collective.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/run/saved_history.hpp"
 
@@ -49,32 +51,38 @@ Checkpoints::Checkpoints(Simulation& simulation, const io::RunDirectory& directo
             simulation.scenario().checkpoint.wall_interval_s) {}
 
 void Checkpoints::begin(std::int64_t window) {
-  if (plan_.at_start()) save(window);
+  if (plan_.at_start()) copy(window);
 }
 
-void Checkpoints::take(const Windows& done) { save(done.now); }
+void Checkpoints::take(const Windows& done) { copy(done.now); }
 
 void Checkpoints::finish(std::int64_t window) {
-  if (saved_ != window) save(window);
+  if (saved_ != window) copy(window);
 }
 
-/// History first: what is there after a restart must go as far as the checkpoint.
-void Checkpoints::save(std::int64_t window) {
-  const auto begin = io::CheckpointPlan::Clock::now();
-  history_.flush();
+/// History is on disk first: what is there after a restart must go as far as the checkpoint.
+void Checkpoints::copy(std::int64_t window) {
+  using Clock = io::CheckpointPlan::Clock;
+  const auto begin = Clock::now();
+  io::on_root(comm_, [&] { history_.drain(); });
   const coupling::Timeline& timeline = simulation_.timeline();
   const double tick_s = timeline.tick_s();
-  series_.save(simulation_.file_number(window), [&](io::CheckpointWriter& file) {
-    file.set("window", window);
-    file.set("time_s", timeline.window_end_s(window));
-    file.set("window_s", timeline.window_s());
-    file.set("restarts", std::int64_t(restarts_));
-    file.write<double>("time/tick_s", std::span<const double>(&tick_s, 1));
-    write(file, history_.extent());
-    simulation_.save(file);
-  });
+  io::CheckpointCopy copy;
+  copy.set("window", window);
+  copy.set("time_s", timeline.window_end_s(window));
+  copy.set("window_s", timeline.window_s());
+  copy.set("restarts", std::int64_t(restarts_));
+  copy.write<double>("time/tick_s", std::span<const double>(&tick_s, 1));
+  write(copy, history_.extent());
+  simulation_.save(copy);
   saved_ = window;
-  plan_.saved(begin);
+  simulation_.output().hand_on(
+      [this, copy = std::move(copy), number = simulation_.file_number(window), copying = Clock::now() - begin] {
+        const auto writing = Clock::now();
+        io::on_root(comm_, [this] { history_.sync(); });
+        series_.save(number, [&](io::CheckpointWriter& file) { copy.write_to(file); });
+        plan_.saved(writing - copying);
+      });
 }
 
 /// The unit of time, which follows from more than one key; the scene itself was compared before (src/scene/identity.hpp).

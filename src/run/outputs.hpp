@@ -45,6 +45,7 @@ class ProgressOutput final : public Output {
 };
 
 /// A checkpoint when [checkpoint] asks for one (io::CheckpointPlan) and at the end of the run, and the way back from the newest.
+/// Written beside the next window: what counts is what has been renamed to its place.
 class Checkpoints final : public Output {
  public:
   Checkpoints(Simulation& simulation, const io::RunDirectory& directory, io::History& history, MPI_Comm comm);
@@ -62,7 +63,7 @@ class Checkpoints final : public Output {
   const std::optional<io::History::Extent>& rows() const { return rows_; }
 
  private:
-  void save(std::int64_t window);
+  void copy(std::int64_t window);
   void require_same_run(const io::CheckpointReader& file) const;
 
   Simulation& simulation_;

@@ -9,9 +9,9 @@ namespace {
 constexpr const char* extent_name = "history/extent";
 }
 
-void write(io::CheckpointWriter& file, const io::History::Extent& extent) {
+void write(io::CheckpointCopy& copy, const io::History::Extent& extent) {
   const std::array<std::int64_t, 3> values{extent.bytes, extent.rows, extent.digest};
-  file.write<std::int64_t>(extent_name, values);
+  copy.write<std::int64_t>(extent_name, values);
 }
 
 std::optional<io::History::Extent> extent_in(const io::CheckpointReader& file) {

@@ -10,7 +10,7 @@
 namespace spindrift::run {
 
 /// Of what rank 0 wrote, after a flush. Collective.
-void write(io::CheckpointWriter& file, const io::History::Extent& extent);
+void write(io::CheckpointCopy& copy, const io::History::Extent& extent);
 std::optional<io::History::Extent> extent_in(const io::CheckpointReader& file);
 
 }  // namespace spindrift::run

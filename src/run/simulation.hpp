@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/coupling/output_task.hpp"
 #include "src/coupling/scenario.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/io/checkpoint.hpp"
@@ -46,11 +47,13 @@ class Simulation {
   virtual std::int64_t begin(const io::RunDirectory& directory) = 0;
   /// The state of a checkpoint of this run instead. Throws io::InputError where it is another run's.
   virtual void restore(const io::CheckpointReader& file) = 0;
-  /// All that restore() wants, of the last window's end; of its start where the window failed.
-  virtual void save(io::CheckpointWriter& file) = 0;
+  /// Copies all that restore() wants, of the last window's end; of its start where the window failed.
+  virtual void save(io::CheckpointCopy& copy) = 0;
 
   /// @pre begin() or restore(), or advance() without failure: the state is that of the end of `window`. `last`: of the run.
   virtual Advance advance(std::int64_t window, std::int64_t last) = 0;
+  /// What is handed on to it is written while the next advance() runs.
+  virtual coupling::OutputTask& output() = 0;
   /// Why a run that reached the scene's end without settling failed all the same; empty where it did not.
   virtual std::string failure_at_end() const { return {}; }
   /// Why a run that reached the scene's end is done.

@@ -47,9 +47,9 @@ void restore_particles(const coupling::FloatingSystem& floating, const io::Check
 /// What a controller library was told, so that a run that goes on can tell it again; nothing without one.
 constexpr const char* library_log = "control/calls";
 
-void save_library(const coupling::FloatingSystem& floating, io::CheckpointWriter& file) {
+void save_library(const coupling::FloatingSystem& floating, io::CheckpointCopy& copy) {
   const aero::BladedLibrary* library = floating.rotor() ? floating.rotor()->library() : nullptr;
-  if (library) file.write<std::byte>(library_log, std::as_bytes(library->log()));
+  if (library) copy.write<std::byte>(library_log, std::as_bytes(library->log()));
 }
 
 void restore_library(const coupling::FloatingSystem& floating, const io::CheckpointReader& file) {
@@ -95,9 +95,9 @@ coupling::Sides sides_in_filled_sea(coupling::FloatingSystem& floating, std::spa
 /// Particles and surface, as [sea.fields] asks for them.
 class SeaFields final : public Output {
  public:
-  SeaFields(const coupling::FloatingSystem& floating, const std::filesystem::path& folder, const runtime::World& world,
-            double resume_s)
-      : floating_(floating), output_(floating, folder, world, resume_s) {
+  SeaFields(const coupling::FloatingSystem& floating, coupling::OutputTask& task, const std::filesystem::path& folder,
+            const runtime::World& world, double resume_s)
+      : floating_(floating), task_(task), output_(floating, folder, world, resume_s) {
     const auto& options = floating.scenario().sea.fields;
     if (!floating.particles() || !options) return;
     const coupling::Timeline& timeline = floating.timeline();
@@ -114,10 +114,11 @@ class SeaFields final : public Output {
 
  private:
   void write(std::int64_t window) {
-    output_.write(floating_.timeline().tick_of_window(window) - floating_.first_tick(),
-                  floating_.timeline().window_end_s(window));
+    task_.hand_on(output_.copy(floating_.timeline().tick_of_window(window) - floating_.first_tick(),
+                               floating_.timeline().window_end_s(window)));
   }
   const coupling::FloatingSystem& floating_;
+  coupling::OutputTask& task_;
   coupling::SeaOutput output_;
   Every every_;
 };
@@ -125,7 +126,8 @@ class SeaFields final : public Output {
 /// Fields of the air at intervals after t = 0 and at the end, where loads along the blades are written too.
 class AirFields final : public Output {
  public:
-  AirFields(const coupling::FloatingSystem& floating, coupling::AirSide& air) : floating_(floating), air_(air) {
+  AirFields(const coupling::FloatingSystem& floating, coupling::OutputTask& task, coupling::AirSide& air)
+      : floating_(floating), task_(task), air_(air) {
     every_.windows = every_.from = Every::count(floating.scenario().air_interval_s(), floating.timeline());
   }
   std::string_view label() const override { return "output/air"; }
@@ -135,10 +137,11 @@ class AirFields final : public Output {
 
  private:
   void write(std::int64_t window) {
-    air_.write_fields(floating_.timeline().tick_of_window(window) - floating_.first_tick(),
-                      floating_.timeline().window_end_s(window));
+    task_.hand_on(air_.copy_fields(floating_.timeline().tick_of_window(window) - floating_.first_tick(),
+                                   floating_.timeline().window_end_s(window)));
   }
   const coupling::FloatingSystem& floating_;
+  coupling::OutputTask& task_;
   coupling::AirSide& air_;
   Every every_;
 };
@@ -228,28 +231,28 @@ void SystemSimulation::restore_fluids(const io::CheckpointReader& file) {
   });
 }
 
-void SystemSimulation::save(io::CheckpointWriter& file) {
+void SystemSimulation::save(io::CheckpointCopy& copy) {
   std::vector<double> packed(state_.packed_size());
   state_.pack(packed);
-  file.set("steps", steps_);
-  file.write<double>("bodies/state", packed);
-  file.set("bodies/works", std::int64_t(state_.work.size()));
+  copy.set("steps", steps_);
+  copy.write<double>("bodies/state", packed);
+  copy.set("bodies/works", std::int64_t(state_.work.size()));
   if (const std::vector<double> history = window_.history(); !history.empty()) {
-    file.set("coupling/scheme", std::int64_t(floating_.scenario().coupling.scheme));
-    file.write<double>("coupling/history", history);
+    copy.set("coupling/scheme", std::int64_t(floating_.scenario().coupling.scheme));
+    copy.write<double>("coupling/history", history);
   }
-  save_library(floating_, file);
-  coupling::write(file, parts_, air_part, window_.air().saved());
-  if (has_resolved_rotor(floating_.scenario())) write_air_settings(file, floating_.scenario());
+  save_library(floating_, copy);
+  coupling::write(copy, parts_, air_part, window_.air().saved());
+  if (has_resolved_rotor(floating_.scenario())) write_air_settings(copy, floating_.scenario());
   if (!floating_.particle_plan()) return;
   sea::ParticleState particles;
   if (parts_.has(sea_part)) particles = floating_.particles()->save();
-  file.set("sea/time_s", particles.time_s);  // as rank 0 has it, which has the sea
-  file.set("sea/steps", particles.steps);
+  copy.set("sea/time_s", particles.time_s);  // as rank 0 has it, which has the sea
+  copy.set("sea/steps", particles.steps);
   const std::array sums{particles.energy.onto_water, particles.energy.from_solids, particles.energy.absorbed};
-  file.write<std::int64_t>("sea/energy", sums);
-  if (!floating_.particle_plan()->sensors.empty()) file.write<double>("sea/sensors", particles.sensors);
-  coupling::write(file, parts_, sea_part, {{"sea/particles", particles.total, {{particles.first, std::move(particles.values)}}}});
+  copy.write<std::int64_t>("sea/energy", sums);
+  if (!floating_.particle_plan()->sensors.empty()) copy.write<double>("sea/sensors", particles.sensors);
+  coupling::write(copy, parts_, sea_part, {{"sea/particles", particles.total, {{particles.first, std::move(particles.values)}}}});
 }
 
 Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
@@ -329,8 +332,8 @@ void SystemSimulation::fill_row(std::int64_t window, std::span<double> row) {
 std::vector<std::unique_ptr<Output>> SystemSimulation::outputs(const io::RunDirectory& directory, double resume_s) {
   window_.air().open_output(directory, resume_s);
   std::vector<std::unique_ptr<Output>> outputs;
-  outputs.push_back(std::make_unique<SeaFields>(floating_, directory.fields(), parts_.mine(), resume_s));
-  outputs.push_back(std::make_unique<AirFields>(floating_, window_.air()));
+  outputs.push_back(std::make_unique<SeaFields>(floating_, output(), directory.fields(), parts_.mine(), resume_s));
+  outputs.push_back(std::make_unique<AirFields>(floating_, output(), window_.air()));
   return outputs;
 }
 

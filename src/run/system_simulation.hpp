@@ -27,8 +27,9 @@ class SystemSimulation final : public Simulation {
 
   std::int64_t begin(const io::RunDirectory& directory) override;
   void restore(const io::CheckpointReader& file) override;
-  void save(io::CheckpointWriter& file) override;
+  void save(io::CheckpointCopy& copy) override;
   Advance advance(std::int64_t window, std::int64_t last) override;
+  coupling::OutputTask& output() override { return window_.output(); }
 
   void declare(io::History& history) override;
   bool has_rows() const override;

@@ -124,7 +124,9 @@ TEST_CASE("arrays of one side are written by its ranks into the file of all", "[
     io::CheckpointWriter file(parts.world().comm, path);
     std::vector<SavedArray> mine;
     if (parts.has(air_part)) mine = {{"air/a", 3, {{0, {1.0, 2.0}}, {2, {3.0}}}}, {"air/b", 1, {{0, {4.0}}}}};
-    write(file, parts, air_part, mine);
+    io::CheckpointCopy copy;
+    write(copy, parts, air_part, mine);
+    copy.write_to(file);
     file.commit();
   }
   const io::CheckpointReader file(parts.world().comm, path);
