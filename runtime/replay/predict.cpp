@@ -87,10 +87,13 @@ class Windows {
     std::array<std::vector<RankRun>, 2> pieces;
     for (const RunRecord* run : runs) {
       const GraphRecord& graph = recording_.ranks[0].graphs[run->graph];
+      const Side either = has(graph, Side::first, side_of_) ? Side::first : Side::second;
       for (const Side side : {Side::first, Side::second})
         if (has(graph, side, side_of_))
-          pieces[std::size_t(side)].push_back(
-              part_of(graph, *run, [&](std::string_view module) { return side_of_(module) == side; }));
+          pieces[std::size_t(side)].push_back(part_of(graph, *run, [&](std::string_view module) {
+            const Side of = side_of_(module);
+            return (of == Side::either ? either : of) == side;
+          }));
     }
     const std::size_t most = std::max(pieces[0].size(), pieces[1].size());
     for (std::size_t n = 0; n < most; ++n) {

@@ -36,8 +36,8 @@ struct Prediction {
   double imbalance = 1.0;   ///< of the most loaded rank, worst of the modules
 };
 
-/// Which side a module (first component of the labels) is of.
-enum class Side { first, second };
+/// Which side a module (first component of the labels) is of; either: of the first that its graph has (exchange, output).
+enum class Side { first, second, either };
 using SideOf = std::function<Side(std::string_view module)>;
 
 /// One window of which every execution took the median of what it took in all windows that were like the first: what a window

@@ -9,7 +9,9 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "runtime/trace/occurrences.hpp"
 
@@ -150,18 +152,30 @@ class ChromeWriter {
       if (o.record->activity == Activity::receive)
         for (const std::uint32_t sender : occurrences_.partners_of(o))
           arrow("message", sender, occurrences_.all[sender].begin, n, last_inside(o));
-      cross_module_arrows(n, n);
+      cross_module_arrows(n);
     }
   }
 
-  /// Arrows to `to` from what it waited for in other modules; `via` is `to` or the beginning or end of a loop before it.
-  void cross_module_arrows(std::uint32_t via, std::uint32_t to) {
+  std::string_view module(std::uint32_t occurrence) const { return module_of(node(occurrences_.all[occurrence]).label); }
+
+  /// Arrows to `to` from the last record of each other module that it waited for; what all of a loop waits for leads to its first
+  /// record alone.
+  void cross_module_arrows(std::uint32_t to) {
+    std::map<std::string_view, std::uint32_t> last;
+    waited_for(to, last);
+    for (const auto& [other, from] : last)
+      if (other != module(to) && led_.insert({from, module(to)}).second)
+        arrow("data between modules", from, last_inside(occurrences_.all[from]), to, occurrences_.all[to].begin);
+  }
+  /// The last record by module before `via`, which is a record or the beginning or end of a loop.
+  void waited_for(std::uint32_t via, std::map<std::string_view, std::uint32_t>& last) const {
     for (const std::uint32_t from : occurrences_.before_of(occurrences_.all[via])) {
-      const Occurrence& before = occurrences_.all[from];
-      if (before.record == nullptr)
-        cross_module_arrows(from, to);
-      else if (module_of(node(before).label) != module_of(node(occurrences_.all[to]).label))
-        arrow("data between modules", from, last_inside(before), to, occurrences_.all[to].begin);
+      if (occurrences_.all[from].record == nullptr) {
+        waited_for(from, last);
+        continue;
+      }
+      const auto [known, is_new] = last.try_emplace(module(from), from);
+      if (!is_new && occurrences_.all[from].end > occurrences_.all[known->second].end) known->second = from;
     }
   }
 
@@ -212,6 +226,7 @@ class ChromeWriter {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   std::int64_t origin_ = 0, span_ = 1;
   long arrows_ = 0;
+  std::set<std::pair<std::uint32_t, std::string_view>> led_;  ///< from a record to a module
 };
 
 }  // namespace

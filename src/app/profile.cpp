@@ -84,7 +84,7 @@ void add_tasks(Profile& p, const std::vector<runtime::RankTrace>& traces) {
     for (const runtime::Record& record : trace.records) {
       if (record.activity != runtime::Activity::task || record.task >= trace.nodes.size()) continue;
       const std::string& label = trace.nodes[record.task].label;
-      if (label.starts_with("run/") || label.starts_with("output/")) continue;  // spans beside the graphs
+      if (label.starts_with("run/") || (label.starts_with("output/") && label != "output/write")) continue;  // outside the graphs
       const double s = 1e-9 * double(record.end_ns - record.begin_ns);
       busy[std::string(runtime::module_of(label))] += s;
       of_thread[record.thread] += s;
@@ -128,7 +128,7 @@ void add_rest(Profile& p, const runtime::Ledger& ledger, const runtime::Parts& p
       runtime::summed(parts.world().comm, {idle + (in_graphs * threads - executors) + between * (threads - 1) + waits_for_side,
                                            poll, overhead, between - waits_for_side, wall * threads});
   p.parts["waiting"] = all[0] / p.windows, p.parts["messages"] = all[1] / p.windows, p.parts["runtime"] = all[2] / p.windows;
-  p.parts["exchange"] = all[3] / p.windows;
+  p.parts["exchange"] += all[3] / p.windows;  // beside that which is tasks
   p.all_s = all[4] / p.windows;
 }
 
@@ -236,7 +236,7 @@ std::vector<std::string> sentences(const std::vector<Profile>& all) {
   if (const Profile* split = of("split"))
     text.push_back(
         fmt::format("Split: {:.4g} ms, {:.3f} times shared.", 1e3 * split->median_s, split->median_s / shared.median_s));
-  text.push_back(fmt::format("Exchange and scheme between the graphs: {:.2g} % of a shared window's wall time.",
+  text.push_back(fmt::format("Exchange and scheme: {:.2g} % of a shared window's wall time.",
                              100.0 * shared.parts.at("exchange") / (shared.ranks * shared.mean_s)));
   return text;
 }

@@ -17,6 +17,7 @@ namespace spindrift::app {
 using Json = nlohmann::ordered_json;
 
 runtime::Side side_of(std::string_view module) {
+  if (module == "exchange" || module == "output") return runtime::Side::either;
   return module == "aero" || module == "rotor" ? runtime::Side::second : runtime::Side::first;
 }
 

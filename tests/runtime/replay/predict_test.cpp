@@ -3,6 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <utility>
+
 #include "runtime/replay/recut.hpp"
 #include "tests/runtime/replay/graphs.hpp"
 
@@ -11,7 +14,9 @@ using namespace spindrift::runtime::testing;
 
 namespace {
 
-Side side_of(std::string_view module) { return module == "aero" ? Side::second : Side::first; }
+Side side_of(std::string_view module) {
+  return module == "exchange" ? Side::either : module == "aero" ? Side::second : Side::first;
+}
 
 /// `steps` tasks, one after the other, on each of `tiles` tiles that have nothing to do with each other.
 void chains(Graph& g, const std::string& module, std::size_t tiles, std::uint32_t steps) {
@@ -22,16 +27,22 @@ void chains(Graph& g, const std::string& module, std::size_t tiles, std::uint32_
   });
 }
 
-/// Sea of three chains of 100 us and air of one of 90 us, as one graph or as two; 15 us of a window are outside of them.
-Recording two_sides(bool one_graph) {
-  const auto cost = [](const std::string& label) { return label.starts_with("aero") ? 9'000 : 10'000; };
+/// Sea of three chains of 100 us and air of one of 90 us, as one graph or as two; 15 us of a window are outside of them. With an
+/// exchange, which takes no time, each graph has its own, and the air runs first.
+Recording two_sides(bool one_graph, bool exchange = false) {
+  const auto cost = [](const std::string& label) {
+    return label.starts_with("exchange") ? 0 : label.starts_with("aero") ? 9'000 : 10'000;
+  };
   Graph sea, air;
   chains(sea, "sea", 3, 10);
   chains(one_graph ? sea : air, "aero", 1, 10);
+  if (exchange)
+    for (Graph* graph : {&sea, &air}) graph->task("exchange/give", {updates(graph->datum())}, [] {});
   Recording recording{.scene = "s", .program = "p", .windows = {{4, 405'000}, {5, 405'000}}};
   RankRecording& rank = recording.ranks.emplace_back();
   std::vector<RankRun> runs{worked_out(std::move(sea), cost)};
   if (!one_graph) runs.push_back(worked_out(std::move(air), cost));
+  if (exchange) std::ranges::reverse(runs);
   for (const WindowRecord& window : recording.windows)
     for (std::uint32_t g = 0; g < runs.size(); ++g) {
       rank.runs.push_back(runs[g].run);
@@ -44,8 +55,9 @@ Recording two_sides(bool one_graph) {
 }  // namespace
 
 TEST_CASE("placements of two sides: in turns, shared, split and in bulk", "[replay][fast]") {
-  for (const bool one_graph : {false, true}) {
-    const Recording recording = two_sides(one_graph);
+  for (const auto& [one_graph, exchange] :
+       {std::pair{false, false}, std::pair{true, false}, std::pair{false, true}, std::pair{true, true}}) {
+    const Recording recording = two_sides(one_graph, exchange);
     const auto wall = [&](int ranks, int threads, Placement placement) {
       const Prediction p = predict(recording, ideal(ranks, threads), placement, side_of);
       CHECK(p.windows == 2);
