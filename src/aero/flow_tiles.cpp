@@ -23,8 +23,7 @@ std::unique_ptr<GridStore> flow_tiles(const MultiBlockGrid& grid, Tiling tiling,
   if (o.wall_distance == "poisson") {
     fill_wall_distance_by_poisson(*store, no_slip, world.comm);
   } else {
-    const WallSurface surface = wall_surface(grid, no_slip);
-    for (const int tile : store->owned()) fill_wall_distance((*store)[tile], surface);
+    fill_wall_distance(*store, wall_surface(grid, no_slip));
   }
   return store;
 }

@@ -112,12 +112,8 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   std::vector<std::string> sticking;
   for (const PatchOptions& b : flow.boundaries)
     if (sticks(b.condition)) sticking.push_back(b.patch);
-  const WallSurface surface = wall_surface(solved_on, sticking);
-  int filled = 0;
-  for (const int tile : store_->owned()) {
-    fill_wall_distance((*store_)[tile], surface);
-    if (told) told("wall distances", double(++filled) / double(store_->owned().size()));
-  }
+  fill_wall_distance(*store_, wall_surface(solved_on, sticking),
+                     told ? [&](double share) { told("wall distances", share); } : std::function<void(double)>());
 
   FlowSetting setting = flow_setting(flow, setup.air_density, setup.wind, setup.dt, setup.profile);
   const double tip = turbine_.planform.span.back() * std::cos(turbine_.precone);

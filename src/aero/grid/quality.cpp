@@ -68,33 +68,55 @@ void of_cell(GridQuality& q, const Hexahedron& h, bool planar, const Place& p) {
 
 }  // namespace
 
-GridQuality grid_quality(const MultiBlockGrid& grid) {
-  GridQuality q;
+namespace {
+
+/// Of the cells of one k of a block.
+void of_slab(GridQuality& q, const MultiBlockGrid& grid, int b, int k) {
   const int directions = grid.planar ? 2 : 3;
-  for (int b = 0; b < int(grid.blocks.size()); ++b) {
-    const Block& block = grid.blocks[b];
-    const Index n = block.cells();
-    q.cells += long(n[0]) * n[1] * n[2];
-    for (int k = 0; k < block.nk; ++k)
-      for (int j = 0; j < block.nj; ++j)
-        for (int i = 0; i < block.ni; ++i) {
-          const Hexahedron h = cell(block, k, j, i);
-          const Eigen::Vector3d centre = cell_centre(h);
-          const Place p{b, k, j, i, centre};
-          of_cell(q, h, grid.planar, p);
-          for (int d = 0; d < directions; ++d) {
-            Index next{i, j, k};
-            if (++next[d] == n[d]) continue;
-            const Hexahedron beyond = cell(block, next[2], next[1], next[0]);
-            const int face[3][4] = {{1, 3, 7, 5}, {2, 6, 7, 3}, {4, 5, 7, 6}};
-            const Eigen::Vector3d s = face_vector({h.x[face[d][0]], h.x[face[d][1]], h.x[face[d][2]], h.x[face[d][3]]});
-            const Eigen::Vector3d line = cell_centre(beyond) - centre;
-            most(q.non_orthogonality, std::atan2(s.cross(line).norm(), s.dot(line)) * 180.0 / std::numbers::pi, p);
-            most(q.volume_ratio, ratio(hexahedron_volume(h), hexahedron_volume(beyond)), p);
-            most(q.stretch, ratio((h.x[1 << d] - h.x[0]).norm(), (beyond.x[1 << d] - beyond.x[0]).norm()), p);
-          }
-        }
-  }
+  const Block& block = grid.blocks[b];
+  const Index n = block.cells();
+  q.cells += long(n[0]) * n[1];
+  for (int j = 0; j < block.nj; ++j)
+    for (int i = 0; i < block.ni; ++i) {
+      const Hexahedron h = cell(block, k, j, i);
+      const Eigen::Vector3d centre = cell_centre(h);
+      const Place p{b, k, j, i, centre};
+      of_cell(q, h, grid.planar, p);
+      for (int d = 0; d < directions; ++d) {
+        Index next{i, j, k};
+        if (++next[d] == n[d]) continue;
+        const Hexahedron beyond = cell(block, next[2], next[1], next[0]);
+        const int face[3][4] = {{1, 3, 7, 5}, {2, 6, 7, 3}, {4, 5, 7, 6}};
+        const Eigen::Vector3d s = face_vector({h.x[face[d][0]], h.x[face[d][1]], h.x[face[d][2]], h.x[face[d][3]]});
+        const Eigen::Vector3d line = cell_centre(beyond) - centre;
+        most(q.non_orthogonality, std::atan2(s.cross(line).norm(), s.dot(line)) * 180.0 / std::numbers::pi, p);
+        most(q.volume_ratio, ratio(hexahedron_volume(h), hexahedron_volume(beyond)), p);
+        most(q.stretch, ratio((h.x[1 << d] - h.x[0]).norm(), (beyond.x[1 << d] - beyond.x[0]).norm()), p);
+      }
+    }
+}
+
+void merge(GridQuality& all, const GridQuality& part) {
+  const auto place = [](const Extreme& e) { return Place{e.block, e.k, e.j, e.i, e.at}; };
+  all.cells += part.cells, all.volume += part.volume;
+  for (const auto e : {&GridQuality::min_volume, &GridQuality::scaled_jacobian})
+    if ((part.*e).block >= 0) least(all.*e, (part.*e).value, place(part.*e));
+  for (const auto e : {&GridQuality::max_volume, &GridQuality::aspect_ratio, &GridQuality::skewness,
+                       &GridQuality::non_orthogonality, &GridQuality::stretch, &GridQuality::volume_ratio})
+    if ((part.*e).block >= 0) most(all.*e, (part.*e).value, place(part.*e));
+}
+
+}  // namespace
+
+GridQuality grid_quality(const MultiBlockGrid& grid) {
+  std::vector<std::pair<int, int>> slabs;
+  for (int b = 0; b < int(grid.blocks.size()); ++b)
+    for (int k = 0; k < grid.blocks[b].nk; ++k) slabs.emplace_back(b, k);
+  std::vector<GridQuality> parts(slabs.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t s = 0; s < slabs.size(); ++s) of_slab(parts[s], grid, slabs[s].first, slabs[s].second);
+  GridQuality q;
+  for (const GridQuality& part : parts) merge(q, part);
   return q;
 }
 

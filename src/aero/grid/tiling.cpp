@@ -136,8 +136,24 @@ Index tile_target(const Lines& lines, int line_cells, bool planar, const TilingO
 /// At least state_ghosts cells each: a neighbour's ghost layers come from one tile.
 int pieces(int n, int largest) { return std::max(1, std::min((n + largest - 1) / largest, n / state_ghosts)); }
 
-void cut(const Block& block, int number, const Lines& lines, bool planar, const TilingOptions& options,
+/// The tiles of a block stand in rows: part p of `parts` of n cells begins at cell n p / parts.
+struct Rows {
+  int first = 0;      ///< number of the block's first tile
+  IndexMap to_block;  ///< from cells counted along the tiles' directions
+  Index cells{}, parts{};
+
+  static int begin(int n, int part, int parts) { return int(long(n) * part / parts); }
+  /// The part that a cell is in.
+  int part(int d, int cell) const {
+    int p = int(long(cell) * parts[d] / cells[d]);
+    while (begin(cells[d], p + 1, parts[d]) <= cell) ++p;
+    return p;
+  }
+};
+
+Rows cut(const Block& block, int number, const Lines& lines, bool planar, const TilingOptions& options,
          std::vector<Tile>& tiles) {
+  const int first = int(tiles.size());
   const IndexMap directions{tile_axes(lines.direction, planar), {}};
   const Index cells = block.cells();
   const Index target = tile_target(lines, cells[lines.direction], planar, options);
@@ -149,7 +165,7 @@ void cut(const Block& block, int number, const Lines& lines, bool planar, const 
         const Index part{i, j, k};
         Index low, high;
         for (int d = 0; d < 3; ++d)
-          low[d] = int(long(n[d]) * part[d] / parts[d]), high[d] = int(long(n[d]) * (part[d] + 1) / parts[d]);
+          low[d] = Rows::begin(n[d], part[d], parts[d]), high[d] = Rows::begin(n[d], part[d] + 1, parts[d]);
         Tile tile{number, directions, high[0] - low[0], high[1] - low[1], high[2] - low[2]};
         for (int d = 0; d < 3; ++d) {
           const int t = directions.target(d);
@@ -158,6 +174,7 @@ void cut(const Block& block, int number, const Lines& lines, bool planar, const 
         tile.cost = double(tile.count());
         tiles.push_back(tile);
       }
+  return {first, tiles[first].to_block, n, parts};
 }
 
 /// The window of a tile's side that a box of its own cells (one layer, in or outside) covers.
@@ -168,9 +185,9 @@ std::pair<std::array<int, 2>, std::array<int, 2>> window_of(Side side, const Box
 
 class Builder {
  public:
-  Builder(const MultiBlockGrid& grid, Tiling& tiling, const std::vector<std::vector<Passage>>& passages)
-      : grid_(grid), tiling_(tiling), passages_(passages), tiles_of_block_(grid.blocks.size()) {
-    for (int t = 0; t < tiling.size(); ++t) tiles_of_block_[tiling.tiles[t].block].push_back(t);
+  Builder(const MultiBlockGrid& grid, Tiling& tiling, const std::vector<std::vector<Passage>>& passages,
+          const std::vector<Rows>& rows)
+      : grid_(grid), tiling_(tiling), passages_(passages), rows_(rows) {
     for (const Boundary& b : grid.boundaries) boundaries_[b.where.block].push_back(&b);
   }
 
@@ -205,22 +222,32 @@ class Builder {
  private:
   /// Ghost cells of tile `to`, given as a box of (continued) cells of its block, come from tiles of the block beyond.
   void link(int to, Side side, const Box& ghosts, int beyond, const IndexMap& map, int periodic) {
-    const Box donors = image(map, ghosts);
-    for (const int from : tiles_of_block_[beyond]) {
-      const Tile& donor = tiling_.tiles[from];
-      const Box shared = intersection(donors, image(donor.to_block, donor.box()));
-      if (shared.empty()) continue;
-      const IndexMap& receiver = tiling_.tiles[to].to_block;
-      const Box window = image(receiver.inverse(), image(map.inverse(), shared));
-      const auto [low, high] = window_of(side, window);
-      tiling_.links.push_back({from, to, side, low, high, donor.to_block.inverse().after(map.after(receiver)), periodic});
-    }
+    const Rows& rows = rows_[beyond];
+    const Box inside = image(rows.to_block, Box{{0, 0, 0}, rows.cells});
+    const Box donors = intersection(image(map, ghosts), inside);
+    if (donors.empty()) return;
+    const Box along_rows = image(rows.to_block.inverse(), donors);
+    Index first, last;
+    for (int d = 0; d < 3; ++d) first[d] = rows.part(d, along_rows.low[d]), last[d] = rows.part(d, along_rows.high[d] - 1);
+    for (int k = first[2]; k <= last[2]; ++k)
+      for (int j = first[1]; j <= last[1]; ++j)
+        for (int i = first[0]; i <= last[0]; ++i)
+          link_to(to, side, donors, rows.first + (k * rows.parts[1] + j) * rows.parts[0] + i, map, periodic);
+  }
+
+  void link_to(int to, Side side, const Box& donors, int from, const IndexMap& map, int periodic) {
+    const Tile& donor = tiling_.tiles[from];
+    const Box shared = intersection(donors, image(donor.to_block, donor.box()));
+    const IndexMap& receiver = tiling_.tiles[to].to_block;
+    const Box window = image(receiver.inverse(), image(map.inverse(), shared));
+    const auto [low, high] = window_of(side, window);
+    tiling_.links.push_back({from, to, side, low, high, donor.to_block.inverse().after(map.after(receiver)), periodic});
   }
 
   const MultiBlockGrid& grid_;
   Tiling& tiling_;
   const std::vector<std::vector<Passage>>& passages_;
-  std::vector<std::vector<int>> tiles_of_block_;
+  const std::vector<Rows>& rows_;
   std::map<int, std::vector<const Boundary*>> boundaries_;
 };
 
@@ -236,13 +263,14 @@ Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> wall
   tiling.planar = grid.planar;
   const auto open = passages(grid, tiling.periodic);
   const auto lines = choose_lines(grid, walls, open);
+  std::vector<Rows> rows;
   for (int b = 0; b < int(grid.blocks.size()); ++b) {
     tiling.block_cells.push_back(grid.blocks[b].cells());
-    cut(grid.blocks[b], b, lines[b], grid.planar, options, tiling.tiles);
+    rows.push_back(cut(grid.blocks[b], b, lines[b], grid.planar, options, tiling.tiles));
   }
   for (const Boundary& b : grid.boundaries)
     if (tiling.patch(b.patch) < 0) tiling.patches.push_back(b.patch);
-  Builder builder(grid, tiling, open);
+  Builder builder(grid, tiling, open, rows);
   for (int t = 0; t < tiling.size(); ++t) {
     const int first_link = int(tiling.links.size()), first_boundary = int(tiling.boundaries.size());
     builder.neighbours(t);

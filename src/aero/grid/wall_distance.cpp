@@ -2,6 +2,7 @@
 #include "src/aero/grid/wall_distance.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "kernels/grid/nearest_point.hpp"
@@ -15,16 +16,14 @@ constexpr int leaf_faces = 4;
 
 Eigen::Vector3d middle(const Face& f) { return f[0] + 0.25 * ((f[1] - f[0]) + (f[2] - f[0]) + (f[3] - f[0])); }
 
-Eigen::Vector3d nearest_on_face(const Eigen::Vector3d& p, const Face& f) {
-  const Eigen::Vector3d m = middle(f);
-  Eigen::Vector3d best = m;
-  double least = std::numeric_limits<double>::infinity();
-  for (int n = 0; n < 4; ++n) {
-    const Eigen::Vector3d x = nearest_on_triangle(p, f[n], f[(n + 1) % 4], m);
-    const double distance = (x - p).squaredNorm();
-    if (distance < least) least = distance, best = x;
-  }
-  return best;
+/// Of two computed squared distances, one to a box (or ball) and one to a point in it, the first may be larger by rounding: only
+/// what is farther by more than that is cut off, so that the least of all faces is found whatever the order of the search.
+constexpr double rounding = 1e-13;
+
+double squared_distance_to_face(const Eigen::Vector3d& p, const Face& f, const Eigen::Vector3d& m) {
+  double least = (m - p).squaredNorm();
+  for (int n = 0; n < 4; ++n) least = std::min(least, (nearest_on_triangle(p, f[n], f[(n + 1) % 4], m) - p).squaredNorm());
+  return least;
 }
 
 }  // namespace
@@ -34,6 +33,13 @@ WallSurface::WallSurface(std::vector<Face> faces) : faces_(std::move(faces)) {
   nodes_.reserve(faces_.size());
   nodes_.push_back({{}, {}, 0, int(faces_.size()), 0});
   for (std::size_t n = 0; n < nodes_.size(); ++n) divide(int(n));
+  balls_.reserve(faces_.size());
+  for (const Face& f : faces_) {
+    const Eigen::Vector3d m = middle(f);
+    double radius = 0.0;
+    for (const auto& corner : f) radius = std::max(radius, (corner - m).norm());
+    balls_.push_back({m, radius});
+  }
 }
 
 void WallSurface::divide(int number) {
@@ -59,23 +65,26 @@ void WallSurface::divide(int number) {
   nodes_[number] = node;
 }
 
-Eigen::Vector3d WallSurface::nearest(const Eigen::Vector3d& p) const {
-  Eigen::Vector3d best = faces_[0][0];
-  double least = std::numeric_limits<double>::infinity();
+double WallSurface::closer(const Eigen::Vector3d& p, int face, double least) const {
+  const Ball& ball = balls_[face];
+  const double reach = std::sqrt(least) + ball.radius;
+  if ((ball.middle - p).squaredNorm() > (1.0 + rounding) * reach * reach) return least;
+  return squared_distance_to_face(p, faces_[face], ball.middle);
+}
+
+double WallSurface::distance(const Eigen::Vector3d& p, int& face) const {
+  double least = squared_distance_to_face(p, faces_[face], balls_[face].middle);
   std::array<std::pair<double, int>, 128> stack;  // depth is log2(faces) + 1; both children of a level may wait
   int waiting = 0;
-  const auto box = [&](int n) { return squared_distance_to_box(p, nodes_[n].low, nodes_[n].high); };
+  const auto box = [&](int n) { return (1.0 - rounding) * squared_distance_to_box(p, nodes_[n].low, nodes_[n].high); };
   stack[waiting++] = {box(0), 0};
   while (waiting > 0) {
     const auto [bound, number] = stack[--waiting];
     if (bound >= least) continue;
     const Node& node = nodes_[number];
     if (node.left == 0) {
-      for (int f = node.first; f < node.last; ++f) {
-        const Eigen::Vector3d x = nearest_on_face(p, faces_[f]);
-        const double distance = (x - p).squaredNorm();
-        if (distance < least) least = distance, best = x;
-      }
+      for (int f = node.first; f < node.last; ++f)
+        if (const double d = closer(p, f, least); d < least) least = d, face = f;
       continue;
     }
     const double left = box(node.left), right = box(node.left + 1);
@@ -83,7 +92,7 @@ Eigen::Vector3d WallSurface::nearest(const Eigen::Vector3d& p) const {
     if (std::max(left, right) < least) stack[waiting++] = {std::max(left, right), left_first ? node.left + 1 : node.left};
     if (std::min(left, right) < least) stack[waiting++] = {std::min(left, right), left_first ? node.left : node.left + 1};
   }
-  return best;
+  return std::sqrt(least);
 }
 
 WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string> patches) {
@@ -129,11 +138,26 @@ WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string
 void fill_wall_distance(TileGeometry& g, const WallSurface& wall) {
   BoxView<double> distance = g.wall_distance();
   const BoxView<const double> centre = g.centre();
+  int face = 0;
   for (int k = 0; k < g.inner_box.nk; ++k)
     for (int j = 0; j < g.inner_box.nj; ++j)
-      for (int i = 0; i < g.inner_box.ni; ++i)
+      for (int m = 0; m < g.inner_box.ni; ++m) {
+        const int i = j % 2 == 0 ? m : g.inner_box.ni - 1 - m;  // to and fro: each cell next to the one before
         distance(0, k, j, i) = wall.empty() ? std::numeric_limits<double>::infinity()
-                                            : wall.distance({centre(0, k, j, i), centre(1, k, j, i), centre(2, k, j, i)});
+                                            : wall.distance({centre(0, k, j, i), centre(1, k, j, i), centre(2, k, j, i)}, face);
+      }
+}
+
+void fill_wall_distance(GridStore& store, const WallSurface& wall, const std::function<void(double)>& told) {
+  const std::span<const int> owned = store.owned();
+  std::size_t filled = 0;
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t t = 0; t < owned.size(); ++t) {
+    fill_wall_distance(store[owned[t]], wall);
+    if (!told) continue;
+#pragma omp critical(wall_distance_progress)
+    told(double(++filled) / double(owned.size()));
+  }
 }
 
 }  // namespace spindrift::aero
