@@ -35,7 +35,7 @@ void doubt_speed(scene::Doubts& doubts, const std::string& at, const WindOptions
   if (tip > 130.0)
     doubts.push_back({at, fmt::format("{:.4g} rpm, tips at {:.4g} m/s", start.speed / rad_s_per_rpm, tip), "tips up to 130 m/s",
                       "look at its unit: rpm, not rad/s or deg/s"});
-  if (!blown || start.radius <= 0.0 || wind.speed_m_s < 3.0 || tip > 130.0 || start.speed < 0.0) return;
+  if (!blown || start.radius <= 0.0 || wind.speed_m_s < 3.0 || tip > 130.0 || start.speed < 0.0 || start.parked) return;
   const double ratio = tip / wind.speed_m_s;
   if (ratio < 2.0 || ratio > 16.0)
     doubts.push_back(
@@ -49,6 +49,70 @@ void doubt_wind(scene::Doubts& doubts, const WindOptions& wind) {
     doubts.push_back({"wind.speed_m_s", fmt::format("{:.4g} m/s", wind.speed_m_s),
                       "up to 60 m/s, the gusts of the strongest class (IEC 61400-1)",
                       "look at its unit: m/s, not km/h or knots"});
+  if (wind.law != WindLaw::uniform && *wind.reference_height_m < 5.0)
+    doubts.push_back({"wind.reference_height_m", fmt::format("{:.4g} m", *wind.reference_height_m),
+                      "5 m or more: 10 m of weather reports, or the hub's height", "look at its unit: m"});
+  if (wind.law == WindLaw::power && (wind.shear_exponent < 0.0 || wind.shear_exponent > 0.6))
+    doubts.push_back({"wind.shear_exponent", fmt::format("{:.4g}", wind.shear_exponent),
+                      "0 to 0.6: .14 at sea, .2 on land (IEC 61400-3, 61400-1)",
+                      "look at its sign and the point; a wind that falls with height is rare"});
+  if (!wind.turbulence || wind.turbulence->model != TurbulenceModel::kaimal) return;
+  const TurbulenceOptions& t = *wind.turbulence;
+  if (t.reference_intensity > 0.3)
+    doubts.push_back({"wind.turbulence.reference_intensity", fmt::format("{:.4g}", t.reference_intensity),
+                      "up to 0.3: .12 to .16 by class (IEC 61400-1)", "it is a share, not per cent"});
+  if (t.sigma_m_s && wind.speed_m_s > 0.0 && *t.sigma_m_s > 0.5 * wind.speed_m_s)
+    doubts.push_back({"wind.turbulence.sigma_m_s",
+                      fmt::format("{:.4g} m/s in a wind of {:.4g} m/s", *t.sigma_m_s, wind.speed_m_s), "up to half the wind",
+                      "it is in m/s, not a share or per cent"});
+}
+
+void doubt_roughness(scene::Doubts& doubts, const WindOptions& wind) {
+  if (constexpr double most = 0.03; wind.law == WindLaw::logarithmic && wind.roughness_m > most)
+    doubts.push_back({"wind.roughness_m", fmt::format("{:.4g} m over water", wind.roughness_m),
+                      fmt::format("up to {:g} m: 0.0001 in calm to 0.01 in storm (DNV-RP-C205, table 2-1)", most),
+                      "look at its unit: m, not mm"});
+}
+
+bool is_wing(const GenerateOptions& grid) { return grid.kind == "naca0012" || grid.kind == "aerofoil"; }
+
+/// Length that the flow's Reynolds number goes with, where the program makes the grid and knows it; else 0.
+double length_of(const FlowOptions& flow) {
+  if (!flow.generate) return 0.0;
+  if (is_wing(*flow.generate)) return 1.0;  // the chord
+  return flow.generate->kind == "cylinder" ? 2.0 * flow.generate->radius_m : 0.0;
+}
+
+/// Where closures were made for, and where laminar flow ends: a wing's boundary layer turns turbulent by itself between 1e5 and
+/// 3e6, below 1e4 nothing does; the closures have no model of that change (Spalart & Allmaras 1994; Menter 1994).
+void doubt_closure(scene::Doubts& doubts, const FlowOptions& flow, double reynolds) {
+  if (flow.viscous == "none" || reynolds <= 0.0) return;
+  constexpr double least = 2e4, most = 3e6;
+  const std::string advice = "look at aero.flow.viscosity_Pa_s (air: 1.8e-5), the wind and the size, or choose the other";
+  if (flow.turbulence != "none" && reynolds < least)
+    doubts.push_back({"aero.flow.turbulence", fmt::format("{} at a Reynolds number of {:.3g}", flow.turbulence, reynolds),
+                      fmt::format("turbulence above {:.0e}", least), advice});
+  if (flow.turbulence == "none" && reynolds > most)
+    doubts.push_back({"aero.flow.turbulence", fmt::format("laminar flow at a Reynolds number of {:.3g}", reynolds),
+                      fmt::format("laminar up to {:.0e}", most), advice});
+}
+
+/// A window in which the air passes the body twice sees none of what is shed.
+void doubt_window(scene::Doubts& doubts, const FlowOptions& flow, double passes, double window) {
+  if (flow.time == "steady") return;
+  if (passes > 2.0)
+    doubts.push_back({"time.window_s", fmt::format("{:.4g} s, in which the air passes the body {:.3g} times", window, passes),
+                      "up to twice; a tenth of a time to see what is shed", "shorten it: a window is a step of the flow"});
+  if (flow.motion && flow.motion->oscillates() && window > flow.motion->period_s / 10.0)
+    doubts.push_back({"aero.flow.motion.period_s",
+                      fmt::format("{:.4g} s with windows of {:.4g} s", flow.motion->period_s, window),
+                      "ten windows to a period at least", "look at its unit, or shorten the window"});
+}
+
+void doubt_far_side(scene::Doubts& doubts, const GenerateOptions& grid, double length) {
+  if (length > 0.0 && grid.far_m < 8.0 * length)
+    doubts.push_back({"aero.flow.generate.far_m", fmt::format("{:.4g} m from a body of {:.4g} m", grid.far_m, length),
+                      "8 lengths or more", "a near far side holds the flow as a tunnel's walls would"});
 }
 
 void doubt_load(scene::Doubts& doubts, const WindOptions& wind, double air_density, const RotorAtStart& start, bool blown) {
@@ -69,7 +133,11 @@ void doubt_load(scene::Doubts& doubts, const WindOptions& wind, double air_densi
                       "above zero in wind", "look at the rotor's speed and rotor.blade_pitch_deg"});
   if (start.thrust && blown && wind.speed_m_s >= 3.0) {
     const double coefficient = *start.thrust / (0.5 * air_density * area * wind.speed_m_s * wind.speed_m_s);
-    if (std::abs(coefficient) > 1.5)
+    if (coefficient < -0.3)
+      doubts.push_back({"aero", fmt::format("a thrust of {:.3g} kN at the start, against the axis", 1e-3 * *start.thrust),
+                        "above zero: the air pushes the rotor downwind",
+                        "look at the signs of the thrust and of the axis, and at the blades' pitch"});
+    else if (std::abs(coefficient) > 1.5)
       doubts.push_back(
           {"aero", fmt::format("a thrust of {:.3g} kN at the start, a coefficient of {:.3g}", 1e-3 * *start.thrust, coefficient),
            "up to 1.5", "look at the thrust's unit, the wind and the rotor's speed"});
@@ -107,11 +175,59 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
                           ? fmt::format("the hub is {:.4g} m under water", -start.hub.z())
                           : fmt::format("the hub is {:.4g} m above water with blades of {:.4g} m", start.hub.z(), start.radius),
                       "a hub higher than its blades are long", "look at z: up is positive"});
-  if (const double pitch = rotor.blade_pitch / radians_per_degree; std::abs(pitch) > 95.0)
-    doubts.push_back({"rotor.blade_pitch_deg", fmt::format("{:.4g} degrees", pitch), "-10 to 90 degrees", "look at its unit"});
+  if (start.over_water) doubt_roughness(doubts, wind);
+  if (const double pitch = rotor.blade_pitch / radians_per_degree; pitch < -15.0 || pitch > 95.0)
+    doubts.push_back({"rotor.blade_pitch_deg", fmt::format("{:.4g} degrees", pitch), "-10 to 90 degrees",
+                      "look at its unit and sign: positive turns the nose into the wind"});
   if (air_density < 0.9 || air_density > 1.5)
     doubts.push_back(
         {"environment.air_density_kg_m3", fmt::format("{:.4g} kg/m3", air_density), "0.9 to 1.5 kg/m3", "look at its unit"});
+  return doubts;
+}
+
+scene::Doubts rotor_body_doubts(const RotorBody& body, const RotorAtStart& start) {
+  scene::Doubts doubts;
+  if (start.radius <= 0.0) return doubts;
+  const Eigen::Vector3d off = body.centre - start.hub, axis = start.axis.normalized();
+  const double along = std::abs(off.dot(axis)), across = (off - off.dot(axis) * axis).norm();
+  if (across > 0.05 * start.radius || along > 0.5 * start.radius)
+    doubts.push_back(
+        {body.key + ".centre_m", fmt::format("{:.4g} m off the rotor's axis, {:.4g} m along it from the hub", across, along),
+         fmt::format("up to {:.3g} and {:.3g} m: a rotor is balanced about its shaft", 0.05 * start.radius, 0.5 * start.radius),
+         "look at the place of the centre of mass and of the bearing"});
+  // Blades with a hub: .29 of the radius for turbines of 5 to 15 MW; a disc has .71, a ring 1.
+  if (const double share = body.radius_of_gyration / start.radius; share < 0.05 || share > 0.8)
+    doubts.push_back({body.key + ".inertia_kg_m2",
+                      fmt::format("a radius of gyration of {:.3g} m about the shaft, {:.2g} of the rotor's radius",
+                                  body.radius_of_gyration, share),
+                      "0.05 to 0.8 of it", "look at the units of mass and inertia: kg and kg m2, not t; x first"});
+  return doubts;
+}
+
+scene::Doubts flow_doubts(const FlowOptions& flow, double speed, double window, double air_density) {
+  scene::Doubts doubts;
+  if (air_density < 0.3 || air_density > 1.5)
+    doubts.push_back({"environment.air_density_kg_m3", fmt::format("{:.4g} kg/m3", air_density),
+                      "0.3 to 1.5 kg/m3: the air from sea level to 12 km", "look at its unit"});
+  if (flow.temperature_K < 200.0 || flow.temperature_K > 400.0)
+    doubts.push_back({"aero.flow.temperature_K", fmt::format("{:.4g} K", flow.temperature_K), "200 to 400 K",
+                      "look at its unit: K, not degrees Celsius"});
+  const double length = length_of(flow);
+  if (length == 0.0) return doubts;
+  doubt_closure(doubts, flow, air_density * speed * length / flow.viscosity_Pa_s);
+  doubt_window(doubts, flow, speed * window / length, window);
+  doubt_far_side(doubts, *flow.generate, length);
+  if (!is_wing(*flow.generate)) return doubts;
+  if (const double incidence = flow.incidence / radians_per_degree; std::abs(incidence) > 45.0)
+    doubts.push_back({"aero.flow.incidence_deg", fmt::format("{:.4g} degrees", incidence), "up to 45 degrees of a section",
+                      "look at its unit: degrees"});
+  if (const double share = flow.reference_area_m2 / (length * flow.width_m); share < 0.05 || share > 20.0)
+    doubts.push_back({"aero.flow.reference_area_m2", fmt::format("{:.4g} m2", flow.reference_area_m2),
+                      fmt::format("about chord times width, {:.3g} m2", length * flow.width_m), "look at its unit: m2"});
+  if (flow.motion && flow.motion->oscillates() && std::abs(flow.motion->pitch_amplitude) > 45.0 * radians_per_degree)
+    doubts.push_back({"aero.flow.motion.pitch_amplitude_deg",
+                      fmt::format("{:.4g} degrees", flow.motion->pitch_amplitude / radians_per_degree), "up to 45 degrees",
+                      "look at its unit: degrees"});
   return doubts;
 }
 

@@ -16,8 +16,20 @@ struct RotorAtStart {
   double radius = 0.0;                  ///< [m]; 0 where the scene does not say
   std::optional<double> thrust, power;  ///< at full load [N], [W]
   bool over_water = false;
+  bool parked = false;  ///< by its controller
   std::optional<ReynoldsReach> reynolds{};
 };
+
+/// A body that turns with the rotor, against the bearing and the blades that it carries.
+struct RotorBody {
+  std::string key;                ///< "bodies.rotor"
+  Eigen::Vector3d centre;         ///< of mass, earth frame, as the hub and the axis
+  double radius_of_gyration = 0;  ///< about the axis [m]
+};
+scene::Doubts rotor_body_doubts(const RotorBody& body, const RotorAtStart& start);
+
+/// Air that is resolved, by itself or round a rotor. `speed`: of the wind [m/s]; `window`: of time [s].
+scene::Doubts flow_doubts(const FlowOptions& flow, double speed, double window, double air_density);
 
 scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,
                            const RotorAtStart& start);

@@ -68,12 +68,14 @@ PartCost print_particles(const FloatingSystem& floating, const coupling::Start& 
   return cost_of_particles(floating, census, steps_per_window);
 }
 
-void print_doubts(FloatingSystem& floating, const coupling::Start& start, const coupling::Stability& stability) {
-  const scene::Doubts doubts = coupling::doubts(floating, start, stability);
+void print_doubts(const scene::Doubts& doubts) {
   if (doubts.empty()) return;
   fmt::print("\nDoubts: possible, but it looks like a slip\n");
   for (const scene::Doubt& doubt : doubts) fmt::print("  warning: {}\n", text(doubt));
 }
+
+/// Of a run that begins with what this check has done, in `start_s` of processor time.
+BaseCost base_cost(double start_s) { return {resident_memory() + output_bytes, start_s + output_seconds}; }
 
 /// `start_s`: processor time up to the first step.
 void print_steps(FloatingSystem& floating, const coupling::Start& start, double start_s) {
@@ -90,7 +92,9 @@ void print_steps(FloatingSystem& floating, const coupling::Start& start, double 
       cost.steps, 1e6 * cost.step_s,
       cost.exchanges > 0.0 ? fmt::format(", {:.3g} loads of the rotor of {:.3g} us", cost.exchanges, 1e6 * cost.exchange_s) : "",
       cost.rows, 1e6 * cost.row_s);
-  fmt::print("  {:<22}{:.0f} MB\n", "memory", (resident_memory() + output_bytes) / 1e6);
+  const double bytes = base_cost(start_s).bytes;
+  fmt::print("  {:<22}{:.0f} MB\n", "memory", bytes / 1e6);
+  for (const std::string& warning : beyond_machine(bytes, seconds)) fmt::print("  warning: {}\n", warning);
 }
 
 void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& state) {
@@ -230,7 +234,8 @@ PartCost print_air(const FloatingSystem& floating, const coupling::Start& start,
                      calibrate);
 }
 
-void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, bool calibrate, int ranks) {
+void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, bool calibrate, int ranks,
+                          const BaseCost& base) {
   const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
   fmt::print("{}: valid\n\nWhat will be modelled\n", source);
@@ -240,8 +245,9 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors,
              size.sectors == 1 ? ", periodic" : "s", size.stations);
   print_far_sides(setup.grid);
+  print_doubts(coupling::air_doubts(s));
   const PartCost cost = cost_of_air(setup, size, pseudo_steps_per_second(s), 0.0, 1, calibrate);
-  print_cost(std::span(&cost, 1), s.time.end_s, ranks);
+  print_cost(std::span(&cost, 1), s.time.end_s, ranks, base);
 }
 
 /// What a patch of this name most likely is.
@@ -343,7 +349,8 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   if (scenario.has_flow()) require_expected_columns(document, scenario.output, columns_of_air_alone());
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
     try_grid(coupling::resolved_rotor_setup(scenario), world.size);
-    if (world.rank == 0) print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size);
+    if (world.rank != 0) return done;
+    print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size, base_cost(0.0));
     return done;
   }
   if (scenario.has_flow()) {
@@ -354,9 +361,10 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
                aero::describe_flow_grid(*scenario.aero.flow));
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
+    print_doubts(coupling::air_doubts(scenario));
     print_first_cells(scenario, grid);
     const PartCost cost = cost_of_flow(scenario, grid);
-    print_cost(std::span(&cost, 1), scenario.time.end_s, world.size);
+    print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, base_cost(processor_seconds() - begin_s));
     return done;
   }
   const coupling::Scenario asked = scenario;
@@ -370,14 +378,14 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     fmt::print("{}: valid\n", arguments.scene);
     print_models(floating);
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
-    print_doubts(floating, start, stability);
+    print_doubts(coupling::doubts(floating, start, stability));
     if (!start.state.motions.empty()) print_modes(floating, stability.linearisation), print_blade_modes(floating);
   }
   require_limits(floating, start.state, stability);
   if (world.rank != 0) return done;
   if (start.state.motions.empty()) {
     const PartCost cost = print_particles(floating, start);
-    print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size);
+    print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size, base_cost(start_s));
     return done;
   }
   if (floating.rotor()) print_campbell(floating, start, stability.linearisation);
@@ -401,7 +409,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     parts.push_back(print_particles(floating, start));
   else
     print_steps(floating, start, start_s);
-  if (!parts.empty()) print_cost(parts, floating.scenario().time.end_s, world.size);
+  if (!parts.empty()) print_cost(parts, floating.scenario().time.end_s, world.size, base_cost(start_s));
   if (!arguments.columns.empty()) print_omissions(asked, arguments.columns);
   return done;
 }

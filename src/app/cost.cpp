@@ -3,15 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <thread>
 
+#include "src/coupling/memory_limits.hpp"
 #include "src/io/progress.hpp"
 
 namespace spindrift::app {
 
 namespace {
-
-constexpr double program_bytes = 60e6;  // libraries and tables of a rank
 
 std::string bytes_text(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
@@ -19,8 +20,25 @@ std::string bytes_text(double bytes) {
 
 }  // namespace
 
-void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks) {
-  double bytes = 0.0, checkpoint = 0.0, per_second = 0.0, before = 0.0;
+std::vector<std::string> beyond_machine(double bytes, double core_seconds) {
+  constexpr double year_s = 365.25 * 86400.0;
+  const double memory = coupling::machine_memory(), cores = std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::string> warnings;
+  if (bytes > memory)
+    warnings.push_back(
+        fmt::format("memory: {} where this machine has {}; usual is less: take fewer cells or particles, or more "
+                    "machines",
+                    bytes_text(bytes), bytes_text(memory)));
+  if (core_seconds > year_s * cores)
+    warnings.push_back(
+        fmt::format("time: {} on the {:.0f} cores of this machine; usual is up to a year: look at time.end_s and "
+                    "at the steps, or take fewer cells or particles",
+                    io::duration_text(core_seconds / cores), cores));
+  return warnings;
+}
+
+void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, const BaseCost& base) {
+  double bytes = 0.0, checkpoint = 0.0, per_second = 0.0, before = base.core_seconds;
   fmt::print("\nPredicted cost\n");
   for (const PartCost& p : parts) {
     const double cost = p.work_per_second * p.core_seconds_per_work;
@@ -34,8 +52,8 @@ void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks) 
   }
   const double whole = before + per_second * simulated_s;
   fmt::print("  {:<22}{} ({} more while a checkpoint is written); {} rank{}: {} each\n", "memory",
-             bytes_text(bytes + program_bytes * ranks), bytes_text(checkpoint), ranks, ranks == 1 ? "" : "s",
-             bytes_text(bytes / ranks + program_bytes));
+             bytes_text(bytes + base.bytes * ranks), bytes_text(checkpoint), ranks, ranks == 1 ? "" : "s",
+             bytes_text(bytes / ranks + base.bytes));
   fmt::print("  {:<22}{:.3g} core-hours for {:g} s ({:.4g} core-s per simulated second)\n", "predicted core-hours",
              whole / 3600.0, simulated_s, per_second);
   constexpr std::array cores{1, 2, 8, 16, 64, 128};
@@ -47,7 +65,9 @@ void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks) 
   row("cores", [](int n) { return fmt::format("{}", n); });
   row("wall time", [&](int n) { return io::duration_text(whole / n); });
   row("per simulated second", [&](int n) { return io::duration_text(per_second / n); });
-  row("memory of a rank each", [&](int n) { return bytes_text(bytes / n + program_bytes); });
+  row("memory of a rank each", [&](int n) { return bytes_text(bytes / n + base.bytes); });
+  for (const std::string& warning : beyond_machine(bytes + checkpoint + base.bytes * ranks, whole))
+    fmt::print("  warning: {}\n", warning);
   fmt::print("  Wall times share the work out evenly, without loss to waiting; rates are those of one core alone.\n");
 }
 

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace spindrift::app {
 
@@ -21,7 +22,16 @@ struct PartCost {
   double work_before = 0.0;  ///< before t = 0, in the same unit
 };
 
+/// What every rank takes besides: the program with its libraries, scene and files [bytes]; what a run takes to start and to write
+/// its files [s].
+struct BaseCost {
+  double bytes = 0.0, core_seconds = 0.0;
+};
+
+/// Where memory or time of so much is beyond this machine, or beyond a year of all its cores: a warning each.
+std::vector<std::string> beyond_machine(double bytes, double core_seconds);
+
 /// `simulated_s`: from t = 0 to the end. `ranks`: of this run.
-void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks);
+void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, const BaseCost& base);
 
 }  // namespace spindrift::app

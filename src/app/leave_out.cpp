@@ -56,7 +56,7 @@ const std::vector<Choice>& choices() {
        [](Scenario& s) -> std::optional<std::string> {
          if (!s.has_waves()) return std::nullopt;
          s.waves = {};
-         return "waves.model = \"none\"";
+         return "without = [\"waves\"]";
        }},
       {"strips twice as long",
        [](Scenario& s) -> std::optional<std::string> {
@@ -68,7 +68,7 @@ const std::vector<Choice>& choices() {
        [](Scenario& s) -> std::optional<std::string> {
          if (s.sea.model != "morison") return std::nullopt;
          s.sea.model = "hydrostatic", s.waves = {}, s.sea.coefficients.clear();
-         return "sea.model = \"hydrostatic\"";
+         return "sea.model = \"hydrostatic\", without [waves] and the coefficients of strips in [sea]";
        }},
       {"first-order waves",
        [](Scenario& s) -> std::optional<std::string> {
@@ -87,7 +87,8 @@ const std::vector<Choice>& choices() {
          if (s.aero.model != "bem" || s.rotor.operation.empty()) return std::nullopt;
          s.aero.model = "thrust_curve", s.aero.curve = s.rotor.operation;
          s.rotor.diameter_m = 2.0 * aero::read_turbine(s.rotor.turbine).planform.span.back();
-         return fmt::format("aero.model = \"thrust_curve\", aero.curve = \"{}\"", s.rotor.operation);
+         return fmt::format("aero.model = \"thrust_curve\", aero.curve = \"{}\", rotor.diameter_m = {:g}", s.rotor.operation,
+                            *s.rotor.diameter_m);
        }},
       {"no gyroscopic moments",
        [](Scenario& s) -> std::optional<std::string> {

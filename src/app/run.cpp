@@ -233,6 +233,8 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     for (const std::string& note : system->start.notes) spdlog::info("{}", note);
   if (system)
     for (const scene::Doubt& doubt : system->doubts) spdlog::warn("{}", text(doubt));
+  else
+    for (const scene::Doubt& doubt : coupling::air_doubts(*scenario)) spdlog::warn("{}", text(doubt));
   runtime::StopRequest stop(scenario->runtime.wall_limit_s, directory.stop());
   io::Summary summary = summary_of(directory, world, [&] {
     return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)

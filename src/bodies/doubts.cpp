@@ -24,6 +24,25 @@ void doubt_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptio
     doubts.push_back({at + ".inertia_kg_m2", what, "up to 300 m", advice});
 }
 
+/// Axis by axis, against a homogeneous block of the shapes' size: an inertia that belongs to another axis stands out. A tower on
+/// top gives a float up to four times its block's radius about level axes; ballast or a thin hull change it by less than two.
+void doubt_axes_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body,
+                           const Eigen::AlignedBox3d& box) {
+  constexpr double least = 0.1, most = 8.0;
+  const Eigen::Vector3d squares = box.sizes().cwiseAbs2();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double block = std::sqrt((squares.sum() - squares[axis]) / 12.0);
+    const double radius = std::sqrt(std::max(0.0, body.inertia_kg_m2(axis, axis) / body.mass_kg));
+    if (block == 0.0 || (radius >= least * block && radius <= most * block)) continue;
+    doubts.push_back({at + ".inertia_kg_m2",
+                      fmt::format("a radius of gyration of {:.3g} m about {}, where a block of its size has {:.3g} m", radius,
+                                  "xyz"[axis], block),
+                      fmt::format("{:g} to {:g} times that", least, most),
+                      "look at the order of the axes, x, y, z, and at the unit: kg m2"});
+    return;
+  }
+}
+
 }  // namespace
 
 scene::Doubts body_doubts(const NamedBodies& bodies) {
@@ -31,7 +50,12 @@ scene::Doubts body_doubts(const NamedBodies& bodies) {
   for (const auto& [name, body] : bodies) {
     const std::string at = "bodies." + name;
     const double size = extent(body);
+    const std::size_t before = doubts.size();
     doubt_inertia(doubts, at, body, size);
+    if (size > 0.0 && doubts.size() == before) doubt_axes_of_inertia(doubts, at, body, bounds(body));
+    if (const double off = body.displacement_m.norm(); size > 0.0 && off > 5.0 * size)
+      doubts.push_back({at + ".displacement_m", fmt::format("starts {:.4g} m from where it is described", off),
+                        fmt::format("up to five times half its diagonal, {:.3g} m", 5.0 * size), "look at its unit: m"});
     if (const Eigen::AlignedBox3d box = bounds(body); !box.isEmpty())
       if (const double off = std::sqrt(box.squaredExteriorDistance(body.centre_m)); off > 2.0 * size)
         doubts.push_back({at + ".centre_m", fmt::format("{:.4g} m away from its shapes", off),

@@ -10,6 +10,7 @@
 #include "src/aero/turbine.hpp"
 #include "src/bodies/doubts.hpp"
 #include "src/bodies/extent.hpp"
+#include "src/coupling/flow_scene.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/moorings/doubts.hpp"
 #include "src/sea/doubts.hpp"
@@ -169,11 +170,71 @@ void doubt_modes(scene::Doubts& doubts, const FloatingSystem& floating, const St
   }
 }
 
-/// Where the floating system would come to rest, against where it starts.
+/// A motion that a flexible beam takes part in, and that the blades meet once or three times a turn.
+void doubt_resonance(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start, const Stability& stability) {
+  if (!floating.rotor() || floating.beams().empty()) return;
+  const double turns = std::abs(floating.rotor()->state(0.0, start.state.motions).speed) / (2.0 * pi);
+  constexpr double close = 0.05, light = 0.1, rigid_Hz = 0.1;  // floats swing slower than rigid_Hz
+  for (const bodies::Mode& mode : stability.linearisation.modes) {
+    const double f = std::abs(mode.eigenvalue) / (2.0 * pi);
+    if (mode.eigenvalue.imag() < 1e-6 || f < rigid_Hz || mode.damping_ratio() > light) continue;
+    for (const auto& [name, forced] : {std::pair{"1P", turns}, std::pair{"3P", 3.0 * turns}})
+      if (forced > 0.0 && std::abs(f - forced) < close * forced)
+        doubts.push_back({"beams",
+                          fmt::format("{} at {:.4g} Hz, {} at {:.4g} Hz: {} meets it at every turn", mode.name, f, name, forced,
+                                      name == std::string("1P") ? "the rotor" : "each blade"),
+                          fmt::format("more than {:.0f} % apart", 100.0 * close),
+                          "look at the beam's properties and the rotor's speed, or expect resonance"});
+  }
+}
+
+/// Shorter than any swing of the bodies: nothing of them is seen.
+void doubt_length(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
+  const Scenario& s = floating.scenario();
+  if (floating.particle_plan() || s.has_waves() || !s.has_sea() || s.is_controlled()) return;
+  double shortest = 0.0;
+  for (const bodies::Mode& mode : stability.linearisation.modes)
+    if (mode.eigenvalue.imag() > 1e-6 && (shortest == 0.0 || mode.period_s() < shortest)) shortest = mode.period_s();
+  if (shortest > 0.0 && s.time.end_s < 0.5 * shortest)
+    doubts.push_back({"time.end_s",
+                      fmt::format("{:.4g} s where the fastest motion has a period of {:.4g} s", s.time.end_s, shortest),
+                      "half a period at least", "look at its unit: seconds"});
+}
+
+/// Damping that stops a body at once. Floats of any size swing in times of sqrt(size / g) (Froude), and are damped in longer
+/// ones.
+void doubt_damping(scene::Doubts& doubts, const Scenario& s) {
+  constexpr double least = 0.2;
+  for (std::size_t n = 0; n < s.sea.damping.size(); ++n)
+    for (const auto& [name, body] : s.bodies) {
+      const double size = bodies::extent(body);
+      if (name != s.sea.damping[n].body || size == 0.0) continue;
+      const double natural = std::sqrt(size / std::max(1.0, std::abs(s.environment.gravity_m_s2)));
+      const double force = s.sea.damping[n].force_N_s_m.maxCoeff();
+      const Eigen::Vector3d moments = s.sea.damping[n].moment_N_m_s;
+      const auto tell = [&](const char* key, double decays) {
+        if (decays < least * natural)
+          doubts.push_back({fmt::format("sea.damping[{}].{}", n, key), fmt::format("stops body {} within {:.2g} s", name, decays),
+                            fmt::format("{:.2g} s or more, {:g} of sqrt(size / g)", least * natural, least),
+                            "look at its unit: N s/m, N m s"});
+      };
+      if (force > 0.0) tell("force_N_s_m", body.mass_kg / force);
+      for (int axis = 0; axis < 3; ++axis)
+        if (moments[axis] > 0.0 && body.inertia_kg_m2(axis, axis) < least * natural * moments[axis]) {
+          tell("moment_N_m_s", body.inertia_kg_m2(axis, axis) / moments[axis]);
+          break;
+        }
+    }
+}
+
+/// Where the floating system would come to rest, or starts at rest, against where it is described.
 void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start& start) {
-  if (floating.particle_plan() || start.equilibrium) return;
-  const MeanLoads mean(floating);
-  const bodies::Equilibrium found = find_equilibrium(floating.multibody(), start.state, 0.0);
+  if (floating.particle_plan()) return;
+  const auto found_now = [&] {
+    const MeanLoads mean(floating);
+    return find_equilibrium(floating.multibody(), start.state, 0.0);
+  };
+  const bodies::Equilibrium found = start.equilibrium ? *start.equilibrium : found_now();
   if (!found.problem.empty()) return;
   const auto all = floating.multibody().bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {
@@ -182,11 +243,20 @@ void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start&
     const ReferenceMotion m = reference_motion(found.state.motions[b], all[b].initial, floating.reference_point(b),
                                                Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     const double turned = m.angles.head<2>().cwiseAbs().maxCoeff() / radians_per_degree, heave = m.displacement.z();
-    if (turned > 30.0 || std::abs(heave) > bodies::extent(body))
+    const double draft = -bodies::bounds(body).min().z();  // where it is described
+    const double most_heave = floating.scenario().has_sea() && draft > 0.0 ? 0.3 * draft : bodies::extent(body);
+    if (turned > 30.0 || std::abs(heave) > most_heave)
       doubts.push_back({"bodies." + all[b].name,
-                        fmt::format("rests {:.3g} m {} and heeled by {:.3g} degrees", std::abs(heave),
+                        fmt::format("rests {:.3g} m {} than described and heeled by {:.3g} degrees", std::abs(heave),
                                     heave > 0.0 ? "higher" : "lower", turned),
-                        "less than its size, and 30 degrees", "look at the loads, the weight and its place"});
+                        fmt::format("up to {:.3g} m, 0.3 of its draft, and 30 degrees", most_heave),
+                        "look at the loads, the weight and its place, and at the shapes' sizes"});
+    const double aside = m.displacement.head<2>().norm(),
+                 most = std::max(0.5 * floating.scenario().environment.water_depth_m, bodies::extent(body));
+    if (floating.scenario().has_sea() && !floating.scenario().moorings.empty() && aside > most)
+      doubts.push_back({"moorings", fmt::format("body {} rests {:.4g} m aside of where it is described", all[b].name, aside),
+                        fmt::format("up to {:.3g} m, half the depth or its size", most),
+                        "look at the lines' stiffness and length, and at the units of the loads"});
   }
 }
 
@@ -207,14 +277,66 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (wavy && s.time.end_s < s.waves.period_s)
     doubts.push_back({"time.end_s", fmt::format("{:.4g} s under waves of {:.4g} s", s.time.end_s, s.waves.period_s),
                       "one period at least", "the run ends before the first wave has passed"});
+  for (const auto& [key, value] :
+       {std::pair{"waves.ramp_s", wavy ? s.waves.ramp_s : 0.0}, std::pair{"start.ramp_s", s.start.ramp_s},
+        std::pair{"sea.wavemaker.ramp_s", s.sea.wavemaker ? s.sea.wavemaker->ramp_s : 0.0}})
+    if (value > s.time.end_s)
+      doubts.push_back({key, fmt::format("{:.4g} s in a run of {:.4g} s", value, s.time.end_s), "shorter than the run",
+                        "the run ends before what grows is there; look at its unit: s"});
+  if (s.wind.event && s.has_rotor() && s.wind.event->start_s > s.time.end_s)
+    doubts.push_back({"wind.event.start_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.wind.event->start_s, s.time.end_s),
+                      "before the end of the run", "the gust does not come; look at its unit: s"});
+  if (s.output.means_over_s > s.time.end_s)
+    doubts.push_back({"output.means_over_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.output.means_over_s, s.time.end_s),
+                      "up to the length of the run", "look at its unit: s"});
+  if (s.sea.settle_s() > 10.0 * s.time.end_s)
+    doubts.push_back({"sea.initial.settle_s", fmt::format("{:.4g} s before a run of {:.4g} s", s.sea.settle_s(), s.time.end_s),
+                      "up to ten times the run", "look at its unit: s"});
+}
+
+/// Blades in resolved air move by their own length of cells in a window, not by a sector.
+void doubt_turn(scene::Doubts& doubts, const Scenario& s, double speed) {
+  constexpr double most = 12.0;
+  if (!s.resolves_air() || s.aero.flow->time == "steady" || s.aero.model == "actuator_disc") return;
+  if (const double turn = std::abs(speed) * s.time.window_s / radians_per_degree; turn > most)
+    doubts.push_back({"time.window_s", fmt::format("{:.4g} s, in which the rotor turns by {:.3g} degrees", s.time.window_s, turn),
+                      fmt::format("up to {:g} degrees", most), "shorten it: a window is a step of the flow"});
+}
+
+/// Cells over an actuator's rotor.
+void doubt_cells(scene::Doubts& doubts, const Scenario& s, double radius) {
+  if (!s.has_actuator() || !s.aero.flow->generate || s.aero.flow->generate->kind != "stretched_box" || radius <= 0.0) return;
+  if (const double cell = s.aero.flow->generate->cell_m; cell > 0.25 * radius)
+    doubts.push_back({"aero.flow.generate.cell_m", fmt::format("{:.4g} m for blades of {:.4g} m", cell, radius),
+                      "up to a quarter of the radius; a tenth is usual", "the rotor falls between the cells"});
+}
+
+double radius_of(const Scenario& s) {
+  if (!s.rotor.turbine.empty()) return aero::read_turbine(s.rotor.turbine).planform.span.back();
+  return s.rotor.diameter_m ? 0.5 * *s.rotor.diameter_m : 0.0;
+}
+
+/// The body that turns with the rotor, where a bearing of its own carries it.
+void doubt_rotor_body(scene::Doubts& doubts, const Scenario& s, const aero::RotorAtStart& rotor) {
+  if (s.rotor.joint.empty()) return;
+  const aero::RotorOptions placed = placed_rotor(s).rotor;
+  for (const auto& [name, body] : s.bodies) {
+    if (name != s.rotor.body) continue;
+    const Eigen::Vector3d axis = placed.axis.normalized();
+    aero::RotorAtStart described = rotor;
+    described.hub = placed.hub_m, described.axis = axis;
+    append(doubts, rotor_body_doubts({"bodies." + name, body.centre_m,
+                                      std::sqrt(std::max(0.0, axis.dot(body.inertia_kg_m2 * axis)) / body.mass_kg)},
+                                     described));
+  }
 }
 
 void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start) {
   const Scenario& s = floating.scenario();
   const aero::RotorState now = floating.rotor()->state(0.0, start.state.motions);
   aero::RotorAtStart rotor{.hub = now.hub, .axis = now.axis, .speed = now.speed, .over_water = s.has_sea()};
-  if (s.rotor.diameter_m) rotor.radius = 0.5 * *s.rotor.diameter_m;
-  if (!s.rotor.turbine.empty()) rotor.radius = aero::read_turbine(s.rotor.turbine).planform.span.back();
+  rotor.parked = s.is_controlled() && s.control.start == aero::ControlStart::parked;
+  rotor.radius = radius_of(s);
   if (s.aero.model != "blade_resolved") rotor.reynolds = floating.rotor()->reynolds(0.0, now);
   if (!s.resolves_air()) {
     const aero::RotorLoad load = floating.rotor()->load(0.0, now);
@@ -223,6 +345,9 @@ void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const St
     if (const double carried = weight(floating); carried > 0.0 && std::abs(load.thrust) > 0.5 * carried)
       doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start", load.thrust),
                         fmt::format("up to half the weight of all bodies, {:.3g} N", carried), "look at its unit: N, not kN"});
+    else if (s.aero.model == "prescribed" && load.thrust < 0.0)
+      doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start, against the rotor's axis", load.thrust),
+                        "above zero: the air pushes the rotor downwind", "look at the signs of the thrust and of the axis"});
     else if (constexpr double least = 1e-4;
              carried > 0.0 && s.aero.model == "prescribed" && load.thrust != 0.0 && std::abs(load.thrust) < least * carried)
       doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start", load.thrust),
@@ -230,6 +355,9 @@ void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const St
                         "look at its unit: N, not kN"});
   }
   append(doubts, rotor_doubts(s.aero, s.rotor, s.wind, s.environment.air_density_kg_m3, rotor));
+  doubt_rotor_body(doubts, s, rotor);
+  doubt_turn(doubts, s, rotor.speed);
+  doubt_cells(doubts, s, rotor.radius);
 }
 
 }  // namespace
@@ -239,22 +367,41 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   scene::Doubts all = body_doubts(s.bodies);
   moorings::LineSurroundings around{s.has_sea() ? s.environment.water_depth_m : -1.0, weight(floating),
                                     s.environment.water_density_kg_m3, s.environment.gravity_m_s2, s.time.step()};
-  for (const auto& [name, body] : s.bodies) around.masses_kg[name] = body.mass_kg;
+  sea::BodiesInSea in_sea{.entry_speed = bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2)};
+  for (const auto& [name, body] : s.bodies) {
+    around.masses_kg[name] = body.mass_kg;
+    if (const Eigen::AlignedBox3d box = bodies::bounds(body); !box.isEmpty())
+      around.shapes[name] = box, in_sea.boxes.emplace_back(name, box);
+  }
   append(all, line_doubts(s.moorings, around));
-  double draft = 0.0;
   const FullLoads full(floating);
-  if (s.has_sea() && !start.state.motions.empty()) draft = doubt_floating(all, floating, start);
-  if (s.has_sea())
-    append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment),
-                           {draft, bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2)}));
+  if (s.has_sea() && !start.state.motions.empty()) in_sea.draft = doubt_floating(all, floating, start);
+  if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), in_sea));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
   if (floating.rotor()) doubt_rotor(all, floating, start);
   if (!start.state.motions.empty()) {
     doubt_acceleration(all, floating, start);
     doubt_modes(all, floating, stability);
     doubt_statics(all, floating, start);
+    doubt_resonance(all, floating, start, stability);
+    doubt_length(all, floating, stability);
   }
+  if (s.has_sea()) doubt_damping(all, s);
   doubt_times(all, floating);
+  return all;
+}
+
+scene::Doubts air_doubts(const Scenario& s) {
+  scene::Doubts all;
+  if (has_resolved_rotor(s) || s.has_actuator()) {
+    const aero::RotorOptions rotor = placed_rotor(s).rotor;
+    const aero::RotorAtStart start{.hub = rotor.hub_m, .axis = rotor.axis, .speed = rotor.speed, .radius = radius_of(s)};
+    all = rotor_doubts(s.aero, rotor, s.wind, s.environment.air_density_kg_m3, start);
+    doubt_turn(all, s, rotor.speed);
+    doubt_cells(all, s, start.radius);
+  }
+  for (const scene::Doubt& doubt : flow_doubts(*s.aero.flow, s.wind.speed_m_s, s.time.window_s, s.environment.air_density_kg_m3))
+    if (std::ranges::find(all, doubt.key, &scene::Doubt::key) == all.end()) all.push_back(doubt);
   return all;
 }
 

@@ -11,5 +11,7 @@ namespace spindrift::coupling {
 
 /// `start` and `stability`: as make_start and stability gave them. Changes nothing in the floating system but its scratch.
 scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability);
+/// Of a scene of the air alone.
+scene::Doubts air_doubts(const Scenario& scenario);
 
 }  // namespace spindrift::coupling

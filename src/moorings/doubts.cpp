@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "kernels/base/constants.hpp"
 #include "kernels/mooring/line_catenary.hpp"
 #include "src/moorings/model.hpp"
 
@@ -36,16 +37,45 @@ void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOption
 }
 
 /// Chain, wire and fibre rope alike have an axial stiffness of some 10^6 m times their weight in water: studless chain 8.5e10 d^2
-/// N over 1.7e5 d^2 N/m, wire rope 4e10 over 3e4 (diameters d in m; Orcina's fits to manufacturers' tables). Buoyant ropes may
-/// weigh less.
+/// N over 1.7e5 d^2 N/m, wire rope 4e10 over 3.4e4, spiral strand 9e10 over 4.2e4, polyester 1.1e9 over 2e3, nylon 1.2e8 over 650
+/// (diameters d in m; Orcina's fits to manufacturers' tables). A weight in kg/m is a tenth of that in N/m.
 void doubt_material(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N_m) {
   if (!hangs(line) || !line.axial_stiffness_N) return;
   const double ratio = *line.axial_stiffness_N / weight_N_m;
-  if (ratio < 3e4 || ratio > 5e7)
+  if (ratio < 6e4 || ratio > 4e6)
     doubts.push_back({at + (line.mass_kg_m == 0.0 ? ".weight_N_m" : ".mass_kg_m"),
                       fmt::format("{:.4g} N/m in water with an axial stiffness of {:.4g} N", weight_N_m, *line.axial_stiffness_N),
-                      "a stiffness of 3e4 to 5e7 m times the weight in water",
+                      "a stiffness of 6e4 to 4e6 m times the weight in water",
                       "look at the units: N/m in water, not kg/m or kN/m; N, not kN"});
+}
+
+/// Where the line leaves its body: on the body, and on the side of its anchor.
+void doubt_fairlead(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around) {
+  const auto found = around.shapes.find(line.body);
+  if (found == around.shapes.end()) return;
+  const Eigen::AlignedBox3d& box = found->second;
+  const double half = 0.5 * box.diagonal().norm();
+  if (const double off = std::sqrt(box.squaredExteriorDistance(line.fairlead_m)); off > 0.5 * half) {
+    doubts.push_back({at + ".fairlead_m", fmt::format("{:.4g} m away from the shapes of body {}", off, line.body),
+                      fmt::format("within {:.3g} m of them", 0.5 * half),
+                      "look at its unit and sign, and whether it stands in place of the anchor"});
+    return;
+  }
+  const Eigen::Vector2d out = (line.fairlead_m - box.center()).head<2>(), to = (line.anchor_m - line.fairlead_m).head<2>();
+  if (out.norm() < 0.02 * half || to.norm() < 0.1 * line.rest_length_m || line.anchor_body != "earth") return;
+  constexpr double least = -0.3;  // of the cosine: 107 degrees
+  if (out.dot(to) < least * out.norm() * to.norm())
+    doubts.push_back({at + ".anchor_m",
+                      fmt::format("on the far side of body {}: the line leaves its fairlead at {:.3g} degrees from outwards",
+                                  line.body, std::acos(out.dot(to) / (out.norm() * to.norm())) / radians_per_degree),
+                      "up to 107 degrees: lines do not cross the body", "look at the signs of anchor_m, or whose anchor it is"});
+}
+
+void doubt_friction(scene::Doubts& doubts, const std::string& at, const LineOptions& line) {
+  if (constexpr double most = 2.0; hangs(line) && line.bed_friction > most)
+    doubts.push_back({at + ".bed_friction", fmt::format("{:.4g}", line.bed_friction),
+                      fmt::format("up to {:g}: chain on sand has 0.7 to 1 (DNV-OS-E301)", most),
+                      "it has no unit, and is not in per cent"});
 }
 
 /// Chords instead of arcs: the tension is off by some (segment / radius of curvature)^2 / 24, 1 per cent at half the radius.
@@ -87,6 +117,8 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     const double weight_N_m = weight_in_water(line, around.water_density_kg_m3, around.gravity_m_s2);
     doubt_length(doubts, at, line, around.weight_N);
     doubt_material(doubts, at, line, weight_N_m);
+    doubt_fairlead(doubts, at, line, around);
+    doubt_friction(doubts, at, line);
     if (line_models().named(line.model).make_dynamic)
       doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
     if (depth_m < 0.0 || line.anchor_body != "earth") continue;
@@ -99,6 +131,10 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
       doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m.z(), above),
                         fmt::format("an anchor on the bed at {:.4g} m, where the line lies", -depth_m),
                         "look at anchor_m and environment.water_depth_m, or say bed_contact = false"});
+    else if (!hangs(line) && above > 0.5 * depth_m && line.anchor_m.z() < -0.1 * depth_m)
+      doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m.z(), above),
+                        fmt::format("an anchor near the bed at {:.4g} m", -depth_m),
+                        "look at anchor_m and environment.water_depth_m"});
     if (line.fairlead_m.z() < -depth_m)
       doubts.push_back({at + ".fairlead_m", fmt::format("z = {:.4g} m is under the bed", line.fairlead_m.z()),
                         fmt::format("a fairlead above {:.4g} m", -depth_m), "look at its sign and at environment.water_depth_m"});

@@ -1,6 +1,7 @@
 // Doubts about mooring lines. Called by src/coupling/doubts.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Geometry>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,8 +17,9 @@ struct LineSurroundings {
   double depth_m = -1.0;  ///< of the water, negative where the scene has no sea
   double weight_N = 0.0;  ///< of all bodies together
   double water_density_kg_m3 = 1025.0, gravity_m_s2 = 9.80665;
-  double step_s = 0.0;                        ///< of the bodies
-  std::map<std::string, double> masses_kg{};  ///< of each body
+  double step_s = 0.0;                                  ///< of the bodies
+  std::map<std::string, double> masses_kg{};            ///< of each body
+  std::map<std::string, Eigen::AlignedBox3d> shapes{};  ///< round those of each body that has any, where the scene describes it
 };
 scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, const LineSurroundings& around);
 

@@ -77,7 +77,7 @@ void fill_sea(coupling::FloatingSystem& floating, std::span<const Motion> start,
 
 coupling::Sides sides_in_filled_sea(coupling::FloatingSystem& floating, std::span<const Motion> start,
                                     const runtime::Parts& parts, Moves moves) {
-  {
+  if (floating.particle_plan()) {
     const runtime::Span span("sea/start");
     fill_sea(floating, start, parts);
   }
@@ -355,7 +355,7 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
     summary.counts.emplace_back("particles_left", std::int64_t(sea->left()));
   }
   // Bodies beside particles move within tasks of the sea, and ask for their loads within their own.
-  if (parts_.has(sea_part)) {
+  if (parts_.has(sea_part) && !floating_.scenario().bodies.empty()) {
     if (floating_.particles()) ledger.move("sea", "bodies/substeps", window_.bodies().own_ns(), window_.bodies().steps());
     const auto clocks = floating_.clocks();
     for (std::size_t s = 0; s < clocks.size(); ++s)

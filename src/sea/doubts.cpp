@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
@@ -71,6 +72,56 @@ void doubt_coefficients(scene::Doubts& doubts, const SeaOptions& sea) {
 
 }  // namespace
 
+namespace {
+
+/// The tank itself, which a census of particles does not question.
+void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions& waves, const SeaEnvironment& e,
+                const BodiesInSea& bodies) {
+  if (!sea.tank) return;
+  const bool wavy = waves.model != "none" && waves.period_s > 0.0;
+  const double omega = wavy ? 2.0 * pi / waves.period_s : 0.0, length = wavy ? wave_length(waves.period_s, e) : 0.0;
+  const double along = sea.tank->x_m[1] - sea.tank->x_m[0];
+  if (wavy && sea.tank->top_m < 0.75 * waves.height_m)
+    doubts.push_back({"sea.tank.top_m", fmt::format("{:.4g} m with waves {:.4g} m high", sea.tank->top_m, waves.height_m),
+                      "three quarters of the height or more: crests are higher than troughs are deep",
+                      "the water leaves over the walls; z is up from still water"});
+  if (wavy && along < 0.5 * length)
+    doubts.push_back({"sea.tank.x_m", fmt::format("{:.4g} m long with waves {:.4g} m long", along, length), "half a wave or more",
+                      "look at the period and at the unit of the tank: m"});
+  for (std::size_t n = 0; n < sea.damping_zones.size(); ++n) {
+    const DampingZoneOptions& zone = sea.damping_zones[n];
+    const std::string at = fmt::format("sea.damping_zones[{}]", n);
+    if (wavy && (zone.rate_1_s < 0.2 * omega || zone.rate_1_s > 30.0 * omega))
+      doubts.push_back({at + ".rate_1_s",
+                        fmt::format("{:.4g} 1/s, {:.3g} of the waves' angular frequency", zone.rate_1_s, zone.rate_1_s / omega),
+                        "0.2 to 30 times it", "a weak zone lets waves through, a hard one throws them back"});
+    const int axis = zone.axis == "y" ? 1 : 0;
+    const auto [low, high] = std::minmax(zone.from_m, zone.to_m);
+    for (const auto& [name, box] : bodies.boxes)
+      if (box.max()[axis] > low && box.min()[axis] < high)
+        doubts.push_back(
+            {at + ".from_m",
+             fmt::format("a zone from {:.4g} to {:.4g} m along {}, where body {} is", zone.from_m, zone.to_m, zone.axis, name),
+             "zones beside the bodies", "the water round it is brought to rest"});
+  }
+}
+
+/// Numbers of the particles that decide cost or damping.
+void doubt_schemes(scene::Doubts& doubts, const ParticleOptions& p, const SeaEnvironment& e, const BodiesInSea& bodies) {
+  constexpr double most = 60.0;
+  if (const double slow = std::max(std::sqrt(e.gravity * e.water_depth), bodies.entry_speed);
+      p.sound_speed_m_s && *p.sound_speed_m_s > most * slow)
+    doubts.push_back({"sea.particles.sound_speed_m_s",
+                      fmt::format("{:.4g} m/s where nothing is faster than {:.3g} m/s", *p.sound_speed_m_s, slow),
+                      fmt::format("up to {:g} times that", most),
+                      "the step goes with its inverse; water's own 1500 m/s are not needed, ten times what moves is enough"});
+  if (p.viscosity_model == sph::ViscosityChoice::artificial && p.viscosity > 0.5)
+    doubts.push_back({"sea.particles.viscosity", fmt::format("{:.4g}", p.viscosity), "0.005 to 0.5 (Monaghan 1994: .01)",
+                      "alpha of the artificial viscosity has no unit; much of it stops waves"});
+}
+
+}  // namespace
+
 scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const SeaEnvironment& e, const BodiesInSea& bodies) {
   scene::Doubts doubts;
   if (sea.model == "none") return doubts;
@@ -79,7 +130,13 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   if (const double current = sea.current_m_s.norm(); current > 5.0)
     doubts.push_back(
         {"sea.current_m_s", fmt::format("{:.4g} m/s", current), "up to 5 m/s", "look at its unit: m/s, not km/h or cm/s"});
+  if (const double up = std::abs(sea.current_m_s.z()); up > 0.1 * std::max(1.0, sea.current_m_s.norm()))
+    doubts.push_back({"sea.current_m_s", fmt::format("{:.4g} m/s upwards", sea.current_m_s.z()), "level: z is up",
+                      "look at the order: x, y, z"});
   const bool wavy = waves.model != "none" && waves.period_s > 0.0;
+  if (sea.model == "morison" && sea.strip_length_m < 0.01 * bodies.draft)
+    doubts.push_back({"sea.strip_length_m", fmt::format("{:.4g} m along a draft of {:.4g} m", sea.strip_length_m, bodies.draft),
+                      "a hundredth of the draft or more", "the cost goes with their number; look at its unit: m"});
   if (sea.model == "morison" && wavy) {
     const double length = wave_length(waves.period_s, e);
     if (sea.strip_length_m > length / 5.0)
@@ -87,6 +144,8 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
                         "up to a fifth of the wave", "the strips do not see the wave; shorten them"});
   }
   if (!sea.has_particles() || !sea.particles) return doubts;
+  doubt_tank(doubts, sea, waves, e, bodies);
+  doubt_schemes(doubts, *sea.particles, e, bodies);
   const double spacing = sea.particles->spacing_m;
   if (wavy && waves.height_m > 0.0 && waves.height_m < 0.5 * spacing)
     doubts.push_back({"sea.particles.spacing_m", fmt::format("{:.4g} m for waves {:.4g} m high", spacing, waves.height_m),

@@ -209,6 +209,37 @@ class Program(Folder):
         done = self.run_case("--restart", "--until", stopped_at + 10, *long_run)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_parts_that_a_scene_lacks_have_no_entry_no_columns_and_no_memory(self):
+        """summary.json names each part of the program that took time; the least scene of all is what the others' memory is held against."""
+        always = {"output", "exchange", "run", "waiting", "messages", "runtime"}  # of every window
+        engineering = ROOT / "inputs/leble_barakos"
+        small_air = ["--set", "aero.flow.generate.around=24", "--set", "aero.flow.generate.outward=12"]
+        # Scene, time, what it has, beginnings of its columns, options.
+        scenes = [
+            (ROOT / "tests/extremes/pendulum.toml", 0.1, {"bodies", "gravity"}, {"rod", "hinge", "joints", "energy"}, []),
+            (ROOT / "tests/extremes/buoy.toml", 0.1, {"bodies", "gravity", "sea"}, {"buoy", "energy"}, []),
+            (ROOT / "tests/extremes/weight.toml", 0.1, {"bodies", "gravity", "moorings"}, {"weight", "line", "energy"}, []),
+            (ROOT / "inputs/validation/dtu_tower/dtu_tower.toml", 0.1, {"bodies", "gravity", "beams"}, {"nacelle", "rotor", "shaft", "joints", "tower", "energy"}, []),
+            (ROOT / "inputs/control/dtu_10mw_fixed.toml", 0.5, {"bodies", "gravity", "rotor"}, {"turbine", "foundation", "joints", "rotor", "energy"}, []),
+            (engineering / "case1_engineering.toml", 0.1, {"bodies", "gravity", "moorings", "sea", "rotor"},
+             {"platform", "rotor", "bearing", "joints", "line_downwind", "line_upwind_left", "line_upwind_right", "energy"}, []),
+            (ROOT / "inputs/validation/standing_wave/standing_wave.toml", 0.01, {"sea"}, {"sea", "antinode"}, []),
+            (ROOT / "inputs/validation/cylinder_low_mach/cylinder.toml", 2, {"aero"}, {"flow"}, small_air),
+        ]
+        memory = []
+        for scene, until, has, columns, more in scenes:
+            with self.subTest(scene.name):
+                done = self.run_case("--until", until, "--overwrite", *more, scene=scene)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                summary = json.loads((self.out / "summary.json").read_text())
+                parts = {part["name"] for part in summary["parts"]} if isinstance(summary["parts"], list) else set(summary["parts"])
+                self.assertEqual(parts - always, has)
+                with open(self.out / "history.csv", encoding="utf-8") as file:
+                    self.assertEqual({name.split(".")[0] for name in file.readline().strip().split(",")} - {"time_s"}, columns)
+                memory.append(summary["peak_memory_bytes"])
+        # None of these scenes holds a megabyte of its own; a part that is made without being asked for would.
+        self.assertLess(max(memory) - min(memory), 4e6)
+
     def test_the_reference_in_the_repository_is_that_of_the_program(self):
         text = spindrift("reference", "--markdown").stdout
         self.assertEqual(text, (ROOT / "inputs/REFERENCE.md").read_text(), "run ci/reference and commit inputs/REFERENCE.md")
