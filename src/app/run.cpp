@@ -1,6 +1,7 @@
 // spindrift run: reads the scene, runs it into a run directory, writes summary and report.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <omp.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <utility>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/mpi/affinity.hpp"
 #include "runtime/mpi/parts.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "src/app/forecast.hpp"
@@ -223,6 +225,11 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   const io::BuildInfo& build = io::build_info();
   spdlog::info("spindrift {} ({}), {} rank{}: {}", build.version, build.commit, world.size, world.size == 1 ? "" : "s",
                arguments.scene);
+  const bool fluids = scenario->has_particles() || scenario->resolves_air();  // bodies take one thread
+  const runtime::Affinity affinity = runtime::affinity(world, fluids ? omp_get_max_threads() : 1);
+  spdlog::info("{}", affinity.places);
+  if (world.rank == 0)
+    for (const std::string& crowded : affinity.crowding) spdlog::warn("{}", crowded);
 
   run::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
   settings.scene = arguments.scene, settings.record_graph = arguments.record_graph,
