@@ -7,6 +7,7 @@
 #include <map>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/grid/aerofoil.hpp"
 #include "src/import/openfast_parts.hpp"
 
 namespace spindrift::decks {
@@ -148,6 +149,77 @@ std::vector<std::string> write_foil(const Deck& ad, const Deck& file, const std:
   return said;
 }
 
+/// The outline of a section as a turbine file has it: from the trailing edge along the suction side to the nose and back.
+struct Outline {
+  std::vector<Eigen::Vector2d> points{};
+  double thickness_pct = 0.0;
+  std::string fault{};  ///< why these points are none
+};
+
+/// Of an aerofoil file's NumCoords: the points follow, after one that is the section's reference, or @ names a file where they
+/// do.
+Outline outline_of(const Deck& foil) {
+  const auto line = foil.find({"NumCoords"});
+  const std::string word = line ? foil.words(*line)[0] : "0";
+  const bool apart = word.starts_with('@');
+  const std::filesystem::path path = apart ? foil.beside(word.substr(1)) : foil.file();
+  if (!std::filesystem::exists(path)) return {.fault = fmt::format("{} is not there", path.filename().string())};
+  const Deck file = apart ? Deck(path, '!') : foil;
+  const auto head = file.find({"NumCoords"});
+  const int count = head ? file.integer({"NumCoords"}, 0) : 0;
+  if (count < 10) return {.fault = "the aerofoil file has no coordinates"};
+  Outline outline;
+  for (std::size_t row = *head + 2; row < *head + 1 + std::size_t(count); ++row) {  // past the reference
+    const std::vector<std::string> words = file.rows(row, 1, 2)[0];
+    const Eigen::Vector2d point(file.to_number(words[0], row), file.to_number(words[1], row));
+    if (outline.points.empty() || point != outline.points.back()) outline.points.push_back(point);
+  }
+  std::vector<Eigen::Vector2d> loop = outline.points;
+  if ((loop.front() - loop.back()).norm() < 1e-9) loop.pop_back();
+  if (signed_area(loop) < 0.0) std::ranges::reverse(outline.points), std::ranges::reverse(loop);
+  for (const Eigen::Vector2d& end : {outline.points.front(), outline.points.back()})
+    if (std::abs(end.x() - 1.0) > 0.02) outline.fault = "its coordinates do not begin and end at the trailing edge";
+  for (const Eigen::Vector2d& p : loop)
+    if (p.x() < -0.05 || p.x() > 1.05) outline.fault = "its coordinates leave the chord";
+  if (outline.fault.empty() && first_crossing(loop).first >= 0) outline.fault = "its outline crosses itself";
+  outline.thickness_pct = std::min(100.0, std::round(1e4 * outline_thickness(loop)) / 1e2);
+  return outline;
+}
+
+/// The outlines of the sections that resolved blades need, by aerofoil file; empty where one of them has none.
+std::map<int, Outline> outlines_of(const std::map<int, Deck>& foils, std::vector<std::string>& left_out) {
+  std::map<int, Outline> outlines;
+  for (const auto& [number, foil] : foils) {
+    Outline outline = outline_of(foil);
+    if (!outline.fault.empty()) {
+      left_out.push_back(fmt::format("outlines of the sections, which resolved blades need: {}: {}",
+                                     foil.file().filename().string(), outline.fault));
+      return {};
+    }
+    // Blades are blended by thickness: sections as thick as each other are one.
+    for (const auto& [other, before] : outlines)
+      if (std::abs(before.thickness_pct - outline.thickness_pct) < 0.2) outline.thickness_pct = before.thickness_pct;
+    outlines[number] = std::move(outline);
+  }
+  return outlines;
+}
+
+/// Writes an outline of each thickness, the first one, and returns what the turbine file says of them.
+std::string write_outlines(const std::map<int, Outline>& outlines, const std::filesystem::path& folder) {
+  std::string said;
+  std::vector<double> written;
+  for (const auto& [number, outline] : outlines) {
+    if (std::ranges::find(written, outline.thickness_pct) != written.end()) continue;
+    written.push_back(outline.thickness_pct);
+    const std::string name = fmt::format("aerofoil_{}.csv", number);
+    std::ofstream csv(folder / name);
+    csv << "x_c,y_c\n";
+    for (const Eigen::Vector2d& p : outline.points) csv << fmt::format("{:.9g},{:.9g}\n", p.x(), p.y());
+    said += fmt::format("  {{ thickness_pct = {:.9g}, file = \"{}\" }},\n", outline.thickness_pct, name);
+  }
+  return said;
+}
+
 }  // namespace
 
 WrittenTurbine write_turbine(const Deck& ad, const RotorFrame& r, const std::filesystem::path& folder) {
@@ -155,18 +227,28 @@ WrittenTurbine write_turbine(const Deck& ad, const RotorFrame& r, const std::fil
   const Deck blade(ad.path({"ADBlFile(1)", "ADBlFile1"}));
   const std::vector<BladeNode> nodes = read_nodes(blade);
 
+  const auto files = std::size_t(ad.number({"NumAFfiles"}));
+  const std::size_t names = *ad.find({"NumAFfiles"}) + 1;
+  std::map<int, Deck> decks;
+  for (const BladeNode& n : nodes) {
+    if (n.polar < 1 || std::size_t(n.polar) > files)
+      blade.fail(std::nullopt, fmt::format("names polar {}; {} has {}", n.polar, ad.file().filename().string(), files));
+    if (!decks.contains(n.polar)) decks.emplace(n.polar, Deck(ad.beside(ad.words(names + std::size_t(n.polar) - 1)[0]), '!'));
+  }
+  const std::map<int, Outline> outlines = outlines_of(decks, written.left_out);
+
   // Each stretch of one aerofoil has a number, so that an element between two stations has the mean of theirs.
   std::ofstream planform(folder / "planform.csv");
-  planform << "# From " << blade.file().filename().string() << ".\nspan_m,chord_m,twist_deg,polar,prebend_m,sweep_m\n";
+  planform << "# From " << blade.file().filename().string() << ".\nspan_m,chord_m,twist_deg,polar,prebend_m,sweep_m"
+           << (outlines.empty() ? "" : ",thickness_pct") << "\n";
   std::vector<int> stretches;
   for (const BladeNode& n : nodes) {
     if (stretches.empty() || stretches.back() != n.polar) stretches.push_back(n.polar);
-    planform << fmt::format("{:.9g},{:.9g},{:.9g},{},{:.9g},{:.9g}\n", n.span + r.hub_radius, n.chord, n.twist, stretches.size(),
-                            n.bend, -n.sweep);  // BlSwpAC: positive against the rotation
+    planform << fmt::format("{:.9g},{:.9g},{:.9g},{},{:.9g},{:.9g}", n.span + r.hub_radius, n.chord, n.twist, stretches.size(),
+                            n.bend, -n.sweep)  // BlSwpAC: positive against the rotation
+             << (outlines.empty() ? "" : fmt::format(",{:.9g}", outlines.at(n.polar).thickness_pct)) << "\n";
   }
 
-  const auto files = std::size_t(ad.number({"NumAFfiles"}));
-  const std::size_t names = *ad.find({"NumAFfiles"}) + 1;
   std::ofstream turbine(folder / "turbine.toml");
   turbine << "# From " << ad.file().filename().string() << ".\n[turbine]\n"
           << fmt::format("blades = {}\nhub_radius_m = {:.9g}\nprecone_deg = {:.9g}\nplanform = \"planform.csv\"\n{}polars = [\n",
@@ -175,15 +257,13 @@ WrittenTurbine write_turbine(const Deck& ad, const RotorFrame& r, const std::fil
   std::map<int, std::vector<std::string>> foils;
   for (std::size_t n = 0; n < stretches.size(); ++n) {
     const int polar = stretches[n];
-    if (polar < 1 || std::size_t(polar) > files)
-      blade.fail(std::nullopt, fmt::format("names polar {}; {} has {}", polar, ad.file().filename().string(), files));
     if (!foils.contains(polar))
-      foils[polar] = write_foil(ad, Deck(ad.beside(ad.words(names + std::size_t(polar) - 1)[0]), '!'),
-                                fmt::format("polar_{}", polar), folder, written.left_out);
+      foils[polar] = write_foil(ad, decks.at(polar), fmt::format("polar_{}", polar), folder, written.left_out);
     written.by_reynolds |= foils[polar].size() > 1;
     for (const std::string& said : foils[polar]) turbine << fmt::format("  {{ number = {}, {} }},\n", n + 1, said);
   }
   turbine << "]\n";
+  if (!outlines.empty()) turbine << "aerofoils = [\n" << write_outlines(outlines, folder) << "]\n";
   return written;
 }
 

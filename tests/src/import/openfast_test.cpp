@@ -443,6 +443,41 @@ TEST_CASE("an aerofoil that comes twice along the blade has a number for each st
   CHECK(turbine.polars[2].drag == turbine.polars[0].drag);
 }
 
+TEST_CASE("outlines of a deck's sections are the turbine's, so that its blades can be resolved", "[import][fast]") {
+  SmallDeck deck;
+  const auto left_out = [&] {
+    std::string all;
+    for (const std::string& what : deck.import().left_out) all += what + "\n";
+    return all;
+  };
+  CHECK_THAT(left_out(), Catch::Matchers::Contains("root.dat: the aerofoil file has no coordinates"));
+  CHECK(aero::read_turbine(deck.scenario().rotor.turbine).aerofoils.empty());
+
+  // A circle the other way round, in the file itself; a wedge of 30 % in a file beside it.
+  std::string circle = "\n 34 NumCoords ! points\n! reference\n0.25 0\n";
+  for (int n = 0; n <= 32; ++n) {
+    const double angle = 2.0 * pi * n / 32;
+    circle += std::to_string(0.5 + 0.5 * std::cos(angle)) + " " + std::to_string(-0.5 * std::sin(angle)) + "\n";
+  }
+  deck.replace("root.dat", "1 NumTabs", circle + "1 NumTabs");
+  deck.files["wedge.txt"] =
+      " 12 NumCoords\n! reference\n0.25 0\n1 0.01\n1 0.01\n0.7 0.07\n0.5 0.11\n0.3 0.15\n0.1 0.1\n0 0\n0.1 -0.1\n0.3 "
+      "-0.15\n0.6 -0.08\n1 0\n";
+  deck.replace("foil.dat", "1 NumTabs", "@\"wedge.txt\" NumCoords\n1 NumTabs");
+  CHECK(left_out().find("outlines") == std::string::npos);
+  const aero::Turbine turbine = aero::read_turbine(deck.scenario().rotor.turbine);
+  REQUIRE(turbine.aerofoils.size() == 2);
+  CHECK(turbine.aerofoils[0].thickness == Approx(0.30));
+  CHECK(turbine.aerofoils[0].outline.size() == 10);
+  CHECK(turbine.aerofoils[1].thickness == Approx(1.0));
+  CHECK(turbine.aerofoils[1].outline[8].y() == Approx(0.5));
+  CHECK(turbine.planform.thickness == std::vector<double>{1.0, 0.3, 0.3, 0.3});
+
+  deck.replace("wedge.txt", "0.3 -0.15", "0.3 0.16");
+  CHECK_THAT(left_out(), Catch::Matchers::Contains("foil.dat: its outline crosses itself"));
+  CHECK(aero::read_turbine(deck.scenario().rotor.turbine).aerofoils.empty());
+}
+
 TEST_CASE("a controller library of a deck is the scene's, with its drive train and its numbers", "[import][fast]") {
   SmallDeck deck;
   deck.replace("main.fst", "0 CompServo", "1 CompServo");
