@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "runtime/trace/ledger.hpp"
 #include "src/aero/coarse_start.hpp"
@@ -158,6 +159,9 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
     if (march.verdict() == aero::Verdict::converged && !march.spent())
       advance.settled = fmt::format("{}; flux balance down to {:.2g}, density residual to {:.2g}", march.why(),
                                     march.balance_drop(), density_drop(march));
+    if (!advance.settled.empty())
+      if (const std::string walls = unresolved_walls(first_cells(solver, world_)); !walls.empty())
+        advance.failure = fmt::format("aero: {}, but {}", std::exchange(advance.settled, {}), walls);
     solver.judgement().keep_last_row();
   } else {
     rows_ = {solver.rows().back()};
@@ -199,7 +203,10 @@ std::string FlowSimulation::unconverged_windows(std::int64_t window) const {
 
 std::string FlowSimulation::failure_at_end() const {
   const aero::FlowOptions& o = *scenario_.aero.flow;
-  if (!air_.steady() || o.drop <= 0.0) return {};
+  if (!air_.steady() || o.drop <= 0.0) {
+    const std::string walls = unresolved_walls(first_cells(air_.solver(), world_));
+    return walls.empty() ? walls : "aero: " + walls;
+  }
   const aero::March& march = air_.solver().march();
   return fmt::format(
       "aero: not converged in the {} pseudo-steps of the scene: the flux balance has fallen by {:.2g}, the density residual by "

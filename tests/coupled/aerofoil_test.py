@@ -71,6 +71,18 @@ class Fast(Runs):
         self.assertEqual(again.returncode, 3, again.stdout + again.stderr)  # it has not converged by being looked at
         self.assertEqual(json.loads((self.out / "summary.json").read_text())["exit_reason"], summary["exit_reason"])
 
+    def test_unsteady_windows_of_half_a_chord_converge_with_default_settings(self):
+        code, summary, last = self.aerofoil(6, settings=('aero.flow.time="bdf2"', "aero.flow.drop=1e-3", "time.window_s=0.01", "time.end_s=0.06", "aero.flow.max_pseudo_steps=50"))
+        self.assertEqual(code, 0, self.words)
+        self.assertEqual(last["flow.unconverged_windows"], 0.0)
+        self.assertLess(last["flow.pseudo_steps"], 15)  # with the stored matrix alone it has 6e-3 after 100
+
+    def test_wilcox_1988_keeps_the_omega_of_its_stream_up_to_the_aerofoil(self):
+        code, _, last = self.aerofoil(10, "k_omega_1988")
+        self.assertEqual(code, 0, self.words)
+        self.assertAlmostEqual(last["flow.lift_coefficient"], 1.069, delta=0.02)
+        self.assertAlmostEqual(last["flow.drag_coefficient"], 0.0136, delta=0.001)  # with the omega that is left after 500 chords several times that
+
     def test_a_march_that_comes_to_nothing_begins_again_in_the_ways_there_are(self):
         steps_of_no_length = ("aero.flow.cfl=0.002", "aero.flow.cfl_max=0.002")
         ways = ("begins again from aero.flow.start = \"wind\" on the grid itself, without coarser grids",

@@ -59,9 +59,12 @@ class FlowRun(Folder):
         self.assertNotIn(words, done.stdout)
         for more, bad in ((coarse, True), (fine, False)):
             done = spindrift("run", scene, "--out", self.out, "--overwrite", *more)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            trouble = json.loads((self.out / "summary.json").read_text())["numerical_trouble"]
-            self.assertEqual([words in text for text in trouble], [True] if bad else [])
+            self.assertEqual(done.returncode, 3 if bad else 0, done.stdout + done.stderr)
+            summary = json.loads((self.out / "summary.json").read_text())
+            trouble = summary["numerical_trouble"]
+            self.assertEqual("the loads are no answer" in summary["exit_reason"], bad, summary["exit_reason"])
+            self.assertEqual(any(words in text for text in trouble), bad, trouble)
+            self.assertEqual(bool(trouble), bad, trouble)
             for file in ("log.txt", "report.html"):
                 self.assertEqual(words in (self.out / file).read_text(), bad, file)
 

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <vector>
 
 using namespace spindrift::aero;
 
@@ -185,6 +186,46 @@ TEST_CASE("a march stands still where its balance is not halved for long, far fr
   all_steps.begin_step();
   all_steps.judge(of(1.0), 0.0);
   CHECK_FALSE(all_steps.stands_still());
+}
+
+TEST_CASE("a march that goes in circles with the stored matrix takes the linearised residual for good", "[flow][fast]") {
+  const MarchOptions options{.drop = 1e-3, .by_balance = true, .max_steps = 50, .matrix_free_below = 1e-2};
+  const auto circle = [](March& march, double at, int steps) {
+    for (int n = 0; n < steps; ++n) {
+      REQUIRE(march.judge(of(at), 0.0) == Verdict::go_on);
+      march.updated(1.0, 5, 0.1);
+    }
+  };
+  March march(options);
+  march.begin_step();
+  circle(march, 1.0, 1);
+  const std::vector<double> before = march.save();
+  circle(march, 0.1, 6);
+  CHECK(!march.matrix_free());
+  circle(march, 0.1, 1);
+  CHECK(march.matrix_free());
+  march.begin_step();
+  circle(march, 1.0, 1);
+  CHECK(march.matrix_free());
+  March restarted(options);
+  restarted.load(march.save());
+  restarted.begin_step();
+  circle(restarted, 1.0, 1);
+  CHECK(restarted.matrix_free());
+  march.load(before);  // a window that is made again begins as it did
+  circle(march, 0.1, 1);
+  CHECK(!march.matrix_free());
+
+  // A balance that falls, however it goes on, and windows whose number of steps is given keep the matrix.
+  March falls(options);
+  falls.begin_step();
+  double at = 1.0;
+  for (int n = 0; n < 20; ++n, at *= 0.87) circle(falls, at, 1);
+  CHECK(!falls.matrix_free());
+  March all({.drop = 0.0, .by_balance = true, .max_steps = 50, .matrix_free_below = 1e-2});
+  all.begin_step();
+  circle(all, 1.0, 1), circle(all, 0.1, 20);
+  CHECK(!all.matrix_free());
 }
 
 TEST_CASE("a look at a march that has begun judges its state again and changes nothing", "[flow][fast]") {
