@@ -10,6 +10,7 @@
 #include "kernels/base/binned_sum.hpp"
 #include "kernels/sph/time_step.hpp"
 #include "runtime/mpi/stop_request.hpp"
+#include "src/sea/sph/bounds.hpp"
 #include "src/sea/sph/by_identity.hpp"
 #include "src/sea/sph/damping.hpp"
 #include "src/sea/sph/gauges.hpp"
@@ -136,7 +137,7 @@ class Sea final : public ParticleSea {
   void close() override {
     if (sea_.state().plan.stopped) throw runtime::StopAsked();
     const std::optional<NumericalFailure>& failure = sea_.state().plan.failure;
-    if (!failure) return;
+    if (!failure) return require_bounded();
     // Who drives the window knows the scene's time, the sea its own.
     const std::string what = failure->what(), told = what.starts_with("t = ") ? "" : "t = " + sph::in_words(t_) + " s: ";
     throw NumericalFailure(told + what, failure->place, failure->step, told.empty() ? failure->time_s : t_, failure->limit);
@@ -290,6 +291,13 @@ class Sea final : public ParticleSea {
   std::int64_t sorts() const override { return sea_.work().sorts; }
 
  private:
+  /// The last step's end, which no step has looked at yet.
+  void require_bounded() const {
+    const std::optional<sph::Beyond> beyond = sph::beyond_bounds(sea_.store(), sea_.parameters(), comm_);
+    if (!beyond) return;
+    throw NumericalFailure("t = " + sph::in_words(t_) + " s: " + beyond->describe(dim), "sea", long(sea_.work().steps), t_,
+                           beyond->limit);
+  }
   void add_sensor(const ParticlePlan& plan, const SensorOptions& sensor) {
     constexpr sph::Cut cut = dim == 2 ? sph::Cut::plane : sph::Cut::space;
     const double d = plan.options.spacing_m;
