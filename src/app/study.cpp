@@ -62,6 +62,17 @@ Json of_metric(const std::string& metric_name, const scene::MetricOptions& o) {
           {"target", or_null(o.target)}};
 }
 
+Json of_load_cases(const scene::LoadCasesOptions& o) {
+  return {{"columns", o.columns},
+          {"from_s", o.from_s},
+          {"wind_axis", o.wind_axis},
+          {"mean_wind_m_s", o.mean_wind_m_s},
+          {"weibull_shape", o.weibull_shape},
+          {"years", o.years},
+          {"equivalent_cycles", o.equivalent_cycles},
+          {"wohler_exponents", o.wohler_exponents}};
+}
+
 /// A scene that every check has passed, with the echo by which a finished run is known again.
 struct Checked {
   std::string echo;
@@ -87,12 +98,15 @@ Checked checked(const std::string& file, const std::vector<std::string>& overrid
 void check_columns(const scene::Study& study, const std::string& rung, const std::vector<std::string>& columns,
                    std::vector<scene::Problem>& problems) {
   if (columns.empty()) return;
-  for (const auto& [metric, options] : study.metrics) {
-    if (std::find(columns.begin(), columns.end(), options.column) != columns.end()) continue;
-    const std::string near = scene::nearest(options.column, columns);
-    problems.push_back({study.file, 0, fmt::format("metrics.{}.column", metric), fmt::format("\"{}\"", options.column),
+  const auto check = [&](const std::string& key, const std::string& column) {
+    if (std::find(columns.begin(), columns.end(), column) != columns.end()) return;
+    const std::string near = scene::nearest(column, columns);
+    problems.push_back({study.file, 0, key, fmt::format("\"{}\"", column),
                         fmt::format("is no column of {}{}", rung, near.empty() ? "" : "; did you mean \"" + near + "\"?")});
-  }
+  };
+  for (const auto& [metric, options] : study.metrics) check(fmt::format("metrics.{}.column", metric), options.column);
+  if (study.load_cases)
+    for (const std::string& column : study.load_cases->columns) check("load_cases.columns", column);
 }
 
 /// A reference from elsewhere must have them too.
@@ -104,8 +118,14 @@ void check_history(const scene::Study& study) {
 }
 
 Json of_rung(const scene::Study& study, const scene::StudyRun& rung, std::vector<scene::Problem>& problems) {
-  Json out{{"name", rung.name},    {"variant", rung.variant}, {"scene", fs::absolute(rung.scene).string()},
-           {"at", rung.at},        {"later", rung.later},     {"fixed", study.replicas && rung.replicas == 0},
+  Json out{{"name", rung.name},
+           {"variant", rung.variant},
+           {"scene", fs::absolute(rung.scene).string()},
+           {"at", rung.at},
+           {"later", rung.later},
+           {"fixed", study.replicas && rung.replicas == 0},
+           {"safety_factor", rung.safety_factor},
+           {"fatigue", rung.fatigue},
            {"runs", Json::array()}};
   const std::vector<scene::StudyPoint> replicas =
       study.replicas && rung.replicas > 0 ? points_of("replica", *study.replicas) : std::vector<scene::StudyPoint>{{}};
@@ -146,6 +166,7 @@ int study(const StudyArguments& arguments, const runtime::World& world) {
             {"replicas", study.replicas ? of_axis("replica", *study.replicas) : Json(nullptr)},
             {"reference", nullptr},
             {"metrics", Json::array()},
+            {"load_cases", study.load_cases ? of_load_cases(*study.load_cases) : Json(nullptr)},
             {"rungs", Json::array()}};
   for (const auto& [name, axis] : study.axes) plan["axes"].push_back(of_axis(name, axis));
   for (const auto& [name, metric] : study.metrics) plan["metrics"].push_back(of_metric(name, metric));

@@ -275,6 +275,7 @@ def main():
     given = parser.parse_args()
     try:
         import study_judge
+        import study_load_cases
         import study_histories
     except ModuleNotFoundError as missing:
         say(f"Python at {sys.executable} has no module '{missing.name}': install the package python3-{missing.name} (ci/setup does)")
@@ -315,8 +316,15 @@ def main():
         say(f"stopped on request: {len(runs.results)} runs are done; the same command goes on")
         return STOPPED
     result = judge().result(left_out)
+    if plan["load_cases"]:
+        result["load_cases"] = study_load_cases.LoadCases(plan, {k: v for k, v in runs.results.items() if k in names},
+                                                          study_histories.reader(folder)).result()
+        write_whole(folder / "load_cases.csv", study_load_cases.as_csv(result["load_cases"]))
     write_whole(folder / "study.json", json.dumps(result, indent=1))
     print_result(result, folder)
+    if plan["load_cases"]:
+        say(study_load_cases.as_text(result["load_cases"]))
+        say(f"load cases: {folder / 'load_cases.csv'}")
     page = subprocess.run([sys.executable, "-B", "-E", "-s", pathlib.Path(__file__).parent / "spindrift_report.py", folder],
                           capture_output=True, text=True, check=False)
     say(f"report: {folder / 'study.html'}" if page.returncode == 0 else f"no report: {page.stderr.strip()[-200:]}")

@@ -187,6 +187,34 @@ def _budget(study):
     return parts
 
 
+def _load_cases(study):
+    """Design extremes and ranges of a life, then every case."""
+    found = study.get("load_cases")
+    if not found:
+        return ""
+
+    def table(heads, rows):
+        head = "".join(f"<th{' class=text' if text else ''}>{page.escape(h)}</th>" for h, text in heads)
+        body = "".join("<tr>" + "".join(f"<td{' class=text' if text else ''}>{page.escape(v) if text else page.number(v, 4)}</td>"
+                                        for v, (_, text) in zip(row, heads)) + "</tr>" for row in rows)
+        return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
+
+    exponents = found["options"]["wohler_exponents"]
+    parts = table([("column", True), ("end", True), ("design", False), ("characteristic", False), ("factor", False), ("case", True)],
+                  [(e["column"], e["end"], e["design"], e["characteristic"], e["factor"], e["rung"]) for e in found["extremes"]])
+    if found["lifetime"]:
+        o = found["options"]
+        parts += f"<h3>Ranges that {o['equivalent_cycles']:g} cycles make in {o['years']:g} years</h3>" + table(
+            [("column", True), ("m", False), ("range", False), ("most damage", True)],
+            [(r["column"], r["exponent"], r["range"], r["worst"]) for r in found["lifetime"]])
+    parts += "<h3>Cases</h3>" + table(
+        [("case", True), ("column", True), ("seeds", False), ("share of life", False), ("mean", False), ("deviation", False), ("mean of minima", False),
+         ("mean of maxima", False), *[(f"1 Hz range, m = {m:g}", False) for m in exponents]],
+        [(c["rung"], c["column"], c["seeds"], found["shares"].get(c["rung"], 0.0), c["mean"], c["deviation"], c["min"], c["max"], *c["equivalent"])
+         for c in found["cases"]])
+    return parts + "".join(f"<p>{page.escape(note)}.</p>" for note in found["notes"])
+
+
 def build(folder):
     study = json.loads((folder / "study.json").read_text(encoding="utf-8"))
     found = study["answer"] or not any(m["target"] for m in study["metrics"])
@@ -201,7 +229,8 @@ def build(folder):
                      f"order {page.number(l['order'], 3) if l['order'] else 'not needed'}") + "</li>" for l in study["limits"])
     left = "".join(f"<li>{page.escape(text)}</li>" for text in study["not_tested"])
     drawn = "".join(_figure(study, m) for m in study["metrics"]) if reference else ""
-    sections = [section("figures", "Error against cost", f'<div class="figures">{drawn}</div>' if drawn else ""), section("rungs", "Rungs", _table(study)),
+    sections = [section("figures", "Error against cost", f'<div class="figures">{drawn}</div>' if drawn else ""), section("load-cases", "Load cases", _load_cases(study)),
+                section("rungs", "Rungs", _table(study)),
                 section("budget", f"Where the error of {study['budget_of']} comes from", _budget(study)),
                 section("limits", "Limits", f"<ul>{limits}</ul>" if limits else ""), section("not-tested", "What was not tested", f"<ul>{left}</ul>" if left else "")]
     return html_page.render(title=f"Study {pathlib.Path(study['study']).stem}", eyebrow=f"Spindrift study · {study['study']}",

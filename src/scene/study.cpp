@@ -78,7 +78,12 @@ const Section<VariantOptions>& variant_section() {
                                            "At most so many replicas; all where absent. 0: nothing in this rung depends on them; "
                                            "it runs once, as the scene is, and "
                                            "stands beside each replica of the others.",
-                                           at_least(0));
+                                           at_least(0))
+                                  .number("safety_factor", &VariantOptions::safety_factor, "-",
+                                          "Partial factor of its extremes in [load_cases]: 1.35 of normal, 1.1 of abnormal, 1.5 "
+                                          "of transport and maintenance cases (IEC 61400-1).",
+                                          between(1.0, 3.0))
+                                  .flag("fatigue", &VariantOptions::fatigue, "Its runs do damage in [load_cases].");
   return section;
 }
 
@@ -126,6 +131,28 @@ const Section<ReferenceOptions>& reference_section() {
                 "Name of an axis whose values are numbers: Richardson's limit from its three finest, with "
                 "the order that they show.")
           .one_of({"variant", "history", "limit"});
+  return section;
+}
+
+const Section<LoadCasesOptions>& load_cases_section() {
+  static const auto section =
+      Section<LoadCasesOptions>("load_cases",
+                                "A table of design load cases: statistics of every rung over its replicas, design extremes, and "
+                                "damage-equivalent ranges of a life.")
+          .texts("columns", &LoadCasesOptions::columns, "Columns of history.csv.")
+          .required()
+          .number("from_s", &LoadCasesOptions::from_s, "s", "Start of the time range: what comes before is start-up.")
+          .text("wind_axis", &LoadCasesOptions::wind_axis,
+                "Name of the axis whose values are mean wind speeds; where not given there are extremes, but no life.")
+          .number("mean_wind_m_s", &LoadCasesOptions::mean_wind_m_s, "m/s",
+                  "Mean wind of the site at the hub: 10, 8.5, 7.5 of classes I, II, III (IEC 61400-1).", positive())
+          .number("weibull_shape", &LoadCasesOptions::weibull_shape, "-", "Of the distribution of wind speeds; 2 is Rayleigh's.",
+                  between(1.0, 4.0))
+          .number("years", &LoadCasesOptions::years, "-", "Length of the life [years].", positive())
+          .number("equivalent_cycles", &LoadCasesOptions::equivalent_cycles, "-", "Cycles of the equivalent range in the life.",
+                  positive())
+          .numbers("wohler_exponents", &LoadCasesOptions::wohler_exponents, "-",
+                   "Slopes of S-N curves: 3 to 4 of steel, 10 of glass fibre.", between(1.0, 20.0));
   return section;
 }
 
@@ -204,6 +231,24 @@ bool is_positive_number(const std::string& text) {
   return end == text.c_str() + text.size() && std::isfinite(value) && value > 0.0;
 }
 
+void check_load_cases(Document& doc, const Study& study) {
+  const LoadCasesOptions& o = *study.load_cases;
+  if (o.columns.empty()) doc.problem("load_cases.columns", "must name a column at least");
+  if (o.wind_axis.empty()) return;
+  const auto axis = std::find_if(study.axes.begin(), study.axes.end(), [&](const auto& a) { return a.name == o.wind_axis; });
+  if (axis == study.axes.end()) return doc.problem("load_cases.wind_axis", "is no axis of this study");
+  if (study.study.design != Design::product) doc.problem("study.design", "must be \"product\" for [load_cases] with a wind_axis");
+  const std::vector<std::string>& values = axis->options.values;
+  double before = 0.0;
+  for (const std::string& value : values) {
+    if (!is_positive_number(value) || std::stod(value) <= before)
+      return doc.problem("load_cases.wind_axis",
+                         "must have wind speeds > 0 as its values, from low to high: " + value + " is none");
+    before = std::stod(value);
+  }
+  if (values.size() < 2) doc.problem("load_cases.wind_axis", "must have two values at least");
+}
+
 /// Two runs of one name would share a directory; a reference must be one of the runs.
 void check_runs(Document& doc, const Study& study) {
   if (size_of_product(study) > most_runs)
@@ -234,7 +279,8 @@ void check_runs(Document& doc, const Study& study) {
 }  // namespace
 
 std::vector<const SectionBase*> study_sections() {
-  return {&study_section(), &variant_section(), &axis_section(), &replicas_section(), &reference_section(), &metric_section()};
+  return {&study_section(),     &variant_section(), &axis_section(),      &replicas_section(),
+          &reference_section(), &metric_section(),  &load_cases_section()};
 }
 
 Study read_study(const std::string& path, const std::vector<std::string>& overrides) {
@@ -248,6 +294,7 @@ Study read_study(const std::string& path, const std::vector<std::string>& overri
   study.replicas = doc.read_if_given(replicas_section());
   study.reference = doc.read_if_given(reference_section());
   study.metrics = doc.read_named(metric_section());
+  study.load_cases = doc.read_if_given(load_cases_section());
   check_form(doc, "study.set", study.study.set);
   for (const auto& [name, variant] : study.variants) {
     check_form(doc, "variants." + name + ".set", variant.set);
@@ -268,6 +315,7 @@ Study read_study(const std::string& path, const std::vector<std::string>& overri
       if (metric.target) needs("target");
       if (metric.relative) needs("relative");
     }
+  if (study.load_cases) check_load_cases(doc, study);
   check_runs(doc, study);
   doc.finish();
   return study;
@@ -311,6 +359,7 @@ std::vector<StudyRun> expand(const Study& study) {
       run.name = name + at.name, run.variant = name, run.overrides = study.study.set;
       run.scene = variant.scene.empty() ? study.study.scene : variant.scene;
       run.replicas = std::min(replicas, variant.replicas.value_or(replicas));
+      run.safety_factor = variant.safety_factor, run.fatigue = variant.fatigue;
       append(run.overrides, variant.set);
       append(run.overrides, at.overrides);
       runs.push_back(std::move(run));

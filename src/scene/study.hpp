@@ -40,6 +40,8 @@ struct VariantOptions {
   std::vector<std::string> set = {};
   bool alone = false;                ///< not multiplied with the axes
   std::optional<int> replicas = {};  ///< at most so many of them; 0: one run that they do not touch
+  double safety_factor = 1.35;       ///< of extremes in a table of load cases
+  bool fatigue = true;               ///< its runs do damage in such a table
 };
 
 /// [[axes.NAME.points]]: overrides that change together.
@@ -80,6 +82,16 @@ struct MetricOptions {
   std::optional<double> target = {};        ///< largest error that is good enough
 };
 
+/// [load_cases]: statistics, design extremes and damage of the runs.
+struct LoadCasesOptions {
+  std::vector<std::string> columns;
+  double from_s = 0.0;
+  std::string wind_axis;                             ///< whose values are wind speeds; empty: no life
+  double mean_wind_m_s = 10.0, weibull_shape = 2.0;  ///< class I of IEC 61400-1
+  double years = 20.0, equivalent_cycles = 1e7;
+  std::vector<double> wohler_exponents = {4.0, 10.0};
+};
+
 struct Study {
   std::string file;       ///< as given
   std::string directory;  ///< overrides that name files start here
@@ -89,6 +101,7 @@ struct Study {
   std::optional<AxisOptions> replicas;
   std::optional<ReferenceOptions> reference;
   std::vector<Named<MetricOptions>> metrics;
+  std::optional<LoadCasesOptions> load_cases;
 };
 
 /// One rung of a study, to be run once per replica.
@@ -100,6 +113,8 @@ struct StudyRun {
   std::vector<int> at = {};            ///< point of each axis; empty of a variant that is alone
   bool later = false;                  ///< pairs: run where its two axes turn out to matter
   int replicas = 1;                    ///< how many; 0: one run that they do not touch
+  double safety_factor = 1.35;         ///< as of its variant
+  bool fatigue = true;
 };
 
 /// A point of an axis, or a replica: its name ("step_0.1") and what it sets.
