@@ -72,13 +72,15 @@ const std::vector<Choice>& choices() {
        }},
       {"first-order waves",
        [](Scenario& s) -> std::optional<std::string> {
-         if (!s.has_waves() || !sea::wave_models().named(s.waves.model).second_order) return std::nullopt;
+         if (!s.has_waves() || !sea::wave_models().named(s.waves.model).nonlinear) return std::nullopt;
          s.waves.model = "airy";
          return "waves.model = \"airy\"";
        }},
       {"half the wave components",
        [](Scenario& s) -> std::optional<std::string> {
-         if (!s.has_waves() || sea::wave_models().named(s.waves.model).regular || s.waves.components < 20) return std::nullopt;
+         if (!s.has_waves() || sea::wave_models().named(s.waves.model).regular || s.waves.components < 20 ||
+             !s.waves.file.empty())
+           return std::nullopt;
          s.waves.components /= 2;
          return fmt::format("waves.components = {}", s.waves.components);
        }},

@@ -62,7 +62,7 @@ Campbell campbell(const Scenario& s, const bodies::Linearisation& linearisation,
   c.rows.push_back({"this scene",
                     s.wind.speed_m_s,
                     s.has_waves() ? s.waves.height_m : 0.0,
-                    s.has_waves() ? 1.0 / s.waves.period_s : 0.0,
+                    s.has_waves() && s.waves.period_s > 0.0 ? 1.0 / s.waves.period_s : 0.0,
                     own,
                     3.0 * own,
                     {}});

@@ -77,7 +77,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
   }
   if (!s.moorings.empty()) {
     moorings::LineEnvironment around{s.environment.gravity_m_s2, s.environment.water_density_kg_m3};
-    if (s.has_waves() || !s.sea.current_m_s.isZero(0.0))
+    if (s.has_waves() || !s.sea.current_m_s.isZero(0.0) || !s.sea.current_profile.empty())
       around.water = [this](double t, const Eigen::Vector3d& point) {
         if (!sea_ || particle_plan_) return LineWater{};
         const waves::Kinematics water = sea_now().water(t, point);

@@ -361,8 +361,9 @@ std::string describe_sea(const Scenario& s) {
   std::size_t cylinders = 0;
   for (const auto& body : s.bodies) cylinders += body.options.cylinders.size();
   std::string text = fmt::format("{}, {} cylinder{}", s.sea.model, cylinders, cylinders == 1 ? "" : "s");
-  text +=
-      s.has_waves() ? fmt::format(", waves {} (H {} m, T {} s)", s.waves.model, s.waves.height_m, s.waves.period_s) : ", calm";
+  text += !s.has_waves()         ? ", calm"
+          : s.waves.file.empty() ? fmt::format(", waves {} (H {} m, T {} s)", s.waves.model, s.waves.height_m, s.waves.period_s)
+                                 : fmt::format(", waves of {}", s.waves.file);
   return text;
 }
 

@@ -42,7 +42,14 @@ struct Table {
 
 struct Across {
   double drag = 1.0, added_mass = 1.0;
+  bool diffracts = false;
 };
+
+/// The word MCF in the place of C_a: waves as MacCamy and Fuchs have it, motions of the member with C_a = 1.
+Across across(double drag, const std::string& added, const Deck& file, std::size_t line) {
+  if (added == "MCF" || added == "mcf") return {drag, 1.0, true};
+  return {drag, file.to_number(added, line)};
+}
 struct Disc {
   double drag = 0.0, added_mass = 0.0;
 };
@@ -82,8 +89,8 @@ class Coefficients {
       : depths_(hd, {"NCoefDpthCyl", "NCoefDpth"}), members_(hd, {"NCoefMembersCyl", "NCoefMembers"}) {
     for (std::size_t n = 0; n < hd.size(); ++n) {
       if (hd.words(n).empty() || (hd.words(n)[0] != "SimplCd" && hd.words(n)[0] != "SimplCd1")) continue;
-      const std::vector<double> row = hd.numbers(n + 2, 4);
-      simple_ = {row[0], row[2]};
+      hd.rows(n + 2, 1, 4);
+      simple_ = across(hd.to_number(hd.words(n + 2)[0], n + 2), hd.words(n + 2)[2], hd, n + 2);
       break;
     }
   }
@@ -97,7 +104,7 @@ class Coefficients {
   Across at_depth(double depth, std::size_t line) const {
     const Table& t = depths_;
     if (t.count == 0) t.file.fail(line, "has MCoefMod 2, but there is no table over depth");
-    const auto row = [&](std::size_t n) { return Across{t.number(n, "DpthCd"), t.number(n, "DpthCa")}; };
+    const auto row = [&](std::size_t n) { return across(t.number(n, "DpthCd"), t.text(n, "DpthCa"), t.file, t.line(n)); };
     if (depth <= t.number(0, "Dpth")) return row(0);
     for (std::size_t n = 1; n < t.count; ++n) {
       const double above = t.number(n - 1, "Dpth"), below = t.number(n, "Dpth");
@@ -105,14 +112,15 @@ class Coefficients {
       if (depth > below) continue;
       const double x = (depth - above) / (below - above);
       const Across a = row(n - 1), b = row(n);
-      return {(1.0 - x) * a.drag + x * b.drag, (1.0 - x) * a.added_mass + x * b.added_mass};
+      return {(1.0 - x) * a.drag + x * b.drag, (1.0 - x) * a.added_mass + x * b.added_mass, a.diffracts};
     }
     return row(t.count - 1);
   }
   Across of_member(const std::string& member, char end, std::size_t line) const {
     const std::string drag = std::string("MemberCd") + end, added = std::string("MemberCa") + end;
     for (std::size_t n = 0; n < members_.count; ++n)
-      if (members_.text(n, "MemberID") == member) return {members_.number(n, drag.c_str()), members_.number(n, added.c_str())};
+      if (members_.text(n, "MemberID") == member)
+        return across(members_.number(n, drag.c_str()), members_.text(n, added.c_str()), members_.file, members_.line(n));
     members_.file.fail(line, fmt::format("has MCoefMod 3, but no coefficients are given for member {}", member));
   }
 
@@ -158,14 +166,21 @@ std::vector<Member> read_members(const Deck& hd, double depth, std::vector<std::
       hd.fail(line, "is a member of rectangular section; cylinders are known");
     const double mode = table.number(n, "MCoefMod");
     if (mode != 1.0 && mode != 2.0 && mode != 3.0) hd.fail(line, fmt::format("has MCoefMod {}: 1, 2 and 3 are known", mode));
+    bool diffracts = false;
     const auto end = [&](const char* joint, const char* set, char which) {
       const Joint& j = look_up(joints, table.text(n, joint), hd, line, "joint");
       const Section& s = look_up(sections, table.text(n, set), hd, line, "property set");
       const Across c = coefficients.of(int(mode), id, j.at, which, line);
+      diffracts = c.diffracts;
       return MemberEnd{j.at, s.diameter, s.thickness, c.drag, c.added_mass, j.disc.drag, j.disc.added_mass};
     };
-    Member member{"member_" + id, end("MJointID1", "MPropSetID1", '1'), end("MJointID2", "MPropSetID2", '2'),
-                  table.number(n, "MDivSize"), !table.has("PropPot") || is_true(table.text(n, "PropPot"))};
+    Member member{"member_" + id,
+                  end("MJointID1", "MPropSetID1", '1'),
+                  end("MJointID2", "MPropSetID2", '2'),
+                  table.number(n, "MDivSize"),
+                  !table.has("PropPot") || is_true(table.text(n, "PropPot")),
+                  false};
+    member.diffracts = diffracts;
     if (!clip_at_bed(member, depth)) continue;
     const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-9 * (std::abs(a) + std::abs(b)); };
     if (differ(member.start.drag, member.end.drag) || differ(member.start.added_mass, member.end.added_mass))

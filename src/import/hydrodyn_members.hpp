@@ -20,8 +20,9 @@ struct MemberEnd {
 struct Member {
   std::string name;
   MemberEnd start, end;
-  double strip_length;    ///< [m]
-  bool potential = true;  ///< its inertia and buoyancy are those of the potential flow
+  double strip_length;     ///< [m]
+  bool potential = true;   ///< its inertia and buoyancy are those of the potential flow
+  bool diffracts = false;  ///< MacCamy and Fuchs (MCF)
 };
 
 /// Members down to the bed at -depth. An end's drag in HydroDyn is half of a scene's for the same coefficient (a quarter of

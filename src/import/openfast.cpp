@@ -433,7 +433,7 @@ class Importer {
     const bool still = wave_model(waves) == 0;
 
     std::string sea = fmt::format("\n[sea]\nmodel = \"{}\"\n", potential ? "potential" : "morison");
-    sea += current(waves) + members(hd, potential);
+    sea += current(waves) + members(hd, potential, !still);
     if (potential)
       sea += potential_flow(hd, still);
     else
@@ -531,7 +531,7 @@ class Importer {
   }
 
   /// Members as cylinders of the body. [sea] has the coefficients of the first, [[sea.coefficients]] those that differ.
-  std::string members(const Deck& hd, bool potential) {
+  std::string members(const Deck& hd, bool potential, bool linear_waves) {
     const std::vector<Member> all = read_members(hd, depth_, left_out_);
     ballast_ = read_ballast(hd, all, water_density_);
     if (all.empty()) return "";
@@ -568,6 +568,7 @@ class Importer {
         key("added_mass_coefficient", k.added, first.added);
         key("axial_added_mass_coefficient", k.axial_added, first.axial_added);
         key("end_axial_added_mass_coefficient", k.end_axial_added, k.axial_added);
+        if (m.diffracts && linear_waves) own += "diffraction = \"maccamy_fuchs\"\n";
       }
       if (!own.empty()) text += fmt::format("\n[[sea.coefficients]]\ncylinder = \"{}\"\n{}", m.name, own);
       if (potential && !m.potential) outside += (outside.empty() ? "" : ", ") + m.name;
@@ -576,19 +577,40 @@ class Importer {
     return text;
   }
 
-  /// The part that is the same at all depths; the scene has no other.
+  /// SeaState's standard current: the sum of a power law of 1/7 over the depth, a part of the uppermost metres, and one that is
+  /// the same at all depths.
   std::string current(const Deck& waves) {
     if (waves.integer({"CurrMod"}, 0) == 0) return "";
     if (waves.integer({"CurrMod"}, 0) != 1) {
       leave_out("the current of a routine (CurrMod 2)");
       return "";
     }
-    if (waves.number({"CurrSSV0"}, 0.0) != 0.0 || waves.number({"CurrNSV0"}, 0.0) != 0.0)
-      leave_out("the currents that change with depth (CurrSSV0, CurrNSV0)");
-    const double speed = waves.number({"CurrDIV"}, 0.0), towards = waves.number({"CurrDIDir"}, 0.0) * radians_per_degree;
-    if (speed == 0.0) return "";
-    carry(fmt::format("current: {:.4g} m/s", speed));
-    return "current_m_s = " + vector({speed * std::cos(towards), speed * std::sin(towards), 0.0}) + "\n";
+    const auto part = [&](const char* speed, const char* direction, double otherwise) {
+      const double v = waves.number({speed}, 0.0), towards = waves.number({direction}, otherwise) * radians_per_degree;
+      return Eigen::Vector2d(v * std::cos(towards), v * std::sin(towards));
+    };
+    const Eigen::Vector2d below = part("CurrSSV0", "CurrSSDir", waves.number({"WaveDir"}, 0.0)),
+                          near_surface = part("CurrNSV0", "CurrNSDir", 0.0), uniform = part("CurrDIV", "CurrDIDir", 0.0);
+    std::string text;
+    if (uniform.norm() > 0.0) text += "current_m_s = " + vector({uniform.x(), uniform.y(), 0.0}) + "\n";
+    if (below.norm() + near_surface.norm() > 0.0) {
+      const double reach = near_surface.norm() > 0.0 ? waves.number({"CurrNSRef"}) : 0.0;
+      text += "current_profile = [\n";
+      std::vector<double> levels;
+      constexpr int rows = 24;  // denser towards the bed, where the power law is steep
+      for (int i = 0; i <= rows; ++i) levels.push_back(depth_ * (std::pow(double(i) / rows, 3.0) - 1.0));
+      if (reach > 0.0 && reach < depth_) levels.push_back(-reach);
+      std::ranges::sort(levels);
+      levels.erase(std::ranges::unique(levels).begin(), levels.end());
+      for (const double z : levels) {
+        const Eigen::Vector2d v = below * std::pow(std::max(0.0, (z + depth_) / depth_), 1.0 / 7.0) +
+                                  near_surface * (reach > 0.0 ? std::max(0.0, (z + reach) / reach) : 0.0);
+        text += fmt::format("  [{:.9g}, {:.9g}, {:.9g}],\n", z, v.x(), v.y());
+      }
+      text += "]\n";
+    }
+    if (!text.empty()) carry(fmt::format("current: {:.4g} m/s at the surface", (below + near_surface + uniform).norm()));
+    return text;
   }
 
   /// 10 where "1P90" stands: a regular wave of given phase.
@@ -602,6 +624,7 @@ class Importer {
     const int model = wave_model(waves);
     if (model == 0) return "";
     const double height = waves.number({"WaveHs"}, 0.0), period = waves.number({"WaveTp"}, 0.0);
+    if (model == 5) return waves_of_file(waves);
     if (model != 1 && model != 2 && model != 10) {
       leave_out(fmt::format("waves of WaveMod {}", model));
       return "";
@@ -620,9 +643,50 @@ class Importer {
         text += fmt::format("peak_enhancement = {:.9g}\n", peak);
       leave_out("the phases of the irregular waves: those of the seed are others than HydroDyn's");
     }
-    if (waves.integer({"WaveDirMod"}, 0) != 0) leave_out("directional spreading of the waves");
+    text += spreading(waves, model);
+    if (const int kind = waves.integer({"ConstWaveMod"}, 0); kind != 0 && model == 2) {
+      if (kind != 1) leave_out("the trough of the constrained wave (ConstWaveMod 2): half of CrestHmax is its crest");
+      text += fmt::format("crest_height_m = {:.9g}\ncrest_time_s = {:.9g}\ncrest_place_m = [{:.9g}, {:.9g}]\n",
+                          0.5 * waves.number({"CrestHmax"}), waves.number({"CrestTime"}), waves.number({"CrestXi"}, 0.0),
+                          waves.number({"CrestYi"}, 0.0));
+      carry(fmt::format("constrained crest of {:.4g} m", 0.5 * waves.number({"CrestHmax"})));
+    }
     carry(fmt::format("waves: {} {:.4g} m, {:.4g} s", model == 2 ? "JONSWAP" : "regular", height, period));
     return text;
+  }
+
+  std::string spreading(const Deck& waves, int model) {
+    if (waves.integer({"WaveDirMod"}, 0) == 0) return "";
+    if (model != 2 && model != 5) {
+      leave_out("directional spreading of a regular wave");
+      return "";
+    }
+    carry("directional spreading");
+    return fmt::format("spreading_exponent = {:.9g}\nspreading_range_deg = {:.9g}\n", waves.number({"WaveDirSpread"}),
+                       waves.number({"WaveDirRange"}));
+  }
+
+  /// WaveMod 5: an elevation in time, in two columns after lines of heading.
+  std::string waves_of_file(const Deck& waves) {
+    const Deck file(waves.beside(waves.text({"WvKinFile"}) + ".Elev"), '!');
+    std::ofstream out(folder_ / "elevation.csv");
+    out << "# From " << file.file().filename().string() << ".\ntime_s,elevation_m\n";
+    std::size_t rows = 0;
+    for (std::size_t n = 0; n < file.size(); ++n) {
+      if (file.words(n).empty()) continue;
+      const std::string& first = file.words(n)[0];
+      const bool number = first.find_first_not_of("0123456789+-.eEdD") == std::string::npos;
+      if (rows == 0 && !number) continue;
+      const std::vector<double> row = file.numbers(n, 2);
+      out << fmt::format("{:.9g},{:.9g}\n", row[0], row[1]), ++rows;
+    }
+    if (rows == 0) file.fail(std::nullopt, "has no row of time and elevation");
+    carry(fmt::format("waves: {} elevations of {}", rows, file.file().filename().string()));
+    std::string text = fmt::format("\n[waves]\nmodel = \"elevation\"\nfile = \"elevation.csv\"\ndirection_deg = {:.9g}\n",
+                                   waves.number({"WaveDir"}, 0.0));
+    if (const double highest = waves.number({"WvHiCOff"}, 0.0); highest > 0.0)
+      text += fmt::format("highest_Hz = {:.9g}\n", highest / (2.0 * pi));
+    return text + spreading(waves, 5);
   }
 
   void moorings() {

@@ -316,13 +316,13 @@ def main():
         say(f"stopped on request: {len(runs.results)} runs are done; the same command goes on")
         return STOPPED
     result = judge().result(left_out)
-    if plan["load_cases"]:
+    if plan.get("load_cases"):
         result["load_cases"] = study_load_cases.LoadCases(plan, {k: v for k, v in runs.results.items() if k in names},
                                                           study_histories.reader(folder)).result()
         write_whole(folder / "load_cases.csv", study_load_cases.as_csv(result["load_cases"]))
     write_whole(folder / "study.json", json.dumps(result, indent=1))
     print_result(result, folder)
-    if plan["load_cases"]:
+    if plan.get("load_cases"):
         say(study_load_cases.as_text(result["load_cases"]))
         say(f"load cases: {folder / 'load_cases.csv'}")
     page = subprocess.run([sys.executable, "-B", "-E", "-s", pathlib.Path(__file__).parent / "spindrift_report.py", folder],

@@ -20,6 +20,10 @@ double wave_length(double period_s, const SeaEnvironment& e) {
 
 scene::Doubts wave_doubts(const WavesOptions& w, const SeaEnvironment& e) {
   scene::Doubts doubts;
+  if (w.crest_height_m && *w.crest_height_m > w.height_m)
+    doubts.push_back({"waves.crest_height_m",
+                      fmt::format("{:.4g} m in a sea of significant height {:.4g} m", *w.crest_height_m, w.height_m),
+                      "up to the significant height: one in 3000 crests is higher (Rayleigh)", "look at both heights"});
   if (w.model == "none" || w.period_s <= 0.0 || w.height_m <= 0.0) return doubts;
   const WaveModel& model = wave_models().named(w.model);
   const double length = wave_length(w.period_s, e), steepness = w.height_m / length;
@@ -127,7 +131,10 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   if (sea.model == "none") return doubts;
   doubt_water(doubts, e);
   if (sea.model == "morison") doubt_coefficients(doubts, sea);
-  if (const double current = sea.current_m_s.norm(); current > 5.0)
+  double current = sea.current_m_s.norm();
+  for (const auto& row : sea.current_profile)
+    current = std::max(current, (sea.current_m_s + Eigen::Vector3d(row[1], row[2], 0.0)).norm());
+  if (current > 5.0)
     doubts.push_back(
         {"sea.current_m_s", fmt::format("{:.4g} m/s", current), "up to 5 m/s", "look at its unit: m/s, not km/h or cm/s"});
   if (const double up = std::abs(sea.current_m_s.z()); up > 0.1 * std::max(1.0, sea.current_m_s.norm()))

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/engineering_sea.hpp"
 
+#include <algorithm>
+
 #include "kernels/waves/morison.hpp"
 
 namespace spindrift::sea {
@@ -9,9 +11,10 @@ namespace {
 
 Coefficients coefficients_of(const std::string& cylinder, const SeaOptions& options) {
   const double end_drag = options.axial_drag_coefficient, end_mass = options.axial_added_mass_coefficient;
-  Coefficients c{options.drag_coefficient, options.added_mass_coefficient, {end_drag, end_drag}, {end_mass, end_mass}};
+  Coefficients c{options.drag_coefficient, options.added_mass_coefficient, {end_drag, end_drag}, {end_mass, end_mass}, false};
   for (const CoefficientsOptions& own : options.coefficients) {
     if (own.cylinder != cylinder) continue;
+    c.diffracts = own.diffraction == "maccamy_fuchs";
     c.drag = own.drag_coefficient.value_or(c.drag);
     c.added_mass = own.added_mass_coefficient.value_or(c.added_mass);
     c.axial_drag[0] = own.axial_drag_coefficient.value_or(c.axial_drag[0]);
@@ -58,17 +61,26 @@ void add_at(Wrench& w, const Eigen::Vector3d& force, const Eigen::Vector3d& arm)
 /// The water at a point, current included; still water costs nothing.
 struct Water {
   const WaveField& waves;
-  const Eigen::Vector3d& current;
+  const SteadyCurrent& current;
   const Frame& body;
   const waves::WaterPlane& surface;  ///< about the centre of mass
   double t;
   waves::Kinematics at(const Eigen::Vector3d& arm) const {
-    if (waves.still()) return {current, Eigen::Vector3d::Zero(), 0.0};
     const Eigen::Vector3d point = body.position + arm;
-    const double level = point.z() - surface.height(arm) / surface.normal.z();
-    waves::Kinematics k = waves.kinematics(t, point, level);
-    k.velocity += current;
+    if (waves.still()) return {current.at(point.z()), Eigen::Vector3d::Zero(), 0.0};
+    waves::Kinematics k = waves.kinematics(t, point, level(point, arm));
+    k.velocity += current.at(point.z());
     return k;
+  }
+  /// Acceleration times the inertia coefficients of MacCamy and Fuchs.
+  Eigen::Vector3d scattered(const Eigen::Vector3d& arm, std::span<const waves::ComponentGroup> groups) const {
+    const Eigen::Vector3d point = body.position + arm;
+    return waves.kinematics(t, point, level(point, arm), groups).acceleration;
+  }
+
+ private:
+  double level(const Eigen::Vector3d& point, const Eigen::Vector3d& arm) const {
+    return point.z() - surface.height(arm) / surface.normal.z();
   }
 };
 
@@ -96,15 +108,20 @@ void add_drag(const WettedStrip& strip, const Coefficients& c, double density, c
 }
 
 void add_morison(const WettedStrip& strip, const Coefficients& c, double density, const Frame& body, const Water& water,
-                 SeaLoads& loads, Matrix6* mass) {
+                 std::span<const waves::ComponentGroup> scattered, SeaLoads& loads, Matrix6* mass) {
   const Eigen::Matrix3d along = strip.axis * strip.axis.transpose(), across = Eigen::Matrix3d::Identity() - along;
   for (const Station& s : std::span(strip.stations).first(strip.count)) {
     if (s.volume <= 0.0) continue;
     const waves::Kinematics k = water.at(s.arm);
     const double projected = 2.0 * s.volume / (pi * s.radius), added = c.added_mass * density * s.volume;
     add_at(loads.drag, waves::drag_across(density, c.drag, projected, k.velocity - body.velocity_at(s.arm), strip.axis), s.arm);
-    const Eigen::Vector3d relative = k.acceleration - body.centripetal_at(s.arm);
-    add_at(loads.inertia, density * s.volume * k.acceleration + added * waves::across(relative, strip.axis), s.arm);
+    if (scattered.empty()) {
+      const Eigen::Vector3d relative = k.acceleration - body.centripetal_at(s.arm);
+      add_at(loads.inertia, density * s.volume * k.acceleration + added * waves::across(relative, strip.axis), s.arm);
+    } else {
+      const Eigen::Vector3d wave = along * k.acceleration + across * water.scattered(s.arm, scattered);
+      add_at(loads.inertia, density * s.volume * wave - added * waves::across(body.centripetal_at(s.arm), strip.axis), s.arm);
+    }
     if (mass) waves::add_point_inertia(added * across, s.arm, *mass);
   }
   for (std::size_t i = 0; i < strip.ends.size(); ++i) {
@@ -125,11 +142,12 @@ void add_morison(const WettedStrip& strip, const Coefficients& c, double density
 EngineeringSea::EngineeringSea(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
                                const std::vector<SeaBody>& bodies, double step_s)
     : environment_(environment),
-      current_(options.current_m_s),
+      current_{options.current_m_s, options.current_profile},
       strips_load_(options.model == "morison" || options.model == "potential") {
   if (strips_load_) waves_ = WaveField(waves, environment);
   for (const SeaBody& body : bodies) {
     BodyStrips own{options.model == "none" ? std::vector<Strip>{} : strips_of(body, options), {}, {}, {}};
+    scatter(own.strips);
     if (options.potential && options.potential->body == body.name)
       own.potential.emplace(*options.potential, environment, body.initial, waves_.components(), step_s);
     for (const MatricesOptions& m : options.matrices)
@@ -143,6 +161,28 @@ EngineeringSea::EngineeringSea(const SeaOptions& options, const WavesOptions& wa
           {body.initial.attitude.conjugate() * (point - body.initial.position), damping.force_N_s_m, damping.moment_N_m_s});
     }
     bodies_.push_back(std::move(own));
+  }
+}
+
+Eigen::Vector3d SteadyCurrent::at(double z) const {
+  if (profile.empty()) return uniform;
+  const auto above = std::ranges::find_if(profile, [&](const auto& row) { return row[0] >= z; });
+  const auto velocity = [](const std::array<double, 3>& row) { return Eigen::Vector3d(row[1], row[2], 0.0); };
+  if (above == profile.begin()) return uniform + velocity(profile.front());
+  if (above == profile.end()) return uniform + velocity(profile.back());
+  const auto& low = *(above - 1);
+  const double share = (z - low[0]) / ((*above)[0] - low[0]);
+  return uniform + (1.0 - share) * velocity(low) + share * velocity(*above);
+}
+
+void EngineeringSea::scatter(std::vector<Strip>& strips) {
+  if (waves_.still()) return;
+  for (Strip& strip : strips) {
+    if (!strip.coefficients.diffracts) continue;
+    const double radius = 0.5 * (strip.shape.start_radius + strip.shape.end_radius);
+    const auto known = std::ranges::find(scattering_radii_, radius);
+    strip.scattered = int(known - scattering_radii_.begin());
+    if (known == scattering_radii_.end()) scattering_radii_.push_back(radius), scattered_.push_back(waves_.scattered(radius));
   }
 }
 
@@ -173,7 +213,9 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
     if (own.potential)
       add_drag(part, strip.coefficients, environment_.water_density, body, water, loads);
     else
-      add_morison(part, strip.coefficients, environment_.water_density, body, water, loads, mass);
+      add_morison(part, strip.coefficients, environment_.water_density, body, water,
+                  strip.scattered < 0 ? std::span<const waves::ComponentGroup>() : scattered_[std::size_t(strip.scattered)],
+                  loads, mass);
   }
   if (own.potential) {
     if (own.potential->linear_hydrostatics()) wet = {};
@@ -199,9 +241,9 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
 }
 
 waves::Kinematics EngineeringSea::water(double t, const Eigen::Vector3d& point) const {
-  if (waves_.still()) return {current_, Eigen::Vector3d::Zero(), 0.0};
+  if (waves_.still()) return {current_.at(point.z()), Eigen::Vector3d::Zero(), 0.0};
   waves::Kinematics k = waves_.kinematics(t, point, elevation(point.x(), point.y(), t));
-  k.velocity += current_;
+  k.velocity += current_.at(point.z());
   return k;
 }
 

@@ -21,6 +21,13 @@
 
 namespace spindrift::sea {
 
+/// Uniform, and a profile over z, linear between its rows [m/s].
+struct SteadyCurrent {
+  Eigen::Vector3d uniform = Eigen::Vector3d::Zero();
+  std::vector<std::array<double, 3>> profile;  ///< z, along x, along y; from below
+  Eigen::Vector3d at(double z) const;
+};
+
 struct NamedCylinder {
   std::string name;
   Cylinder shape;  ///< body axes from the centre of mass
@@ -86,12 +93,16 @@ class EngineeringSea {
     std::optional<PotentialBody> potential;
     bool loaded() const { return !strips.empty() || !damping.empty() || !matrices.empty() || potential; }
   };
+  /// Waves scattered at the radius of each strip that diffracts; equal radii share them.
+  void scatter(std::vector<Strip>& strips);
   SeaLoads body_loads(double t, const BodyStrips& body, const Motion& motion, Matrix6* mass) const;
 
   SeaEnvironment environment_;
-  Eigen::Vector3d current_;
+  SteadyCurrent current_;
   bool strips_load_;  ///< strips have drag and inertia, not buoyancy alone
   WaveField waves_;
+  std::vector<double> scattering_radii_;
+  std::vector<std::vector<waves::ComponentGroup>> scattered_;  ///< by those radii
   std::vector<BodyStrips> bodies_;
 };
 

@@ -23,7 +23,11 @@ const Section<CoefficientsOptions>& coefficients_section() {
           .number("end_axial_drag_coefficient", &CoefficientsOptions::end_axial_drag_coefficient, "-",
                   "Drag at end_m, where it differs from that at start_m.", scene::between(0.0, 100.0))
           .number("end_axial_added_mass_coefficient", &CoefficientsOptions::end_axial_added_mass_coefficient, "-",
-                  "Added mass at end_m, where it differs from that at start_m.", scene::between(0.0, 100.0));
+                  "Added mass at end_m, where it differs from that at start_m.", scene::between(0.0, 100.0))
+          .choice("diffraction", &CoefficientsOptions::diffraction,
+                  {{"none", "the cylinder is slender: added_mass_coefficient, whatever the wave"},
+                   {"maccamy_fuchs", "waves scatter at an upright round column: their inertia load is MacCamy and Fuchs's"}},
+                  "What a wide cylinder does to linear waves.");
   return section;
 }
 
@@ -120,6 +124,23 @@ std::vector<scene::Choice> wave_choices() {
   return choices;
 }
 
+void check_waves(const WavesOptions& o, const scene::Report& report) {
+  if (!o.spreading_exponent && o.spreading_range != WavesOptions{}.spreading_range)
+    report("spreading_range_deg", "has no effect without spreading_exponent");
+  if (o.crest_height_m) return;
+  if (o.crest_time_s != 0.0) report("crest_time_s", "has no effect without crest_height_m");
+  if (o.crest_place_m != WavesOptions{}.crest_place_m) report("crest_place_m", "has no effect without crest_height_m");
+  if (o.crest_alone) report("crest_alone", "has no effect without crest_height_m");
+}
+
+void check_sea(const SeaOptions& o, const scene::Report& report) {
+  for (std::size_t i = 1; i < o.current_profile.size(); ++i)
+    if (!(o.current_profile[i][0] > o.current_profile[i - 1][0])) {
+      report("current_profile", "must have its rows from the lowest z to the highest");
+      break;
+    }
+}
+
 }  // namespace
 
 const Section<WavesOptions>& waves_section() {
@@ -129,10 +150,10 @@ const Section<WavesOptions>& waves_section() {
           .number("height_m", &WavesOptions::height_m, "m", "Crest to trough; of a sea state, the significant height.",
                   scene::positive())
           .required()
-          .only_if("model", wave_models().names())
+          .only_if("model", wave_models().with("height_m"))
           .number("period_s", &WavesOptions::period_s, "s", "Period; of a sea state, the peak period.", scene::positive())
           .required()
-          .only_if("model", wave_models().names())
+          .only_if("model", wave_models().with("period_s"))
           .degrees("direction_deg", &WavesOptions::direction, "Towards which the waves travel: 0 along x, 90 along y.",
                    scene::between(-360.0, 360.0))
           .only_if("model", wave_models().names())
@@ -146,7 +167,7 @@ const Section<WavesOptions>& waves_section() {
                   {{"wheeler", "profiles are squeezed or stretched to the surface"},
                    {"vertical", "constant above still water"},
                    {"extrapolated", "the formula is used up to the surface"}},
-                  "How linear kinematics reach the moving surface; a Stokes wave is always extrapolated.")
+                  "How linear kinematics reach the moving surface; nonlinear waves are always extrapolated.")
           .only_if("model", wave_models().with("stretching"))
           .integer("seed", &WavesOptions::seed, "-",
                    "Seed of the random phases; the same seed gives the same sea on every machine.", scene::not_negative())
@@ -161,7 +182,34 @@ const Section<WavesOptions>& waves_section() {
           .number("peak_enhancement", &WavesOptions::peak_enhancement, "-",
                   "Gamma of the JONSWAP spectrum; where not given, from height and period after DNV-RP-C205.",
                   scene::between(1.0, 7.0))
-          .only_if("model", wave_models().with("peak_enhancement"));
+          .only_if("model", wave_models().with("peak_enhancement"))
+          .path("file", &WavesOptions::file,
+                "CSV file with columns time_s, elevation_m: the elevation at the origin at equal steps, over still water.")
+          .only_if("model", wave_models().with("file"))
+          .required()
+          .number("highest_Hz", &WavesOptions::highest_Hz, "Hz",
+                  "Harmonics of the file above it are left out; where not given, those that hold the last 0.1 % of the energy.",
+                  scene::positive())
+          .only_if("model", wave_models().with("highest_Hz"))
+          .number("spreading_exponent", &WavesOptions::spreading_exponent, "-",
+                  "s of a short-crested sea, whose directions b have the density |cos(pi (b - direction_deg) / "
+                  "spreading_range_deg)|^2s; where not given, all waves travel in direction_deg.",
+                  scene::between(0.0, 1000.0))
+          .only_if("model", wave_models().with("spreading_exponent"))
+          .degrees("spreading_range_deg", &WavesOptions::spreading_range, "Range of the directions; 180: half a circle.",
+                   scene::between(1.0, 360.0))
+          .only_if("model", wave_models().with("spreading_exponent"))
+          .number("crest_height_m", &WavesOptions::crest_height_m, "m",
+                  "Height over still water of a crest that the random sea is made to have (constrained NewWave).",
+                  scene::positive())
+          .only_if("model", wave_models().with("crest_height_m"))
+          .number("crest_time_s", &WavesOptions::crest_time_s, "s", "When that crest is there.")
+          .only_if("model", wave_models().with("crest_height_m"))
+          .vector("crest_place_m", &WavesOptions::crest_place_m, "m", "Where: earth x and y.")
+          .only_if("model", wave_models().with("crest_height_m"))
+          .flag("crest_alone", &WavesOptions::crest_alone, "Only that crest and the waves that belong to it (NewWave).")
+          .only_if("model", wave_models().with("crest_height_m"))
+          .check(check_waves);
   return section;
 }
 
@@ -194,6 +242,11 @@ const Section<SeaOptions>& sea_section() {
                   "Longest strip of a cylinder; each has two points of integration.", scene::positive())
           .only_if("model", strips)
           .vector("current_m_s", &SeaOptions::current_m_s, "m/s", "Uniform current, earth axes.", scene::between(-20.0, 20.0))
+          .only_if("model", strips)
+          .rows(
+              "current_profile", &SeaOptions::current_profile, "-",
+              "Rows of z [m] and the current's velocity along x and y [m/s] there, from below; linear between, constant beyond. "
+              "Adds to current_m_s.")
           .only_if("model", strips)
           .tables("coefficients", &SeaOptions::coefficients, coefficients_section(), "Coefficients of single cylinders.")
           .only_if("model", strips)
@@ -228,7 +281,8 @@ const Section<SeaOptions>& sea_section() {
           .tables("sensors", &SeaOptions::sensors, sensor_section(), "Pressure and force on patches of walls and bodies.")
           .only_if("model", particles)
           .table("fields", &SeaOptions::fields, fields_section(), "Output for ParaView.")
-          .only_if("model", particles);
+          .only_if("model", particles)
+          .check(check_sea);
   return section;
 }
 

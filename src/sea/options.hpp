@@ -17,17 +17,25 @@ namespace spindrift::sea {
 
 /// [waves]
 struct WavesOptions {
-  std::string model = "none";              ///< none, or a name of wave_models()
-  double height_m = 0.0;                   ///< crest to trough; of a sea state, the significant height
-  double period_s = 0.0;                   ///< of a sea state, the peak period
-  double direction = 0.0;                  ///< towards which the waves travel, from x to y [rad]
-  double phase = 0.0;                      ///< of a regular wave at the origin at t = 0; 0: a crest [rad]
-  double ramp_s = 0.0;                     ///< the waves grow from nothing over this time
-  std::string stretching = "wheeler";      ///< wheeler, vertical, extrapolated (stokes2 is always extrapolated)
-  std::int64_t seed = 1;                   ///< of the random phases
-  int components = 200;                    ///< harmonics of a sea state
-  std::string spacing = "equal_energy";    ///< equal_energy, equal_frequency
-  std::optional<double> peak_enhancement;  ///< gamma of JONSWAP; from height and period where absent (DNV-RP-C205)
+  std::string model = "none";                  ///< none, or a name of wave_models()
+  double height_m = 0.0;                       ///< crest to trough; of a sea state, the significant height
+  double period_s = 0.0;                       ///< of a sea state, the peak period
+  double direction = 0.0;                      ///< towards which the waves travel, from x to y [rad]
+  double phase = 0.0;                          ///< of a regular wave at the origin at t = 0; 0: a crest [rad]
+  double ramp_s = 0.0;                         ///< the waves grow from nothing over this time
+  std::string stretching = "wheeler";          ///< wheeler, vertical, extrapolated (stokes2 is always extrapolated)
+  std::int64_t seed = 1;                       ///< of the random phases
+  int components = 200;                        ///< harmonics of a sea state
+  std::string spacing = "equal_energy";        ///< equal_energy, equal_frequency
+  std::optional<double> peak_enhancement;      ///< gamma of JONSWAP; from height and period where absent (DNV-RP-C205)
+  std::optional<double> spreading_exponent;    ///< s of |cos(pi b / range)|^2s; absent: one direction
+  double spreading_range = 6.283185307179586;  ///< [rad]
+  std::optional<double> crest_height_m;        ///< of a constrained sea, over still water
+  double crest_time_s = 0.0;
+  std::array<double, 2> crest_place_m{0.0, 0.0};
+  bool crest_alone = false;          ///< NewWave: without the random sea
+  std::string file;                  ///< path, of a measured sea
+  std::optional<double> highest_Hz;  ///< of a measured sea's harmonics
 };
 
 /// [[sea.coefficients]]: what one cylinder has instead of the values of [sea].
@@ -35,6 +43,7 @@ struct CoefficientsOptions {
   std::string cylinder;
   std::optional<double> drag_coefficient, added_mass_coefficient, axial_drag_coefficient, axial_added_mass_coefficient;
   std::optional<double> end_axial_drag_coefficient, end_axial_added_mass_coefficient;  ///< those of both ends where absent
+  std::string diffraction = "none";                                                    ///< none, maccamy_fuchs
 };
 
 /// [[sea.damping]]: linear damping of one body in its own axes, e.g. radiation damping or one fitted to decay tests.
@@ -76,6 +85,7 @@ struct SeaOptions {
   double axial_added_mass_coefficient = 0.64;  ///< of each exposed end, on the hemisphere 2/3 pi R^3; 2/pi: one side of a disc
   double strip_length_m = 5.0;                 ///< longest strip of a cylinder
   Eigen::Vector3d current_m_s = Eigen::Vector3d::Zero();  ///< uniform, earth axes
+  std::vector<std::array<double, 3>> current_profile;     ///< rows of z [m], velocity along x and y [m/s]; adds to it
   std::vector<CoefficientsOptions> coefficients;
   std::vector<DampingOptions> damping;
   std::vector<MatricesOptions> matrices;

@@ -160,6 +160,11 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (waved && !o.wavemaker && !starts_in_waves(o))
     wrong("waves.model", "has no effect: the sea of particles has neither [sea.wavemaker] nor sea.initial.state = \"waves\"");
   if (waved && waves.ramp_s > 0.0) wrong("waves.ramp_s", "has no effect in a sea of particles: give sea.wavemaker.ramp_s");
+  if (waved && wave_models().named(waves.model).nonlinear && !wave_models().named(waves.model).second_order)
+    wrong("waves.model",
+          "must not be '" + waves.model + "' in a sea of particles: its harmonics are not free waves; use 'stokes2'");
+  if (waved && waves.spreading_exponent && (planar || o.wavemaker))
+    wrong("waves.spreading_exponent", "must not be given: the paddle, or the plane of the scene, makes waves along x");
   if (waved && std::abs(std::sin(waves.direction)) > 1e-9 && (planar || o.wavemaker))
     wrong("waves.direction_deg", "must be 0: the paddle, or the plane of the scene, makes waves along x");
   if (waved && o.wavemaker && std::cos(waves.direction) < 0.0)

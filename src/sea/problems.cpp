@@ -75,7 +75,11 @@ void check_potential(const PotentialOptions& o, const WavesOptions& waves, std::
         {"waves.components", "must be at most " + std::to_string(SecondOrderLoads::most_components) +
                                  " with loads of pairs of frequencies (sea.potential.drift \"full\", sum_frequency_file)"});
   if (o.excitation_file.empty()) problems.push_back({"sea.potential.excitation_file", "must be given: there are waves"});
-  if (wave_models().named(waves.model).second_order)
+  if (waves.spreading_exponent && (pairs || o.drift == "newman"))
+    problems.push_back({"waves.spreading_exponent",
+                        "must not be given with loads of pairs of waves (sea.potential.drift "
+                        "\"newman\" and \"full\", sum_frequency_file): they know one direction"});
+  if (wave_models().named(waves.model).nonlinear)
     problems.push_back(
         {"waves.model", "must not be '" + waves.model + "': sea.model 'potential' is linear in the waves; use 'airy'"});
 }
@@ -104,6 +108,13 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
     if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return has_cylinder(b, name); }))
       problems.push_back({"sea.coefficients[" + std::to_string(i) + "].cylinder",
                           "names '" + name + "', which no body has; known: " + cylinders});
+    if (options.coefficients[i].diffraction == "none") continue;
+    const std::string key = "sea.coefficients[" + std::to_string(i) + "].diffraction";
+    if (options.model == "potential") problems.push_back({key, "has no effect: sea.model is \"potential\""});
+    if (waves.model == "none")
+      problems.push_back({key, "has no effect: there are no waves"});
+    else if (wave_models().named(waves.model).nonlinear)
+      problems.push_back({key, "is linear in the waves: waves.model must not be '" + waves.model + "'"});
   }
   const auto check_body = [&](const std::string& key, const std::string& name) {
     if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return b.name == name; }))
@@ -133,12 +144,16 @@ std::vector<OptionProblem> shape_problems(const SeaEnvironment& environment, con
 std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaEnvironment& environment) {
   if (options.model == "none") return {};
   std::vector<OptionProblem> problems;
+  const WaveModel& model = wave_models().named(options.model);
+  if (std::ranges::find(model.keys, "height_m") == model.keys.end()) {  // a record
+    if (model.check) model.check(options, environment, problems);
+    return problems;
+  }
   if (options.height_m <= 0.0) problems.push_back({"waves.height_m", "must be given and positive"});
   if (options.period_s <= 0.0) problems.push_back({"waves.period_s", "must be given and positive"});
   if (!problems.empty()) return problems;
   const auto wave = waves::wave_properties(options.period_s, environment.water_depth, environment.gravity);
   // Highest wave before it breaks, after Miche (1944), for regular waves; half of it for the significant height of a sea.
-  const WaveModel& model = wave_models().named(options.model);
   const double breaking = 0.142 * wave.length * std::tanh(wave.relative_depth), most = model.regular ? breaking : 0.5 * breaking;
   if (options.height_m > most)
     problems.push_back(

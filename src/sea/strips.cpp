@@ -39,7 +39,8 @@ void append_strips(const Cylinder& cylinder, const Coefficients& coefficients, d
     strips.push_back({{cylinder.at(from), cylinder.at(to), cylinder.radius(from), cylinder.radius(to)},
                       coefficients,
                       i == 0 ? start_exposed_area : 0.0,
-                      i + 1 == count ? end_exposed_area : 0.0});
+                      i + 1 == count ? end_exposed_area : 0.0,
+                      -1});
   }
 }
 

@@ -15,6 +15,7 @@ namespace spindrift::sea {
 struct Coefficients {
   double drag, added_mass;                             ///< across
   std::array<double, 2> axial_drag, axial_added_mass;  ///< of start and end
+  bool diffracts = false;                              ///< as MacCamy and Fuchs have it
 };
 
 /// A slice of a cylinder, body axes from the centre of mass. An end that continues in another strip or member has exposed area 0.
@@ -22,6 +23,7 @@ struct Strip {
   Cylinder shape;
   Coefficients coefficients;
   double start_exposed_area = 0.0, end_exposed_area = 0.0;  ///< [m2]
+  int scattered = -1;                                       ///< of EngineeringSea's waves scattered at a radius; -1: none
 };
 
 /// Cuts a cylinder into strips no longer than `longest` [m]; the exposed areas belong to its own two ends.

@@ -5,7 +5,7 @@ namespace spindrift::sea {
 
 extern const WaveModel airy{.name = "airy",
                             .help = "one linear regular wave",
-                            .keys = {"phase_deg", "stretching"},
+                            .keys = {"height_m", "period_s", "phase_deg", "stretching"},
                             .regular = true,
                             .components = [](const WavesOptions& o, const SeaEnvironment& e) -> std::vector<waves::Component> {
                               return {airy_wave(o, e)};

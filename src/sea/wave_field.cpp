@@ -5,23 +5,45 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/waves/constrained.hpp"
+#include "kernels/waves/diffraction_maccamy_fuchs.hpp"
+#include "kernels/waves/directional.hpp"
 #include "src/sea/wave_model.hpp"
 
 namespace spindrift::sea {
 
 WaveField::WaveField(const WavesOptions& options, const SeaEnvironment& environment)
     : depth_(environment.water_depth), ramp_end_(options.ramp_s) {
-  if (options.model == "none" || options.height_m == 0.0) return;
+  if (options.model == "none") return;
   const WaveModel& model = wave_models().named(options.model);
+  if (options.height_m == 0.0 && std::ranges::find(model.keys, "height_m") != model.keys.end()) return;
   components_ = model.components(options, environment);
-  groups_.resize((components_.size() + lanes - 1) / lanes);
-  for (std::size_t i = 0; i < components_.size(); ++i)
-    waves::set_lane(groups_[i / lanes], int(i % lanes), components_[i], depth_);
-  // Stretching a wave of second order would undo that order.
-  if (model.second_order || options.stretching == "extrapolated")
+  if (options.spreading_exponent)
+    waves::spread(components_, *options.spreading_exponent, options.spreading_range, std::uint64_t(options.seed));
+  if (options.crest_height_m)
+    waves::raise_crest(components_, {*options.crest_height_m, options.crest_time_s, options.crest_place_m[0],
+                                     options.crest_place_m[1], !options.crest_alone});
+  groups_ = grouped(components_);
+  // Stretching a nonlinear wave would undo its order.
+  if (model.nonlinear || options.stretching == "extrapolated")
     stretching_ = Stretching::extrapolated;
   else if (options.stretching == "vertical")
     stretching_ = Stretching::vertical;
+}
+
+std::vector<waves::ComponentGroup> WaveField::grouped(const std::vector<waves::Component>& components) const {
+  std::vector<waves::ComponentGroup> groups((components.size() + lanes - 1) / lanes);
+  for (std::size_t i = 0; i < components.size(); ++i) waves::set_lane(groups[i / lanes], int(i % lanes), components[i], depth_);
+  return groups;
+}
+
+std::vector<waves::ComponentGroup> WaveField::scattered(double radius) const {
+  std::vector<waves::Component> components = components_;
+  for (waves::Component& c : components) {
+    const std::complex<double> inertia = waves::maccamy_fuchs(c.wave_number * radius);
+    c.speed_amplitude *= std::abs(inertia), c.phase += std::arg(inertia);
+  }
+  return grouped(components);
 }
 
 double WaveField::ramp(double t) const {
@@ -36,13 +58,14 @@ waves::Surface WaveField::surface(double t, double x, double y) const {
   return s;
 }
 
-waves::Kinematics WaveField::kinematics(double t, const Eigen::Vector3d& point, double elevation) const {
+waves::Kinematics WaveField::kinematics(double t, const Eigen::Vector3d& point, double elevation,
+                                        std::span<const waves::ComponentGroup> groups) const {
   double z = std::min(point.z(), elevation);
   if (stretching_ == Stretching::wheeler)
     z = (z - elevation) * depth_ / (depth_ + elevation);
   else if (stretching_ == Stretching::vertical)
     z = std::min(z, 0.0);
-  waves::Kinematics k = waves::kinematics(groups_, t, point.x(), point.y(), std::max(z, -depth_));
+  waves::Kinematics k = waves::kinematics(groups, t, point.x(), point.y(), std::max(z, -depth_));
   const double r = ramp(t);
   k.velocity *= r, k.acceleration *= r, k.pressure_over_density *= r;
   return k;

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kernels/waves/components.hpp"
@@ -22,13 +23,22 @@ class WaveField {
   waves::Surface surface(double t, double x, double y) const;
   double elevation(double t, double x, double y) const { return surface(t, x, y).elevation; }
   /// Water motion at an earth point that lies under the surface, whose level there is `elevation` [m].
-  waves::Kinematics kinematics(double t, const Eigen::Vector3d& point, double elevation) const;
+  waves::Kinematics kinematics(double t, const Eigen::Vector3d& point, double elevation) const {
+    return kinematics(t, point, elevation, groups_);
+  }
+  waves::Kinematics kinematics(double t, const Eigen::Vector3d& point, double elevation,
+                               std::span<const waves::ComponentGroup> groups) const;
+  /// These waves with the inertia that MacCamy and Fuchs have on an upright column of this radius [m]: the acceleration of such
+  /// groups, times the mass of the water displaced, is its inertia load.
+  std::vector<waves::ComponentGroup> scattered(double radius) const;
 
   const std::vector<waves::Component>& components() const { return components_; }
   /// Share of the waves that has grown by then.
   double ramp(double t) const;
 
  private:
+  std::vector<waves::ComponentGroup> grouped(const std::vector<waves::Component>& components) const;
+
   enum class Stretching { wheeler, vertical, extrapolated };
 
   std::vector<waves::Component> components_;

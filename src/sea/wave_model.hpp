@@ -18,9 +18,10 @@ struct OptionProblem;
 
 struct WaveModel {
   std::string_view name, help;
-  std::vector<std::string> keys;  ///< that it reads besides model, height_m, period_s, direction_deg and ramp_s
+  std::vector<std::string> keys;  ///< that it reads besides model, direction_deg and ramp_s
   bool regular = false;           ///< one wave, which repeats after its period; else a sea state
-  bool second_order = false;      ///< in steepness: an expansion about still water that holds up to the crest
+  bool second_order = false;      ///< in steepness: its harmonics are a free and a bound one
+  bool nonlinear = false;         ///< holds up to the crest, without stretching
   /// Harmonics at full height; bound ones included.
   std::vector<waves::Component> (*components)(const WavesOptions&, const SeaEnvironment&) = nullptr;
   /// What is wrong with such a wave in this water beyond breaking; null where nothing can be.

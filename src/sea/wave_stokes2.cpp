@@ -11,9 +11,10 @@ namespace spindrift::sea {
 extern const WaveModel stokes2{
     .name = "stokes2",
     .help = "one regular wave to second order in steepness",
-    .keys = {"phase_deg"},
+    .keys = {"height_m", "period_s", "phase_deg"},
     .regular = true,
     .second_order = true,
+    .nonlinear = true,
     .components = [](const WavesOptions& o, const SeaEnvironment& e) -> std::vector<waves::Component> {
       const waves::Component first = airy_wave(o, e);
       return {first, waves::stokes_second(first, e.water_depth)};

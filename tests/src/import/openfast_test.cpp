@@ -219,6 +219,44 @@ TEST_CASE("yaw, current, phase and a constant force of the deck are the scene's"
   CHECK(s.bodies[0].options.forces[0].force_N.x() == 1e5);
 }
 
+TEST_CASE("short-crested seas, constrained crests and currents over depth of the deck are the scene's", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("sea.dat", "1 WaveMod",
+               "2 WaveMod\n1 WaveDirMod\n4 WaveDirSpread\n90 WaveDirRange\n1 ConstWaveMod\n6 CrestHmax\n60 CrestTime\n5 "
+               "CrestXi\n-2 CrestYi");
+  deck.replace(
+      "sea.dat", "0 CurrMod",
+      "1 CurrMod\n1 CurrSSV0\n\"DEFAULT\" CurrSSDir\n20 CurrNSRef\n0.5 CurrNSV0\n90 CurrNSDir\n0.3 CurrDIV\n180 CurrDIDir");
+  const coupling::Scenario s = deck.scenario();
+  CHECK(s.waves.spreading_exponent == 4.0);
+  CHECK(s.waves.spreading_range == Approx(0.5 * pi));
+  CHECK(s.waves.crest_height_m == 3.0);
+  CHECK(s.waves.crest_time_s == 60.0);
+  CHECK(s.waves.crest_place_m == std::array{5.0, -2.0});
+  CHECK(s.sea.current_m_s.x() == Approx(-0.3));
+  // At the surface the power law along the waves (30 degrees), and the part near the surface along y.
+  REQUIRE(s.sea.current_profile.size() > 10);
+  const auto& top = s.sea.current_profile.back();
+  CHECK(top[0] == 0.0);
+  CHECK(top[1] == Approx(std::cos(30.0 * radians_per_degree)));
+  CHECK(top[2] == Approx(std::sin(30.0 * radians_per_degree) + 0.5));
+  const auto& bed = s.sea.current_profile.front();
+  CHECK(bed[0] == -200.0);
+  CHECK(std::hypot(bed[1], bed[2]) == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("an elevation in time of the deck is the scene's sea", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("sea.dat", "1 WaveMod", "5 WaveMod\n\"measured\" WvKinFile");
+  std::string record = "! elevation\nTime Elev\n(s) (m)\n";
+  for (int i = 0; i < 200; ++i) record += std::to_string(0.5 * i) + " " + std::to_string(std::sin(2.0 * pi * i / 20.0)) + "\n";
+  deck.files["measured.Elev"] = record;
+  const coupling::Scenario s = deck.scenario();
+  CHECK(s.waves.model == "elevation");
+  CHECK(s.waves.file.ends_with("elevation.csv"));
+  CHECK(s.waves.direction == Approx(30.0 * radians_per_degree));
+}
+
 TEST_CASE("blades of BeamDyn have their own masses, and the generator's inertia is the shaft's alone", "[import][fast]") {
   SmallDeck deck;
   const bodies::BodyOptions light = deck.scenario().bodies[0].options;

@@ -395,3 +395,60 @@ TEST_CASE("the sections of the scene are well declared", "[sea][fast]") {
   for (const std::string& fault : sea_section().faults()) FAIL_CHECK(fault);
   for (const std::string& fault : waves_section().faults()) FAIL_CHECK(fault);
 }
+
+TEST_CASE("a current that changes with depth acts level by level", "[sea][fast]") {
+  SeaOptions options = model("morison");
+  options.drag_coefficient = 0.7, options.axial_drag_coefficient = 0.0, options.strip_length_m = 0.25;
+  options.current_m_s = {0.5, 0, 0};
+  options.current_profile = {{-10.0, -0.5, 0.0}, {0.0, 1.5, 0.0}};  // 0 at the keel, 2 m/s at the surface, in a straight line
+  const EngineeringSea sea(options, {}, tank, {spar(-10, 5, 2)});
+  const double unit = 0.5 * 1025.0 * 0.7 * 4.0;
+  CHECK(parts(sea, at(0, 0, 0)).drag.force.x() == Approx(unit * 4.0 * 10.0 / 3.0).epsilon(1e-9));  // of v^2 over the depth
+  CHECK(sea.water(0.0, {3, 0, -5}).velocity.x() == Approx(1.0));
+  CHECK(sea.water(0.0, {3, 0, -15}).velocity.x() == Approx(0.0).margin(1e-15));
+  CHECK(sea.water(0.0, {3, 0, 1}).velocity.x() == Approx(2.0));
+}
+
+TEST_CASE("waves that scatter at a wide column load it as MacCamy and Fuchs have it", "[sea][fast]") {
+  // Force on a column from the bed up: 4 rho g a tanh(kh) / k^2 / |H_1'(ka)| (MacCamy & Fuchs 1954).
+  const double radius = 8.0, amplitude = 1e-3, period = 6.0;
+  const double k = waves::wave_number(2.0 * pi / period, 20.6, 9.81), ka = k * radius;  // ka = 0.92
+  WavesOptions waves;
+  waves.model = "airy", waves.height_m = 2.0 * amplitude, waves.period_s = period;
+  SeaOptions options = model("morison");
+  options.drag_coefficient = 0.0, options.axial_drag_coefficient = 0.0, options.strip_length_m = 0.5;
+  CoefficientsOptions own;
+  own.cylinder = "column", own.diffraction = "maccamy_fuchs";
+  const auto largest = [&] {
+    const EngineeringSea sea(options, waves, tank, {spar(-20.599, 5, radius)});
+    double most = 0.0;
+    for (int i = 0; i < 400; ++i) most = std::max(most, std::abs(parts(sea, at(0, 0, 0), period * i / 400.0).inertia.force.x()));
+    return most;
+  };
+  const double slender = largest();
+  options.coefficients = {own};
+  const double j = std::cyl_bessel_j(0.0, ka) - std::cyl_bessel_j(1.0, ka) / ka,
+               y = std::cyl_neumann(0.0, ka) - std::cyl_neumann(1.0, ka) / ka;
+  const double expected = 4.0 * 1025.0 * 9.81 * amplitude * std::tanh(k * 20.6) / (k * k) / std::hypot(j, y);
+  CHECK(largest() == Approx(expected).epsilon(2e-3));
+  CHECK(slender > 1.1 * expected);  // Morison with 1 + C_a = 2
+  // Motion of the column itself has C_a as before.
+  const EngineeringSea sea(options, waves, tank, {spar(-20.599, 5, radius)});
+  options.coefficients.clear();
+  const EngineeringSea plain(options, waves, tank, {spar(-20.599, 5, radius)});
+  CHECK((added_mass(sea, at(0, 0, 0)) - added_mass(plain, at(0, 0, 0))).norm() == 0.0);
+}
+
+TEST_CASE("diffraction without effect is refused by name", "[sea][fast]") {
+  SeaOptions options = model("morison");
+  CoefficientsOptions own;
+  own.cylinder = "column", own.diffraction = "maccamy_fuchs";
+  options.coefficients = {own};
+  WavesOptions waves;
+  REQUIRE(sea_problems(options, waves, {spar(-10, 5, 2)}).size() == 1);
+  CHECK(sea_problems(options, waves, {spar(-10, 5, 2)})[0].key == "sea.coefficients[0].diffraction");
+  waves.model = "airy", waves.height_m = 1.0, waves.period_s = 8.0;
+  CHECK(sea_problems(options, waves, {spar(-10, 5, 2)}).empty());
+  waves.model = "stream_function";
+  CHECK(sea_problems(options, waves, {spar(-10, 5, 2)}).size() == 1);
+}

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "kernels/waves/stokes.hpp"
 
@@ -125,4 +127,60 @@ TEST_CASE("a wave that would break, and a Stokes wave outside its theory, are re
   shallow.height_m = 6.0;
   REQUIRE(wave_problems(shallow, water).size() == 1);
   CHECK(wave_problems(shallow, water)[0].key == "waves.model");
+}
+
+TEST_CASE("a steady wave of any height has its height, its period and a sharp crest", "[sea][fast]") {
+  WavesOptions options = regular("stream_function");
+  options.height_m = 6.0;
+  options.direction = 0.3;
+  CHECK(wave_problems(options, water).empty());
+  const WaveField sea(options, water);
+  const double crest = sea.elevation(0.0, 0.0, 0.0), trough = sea.elevation(4.4, 0.0, 0.0);
+  CHECK(crest - trough == Approx(6.0).epsilon(1e-4));
+  CHECK(crest > 1.2 * -trough);
+  CHECK(sea.elevation(8.8, 0.0, 0.0) == Approx(crest));
+  // It travels without changing.
+  const double c = sea.components()[0].angular_frequency / sea.components()[0].wave_number;
+  CHECK(sea.elevation(1.7, 1.7 * c * std::cos(0.3), 1.7 * c * std::sin(0.3)) == Approx(crest));
+  options.height_m = 12.2;  // Miche has 12.4 m
+  REQUIRE(wave_problems(options, water).size() == 1);
+  CHECK(wave_problems(options, water)[0].key == "waves.height_m");
+}
+
+TEST_CASE("a sea from a file has the file's elevation at the origin", "[sea][fast]") {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "spindrift_elevation_test.csv";
+  const auto eta = [](double t) { return 1.2 * std::cos(2.0 * pi * t / 10.0 - 0.4) + 0.5 * std::sin(2.0 * pi * t / 4.0); };
+  const auto write = [&](double mean, double late) {
+    std::ofstream out(file);
+    out << "time_s,elevation_m\n";
+    for (int i = 0; i < 400; ++i) out << 5.0 + 0.25 * i + (i == 200 ? late : 0.0) << "," << eta(5.0 + 0.25 * i) + mean << "\n";
+  };
+  write(0.0, 0.0);
+  WavesOptions options;
+  options.model = "elevation", options.file = file.string(), options.highest_Hz = 1.0;
+  CHECK(wave_problems(options, water).empty());
+  const WaveField sea(options, water);
+  for (const double t : {5.0, 17.3, 60.0, 104.0}) CHECK(sea.elevation(t, 0.0, 0.0) == Approx(eta(t)).margin(1e-5));
+  CHECK(sea.elevation(117.3, 0.0, 0.0) == Approx(eta(17.3)).margin(1e-5));  // it repeats
+  options.highest_Hz.reset();
+  CHECK(WaveField(options, water).components().size() < 30);  // what holds 99.9 % of the energy
+  write(1.0, 0.0);
+  REQUIRE(wave_problems(options, water).size() == 1);
+  CHECK(wave_problems(options, water)[0].what.find("still water") != std::string::npos);
+  write(0.0, 0.1);
+  REQUIRE(wave_problems(options, water).size() == 1);
+  CHECK(wave_problems(options, water)[0].what.find("equal steps") != std::string::npos);
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("spreading and a constrained crest change any random sea", "[sea][fast]") {
+  WavesOptions options = regular("jonswap");
+  options.spreading_exponent = 6.0;
+  options.crest_height_m = 2.2, options.crest_time_s = 40.0, options.crest_place_m = {10.0, 5.0};
+  const WaveField sea(options, water);
+  CHECK(sea.elevation(40.0, 10.0, 5.0) == Approx(2.2));
+  double least = 10.0, most = -10.0;
+  for (const waves::Component& c : sea.components()) least = std::min(least, c.direction), most = std::max(most, c.direction);
+  CHECK(least < -0.5);
+  CHECK(most > 0.5);
 }
