@@ -18,6 +18,8 @@ void add_scene(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--set", arguments.overrides, "Override a key of the scene: --set time.end_s=60")->allow_extra_args(false);
 }
 
+const CLI::Validator not_empty([](std::string& text) { return text.empty() ? "is empty; name a folder" : ""; }, "");
+
 /// Simulated seconds, at least zero.
 const CLI::Validator time_of_run(
     [](std::string& text) {
@@ -55,7 +57,8 @@ void add_profile(CLI::App& cli, Command& chosen) {
   CLI::App* command = cli.add_subcommand(
       "profile", "Where the time of a coupled scene goes: air alone, sea alone, both in turns, shared and split");
   add_scene(*command, *arguments);
-  command->add_option("--out", arguments->out, "Folder of the runs and figures (default: runs/SCENE_profile)");
+  command->add_option("-o,--out", arguments->out, "Folder of the runs and figures (default: runs/SCENE_profile)")
+      ->check(not_empty);
   command->add_option("--windows", arguments->windows, "Windows that are counted, after two that are not (default: 10)")
       ->check(CLI::Range(1, 100000));
   command->footer(
@@ -108,7 +111,7 @@ void add_picture(CLI::App& cli, Command& chosen, bool film) {
                            : cli.add_subcommand("picture", "Picture of a run: floats, turbine, lines, sea and wake together");
   command->add_option("directory", arguments->directory, "Run directory")->required();
   command
-      ->add_option("-o,--output", arguments->out,
+      ->add_option("-o,--out,--output", arguments->out,
                    film ? "File: .mp4 or .webm (default: film.mp4 in the run directory)"
                         : "File: .png (default: picture.png in the run directory)")
       ->check(ends_in(film ? std::vector<std::string>{".mp4", ".webm"} : std::vector<std::string>{".png"}));
@@ -148,7 +151,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
     auto arguments = std::make_shared<RunArguments>();
     CLI::App* command = cli.add_subcommand("run", "Run a scene into a run directory, with a report");
     add_scene(*command, *arguments);
-    command->add_option("--out", arguments->out, "Run directory (default: runs/SCENE_DATE_TIME)");
+    command->add_option("-o,--out", arguments->out, "Run directory (default: runs/SCENE_DATE_TIME)")->check(not_empty);
     command->add_option("--until", arguments->until_s, "Stop at this simulated time [s], to be continued by --restart")
         ->check(time_of_run);
     command->add_option("--fluid", arguments->fluid, "Which fluid the ranks of this section of mpirun have; the others the other")
@@ -159,7 +162,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
                      "With --restart: a key (or section, or file) that may differ from the run's, given once for each")
         ->allow_extra_args(false)
         ->needs("--restart");
-    command->add_flag("--overwrite", arguments->overwrite, "Replace the run in the run directory");
+    command->add_flag("--overwrite", arguments->overwrite, "Replace the run in the run directory")->excludes("--restart");
     command->add_flag("--trace", arguments->trace, "Write trace.json (open with Perfetto or chrome://tracing)");
     command->add_option("--record-graph", arguments->record_graph,
                         "Write the task graph of some windows with measured costs to this file: spindrift replay FILE");
@@ -192,7 +195,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->footer(
         "Examples:\n"
         "  spindrift check inputs/leble_barakos/case1_engineering.toml\n"
-        "  spindrift check scene.toml --set time.step_s=0.02");
+        "  spindrift check scene.toml --set time.step_s=0.02\n"
+        "  spindrift check scene.toml --columns platform.pitch_deg,rotor.thrust_N");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return check(*arguments, world); }; });
   }
   {
@@ -201,7 +205,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
         cli.add_subcommand("grid", "Make the grid of a rotor or of a flow, print its quality, write it as Plot3D or CGNS");
     add_scene(*command, *arguments);
     command
-        ->add_option("-o,--output", arguments->files,
+        ->add_option("-o,--out,--output", arguments->files,
                      "File: .cgns; .p3d or .xyz (binary Plot3D) or .p3dfmt, with a .nmf beside it")
         ->check(ends_in({".cgns", ".p3d", ".xyz", ".p3dfmt"}))
         ->allow_extra_args(false);
@@ -218,11 +222,13 @@ void add_commands(CLI::App& cli, Command& chosen) {
         cli.add_subcommand("study", "Run the variants of a study; error against cost, the front, the cheapest that will do");
     command->add_option("study", arguments->file, "Study file (TOML)")->required();
     command->add_option("--set", arguments->overrides, "Override a key of the study file")->allow_extra_args(false);
-    command->add_option("--out", arguments->out, "Folder of the runs (default: runs/STUDY); finished runs in it are kept");
+    command->add_option("-o,--out", arguments->out, "Folder of the runs (default: runs/STUDY); finished runs in it are kept")
+        ->check(not_empty);
     command->add_flag("--dry-run", arguments->dry_run, "Say what would run and the forecast of its cost; run nothing");
     command->footer(
         "Examples:\n"
-        "  spindrift study inputs/studies/case2_time_step.toml --out runs/steps");
+        "  spindrift study inputs/tutorials/steps.toml --out runs/steps\n"
+        "  spindrift study inputs/studies/case2_time_step.toml --dry-run");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return study(*arguments, world); }; });
   }
   {
@@ -230,11 +236,15 @@ void add_commands(CLI::App& cli, Command& chosen) {
     CLI::App* command =
         cli.add_subcommand("import", "Make a scene from an OpenFAST deck (versions 3 to 5) or a windIO turbine (1.x)");
     command->add_option("main", arguments->file, "Main input file (.fst), or turbine (.yaml)")->required();
-    command->add_option("-o,--output", arguments->out, "Folder for scene.toml and its files")->required();
+    command->add_option("-o,--out,--output", arguments->out, "Folder for scene.toml and its files")->required()->check(not_empty);
     command->add_flag(
         "--flexible-tower", arguments->flexible_tower,
         "A tower that bends in the deck becomes a beam of the scene; of a windIO turbine the table of one is written");
     command->add_flag("--rigid-blades", arguments->rigid_blades, "Blades that bend in the deck stay rigid in the scene");
+    command->footer(
+        "Examples:\n"
+        "  spindrift import 5MW_OC3Spar.fst -o spar\n"
+        "  spindrift import IEA-15-240-RWT.yaml -o iea15");
     command->callback(
         [arguments, &chosen] { chosen = [arguments](const auto& world) { return import_deck(*arguments, world); }; });
   }
@@ -260,7 +270,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
     auto arguments = std::make_shared<ReportArguments>();
     CLI::App* command = cli.add_subcommand("report", "(Re)make report.html of a run directory; of several, compare them");
     command->add_option("directory", arguments->directories, "Run directory, or the folder of a study")->required();
-    command->add_option("-o,--out", arguments->out, "The page (default: report.html, comparison.html or study.html in DIR)")
+    command
+        ->add_option("-o,--out,--output", arguments->out, "The page (default: report.html, comparison.html or study.html in DIR)")
         ->check(ends_in({".html"}));
     command->add_option("--png", arguments->png, "Also a picture of the first run's plots")->check(ends_in({".png"}));
     command->footer(
@@ -280,6 +291,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
     CLI::App* command = cli.add_subcommand("help", "The same as --help; with a command, the help of that command");
     command->add_option("command", *topic, "A command");
     command->add_flag("--markdown", *markdown, "Every command, as docs/reference/commands.md");
+    command->footer("Examples:\n  spindrift help run");
     command->callback([=, &cli, &chosen] {
       if (*markdown) {
         fmt::print("{}", commands_markdown(cli));
@@ -301,7 +313,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
       "  spindrift run inputs/leble_barakos/case1_engineering.toml --out run1\n"
       "  spindrift help run\n"
       "Exit codes: 0 done, 2 bad input, 3 numerical failure (state saved), 4 machine failure, 5 stopped on request with a "
-      "checkpoint.");
+      "checkpoint, 6 study: no run within the targets.");
 }
 
 std::string commands_markdown(const CLI::App& cli) {
@@ -314,7 +326,8 @@ std::string commands_markdown(const CLI::App& cli) {
          "\n## Exit codes\n\n| code | meaning |\n|---|---|\n| 0 | done |\n| 2 | bad input: nothing ran |\n"
          "| 3 | numerical failure: the last good state is saved |\n| 4 | failure of the machine: disk, memory, network, a "
          "missing "
-         "package |\n| 5 | stopped on request, with a checkpoint: `--restart` goes on |\n\nThe code also stands in "
+         "package |\n| 5 | stopped on request, with a checkpoint: `--restart` goes on |\n| 6 | a study: no run is within the "
+         "targets |\n\nThe code also stands in "
          "`summary.json`, since `mpirun` may change it.\n";
 }
 

@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "src/app/commands.hpp"
 #include "src/import/openfast.hpp"
 #include "src/import/windio.hpp"
 #include "src/scene/error.hpp"
+#include "src/scene/value.hpp"
 
 namespace spindrift::app {
 
 int import_deck(const ImportArguments& arguments, const runtime::World& world) {
   if (world.rank != 0) return done;
+  if (!std::filesystem::exists(arguments.file))
+    throw scene::SceneError({{arguments.file, 0, "", "", scene::absent_file(arguments.file)}});
   const std::string ending = std::filesystem::path(arguments.file).extension().string();
   const bool windio = ending == ".yaml" || ending == ".yml";
   if (windio && arguments.rigid_blades)

@@ -72,6 +72,19 @@ std::string unknown_option(const CLI::App& cli, int argc, char** argv) {
   return {};
 }
 
+/// What is wrong with words that a command has no place for, beyond options that it does not have.
+std::string words_too_many(int argc, char** argv, const std::vector<std::string>& left) {
+  for (int i = 2; i + 2 < argc; ++i)
+    if (std::string_view(argv[i]) == "--set" && std::string_view(argv[i + 1]).find('=') == std::string_view::npos)
+      return fmt::format("{}: --set {} {}: write --set {}={}, in one word", argv[1], argv[i + 1], argv[i + 2], argv[i + 1],
+                         argv[i + 2]);
+  for (const std::string& word : left)
+    if (word.size() > 2 && word[0] == '-' && word[1] != '-')
+      return fmt::format("{}: there is no option '{}'; long options begin with two dashes: '-{}'", argv[1], word, word);
+  return fmt::format("{}: '{}' is one word too many; spindrift {} --help says what it takes", argv[1],
+                     left.empty() ? "" : left.front(), argv[1]);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -82,6 +95,10 @@ int main(int argc, char** argv) {
   cli.require_subcommand(1);
   app::Command command;
   app::add_commands(cli, command);
+  if (argc < 2) {
+    fmt::print(stderr, "{}", cli.help());
+    return app::bad_input;
+  }
   if (const std::string unknown = unknown_command(cli, argc, argv); !unknown.empty()) {
     fmt::print(stderr, "error: {}\n", unknown);
     return app::bad_input;
@@ -92,7 +109,7 @@ int main(int argc, char** argv) {
     if (const std::string unknown = unknown_option(cli, argc, argv); !unknown.empty())
       fmt::print(stderr, "error: {}\n", unknown);
     else
-      cli.exit(e);
+      fmt::print(stderr, "error: {}\n", words_too_many(argc, argv, cli.remaining(true)));
     return app::bad_input;
   } catch (const CLI::ParseError& e) { return cli.exit(e) == 0 ? 0 : app::bad_input; }
   try {

@@ -91,7 +91,12 @@ void print_row(const Prediction& p) {
 Recording read(const std::string& file) {
   try {
     return runtime::read_recording(file);
-  } catch (const std::exception& e) { throw io::InputError(e.what()); }
+  } catch (const std::exception& e) {
+    const std::string what = e.what();
+    const bool foreign = what.find("json.exception") != std::string::npos;
+    throw io::InputError(foreign ? file + ": is no recording; spindrift run SCENE --record-graph FILE makes one (" + what + ")"
+                                 : what);
+  }
 }
 
 }  // namespace

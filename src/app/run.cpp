@@ -37,6 +37,7 @@
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/identity.hpp"
+#include "src/scene/toml_reader.hpp"
 
 namespace spindrift::app {
 
@@ -144,6 +145,18 @@ void take_stock(io::Summary& summary, double since, const runtime::World& world)
   summary.processor_seconds = all[0], summary.peak_memory_bytes = all[1];
 }
 
+/// What a run of the scene is called: its own title, or the name of its file. The title of a base, which this scene changes,
+/// comes behind that name: "my_spar (on: A spar in waves)".
+std::string title_of(const RunArguments& arguments, const std::string& title) {
+  const std::string name = std::filesystem::path(arguments.scene).stem().string();
+  if (title.empty()) return name;
+  const bool given = std::ranges::any_of(arguments.overrides, [](const std::string& o) { return o.starts_with("output.title"); });
+  std::ifstream file(arguments.scene);
+  const scene::Value root = scene::read_toml(std::string{std::istreambuf_iterator<char>(file), {}}, 0, arguments.scene);
+  const scene::Value* output = root.find("output");
+  return given || (output != nullptr && output->find("title") != nullptr) ? title : fmt::format("{} (on: {})", name, title);
+}
+
 void print_summary(const io::Summary& summary, const io::RunDirectory& directory) {
   spdlog::info("{}: {:g} s simulated in {:.3g} s, {:.3g} times real time", summary.exit_reason,
                summary.end_time_s - summary.start_time_s, summary.wall_seconds, io::real_time_factor(summary));
@@ -247,8 +260,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)
                   : run::run_flow(*scenario, directory, parts, settings, stop);
   });
-  const std::string& title = scenario->output.title;
-  summary.title = title.empty() ? std::filesystem::path(arguments.scene).stem().string() : title;
+  if (world.rank == 0) summary.title = title_of(arguments, scenario->output.title);
   summary.scene = arguments.scene, summary.overrides = arguments.overrides;
   if (system) summary.modes = lines_of(system->modes);
   take_stock(summary, since, world);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/app/scene_file.hpp"
 
+#include <filesystem>
+
 namespace spindrift::app {
 
 namespace {
@@ -10,6 +12,10 @@ namespace {
 }  // namespace
 
 scene::Document load_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
+  namespace fs = std::filesystem;
+  if (fs::is_directory(path) && fs::exists(fs::path(path) / "scene.toml"))
+    refuse(path, "is the folder of a run; the scene that ran is in it: " + (fs::path(path) / "scene.toml").string());
+  if (!fs::exists(path) && fs::exists(path + ".toml")) refuse(path, "no such file; did you mean '" + path + ".toml'?");
   scene::Document document = scene::load(path, overrides, overrider);
   if (!document.given("time")) {
     if (document.given("study")) refuse(path, "this is a study, not a scene: spindrift study " + path);

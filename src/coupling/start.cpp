@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/bodies/mode_names.hpp"
 #include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
@@ -65,6 +66,7 @@ Stability stability(FloatingSystem& floating, const bodies::BodiesState& state) 
   if (state.motions.empty()) return {{}, {std::numeric_limits<double>::infinity(), "", {}}};
   const MeanLoads mean(floating);
   Stability result{linearise(floating.multibody(), state, 0.0), {}};
+  name_modes(result.linearisation, floating.multibody(), state, floating.beams());
   result.limit = step_limit(floating.multibody().integrator(), result.linearisation);
   return result;
 }

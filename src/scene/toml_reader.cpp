@@ -72,6 +72,17 @@ Value convert(const toml::node& node, int source) {
   return value;
 }
 
+/// What to write instead, for the mistakes that people make most.
+std::string_view advice(std::string_view said) {
+  const auto has = [said](std::string_view words) { return said.find(words) != std::string_view::npos; };
+  if (has("could not determine value type")) return "; a text stands in quotes: model = \"morison\"";
+  if (has("expected 'true'") || has("expected 'false'")) return "; write true or false, in small letters";
+  if (has("expected '=', saw ':'")) return "; write KEY = VALUE";
+  if (has("saw ','")) return "; decimals have a point (10.5), lists have brackets: [1.0, 2.0]";
+  if (has("saw '{'")) return "; sections are [NAME], keys KEY = VALUE: docs/user/scenes.md";
+  return "";
+}
+
 }  // namespace
 
 Value read_toml(std::string_view text, int source, const std::string& name) {
@@ -83,7 +94,8 @@ Value read_toml(std::string_view text, int source, const std::string& name) {
   try {
     return convert_table(toml::parse(text, std::string_view(name)), source);
   } catch (const toml::parse_error& error) {
-    fail(name, int(error.source().begin.line), fmt::format("is not TOML: {}", error.description()));
+    fail(name, int(error.source().begin.line),
+         fmt::format("is not TOML: {}{}", error.description(), advice(error.description())));
   } catch (const ParserLost&) {
     fail(name, 0, "is not TOML, in a way that the parser cannot place; take out half of the file at a time to find the line");
   }

@@ -164,6 +164,16 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 }  // namespace
 
+namespace {
+/// RK4 is meant for rk4.
+std::string lowered(std::string_view word) {
+  std::string small(word);
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return small;
+}
+}  // namespace
+
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
   constexpr std::size_t longest = 100;  // no slip of the hand is longer; keeps the quadratic distance cheap
   if (word.size() > longest) return "";
@@ -173,7 +183,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
     // The commonest slip: the unit forgotten, `end` for `end_s`.
     const bool unit_forgotten =
         word.size() > 1 && candidate.size() > word.size() && candidate.starts_with(word) && candidate[word.size()] == '_';
-    const std::size_t distance = unit_forgotten ? 1 : edit_distance(word, candidate);
+    const std::size_t distance = unit_forgotten ? 1 : edit_distance(lowered(word), lowered(candidate));
     if (distance < best_distance) best = candidate, best_distance = distance;
   }
   return best;

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "kernels/base/constants.hpp"
 #include "src/bodies/linearise.hpp"
+#include "src/bodies/mode_names.hpp"
 #include "src/bodies/statics.hpp"
 #include "tests/src/bodies/examples.hpp"
 
@@ -88,6 +91,29 @@ TEST_CASE("on a floating platform the tower's frequencies rise to those of the f
   CHECK(free.omega[2] > 1.05 * clamped.omega[0]);
   CHECK(nearest(modes, free.omega[2]) < 2e-3);
   CHECK(nearest(modes, free.omega[3]) < 2e-2);  // two clamped modes make up the second free one
+}
+
+TEST_CASE("modes in which a tower bends, twists or stretches are named after it, those of the whole after what carries it",
+          "[bodies][fast]") {
+  const std::vector<Body> bodies{support_body(), nacelle_body()};
+  const Beam beam = afloat(bodies);
+  // A soft spring rights the platform: it pitches as one with what it carries.
+  LoadSource spring{.name = "spring", .loads = {}, .added_mass = {}};
+  spring.loads = [](double, std::span<const Motion> motions, std::span<Wrench> loads) {
+    const Vector3d up = motions[0].attitude * Vector3d::UnitZ();
+    loads[0].moment += 2e8 * up.cross(Vector3d::UnitZ());
+  };
+  System system(bodies, {}, {beam_source({beam}, Vector3d::Zero()), spring});
+  const BodiesState state = examples::start(system);
+  Linearisation found = linearise(system, state, 0.0);
+  name_modes(found, system, state, std::span(&beam, 1));
+  std::map<std::string, int> named;
+  for (const Mode& mode : found.modes)
+    if (mode.eigenvalue != 0.0) ++named[mode.name];
+  CHECK(named["bending in x of tower"] + named["bending in y of tower"] == 4);
+  CHECK(named["torsion of tower"] == 1);
+  CHECK(named["stretching of tower"] == 1);
+  CHECK(named["pitch of platform"] + named["roll of platform"] == 2);
 }
 
 TEST_CASE("the energy of a tower's free vibration is kept to the order of rk4", "[bodies][fast]") {

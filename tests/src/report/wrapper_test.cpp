@@ -45,8 +45,11 @@ TEST_CASE("a report and a picture are written where asked", "[report][fast]") {
   CHECK(report::write({{run.path}, {}, run.path / "picture.png"}).trouble == "");
   CHECK(fs::file_size(run.path / "report.html") > 5000);
   CHECK(fs::file_size(run.path / "picture.png") > 5000);
-  CHECK(report::write({{run.path, run.path}, run.path / "other.html", {}}).trouble == "");
+  const fs::path second = run.path.parent_path() / "second";
+  fs::copy(run.path, second);
+  CHECK(report::write({{run.path, second}, run.path / "other.html", {}}).trouble == "");
   CHECK(fs::exists(run.path / "other.html"));
+  CHECK_THAT(report::write({{run.path, run.path}, run.path / "none.html", {}}).trouble, Contains("given twice"));
 }
 
 TEST_CASE("why there is no report is said in one sentence", "[report][fast]") {
