@@ -255,12 +255,14 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     for (const scene::Doubt& doubt : system->doubts) spdlog::warn("{}", text(doubt));
   else
     for (const scene::Doubt& doubt : coupling::air_doubts(*scenario)) spdlog::warn("{}", text(doubt));
+  // Before the run: meanwhile the file may be edited or gone.
+  const std::string title = world.rank == 0 ? title_of(arguments, scenario->output.title) : "";
   runtime::StopRequest stop(scenario->runtime.wall_limit_s, directory.stop());
   io::Summary summary = summary_of(directory, world, [&] {
     return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)
                   : run::run_flow(*scenario, directory, parts, settings, stop);
   });
-  if (world.rank == 0) summary.title = title_of(arguments, scenario->output.title);
+  summary.title = title;
   summary.scene = arguments.scene, summary.overrides = arguments.overrides;
   if (system) summary.modes = lines_of(system->modes);
   take_stock(summary, since, world);

@@ -66,10 +66,6 @@ void of_cell(GridQuality& q, const Hexahedron& h, bool planar, const Place& p) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Of the cells of one k of a block.
 void of_slab(GridQuality& q, const MultiBlockGrid& grid, int b, int k) {
   const int directions = grid.planar ? 2 : 3;
