@@ -1,4 +1,5 @@
-// A small data file in the temporary directory, for the tests of what scenes read.
+// A small data file in the test's own temporary directory, for the tests of what scenes read. Called within a test case:
+// before main() every process would write the same file.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

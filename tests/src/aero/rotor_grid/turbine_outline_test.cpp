@@ -12,18 +12,22 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string planform = data_file("rg_planform.csv", R"(span_m,chord_m,twist_deg,thickness_pct,prebend_m
+std::string planform() {
+  return data_file("rg_planform.csv", R"(span_m,chord_m,twist_deg,thickness_pct,prebend_m
 2,1,10,30,0
 20,0.5,0,30,0
 )");
-const std::string polar = data_file("rg_polar.csv", "alpha_deg,cl,cd\n-180,0,0\n180,0,0\n");
+}
+
+std::string polar() { return data_file("rg_polar.csv", "alpha_deg,cl,cd\n-180,0,0\n180,0,0\n"); }
+
 const std::string diamond =
     "x_c,y_c\n1,0.002\n0.75,0.08\n0.5,0.15\n0.25,0.08\n0,0\n0.25,-0.08\n0.5,-0.15\n0.75,-0.08\n1,-0.002\n";
 
-std::string turbine(const std::string& outline, double thickness, const std::string& planform_file = planform) {
+std::string turbine(const std::string& outline, double thickness, const std::string& planform_file = planform()) {
   const std::string file = data_file("rg_outline.csv", outline);
   return data_file("rg_turbine.toml", "[turbine]\nhub_radius_m = 2\nplanform = '" + planform_file +
-                                          "'\npolars = [{ thickness_pct = 30, file = '" + polar +
+                                          "'\npolars = [{ thickness_pct = 30, file = '" + polar() +
                                           "' }]\naerofoils = [{ thickness_pct = " + std::to_string(thickness) + ", file = '" +
                                           file + "' }]\n");
 }
