@@ -41,6 +41,16 @@ def overrides(entry):
     return [word for text in entry.get("set", []) for word in ("--set", text)]
 
 
+def window_of(scene):
+    """time.window_s of a scene, its own or that of the last of its bases that has one."""
+    table = tomllib.loads(scene.read_text())
+    if "window_s" in table.get("time", {}):
+        return table["time"]["window_s"]
+    bases = table.get("base", [])
+    found = [window_of(scene.parent / base) for base in ([bases] if isinstance(bases, str) else bases)]
+    return next((window for window in reversed(found) if window is not None), None)
+
+
 class Scenes(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="spindrift_scenes_")
@@ -73,8 +83,7 @@ class Scenes(unittest.TestCase):
         if "windows" in entry:
             echo = start("check", scene, *overrides(entry))
             self.assertEqual(echo.returncode, 0, echo.stderr)
-            window = tomllib.loads(scene.read_text())["time"]["window_s"]
-            words += ["--until", entry["windows"] * window]
+            words += ["--until", entry["windows"] * window_of(scene)]
         if "until" in entry:
             words += ["--until", entry["until"]]
         done = start(*words)
