@@ -31,226 +31,156 @@ double largest_magnitude(const Eigen::MatrixXd& m) {
   return largest;
 }
 
-}  // namespace
-
-Mechanism::Mechanism(std::span<const Body> bodies, std::span<const Joint> joints) {
+/// [m], a power of two near the largest arm of a joint; 1 without joints.
+double reference_length(std::span<const Body> bodies, std::span<const Joint> joints) {
   double arm = 0.0;
   for (const Joint& joint : joints)
     for (int b : {joint.i, joint.j})
       if (b != earth) arm = std::max(arm, (joint.point - bodies[std::size_t(b)].initial.position).norm());
-  length_ = arm > 0.0 ? std::exp2(std::round(std::log2(arm))) : 1.0;
+  return arm > 0.0 ? std::exp2(std::round(std::log2(arm))) : 1.0;
+}
 
-  pose_.resize(bodies.size());
-  attitude_.resize(bodies.size());
-  for (std::size_t b = 0; b < bodies.size(); ++b) pose_[b] = scaled_pose(bodies[b].initial, length_);
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    const Joint& joint = joints[k];
-    const auto driver = [&](const std::optional<PrescribedMotion>& motion, double unit) {
-      if (!motion) return -1;
-      drivers_.push_back({*motion, unit});
-      return int(drivers_.size()) - 1;
-    };
-    const int rotation = driver(joint.rotation, 1.0), translation = driver(joint.translation, 1.0 / length_);
-    const Eigen::Vector3d axis = joint.axis.normalized(), point = joint.point / length_;
-    const Eigen::Vector3d given =
-        joint.second_axis - joint.second_axis.dot(axis) * axis;  // the arms of a cross are perpendicular
-    const Eigen::Vector3d second =
-        joint.type == JointType::universal ? Eigen::Vector3d(given.normalized()) : perpendicular_to(axis);
-    const JointFrame on_i = joint_frame(pose(joint.i), point, axis, second),
-                     on_j = joint_frame(pose(joint.j), point, axis, second);
-    append_joint(joint.type, joint.i, joint.j, on_i, on_j, rotation, translation, int(k), constraints_);
-    if (turns(joint.type)) turning_.push_back({int(k), joint.i, joint.j, on_i, on_j});
-  }
-  for (const Constraint& c : constraints_) row_joint_.insert(row_joint_.end(), std::size_t(c.rows()), c.joint);
-  rows_ = int(row_joint_.size());
-  drive_.resize(drivers_.size());
+std::vector<Pose> initial_poses(std::span<const Body> bodies, double length) {
+  std::vector<Pose> poses(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) poses[b] = scaled_pose(bodies[b].initial, length);
+  return poses;
+}
 
-  // Heavier bodies are rather kept independent: weights from 1 (lightest) down to 1/2 (heaviest); ties by order.
+/// Heavier bodies are rather kept independent: weights of coordinates from 1 (lightest) down to 1/2 (heaviest); ties by order.
+Eigen::VectorXd partition_weights(std::span<const Body> bodies) {
   std::vector<std::size_t> order(bodies.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return bodies[a].mass > bodies[b].mass; });
-  weight_.resize(coordinates());
+  Eigen::VectorXd weight(Eigen::Index(6 * bodies.size()));
   for (std::size_t place = 0; place < order.size(); ++place)
-    weight_.segment<6>(Eigen::Index(6 * order[place])).setConstant(0.5 + 0.5 * double(place + 1) / double(order.size()));
-
-  const int n = coordinates();
-  for (auto* v : {&x_, &u_, &bias_, &drift_}) v->setZero(n);
-  residual_.setZero(rows_);
-  side_.setZero(rows_);
-  jacobian_.setZero(rows_, n);
+    weight.segment<6>(Eigen::Index(6 * order[place])).setConstant(0.5 + 0.5 * double(place + 1) / double(order.size()));
+  return weight;
 }
 
-void Mechanism::set_drives(double t) {
-  for (std::size_t k = 0; k < drivers_.size(); ++k) {
-    const Drive d = drivers_[k].motion.at(t);
-    drive_[k] = {d.value * drivers_[k].unit, d.rate * drivers_[k].unit, d.acceleration * drivers_[k].unit};
-  }
+}  // namespace
+
+Mechanism::Mechanism(std::span<const Body> bodies, std::span<const Joint> joints)
+    : length_(reference_length(bodies, joints)),
+      joints_(joints, initial_poses(bodies, length_), length_),
+      weight_(partition_weights(bodies)),
+      pose_(initial_poses(bodies, length_)),
+      attitude_(bodies.size()) {
+  for (auto* v : {&x_, &u_, &bias_, &drift_}) v->setZero(coordinates());
+  for (auto* v : {&residual_, &side_}) v->setZero(joints_.count());
+  jacobian_.setZero(joints_.count(), coordinates());
 }
 
 void Mechanism::place_bodies() {
   for (std::size_t b = 0; b < pose_.size(); ++b) {
     const auto x = x_.segment<6>(Eigen::Index(6 * b));
-    pose_[b].position = origin_[b].position / length_ + x.head<3>();
-    attitude_[b] = (origin_[b].attitude * rotation_exp(x.tail<3>())).normalized();
+    pose_[b].position = chart_.centre[b].position / length_ + x.head<3>();
+    attitude_[b] = (chart_.centre[b].attitude * rotation_exp(x.tail<3>())).normalized();
     pose_[b].axes = attitude_[b].toRotationMatrix();
-  }
-}
-
-void Mechanism::evaluate_residual() {
-  int row = 0;
-  for (const Constraint& c : constraints_) {
-    const Eigen::Vector3d r = spindrift::residual(c, pose(c.i), pose(c.j), drive(c));
-    for (int k = 0; k < c.rows(); ++k) residual_[row++] = r[k];
-  }
-}
-
-void Mechanism::evaluate_jacobian() {
-  int row = 0;
-  for (const Constraint& c : constraints_) {
-    const ConstraintRows block = jacobian(c, pose(c.i), pose(c.j), drive(c));
-    const int n = c.rows();
-    if (c.i != earth) {
-      jacobian_.block(row, 6 * c.i, n, 3) = block.translation_i.topRows(n);
-      jacobian_.block(row, 6 * c.i + 3, n, 3) = block.rotation_i.topRows(n);
-    }
-    if (c.j != earth) {
-      jacobian_.block(row, 6 * c.j, n, 3) = block.translation_j.topRows(n);
-      jacobian_.block(row, 6 * c.j + 3, n, 3) = block.rotation_j.topRows(n);
-    }
-    row += n;
   }
 }
 
 /// Jacobian with respect to the chart coordinates instead of the angular velocities: rotation columns times T(theta).
 void Mechanism::chart_jacobian() {
-  evaluate_jacobian();
+  joints_.jacobian(pose_, jacobian_);
   for (int b = 0; b < bodies(); ++b) {
     const Eigen::Matrix3d rate = rotation_rate_matrix(x_.segment<3>(6 * b + 3));
-    for (int row = 0; row < rows_; ++row) {
+    for (int row = 0; row < joints_.count(); ++row) {
       const Eigen::RowVector3d turned = jacobian_.block<1, 3>(row, 6 * b + 3) * rate;
       jacobian_.block<1, 3>(row, 6 * b + 3) = turned;
     }
   }
 }
 
-void Mechanism::factorise() {
-  for (std::size_t c = 0; c < dependent_.size(); ++c)
-    for (std::size_t r = 0; r < active_.size(); ++r)
-      dependent_block_(Eigen::Index(r), Eigen::Index(c)) = jacobian_(active_[r], dependent_[c]);
-  if (!active_.empty()) lu_.compute(dependent_block_);
-}
-
-void Mechanism::index_partition(const BodiesState& state) {
-  independent_.clear();
-  dependent_.clear();
-  active_.clear();
-  for (int k = 0; k < coordinates(); ++k) (state.independent[std::size_t(k)] ? independent_ : dependent_).push_back(k);
-  for (int k = 0; k < rows_; ++k)
-    if (state.active[std::size_t(k)]) active_.push_back(k);
-  const Eigen::Index rank = Eigen::Index(active_.size()), free = Eigen::Index(independent_.size());
-  dependent_block_.resize(rank, rank);
-  right_.resize(rank, free + 1);
-  solution_.resize(rank, free + 1);
-  solved_.resize(rank);
-  gathered_.resize(rank);
-  open_tangent_.resize(rank, free);
-  tangent_.resize(coordinates(), free);
+void Mechanism::set_partition(const BodiesState& state) {
+  coordinates_.set(state.independent, state.active);
+  chart_.tangent.resize(Eigen::Index(coordinates_.dependent().size()), freedoms());
+  chart_.displaced.resize(Eigen::Index(coordinates_.dependent().size()));
+  tangent_.resize(coordinates(), freedoms());
 }
 
 /// Factorises at the present positions and sets tangent and drift: u = tangent * (independent u) + drift.
 void Mechanism::solve_tangent() {
-  evaluate_jacobian();
-  factorise();
-  const Eigen::Index free = freedoms();
-  for (std::size_t r = 0; r < active_.size(); ++r)
-    for (Eigen::Index c = 0; c < free; ++c) right_(Eigen::Index(r), c) = -jacobian_(active_[r], independent_[std::size_t(c)]);
-  int row = 0;
-  for (const Constraint& c : constraints_) {
-    const Eigen::Vector3d nu = velocity_side(c, pose(c.i), pose(c.j), drive(c));
-    for (int k = 0; k < c.rows(); ++k) side_[row++] = nu[k];
-  }
-  for (std::size_t r = 0; r < active_.size(); ++r) right_(Eigen::Index(r), free) = side_[active_[r]];
-  if (!active_.empty()) solution_ = lu_.solve(right_);
-  tangent_.setZero();
-  drift_.setZero();
-  for (Eigen::Index c = 0; c < free; ++c) tangent_(independent_[std::size_t(c)], c) = 1.0;
-  for (std::size_t r = 0; r < dependent_.size(); ++r) {
-    tangent_.row(dependent_[r]) = solution_.row(Eigen::Index(r)).head(free);
-    drift_[dependent_[r]] = solution_(Eigen::Index(r), free);
-  }
+  joints_.jacobian(pose_, jacobian_);
+  coordinates_.factorise(jacobian_);
+  joints_.velocity_side(pose_, side_);
+  coordinates_.solve_tangent(jacobian_, side_, tangent_, drift_);
+}
+
+/// Chooses the partition anew where the present one has degraded; false where none can be used.
+bool Mechanism::choose_again(BodiesState& state, StepReport& report) {
+  const double steepest = largest_magnitude(tangent_);
+  if (steepest <= degraded_tangent) return true;
+  const std::vector<char> active = state.active, independent = state.independent;
+  const PartitionChoice choice = choose_partition(jacobian_, weight_, state.active, state.independent);
+  report.repartitioned = state.independent != independent || state.active != active;
+  if (choice.rank == int(coordinates_.active().size())) return true;
+  // Near a singular position: go on with the old set while it can be solved.
+  state.active = active;
+  state.independent = independent;
+  report.repartitioned = false;
+  if (steepest <= lost_tangent) return true;
+  report.trouble = StepReport::Trouble::singular;
+  report.joint = joints_.joint_of(std::max(choice.weakest_row, 0));
+  report.value = choice.pivot_ratio;
+  return false;
 }
 
 StepReport Mechanism::open(BodiesState& state, double t, bool choose) {
   StepReport report;
   newton_iterations_ = 0;
-  t_open_ = t;
-  origin_ = state.motions;
+  chart_.t = t;
+  chart_.centre = state.motions;
   x_.setZero();
-  set_drives(t);
+  joints_.set_time(t);
   place_bodies();
-  if (!choose) {
-    index_partition(state);
-    solve_tangent();
-    const double steepest = largest_magnitude(tangent_);
-    choose = !(steepest <= degraded_tangent);
-    if (choose) {
-      const std::vector<char> active = state.active, independent = state.independent;
-      const PartitionChoice choice = choose_partition(jacobian_, weight_, state.active, state.independent);
-      report.repartitioned = state.independent != independent || state.active != active;
-      if (choice.rank != int(active_.size())) {  // near a singular position: go on with the old set while it can be solved
-        state.active = active;
-        state.independent = independent;
-        report.repartitioned = false;
-        if (!(steepest <= lost_tangent)) {
-          report.trouble = StepReport::Trouble::singular;
-          report.joint = joint_of_row(std::max(choice.weakest_row, 0));
-          report.value = choice.pivot_ratio;
-          return report;
-        }
-      }
-    }
-  } else {
-    evaluate_jacobian();
+  if (choose) {
+    joints_.jacobian(pose_, jacobian_);
     choose_partition(jacobian_, weight_, state.active, state.independent);
     report.repartitioned = true;
+  } else {
+    set_partition(state);
+    solve_tangent();
+    if (!choose_again(state, report)) return report;
   }
   if (report.repartitioned) {
-    index_partition(state);
+    set_partition(state);
     solve_tangent();
   }
 
-  u_open_.resize(freedoms());
+  chart_.velocity.resize(freedoms());
   for (int c = 0; c < freedoms(); ++c) {
-    const int k = independent_[std::size_t(c)], b = k / 6, component = k % 6;
-    const Motion& m = origin_[std::size_t(b)];
-    u_open_[c] = component < 3 ? m.velocity[component] / length_ : m.omega[component - 3];
+    const int k = coordinates_.independent()[std::size_t(c)], b = k / 6, component = k % 6;
+    const Motion& m = chart_.centre[std::size_t(b)];
+    chart_.velocity[c] = component < 3 ? m.velocity[component] / length_ : m.omega[component - 3];
   }
-  solve_velocities(u_open_);
-  for (std::size_t r = 0; r < dependent_.size(); ++r) open_tangent_.row(Eigen::Index(r)) = tangent_.row(dependent_[r]);
-  open_drift_ = drift_;
-  open_bias_ = bias_;
+  solve_velocities(chart_.velocity);
+  const std::vector<int>& dependent = coordinates_.dependent();
+  for (std::size_t r = 0; r < dependent.size(); ++r) chart_.tangent.row(Eigen::Index(r)) = tangent_.row(dependent[r]);
+  chart_.drift = drift_;
+  chart_.bias = bias_;
   return report;
 }
 
 StepReport Mechanism::solve_positions(double t, const Eigen::VectorXd& x) {
   StepReport report;
-  set_drives(t);
-  for (int c = 0; c < freedoms(); ++c) x_[independent_[std::size_t(c)]] = x[c];
+  const std::vector<int>&independent = coordinates_.independent(), &dependent = coordinates_.dependent();
+  joints_.set_time(t);
+  for (int c = 0; c < freedoms(); ++c) x_[independent[std::size_t(c)]] = x[c];
   // Taylor series of the dependent coordinates about the centre: exact to second order along the motion, so that Newton stays on
   // the branch the mechanism is on, also where branches are near (past a singular position).
-  const double elapsed = t - t_open_;
-  solved_.noalias() = open_tangent_ * x;
-  for (std::size_t r = 0; r < dependent_.size(); ++r) {
-    const int k = dependent_[r];
-    x_[k] = solved_[Eigen::Index(r)] + elapsed * (open_drift_[k] + 0.5 * elapsed * open_bias_[k]);
+  const double elapsed = t - chart_.t;
+  chart_.displaced.noalias() = chart_.tangent * x;
+  for (std::size_t r = 0; r < dependent.size(); ++r) {
+    const int k = dependent[r];
+    x_[k] = chart_.displaced[Eigen::Index(r)] + elapsed * (chart_.drift[k] + 0.5 * elapsed * chart_.bias[k]);
   }
   double previous = INFINITY;
   bool fresh = false;
   for (int iteration = 0;; ++iteration) {
     place_bodies();
-    evaluate_residual();
+    joints_.residual(pose_, residual_);
     int joint = -1;
-    const double norm = worst(residual_, true, &joint);
+    const double norm = worst(residual_, coordinates_.active(), &joint);
     double reach = 1.0;
     for (const Pose& p : pose_) reach = std::max(reach, p.position.cwiseAbs().maxCoeff());
     if (norm <= newton_goal * reach || (norm <= newton_tolerance * reach && norm > 0.25 * previous)) return report;
@@ -262,14 +192,13 @@ StepReport Mechanism::solve_positions(double t, const Eigen::VectorXd& x) {
     }
     if (norm > slow_contraction * previous && !fresh) {
       chart_jacobian();
-      factorise();
+      coordinates_.factorise(jacobian_);
       fresh = true;
     } else {
       fresh = false;
     }
-    for (std::size_t r = 0; r < active_.size(); ++r) gathered_[Eigen::Index(r)] = residual_[active_[r]];
-    solved_ = lu_.solve(gathered_);
-    for (std::size_t r = 0; r < dependent_.size(); ++r) x_[dependent_[r]] -= solved_[Eigen::Index(r)];
+    const Eigen::VectorXd& solved = coordinates_.solve(residual_);
+    for (std::size_t r = 0; r < dependent.size(); ++r) x_[dependent[r]] -= solved[Eigen::Index(r)];
     previous = norm;
     ++newton_iterations_;
   }
@@ -283,21 +212,18 @@ void Mechanism::solve_velocities(const Eigen::VectorXd& u) {
     pose_[std::size_t(b)].velocity = u_.segment<3>(6 * b);
     pose_[std::size_t(b)].spin = pose_[std::size_t(b)].axes * u_.segment<3>(6 * b + 3);
   }
-  int row = 0;
-  for (const Constraint& c : constraints_) {
-    const Eigen::Vector3d gamma = acceleration_side(c, pose(c.i), pose(c.j), drive(c));
-    for (int k = 0; k < c.rows(); ++k) residual_[row++] = gamma[k];
-  }
   bias_.setZero();
-  if (active_.empty()) return;
-  for (std::size_t r = 0; r < active_.size(); ++r) gathered_[Eigen::Index(r)] = residual_[active_[r]];
-  solved_ = lu_.solve(gathered_);
-  for (std::size_t r = 0; r < dependent_.size(); ++r) bias_[dependent_[r]] = solved_[Eigen::Index(r)];
+  const std::vector<int>& dependent = coordinates_.dependent();
+  if (dependent.empty()) return;
+  joints_.acceleration_side(pose_, residual_);
+  const Eigen::VectorXd& solved = coordinates_.solve(residual_);
+  for (std::size_t r = 0; r < dependent.size(); ++r) bias_[dependent[r]] = solved[Eigen::Index(r)];
 }
 
 void Mechanism::chart_rate(Eigen::VectorXd& x_rate) const {
-  for (std::size_t c = 0; c < independent_.size(); ++c) {
-    const int k = independent_[c], first = 6 * (k / 6) + 3;
+  const std::vector<int>& independent = coordinates_.independent();
+  for (std::size_t c = 0; c < independent.size(); ++c) {
+    const int k = independent[c], first = 6 * (k / 6) + 3;
     x_rate[Eigen::Index(c)] = k < first ? u_[k] : rotation_rate(x_.segment<3>(first), u_.segment<3>(first))[k - first];
   }
 }
@@ -305,29 +231,21 @@ void Mechanism::chart_rate(Eigen::VectorXd& x_rate) const {
 void Mechanism::motions(std::vector<Motion>& out) const {
   for (std::size_t b = 0; b < pose_.size(); ++b) {
     const auto k = Eigen::Index(6 * b);
-    out[b].position = origin_[b].position + length_ * x_.segment<3>(k);
+    out[b].position = chart_.centre[b].position + length_ * x_.segment<3>(k);
     out[b].attitude = attitude_[b];
     out[b].velocity = length_ * u_.segment<3>(k);
     out[b].omega = u_.segment<3>(k + 3);
   }
 }
 
-void Mechanism::turn_joints(std::vector<double>& angles) const {
-  for (const Turning& j : turning_) {
-    double& angle = angles[std::size_t(j.joint)];
-    angle = unwrapped(joint_angle(j.on_i, j.on_j, pose(j.i), pose(j.j)), angle);
-  }
-}
-
-double Mechanism::worst(const Eigen::VectorXd& values, bool active_only, int* joint) const {
+/// Largest magnitude in these rows, and whose joint it is.
+double Mechanism::worst(const Eigen::VectorXd& values, std::span<const int> rows, int* joint) const {
   double largest = 0.0;
-  const int count = active_only ? int(active_.size()) : rows_;
-  for (int k = 0; k < count; ++k) {
-    const int row = active_only ? active_[std::size_t(k)] : k;
+  for (const int row : rows) {
     const double value = std::abs(values[row]);
     if (!(value <= largest)) {
       largest = value;
-      if (joint) *joint = joint_of_row(row);
+      if (joint) *joint = joints_.joint_of(row);
       if (std::isnan(value)) return value;
     }
   }
@@ -335,47 +253,39 @@ double Mechanism::worst(const Eigen::VectorXd& values, bool active_only, int* jo
 }
 
 double Mechanism::residual(int* joint) {
-  evaluate_residual();
-  return worst(residual_, false, joint);
+  joints_.residual(pose_, residual_);
+  return worst(residual_, joints_.all(), joint);
 }
 
 double Mechanism::velocity_residual(int* joint) {
   residual_.noalias() = jacobian_ * u_;
   residual_ -= side_;
-  return worst(residual_, false, joint);
+  return worst(residual_, joints_.all(), joint);
 }
 
 void Mechanism::reactions(const Eigen::VectorXd& out_of_balance, std::vector<Wrench>& on_j) {
   for (Wrench& w : on_j) w = Wrench{};
-  if (active_.empty()) return;
-  for (std::size_t r = 0; r < dependent_.size(); ++r) solved_[Eigen::Index(r)] = out_of_balance[dependent_[r]];
-  const Eigen::VectorXd multipliers = lu_.transpose().solve(solved_);
-  side_.setZero();
-  for (std::size_t r = 0; r < active_.size(); ++r) side_[active_[r]] = multipliers[Eigen::Index(r)];
-  int row = 0;
-  for (const Constraint& c : constraints_) {
-    const ConstraintRows block = jacobian(c, pose(c.i), pose(c.j), drive(c));
-    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
-    for (int k = 0; k < c.rows(); ++k, ++row) {
-      force += side_[row] / length_ * block.translation_j.row(k).transpose();
-      moment += side_[row] * (pose(c.j).axes * block.rotation_j.row(k).transpose());
-    }
-    Wrench& w = on_j[std::size_t(c.joint)];
-    w.point = length_ * (pose(c.j).position + pose(c.j).axes * c.point_j);
-    w.force += force;
-    w.moment += moment + (length_ * pose(c.j).position - w.point).cross(force);
-  }
+  const std::vector<int>&active = coordinates_.active(), &dependent = coordinates_.dependent();
+  if (active.empty()) return;
+  Eigen::VectorXd on_dependent(Eigen::Index(dependent.size()));
+  for (std::size_t r = 0; r < dependent.size(); ++r) on_dependent[Eigen::Index(r)] = out_of_balance[dependent[r]];
+  const Eigen::VectorXd of_active = coordinates_.solve_transposed(on_dependent);
+  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(joints_.count());
+  for (std::size_t r = 0; r < active.size(); ++r) multipliers[active[r]] = of_active[Eigen::Index(r)];
+  joints_.reactions(pose_, multipliers, on_j);
 }
 
 std::vector<int> Mechanism::joints_behind(int row) const {
-  std::vector<int> found{joint_of_row(row)};
-  if (active_.empty()) return found;
-  Eigen::VectorXd right(Eigen::Index(dependent_.size()));
-  for (std::size_t k = 0; k < dependent_.size(); ++k) right[Eigen::Index(k)] = jacobian_(row, dependent_[k]);
-  const Eigen::VectorXd share = lu_.transpose().solve(right);
-  for (std::size_t k = 0; k < active_.size(); ++k)
-    if (std::abs(share[Eigen::Index(k)]) > 1e-6 && std::find(found.begin(), found.end(), joint_of_row(active_[k])) == found.end())
-      found.push_back(joint_of_row(active_[k]));
+  std::vector<int> found{joints_.joint_of(row)};
+  const std::vector<int>&active = coordinates_.active(), &dependent = coordinates_.dependent();
+  if (active.empty()) return found;
+  Eigen::VectorXd right(Eigen::Index(dependent.size()));
+  for (std::size_t k = 0; k < dependent.size(); ++k) right[Eigen::Index(k)] = jacobian_(row, dependent[k]);
+  const Eigen::VectorXd share = coordinates_.solve_transposed(right);
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    const int joint = joints_.joint_of(active[k]);
+    if (std::abs(share[Eigen::Index(k)]) > 1e-6 && std::ranges::find(found, joint) == found.end()) found.push_back(joint);
+  }
   return found;
 }
 

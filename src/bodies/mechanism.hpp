@@ -7,11 +7,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "src/bodies/coordinates.hpp"
+#include "src/bodies/joint_rows.hpp"
 #include "src/bodies/system.hpp"
 
 namespace spindrift::bodies {
@@ -22,10 +22,9 @@ class Mechanism {
 
   int bodies() const { return int(pose_.size()); }
   int coordinates() const { return 6 * bodies(); }
-  int rows() const { return rows_; }
-  int freedoms() const { return int(independent_.size()); }
+  const JointRows& joints() const { return joints_; }
+  int freedoms() const { return int(coordinates_.independent().size()); }
   double length() const { return length_; }
-  const std::vector<int>& independent() const { return independent_; }
 
   /// Centres the chart on a state and factorises; chooses a new partition when `choose` or when the old one has degraded (then
   /// state.independent and state.active change).
@@ -39,12 +38,12 @@ class Mechanism {
   /// Motions in SI units.
   void motions(std::vector<Motion>& out) const;
   /// Angles of the joints that turn, continued from those in `angles`.
-  void turn_joints(std::vector<double>& angles) const;
+  void turn_joints(std::vector<double>& angles) const { joints_.turn_joints(pose_, angles); }
 
   /// All velocities = tangent * independent ones + drift, in chart units; accelerations = tangent * independent ones + bias.
   const Eigen::MatrixXd& tangent() const { return tangent_; }
   const Eigen::VectorXd& velocity() const { return u_; }
-  const Eigen::VectorXd& open_velocity() const { return u_open_; }  ///< independent velocities at the centre
+  const Eigen::VectorXd& open_velocity() const { return chart_.velocity; }  ///< independent velocities at the centre
   const Eigen::VectorXd& bias() const { return bias_; }
   const std::vector<Pose>& poses() const { return pose_; }
   int newton_iterations() const { return newton_iterations_; }
@@ -58,55 +57,37 @@ class Mechanism {
   void reactions(const Eigen::VectorXd& out_of_balance, std::vector<Wrench>& on_j);
   /// Names of the joints whose rows combine into the redundant row r, r's own first.
   std::vector<int> joints_behind(int row) const;
-  int joint_of_row(int row) const { return row_joint_[std::size_t(row)]; }
 
  private:
-  const Pose& pose(int body) const { return body == earth ? earth_pose_ : pose_[std::size_t(body)]; }
-  const Drive& drive(const Constraint& c) const { return c.driver < 0 ? no_drive_ : drive_[std::size_t(c.driver)]; }
-  void set_drives(double t);
   void place_bodies();
-  void evaluate_residual();
-  void evaluate_jacobian();
   void chart_jacobian();
-  void factorise();
-  void index_partition(const BodiesState& state);
+  void set_partition(const BodiesState& state);
   void solve_tangent();
-  double worst(const Eigen::VectorXd& values, bool active_only, int* joint) const;
+  bool choose_again(BodiesState& state, StepReport& report);
+  double worst(const Eigen::VectorXd& values, std::span<const int> rows, int* joint) const;
+
+  /// What the dependent coordinates do near the centre, to second order along the motion.
+  struct Chart {
+    double t = 0.0;
+    std::vector<Motion> centre;
+    Eigen::MatrixXd tangent;  // dependent rows
+    Eigen::VectorXd drift, bias, velocity;
+    Eigen::VectorXd displaced;  // scratch
+  };
 
   double length_ = 1.0;
-  int rows_ = 0;
-  std::vector<Constraint> constraints_;
-  std::vector<int> row_joint_;
-  struct Turning {
-    int joint, i, j;
-    JointFrame on_i, on_j;
-  };
-  std::vector<Turning> turning_;
-  struct Driver {
-    PrescribedMotion motion;
-    double unit;  // 1 for angles, 1/L for distances
-  };
-  std::vector<Driver> drivers_;
-  std::vector<Drive> drive_;
-  const Drive no_drive_{};
-  const Pose earth_pose_{};
-  Eigen::VectorXd weight_;
-
-  // chart
-  double t_open_ = 0.0;
-  std::vector<Motion> origin_;
-  std::vector<int> independent_, dependent_, active_;
-  Eigen::MatrixXd open_tangent_;  // dependent rows at the centre
-  Eigen::VectorXd open_drift_, open_bias_;
+  JointRows joints_;
+  PartitionedCoordinates coordinates_;
+  Eigen::VectorXd weight_;  // of the coordinates in the choice of the partition
+  Chart chart_;
 
   // positions, velocities, factors last solved
   std::vector<Pose> pose_;
   std::vector<Eigen::Quaterniond> attitude_;
-  Eigen::VectorXd x_, u_, u_open_;
-  Eigen::MatrixXd jacobian_, dependent_block_, right_, solution_;
-  Eigen::VectorXd residual_, side_, gathered_, solved_, bias_, drift_;
+  Eigen::VectorXd x_, u_;
+  Eigen::MatrixXd jacobian_;
+  Eigen::VectorXd residual_, side_, bias_, drift_;
   Eigen::MatrixXd tangent_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   int newton_iterations_ = 0;
 };
 
