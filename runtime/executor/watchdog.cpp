@@ -2,6 +2,7 @@
 #include "runtime/executor/watchdog.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 
 #include "runtime/mpi/heartbeat.hpp"
@@ -19,6 +20,9 @@
 
 namespace spindrift::runtime {
 namespace {
+
+constexpr double most_patience_s = 60;  ///< for a run to end in order that has lost a rank
+std::atomic<int> graphs_at_work = 0;    ///< of this process
 
 std::uint64_t beats(const Team& team) {
   std::uint64_t sum = 0;
@@ -95,11 +99,13 @@ Watchdog::~Watchdog() {
 void Watchdog::run_starts() {
   const std::lock_guard lock(lock_);
   running_ = true;
+  ++graphs_at_work;
 }
 
 void Watchdog::run_ends() {
   const std::lock_guard lock(lock_);
   running_ = false;
+  --graphs_at_work;
 }
 
 void Watchdog::watch() {
@@ -109,13 +115,14 @@ void Watchdog::watch() {
   std::uint64_t seen = 0;
   auto since = steady_clock::now();
   Heartbeat* const heartbeat = Heartbeat::current();
-  bool asking = false;
+  bool asking = false, was_running = false;
   while (!leaving_) {
     changed_.wait_for(lock, duration<double>(std::min(1.0, limit / 8)));
-    if (heartbeat) heartbeat->attend();
     const std::uint64_t now = beats(team_);
-    if (!running_ || now != seen) {
-      seen = now;
+    // Between two graphs nothing completes: only a rank that does not answer ends that.
+    const bool idle = !running_ && (!heartbeat || graphs_at_work > 0);
+    if (idle || now != seen || running_ != was_running) {
+      seen = now, was_running = running_;
       since = steady_clock::now();
       asking = false;
       continue;
@@ -128,14 +135,20 @@ void Watchdog::watch() {
     }
     if (quiet < limit) continue;
     since = steady_clock::now();
-    const int rank = team_.graph.recorded().comm.rank();
     const std::string silent = heartbeat ? heartbeat->silent() : std::string();
-    const std::string what = "nothing completed for " + std::to_string(int(quiet)) + " s on rank " + std::to_string(rank) +
-                             (silent.empty() ? "" : "; " + silent) + ":\n" + dump(team_);
-    std::fputs(("watchdog: " + what).c_str(), team_.options.watchdog_file);
-    std::fflush(team_.options.watchdog_file);
-    if (!inside_a_task(team_)) team_.fail({rank, true, "", what});
+    if (running_ || !silent.empty()) ends_or_says(quiet, silent);
   }
+}
+
+void Watchdog::ends_or_says(double quiet, const std::string& silent) {
+  const int rank = team_.graph.recorded().comm.rank();
+  const std::string what = "nothing completed for " + std::to_string(int(quiet)) + " s on rank " + std::to_string(rank) +
+                           (silent.empty() ? "" : "; " + silent) + (running_ ? ":\n" + dump(team_) : ", between two graphs\n");
+  std::fputs(("watchdog: " + what).c_str(), team_.options.watchdog_file);
+  std::fflush(team_.options.watchdog_file);
+  // A thread inside MPI may never come back from a call that a silent rank has part in: in order first, then by force.
+  if (!silent.empty()) Heartbeat::current()->end_within(std::min(team_.options.watchdog_s, most_patience_s));
+  if (running_ && (!silent.empty() || !inside_a_task(team_))) team_.fail({rank, true, "", what});
 }
 
 }  // namespace spindrift::runtime

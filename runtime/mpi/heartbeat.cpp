@@ -2,6 +2,8 @@
 #include "runtime/mpi/heartbeat.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 namespace spindrift::runtime {
 
@@ -17,10 +19,17 @@ Heartbeat::Heartbeat(MPI_Comm world) {
   MPI_Comm_size(comm_, &size_);
   heard_.assign(rank_ == 0 ? std::size_t(size_) : 1, 0);
   of_process = this;
+  thread_ = std::thread([this] { live(); });
 }
 
 Heartbeat::~Heartbeat() {
   of_process = nullptr;
+  {
+    const std::lock_guard guard(lock_);
+    leaving_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
   for (MPI_Request& request : sent_) MPI_Request_free(&request);
   MPI_Comm_free(&comm_);
 }
@@ -39,8 +48,26 @@ std::vector<int> Heartbeat::unheard() const {
   return ranks;
 }
 
-void Heartbeat::attend() {
+void Heartbeat::live() {
+  std::unique_lock guard(lock_);
+  while (!leaving_) {
+    attend();
+    changed_.wait_for(guard, std::chrono::milliseconds(500));
+    if (leaving_ || !end_ || std::chrono::steady_clock::now() < *end_) continue;
+    std::fputs("watchdog: this process waits in MPI for a rank that does not answer and is ended\n", stderr);
+    std::fflush(stderr);
+    MPI_Abort(MPI_COMM_WORLD, exit_code);
+    std::_Exit(exit_code);
+  }
+}
+
+void Heartbeat::end_within(double seconds) {
   const std::lock_guard guard(lock_);
+  if (end_) return;
+  end_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(std::int64_t(1e3 * seconds));
+}
+
+void Heartbeat::attend() {
   for (int there = 1; there;) {
     MPI_Status status;
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, comm_, &there, &status);

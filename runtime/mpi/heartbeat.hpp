@@ -1,13 +1,19 @@
-// Who is still there: where a rank has been quiet for long, its watchdog asks on a communicator of its own, and every rank's
-// watchdog answers, whatever its tasks do. Rank 0 asks all others; these ask rank 0, which says whom it has not heard. Nothing is
-// sent as long as work goes on. Owned by MpiEnvironment; called by executor/watchdog.cpp; tested in tests/faults/faults.py
-// (stopped_rank). SPDX-License-Identifier: Apache-2.0
+// Who is still there. A thread of each process answers the others on a communicator of its own, whatever the tasks do. A watchdog
+// that has seen nothing complete for long asks: rank 0 all others; these rank 0, which says whom it has not heard. Nothing is
+// sent as long as work goes on. Where a rank stands still no call of MPI may return on the others, so the thread also ends the
+// processes that have not ended by themselves in time. Owned by MpiEnvironment; asked by executor/watchdog.cpp; tested in
+// tests/faults/faults.py (stopped_rank) and tests/runtime/stuck_rank.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <mpi.h>
 
+#include <chrono>
+#include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace spindrift::runtime {
@@ -22,19 +28,26 @@ class Heartbeat {
   /// That of the process; null where there is one rank.
   static Heartbeat* current();
 
-  /// Answers who has asked, hears who has answered; to be called about once a second.
-  void attend();
   /// Asks; who has answered since `forget` is not asked again.
   void ask();
   void forget();
   /// "rank 3 does not answer", empty where all have answered as far as this rank can tell.
   std::string silent();
+  /// All ranks end with `exit_code` in so many seconds, unless this process has left MPI before. The first call counts.
+  void end_within(double seconds);
+  static constexpr int exit_code = 4;  ///< a failure of the machine (docs: exit codes)
 
  private:
+  using Time = std::chrono::steady_clock::time_point;
+  void attend();  // answers who has asked, hears who has answered; about once a second
+  void live();
   void send(int rank, int tag, const std::vector<int>& words);
   std::vector<int> unheard() const;
 
-  std::mutex lock_;  // watchdogs of several executors
+  std::mutex lock_;  // this thread and watchdogs of several executors
+  std::condition_variable changed_;
+  bool leaving_ = false;
+  std::optional<Time> end_;
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1;
   std::vector<char> heard_;        // by rank on rank 0, of rank 0 elsewhere
@@ -42,6 +55,7 @@ class Heartbeat {
   std::vector<int> told_;          // elsewhere: whom rank 0 has not heard
   std::vector<MPI_Request> sent_;  // to ranks that may never receive
   std::vector<std::vector<int>> buffers_;
+  std::thread thread_;
 };
 
 }  // namespace spindrift::runtime

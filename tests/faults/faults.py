@@ -294,10 +294,11 @@ def processes_of(launcher):
 
 def stopped_rank(folder, count, pick):
     """A rank of three that stands still (SIGSTOP) is named within the watchdog's time, and the run ends by itself with 4."""
-    longest = 0.0
+    longest, scene = 0.0, folder / "scene.toml"
+    scene.write_text(JOB)
     for n in range(count):
         out, mark, limit, stopped = folder / f"stopped_{n}", f"{os.getpid()}_{n}", 6.0, n % 3
-        words = ["mpirun", "--oversubscribe", "-n", "3", PROGRAM, "run", *map(str, COUPLED), "--set", "time.end_s=60.0", "--set", f"runtime.watchdog_s={limit}", "--out", str(out), *QUIET]
+        words = ["mpirun", "--oversubscribe", "-n", "3", PROGRAM, "run", str(scene), "--set", "time.end_s=600.0", "--set", f"runtime.watchdog_s={limit}", "--out", str(out), *QUIET]
         environment = dict(os.environ) | {"SPINDRIFT_FAULT": mark, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         with open(folder / f"said_{n}", "w+", encoding="utf-8") as said:
             process = subprocess.Popen(words, stdout=said, stderr=subprocess.STDOUT, env=environment)
@@ -309,11 +310,13 @@ def stopped_rank(folder, count, pick):
             os.kill(victim, signal.SIGSTOP)
             begin = time.time()
             try:
-                process.wait(timeout=120)
-            finally:
-                if process.poll() is None:
-                    for one in processes_of(mark).values():
-                        os.kill(one, signal.SIGKILL)
+                process.wait(timeout=180)
+            except subprocess.TimeoutExpired:
+                left = {rank: (pathlib.Path("/proc") / str(one) / "status").read_text().split("State:")[1].split("\n")[0].strip() for rank, one in processes_of(mark).items()}
+                for one in processes_of(mark).values():
+                    os.kill(one, signal.SIGKILL)
+                said.seek(0)
+                raise AssertionError(f"rank {stopped} stopped, and the run did not end; ranks left: {left}\n{said.read()[-6000:]}") from None
             took = time.time() - begin
             said.seek(0)
             text = said.read()
