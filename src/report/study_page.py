@@ -54,9 +54,14 @@ def _lenders(study, metric):
     return list(dict.fromkeys(e["scatter_of"] for r in study["rungs"] if (e := r["errors"][metric["name"]])["scatter_of"]))
 
 
+def _apart(box, x, y):
+    """From a rectangle to a point."""
+    return math.hypot(max(box[0] - x, 0.0, x - box[2]), max(box[1] - y, 0.0, y - box[3]))
+
+
 def _name(axis, labels, size=7.5):
-    """Writes names beside their points, the first first, where none lies on another, on a point or across the edge; what finds no place has its row in
-    the table."""
+    """Writes names beside their points, the first first, where none lies on another, on a point, nearer to another point or across the edge; what
+    finds no place has its row in the table."""
     dots = axis.figure.dpi / 72.0
     width, height = axis.get_position().size * axis.figure.get_size_inches() * axis.figure.dpi
     (x0, y0), at = axis.transAxes.transform((0.0, 0.0)), axis.transData.transform([label[:2] for label in labels])
@@ -67,7 +72,8 @@ def _name(axis, labels, size=7.5):
             left, low = x + right * dots - (wide if right < 0 else 0.0), y + up * dots
             box = (left, low, left + wide, low + high)
             inside = x0 <= left and left + wide <= x0 + width and y0 <= low and low + high <= y0 + height
-            if inside and all(box[2] <= t[0] or t[2] <= box[0] or box[3] <= t[1] or t[3] <= box[1] for t in taken):
+            its_own = all(_apart(box, x, y) < _apart(box, *other) for other in at if tuple(other) != (x, y))
+            if inside and its_own and all(box[2] <= t[0] or t[2] <= box[0] or box[3] <= t[1] or t[3] <= box[1] for t in taken):
                 taken.append(box)
                 axis.annotate(text, (cost, error), textcoords="offset points", xytext=(right, up), fontsize=size, ha="right" if right < 0 else "left")
                 break
@@ -128,6 +134,33 @@ def _figure(study, metric):
     bars = f"Bars are {100 * study['confidence']:g} % intervals from {study['replicas']} replicas, paired with the reference. " if study["replicas"] else ""
     return (f"<figure><h3>{page.escape(metric['name'])}: {page.escape(what)}</h3>{figures.as_html(figure, 'Error against cost: ' + what)}"
             f"<figcaption>{bars}{page.escape(borrowed)}The line joins what nothing beats in both error and cost, over all targets{page.escape(target)}.</figcaption></figure>")
+
+
+def draw_values(study, metric, axis):
+    """What each rung found, one row each, where nothing is there to judge it by. False where fewer than two have a value."""
+    found = [(number, rung["name"], value) for number, rung in enumerate(study["rungs"], 1)
+             if (value := rung["errors"][metric["name"]]["value"]) is not None and math.isfinite(value)]
+    if len(found) < 2:
+        return False
+    values = [value for _, _, value in found]
+    axis.plot(values, range(len(found)), "o", color=figures.PALETTE[0], markersize=5)
+    axis.set_yticks(range(len(found)), [name if len(found) <= LABELLED else str(number) for number, name, _ in found])
+    axis.invert_yaxis()
+    axis.margins(x=0.08)
+    axis.grid(axis="y", alpha=0.3)
+    axis.set_xlabel(f"{WORDS[metric['measure']]} {metric['column']}")
+    return True
+
+
+def _values_figure(study, metric):
+    rows = min(len(study["rungs"]), 40)
+    figure, axis = plt.subplots(figsize=(6.4, 1.1 + 0.24 * rows), layout="constrained")
+    if not draw_values(study, metric, axis):
+        plt.close(figure)
+        return ""
+    numbered = " Numbers are those of the table." if len(study["rungs"]) > LABELLED else ""
+    return (f"<figure><h3>{page.escape(metric['name'])}</h3>{figures.as_html(figure, 'Values of ' + metric['name'])}"
+            f"<figcaption>What each rung found. The study names no reference, so no rung has an error.{numbered}</figcaption></figure>")
 
 
 def borrowed_words(e):
@@ -228,8 +261,8 @@ def build(folder):
     limits = "".join(f"<li>{page.escape(l['metric'])} of {page.escape(l['of'])}: " + (page.escape(l["why"]) if l["why"] else
                      f"order {page.number(l['order'], 3) if l['order'] else 'not needed'}") + "</li>" for l in study["limits"])
     left = "".join(f"<li>{page.escape(text)}</li>" for text in study["not_tested"])
-    drawn = "".join(_figure(study, m) for m in study["metrics"]) if reference else ""
-    sections = [section("figures", "Error against cost", f'<div class="figures">{drawn}</div>' if drawn else ""), section("load-cases", "Load cases", _load_cases(study)),
+    drawn = "".join((_figure if reference else _values_figure)(study, m) for m in study["metrics"])
+    sections = [section("figures", "Error against cost" if reference else "What was found", f'<div class="figures">{drawn}</div>' if drawn else ""), section("load-cases", "Load cases", _load_cases(study)),
                 section("rungs", "Rungs", _table(study)),
                 section("budget", f"Where the error of {study['budget_of']} comes from", _budget(study)),
                 section("limits", "Limits", f"<ul>{limits}</ul>" if limits else ""), section("not-tested", "What was not tested", f"<ul>{left}</ul>" if left else "")]
