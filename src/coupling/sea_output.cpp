@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/sea_output.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -22,8 +23,11 @@ SeaOutput::SeaOutput(const FloatingSystem& floating, const std::filesystem::path
     : floating_(floating), writes_(world.rank == 0) {
   const auto& options = floating.scenario().sea.fields;
   if (!floating.particles() || !options) return;
+  names_ = options->particles;
+  // Else walls and bodies could not be told from water.
+  if (options->solids && !names_.empty() && std::ranges::find(names_, "owner") == names_.end()) names_.push_back("owner");
   std::vector<io::Field> fields;
-  for (const std::string& name : options->particles) fields.push_back(field_named(name));
+  for (const std::string& name : names_) fields.push_back(field_named(name));
   if (!fields.empty()) particles_ = std::make_unique<io::ParticleFields>(world.comm, folder, "particles", fields, resume_s);
   if (options->surface_spacing_m == 0.0) return;
   const sph::TankPlan& tank = floating.particle_plan()->tank;
@@ -47,9 +51,9 @@ Writing SeaOutput::copy_particles(std::int64_t tick, double t) const {
   const sea::FieldsOptions& options = *floating_.scenario().sea.fields;
   const auto sample =
       std::make_shared<const sea::ParticleSample>(floating_.particles()->sample(options.low_m, options.high_m, options.solids));
-  return [this, &options, sample, tick, t] {
+  return [this, sample, tick, t] {
     std::vector<std::span<const double>> fields;
-    for (const std::string& name : options.particles)
+    for (const std::string& name : names_)
       fields.push_back(name == "velocity"   ? sample->velocity
                        : name == "pressure" ? sample->pressure
                        : name == "density"  ? sample->density

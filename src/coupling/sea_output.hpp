@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "runtime/mpi/environment.hpp"
 #include "src/coupling/floating_system.hpp"
@@ -27,6 +29,7 @@ class SeaOutput {
   Writing copy_surface(std::int64_t tick, double t) const;
 
   const FloatingSystem& floating_;
+  std::vector<std::string> names_;  ///< of the particles' fields
   bool writes_;  ///< this rank hands the surface in: all ranks have all of it
   std::unique_ptr<io::ParticleFields> particles_;
   std::unique_ptr<io::GridFields> surface_;

@@ -9,9 +9,11 @@ ROUND = 36  # corners of a circle
 
 
 class Piece:
-    """A surface of quadrilaterals and triangles, or polylines: `kind` says what it shows (float, tower, nacelle, blade, line, brace)."""
+    """A surface of quadrilaterals and triangles, or polylines: `kind` says what it shows (float, tower, nacelle, blade, line, brace); `sketched`
+    where the scene does not describe its shape."""
 
-    def __init__(self, kind, name, points, polygons=(), lines=(), bends=False):
+    def __init__(self, kind, name, points, polygons=(), lines=(), bends=False, sketched=False):
+        self.sketched = sketched
         self.kind, self.name, self.points, self.bends = kind, name, np.asarray(points, float), bends   # bends: no rigid motion takes it from one time to another
         self.polygons, self.lines = list(polygons), list(lines)
 
@@ -273,6 +275,11 @@ class Scene3d:
             found.append(self._line(name, line, t))
         return found
 
+    def sketched(self):
+        """Names of the kinds of pieces that no line of the scene describes."""
+        kinds = dict.fromkeys(p.kind for p in self.pieces(self.run.time[0]) if p.sketched)
+        return ["braces" if kind == "brace" else kind for kind in kinds]
+
     def _reach(self):
         """Length of the longest line [m]: what the size of a body without a shape is taken from."""
         lines = (self.scene.get("moorings") or {}).values()
@@ -288,7 +295,7 @@ class Scene3d:
         """Tower from the deck or the foundation to the nacelle, and braces from its foot to floats that stand apart. A tower that the scene
         describes (a beam, or the tower in the wind) stands as described."""
         body, hub, found = self.carrier(), self.hub0, []
-        add = lambda kind, name, made: found.append(Piece(kind, name, self.moved(body, made[0], t), made[1]))
+        add = lambda kind, name, made, sketched=False: found.append(Piece(kind, name, self.moved(body, made[0], t), made[1], sketched=sketched))
         beams = [self._beam(name, beam, t) for name, beam in (self.scene.get("beams") or {}).items()]
         below = beams[0][1] if beams else body
         cylinders = self.bodies.get(below, {}).get("cylinders", [])
@@ -313,17 +320,17 @@ class Scene3d:
             for (z0, d0, *_), (z1, d1, *_) in zip(stations, stations[1:]):
                 add("tower", "tower", frustum([x, y, z0], [x, y, z1], d0, d1))
         else:
-            add("tower", "tower", frustum(foot, top, size, 0.62 * size, rings=8))
+            add("tower", "tower", frustum(foot, top, size, 0.62 * size, rings=8), sketched=True)
         side = 1.0 if top[0] >= hub[0] else -1.0   # of the rotor on which the tower stands
         front = hub[0] + side * 0.02 * hub[2]
         back = front + side * max(0.08 * hub[2], abs(top[0] - front) + 0.07 * hub[2])
-        add("nacelle", "nacelle", box([0.5 * (front + back), hub[1], hub[2]], [abs(back - front), 0.05 * hub[2], 0.05 * hub[2]]))
+        add("nacelle", "nacelle", box([0.5 * (front + back), hub[1], hub[2]], [abs(back - front), 0.05 * hub[2], 0.05 * hub[2]]), sketched=True)
         for c in cylinders:
             end = np.asarray(c["end_m"] if c["end_m"][2] > c["start_m"][2] else c["start_m"], float)
             if np.hypot(*(end - foot)[:2]) > 0.5 * c["diameter_m"] + size:
                 for rise, thick in ((-0.1, 0.5), (2.2, 0.3)):
                     points, polygons = frustum(foot + [0, 0, rise * size], end - [0, 0, 0.1 * size], thick * size)
-                    found.append(Piece("brace", "brace", self.moved(below, points, t), polygons))
+                    found.append(Piece("brace", "brace", self.moved(below, points, t), polygons, sketched=True))
         return found
 
     @staticmethod

@@ -66,9 +66,7 @@ class Drawing:
         if solids.any():
             axis.scatter(position[solids, 0], position[solids, 2], c="#9aa0a6", s=size, linewidths=0)
         drawn = axis.scatter(position[chosen, 0], position[chosen, 2], c=speed[chosen], s=size, linewidths=0, cmap="viridis", vmin=0.0, vmax=self.most or 1.0)
-        for piece in self.scene.pieces(time):
-            if piece.kind == "float":
-                outline(axis, piece)
+        solids_at(axis, self.scene, time)
         axis.set_xlim(*x)
         axis.set_ylim(z[0] - 0.02 * (z[1] - z[0]), z[1])
         if span < 14.0:
@@ -92,6 +90,17 @@ class Drawing:
                 if "velocity" in file and len(file["velocity"]):
                     most = max(most, float(np.percentile(np.linalg.norm(file["velocity"][...], axis=1), 99.5)))
         return most
+
+
+def solids_at(axis, scene, time):
+    """Bodies and lines that meet the plane y = 0, over its water, as they lie at this time."""
+    for piece in scene.pieces(time):
+        if piece.points[:, 1].min() > 1e-9 or piece.points[:, 1].max() < -1e-9:
+            continue
+        if piece.kind == "float":
+            outline(axis, piece)
+        for line in piece.lines:
+            axis.plot(piece.points[line, 0], piece.points[line, 2], color="#d9480f", linewidth=1.4)
 
 
 def outline(axis, piece):

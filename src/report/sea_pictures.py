@@ -5,6 +5,8 @@ import pathlib
 import numpy as np
 
 import figures
+import geometry
+import plane_picture
 from figures import plt
 
 MOST_DRAWN = 40_000  # particles in one picture; thinned evenly beyond
@@ -36,6 +38,7 @@ def _slice(file, spacing):
 
 def particles(run, h5py):
     """(title, figure, caption) of slices, one figure per quantity."""
+    scene = geometry.Scene3d(run)
     slices, spacing = [], run.scene.get("sea", {}).get("particles", {}).get("spacing_m", np.inf)
     for path in _chosen(_outputs(run, "particles")):
         with h5py.File(path) as file:
@@ -52,15 +55,19 @@ def particles(run, h5py):
         wide = max(np.ptp(s[0]) for s in shown)
         size = (1.2 * spacing * 4.3 * 72 / wide) ** 2 if np.isfinite(spacing) and wide > 0.0 else 3000.0 / max(len(s[0]) for s in shown)
         for axis, s in zip(axes[:, 0], shown):
+            limits = [(np.min(of), np.max(of)) for of in s[:2]]
             drawn = axis.scatter(s[0], s[1], c=factor * s[index], s=float(np.clip(size, 0.3, 40.0)), linewidths=0, cmap="viridis",
                                  vmin=0.0, vmax=top or 1.0, rasterized=True)
             axis.set_ylabel("z [m]")
             axis.set_title(f"t = {s[4]:g} s", loc="left")
+            plane_picture.solids_at(axis, scene, s[4])
+            axis.set_xlim(*limits[0])   # lines and towers reach far beyond the water
+            axis.set_ylim(limits[1][0], limits[1][1] + 0.25 * np.ptp(limits[1]))
             if span < 12.0:
                 axis.set_aspect("equal")
         axes[-1, 0].set_xlabel("x [m]")
         figure.colorbar(drawn, ax=list(axes[:, 0]), label=f"{name} [{unit}]", fraction=0.04)
-        yield f"Water particles: {name}", figure, "Water within a spacing of y = 0, at the first, middle and last output of fields/particles."
+        yield f"Water particles: {name}", figure, "Water within a spacing of y = 0, with bodies and lines, at the first, middle and last output of fields/particles."
 
 
 def _scale(run, maps):

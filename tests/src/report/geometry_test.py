@@ -72,6 +72,9 @@ class Geometry(unittest.TestCase):
             found.setdefault(piece.kind, []).append(piece)
         return found
 
+    def test_what_the_scene_does_not_describe_is_said_to_be_sketched(self):
+        self.assertEqual(self.scene.sketched(), ["tower", "nacelle", "braces"])
+
     def test_everything_is_there(self):
         self.assertEqual({kind: len(pieces) for kind, pieces in self.kinds(0.0).items()},
                          {"float": 1, "tower": 1, "nacelle": 1, "brace": 2, "hub": 1, "blade": 3, "line": 1})
