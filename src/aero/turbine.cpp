@@ -127,12 +127,15 @@ Planform read_planform(const std::string& path, double hub_radius, bool by_numbe
   if (file.has("polar") && !by_number)
     file.fail(-1,
               "has a column polar, but the polars of the turbine file have no number: give them one, or leave the column out");
+  const auto or_zero = [&](const char* name) {
+    return file.has(name) ? column(file, name) : std::vector<double>(file.rows(), 0.0);
+  };
   return {column(file, "span_m"),
           column(file, "chord_m"),
           column(file, "twist_deg", radians_per_degree),
           by_number && !file.has("thickness_pct") ? std::vector<double>() : column(file, "thickness_pct", 0.01),
-          column(file, "prebend_m"),
-          file.has("sweep_m") ? column(file, "sweep_m") : std::vector<double>(file.rows(), 0.0),
+          or_zero("prebend_m"),
+          or_zero("sweep_m"),
           by_number ? column(file, "polar") : std::vector<double>()};
 }
 
@@ -193,7 +196,7 @@ const scene::Section<TurbineOptions>& turbine_section() {
           .path(
               "planform", &TurbineOptions::planform,
               "CSV file from root to tip: span_m (from the rotor axis along the blade), chord_m, twist_deg (nose into the wind), "
-              "thickness_pct, prebend_m (downwind); sweep_m may be there and is not used by blade element momentum. Where polars "
+              "thickness_pct; by choice prebend_m (downwind) and sweep_m, which blade element momentum does not use. Where polars "
               "have numbers a column polar says which, 2.5 being half of polar 2 and half of 3; thickness_pct may then be left "
               "out.")
           .required()

@@ -178,6 +178,8 @@ TEST_CASE("a turbine file that is not a rotor is refused with what is wrong", "[
   };
   const std::string one = "polars = [{thickness_pct = 24, file = '" + polar + "'}]\n";
   CHECK(with("2.0", planform, one).planform.chord[1] == 1.0);
+  const std::string straight = data_file("straight.csv", "span_m,chord_m,twist_deg,thickness_pct\n2,5,14,100\n80,1,0,24\n");
+  CHECK(with("2.0", straight, one).planform.prebend == std::vector<double>{0.0, 0.0});
   CHECK_THROWS_WITH(with("3.0", planform, one), Contains("hub_radius_m"));
   CHECK_THROWS_WITH(with("2.0", planform, ""), Contains("at least one entry"));
   CHECK_THROWS_WITH(with("2.0", "nowhere.csv", one), Contains("nowhere.csv"));
