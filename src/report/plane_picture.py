@@ -1,5 +1,7 @@
 """Pictures of sections and tanks in their plane, with axes, units and a scale of colours: the flow round walls, the water of a tank.
 Called by spindrift_picture.py; tested in tests/src/report/geometry_test.py. SPDX-License-Identifier: Apache-2.0"""
+import textwrap
+
 import numpy as np
 
 import flow_pictures
@@ -17,7 +19,7 @@ class Drawing:
         self.water = bool(self.fields.files["particles"])
         if not self.water and not self.fields.files["air"]:
             raise ValueError(f"{run.folder} has no fields: give the scene [sea.fields] or run the flow to its end")
-        self.most = None
+        self.most = self.top = None
 
     def times(self):
         return self.fields.times("particles" if self.water else "air")
@@ -47,7 +49,7 @@ class Drawing:
             position, owner = file["position"][...], file["owner"][...] if "owner" in file else None
             speed = np.linalg.norm(file["velocity"][...], axis=1) if "velocity" in file else np.zeros(len(position))
         if self.most is None:
-            self.most = self._greatest_speed()
+            self.most, self.top = self._greatest_speed_and_height()
         keep = np.abs(position[:, 1]) <= spacing if np.ptp(position[:, 1]) > 0 else np.ones(len(position), bool)
         tank = self.run.scene["sea"].get("tank") or {}
         x = tank.get("x_m", [position[:, 0].min(), position[:, 0].max()])
@@ -58,11 +60,15 @@ class Drawing:
         solids = keep & (owner != 0) if owner is not None else np.zeros(len(position), bool)
         chosen = np.flatnonzero(water)
         chosen = chosen[:: max(1, len(chosen) // MOST_DRAWN)]
-        z = [position[keep, 2].min(), tank.get("top_m", position[:, 2].max())]
+        low = position[keep, 2].min()
+        z = [low, min(tank.get("top_m", np.inf), self.top + 0.12 * (self.top - low))]   # no more air than the water of any time leaves
+        if solids.any():
+            x = [x[0] - 3 * spacing, x[1] + 3 * spacing]
         span = (x[1] - x[0]) / max(z[1] - z[0], 1e-9)
-        figure, axis = plt.subplots(figsize=(11.0, float(np.clip(9.4 / span, 1.0, 6.0)) + (2.0 if span > 5.0 else 1.3)), dpi=130, layout="constrained", facecolor="white")
-        box = axis.get_window_extent().height / figure.dpi * 72
-        size = max(0.2, min(600.0, (1.15 * spacing * min(box / max(z[1] - z[0], 1e-9), 9.4 * 72 / (x[1] - x[0]))) ** 2)) if np.isfinite(spacing) else 2.0
+        high = float(np.clip(9.4 / span, 1.0, 6.0))
+        wide = 9.4 if span > 5.0 else max(6.0, min(9.4, high * span))   # of the water, beside its scales
+        figure, axis = plt.subplots(figsize=(wide + 1.6, high + (2.3 if span > 5.0 else 1.6)), dpi=130, layout="constrained", facecolor="white")
+        size = max(0.2, min(600.0, (1.15 * spacing * 72 * min(high / max(z[1] - z[0], 1e-9), wide / (x[1] - x[0]))) ** 2)) if np.isfinite(spacing) else 2.0
         if solids.any():
             axis.scatter(position[solids, 0], position[solids, 2], c="#9aa0a6", s=size, linewidths=0)
         drawn = axis.scatter(position[chosen, 0], position[chosen, 2], c=speed[chosen], s=size, linewidths=0, cmap="viridis", vmin=0.0, vmax=self.most or 1.0)
@@ -74,22 +80,27 @@ class Drawing:
         axis.grid(False)
         axis.set_xlabel("x [m]")
         axis.set_ylabel("z [m]")
-        axis.set_title(f"{self.run.title}   t = {time:.3g} s", loc="left", fontweight="semibold", fontsize=12)
+        figure.suptitle(textwrap.fill(self.run.title, int(9.5 * figure.get_figwidth())), x=0.01, ha="left", fontweight="semibold", fontsize=12)
+        axis.set_title(f"t = {time:.3g} s", loc="left", fontsize=11)
         if span > 5.0:
             figure.colorbar(drawn, ax=axis, label="speed of the water [m/s]", orientation="horizontal", shrink=0.4, aspect=40, pad=0.02)
         else:
             figure.colorbar(drawn, ax=axis, label="speed of the water [m/s]", fraction=0.03, pad=0.01)
         return figure
 
-    def _greatest_speed(self):
-        """Of all outputs, so that the colours of a film mean the same throughout."""
+    def _greatest_speed_and_height(self):
+        """Of the water and the floats of all outputs, so that the colours and the frame of a film mean the same throughout."""
         import h5py
-        most = 0.0
-        for _, path in self.fields.files["particles"][:: max(1, len(self.fields.files["particles"]) // 12)]:
+        most, top = 0.0, -np.inf
+        for time, path in self.fields.files["particles"][:: max(1, len(self.fields.files["particles"]) // 12)]:
             with h5py.File(path) as file:
-                if "velocity" in file and len(file["velocity"]):
-                    most = max(most, float(np.percentile(np.linalg.norm(file["velocity"][...], axis=1), 99.5)))
-        return most
+                water = file["owner"][...] == 0 if "owner" in file else slice(None)
+                height = file["position"][...][water, 2]
+                if "velocity" in file and len(height):
+                    most = max(most, float(np.percentile(np.linalg.norm(file["velocity"][...][water], axis=1), 99.5)))
+                floats = [piece.points[:, 2].max() for piece in self.scene.pieces(time) if piece.kind == "float"]
+                top = max([top, float(np.max(height, initial=-np.inf)), *floats])
+        return most, top
 
 
 def solids_at(axis, scene, time):
