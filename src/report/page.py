@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+import decay
 import figures
 import flow_pictures
 import html_page
@@ -14,7 +15,7 @@ import rotor_pictures
 import sea_pictures
 import verdict
 from html_page import escape, parts, safe, section
-from words import LEVEL, duration, mean, number
+from words import LEVEL, deviation, duration, mean, number
 
 # {key: (heading, folded)}
 GROUPS = {"motion": ("Motions", False), "forces": ("Forces by source", False), "moments": ("Moments by source", False),
@@ -41,7 +42,8 @@ def _span(run):
     if verdict.is_steady(run):
         return "At the end of the march."
     count = verdict.waves_in_means(run)
-    return f"Means over {run.mean_range()[1]}" + (f", {number(count, 3)} waves." if math.isfinite(count) else ".")
+    swings = " ± standard deviation" if any("±" in value for _, value, _ in verdict.answers(run)) else ""
+    return f"Means{swings} over {run.mean_range()[1]}" + (f", {number(count, 3)} waves." if math.isfinite(count) else ".")
 
 
 def scene_as_given(run):
@@ -158,7 +160,7 @@ def _key_rows(run, names):
         finite = values[np.isfinite(values)]
         unit, factor = quantities.scaled(quantities.unit_of(name, run.described), np.abs(finite).max(initial=0.0))
         low, high = (finite.min(), finite.max()) if len(finite) else (math.nan, math.nan)
-        figures_of = [values[-1], mean(run.time[where[0]], values[where[0]]), low, high]
+        figures_of = [values[-1], mean(run.time[where[0]], values[where[0]]), deviation(run.time[where[0]], values[where[0]]), low, high]
         noise = run.round_off(name)
         rows.append((name, unit, [factor * float(v) if not abs(v) <= noise else 0.0 for v in figures_of]))
     return rows, where[1]
@@ -187,7 +189,7 @@ def key_figures(run):
 
     def table(chosen):
         rows, span = _key_rows(run, chosen)
-        return parts.table(["Quantity", "Unit", "Final", f"Mean, {span}", "Least", "Greatest"],
+        return parts.table(["Quantity", "Unit", "Final", f"Mean, {span}", "Standard deviation", "Least", "Greatest"],
                            [[_spoken(run, n), u] + [number(v) for v in values] for n, u, values in rows])
 
     rest = [n for n in run.columns[1:] if n not in names]
@@ -220,16 +222,19 @@ def compared_figures(runs):
         if not any(means) and all(name in r.columns and not (abs(r.column(name)) > r.round_off(name)).any() for r in runs):   # zero throughout, in all
             continue
         unit, factor = quantities.scaled(quantities.unit_of(name, runs[0].described), max((abs(m) for m in means if math.isfinite(m)), default=0))
-        cells = []
+        cells, share = [], not quantities.is_displacement(name)
         for i, value in enumerate(means):
-            change = (value - means[0]) / abs(means[0]) * 100.0 if i and means[0] else math.nan
-            cells.append(number(factor * value) + (safe(f" <small>({change:+.2f} %)</small>") if math.isfinite(change) else ""))
+            change = (value - means[0]) / abs(means[0]) * 100.0 if i and means[0] and share else factor * (value - means[0]) if i and not share else math.nan
+            if not share and abs(change) < 1e-4 * factor * np.ptp(runs[0].column(name)):   # of what it moves by: nothing
+                change = 0.0
+            off = f"{change:+.2f} %" if share else f"{'+' if change > 0.0 else ''}{number(change, 3)} {unit}".strip()
+            cells.append(number(factor * value) + (safe(f" <small>({escape(off)})</small>") if math.isfinite(change) else ""))
         rows.append([_spoken(runs[0], name), unit] + cells)
     if not rows:
         return ""
     said = "; ".join(f"{r.name}: {s[1]}" for r, s in zip(runs, spans))
     return (parts.table(["Mean of", "Unit"] + [r.name for r in runs], rows)
-            + safe(f'<p class="facts">Means over {escape(said)}. In brackets: difference from the first.</p>'))
+            + safe(f'<p class="facts">Means over {escape(said)}. In brackets: difference from the first, of displacements and angles, which go round zero, in their own unit.</p>'))
 
 
 def _figure(title, legend, figure, caption):
@@ -257,7 +262,8 @@ def time_figures(runs):
     """{group key: HTML} of all figures over time."""
     names = list(dict.fromkeys(n for run in runs for n in run.columns))
     shown, folded, still = {}, {}, {}
-    for group in quantities.groups(names):
+    joints = {name: joint.get("bodies") or [] for name, joint in _tables(runs[0].scene, "joints").items()}
+    for group in quantities.groups(names, joints):
         drawing = figures.series(runs, group)
         caption = _caption(group, drawing, runs)
         if drawing.figure is None:
@@ -317,6 +323,20 @@ def modes(run):
         figure = figures.campbell(named, at.get("wave"), 60.0 * at["1P"], run.blades())
         out += safe('<div class="figures">') + safe(_figure("Campbell diagram", None, figure, "Modes about the start do not know the rotor's speed; dotted: that of the run.")) + safe("</div>")
     return out
+
+
+def decays(run):
+    """Periods and damping of free decays from their peaks, beside the mode about the start."""
+    rows = []
+    for d in decay.decays(run):
+        body, _, quantity = d.column.rpartition(".")
+        own = modes_of(run, body).get(quantities.AXES[quantities.quantity_of(d.column)])
+        change = f"{100.0 * d.first:.2f} to {100.0 * d.last:.2f} %" if abs(d.first - d.last) > 0.1 * abs(d.damping) else "–"
+        rows.append([_spoken(run, d.column), f"{d.swings / 2:g}", number(d.period), number(1.0 / own) if own else "–", f"{100.0 * d.damping:.2f} %", change])
+    if not rows:
+        return ""
+    return parts.table(["Motion", "Swings", "Period [s]", "Of the mode about the start [s]", "Damping, of critical", "First to last third"], rows) + safe(
+        '<p class="facts">From peaks and troughs: the mean time from each to the next, the logarithmic decrement of the ranges between them.</p>')
 
 
 def timeline(run):
@@ -482,7 +502,7 @@ def build(runs, progress=lambda words: None):
         progress("pictures of the air")
         found.append(section("flow", "The flow", flow(one)))
         progress("spectra")
-        found += [section("modes", "Modes", modes(one), True), section("spectra", "Spectra of motions", spectra(runs)), section("model", "What was modelled", model(one), True), *shown[-2:],
+        found += [section("decay", "Free decay", decays(one)), section("modes", "Modes", modes(one), True), section("spectra", "Spectra of motions", spectra(runs)), section("model", "What was modelled", model(one), True), *shown[-2:],
                   section("time-spent", "Where the time was spent", where_time(one) + timeline(one) + counts(one), True),
                   section("efficiency", "Parallel efficiency", efficiency(one), True), section("scene", "Scene", scene(one), True),
                   section("log", "Log", log(one), True)]

@@ -68,8 +68,20 @@ def bodies_of(names):
     return list(dict.fromkeys(n.rpartition(".")[0] for n in names if re.search(r"(?<!\.blade_.)\.((x|y|z)_m|(roll|pitch|yaw)_deg)$", n)))
 
 
-def groups(names):
-    """All figures that the columns give, in the order of the page. Every column but the time is in exactly one."""
+def _held_by(names, joints, body):
+    """{quantity: lines} of the forces of the joints that hold a body; a joint's columns are what it does to its second body. Each is drawn once."""
+    found = {}
+    for joint, pair in joints.items():
+        if len(pair) != 2 or body != next((b for b in pair if b != "earth"), None):
+            continue
+        for axis in "xyz":
+            if (name := f"{joint}.f{axis}_N") in names:
+                found.setdefault("f" + axis, []).append((f"{joint}, on {pair[1]}", name))
+    return found
+
+
+def groups(names, joints=None):
+    """All figures that the columns give, in the order of the page. Every column but the time is in exactly one. `joints`: {joint: its two bodies}."""
     found = []
     bodies = bodies_of(names)
 
@@ -97,7 +109,9 @@ def groups(names):
                                         ("m", "moments", "moments by source", "Moment about the body's centre of mass from each source of load, earth frame.")):
         for (body, kind), panels in sources.items():
             if kind == letter:
-                add(key, f"{body}: {title}", caption, [(q, panels[q]) for q in sorted(panels)], bool(bodies) and body != bodies[0])
+                held = _held_by(names, joints or {}, body) if kind == "f" else {}
+                more = " Of a joint: the force on the body that is named; the opposite one acts on the other." if held else ""
+                add(key, f"{body}: {title}", caption + more, [(q, panels[q] + held.get(q, [])) for q in sorted(panels)], bool(bodies) and body != bodies[0])
 
     rotors = list(dict.fromkeys(n.rpartition(".")[0] for n in names if n.endswith(".thrust_N")))
     for rotor in rotors:
@@ -126,6 +140,11 @@ def groups(names):
     for (prefix, unit), lines in rest.items():
         add("other", f"{prefix or 'run'}: " + ", ".join(q for q, _ in lines), "", [(unit or "value", lines)], True)
     return found
+
+
+def is_displacement(name):
+    """Of a column that swings round a zero of no meaning: a share of its mean says nothing."""
+    return name.endswith((".x_m", ".y_m", ".z_m", ".elevation_m", ".roll_deg", ".pitch_deg", ".yaw_deg"))
 
 
 def key_columns(names):

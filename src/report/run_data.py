@@ -99,8 +99,10 @@ class RunData:
         return found if isinstance(found, int) else 3
 
     def operation(self):
-        """{column: values} of the turbine's steady operation, None where the scene names none."""
+        """{column: values} of the turbine's steady operation, None where neither scene nor turbine file names one."""
         path = self._named_by_rotor("operation")
+        if path is None and isinstance(named := self.turbine()[0].get("operation"), str) and named:   # relative to the turbine file
+            path = self.turbine()[1].parent / named
         try:
             rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines() if line.strip() and not line.startswith("#")]
             return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}

@@ -9,6 +9,7 @@ import words
 from geometry import Scene3d
 
 EXITS = {0: "Done", 2: "Bad input", 3: "Numerical failure", 4: "Machine failure", 5: "Stopped on request"}
+SWINGS = 0.02   # of its mean: a standard deviation that is told with it
 ORDER = {"bad": 0, "warn": 1, "good": 2}
 
 
@@ -74,7 +75,8 @@ def _walls(run):
 
 
 def answers(run):
-    """[(words, value, unit)]: the few figures that this kind of scene is run for; means over the summary's range, of a steady state those of its end."""
+    """[(words, value, unit)]: the few figures that this kind of scene is run for; means over the summary's range, of a steady state those of its end.
+    Where a figure swings its standard deviation stands behind it."""
     if not len(run.time):
         return []
     chosen, said = run.mean_range()[0], []
@@ -88,7 +90,9 @@ def answers(run):
             if value == 0.0:   # what a scene leaves out
                 return
             unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(value) if math.isfinite(value) else 0.0)
-            said.append((text, words.number(factor * value), unit))
+            swing = words.deviation(run.time[chosen], run.column(name)[chosen]) if function is mean and not is_steady(run) else 0.0
+            swings = math.isfinite(swing) and swing > max(SWINGS * abs(value), run.round_off(name))
+            said.append((text, words.number(factor * value) + (f" ± {words.number(factor * swing, 2)}" if swings else ""), unit))
 
     sort = kind(run)
     if sort in ("floating turbine", "bodies"):
@@ -409,13 +413,13 @@ def _marched(run):
 
 
 def _settled(run):
-    """Do the means stand for more than their stretch? Halves of the range compared, for the first body and the thrust."""
-    if len(run.time) < 20 or kind(run) not in ("floating turbine", "bodies"):
+    """Do the means stand for more than their stretch? Halves of the range compared, for all figures that the run answers with."""
+    if len(run.time) < 20 or is_steady(run) or kind(run) in ("tank", "run"):
         return None
     chosen = np.flatnonzero(run.mean_range()[0])
     if len(chosen) < 10:
         return None
-    body, moving = quantities.bodies_of(run.columns)[0], []
+    body, moving = next(iter(quantities.bodies_of(run.columns)), None), []
     first, second = np.array_split(chosen, 2)
     period = _value(run.scene, "waves", "period_s") or _value(run.scene, "waves", "peak_period_s")
     if isinstance(period, (int, float)) and period > 0:   # whole waves alone have a mean
@@ -424,10 +428,19 @@ def _settled(run):
         if waves == 0:
             return None
         first, second = chosen[run.time[chosen] <= begin + waves * period + 1e-9], chosen[run.time[chosen] >= end - waves * period - 1e-9]
+    between = lambda values: words.mean(run.time[second], values[second]) - words.mean(run.time[first], values[first])
+    for text, name in (("thrust", "rotor.thrust_N"), ("power", "rotor.power_W"), ("lift coefficient", "flow.lift_coefficient"), ("drag coefficient", "flow.drag_coefficient"),
+                       *((f"tension of {n.rpartition('.')[0]}", n) for n in run.columns if n.endswith(".tension_N"))):
+        if name in run.columns:
+            values = run.column(name)
+            size = abs(words.mean(run.time[chosen], values[chosen]))
+            # A swinging load has halves whose means differ by chance: a fifth of its swing is none.
+            if abs(change := between(values)) > max(0.05 * size, 0.2 * words.deviation(run.time[chosen], values[chosen]), run.round_off(name)):
+                moving.append(f"{text} by {words.number(100.0 * change / max(size, 1e-300), 2)} %")
     for text, name, least in (("surge", f"{body}.x_m", 0.02), ("heave", f"{body}.z_m", 0.02), ("pitch", f"{body}.pitch_deg", 0.05)):
         if name in run.columns:
             values = run.column(name)
-            change = words.mean(run.time[second], values[second]) - words.mean(run.time[first], values[first])
+            change = between(values)
             shaped = Scene3d(run).corners(body) if body in (run.scene.get("bodies") or {}) else []
             height = float(np.ptp(shaped[:, 2])) if len(shaped) else math.inf
             allowed = max(least, 0.1 * abs(words.mean(run.time[chosen], values[chosen])))

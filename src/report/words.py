@@ -33,3 +33,10 @@ def mean(time, values):
     if len(values) == 0:
         return math.nan
     return float(np.trapz(values, time) / (time[-1] - time[0])) if len(values) > 1 and time[-1] > time[0] else float(values[-1])
+
+
+def deviation(time, values):
+    """Standard deviation about that mean, weighted alike."""
+    if len(values) == 0:
+        return math.nan
+    return math.sqrt(max(0.0, mean(time, (values - mean(time, values)) ** 2)))

@@ -161,8 +161,10 @@ source = "Bak et al. 2013"
         _, parsed = self.page(table={"time_s": t, "a.x_m": t ** 2, "rotor.thrust_N": 1e6 + 0 * t}, ranges={"r": {"from_s": 8, "to_s": 10}})
         row = re.search(r"a surge a\.x_m\s*m(.*?)rotor", parsed.text.replace("\n", ""))[1]
         exact = (1000 - 512) / 3 / 2
-        self.assertIn(f"100.0{exact:.2f}0100.0", row)  # final, mean over 8 ... 10 s, least, greatest
-        self.assertIn("rotor thrust rotor.thrust_NMN1.0001.0001.0001.000", parsed.text)
+        last = t[80:] ** 2
+        spread = (np.trapz((last - np.trapz(last, t[80:]) / 2) ** 2, t[80:]) / 2) ** 0.5
+        self.assertIn(f"100.0{exact:.2f}{spread:.2f}0100.0", row)  # final, mean and standard deviation over 8 ... 10 s, least, greatest
+        self.assertIn("rotor thrust rotor.thrust_NMN1.0001.00001.0001.000", parsed.text)
 
     def test_numerical_trouble_comes_first(self):
         table = synthetic_run.columns(0.1 * np.arange(300))
@@ -245,7 +247,8 @@ source = "Bak et al. 2013"
         text, parsed = self.page("a", "b")
         self.assertEqual(parsed.sections, ["differences", "key-figures"] + [key for key in ALL[1:10] if key != "model"])
         self.assertRegex(parsed.text, r"aero\.thrust_N\s*1500000\.0\s*1650000\.0")
-        self.assertIn("(+10.", parsed.text)
+        self.assertIn("5.720 (+0.521 deg)", parsed.text)   # a share of an angle says nothing
+        self.assertIn("1.500 (-0.04 %)", parsed.text)
         synthetic_run.write(self.folder / "deep/a", rows=0)
         self.page("a", "deep/a")  # equal names, and one without rows
 
@@ -276,6 +279,14 @@ class PartsTest(unittest.TestCase):
     def test_every_column_is_in_exactly_one_figure(self):
         names = list(synthetic_run.columns(np.arange(3.0))) + ["odd", "a.b.c_kg", "platform.sea.fx_N_m", "x_m"]
         used = [c for group in quantities.groups(names) for c in group.columns()]
+        self.assertEqual(sorted(used), sorted(names[1:]))
+
+    def test_the_force_of_a_joint_stands_with_the_loads_of_the_first_body_it_holds(self):
+        names = list(synthetic_run.columns(np.arange(3.0))) + ["bearing.fx_N", "bearing.mx_N_m", "post.fx_N"]
+        found = {g.title: g for g in quantities.groups(names, {"bearing": ["platform", "rotor"], "post": ["earth", "rotor"]})}
+        self.assertIn(("bearing, on rotor", "bearing.fx_N"), dict(found["platform: forces by source"].panels)["fx"])
+        self.assertIn("the opposite one acts on the other", found["platform: forces by source"].caption)
+        used = [c for g in found.values() for c in g.columns()]
         self.assertEqual(sorted(used), sorted(names[1:]))
 
     def test_units(self):
@@ -347,7 +358,7 @@ class PartsTest(unittest.TestCase):
                 found = [c for c in verdict.health(run) if c.title == "Means"]
                 return (found[0].level, found[0].text) if found else None, page._span(run)
 
-            self.assertEqual(means(20.0), (None, "Means over 20 to 40 s, 2.00 waves."))
+            self.assertEqual(means(20.0), (None, "Means ± standard deviation over 20 to 40 s, 2.00 waves."))
             (level, text), span = means(15.0)
             self.assertEqual((level, text), ("warn", "over 1.50 waves; over the last whole one: heave −0.500 for −0.712 m"))
             self.assertEqual(means(5.0)[0], ("warn", "over 0.50 of a wave, which say little: output.means_over_s = 10.00 is one wave"))
@@ -362,6 +373,40 @@ class PartsTest(unittest.TestCase):
                 self.assertEqual(found.level, level)
                 if change:
                     self.assertIn("over the last 20 pseudo-steps lift coefficient by 4.8 % changed", found.text)
+
+    def test_a_thrust_that_still_changes_has_not_settled(self):
+        t = 0.1 * np.arange(400)
+        for change, level in ((0.0, "good"), (0.1, "warn")):
+            with self.subTest(change), tempfile.TemporaryDirectory() as folder:
+                table = {"time_s": t, "float.x_m": 0 * t, "rotor.thrust_N": 1e6 * (1 + change * (t > 35)) + 2e4 * np.sin(t), "rotor.power_W": 5e6 + 0 * t}
+                synthetic_run.write(pathlib.Path(folder), table=table, scene="[bodies.float]\nmass_kg = 1.0\n", log="", ranges={"end": {"from_s": 30.0, "to_s": 40.0}})
+                found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}["Settled"]
+                self.assertEqual(found.level, level)
+                self.assertEqual("thrust by" in found.text, change > 0.0)
+
+    def test_a_figure_that_swings_is_told_with_its_standard_deviation(self):
+        t = 0.1 * np.arange(401)
+        table = {"time_s": t, "float.x_m": 0.2 + 0 * t, "float.z_m": np.sin(2 * np.pi * t / 10.0), "rotor.thrust_N": 1.2e6 + 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), table=table, scene="[bodies.float]\nmass_kg = 1.0\n", log="", ranges={"end": {"from_s": 20.0, "to_s": 40.0}})
+            said = {text: value for text, value, _ in verdict.answers(RunData(pathlib.Path(folder)))}
+            self.assertTrue(said["heave"].endswith(" ± 0.71"), said)
+            self.assertEqual(said["surge"], "0.2000")
+            self.assertEqual(said["thrust"], "1.200")
+
+    def test_power_is_held_against_the_table_that_the_turbine_file_names(self):
+        t = 0.1 * np.arange(400)
+        table = {"time_s": t, "float.x_m": 0 * t, "rotor.thrust_N": 1e6 + 0 * t, "rotor.power_W": 4e6 + 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "turbines").mkdir()
+            (folder / "turbines/own.toml").write_text('[turbine]\nblades = 3\noperation = "own.csv"\n')
+            (folder / "turbines/own.csv").write_text("# mine\nwind_m_s,speed_rpm,power_W\n8,6,2e6\n12,9,8e6\n")
+            synthetic_run.write(folder / "run", table=table, log="", scene="[wind]\nspeed_m_s = 10.0\n[rotor]\nturbine = '../turbines/own.toml'\noperation = ''\n"
+                                "[bodies.float]\nmass_kg = 1.0\n")
+            found = {c.title: c for c in verdict.health(RunData(folder / "run"))}["Power"]
+            self.assertEqual(found.level, "warn")
+            self.assertIn("the turbine's table has 5.00 MW at 10 m/s, rated 8.00 MW", found.text)
 
     def test_a_rotor_that_drives_the_air_is_named(self):
         t = 0.1 * np.arange(400)

@@ -1,0 +1,78 @@
+"""Free decays: period and damping of a motion that swings out, from its peaks. Called by page.py; tested in tests/src/report.
+SPDX-License-Identifier: Apache-2.0"""
+import math
+
+import numpy as np
+
+import quantities
+
+LEAST_SWINGS = 4   # half periods whose ranges are compared
+SMALLEST = 0.02    # of the first range: what is smaller is noise or another motion
+
+
+class Decay:
+    """Of one motion: `period` [s], `damping` (of critical) with its value over the first and the last swings, `swings` (half periods) it is taken from."""
+
+    def __init__(self, column, period, damping, first, last, swings):
+        self.column, self.period, self.damping, self.first, self.last, self.swings = column, period, damping, first, last, swings
+
+
+def extremes(time, values):
+    """(times, values) of the peaks and troughs, alternating, each by a parabola through three rows."""
+    rate = np.diff(values)
+    kept = np.flatnonzero(np.concatenate([[True], rate != 0.0]))   # rows that stand still tell nothing
+    time, values = time[kept], values[kept]
+    turn = np.flatnonzero(np.diff(values)[:-1] * np.diff(values)[1:] < 0.0) + 1
+    at, height = [], []
+    for i in turn:
+        t, v = time[i - 1: i + 2], values[i - 1: i + 2]
+        a, b, c = np.polyfit(t - t[1], v, 2)
+        at.append(t[1] - b / (2.0 * a)), height.append(c - b * b / (4.0 * a))
+    return np.array(at), np.array(height)
+
+
+def decay_of(time, values, column=""):
+    """None where the values are not one motion that swings out. Ranges from peak to trough need no rest position; their logarithm falls by
+    pi zeta / sqrt(1 - zeta^2) a half period (the logarithmic decrement)."""
+    if len(time) < 20 or not np.isfinite(values).all():
+        return None
+    at, height = extremes(time, values)
+    if len(at) < LEAST_SWINGS + 1:
+        return None
+    ranges = np.abs(np.diff(height))
+    small = np.flatnonzero(ranges < SMALLEST * ranges[0])
+    count = small[0] if len(small) else len(ranges)
+    if count < LEAST_SWINGS:
+        return None
+    at, ranges = at[: count + 1], ranges[:count]
+    halves = np.diff(at)
+    if ranges[-1] > 0.9 * ranges[0] or (ranges[1:] > 1.05 * ranges[:-1]).any() or np.ptp(halves) > 0.5 * np.median(halves):
+        return None
+    falls = -np.diff(np.log(ranges))
+    zeta = lambda fall: fall / math.hypot(math.pi, fall)
+    part = max(1, len(falls) // 3)
+    return Decay(column, 2.0 * float((at[-1] - at[0]) / (len(at) - 1)), zeta(float(np.log(ranges[0] / ranges[-1]) / len(falls))), zeta(float(falls[:part].mean())),
+                 zeta(float(falls[-part:].mean())), len(ranges))
+
+
+def is_free(run):
+    """Nothing drives the bodies of the scene for good: no waves, no rotor that turns, no paddle."""
+    scene, waves = run.scene, run.scene.get("waves") or {}
+    wavy = waves.get("model") not in (None, "none") and (waves.get("height_m") or 0.0) > 0.0
+    paddle = isinstance(scene.get("sea"), dict) and bool(scene["sea"].get("wavemaker"))
+    return not wavy and not paddle and "rotor.thrust_N" not in run.columns
+
+
+def decays(run):
+    """Of each motion of the run's bodies that swings out freely; small motions beside a large one are left out."""
+    if not is_free(run) or len(run.time) < 20:
+        return []
+    found = []
+    for body in quantities.bodies_of(run.columns):
+        for kind in (("x_m", "y_m", "z_m"), ("roll_deg", "pitch_deg", "yaw_deg")):
+            names = [f"{body}.{quantity}" for quantity in kind if f"{body}.{quantity}" in run.columns]
+            largest = max((float(np.ptp(run.column(n))) for n in names), default=0.0)
+            for name in names:
+                if np.ptp(run.column(name)) >= 0.05 * largest > run.round_off(name) and (swung := decay_of(run.time, run.column(name), name)):
+                    found.append(swung)
+    return found

@@ -1,0 +1,64 @@
+"""Period and damping of free decays, on motions whose answers are known. SPDX-License-Identifier: Apache-2.0"""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[2] / "src/report")]
+sys.dont_write_bytecode = True
+
+import decay
+import page
+import synthetic_run
+from run_data import RunData
+
+
+def swing(t, period, zeta, size=1.0, rest=0.0):
+    omega = 2.0 * np.pi / period   # of the damped motion
+    return rest + size * np.exp(-zeta / np.sqrt(1.0 - zeta**2) * omega * t) * np.cos(omega * t)
+
+
+class DecayTest(unittest.TestCase):
+    def test_a_damped_oscillator_gives_its_period_and_damping(self):
+        for rows in (600, 6000):
+            t = np.linspace(0.0, 120.0, rows)
+            for period, zeta in ((10.0, 0.05), (7.3, 0.01), (23.0, 0.08)):
+                with self.subTest(period=period, zeta=zeta, rows=rows):
+                    found = decay.decay_of(t, swing(t, period, zeta, 2.0, -3.0))
+                    self.assertAlmostEqual(found.period / period, 1.0, delta=2e-3)
+                    self.assertAlmostEqual(found.damping / zeta, 1.0, delta=0.02)
+                    self.assertAlmostEqual(found.first / found.last, 1.0, delta=0.1)
+
+    def test_quadratic_damping_falls_with_the_swing(self):
+        dt, x, v, rows = 0.01, 1.0, 0.0, []
+        for _ in range(12000):
+            v += dt * (-x - 0.2 * abs(v) * v)
+            x += dt * v
+            rows.append(x)
+        found = decay.decay_of(dt * np.arange(1, 12001), np.array(rows))
+        self.assertGreater(found.first, 2.0 * found.last)
+
+    def test_what_is_no_decay_is_left_out(self):
+        t = np.linspace(0.0, 100.0, 2001)
+        for values in (np.sin(t), 0 * t, np.exp(-t), swing(t, 50.0, 0.05), np.random.default_rng(1).normal(size=t.size), swing(t, 10.0, 0.02) + swing(t, 3.1, 0.01)):
+            self.assertIsNone(decay.decay_of(t, values))
+
+    def test_a_page_tells_of_a_decay_and_of_none_in_waves(self):
+        t = 0.1 * np.arange(1500)
+        table = {"time_s": t, "float.x_m": 0 * t, "float.z_m": swing(t, 10.0, 0.05)}
+        scene = "[bodies.float]\nmass_kg = 1.0\n"
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            synthetic_run.write(folder, table=table, log="", scene=scene, modes=[{"name": "heave of float", "frequency_Hz": 0.099, "damping": 0.04}])
+            text = str(page.decays(RunData(folder)))
+            for words in ("float heave", "10.00", "10.10", "5.00 %"):
+                self.assertIn(words, text)
+            synthetic_run.write(folder, table=table, log="", scene=scene + "[waves]\nmodel = 'airy'\nheight_m = 2.0\nperiod_s = 10.0\n")
+            self.assertEqual(str(page.decays(RunData(folder))), "")
+
+
+if __name__ == "__main__":
+    unittest.main()
