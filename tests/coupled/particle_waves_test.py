@@ -39,6 +39,18 @@ class ParticleWaves(Folder):
         self.assertAlmostEqual(found["phase_speed_ratio"], 1.0, delta=0.02)
         self.assertLess(found["reflection"], 0.03)
 
+    def test_the_analysis_says_what_a_run_lacks(self):
+        scene = "[environment]\nwater_depth_m = 1.0\ngravity_m_s2 = 9.81\n[waves]\nheight_m = 0.1\nperiod_s = 1.5\n"
+        gauge = '[[sea.gauges]]\nname = "g{0}"\npoint_m = [{0}.0, 0.0]\n'
+        for text, words in ((scene.replace("period_s = 1.5", "period_s = 0.0"), "no waves of one height"), (scene + "".join(map(gauge.format, range(3))), "3 wave gauges"),
+                            (scene + "".join(map(gauge.format, range(4))), "shorter than one period of 1.5 s")):
+            (self.path / "scene.toml").write_text(text)
+            (self.path / "history.csv").write_text("time_s\n0.0\n0.1\n")
+            with self.assertRaisesRegex(wave_analysis.Refused, words):
+                wave_analysis.analyse(self.path)
+        with self.assertRaisesRegex(wave_analysis.Refused, "cannot be read"):
+            wave_analysis.analyse(self.path / "nowhere")
+
     def test_a_sea_state_has_its_significant_height_and_its_seed_decides_it(self):
         long = self.run_scene("seven", "waves.model=jonswap", "waves.seed=7", "time.end_s=15.0")
         for gauge in ("g1", "g3", "g5"):  # seven peak periods: the sample itself scatters by more than the gauges do
