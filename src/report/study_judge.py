@@ -312,7 +312,7 @@ class Judge:
             if own.allowance:
                 sources.append({"source": "the limit itself", "size": own.allowance, "half": None})
             if not effects and math.isfinite(own.value):
-                sources.append({"source": "what this rung leaves out against the reference", "size": abs(own.value), "half": own.half(self.confidence)})
+                sources.append({"source": "what this configuration leaves out against the reference", "size": abs(own.value), "half": own.half(self.confidence)})
             rows.append({"metric": metric["name"], "sources": sorted(sources, key=lambda s: -s["size"])})
         return rows
 
@@ -398,9 +398,9 @@ class Judge:
     # Result --------------------------------------------------------------------------------------------------------------------
     def sentence(self, answer):
         if not self.plan["reference"]:
-            return "no reference: the table has each rung's own values"
+            return "no reference: the table has each configuration's own values"
         if not self.targets():
-            return "no metric has a target: the front shows what each error costs"
+            return "no metric has a target: the Pareto front shows what each error costs"
         wanted = " and ".join(target_words(self.metrics[m]) for m in self.targets())
         if answer is None:
             near = min(self.candidates(), key=self.shortfall, default=None)

@@ -195,14 +195,14 @@ def _table(study):
                          for m in study["metrics"])
         cost, notes = rung["cost"], []
         notes += ["<strong>the answer</strong>"] if rung["name"] == study["answer"] else []
-        notes += ["reference"] if rung["is_reference"] else ["on the front"] if rung["on_front"] else []
+        notes += ["reference"] if rung["is_reference"] else ["Pareto front"] if rung["on_front"] else []
         notes += [f"failed: {page.escape(rung['failed'])}"] if rung["failed"] else []
         confidence = (f"<td>{'-' if rung['confidence'] is None or rung['is_reference'] else page.number(100 * rung['confidence'], 3) + ' %'}</td>"
                       if sure else "")
         memory = page.number(cost["memory"] / 1e6, 3) if cost["memory"] == cost["memory"] else "-"
         rows += (f"<tr><td>{number}</td><td class=text>{page.escape(rung['name'])}</td><td>{page.number(cost['core_s'], 3)}</td><td>{memory}</td>"
                  f"{errors}{confidence}<td class=text>{', '.join(notes)}</td></tr>")
-    return (f'<div class="scroll"><table><thead><tr><th></th><th class=text>rung</th><th>core-s</th><th>MB</th>{head}'
+    return (f'<div class="scroll"><table><thead><tr><th></th><th class=text>configuration</th><th>core-s</th><th>MB</th>{head}'
             f"{'<th>confidence</th>' if sure else ''}<th></th></tr></thead><tbody>{rows}</tbody></table></div>")
 
 
@@ -248,12 +248,19 @@ def _load_cases(study):
     return parts + "".join(f"<p>{page.escape(note)}.</p>" for note in found["notes"])
 
 
+def _title(study):
+    """By the file's name, or by its folder's where it is called study.toml."""
+    file = pathlib.Path(study["study"])
+    name = file.resolve().parent.name if file.stem == "study" else file.stem
+    return f"Study {name}" if name else "Study"
+
+
 def build(folder):
     study = json.loads((folder / "study.json").read_text(encoding="utf-8"))
     found = study["answer"] or not any(m["target"] for m in study["metrics"])
     sentence = study["sentence"][0].upper() + study["sentence"][1:]
     reference = study["reference"] or {}
-    against = (f"the rung '{reference['variant']}'" if reference.get("variant") else pathlib.Path(reference["history"]).name
+    against = (f"the configuration '{reference['variant']}'" if reference.get("variant") else pathlib.Path(reference["history"]).name
                if reference.get("history") else f"Richardson's limit along {reference['limit']}" if reference.get("limit") else "")
     scene = f"<p>The scene to run: <code>{page.escape(folder / study['scene'])}</code></p>" if study["scene"] else ""
     status = (f'<div class="status{"" if found else " warn"}"><p><strong class="headline">{page.escape(sentence)}.</strong></p>{scene}'
@@ -263,9 +270,9 @@ def build(folder):
     left = "".join(f"<li>{page.escape(text)}</li>" for text in study["not_tested"])
     drawn = "".join((_figure if reference else _values_figure)(study, m) for m in study["metrics"])
     sections = [section("figures", "Error against cost" if reference else "What was found", f'<div class="figures">{drawn}</div>' if drawn else ""), section("load-cases", "Load cases", _load_cases(study)),
-                section("rungs", "Rungs", _table(study)),
+                section("rungs", "Configurations", _table(study)),
                 section("budget", f"Where the error of {study['budget_of']} comes from", _budget(study)),
                 section("limits", "Limits", f"<ul>{limits}</ul>" if limits else ""), section("not-tested", "What was not tested", f"<ul>{left}</ul>" if left else "")]
-    return html_page.render(title=f"Study {pathlib.Path(study['study']).stem}", eyebrow=f"Spindrift study · {study['study']}",
-                            facts=f"{len(study['rungs'])} rungs · {page.number(study['core_s_spent'], 3)} core-s spent" + (f" · errors are against {against}" if against else ""),
+    return html_page.render(title=_title(study), eyebrow=f"Spindrift study · {study['study']}",
+                            facts=f"{len(study['rungs'])} configurations · {page.number(study['core_s_spent'], 3)} core-s spent" + (f" · errors are against {against}" if against else ""),
                             verdicts=[], before=html_page.safe(status), sections=[s for s in sections if s])
