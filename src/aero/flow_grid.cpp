@@ -88,10 +88,14 @@ MultiBlockGrid make_box(const GenerateOptions& g) {
 MultiBlockGrid section_grid(const GenerateOptions& g, double width) {
   AerofoilOptions o{.n = g.refinement, .far = g.far_m, .width = width};
   if (g.first_cell_m > 0.0) o.first_cell = g.first_cell_m;
-  if (g.coordinates.empty()) return naca0012(o);
+  constexpr int points = 200;  // on either side: .01 mm of a chord of 1 m beside the formula
+  if (g.coordinates.empty() && !g.naca) return naca0012(o);
   try {
-    return aerofoil(read_outline(g.coordinates), o);
-  } catch (const std::invalid_argument& e) { throw scene::SceneError({scene::Problem{g.coordinates, 0, "", "", e.what()}}); }
+    return aerofoil(g.naca ? NacaSection(*g.naca).outline(points, g.trailing_edge) : read_outline(g.coordinates), o);
+  } catch (const std::invalid_argument& e) {
+    if (g.naca) throw scene::SceneError({{.key = "aero.flow.generate.naca", .value = *g.naca, .message = e.what()}});
+    throw scene::SceneError({scene::Problem{g.coordinates, 0, "", "", e.what()}});
+  }
 }
 
 MultiBlockGrid generated(const GenerateOptions& g, double width) {
@@ -128,15 +132,27 @@ const scene::Section<GenerateOptions>& generate_section() {
                    {"flat_plate", "NASA's flat plate from x = 0 to 2 m; patches inflow, outflow, symmetry, wall, top"},
                    {"cylinder", "an O round a circular cylinder along y; patches wall, farfield"},
                    {"naca0012", "a C round NACA 0012, chord 1 m from x = 0; patches wall, farfield, outflow"},
-                   {"aerofoil", "a C round the outline of `coordinates`, likewise"},
+                   {"aerofoil", "a C round the section of `naca` or the outline of `coordinates`, likewise"},
                    {"wing", "one of these two drawn out along y; patch sides beside those"},
                    {"bump", "NASA's bump in a channel; patches inflow, outflow, symmetry, wall, top"}},
                   "Shape.")
           .required()
+          .at_most_one_of({"coordinates", "naca"})
           .path("coordinates", &GenerateOptions::coordinates,
                 "Outline from the trailing edge along the upper side to the nose and back, over the chord: CSV with columns x_c, "
                 "y_c, "
-                "or .dat with a title and two numbers a line (Selig). A wing without it has NACA 0012.")
+                "or .dat with a title and two numbers a line (Selig). A wing with neither it nor `naca` has NACA 0012.")
+          .only_if("kind", {"aerofoil", "wing"})
+          .text("naca", &GenerateOptions::naca,
+                "Digits of the section in place of coordinates, four or five: \"4412\" (camber in %, its place in tenths of the "
+                "chord, thickness in %), \"23012\" or, with a mean line that bends back, \"23112\".")
+          .only_if("kind", {"aerofoil", "wing"})
+          .choice<TrailingEdge>("trailing_edge", &GenerateOptions::trailing_edge,
+                                {{"closed", TrailingEdge::closed, "sharp by the formula: last coefficient -.1036"},
+                                 {"open", TrailingEdge::open,
+                                  "the printed ordinates (-.1015); the grid draws their edge together, by a shift as the cube of "
+                                  "x, as of coordinates"}},
+                                "Trailing edge of `naca`.")
           .only_if("kind", {"aerofoil", "wing"})
           .integer("refinement", &GenerateOptions::refinement, "-",
                    "Member of the family: 34 n x 24 n cells (flat_plate), 112 n x 32 n (naca0012, aerofoil, wing), 44 n x 20 n "
@@ -184,7 +200,13 @@ const scene::Section<GenerateOptions>& generate_section() {
             check_box(o, report);
             if (o.kind == "cylinder" && o.far_m <= 2.0 * o.radius_m)
               report("far_m", fmt::format("must be above 2 radius_m = {}; found {}", 2.0 * o.radius_m, o.far_m));
-            if (o.kind == "aerofoil" && o.coordinates.empty()) report("coordinates", "must name the file of the outline");
+            if (o.kind == "aerofoil" && o.coordinates.empty() && !o.naca)
+              report("naca", "must be the digits of the section, or `coordinates` the file of its outline");
+            if (!o.naca && o.trailing_edge == TrailingEdge::open)
+              report("trailing_edge", "needs `naca`: coordinates have the edge that is in the file");
+            try {
+              if (o.naca) NacaSection{*o.naca};
+            } catch (const std::invalid_argument& e) { report("naca", e.what()); }
             if ((o.kind == "naca0012" || o.kind == "aerofoil" || o.kind == "wing") && o.far_m < 5.0)
               report("far_m", fmt::format("must be at least 5 chords; found {}", o.far_m));
           });
@@ -229,6 +251,9 @@ MultiBlockGrid flow_grid(const FlowOptions& o) {
   return grid;
 }
 
-std::string describe_flow_grid(const FlowOptions& o) { return o.generate ? "made: " + o.generate->kind : o.grid; }
+std::string describe_flow_grid(const FlowOptions& o) {
+  if (!o.generate) return o.grid;
+  return "made: " + o.generate->kind + (o.generate->naca ? ", NACA " + *o.generate->naca : "");
+}
 
 }  // namespace spindrift::aero

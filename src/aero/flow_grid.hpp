@@ -4,9 +4,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "kernels/grid/naca.hpp"
 #include "src/aero/grid/multi_block.hpp"
 
 namespace spindrift::scene {
@@ -21,7 +23,9 @@ struct FlowOptions;
 /// [aero.flow.generate]
 struct GenerateOptions {
   std::string kind = "box";
-  std::string coordinates;              ///< path: outline of an aerofoil
+  std::string coordinates;          ///< path: outline of an aerofoil
+  std::optional<std::string> naca;  ///< or its digits
+  TrailingEdge trailing_edge = TrailingEdge::closed;
   int refinement = 2;                   ///< flat plate, aerofoil, wing, bump
   int around = 96, outward = 64;        ///< cylinder
   double radius_m = 0.5, far_m = 50.0;  ///< cylinder; far_m also of the aerofoil

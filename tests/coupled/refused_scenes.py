@@ -225,6 +225,15 @@ aero.flow.boundaries[0].patch="nothing"
 aero.flow.turbulence="magic"
 aero.flow.incidence_deg="up"
 """,
+    "validation/naca0012/family.toml": """
+aero.flow.generate.kind="aerofoil" : aero.flow.generate.naca
+aero.flow.generate.naca="4412"
+aero.flow.generate.kind="aerofoil" & aero.flow.generate.naca="NACA 0012" : aero.flow.generate.naca
+aero.flow.generate.kind="aerofoil" & aero.flow.generate.naca="012" : aero.flow.generate.naca
+aero.flow.generate.kind="aerofoil" & aero.flow.generate.naca="4012" : aero.flow.generate.naca
+aero.flow.generate.kind="aerofoil" & aero.flow.generate.naca="21112" : aero.flow.generate.naca
+aero.flow.generate.kind="wing" & aero.flow.generate.trailing_edge="open" : aero.flow.generate.trailing_edge
+""",
     "validation/dam_break/koshizuka_oka.toml": """
 sea.particles.dimensions="4"
 sea.particles.spacing_m=-1.0

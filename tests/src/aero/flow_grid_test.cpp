@@ -57,12 +57,40 @@ TEST_CASE("every generator makes the grid that its keys say", "[flow][fast]") {
   CHECK(box.boundaries.size() == 6);
 }
 
+TEST_CASE("a section by its digits is that by its coordinates, with no file", "[flow][fast]") {
+  const std::string common = "kind = 'aerofoil'\nrefinement = 1\nfar_m = 50\n";
+  const Block file =
+      made(common + "coordinates = '" + std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/tutorials/naca4412.dat'\n").blocks[0];
+  for (const auto& [edge, bar] : {std::pair("closed", 5e-4), std::pair("open", 5e-4)}) {  // the edge is .25 % of the chord
+    const MultiBlockGrid grid = made(common + "naca = '4412'\ntrailing_edge = '" + edge + "'\n");
+    const Block& b = grid.blocks[0];
+    double worst = 0.0;
+    for (int i = 24; i <= 88; ++i) worst = std::max(worst, (b.nodes[b.node(0, 0, i)] - file.nodes[file.node(0, 0, i)]).norm());
+    INFO(edge << ": nodes on the section are off by up to " << worst);
+    CHECK(worst < bar);
+  }
+  for (const char* digits : {"0006", "0021", "2412", "6409", "23012", "24112", "43018"}) {
+    INFO(digits);
+    CHECK(cells(made(common + "naca = '" + digits + "'\n")) == 112 * 32);
+  }
+  CHECK(cells(made("kind = 'wing'\nnaca = '2412'\nrefinement = 1\nspan_cells = 3\nspan_m = 0.5\n")) == 112 * 32 * 3);
+  const std::string open = "[aero.flow.generate]\n" + common;
+  CHECK_THROWS_WITH(read(open), Contains("aero.flow.generate.naca") && Contains("coordinates"));
+  CHECK_THROWS_WITH(read(open + "naca = 'NACA 0012'\n"), Contains("aero.flow.generate.naca") && Contains("digits alone"));
+  CHECK_THROWS_WITH(read(open + "naca = '012'\n"), Contains("four or five digits"));
+  CHECK_THROWS_WITH(read(open + "naca = '4012'\n"), Contains("both are 0, or neither"));
+  CHECK_THROWS_WITH(read(open + "naca = 4412\n"), Contains("aero.flow.generate.naca") && Contains("4412"));
+  CHECK_THROWS_WITH(read("[aero.flow.generate]\nkind = 'naca0012'\nnaca = '4412'\n"), Contains("only"));
+  CHECK_THROWS_WITH(read("[aero.flow.generate]\nkind = 'wing'\ntrailing_edge = 'open'\n"), Contains("needs `naca`"));
+}
+
 TEST_CASE("the size of a grid is known before it is made, and the key that decides it", "[flow][fast]") {
   const std::string section = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/tutorials/naca4412.dat";
   for (const auto& [generate, key] : std::initializer_list<std::pair<std::string, std::string>>{
            {"kind = 'flat_plate'\nrefinement = 3\n", "refinement"},
            {"kind = 'naca0012'\nrefinement = 2\n", "refinement"},
            {"kind = 'aerofoil'\nrefinement = 2\ncoordinates = '" + section + "'\n", "refinement"},
+           {"kind = 'aerofoil'\nrefinement = 2\nnaca = '23012'\n", "refinement"},
            {"kind = 'bump'\nrefinement = 3\n", "refinement"},
            {"kind = 'wing'\nrefinement = 1\nspan_cells = 3\n", "span_cells"},
            {"kind = 'cylinder'\naround = 32\noutward = 16\n", "around"},
