@@ -238,8 +238,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->add_option("main", arguments->file, "Main input file (.fst), or turbine (.yaml)")->required();
     command->add_option("-o,--out,--output", arguments->out, "Folder for scene.toml and its files")->required()->check(not_empty);
     command->add_flag(
-        "--flexible-tower", arguments->flexible_tower,
-        "A tower that bends in the deck becomes a beam of the scene; of a windIO turbine the table of one is written");
+        "--rigid-tower", arguments->rigid_tower,
+        "A tower that bends in the deck stays rigid in the scene; of a windIO turbine no table of a beam is written");
     command->add_flag("--rigid-blades", arguments->rigid_blades, "Blades that bend in the deck stay rigid in the scene");
     command->footer(
         "Examples:\n"

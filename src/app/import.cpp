@@ -20,7 +20,7 @@ int import_deck(const ImportArguments& arguments, const runtime::World& world) {
   const bool windio = ending == ".yaml" || ending == ".yml";
   if (windio && arguments.rigid_blades)
     throw scene::SceneError({{"command line", 0, "--rigid-blades", "", "has no effect: windIO's blades are carried over rigid"}});
-  const auto tower = arguments.flexible_tower ? decks::ImportedTower::flexible : decks::ImportedTower::rigid;
+  const auto tower = arguments.rigid_tower ? decks::ImportedTower::rigid : decks::ImportedTower::as_in_deck;
   const decks::Imported result =
       windio ? decks::import_windio(arguments.file, arguments.out, tower)
              : decks::import_openfast(arguments.file, arguments.out, tower,

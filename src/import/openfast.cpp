@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -44,7 +45,7 @@ class Importer {
     if (main_.integer({"CompElast"}, 1) == 2)
       for (int b = 1; b <= rotor_.blades; ++b)
         rotor_.beamdyn_blades.push_back(Deck(main_.path({fmt::format("BDBldFile({})", b)})).path({"BldFile"}));
-    bends_ = tower_ == ImportedTower::flexible && tower_moves();
+    bends_ = tower_ == ImportedTower::as_in_deck && tower_moves();
     if (bends_) step_ = flexible_step;
     wet_ = main_.integer({"CompHydro"}, 0) == 1;
     floats_ = wet_ && main_.integer({"CompSub"}, 0) == 0;
@@ -80,8 +81,7 @@ class Importer {
   }
 
   bool tower_moves() const {
-    const auto freedoms = {"TwFADOF1", "TwFADOF2", "TwSSDOF1", "TwSSDOF2"};
-    return std::any_of(freedoms.begin(), freedoms.end(), [&](const char* f) { return elastodyn_->flag({f}, false); });
+    return std::ranges::any_of(tower_freedoms, [&](const char* f) { return elastodyn_->flag({f}, false); });
   }
 
   /// Mass, inertia and centre of a body, as a scene has them.
@@ -111,22 +111,37 @@ class Importer {
       scene_ << "displacement_m = " << vector(moved + turn * arm - arm) << "\nrotation_deg = " << vector(turned) << "\n";
     }
     std::ofstream(folder_ / "tower.csv") << beam.properties;
-    scene_ << "\n[beams.tower]\nbodies = [\"platform\", \"nacelle\"]\nstart_m = " << vector({0.0, 0.0, beam.base})
-           << "\nend_m = " << vector({0.0, 0.0, beam.top}) << "\nproperties = \"tower.csv\"\n"
+    scene_ << "\n[beams.tower]\nbodies = [\"" << (has_platform() ? "platform" : "earth")
+           << "\", \"nacelle\"]\nstart_m = " << vector({0.0, 0.0, beam.base}) << "\nend_m = " << vector({0.0, 0.0, beam.top})
+           << "\nproperties = \"tower.csv\"\n"
            << fmt::format("damping = [{:.9g}, {:.9g}]\n", beam.damping[0], beam.damping[1]);
-    carry(
-        fmt::format("tower: flexible, {:.6g} m, damping {:.3g} and {:.3g} % of critical; its modes are computed, the file's "
-                    "shapes are not used",
-                    beam.top - beam.base, 100.0 * beam.damping[0], 100.0 * beam.damping[1]));
+    carry(fmt::format(
+        "tower: flexible, {:.6g} m, two modes fore-aft and two side-side of its mass and stiffness, damping {:.3g} and "
+        "{:.3g} % of critical",
+        beam.top - beam.base, 100.0 * beam.damping[0], 100.0 * beam.damping[1]));
+    leave_out("the file's shapes of the tower's modes: they are computed; its extension and twist are those of a steel tube");
   }
+
+  /// A flexible tower on land is clamped to the earth.
+  bool has_platform() const { return wet_ || !bends_; }
 
   void body() {
     const Deck& ed = *elastodyn_;
+    if (!has_platform()) {
+      flexible_tower(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+      return carry(fmt::format("nacelle, hub and blades: {:.6g} kg", top_masses(ed, rotor_).mass()));
+    }
+    int free = 0;
+    for (const char* freedom : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
+      free += ed.flag({freedom}, false);
+    const bool held = !floats_ || free == 0;
     MassSum sum = bends_ ? platform_masses(ed) : all_masses(ed, rotor_);
     if (ballast_.mass() > 0.0) {
       sum.add(ballast_);
       carry(fmt::format("ballast: {:.6g} kg in filled members", ballast_.mass()));
     }
+    if (held && sum.mass() == 0.0)  // as of a foundation of SubDyn: nothing that the scene needs
+      sum.add(1.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
     for (const char* product : {"PtfmXYIner", "PtfmYZIner", "PtfmXZIner"})
       if (ed.number({product}, 0.0) != 0.0) leave_out(fmt::format("the platform's product of inertia {}", product));
     scene_ << (bends_
@@ -142,12 +157,9 @@ class Importer {
     scene_ << cylinders_;
     if (bends_) flexible_tower(moved, turned, reference);
     carry(fmt::format("body: {:.6g} kg, centre {}", sum.mass(), vector(sum.centre())));
-    int free = 0;
-    for (const char* freedom : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
-      free += ed.flag({freedom}, false);
     if (floats_ && free > 0 && free < 6)
       leave_out(fmt::format("{} of the platform's six motions are held in the deck; here all are free", 6 - free));
-    if (!floats_ || free == 0)
+    if (held)
       scene_ << "\n[joints.foundation]\ntype = \"fixed\"\nbodies = [\"earth\", \"platform\"]\npoint_m = [0.0, 0.0, 0.0]\n";
   }
 
@@ -406,8 +418,9 @@ class Importer {
   }
 
   void structure() {
-    if (tower_moves() && !bends_) leave_out("bending of the tower: it is rigid (--flexible-tower makes it a beam)");
-    if (!tower_moves() && tower_ == ImportedTower::flexible) leave_out("--flexible-tower: the deck's tower is rigid");
+    if (tower_moves() && !bends_) leave_out("bending of the tower: it is rigid (--rigid-tower)");
+    if (bends_ && !std::ranges::all_of(tower_freedoms, [&](const char* f) { return elastodyn_->flag({f}, false); }))
+      leave_out("TwFADOF1, TwFADOF2, TwSSDOF1, TwSSDOF2: not all are on, the tower here bends in all four modes");
     if (any({"YawDOF", "DrTrDOF", "TeetDOF"})) leave_out("motion of yaw bearing, shaft and teeter");
     for (const auto& [part, name] :
          {std::pair{"CompSub", "SubDyn: what stands on it is fixed"}, std::pair{"CompIce", "ice"}, std::pair{"CompSoil", "soil"}})
@@ -739,6 +752,7 @@ class Importer {
   }
 
   static constexpr double window = 0.1;
+  static constexpr std::array tower_freedoms{"TwFADOF1", "TwFADOF2", "TwSSDOF1", "TwSSDOF2"};
   Deck main_;
   std::filesystem::path folder_;
   double step_ = 0.05;                           // a rigid platform's shortest period is some seconds

@@ -323,7 +323,9 @@ Imported import_windio(const std::filesystem::path& file, const std::filesystem:
   const Key parts = top.at("components");
   const bool stands = parts.has("tower") && has_shape(parts.at("tower"));
   const std::string tower_keys = stands ? tower_in_the_air(parts.at("tower"), result.left_out) : "";
-  if (tower == ImportedTower::flexible) std::ofstream(folder / "tower.csv") << head << tower_table(top);
+  const bool layered = stands && parts.at("tower").has("internal_structure_2d_fem");
+  const bool bends = tower == ImportedTower::as_in_deck && layered;
+  if (bends) std::ofstream(folder / "tower.csv") << head << tower_table(top);
   const std::string polars = write_polars(blade, foils, folder, head);
   std::ofstream(folder / "turbine.toml") << head
                                          << fmt::format(
@@ -334,9 +336,10 @@ Imported import_windio(const std::filesystem::path& file, const std::filesystem:
   write_scene(site, operating.rated_wind, by_reynolds, tower_keys, result.scene, head);
   result.carried = carried_over(blade, stations.size(), site, operating, by_reynolds);
   if (stands) result.carried.push_back("tower: its flow round the blades, and its drag");
-  if (tower == ImportedTower::flexible)
+  if (bends)
     result.carried.push_back(
         "tower.csv: mass and stiffness of the tower, for [beams.NAME] properties of a scene with the masses on it");
+  if (tower == ImportedTower::rigid && layered) result.left_out.push_back("layers of the tower's wall (--rigid-tower)");
   tell_left_out(top, blade, result.left_out);
   return result;
 }

@@ -107,14 +107,14 @@ struct SmallDeck {
     REQUIRE(text.find(from) != std::string::npos);
     text.replace(text.find(from), from.size(), to);
   }
-  decks::Imported import() const {
+  decks::Imported import(decks::ImportedTower tower = decks::ImportedTower::as_in_deck) const {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder / "deck/wamit");
     for (const auto& [name, text] : files) std::ofstream(folder / "deck" / name) << text;
-    return decks::import_openfast(folder / "deck/main.fst", folder / "scene");
+    return decks::import_openfast(folder / "deck/main.fst", folder / "scene", tower);
   }
-  coupling::Scenario scenario() const {
-    scene::Document document = scene::load(import().scene.string());
+  coupling::Scenario scenario(decks::ImportedTower tower = decks::ImportedTower::as_in_deck) const {
+    scene::Document document = scene::load(import(tower).scene.string());
     return coupling::read_scenario(document);
   }
   std::string refusal() const {
@@ -288,19 +288,33 @@ TEST_CASE("an imported scene is a machine that stands and moves", "[import][fast
   for (int n = 0; n < 20; ++n) REQUIRE(floating.multibody().advance(start.state, floating.timeline().tick_s(), 1).ok());
 }
 
-TEST_CASE("a tower that bends in the deck is a beam where it is asked for, of the same mass", "[import][fast]") {
+namespace {
+
+/// The small deck with a tower that bends.
+SmallDeck deck_that_bends() {
   SmallDeck deck;
-  const bodies::BodyOptions whole = deck.scenario().bodies[0].options;
-  deck.replace("ed.dat", "False TwFADOF1", "True TwFADOF1");
+  deck.replace("ed.dat", "False TwFADOF1", "True TwFADOF1\nTrue TwFADOF2\nTrue TwSSDOF1\nTrue TwSSDOF2");
   deck.replace("tower.dat", "1.0 AdjTwMa",
                "1.0 AdjTwMa\n1.0 TwrFADmp(1)\n2.0 TwrFADmp(2)\n1.0 TwrSSDmp(1)\n2.0 TwrSSDmp(2)\n2.0 AdjFASt");
   deck.replace("tower.dat", "0 4000 1 1", "0 4000 3e11 4e11");
   deck.replace("tower.dat", "1 2000 1 1", "1 2000 1e11 2e11");
-  CHECK(deck.scenario().beams.empty());  // rigid where it is not asked for
-  const decks::Imported imported =
-      decks::import_openfast(deck.folder / "deck/main.fst", deck.folder / "scene", decks::ImportedTower::flexible);
-  scene::Document document = scene::load(imported.scene.string());
-  const coupling::Scenario s = coupling::read_scenario(document);
+  return deck;
+}
+
+bool has_word(const std::vector<std::string>& sentences, const std::string& word) {
+  return std::ranges::any_of(sentences, [&](const std::string& s) { return s.find(word) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("a tower that bends in the deck is a beam of the same mass", "[import][fast]") {
+  const SmallDeck deck = deck_that_bends();
+  CHECK(SmallDeck().scenario().beams.empty());  // its tower is rigid
+  const bodies::BodyOptions whole = SmallDeck().scenario().bodies[0].options;
+  const decks::Imported imported = deck.import();
+  CHECK(has_word(imported.carried, "tower: flexible, 50 m"));
+  CHECK_FALSE(has_word(imported.left_out, "TwFADOF1"));
+  const coupling::Scenario s = deck.scenario();
   REQUIRE(s.bodies.size() == 2);
   REQUIRE(s.beams.size() == 1);
   const bodies::BeamOptions& beam = s.beams[0].options;
@@ -316,6 +330,40 @@ TEST_CASE("a tower that bends in the deck is a beam where it is asked for, of th
   const Eigen::Vector3d foot = beam.start_m - s.bodies[0].options.centre_m, top = beam.end_m - s.bodies[1].options.centre_m;
   CHECK((platform.attitude.conjugate() * (nacelle.point(top) - platform.point(foot)) - Eigen::Vector3d(0, 0, 50.0)).norm() <
         1e-6);
+}
+
+TEST_CASE("a tower that bends in the deck is rigid where that is asked for", "[import][fast]") {
+  const SmallDeck deck = deck_that_bends();
+  CHECK(has_word(deck.import(decks::ImportedTower::rigid).left_out, "bending of the tower"));
+  const coupling::Scenario s = deck.scenario(decks::ImportedTower::rigid);
+  CHECK(s.beams.empty());
+  CHECK(s.bodies.at(0).options.mass_kg == SmallDeck().scenario().bodies.at(0).options.mass_kg);
+}
+
+TEST_CASE("modes of the tower that the deck turns off are told", "[import][fast]") {
+  SmallDeck deck = deck_that_bends();
+  deck.replace("ed.dat", "True TwSSDOF2", "False TwSSDOF2");
+  CHECK(has_word(deck.import().left_out, "TwSSDOF2: not all are on"));
+}
+
+TEST_CASE("a flexible tower on land is clamped to the earth, where the deck's platform may have no mass", "[import][fast]") {
+  SmallDeck deck = deck_that_bends();
+  deck.replace("main.fst", "1 CompHydro", "0 CompHydro");
+  deck.replace("ed.dat", "3000000 PtfmMass", "0 PtfmMass");
+  const coupling::Scenario s = deck.scenario();
+  REQUIRE(s.bodies.size() == 1);
+  CHECK(s.bodies[0].name == "nacelle");
+  CHECK(s.beams.at(0).options.bodies == std::vector<std::string>{"earth", "nacelle"});
+  coupling::FloatingSystem standing(s);
+  const coupling::Start start = make_start(standing);
+  // Weight on the top: it rests where the tower carries it.
+  CHECK((start.state.motions.at(0).position - s.bodies[0].options.centre_m).norm() < 0.1);
+  // On a foundation of SubDyn the members of the deck are in the water: a platform that is held.
+  deck.replace("main.fst", "0 CompHydro", "1 CompHydro");
+  deck.replace("main.fst", "0 CompSub", "1 CompSub");
+  const coupling::Scenario wet = deck.scenario();
+  CHECK(wet.bodies.size() == 2);
+  CHECK(wet.joints.size() == 1);
 }
 
 TEST_CASE("what the scene cannot say is told", "[import][fast]") {
