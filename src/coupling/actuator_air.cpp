@@ -129,6 +129,7 @@ class ActuatorAir final : public AirSide {
   std::vector<io::Column> columns() const override {
     std::vector<io::Column> columns;
     for (const auto& c : march_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
+    for (const auto& c : mass_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
     for (int b = 1; b <= told_blades_; ++b)
       for (const auto& c : blade_columns()) columns.push_back({fmt::format("rotor.blade_{}.{}", b, c.name), c.unit, c.meaning});
     return columns;
@@ -136,6 +137,7 @@ class ActuatorAir final : public AirSide {
   std::vector<double> values() const override {
     std::vector<double> values;
     for (const auto& c : march_columns()) values.push_back(c.value(solver_->march()));
+    for (const auto& c : mass_columns()) values.push_back(c.value(solver_->judgement().mass()));
     for (const aero::RotorLoad& blade : computed_.blades)
       for (const auto& c : blade_columns()) values.push_back(c.value(blade));
     return values;

@@ -3,6 +3,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "src/aero/flow/control.hpp"
+#include "src/aero/flow/mass_balance.hpp"
 #include "src/coupling/window.hpp"
 
 namespace spindrift::coupling {
@@ -284,6 +285,19 @@ Table<aero::March> march_columns() {
   return table;
 }
 
+Table<aero::MassBalance> mass_columns() {
+  using Of = const aero::MassBalance&;
+  static constexpr ColumnOf<aero::MassBalance> table[] = {
+      {"mass_inflow_kg_s", "kg/s", "air that comes in through the boundaries of the grid", [](Of m) { return m.inflow; }},
+      {"mass_outflow_kg_s", "kg/s", "air that goes out through them", [](Of m) { return m.outflow; }},
+      {"mass_growth_kg_s", "kg/s", "rate at which the mass of all cells grows, by the time scheme; steady: 0",
+       [](Of m) { return m.growth; }},
+      {"mass_residual_kg_s", "kg/s",
+       "of all cells' balances, what the pseudo-steps left: growth and outflow less inflow, but for round-off",
+       [](Of m) { return m.residual; }}};
+  return table;
+}
+
 std::vector<io::ColumnSection> column_sections() {
   return {section_of("BODY.", "each body: its reference point ([bodies.BODY] reference_m, else the centre of mass)",
                      motion_columns()),
@@ -314,7 +328,8 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("PROBE.", "each probe of a sea of particles", probe_columns()),
           section_of("coupling.", "schemes other than monolithic", window_columns()),
           section_of("coupling.", "schemes that iterate", strong_columns()),
-          section_of("air.", "resolved rotors on bodies", march_columns())};
+          section_of("air.", "resolved rotors on bodies", march_columns()),
+          section_of("air.", "resolved rotors on bodies: balance of the air's mass", mass_columns())};
 }
 
 }  // namespace spindrift::coupling

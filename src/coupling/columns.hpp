@@ -16,7 +16,8 @@
 
 namespace spindrift::aero {
 class March;
-}
+struct MassBalance;
+}  // namespace spindrift::aero
 
 namespace spindrift::coupling {
 
@@ -70,9 +71,10 @@ Table<double> gauge_columns();
 Table<sea::ParticleSea::Reading> probe_columns();
 Table<double> run_up_columns();
 Table<sph::PatchReading> sensor_columns();
-Table<WindowReport> window_columns();  ///< coupling.
-Table<WindowReport> strong_columns();  ///< coupling., of schemes that iterate
-Table<aero::March> march_columns();    ///< air.
+Table<WindowReport> window_columns();     ///< coupling.
+Table<WindowReport> strong_columns();     ///< coupling., of schemes that iterate
+Table<aero::March> march_columns();       ///< air.
+Table<aero::MassBalance> mass_columns();  ///< air., of the air alone flow.
 
 /// All of them, for pages.
 std::vector<io::ColumnSection> column_sections();

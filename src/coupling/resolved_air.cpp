@@ -151,6 +151,7 @@ class ResolvedAir final : public AirSide {
   std::vector<io::Column> columns() const override {
     std::vector<io::Column> columns;
     for (const auto& c : march_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
+    for (const auto& c : mass_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
     for (int b = 1; b <= size_.sectors; ++b)
       for (const auto& c : blade_columns()) columns.push_back({fmt::format("rotor.blade_{}.{}", b, c.name), c.unit, c.meaning});
     return columns;
@@ -158,6 +159,7 @@ class ResolvedAir final : public AirSide {
   std::vector<double> values() const override {
     std::vector<double> values;
     for (const auto& c : march_columns()) values.push_back(c.value(rotor_->solver().march()));
+    for (const auto& c : mass_columns()) values.push_back(c.value(rotor_->solver().judgement().mass()));
     for (const aero::RotorLoad& blade : computed_.blades)
       for (const auto& c : blade_columns()) values.push_back(c.value(blade));
     return values;

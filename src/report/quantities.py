@@ -2,7 +2,7 @@
 Called by figures.py, page.py and picture.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
 import re
 
-UNITS = {"m_s2": "m/s²", "rad_s2": "rad/s²", "deg_s2": "deg/s²", "m_s": "m/s", "rad_s": "rad/s", "deg_s": "deg/s", "N_m": "N m", "N": "N",
+UNITS = {"m_s2": "m/s²", "kg_s": "kg/s", "rad_s2": "rad/s²", "deg_s2": "deg/s²", "m_s": "m/s", "rad_s": "rad/s", "deg_s": "deg/s", "N_m": "N m", "N": "N",
          "W": "W", "deg": "deg", "rad": "rad", "rpm": "rpm", "m": "m", "s": "s", "Pa": "Pa", "kg": "kg", "J": "J"}
 AXES = {"x": "surge", "y": "sway", "z": "heave", "roll": "roll", "pitch": "pitch", "yaw": "yaw"}
 

@@ -333,6 +333,27 @@ def _water(run):
     return Check("good" if share < 0.05 else "warn", "Water", text + ("" if share < 0.05 else ": by time steps, shifting, density filters or lost particles"))
 
 
+def _air_mass(run):
+    """The balance of the air's mass: does it close, and is what the pseudo-steps left of it small beside what flows through the grid?"""
+    side = next((s for s in ("air.", "flow.") if f"{s}mass_residual_kg_s" in run.columns), None)
+    if side is None or len(run.time) < 2:
+        return None
+    inflow, outflow, growth, residual = (run.column(f"{side}mass_{n}_kg_s")[1:] for n in ("inflow", "outflow", "growth", "residual"))
+    if is_steady(run):   # on the way there is no balance to keep
+        inflow, outflow, growth, residual = (values[-1:] for values in (inflow, outflow, growth, residual))
+    through = float(np.abs(inflow).max())
+    if not through > 0.0:
+        return None
+    turned = np.abs(growth) + inflow + outflow
+    open_by = float(np.max(np.abs(growth + outflow - inflow - residual) / np.where(turned > 0.0, turned, 1.0)))
+    left = float(np.abs(residual).max()) / through
+    text = (f"{words.number(through, 3)} kg/s flow through the grid; the pseudo-steps leave at most {words.number(100 * left, 2)} % of it; "
+            f"the balance closes to {words.number(open_by, 1)}")
+    if open_by > 1e-9:
+        return Check("bad", "Air mass", f"the balance of mass does not close: {words.number(100 * open_by, 2)} % of what flows is unexplained")
+    return Check("good" if left < 0.01 else "warn", "Air mass", text + ("" if left < 0.01 else ": a smaller aero.flow.drop, or more max_pseudo_steps"))
+
+
 def _windows(run):
     found = []
     if "coupling.mismatch" in run.columns:
@@ -506,7 +527,7 @@ def health(run):
     if not said and len(run.time):
         found.append(Check("good", "Numbers", f"all {run.values.size:,} of history.csv are finite"))
     found += _places(run)
-    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _water(run), _particles(run), _settled(run), _marched(run), _whole_waves(run), _references(run)) if c]
+    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _water(run), _air_mass(run), _particles(run), _settled(run), _marched(run), _whole_waves(run), _references(run)) if c]
     found += _windows(run) + _budgets(run)
     if warnings := run.summary.get("warnings"):
         found.append(Check("warn", "Log", f"{warnings} warning{'s' if warnings != 1 else ''}" + _warned(run, warnings)))

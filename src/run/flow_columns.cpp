@@ -64,7 +64,11 @@ Table<WallMotion> wall_motion_columns() {
 
 FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::Actuator* actuator,
                          const aero::GridMotion* motion, bool steady)
-    : rotor_(rotor), actuator_(actuator), motion_(motion), march_(history, "flow.", pseudo_step_columns()) {
+    : rotor_(rotor),
+      actuator_(actuator),
+      motion_(motion),
+      march_(history, "flow.", pseudo_step_columns()),
+      mass_(history, "flow.", coupling::mass_columns()) {
   if (rotor_ || actuator_) {
     rotor_columns_.emplace(history, "rotor.", coupling::rotor_columns());
     for (int b = 1; b <= (rotor_ ? rotor_->grid_blades() : actuator_->told_blades()); ++b)
@@ -79,6 +83,7 @@ FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor,
 void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetting& s, const aero::PseudoRow& p,
                        const aero::FlowOptions& o, const Eigen::Vector3d& wind, long unconverged) const {
   march_.fill(row, p);
+  mass_.fill(row, p.mass);
   if (unsteady_) unsteady_->fill(row, double(unconverged));
   if (rotor_) {
     const double turns = rotor_->pose().azimuth / (2.0 * pi);
@@ -104,6 +109,7 @@ void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetti
 std::vector<io::ColumnSection> all_columns() {
   std::vector<io::ColumnSection> sections = coupling::column_sections();
   sections.push_back(section_of("flow.", "the air alone", pseudo_step_columns()));
+  sections.push_back(section_of("flow.", "the air alone: balance of its mass", coupling::mass_columns()));
   sections.push_back(section_of("flow.", "the air alone, unsteady", unsteady_columns()));
   sections.push_back(section_of("flow.", "the air alone, without a rotor", coefficient_columns()));
   sections.push_back(section_of("flow.", "the air alone, with walls that move", wall_motion_columns()));

@@ -47,6 +47,7 @@ class FlowColumns {
   std::optional<Group<WallMotion>> motion_columns_;
   std::optional<Group<Coefficients>> coefficients_;
   Group<aero::PseudoRow> march_;
+  Group<aero::MassBalance> mass_;
   std::optional<Group<double>> unsteady_;
 };
 

@@ -10,6 +10,7 @@
 #include "src/aero/flow/flow_setting.hpp"
 #include "src/aero/flow/flow_tile.hpp"
 #include "src/aero/flow/loads.hpp"
+#include "src/aero/flow/mass_balance.hpp"
 #include "src/aero/flow/physical_time.hpp"
 #include "src/aero/flow/sweep_convective.hpp"
 #include "src/aero/flow/sweep_model.hpp"
@@ -35,6 +36,8 @@ class FlowResidual {
   /// @pre ghosts, gradients and their ghosts are those of `state`
   void evaluate(FlowTile& tile, double* state, double* residual) const;
 
+  /// Of one tile, after evaluate() of its state.
+  MassBalance mass_balance(const FlowTile& tile) const { return aero::mass_balance(tile, gas_, time_); }
   const ModelSweeps& model() const { return model_; }
   const BoundarySetting& boundary() const { return boundary_; }
   const ViscousSetting& viscous() const { return viscous_; }

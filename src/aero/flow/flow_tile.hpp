@@ -57,7 +57,9 @@ struct FlowTile {
                                 ///< in manufactured solutions
   AlignedArray<double> rate;    ///< V / pseudo-time step [m3/s]
   std::array<AlignedArray<double>, 6> open;  ///< per side with walls: 1 where the flux scheme acts, 0 on wall faces; else empty
-  std::array<AlignedArray<double>, 6> law;   ///< likewise: 1 on faces of walls with a wall function; empty where there are none
+  std::array<AlignedArray<double>, 6> through;  ///< per side with boundaries other than walls: mass fluxes of its faces in the
+                                                ///< residual evaluated last [kg/s], along the direction of the index; else empty
+  std::array<AlignedArray<double>, 6> law;  ///< likewise: 1 on faces of walls with a wall function; empty where there are none
 
   AlignedArray<float> mean_matrix, turbulence_matrix;
   AlignedArray<float> direction;                     ///< with one ghost: what the operator is applied to

@@ -16,7 +16,8 @@ namespace spindrift::aero {
 
 namespace {
 
-constexpr std::size_t norm_count = 8;
+/// Of `norms`; the mass balance follows what the march needs.
+constexpr std::size_t first_of_mass = 8, norm_count = first_of_mass + mass_components;
 
 /// Sum of squares of what round-off leaves in the scaled residuals of a uniform stream: a part in 1e17 of the pressure on all
 /// faces, which is 1 / (gamma M^2) in their units.
@@ -75,7 +76,7 @@ void Judgement::keep_last_row() {
   if (rows_.size() > 1) rows_.erase(rows_.begin(), rows_.end() - 1);
 }
 
-void Judgement::measure(std::size_t owned, const ImplicitSystem& system, const ViscousSetting& viscous) {
+void Judgement::measure(std::size_t owned, const ImplicitSystem& system, const FlowResidual& residual) {
   FlowTile& tile = arrays_.tiles[owned];
   const std::span<double> partial = norms.of(owned), on_walls = loads.of(owned);
   const TileGeometry& g = *tile.geometry;
@@ -118,7 +119,15 @@ void Judgement::measure(std::size_t owned, const ImplicitSystem& system, const V
       partial[7] += forced;
     });
   std::fill(on_walls.begin(), on_walls.end(), 0.0);
-  add_loads(tile, tile.state.data(), viscous, bands_, on_walls);
+  add_loads(tile, tile.state.data(), residual.viscous(), bands_, on_walls);
+  const MassBalance mass = residual.mass_balance(tile);
+  partial[first_of_mass] = mass.inflow, partial[first_of_mass + 1] = mass.outflow;
+  partial[first_of_mass + 2] = mass.growth, partial[first_of_mass + 3] = mass.residual;
+}
+
+MassBalance Judgement::mass() const {
+  const double* of = norms.result.data() + first_of_mass;
+  return {of[0], of[1], of[2], of[3]};
 }
 
 void Judgement::judge() {
@@ -155,6 +164,7 @@ void Judgement::judge() {
                    .balance_drop = march_.balance_drop(),
                    .fraction = march_.fraction(),
                    .matrix_free = matrix_free_,
+                   .mass = mass(),
                    .force = {force[0], force[1], force[2]},
                    .moment = {moment[0], moment[1], moment[2]},
                    .loads = loads.result,

@@ -27,6 +27,7 @@ struct PseudoRow {
   double cfl = 0.0, density_residual = 0.0, mass_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, balance_drop = 0.0,
          fraction = 1.0;
   bool matrix_free = false;
+  MassBalance mass{};              ///< of the whole grid
   std::array<double, 3> force{};   ///< of all patches with loads [N]
   std::array<double, 3> moment{};  ///< likewise, about the origin [N m]
   std::vector<double> loads{};     ///< by patch, see patch_loads, then by band, see band_loads
@@ -47,7 +48,7 @@ class Judgement {
   /// A march begins, or goes on.
   void begin();
   /// A tile's part of `norms` and `loads`. @pre its residual is that of its state
-  void measure(std::size_t owned, const ImplicitSystem& system, const ViscousSetting& viscous);
+  void measure(std::size_t owned, const ImplicitSystem& system, const FlowResidual& residual);
   /// One place where the march goes on, back, or ends: after the sums over all tiles. Leaves a row.
   void judge();
   /// After judge(): squared scaled norms of the mean flow and of turbulence.
@@ -73,6 +74,8 @@ class Judgement {
   const std::string& trouble() const { return trouble_; }
   /// Loads by patch and by band as last judged, the same on every rank.
   std::span<const double> load_sums() const { return loads.result; }
+  /// Likewise the balance of mass of the whole grid.
+  MassBalance mass() const;
   PatchLoads patch(int patch) const { return patch_loads(loads.result, patch); }
 
   TileSums norms, loads, force_samples;

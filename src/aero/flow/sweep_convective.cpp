@@ -91,6 +91,8 @@ void sweep_convective(FlowTile& tile, const double* state, double* residual, con
     for (const int end : {0, 1})
       if (const auto& open = tile.open[std::size_t(end)]; open.size() > 0)
         for (int c = 0; c < unknowns; ++c) row[c][end * box.ni] *= open.data()[place];
+    for (const int end : {0, 1})
+      if (auto& through = tile.through[std::size_t(end)]; through.size() > 0) through.data()[place] = row[0][end * box.ni];
     double* out = residual + inner.at(k, j, 0);
     for (int c = 0; c < unknowns; ++c)
       for (int i = 0; i < box.ni; i += row_lanes)
@@ -103,6 +105,8 @@ void sweep_convective(FlowTile& tile, const double* state, double* residual, con
       for (int n = 0; n <= last; ++n) {
         const int k = d == 1 ? m : n, j = d == 1 ? n : m;
         const auto& open = tile.open[std::size_t(2 * d + (n == last ? 1 : 0))];
+        auto& through = tile.through[std::size_t(2 * d + (n == last ? 1 : 0))];
+        const bool kept = (n == 0 || n == last) && through.size() > 0;
         const bool masked = (n == 0 || n == last) && open.size() > 0;
         for (int first = 0; first < box.ni; first += piece) {
           const int count = std::min(piece, box.ni - first);
@@ -112,6 +116,7 @@ void sweep_convective(FlowTile& tile, const double* state, double* residual, con
             for (int i = 0; i < count; i += row_lanes) {
               Row f = Row::load(flux[c] + i);
               if (masked) f *= Row::load(open.data() + m * open_row(box, d) + first + i);
+              if (kept && c == 0) f.store(through.data() + m * open_row(box, d) + first + i);
               if (n < last) (Row::load(out + i) - f).store(out + i);
               if (n > 0) (Row::load(out + i - inner.stride(d)) + f).store(out + i - inner.stride(d));
             }

@@ -176,7 +176,7 @@ class StepGraph {
         [this](std::size_t n) {
           if (judged_.body_force()) judged_.body_force()->spread(n, tile(n));
           residual_of_.evaluate(tile(n), tile(n).state.data(), tile(n).residual.data());
-          judged_.measure(n, system_, residual_of_.viscous());
+          judged_.measure(n, system_, residual_of_);
         });
   }
   /// Forces inside the air, of the flow as it is: products of the linear solver see them as they stand.

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "src/aero/flow/boundary.hpp"
+#include "src/aero/flow/mass_balance.hpp"
 #include "src/aero/flow/sweep.hpp"
+#include "src/aero/flow/sweep_gradients.hpp"
 
 namespace spindrift::aero {
 
@@ -16,6 +18,7 @@ std::size_t FlowTile::bytes() const {
   for (const auto& v : vectors) sum += v.bytes();
   for (const auto& v : directions_kept) sum += v.bytes();
   for (const auto& v : open) sum += v.bytes();
+  for (const auto& v : through) sum += v.bytes();
   for (const auto& v : law) sum += v.bytes();
   return sum;
 }
@@ -68,6 +71,7 @@ TileArrays::TileArrays(GridStore& store, const FlowSetting& setting, std::span<c
     if (t.turbulence == 2) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<2>::size(t.box, t.directions));
     t.direction = AlignedArray<float>(t.gradient_box.size(unknowns));
     set_open_faces(t);
+    set_through_faces(t);
   }
 }
 

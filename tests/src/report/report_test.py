@@ -443,6 +443,21 @@ class PartsTest(unittest.TestCase):
             self.assertIn("unexplained −30", found.text)
             self.assertIn("J an hour", found.text)
 
+    def test_health_closes_the_balance_of_the_mass_of_the_air(self):
+        t = np.linspace(0.0, 10.0, 101)
+        table = {"time_s": t, "air.mass_inflow_kg_s": 200.0 + t, "air.mass_outflow_kg_s": 195.0 + t, "air.mass_growth_kg_s": 5.5 + 0 * t, "air.mass_residual_kg_s": 0.5 + 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            def told(**changed):
+                synthetic_run.write(pathlib.Path(folder) / "run", table=table | changed, scene="", log="")
+                return {c.title: c for c in verdict.health(RunData(pathlib.Path(folder) / "run"))}["Air mass"]
+            found = told()
+            self.assertEqual(found.level, "good")
+            self.assertIn("210 kg/s flow through the grid; the pseudo-steps leave at most 0.24 % of it", found.text)
+            self.assertEqual(told(**{"air.mass_growth_kg_s": 10.0 + 0 * t, "air.mass_residual_kg_s": 5.0 + 0 * t}).level, "warn")
+            found = told(**{"air.mass_growth_kg_s": 6.5 + 0 * t})
+            self.assertEqual(found.level, "bad")
+            self.assertIn("does not close", found.text)
+
     def test_health_tells_of_floats_that_turn_over_go_under_or_pass_through_the_bed(self):
         t = 0.1 * np.arange(400)
         table = {"time_s": t, **{f"float.{c}": 0 * t for c in ("x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg")}, "rotor.thrust_N": 0 * t}
