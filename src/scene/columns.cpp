@@ -54,14 +54,40 @@ std::optional<double> finite_number(std::string_view cell) {
 
 }  // namespace
 
+namespace {
+
+/// What spreadsheets put before the text: UTF-8's mark is skipped, UTF-16 is not read.
+void skip_mark(const std::string& file, std::string& first_line) {
+  if (first_line.starts_with("\xEF\xBB\xBF")) first_line.erase(0, 3);
+  if (first_line.starts_with("\xFF\xFE") || first_line.starts_with("\xFE\xFF"))
+    fail_at(file, 1, "", "is text in UTF-16: save it in UTF-8");
+}
+
+/// Other ways to write a table, told by name.
+void require_commas(const std::string& file, int line, std::string_view header) {
+  const char* wrong = header.find(';') != std::string_view::npos    ? "semicolons"
+                      : header.find(',') != std::string_view::npos  ? nullptr
+                      : header.find('\t') != std::string_view::npos ? "tabs"
+                      : header.find(' ') != std::string_view::npos  ? "blanks"
+                                                                    : nullptr;
+  if (wrong != nullptr)
+    fail_at(file, line, "",
+            fmt::format("has {} between its columns: write commas between columns, and points in numbers", wrong));
+}
+
+}  // namespace
+
 void Columns::add_row(const std::vector<std::string_view>& cells, int line) {
   if (cells.size() != names_.size())
     fail_at(file_, line, "",
-            fmt::format("has {} values where there are {} columns ({})", cells.size(), names_.size(), fmt::join(names_, ", ")));
+            fmt::format("has {} values where there are {} columns ({}){}", cells.size(), names_.size(), fmt::join(names_, ", "),
+                        cells.size() == 2 * names_.size() ? "; decimal commas? write points: 0.5, not 0,5" : ""));
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const std::optional<double> value = finite_number(cells[c]);
     if (!value)
-      fail_at(file_, line, fmt::format("\"{}\"", cells[c]), fmt::format("must be a finite number (column {})", names_[c]));
+      fail_at(file_, line, fmt::format("\"{}\"", cells[c]),
+              fmt::format("must be a finite number (column {}){}", names_[c],
+                          cells[c].find(',') != std::string_view::npos ? "; write a decimal point, not a comma" : ""));
     values_[c].push_back(*value);
   }
   lines_.push_back(line);
@@ -74,10 +100,12 @@ Columns read_columns(const std::string& path) {
   table.file_ = path;
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
+    if (line == 1) skip_mark(path, text);
     const std::string_view content = trim(std::string_view(text).substr(0, text.find('#')));
     if (content.empty()) continue;
     const auto cells = split(content);
     if (table.names_.empty()) {
+      require_commas(path, line, content);
       table.names_.assign(cells.begin(), cells.end());
       table.values_.resize(cells.size());
     } else {
@@ -96,6 +124,7 @@ Columns read_blank_columns(const std::string& path, std::vector<std::string> nam
   table.file_ = path;
   table.names_ = std::move(names);
   table.values_.resize(table.names_.size());
+  skip_mark(path, text);
   // A title, unless it is a row like those that follow.
   if (const auto cells = split_at_blanks(text); cells.size() == table.names_.size() && std::ranges::all_of(cells, [](auto cell) {
                                                   return finite_number(cell).has_value();
