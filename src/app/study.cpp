@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -177,11 +179,12 @@ int study(const StudyArguments& arguments, const runtime::World& world) {
   for (const scene::StudyRun& rung : expand(study)) plan["rungs"].push_back(of_rung(study, rung, problems));
   if (!problems.empty()) throw scene::SceneError(problems);
 
-  fs::create_directories(folder);
-  const fs::path file = folder / (arguments.dry_run ? "plan_dry.json" : "plan.json");
+  if (!arguments.dry_run) fs::create_directories(folder);
+  const fs::path file =
+      arguments.dry_run ? fs::temp_directory_path() / fmt::format("spindrift_plan_{}.json", getpid()) : folder / "plan.json";
   std::ofstream(file) << plan.dump(1) << "\n";
   std::vector<std::string> words{file};
-  if (arguments.dry_run) words.push_back("--dry-run");
+  if (arguments.dry_run) words.insert(words.end(), {"--dry-run", folder});
   hand_over([words] { report::become("spindrift_study.py", words); });
   return done;
 }

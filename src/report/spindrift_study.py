@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Runs the plan of a study and judges it: `spindrift study` becomes this program once every scene is checked (src/app/study.cpp).
 
-    spindrift_study.py FOLDER/plan.json [--dry-run]
+    spindrift_study.py FOLDER/plan.json
+    spindrift_study.py PLAN --dry-run FOLDER      says what would run in FOLDER, leaves nothing, removes PLAN
 
 Each run is a `spindrift run` of its own in FOLDER/RUN, with what it came to in FOLDER/RUN/study_run.json; runs that are there already are
 kept as long as their scene and the program are the same. SIGTERM or SIGINT ends the runs with a checkpoint and the study with exit
@@ -228,7 +229,7 @@ def forecast_table(plan, wanted, runs):
     cost = sum(r["forecast_core_s"] for _, r in wanted if r["name"] not in runs.results)
     say(f"{len(wanted)} runs, {sum(r['name'] in runs.results for _, r in wanted)} of them there already; forecast of the rest: "
         f"{cost / 3600.0:.3g} core-hours ({duration(cost)} of one core), {runs.at_once} at once")
-    say(f"\n  {'rung':<44}{'runs':>6}{'core-s each':>14}{'memory':>10}")
+    say(f"\n  {'configuration':<44}{'runs':>6}{'core-s each':>14}{'memory':>10}")
     for rung in plan["rungs"]:
         mine = [r for g, r in wanted if g is rung]
         if mine:
@@ -238,10 +239,10 @@ def forecast_table(plan, wanted, runs):
 
 def print_result(result, folder):
     metrics = result["metrics"]
-    width = max([len(r["name"]) for r in result["rungs"]] + [4]) + 2
+    width = max([len(r["name"]) for r in result["rungs"]] + [len("configuration")]) + 2
     judged = bool(result["reference"])
     valued = {m["name"]: any(rung["errors"][m["name"]]["value"] is not None for rung in result["rungs"]) for m in metrics}
-    say(f"\n{'rung':<{width}}{'core-s':>10}{'MB':>7}" + "".join(f"{m['name']:>16}" * valued[m["name"]] +
+    say(f"\n{'configuration':<{width}}{'core-s':>10}{'MB':>7}" + "".join(f"{m['name']:>16}" * valued[m["name"]] +
                                                            (f"{'its error' if valued[m['name']] else 'error of ' + m['name']:>26}" * judged) for m in metrics))
     for rung in result["rungs"]:
         memory = rung["cost"]["memory"]
@@ -252,7 +253,7 @@ def print_result(result, folder):
             if e["error"] is not None and e["high"] > e["low"]:
                 text += f" ({e['low']:.2g} ... {e['high']:.2g})"
             line += f"{'-' if e['value'] is None else format(e['value'], '.5g'):>16}" * valued[metric["name"]] + f"{text:>26}" * judged
-        notes = ["reference"] if rung["is_reference"] else ["on the front"] if rung["on_front"] else []
+        notes = ["reference"] if rung["is_reference"] else ["Pareto front"] if rung["on_front"] else []
         notes += [f"scatter of {n}" for n in dict.fromkeys(e["scatter_of"] for e in rung["errors"].values() if e["scatter_of"])]
         say(line + "  " + ", ".join(notes + ([rung["failed"]] if rung["failed"] else [])))
     say(f"\nanswer: {result['sentence']}")
@@ -268,10 +269,20 @@ def print_result(result, folder):
     say(f"spent: {result['core_s_spent']:.4g} core-s")
 
 
+def print_plan(plan, runs):
+    """Says what is to be run, and what the budget leaves out; returns both."""
+    runs.take_known()
+    wanted, left_out = within_budget(plan, [(g, r) for g in plan["rungs"] if not g["later"] for r in g["runs"]], runs.results)
+    forecast_table(plan, wanted, runs)
+    for name in left_out:
+        say(f"  beyond the budget, left out: {name}")
+    return wanted, left_out
+
+
 def main():
     parser = argparse.ArgumentParser(prog="spindrift study")
     parser.add_argument("plan", type=pathlib.Path)
-    parser.add_argument("--dry-run", action="store_true")
+    parser.add_argument("--dry-run", type=pathlib.Path, metavar="FOLDER")
     given = parser.parse_args()
     try:
         import study_judge
@@ -280,7 +291,12 @@ def main():
     except ModuleNotFoundError as missing:
         say(f"Python at {sys.executable} has no module '{missing.name}': install the package python3-{missing.name} (ci/setup does)")
         return MACHINE_FAILURE
-    folder, plan = given.plan.parent.resolve(), json.loads(given.plan.read_text(encoding="utf-8"))
+    plan = json.loads(given.plan.read_text(encoding="utf-8"))
+    if given.dry_run:
+        given.plan.unlink()
+        print_plan(plan, Runs(given.dry_run.resolve(), plan))
+        return DONE
+    folder = given.plan.parent.resolve()
     lock = open(folder / "lock", "w")
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -288,14 +304,7 @@ def main():
         say(f"another study is at work in {folder}")
         return MACHINE_FAILURE
     runs = Runs(folder, plan)
-    runs.take_known()
-    wanted, left_out = within_budget(plan, [(g, r) for g in plan["rungs"] if not g["later"] for r in g["runs"]], runs.results)
-    forecast_table(plan, wanted, runs)
-    for name in left_out:
-        say(f"  beyond the budget, left out: {name}")
-    if given.dry_run:
-        given.plan.unlink()
-        return DONE
+    wanted, left_out = print_plan(plan, runs)
 
     def judge():
         return study_judge.Judge(plan, {k: v for k, v in runs.results.items() if k in names}, study_histories.reader(folder))

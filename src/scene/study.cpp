@@ -49,7 +49,7 @@ const Section<StudyOptions>& study_section() {
   static const auto section = [] {
     std::vector<Section<StudyOptions>::Case<Design>> words;
     for (const DesignWord& d : designs) words.push_back({d.word, d.design, d.help});
-    return Section<StudyOptions>("study", "Variants of one scene or a ladder of scenes, compared by error and cost.")
+    return Section<StudyOptions>("study", "Variants of one scene, or scenes, compared by error and cost.")
         .path("scene", &StudyOptions::scene, "Scene file of the variants that name none.")
         .texts("set", &StudyOptions::set, "Overrides of every run, each KEY=VALUE.")
         .choice("design", &StudyOptions::design, words, "Which points of the axes are run.")
@@ -69,21 +69,23 @@ const Section<StudyOptions>& study_section() {
 }
 
 const Section<VariantOptions>& variant_section() {
-  static const auto section = Section<VariantOptions>("variants", "A rung of the ladder: a scene, or a named set of overrides.")
-                                  .named()
-                                  .path("scene", &VariantOptions::scene, "Scene file of this rung; that of [study] where absent.")
-                                  .texts("set", &VariantOptions::set, "Overrides of this variant, each KEY=VALUE.")
-                                  .flag("alone", &VariantOptions::alone, "Not taken to the points of the axes.")
-                                  .integer("replicas", &VariantOptions::replicas, "-",
-                                           "At most so many replicas; all where absent. 0: nothing in this rung depends on them; "
-                                           "it runs once, as the scene is, and "
-                                           "stands beside each replica of the others.",
-                                           at_least(0))
-                                  .number("safety_factor", &VariantOptions::safety_factor, "-",
-                                          "Partial factor of its extremes in [load_cases]: 1.35 of normal, 1.1 of abnormal, 1.5 "
-                                          "of transport and maintenance cases (IEC 61400-1).",
-                                          between(1.0, 3.0))
-                                  .flag("fatigue", &VariantOptions::fatigue, "Its runs do damage in [load_cases].");
+  static const auto section =
+      Section<VariantOptions>("variants",
+                              "A variant: a scene, or a named set of overrides. At each point of the axes it is a configuration.")
+          .named()
+          .path("scene", &VariantOptions::scene, "Scene file of this variant; that of [study] where absent.")
+          .texts("set", &VariantOptions::set, "Overrides of this variant, each KEY=VALUE.")
+          .flag("alone", &VariantOptions::alone, "Not taken to the points of the axes.")
+          .integer("replicas", &VariantOptions::replicas, "-",
+                   "At most so many replicas; all where absent. 0: nothing in this variant depends on them; "
+                   "it runs once, as the scene is, and "
+                   "stands beside each replica of the others.",
+                   at_least(0))
+          .number("safety_factor", &VariantOptions::safety_factor, "-",
+                  "Partial factor of its extremes in [load_cases]: 1.35 of normal, 1.1 of abnormal, 1.5 "
+                  "of transport and maintenance cases (IEC 61400-1).",
+                  between(1.0, 3.0))
+          .flag("fatigue", &VariantOptions::fatigue, "Its runs do damage in [load_cases].");
   return section;
 }
 
@@ -114,17 +116,18 @@ const Section<AxisOptions>& axis_section() {
 }
 
 const Section<AxisOptions>& replicas_section() {
-  static const auto section = with_points(Section<AxisOptions>(
-      "replicas",
-      "Every rung is run at each of these, which differ by chance alone (seed, phase of the waves, jitter of particles): "
-      "errors are paired between rungs, their scatter is the noise floor."));
+  static const auto section =
+      with_points(Section<AxisOptions>("replicas",
+                                       "Every configuration is run at each of these, which differ by chance alone (seed, phase "
+                                       "of the waves, jitter of particles): "
+                                       "errors are paired between configurations, their scatter is the noise floor."));
   return section;
 }
 
 const Section<ReferenceOptions>& reference_section() {
   static const auto section =
       Section<ReferenceOptions>("reference", "What errors are measured against.")
-          .text("variant", &ReferenceOptions::variant, "Name of a rung of this study.")
+          .text("variant", &ReferenceOptions::variant, "Name of a configuration of this study.")
           .path("history", &ReferenceOptions::history,
                 "A history.csv from elsewhere that has time_s and the columns of the metrics.")
           .text("limit", &ReferenceOptions::limit,
@@ -136,9 +139,10 @@ const Section<ReferenceOptions>& reference_section() {
 
 const Section<LoadCasesOptions>& load_cases_section() {
   static const auto section =
-      Section<LoadCasesOptions>("load_cases",
-                                "A table of design load cases: statistics of every rung over its replicas, design extremes, and "
-                                "damage-equivalent ranges of a life.")
+      Section<LoadCasesOptions>(
+          "load_cases",
+          "A table of design load cases: statistics of every configuration over its replicas, design extremes, and "
+          "damage-equivalent ranges of a life.")
           .texts("columns", &LoadCasesOptions::columns, "Columns of history.csv.")
           .required()
           .number("from_s", &LoadCasesOptions::from_s, "s", "Start of the time range: what comes before is start-up.")

@@ -82,7 +82,7 @@ class Study(Folder):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("12 runs, 0 of them there already", done.stdout)
         self.assertIn("core-hours", done.stdout)
-        self.assertEqual(self.ledgers(), {})
+        self.assertFalse(self.out.exists())
 
     def test_what_is_wrong_is_found_before_anything_runs(self):
         for old, new, said in (('"buoy.z_m"', '"buoy.z_mm"', 'did you mean "buoy.z_m"'),
