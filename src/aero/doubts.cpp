@@ -41,7 +41,7 @@ void doubt_speed(scene::Doubts& doubts, const std::string& at, const WindOptions
     doubts.push_back(
         {at,
          fmt::format("{:.4g} rpm in {:.4g} m/s, a tip-speed ratio of {:.3g}", start.speed / rad_s_per_rpm, wind.speed_m_s, ratio),
-         "2 to 16", "look at the units (rpm, m/s), or give rotor.operation"});
+         "2 to 16", ratio < 2.0 ? "in rad/s or Hz? give rpm; or the wind is not in m/s" : "look at the units: rpm, m/s"});
 }
 
 void doubt_wind(scene::Doubts& doubts, const WindOptions& wind) {
@@ -162,10 +162,8 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
   scene::Doubts doubts;
   const bool blown = aero.model != "prescribed" && wind.speed_m_s > 0.0;
   const std::string axis_key = rotor.joint.empty() ? "rotor.axis" : "joints." + rotor.joint + ".axis";
-  const std::string speed_key =
-      !rotor.operation.empty() || rotor.joint.empty() ? "rotor.speed_rpm" : "joints." + rotor.joint + ".rotation.speed_rpm";
   doubt_axis(doubts, axis_key, wind, start.axis, blown);
-  doubt_speed(doubts, speed_key, wind, start, blown);
+  doubt_speed(doubts, start.speed_key, wind, start, blown);
   if (aero.model != "prescribed") doubt_wind(doubts, wind);
   doubt_load(doubts, wind, air_density, start, blown);
   if (start.reynolds) doubt_reynolds(doubts, *start.reynolds);

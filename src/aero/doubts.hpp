@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "src/aero/bem.hpp"
 #include "src/aero/options.hpp"
@@ -13,6 +14,7 @@ namespace spindrift::aero {
 struct RotorAtStart {
   Eigen::Vector3d hub, axis;            ///< earth frame
   double speed = 0.0;                   ///< [rad/s]
+  std::string speed_key;                ///< of the scene, that gives it
   double radius = 0.0;                  ///< [m]; 0 where the scene does not say
   std::optional<double> thrust, power;  ///< at full load [N], [W]
   bool over_water = false;

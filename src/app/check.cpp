@@ -20,6 +20,7 @@
 #include "src/app/cost.hpp"
 #include "src/app/forecast.hpp"
 #include "src/app/leave_out.hpp"
+#include "src/app/rotor_start.hpp"
 #include "src/app/scene_file.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/doubts.hpp"
@@ -29,6 +30,7 @@
 #include "src/coupling/memory_limits.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/start.hpp"
+#include "src/scene/angle_doubts.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
 
@@ -72,6 +74,21 @@ void print_doubts(const scene::Doubts& doubts) {
   if (doubts.empty()) return;
   fmt::print("\nDoubts: possible, but it looks like a slip\n");
   for (const scene::Doubt& doubt : doubts) fmt::print("  warning: {}\n", text(doubt));
+}
+
+scene::Doubts joined(scene::Doubts all, const scene::Doubts& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// A start that cannot be found is refused; what looks like the slip behind it is told first.
+coupling::Start start_or_doubts(FloatingSystem& floating, const scene::Doubts& angles, bool prints) {
+  try {
+    return make_start(floating);
+  } catch (const scene::SceneError&) {
+    if (prints) print_doubts(joined(angles, coupling::doubts_as_described(floating)));
+    throw;
+  }
 }
 
 /// Of a run that begins with what this check has done, in `start_s` of processor time.
@@ -234,8 +251,8 @@ PartCost print_air(const FloatingSystem& floating, const coupling::Start& start,
                      calibrate);
 }
 
-void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, bool calibrate, int ranks,
-                          const BaseCost& base) {
+void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, const scene::Doubts& angles, bool calibrate,
+                          int ranks, const BaseCost& base) {
   const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
   fmt::print("{}: valid\n\nWhat will be modelled\n", source);
@@ -245,7 +262,8 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors,
              size.sectors == 1 ? ", periodic" : "s", size.stations);
   print_far_sides(setup.grid);
-  print_doubts(coupling::air_doubts(s));
+  print_doubts(joined(angles, coupling::air_doubts(s)));
+  print_rotor_at_start(s);
   const PartCost cost = cost_of_air(setup, size, pseudo_steps_per_second(s), 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks, base);
 }
@@ -350,7 +368,8 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
     try_grid(coupling::resolved_rotor_setup(scenario), world.size);
     if (world.rank != 0) return done;
-    print_resolved_rotor(arguments.scene, scenario, arguments.calibrate, world.size, base_cost(0.0));
+    print_resolved_rotor(arguments.scene, scenario, scene::angle_doubts(document.echo()), arguments.calibrate, world.size,
+                         base_cost(0.0));
     return done;
   }
   if (scenario.has_flow()) {
@@ -361,7 +380,8 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
                aero::describe_flow_grid(*scenario.aero.flow));
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
-    print_doubts(coupling::air_doubts(scenario));
+    print_doubts(joined(scene::angle_doubts(document.echo()), coupling::air_doubts(scenario)));
+    if (scenario.has_actuator()) print_rotor_at_start(scenario);
     print_first_cells(scenario, grid);
     const PartCost cost = cost_of_flow(scenario, grid);
     print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, base_cost(processor_seconds() - begin_s));
@@ -370,7 +390,8 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   const coupling::Scenario asked = scenario;
   FloatingSystem floating(std::move(scenario));
   require_expected_columns(document, asked.output, columns_of(floating));
-  const coupling::Start start = make_start(floating);
+  const scene::Doubts angles = scene::angle_doubts(document.echo());
+  const coupling::Start start = start_or_doubts(floating, angles, world.rank == 0);
   const coupling::Stability stability = coupling::stability(floating, start.state);
   if (has_resolved_rotor(floating.scenario())) try_grid(resolved_rotor_on(floating, start), world.size);
   const double start_s = processor_seconds() - begin_s;
@@ -378,7 +399,9 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     fmt::print("{}: valid\n", arguments.scene);
     print_models(floating);
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
-    print_doubts(coupling::doubts(floating, start, stability));
+    for (const std::string& note : coupling::resolution_notes(floating)) fmt::print("  note: {}\n", note);
+    print_doubts(joined(angles, coupling::doubts(floating, start, stability)));
+    if (floating.rotor() && !start.state.motions.empty()) print_rotor_at_start(floating, start);
     if (!start.state.motions.empty()) print_modes(floating, stability.linearisation), print_blade_modes(floating);
   }
   require_limits(floating, start.state, stability);

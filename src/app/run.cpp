@@ -34,6 +34,7 @@
 #include "src/io/openfast_file.hpp"
 #include "src/report/report.hpp"
 #include "src/run/driver.hpp"
+#include "src/scene/angle_doubts.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/identity.hpp"
@@ -168,18 +169,30 @@ void print_summary(const io::Summary& summary, const io::RunDirectory& directory
 }  // namespace
 
 namespace {
+void warn(const scene::Doubts& doubts) {
+  for (const scene::Doubt& doubt : doubts) spdlog::warn("{}", text(doubt));
+}
 /// Floating system and start of a scene that is not of the air alone.
 ReadyScene made_ready(coupling::Scenario scenario, scene::Document& document) {
   ReadyScene ready;
   ready.floating = std::make_unique<coupling::FloatingSystem>(std::move(scenario));
   require_expected_columns(document, ready.floating->scenario().output, columns_of(*ready.floating));
-  ready.start = make_start(*ready.floating);
-  const coupling::Stability found = stability(*ready.floating, ready.start.state);
-  ready.doubts = coupling::doubts(*ready.floating, ready.start, found);
-  require_limits(*ready.floating, ready.start.state, found);
+  ready.echo = document.echo();
+  ready.doubts = scene::angle_doubts(ready.echo);
+  const auto add = [&](const scene::Doubts& more) { ready.doubts.insert(ready.doubts.end(), more.begin(), more.end()); };
+  coupling::Stability found;
+  try {
+    ready.start = make_start(*ready.floating);
+    found = stability(*ready.floating, ready.start.state);
+    add(coupling::doubts(*ready.floating, ready.start, found));
+    require_limits(*ready.floating, ready.start.state, found);
+  } catch (const scene::SceneError&) {  // what looks like the slip behind it
+    if (found.linearisation.matrix.size() == 0) add(coupling::doubts_as_described(*ready.floating));
+    warn(ready.doubts);
+    throw;
+  }
   ready.modes = found.linearisation.modes;
   ready.floating->multibody().open_chart(ready.start.state, 0.0);  // the first solution begins from it
-  ready.echo = document.echo();
   return ready;
 }
 /// Those that have a stiffness or a damping.
@@ -252,9 +265,11 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   if (system)
     for (const std::string& note : system->start.notes) spdlog::info("{}", note);
   if (system)
-    for (const scene::Doubt& doubt : system->doubts) spdlog::warn("{}", text(doubt));
+    for (const std::string& note : coupling::resolution_notes(*system->floating)) spdlog::info("{}", note);
+  if (system)
+    warn(system->doubts);
   else
-    for (const scene::Doubt& doubt : coupling::air_doubts(*scenario)) spdlog::warn("{}", text(doubt));
+    warn(scene::angle_doubts(echo)), warn(coupling::air_doubts(*scenario));
   // Before the run: meanwhile the file may be edited or gone.
   const std::string title = world.rank == 0 ? title_of(arguments, scenario->output.title) : "";
   runtime::StopRequest stop(scenario->runtime.wall_limit_s, directory.stop());

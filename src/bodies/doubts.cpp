@@ -22,6 +22,11 @@ void doubt_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptio
                       "0.05 to 4 times its half diagonal", advice});
   else if (size == 0.0 && most > 300.0)
     doubts.push_back({at + ".inertia_kg_m2", what, "up to 300 m", advice});
+  // A solid ball of steel, 7850 kg/m3, has the least inertia that steel can have; blades and nacelles have a hundred times that.
+  const double ball = std::sqrt(0.4) * std::cbrt(3.0 * body.mass_kg / (4.0 * pi * 7850.0));
+  if (size == 0.0 && most > 0.0 && most < 0.5 * ball)
+    doubts.push_back({at + ".inertia_kg_m2", fmt::format("{} with a mass of {:.4g} kg", what, body.mass_kg),
+                      fmt::format("above {:.3g} m, half that of a solid ball of steel", 0.5 * ball), advice});
 }
 
 /// Axis by axis, against a homogeneous block of the shapes' size: an inertia that belongs to another axis stands out. A tower on

@@ -8,6 +8,7 @@
 
 #include "src/aero/doubts.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/aero/turbine_doubts.hpp"
 #include "src/bodies/doubts.hpp"
 #include "src/bodies/extent.hpp"
 #include "src/coupling/flow_scene.hpp"
@@ -73,14 +74,14 @@ double volume(const bodies::BodyOptions& body) {
 
 /// Draft of the deepest body that the water carries; doubts about bodies below the bed and about weights that the water cannot
 /// carry at all, or that hardly press it aside.
-double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start) {
+double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, std::span<const Motion> motions) {
   const Scenario& s = floating.scenario();
   double draft = 0.0, displaced = 0.0;
   bool any = false;
   std::string first;
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const auto& [name, body] = s.bodies[b];
-    const Reach r = reach(body, start.state.motions[b]);
+    const Reach r = reach(body, motions[b]);
     if (!r.any) continue;
     if (r.low < -s.environment.water_depth_m - 1e-6)
       doubts.push_back({"bodies." + name, fmt::format("reaches down to z = {:.4g} m", r.low),
@@ -94,6 +95,9 @@ double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, con
                           fmt::format("{:g} spacings at least", least),
                           "take smaller particles or deeper water: where no particle fits nothing carries it"});
     }
+    if (constexpr double most = 200.0; r.low < -most && r.low >= -s.environment.water_depth_m)
+      doubts.push_back({"bodies." + name, fmt::format("a draft of {:.4g} m", -r.low), fmt::format("up to {:g} m, of spars", most),
+                        "look at the unit of its shapes: m"});
     if (r.low < 0.0) draft = std::max(draft, -r.low);
     any = any || r.low < 0.0;
     displaced += volume(body);
@@ -108,8 +112,12 @@ double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, con
                mass = weight(floating) / std::abs(s.environment.gravity_m_s2);
   const bool falls = draft < 0.02 * std::cbrt(displaced);
   if (held || falls) return draft;
+  const auto would_float = [&](double kg) { return kg > 0.03 * all && kg < 1.05 * all; };
   const std::string key = "bodies." + first + ".mass_kg",
-                    advice = "look at the mass in kg, and at the shapes' sizes in m (diameters, not radii)";
+                    advice = would_float(1e3 * mass) ? "in t? give kg"
+                             : would_float(1e-3 * mass)
+                                 ? "in g? give kg, or the shapes' sizes in m"
+                                 : "look at the mass in kg, and at the shapes' sizes in m (diameters, not radii)";
   if (mass > 1.05 * all)
     doubts.push_back({key, fmt::format("{:.4g} kg in all, whose shapes displace {:.4g} kg of water when wholly under", mass, all),
                       "less: else it sinks", advice});
@@ -286,6 +294,9 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (s.wind.event && s.has_rotor() && s.wind.event->start_s > s.time.end_s)
     doubts.push_back({"wind.event.start_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.wind.event->start_s, s.time.end_s),
                       "before the end of the run", "the gust does not come; look at its unit: s"});
+  if (constexpr double most = 36000.0; s.time.end_s > most)
+    doubts.push_back(
+        {"time.end_s", fmt::format("{:.4g} s", s.time.end_s), fmt::format("up to {:g} s, ten hours", most), "in ms? give s"});
   if (s.output.means_over_s > s.time.end_s)
     doubts.push_back({"output.means_over_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.output.means_over_s, s.time.end_s),
                       "up to the length of the run", "look at its unit: s"});
@@ -301,6 +312,24 @@ void doubt_turn(scene::Doubts& doubts, const Scenario& s, double speed) {
   if (const double turn = std::abs(speed) * s.time.window_s / radians_per_degree; turn > most)
     doubts.push_back({"time.window_s", fmt::format("{:.4g} s, in which the rotor turns by {:.3g} degrees", s.time.window_s, turn),
                       fmt::format("up to {:g} degrees", most), "shorten it: a window is a step of the flow"});
+}
+
+/// A rotor that hardly turns in the run.
+void doubt_run_of_rotor(scene::Doubts& doubts, const Scenario& s, double speed) {
+  constexpr double least = 0.25;
+  if (s.resolves_air() && s.aero.flow->time == "steady") return;
+  if (const double turns = std::abs(speed) * s.time.end_s / (2.0 * pi); turns > 0.0 && turns < least)
+    doubts.push_back({"time.end_s", fmt::format("{:.4g} s, in which the rotor makes {:.2g} of a turn", s.time.end_s, turns),
+                      "a quarter of a turn at least", "look at its unit: s"});
+}
+
+/// The scene's key that gives the rotor its speed at the start.
+std::string speed_key(const Scenario& s) {
+  if (s.rotor.operating_point == "table") return "rotor.operation";
+  if (s.rotor.joint.empty()) return "rotor.speed_rpm";
+  for (const auto& [name, joint] : s.joints)
+    if (name == s.rotor.joint && joint.rotation) return "joints." + name + ".rotation.speed_rpm";
+  return s.is_controlled() && !s.rotor.operation.empty() ? "rotor.operation" : "bodies." + s.rotor.body;
 }
 
 /// Cells over an actuator's rotor.
@@ -334,7 +363,8 @@ void doubt_rotor_body(scene::Doubts& doubts, const Scenario& s, const aero::Roto
 void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start) {
   const Scenario& s = floating.scenario();
   const aero::RotorState now = floating.rotor()->state(0.0, start.state.motions);
-  aero::RotorAtStart rotor{.hub = now.hub, .axis = now.axis, .speed = now.speed, .over_water = s.has_sea()};
+  aero::RotorAtStart rotor{
+      .hub = now.hub, .axis = now.axis, .speed = now.speed, .speed_key = speed_key(s), .over_water = s.has_sea()};
   rotor.parked = s.is_controlled() && s.control.start == aero::ControlStart::parked;
   rotor.radius = radius_of(s);
   if (s.aero.model != "blade_resolved") rotor.reynolds = floating.rotor()->reynolds(0.0, now);
@@ -358,11 +388,31 @@ void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const St
   doubt_rotor_body(doubts, s, rotor);
   doubt_turn(doubts, s, rotor.speed);
   doubt_cells(doubts, s, rotor.radius);
+  doubt_run_of_rotor(doubts, s, rotor.speed);
+}
+
+/// A window in which the fastest motion has come and gone: rotor and bodies, which exchange loads once a window, miss it.
+void doubt_window(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
+  const Scenario& s = floating.scenario();
+  if (!floating.has_interface() || floating.particle_plan()) return;
+  constexpr double light = 0.3;
+  for (const bodies::Mode& mode : stability.linearisation.modes)  // fastest first
+    if (mode.eigenvalue.imag() > 1e-6 && mode.damping_ratio() < light) {
+      if (s.time.window_s > mode.period_s())
+        doubts.push_back({"time.window_s",
+                          fmt::format("{:.4g} s where {} has a period of {:.4g} s", s.time.window_s, mode.name, mode.period_s()),
+                          "less than the period of the fastest motion",
+                          "shorten it: rotor and bodies exchange loads once a window"});
+      return;
+    }
 }
 
 }  // namespace
 
-scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability) {
+namespace {
+
+/// Of bodies, lines, turbine, sea and times, with the bodies where `motions` has them.
+scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motion> motions) {
   const Scenario& s = floating.scenario();
   scene::Doubts all = body_doubts(s.bodies);
   moorings::LineSurroundings around{s.has_sea() ? s.environment.water_depth_m : -1.0, weight(floating),
@@ -374,29 +424,55 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
       around.shapes[name] = box, in_sea.boxes.emplace_back(name, box);
   }
   append(all, line_doubts(s.moorings, around));
-  const FullLoads full(floating);
-  if (s.has_sea() && !start.state.motions.empty()) in_sea.draft = doubt_floating(all, floating, start);
+  if (s.has_sea() && !motions.empty()) in_sea.draft = doubt_floating(all, floating, motions);
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), in_sea));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
-  if (floating.rotor()) doubt_rotor(all, floating, start);
-  if (!start.state.motions.empty()) {
-    doubt_acceleration(all, floating, start);
-    doubt_modes(all, floating, stability);
-    doubt_statics(all, floating, start);
-    doubt_resonance(all, floating, start, stability);
-    doubt_length(all, floating, stability);
-  }
   if (s.has_sea()) doubt_damping(all, s);
+  if (floating.rotor() && !s.rotor.turbine.empty()) append(all, aero::turbine_doubts(s.rotor.turbine));
   doubt_times(all, floating);
   return all;
+}
+
+std::vector<Motion> described_starts(const FloatingSystem& floating) {
+  std::vector<Motion> motions;
+  for (const auto& body : floating.scenario().bodies) motions.push_back(start_motion(body.options));
+  return motions;
+}
+
+}  // namespace
+
+scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability) {
+  scene::Doubts all = plain_doubts(floating, start.state.motions);
+  const FullLoads full(floating);
+  if (floating.rotor()) doubt_rotor(all, floating, start);
+  if (start.state.motions.empty()) return all;
+  doubt_acceleration(all, floating, start);
+  doubt_modes(all, floating, stability);
+  doubt_statics(all, floating, start);
+  doubt_resonance(all, floating, start, stability);
+  doubt_length(all, floating, stability);
+  doubt_window(all, floating, stability);
+  return all;
+}
+
+scene::Doubts doubts_as_described(const FloatingSystem& floating) { return plain_doubts(floating, described_starts(floating)); }
+
+std::vector<std::string> resolution_notes(const FloatingSystem& floating) {
+  const Scenario& s = floating.scenario();
+  if (!floating.particle_plan()) return {};
+  scene::Doubts none;
+  const double draft = s.bodies.empty() ? 0.0 : doubt_floating(none, floating, described_starts(floating));
+  return sea::resolution_notes(s.sea, s.waves, draft);
 }
 
 scene::Doubts air_doubts(const Scenario& s) {
   scene::Doubts all;
   if (has_resolved_rotor(s) || s.has_actuator()) {
     const aero::RotorOptions rotor = placed_rotor(s).rotor;
-    const aero::RotorAtStart start{.hub = rotor.hub_m, .axis = rotor.axis, .speed = rotor.speed, .radius = radius_of(s)};
+    const aero::RotorAtStart start{
+        .hub = rotor.hub_m, .axis = rotor.axis, .speed = rotor.speed, .speed_key = speed_key(s), .radius = radius_of(s)};
     all = rotor_doubts(s.aero, rotor, s.wind, s.environment.air_density_kg_m3, start);
+    if (!s.rotor.turbine.empty()) append(all, aero::turbine_doubts(s.rotor.turbine));
     doubt_turn(all, s, rotor.speed);
     doubt_cells(all, s, start.radius);
   }

@@ -27,6 +27,10 @@ void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOption
       doubts.push_back({at + ".rest_length_m", fmt::format("{}, a tension of {:.3g} N at the start", what, tension),
                         fmt::format("a tension below the weight of all bodies, {:.3g} N", weight_N),
                         "look at the length, the stiffness and the place of the ends"});
+    else if (constexpr double most = 0.03; hangs(line) && apart > (1.0 + most) * length)
+      doubts.push_back({at + ".rest_length_m", fmt::format("{}, stretched by {:.3g} %", what, 100.0 * (apart / length - 1.0)),
+                        fmt::format("up to {:.2g} %: chain and wire break there", 100.0 * most),
+                        "look at the length and the place of the ends, and at their units: m"});
   } else if (hangs(line) && length > round && line.anchor_body == "earth") {
     doubts.push_back({at + ".rest_length_m", what, fmt::format("less than straight down and along the bed, {:.4g} m", round),
                       "the line hangs down and does nothing; look at the length and at the anchor"});

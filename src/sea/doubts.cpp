@@ -177,4 +177,23 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   return doubts;
 }
 
+std::vector<std::string> resolution_notes(const SeaOptions& sea, const WavesOptions& waves, double draft) {
+  std::vector<std::string> notes;
+  if (!sea.has_particles() || !sea.particles) return notes;
+  // docs/user/choosing.md: a wave tank at five particles to the height is right within 1 %, floats by ten to the draft.
+  constexpr double to_height = 4.0, to_draft = 5.0;
+  const double spacing = sea.particles->spacing_m;
+  if (const double n = waves.height_m / spacing; waves.model != "none" && waves.height_m > 0.0 && n < to_height)
+    notes.push_back(
+        fmt::format("{:.2g} particles to the height of the waves, {:.4g} m: too coarse to show them; "
+                    "sea.particles.spacing_m below {:.3g} m makes it {:g}",
+                    n, waves.height_m, waves.height_m / to_height, to_height));
+  if (const double n = draft / spacing; draft > 0.0 && n < to_draft)
+    notes.push_back(
+        fmt::format("{:.2g} particles to the draft of {:.4g} m: its loads are rough; sea.particles.spacing_m below "
+                    "{:.3g} m makes it {:g}",
+                    n, draft, draft / to_draft, to_draft));
+  return notes;
+}
+
 }  // namespace spindrift::sea

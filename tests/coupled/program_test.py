@@ -260,6 +260,17 @@ class Program(Folder):
                 for words in ("predicted core-hours", "wall time", "memory of a rank each"):
                     self.assertIn(words, done.stdout, scene)
 
+    def test_check_says_what_the_rotor_does_at_the_start(self):
+        said = spindrift("check", ROOT / "inputs/leble_barakos/case3_engineering.toml").stdout
+        self.assertRegex(said, r"Rotor at the start\n  speed +8\.8 rpm, blades at 0 degrees, wind of 1[01][.\d]* m/s at the hub, tip-speed ratio 7\.5")
+        self.assertRegex(said, r"blade elements +thrust 1[45]\d\d kN, power 9\.[3-9]\d* MW; CT 0\.8\d\d, CP 0\.4\d\d")   # the turbine's: 0.81, 0.48
+        self.assertRegex(said, r"operating table .* of which the start has (9\d|10\d) %; rated 10\.\d+ MW from 12 m/s on")
+        alone = spindrift("check", ROOT / "inputs/leble_barakos/rotor_demo.toml").stdout   # in air alone
+        self.assertIn("Rotor at the start", alone)
+        self.assertIn("blade elements", alone)
+        coarse = spindrift("check", ROOT / "inputs/leble_barakos/case3_demo.toml").stdout
+        self.assertIn("note: 0.75 particles to the height of the waves, 1.88 m", coarse)
+
     def test_check_predicts_the_cost_of_the_papers_case_at_three_sizes(self):
         def cost(size, *arguments):
             text = spindrift("check", ROOT / f"inputs/leble_barakos/case3_{size}.toml", *arguments).stdout

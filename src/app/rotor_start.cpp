@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/app/rotor_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "kernels/base/constants.hpp"
+#include "kernels/base/interpolation.hpp"
+#include "src/aero/bem.hpp"
+#include "src/aero/operation.hpp"
+#include "src/aero/turbine.hpp"
+#include "src/aero/wind.hpp"
+#include "src/coupling/flow_scene.hpp"
+
+namespace spindrift::app {
+
+namespace {
+
+struct Working {
+  double wind;                       ///< undisturbed, at the hub, along the axis [m/s]
+  double speed;                      ///< [rad/s]
+  std::optional<double> pitch;       ///< [rad]
+  double radius;                     ///< [m]; 0 where the scene does not say
+  std::string load_by;               ///< "blade elements"; empty: there is no load
+  double thrust = 0.0, power = 0.0;  ///< [N], [W]
+  bool has_power = false;
+};
+
+std::string load_model(const coupling::Scenario& s) {
+  if (s.resolves_air() || s.aero.model == "bem") return "blade elements";
+  return s.aero.model == "thrust_curve" ? "the thrust curve" : "as prescribed";
+}
+
+std::string of_table(const aero::Operation& table, const Working& now, bool compares) {
+  const aero::OperatingPoint point = table.at(now.wind);
+  std::string text = fmt::format("{:.4g} rpm", point.speed / rad_s_per_rpm);
+  if (!table.pitch.empty()) text += fmt::format(", blades at {:.4g} degrees", point.pitch / radians_per_degree);
+  if (table.power.empty()) return text;
+  const double power = interpolate_linear(table.wind, table.power, now.wind), rated = *std::ranges::max_element(table.power);
+  const std::size_t first =
+      std::size_t(std::ranges::find_if(table.power, [&](double p) { return p > 0.995 * rated; }) - table.power.begin());
+  text += fmt::format(", {:.4g} MW", 1e-6 * power);
+  if (compares && power > 0.0) text += fmt::format(", of which the start has {:.0f} %", 100.0 * now.power / power);
+  return text + fmt::format("; rated {:.4g} MW from {:.4g} m/s on", 1e-6 * rated, table.wind[first]);
+}
+
+void print(const coupling::Scenario& s, const Working& now) {
+  fmt::print("\nRotor at the start\n  {:<22}{:.4g} rpm", "speed", now.speed / rad_s_per_rpm);
+  if (now.pitch) fmt::print(", blades at {:.4g} degrees", *now.pitch / radians_per_degree);
+  const bool blown = s.aero.model != "prescribed" && now.wind > 0.0;
+  if (blown) fmt::print(", wind of {:.4g} m/s at the hub", now.wind);
+  if (blown && now.radius > 0.0) fmt::print(", tip-speed ratio {:.3g}", std::abs(now.speed) * now.radius / now.wind);
+  fmt::print("\n");
+  if (!now.load_by.empty()) {
+    fmt::print("  {:<22}thrust {:.4g} kN", now.load_by, 1e-3 * now.thrust);
+    if (now.has_power) fmt::print(", power {:.4g} MW", 1e-6 * now.power);
+    if (blown && now.radius > 0.0) {
+      const double pressure = 0.5 * s.environment.air_density_kg_m3 * now.wind * now.wind * pi * now.radius * now.radius;
+      fmt::print("; CT {:.3f}", now.thrust / pressure);
+      if (now.has_power) fmt::print(", CP {:.3f}", now.power / (pressure * now.wind));
+    }
+    fmt::print("\n");
+  }
+  if (blown && !s.rotor.operation.empty())
+    fmt::print("  {:<22}{}\n", "operating table", of_table(aero::read_operation(s.rotor.operation), now, now.has_power));
+}
+
+double radius_of(const coupling::Scenario& s) {
+  if (s.rotor.diameter_m) return 0.5 * *s.rotor.diameter_m;
+  return s.rotor.turbine.empty() ? 0.0 : aero::read_turbine(s.rotor.turbine).planform.span.back();
+}
+
+}  // namespace
+
+void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::Scenario& s = floating.scenario();
+  const coupling::FullLoads full(floating);
+  const aero::RotorLoads& rotor = *floating.rotor();
+  const aero::RotorState state = rotor.state(0.0, start.state.motions);
+  const aero::RotorLoad load = rotor.load(0.0, state);
+  Working now{.wind = rotor.relative_wind(0.0, state.hub, Eigen::Vector3d::Zero(), state.axis),
+              .speed = state.speed,
+              .pitch = {},
+              .radius = radius_of(s),
+              .load_by = load_model(s),
+              .thrust = load.thrust,
+              .power = load.power,
+              .has_power = load.torque != 0.0};
+  const bool parked = s.is_controlled() && s.control.start == aero::ControlStart::parked;
+  if (load_model(s) == "blade elements" && !parked) now.pitch = s.rotor.blade_pitch;
+  print(s, now);
+}
+
+void print_rotor_at_start(const coupling::Scenario& s) {
+  const aero::RotorOptions rotor = coupling::placed_rotor(s).rotor;
+  const Eigen::Vector3d axis = rotor.axis.normalized();
+  const aero::Wind wind = aero::wind_of(s.wind, {rotor.hub_m, 2.0 * radius_of(s)});
+  Working now{.wind = wind.at(0.0, rotor.hub_m).dot(axis),
+              .speed = rotor.speed,
+              .pitch = rotor.blade_pitch,
+              .radius = radius_of(s),
+              .load_by = {},
+              .has_power = true};
+  if (const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine); !turbine.polars.empty()) {
+    const aero::BladeElementMomentum elements(turbine, "madsen", s.environment.air_density_kg_m3);
+    Eigen::Vector3d up = Eigen::Vector3d::UnitZ() - axis.z() * axis;
+    up = up.norm() < 1e-6 ? Eigen::Vector3d::UnitX() : up.normalized();
+    const aero::DiscLoad load =
+        elements(wind, {Eigen::Vector3d::Zero(), rotor.speed * axis, axis, up, rotor.azimuth, rotor.blade_pitch, rotor.hub_m});
+    now.load_by = "blade elements", now.thrust = load.force.dot(axis), now.power = load.moment.dot(axis) * rotor.speed;
+  }
+  print(s, now);
+}
+
+}  // namespace spindrift::app
