@@ -136,15 +136,24 @@ SPINDRIFT_INLINE FaceStates<Real> muscl(const IdealGas& gas, const Limiter& limi
   return kept_positive(gas, left, l, right, r, least);
 }
 
-/// The same without limiter, by the sizes of the four cells.
-template <class Real>
+/// The same without limiter, by the sizes of the four cells; the velocity as if they were even where `even_velocity`.
+template <bool even_velocity, class Real>
 SPINDRIFT_INLINE FaceStates<Real> muscl_by_size(const IdealGas& gas, const std::array<Real, 4>& size,
                                                 const Primitive<Real>& before_left, const Primitive<Real>& left,
                                                 const Primitive<Real>& right, const Primitive<Real>& after_right,
                                                 double least = 0.3) {
-  const Weights<Real> to_l = weights_by_size(size[0], size[1], size[2]), to_r = weights_by_size(size[3], size[2], size[1]);
-  const Primitive<Real> l = left + (to_l.behind * (left - before_left) + to_l.ahead * (right - left));
-  const Primitive<Real> r = right + (to_r.behind * (right - after_right) + to_r.ahead * (left - right));
+  const auto face = [](const Weights<Real>& by_size, const Primitive<Real>& behind, const Primitive<Real>& cell,
+                       const Primitive<Real>& ahead) {
+    Primitive<Real> state = cell + (by_size.behind * (cell - behind) + by_size.ahead * (ahead - cell));
+    if constexpr (even_velocity) {
+      state.u = reconstruct(Unlimited{}, behind.u, cell.u, ahead.u, 0.0);
+      state.v = reconstruct(Unlimited{}, behind.v, cell.v, ahead.v, 0.0);
+      state.w = reconstruct(Unlimited{}, behind.w, cell.w, ahead.w, 0.0);
+    }
+    return state;
+  };
+  const Primitive<Real> l = face(weights_by_size(size[0], size[1], size[2]), before_left, left, right);
+  const Primitive<Real> r = face(weights_by_size(size[3], size[2], size[1]), after_right, right, left);
   return kept_positive(gas, left, l, right, r, least);
 }
 

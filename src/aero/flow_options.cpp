@@ -281,6 +281,13 @@ std::vector<std::string> wall_patches(const FlowOptions& options) {
   return names;
 }
 
+Tiling flow_tiling(const FlowOptions& options, const MultiBlockGrid& grid) {
+  TilingOptions tiling;
+  for (const PatchOptions& b : options.boundaries)
+    if (options.viscous != "none" && of(b.condition).surface == Surface::no_slip) tiling.sticky.push_back(b.patch);
+  return make_tiling(grid, wall_patches(options), tiling);
+}
+
 std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling) {
   if (options.viscous != "none" && options.turbulence != "none" && closures().named(options.turbulence).resolves_eddies &&
       tiling.planar)

@@ -84,5 +84,7 @@ FlowSetting flow_setting(const FlowOptions& options, double density, const Eigen
 std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling);
 /// Names of the patches whose normal direction is to be a tile's i.
 std::vector<std::string> wall_patches(const FlowOptions& options);
+/// How the grid of this flow is cut into tiles.
+Tiling flow_tiling(const FlowOptions& options, const MultiBlockGrid& grid);
 
 }  // namespace spindrift::aero

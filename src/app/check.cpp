@@ -295,7 +295,7 @@ bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& gri
     if (!given) missing.push_back(patch);
   }
   if (missing.empty()) {
-    const aero::Tiling tiling = aero::make_tiling(grid, aero::wall_patches(o));
+    const aero::Tiling tiling = aero::flow_tiling(o, grid);
     aero::patch_conditions(o, tiling);  // a condition for no patch is refused
     aero::require_ranks(std::size_t(tiling.size()), ranks);
     return true;

@@ -106,7 +106,7 @@ FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world) {
     return;
   }
   own_grid_ = aero::flow_grid(o);
-  aero::Tiling tiling = aero::make_tiling(own_grid_, aero::wall_patches(o));
+  aero::Tiling tiling = aero::flow_tiling(o, own_grid_);
   aero::require_ranks(std::size_t(tiling.size()), world.size);
   if (o.motion) follow_walls(o);
   solve(std::move(tiling), s, world, steady_chunk);
@@ -118,7 +118,7 @@ FlowCase::FlowCase(aero::MultiBlockGrid grid, const coupling::Scenario& s, const
   o.drop = o.coarse_drop;
   if (o.preconditioner == "auto") o.preconditioner = aero::FlowOptions().preconditioner;
   own_grid_ = std::move(grid);
-  solve(aero::make_tiling(own_grid_, aero::wall_patches(o)), coarse, world, steps);
+  solve(aero::flow_tiling(o, own_grid_), coarse, world, steps);
 }
 
 /// Solver on own_grid_, cut into these tiles; at most `steps` pseudo-steps a run where the flow is steady.

@@ -38,7 +38,7 @@ FlowResidual::FlowResidual(const FlowSetting& s, const ModelSweeps& model, const
   convective_.gas = viscous_.gas = boundary_.gas = s.gas;
   const double rho = gas::density(s.gas, s.stream);
   if (s.smooth > 0.0) convective_.smooth = gas::smoothness(s.gas, rho, s.speed, 0.0, s.smooth);
-  convective_.reconstruct = reconstruction(s.limiter);
+  convective_.reconstruct = reconstructions(s.limiter);
   convective_.flux = row_flux(s.flux);
   convective_.law_slope = s.limiter == "first_order" ? 0.0 : 0.5;
   convective_.upwinding = s.upwinding;

@@ -37,10 +37,12 @@ struct UpdateLimit {
 
 struct FlowTile {
   TileGeometry* geometry = nullptr;
-  int index = 0;           ///< in the tiling
-  int turbulence = 0;      ///< number of its unknowns
-  bool eddies = false;     ///< a closure gives an eddy viscosity; with or without unknowns
-  int directions = 3;      ///< 2 where planar
+  int index = 0;                     ///< in the tiling
+  int turbulence = 0;                ///< number of its unknowns
+  bool eddies = false;               ///< a closure gives an eddy viscosity; with or without unknowns
+  int directions = 3;                ///< 2 where planar
+  std::array<bool, 3> along_wall{};  ///< as in Tile
+  std::array<bool, 6> ends_along_wall{};
   BoxLayout cells;         ///< of states: two ghosts
   BoxLayout gradient_box;  ///< one ghost
   BoxLayout inner;         ///< no ghosts

@@ -11,7 +11,7 @@ namespace spindrift::aero {
 
 namespace {
 
-template <class Limiter>
+template <class Limiter, bool even_velocity = false>
 void reconstruct_row(const gas::IdealGas& gas, const gas::Primitive<double>& smooth, const double* at, std::ptrdiff_t step,
                      std::ptrdiff_t component, const double* volume, std::ptrdiff_t volume_step, int turbulence, int count,
                      FacePiece& states) {
@@ -21,8 +21,8 @@ void reconstruct_row(const gas::IdealGas& gas, const gas::Primitive<double>& smo
       if constexpr (std::same_as<Limiter, gas::Unlimited>) {
         // Neighbours share a face, so their volumes are to each other as their sizes across it.
         const auto size = [&](int cell) { return max(Row::load(volume + n + cell * volume_step), Row(1e-280)); };
-        return gas::muscl_by_size(gas, std::array<Row, 4>{size(-2), size(-1), size(0), size(1)}, load(-2 * step), load(-step),
-                                  load(0), load(step));
+        return gas::muscl_by_size<even_velocity>(gas, std::array<Row, 4>{size(-2), size(-1), size(0), size(1)}, load(-2 * step),
+                                                 load(-step), load(0), load(step));
       } else {
         return gas::muscl(gas, Limiter{}, load(-2 * step), load(-step), load(0), load(step), smooth);
       }
@@ -49,16 +49,17 @@ struct FirstOrder {
 
 }  // namespace
 
-Reconstruction reconstruction(std::string_view limiter) {
-  static constexpr std::pair<std::string_view, Reconstruction> list[] = {
-      {gas::VanAlbada::name, reconstruct_row<gas::VanAlbada>},
-      {gas::VanLeer::name, reconstruct_row<gas::VanLeer>},
-      {gas::Minmod::name, reconstruct_row<gas::Minmod>},
-      {gas::Unlimited::name, reconstruct_row<gas::Unlimited>},
-      {"first_order", reconstruct_row<FirstOrder>},
+Reconstructions reconstructions(std::string_view limiter) {
+  constexpr auto both = [](Reconstruction function) { return Reconstructions{function, function}; };
+  static constexpr std::pair<std::string_view, Reconstructions> list[] = {
+      {gas::VanAlbada::name, both(reconstruct_row<gas::VanAlbada>)},
+      {gas::VanLeer::name, both(reconstruct_row<gas::VanLeer>)},
+      {gas::Minmod::name, both(reconstruct_row<gas::Minmod>)},
+      {gas::Unlimited::name, {reconstruct_row<gas::Unlimited>, reconstruct_row<gas::Unlimited, true>}},
+      {"first_order", both(reconstruct_row<FirstOrder>)},
   };
-  for (const auto& [name, function] : list)
-    if (name == limiter) return function;
+  for (const auto& [name, functions] : list)
+    if (name == limiter) return functions;
   throw std::invalid_argument("no limiter is named \"" + std::string(limiter) + "\"");
 }
 

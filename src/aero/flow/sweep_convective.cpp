@@ -47,13 +47,23 @@ void straighten_at_walls(const FlowTile& tile, const double* state, int d, int k
   }
 }
 
+/// Whether faces from (k, j, i) on are of rows along a wall; those across i, which itself lies across walls, never are.
+bool along_wall(const FlowTile& tile, int d, int k, int j) {
+  if (d == 0) return false;
+  const int face = d == 1 ? j : k, last = d == 1 ? tile.box.nj : tile.box.nk;
+  return face == 0      ? tile.ends_along_wall[std::size_t(2 * d)]
+         : face == last ? tile.ends_along_wall[std::size_t(2 * d + 1)]
+                        : tile.along_wall[std::size_t(d)];
+}
+
 /// Fluxes of all unknowns through `count` faces from (k, j, i) on, into out[c stride + n].
 void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int i, int count, const ConvectiveSetting& s,
             double* out, std::ptrdiff_t stride) {
   FacePiece states;
-  s.reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component,
-                tile.geometry->volume_data.data() + tile.geometry->cell_box.at(k, j, i), tile.geometry->cell_box.stride(d),
-                tile.turbulence, count, states);
+  const Reconstruction reconstruct = along_wall(tile, d, k, j) ? s.reconstruct.along_wall : s.reconstruct.plain;
+  reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component,
+              tile.geometry->volume_data.data() + tile.geometry->cell_box.at(k, j, i), tile.geometry->cell_box.stride(d),
+              tile.turbulence, count, states);
   straighten_at_walls(tile, state, d, k, j, i, count, s.law_slope, states);
   if (s.upwinding < 1.0) draw_together(s.upwinding, count, states);
   s.flux(s.gas, *tile.geometry, d, k, j, i, count, states, out, stride);

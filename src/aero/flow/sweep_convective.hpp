@@ -28,14 +28,20 @@ using Reconstruction = void (*)(const gas::IdealGas& gas, const gas::Primitive<d
 using RowFlux = void (*)(const gas::IdealGas& gas, const TileGeometry& geometry, int direction, int k, int j, int i, int count,
                          const FacePiece& states, double* out, std::ptrdiff_t stride);
 
+/// Along a wall's surface the velocity of unlimited states goes by indices: cells are packed at edges and noses, where the flow
+/// along the wall turns within few of them.
+struct Reconstructions {
+  Reconstruction plain = nullptr, along_wall = nullptr;
+};
+
 /// By the names of the scene's choices.
-Reconstruction reconstruction(std::string_view limiter);
+Reconstructions reconstructions(std::string_view limiter);
 RowFlux row_flux(std::string_view flux);
 
 struct ConvectiveSetting {
   gas::IdealGas gas;
   gas::Primitive<double> smooth{};  ///< differences that no limiter touches
-  Reconstruction reconstruct = nullptr;
+  Reconstructions reconstruct;
   RowFlux flux = nullptr;
   bool first_order_model = false;  ///< what turbulence carries by its upwind cell, unreconstructed
   double law_slope =

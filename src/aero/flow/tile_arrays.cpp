@@ -41,6 +41,7 @@ TileArrays::TileArrays(GridStore& store, const FlowSetting& setting, std::span<c
     t.index = index;
     if (!setting.frame_omega.isZero()) turn_frame(*t.geometry, setting.frame_omega, setting.frame_centre, tiling.planar);
     t.directions = tiling.planar ? 2 : 3;
+    t.along_wall = from.along_wall, t.ends_along_wall = from.ends_along_wall;
     t.turbulence = model.equations;
     t.eddies = model.closures != nullptr;
     t.cells = cell_layout(from, state_ghosts, tiling.planar);

@@ -112,6 +112,51 @@ std::vector<Lines> choose_lines(const MultiBlockGrid& grid, std::span<const std:
   return lines;
 }
 
+/// By block and direction: whether rows lie along sticky walls, those of the block or those whose lines go on into it, however
+/// the grid is cut into blocks. Of sections: what helps them makes rotors of coarse cells settle late and lose thrust above rated
+/// wind (docs/developer/notes/air.md, "A coarse grid's stall").
+std::vector<std::array<bool, 3>> choose_along(const MultiBlockGrid& grid, std::span<const std::string> sticky,
+                                              const std::vector<std::vector<Passage>>& passages) {
+  std::vector<std::array<bool, 3>> ends_at_wall(grid.blocks.size()), along(grid.blocks.size());
+  if (!grid.planar) return along;
+  for (const Boundary& b : grid.boundaries)
+    if (std::find(sticky.begin(), sticky.end(), b.patch) != sticky.end())
+      ends_at_wall[b.where.block][direction_of(b.where.side)] = true;
+  constexpr int unknown = -1, none = -2;  // several walls, one in each direction
+  std::vector<int> across(grid.blocks.size(), unknown), front;
+  for (int b = 0; b < int(grid.blocks.size()); ++b) {
+    const auto& ends = ends_at_wall[b];
+    if (ends[0] || ends[1]) across[b] = ends[0] && ends[1] ? none : ends[1], front.push_back(b);
+  }
+  while (!front.empty()) {
+    std::vector<int> next;
+    for (const int b : front)
+      for (const Passage& p : passages[b]) {
+        if (across[b] == none || across[p.beyond] != unknown) continue;
+        across[p.beyond] = p.map.target(across[b]);
+        next.push_back(p.beyond);
+      }
+    front = std::move(next);
+  }
+  for (std::size_t b = 0; b < along.size(); ++b)
+    if (across[b] >= 0) along[b][1 - across[b]] = true;
+  return along;
+}
+
+/// A face between tiles has one flux: their ends are along a wall for both or for neither.
+void agree_on_ends(Tiling& tiling) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const GhostLink& link : tiling.links) {
+      const int from_side = 2 * link.donor.target(direction_of(link.side)) +
+                            (at_end(link.side) == (link.donor.sign(direction_of(link.side)) > 0) ? 0 : 1);
+      bool &here = tiling.tiles[link.to].ends_along_wall[std::size_t(link.side)],
+           &there = tiling.tiles[link.from].ends_along_wall[std::size_t(from_side)];
+      if (here != there) here = there = false, changed = true;
+    }
+  }
+}
+
 /// Right-handed directions of a tile whose i is this direction of its block; k stays k in planar grids.
 Index tile_axes(int direction, bool planar) {
   if (direction == 0) return {1, 2, 3};
@@ -263,10 +308,15 @@ Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> wall
   tiling.planar = grid.planar;
   const auto open = passages(grid, tiling.periodic);
   const auto lines = choose_lines(grid, walls, open);
+  const auto along = choose_along(grid, options.sticky, open);
   std::vector<Rows> rows;
   for (int b = 0; b < int(grid.blocks.size()); ++b) {
     tiling.block_cells.push_back(grid.blocks[b].cells());
+    const std::size_t first = tiling.tiles.size();
     rows.push_back(cut(grid.blocks[b], b, lines[b], grid.planar, options, tiling.tiles));
+    for (Tile& tile : std::span(tiling.tiles).subspan(first))
+      for (int d = 0; d < 3; ++d)
+        tile.along_wall[d] = tile.ends_along_wall[2 * d] = tile.ends_along_wall[2 * d + 1] = along[b][tile.to_block.target(d)];
   }
   for (const Boundary& b : grid.boundaries)
     if (tiling.patch(b.patch) < 0) tiling.patches.push_back(b.patch);
@@ -277,6 +327,7 @@ Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> wall
     tiling.links_into.push_back({first_link, int(tiling.links.size())});
     tiling.boundaries_of.push_back({first_boundary, int(tiling.boundaries.size())});
   }
+  agree_on_ends(tiling);
   tiling.links_from.resize(tiling.size());
   for (int l = 0; l < int(tiling.links.size()); ++l) tiling.links_from[tiling.links[l].from].push_back(l);
   return tiling;

@@ -19,11 +19,12 @@ inline constexpr int gradient_ghosts = 1;  ///< of cell gradients
 inline constexpr int cell_ghosts = 2;      ///< of centres and volumes
 
 struct TilingOptions {
-  int across_j = 16, across_k = 8;  ///< largest tile [cells] in the two directions along a wall
-  int planar_across = 32;           ///< the same in a planar grid
-  int normal = 64;                  ///< largest tile in i where no wall's lines pass (3-D)
-  int planar_normal = 128;          ///< the same in a planar grid
-  int max_cells = 8192;             ///< tiles with long lines get fewer of them
+  int across_j = 16, across_k = 8;       ///< largest tile [cells] in the two directions along a wall
+  int planar_across = 32;                ///< the same in a planar grid
+  int normal = 64;                       ///< largest tile in i where no wall's lines pass (3-D)
+  int planar_normal = 128;               ///< the same in a planar grid
+  int max_cells = 8192;                  ///< tiles with long lines get fewer of them
+  std::vector<std::string> sticky = {};  ///< patches that the gas sticks to: Tile::along_wall
 };
 
 /// A box of cells of one block, seen in directions of its own: from tile to block indices by `to_block`.
@@ -31,7 +32,9 @@ struct Tile {
   int block = 0;
   IndexMap to_block;
   int ni = 0, nj = 0, nk = 0;
-  double cost = 0.0;  ///< for sharing out among ranks, in cells
+  double cost = 0.0;                      ///< for sharing out among ranks, in cells
+  std::array<bool, 3> along_wall{};       ///< by direction: of a section: rows that lie along sticky walls
+  std::array<bool, 6> ends_along_wall{};  ///< by side: so do those that go on beyond it
   Index cells() const { return {ni, nj, nk}; }
   Box box() const { return {{0, 0, 0}, {ni, nj, nk}}; }
   long count() const { return long(ni) * nj * nk; }

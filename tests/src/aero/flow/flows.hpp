@@ -76,9 +76,12 @@ struct Case {
        const TilingOptions& tiling = {}, int ranks = 1, int rank = 0, bool moving = false)
       : grid(std::move(from)) {
     std::vector<std::string> walls;
-    for (const auto& [name, c] : conditions)
+    TilingOptions options = tiling;
+    for (const auto& [name, c] : conditions) {
       if (is_closed(c.condition)) walls.push_back(name);
-    Tiling tiles = make_tiling(grid, walls, tiling);
+      if (setting.viscous && of(c.condition).surface == Surface::no_slip) options.sticky.push_back(name);
+    }
+    Tiling tiles = make_tiling(grid, walls, options);
     std::vector<PatchCondition> by_patch(tiles.patches.size());
     for (const auto& [name, c] : conditions)
       if (const int p = tiles.patch(name); p >= 0) by_patch[std::size_t(p)] = c;

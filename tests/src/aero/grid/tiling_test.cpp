@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/partition/partition.hpp"
+#include "src/aero/grid/generators/plane_cases.hpp"
 #include "tests/src/aero/grid/examples.hpp"
 
 using namespace spindrift::aero;
@@ -107,6 +108,29 @@ TEST_CASE("cutting a grid along its tiles leaves the tiles as they are", "[aero]
     for (const Tile& t : after.tiles) CHECK(t.cells() == before.tiles[0].cells());
     CHECK(after.links.size() == before.links.size());
   }
+}
+
+TEST_CASE("rows along a section's wall are the same however its grid is cut, and on both sides of a face", "[aero][grid][fast]") {
+  const MultiBlockGrid one = naca0012({.n = 1});
+  const std::vector<std::string> walls{"wall"};
+  const TilingOptions options{.sticky = walls};
+  for (const int parts : {1, 2, 4, 8}) {
+    MultiBlockGrid grid = parts == 1 ? one : split(one, parts, walls);
+    turn_blocks(grid, parts);
+    const Tiling tiling = make_tiling(grid, walls, options);
+    for (const Tile& t : tiling.tiles) {
+      CHECK(t.along_wall == std::array{false, true, false});
+      CHECK(t.ends_along_wall == std::array{false, false, true, true, false, false});
+    }
+    const Tiling smooth = make_tiling(grid, walls);
+    for (const Tile& t : smooth.tiles) CHECK(t.along_wall == std::array{false, false, false});
+  }
+  // A corner of two walls: rows end at one of them.
+  MultiBlockGrid corner = planar_box({.ni = 16, .nj = 16, .nk = 16});
+  const std::vector<std::string> both{corner.boundaries[0].patch, corner.boundaries[2].patch};
+  REQUIRE(direction_of(corner.boundaries[0].where.side) != direction_of(corner.boundaries[2].where.side));
+  const Tiling tiling = make_tiling(corner, both, {.sticky = both});
+  for (const Tile& t : tiling.tiles) CHECK(t.along_wall == std::array{false, false, false});
 }
 
 TEST_CASE("tiles shared out among ranks keep to their fair shares, and ranks may stay empty", "[aero][grid][fast]") {
