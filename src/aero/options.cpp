@@ -67,7 +67,7 @@ const scene::Section<AeroOptions>& aero_section() {
                    {"actuator_disc", "the air itself, with the blades' section forces spread over the rotor's disc"},
                    {"actuator_line", "the air itself, with those forces along blades that turn through its grid"},
                    {"blade_resolved", "the air itself, by finite volumes on the grid of aero.flow"}},
-                  "Rung of the ladder.")
+                  "Model, cheapest first.")
           .number("thrust_N", &AeroOptions::thrust_N, "N", "Thrust, or its mean over a turn.")
           .only_if("model", prescribed)
           .numbers("thrust_cosine_N", &AeroOptions::thrust_cosine_N, "N",

@@ -407,10 +407,6 @@ void doubt_window(scene::Doubts& doubts, const FloatingSystem& floating, const S
     }
 }
 
-}  // namespace
-
-namespace {
-
 /// Of bodies, lines, turbine, sea and times, with the bodies where `motions` has them.
 scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motion> motions) {
   const Scenario& s = floating.scenario();

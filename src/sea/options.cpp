@@ -225,7 +225,7 @@ const Section<SeaOptions>& sea_section() {
                    {"potential",
                     "waves that the body scatters and makes, from a boundary-element code's files, with the drag of strips"},
                    {"sph", "a tank of particles (weakly compressible SPH): waves, breaking, green water, any motion"}},
-                  "Rung of the ladder.")
+                  "Model, cheapest first.")
           .number("drag_coefficient", &SeaOptions::drag_coefficient, "-", "Transverse drag of the cylinders, on the diameter.",
                   scene::between(0.0, 20.0))
           .only_if("model", strips)
