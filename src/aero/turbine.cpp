@@ -196,7 +196,8 @@ const scene::Section<TurbineOptions>& turbine_section() {
           .path(
               "planform", &TurbineOptions::planform,
               "CSV file from root to tip: span_m (from the rotor axis along the blade), chord_m, twist_deg (nose into the wind), "
-              "thickness_pct; by choice prebend_m (downwind) and sweep_m, which blade element momentum does not use. Where polars "
+              "thickness_pct; by choice prebend_m (downwind) and sweep_m, which blade element momentum does not use. Where "
+              "polars "
               "have numbers a column polar says which, 2.5 being half of polar 2 and half of 3; thickness_pct may then be left "
               "out.")
           .required()

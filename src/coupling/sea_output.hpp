@@ -30,7 +30,7 @@ class SeaOutput {
 
   const FloatingSystem& floating_;
   std::vector<std::string> names_;  ///< of the particles' fields
-  bool writes_;  ///< this rank hands the surface in: all ranks have all of it
+  bool writes_;                     ///< this rank hands the surface in: all ranks have all of it
   std::unique_ptr<io::ParticleFields> particles_;
   std::unique_ptr<io::GridFields> surface_;
   int nx_ = 0, ny_ = 0;

@@ -283,7 +283,8 @@ const Section<FieldsOptions>& fields_section() {
           .number("from_s", &FieldsOptions::from_s, "s", "First output.", between(-1e6, 1e6))
           .number("to_s", &FieldsOptions::to_s, "s", "Last output; the end where absent.", between(-1e6, 1e6))
           .texts("particles", &FieldsOptions::particles,
-                 "Fields of the particles: velocity, pressure, density, owner; none: no particles. Owner comes by itself with solids.")
+                 "Fields of the particles: velocity, pressure, density, owner; none: no particles. Owner comes by itself with "
+                 "solids.")
           .vector("low_m", &FieldsOptions::low_m, "m", "Only particles above this corner.")
           .vector("high_m", &FieldsOptions::high_m, "m", "Only particles below this corner.")
           .flag("solids", &FieldsOptions::solids, "Walls and bodies are written too.")
