@@ -56,7 +56,7 @@ class Fast(Runs):
         self.assertLess(abs(last["flow.lift_coefficient"]), 1e-4)
         code, summary, last = self.aerofoil(15)
         self.assertEqual(code, 0, self.words)
-        self.assertAlmostEqual(last["flow.lift_coefficient"], 1.399, delta=0.003)  # our own converged value
+        self.assertAlmostEqual(last["flow.lift_coefficient"], 1.456, delta=0.003)  # our own converged value
 
     def test_a_march_that_takes_all_its_steps_ends_with_3_names_the_place_and_goes_on(self):
         code, summary, last = self.aerofoil(10, steps=20)
@@ -81,7 +81,7 @@ class Fast(Runs):
         code, _, last = self.aerofoil(10, "k_omega_1988")
         self.assertEqual(code, 0, self.words)
         self.assertAlmostEqual(last["flow.lift_coefficient"], 1.069, delta=0.02)
-        self.assertAlmostEqual(last["flow.drag_coefficient"], 0.0136, delta=0.001)  # with the omega that is left after 500 chords several times that
+        self.assertAlmostEqual(last["flow.drag_coefficient"], 0.0113, delta=0.001)  # with the omega that is left after 500 chords several times that
 
     def test_a_march_that_comes_to_nothing_begins_again_in_the_ways_there_are(self):
         steps_of_no_length = ("aero.flow.cfl=0.002", "aero.flow.cfl_max=0.002")
