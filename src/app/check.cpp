@@ -70,15 +70,11 @@ PartCost print_particles(const FloatingSystem& floating, const coupling::Start& 
   return cost_of_particles(floating, census, steps_per_window);
 }
 
-void print_doubts(const scene::Doubts& doubts) {
+void print_doubts(scene::Doubts doubts, const scene::Doubts& more) {
+  append(doubts, more);
   if (doubts.empty()) return;
   fmt::print("\nDoubts: possible, but it looks like a slip\n");
   for (const scene::Doubt& doubt : doubts) fmt::print("  warning: {}\n", text(doubt));
-}
-
-scene::Doubts joined(scene::Doubts all, const scene::Doubts& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
 }
 
 /// A start that cannot be found is refused; what looks like the slip behind it is told first.
@@ -86,7 +82,7 @@ coupling::Start start_or_doubts(FloatingSystem& floating, const scene::Doubts& a
   try {
     return make_start(floating);
   } catch (const scene::SceneError&) {
-    if (prints) print_doubts(joined(angles, coupling::doubts_as_described(floating)));
+    if (prints) print_doubts(angles, coupling::doubts_as_described(floating));
     throw;
   }
 }
@@ -262,7 +258,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors,
              size.sectors == 1 ? ", periodic" : "s", size.stations);
   print_far_sides(setup.grid);
-  print_doubts(joined(angles, coupling::air_doubts(s)));
+  print_doubts(angles, coupling::air_doubts(s));
   print_rotor_at_start(s);
   const PartCost cost = cost_of_air(setup, size, pseudo_steps_per_second(s), 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks, base);
@@ -380,7 +376,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
                aero::describe_flow_grid(*scenario.aero.flow));
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
-    print_doubts(joined(scene::angle_doubts(document.echo()), coupling::air_doubts(scenario)));
+    print_doubts(scene::angle_doubts(document.echo()), coupling::air_doubts(scenario));
     if (scenario.has_actuator()) print_rotor_at_start(scenario);
     print_first_cells(scenario, grid);
     const PartCost cost = cost_of_flow(scenario, grid);
@@ -400,7 +396,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     print_models(floating);
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
     for (const std::string& note : coupling::resolution_notes(floating)) fmt::print("  note: {}\n", note);
-    print_doubts(joined(angles, coupling::doubts(floating, start, stability)));
+    print_doubts(angles, coupling::doubts(floating, start, stability));
     if (floating.rotor() && !start.state.motions.empty()) print_rotor_at_start(floating, start);
     if (!start.state.motions.empty()) print_modes(floating, stability.linearisation), print_blade_modes(floating);
   }

@@ -68,11 +68,6 @@ void print(const coupling::Scenario& s, const Working& now) {
     fmt::print("  {:<22}{}\n", "operating table", of_table(aero::read_operation(s.rotor.operation), now, now.has_power));
 }
 
-double radius_of(const coupling::Scenario& s) {
-  if (s.rotor.diameter_m) return 0.5 * *s.rotor.diameter_m;
-  return s.rotor.turbine.empty() ? 0.0 : aero::read_turbine(s.rotor.turbine).planform.span.back();
-}
-
 }  // namespace
 
 void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::Start& start) {
@@ -84,7 +79,7 @@ void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::St
   Working now{.wind = rotor.relative_wind(0.0, state.hub, Eigen::Vector3d::Zero(), state.axis),
               .speed = state.speed,
               .pitch = {},
-              .radius = radius_of(s),
+              .radius = coupling::rotor_radius(s),
               .load_by = load_model(s),
               .thrust = load.thrust,
               .power = load.power,
@@ -97,11 +92,11 @@ void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::St
 void print_rotor_at_start(const coupling::Scenario& s) {
   const aero::RotorOptions rotor = coupling::placed_rotor(s).rotor;
   const Eigen::Vector3d axis = rotor.axis.normalized();
-  const aero::Wind wind = aero::wind_of(s.wind, {rotor.hub_m, 2.0 * radius_of(s)});
+  const aero::Wind wind = aero::wind_of(s.wind, {rotor.hub_m, 2.0 * coupling::rotor_radius(s)});
   Working now{.wind = wind.at(0.0, rotor.hub_m).dot(axis),
               .speed = rotor.speed,
               .pitch = rotor.blade_pitch,
-              .radius = radius_of(s),
+              .radius = coupling::rotor_radius(s),
               .load_by = {},
               .has_power = true};
   if (const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine); !turbine.polars.empty()) {

@@ -179,15 +179,14 @@ ReadyScene made_ready(coupling::Scenario scenario, scene::Document& document) {
   require_expected_columns(document, ready.floating->scenario().output, columns_of(*ready.floating));
   ready.echo = document.echo();
   ready.doubts = scene::angle_doubts(ready.echo);
-  const auto add = [&](const scene::Doubts& more) { ready.doubts.insert(ready.doubts.end(), more.begin(), more.end()); };
   coupling::Stability found;
   try {
     ready.start = make_start(*ready.floating);
     found = stability(*ready.floating, ready.start.state);
-    add(coupling::doubts(*ready.floating, ready.start, found));
+    append(ready.doubts, coupling::doubts(*ready.floating, ready.start, found));
     require_limits(*ready.floating, ready.start.state, found);
   } catch (const scene::SceneError&) {  // what looks like the slip behind it
-    if (found.linearisation.matrix.size() == 0) add(coupling::doubts_as_described(*ready.floating));
+    if (found.linearisation.matrix.size() == 0) append(ready.doubts, coupling::doubts_as_described(*ready.floating));
     warn(ready.doubts);
     throw;
   }
@@ -262,14 +261,14 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   settings.windows = windows_of(arguments.windows);
   settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
   if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
-  if (system)
+  if (system) {
     for (const std::string& note : system->start.notes) spdlog::info("{}", note);
-  if (system)
     for (const std::string& note : coupling::resolution_notes(*system->floating)) spdlog::info("{}", note);
-  if (system)
     warn(system->doubts);
-  else
-    warn(scene::angle_doubts(echo)), warn(coupling::air_doubts(*scenario));
+  } else {
+    warn(scene::angle_doubts(echo));
+    warn(coupling::air_doubts(*scenario));
+  }
   // Before the run: meanwhile the file may be edited or gone.
   const std::string title = world.rank == 0 ? title_of(arguments, scenario->output.title) : "";
   runtime::StopRequest stop(scenario->runtime.wall_limit_s, directory.stop());

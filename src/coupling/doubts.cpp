@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "src/aero/doubts.hpp"
-#include "src/aero/turbine.hpp"
 #include "src/aero/turbine_doubts.hpp"
 #include "src/bodies/doubts.hpp"
 #include "src/bodies/extent.hpp"
@@ -19,8 +18,6 @@
 namespace spindrift::coupling {
 
 namespace {
-
-void append(scene::Doubts& to, const scene::Doubts& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 double weight(const FloatingSystem& floating) {
   double mass = 0.0;
@@ -340,11 +337,6 @@ void doubt_cells(scene::Doubts& doubts, const Scenario& s, double radius) {
                       "up to a quarter of the radius; a tenth is usual", "the rotor falls between the cells"});
 }
 
-double radius_of(const Scenario& s) {
-  if (!s.rotor.turbine.empty()) return aero::read_turbine(s.rotor.turbine).planform.span.back();
-  return s.rotor.diameter_m ? 0.5 * *s.rotor.diameter_m : 0.0;
-}
-
 /// The body that turns with the rotor, where a bearing of its own carries it.
 void doubt_rotor_body(scene::Doubts& doubts, const Scenario& s, const aero::RotorAtStart& rotor) {
   if (s.rotor.joint.empty()) return;
@@ -366,7 +358,7 @@ void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const St
   aero::RotorAtStart rotor{
       .hub = now.hub, .axis = now.axis, .speed = now.speed, .speed_key = speed_key(s), .over_water = s.has_sea()};
   rotor.parked = s.is_controlled() && s.control.start == aero::ControlStart::parked;
-  rotor.radius = radius_of(s);
+  rotor.radius = rotor_radius(s);
   if (s.aero.model != "blade_resolved") rotor.reynolds = floating.rotor()->reynolds(0.0, now);
   if (!s.resolves_air()) {
     const aero::RotorLoad load = floating.rotor()->load(0.0, now);
@@ -466,7 +458,7 @@ scene::Doubts air_doubts(const Scenario& s) {
   if (has_resolved_rotor(s) || s.has_actuator()) {
     const aero::RotorOptions rotor = placed_rotor(s).rotor;
     const aero::RotorAtStart start{
-        .hub = rotor.hub_m, .axis = rotor.axis, .speed = rotor.speed, .speed_key = speed_key(s), .radius = radius_of(s)};
+        .hub = rotor.hub_m, .axis = rotor.axis, .speed = rotor.speed, .speed_key = speed_key(s), .radius = rotor_radius(s)};
     all = rotor_doubts(s.aero, rotor, s.wind, s.environment.air_density_kg_m3, start);
     if (!s.rotor.turbine.empty()) append(all, aero::turbine_doubts(s.rotor.turbine));
     doubt_turn(all, s, rotor.speed);

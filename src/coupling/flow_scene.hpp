@@ -22,5 +22,7 @@ struct PlacedRotor {
   std::string hub_key;
 };
 PlacedRotor placed_rotor(const Scenario& scenario);
+/// [m], of the turbine file's blades or rotor.diameter_m; 0 where the scene has neither.
+double rotor_radius(const Scenario& scenario);
 
 }  // namespace spindrift::coupling

@@ -177,6 +177,11 @@ Eigen::Vector3d flow_wind(const Scenario& s) {
   return {along * std::cos(s.wind.direction), along * std::sin(s.wind.direction), s.wind.speed_m_s * std::sin(up)};
 }
 
+double rotor_radius(const Scenario& s) {
+  if (!s.rotor.turbine.empty()) return aero::read_turbine(s.rotor.turbine).planform.span.back();
+  return s.rotor.diameter_m ? 0.5 * *s.rotor.diameter_m : 0.0;
+}
+
 PlacedRotor placed_rotor(const Scenario& s) {
   PlacedRotor placed{s.rotor, "rotor.hub_m"};
   for (const auto& [name, joint] : s.joints)

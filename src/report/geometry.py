@@ -1,6 +1,7 @@
 """The scene as surfaces and lines in the earth frame at any time of a run, from scene.toml and history.csv alone: shapes of the bodies, tower,
 nacelle, blades, lines, the undisturbed waves. Tower, nacelle and braces are drawn for the eye: a scene has their mass, not their shape.
 Called by scene_picture.py and paraview.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+import functools
 import math
 
 import numpy as np
@@ -275,6 +276,7 @@ class Scene3d:
             found.append(self._line(name, line, t))
         return found
 
+    @functools.cached_property
     def sketched(self):
         """Names of the kinds of pieces that no line of the scene describes."""
         kinds = dict.fromkeys(p.kind for p in self.pieces(self.run.time[0]) if p.sketched)

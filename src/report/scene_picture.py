@@ -361,7 +361,7 @@ class Drawing:
         text(title, 0.02 * width, 0.945 * height, 26, bold=True)
         steady = (self.run.scene.get("aero", {}).get("flow") or {}).get("time") == "steady" and not self.scene.bodies
         text(("steady" if steady else f"t = {t:.1f} s") + (f", {self.run.changed}" if self.run.changed else ""), 0.02 * width, 0.905 * height, 22)
-        if sketched := self.scene.sketched():
+        if sketched := self.scene.sketched:
             names = " and ".join(filter(None, (", ".join(sketched[:-1]), sketched[-1])))
             text(f"sketched, not in the scene: {names}", 0.02 * width, 0.008 * height, 14)
         self.scale_bar(text, width, height)

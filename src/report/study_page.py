@@ -160,7 +160,7 @@ def _values_figure(study, metric):
         return ""
     numbered = " Numbers are those of the table." if len(study["rungs"]) > LABELLED else ""
     return (f"<figure><h3>{page.escape(metric['name'])}</h3>{figures.as_html(figure, 'Values of ' + metric['name'])}"
-            f"<figcaption>What each rung found. The study names no reference, so no rung has an error.{numbered}</figcaption></figure>")
+            f"<figcaption>What each configuration found. The study names no reference, so none has an error.{numbered}</figcaption></figure>")
 
 
 def borrowed_words(e):

@@ -16,6 +16,8 @@ struct Doubt {
 };
 using Doubts = std::vector<Doubt>;
 
+inline void append(Doubts& to, const Doubts& more) { to.insert(to.end(), more.begin(), more.end()); }
+
 /// "moorings.a.rest_length_m: 302 m for ends 863 m apart; usual is 0.95 to 1.3 of the distance: look at the length and its unit".
 inline std::string text(const Doubt& doubt) {
   return doubt.key + ": " + doubt.what + "; usual is " + doubt.rule + ": " + doubt.advice;

@@ -4,8 +4,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
-
 #include "kernels/gas/state.hpp"
 #include "src/aero/flow/flow_tile.hpp"
 #include "src/aero/flow/physical_time.hpp"

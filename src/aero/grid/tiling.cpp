@@ -148,8 +148,7 @@ void agree_on_ends(Tiling& tiling) {
   for (bool changed = true; changed;) {
     changed = false;
     for (const GhostLink& link : tiling.links) {
-      const int from_side = 2 * link.donor.target(direction_of(link.side)) +
-                            (at_end(link.side) == (link.donor.sign(direction_of(link.side)) > 0) ? 0 : 1);
+      const int from_side = int(link.donor(link.side)) ^ 1;  // where one tile ends the other begins
       bool &here = tiling.tiles[link.to].ends_along_wall[std::size_t(link.side)],
            &there = tiling.tiles[link.from].ends_along_wall[std::size_t(from_side)];
       if (here != there) here = there = false, changed = true;

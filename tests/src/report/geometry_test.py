@@ -73,7 +73,7 @@ class Geometry(unittest.TestCase):
         return found
 
     def test_what_the_scene_does_not_describe_is_said_to_be_sketched(self):
-        self.assertEqual(self.scene.sketched(), ["tower", "nacelle", "braces"])
+        self.assertEqual(self.scene.sketched, ["tower", "nacelle", "braces"])
 
     def test_everything_is_there(self):
         self.assertEqual({kind: len(pieces) for kind, pieces in self.kinds(0.0).items()},
