@@ -47,9 +47,9 @@ void straighten_at_walls(const FlowTile& tile, const double* state, int d, int k
   }
 }
 
-/// Whether faces from (k, j, i) on are of rows along a wall; those across i, which itself lies across walls, never are.
+/// Whether faces from (k, j, i) on are of rows along a wall.
 bool along_wall(const FlowTile& tile, int d, int k, int j) {
-  if (d == 0) return false;
+  if (d == 0) return tile.along_wall[0];
   const int face = d == 1 ? j : k, last = d == 1 ? tile.box.nj : tile.box.nk;
   return face == 0      ? tile.ends_along_wall[std::size_t(2 * d)]
          : face == last ? tile.ends_along_wall[std::size_t(2 * d + 1)]

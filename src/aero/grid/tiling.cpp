@@ -143,7 +143,8 @@ std::vector<std::array<bool, 3>> choose_along(const MultiBlockGrid& grid, std::s
   return along;
 }
 
-/// A face between tiles has one flux: their ends are along a wall for both or for neither.
+/// A face between tiles has one flux: their ends are along a wall for both or for neither. Rows in a tile's i are swept with both
+/// their ends at once and go together.
 void agree_on_ends(Tiling& tiling) {
   for (bool changed = true; changed;) {
     changed = false;
@@ -153,6 +154,9 @@ void agree_on_ends(Tiling& tiling) {
            &there = tiling.tiles[link.from].ends_along_wall[std::size_t(from_side)];
       if (here != there) here = there = false, changed = true;
     }
+    for (Tile& tile : tiling.tiles)
+      if (tile.along_wall[0] && !(tile.ends_along_wall[0] && tile.ends_along_wall[1]))
+        tile.along_wall[0] = tile.ends_along_wall[0] = tile.ends_along_wall[1] = false, changed = true;
   }
 }
 

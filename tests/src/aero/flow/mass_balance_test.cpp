@@ -5,7 +5,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "src/aero/grid/generators/plane_cases.hpp"
 #include "tests/src/aero/flow/flows.hpp"
+#include "tests/src/aero/grid/examples.hpp"
 
 using namespace spindrift;
 using namespace spindrift::aero;
@@ -70,6 +72,29 @@ TEST_CASE("fluxes and what the march has left close at every pseudo-step, and at
   for (const PseudoRow& row : rows) CHECK(gap(row.mass) < round_off * row.mass.inflow);
   CHECK(std::abs(rows.front().mass.outflow - rows.front().mass.inflow) > 1e-4 * rows.front().mass.inflow);
   CHECK(std::abs(rows.back().mass.residual) < 1e-9 * rows.back().mass.inflow);
+}
+
+TEST_CASE("the balance closes round a section whose blocks are cut and turned: a face between them has one flux",
+          "[flow][fast]") {
+  FlowSetting setting = air(0.15);
+  setting.gas.viscosity.mu0 = 1e-3, setting.viscous = true;
+  setting.march.max_steps = 3;
+  const int corner = GENERATE(0, 1);  // a block that sticks at two sides ends the rows of its neighbours
+  MultiBlockGrid grid = naca0012({.n = 1});
+  const std::array<std::vector<int>, 3> cuts{{{6, 50, 106}, {10, 20}, {}}};
+  grid = split_at(grid, std::span(&cuts, 1));
+  if (corner)
+    for (Boundary& b : grid.boundaries)
+      if (b.patch == "outflow") b.patch = "screen";
+  turn_blocks(grid, 3);
+  const PatchCondition sticks{.condition = Condition::no_slip}, open{.condition = Condition::far_field};
+  Case c(grid, setting, {{"wall", sticks}, {"farfield", open}, {corner ? "screen" : "outflow", corner ? sticks : open}});
+  c.prepare();
+  c.run();
+  for (const PseudoRow& row : c.solver->rows()) {
+    CHECK(row.mass.inflow > 0.0);
+    CHECK(gap(row.mass) < round_off * row.mass.inflow);
+  }
 }
 
 TEST_CASE("the mass that cells gain is that of the time scheme, on standing and on moving grids", "[flow][fast]") {

@@ -114,14 +114,21 @@ TEST_CASE("rows along a section's wall are the same however its grid is cut, and
   const MultiBlockGrid one = naca0012({.n = 1});
   const std::vector<std::string> walls{"wall"};
   const TilingOptions options{.sticky = walls};
-  for (const int parts : {1, 2, 4, 8}) {
-    MultiBlockGrid grid = parts == 1 ? one : split(one, parts, walls);
-    turn_blocks(grid, parts);
+  REQUIRE(one.blocks.size() == 1);
+  REQUIRE((one.blocks[0].ni == 112 && one.blocks[0].nj == 32));
+  const std::array<std::vector<int>, 3> none, into_wake_and_layers{{{6, 50, 106}, {10, 20}, {}}};
+  for (const int seed : {1, 2, 3, 4, 5}) {
+    MultiBlockGrid grid = split_at(one, std::span(seed == 1 ? &none : &into_wake_and_layers, 1));
+    turn_blocks(grid, seed);
     const Tiling tiling = make_tiling(grid, walls, options);
-    for (const Tile& t : tiling.tiles) {
-      CHECK(t.along_wall == std::array{false, true, false});
-      CHECK(t.ends_along_wall == std::array{false, false, true, true, false, false});
-    }
+    for (const Tile& t : tiling.tiles)
+      for (int d = 0; d < 3; ++d) {
+        const int cells = grid.blocks[std::size_t(t.block)].cells()[std::size_t(t.to_block.target(d))];
+        const bool round = d < 2 && (cells == 112 || cells == 6 || cells == 44 || cells == 56);
+        CHECK(t.along_wall[std::size_t(d)] == round);
+        CHECK(t.ends_along_wall[std::size_t(2 * d)] == round);
+        CHECK(t.ends_along_wall[std::size_t(2 * d + 1)] == round);
+      }
     const Tiling smooth = make_tiling(grid, walls);
     for (const Tile& t : smooth.tiles) CHECK(t.along_wall == std::array{false, false, false});
   }
