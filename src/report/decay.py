@@ -1,5 +1,6 @@
-"""Free decays: period and damping of a motion that swings out, from its peaks. Called by page.py; tested in tests/src/report.
+"""Free decays: period and damping of a motion that swings by itself, from its peaks. Called by page.py; tested in tests/src/report.
 SPDX-License-Identifier: Apache-2.0"""
+import functools
 import math
 
 import numpy as np
@@ -8,6 +9,7 @@ import quantities
 
 LEAST_SWINGS = 4   # half periods whose ranges are compared
 SMALLEST = 0.02    # of the first range: what is smaller is noise or another motion
+GROWTH = 1.002     # of the ranges of a motion without damping: peaks between rows are known so well
 
 
 class Decay:
@@ -32,7 +34,7 @@ def extremes(time, values):
 
 
 def decay_of(time, values, column=""):
-    """None where the values are not one motion that swings out. Ranges from peak to trough need no rest position; their logarithm falls by
+    """None where the values are not one motion that swings out, or goes on without damping. Ranges from peak to trough need no rest position; their logarithm falls by
     pi zeta / sqrt(1 - zeta^2) a half period (the logarithmic decrement)."""
     if len(time) < 20 or not np.isfinite(values).all():
         return None
@@ -46,8 +48,10 @@ def decay_of(time, values, column=""):
         return None
     at, ranges = at[: count + 1], ranges[:count]
     halves = np.diff(at)
-    if ranges[-1] > 0.9 * ranges[0] or (ranges[1:] > 1.05 * ranges[:-1]).any() or np.ptp(halves) > 0.5 * np.median(halves):
+    if ranges[-1] > GROWTH * ranges[0] or (ranges[1:] > 1.05 * ranges[:-1]).any() or np.ptp(halves) > 0.5 * np.median(halves):
         return None
+    if ranges[-1] > ranges[0] / GROWTH:   # neither grows nor falls by more than the rows can tell
+        ranges = np.full(count, ranges[0])
     falls = -np.diff(np.log(ranges))
     zeta = lambda fall: fall / math.hypot(math.pi, fall)
     part = max(1, len(falls) // 3)
@@ -63,6 +67,7 @@ def is_free(run):
     return not wavy and not paddle and "rotor.thrust_N" not in run.columns
 
 
+@functools.lru_cache(maxsize=8)
 def decays(run):
     """Of each motion of the run's bodies that swings out freely; small motions beside a large one are left out."""
     if not is_free(run) or len(run.time) < 20:

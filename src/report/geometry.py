@@ -290,7 +290,8 @@ class Scene3d:
     def _line(self, name, line, t):
         fairlead = self.moved(line.get("body", ""), [line["fairlead_m"]], t)[0]
         anchor = self.moved(line.get("anchor_body", "earth"), [line["anchor_m"]], t)[0]
-        points = hanging(fairlead, anchor, line.get("rest_length_m"))
+        stiff = line.get("tension_only") is False   # a spring both ways stays straight
+        points = hanging(fairlead, anchor, None if stiff else line.get("rest_length_m"))
         return Piece("line", name, points, lines=[list(range(len(points)))])
 
     def _support(self, t):

@@ -41,6 +41,10 @@ def _span(run):
         return ""
     if verdict.is_steady(run):
         return "At the end of the march."
+    if verdict.kind(run) == "tank":
+        return "Of the whole run."
+    if decay.decays(run):
+        return "Period and damping from the peaks of the whole run."
     count = verdict.waves_in_means(run)
     swings = " ± standard deviation" if any("±" in value for _, value, _ in verdict.answers(run)) else ""
     return f"Means{swings} over {run.mean_range()[1]}" + (f", {number(count, 3)} waves." if math.isfinite(count) else ".")
@@ -174,7 +178,7 @@ def _spoken(run, name):
     return safe(f'<span title="{escape(_meaning(run, name))}">{escape(quantities.spoken(name))} <small class="code">{escape(name)}</small></span>')
 
 
-_LEFT_OUT = (".x_m", ".y_m", ".z_m", ".roll_deg", ".pitch_deg", ".yaw_deg", ".torque_N_m", ".power_W")
+_LEFT_OUT = (".x_m", ".y_m", ".z_m", ".roll_deg", ".pitch_deg", ".yaw_deg", ".torque_N_m", ".power_W", ".lost_particles")
 
 
 def _still(run, name):
@@ -198,12 +202,12 @@ def key_figures(run):
 
 def expected(run):
     """The scene's references beside what the run gave."""
-    rows = []
+    rows, changed = [], run.changed_keys()   # references are of the scene as its file has it
     for r in verdict.references(run):
         unit, factor = quantities.scaled(quantities.unit_of(r.column, run.described), abs(r.wanted))
         off = r.found - r.wanted
         share = f" ({100.0 * off / abs(r.wanted):+.1f} %)".replace("-", "−") if r.wanted and not r.why_not else ""
-        outcome = {True: "met", False: "not met", None: f"not compared: {r.why_not}"}[r.agrees()]
+        outcome = {True: "met", False: "not judged" if changed else "not met", None: f"not compared: {r.why_not}"}[r.agrees()]
         rows.append([_spoken(run, r.column), unit, f"{number(factor * r.wanted)} ± {number(factor * r.within, 2)}", "–" if r.why_not else number(factor * r.found),
                      "–" if r.why_not else number(factor * off, 2) + share, outcome, f"{r.source}{f'; mean {r.span}' if r.span else ''}"])
     return parts.table(["Quantity", "Unit", "Expected", "Found", "Difference", "Outcome", "By"], rows, (5, 6)) if rows else ""
@@ -227,7 +231,7 @@ def compared_figures(runs):
             change = (value - means[0]) / abs(means[0]) * 100.0 if i and means[0] and share else factor * (value - means[0]) if i and not share else math.nan
             if not share and abs(change) < 1e-4 * factor * np.ptp(runs[0].column(name)):   # of what it moves by: nothing
                 change = 0.0
-            off = f"{change:+.2f} %" if share else f"{'+' if change > 0.0 else ''}{number(change, 3)} {unit}".strip()
+            off = f"{change:+.2f} %".replace("-", "−") if share else f"{'+' if change > 0.0 else ''}{number(change, 3)} {unit}".strip()
             cells.append(number(factor * value) + (safe(f" <small>({escape(off)})</small>") if math.isfinite(change) else ""))
         rows.append([_spoken(runs[0], name), unit] + cells)
     if not rows:
@@ -351,6 +355,8 @@ def spectra(runs):
     names, lowest = runs[0].columns, min(marks(runs[0]).values(), default=None)
     if not len(runs[0].time) or verdict.is_steady(runs[0]) or not quantities.bodies_of(names):
         return ""
+    if decay.decays(runs[0]):   # some swings have a period, and no spectrum worth looking at
+        return ""
     length = figures.segment_s(runs[0].time)
     if lowest is not None and length * lowest < 3.0:
         return safe(f'<p class="facts">None: a spectrum that shows {1.0 / lowest:.3g} s needs a run of {8.0 / lowest:.0f} s.</p>')
@@ -363,6 +369,7 @@ def spectra(runs):
             panels = [(quantities.AXES[quantities.quantity_of(n)], n) for n in names
                       if n.rpartition(".")[0] == body and quantities.quantity_of(n) in wanted]
             own = {motion: f for motion, f in modes_of(runs[0], body).items() if motion in [label for label, _ in panels] and f * length >= 2.0}
+            own = {motion: f for motion, f in own.items() if any(label == motion and not figures.is_nothing(runs[0], n) for label, n in panels)}
             figure = figures.spectra(runs, panels, found | own)
             if figure is not None:
                 dotted = " Dotted: the motion's own mode about the start, " + ", ".join(f"{m} {f:.3g} Hz" for m, f in own.items()) + "." if own else ""
@@ -496,13 +503,13 @@ def build(runs, progress=lambda words: None):
     over_time = time_figures(runs)
     shown = [section(key, title, over_time[key], fold) for key, (title, fold) in GROUPS.items()]
     if one:
-        found = [section("picture", "Picture", drawn(one)), section("expected", "Expected and found", expected(one)), section("key-figures", "Key figures", key_figures(one)), *shown[:-2]]
+        found = [section("picture", "Picture", drawn(one)), section("expected", "Expected and found", expected(one)), section("decay", "Free decay", decays(one)), section("key-figures", "Key figures", key_figures(one)), *shown[:-2]]
         progress("pictures of the sea")
         found.append(section("sea-pictures", "The sea", sea(one)))
         progress("pictures of the air")
         found.append(section("flow", "The flow", flow(one)))
         progress("spectra")
-        found += [section("decay", "Free decay", decays(one)), section("modes", "Modes", modes(one), True), section("spectra", "Spectra of motions", spectra(runs)), section("model", "What was modelled", model(one), True), *shown[-2:],
+        found += [section("modes", "Modes", modes(one), True), section("spectra", "Spectra of motions", spectra(runs)), section("model", "What was modelled", model(one), True), *shown[-2:],
                   section("time-spent", "Where the time was spent", where_time(one) + timeline(one) + counts(one), True),
                   section("efficiency", "Parallel efficiency", efficiency(one), True), section("scene", "Scene", scene(one), True),
                   section("log", "Log", log(one), True)]

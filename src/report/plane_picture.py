@@ -67,7 +67,7 @@ class Drawing:
         span = (x[1] - x[0]) / max(z[1] - z[0], 1e-9)
         high = float(np.clip(9.4 / span, 1.0, 6.0))
         wide = 9.4 if span > 5.0 else max(6.0, min(9.4, high * span))   # of the water, beside its scales
-        figure, axis = plt.subplots(figsize=(wide + 1.6, high + (2.3 if span > 5.0 else 1.6)), dpi=130, layout="constrained", facecolor="white")
+        figure, axis = plt.subplots(figsize=(wide + 1.6, high + (1.9 if span > 5.0 else 1.6)), dpi=130, layout="constrained", facecolor="white")
         size = max(0.2, min(600.0, (1.15 * spacing * 72 * min(high / max(z[1] - z[0], 1e-9), wide / (x[1] - x[0]))) ** 2)) if np.isfinite(spacing) else 2.0
         if solids.any():
             axis.scatter(position[solids, 0], position[solids, 2], c="#9aa0a6", s=size, linewidths=0)
@@ -114,9 +114,9 @@ def solids_at(axis, scene, time):
             axis.plot(piece.points[line, 0], piece.points[line, 2], color="#d9480f", linewidth=1.4)
 
 
-def outline(axis, piece):
-    """The silhouette of a convex body in the plane y = 0."""
-    points = piece.points[:, [0, 2]]
+def outline(axis, piece, plane=(0, 2)):
+    """The silhouette of a convex body in a plane of two axes."""
+    points = piece.points[:, list(plane)]
     order = _hull(points)
     axis.fill(points[order, 0], points[order, 1], facecolor="#f2b81a", edgecolor=INK, linewidth=0.8)
 

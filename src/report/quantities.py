@@ -5,6 +5,7 @@ import re
 UNITS = {"m_s2": "m/s²", "kg_s": "kg/s", "rad_s2": "rad/s²", "deg_s2": "deg/s²", "m_s": "m/s", "rad_s": "rad/s", "deg_s": "deg/s", "N_m": "N m", "N": "N",
          "W": "W", "deg": "deg", "rad": "rad", "rpm": "rpm", "m": "m", "s": "s", "Pa": "Pa", "kg": "kg", "J": "J"}
 AXES = {"x": "surge", "y": "sway", "z": "heave", "roll": "roll", "pitch": "pitch", "yaw": "yaw"}
+SPOKEN = {"x_max": "farthest water along x", "rpm": "speed"}
 
 
 def unit_of(name, described=None):
@@ -31,7 +32,7 @@ def quantity_of(name):
 def spoken(name):
     """'platform surge' for platform.x_m."""
     prefix, quantity = name.rpartition(".")[0], quantity_of(name)
-    return f"{prefix} {AXES.get(quantity, quantity).replace('_', ' ')}".strip()
+    return f"{prefix} {(AXES | SPOKEN).get(quantity, quantity).replace('_', ' ')}".strip()
 
 
 def scaled(unit, largest):
@@ -66,6 +67,14 @@ def _triple(names, prefix, quantities, labels=None):
 
 def bodies_of(names):
     return list(dict.fromkeys(n.rpartition(".")[0] for n in names if re.search(r"(?<!\.blade_.)\.((x|y|z)_m|(roll|pitch|yaw)_deg)$", n)))
+
+
+def kind_of_body(name):
+    """'displacement', 'angle', 'force' or 'moment' of a column of a body, its sources and joints; "" of others."""
+    for kind, pattern in (("displacement", r"\.[xyz]_m"), ("angle", r"(?<!blade_.)\.(roll|pitch|yaw)_deg"), ("force", r"\.f[xyz]_N"), ("moment", r"\.m[xyz]_N_m")):
+        if re.search(pattern + "$", name) and not name.startswith("flow."):
+            return kind
+    return ""
 
 
 def _held_by(names, joints, body):
@@ -115,12 +124,16 @@ def groups(names, joints=None):
 
     rotors = list(dict.fromkeys(n.rpartition(".")[0] for n in names if n.endswith(".thrust_N")))
     for rotor in rotors:
-        add("rotor", f"{rotor}: loads and speed", "Thrust along the shaft, torque and power of the rotor, its azimuth and speed.",
-            _triple(names, rotor, ("thrust", "torque", "power", "azimuth", "rpm")))
+        panels = _triple(names, rotor, ("wind_x", "wind_y", "wind_z", "thrust", "torque", "power", "azimuth", "rpm"),
+                         {"wind_x": "wind x", "wind_y": "wind y", "wind_z": "wind z"})
+        words = "Thrust along the shaft, torque and power of the rotor, its azimuth and speed." if len(panels) > 2 else "Thrust along the shaft and torque about it."
+        if any(label.startswith("wind") for label, _ in panels):
+            words = "Undisturbed wind at the hub. " + words
+        add("rotor", f"{rotor}: loads and speed" if len(panels) > 2 else f"{rotor.rpartition('.')[2].replace('_', ' ')}: loads", words, panels)
         pitches = [(n.split(".")[-2].replace("_", " "), n) for n in names if re.fullmatch(re.escape(rotor) + r"\.blade_\d+\.pitch_deg", n)]
         pitches += [("asked", n) for n in names if n == f"{rotor}.asked_pitch_deg"]
         add("rotor", f"{rotor}: control", "Pitch of the blades and what the controller asks for; the generator.", ([("pitch", pitches)] if pitches else []) +
-            _triple(names, rotor, ("generator_torque", "electrical_power"), {"generator_torque": "torque", "electrical_power": "power"}))
+            _triple(names, rotor, ("generator_torque", "electrical_power"), {"generator_torque": "generator torque", "electrical_power": "electrical power"}))
 
     tensions = [(n.rpartition(".")[0], n) for n in names if n.endswith(".tension_N")]
     add("moorings", "Mooring tensions", "Tension of each line at its fairlead.", [("tension", tensions)] if tensions else [])
@@ -152,5 +165,8 @@ def key_columns(names):
     bodies = bodies_of(names)
     chosen = [c for b in bodies[:1] for c in (p[1][0][1] for p in _triple(names, b, ("x", "y", "z", "roll", "pitch", "yaw")))]
     wanted = (".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".tension_N", ".lift_coefficient", ".drag_coefficient", "flow.fx_N", "flow.fz_N",
-              ".elevation_m", "sea.x_max_m", ".pressure_Pa", "sea.lost_particles")
-    return chosen + [n for n in names if n.endswith(wanted) and not n.startswith("rotor.blade_")]
+              ".elevation_m", ".pressure_Pa", "sea.lost_particles")
+    sector = {"flow.fx_N", "flow.fz_N"} if "rotor.thrust_N" in names else set()   # of a rotor: loads of the sector that is solved
+    farthest = set() if bodies or "wavemaker.displacement_m" in names else {"sea.x_max_m"}   # of water that runs: a broken dam
+    wanted += tuple(farthest)
+    return chosen + [n for n in names if n.endswith(wanted) and not n.startswith("rotor.blade_") and n not in sector]

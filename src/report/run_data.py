@@ -26,7 +26,7 @@ class RunData:
         self.log = self._text("log.txt").splitlines()
         self.tasks = []
         self.trace = self._trace()
-        self._round_off = {}  # by unit
+        self._round_off = {}  # by kind or unit
         self.described = {c.get("name"): c for c in self.summary.get("columns", []) if isinstance(c, dict)}
 
     @property
@@ -59,19 +59,28 @@ class RunData:
         return self.values[self.columns.index(name)]
 
     def round_off(self, name):
-        """What a column must exceed to count: 1e-12 of the largest value among the columns of its unit."""
-        unit = quantities.unit_of(name, self.described)
-        if unit not in self._round_off:
-            alike = self.values[[quantities.unit_of(other, self.described) == unit for other in self.columns]]
-            self._round_off[unit] = 1e-12 * np.abs(alike[np.isfinite(alike)]).max(initial=0.0)
-        return self._round_off[unit]
+        """What a column must exceed to count: 1e-12 of the largest value among the columns of its unit; of motions and loads of bodies so much
+        of the largest of their kind that nobody looks for it, as a motion that none drives is left by iterations that end."""
+        kind = quantities.kind_of_body(name) or quantities.unit_of(name, self.described)
+        if kind not in self._round_off:
+            def largest(like):
+                values = self.values[[like(other) for other in self.columns]]
+                return np.abs(values[np.isfinite(values)]).max(initial=0.0)
+
+            alike = largest(lambda other: (quantities.kind_of_body(other) or quantities.unit_of(other, self.described)) == kind)
+            if kind == "moment":   # at an arm of a metre
+                alike = max(alike, largest(lambda other: quantities.kind_of_body(other) == "force"))
+            share, least = {"displacement": (1e-6, 0.0), "angle": (1e-6, 1e-6), "force": (1e-8, 0.0), "moment": (1e-8, 0.0)}.get(kind, (1e-12, 0.0))
+            self._round_off[kind] = max(share * alike, least)
+        return self._round_off[kind]
 
     def mean_range(self):
         """Rows and words of the range that means are taken over: the summary's last that holds rows, else the last quarter."""
         def rows(start, end):
             margin = 1e-9 * max(1.0, abs(end))
             steady = (self.scene.get("aero", {}).get("flow") or {}).get("time") == "steady"
-            return (self.time >= start - margin) & (self.time <= end + margin), f"{start:.4g} to {end:.4g}" + (" pseudo-steps" if steady else " s")
+            chosen = (self.time >= start - margin) & (self.time <= end + margin)
+            return chosen, f"pseudo-steps {np.ceil(start - margin):.0f} to {end:.0f}" if steady else f"{start:.4g} to {end:.4g} s"
 
         for found in list((self.summary.get("ranges") or {}).values())[::-1]:
             if isinstance(found, dict) and isinstance(found.get("from_s"), (int, float)) and isinstance(found.get("to_s"), (int, float)):

@@ -9,6 +9,7 @@ import geometry
 import plane_picture
 from figures import plt
 
+HOLE = 2.0           # times the scale of the colours: what is lower is no wave but the place of a body
 MOST_DRAWN = 40_000  # particles in one picture; thinned evenly beyond
 
 
@@ -54,8 +55,8 @@ def particles(run, h5py):
         # As large as its share of the water, some 4.3 inches of which lie side by side; thinned ones and those of no spacing as their number asks for.
         wide = max(np.ptp(s[0]) for s in shown)
         size = (1.2 * spacing * 4.3 * 72 / wide) ** 2 if np.isfinite(spacing) and wide > 0.0 else 3000.0 / max(len(s[0]) for s in shown)
+        limits = [(min(np.min(s[n]) for s in shown), max(np.max(s[n]) for s in shown)) for n in (0, 1)]
         for axis, s in zip(axes[:, 0], shown):
-            limits = [(np.min(of), np.max(of)) for of in s[:2]]
             drawn = axis.scatter(s[0], s[1], c=factor * s[index], s=float(np.clip(size, 0.3, 40.0)), linewidths=0, cmap="viridis",
                                  vmin=0.0, vmax=top or 1.0, rasterized=True)
             axis.set_ylabel("z [m]")
@@ -80,7 +81,7 @@ def _scale(run, maps):
 
 def surface(run, h5py):
     """(title, figure, caption) of the height of the surface: a map, or lines where the scene is a plane."""
-    maps = []
+    maps, scene = [], geometry.Scene3d(run)
     for path in _chosen(_outputs(run, "surface")):
         with h5py.File(path) as file:
             points = file["water/points"]
@@ -103,13 +104,19 @@ def surface(run, h5py):
                                     layout="constrained")
         most = _scale(run, maps)
         for axis, (corners, elevation, time) in zip(axes[0], maps):
-            drawn = axis.pcolormesh(corners[0, :, :, 0], corners[0, :, :, 1], elevation, cmap="RdBu_r", vmin=-most, vmax=most, rasterized=True)
+            seen = np.where(np.abs(elevation) <= HOLE * most, elevation, np.nan)
+            drawn = axis.pcolormesh(corners[0, :, :, 0], corners[0, :, :, 1], seen, cmap="RdBu_r", vmin=-most, vmax=most, rasterized=True)
+            limits = axis.get_xlim(), axis.get_ylim()
+            for piece in scene.pieces(time):
+                if piece.kind == "float" and piece.points[:, 2].min() < 0.0 < piece.points[:, 2].max():
+                    plane_picture.outline(axis, piece, (0, 1))
+            axis.set(xlim=limits[0], ylim=limits[1])
             axis.set_aspect("equal")
             axis.set_title(f"t = {time:g} s", loc="left")
             axis.set_xlabel("x [m]")
         axes[0, 0].set_ylabel("y [m]")
         figure.colorbar(drawn, ax=list(axes[0]), label="elevation [m]", fraction=0.04, extend="both")
-    yield "Height of the water's surface", figure, "Read on the mesh of fields/surface, at the first, middle and last output."
+    yield "Height of the water's surface", figure, "Read on the mesh of fields/surface, at the first, middle and last output; blank where a float leaves no surface."
 
 
 def pictures(run):

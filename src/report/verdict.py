@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+import decay
 import quantities
 import words
 from geometry import Scene3d
@@ -63,11 +64,27 @@ def what_ran(run):
         text += f", waves of {wave:.3g} m" + (f" and {run.scene['waves']['period_s']:.3g} s" if _value(scene, "waves", "period_s") else "")
     wind = _value(scene, "wind", "speed_m_s")
     if isinstance(wind, (int, float)) and wind > 0:
-        text += f", wind of {wind:.4g} m/s"
+        text += f", wind of {wind:.4g} m/s" + _changes_of_wind(scene)
     if len(run.time):
         text += f": {run.time[-1]:.6g} pseudo-steps to a steady state" if is_steady(run) else f": {run.time[-1]:.6g} s"
     wall = run.summary.get("wall_seconds")
     return text + (f", computed in {words.duration(wall)}." if isinstance(wall, (int, float)) else ".")
+
+
+EVENTS = {"step": "a step", "ramp": "a ramp", "eog": "an extreme operating gust", "edc": "an extreme change of direction",
+          "ecd": "an extreme coherent gust with change of direction", "ews_vertical": "an extreme vertical shear", "ews_horizontal": "an extreme horizontal shear"}
+
+
+def _changes_of_wind(scene):
+    """In words: what makes the wind change in time."""
+    event, said = _value(scene, "wind", "event") or {}, []
+    if isinstance(event, dict) and event.get("what"):
+        said.append(EVENTS.get(event["what"], event["what"]) + f" at {event.get('start_s', 0.0):g} s")
+    if _value(scene, "wind", "turbulence"):
+        said.append("turbulence")
+    if _value(scene, "wind", "table"):
+        said.append("changes by a table")
+    return f" with {' and '.join(said)}" if said else ""
 
 
 def _walls(run):
@@ -87,8 +104,9 @@ def answers(run):
     def add(text, name, function=mean):
         if name in run.columns:
             value = function(name)
-            if value == 0.0:   # what a scene leaves out
+            if not (np.abs(run.column(name)) > run.round_off(name)).any():   # what a scene leaves out
                 return
+            value = 0.0 if abs(value) <= run.round_off(name) else value
             unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(value) if math.isfinite(value) else 0.0)
             swing = words.deviation(run.time[chosen], run.column(name)[chosen]) if function is mean and not is_steady(run) else 0.0
             swings = math.isfinite(swing) and swing > max(SWINGS * abs(value), run.round_off(name))
@@ -97,7 +115,13 @@ def answers(run):
     sort = kind(run)
     if sort in ("floating turbine", "bodies"):
         body = quantities.bodies_of(run.columns)[0]
-        for text, quantity in (("surge", "x_m"), ("heave", "z_m"), ("pitch", "pitch_deg")):
+        swings = decay.decays(run)
+        for d in swings[:2]:   # what a decay test is made for
+            motion = quantities.AXES[quantities.quantity_of(d.column)]
+            said.append((f"{motion}, period", words.number(d.period), "s"))
+            if d.damping > 0.0:
+                said.append((f"{motion}, damping of critical", words.number(100.0 * d.damping, 3), "%"))
+        for text, quantity in (("surge", "x_m"), ("heave", "z_m"), ("pitch", "pitch_deg")) if not swings else ():
             add(text, f"{body}.{quantity}")
     for text, name in (("thrust", "rotor.thrust_N"), ("power", "rotor.power_W"), ("lift coefficient", "flow.lift_coefficient"),
                        ("drag coefficient", "flow.drag_coefficient")):
@@ -110,7 +134,8 @@ def answers(run):
         for name in run.columns:
             if name.endswith(".elevation_m") and not name.startswith("waves.") and len(said) < 4:
                 add(f"{name.rpartition('.')[0]}, highest", name, lambda n: float(np.nanmax(run.column(n))))
-        add("farthest water, x", "sea.x_max_m", lambda n: float(run.column(n)[-1]))
+        if "sea.x_max_m" in quantities.key_columns(run.columns):
+            add("farthest water, x", "sea.x_max_m", lambda n: float(run.column(n)[-1]))
     return said
 
 
@@ -408,7 +433,9 @@ def _budgets(run):
         values = values[np.isfinite(values)]
         if len(values):
             unit = quantities.unit_of(name, run.described)
-            found.append(Check("good", quantities.spoken(name).capitalize(), f"at most {words.number(float(np.abs(values).max()), 2)} {unit}".strip()))
+            part = name.rpartition(".")[0]
+            found.append(Check("good", (part or "Budget").capitalize(),
+                               f"{quantities.quantity_of(name).replace('_', ' ')} at most {words.number(float(np.abs(values).max()), 2)} {unit}".strip()))
     return found
 
 
@@ -442,6 +469,8 @@ def _settled(run):
         return None
     body, moving = next(iter(quantities.bodies_of(run.columns)), None), []
     first, second = np.array_split(chosen, 2)
+    if decay.decays(run):
+        return Check("good", "Settled", "a free motion, which nothing drives: its means say nothing, its period and damping do")
     period = _value(run.scene, "waves", "period_s") or _value(run.scene, "waves", "peak_period_s")
     if isinstance(period, (int, float)) and period > 0:   # whole waves alone have a mean
         begin, end = run.time[chosen[0]], run.time[chosen[-1]]

@@ -13,6 +13,7 @@ sys.dont_write_bytecode = True
 import decay
 import page
 import synthetic_run
+import verdict
 from run_data import RunData
 
 
@@ -43,8 +44,25 @@ class DecayTest(unittest.TestCase):
 
     def test_what_is_no_decay_is_left_out(self):
         t = np.linspace(0.0, 100.0, 2001)
-        for values in (np.sin(t), 0 * t, np.exp(-t), swing(t, 50.0, 0.05), np.random.default_rng(1).normal(size=t.size), swing(t, 10.0, 0.02) + swing(t, 3.1, 0.01)):
+        for values in (0 * t, np.exp(0.01 * t) * np.sin(t), np.exp(-t), swing(t, 50.0, 0.05), np.random.default_rng(1).normal(size=t.size), swing(t, 10.0, 0.02) + swing(t, 3.1, 0.01)):
             self.assertIsNone(decay.decay_of(t, values))
+
+    def test_a_motion_without_damping_has_its_period(self):
+        t = np.linspace(0.0, 100.0, 2001)
+        found = decay.decay_of(t, 3.0 * np.sin(t))
+        self.assertAlmostEqual(found.period, 2.0 * np.pi, delta=1e-3)
+        self.assertEqual(found.damping, 0.0)
+
+    def test_the_verdict_of_a_decay_is_its_period_and_damping(self):
+        t = 0.1 * np.arange(1500)
+        table = {"time_s": t, "float.x_m": 1e-7 * np.sin(t), "float.z_m": swing(t, 30.0, 0.04, 2.0)}
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            synthetic_run.write(folder, table=table, log="", scene="[bodies.float]\nmass_kg = 1.0\n", ranges={"all": {"from_s": 100.0, "to_s": 149.9}})
+            run = RunData(folder)
+            self.assertEqual([(text, unit) for text, _, unit in verdict.answers(run)], [("heave, period", "s"), ("heave, damping of critical", "%")])
+            settled = next(c for c in verdict.health(run) if c.title == "Settled")
+            self.assertEqual((settled.level, "free" in settled.text), ("good", True))
 
     def test_a_page_tells_of_a_decay_and_of_none_in_waves(self):
         t = 0.1 * np.arange(1500)
