@@ -132,8 +132,9 @@ def _figure(study, metric):
     target = f"; the dashed line is the target, {_plain(metric['target'] * _unit(metric))}{' %' if _in_percent(metric) else ''}" if metric["target"] else ""
     borrowed = f"Dotted bars: scatter of {', '.join(_lenders(study, metric))}. " if _lenders(study, metric) else ""
     bars = f"Bars are {100 * study['confidence']:g} % intervals from {study['replicas']} replicas, paired with the reference. " if study["replicas"] else ""
+    marked = "; orange: the answer" * bool(study["answer"]) + "; diamond: the reference, at its cost" * bool(_reference(study, metric))
     return (f"<figure><h3>{page.escape(metric['name'])}: {page.escape(what)}</h3>{figures.as_html(figure, 'Error against cost: ' + what)}"
-            f"<figcaption>{bars}{page.escape(borrowed)}The line joins what nothing beats in both error and cost, over all targets{page.escape(target)}.</figcaption></figure>")
+            f"<figcaption>{bars}{page.escape(borrowed)}The line joins what nothing beats in both error and cost, over all targets{page.escape(target)}{marked}.</figcaption></figure>")
 
 
 def draw_values(study, metric, axis):

@@ -78,6 +78,18 @@ class Names(unittest.TestCase):
                         dead.append(f"{page}: {target}: no such heading")
         self.complain(dead)
 
+    def test_the_index_leads_to_every_page(self):
+        seen, ahead = set(), [ROOT / "docs/index.md"]
+        while ahead:
+            page = ahead.pop()
+            if page in seen:
+                continue
+            seen.add(page)
+            links = [(page.parent / target).resolve() for target in re.findall(r"\]\(([^)\s#]+)", page.read_text(encoding="utf-8")) if ":" not in target]
+            ahead += [file for file in links if file.suffix == ".md" and file.exists()]
+        lost = [page for page in self.pages if page.startswith(("docs/", "inputs/")) and (ROOT / page).resolve() not in seen]
+        self.complain([f"{page}: no link from docs/index.md leads there" for page in lost])
+
     def test_paths_in_backticks(self):
         dead = []
         for page in self.pages:

@@ -224,13 +224,17 @@ class Commands(unittest.TestCase):
         return len(blocks)
 
     def test_commands_of_the_tutorials_run(self):
-        """In a folder of their own, runs shortened; pictures and films in ci/verify only. Blocks of Python run after them."""
+        """In a folder of their own, runs shortened; pictures and films in ci/verify only. Blocks of the shell and scenes to be saved come first, blocks of Python last."""
         blocks = 0
         for page in TUTORIALS:
             with self.subTest(page.name), tempfile.TemporaryDirectory(prefix="spindrift_tutorial_") as folder:
                 (pathlib.Path(folder) / "inputs").symlink_to(ROOT / "inputs")
+                for block in re.findall(r"^```bash\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S):
+                    if "#SBATCH" not in block:
+                        done = subprocess.run(["bash", "-e", "-c", block], capture_output=True, text=True, cwd=folder, check=False)
+                        self.assertEqual(done.returncode, 0, f"{page.name}:\n{block}{done.stderr}")
                 for name, scene in re.findall(r"Save this as `(runs/[\w./]+)`:\n\n```toml\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S):
-                    (pathlib.Path(folder) / name).parent.mkdir(exist_ok=True)
+                    (pathlib.Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
                     (pathlib.Path(folder) / name).write_text(scene)
                 for line, command, rest in self.commands(page):
                     words, files, entry = self.shortened(command, shlex.split(rest))
