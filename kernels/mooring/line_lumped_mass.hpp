@@ -1,11 +1,10 @@
 // A dynamic mooring line as point masses joined by axial springs and dampers: weight, bed, drag and inertia of the water at the
-// nodes. Hall & Goupee (2015), Ocean Engineering 104, 590-603, the equations of MoorDyn. Its statics by Newton's method, its
-// motion by classical Runge-Kutta in substeps of its own: docs/theory/moorings.md. Called through src/moorings; tested in
+// nodes. Hall & Goupee (2015), Ocean Engineering 104, 590-603, the equations of MoorDyn: docs/theory/moorings.md. Its rest and
+// its motion, alone and with other lines: line_network.hpp, which calls it; tested in
 // tests/kernels/mooring/line_lumped_mass_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -91,9 +90,8 @@ struct LineLumpedMass {
   /// Room for one evaluation.
   struct Scratch {
     std::vector<Eigen::Vector3d> pull;  ///< of each segment on its lower-numbered node [N]
-    std::vector<double> stages;         ///< of Runge-Kutta
   };
-  Scratch scratch() const { return {std::vector<Eigen::Vector3d>(std::size_t(segments)), std::vector<double>(6 * state_size())}; }
+  Scratch scratch() const { return {std::vector<Eigen::Vector3d>(std::size_t(segments))}; }
 
   /// Nodes of a state with its ends, as one row.
   struct Nodes {
@@ -215,61 +213,10 @@ struct LineLumpedMass {
     return across * Eigen::Matrix3d::Identity() + (along - across) * tangent * tangent.transpose();
   }
 
-  /// Goes on by h from t, while the ends move from `from` to `to` on cubics that keep places and velocities. Returns the forces
-  /// on the ends at t + h.
-  template <class Water>
-  LineForces advance(double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state, const Water& water,
-                     Scratch& scratch, int finer = 1) const {
-    const std::size_t n = state_size();
-    const auto stage = [&](std::size_t i) { return std::span<double>(scratch.stages).subspan(i * n, n); };
-    const std::span<double> k1 = stage(0), k2 = stage(1), k3 = stage(2), k4 = stage(3), trial = stage(4);
-    const int count = finer * int(substeps(h));
-    const double dt = h / count;
-    const auto ends = [&](double s) {  // s: substeps since t
-      const auto moving = [&](const LineEnd& a, const LineEnd& b) { return on_cubic(a, b, h, s / count); };
-      return LineEnds{moving(from.anchor, to.anchor), moving(from.fairlead, to.fairlead)};
-    };
-    const auto go = [&](double step, std::span<const double> rate) {
-      for (std::size_t i = 0; i < n; ++i) trial[i] = state[i] + step * rate[i];
-    };
-    for (int m = 0; m < count; ++m) {
-      const double now = t + m * dt;
-      const LineEnds middle = ends(m + 0.5);
-      rates(now, ends(m), state, k1, water, scratch);
-      go(0.5 * dt, k1);
-      rates(now + 0.5 * dt, middle, trial, k2, water, scratch);
-      go(0.5 * dt, k2);
-      rates(now + 0.5 * dt, middle, trial, k3, water, scratch);
-      go(dt, k3);
-      rates(now + dt, ends(m + 1), trial, k4, water, scratch);
-      for (std::size_t i = 0; i < n; ++i) state[i] += dt / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
-    }
-    return rates(t + h, to, state, k1, water, scratch);
-  }
-
-  /// What the search for rest came to: the largest force left on a node, and what is allowed [N].
-  struct Rest {
-    double residual, limit;
-    int iterations;
-    bool found() const { return residual <= limit; }
-  };
-  /// The line in rest between ends that do not move, in still water. Friction of the bed, which depends on how it was laid, is
-  /// left out. A segment that only pulls, weight and a bed that only pushes have a convex energy: Newton's method with a damping
-  /// that grows where the energy does not fall finds its least value.
-  Rest rest(const LineEnds& ends, std::span<double> state) const;
-
- private:
-  static LineEnd on_cubic(const LineEnd& a, const LineEnd& b, double h, double s) {
-    const double r = 1.0 - s, u = s * s * (3.0 - 2.0 * s);
-    const Eigen::Vector3d way = b.position - a.position;
-    return {a.position + u * way + h * s * r * (r * a.velocity - s * b.velocity),
-            6.0 * s * r / h * way + r * (1.0 - 3.0 * s) * a.velocity + s * (3.0 * s - 2.0) * b.velocity};
-  }
-
+  /// Nodes on the catenary between the ends, without velocity: a first guess of their rest.
   void lay_as_catenary(const LineEnds& ends, std::span<double> state) const;
 };
 
-/// Nodes on the catenary between the ends: a first guess.
 inline void LineLumpedMass::lay_as_catenary(const LineEnds& ends, std::span<double> state) const {
   const Eigen::Vector3d span = ends.fairlead.position - ends.anchor.position;
   const bool rises = span.z() >= 0.0;
@@ -293,77 +240,6 @@ inline void LineLumpedMass::lay_as_catenary(const LineEnds& ends, std::span<doub
         low + (reach > 0.0 ? p.x() / reach * x : 0.0) * out + p.z() * Eigen::Vector3d::UnitZ();
   }
   std::fill(state.begin() + std::ptrdiff_t(3 * inner()), state.end(), 0.0);
-}
-
-inline LineLumpedMass::Rest LineLumpedMass::rest(const LineEnds& moving, std::span<double> state) const {
-  const LineEnds ends{{moving.anchor.position, Eigen::Vector3d::Zero()}, {moving.fairlead.position, Eigen::Vector3d::Zero()}};
-  lay_as_catenary(ends, state);
-  const std::size_t n = inner();
-  const double l0 = segment(), scale = axial_stiffness / l0;
-  LineLumpedMass still = *this;
-  still.bed_friction = 0.0;
-  std::vector<Eigen::Matrix3d> diagonal(n), upper(n);
-  std::vector<Eigen::Vector3d> force(n), left(n), step(n);
-  std::vector<double> trial(state.begin(), state.end());
-  const auto forces = [&](std::span<const double> at) {  // largest force left
-    const Nodes nodes{still, ends, at};
-    double largest = 0.0;
-    for (int i = 1; i < segments; ++i) {
-      const Eigen::Vector3d zero = Eigen::Vector3d::Zero(), r = nodes.position(i);
-      NodeLoad load = still.node_load(l0, tangent(nodes, i), {r, zero}, {});
-      add_clumps(i, {r, zero}, {}, load);
-      force[std::size_t(i - 1)] = pull(nodes.position(i + 1) - r, zero) - pull(r - nodes.position(i - 1), zero) + load.force;
-      largest = std::max(largest, force[std::size_t(i - 1)].norm());
-    }
-    return largest;
-  };
-  const auto along_step = [&] {
-    double work = 0.0;
-    for (std::size_t i = 0; i < n; ++i) work += force[i].dot(step[i]);
-    return work;
-  };
-  Rest rest{forces(state), 1e-7 * mass_per_m * gravity * l0 + 1e-12 * axial_stiffness, 0};
-  double damping = 1e-6 * scale;
-  for (; rest.iterations < 2000 && !rest.found(); ++rest.iterations) {
-    const Nodes nodes{still, ends, state};
-    const auto stiffness = [&](int segment) -> Eigen::Matrix3d {
-      const Eigen::Vector3d along = nodes.position(segment + 1) - nodes.position(segment);
-      const double l = along.norm();
-      if (l <= l0) return Eigen::Matrix3d::Zero();
-      return chord_stiffness(along, axial_stiffness * (l / l0 - 1.0), scale);
-    };
-    forces(state);
-    Eigen::Matrix3d below = stiffness(0);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Eigen::Matrix3d above = stiffness(int(i) + 1);
-      diagonal[i] = below + above + damping * Eigen::Matrix3d::Identity();
-      if (bed_contact && nodes.position(int(i) + 1).z() < bed_level) diagonal[i](2, 2) += bed_stiffness * diameter * l0;
-      upper[i] = -above, below = above;
-    }
-    // Block elimination: K step = force.
-    left = force;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i > 0) {
-        const Eigen::Matrix3d factor = upper[i - 1].transpose() * diagonal[i - 1];  // the diagonal holds inverses behind i
-        diagonal[i] -= factor * upper[i - 1];
-        left[i] -= factor * left[i - 1];
-      }
-      diagonal[i] = diagonal[i].inverse().eval();
-    }
-    for (std::size_t i = n; i-- > 0;) {
-      step[i] = diagonal[i] * (i + 1 < n ? Eigen::Vector3d(left[i] - upper[i] * step[i + 1]) : left[i]);
-      Eigen::Map<Eigen::Vector3d>(trial.data() + 3 * i) = Eigen::Map<const Eigen::Vector3d>(state.data() + 3 * i) + step[i];
-    }
-    const double before = along_step(), largest = forces(trial);
-    if (before + along_step() > 0.0) {  // the energy fell, by the trapezium of the forces' work
-      std::copy(trial.begin(), trial.end(), state.begin());
-      rest.residual = largest, damping = std::max(0.2 * damping, 1e-12 * scale);
-    } else {
-      damping *= 5.0;
-      if (damping > 1e6 * scale) break;
-    }
-  }
-  return rest;
 }
 
 }  // namespace spindrift

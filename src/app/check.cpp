@@ -124,6 +124,10 @@ void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& stat
     for (std::size_t line = 0; line < floating.moorings()->size(); ++line)
       fmt::print("  {:<16}{:+.4g} kN\n", floating.moorings()->name(line),
                  1e-3 * floating.moorings()->tension(line, state.motions).fairlead);
+  for (std::size_t j = 0; floating.moorings() && j < floating.moorings()->junctions(); ++j) {
+    const Eigen::Vector3d at = floating.moorings()->junction(j, state.motions).position;
+    fmt::print("  {:<16}x {:+.3f}  y {:+.3f}  z {:+.3f} m\n", floating.moorings()->junction_name(j), at.x(), at.y(), at.z());
+  }
 }
 
 void print_blade_modes(const FloatingSystem& floating) {

@@ -185,6 +185,15 @@ Table<moorings::LineTension> anchor_columns() {
   return table;
 }
 
+Table<LineEnd> junction_columns() {
+  using Of = const LineEnd&;
+  static constexpr ColumnOf<LineEnd> table[] = {
+      {"at_x_m", "m", "where it is, earth frame: along x", [](Of j) { return j.position.x(); }},
+      {"at_y_m", "m", "along y", [](Of j) { return j.position.y(); }},
+      {"at_z_m", "m", "its height over still water", [](Of j) { return j.position.z(); }}};
+  return table;
+}
+
 Table<double> wave_columns() {
   static constexpr ColumnOf<double> table[] = {
       {"elevation_m", "m", "surface elevation of the undisturbed waves at the earth origin", [](const double& v) { return v; }}};
@@ -319,6 +328,7 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("rotor.blade_1.", "each blade of the grid of a resolved rotor", blade_columns()),
           section_of("MOORING.", "each line", mooring_columns()),
           section_of("MOORING.", "each line of the model lumped_mass", anchor_columns()),
+          section_of("JUNCTION.", "each junction of lines", junction_columns()),
           section_of("waves.", "engineering seas with waves", wave_columns()),
           section_of("sea.", "seas of particles", water_columns()),
           section_of("wavemaker.", "tanks with a paddle", paddle_columns()),

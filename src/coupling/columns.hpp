@@ -64,6 +64,7 @@ Table<Eigen::Vector2d> tip_columns();            ///< rotor.blade_N., where blad
 Table<aero::RotorLoad> blade_columns();          ///< rotor.blade_N.
 Table<moorings::LineTension> mooring_columns();  ///< MOORING.
 Table<moorings::LineTension> anchor_columns();   ///< MOORING., of a dynamic line
+Table<LineEnd> junction_columns();               ///< JUNCTION.
 Table<double> wave_columns();                    ///< waves.
 Table<WaterRow> water_columns();                 ///< sea.
 Table<sph::Wavemaker::Stroke> paddle_columns();

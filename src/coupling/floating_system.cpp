@@ -85,6 +85,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
       };
     moorings_.emplace(names, start, std::move(around));
     std::vector<bool> on(names.size());
+    for (const auto& [name, junction] : s.junctions) moorings_->add_junction(name, junction);
     for (const auto& [name, line] : s.moorings) {
       moorings_->add(name, line);
       for (const std::string& body : {line.body, line.anchor_body})

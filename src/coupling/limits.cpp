@@ -43,10 +43,10 @@ bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::Bodies
   bodies::StepLimit limit{std::numeric_limits<double>::infinity(), "", 0.0};
   for (const auto& [name, line] : s.moorings) {
     if (!line.tension_only) continue;  // others are seen by the linearisation as they are
-    const std::optional<bodies::Pull> fairlead = pull_at(s, state, line.body, line.fairlead_m),
-                                      anchor = pull_at(s, state, line.anchor_body, line.anchor_m);
+    const std::optional<bodies::Pull> fairlead = pull_at(s, state, line.body, *line.fairlead_m),
+                                      anchor = pull_at(s, state, line.anchor_body, *line.anchor_m);
     const Eigen::Vector3d along =
-        ((fairlead ? fairlead->point : line.fairlead_m) - (anchor ? anchor->point : line.anchor_m)).stableNormalized();
+        ((fairlead ? fairlead->point : *line.fairlead_m) - (anchor ? anchor->point : *line.anchor_m)).stableNormalized();
     std::vector<bodies::Pull> pulls;
     if (fairlead) pulls.push_back({fairlead->body, fairlead->point, along});
     if (anchor) pulls.push_back({anchor->body, anchor->point, -along});

@@ -54,6 +54,8 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
       anchors_.emplace_back();
       if (floating.moorings()->is_dynamic(line)) anchors_.back().emplace(history, prefix, anchor_columns());
     }
+  for (std::size_t j = 0; floating.moorings() && j < floating.moorings()->junctions(); ++j)
+    junctions_.emplace_back(history, floating.moorings()->junction_name(j) + ".", junction_columns());
   if (floating.has_waves()) waves_.emplace(history, "waves.", wave_columns());
   if (floating.particle_plan()) declare_particles(history);
 }
@@ -143,6 +145,7 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     moorings_[line].fill(row, tension);
     if (anchors_[line]) anchors_[line]->fill(row, tension);
   }
+  for (std::size_t j = 0; j < junctions_.size(); ++j) junctions_[j].fill(row, floating_.moorings()->junction(j, state.motions));
   if (floating_.particles()) fill_particles(row, state.motions, t);
   if (waves_) waves_->fill(row, floating_.sea()->elevation(0.0, 0.0, t));
 }

@@ -53,6 +53,7 @@ class Recorder {
   std::vector<Group<Eigen::Vector2d>> tips_;
   std::vector<Group<moorings::LineTension>> moorings_;
   std::vector<std::optional<Group<moorings::LineTension>>> anchors_;  ///< of dynamic lines
+  std::vector<Group<LineEnd>> junctions_;
   std::optional<Group<double>> waves_;
   std::optional<Group<WaterRow>> water_;
   std::optional<Group<sph::Wavemaker::Stroke>> paddle_;

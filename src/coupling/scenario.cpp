@@ -33,13 +33,14 @@ void check_names(scene::Document& document, const Scenario& s) {
     for (const std::string& name : all) {
       if (!seen.insert(name).second)
         document.problem(fmt::format("{}.{}", section, name),
-                         fmt::format("\"{}\" is the name of another body, joint, beam or line", name));
+                         fmt::format("\"{}\" is the name of another body, joint, beam, line or junction", name));
     }
   };
   check("bodies", names(s.bodies));
   check("joints", names(s.joints));
   check("beams", names(s.beams));
   check("moorings", names(s.moorings));
+  check("junctions", names(s.junctions));
 }
 
 /// Rules between a sea of particles and the rest of the scene.
@@ -163,12 +164,24 @@ void check_resolved_air(scene::Document& document, const Scenario& s) {
 }  // namespace
 
 std::span<const scene::SectionBase* const> all_sections() {
-  static const std::array<const scene::SectionBase*, 17> sections{
-      &time_section(),         &environment_section(),   &aero::wind_section(),   &aero::aero_section(),
-      &aero::rotor_section(),  &aero::control_section(), &sea::sea_section(),     &sea::waves_section(),
-      &bodies::body_section(), &bodies::joint_section(), &bodies::beam_section(), &moorings::line_section(),
-      &coupling_section(),     &start_section(),         &runtime_section(),      &output_section(),
-      &checkpoint_section()};
+  static const std::array<const scene::SectionBase*, 18> sections{&time_section(),
+                                                                  &environment_section(),
+                                                                  &aero::wind_section(),
+                                                                  &aero::aero_section(),
+                                                                  &aero::rotor_section(),
+                                                                  &aero::control_section(),
+                                                                  &sea::sea_section(),
+                                                                  &sea::waves_section(),
+                                                                  &bodies::body_section(),
+                                                                  &bodies::joint_section(),
+                                                                  &bodies::beam_section(),
+                                                                  &moorings::line_section(),
+                                                                  &moorings::junction_section(),
+                                                                  &coupling_section(),
+                                                                  &start_section(),
+                                                                  &runtime_section(),
+                                                                  &output_section(),
+                                                                  &checkpoint_section()};
   return sections;
 }
 
@@ -259,6 +272,7 @@ Scenario read_scenario(scene::Document& document) {
   s.waves = document.read_where(s.sea.model == "morison" || s.sea.model == "potential" || s.has_particles(), sea::waves_section(),
                                 "sea.model is \"" + s.sea.model + "\"; morison, potential and sph have waves");
   s.moorings = document.read_named(moorings::line_section());
+  s.junctions = document.read_named(moorings::junction_section());
   s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple");
   s.start = document.read(start_section());
   s.runtime = document.read(runtime_section());
@@ -302,7 +316,8 @@ Scenario read_scenario(scene::Document& document) {
         document.problem(fmt::format("bodies.{}.{}", name, shapes),
                          "has no effect: only sea.model = \"sph\" knows this shape, others cylinders");
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
-  check_lines(document, s.moorings, bodies, s.environment.water_density_kg_m3);
+  check_lines(document, s.moorings, s.junctions, bodies, s.environment.water_density_kg_m3);
+  place_at_junctions(s.moorings, s.junctions, s.environment.water_depth_m);
   if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
   if (!s.rotor.blade_structure.empty() && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",
@@ -376,7 +391,11 @@ std::string describe_moorings(const Scenario& s) {
   if (s.moorings.empty()) return "none";
   std::set<std::string> models;
   for (const auto& line : s.moorings) models.insert(line.options.model);
-  return fmt::format("{} line{} ({})", s.moorings.size(), s.moorings.size() == 1 ? "" : "s", fmt::join(models, ", "));
+  std::string text = fmt::format("{} line{} ({})", s.moorings.size(), s.moorings.size() == 1 ? "" : "s", fmt::join(models, ", "));
+  if (!s.junctions.empty())
+    text += fmt::format(", {} junction{} ({})", s.junctions.size(), s.junctions.size() == 1 ? "" : "s",
+                        fmt::join(names(s.junctions), ", "));
+  return text;
 }
 
 }  // namespace spindrift::coupling

@@ -35,6 +35,7 @@ struct Scenario {
   bodies::NamedJoints joints;
   bodies::NamedBeams beams;
   std::vector<scene::Named<moorings::LineOptions>> moorings;
+  std::vector<scene::Named<moorings::JunctionOptions>> junctions;
   aero::AeroOptions aero;
   aero::RotorOptions rotor;
   aero::WindOptions wind;

@@ -707,7 +707,7 @@ class Importer {
     if (kind == 0) return;
     if (kind != 1 && kind != 3) return leave_out(fmt::format("mooring lines of CompMooring {}", kind));
     const Deck file(main_.path({"MooringFile"}));
-    const std::vector<ImportedLine> lines = kind == 1 ? read_map(file, depth_, left_out_) : read_moordyn(file, depth_, left_out_);
+    const auto [lines, junctions] = kind == 1 ? read_map(file, depth_, left_out_) : read_moordyn(file, depth_, left_out_);
     if (kind == 3 && file.integer({"WaveKin", "WaterKin"}, 0) == 0 && water_.find("[waves]") != std::string::npos)
       leave_out("MoorDyn's still water round the lines (WaveKin 0): here they feel the scene's waves");
     for (std::size_t n = 0; n < lines.size(); ++n) {
@@ -717,10 +717,13 @@ class Importer {
         leave_out(fmt::format("line {}: it has no weight in water or no stiffness", n + 1));
         continue;
       }
-      const bool on_bed = l.anchor.z() <= -depth_ + 1e-6 * depth_;
-      scene_ << fmt::format("\n[moorings.line_{}]\nmodel = \"{}\"\nbody = \"platform\"\nfairlead_m = {}\nanchor_m = {}\n", n + 1,
-                            l.dynamics ? "lumped_mass" : "catenary", vector(l.fairlead), vector(l.anchor))
-             << fmt::format("rest_length_m = {:.9g}\naxial_stiffness_N = {:.9g}\n", l.length, l.axial_stiffness);
+      const bool meets = !l.at_anchor.empty() || !l.at_fairlead.empty();
+      const bool on_bed = !l.at_anchor.empty() || l.anchor.z() <= -depth_ + 1e-6 * depth_;
+      scene_ << fmt::format("\n[moorings.line_{}]\nmodel = \"{}\"\n", n + 1, meets || l.dynamics ? "lumped_mass" : "catenary")
+             << (l.at_fairlead.empty() ? "body = \"platform\"\nfairlead_m = " + vector(l.fairlead)
+                                       : "body = \"" + l.at_fairlead + "\"")
+             << (l.at_anchor.empty() ? "\nanchor_m = " + vector(l.anchor) : "\nanchor_body = \"" + l.at_anchor + "\"")
+             << fmt::format("\nrest_length_m = {:.9g}\naxial_stiffness_N = {:.9g}\n", l.length, l.axial_stiffness);
       if (const auto& d = l.dynamics) {
         scene_ << fmt::format("mass_kg_m = {:.9g}\ndiameter_m = {:.9g}\nsegments = {}\ndamping_ratio = {:.9g}\n", l.mass_per_m,
                               l.diameter, d->segments, d->damping_ratio)
@@ -729,6 +732,8 @@ class Importer {
                               d->axial_added_mass);
         if (on_bed)
           scene_ << fmt::format("bed_stiffness_Pa_m = {:.9g}\nbed_damping_Pa_s_m = {:.9g}\n", d->bed_stiffness, d->bed_damping);
+      } else if (meets) {
+        scene_ << fmt::format("mass_kg_m = {:.9g}\ndiameter_m = {:.9g}\n", l.mass_per_m, l.diameter);
       } else {
         scene_ << fmt::format("weight_N_m = {:.9g}\n", weight);
       }
@@ -737,7 +742,12 @@ class Importer {
       else if (l.bed_friction > 0.0)
         scene_ << fmt::format("bed_friction = {:.9g}\n", l.bed_friction);
     }
-    carry(fmt::format("moorings: {} lines", lines.size()));
+    for (const ImportedJunction& j : junctions)
+      scene_ << fmt::format("\n[junctions.{}]\nposition_m = {}\nmass_kg = {:.9g}\nvolume_m3 = {:.9g}\ndrag_area_m2 = {:.9g}\n",
+                            j.name, vector(j.at), j.mass, j.volume, j.drag_area)
+             << fmt::format("added_mass_coefficient = {:.9g}\n", j.added_mass);
+    carry(fmt::format("moorings: {} lines", lines.size()) +
+          (junctions.empty() ? "" : fmt::format(", {} junctions", junctions.size())));
   }
 
   void write() {

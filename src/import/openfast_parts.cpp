@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -264,9 +265,66 @@ void each_row(const Deck& file, std::size_t heading, const Row& row) {
   for (std::size_t n = heading + 2; n < file.size() && !is_rule(file, n); ++n) row(n, file.words(n));
 }
 
+std::string in_lower_case(std::string word) {
+  std::ranges::transform(word, word.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return word;
+}
+
+/// A point of a line file.
+enum class PointKind { fixed, moved, free, unknown };
+struct LinePoint {
+  std::string type;
+  ImportedJunction point;  ///< name and values of a free one
+  PointKind kind() const;
+};
+
+PointKind LinePoint::kind() const {
+  if (type.rfind("fix", 0) == 0 || type == "anchor") return PointKind::fixed;
+  if (type.rfind("vessel", 0) == 0 || type.rfind("coupled", 0) == 0 || type.rfind("body", 0) == 0) return PointKind::moved;
+  if (type == "connect" || type == "con" || type == "free" || type == "point") return PointKind::free;
+  return PointKind::unknown;
+}
+
+ImportedJunction free_point(const std::string& id, const Eigen::Vector3d& at) {
+  std::string name = "junction_";
+  for (const char c : id) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return {name, at};
+}
+
+/// Ends of a line: the anchor is what is fixed, the fairlead what moves with the platform; a free point takes the other end.
+/// False where the line ties the bed to the bed, the platform to itself, or something unknown.
+bool place_ends(ImportedLine& line, LinePoint a, LinePoint b) {
+  if (a.kind() == PointKind::moved || b.kind() == PointKind::fixed) std::swap(a, b);
+  const PointKind anchor = a.kind(), fairlead = b.kind();
+  if (anchor == PointKind::moved || fairlead == PointKind::fixed || anchor == PointKind::unknown ||
+      fairlead == PointKind::unknown)
+    return false;
+  line.anchor = a.point.at, line.fairlead = b.point.at;
+  if (anchor == PointKind::free) line.at_anchor = a.point.name;
+  if (fairlead == PointKind::free) line.at_fairlead = b.point.name;
+  return true;
+}
+
+/// The free points that lines end at.
+template <class Points>
+std::vector<ImportedJunction> junctions_of(const std::vector<ImportedLine>& lines, const Points& points) {
+  std::vector<ImportedJunction> found;
+  for (const auto& [id, p] : points)
+    if (p.kind() == PointKind::free && std::ranges::any_of(lines, [&](const ImportedLine& l) {
+          return l.at_anchor == p.point.name || l.at_fairlead == p.point.name;
+        }))
+      found.push_back(p.point);
+  return found;
+}
+
+std::string not_tied(const Deck& file, const std::string& line, const LinePoint& a, const LinePoint& b) {
+  return fmt::format("{}: line {} ties {} to {}; lines between the bed, the platform and free points alone are carried over",
+                     file.file().filename().string(), line, a.type, b.type);
+}
+
 }  // namespace
 
-std::vector<ImportedLine> read_map(const Deck& file, double depth, std::vector<std::string>& left_out) {
+ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::string>& left_out) {
   const std::size_t types = heading_of(file, 0, "LineType"), nodes = heading_of(file, types, "Node"),
                     lines = heading_of(file, nodes, "Line");
   struct Type {
@@ -277,20 +335,24 @@ std::vector<ImportedLine> read_map(const Deck& file, double depth, std::vector<s
     file.rows(n, 1, 5);
     by_name[w[0]] = {file.to_number(w[1], n), file.to_number(w[2], n), file.to_number(w[3], n), file.to_number(w[4], n)};
   });
-  struct Node {
-    std::string type;
-    Eigen::Vector3d at;
-  };
-  std::map<std::string, Node> by_number;
+  const std::string file_name = file.file().filename().string();
+  std::map<std::string, LinePoint> by_number;
   each_row(file, nodes, [&](std::size_t n, const auto& w) {
     file.rows(n, 1, 5);
-    const auto coordinate = [&](std::string word) {
+    // "#" marks what MAP++ looks for; a free node's place behind it is where the search begins.
+    const auto value = [&](std::size_t column) {
+      std::string word = w.size() > column ? w[column] : "0";
       if (!word.empty() && word[0] == '#') word = word.substr(1);
-      return word == "depth" ? -depth : file.to_number(word, n);
+      return word == "depth" ? -depth : word.empty() && column > 4 ? 0.0 : file.to_number(word, n);
     };
-    std::string type = w[1];
-    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-    by_number[w[0]] = {type, {coordinate(w[2]), coordinate(w[3]), coordinate(w[4])}};
+    LinePoint node{in_lower_case(w[1]), free_point(w[0], {value(2), value(3), value(4)})};
+    if (node.kind() == PointKind::free) {
+      node.point.mass = value(5), node.point.volume = value(6), node.point.added_mass = 0.5;  // a sphere's
+      if (node.point.mass < 0.0 || node.point.volume < 0.0) file.fail(n, "has a negative mass or volume");
+      if (value(7) != 0.0 || value(8) != 0.0 || value(9) != 0.0)
+        left_out.push_back(fmt::format("{}: the force FX, FY, FZ on node {}", file_name, w[0]));
+    }
+    by_number[w[0]] = node;
   });
   std::vector<ImportedLine> found;
   each_row(file, lines, [&](std::size_t n, const auto& w) {
@@ -298,35 +360,44 @@ std::vector<ImportedLine> read_map(const Deck& file, double depth, std::vector<s
     if (!by_name.count(w[1])) file.fail(n, fmt::format("names line type '{}', which is not in the dictionary", w[1]));
     for (const std::string& node : {w[3], w[4]})
       if (!by_number.count(node)) file.fail(n, fmt::format("names node {}, which is not in the table of nodes", node));
-    Node a = by_number[w[3]], b = by_number[w[4]];
-    if (a.type == "vessel") std::swap(a, b);
-    if (a.type != "fix" || b.type != "vessel") {
-      left_out.push_back(fmt::format("{}: line {} ties {} to {}; lines from the bed to the platform alone are carried over",
-                                     file.file().filename().string(), w[0], a.type, b.type));
-      return;
-    }
     const Type& t = by_name[w[1]];
-    found.push_back({a.at, b.at, file.to_number(w[2], n), t.diameter, t.mass, t.stiffness, t.friction});
+    ImportedLine line{{}, {}, file.to_number(w[2], n), t.diameter, t.mass, t.stiffness, t.friction};
+    const LinePoint &a = by_number.at(w[3]), &b = by_number.at(w[4]);
+    if (!place_ends(line, a, b)) return left_out.push_back(not_tied(file, w[0], a, b));
+    found.push_back(line);
   });
+  std::vector<ImportedJunction> junctions = junctions_of(found, by_number);
+  if (!junctions.empty())
+    left_out.push_back(file_name +
+                       ": lines at free nodes are dynamic here, with the drag, added mass and damping of chain by default");
   // "repeat 120 240": all lines again, turned about z.
-  const std::size_t once = found.size();
+  const std::size_t once = found.size(), points_once = junctions.size();
+  std::size_t turns = 0;
   for (std::size_t n = lines; n < file.size(); ++n) {
     const auto& w = file.words(n);
     if (w.empty() || w[0] != "repeat") continue;
     for (std::size_t k = 1; k < w.size(); ++k) {
       const Eigen::Matrix3d turn =
           Eigen::AngleAxisd(file.to_number(w[k], n) * radians_per_degree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      const auto renamed = [&](const std::string& name) { return name.empty() ? name : fmt::format("{}_{}", name, turns + 2); };
       for (std::size_t l = 0; l < once; ++l) {
         ImportedLine copy = found[l];
         copy.anchor = turn * copy.anchor, copy.fairlead = turn * copy.fairlead;
+        copy.at_anchor = renamed(copy.at_anchor), copy.at_fairlead = renamed(copy.at_fairlead);
         found.push_back(copy);
       }
+      for (std::size_t j = 0; j < points_once; ++j) {
+        ImportedJunction copy = junctions[j];
+        copy.at = turn * copy.at, copy.name = renamed(copy.name);
+        junctions.push_back(copy);
+      }
+      ++turns;
     }
   }
-  return found;
+  return {found, junctions};
 }
 
-std::vector<ImportedLine> read_moordyn(const Deck& file, double depth, std::vector<std::string>& left_out) {
+ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::string>& left_out) {
   const auto section = [&](std::initializer_list<const char*> words) -> std::size_t {
     for (std::size_t n = 0; n < file.size(); ++n) {
       if (!is_rule(file, n)) continue;
@@ -364,16 +435,28 @@ std::vector<ImportedLine> read_moordyn(const Deck& file, double depth, std::vect
     if (bending < heading.size() && w.size() > bending && at(bending) != 0.0)
       left_out.push_back(fmt::format("{}: bending stiffness of line type {}", file.file().filename().string(), w[0]));
   });
-  struct Point {
-    std::string type;
-    Eigen::Vector3d at;
-  };
-  std::map<std::string, Point> points;
-  each_row(file, section({"POINTS", "CONNECTION PROPERTIES", "POINT PROPERTIES"}), [&](std::size_t n, const auto& w) {
+  std::map<std::string, LinePoint> points;
+  const std::size_t table = section({"POINTS", "CONNECTION PROPERTIES", "POINT PROPERTIES"});
+  each_row(file, table, [&](std::size_t n, const auto& w) {
     file.rows(n, 1, 5);
-    std::string type = w[1];
-    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-    points[w[0]] = {type, {file.to_number(w[2], n), file.to_number(w[3], n), std::max(file.to_number(w[4], n), -depth)}};
+    const auto at = [&](std::size_t column) { return file.to_number(w[column], n); };
+    LinePoint point{in_lower_case(w[1]), free_point(w[0], {at(2), at(3), std::max(at(4), -depth)})};
+    if (point.kind() == PointKind::free) {
+      const auto value = [&](const std::vector<std::string>& names) {
+        const std::size_t column = file.column(table, names);
+        file.rows(n, 1, column + 1);
+        const double x = at(column);
+        if (x < 0.0) file.fail(n, fmt::format("has a negative {}", names[0]));
+        return x;
+      };
+      point.point.mass = value({"M", "Mass"}), point.point.volume = value({"V", "Volume", "Vol"});
+      point.point.drag_area = value({"CdA"}), point.point.added_mass = value({"CA"});
+      const std::vector<std::string>& names = file.words(table);
+      for (std::size_t column = 5; column < std::min(names.size(), w.size()); ++column)
+        if ((names[column] == "FX" || names[column] == "FY" || names[column] == "FZ") && at(column) != 0.0)
+          left_out.push_back(fmt::format("{}: the force {} on point {}", file.file().filename().string(), names[column], w[0]));
+    }
+    points[w[0]] = point;
   });
   const std::size_t lines = section({"LINES", "LINE PROPERTIES"});
   // Version 1 has the segments' number after the length, version 2 the ends before it.
@@ -386,23 +469,12 @@ std::vector<ImportedLine> read_moordyn(const Deck& file, double depth, std::vect
     if (!types.count(w[type])) file.fail(n, fmt::format("names line type '{}', which is not among the types", w[type]));
     for (const std::string& point : {w[a], w[b]})
       if (!points.count(point)) file.fail(n, fmt::format("names point {}, which is not in the table of points", point));
-    Point anchor = points[w[a]], fairlead = points[w[b]];
-    const auto moves = [](const Point& p) { return p.type == "vessel" || p.type == "coupled" || p.type.rfind("body", 0) == 0; };
-    if (moves(anchor)) std::swap(anchor, fairlead);
-    if (moves(anchor) || !moves(fairlead) || anchor.type.rfind("fix", 0) != 0) {
-      left_out.push_back(fmt::format("{}: line {} ties {} to {}; lines from the bed to the platform alone are carried over",
-                                     file.file().filename().string(), w[0], anchor.type, fairlead.type));
-      return;
-    }
     const Type& t = types[w[type]];
-    ImportedLine line{anchor.at,
-                      fairlead.at,
-                      file.to_number(w[length], n),
-                      t.diameter,
-                      t.mass,
-                      t.stiffness,
-                      file.number({"FrictionCoefficient"}, 0.0),
-                      t.dynamics};
+    ImportedLine line{
+        {},        {}, file.to_number(w[length], n), t.diameter, t.mass, t.stiffness, file.number({"FrictionCoefficient"}, 0.0),
+        t.dynamics};
+    const LinePoint &one = points.at(w[a]), &other = points.at(w[b]);
+    if (!place_ends(line, one, other)) return left_out.push_back(not_tied(file, w[0], one, other));
     const double least = std::max(2.0, file.to_number(w[segments], n));
     line.dynamics->segments = int(least);
     line.dynamics->bed_stiffness = file.number({"kBot", "kb"}, 3e6),
@@ -416,7 +488,7 @@ std::vector<ImportedLine> read_moordyn(const Deck& file, double depth, std::vect
     }
     found.push_back(line);
   });
-  return found;
+  return {found, junctions_of(found, points)};
 }
 
 }  // namespace spindrift::decks

@@ -82,8 +82,20 @@ struct ImportedLine {
     double bed_stiffness = 3e6, bed_damping = 3e5;
   };
   std::optional<Dynamics> dynamics{};
+  std::string at_anchor{}, at_fairlead{};  ///< names of junctions; empty: the bed, the platform
 };
-std::vector<ImportedLine> read_map(const Deck& file, double water_depth, std::vector<std::string>& left_out);
-std::vector<ImportedLine> read_moordyn(const Deck& file, double water_depth, std::vector<std::string>& left_out);
+/// A point free in the water at which lines end.
+struct ImportedJunction {
+  std::string name;
+  Eigen::Vector3d at;
+  double mass = 0.0, volume = 0.0, drag_area = 0.0, added_mass = 0.0;
+};
+struct ImportedMoorings {
+  std::vector<ImportedLine> lines;
+  std::vector<ImportedJunction> junctions;
+};
+/// Lines of MAP++ are in rest at all times; those that end at a free node are dynamic in the scene, which has no others there.
+ImportedMoorings read_map(const Deck& file, double water_depth, std::vector<std::string>& left_out);
+ImportedMoorings read_moordyn(const Deck& file, double water_depth, std::vector<std::string>& left_out);
 
 }  // namespace spindrift::decks

@@ -17,7 +17,7 @@ bool hangs(const LineOptions& line) { return line_models().named(line.model).han
 
 void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N) {
   if (line.rest_length_m == 0.0) return;  // a table has none
-  const Eigen::Vector3d along = line.fairlead_m - line.anchor_m;
+  const Eigen::Vector3d along = line.span();
   const double apart = along.norm(), length = line.rest_length_m, round = std::hypot(along.x(), along.y()) + std::abs(along.z());
   const std::string what = fmt::format("{:.4g} m for ends {:.4g} m apart", length, apart);
   const double stiffness = line.stiffness_N_m ? *line.stiffness_N_m : line.axial_stiffness_N.value_or(0.0) / length;
@@ -59,13 +59,13 @@ void doubt_fairlead(scene::Doubts& doubts, const std::string& at, const LineOpti
   if (found == around.shapes.end()) return;
   const Eigen::AlignedBox3d& box = found->second;
   const double half = 0.5 * box.diagonal().norm();
-  if (const double off = std::sqrt(box.squaredExteriorDistance(line.fairlead_m)); off > 0.5 * half) {
+  if (const double off = std::sqrt(box.squaredExteriorDistance(*line.fairlead_m)); off > 0.5 * half) {
     doubts.push_back({at + ".fairlead_m", fmt::format("{:.4g} m away from the shapes of body {}", off, line.body),
                       fmt::format("within {:.3g} m of them", 0.5 * half),
                       "look at its unit and sign, and whether it stands in place of the anchor"});
     return;
   }
-  const Eigen::Vector2d out = (line.fairlead_m - box.center()).head<2>(), to = (line.anchor_m - line.fairlead_m).head<2>();
+  const Eigen::Vector2d out = (*line.fairlead_m - box.center()).head<2>(), to = (-line.span()).head<2>();
   if (out.norm() < 0.02 * half || to.norm() < 0.1 * line.rest_length_m || line.anchor_body != "earth") return;
   constexpr double least = -0.3;  // of the cosine: 107 degrees
   if (out.dot(to) < least * out.norm() * to.norm())
@@ -84,7 +84,7 @@ void doubt_friction(scene::Doubts& doubts, const std::string& at, const LineOpti
 
 /// Chords instead of arcs: the tension is off by some (segment / radius of curvature)^2 / 24, 1 per cent at half the radius.
 void doubt_segments(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N_m) {
-  const Eigen::Vector3d along = line.fairlead_m - line.anchor_m;
+  const Eigen::Vector3d along = line.span();
   const LineCatenary rest{line.rest_length_m, weight_N_m, *line.axial_stiffness_N, 0.0, line.bed_contact};
   const CatenaryState s = rest.solve(std::hypot(along.x(), along.y()), std::abs(along.z()));
   const double radius = s.horizontal / weight_N_m, segment = line.rest_length_m / line.segments;
@@ -126,23 +126,33 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     if (line_models().named(line.model).make_dynamic)
       doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
     if (depth_m < 0.0 || line.anchor_body != "earth") continue;
-    const double above = line.anchor_m.z() + depth_m;
+    const double above = line.anchor_m->z() + depth_m;
     if (above < -0.01 * depth_m - 0.5)
-      doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m under the bed", line.anchor_m.z(), -above),
+      doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m under the bed", line.anchor_m->z(), -above),
                         fmt::format("an anchor on the bed at {:.4g} m", -depth_m),
                         "look at anchor_m and environment.water_depth_m"});
     else if (hangs(line) && line.bed_contact && above > 0.05 * depth_m)
-      doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m.z(), above),
+      doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m->z(), above),
                         fmt::format("an anchor on the bed at {:.4g} m, where the line lies", -depth_m),
                         "look at anchor_m and environment.water_depth_m, or say bed_contact = false"});
-    else if (!hangs(line) && above > 0.5 * depth_m && line.anchor_m.z() < -0.1 * depth_m)
-      doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m.z(), above),
+    else if (!hangs(line) && above > 0.5 * depth_m && line.anchor_m->z() < -0.1 * depth_m)
+      doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m->z(), above),
                         fmt::format("an anchor near the bed at {:.4g} m", -depth_m),
                         "look at anchor_m and environment.water_depth_m"});
-    if (line.fairlead_m.z() < -depth_m)
-      doubts.push_back({at + ".fairlead_m", fmt::format("z = {:.4g} m is under the bed", line.fairlead_m.z()),
+    if (line.fairlead_m->z() < -depth_m && around.masses_kg.contains(line.body))
+      doubts.push_back({at + ".fairlead_m", fmt::format("z = {:.4g} m is under the bed", line.fairlead_m->z()),
                         fmt::format("a fairlead above {:.4g} m", -depth_m), "look at its sign and at environment.water_depth_m"});
   }
+  return doubts;
+}
+
+scene::Doubts junction_doubts(const std::vector<scene::Named<JunctionOptions>>& junctions, double depth_m) {
+  scene::Doubts doubts;
+  for (const auto& [name, junction] : junctions)
+    if (depth_m >= 0.0 && junction.position_m.z() < -depth_m)
+      doubts.push_back({"junctions." + name + ".position_m",
+                        fmt::format("z = {:.4g} m is under the bed", junction.position_m.z()),
+                        fmt::format("a place above {:.4g} m", -depth_m), "look at its sign and at environment.water_depth_m"});
   return doubts;
 }
 

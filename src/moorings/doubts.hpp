@@ -22,5 +22,7 @@ struct LineSurroundings {
   std::map<std::string, Eigen::AlignedBox3d> shapes{};  ///< round those of each body that has any, where the scene describes it
 };
 scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, const LineSurroundings& around);
+/// `depth_m` of the water, negative where there is none.
+scene::Doubts junction_doubts(const std::vector<scene::Named<JunctionOptions>>& junctions, double depth_m);
 
 }  // namespace spindrift::moorings

@@ -11,9 +11,9 @@
 
 namespace spindrift::moorings {
 
-/// Time and ends of the last step's end, forces there and how they changed in the step, nodes: as they lie in the memory.
+/// Time and ends of the last step's end, forces there and how they changed in the step: as they lie in the memory.
 struct Moorings::Recalled {
-  static constexpr std::size_t ends = 1, forces = 13, changes = 19, nodes = 25;
+  static constexpr std::size_t ends = 1, forces = 13, changes = 19, size = 25;
   std::span<const double> of;
 
   double time() const { return of[0]; }
@@ -41,25 +41,80 @@ Moorings::Moorings(std::span<const std::string> bodies, std::span<const Motion> 
   SPINDRIFT_ASSERT(bodies_.size() == start_.size(), "one initial motion for each body");
 }
 
-Moorings::End Moorings::attach(const std::string& body, const Eigen::Vector3d& point) const {
-  if (body == "earth") return {-1, point};
+Moorings::End Moorings::attach(const std::string& body, const std::optional<Eigen::Vector3d>& point) const {
+  const auto junction = std::ranges::find(junctions_, body, &Junction::name);
+  if (junction != junctions_.end()) return {none, int(junction - junctions_.begin()), Eigen::Vector3d::Zero()};
+  SPINDRIFT_ASSERT(point, "an end that is at no junction has a place");
+  if (body == "earth") return {none, none, *point};
   const auto found = std::find(bodies_.begin(), bodies_.end(), body);
   SPINDRIFT_ASSERT(found != bodies_.end(), "line tied to an unknown body");
   const Motion& m = start_[found - bodies_.begin()];
-  return {int(found - bodies_.begin()), m.attitude.conjugate() * (point - m.position)};
+  return {int(found - bodies_.begin()), none, m.attitude.conjugate() * (*point - m.position)};
+}
+
+void Moorings::add_junction(const std::string& name, const JunctionOptions& o) {
+  junctions_.push_back({name, {o.position_m, o.mass_kg, o.volume_m3, o.drag_area_m2, o.added_mass_coefficient}});
 }
 
 void Moorings::add(const std::string& name, const LineOptions& o) {
   Line line{name, attach(o.body, o.fairlead_m), attach(o.anchor_body, o.anchor_m), {}, {}};
   const LineModel& model = line_models().named(o.model);
   line.model = model.make(o, environment_);
-  if (model.make_dynamic) {
-    const LineLumpedMass dynamic = model.make_dynamic(o, environment_);
-    line.dynamic = Dynamic{dynamic, dynamic.scratch(), memory_size_};
-    memory_size_ += Recalled::nodes + dynamic.state_size();
-  }
+  if (model.make_dynamic) line.dynamic = Dynamic{model.make_dynamic(o, environment_)};
+  SPINDRIFT_ASSERT(line.dynamic || (line.fairlead.junction == none && line.anchor.junction == none),
+                   "lines at junctions have nodes");
   lines_.push_back(std::move(line));
+  connect();
 }
+
+/// Networks of all lines so far, in the order of the first line of each, and where they lie in the memory.
+void Moorings::connect() {
+  const auto ends_at = [](const Line& line, std::size_t j) {
+    return line.fairlead.junction == int(j) || line.anchor.junction == int(j);
+  };
+  std::vector<std::size_t> first(lines_.size());  // line of the network of each line
+  for (std::size_t l = 0; l < first.size(); ++l) first[l] = l;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t j = 0; j < junctions_.size(); ++j) {
+      std::size_t least = lines_.size();
+      for (std::size_t l = 0; l < lines_.size(); ++l)
+        if (ends_at(lines_[l], j)) least = std::min(least, first[l]);
+      for (std::size_t l = 0; l < lines_.size(); ++l)
+        if (ends_at(lines_[l], j) && first[l] != least) first[l] = least, changed = true;
+    }
+  }
+  networks_.clear(), memory_size_ = 0;
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
+    if (!lines_[l].dynamic || first[l] != l) continue;
+    Network network;
+    network.of.gravity = environment_.gravity_m_s2, network.of.water_density = environment_.water_density_kg_m3;
+    std::vector<int> member(junctions_.size(), LineNetwork::led);
+    const auto held_by = [&](int j) {
+      if (j == none) return LineNetwork::led;
+      Junction& junction = junctions_[std::size_t(j)];
+      if (member[std::size_t(j)] == LineNetwork::led) {
+        if (network.junction.empty()) network.junction = junction.name;
+        member[std::size_t(j)] = int(network.of.junctions.size());
+        junction.network = networks_.size(), junction.member = network.of.junctions.size();
+        network.of.junctions.push_back(junction.point);
+      }
+      return member[std::size_t(j)];
+    };
+    for (std::size_t k = l; k < lines_.size(); ++k) {
+      if (first[k] != l) continue;
+      Dynamic& own = *lines_[k].dynamic;
+      own.network = networks_.size(), own.member = network.lines.size(), own.header = memory_size_;
+      network.lines.push_back(k), memory_size_ += Recalled::size;
+      network.of.lines.push_back({own.line, held_by(lines_[k].anchor.junction), held_by(lines_[k].fairlead.junction)});
+    }
+    network.state = memory_size_, memory_size_ += network.of.state_size();
+    network.scratch = network.of.scratch();
+    networks_.push_back(std::move(network));
+  }
+}
+
+bool Moorings::Network::hangs_free() const { return !junction.empty() || !of.lines[0].line.clumps.empty(); }
 
 LineEnd Moorings::moving(const End& end, std::span<const Motion> bodies) const {
   if (end.body < 0) return {end.point, Eigen::Vector3d::Zero()};
@@ -70,128 +125,196 @@ LineEnds Moorings::ends(const Line& line, std::span<const Motion> bodies) const 
   return {moving(line.anchor, bodies), moving(line.fairlead, bodies)};
 }
 
-LineForces Moorings::forces(const Line& line, double t, std::span<const Motion> bodies) const {
+std::vector<LineEnds> Moorings::ends(const Network& network, std::span<const Motion> bodies) const {
+  std::vector<LineEnds> all;
+  for (const std::size_t l : network.lines) all.push_back(ends(lines_[l], bodies));
+  return all;
+}
+
+LineForces Moorings::forces(std::size_t l, double t, std::span<const Motion> bodies, std::span<const LineForces> resting) const {
+  const Line& line = lines_[l];
   if (line.dynamic && !memory_.empty()) {
-    const Recalled last{std::span(memory_).subspan(line.dynamic->first)};
+    const Recalled last{std::span(memory_).subspan(line.dynamic->header)};
     LineForces f = last.at_end();
     f.on_fairlead += (t - last.time()) * last.at(Recalled::changes),
         f.on_anchor += (t - last.time()) * last.at(Recalled::changes + 3);
     return f;
   }
+  if (line.dynamic && networks_[line.dynamic->network].hangs_free()) return resting[l];
   const auto [anchor, fairlead] = ends(line, bodies);
-  if (line.dynamic && !line.dynamic->line.clumps.empty()) return resting(*line.dynamic, {anchor, fairlead});
   return line.model->forces(fairlead.position - anchor.position, fairlead.velocity - anchor.velocity);
 }
 
-/// No catenary has clumps.
-LineForces Moorings::resting(const Dynamic& dynamic, LineEnds ends) {
-  std::vector<double> state(dynamic.line.state_size()), rate(state.size());
-  ends.anchor.velocity.setZero(), ends.fairlead.velocity.setZero();
-  dynamic.line.rest(ends, state);
-  LineLumpedMass::Scratch scratch = dynamic.line.scratch();
-  return dynamic.line.rates(0.0, ends, state, rate, StillWater{}, scratch);
+std::vector<LineForces> Moorings::resting(std::span<const Motion> bodies) const {
+  std::vector<LineForces> all;
+  for (const Network& network : networks_) {
+    if (!network.hangs_free()) continue;
+    all.resize(lines_.size());
+    std::vector<LineEnds> outer = ends(network, bodies);
+    for (LineEnds& e : outer) e.anchor.velocity.setZero(), e.fairlead.velocity.setZero();
+    std::vector<double> state(network.of.state_size()), rate(state.size());
+    network.of.rest(outer, state);
+    LineNetwork::Scratch scratch = network.of.scratch();
+    network.of.rates(0.0, outer, state, rate, StillWater{}, scratch);
+    for (std::size_t k = 0; k < network.lines.size(); ++k) all[network.lines[k]] = scratch.forces[k];
+  }
+  return all;
 }
 
 void Moorings::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
-  for (const Line& line : lines_) {
-    const LineForces f = forces(line, t, bodies);
+  const std::vector<LineForces> at_rest = memory_.empty() ? resting(bodies) : std::vector<LineForces>();
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
+    const LineForces f = forces(l, t, bodies, at_rest);
     const auto pull = [&](const End& end, const Eigen::Vector3d& force) {
       if (end.body >= 0) wrenches[end.body].add_force(force, bodies[end.body].point(end.point));
     };
-    pull(line.fairlead, f.on_fairlead);
-    pull(line.anchor, f.on_anchor);
+    pull(lines_[l].fairlead, f.on_fairlead);
+    pull(lines_[l].anchor, f.on_anchor);
   }
 }
 
 void Moorings::add_added_mass(std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> masses) const {
   if (memory_.empty()) return;
-  for (const Line& line : lines_) {
-    if (!line.dynamic) continue;
-    const LineLumpedMass& model = line.dynamic->line;
-    const Recalled last{std::span(memory_).subspan(line.dynamic->first)};
-    const LineEnds e = last.line_ends();
-    const LineLumpedMass::Nodes nodes{model, e, last.of.subspan(Recalled::nodes, model.state_size())};
-    const auto add = [&](const End& end, int node) {
-      if (end.body < 0) return;
-      const Eigen::Vector3d arm = bodies[end.body].point(end.point) - bodies[end.body].position;
-      waves::add_point_inertia(model.end_mass(model.tangent(nodes, node)), arm, masses[end.body]);
-    };
-    add(line.fairlead, model.segments);
-    add(line.anchor, 0);
+  for (const Network& network : networks_) {
+    std::size_t first = network.state;
+    for (const std::size_t l : network.lines) {
+      const Line& line = lines_[l];
+      const LineLumpedMass& model = line.dynamic->line;
+      const LineEnds e = Recalled{std::span(memory_).subspan(line.dynamic->header)}.line_ends();
+      const LineLumpedMass::Nodes nodes{model, e, std::span(memory_).subspan(first, model.state_size())};
+      const auto add = [&](const End& end, int node) {
+        if (end.body < 0) return;
+        const Eigen::Vector3d arm = bodies[end.body].point(end.point) - bodies[end.body].position;
+        waves::add_point_inertia(model.end_mass(model.tangent(nodes, node)), arm, masses[end.body]);
+      };
+      add(line.fairlead, model.segments);
+      add(line.anchor, 0);
+      first += model.state_size();
+    }
   }
 }
 
 LineTension Moorings::tension(std::size_t line, std::span<const Motion> bodies) const {
   const LineForces f = is_dynamic(line) && !memory_.empty()
-                           ? Recalled{std::span(memory_).subspan(lines_[line].dynamic->first)}.at_end()
-                           : forces(lines_[line], 0.0, bodies);
+                           ? Recalled{std::span(memory_).subspan(lines_[line].dynamic->header)}.at_end()
+                           : forces(line, 0.0, bodies, memory_.empty() ? resting(bodies) : std::vector<LineForces>());
   return {f.fairlead_tension, f.anchor_tension};
 }
 
-void Moorings::begin(double t, std::span<const Motion> bodies, std::span<double> memory) {
-  std::vector<double> rate;
-  for (Line& line : lines_) {
-    if (!line.dynamic) continue;
-    auto& [model, scratch, first] = *line.dynamic;
-    const std::span<double> state = memory.subspan(first + Recalled::nodes, model.state_size());
-    const LineEnds now = ends(line, bodies);
-    const LineLumpedMass::Rest rest = model.rest(now, state);
-    if (!rest.found())
-      throw NumericalFailure(fmt::format("moorings.{} at t = {:.6g} s: the line finds no rest: {:.3g} N are left on a node after "
-                                         "{} iterations, {:.3g} N are "
-                                         "allowed; look at its length, its ends and its segments",
-                                         line.name, t, rest.residual, rest.iterations, rest.limit),
-                             "moorings." + line.name, 0, t, rest.limit);
-    for (int i = 1; i < model.segments; ++i) {  // an end that moves at the start takes the nodes along
-      const double share = double(i) / model.segments;
-      Eigen::Map<Eigen::Vector3d>(state.data() + 3 * (model.inner() + std::size_t(i - 1))) =
-          (1.0 - share) * now.anchor.velocity + share * now.fairlead.velocity;
+LineEnd Moorings::junction(std::size_t j, std::span<const Motion> bodies) const {
+  const Junction& own = junctions_[j];
+  const Network& network = networks_[own.network];
+  if (!memory_.empty())
+    return network.of.junction(int(own.member), std::span(memory_).subspan(network.state, network.of.state_size()));
+  std::vector<double> state(network.of.state_size());
+  network.of.rest(ends(network, bodies), state);
+  return network.of.junction(int(own.member), state);
+}
+
+std::vector<double> Moorings::rest(const Network& network, double t, std::span<const Motion> bodies) const {
+  std::vector<LineEnds> outer = ends(network, bodies);
+  std::vector<double> state(network.of.state_size());
+  const LineNetwork::Rest rest = network.of.rest(outer, state);
+  const std::string& first = lines_[network.lines[0]].name;
+  if (!rest.found())
+    throw NumericalFailure(
+        network.junction.empty()
+            ? fmt::format("moorings.{} at t = {:.6g} s: the line finds no rest: {:.3g} N are left on a node after {} iterations, "
+                          "{:.3g} N are allowed; look at its length, its ends and its segments",
+                          first, t, rest.residual, rest.iterations, rest.limit)
+            : fmt::format("junctions.{} at t = {:.6g} s: the lines that meet find no rest: {:.3g} N are left on a node after {} "
+                          "iterations, {:.3g} N are allowed; look at their lengths, ends and segments",
+                          network.junction, t, rest.residual, rest.iterations, rest.limit),
+        network.junction.empty() ? "moorings." + first : "junctions." + network.junction, 0, t, rest.limit);
+  // Ends that move at the start take junctions along as if the lines were always at rest, and nodes between their ends.
+  const std::size_t count = 3 * network.of.junctions.size(), places = state.size() - 2 * count;
+  if (std::ranges::any_of(outer,
+                          [](const LineEnds& e) { return !e.anchor.velocity.isZero(0.0) || !e.fairlead.velocity.isZero(0.0); }) &&
+      count > 0) {
+    constexpr double moment = 1e-3;  // s
+    std::vector<LineEnds> moved = outer;
+    for (LineEnds& e : moved)
+      e.anchor.position += moment * e.anchor.velocity, e.fairlead.position += moment * e.fairlead.velocity;
+    std::vector<double> later(state.size());
+    network.of.rest(moved, later);
+    for (std::size_t i = 0; i < count; ++i) state[places + count + i] = (later[places + i] - state[places + i]) / moment;
+  }
+  std::size_t nodes = 0;
+  for (std::size_t k = 0; k < network.lines.size(); ++k) {
+    const LineLumpedMass& line = network.of.lines[k].line;
+    const LineEnds e = network.of.ends(k, outer[k], state);
+    for (int i = 1; i < line.segments; ++i) {
+      const double share = double(i) / line.segments;
+      Eigen::Map<Eigen::Vector3d>(state.data() + nodes + 3 * (line.inner() + std::size_t(i - 1))) =
+          (1.0 - share) * e.anchor.velocity + share * e.fairlead.velocity;
     }
-    rate.resize(state.size());
-    Recalled::write(t, now, model.rates(t, now, state, rate, environment_.water, scratch), {}, memory.subspan(first));
+    nodes += line.state_size();
+  }
+  return state;
+}
+
+void Moorings::begin(double t, std::span<const Motion> bodies, std::span<double> memory) {
+  for (Network& network : networks_) {
+    const std::vector<double> state = rest(network, t, bodies);
+    std::copy(state.begin(), state.end(), memory.begin() + std::ptrdiff_t(network.state));
+    const std::vector<LineEnds> outer = ends(network, bodies);
+    std::vector<double> rate(state.size());
+    network.of.rates(t, outer, state, rate, environment_.water, network.scratch);
+    for (std::size_t k = 0; k < network.lines.size(); ++k)
+      Recalled::write(t, network.of.ends(k, outer[k], state), network.scratch.forces[k], {},
+                      memory.subspan(lines_[network.lines[k]].dynamic->header));
   }
   recall(memory);
 }
 
-/// One step of a dynamic line, repeated in ever more substeps while it does not end in numbers.
-LineForces Moorings::go_on(Line& line, double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state) {
-  auto& [model, scratch, first] = *line.dynamic;
-  constexpr double least = 1e-6;  // of the line itself, so that shorter steps of the bodies do not hide it
-  if (const double substep = model.largest_step(); !(substep >= least))
+/// One step of lines that move together, repeated in ever more substeps while it does not end in numbers. Forces are in the
+/// network's scratch.
+void Moorings::go_on(Network& network, double t, double h, std::span<const LineEnds> from, std::span<const LineEnds> to,
+                     std::span<double> state) {
+  constexpr double least = 1e-6;  // of the lines themselves, so that shorter steps of the bodies do not hide it
+  const LineNetwork& lines = network.of;
+  const std::size_t fastest = lines.fastest();
+  const std::string& name = lines_[network.lines[fastest]].name;
+  if (const double substep = lines.largest_step(); !(substep >= least))
     throw NumericalFailure(
         fmt::format(
             "moorings.{} at t = {:.6g} s: the line needs substeps of {:.3g} s, the least is {:.3g} s: its segments of {:.3g} "
             "m are too stiff, too light or too short; take fewer segments, or look at its units",
-            line.name, t, substep, least, model.segment()),
-        "moorings." + line.name, 0, t, least);
+            name, t, substep, least, lines.lines[fastest].line.segment()),
+        "moorings." + name, 0, t, least);
   constexpr int finest = 16;
-  const std::vector<double>& before = (kept_.assign(state.begin(), state.end()), kept_);
+  const auto in_numbers = [&] {
+    return std::ranges::all_of(network.scratch.forces,
+                               [](const LineForces& f) { return std::isfinite(f.fairlead_tension + f.anchor_tension); }) &&
+           std::ranges::all_of(state, [](double x) { return std::isfinite(x); });
+  };
+  kept_.assign(state.begin(), state.end());
   for (int finer = 1; finer <= finest; finer *= 2) {
-    const LineForces f = model.advance(t, h, from, to, state, environment_.water, scratch, finer);
-    if (std::isfinite(f.fairlead_tension + f.anchor_tension) &&
-        std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); }))
-      return f;
-    std::copy(before.begin(), before.end(), state.begin());
+    lines.advance(t, h, from, to, state, environment_.water, network.scratch, finer);
+    if (in_numbers()) return;
+    std::copy(kept_.begin(), kept_.end(), state.begin());
   }
   throw NumericalFailure(
       fmt::format("moorings.{} at t = {:.6g} s: the line's motion has no numbers even in substeps of {:.3g} s; its fairlead "
-                  "moves by {:.3g} m "
-                  "in the step of {:.3g} s",
-                  line.name, t, h / (finest * model.substeps(h)), (to.fairlead.position - from.fairlead.position).norm(), h),
-      "moorings." + line.name, 0, t, h);
+                  "moves by {:.3g} m in the step of {:.3g} s",
+                  name, t, h / (finest * lines.substeps(h)),
+                  (to[fastest].fairlead.position - from[fastest].fairlead.position).norm(), h),
+      "moorings." + name, 0, t, h);
 }
 
 void Moorings::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) {
-  for (Line& line : lines_) {
-    if (!line.dynamic) continue;
-    auto& [model, scratch, first] = *line.dynamic;
-    const Recalled last{memory.subspan(first)};
-    const LineForces before = last.at_end();
-    const LineEnds now = ends(line, bodies);
-    const LineForces f =
-        go_on(line, t - h, h, last.line_ends(), now, memory.subspan(first + Recalled::nodes, model.state_size()));
-    const LineForces change{(f.on_fairlead - before.on_fairlead) / h, (f.on_anchor - before.on_anchor) / h};
-    Recalled::write(t, now, f, change, memory.subspan(first));
+  for (Network& network : networks_) {
+    const auto header = [&](std::size_t k) { return memory.subspan(lines_[network.lines[k]].dynamic->header); };
+    const std::vector<LineEnds> now = ends(network, bodies);
+    std::vector<LineEnds> before;
+    for (std::size_t k = 0; k < network.lines.size(); ++k) before.push_back(Recalled{header(k)}.line_ends());
+    const std::span<double> state = memory.subspan(network.state, network.of.state_size());
+    go_on(network, t - h, h, before, now, state);
+    for (std::size_t k = 0; k < network.lines.size(); ++k) {
+      const LineForces last = Recalled{header(k)}.at_end(), &f = network.scratch.forces[k];
+      const LineForces change{(f.on_fairlead - last.on_fairlead) / h, (f.on_anchor - last.on_anchor) / h};
+      Recalled::write(t, network.of.ends(k, now[k], state), f, change, header(k));
+    }
   }
 }
 

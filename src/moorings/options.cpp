@@ -38,9 +38,6 @@ void check_line(const LineOptions& o, const scene::Report& report) {
     if (clump.mass_kg == 0.0 && clump.volume_m3 == 0.0) report("clumps", "has one without mass and volume");
   }
   if (o.anchor_body == o.body) report("anchor_body", "is the body that carries the fairlead: a line ties two different things");
-  const auto hanging = line_models().with("bed_contact");
-  if (std::ranges::find(hanging, o.model) != hanging.end() && o.bed_contact && o.anchor_body != "earth")
-    report("bed_contact", "must be false for a line between two bodies: only an anchor on \"earth\" lies on the bed");
 }
 
 }  // namespace
@@ -51,13 +48,14 @@ const scene::Section<LineOptions>& line_section() {
       scene::Section<LineOptions>("moorings", "A mooring line: its model, its two ends, its properties.")
           .named()
           .choice("model", &LineOptions::model, line_models().choices(), "Model of the line.")
-          .text("body", &LineOptions::body, "Body that carries the fairlead.")
+          .text("body", &LineOptions::body, "Body that carries the fairlead, or junction of a dynamic line.")
           .required()
-          .vector("fairlead_m", &LineOptions::fairlead_m, "m", "Fairlead, initial earth coordinates; it moves with its body.")
-          .required()
-          .text("anchor_body", &LineOptions::anchor_body, "What holds the other end: \"earth\" or a body.")
-          .vector("anchor_m", &LineOptions::anchor_m, "m", "Anchor, initial earth coordinates; may lie outside the tank.")
-          .required()
+          .vector("fairlead_m", &LineOptions::fairlead_m, "m",
+                  "Fairlead, initial earth coordinates; it moves with its body. Left out at a junction.")
+          .text("anchor_body", &LineOptions::anchor_body,
+                "What holds the other end: \"earth\", a body, or of a dynamic line a junction.")
+          .vector("anchor_m", &LineOptions::anchor_m, "m",
+                  "Anchor, initial earth coordinates; may lie outside the tank. Left out at a junction.")
           .number("rest_length_m", &LineOptions::rest_length_m, "m", "Unstretched length.", positive())
           .only_if("model", line_models().with("rest_length_m"))
           .required()
@@ -74,7 +72,10 @@ const scene::Section<LineOptions>& line_section() {
           .number("weight_N_m", &LineOptions::weight_N_m, "N/m", "Weight in water per unstretched length.", positive())
           .only_if("model", line_models().with("weight_N_m"))
           .required()
-          .flag("bed_contact", &LineOptions::bed_contact, "The line may lie on a flat bed at the level of its lower end.")
+          .flag("bed_contact", &LineOptions::bed_contact,
+                "The line may lie on a flat bed at the level of its lower end; a line that ends at junctions without an anchor "
+                "on one at "
+                "the depth of the water.")
           .only_if("model", line_models().with("bed_contact"))
           .number("bed_friction", &LineOptions::bed_friction, "-", "Friction coefficient between line and bed.", not_negative())
           .only_if("model", line_models().with("bed_friction"))
@@ -130,19 +131,100 @@ double weight_in_water(const LineOptions& o, double water_density, double gravit
   return gravity * (o.mass_kg_m - water_density * 0.25 * pi * o.diameter_m * o.diameter_m);
 }
 
-void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines, std::span<const std::string> bodies,
+const scene::Section<JunctionOptions>& junction_section() {
+  using scene::not_negative;
+  static const auto section =
+      scene::Section<JunctionOptions>("junctions",
+                                      "A point free in the water at which dynamic lines end: a bridle's, a weight or a float "
+                                      "between lines.")
+          .named()
+          .vector("position_m", &JunctionOptions::position_m, "m",
+                  "About where it is at the start, earth coordinates: there the search for its rest begins.")
+          .required()
+          .number("mass_kg", &JunctionOptions::mass_kg, "kg", "Mass, dry, besides that of the lines.", not_negative())
+          .number("volume_m3", &JunctionOptions::volume_m3, "m3", "Volume, besides that of the lines.", not_negative())
+          .number("drag_area_m2", &JunctionOptions::drag_area_m2, "m2", "Drag coefficient times area.", not_negative())
+          .number("added_mass_coefficient", &JunctionOptions::added_mass_coefficient, "-",
+                  "On the displaced mass; a sphere's by default.", not_negative());
+  return section;
+}
+
+void place_at_junctions(std::vector<scene::Named<LineOptions>>& lines,
+                        const std::vector<scene::Named<JunctionOptions>>& junctions, double water_depth) {
+  for (auto& [name, line] : lines) {
+    const auto place = [&](const std::string& end, std::optional<Eigen::Vector3d>& at) {
+      const auto found = std::ranges::find(junctions, end, &scene::Named<JunctionOptions>::name);
+      if (found != junctions.end()) at = found->options.position_m;
+      return found != junctions.end();
+    };
+    const bool above = place(line.body, line.fairlead_m), below = place(line.anchor_body, line.anchor_m);
+    if (above || below) line.bed_level_m = line.anchor_body == "earth" ? line.anchor_m->z() : -water_depth;
+  }
+}
+
+namespace {
+
+/// Junctions that no line names, and those that no row of lines ties to a body or the earth.
+void check_held(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines,
+                std::span<const std::string> junctions) {
+  std::vector<std::string> held;
+  const auto has = [](std::span<const std::string> names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  const auto holds = [&](const std::string& end) { return !has(junctions, end) || has(held, end); };
+  for (std::size_t before = held.size() + 1; before != held.size();) {
+    before = held.size();
+    for (const auto& [name, line] : lines)
+      for (const auto& [one, other] : {std::pair{line.body, line.anchor_body}, std::pair{line.anchor_body, line.body}})
+        if (!holds(one) && holds(other)) held.push_back(one);
+  }
+  for (const std::string& name : junctions) {
+    const bool used =
+        std::ranges::any_of(lines, [&](const auto& l) { return l.options.body == name || l.options.anchor_body == name; });
+    if (!used)
+      doc.problem("junctions." + name, "is named by no end of a line (moorings.NAME.body or anchor_body)");
+    else if (!has(held, name))
+      doc.problem("junctions." + name, "is held by nothing: no row of lines leads from it to a body or to \"earth\"");
+  }
+}
+
+}  // namespace
+
+void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines,
+                 const std::vector<scene::Named<JunctionOptions>>& junctions, std::span<const std::string> bodies,
                  double water_density) {
-  const auto known = [&](const std::string& body) { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); };
+  std::vector<std::string> free;
+  for (const auto& junction : junctions) free.push_back(junction.name);
+  std::vector<std::string> known(bodies.begin(), bodies.end());
+  known.insert(known.end(), free.begin(), free.end());
+  const auto among = [](std::span<const std::string> names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
   for (const auto& [name, line] : lines) {
     const std::string at = "moorings." + name;
-    const auto unknown = [&](const std::string& body) {
-      return fmt::format("names body \"{}\", which is not in [bodies]; known: {}", body, fmt::join(bodies, ", "));
+    const auto check_end = [&](const char* key, const std::string& end, const char* place_key, bool placed) {
+      if (among(free, end)) {
+        if (placed) doc.problem(at + "." + place_key, fmt::format("must be left out: the end is at junction \"{}\"", end));
+        if (!line_models().named(line.model).make_dynamic)
+          doc.problem(at + "." + key,
+                      fmt::format("names junction \"{}\": of the models of lines only lumped_mass has nodes that move "
+                                  "with it, not {}",
+                                  end, line.model));
+        return;
+      }
+      if (!placed) doc.problem(at + "." + place_key, "is required: the end is at no junction");
+      if (end == "earth" && std::string(key) == "anchor_body") return;
+      if (!among(bodies, end))
+        doc.problem(at + "." + key, end == "earth" ? "the fairlead must be on a body; \"earth\" may hold the anchor"
+                                                   : fmt::format("names body \"{}\", which is not in [bodies]{}; known: {}", end,
+                                                                 free.empty() ? "" : " or [junctions]", fmt::join(known, ", ")));
     };
-    if (!known(line.body))
-      doc.problem(at + ".body",
-                  line.body == "earth" ? "the fairlead must be on a body; \"earth\" may hold the anchor" : unknown(line.body));
-    if (line.anchor_body != "earth" && !known(line.anchor_body)) doc.problem(at + ".anchor_body", unknown(line.anchor_body));
-    if ((line.fairlead_m - line.anchor_m).norm() == 0.0)
+    check_end("body", line.body, "fairlead_m", line.fairlead_m.has_value());
+    check_end("anchor_body", line.anchor_body, "anchor_m", line.anchor_m.has_value());
+    if (line_models().named(line.model).hangs && line.bed_contact && among(bodies, line.body) && among(bodies, line.anchor_body))
+      doc.problem(at + ".bed_contact",
+                  "must be false for a line between two bodies: only an anchor on \"earth\" lies on the bed");
+    if (line.fairlead_m && line.anchor_m && line.span().norm() == 0.0)
       doc.problem(at + ".anchor_m", "is where the fairlead is: the line has no direction");
     if (line.mass_kg_m > 0.0 && line.diameter_m > 0.0 && !(weight_in_water(line, water_density, 1.0) > 0.0))
       doc.problem(at + ".mass_kg_m", fmt::format("must be above the {:.4g} kg/m of the water that diameter_m = {} displaces: "
@@ -152,6 +234,7 @@ void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOption
         read_line_table(line.table);
       } catch (const scene::SceneError& e) { doc.problem(at + ".table", e.what()); }
   }
+  check_held(doc, lines, free);
 }
 
 }  // namespace spindrift::moorings

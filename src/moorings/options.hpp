@@ -1,5 +1,5 @@
-// Options of one mooring line, [moorings.NAME], and the rules between them and the rest of the scene.
-// Declared in options.cpp; read by src/app; tested in tests/src/moorings/options_test.cpp.
+// Options of one mooring line, [moorings.NAME], and of points at which lines meet, [junctions.NAME]; the rules between them and
+// the rest of the scene. Declared in options.cpp; read by src/app; tested in tests/src/moorings/options_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,12 +26,19 @@ struct ClumpOptions {
   double drag_area_m2 = 0.0, added_mass_coefficient = 0.5;  ///< a sphere's
 };
 
+/// [junctions.NAME]
+struct JunctionOptions {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< where the search for its rest begins
+  double mass_kg = 0.0, volume_m3 = 0.0;
+  double drag_area_m2 = 0.0, added_mass_coefficient = 0.5;  ///< a sphere's
+};
+
 struct LineOptions {
   std::string model = "spring_damper";
-  std::string body;                                      ///< carries the fairlead
-  Eigen::Vector3d fairlead_m = Eigen::Vector3d::Zero();  ///< initial earth coordinates
+  std::string body;                           ///< carries the fairlead; or a junction
+  std::optional<Eigen::Vector3d> fairlead_m;  ///< initial earth coordinates; of a junction place_at_junctions gives it
   std::string anchor_body = "earth";
-  Eigen::Vector3d anchor_m = Eigen::Vector3d::Zero();  ///< initial earth coordinates
+  std::optional<Eigen::Vector3d> anchor_m;  ///< initial earth coordinates
   double rest_length_m = 0.0;
   std::optional<double> axial_stiffness_N, stiffness_N_m;  ///< exactly one for a spring
   double damping_N_s_m = 0.0;
@@ -48,15 +55,27 @@ struct LineOptions {
   double added_mass_coefficient = 1.0, axial_added_mass_coefficient = 0.0;  ///< on the displaced mass
   double bed_stiffness_Pa_m = 3e6, bed_damping_Pa_s_m = 3e5;                ///< MoorDyn's
   std::vector<ClumpOptions> clumps;
+  std::optional<double> bed_level_m;  ///< no key: of lines at junctions, place_at_junctions gives it
+
+  /// Of a line whose ends are placed.
+  Eigen::Vector3d span() const { return *fairlead_m - *anchor_m; }
 };
 
 const scene::Section<LineOptions>& line_section();
+const scene::Section<JunctionOptions>& junction_section();
+
+/// Gives ends that name a junction its place, and lines that end at one the level of the bed: that of their anchor, without one
+/// the depth of the water.
+void place_at_junctions(std::vector<scene::Named<LineOptions>>& lines,
+                        const std::vector<scene::Named<JunctionOptions>>& junctions, double water_depth_m);
 
 /// What a line given by its dry mass weighs in water [N/m]; of others what the scene says.
 double weight_in_water(const LineOptions& line, double water_density_kg_m3, double gravity_m_s2);
 
-/// Rules between sections: the bodies named exist, ends differ, tables are readable. Problems go to the document.
-void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines, std::span<const std::string> bodies,
+/// Rules between sections: bodies and junctions named exist, ends differ, junctions are held, tables are readable. Problems go to
+/// the document. Ends are as read, not yet placed.
+void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines,
+                 const std::vector<scene::Named<JunctionOptions>>& junctions, std::span<const std::string> bodies,
                  double water_density_kg_m3 = 1025.0);
 
 }  // namespace spindrift::moorings

@@ -285,11 +285,21 @@ class Scene3d:
     def _reach(self):
         """Length of the longest line [m]: what the size of a body without a shape is taken from."""
         lines = (self.scene.get("moorings") or {}).values()
-        return max((float(np.linalg.norm(np.subtract(line["fairlead_m"], line["anchor_m"]))) for line in lines), default=10.0)
+        return max((float(np.linalg.norm(self._end(line, "body", "fairlead_m", None) - self._end(line, "anchor_body", "anchor_m", None))) for line in lines),
+                   default=10.0)
+
+    def _end(self, line, holder, place, t):
+        """An end of a line at time t, at the start without one: of a body, the earth or a junction."""
+        holder = line.get(holder, "earth")
+        junction = (self.scene.get("junctions") or {}).get(holder)
+        if junction is None:
+            return self.moved(holder, [line[place]], t)[0] if t is not None else np.asarray(line[place], float)
+        if t is not None and f"{holder}.at_x_m" in self.run.columns:
+            return np.array([self.at(f"{holder}.at_{q}_m", t) for q in "xyz"])
+        return np.asarray(junction["position_m"], float)
 
     def _line(self, name, line, t):
-        fairlead = self.moved(line.get("body", ""), [line["fairlead_m"]], t)[0]
-        anchor = self.moved(line.get("anchor_body", "earth"), [line["anchor_m"]], t)[0]
+        fairlead, anchor = self._end(line, "body", "fairlead_m", t), self._end(line, "anchor_body", "anchor_m", t)
         stiff = line.get("tension_only") is False   # a spring both ways stays straight
         points = hanging(fairlead, anchor, None if stiff else line.get("rest_length_m"))
         return Piece("line", name, points, lines=[list(range(len(points)))])

@@ -137,6 +137,9 @@ def groups(names, joints=None):
 
     tensions = [(n.rpartition(".")[0], n) for n in names if n.endswith(".tension_N")]
     add("moorings", "Mooring tensions", "Tension of each line at its fairlead.", [("tension", tensions)] if tensions else [])
+    for junction in dict.fromkeys(n.rpartition(".")[0] for n in names if n.endswith(".at_x_m")):
+        add("moorings", f"{junction}: place", "Where the junction of lines is, earth frame.", _triple(names, junction, ("at_x", "at_y", "at_z"),
+                                                                                                      {"at_x": "x", "at_y": "y", "at_z": "z"}), True)
 
     gauges = [(n.rpartition(".")[0], n) for n in names if n.endswith(".elevation_m")]
     add("sea", "Wave gauges", "Height of the water's surface.", [("elevation", gauges)] if gauges else [])

@@ -179,6 +179,38 @@ class Profile(Machine):
         self.assertFalse((self.path / "out").exists())
 
 
+class Junctions(Machine):
+    BRIDLES = f"""
+base = "{ROOT}/inputs/tutorials/spar_on_bridles.toml"
+[time]
+end_s = 4.0
+[sea]
+current_m_s = [0.5, 0.0, 0.0]
+[junctions.crow_1]
+mass_kg = 3000.0
+volume_m3 = 0.4
+drag_area_m2 = 2.0
+"""
+
+    def test_lines_that_meet_have_the_same_bits_on_threads_and_ranks_and_after_a_restart(self):
+        self.check_bits(self.BRIDLES, [], 2.0)
+        rows = self.rows("whole")
+        self.assertNotEqual(rows[0]["crow_1.at_x_m"], rows[-1]["crow_1.at_x_m"])
+
+    def test_check_says_where_junctions_rest_and_refuses_malformed_ones(self):
+        (self.path / "scene.toml").write_text(self.BRIDLES)
+        said = self.ended([PROGRAM, "check", self.path / "scene.toml"], 1, 0)
+        self.assertIn("9 lines (lumped_mass), 3 junctions (crow_1, crow_2, crow_3)", said)
+        self.assertRegex(said, r"crow_1 +x [+]\d+\.\d+  y")
+        for setting, word in (("junctions.crow_1.mass_kg=-1.0", "junctions.crow_1.mass_kg"),
+                              ("junctions.crow_4.position_m=[0.0, 0.0, -50.0]", "junctions.crow_4: is named by no end of a line"),
+                              ("moorings.line_1.body='crow_9'", 'names body "crow_9"'),
+                              ("junctions.spar.position_m=[0.0, 0.0, -50.0]", '"spar" is the name of another'),
+                              ("moorings.leg_1a.anchor_m=[0.0, 0.0, 0.0]", "must be left out")):
+            with self.subTest(setting):
+                self.assertIn(word, self.ended([PROGRAM, "check", self.path / "scene.toml", "--set", setting], 1, 2))
+
+
 class MachineRun(Machine):
     def test_an_engineering_sea_gives_the_same_bits_however_it_is_run_and_loads_meet_the_bodies(self):
         self.check_bits(ENGINEERING, [], 0.3)

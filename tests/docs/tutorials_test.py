@@ -52,12 +52,15 @@ def at(column, t):
     return lambda run: run[column][np.argmin(abs(run.time - t))]
 
 
-# page: (scene, its overrides, fast, [(row of the table, which of its numbers, what it is)]); numbers are counted from the second cell on.
+# page, or page:run where a page has several: (scene, its overrides, fast, [(row of the table, which of its numbers, what it is)]); numbers are counted from the second cell on.
 PAGES = {
     "pendulum": ("tutorials/pendulum.toml", [], True, [("period of the swing", 0, period("weight.x_m")), ("greatest tension", 0, extreme("line.tension_N", np.max))]),
     "spar_in_waves": ("tutorials/spar_in_waves.toml", [], True,
                       [(f"{name}, half of its range", 0, half_range(f"spar.{column}", 100.0)) for name, column in (("surge", "x_m"), ("heave", "z_m"), ("pitch", "pitch_deg"))]
                       + [("tension of `line_1`", 0, mean("line_1.tension_N", 100.0, 1e-3))]),
+    "spar_in_waves:bridles": ("tutorials/spar_on_bridles.toml", [], True,
+                              [("period in yaw", 0, period("spar.yaw_deg")), ("tension of `line_1`, mean of 20 to 60 s", 0, mean("line_1.tension_N", 20.0, 1e-3))]),
+    "spar_in_waves:plain": ("tutorials/spar_in_waves.toml", ['without=["waves"]', "bodies.spar.rotation_deg=[0,0,3]"], True, [("period in yaw", 1, period("spar.yaw_deg"))]),
     "own_turbine": ("tutorials/own_turbine.toml", [], True,
                     [("thrust", 0, mean("rotor.thrust_N", 80.0, 1e-3)), ("power", 0, mean("rotor.power_W", 80.0, 1e-6)), ("pitch of the spar", 0, mean("spar.pitch_deg", 80.0)),
                      ("surge", 0, mean("spar.x_m", 80.0))]),
@@ -80,7 +83,7 @@ PAGES = {
 
 def cells(page, row):
     """The cells of a row after its name."""
-    for line in (ROOT / "docs/tutorials" / f"{page}.md").read_text(encoding="utf-8").splitlines():
+    for line in (ROOT / "docs/tutorials" / f"{page.partition(':')[0]}.md").read_text(encoding="utf-8").splitlines():
         if line.startswith("| " + row):
             return [cell.strip() for cell in line.strip("|").split("|")][1:]
     raise AssertionError(f"{page}.md has no row '{row}'")
@@ -99,7 +102,7 @@ def numbers(page, row):
 class Tutorials(unittest.TestCase):
     def run_of(self, page, folder):
         scene, overrides, _, _ = PAGES[page]
-        out = pathlib.Path(folder) / page
+        out = pathlib.Path(folder) / page.replace(":", "_")
         environment = dict(os.environ) | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_WAIT_POLICY": "passive"}
         words = [PROGRAM, "run", ROOT / "inputs" / scene, "--out", out, "--no-report", "--quiet", *(w for o in overrides for w in ("--set", o))]
         done = subprocess.run(list(map(str, words)), capture_output=True, text=True, env=environment, check=False)

@@ -1,6 +1,6 @@
-// The lumped-mass line of kernels/mooring/line_lumped_mass.hpp: its statics against the catenary and OrcaFlex, its motion against
-// OrcaFlex, the string and the laws of energy. SPDX-License-Identifier: Apache-2.0
-#include "kernels/mooring/line_lumped_mass.hpp"
+// The lumped-mass line of kernels/mooring/line_lumped_mass.hpp alone: its statics against the catenary and OrcaFlex, its motion
+// against OrcaFlex, the string and the laws of energy. SPDX-License-Identifier: Apache-2.0
+#include "kernels/mooring/line_network.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -25,6 +25,22 @@ LineLumpedMass chain_line(const Chain& c) {
   return line;
 }
 LineEnds chain_ends(const Chain& c) { return {{{c.out, 0.0, -c.depth}, Vector3d::Zero()}, {}}; }
+
+LineNetwork::Rest find_rest(const LineLumpedMass& line, const LineEnds& ends, std::span<double> state) {
+  return LineNetwork{.lines = {{line}}}.rest({&ends, 1}, state);
+}
+
+/// The line in motion, alone.
+struct Moving {
+  LineNetwork network;
+  LineNetwork::Scratch scratch;
+  explicit Moving(const LineLumpedMass& line) : network{.lines = {{line}}}, scratch(network.scratch()) {}
+  template <class Water>
+  LineForces advance(double t, double h, const LineEnds& from, const LineEnds& to, std::span<double> state, const Water& water) {
+    network.advance(t, h, {&from, 1}, {&to, 1}, state, water, scratch);
+    return scratch.forces[0];
+  }
+};
 
 /// Kinetic, elastic, of weight in water and of the bed's spring [J].
 double energy(const LineLumpedMass& line, const LineEnds& ends, std::span<const double> state) {
@@ -59,7 +75,7 @@ TEST_CASE("a lumped-mass chain at rest agrees with OrcaFlex to 1.5 per cent", "[
   auto scratch = line.scratch();
   std::vector<double> state(line.state_size()), rate(state.size());
   const LineEnds ends = chain_ends(c.chain);
-  const auto rest = line.rest(ends, state);
+  const auto rest = find_rest(line, ends, state);
   INFO("iterations " << rest.iterations << ", residual " << rest.residual << " of " << rest.limit);
   REQUIRE(rest.found());
   const LineForces f = line.rates(0.0, ends, state, rate, StillWater{}, scratch);
@@ -77,7 +93,7 @@ TEST_CASE("tensions of a shaken chain have the extremes of OrcaFlex to 5 per cen
   const Case c = GENERATE(Case{{400, 50, 410}, {899.198e3, 1093.194e3}, {778.104e3, 877.743e3}},
                           Case{{700, 200, 760}, {1828.374e3, 2304.96e3}, {1319.76e3, 1482.163e3}});
   const LineLumpedMass line = chain_line(c.chain);
-  auto scratch = line.scratch();
+  Moving moving(line);
   std::vector<double> state(line.state_size());
   const auto ends = [&](double t) {
     LineEnds e = chain_ends(c.chain);
@@ -86,12 +102,12 @@ TEST_CASE("tensions of a shaken chain have the extremes of OrcaFlex to 5 per cen
     return e;
   };
   LineEnds first = ends(-10.0);
-  REQUIRE(line.rest(first, state).found());
+  REQUIRE(find_rest(line, first, state).found());
   const double h = 0.025;
   double low[2] = {1e99, 1e99}, high[2] = {0.0, 0.0};
   for (int n = 0; n < 1200; ++n) {
     const double t = -10.0 + n * h;
-    const LineForces f = line.advance(t, h, ends(t), ends(t + h), state, StillWater{}, scratch);
+    const LineForces f = moving.advance(t, h, ends(t), ends(t + h), state, StillWater{});
     if (t + h < -1e-9) continue;
     const double now[2] = {f.fairlead_tension, f.anchor_tension};
     for (int i : {0, 1}) low[i] = std::min(low[i], now[i]), high[i] = std::max(high[i], now[i]);
@@ -113,7 +129,7 @@ TEST_CASE("the static shape of a lumped-mass line converges with the second orde
     line.segments = segments;
     auto scratch = line.scratch();
     std::vector<double> state(line.state_size()), rate(state.size());
-    REQUIRE(line.rest(ends, state).found());
+    REQUIRE(find_rest(line, ends, state).found());
     const LineForces f = line.rates(0.0, ends, state, rate, StillWater{}, scratch);
     h.push_back(line.segment());
     fairlead.push_back((f.on_fairlead - exact.on_fairlead).norm()), anchor.push_back((f.on_anchor - exact.on_anchor).norm());
@@ -128,7 +144,7 @@ TEST_CASE("a slack line falls to rest, and every line finds its rest", "[mooring
   std::vector<double> state(line.state_size());
   const LineEnds ends{{{0, 0, -50}, Vector3d::Zero()}, {{0.6 * out, 0.8 * out, -50 + up}, Vector3d::Zero()}};
   INFO(out << " m out, " << up << " m up");
-  const auto rest = line.rest(ends, state);
+  const auto rest = find_rest(line, ends, state);
   INFO("iterations " << rest.iterations << ", residual " << rest.residual << " of " << rest.limit);
   CHECK(rest.found());
 }
@@ -140,7 +156,7 @@ TEST_CASE("a weight in the middle of a light line hangs on two straight halves",
   const LineEnds ends{{{0, 0, -60}, Vector3d::Zero()}, {{80, 0, -60}, Vector3d::Zero()}};
   auto scratch = line.scratch();
   std::vector<double> state(line.state_size()), rate(state.size());
-  REQUIRE(line.rest(ends, state).found());
+  REQUIRE(find_rest(line, ends, state).found());
   const LineForces f = line.rates(0.0, ends, state, rate, StillWater{}, scratch);
   const double weight = 9.81 * (5e3 - 1025.0);  // halves of 50 m, 40 m out and 30 m down
   CHECK(-f.on_fairlead.z() == Approx(0.5 * weight).epsilon(1e-3));
@@ -165,7 +181,7 @@ TEST_CASE("lines of all kinds find their rest", "[mooring][fast]") {
     line.length = std::max(1.0, std::hypot(out, up) * between(0.995, 1.5));
     line.bed_contact = n % 2 == 0, line.bed_level = -700.0 + std::min(up, 0.0);
     std::vector<double> state(line.state_size());
-    const auto rest = line.rest({{{0, 0, -700}, Vector3d::Zero()}, {{out, 0, -700 + up}, Vector3d::Zero()}}, state);
+    const auto rest = find_rest(line, {{{0, 0, -700}, Vector3d::Zero()}, {{out, 0, -700 + up}, Vector3d::Zero()}}, state);
     missed += !rest.found();
   }
   CHECK(missed == 0);
@@ -177,6 +193,7 @@ TEST_CASE("a line that snaps taut gives back no more than the energy put in", "[
   const bool in_water = GENERATE(false, true);
   if (!in_water) line.normal_drag = line.tangential_drag = 0.0;
   auto scratch = line.scratch();
+  Moving moving(line);
   std::vector<double> state(line.state_size());
   // Pulled from 80 m to 101.5 m apart at up to 8 m/s, held there, let go, three times over.
   const auto ends = [&](double t) {
@@ -185,14 +202,14 @@ TEST_CASE("a line that snaps taut gives back no more than the energy put in", "[
     e.fairlead.velocity.x() = 10.75 * omega * std::sin(omega * t);
     return e;
   };
-  REQUIRE(line.rest(ends(0.0), state).found());
+  REQUIRE(find_rest(line, ends(0.0), state).found());
   const double h = 0.0025, start = energy(line, ends(0.0), state);
   std::vector<double> rate(state.size());
   LineForces before = line.rates(0.0, ends(0.0), state, rate, StillWater{}, scratch);
   double work = 0.0, highest = 0.0, largest = 0.0;
   for (int n = 0; n < 9600; ++n) {
     const double t = n * h;
-    const LineForces f = line.advance(t, h, ends(t), ends(t + h), state, StillWater{}, scratch);
+    const LineForces f = moving.advance(t, h, ends(t), ends(t + h), state, StillWater{});
     work -= 0.5 * h * (before.on_fairlead.dot(ends(t).fairlead.velocity) + f.on_fairlead.dot(ends(t + h).fairlead.velocity));
     before = f, highest = std::max(highest, f.fairlead_tension);
     const double excess = energy(line, ends(t + h), state) - start - work;
@@ -206,7 +223,7 @@ TEST_CASE("a line that snaps taut gives back no more than the energy put in", "[
 TEST_CASE("slowly moved, a lumped-mass line carries what the catenary carries", "[mooring][fast]") {
   LineLumpedMass line = chain_line({700, 200, 760});
   line.segments = 40, line.bed_friction = 0.0;
-  auto scratch = line.scratch();
+  Moving moving(line);
   std::vector<double> state(line.state_size());
   const auto ends = [](double t) {
     LineEnds e = chain_ends({700, 200, 760});
@@ -214,10 +231,10 @@ TEST_CASE("slowly moved, a lumped-mass line carries what the catenary carries", 
     e.fairlead.velocity.x() = -5.0 * 2.0 * pi / 400.0 * std::sin(2.0 * pi * t / 400.0);
     return e;
   };
-  REQUIRE(line.rest(ends(0.0), state).found());
+  REQUIRE(find_rest(line, ends(0.0), state).found());
   double worst = 0.0;
   for (int n = 0; n < 4000; ++n) {
-    const LineForces f = line.advance(0.1 * n, 0.1, ends(0.1 * n), ends(0.1 * (n + 1)), state, StillWater{}, scratch);
+    const LineForces f = moving.advance(0.1 * n, 0.1, ends(0.1 * n), ends(0.1 * (n + 1)), state, StillWater{});
     const LineForces still =
         line.catenary().forces(ends(0.1 * (n + 1)).fairlead.position - ends(0.0).anchor.position, Vector3d::Zero());
     worst = std::max(worst, std::abs(f.fairlead_tension / still.fairlead_tension - 1.0));
@@ -230,15 +247,15 @@ TEST_CASE("a taut line rings at the frequency of a string", "[mooring][fast]") {
   line.length = 100.0, line.segments = 40, line.diameter = 0.1, line.mass_per_m = 60.0, line.axial_stiffness = 1e8;
   line.gravity = 1e-9, line.damping_ratio = 0.0, line.normal_drag = line.tangential_drag = 0.0, line.bed_contact = false;
   const LineEnds ends{{{0, 0, -60}, Vector3d::Zero()}, {{101, 0, -60}, Vector3d::Zero()}};
-  auto scratch = line.scratch();
+  Moving moving(line);
   std::vector<double> state(line.state_size());
-  REQUIRE(line.rest(ends, state).found());
+  REQUIRE(find_rest(line, ends, state).found());
   for (std::size_t i = 0; i < line.inner(); ++i) state[3 * i + 1] += 0.01 * std::sin(pi * double(i + 1) / 40.0);
   const std::size_t middle = 3 * (line.inner() / 2) + 1;
   double crossing = 0.0, before = state[middle];
   const double h = 0.001;
   for (int n = 0; n < 4000 && crossing == 0.0; ++n) {
-    line.advance(n * h, h, ends, ends, state, StillWater{}, scratch);
+    moving.advance(n * h, h, ends, ends, state, StillWater{});
     if (state[middle] <= 0.0) crossing = h * (n + before / (before - state[middle]));
     before = state[middle];
   }
@@ -250,12 +267,12 @@ TEST_CASE("a line hanging in a current takes the drag of its chord", "[mooring][
   LineLumpedMass line;
   line.length = 100.0, line.diameter = 0.2, line.mass_per_m = 300.0, line.axial_stiffness = 1e8, line.bed_contact = false;
   const LineEnds ends{{{0, 0, -140}, Vector3d::Zero()}, {{0, 0, -39.9}, Vector3d::Zero()}};
-  auto scratch = line.scratch();
+  Moving moving(line);
   std::vector<double> state(line.state_size());
-  REQUIRE(line.rest(ends, state).found());
+  REQUIRE(find_rest(line, ends, state).found());
   const auto current = [](double, const Vector3d&) { return LineWater{{0.5, 0.0, 0.0}, Vector3d::Zero(), 0.0}; };
   LineForces f;
-  for (int n = 0; n < 600; ++n) f = line.advance(0.1 * n, 0.1, ends, ends, state, current, scratch);
+  for (int n = 0; n < 600; ++n) f = moving.advance(0.1 * n, 0.1, ends, ends, state, current);
   const double drag = 0.5 * 1025.0 * line.normal_drag * 0.2 * 0.25 * 100.0;
   CHECK(f.on_fairlead.x() + f.on_anchor.x() == Approx(drag).epsilon(0.02));
 }

@@ -160,8 +160,8 @@ TEST_CASE("the deck's platform, rotor, water, lines and waves are the scene's", 
   REQUIRE(s.moorings.size() == 3);
   const moorings::LineOptions& line = s.moorings[1].options;
   CHECK(line.weight_N_m == Approx(9.80665 * (100.0 - 1025.0 * 0.25 * pi * 0.01)));
-  CHECK(line.anchor_m.x() == Approx(500.0 * std::cos(120.0 * radians_per_degree)));
-  CHECK(line.anchor_m.z() == -200.0);
+  CHECK(line.anchor_m->x() == Approx(500.0 * std::cos(120.0 * radians_per_degree)));
+  CHECK(line.anchor_m->z() == -200.0);
 }
 
 TEST_CASE("members have the coefficients that the deck gives them, and the ballast in them has mass", "[import][fast]") {
@@ -419,9 +419,71 @@ TEST_CASE("MoorDyn's lines and older names are read too", "[import][fast]") {
   const moorings::LineOptions& line = s.moorings[0].options;
   CHECK(line.model == "lumped_mass");
   CHECK(line.rest_length_m == 540.0);
-  CHECK(line.fairlead_m.z() == -30.0);
+  CHECK(line.fairlead_m->z() == -30.0);
   CHECK((line.segments == 20 && line.mass_kg_m == 100.0 && line.diameter_m == 0.1 && line.damping_ratio == 1.0));
   CHECK((line.drag_coefficient == 1.0 && line.added_mass_coefficient == 1.0 && line.axial_drag_coefficient == 0.0));
+}
+
+TEST_CASE("free points of MoorDyn are junctions of the scene", "[import][fast]") {
+  const bool first_version = GENERATE(true, false);
+  SmallDeck deck;
+  deck.replace("main.fst", "1 CompMooring", "3 CompMooring");
+  const std::string units = "(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)\n";
+  deck.files["map.dat"] =
+      first_version
+          ? "--- LINE DICTIONARY ---\nLineType Diam MassDenInAir EA BA/-zeta Can Cat Cdn Cdt\n(-) (m) (kg/m) (N) (N-s/-) (-) (-) "
+            "(-) "
+            "(-)\nchain 0.1 100 4e8 -1 1 0 1 0\n---- CONNECTION PROPERTIES ----\nNode Type X Y Z M V FX FY FZ CdA CA\n(#) (-) "
+            "(m) (m) "
+            "(m) (kg) (m^3) (kN) (kN) (kN) (m^2) (-)\n1 Fixed 500 0 -200 0 0 0 0 0 0 0\n2 Vessel 4 5 -30 0 0 0 0 0 0 0\n3 Vessel "
+            "4 -5 "
+            "-30 0 0 0 0 0 0 0\n4 Connect 50 0 -60 1000 0.5 0 0 3 2.5 0.7\n5 Connect 0 0 -60 1 0 0 0 0 0 0\n---- LINE PROPERTIES "
+            "----\nLine LineType UnstrLen NumSegs NodeAnch NodeFair Outputs\n(#) (name) (m) (-) (#) (#) (-)\n1 chain 490 20 1 4 "
+            "-\n2 "
+            "chain 56 5 4 2 -\n3 chain 56 5 3 4 -\n---- SOLVER OPTIONS ----\n0.001 dtM\n"
+          : "--- LINE TYPES ---\nName Diam MassDen EA BA/-zeta EI Cd Ca CdAx CaAx\n(-) (m) (kg/m) (N) (N-s/-) (-) (-) (-) (-) "
+            "(-)\n"
+            "chain 0.1 100 4e8 -1 0 1 1 0 0\n---- POINTS ----\nID Attachment X Y Z M V CdA CA\n" +
+                units +
+                "1 Fixed 500 0 -200 0 0 0 0\n2 Coupled 4 5 -30 0 0 0 0\n3 Vessel 4 -5 -30 0 0 0 0\n4 Free 50 0 -60 1000 0.5 2.5 "
+                "0.7\n5 Free 0 0 -60 1 0 0 0\n---- LINES ----\nID LineType AttachA AttachB UnstrLen NumSegs Outputs\n(#) (name) "
+                "(#) "
+                "(#) (m) (-) (-)\n1 chain 1 4 490 20 -\n2 chain 4 2 56 5 -\n3 chain 3 4 56 5 -\n---- OPTIONS ----\n0.001 dtM\n";
+  const coupling::Scenario s = deck.scenario();
+  REQUIRE(s.junctions.size() == 1);  // a point that no line names is none
+  CHECK(s.junctions[0].name == "junction_4");
+  const moorings::JunctionOptions& point = s.junctions[0].options;
+  CHECK(point.position_m == Eigen::Vector3d(50, 0, -60));
+  CHECK((point.mass_kg == 1000.0 && point.volume_m3 == 0.5 && point.drag_area_m2 == 2.5 && point.added_mass_coefficient == 0.7));
+  REQUIRE(s.moorings.size() == 3);
+  CHECK((s.moorings[0].options.body == "junction_4" && s.moorings[0].options.anchor_body == "earth"));
+  for (const int leg : {1, 2}) {
+    const moorings::LineOptions& line = s.moorings[std::size_t(leg)].options;
+    CHECK((line.body == "platform" && line.anchor_body == "junction_4" && line.segments == 5));
+    CHECK(line.fairlead_m->y() == (leg == 1 ? 5.0 : -5.0));
+  }
+  if (first_version) CHECK(has_word(deck.import().left_out, "the force FZ on point 4"));
+  coupling::FloatingSystem floating(s);
+  coupling::Start start = make_start(floating);
+  for (int n = 0; n < 20; ++n) REQUIRE(floating.multibody().advance(start.state, floating.timeline().tick_s(), 1).ok());
+}
+
+TEST_CASE("free nodes of MAP++ are junctions, and their lines dynamic", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace(
+      "map.dat", "1 fix 500 0 depth 0 0 # # #\n2 Vessel 4 0 -30 0 0 # # #\n",
+      "1 fix 500 0 depth 0 0 # # #\n2 Vessel 4 5 -30 0 0 # # #\n3 Vessel 4 -5 -30 0 0 # # #\n4 Connect #50 #0 #-60 1000 0.5 0 "
+      "0 0\n");
+  deck.replace("map.dat", "1 chain 540 1 2 plot\n", "1 chain 490 1 4 plot\n2 chain 56 4 2\n3 chain 56 4 3\n");
+  const coupling::Scenario s = deck.scenario();
+  REQUIRE(s.moorings.size() == 9);
+  REQUIRE(s.junctions.size() == 3);
+  CHECK((s.junctions[1].name == "junction_4_2" && s.junctions[2].name == "junction_4_3"));
+  CHECK(s.junctions[1].options.position_m.x() == Approx(50.0 * std::cos(120.0 * radians_per_degree)));
+  CHECK((s.junctions[1].options.mass_kg == 1000.0 && s.junctions[1].options.volume_m3 == 0.5));
+  CHECK((s.moorings[3].options.body == "junction_4_2" && s.moorings[3].options.model == "lumped_mass"));
+  CHECK((s.moorings[4].options.anchor_body == "junction_4_2" && s.moorings[4].options.body == "platform"));
+  CHECK(has_word(deck.import().left_out, "lines at free nodes are dynamic here"));
 }
 
 TEST_CASE("what takes time in AeroDyn's flow is turned on as the deck says", "[import][fast]") {

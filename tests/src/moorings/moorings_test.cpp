@@ -140,7 +140,7 @@ TEST_CASE("tensions are those of the force that the body feels", "[moorings][fas
   Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 0; i < m.size(); ++i) {
     const LineOptions line = paper_line(120 * double(i) * radians_per_degree);
-    const Vector3d chord = (line.anchor_m - line.fairlead_m - Vector3d(1, 0, 0)).normalized();
+    const Vector3d chord = (-line.span() - Vector3d(1, 0, 0)).normalized();
     sum += m.tension(i, motions).fairlead * chord;
   }
   CHECK((sum - loads(m, motions)[0].force).norm() < 1e-6);
@@ -219,6 +219,74 @@ TEST_CASE("a dynamic line feels the water's motion", "[moorings][fast]") {
   for (int n = 1; n <= 400; ++n) m.recall(memory), m.remember(0.1 * n, 0.1, start(), memory);
   m.recall(memory);
   CHECK(loads(m, start())[0].force.y() > 1e3);
+}
+
+namespace {
+
+/// A chain from the bed to a junction with a weight, two legs from there to the platform.
+Moorings bridle() {
+  Moorings m(names, start());
+  m.add_junction("crow", {.position_m = {60, 0, -20}, .mass_kg = 2e3, .volume_m3 = 0.2, .drag_area_m2 = 1.0});
+  LineOptions main = chain(), leg = chain();
+  main.body = "crow", main.fairlead_m = Vector3d(60, 0, -20), main.rest_length_m = 350.0, main.bed_level_m = -54.0;
+  leg.anchor_body = "crow", leg.anchor_m = main.fairlead_m, leg.rest_length_m = 62.0, leg.bed_contact = false, leg.segments = 4;
+  m.add("main", main);
+  for (const double side : {-5.0, 5.0}) {
+    leg.fairlead_m = Vector3d(0, side, -4);
+    m.add(side < 0.0 ? "left" : "right", leg);
+  }
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("legs of a bridle load their body, at rest as in the equilibrium that looks for it, and hold it in yaw",
+          "[moorings][fast]") {
+  Moorings m = bridle();
+  const Wrench steady = loads(m, start())[0];
+  CHECK(steady.force.x() > 5e5);
+  CHECK(std::abs(steady.force.y()) < 1e-3 * steady.force.x());
+  auto turned = start();
+  turned[0].attitude = Eigen::AngleAxisd(0.02, Vector3d::UnitZ());
+  const double moment = loads(m, turned)[0].moment.z();
+  CHECK(moment < -0.02 * 30.0 * steady.force.x());  // the lever is the legs' length, not the 5 m of the fairleads
+  const Vector3d place = m.junction(0, start()).position;
+  std::vector<double> memory(m.memory_size());
+  m.begin(0.0, start(), memory);
+  CHECK((loads(m, start())[0].force - steady.force).norm() < 1e-3 * steady.force.norm());
+  CHECK((m.junction(0, start()).position - place).norm() < 1e-6);
+  for (int n = 1; n <= 200; ++n) m.recall(memory), m.remember(0.05 * n, 0.05, start(), memory);
+  m.recall(memory);
+  CHECK((m.junction(0, start()).position - place).norm() < 1e-3);
+  CHECK((loads(m, start())[0].force - steady.force).norm() < 1e-3 * steady.force.norm());
+}
+
+TEST_CASE("a junction follows bodies that move at the start", "[moorings][fast]") {
+  Moorings m = bridle();
+  auto moving = start();
+  moving[0].velocity = {0.5, 0.0, 0.0};
+  std::vector<double> memory(m.memory_size());
+  m.begin(0.0, moving, memory);
+  auto later = moving;
+  later[0].position.x() += 0.5 * 0.05;
+  const double ahead = (m.junction(0, later).velocity.x());
+  CHECK(ahead == Approx(0.5).epsilon(0.2));
+}
+
+TEST_CASE("lines that meet are a function of their memory alone, and others do not change for them", "[moorings][fast]") {
+  const auto go = [](Moorings& m, std::vector<double>& memory, int from, int to) {
+    for (int n = from; n < to; ++n) m.recall(memory), m.remember(0.05 * (n + 1), 0.05, heaved(0.05 * (n + 1)), memory);
+  };
+  Moorings whole = bridle(), second = bridle(), alone(names, start());
+  whole.add("line", chain()), second.add("line", chain()), alone.add("line", chain());
+  std::vector<double> memory(whole.memory_size()), of_line(alone.memory_size());
+  whole.begin(0.0, heaved(0.0), memory), alone.begin(0.0, heaved(0.0), of_line);
+  go(whole, memory, 0, 60), go(alone, of_line, 0, 120);
+  std::vector<double> saved = memory;
+  go(whole, memory, 60, 120), go(second, saved, 60, 120);
+  CHECK(saved == memory);
+  whole.recall(memory), alone.recall(of_line);
+  CHECK(whole.tension(3, heaved(6.0)).fairlead == alone.tension(0, heaved(6.0)).fairlead);
 }
 
 TEST_CASE("a body on a dynamic line is stable up to half the time in which the line's waves stop it", "[moorings][fast]") {

@@ -24,15 +24,20 @@ const std::string catenary = ends + "model = 'catenary'\nrest_length_m = 130\nwe
 
 LineOptions read(const std::string& keys) {
   scene::Document doc = scene::parse("[moorings.line_1]\n" + keys, "test.toml", std::filesystem::temp_directory_path());
-  const auto lines = doc.read_named(line_section());
-  check_lines(doc, lines, bodies);
+  auto lines = doc.read_named(line_section());
+  const auto junctions = doc.read_named(junction_section());
+  check_lines(doc, lines, junctions, bodies);
   doc.finish();
+  place_at_junctions(lines, junctions, 200.0);
   return lines.at(0).options;
 }
 
 }  // namespace
 
-TEST_CASE("the declaration of a mooring line is sound in itself", "[moorings][fast]") { CHECK(line_section().faults().empty()); }
+TEST_CASE("the declarations of mooring lines and junctions are sound in themselves", "[moorings][fast]") {
+  CHECK(line_section().faults().empty());
+  CHECK(junction_section().faults().empty());
+}
 
 TEST_CASE("stiffness is given as EA or per metre, and the scene says which", "[moorings][fast]") {
   CHECK(read(spring + "axial_stiffness_N = 4e8\n").axial_stiffness_N == 4e8);
@@ -52,6 +57,8 @@ TEST_CASE("a malformed mooring line is refused with what is wrong", "[moorings][
            "names body \"platfrom\", which is not in [bodies]; known: platform, buoy"},
       Case{"body = 'earth'\nfairlead_m = [0, 0, 0]\nanchor_m = [1, 0, 0]\nrest_length_m = 1\nstiffness_N_m = 1\n",
            "fairlead must be on a body"},
+      Case{"body = 'platform'\nanchor_m = [1, 0, 0]\nrest_length_m = 1\nstiffness_N_m = 1\n", "fairlead_m: is required"},
+      Case{"body = 'platform'\nfairlead_m = [1, 0, 0]\nrest_length_m = 1\nstiffness_N_m = 1\n", "anchor_m: is required"},
       Case{spring + "stiffness_N_m = 1\nanchor_body = 'seabed'\n", "names body \"seabed\""},
       Case{spring + "stiffness_N_m = 1\nanchor_body = 'platform'\n", "ties two different things"},
       Case{"body = 'platform'\nfairlead_m = [1, 2, 3]\nanchor_m = [1, 2, 3]\nrest_length_m = 1\nstiffness_N_m = 1\n",
@@ -86,6 +93,57 @@ TEST_CASE("a dynamic line says what it weighs, and is refused where it would flo
       Case{"diameter_m = 0.1\nmass_kg_m = 100\nclumps = [{distance_m = 20, mass_kg = 0}]\n", "without mass and volume"},
       Case{"diameter_m = 0.1\nmass_kg_m = 100\nanchor_body = 'buoy'\n", "must be false for a line between two bodies"});
   CHECK_THROWS_WITH(read(dynamic + c.keys), Contains(c.message));
+}
+
+namespace {
+
+const std::string of_chain =
+    "model = 'lumped_mass'\nrest_length_m = 130\naxial_stiffness_N = 4e8\ndiameter_m = 0.1\nmass_kg_m = 100\n";
+const std::string to_anchor = "body = 'crow'\nanchor_m = [-162.6, 0, -20.6]\n" + of_chain;
+const std::string leg = "[moorings.leg]\nbody = 'platform'\nfairlead_m = [-46.7, 0, -7]\nanchor_body = 'crow'\n" + of_chain;
+const std::string crow = "[junctions.crow]\nposition_m = [-80, 0, -15]\n";
+
+}  // namespace
+
+TEST_CASE("an end at a junction is placed there, its line's bed where its anchor is, else at the water's depth",
+          "[moorings][fast]") {
+  const LineOptions line = read(to_anchor + leg + crow);
+  CHECK(line.fairlead_m->x() == -80.0);
+  CHECK(line.bed_level_m == -20.6);
+  CHECK(read("anchor_body = 'crow'\nbody = 'platform'\nfairlead_m = [0, 0, -7]\n" + of_chain + crow).bed_level_m == -200.0);
+  CHECK_FALSE(read(ends + of_chain).bed_level_m);
+}
+
+TEST_CASE("a malformed junction is refused with what is wrong", "[moorings][fast]") {
+  struct Case {
+    std::string scene, message;
+  };
+  const auto c = GENERATE(
+      Case{ends + of_chain + crow, "junctions.crow: is named by no end of a line"},
+      Case{to_anchor + leg, "names body \"crow\", which is not in [bodies]"},
+      Case{to_anchor + leg + "[junctions.craw]\nposition_m = [0, 0, 0]\n",
+           "names body \"crow\", which is not in [bodies] or [junctions]; known: platform, buoy, craw"},
+      Case{to_anchor + leg + "[junctions.crow]\n", "junctions.crow.position_m"},
+      Case{to_anchor + leg + crow + "mass_kg = -5\n", "junctions.crow.mass_kg"},
+      Case{to_anchor + leg + crow + "volume_m3 = -5\n", "junctions.crow.volume_m3"},
+      Case{to_anchor + leg + crow + "drag_area_m2 = -1\n", "junctions.crow.drag_area_m2"},
+      Case{to_anchor + leg + crow + "weight = 1\n", "weight"},
+      Case{to_anchor + "fairlead_m = [0, 0, 0]\n" + leg + crow, "fairlead_m: must be left out: the end is at junction \"crow\""},
+      Case{"body = 'crow'\nanchor_body = 'crow'\n" + of_chain + leg + crow, "ties two different things"},
+      Case{"body = 'crow'\nanchor_m = [-162.6, 0, -20.6]\nmodel = 'catenary'\nrest_length_m = 130\nweight_N_m = 1e3\n"
+           "axial_stiffness_N = 4e8\n" +
+               leg + crow,
+           "moorings.line_1.body: names junction \"crow\": of the models of lines only lumped_mass has nodes that move with it, "
+           "not "
+           "catenary"},
+      Case{"body = 'crow'\nanchor_body = 'nest'\n" + of_chain + crow + "[junctions.nest]\nposition_m = [0, 0, -30]\n",
+           "junctions.nest: is held by nothing"});
+  CHECK_THROWS_WITH(read(c.scene), Contains(c.message));
+}
+
+TEST_CASE("a junction that begins under the bed is doubted", "[moorings][fast]") {
+  CHECK(junction_doubts({{"crow", {.position_m = {0, 0, -210}}}}, 200.0).size() == 1);
+  CHECK(junction_doubts({{"crow", {.position_m = {0, 0, -190}}}}, 200.0).empty());
 }
 
 TEST_CASE("a catenary between two bodies is legal where it does not ask for a bed", "[moorings][fast]") {

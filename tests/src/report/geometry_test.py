@@ -102,6 +102,18 @@ class Geometry(unittest.TestCase):
     SPAR = ("[bodies.spar]\nmass_kg = 1e6\ncentre_m = [0.0, 0.0, -80.0]\n[[bodies.spar.cylinders]]\nstart_m = [0.0, 0.0, -120.0]\nend_m = [0.0, 0.0, 10.0]\ndiameter_m = 6.5\n"
             "[rotor]\nbody = 'spar'\nhub_m = [-5.0, 0.0, 90.0]\n")
 
+    def test_lines_at_a_junction_end_where_it_is(self):
+        scene = ("[bodies.spar]\nmass_kg = 1e6\n[junctions.crow]\nposition_m = [40.0, 0.0, -30.0]\n[moorings.main]\nbody = 'crow'\nanchor_m = [90.0, 0.0, -60.0]\n"
+                 "[moorings.leg]\nbody = 'spar'\nfairlead_m = [4.0, 0.0, -10.0]\nanchor_body = 'crow'\n")
+        ends = lambda found: [tuple(p) for piece in found["line"] for p in (piece.points[0], piece.points[-1])]
+        self.assertEqual(ends(self.drawn("crow", scene)), [(90.0, 0.0, -60.0), (40.0, 0.0, -30.0), (40.0, 0.0, -30.0), (4.0, 0.0, -10.0)])
+        t = 0.1 * np.arange(11)
+        table = {"time_s": t} | {f"spar.{q}": 0 * t for q in ("x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg")}
+        table |= {"crow.at_x_m": 41.0 + 0 * t, "crow.at_y_m": 2.0 + 0 * t, "crow.at_z_m": -29.0 + 0 * t}
+        synthetic_run.write(self.folder.with_name("moved"), table=table, scene=scene)
+        self.scene = geometry.Scene3d(RunData(self.folder.with_name("moved")))
+        self.assertEqual(ends(self.kinds(1.0))[1:3], [(41.0, 2.0, -29.0)] * 2)
+
     def test_the_tower_of_a_spar_stands_on_its_axis(self):
         tower = self.drawn("on_spar", self.SPAR)["tower"][0].points
         foot = tower[tower[:, 2] < tower[:, 2].min() + 1e-9]
