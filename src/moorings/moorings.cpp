@@ -231,7 +231,12 @@ std::vector<double> Moorings::rest(const Network& network, double t, std::span<c
   if (std::ranges::any_of(outer,
                           [](const LineEnds& e) { return !e.anchor.velocity.isZero(0.0) || !e.fairlead.velocity.isZero(0.0); }) &&
       count > 0) {
-    constexpr double moment = 1e-3;  // s
+    // Long enough for the search's tolerance, short enough for a straight line: the fastest end moves by a thousandth of the
+    // lines.
+    double fastest = 0.0, length = 0.0;
+    for (const LineEnds& e : outer) fastest = std::max({fastest, e.anchor.velocity.norm(), e.fairlead.velocity.norm()});
+    for (const LineNetwork::Member& l : network.of.lines) length += l.line.segment() * l.line.segments;
+    const double moment = 1e-3 * length / fastest;
     std::vector<LineEnds> moved = outer;
     for (LineEnds& e : moved)
       e.anchor.position += moment * e.anchor.velocity, e.fairlead.position += moment * e.fairlead.velocity;

@@ -128,12 +128,12 @@ TEST_CASE("a malformed junction is refused with what is wrong", "[moorings][fast
       Case{to_anchor + leg + crow + "volume_m3 = -5\n", "junctions.crow.volume_m3"},
       Case{to_anchor + leg + crow + "drag_area_m2 = -1\n", "junctions.crow.drag_area_m2"},
       Case{to_anchor + leg + crow + "weight = 1\n", "weight"},
-      Case{to_anchor + "fairlead_m = [0, 0, 0]\n" + leg + crow, "fairlead_m: must be left out: the end is at junction \"crow\""},
+      Case{to_anchor + "fairlead_m = [0, 0, 0]\n" + leg + crow, "must be left out: the end is at junction \"crow\""},
       Case{"body = 'crow'\nanchor_body = 'crow'\n" + of_chain + leg + crow, "ties two different things"},
       Case{"body = 'crow'\nanchor_m = [-162.6, 0, -20.6]\nmodel = 'catenary'\nrest_length_m = 130\nweight_N_m = 1e3\n"
            "axial_stiffness_N = 4e8\n" +
                leg + crow,
-           "moorings.line_1.body: names junction \"crow\": of the models of lines only lumped_mass has nodes that move with it, "
+           "names junction \"crow\": of the models of lines only lumped_mass has nodes that move with it, "
            "not "
            "catenary"},
       Case{"body = 'crow'\nanchor_body = 'nest'\n" + of_chain + crow + "[junctions.nest]\nposition_m = [0, 0, -30]\n",
