@@ -231,18 +231,21 @@ std::vector<double> Moorings::rest(const Network& network, double t, std::span<c
   if (std::ranges::any_of(outer,
                           [](const LineEnds& e) { return !e.anchor.velocity.isZero(0.0) || !e.fairlead.velocity.isZero(0.0); }) &&
       count > 0) {
-    // Long enough for the search's tolerance, short enough for a straight line: the fastest end moves by a thousandth of the
-    // lines.
+    // Central differences, long enough for the search's tolerance: the fastest end moves by a thousandth of the lines.
     double fastest = 0.0, length = 0.0;
     for (const LineEnds& e : outer) fastest = std::max({fastest, e.anchor.velocity.norm(), e.fairlead.velocity.norm()});
     for (const LineNetwork::Member& l : network.of.lines) length += l.line.segment() * l.line.segments;
     const double moment = 1e-3 * length / fastest;
-    std::vector<LineEnds> moved = outer;
-    for (LineEnds& e : moved)
-      e.anchor.position += moment * e.anchor.velocity, e.fairlead.position += moment * e.fairlead.velocity;
-    std::vector<double> later(state.size());
-    network.of.rest(moved, later);
-    for (std::size_t i = 0; i < count; ++i) state[places + count + i] = (later[places + i] - state[places + i]) / moment;
+    const auto rest_at = [&](double later) {
+      std::vector<LineEnds> moved = outer;
+      for (LineEnds& e : moved)
+        e.anchor.position += later * e.anchor.velocity, e.fairlead.position += later * e.fairlead.velocity;
+      std::vector<double> there(state.size());
+      network.of.rest(moved, there);
+      return there;
+    };
+    const std::vector<double> before = rest_at(-moment), after = rest_at(moment);
+    for (std::size_t i = 0; i < count; ++i) state[places + count + i] = (after[places + i] - before[places + i]) / (2.0 * moment);
   }
   std::size_t nodes = 0;
   for (std::size_t k = 0; k < network.lines.size(); ++k) {

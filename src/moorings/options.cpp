@@ -164,9 +164,9 @@ void place_at_junctions(std::vector<scene::Named<LineOptions>>& lines,
 
 namespace {
 
-/// Junctions that no line names, and those that no row of lines ties to a body or the earth.
+/// Junctions that no line names, loose ends, and those that no row of lines ties to a body or the earth.
 void check_held(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines,
-                std::span<const std::string> junctions) {
+                const std::vector<scene::Named<JunctionOptions>>& points, std::span<const std::string> junctions) {
   std::vector<std::string> held;
   const auto has = [](std::span<const std::string> names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
@@ -178,13 +178,17 @@ void check_held(scene::Document& doc, const std::vector<scene::Named<LineOptions
       for (const auto& [one, other] : {std::pair{line.body, line.anchor_body}, std::pair{line.anchor_body, line.body}})
         if (!holds(one) && holds(other)) held.push_back(one);
   }
-  for (const std::string& name : junctions) {
-    const bool used =
-        std::ranges::any_of(lines, [&](const auto& l) { return l.options.body == name || l.options.anchor_body == name; });
-    if (!used)
+  for (const auto& [name, point] : points) {
+    const auto ends = std::ranges::count(lines, name, [](const auto& l) { return l.options.body; }) +
+                      std::ranges::count(lines, name, [](const auto& l) { return l.options.anchor_body; });
+    if (ends == 0)
       doc.problem("junctions." + name, "is named by no end of a line (moorings.NAME.body or anchor_body)");
     else if (!has(held, name))
       doc.problem("junctions." + name, "is held by nothing: no row of lines leads from it to a body or to \"earth\"");
+    else if (ends == 1 && point.mass_kg == 0.0 && point.volume_m3 == 0.0)
+      doc.problem(
+          "junctions." + name,
+          "is the loose end of one line: name it at an end of another line, or give mass_kg or volume_m3 of what hangs there");
   }
 }
 
@@ -234,7 +238,7 @@ void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOption
         read_line_table(line.table);
       } catch (const scene::SceneError& e) { doc.problem(at + ".table", e.what()); }
   }
-  check_held(doc, lines, free);
+  check_held(doc, lines, junctions, free);
 }
 
 }  // namespace spindrift::moorings

@@ -1,5 +1,5 @@
 // Lines that meet at junctions, kernels/mooring/line_network.hpp: balance of forces and shapes at rest, motion against the
-// pendulum, its order, and one line cut in two. SPDX-License-Identifier: Apache-2.0
+// pendulum and the modes of a weight on two strings, energy, order, and one line cut in two. SPDX-License-Identifier: Apache-2.0
 #include "kernels/mooring/line_network.hpp"
 
 #include <catch2/catch.hpp>
@@ -176,6 +176,101 @@ TEST_CASE("a weight on a string swings as a pendulum, without loss", "[mooring][
   REQUIRE(crossings.size() == 3);
   CHECK(0.5 * (crossings[2] - crossings[0]) == Approx(period * (1.0 + lean * lean / 16.0)).epsilon(1e-3));
   CHECK(largest == Approx(length * std::sin(lean)).epsilon(1e-3));
+}
+
+TEST_CASE("a weight on two strings rings at the frequencies of their stiffness, along, across and up", "[mooring][fast]") {
+  LineLumpedMass string = light_string(50, 2e5);
+  string.segments = 2, string.damping_ratio = 0.0, string.water_density = 1e-9;
+  const double half = 40.0, mass = 2e3;
+  LineNetwork network{
+      .lines = {{string, led, 0}, {string, led, 0}}, .junctions = {{.start = {0, 0, -30}, .mass = mass}}, .water_density = 1e-9};
+  const std::vector<LineEnds> outer{{at(-half, 0, 0), {}}, {at(half, 0, 0), {}}};
+  AtRest r = at_rest(network, outer);
+  REQUIRE(r.rest.found());
+  const Vector3d rest = network.junction(0, r.state).position;
+  const double l = std::hypot(half, rest.z()), c = half / l, s = -rest.z() / l, k = 2e5 / 50.0, turn = 0.5 * mass * 9.81 / s / l;
+  const Vector3d stiffness = 2.0 * Vector3d(k * c * c + turn * s * s, turn, k * s * s + turn * c * c);
+  const int direction = GENERATE(0, 1, 2);
+  const double period = 2.0 * pi / std::sqrt(stiffness[direction] / mass), h = period / 200;
+  r.state[r.state.size() - 3 + std::size_t(direction)] = 1e-3;
+  LineNetwork::Scratch scratch = network.scratch();
+  std::vector<double> crossings;
+  double before = 0.0;
+  for (int n = 0; n < 1050; ++n) {
+    network.advance(n * h, h, outer, outer, r.state, StillWater{}, scratch);
+    const double out = network.junction(0, r.state).position[direction] - rest[direction];
+    if (before > 0.0 && out <= 0.0) crossings.push_back(h * (n + before / (before - out)));
+    before = out;
+  }
+  REQUIRE(crossings.size() == 5);
+  CHECK(0.25 * (crossings[4] - crossings[0]) == Approx(period).epsilon(1e-3));  // the strings weigh 5e-4 of what they carry
+}
+
+namespace {
+
+/// Motion, height and stretch, with the weight in water for the weight [J].
+double energy(const LineNetwork& network, std::span<const LineEnds> outer, std::span<const double> state) {
+  double sum = 0.0;
+  std::size_t first = 0;
+  const auto add_mass = [&](double mass, double weight, const LineEnd& at) {
+    sum += 0.5 * mass * at.velocity.squaredNorm() + weight * at.position.z();
+  };
+  for (std::size_t l = 0; l < network.lines.size(); ++l) {
+    const LineLumpedMass& line = network.lines[l].line;
+    const LineEnds ends = network.ends(l, outer[l], state);
+    const std::span<const double> own = state.subspan(first, line.state_size());
+    const auto node = [&](int i) -> LineEnd {
+      if (i == 0 || i == line.segments) return i == 0 ? ends.anchor : ends.fairlead;
+      const double* p = own.data() + 3 * (i - 1);
+      return {Eigen::Map<const Vector3d>(p), Eigen::Map<const Vector3d>(p + 3 * line.inner())};
+    };
+    for (int i = 0; i < line.segments; ++i) {
+      const double l0 = line.segment(), stretch = std::max((node(i + 1).position - node(i).position).norm() - l0, 0.0);
+      sum += 0.5 * line.axial_stiffness / l0 * stretch * stretch;
+      for (const int end : {i, i + 1}) add_mass(0.5 * l0 * line.mass_per_m, 0.5 * l0 * line.weight_per_m(), node(end));
+    }
+    first += line.state_size();
+  }
+  for (std::size_t j = 0; j < network.junctions.size(); ++j) {
+    const LineJunction& own = network.junctions[j];
+    add_mass(own.mass, (own.mass - network.water_density * own.volume) * network.gravity, network.junction(int(j), state));
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("three lines and the weight between them keep their energy, and lose it to water and damping", "[mooring][fast]") {
+  const bool lossless = GENERATE(true, false);
+  LineNetwork network{
+      .lines = {{light_string(90, 2e6), led, 0}, {light_string(80, 2e6), 0, led}, {light_string(80, 2e6), 0, led}},
+      .junctions = {{.start = {20.0, 0.0, -80.0}, .mass = 8e3, .volume = 1.0, .drag_area = 3.0}}};
+  if (lossless) network.water_density = 1e-9;
+  for (LineNetwork::Member& m : network.lines) {
+    m.line.mass_per_m = 20.0, m.line.diameter = 0.06;
+    m.line.normal_added_mass = 0.0;
+    if (lossless) m.line.water_density = 1e-9, m.line.damping_ratio = 0.0;
+  }
+  network.junctions[0].added_mass = 0.0;
+  const std::vector<LineEnds> outer{{at(95, 0, -110), {}}, {{}, at(-40, -10, -30)}, {{}, at(-40, 10, -30)}};
+  AtRest r = at_rest(network, outer);
+  REQUIRE(r.rest.found());
+  const double least = energy(network, outer, r.state);
+  for (const std::size_t k : {std::size_t(0), std::size_t(1), std::size_t(2)}) r.state[r.state.size() - 3 + k] = 1.0;
+  LineNetwork::Scratch scratch = network.scratch();
+  const double start = energy(network, outer, r.state) - least;
+  double before = start, rise = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    network.advance(0.05 * n, 0.05, outer, outer, r.state, StillWater{}, scratch, lossless ? 4 : 1);
+    const double now = energy(network, outer, r.state) - least;
+    rise = std::max(rise, now - before), before = now;
+  }
+  INFO(start << " " << before << " " << rise);
+  if (lossless)
+    CHECK(before == Approx(start).epsilon(1e-3));  // Runge-Kutta's own loss at the stiffest frequencies
+  else
+    CHECK(before < 0.1 * start);
+  CHECK(rise < 1e-5 * start);
 }
 
 TEST_CASE("motion of a junction converges with the fourth order in its substeps", "[mooring][fast]") {

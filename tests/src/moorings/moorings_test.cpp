@@ -223,13 +223,14 @@ TEST_CASE("a dynamic line feels the water's motion", "[moorings][fast]") {
 
 namespace {
 
-/// A chain from the bed to a junction with a weight, two legs from there to the platform.
+/// A chain from the bed to a junction with a weight, two sagging legs of the same chain from there to the platform.
 Moorings bridle() {
   Moorings m(names, start());
   m.add_junction("crow", {.position_m = {60, 0, -20}, .mass_kg = 2e3, .volume_m3 = 0.2, .drag_area_m2 = 1.0});
   LineOptions main = chain(), leg = chain();
   main.body = "crow", main.fairlead_m = Vector3d(60, 0, -20), main.rest_length_m = 350.0, main.bed_level_m = -54.0;
-  leg.anchor_body = "crow", leg.anchor_m = main.fairlead_m, leg.rest_length_m = 62.0, leg.bed_contact = false, leg.segments = 4;
+  main.segments = 60;
+  leg.anchor_body = "crow", leg.anchor_m = main.fairlead_m, leg.rest_length_m = 62.0, leg.bed_contact = false, leg.segments = 16;
   m.add("main", main);
   for (const double side : {-5.0, 5.0}) {
     leg.fairlead_m = Vector3d(0, side, -4);
@@ -238,19 +239,27 @@ Moorings bridle() {
   return m;
 }
 
+/// Its rest between elastic catenaries (Jonkman 2007), the junction by Newton's method with differences: computed apart from this
+/// code. The junction sinks by 17 m under the chains; sag makes the legs so soft that yaw finds a lever of 20.8 m where taut legs
+/// would have 70.6 m, and a platform that comes nearer makes the junction sink and go the other way.
+namespace by_catenaries {
+const Vector3d junction(51.8964, 0.0, -36.9951), force(829.709e3, 0.0, -741.205e3);
+const Vector3d junction_per_surge(-0.12623, 0.0, -1.64337);
+constexpr double yaw_rad = 0.02, moment_z = -345.442e3;
+}  // namespace by_catenaries
+
 }  // namespace
 
 TEST_CASE("legs of a bridle load their body, at rest as in the equilibrium that looks for it, and hold it in yaw",
           "[moorings][fast]") {
   Moorings m = bridle();
   const Wrench steady = loads(m, start())[0];
-  CHECK(steady.force.x() > 5e5);
-  CHECK(std::abs(steady.force.y()) < 1e-3 * steady.force.x());
+  CHECK((steady.force - by_catenaries::force).norm() < 3e-3 * by_catenaries::force.norm());
   auto turned = start();
-  turned[0].attitude = Eigen::AngleAxisd(0.02, Vector3d::UnitZ());
-  const double moment = loads(m, turned)[0].moment.z();
-  CHECK(moment < -0.02 * 30.0 * steady.force.x());  // the lever is the legs' length, not the 5 m of the fairleads
+  turned[0].attitude = Eigen::AngleAxisd(by_catenaries::yaw_rad, Vector3d::UnitZ());
+  CHECK(loads(m, turned)[0].moment.z() == Approx(by_catenaries::moment_z).epsilon(0.01));
   const Vector3d place = m.junction(0, start()).position;
+  CHECK((place - by_catenaries::junction).norm() < 0.05);
   std::vector<double> memory(m.memory_size());
   m.begin(0.0, start(), memory);
   CHECK((loads(m, start())[0].force - steady.force).norm() < 1e-3 * steady.force.norm());
@@ -267,10 +276,7 @@ TEST_CASE("a junction follows bodies that move at the start", "[moorings][fast]"
   moving[0].velocity = {0.5, 0.0, 0.0};
   std::vector<double> memory(m.memory_size());
   m.begin(0.0, moving, memory);
-  auto later = moving;
-  later[0].position.x() += 0.5 * 0.05;
-  const double ahead = (m.junction(0, later).velocity.x());
-  CHECK(ahead == Approx(0.5).epsilon(0.2));
+  CHECK((m.junction(0, moving).velocity - 0.5 * by_catenaries::junction_per_surge).norm() < 0.01);
 }
 
 TEST_CASE("lines that meet are a function of their memory alone, and others do not change for them", "[moorings][fast]") {

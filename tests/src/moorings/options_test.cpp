@@ -110,34 +110,37 @@ TEST_CASE("an end at a junction is placed there, its line's bed where its anchor
   const LineOptions line = read(to_anchor + leg + crow);
   CHECK(line.fairlead_m->x() == -80.0);
   CHECK(line.bed_level_m == -20.6);
-  CHECK(read("anchor_body = 'crow'\nbody = 'platform'\nfairlead_m = [0, 0, -7]\n" + of_chain + crow).bed_level_m == -200.0);
+  CHECK(read("anchor_body = 'crow'\nbody = 'platform'\nfairlead_m = [0, 0, -7]\n" + of_chain + crow + "mass_kg = 9e3\n")
+            .bed_level_m == -200.0);
   CHECK_FALSE(read(ends + of_chain).bed_level_m);
+  CHECK(read(to_anchor + crow + "volume_m3 = 20\n").body == "crow");  // a float
 }
 
 TEST_CASE("a malformed junction is refused with what is wrong", "[moorings][fast]") {
   struct Case {
     std::string scene, message;
   };
-  const auto c = GENERATE(
-      Case{ends + of_chain + crow, "junctions.crow: is named by no end of a line"},
-      Case{to_anchor + leg, "names body \"crow\", which is not in [bodies]"},
-      Case{to_anchor + leg + "[junctions.craw]\nposition_m = [0, 0, 0]\n",
-           "names body \"crow\", which is not in [bodies] or [junctions]; known: platform, buoy, craw"},
-      Case{to_anchor + leg + "[junctions.crow]\n", "junctions.crow.position_m"},
-      Case{to_anchor + leg + crow + "mass_kg = -5\n", "junctions.crow.mass_kg"},
-      Case{to_anchor + leg + crow + "volume_m3 = -5\n", "junctions.crow.volume_m3"},
-      Case{to_anchor + leg + crow + "drag_area_m2 = -1\n", "junctions.crow.drag_area_m2"},
-      Case{to_anchor + leg + crow + "weight = 1\n", "weight"},
-      Case{to_anchor + "fairlead_m = [0, 0, 0]\n" + leg + crow, "must be left out: the end is at junction \"crow\""},
-      Case{"body = 'crow'\nanchor_body = 'crow'\n" + of_chain + leg + crow, "ties two different things"},
-      Case{"body = 'crow'\nanchor_m = [-162.6, 0, -20.6]\nmodel = 'catenary'\nrest_length_m = 130\nweight_N_m = 1e3\n"
-           "axial_stiffness_N = 4e8\n" +
-               leg + crow,
-           "names junction \"crow\": of the models of lines only lumped_mass has nodes that move with it, "
-           "not "
-           "catenary"},
-      Case{"body = 'crow'\nanchor_body = 'nest'\n" + of_chain + crow + "[junctions.nest]\nposition_m = [0, 0, -30]\n",
-           "junctions.nest: is held by nothing"});
+  const auto c =
+      GENERATE(Case{ends + of_chain + crow, "junctions.crow: is named by no end of a line"},
+               Case{to_anchor + leg, "names body \"crow\", which is not in [bodies]"},
+               Case{to_anchor + leg + "[junctions.craw]\nposition_m = [0, 0, 0]\n",
+                    "names body \"crow\", which is not in [bodies] or [junctions]; known: platform, buoy, craw"},
+               Case{to_anchor + leg + "[junctions.crow]\n", "junctions.crow.position_m"},
+               Case{to_anchor + leg + crow + "mass_kg = -5\n", "junctions.crow.mass_kg"},
+               Case{to_anchor + leg + crow + "volume_m3 = -5\n", "junctions.crow.volume_m3"},
+               Case{to_anchor + leg + crow + "drag_area_m2 = -1\n", "junctions.crow.drag_area_m2"},
+               Case{to_anchor + leg + crow + "weight = 1\n", "weight"},
+               Case{to_anchor + "fairlead_m = [0, 0, 0]\n" + leg + crow, "must be left out: the end is at junction \"crow\""},
+               Case{"body = 'crow'\nanchor_body = 'crow'\n" + of_chain + leg + crow, "ties two different things"},
+               Case{"body = 'crow'\nanchor_m = [-162.6, 0, -20.6]\nmodel = 'catenary'\nrest_length_m = 130\nweight_N_m = 1e3\n"
+                    "axial_stiffness_N = 4e8\n" +
+                        leg + crow,
+                    "names junction \"crow\": of the models of lines only lumped_mass has nodes that move with it, "
+                    "not "
+                    "catenary"},
+               Case{"body = 'crow'\nanchor_body = 'nest'\n" + of_chain + crow + "[junctions.nest]\nposition_m = [0, 0, -30]\n",
+                    "junctions.nest: is held by nothing"},
+               Case{to_anchor + crow, "junctions.crow: is the loose end of one line"});
   CHECK_THROWS_WITH(read(c.scene), Contains(c.message));
 }
 
