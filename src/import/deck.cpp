@@ -89,6 +89,12 @@ std::optional<std::size_t> Deck::find(const std::vector<std::string>& names) con
   return std::nullopt;
 }
 
+std::optional<std::size_t> Deck::mention(const std::string& word) const {
+  for (std::size_t n = 0; n < lines_.size(); ++n)
+    if (std::ranges::find(lines_[n].words, word) != lines_[n].words.end()) return n;
+  return std::nullopt;
+}
+
 double Deck::to_number(const std::string& word, std::size_t line) const {
   const std::optional<double> value = number_in(word);
   if (!value) fail(line, fmt::format("'{}' is not a number", word));
@@ -114,6 +120,18 @@ int Deck::integer(const std::vector<std::string>& names, int otherwise) const {
   if (value != std::floor(value) || std::abs(value) > 1e9)
     fail(line, fmt::format("'{}' is not a whole number", lines_[*line].words[0]));
   return int(value);
+}
+
+void Deck::require(std::initializer_list<Range> ranges) const {
+  for (const Range& r : ranges) {
+    const auto line = find({r.name});
+    if (!line || plain(lines_[*line].words[0]) == "default") continue;
+    const double value = to_number(lines_[*line].words[0], *line);
+    if (value <= r.high && (r.above ? value > r.low : value >= r.low)) continue;
+    const std::string wanted = std::isfinite(r.high) ? fmt::format("{:g} to {:g}", r.low, r.high)
+                                                     : fmt::format("{} {:g}", r.above ? "more than" : "at least", r.low);
+    fail(line, fmt::format("{} is {:g}: {} is wanted", r.name, value, wanted));
+  }
 }
 
 bool Deck::flag(const std::vector<std::string>& names, bool otherwise) const {

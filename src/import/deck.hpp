@@ -4,11 +4,23 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace spindrift::decks {
+
+/// What a value of a file may be.
+struct Range {
+  const char* name;
+  double low, high;
+  bool above = false;  ///< `low` itself is refused
+};
+inline Range positive(const char* name) { return {name, 0.0, std::numeric_limits<double>::infinity(), true}; }
+inline Range not_negative(const char* name) { return {name, 0.0, std::numeric_limits<double>::infinity()}; }
+inline Range angle(const char* name) { return {name, -360.0, 360.0}; }  ///< [deg]
 
 class Deck {
  public:
@@ -19,6 +31,8 @@ class Deck {
   /// Line of the first that has one of these names behind its values; names compare without case, underscores and "(1)".
   std::optional<std::size_t> find(const std::vector<std::string>& names) const;
   bool has(const std::string& name) const { return find({name}).has_value(); }
+  /// The first line that has this word anywhere: where a name stands whose values are malformed.
+  std::optional<std::size_t> mention(const std::string& word) const;
 
   // Of the value before the name; several names are those of several versions. They throw, naming file and line, where the name
   // is missing or the value is no number; the second form gives `otherwise` where the name is missing or the value is "default".
@@ -27,6 +41,8 @@ class Deck {
   int integer(const std::vector<std::string>& names, int otherwise) const;
   bool flag(const std::vector<std::string>& names, bool otherwise) const;
   std::string text(const std::vector<std::string>& names) const;
+  /// Refuses values outside their ranges by their lines. Names that are missing, and "default", pass.
+  void require(std::initializer_list<Range> ranges) const;
   /// A file named relative to this one.
   std::filesystem::path path(const std::vector<std::string>& names) const;
   std::filesystem::path beside(const std::string& name) const;

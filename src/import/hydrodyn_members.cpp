@@ -34,6 +34,23 @@ struct Table {
     return words[column];
   }
   double number(std::size_t row, const char* name) const { return file.to_number(text(row, name), line(row)); }
+  double not_negative(std::size_t row, const char* name) const {
+    const double value = number(row, name);
+    if (value < 0.0) file.fail(line(row), fmt::format("has {} = {:g}, which is negative", name, value));
+    return value;
+  }
+  double positive(std::size_t row, const char* name) const {
+    const double value = number(row, name);
+    if (!(value > 0.0)) file.fail(line(row), fmt::format("has {} = {:g}: more than 0 is wanted", name, value));
+    return value;
+  }
+  /// Puts an entry into its map.
+  template <class T>
+  void enter(std::size_t row, std::map<std::string, T>& entries, const char* id, T entry) const {
+    number(row, id);
+    if (!entries.emplace(text(row, id), std::move(entry)).second)
+      file.fail(line(row), fmt::format("has {} {} of a row before", id, text(row, id)));
+  }
   bool has(const char* name) const {
     const auto& words = file.words(heading);
     return std::find(words.begin(), words.end(), name) != words.end();
@@ -47,8 +64,11 @@ struct Across {
 
 /// The word MCF in the place of C_a: waves as MacCamy and Fuchs have it, motions of the member with C_a = 1.
 Across across(double drag, const std::string& added, const Deck& file, std::size_t line) {
+  if (drag < 0.0) file.fail(line, fmt::format("has a drag coefficient of {:g}, which is negative", drag));
   if (added == "MCF" || added == "mcf") return {drag, 1.0, true};
-  return {drag, file.to_number(added, line)};
+  const double mass = file.to_number(added, line);
+  if (mass < 0.0) file.fail(line, fmt::format("has an added-mass coefficient of {:g}, which is negative", mass));
+  return {drag, mass};
 }
 struct Disc {
   double drag = 0.0, added_mass = 0.0;
@@ -73,12 +93,13 @@ std::map<std::string, Joint> read_joints(const Deck& hd) {
   std::map<std::string, Disc> discs;
   const Table axial(hd, {"NAxCoef"});
   for (std::size_t n = 0; n < axial.count; ++n)
-    discs[axial.text(n, "AxCoefID")] = {0.5 * axial.number(n, "AxCd"), axial.number(n, "AxCa")};
+    axial.enter(n, discs, "AxCoefID", Disc{0.5 * axial.not_negative(n, "AxCd"), axial.not_negative(n, "AxCa")});
   std::map<std::string, Joint> joints;
   const Table table(hd, {"NJoints"});
   for (std::size_t n = 0; n < table.count; ++n)
-    joints[table.text(n, "JointID")] = {{table.number(n, "Jointxi"), table.number(n, "Jointyi"), table.number(n, "Jointzi")},
-                                        look_up(discs, table.text(n, "JointAxID"), hd, table.line(n), "axial coefficients")};
+    table.enter(n, joints, "JointID",
+                Joint{{table.number(n, "Jointxi"), table.number(n, "Jointyi"), table.number(n, "Jointzi")},
+                      look_up(discs, table.text(n, "JointAxID"), hd, table.line(n), "axial coefficients")});
   return joints;
 }
 
@@ -156,12 +177,13 @@ std::vector<Member> read_members(const Deck& hd, double depth, std::vector<std::
   std::map<std::string, Section> sections;
   const Table sets(hd, {"NPropSetsCyl", "NPropSets"});
   for (std::size_t n = 0; n < sets.count; ++n)
-    sections[sets.text(n, "PropSetID")] = {sets.number(n, "PropD"), sets.number(n, "PropThck")};
+    sets.enter(n, sections, "PropSetID", Section{sets.positive(n, "PropD"), sets.not_negative(n, "PropThck")});
   const Coefficients coefficients(hd);
   std::vector<Member> members;
   for (std::size_t n = 0; n < table.count; ++n) {
     const std::size_t line = table.line(n);
     const std::string id = table.text(n, "MemberID");
+    table.number(n, "MemberID");
     if (table.has("MSecGeom") && table.number(n, "MSecGeom") != 1.0)
       hd.fail(line, "is a member of rectangular section; cylinders are known");
     const double mode = table.number(n, "MCoefMod");
@@ -177,10 +199,14 @@ std::vector<Member> read_members(const Deck& hd, double depth, std::vector<std::
     Member member{"member_" + id,
                   end("MJointID1", "MPropSetID1", '1'),
                   end("MJointID2", "MPropSetID2", '2'),
-                  table.number(n, "MDivSize"),
+                  table.positive(n, "MDivSize"),
                   !table.has("PropPot") || is_true(table.text(n, "PropPot")),
                   false};
     member.diffracts = diffracts;
+    if ((member.end.at - member.start.at).norm() == 0.0)
+      hd.fail(line, fmt::format("is member {} between joints that are in one place", id));
+    if (std::ranges::any_of(members, [&](const Member& m) { return m.name == member.name; }))
+      hd.fail(line, fmt::format("has MemberID {} of a row before", id));
     if (!clip_at_bed(member, depth)) continue;
     const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-9 * (std::abs(a) + std::abs(b)); };
     if (differ(member.start.drag, member.end.drag) || differ(member.start.added_mass, member.end.added_mass))

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -36,6 +37,20 @@ class Importer {
   Imported run() {
     if (!main_.has("EDFile"))
       main_.fail(std::nullopt, "has no line for EDFile: this is not an OpenFAST main file (version 3 to 5)");
+    main_.require({positive("TMax"),
+                   positive("Gravity"),
+                   positive("KinVisc"),
+                   positive("SpdSound"),
+                   {"CompElast", 1, 3},
+                   {"CompInflow", 0, 2},
+                   {"CompAero", 0, 3},
+                   {"CompServo", 0, 1},
+                   {"CompSeaSt", 0, 1},
+                   {"CompHydro", 0, 1},
+                   {"CompSub", 0, 2},
+                   {"CompMooring", 0, 4},
+                   {"CompIce", 0, 2},
+                   {"MHK", 0, 2}});
     if (main_.integer({"CompElast"}, 1) == 3) main_.fail(main_.find({"CompElast"}), "is 3: simplified ElastoDyn is not known");
     if (const auto line = main_.find({"MHK"}); line && (main_.words(*line)[0] == "1" || main_.words(*line)[0] == "2"))
       main_.fail(line, "has MHK: a rotor in the water is not known");
@@ -72,9 +87,11 @@ class Importer {
   void environment() {
     gravity_ = main_.number({"Gravity"}, elastodyn_->number({"Gravity"}, 9.80665));
     scene_ << fmt::format("\n[environment]\ngravity_m_s2 = {:.9g}\n", gravity_);
+    if (main_.integer({"CompAero"}, 0) == 2) main_.require({positive("AirDens")});
     if (main_.integer({"CompAero"}, 0) == 2)
       scene_ << fmt::format("air_density_kg_m3 = {:.9g}\n", given("AirDens", "AeroFile", 1.225));
     if (!wet_) return;
+    main_.require({positive("WtrDens"), positive("WtrDpth")});
     depth_ = given("WtrDpth", "HydroFile", 200.0), water_density_ = given("WtrDens", "HydroFile", 1025.0);
     scene_ << fmt::format("water_density_kg_m3 = {:.9g}\nwater_depth_m = {:.9g}\n", water_density_, depth_);
     if (given("MSL2SWL", "HydroFile", 0.0) != 0.0) leave_out("MSL2SWL: still water is at the mean level");
@@ -166,7 +183,9 @@ class Importer {
   // Wind and rotor.
 
   std::string wind(const Deck& w) {
+    w.require({{"WindType", 1, 7}, not_negative("HWindSpeed"), {"PLexp", -1, 1}, angle("PropagationDir"), {"VFlowAng", -90, 90}});
     const int type = w.integer({"WindType"}, 1);
+    if (type == 1) w.require({positive("RefHt")});
     std::string text = "\n[wind]\n";
     const double speed = w.number({"HWindSpeed"}, 0.0), height = w.number({"RefHt"}, rotor_.hub.z()),
                  exponent = w.number({"PLexp"}, 0.0);
@@ -198,6 +217,14 @@ class Importer {
   }
 
   std::string mann(const Deck& w) {
+    w.require({positive("URef"),
+               {"nx", 2, 1e6},
+               {"ny", 2, 1e6},
+               {"nz", 2, 1e6},
+               positive("dx"),
+               positive("dy"),
+               positive("dz"),
+               {"ScaleMethod", 0, 2}});
     std::string files;
     for (const char* name : {"FileName_u", "FileName_v", "FileName_w"}) {
       const std::filesystem::path path = w.path({name});
@@ -219,11 +246,14 @@ class Importer {
     const Deck file(w.path({"FileName_Uni", "Filename"}), '!');
     std::ofstream out(folder_ / "wind.csv");
     out << "# From " << file.file().filename().string() << ".\ntime_s,speed_m_s,direction_deg,vertical_m_s\n";
-    double shear = 0.0;
+    double shear = 0.0, before = -std::numeric_limits<double>::infinity();
     bool sheared = false, changes = false;
     for (std::size_t n = 0; n < file.size(); ++n) {
       if (file.words(n).empty()) continue;
       const std::vector<double> row = file.numbers(n, 8);
+      if (row[1] < 0.0) file.fail(n, fmt::format("has a wind of {:g} m/s: the second column is a speed, not negative", row[1]));
+      if (row[0] <= before) file.fail(n, fmt::format("has a time of {:g} s, not later than the row before", row[0]));
+      before = row[0];
       out << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", row[0], row[1] + row[7], -row[2], row[3]);
       if (n > 0 && row[5] != shear) changes = true;
       shear = row[5];
@@ -246,8 +276,13 @@ class Importer {
     const std::size_t count = std::size_t(ad.integer({"NumTwrNds"}, 0));
     if (!(changes_wind || drag) || count < 2) return "";
     std::string text = "\n[aero.tower]\nstations = [\n";
+    double before = -std::numeric_limits<double>::infinity();
     for (std::size_t n = *ad.find({"NumTwrNds"}) + 3; count > 0 && n < *ad.find({"NumTwrNds"}) + 3 + count; ++n) {
       const std::vector<double> row = ad.numbers(n, 3);
+      if (row[0] <= before) ad.fail(n, fmt::format("has a height of {:g} m, not above the row before", row[0]));
+      if (!(row[1] > 0.0)) ad.fail(n, fmt::format("has a diameter of {:g} m: more than 0 is wanted", row[1]));
+      if (row[2] < 0.0) ad.fail(n, fmt::format("has a drag coefficient of {:g}: at least 0 is wanted", row[2]));
+      before = row[0];
       text += fmt::format("  [{:.9g}, {:.9g}, {:.9g}],\n", row[0], row[1], row[2]);
     }
     text += "]\n";
@@ -266,6 +301,7 @@ class Importer {
     const bool knows = !ad.has("AFAeroMod"), stalls = knows || ad.integer({"AFAeroMod"}, 1) == 2;
     if (filter > 0 && (wake == 2 || (wake == 1 && knows))) {
       text += "dynamic_inflow = \"oye\"\n";
+      if (filter != 2) ad.require({positive("tau1_const")});
       if (filter != 2) text += fmt::format("inflow_time_s = {:.9g}\n", ad.number({"tau1_const"}));
       carry("dynamic inflow after Oye");
     }
@@ -294,6 +330,23 @@ class Importer {
       return;
     }
     const Deck ad(main_.path({"AeroFile"}));
+    ad.require({{"Wake_Mod", 0, 3},
+                {"WakeMod", 0, 3},
+                {"TwrPotent", 0, 2},
+                {"TwrShadow", 0, 2},
+                {"DBEMT_Mod", -1, 3},
+                {"UA_Mod", 0, 7},
+                {"UAMod", 0, 7},
+                {"AFAeroMod", 1, 2},
+                positive("KinVisc"),
+                positive("SpdSound"),
+                positive("AirDens"),
+                {"NumTwrNds", 0, 1e5},
+                {"InCol_Alfa", 1, 100},
+                {"InCol_Cl", 1, 100},
+                {"InCol_Cd", 1, 100},
+                {"InCol_Cm", 0, 100},
+                {"NumAFfiles", 1, 1e5}});
     WrittenTurbine turbine = write_turbine(ad, rotor_, folder_);
     for (std::string& what : turbine.left_out) leave_out(std::move(what));
     scene_ << wind(Deck(main_.path({"InflowFile"})));
@@ -349,6 +402,26 @@ class Importer {
       return;
     }
     const Deck deck(main_.path({"ServoFile"}));
+    deck.require({{"PCMode", 0, 5},
+                  {"VSContrl", 0, 5},
+                  {"GenEff", 1, 100},
+                  not_negative("HSSBrTqF"),
+                  not_negative("DLL_DT"),
+                  {"Ptch_Cntrl", 0, 1},
+                  angle("Ptch_SetPnt"),
+                  angle("Ptch_Min"),
+                  angle("Ptch_Max"),
+                  not_negative("PtchRate_Max"),
+                  not_negative("GenPwr_Dem"),
+                  not_negative("Gain_OM"),
+                  not_negative("GenSpd_MinOM"),
+                  not_negative("GenSpd_MaxOM"),
+                  not_negative("GenSpd_Dem"),
+                  not_negative("GenTrq_Dem"),
+                  not_negative("DLL_NumTrq"),
+                  angle("NacYaw_North")});
+    if (deck.has("Ptch_Min") && deck.number({"Ptch_Max"}, 90.0) < deck.number({"Ptch_Min"}, 0.0))
+      deck.fail(deck.find({"Ptch_Min"}), "Ptch_Min is more than Ptch_Max");
     for (const char* key : {"YCMode", "HSSBrMode", "AfCmode", "CCmode", "NumBStC", "NumNStC", "NumTStC", "NumSStC"})
       if (const int mode = deck.integer({key}, 0); mode != 0) leave_out(fmt::format("ServoDyn's {} {}", key, mode));
     const bool rotor = scene_.str().find("[rotor]") != std::string::npos;
@@ -440,10 +513,37 @@ class Importer {
     std::optional<Deck> sea_state;
     if (!old && main_.integer({"CompSeaSt"}, 1) == 1) sea_state.emplace(main_.path({"SeaStFile"}));
     const Deck& waves = sea_state ? *sea_state : hd;
+    waves.require({not_negative("WaveHs"),
+                   angle("WaveDir"),
+                   {"WavePkShp", 0, 7},
+                   {"WaveDirMod", 0, 1},
+                   {"ConstWaveMod", 0, 2},
+                   not_negative("CrestTime"),
+                   not_negative("WvHiCOff"),
+                   {"CurrMod", 0, 2},
+                   not_negative("CurrSSV0"),
+                   not_negative("CurrNSV0"),
+                   not_negative("CurrNSRef"),
+                   not_negative("CurrDIV"),
+                   angle("CurrSSDir"),
+                   angle("CurrNSDir"),
+                   angle("CurrDIDir")});
+    const int model = wave_model(waves);
+    if ((model < 0 || model > 7) && model != 10)
+      waves.fail(waves.find({"WaveMod"}), fmt::format("WaveMod is {}: 0 to 7, or 1P and a phase, is wanted", model));
+    if (model == 1 || model == 2 || model == 10) waves.require({positive("WaveTp")});
+    if (model == 2 && waves.integer({"ConstWaveMod"}, 0) != 0) waves.require({positive("CrestHmax")});
+    if (waves.integer({"WaveDirMod"}, 0) == 1) waves.require({positive("WaveDirSpread"), {"WaveDirRange", 0, 360}});
+    hd.require({{"PotMod", 0, 2},
+                {"RdtnMod", 0, 2},
+                not_negative("RdtnTMax"),
+                {"NBody", 1, 1e5},
+                positive("WAMITULEN"),
+                not_negative("PtfmVol0")});
     if (hd.integer({"NBody"}, 1) > 1) hd.fail(hd.find({"NBody"}), "has several bodies: one is carried over");
     const bool potential = hd.integer({"PotMod"}, 0) == 1;
     if (hd.integer({"PotMod"}, 0) == 2) leave_out("FIT (PotMod 2)");
-    const bool still = wave_model(waves) == 0;
+    const bool still = model == 0;
 
     std::string sea = fmt::format("\n[sea]\nmodel = \"{}\"\n", potential ? "potential" : "morison");
     sea += current(waves) + members(hd, potential, !still);
@@ -515,7 +615,7 @@ class Importer {
     for (const auto& [deck, key] :
          {std::pair{"AddCLin", "stiffness"}, std::pair{"AddBLin", "damping"}, std::pair{"AddBQuad", "quadratic_damping"}}) {
       const auto line = hd.find({deck});
-      if (!line) continue;
+      if (!line) hd.fail(hd.mention(deck), fmt::format("has no row of six numbers before {}", deck));
       std::string rows;
       bool zero = true;
       for (std::size_t i = 0; i < 6; ++i) {

@@ -26,6 +26,15 @@ Eigen::Matrix3d MassSum::inertia() const {
 }
 
 RotorFrame rotor_frame(const Deck& ed) {
+  ed.require({{"NumBl", 1, 12},          positive("TipRad"),       not_negative("HubRad"),     {"ShftTilt", -90, 90},
+              {"PreCone(1)", -90, 90},   angle("NacYaw"),          angle("BlPitch(1)"),        angle("Azimuth"),
+              not_negative("RotSpeed"),  positive("TowerHt"),      not_negative("TipMass(1)"), not_negative("HubMass"),
+              not_negative("HubIner"),   not_negative("GenIner"),  not_negative("NacMass"),    not_negative("NacYIner"),
+              not_negative("YawBrMass"), not_negative("PtfmMass"), not_negative("PtfmRIner"),  not_negative("PtfmPIner"),
+              not_negative("PtfmYIner"), positive("GBRatio"),      {"GBoxEff", 0, 100},        angle("PtfmRoll"),
+              angle("PtfmPitch"),        angle("PtfmYaw")});
+  if (ed.number({"TipRad"}) <= ed.number({"HubRad"})) ed.fail(ed.find({"TipRad"}), "TipRad is not more than HubRad");
+  if (ed.number({"TowerHt"}) <= ed.number({"TowerBsHt"}, 0.0)) ed.fail(ed.find({"TowerHt"}), "TowerHt is not above TowerBsHt");
   const double tilt = ed.number({"ShftTilt"}) * radians_per_degree, overhang = ed.number({"OverHang"});
   RotorFrame r;
   r.yaw = ed.number({"NacYaw"}, 0.0) * radians_per_degree;
@@ -46,7 +55,8 @@ struct Density {
 
 Density read_density(const Deck& file, const std::vector<std::string>& count, const std::vector<std::string>& share,
                      const std::vector<std::string>& density, const std::vector<std::string>& factor) {
-  const auto n = std::size_t(file.number(count));
+  const int n = file.integer(count, 0);
+  if (n < 2 || n > 100000) file.fail(file.find(count), fmt::format("{} is {}: 2 to 100000 stations are wanted", count[0], n));
   // The heading is the first line below that has the column's name.
   std::size_t heading = *file.find(count);
   const auto names = [&](std::size_t line) {
@@ -62,8 +72,14 @@ Density read_density(const Deck& file, const std::vector<std::string>& count, co
   const double scale = file.number(factor, 1.0);
   Density result;
   std::size_t line = heading + 2;
-  for (const auto& row : file.rows(line, n, std::max(a, m) + 1)) {
-    result.at.push_back(file.to_number(row[a], line)), result.per_m.push_back(scale * file.to_number(row[m], line));
+  for (const auto& row : file.rows(line, std::size_t(n), std::max(a, m) + 1)) {
+    const double at = file.to_number(row[a], line), value = file.to_number(row[m], line);
+    if (at < 0.0 || at > 1.0 + 1e-6) file.fail(line, fmt::format("has {} = {:g}: 0 to 1 is wanted", share[0], at));
+    if (!result.at.empty() && at <= result.at.back())
+      file.fail(line, fmt::format("has {} = {:g}, not beyond the row before", share[0], at));
+    if (value < 0.0 && density[0] != "StrcTwst")
+      file.fail(line, fmt::format("has {} = {:g}, which is negative", density[0], value));
+    result.at.push_back(at), result.per_m.push_back(scale * value);
     ++line;
   }
   return result;
@@ -291,6 +307,25 @@ ImportedJunction free_point(const std::string& id, const Eigen::Vector3d& at) {
   return {name, at};
 }
 
+/// Puts an entry of a table into its map.
+template <class T>
+void enter(const Deck& file, std::size_t line, std::map<std::string, T>& table, const std::string& name, T entry) {
+  if (!table.emplace(name, std::move(entry)).second) file.fail(line, fmt::format("has the name {} of a row before", name));
+}
+
+double not_negative(const Deck& file, std::size_t line, const std::string& what, double value) {
+  if (value < 0.0) file.fail(line, fmt::format("has {} = {:g}, which is negative", what, value));
+  return value;
+}
+
+/// Unstretched length and the two ends of a row of lines.
+double length_of(const Deck& file, std::size_t line, const std::string& word, const std::string& a, const std::string& b) {
+  const double length = file.to_number(word, line);
+  if (!(length > 0.0)) file.fail(line, fmt::format("has a line of {} m: its length must be above zero", word));
+  if (a == b) file.fail(line, fmt::format("has a line from {} to itself", a));
+  return length;
+}
+
 /// Ends of a line: the anchor is what is fixed, the fairlead what moves with the platform; a free point takes the other end.
 /// False where the line ties the bed to the bed, the platform to itself, or something unknown.
 bool place_ends(ImportedLine& line, LinePoint a, LinePoint b) {
@@ -333,12 +368,16 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
   std::map<std::string, Type> by_name;
   each_row(file, types, [&](std::size_t n, const auto& w) {
     file.rows(n, 1, 5);
-    by_name[w[0]] = {file.to_number(w[1], n), file.to_number(w[2], n), file.to_number(w[3], n), file.to_number(w[4], n)};
+    for (std::size_t unused = 5; unused < w.size(); ++unused) file.to_number(w[unused], n);
+    enter(file, n, by_name, w[0],
+          Type{not_negative(file, n, "Diam", file.to_number(w[1], n)),
+               not_negative(file, n, "MassDenInAir", file.to_number(w[2], n)),
+               not_negative(file, n, "EA", file.to_number(w[3], n)), file.to_number(w[4], n)});
   });
   const std::string file_name = file.file().filename().string();
   std::map<std::string, LinePoint> by_number;
   each_row(file, nodes, [&](std::size_t n, const auto& w) {
-    file.rows(n, 1, 5);
+    file.rows(n, 1, file.words(nodes).size());
     // "#" marks what MAP++ looks for; a free node's place behind it is where the search begins.
     const auto value = [&](std::size_t column) {
       std::string word = w.size() > column ? w[column] : "0";
@@ -346,13 +385,12 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
       return word == "depth" ? -depth : word.empty() && column > 4 ? 0.0 : file.to_number(word, n);
     };
     LinePoint node{in_lower_case(w[1]), free_point(w[0], {value(2), value(3), value(4)})};
-    if (node.kind() == PointKind::free) {
-      node.point.mass = value(5), node.point.volume = value(6), node.point.added_mass = 0.5;  // a sphere's
-      if (node.point.mass < 0.0 || node.point.volume < 0.0) file.fail(n, "has a negative mass or volume");
-      if (value(7) != 0.0 || value(8) != 0.0 || value(9) != 0.0)
-        left_out.push_back(fmt::format("{}: the force FX, FY, FZ on node {}", file_name, w[0]));
-    }
-    by_number[w[0]] = node;
+    const Eigen::Vector3d force(value(7), value(8), value(9));
+    node.point.mass = not_negative(file, n, "M", value(5)), node.point.volume = not_negative(file, n, "B", value(6));
+    node.point.added_mass = 0.5;  // a sphere's
+    if (node.kind() == PointKind::free && force.norm() > 0.0)
+      left_out.push_back(fmt::format("{}: the force FX, FY, FZ on node {}", file_name, w[0]));
+    enter(file, n, by_number, w[0], node);
   });
   std::vector<ImportedLine> found;
   each_row(file, lines, [&](std::size_t n, const auto& w) {
@@ -361,7 +399,7 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
     for (const std::string& node : {w[3], w[4]})
       if (!by_number.count(node)) file.fail(n, fmt::format("names node {}, which is not in the table of nodes", node));
     const Type& t = by_name[w[1]];
-    ImportedLine line{{}, {}, file.to_number(w[2], n), t.diameter, t.mass, t.stiffness, t.friction};
+    ImportedLine line{{}, {}, length_of(file, n, w[2], w[3], w[4]), t.diameter, t.mass, t.stiffness, t.friction};
     const LinePoint &a = by_number.at(w[3]), &b = by_number.at(w[4]);
     if (!place_ends(line, a, b)) return left_out.push_back(not_tied(file, w[0], a, b));
     found.push_back(line);
@@ -426,28 +464,31 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
   each_row(file, dictionary, [&](std::size_t n, const auto& w) {
     file.rows(n, 1, std::max({damped, drag, added, axial_drag, axial_added, std::size_t(3)}) + 1);
     const auto at = [&](std::size_t column) { return file.to_number(w[column], n); };
-    types[w[0]] = {
-        at(1),
-        at(2),
-        at(3),
-        at(damped),
-        {.drag = at(drag), .axial_drag = at(axial_drag), .added_mass = at(added), .axial_added_mass = at(axial_added)}};
+    const auto positive = [&](const char* name, std::size_t column) { return not_negative(file, n, name, at(column)); };
+    enter(file, n, types, w[0],
+          Type{positive("Diam", 1),
+               positive("MassDen", 2),
+               positive("EA", 3),
+               at(damped),
+               {.drag = positive("Cd", drag),
+                .axial_drag = positive("CdAx", axial_drag),
+                .added_mass = positive("Ca", added),
+                .axial_added_mass = positive("CaAx", axial_added)}});
     if (bending < heading.size() && w.size() > bending && at(bending) != 0.0)
       left_out.push_back(fmt::format("{}: bending stiffness of line type {}", file.file().filename().string(), w[0]));
   });
   std::map<std::string, LinePoint> points;
   const std::size_t table = section({"POINTS", "CONNECTION PROPERTIES", "POINT PROPERTIES"});
   each_row(file, table, [&](std::size_t n, const auto& w) {
-    file.rows(n, 1, 5);
+    file.rows(n, 1, file.words(table).size());
     const auto at = [&](std::size_t column) { return file.to_number(w[column], n); };
     LinePoint point{in_lower_case(w[1]), free_point(w[0], {at(2), at(3), std::max(at(4), -depth)})};
+    for (std::size_t unused = 5; unused < w.size(); ++unused) at(unused);
     if (point.kind() == PointKind::free) {
       const auto value = [&](const std::vector<std::string>& names) {
         const std::size_t column = file.column(table, names);
         file.rows(n, 1, column + 1);
-        const double x = at(column);
-        if (x < 0.0) file.fail(n, fmt::format("has a negative {}", names[0]));
-        return x;
+        return not_negative(file, n, names[0], at(column));
       };
       point.point.mass = value({"M", "Mass"}), point.point.volume = value({"V", "Volume", "Vol"});
       point.point.drag_area = value({"CdA"}), point.point.added_mass = value({"CA"});
@@ -456,7 +497,7 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
         if ((names[column] == "FX" || names[column] == "FY" || names[column] == "FZ") && at(column) != 0.0)
           left_out.push_back(fmt::format("{}: the force {} on point {}", file.file().filename().string(), names[column], w[0]));
     }
-    points[w[0]] = point;
+    enter(file, n, points, w[0], point);
   });
   const std::size_t lines = section({"LINES", "LINE PROPERTIES"});
   // Version 1 has the segments' number after the length, version 2 the ends before it.
@@ -470,12 +511,13 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
     for (const std::string& point : {w[a], w[b]})
       if (!points.count(point)) file.fail(n, fmt::format("names point {}, which is not in the table of points", point));
     const Type& t = types[w[type]];
-    ImportedLine line{
-        {},        {}, file.to_number(w[length], n), t.diameter, t.mass, t.stiffness, file.number({"FrictionCoefficient"}, 0.0),
-        t.dynamics};
+    ImportedLine line{{},     {},          length_of(file, n, w[length], w[a], w[b]), t.diameter,
+                      t.mass, t.stiffness, file.number({"FrictionCoefficient"}, 0.0), t.dynamics};
     const LinePoint &one = points.at(w[a]), &other = points.at(w[b]);
     if (!place_ends(line, one, other)) return left_out.push_back(not_tied(file, w[0], one, other));
-    const double least = std::max(2.0, file.to_number(w[segments], n));
+    const double given = file.to_number(w[segments], n), least = std::max(2.0, given);
+    if (given != std::floor(given) || given < 1.0 || given > 1000.0)
+      file.fail(n, fmt::format("has {} segments: a whole number from 1 to 1000 is wanted", w[segments]));
     line.dynamics->segments = int(least);
     line.dynamics->bed_stiffness = file.number({"kBot", "kb"}, 3e6),
     line.dynamics->bed_damping = file.number({"cBot", "cb"}, 3e5);

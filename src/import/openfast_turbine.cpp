@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <map>
 
@@ -25,21 +26,31 @@ Tables tables_named(const Deck& ad) {
 
 struct BladeNode {
   double span, bend, sweep, twist, chord;
-  int polar;  ///< number of its aerofoil file
+  int polar;         ///< number of its aerofoil file
+  std::size_t line;  ///< of the file
 };
 
 std::vector<BladeNode> read_nodes(const Deck& blade) {
-  const auto nodes = std::size_t(blade.number({"NumBlNds"}));
+  blade.require({{"NumBlNds", 2, 1e5}});
+  const int nodes = blade.integer({"NumBlNds"}, 0);
+  if (nodes == 0) blade.fail(std::nullopt, "has no line for NumBlNds");
   const std::size_t heading = *blade.find({"NumBlNds"}) + 1, first = heading + 2;
   const auto column = [&](const char* name) { return blade.column(heading, {name}); };
   std::vector<BladeNode> read;
   std::size_t line = first;
-  for (const auto& row : blade.rows(first, nodes, column("BlAFID") + 1)) {
+  for (const auto& row : blade.rows(first, std::size_t(nodes), column("BlAFID") + 1)) {
     const auto at = [&](const char* name) { return blade.to_number(row[column(name)], line); };
-    read.push_back({at("BlSpn"), at("BlCrvAC"), at("BlSwpAC"), at("BlTwist"), at("BlChord"), int(at("BlAFID"))});
+    for (std::size_t c = 0; c < std::min(row.size(), blade.words(heading).size()); ++c) blade.to_number(row[c], line);
+    const double id = at("BlAFID");
+    if (id < 1.0 || id > 1e6 || id != std::floor(id))
+      blade.fail(line, fmt::format("has BlAFID {:g}: a whole number from 1 is wanted", id));
+    const BladeNode node{at("BlSpn"), at("BlCrvAC"), at("BlSwpAC"), at("BlTwist"), at("BlChord"), int(id), line};
+    if (node.span < 0.0 || (!read.empty() && node.span <= read.back().span))
+      blade.fail(line, fmt::format("has BlSpn {:g}: it is wanted from 0 on, and beyond the row before", node.span));
+    if (!(node.chord > 0.0)) blade.fail(line, fmt::format("has BlChord {:g}: more than 0 is wanted", node.chord));
+    read.push_back(node);
     ++line;
   }
-  if (read.size() < 2) blade.fail(blade.find({"NumBlNds"}), "NumBlNds: at least 2 nodes make a blade");
   return read;
 }
 
@@ -91,9 +102,9 @@ std::string stall_of(const Deck& table) {
       std::max(table.number({"Cn1"}), 1e-3), std::min(table.number({"Cn2"}), 0.0));
 }
 
-/// Columns of angle, lift and drag.
+/// Columns of angle, lift, drag and moment, which is not carried over.
 struct Columns {
-  std::size_t alpha, lift, drag;
+  std::size_t alpha, lift, drag, moment;
 };
 
 /// Returns whether some drag was negative.
@@ -106,9 +117,12 @@ bool write_table(const Deck& table, const Columns& column, const std::filesystem
   for (std::size_t k = first; k < first + count; ++k) {
     const auto row = table.rows(k, 1, std::max({column.alpha, column.lift, column.drag}) + 1)[0];
     const auto at = [&](std::size_t c) { return table.to_number(row[c], k); };
+    if (column.moment < row.size()) at(column.moment);
     const double alpha = at(column.alpha), lift = at(column.lift), drag = at(column.drag);
     pushes |= drag < 0.0;
-    if (alpha <= before) continue;  // a doubled row closes the circle
+    if (std::abs(alpha) > 360.0) table.fail(k, fmt::format("has an angle of {:g} degrees: -360 to 360 is wanted", alpha));
+    if (alpha < before) table.fail(k, fmt::format("has an angle of {:g} degrees, below the row before", alpha));
+    if (alpha == before) continue;  // a doubled row closes the circle
     csv << fmt::format("{:.9g},{:.9g},{:.9g}\n", alpha, lift, std::max(drag, 0.0));
     before = alpha;
   }
@@ -132,7 +146,7 @@ std::vector<std::string> write_foil(const Deck& ad, const Deck& file, const std:
   const std::vector<Deck> tables = split_tables(file, mode == Tables::by_reynolds ? given : 1);
   const std::vector<double> reynolds = tables.size() > 1 ? reynolds_of(tables) : std::vector<double>();
   const Columns column{std::size_t(ad.number({"InCol_Alfa"}, 1) - 1), std::size_t(ad.number({"InCol_Cl"}, 2) - 1),
-                       std::size_t(ad.number({"InCol_Cd"}, 3) - 1)};
+                       std::size_t(ad.number({"InCol_Cd"}, 3) - 1), std::size_t(ad.number({"InCol_Cm"}, 0) - 1)};
   const bool unsteady = !ad.has("AFAeroMod") || ad.integer({"AFAeroMod"}, 1) == 2;  // older decks have a switch of their own
   const int model = ad.integer({"UA_Mod", "UAMod"}, 0);
   std::vector<std::string> said, stall;
@@ -232,7 +246,7 @@ WrittenTurbine write_turbine(const Deck& ad, const RotorFrame& r, const std::fil
   std::map<int, Deck> decks;
   for (const BladeNode& n : nodes) {
     if (n.polar < 1 || std::size_t(n.polar) > files)
-      blade.fail(std::nullopt, fmt::format("names polar {}; {} has {}", n.polar, ad.file().filename().string(), files));
+      blade.fail(n.line, fmt::format("names polar {}; {} has {}", n.polar, ad.file().filename().string(), files));
     if (!decks.contains(n.polar)) decks.emplace(n.polar, Deck(ad.beside(ad.words(names + std::size_t(n.polar) - 1)[0]), '!'));
   }
   const std::map<int, Outline> outlines = outlines_of(decks, written.left_out);

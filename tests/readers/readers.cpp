@@ -16,6 +16,7 @@
 #include "src/aero/operation.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/aero/turbulence_box.hpp"
+#include "src/import/openfast_parts.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/moorings/table_file.hpp"
@@ -107,6 +108,12 @@ void write_map(Path file) {
   aero::write_neutral_map(grid, file);
 }
 
+template <decks::ImportedMoorings read(const decks::Deck&, double, std::vector<std::string>&)>
+void read_lines(Path file) {
+  std::vector<std::string> left_out;
+  (void)read(decks::Deck(file), 200.0, left_out);
+}
+
 }  // namespace
 
 const std::vector<Reader>& readers() {
@@ -150,6 +157,21 @@ const std::vector<Reader>& readers() {
        [](Path f) { aero::write_plot3d(small_grid(), f, aero::Plot3dForm::binary); }},
       {"map", true, read_map, write_map},
       {"cgns", false, [](Path f) { (void)aero::read_cgns(f); }, [](Path f) { aero::write_cgns(small_grid(), f); }},
+      {"moordyn", true, read_lines<decks::read_moordyn>,
+       text(
+           "=== LINE TYPES ===\nName Diam MassDen EA BA/-zeta EI Cd Ca CdAx CaAx\n() (m) (kg/m) (N) () () () () () ()\n"
+           "chain 0.1 100 4e8 -1 0 1 1 0 0\n=== POINTS ===\nID Attachment X Y Z M V CdA CA\n() () (m) (m) (m) (kg) (m3) (m2) ()\n"
+           "bed Fixed 500 0 -200 0 0 0 0\nhull Vessel 4 0 -30 0 0 0 0\ncrow Free 50 0 -60 1000 0.5 2.5 0.7\n=== LINES ===\n"
+           "ID LineType AttachA AttachB UnstrLen NumSegs Outputs\n() (name) () () (m) () ()\nlong chain bed crow 490 20 p\n"
+           "short chain crow hull 56 5 p\n=== OPTIONS ===\n3e6 kBot\n3e5 cBot\n0.3 FrictionCoefficient\n")},
+      {"map_plus_plus", true, read_lines<decks::read_map>,
+       text(
+           "=== LINE DICTIONARY ===\nLineType Diam MassDenInAir EA CB CIntDamp Ca Cdn Cdt\n() (m) (kg/m) (N) () (Pas) () () ()\n"
+           "chain 0.1 100 4e8 0.5 1 1 1 1\n=== NODE PROPERTIES ===\nNode Type X Y Z M B FX FY FZ\n"
+           "() () (m) (m) (m) (kg) (mB) (N) (N) (N)\nbed fix 500 0 depth 0 0 0 0 0\nhull Vessel 4 0 -30 0 0 0 0 0\n"
+           "crow Connect 50 0 -60 1000 0.5 0 0 0\n=== LINE PROPERTIES ===\nLine LineType UnstrLen NodeAnch NodeFair Flags\n"
+           "() () (m) () () ()\nlong chain 490 bed crow plot\nshort chain 56 crow hull plot\n=== SOLVER OPTIONS ===\nOption\n()\n"
+           "repeat 120 240\n")},
       {"recording", true, read_recording, write_recording},
       {"checkpoint", false, read_checkpoint, write_checkpoint},
   };
