@@ -74,6 +74,8 @@ class RotorLoads {
                   const Eigen::Vector3d& moment) const;
 
   RotorState state(double t, std::span<const Motion> bodies) const;
+  /// Undisturbed, earth frame [m/s].
+  Eigen::Vector3d wind(double t, const Eigen::Vector3d& point) const { return wind_.at(t, point); }
   /// Wind along the axis, seen from a hub that is there and moves so [m/s].
   double relative_wind(double t, const Eigen::Vector3d& hub, const Eigen::Vector3d& hub_velocity,
                        const Eigen::Vector3d& axis) const {

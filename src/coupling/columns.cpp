@@ -124,6 +124,16 @@ Table<aero::RotorState> hub_columns() {
   return table;
 }
 
+Table<Eigen::Vector3d> wind_columns() {
+  using Of = const Eigen::Vector3d&;
+  static constexpr ColumnOf<Eigen::Vector3d> table[] = {
+      {"wind_x_m_s", "m/s", "undisturbed wind at the hub, gusts and turbulence included, along the earth's x",
+       [](Of v) { return v[0]; }},
+      {"wind_y_m_s", "m/s", "undisturbed wind at the hub along y", [](Of v) { return v[1]; }},
+      {"wind_z_m_s", "m/s", "undisturbed wind at the hub along z", [](Of v) { return v[2]; }}};
+  return table;
+}
+
 Table<aero::RotorLoad> blade_columns() {
   using Of = const aero::RotorLoad&;
   static constexpr ColumnOf<aero::RotorLoad> table[] = {
@@ -321,6 +331,7 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("energy.SOURCE.", "each source of load", work_columns()),
           section_of("rotor.", "scenes with a rotor, with bodies or alone", rotor_columns()),
           section_of("rotor.", "rotors on bodies", hub_columns()),
+          section_of("rotor.", "rotors on bodies", wind_columns()),
           section_of("rotor.", "controlled rotors", drive_columns()),
           section_of("rotor.blade_1.", "each blade of a controlled rotor", pitch_columns()),
           section_of("rotor.blade_1.", "each blade, where rotor.blade_masses or rotor.blade_structure is given", root_columns()),

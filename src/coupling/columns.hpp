@@ -57,6 +57,7 @@ Table<EnergyRow> energy_columns();               ///< energy.
 Table<double> work_columns();                    ///< energy.SOURCE.
 Table<RotorRow> rotor_columns();                 ///< rotor.
 Table<aero::RotorState> hub_columns();           ///< rotor.
+Table<Eigen::Vector3d> wind_columns();           ///< rotor.
 Table<aero::RotorLoads::Drive> drive_columns();  ///< rotor., of a controlled one
 Table<double> pitch_columns();                   ///< rotor.blade_N., likewise
 Table<aero::BladeRootLoad> root_columns();

@@ -37,7 +37,11 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
     energy_.emplace(history, "energy.", energy_columns());
     for (const bodies::LoadSource& source : loads) works_.emplace_back(history, "energy." + source.name + ".", work_columns());
   }
-  if (floating.rotor()) rotor_.emplace(history, "rotor.", rotor_columns()), hub_.emplace(history, "rotor.", hub_columns());
+  if (floating.rotor()) {
+    rotor_.emplace(history, "rotor.", rotor_columns());
+    hub_.emplace(history, "rotor.", hub_columns());
+    wind_.emplace(history, "rotor.", wind_columns());
+  }
   if (floating.rotor() && floating.rotor()->is_controlled()) {
     drive_.emplace(history, "rotor.", drive_columns());
     for (std::size_t blade = 1; blade <= floating.rotor()->drive_blades(); ++blade)
@@ -124,6 +128,7 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     const aero::RotorState rotor = floating_.rotor()->state(t, state.motions);
     rotor_->fill(row, {floating_.written_rotor_load(t, rotor), rotor.azimuth / radians_per_degree, rotor.speed / rad_s_per_rpm});
     hub_->fill(row, rotor);
+    wind_->fill(row, floating_.rotor()->wind(t, rotor.hub));
     if (drive_) {
       const aero::RotorLoads::Drive drive = floating_.rotor()->drive();
       drive_->fill(row, drive);

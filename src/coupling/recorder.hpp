@@ -47,6 +47,7 @@ class Recorder {
   std::vector<Group<double>> works_;  ///< by source of load
   std::optional<Group<RotorRow>> rotor_;
   std::optional<Group<aero::RotorState>> hub_;
+  std::optional<Group<Eigen::Vector3d>> wind_;
   std::optional<Group<aero::RotorLoads::Drive>> drive_;
   std::vector<Group<double>> pitches_;
   std::vector<Group<aero::BladeRootLoad>> roots_;
