@@ -12,6 +12,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/coupling/staggered.hpp"
+#include "kernels/mooring/line_spring_damper.hpp"
 #include "kernels/rigid/stability.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/retries.hpp"
@@ -42,7 +43,8 @@ bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::Bodies
   const Scenario& s = floating.scenario();
   bodies::StepLimit limit{std::numeric_limits<double>::infinity(), "", 0.0};
   for (const auto& [name, line] : s.moorings) {
-    if (!line.tension_only) continue;  // others are seen by the linearisation as they are
+    // Others are seen by the linearisation as they are.
+    if (line.model != LineSpringDamper::name || !line.tension_only) continue;
     const std::optional<bodies::Pull> fairlead = pull_at(s, state, line.body, *line.fairlead_m),
                                       anchor = pull_at(s, state, line.anchor_body, *line.anchor_m);
     const Eigen::Vector3d along =
@@ -72,7 +74,11 @@ void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& s
   // A window in which rk4 finds its step too long is tried again with pieces of it; the others cannot tell.
   const double step = time.step(), least = time.integrator == Integrator::rk4 ? step / pieces_of_step(most_retries) : step;
   if (least <= limit.step_s) return;
-  refuse(floating, "moorings." + limit.mode + ".tension_only", "true",
+  const auto taut =
+      std::ranges::find_if(floating.scenario().moorings, [&](const auto& named) { return named.name == limit.mode; });
+  const moorings::LineOptions& line = taut->options;
+  refuse(floating, "moorings." + limit.mode + (line.stiffness_N_m ? ".stiffness_N_m" : ".axial_stiffness_N"),
+         fmt::format("{:g}", line.stiffness_N_m ? *line.stiffness_N_m : *line.axial_stiffness_N),
          fmt::format("when this line snaps taut, {} needs steps of at most {:.3g} s with the masses at its ends, and a window "
                      "that fails is tried again with {:.3g} s at least (time.step_s is {} s): give a shorter step, a softer "
                      "line or heavier bodies",

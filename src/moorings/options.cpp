@@ -67,7 +67,8 @@ const scene::Section<LineOptions>& line_section() {
           .only_if("model", line_models().with("stiffness_N_m"))
           .number("damping_N_s_m", &LineOptions::damping_N_s_m, "N s/m", "Force per rate of lengthening.", not_negative())
           .only_if("model", line_models().with("damping_N_s_m"))
-          .flag("tension_only", &LineOptions::tension_only, "The line goes slack instead of pushing.")
+          .flag("tension_only", &LineOptions::tension_only,
+                "The line goes slack as a rope does; false: a spring that also pushes.")
           .only_if("model", line_models().with("tension_only"))
           .number("weight_N_m", &LineOptions::weight_N_m, "N/m", "Weight in water per unstretched length.", positive())
           .only_if("model", line_models().with("weight_N_m"))

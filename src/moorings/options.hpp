@@ -42,7 +42,7 @@ struct LineOptions {
   double rest_length_m = 0.0;
   std::optional<double> axial_stiffness_N, stiffness_N_m;  ///< exactly one for a spring
   double damping_N_s_m = 0.0;
-  bool tension_only = false;
+  bool tension_only = true;
   double weight_N_m = 0.0;
   bool bed_contact = true;
   double bed_friction = 0.0;

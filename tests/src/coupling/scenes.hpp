@@ -40,6 +40,7 @@ fairlead_m = [0.0, 0.0, -2.0]
 anchor_m = [0.0, 0.0, -20.0]
 rest_length_m = 18.0
 stiffness_N_m = 1.0e4
+tension_only = false
 )";
 
 }  // namespace spindrift::coupling::test

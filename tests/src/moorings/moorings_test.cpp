@@ -40,6 +40,7 @@ LineOptions paper_line(double azimuth) {
   line.body = "platform";
   line.fairlead_m = 46.7 * out - Vector3d(0, 0, 7.0), line.anchor_m = 162.635 * out - Vector3d(0, 0, 20.6);
   line.rest_length_m = 116.73, line.axial_stiffness_N = 4e8, line.damping_N_s_m = 4e4;
+  line.tension_only = false;
   return line;
 }
 
