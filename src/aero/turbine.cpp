@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "kernels/base/constants.hpp"
@@ -104,7 +105,7 @@ Aerofoil read_aerofoil(const OutlineOptions& options) {
   return aerofoil;
 }
 
-/// x_c and y_c of a Selig file as those of a CSV one: a title, then two numbers a line.
+/// x_c and y_c of a Selig or Lednicer file as those of a CSV one: a title, then two numbers a line.
 scene::Columns read_points(const std::string& path) {
   if (std::filesystem::path(path).extension() != ".dat") {
     const scene::Columns file = scene::read_columns(path);
@@ -247,29 +248,51 @@ TurbineFiles turbine_files(const std::string& path) {
   return {options.operation, options.controller};
 }
 
+namespace {
+
+/// Rows of an outline in the order in which they stand in an outline, from the trailing edge over the suction side to the nose
+/// and back. A file in Lednicer's order begins with the numbers of points of both sides, which go from the nose.
+std::vector<std::size_t> rows_in_order(std::span<const double> x, std::span<const double> y) {
+  const std::size_t n = x.size();
+  std::vector<std::size_t> rows(n);
+  std::iota(rows.begin(), rows.end(), std::size_t(0));
+  if (!(x[0] > 2.0 && y[0] > 2.0 && x[0] + y[0] + 1.0 == double(n))) return rows;
+  const auto upper = std::size_t(x[0]);
+  rows.erase(rows.begin());
+  std::reverse(rows.begin(), rows.begin() + std::ptrdiff_t(upper));
+  if (x[1] == x[upper + 1] && y[1] == y[upper + 1]) rows.erase(rows.begin() + std::ptrdiff_t(upper));  // the nose, twice
+  return rows;
+}
+
+}  // namespace
+
 std::vector<Eigen::Vector2d> read_outline(const std::string& path) {
   const scene::Columns file = read_points(path);
   file.require_rows(9);
-  const auto x = file["x_c"], y = file["y_c"];
-  const std::size_t n = file.rows();
+  const std::vector<std::size_t> rows = rows_in_order(file["x_c"], file["y_c"]);
+  std::vector<double> x, y;
+  for (const std::size_t row : rows) x.push_back(file["x_c"][row]), y.push_back(file["y_c"][row]);
+  const auto fail = [&](std::size_t i, const std::string& what) { file.fail(int(rows[i]), what); };
+  const std::size_t n = rows.size();
   std::vector<Eigen::Vector2d> outline;
   for (std::size_t i = 0; i < n; ++i) {
-    if (x[i] < -0.05 || x[i] > 1.05) file.fail(int(i), fmt::format("x_c = {} is off the chord, which goes from 0 to 1", x[i]));
-    if (i > 0 && x[i] == x[i - 1] && y[i] == y[i - 1]) file.fail(int(i), "the same point as the one before");
+    if (x[i] < -0.05 || x[i] > 1.05) fail(i, fmt::format("x_c = {} is off the chord, which goes from 0 to 1", x[i]));
+    if (i > 0 && x[i] == x[i - 1] && y[i] == y[i - 1]) fail(i, "the same point as the one before");
     outline.emplace_back(x[i], y[i]);
   }
   for (const std::size_t i : {std::size_t(0), n - 1})
     if (std::abs(x[i] - 1.0) > 0.02)
-      file.fail(int(i), fmt::format("x_c = {}: an outline begins and ends at the trailing edge, x_c = 1", x[i]));
+      fail(i, fmt::format("x_c = {}: an outline begins and ends at the trailing edge, x_c = 1", x[i]));
   std::vector<Eigen::Vector2d> loop = outline;
   if ((loop.front() - loop.back()).norm() < 1e-9) loop.pop_back();
   const SegmentPair crossing = first_crossing(loop);
   if (crossing.first >= 0)
-    file.fail(crossing.second, fmt::format("the outline crosses itself: the piece from ({}, {}) meets the one from ({}, {})",
-                                           x[std::size_t(crossing.second)], y[std::size_t(crossing.second)],
-                                           x[std::size_t(crossing.first)], y[std::size_t(crossing.first)]));
+    fail(std::size_t(crossing.second),
+         fmt::format("the outline crosses itself: the piece from ({}, {}) meets the one from ({}, {})",
+                     x[std::size_t(crossing.second)], y[std::size_t(crossing.second)], x[std::size_t(crossing.first)],
+                     y[std::size_t(crossing.first)]));
   if (signed_area(loop) < 0.0)
-    file.fail(0, "the outline runs along the pressure side first: it must begin with the suction side, y_c > 0");
+    fail(0, "the outline runs along the pressure side first: it must begin with the suction side, y_c > 0");
   return outline;
 }
 

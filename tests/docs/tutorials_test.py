@@ -81,6 +81,8 @@ PAGES = {
                      [("`box.sea.fz_N` while held", 1, at("box.sea.fz_N", 0.0)), ("the same, mean after 1.6 s", 0, mean("box.sea.fz_N", 1.6)), ("`box.z_m`", 0, mean("box.z_m", 1.6))]),
     "dropped_cylinder": ("validation/cylinder_drop/cylinder_drop.toml", ["sea.particles.spacing_m=0.006", "sea.fields.surface_spacing_m=0.012"], False,
                          [("depth after 0.16 s", 0, lambda run: -at("cylinder.z_m", 0.16)(run))]),
+    "wing_section": ("tutorials/wing_section.toml", [], False, [("lift coefficient", 0, extreme("flow.lift_coefficient", lambda x: x[-1])),
+                                                                ("drag coefficient", 0, extreme("flow.drag_coefficient", lambda x: x[-1]))]),
     "rotor": ("leble_barakos/rotor_demo.toml", [], False, [("thrust", 0, extreme("rotor.thrust_N", lambda x: x[-1], 1e-6)), ("power", 0, extreme("rotor.power_W", lambda x: x[-1], 1e-6))]),
     "coupled": ("leble_barakos/case3_demo.toml", [], False,
                 [("thrust, mean", 0, mean("rotor.thrust_N", 3.0, 1e-6)), ("power, mean", 0, mean("rotor.power_W", 3.0, 1e-6)),

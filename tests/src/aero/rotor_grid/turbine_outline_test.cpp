@@ -46,6 +46,17 @@ TEST_CASE("outlines are read with the turbine", "[rotor_grid][fast]") {
   CHECK(dtu().aerofoils.size() == 6);
 }
 
+TEST_CASE("an outline in Lednicer's order is that in Selig's", "[rotor_grid][fast]") {
+  const std::string selig = data_file("rg_selig.dat",
+                                      "DIAMOND\n1 0.002\n0.75 0.08\n0.5 0.15\n0.25 0.08\n0 0\n0.25 -0.08\n0.5 -0.15\n"
+                                      "0.75 -0.08\n1 -0.002\n"),
+                    lednicer = data_file("rg_lednicer.dat",
+                                         "DIAMOND\n 5. 5.\n\n0 0\n0.25 0.08\n0.5 0.15\n0.75 0.08\n1 0.002\n\n0 0\n0.25 -0.08\n"
+                                         "0.5 -0.15\n0.75 -0.08\n1 -0.002\n");
+  CHECK(read_outline(lednicer) == read_outline(selig));
+  CHECK(read_outline(selig).size() == 9);
+}
+
 TEST_CASE("outlines that no surface can be made from are refused by file and line", "[rotor_grid][fast]") {
   CHECK_THROWS_WITH(read_turbine(turbine(replaced(diamond, "0.25,-0.08", "0.25,0.3"), 30)),
                     Contains("crosses itself") && Contains("rg_outline.csv"));
