@@ -49,7 +49,7 @@ struct Efficiency {
 
 Efficiency efficiency_of(std::span<const RankTrace> traces);
 
-/// A table for terminal and log, lines of at most 120 characters.
+/// For terminal and log, lines of at most 120 characters: a table where records were kept, else one line.
 std::string efficiency_table(const Efficiency& efficiency);
 
 }  // namespace spindrift::runtime

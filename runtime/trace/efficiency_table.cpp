@@ -1,4 +1,5 @@
-// The efficiency of a run as text for a person: one thing a line, percent of the threads' time where it is a part of it.
+// The efficiency of a run as text for a person: a line where no records were kept, else a table with one thing a line, percent of
+// the threads' time where it is a part of it.
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdarg>
@@ -53,6 +54,12 @@ void add_critical_path(std::string& out, const Efficiency& e) {
 
 std::string efficiency_table(const Efficiency& e) {
   std::string out;
+  if (std::isnan(e.critical_path_s)) {  // no records: the factors that are known, in a line
+    print(out, "parallel efficiency %.1f %% (load balance %.1f %%, communication %.1f %%) of %d thread%s on %d rank%s\n",
+          100.0 * e.parallel, 100.0 * e.load_balance, 100.0 * e.communication, e.threads, e.threads == 1 ? "" : "s", e.ranks,
+          e.ranks == 1 ? "" : "s");
+    return out;
+  }
   const double all = e.threads * e.elapsed_s;
   const auto part = [all](double core_s) { return all > 0.0 ? core_s / all : 0.0; };
   print(out, "efficiency: %d threads of %d ranks, %.4g s in the graph\n", e.threads, e.ranks, e.elapsed_s);
@@ -69,7 +76,6 @@ std::string efficiency_table(const Efficiency& e) {
   line(out, "completing messages", part(e.poll_s));
   line(out, "runtime overhead", part(e.overhead_s));
   add_modules(out, e);
-  if (std::isnan(e.critical_path_s)) return out + "  no records were kept: what needs them is marked -\n";
   print(out, "  %-30s %8s   least time of the modules in turn / time taken together\n", "overlap gained",
         ("x " + text(e.overlap_gain, "%.3f")).c_str());
   add_critical_path(out, e);

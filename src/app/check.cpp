@@ -112,21 +112,29 @@ void print_steps(FloatingSystem& floating, const coupling::Start& start, double 
 
 void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& state) {
   const auto bodies = floating.multibody().bodies();
+  const std::size_t lines = floating.moorings() ? floating.moorings()->size() : 0;
+  const std::size_t junctions = floating.moorings() ? floating.moorings()->junctions() : 0;
+  std::size_t width = 14;
+  for (const auto& body : bodies) width = std::max(width, body.name.size());
+  for (std::size_t line = 0; line < lines; ++line) width = std::max(width, floating.moorings()->name(line).size());
+  for (std::size_t j = 0; j < junctions; ++j) width = std::max(width, floating.moorings()->junction_name(j).size());
   fmt::print("\nStatic equilibrium under the mean loads: wind, current, still water (displacements of the reference points)\n");
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const coupling::ReferenceMotion m = coupling::reference_motion(
         state.motions[b], bodies[b].initial, floating.reference_point(b), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     const Eigen::Vector3d degrees = m.angles / radians_per_degree;
-    fmt::print("  {:<16}x {:+.3f}  y {:+.3f}  z {:+.3f} m   roll {:+.3f}  pitch {:+.3f}  yaw {:+.3f} deg\n", bodies[b].name,
-               m.displacement.x(), m.displacement.y(), m.displacement.z(), degrees.x(), degrees.y(), degrees.z());
+    const auto rounded = [](double value) { return 1e-3 * std::round(1e3 * value) + 0.0; };  // + 0: no minus before zero
+    fmt::print("  {:<{}}  x {:+.3f}  y {:+.3f}  z {:+.3f} m   roll {:+.3f}  pitch {:+.3f}  yaw {:+.3f} deg\n", bodies[b].name,
+               width, rounded(m.displacement.x()), rounded(m.displacement.y()), rounded(m.displacement.z()), rounded(degrees.x()),
+               rounded(degrees.y()), rounded(degrees.z()));
   }
-  if (floating.moorings())
-    for (std::size_t line = 0; line < floating.moorings()->size(); ++line)
-      fmt::print("  {:<16}{:+.4g} kN\n", floating.moorings()->name(line),
-                 1e-3 * floating.moorings()->tension(line, state.motions).fairlead);
-  for (std::size_t j = 0; floating.moorings() && j < floating.moorings()->junctions(); ++j) {
+  for (std::size_t line = 0; line < lines; ++line)
+    fmt::print("  {:<{}}  tension {:.4g} kN\n", floating.moorings()->name(line), width,
+               1e-3 * floating.moorings()->tension(line, state.motions).fairlead);
+  for (std::size_t j = 0; j < junctions; ++j) {
     const Eigen::Vector3d at = floating.moorings()->junction(j, state.motions).position;
-    fmt::print("  {:<16}x {:+.3f}  y {:+.3f}  z {:+.3f} m\n", floating.moorings()->junction_name(j), at.x(), at.y(), at.z());
+    fmt::print("  {:<{}}  x {:+.3f}  y {:+.3f}  z {:+.3f} m\n", floating.moorings()->junction_name(j), width, at.x(), at.y(),
+               at.z());
   }
 }
 
@@ -265,7 +273,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   print_doubts(angles, coupling::air_doubts(s));
   print_rotor_at_start(s);
   const PartCost cost = cost_of_air(setup, size, pseudo_steps_per_second(s), 0.0, 1, calibrate);
-  print_cost(std::span(&cost, 1), s.time.end_s, ranks, base);
+  print_cost(std::span(&cost, 1), s.time.end_s, ranks, base, setup.flow.time == "steady");
 }
 
 /// What a patch of this name most likely is.
@@ -384,7 +392,8 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     if (scenario.has_actuator()) print_rotor_at_start(scenario);
     print_first_cells(scenario, grid);
     const PartCost cost = cost_of_flow(scenario, grid);
-    print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, base_cost(processor_seconds() - begin_s));
+    print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, base_cost(processor_seconds() - begin_s),
+               scenario.aero.flow->time == "steady");
     return done;
   }
   const coupling::Scenario asked = scenario;

@@ -37,14 +37,18 @@ std::vector<std::string> beyond_machine(double bytes, double core_seconds) {
   return warnings;
 }
 
-void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, const BaseCost& base) {
+void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, const BaseCost& base, bool pseudo_steps) {
   double bytes = 0.0, checkpoint = 0.0, per_second = 0.0, before = base.core_seconds;
   fmt::print("\nPredicted cost\n");
   for (const PartCost& p : parts) {
     const double cost = p.work_per_second * p.core_seconds_per_work;
     fmt::print("  {:<22}{:.0f} {}, {}\n", p.name, p.count, p.things, bytes_text(p.bytes));
-    fmt::print("  {:<22}{:.4g} {} per simulated second of {:.3g} core-s each ({}): {:.4g} core-s\n", "", p.work_per_second,
-               p.work, p.core_seconds_per_work, p.rate, cost);
+    if (pseudo_steps)
+      fmt::print("  {:<22}at most {:.4g} pseudo-steps of {:.3g} core-s each ({})\n", "", p.work_per_second * simulated_s,
+                 p.core_seconds_per_work, p.rate);
+    else
+      fmt::print("  {:<22}{:.4g} {} per simulated second of {:.3g} core-s each ({}): {:.4g} core-s\n", "", p.work_per_second,
+                 p.work, p.core_seconds_per_work, p.rate, cost);
     if (p.work_before > 0.0)
       fmt::print("  {:<22}{:.4g} {} before t = 0: {:.4g} core-s\n", "", p.work_before, p.work,
                  p.work_before * p.core_seconds_per_work);
@@ -54,8 +58,11 @@ void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, 
   fmt::print("  {:<22}{} ({} more while a checkpoint is written); {} rank{}: {} each\n", "memory",
              bytes_text(bytes + base.bytes * ranks), bytes_text(checkpoint), ranks, ranks == 1 ? "" : "s",
              bytes_text(bytes / ranks + base.bytes));
-  fmt::print("  {:<22}{:.3g} core-hours for {:g} s ({:.4g} core-s per simulated second)\n", "predicted core-hours",
-             whole / 3600.0, simulated_s, per_second);
+  if (pseudo_steps)
+    fmt::print("  {:<22}{:.3g} core-hours at most\n", "predicted core-hours", whole / 3600.0);
+  else
+    fmt::print("  {:<22}{:.3g} core-hours for {:g} s ({:.4g} core-s per simulated second)\n", "predicted core-hours",
+               whole / 3600.0, simulated_s, per_second);
   constexpr std::array cores{1, 2, 8, 16, 64, 128};
   const auto row = [&](const char* what, auto&& text) {
     fmt::print("  {:<22}", what);
@@ -64,7 +71,7 @@ void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, 
   };
   row("cores", [](int n) { return fmt::format("{}", n); });
   row("wall time", [&](int n) { return io::duration_text(whole / n); });
-  row("per simulated second", [&](int n) { return io::duration_text(per_second / n); });
+  if (!pseudo_steps) row("per simulated second", [&](int n) { return io::duration_text(per_second / n); });
   row("memory of a rank each", [&](int n) { return bytes_text(bytes / n + base.bytes); });
   for (const std::string& warning : beyond_machine(bytes + checkpoint + base.bytes * ranks, whole))
     fmt::print("  warning: {}\n", warning);

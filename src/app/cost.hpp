@@ -32,6 +32,6 @@ struct BaseCost {
 std::vector<std::string> beyond_machine(double bytes, double core_seconds);
 
 /// `simulated_s`: from t = 0 to the end. `ranks`: of this run.
-void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, const BaseCost& base);
+void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, const BaseCost& base, bool pseudo_steps = false);
 
 }  // namespace spindrift::app

@@ -159,10 +159,16 @@ std::string title_of(const RunArguments& arguments, const std::string& title) {
 }
 
 void print_summary(const io::Summary& summary, const io::RunDirectory& directory) {
-  spdlog::info("{}: {:g} s simulated in {:.3g} s, {:.3g} times real time", summary.exit_reason,
-               summary.end_time_s - summary.start_time_s, summary.wall_seconds, io::real_time_factor(summary));
+  const double span = summary.end_time_s - summary.start_time_s;
+  if (summary.pseudo_steps)
+    spdlog::info("{}: {:g} pseudo-steps in {:.3g} s", summary.exit_reason, span, summary.wall_seconds);
+  else
+    spdlog::info("{}: {:g} s simulated in {:.3g} s, {:.3g} times real time", summary.exit_reason, span, summary.wall_seconds,
+                 io::real_time_factor(summary));
+  constexpr double least = 0.005;  // of the run's time; summary.json has all
   for (const io::PartTime& part : summary.parts)
-    spdlog::info("  {:<12}{:9.4f} s  {:5.1f} %", part.name, part.seconds, 100.0 * part.seconds / summary.wall_seconds);
+    if (part.seconds >= least * summary.wall_seconds)
+      spdlog::info("  {:<12}{:9.4f} s  {:5.1f} %", part.name, part.seconds, 100.0 * part.seconds / summary.wall_seconds);
   spdlog::info("results in {}", directory.path().string());
 }
 

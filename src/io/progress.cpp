@@ -29,11 +29,12 @@ ProgressStyle progress_style(int rank, bool quiet) {
   return console::is_terminal() ? ProgressStyle::line : ProgressStyle::lines;
 }
 
-Progress::Progress(double start_s, double end_s, ProgressStyle style, std::function<double()> clock)
+Progress::Progress(double start_s, double end_s, ProgressStyle style, std::function<double()> clock, Words words)
     : start_s_(start_s),
       end_s_(end_s),
       style_(style),
       clock_(clock ? std::move(clock) : steady_seconds),
+      words_(words),
       started_(clock_()),
       said_at_(started_),
       mark_wall_(started_),
@@ -58,7 +59,7 @@ void Progress::update(double time_s, const std::string& note) {
     mark_wall_ = now;
     mark_time_ = time_s;
   }
-  const std::string text = progress_text(time_s, start_s_, end_s_, speed_) + (note.empty() ? "" : "   " + note);
+  const std::string text = words_(time_s, start_s_, end_s_, speed_) + (note.empty() ? "" : "   " + note);
   if (style_ == ProgressStyle::line)
     console::set_status(text.substr(0, static_cast<std::size_t>(std::max(console::width() - 1, 20))));
   else
@@ -86,6 +87,11 @@ std::string progress_text(double time_s, double start_s, double end_s, double sp
     text += fmt::format("   {} to go", duration_text((end_s - time_s) / speed));
   }
   return text;
+}
+
+std::string pseudo_steps_text(double step, double, double end, double speed) {
+  return fmt::format("pseudo-step {:.0f} of at most {:.0f}", step, end) +
+         (speed > 0.0 ? fmt::format("   {:.3g} per second   at most {} to go", speed, duration_text((end - step) / speed)) : "");
 }
 
 }  // namespace spindrift::io

@@ -46,6 +46,7 @@ struct Summary {
   std::int64_t warnings = 0;
 
   double start_time_s = 0, end_time_s = 0, window_s = 0;  ///< simulated; start: of this process, after a restart
+  bool pseudo_steps = false;                              ///< a march to a steady state: its times count them
   int restarts = 0;
   std::vector<std::pair<std::string, std::int64_t>> counts;  ///< windows, steps, coupling_iterations, ... in the order shown
   double wall_seconds = 0;

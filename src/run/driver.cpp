@@ -48,7 +48,8 @@ io::Summary Driver::run(Simulation& simulation) {
   std::int64_t window = first, last = last_window(timeline);
   open_history(history, timeline.window_end_s(first), checkpoints.rows());
   HistoryOutput rows(simulation, history);
-  ProgressOutput progress(timeline, first, last, io::progress_style(parts_.world().rank, settings_.quiet));
+  ProgressOutput progress(timeline, first, last, io::progress_style(parts_.world().rank, settings_.quiet),
+                          simulation.counts_pseudo_steps());
   const std::vector<std::unique_ptr<Output>> fields =
       simulation.outputs(directory_, settings_.restart ? timeline.window_end_s(first) : io::from_the_start);
   std::vector<Output*> outputs{&rows, &checkpoints, &progress};  // files for people last: they may fail
@@ -105,6 +106,7 @@ void Driver::summarise(Simulation& simulation, std::int64_t first, std::int64_t 
   const coupling::Timeline& timeline = simulation.timeline();
   summary_.start_time_s = timeline.window_end_s(first), summary_.end_time_s = timeline.window_end_s(window);
   summary_.window_s = timeline.window_s();
+  summary_.pseudo_steps = simulation.counts_pseudo_steps();
   summary_.counts = {{"windows", window - first}};
   summary_.ranks = parts_.world().size;
   simulation.summarise(summary_, ledger_);

@@ -157,7 +157,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
     last_rows_.insert(last_rows_.end(), rows_.begin(), rows_.end());
     while (last_rows_.size() > averaged(last)) last_rows_.pop_front();
     if (march.verdict() == aero::Verdict::converged && !march.spent())
-      advance.settled = fmt::format("{}; flux balance down to {:.2g}, density residual to {:.2g}", march.why(),
+      advance.settled = fmt::format("{}; flux balance at {:.2g}, density residual at {:.2g} of the start", march.why(),
                                     march.balance_drop(), density_drop(march));
     if (!advance.settled.empty())
       if (const std::string walls = unresolved_walls(first_cells(solver, world_)); !walls.empty())

@@ -23,6 +23,7 @@ class FlowSimulation final : public Simulation {
 
   const coupling::Scenario& scenario() const override { return scenario_; }
   const coupling::Timeline& timeline() const override { return timeline_; }
+  bool counts_pseudo_steps() const override { return air_.steady(); }
   std::int64_t file_number(std::int64_t window) const override { return window; }
 
   std::int64_t begin(const io::RunDirectory& directory) override;

@@ -37,8 +37,11 @@ void HistoryOutput::write(std::int64_t window) {
   history_.write();
 }
 
-ProgressOutput::ProgressOutput(const coupling::Timeline& timeline, std::int64_t first, std::int64_t last, io::ProgressStyle style)
-    : timeline_(timeline), progress_(timeline.window_end_s(first), timeline.window_end_s(last), style) {}
+ProgressOutput::ProgressOutput(const coupling::Timeline& timeline, std::int64_t first, std::int64_t last, io::ProgressStyle style,
+                               bool pseudo_steps)
+    : timeline_(timeline),
+      progress_(timeline.window_end_s(first), timeline.window_end_s(last), style, {},
+                pseudo_steps ? io::pseudo_steps_text : io::progress_text) {}
 
 void ProgressOutput::take(const Windows& done) { progress_.update(timeline_.window_end_s(done.now)); }
 

@@ -34,7 +34,8 @@ class HistoryOutput final : public Output {
 /// How far the run is, for whoever waits for it.
 class ProgressOutput final : public Output {
  public:
-  ProgressOutput(const coupling::Timeline& timeline, std::int64_t first, std::int64_t last, io::ProgressStyle style);
+  ProgressOutput(const coupling::Timeline& timeline, std::int64_t first, std::int64_t last, io::ProgressStyle style,
+                 bool pseudo_steps);
   std::string_view label() const override { return "output/progress"; }
   bool due(const Windows& done) const override { return done.now > done.before; }
   void take(const Windows& done) override;

@@ -39,6 +39,8 @@ class Simulation {
 
   virtual const coupling::Scenario& scenario() const = 0;
   virtual const coupling::Timeline& timeline() const = 0;
+  /// A march to a steady state: a window is a pseudo-step, and the scene's end the most that it may take.
+  virtual bool counts_pseudo_steps() const { return false; }
   /// Number of a window's files: not negative, whatever window the run begins with.
   virtual std::int64_t file_number(std::int64_t window) const = 0;
 

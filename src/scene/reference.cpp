@@ -141,6 +141,24 @@ std::string reference_markdown(std::span<const SectionBase* const> sections) {
   return out;
 }
 
+namespace {
+
+/// Keys with the word in their name, their sentence or those of their choices; the first few.
+std::vector<std::string> speaking_of(std::span<const SectionBase* const> sections, std::string_view word) {
+  constexpr std::size_t most = 8;
+  const auto has = [&](const std::string& text) { return text.find(word) != std::string::npos; };
+  std::vector<std::string> found;
+  for (const Entry& entry : entries(sections))
+    for (const Parameter& p : entry.section->parameters())
+      if (has(p.key) || has(p.help) ||
+          std::ranges::any_of(p.choices, [&](const Choice& c) { return has(c.name) || has(c.help); }))
+        found.push_back(entry.heading + "." + p.key);
+  if (found.size() > most) found.resize(most), found.push_back("...");
+  return found;
+}
+
+}  // namespace
+
 std::string reference_text(std::span<const SectionBase* const> sections, std::string_view topic) {
   while (topic.starts_with('[')) topic.remove_prefix(1);
   while (topic.ends_with(']')) topic.remove_suffix(1);
@@ -164,8 +182,10 @@ std::string reference_text(std::span<const SectionBase* const> sections, std::st
   }
   if (!out.empty()) return out;
   const std::string near = nearest(topic, known);
-  throw SceneError({Problem{"command line", 0, std::string(topic), "",
-                            "no such section or key" + (near.empty() ? std::string() : "; did you mean '" + near + "'?")}});
+  std::string message = "no such section or key" + (near.empty() ? std::string() : "; did you mean '" + near + "'?");
+  if (const std::vector<std::string> keys = speaking_of(sections, topic); near.empty() && !keys.empty())
+    message += "; keys that speak of it: " + joined(keys, ", ");
+  throw SceneError({Problem{"command line", 0, std::string(topic), "", std::move(message)}});
 }
 
 }  // namespace spindrift::scene

@@ -192,6 +192,10 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
 std::string absent_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;
+  // The documents name scenes as seen from the top of the sources; an installation has them beside its program.
+  const fs::path installed = fs::read_symlink("/proc/self/exe", error).parent_path() / "../share/spindrift" / path;
+  if (path.is_relative() && fs::is_regular_file(installed, error))
+    return "no such file here; the installed one is " + fs::canonical(installed, error).string();
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error))
     return "no such file: there is no folder " + fs::absolute(folder).lexically_normal().string();

@@ -27,6 +27,11 @@ class Installed(installed.Prefix):
         self.assertEqual(sources, {p.name for p in (self.prefix / "share/spindrift/report").glob("*.py")})
         self.assertTrue(list(self.prefix.glob("lib*/cmake/spindrift/spindriftConfig.cmake")) + list(self.prefix.glob("lib/*/cmake/spindrift/spindriftConfig.cmake")))
 
+    def test_scenes_are_found_by_their_names_in_the_docs(self):
+        done = start(self.prefix / "bin/spindrift", "check", "inputs/tutorials/gust.toml", cwd=self.folder.name)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(str((self.prefix / "share/spindrift/inputs/tutorials/gust.toml").resolve()), done.stdout + done.stderr)
+
     def test_other_projects_find_the_program(self):
         project = pathlib.Path(self.folder.name) / "project"
         project.mkdir()

@@ -121,7 +121,8 @@ TEST_CASE("without records the totals stand and the rest is unknown", "[trace][f
   CHECK(std::isnan(e.transfer));
   CHECK(std::isnan(e.overlap_gain));
   CHECK(e.recorded == 0.0);
-  CHECK_THAT(efficiency_table(e), Catch::Contains("no records were kept"));
+  CHECK(efficiency_table(e) ==
+        "parallel efficiency 37.5 % (load balance 90.0 %, communication 41.7 %) of 2 threads on 2 ranks\n");
 
   // Ranks send no more than these totals are made of.
   std::vector<RankTrace> sums;

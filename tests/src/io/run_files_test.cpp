@@ -164,6 +164,8 @@ TEST_CASE("progress in words: time, fraction, speed, time to go", "[io][fast]") 
   CHECK(io::progress_text(0.5, 0, 5, 1e-3) == "t = 0.500 of 5.000 s    10 %   1e+03 wall s per simulated s   1:15:00 to go");
   CHECK(io::progress_text(149.99, 0, 150, 0) == "t = 150.0 of 150.0 s    99 %");  // 100 % only when done
   CHECK(io::progress_text(100, 100, 100, 1) == "t = 100.000 of 100.000 s   100 %   1 x real time   0:00 to go");
+  CHECK(io::pseudo_steps_text(40, 0, 300, 2) == "pseudo-step 40 of at most 300   2 per second   at most 2:10 to go");
+  CHECK(io::pseudo_steps_text(1, 0, 300, 0) == "pseudo-step 1 of at most 300");
   CHECK(io::duration_text(59.6) == "1:00");
   CHECK(io::duration_text(3 * 3600 + 309) == "3:05:09");
   CHECK(io::duration_text(100 * 3600) == "4 d 4 h");

@@ -39,4 +39,6 @@ TEST_CASE("the terminal's reference answers for a section, a key, or a key witho
   CHECK_THAT(reference_text(sections), Contains("[time]") && Contains("[sea.grid]"));
   CHECK_THROWS_WITH(reference_text(sections, "windw_s"),
                     "command line: windw_s: no such section or key; did you mean 'window_s'?");
+  CHECK_THROWS_WITH(reference_text(sections, "Runge"),
+                    "command line: Runge: no such section or key; keys that speak of it: time.integrator");
 }
