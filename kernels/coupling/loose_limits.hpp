@@ -6,7 +6,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
+
+#include "kernels/coupling/staggered.hpp"
 
 namespace spindrift::coupling {
 
@@ -36,24 +39,6 @@ inline std::vector<double> cps2_polynomial(double r) { return {r, -4.0 * r, 4.0 
 /// -r (5/2 a_n - 2 a_{n-1} + 1/2 a_{n-2}), and S takes it in the same window.
 inline std::vector<double> predicted_position_polynomial(double r) { return {0.5 * r, -2.0 * r, 2.5 * r, 1.0}; }
 
-// The same for a load that damps, y = -c v, with s = c dt / m: S integrates what it is given exactly over the window.
-
-/// cps: y_{n+1} = -c v_n held, v_{n+1} = v_n + dt y_n / m: z^2 - z + s.
-inline std::vector<double> cps_damping_polynomial(double s) { return {s, -1.0, 1.0}; }
-/// cps2: y_n = -c (2 v_{n-1} - v_{n-2}), S takes 3/2 y_n - 1/2 y_{n-1} on average.
-inline std::vector<double> cps2_damping_polynomial(double s) { return {0.5 * s, -2.5 * s, 3.0 * s, -1.0, 1.0}; }
-/// css: y_n = -c v_n; averages of the extrapolation are the weights of Adams and Bashforth.
-inline std::vector<double> css_damping_polynomial(int order, double s) {
-  switch (order) {
-    case 0:
-      return {s - 1.0, 1.0};
-    case 1:
-      return {-0.5 * s, 1.5 * s - 1.0, 1.0};
-    default:
-      return {5.0 / 12.0 * s, -16.0 / 12.0 * s, 23.0 / 12.0 * s - 1.0, 1.0};
-  }
-}
-
 /// Largest r whose polynomial has all roots within the unit circle, by bisection.
 template <class Polynomial>
 double stability_ratio(Polynomial polynomial) {
@@ -64,5 +49,20 @@ double stability_ratio(Polynomial polynomial) {
   }
   return low;
 }
+
+/// S, linear: x' = matrix x + input y over a window; F: y = output x at the motion that it is given. What S has of its own,
+/// springs and rigid motions of all bodies, decides with the scheme's history when the load makes it grow.
+struct LooseLoop {
+  Eigen::MatrixXd matrix;  ///< under a load that does not change
+  Eigen::MatrixXd input;
+  Eigen::MatrixXd output;
+};
+
+/// Modulus of the largest eigenvalue of what a window makes of (x, y at the motion before, the last three loads).
+double growth(const LooseLoop& loop, const Staggering& scheme, double window);
+
+/// The least window, from `shortest` on, in which the loop grows faster than exp(`rate` t); infinite where none up to `longest`
+/// does.
+double window_limit(const LooseLoop& loop, const Staggering& scheme, double rate, double shortest, double longest);
 
 }  // namespace spindrift::coupling

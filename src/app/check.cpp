@@ -203,7 +203,7 @@ void print_campbell(FloatingSystem& floating, const coupling::Start& start, cons
   }
 
   const coupling::FullLoads full(floating);
-  const coupling::LooseVerdict verdict = loose_verdict(floating, start.state, c);
+  const coupling::LooseVerdict verdict = loose_verdict(floating, start.state, c, linearisation);
   fmt::print(
       "\nCoupling of rotor and platform (window {} s): mass at the hub {:.3g} kg, thrust falls {:.4g} kN per m/s, fastest {:.3g} "
       "Hz\n",

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -114,17 +115,62 @@ double missed_part(const Staggering& scheme, double omega, double window) {
   return worst;
 }
 
-LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& state, const Campbell& campbell) {
+namespace {
+
+/// Windows that are looked at: beyond the longest of them no scheme is of use.
+constexpr double longest_window = 50.0;
+
+/// The floating system about the state under a load of the rotor that stays as it is, in earth axes at the hub, and what the load
+/// makes of the hub's motion, in accelerations of the chart: the difference of two linearisations.
+LooseLoop loop_of(FloatingSystem& floating, const bodies::BodiesState& state, const bodies::Linearisation& linearisation) {
+  const MeanLoads mean(floating);
+  const aero::RotorLoads& rotor = *floating.rotor();
+  std::vector<Wrench> loads(state.motions.size());
+  rotor.add_mean_loads(0.0, state.motions, loads);
+  Wrench load;
+  const Eigen::Vector3d hub = rotor.state(0.0, state.motions).hub;
+  for (const Wrench& w : loads) load += w;
+  load = load.about(hub);
+  floating.replace_rotor_loads([&](double, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
+    rotor.add_at_hub(bodies, wrenches, load.force, load.moment);
+  });
+  LooseLoop loop{linearise(floating.multibody(), state, 0.0).matrix, {}, {}};
+  floating.replace_rotor_loads({});
+  const Eigen::Index n = linearisation.matrix.rows() / 2;
+  if (loop.matrix.rows() != 2 * n) return {};
+  const Eigen::JacobiSVD<Eigen::MatrixXd> parts((linearisation.matrix - loop.matrix).bottomRows(n),
+                                                Eigen::ComputeThinU | Eigen::ComputeThinV);
+  constexpr double small = 1e-6;  // of the largest: round-off of the differences
+  Eigen::Index rank = 0;
+  while (rank < n && parts.singularValues()[rank] > small * parts.singularValues()[0]) ++rank;
+  loop.input = Eigen::MatrixXd::Zero(2 * n, rank), loop.input.bottomRows(n) = parts.matrixU().leftCols(rank);
+  loop.output = parts.singularValues().head(rank).asDiagonal() * parts.matrixV().leftCols(rank).transpose();
+  return loop;
+}
+
+/// Growth that is not the scheme's: of the system itself, of free directions by round-off, a hundredth of the rotor's damping.
+double own_growth(const bodies::Linearisation& linearisation, double slope, double mobility) {
+  double rate = 0.0, fastest = 0.0;
+  for (const bodies::Mode& mode : linearisation.modes)
+    rate = std::max(rate, mode.eigenvalue.real()), fastest = std::max(fastest, std::abs(mode.eigenvalue));
+  return rate + std::max(0.01 * slope * mobility, 1e-4 * fastest);
+}
+
+}  // namespace
+
+LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& state, const Campbell& campbell,
+                           const bodies::Linearisation& linearisation) {
   LooseVerdict verdict;
   const aero::RotorLoads& rotor = *floating.rotor();
   aero::RotorState hub = rotor.state(0.0, state.motions);
   bodies::System& system = floating.multibody();
   if (!system.open_chart(state, 0.0).ok() || system.freedoms() == 0) return verdict;
   const std::string& body = floating.scenario().rotor.body;
+  double mobility = 0.0;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {
     if (system.bodies()[b].name != body) continue;
     const bodies::Pull thrust{b, hub.hub, hub.axis};
-    const double mobility = bodies::mobility(system, state, std::span(&thrust, 1));
+    mobility = bodies::mobility(system, state, std::span(&thrust, 1));
     verdict.hub_mass_kg = mobility > 0.0 ? 1.0 / mobility : std::numeric_limits<double>::infinity();
   }
   constexpr double change = 0.1;  // m/s either side
@@ -140,15 +186,19 @@ LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& 
   verdict.fastest_Hz = std::max({verdict.fastest_Hz, campbell.rows.back().wave, campbell.rows.back().thrice});
 
   const double window = floating.timeline().window_s(), omega = 2 * pi * verdict.fastest_Hz;
+  const double slope = verdict.slope_N_s_m;
+  const LooseLoop loop =
+      slope > 0.0 && mobility > 0.0 && linearisation.report.ok() ? loop_of(floating, state, linearisation) : LooseLoop{};
+  const bool damped = loop.input.cols() > 0;
   verdict.air_mass_kg = blades_added_mass(floating.scenario());
   for (const CouplingScheme* scheme : coupling_schemes()) {
     if (scheme->staggering == nullptr) continue;
     const bool chosen = scheme == &of(floating.scenario().coupling.scheme);  // others by the default options
     const CouplingOptions options = chosen ? floating.scenario().coupling : CouplingOptions();
-    const double mass_limit = stability_ratio([&](double ratio) { return scheme->limits.added_mass(options, ratio); });
-    const double ratio = stability_ratio([&](double share) { return scheme->limits.damping(options, share); });
-    const double limit =
-        verdict.slope_N_s_m > 0.0 ? ratio * verdict.hub_mass_kg / verdict.slope_N_s_m : std::numeric_limits<double>::infinity();
+    const double mass_limit = stability_ratio([&](double ratio) { return scheme->added_mass(options, ratio); });
+    const double limit = damped ? window_limit(loop, scheme->staggering(options), own_growth(linearisation, slope, mobility),
+                                               window / 20.0, longest_window)
+                                : std::numeric_limits<double>::infinity();
     const double missed = missed_part(scheme->staggering(options), omega, window);
     const bool stable = window <= 0.5 * limit && verdict.mass_ratio() <= 0.5 * mass_limit;
     verdict.schemes.push_back({scheme->judged(options), limit, missed, mass_limit, stable && missed <= acceptable});

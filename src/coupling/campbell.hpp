@@ -56,7 +56,7 @@ struct LooseVerdict {
   double fastest_Hz = 0.0;  ///< of waves, 3P and platform modes that oscillate
   struct Scheme {
     std::string name;
-    double window_limit_s;    ///< above it the rotor's damping turns into growth; infinite where there is none
+    double window_limit_s;    ///< above it the floating system grows under the rotor's damping; infinite where there is none
     double missed;            ///< at the scene's window
     double mass_ratio_limit;  ///< of added mass over mass; above it no window is short enough
     bool will_do;             ///< below half of both limits, and less than `acceptable` missed
@@ -64,6 +64,8 @@ struct LooseVerdict {
   std::vector<Scheme> schemes;  ///< the loose ones: cps, cps2, css1; the scene's own by its options
 };
 inline constexpr double acceptable = 0.02;
-LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& state, const Campbell& campbell);
+/// `linearisation`: about `state`, the rotor's load in it.
+LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& state, const Campbell& campbell,
+                           const bodies::Linearisation& linearisation);
 
 }  // namespace spindrift::coupling

@@ -92,18 +92,18 @@ void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState
   const CouplingScheme& chosen = of(o.scheme);
   const FullLoads full(floating);
   const Campbell frequencies = campbell(floating.scenario(), linearisation, floating.rotor()->state(0.0, state.motions).speed);
-  const LooseVerdict verdict = loose_verdict(floating, state, frequencies);
+  const LooseVerdict verdict = loose_verdict(floating, state, frequencies, linearisation);
   const std::string scheme = chosen.judged(o);
   for (const LooseVerdict::Scheme& known : verdict.schemes) {
     if (known.name != scheme) continue;
     const char* mend = "iterate (coupling.scheme = \"iqn_ils\"), or say coupling.accept_unstable = true";
     const double window = floating.timeline().window_s();
     if (window > known.window_limit_s)
-      refuse(
-          floating, "time.window_s", fmt::format("{}", window),
-          fmt::format("is above the limit of {:.3g} s at which {} turns the rotor's damping ({:.3g} kN per m/s on {:.3g} kg at "
-                      "the hub) into growth: shorten it, {}",
-                      known.window_limit_s, scheme, 1e-3 * verdict.slope_N_s_m, verdict.hub_mass_kg, mend));
+      refuse(floating, "time.window_s", fmt::format("{}", window),
+             fmt::format(
+                 "is above the limit of {:.3g} s, from which with {} the bodies swing ever more, as the rotor's damping ({:.3g} "
+                 "kN per m/s on {:.3g} kg at the hub) answers too late: shorten it, {}",
+                 known.window_limit_s, scheme, 1e-3 * verdict.slope_N_s_m, verdict.hub_mass_kg, mend));
     if (verdict.mass_ratio() > known.mass_ratio_limit)
       refuse(floating, "coupling.scheme", "\"" + scheme + "\"",
              fmt::format("is unstable at any window: the air that the blades carry along is {:.3g} of the mass at the hub, the "

@@ -1,6 +1,6 @@
 // The coupling schemes that a scene may choose. Each is a file, scheme_NAME.cpp, and a line in schemes.inc. The file has its
-// name, what the reference says of it, the keys of [coupling] that it reads and either its staggering with the limits of its
-// stability or the object that iterates; the line names its enumerator. The mathematics is in kernels/coupling. Used by
+// name, what the reference says of it, the keys of [coupling] that it reads and either its staggering with the limit of its
+// added mass or the object that iterates; the line names its enumerator. The mathematics is in kernels/coupling. Used by
 // coupling_options.cpp, window.cpp, campbell.cpp and limits.cpp; tested in tests/src/coupling/window_test.cpp and
 // tests/coupled/schemes_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -28,18 +28,14 @@ enum class SchemeKind {
 #undef SCHEME
 };
 
-/// Characteristic polynomials of a loose scheme, by rising power of the growth per window: kernels/coupling/loose_limits.hpp.
-struct LooseLimits {
-  std::vector<double> (*added_mass)(const CouplingOptions&, double ratio);  ///< of the fluid's added mass over the structure's
-  std::vector<double> (*damping)(const CouplingOptions&, double share);     ///< of a load c v over a window: c dt / m
-};
-
 /// Loose where it has a staggering, strong where it makes an object that iterates, monolithic where it has neither.
 struct CouplingScheme {
   std::string_view name, help;
   std::vector<std::string> keys;
   Staggering (*staggering)(const CouplingOptions&) = nullptr;
-  LooseLimits limits{};                                     ///< of its staggering
+  /// Of a loose scheme: the characteristic polynomial of its growth per window, by rising power, where the fluid's added mass is
+  /// `ratio` of the structure's (kernels/coupling/loose_limits.hpp).
+  std::vector<double> (*added_mass)(const CouplingOptions&, double ratio) = nullptr;
   std::string (*judged)(const CouplingOptions&) = nullptr;  ///< what check and messages call it
   std::unique_ptr<StrongScheme> (*strong)(const CouplingOptions&) = nullptr;
 };

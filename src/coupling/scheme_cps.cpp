@@ -10,8 +10,7 @@ extern const CouplingScheme cps_scheme{
     .help = "both at once on what they had at the window's start, as in Leble & Barakos (2016): first order",
     .keys = {"accept_unstable"},
     .staggering = [](const CouplingOptions&) { return Staggering::cps(); },
-    .limits = {.added_mass = [](const CouplingOptions&, double ratio) { return cps_polynomial(ratio); },
-               .damping = [](const CouplingOptions&, double share) { return cps_damping_polynomial(share); }},
+    .added_mass = [](const CouplingOptions&, double ratio) { return cps_polynomial(ratio); },
     .judged = [](const CouplingOptions&) { return std::string("cps"); }};
 
 }  // namespace spindrift::coupling

@@ -5,13 +5,11 @@
 
 namespace spindrift::coupling {
 
-extern const CouplingScheme cps2_scheme{
-    .name = "cps2",
-    .help = "both at once on data extrapolated linearly: second order at the same cost",
-    .keys = {"accept_unstable"},
-    .staggering = [](const CouplingOptions&) { return Staggering::cps2(); },
-    .limits = {.added_mass = [](const CouplingOptions&, double ratio) { return cps2_polynomial(ratio); },
-               .damping = [](const CouplingOptions&, double share) { return cps2_damping_polynomial(share); }},
-    .judged = [](const CouplingOptions&) { return std::string("cps2"); }};
+extern const CouplingScheme cps2_scheme{.name = "cps2",
+                                        .help = "both at once on data extrapolated linearly: second order at the same cost",
+                                        .keys = {"accept_unstable"},
+                                        .staggering = [](const CouplingOptions&) { return Staggering::cps2(); },
+                                        .added_mass = [](const CouplingOptions&, double ratio) { return cps2_polynomial(ratio); },
+                                        .judged = [](const CouplingOptions&) { return std::string("cps2"); }};
 
 }  // namespace spindrift::coupling

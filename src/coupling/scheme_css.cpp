@@ -10,9 +10,7 @@ extern const CouplingScheme css_scheme{
     .help = "bodies first on extrapolated loads, then the rotor on their motion: order predictor_order + 1",
     .keys = {"predictor_order", "accept_unstable"},
     .staggering = [](const CouplingOptions& o) { return Staggering::css(o.predictor_order); },
-    .limits = {.added_mass = [](const CouplingOptions& o, double ratio) { return css_polynomial(o.predictor_order, ratio); },
-               .damping = [](const CouplingOptions& o,
-                             double share) { return css_damping_polynomial(o.predictor_order, share); }},
+    .added_mass = [](const CouplingOptions& o, double ratio) { return css_polynomial(o.predictor_order, ratio); },
     .judged = [](const CouplingOptions& o) { return "css" + std::to_string(o.predictor_order); }};
 
 }  // namespace spindrift::coupling

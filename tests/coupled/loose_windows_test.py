@@ -1,0 +1,52 @@
+"""The longest window that `check` states for a loose scheme, against runs in waves of 5 cm: at 0.9 of it the machine swings with them, at 1.1 ever more, until
+its loads bound the swing or the run ends with exit code 3 and names the scheme. Two machines, the masses at their hubs 1,690 t and 460 t.
+SPDX-License-Identifier: Apache-2.0"""
+import csv
+import json
+import re
+import unittest
+
+from running import ROOT, Folder, spindrift
+
+MACHINES = {"the paper's": "inputs/leble_barakos/case3_engineering.toml", "a spar with a rotor half as large": "inputs/tutorials/own_turbine.toml"}
+SCHEMES = {"cps": "cps", "cps2": "cps2", "css1": "css"}
+SMALL = ["waves.height_m=0.05", "coupling.accept_unstable=true"]
+
+
+def stated(scene):
+    """Limit [s] by scheme, as `check` has it."""
+    said = spindrift("check", ROOT / scene, settings=["coupling.scheme=cps2", *SMALL])
+    found = re.findall(r"^  (\w+) +stable for windows up to (\S+) s", said.stdout, re.M)
+    return {name: float(limit) for name, limit in found}
+
+
+class Limits(Folder):
+    def run_at(self, scene, scheme, window, windows=400):
+        """(Exit code, reason, largest hub velocity in the first third of the run, in the last)."""
+        window, steps = float(f"{window:.5g}"), max(1, round(window / 0.05))
+        done = spindrift("run", ROOT / scene, "--out", self.out, "--overwrite", "--no-report", "--quiet",
+                         settings=[f"coupling.scheme={SCHEMES[scheme]}", *SMALL, f"time.window_s={window:.12g}", f"time.step_s={window / steps:.15g}",
+                                   f"time.end_s={windows * window:.12g}"])
+        with open(self.out / "history.csv", encoding="utf-8") as file:
+            speed = [abs(float(row["rotor.hub_vx_m_s"])) for row in csv.DictReader(file)]
+        third = len(speed) // 3
+        return done.returncode, json.loads((self.out / "summary.json").read_text())["exit_reason"], max(speed[:third]), max(speed[-third:])
+
+    def test_runs_grow_from_the_window_that_check_states(self):
+        for machine, scene in MACHINES.items():
+            limits = stated(scene)
+            for scheme in SCHEMES:
+                with self.subTest(machine, scheme=scheme):
+                    code, reason, early, below = self.run_at(scene, scheme, 0.9 * limits[scheme])
+                    self.assertEqual(code, 0, reason)
+                    self.assertLess(below, 1.5 * early)
+                    code, reason, early, above = self.run_at(scene, scheme, 1.1 * limits[scheme])
+                    if code != 0:
+                        self.assertEqual(code, 3, reason)
+                        self.assertIn("the loose scheme is unstable at a window of", reason)
+                    else:
+                        self.assertGreater(above, 5.0 * below)
+
+
+if __name__ == "__main__":
+    unittest.main()
