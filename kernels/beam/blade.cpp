@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/beam/blade.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "kernels/linear/dense.hpp"
 
 namespace spindrift::beam {
 
@@ -34,12 +35,12 @@ BladeModes::BladeModes(const BladeTable& table) : length_(table.position.back())
   const auto scaled = [&](const Eigen::MatrixXd& full) -> Eigen::MatrixXd {
     return unit.asDiagonal() * Eigen::MatrixXd(full(kept, kept)) * unit.asDiagonal();
   };
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled(stiffness), scaled(mass));
+  const dense::SymmetricEigenpairs eigen = dense::symmetric_eigenpairs(scaled(stiffness), scaled(mass));
   for (int k = 0; k <= elements; ++k) node_.push_back(k * h);
   nodal_.setZero(2 * plane, count);
   for (int k = 0; k < count; ++k) {
-    omega_[std::size_t(k)] = std::sqrt(std::max(0.0, eigen.eigenvalues()[k]));
-    const Eigen::VectorXd mode = unit.cwiseProduct(eigen.eigenvectors().col(k));
+    omega_[std::size_t(k)] = std::sqrt(std::max(0.0, eigen.values[k]));
+    const Eigen::VectorXd mode = unit.cwiseProduct(eigen.vectors.col(k));
     for (Eigen::Index i = 0; i < free; ++i) nodal_(kept[std::size_t(i)], k) = mode[i];
     const Eigen::Vector2d tip(nodal_(plane - 2, k), nodal_(2 * plane - 2, k));
     if ((std::abs(tip.x()) > std::abs(tip.y()) ? tip.x() : tip.y()) < 0.0) nodal_.col(k) *= -1.0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/beam/euler_bernoulli.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "kernels/linear/dense.hpp"
 
 namespace spindrift::beam {
 
@@ -55,14 +56,14 @@ Modes modes(const Table& table, const Problem& problem, int count) {
   for (Eigen::Index k = 1; k < size; k += 2) unit[k] = 1.0 / h;
   const Eigen::MatrixXd scaled_mass = unit.asDiagonal() * mass * unit.asDiagonal(),
                         scaled_stiffness = unit.asDiagonal() * stiffness * unit.asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled_stiffness.bottomRightCorner(free, free),
-                                                                        scaled_mass.bottomRightCorner(free, free));
+  const dense::SymmetricEigenpairs eigen =
+      dense::symmetric_eigenpairs(scaled_stiffness.bottomRightCorner(free, free), scaled_mass.bottomRightCorner(free, free));
   Modes result;
   for (int k = 0; k <= problem.elements; ++k) result.node.push_back(k * h);
   result.shapes.setZero(size, count);
   for (int k = 0; k < count; ++k) {
-    result.omega.push_back(std::sqrt(std::max(0.0, eigen.eigenvalues()[k])));
-    result.shapes.col(k).tail(free) = unit.tail(free).cwiseProduct(eigen.eigenvectors().col(k));
+    result.omega.push_back(std::sqrt(std::max(0.0, eigen.values[k])));
+    result.shapes.col(k).tail(free) = unit.tail(free).cwiseProduct(eigen.vectors.col(k));
     if (result.shapes(size - 2, k) < 0.0) result.shapes.col(k) *= -1.0;
   }
   return result;

@@ -7,9 +7,8 @@
 // tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/LU>
-
 #include "kernels/coupling/differences.hpp"
+#include "kernels/linear/dense.hpp"
 
 namespace spindrift::coupling {
 
@@ -60,7 +59,7 @@ class IbqnLs {
     for (Eigen::Index j = 0; j < k.cols(); ++j) k.col(j) = a.fit(b.images().col(j));
     for (Eigen::Index j = 0; j < back.cols(); ++j) back.col(j) = b.fit(a.images().col(j));
     const Matrix system = Matrix::Identity(k.cols(), k.cols()) - back * k;
-    return side + a.images() * (k * system.partialPivLu().solve(b.fit(side)));
+    return side + a.images() * (k * dense::solve(system, b.fit(side)));
   }
 
   double relaxation_;

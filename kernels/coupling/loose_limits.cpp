@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/coupling/loose_limits.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <limits>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "kernels/coupling/scheme.hpp"
+#include "kernels/linear/dense.hpp"
 
 namespace spindrift::coupling {
 
@@ -19,7 +17,7 @@ double largest_root(std::vector<double> c) {
   Matrix companion = Matrix::Zero(n, n);
   for (Eigen::Index i = 0; i + 1 < n; ++i) companion(i + 1, i) = 1.0;
   for (Eigen::Index i = 0; i < n; ++i) companion(i, n - 1) = -c[std::size_t(i)] / c[std::size_t(n)];
-  return Eigen::EigenSolver<Matrix>(companion, false).eigenvalues().cwiseAbs().maxCoeff();
+  return dense::eigenvalues(companion).cwiseAbs().maxCoeff();
 }
 
 double growth(const LooseLoop& loop, const Staggering& scheme, double window) {
@@ -29,7 +27,7 @@ double growth(const LooseLoop& loop, const Staggering& scheme, double window) {
   Matrix rates = Matrix::Zero(n + 3 * m, n + 3 * m);
   rates.topLeftCorner(n, n) = loop.matrix, rates.block(0, n, n, m) = loop.input;
   rates.block(n, n + m, m, m) = rates.block(n + m, n + 2 * m, m, m) = one;
-  const Matrix over = (window * rates).exp();
+  const Matrix over = dense::exponential(window * rates);
   const Matrix y0 = over.block(0, n, n, m), y1 = over.block(0, n + m, n, m) / window,
                y2 = 2.0 * over.block(0, n + 2 * m, n, m) / (window * window);  // by 1, t / window and its square
 
@@ -47,7 +45,7 @@ double growth(const LooseLoop& loop, const Staggering& scheme, double window) {
     step.block(n + m, 0, m, n) = (scheme.extrapolates_motion() ? 2.0 : 1.0) * loop.output;
   if (scheme.extrapolates_motion()) step.block(n + m, n, m, m) = -one;
   step.block(n + 2 * m, n + m, m, m) = step.block(n + 3 * m, n + 2 * m, m, m) = one;
-  return Eigen::EigenSolver<Matrix>(step, false).eigenvalues().cwiseAbs().maxCoeff();
+  return dense::eigenvalues(step).cwiseAbs().maxCoeff();
 }
 
 double window_limit(const LooseLoop& loop, const Staggering& scheme, double rate, double shortest, double longest) {

@@ -4,9 +4,8 @@
 // tests/kernels/coupling and tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/LU>
-
 #include "kernels/coupling/scheme.hpp"
+#include "kernels/linear/dense.hpp"
 
 namespace spindrift::coupling {
 
@@ -48,7 +47,7 @@ class Newton {
     x[row_] += step_;
     return x;
   }
-  Vector step() const { return x_ - jacobian_.partialPivLu().solve(r_); }
+  Vector step() const { return x_ - dense::solve(jacobian_, r_); }
 
   double smallest_, step_ = 0.0;
   int row_ = -1;  ///< being tried

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/waves/radiation_poles.hpp"
 
-#include <Eigen/Dense>
+#include "kernels/linear/dense.hpp"
 
 namespace spindrift::waves {
 
@@ -11,18 +11,18 @@ RadiationPoles fit_radiation_poles(std::span<const double> samples, double h, do
   Eigen::MatrixXd hankel(half, count - half + 1);
   for (Eigen::Index i = 0; i < hankel.rows(); ++i)
     for (Eigen::Index j = 0; j < hankel.cols(); ++j) hankel(i, j) = y[i + j];
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(hankel, Eigen::ComputeThinU);
+  const dense::SingularValues svd = dense::left_singular_values(hankel);
   RadiationPoles best;
   best.error = std::sqrt(y.squaredNorm() / double(count));
   if (best.error <= tolerance) return best;
   const Eigen::Index most = std::min<Eigen::Index>(most_poles, hankel.cols() - 1);
   for (Eigen::Index order = 1; order <= most; ++order) {
-    if (svd.singularValues()[order - 1] <= 1e-14 * svd.singularValues()[0]) break;
+    if (svd.values[order - 1] <= 1e-14 * svd.values[0]) break;
     // One sample later is one application of the system's matrix: U shifted by a row.
-    const Eigen::MatrixXd u = svd.matrixU().leftCols(order);
-    const Eigen::MatrixXd shift = u.topRows(half - 1).colPivHouseholderQr().solve(u.bottomRows(half - 1));
+    const Eigen::MatrixXd u = svd.left.leftCols(order);
+    const Eigen::MatrixXd shift = dense::least_squares(u.topRows(half - 1), Eigen::MatrixXd(u.bottomRows(half - 1)));
     // U holds the observability matrix up to a change of base, which keeps the eigenvalues.
-    const Eigen::VectorXcd roots = Eigen::EigenSolver<Eigen::MatrixXd>(shift, false).eigenvalues();
+    const Eigen::VectorXcd roots = dense::eigenvalues(shift);
     RadiationPoles fit;
     for (const std::complex<double>& root : roots) {
       const bool decays = std::abs(root) > 1e-12 && std::abs(root) < 1.0 - 1e-9;
@@ -40,7 +40,7 @@ RadiationPoles fit_radiation_poles(std::span<const double> samples, double h, do
       }
       columns += p.imag() != 0.0 ? 2 : 1;
     }
-    const Eigen::VectorXd c = base.leftCols(columns).colPivHouseholderQr().solve(y);
+    const Eigen::VectorXd c = dense::least_squares(base.leftCols(columns), y);
     Eigen::Index column = 0;
     for (const std::complex<double>& p : fit.pole) {
       fit.weight.emplace_back(c[column], p.imag() != 0.0 ? c[column + 1] : 0.0);

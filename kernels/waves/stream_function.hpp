@@ -7,12 +7,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/linear/dense.hpp"
 #include "kernels/waves/components.hpp"
 #include "kernels/waves/dispersion.hpp"
 
@@ -88,7 +88,7 @@ class StreamFunctionEquations {
     Eigen::MatrixXd d;
     for (int iteration = 0; iteration < 40; ++iteration) {
       evaluate(x, f, d);
-      const Eigen::VectorXd step = d.partialPivLu().solve(f);
+      const Eigen::VectorXd step = dense::solve(d, f);
       if (!step.allFinite()) return false;
       x -= step;
       if (!(x[0] > x[n_]) || !(x[size() - 1] > 0.0) || x.head(n_ + 1).minCoeff() <= 0.0) return false;

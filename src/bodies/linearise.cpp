@@ -2,12 +2,12 @@
 #include "src/bodies/linearise.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <limits>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/linear/dense.hpp"
 #include "kernels/rigid/stability.hpp"
 
 namespace spindrift::bodies {
@@ -91,13 +91,13 @@ Linearisation linearise(System& system, const BodiesState& state, double t_s) {
   }
   if (n == 0) return result;
   system.open_chart(state, t_s);  // direction names need the tangent at the state
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(result.matrix);
-  const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
+  const dense::Eigenpairs eigen = dense::eigenpairs(result.matrix);
+  const double largest = eigen.values.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < 2 * n; ++k) {
-    std::complex<double> lambda = eigen.eigenvalues()[k];
+    std::complex<double> lambda = eigen.values[k];
     if (lambda.imag() < 0.0) continue;
     if (std::abs(lambda) <= free_fraction * largest) lambda = 0.0;
-    const Eigen::VectorXcd shape = eigen.eigenvectors().col(k).head(n);
+    const Eigen::VectorXcd shape = eigen.vectors.col(k).head(n);
     Eigen::Index leading;
     shape.cwiseAbs().maxCoeff(&leading);
     const Eigen::VectorXd real_shape = (shape / shape[leading]).real();

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/bodies/mode_names.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
+
+#include "kernels/linear/dense.hpp"
 
 namespace spindrift::bodies {
 
@@ -75,15 +76,15 @@ std::string name_of(const System& system, const BodiesState& state, const Eigen:
 
 void name_modes(Linearisation& linearisation, System& system, const BodiesState& state, std::span<const Beam> beams) {
   if (beams.empty() || linearisation.modes.empty()) return;
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(
-      linearisation.matrix);  // as linearise has it: equal eigenvalues are the same mode
+  // As linearise has it: equal eigenvalues are the same mode.
+  const dense::Eigenpairs eigen = dense::eigenpairs(linearisation.matrix);
   const Eigen::Index n = linearisation.matrix.rows() / 2;
   std::vector<bool> taken(std::size_t(2 * n), false);
   for (Mode& mode : linearisation.modes)
     for (Eigen::Index k = 0; k < 2 * n; ++k) {
-      if (taken[std::size_t(k)] || eigen.eigenvalues()[k] != mode.eigenvalue) continue;
+      if (taken[std::size_t(k)] || eigen.values[k] != mode.eigenvalue) continue;
       taken[std::size_t(k)] = true;
-      const Eigen::VectorXcd shape = eigen.eigenvectors().col(k).head(n);
+      const Eigen::VectorXcd shape = eigen.vectors.col(k).head(n);
       Eigen::Index leading;
       shape.cwiseAbs().maxCoeff(&leading);
       mode.name = name_of(system, state, (shape / shape[leading]).real(), beams);

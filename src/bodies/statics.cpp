@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "kernels/linear/dense.hpp"
 #include "src/bodies/linearise.hpp"
 
 namespace spindrift::bodies {
@@ -69,19 +68,19 @@ Equilibrium find_equilibrium(System& system, const BodiesState& start, double t_
     }
     const Eigen::Index n = system.freedoms();
     if (n == 0) break;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(b.stiffness, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double stiffest = svd.singularValues()[0];
+    const dense::SingularValues svd = dense::singular_values(b.stiffness);
+    const double stiffest = svd.values[0];
     Eigen::Index rank = 0;
-    while (rank < n && svd.singularValues()[rank] > options.free_fraction * stiffest) ++rank;
-    const Eigen::MatrixXd stiff = svd.matrixU().leftCols(rank);
+    while (rank < n && svd.values[rank] > options.free_fraction * stiffest) ++rank;
+    const Eigen::MatrixXd stiff = svd.left.leftCols(rank);
 
     const auto name = [&](const Eigen::VectorXd& y) {
       return direction_name(system, result.state, b.cholesky.transpose().triangularView<Eigen::Upper>().solve(y));
     };
     result.free_directions.clear();
     for (Eigen::Index k = rank; k < n; ++k) {
-      const double load = std::abs(svd.matrixU().col(k).dot(b.force));
-      result.free_directions.push_back(name(svd.matrixV().col(k)));
+      const double load = std::abs(svd.left.col(k).dot(b.force));
+      result.free_directions.push_back(name(svd.right.col(k)));
       if (load > options.load_tolerance * b.all_loads && result.iterations > 0) {
         result.problem = "statics: no equilibrium: " + result.free_directions.back() + " has no stiffness and carries " +
                          fmt::format("{:.3g}", load / b.all_loads) + " of the loads";
@@ -89,19 +88,19 @@ Equilibrium find_equilibrium(System& system, const BodiesState& start, double t_
       }
     }
 
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> symmetric(0.5 * (b.stiffness + b.stiffness.transpose()));
-    const double softest = symmetric.eigenvalues()[0];
+    const dense::SymmetricEigenpairs symmetric = dense::symmetric_eigenpairs(0.5 * (b.stiffness + b.stiffness.transpose()));
+    const double softest = symmetric.values[0];
     const bool unstable = softest < -options.free_fraction * stiffest;
     const Eigen::VectorXd balance = stiff.transpose() * b.force;
     result.residual = b.all_loads > 0.0 ? balance.norm() / b.all_loads : 0.0;
     // Newton, least norm over the stiff directions; where the stiffness is not positive, shifted until it is.
-    Eigen::VectorXd y = svd.matrixV().leftCols(rank) * balance.cwiseQuotient(svd.singularValues().head(rank));
+    Eigen::VectorXd y = svd.right.leftCols(rank) * balance.cwiseQuotient(svd.values.head(rank));
     const double newton_size = b.cholesky.transpose().triangularView<Eigen::Upper>().solve(y).cwiseAbs().maxCoeff();
     if (rank == 0 || newton_size <= options.step_tolerance) {
-      result.unstable = unstable ? name(symmetric.eigenvectors().col(0)) : "";
+      result.unstable = unstable ? name(symmetric.vectors.col(0)) : "";
       for (Eigen::Index k = rank; k < n; ++k)
-        if (std::abs(svd.matrixU().col(k).dot(b.force)) > options.load_tolerance * b.all_loads)
-          result.problem = "statics: no equilibrium: " + name(svd.matrixV().col(k)) + " has no stiffness and carries a load";
+        if (std::abs(svd.left.col(k).dot(b.force)) > options.load_tolerance * b.all_loads)
+          result.problem = "statics: no equilibrium: " + name(svd.right.col(k)) + " has no stiffness and carries a load";
       break;
     }
     if (result.iterations == options.iterations) {
@@ -112,7 +111,7 @@ Equilibrium find_equilibrium(System& system, const BodiesState& start, double t_
     }
     if (unstable) {
       const Eigen::MatrixXd shifted = b.stiffness - 2.0 * softest * Eigen::MatrixXd::Identity(n, n);
-      y = shifted.partialPivLu().solve(stiff * balance);
+      y = dense::solve(shifted, stiff * balance);
     }
     Eigen::VectorXd x = b.cholesky.transpose().triangularView<Eigen::Upper>().solve(y);
     const double size = x.cwiseAbs().maxCoeff();
