@@ -1,0 +1,44 @@
+"""A spar on catenary lines in an irregular sea starts from the equilibrium under its mean loads, whatever the seed: the lines' tensions and the heave of the
+first row are those that `check` states, and its mean tension over the run stays there. Scene: the OC3 spar of inputs/tutorials.
+SPDX-License-Identifier: Apache-2.0"""
+import csv
+import re
+import unittest
+
+from running import ROOT, Folder, spindrift
+
+SCENE = ROOT / "inputs/tutorials/spar_in_waves.toml"
+SEA = ["start.equilibrium=true", "waves.model=jonswap", "waves.height_m=6.0", "waves.period_s=10.0"]
+LINES = ("line_1", "line_2", "line_3")
+WITHIN = 0.01
+
+
+class Equilibrium(Folder):
+    def rows(self, seed, until):
+        done = spindrift("run", SCENE, "--out", self.out, "--overwrite", "--no-report", "--quiet", "--until", until, settings=[*SEA, f"waves.seed={seed}"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.out / "history.csv", encoding="utf-8") as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def test_twenty_seeds_start_from_the_equilibrium_under_the_mean_loads(self):
+        said = spindrift("check", SCENE, settings=SEA).stdout
+        heave = float(re.search(r"^  spar .* z (\S+) m", said, re.M).group(1))
+        tension = {line: 1e3 * float(re.search(rf"^  {line} +(\S+) kN", said, re.M).group(1)) for line in LINES}
+        draft = 120.0
+        for seed in range(1, 21):
+            with self.subTest(seed=seed):
+                first = self.rows(seed, 0.25)[0]
+                self.assertLess(abs(first["spar.z_m"] - heave), 1e-4 * draft)
+                for line in LINES:
+                    self.assertLess(abs(first[f"{line}.tension_N"] / tension[line] - 1.0), WITHIN)
+
+    def test_the_mean_tension_stays_at_that_of_the_start(self):
+        rows = self.rows(1, 200.0)
+        for line in LINES:
+            tensions = [row[f"{line}.tension_N"] for row in rows]
+            self.assertLess(abs(sum(tensions) / len(tensions) / tensions[0] - 1.0), WITHIN)
+            self.assertGreater(max(tensions) / tensions[0] - 1.0, WITHIN)  # waves do move it
+
+
+if __name__ == "__main__":
+    unittest.main()
