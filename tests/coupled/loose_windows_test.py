@@ -21,7 +21,7 @@ def stated(scene):
 
 
 class Limits(Folder):
-    def run_at(self, scene, scheme, window, windows=400):
+    def run_at(self, scene, scheme, window, windows=300):
         """(Exit code, reason, largest hub velocity in the first third of the run, in the last)."""
         window, steps = float(f"{window:.5g}"), max(1, round(window / 0.05))
         done = spindrift("run", ROOT / scene, "--out", self.out, "--overwrite", "--no-report", "--quiet",
