@@ -23,7 +23,7 @@ class Equilibrium(Folder):
     def test_twenty_seeds_start_from_the_equilibrium_under_the_mean_loads(self):
         said = spindrift("check", SCENE, settings=SEA).stdout
         heave = float(re.search(r"^  spar .* z (\S+) m", said, re.M).group(1))
-        tension = {line: 1e3 * float(re.search(rf"^  {line} +(\S+) kN", said, re.M).group(1)) for line in LINES}
+        tension = {line: 1e3 * float(re.search(rf"^  {line} +tension (\S+) kN", said, re.M).group(1)) for line in LINES}
         draft = 120.0
         for seed in range(1, 21):
             with self.subTest(seed=seed):
