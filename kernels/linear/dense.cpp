@@ -28,7 +28,7 @@ SymmetricEigenpairs symmetric_eigenpairs(const Eigen::MatrixXd& stiffness, const
 }
 
 SingularValues singular_values(const Eigen::MatrixXd& matrix) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {svd.singularValues(), svd.matrixU(), svd.matrixV()};
 }
 

@@ -28,14 +28,14 @@ SymmetricEigenpairs symmetric_eigenpairs(const Eigen::MatrixXd& matrix);
 /// `stiffness` v = value `mass` v, both symmetric, `mass` positive definite; v^T mass v = 1.
 SymmetricEigenpairs symmetric_eigenpairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 
-/// matrix = left diag(values) right^T; values from the largest down.
+/// matrix = left diag(values) right^T; values from the largest down, min(rows, columns) of them and of the columns of both.
 struct SingularValues {
   Eigen::VectorXd values;
   Eigen::MatrixXd left, right;
 };
-/// Of a square matrix, by two-sided Jacobi rotations: small values have as many digits as large ones.
+/// By two-sided Jacobi rotations: small values have as many digits as large ones.
 SingularValues singular_values(const Eigen::MatrixXd& matrix);
-/// Of a matrix of any shape, by divide and conquer: values and `left`, min(rows, columns) columns; `right` is empty.
+/// Values and `left` by divide and conquer, for large matrices; `right` is empty.
 SingularValues left_singular_values(const Eigen::MatrixXd& matrix);
 
 /// x of matrix x = right; LU with partial pivoting.

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +10,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/coupling/loose_limits.hpp"
+#include "kernels/linear/dense.hpp"
 #include "src/aero/operation.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/scene/models.hpp"
@@ -138,13 +138,12 @@ LooseLoop loop_of(FloatingSystem& floating, const bodies::BodiesState& state, co
   floating.replace_rotor_loads({});
   const Eigen::Index n = linearisation.matrix.rows() / 2;
   if (loop.matrix.rows() != 2 * n) return {};
-  const Eigen::JacobiSVD<Eigen::MatrixXd> parts((linearisation.matrix - loop.matrix).bottomRows(n),
-                                                Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const dense::SingularValues parts = dense::singular_values((linearisation.matrix - loop.matrix).bottomRows(n));
   constexpr double small = 1e-6;  // of the largest: round-off of the differences
   Eigen::Index rank = 0;
-  while (rank < n && parts.singularValues()[rank] > small * parts.singularValues()[0]) ++rank;
-  loop.input = Eigen::MatrixXd::Zero(2 * n, rank), loop.input.bottomRows(n) = parts.matrixU().leftCols(rank);
-  loop.output = parts.singularValues().head(rank).asDiagonal() * parts.matrixV().leftCols(rank).transpose();
+  while (rank < n && parts.values[rank] > small * parts.values[0]) ++rank;
+  loop.input = Eigen::MatrixXd::Zero(2 * n, rank), loop.input.bottomRows(n) = parts.left.leftCols(rank);
+  loop.output = parts.values.head(rank).asDiagonal() * parts.right.leftCols(rank).transpose();
   return loop;
 }
 
