@@ -15,6 +15,7 @@ import quantities
 import verdict
 
 SVG_LIMIT_BYTES = 300_000
+MOST_LINES = 4     # of one quantity in a panel; more have a panel each
 BINS = 700  # of the min-max envelope that stands for a long series
 # Mid-tones that read on white and on near-black; the page's style sheet refines them for each.
 PALETTE = ["#2f7fc1", "#d9772b", "#2f9e6e", "#b5569e", "#8a7a2c", "#4aa5b8", "#c2504d", "#7a7f87"]
@@ -150,9 +151,45 @@ def series(runs, group):
             drawing.constant.append(f"{label} {factor * value:.6g}" + (f" {unit}" if unit != label else ""))
         else:
             panels.append((label, lines))
-    if panels:
+    if len(panels) == 1 and group.multiples and len(lines := _moving(runs, panels[0][1])) > MOST_LINES:
+        drawing.figure = _multiples(runs, panels[0][0], lines)
+    elif panels:
         drawing.figure, drawing.legend = _draw(runs, panels)
     return drawing
+
+
+def _moving(runs, lines):
+    """Those lines that have something to draw in a run."""
+    drawn = {i for _, _, i, _, _ in _panel_lines(runs, lines)}
+    return [line for i, line in enumerate(lines) if i in drawn]
+
+
+def _multiples(runs, label, lines):
+    """A small panel for each line, all with the same axes."""
+    columns = 3
+    rows = -(-len(lines) // columns)
+    figure, axes = plt.subplots(rows, columns, sharex=True, sharey=True, squeeze=False, figsize=(5.4, 1.15 * rows + 0.4), layout="constrained")
+    drawn = [[(r, time, values) for _, r, _, time, values in _panel_lines(runs, [line])] for line in lines]
+    unit, factor = quantities.scaled(quantities.unit_of(lines[0][1], runs[0].described), max(np.abs(v[np.isfinite(v)]).max(initial=0.0) for d in drawn for *_, v in d))
+    for axis, (legend, column), found in zip(axes.flat, lines, drawn):
+        for r, time, values in found:
+            axis.plot(*envelope(time, values * factor), **_style([column], r, 0))
+        axis.set_title(legend.replace("_", " "), loc="left", fontsize=8.5)
+    _limits(axes[0, 0], [v * factor for d in drawn for *_, v in d])
+    for axis in axes.flat[len(lines):]:
+        axis.set_visible(False)
+    for n, axis in enumerate(axes.flat):
+        axis.margins(x=0.0)
+        axis.xaxis.set_major_locator(MaxNLocator(3))
+        axis.yaxis.set_major_locator(MaxNLocator(4))
+        axis.tick_params(labelbottom=n + columns >= len(lines))
+    figure.supylabel(f"{label} [{unit}]" if unit else label, fontsize=9, color=INK)
+    figure.supxlabel(_time_label(runs), fontsize=9, color=INK)
+    return figure
+
+
+def _time_label(runs):
+    return "pseudo-step" if verdict.is_steady(runs[0]) else "time [s]"
 
 
 def _draw(runs, panels):
@@ -176,7 +213,7 @@ def _draw(runs, panels):
         axis.set_ylabel(f"{label} [{unit}]" if unit and label != unit else label)
         axis.yaxis.set_major_locator(MaxNLocator(4))
         axis.margins(x=0.0)
-    axes[-1, 0].set_xlabel("pseudo-step" if verdict.is_steady(runs[0]) else "time [s]")
+    axes[-1, 0].set_xlabel(_time_label(runs))
     figure.align_ylabels()
     return figure, {legend: legend_mark(i, i // len(PALETTE)) for legend, i in sorted(legend_entries.items(), key=lambda entry: entry[1])}
 
@@ -304,7 +341,7 @@ def timeline(tasks, count=400):
         total[module] = total.get(module, 0.0) + min(stop, end) - max(start, begin)
     modules = sorted(total, key=lambda m: -total[m])[:len(PALETTE)]
     threads = sorted({t[3] for t in shown}, key=str)[:16]
-    figure, axis = plt.subplots(figsize=(8.2, 0.42 * len(threads) + 0.9), layout="constrained")
+    figure, axis = plt.subplots(figsize=(5.4, 0.42 * len(threads) + 0.9), layout="constrained")
     for row, thread in enumerate(threads):
         for m, module in enumerate(modules):
             bars = [(1e3 * (max(s, begin) - begin), 1e3 * (min(e, end) - max(s, begin))) for s, e, what, where in shown if where == thread and what == module]

@@ -4,6 +4,7 @@ SPDX-License-Identifier: Apache-2.0"""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import Normalize, TwoSlopeNorm
+from matplotlib.ticker import MaxNLocator
 
 import figures
 
@@ -70,8 +71,8 @@ def layer(block, y0):
     return corners[..., 0], corners[..., 2], across, cell
 
 
-def flow_slice(run):
-    """Pressure coefficient and Mach number in the middle plane; None where the run left no fields."""
+def middle_plane(run):
+    """(pieces (x, z, pressure coefficient, Mach number), lowest and highest corner of what is shown); None where the run left no fields."""
     blocks = newest(run, "air")
     walls = newest(run, "walls") or []
     if not blocks:
@@ -100,11 +101,22 @@ def flow_slice(run):
         speed = np.linalg.norm(np.take(block["velocity"], cell, axis=across), axis=-1)
         mach = speed / np.sqrt(GAMMA * GAS_CONSTANT * np.take(block["temperature"], cell, axis=across))
         pieces.append((x, z, (pressure - ambient) / q, mach))
-    if not pieces:
+    return (pieces, low, high) if pieces else None
+
+
+QUANTITIES = {"pressure coefficient": (2, "RdYlBu_r"), "Mach number": (3, "viridis")}
+
+
+def flow_slice(run, quantities=tuple(QUANTITIES)):
+    """Quantities of the flow in its middle plane, beside each other; None where the run left no fields."""
+    found = middle_plane(run)
+    if found is None:
         return None
+    pieces, low, high = found
     aspect = (high[1] - low[1]) / max(high[0] - low[0], 1e-12)
-    figure, axes = plt.subplots(1, 2, figsize=(10.8, float(np.clip(4.6 * aspect, 1.4, 5.0)) + 0.9), layout="constrained")
-    for axis, n, label, colours in ((axes[0], 2, "pressure coefficient", "RdYlBu_r"), (axes[1], 3, "Mach number", "viridis")):
+    figure, axes = plt.subplots(1, len(quantities), squeeze=False, figsize=(5.4 * len(quantities), float(np.clip(4.0 * aspect, 1.4, 5.0)) + 0.5), layout="constrained")
+    for axis, label in zip(axes[0], quantities):
+        n, colours = QUANTITIES[label]
         seen = np.concatenate([p[n][inside(p, low, high)] for p in pieces])
         least, most = np.percentile(seen, [0.5, 99.5]) if len(seen) else (0.0, 1.0)
         most = max(most, least + 1e-12)
@@ -112,7 +124,10 @@ def flow_slice(run):
         scale = TwoSlopeNorm(0.0, least, most) if n == 2 and least < 0.0 < most else Normalize(least, most)
         for piece in pieces:
             drawn = axis.pcolormesh(piece[0], piece[1], piece[n], cmap=colours, norm=scale, rasterized=True)
-        figure.colorbar(drawn, ax=axis, label=label, shrink=0.9)
+        bar = figure.colorbar(drawn, ax=axis, label=label)
+        if isinstance(scale, TwoSlopeNorm):
+            bar.set_ticks(sorted({*MaxNLocator(4).tick_values(least, 0.0), *MaxNLocator(2).tick_values(0.0, most)}))
+            bar.ax.set_ylim(least, most)
         axis.set_xlim(low[0], high[0])
         axis.set_ylim(low[1], high[1])
         axis.set_aspect("equal" if 0.05 < aspect < 20.0 else "auto")

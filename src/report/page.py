@@ -242,9 +242,7 @@ def compared_figures(runs):
 
 
 def _figure(title, legend, figure, caption):
-    """Pictures drawn wide take the page's whole width."""
-    wide = figure.get_figwidth() > 7.0
-    return str(parts.figure(title, legend, safe(figures.as_html(figure, escape(title))), caption, wide))
+    return str(parts.figure(title, legend, safe(figures.as_html(figure, escape(title))), caption))
 
 
 def _caption(group, drawing, runs):
@@ -400,9 +398,9 @@ def flow(run):
     if figure := flow_pictures.wall_curves(run):
         out += _figure("Along the walls", None, figure,
                        f"In the middle plane of the walls; pressure with its sign turned. {flow_pictures.y_plus_words(run)}".strip())
-    if figure := flow_pictures.flow_slice(run):
-        out += _figure("Slice of the flow", None, figure,
-                       "Cells in the middle plane, at the end of the run: pressure above the undisturbed one on dynamic pressure; Mach number.")
+    for quantity, words in (("pressure coefficient", "Pressure above the undisturbed one on dynamic pressure"), ("Mach number", "Speed over that of sound")):
+        if figure := flow_pictures.flow_slice(run, (quantity,)):
+            out += _figure(f"Slice of the flow: {quantity}", None, figure, f"{words}, of the cells in the middle plane at the end of the run.")
     return f'<div class="figures">{out}</div>' if out else ""
 
 

@@ -46,10 +46,11 @@ def scaled(unit, largest):
 
 
 class Group:
-    """One figure: panels, each a label and the columns drawn in it (legend entry, column)."""
+    """One figure: panels, each a label and the columns drawn in it (legend entry, column). `multiples`: of one quantity at several places, which have
+    a panel each where they are many."""
 
-    def __init__(self, key, title, caption, panels, fold=False):
-        self.key, self.title, self.caption, self.panels, self.fold = key, title, caption, panels, fold
+    def __init__(self, key, title, caption, panels, fold=False, multiples=False):
+        self.key, self.title, self.caption, self.panels, self.fold, self.multiples = key, title, caption, panels, fold, multiples
 
     def columns(self):
         return [column for _, lines in self.panels for _, column in lines]
@@ -94,9 +95,9 @@ def groups(names, joints=None):
     found = []
     bodies = bodies_of(names)
 
-    def add(key, title, caption, panels, fold=False):
+    def add(key, title, caption, panels, fold=False, multiples=False):
         if panels:
-            found.append(Group(key, title, caption, panels, fold))
+            found.append(Group(key, title, caption, panels, fold, multiples))
 
     for body in bodies:
         fold = body != bodies[0]
@@ -136,13 +137,13 @@ def groups(names, joints=None):
             _triple(names, rotor, ("generator_torque", "electrical_power"), {"generator_torque": "generator torque", "electrical_power": "electrical power"}))
 
     tensions = [(n.rpartition(".")[0], n) for n in names if n.endswith(".tension_N")]
-    add("moorings", "Mooring tensions", "Tension of each line at its fairlead.", [("tension", tensions)] if tensions else [])
+    add("moorings", "Mooring tensions", "Tension of each line at its fairlead.", [("tension", tensions)] if tensions else [], multiples=True)
     for junction in dict.fromkeys(n.rpartition(".")[0] for n in names if n.endswith(".at_x_m")):
         add("moorings", f"{junction}: place", "Where the junction of lines is, earth frame.", _triple(names, junction, ("at_x", "at_y", "at_z"),
                                                                                                       {"at_x": "x", "at_y": "y", "at_z": "z"}), True)
 
     gauges = [(n.rpartition(".")[0], n) for n in names if n.endswith(".elevation_m")]
-    add("sea", "Wave gauges", "Height of the water's surface.", [("elevation", gauges)] if gauges else [])
+    add("sea", "Wave gauges", "Height of the water's surface.", [("elevation", gauges)] if gauges else [], multiples=True)
     probes = list(dict.fromkeys(n.rpartition(".")[0] for n in names if n.endswith(".pressure_Pa")))
     for probe in probes:
         add("sea", f"{probe}: probe", "Pressure and velocity of the water at a point.", _triple(names, probe, ("pressure", "vx", "vy", "vz")))

@@ -6,10 +6,14 @@ import tomllib
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize
 
 import cut
 import flow_pictures
+
+WIND = {"cmap": "viridis", "vmin": 0.0, "vmax": 1.2}   # colours of the axial velocity over the wind's
 
 
 class Rotor:
@@ -90,18 +94,18 @@ def blade(rotor):
     outward = np.einsum("ij,ij->i", normal, quads.mean(axis=1) - spine(quads))
     normal *= np.sign(np.bincount(block, outward))[block][:, None]   # all faces of a block alike
     cp = pressure / (0.5 * rotor.density * (rotor.wind**2 + (rotor.speed * radius) ** 2))
-    figure, axes = plt.subplots(2, 1, figsize=(10.8, 3.6), layout="constrained", sharex=True)
+    figure, axes = plt.subplots(2, 1, figsize=(5.4, 3.4), layout="constrained", sharex=True)
     least, most = np.percentile(cp, [1, 99])
     for axis, side, words in ((axes[0], normal[:, 0] < 0.0, "from upwind"), (axes[1], normal[:, 0] > 0.0, "from downwind")):
         drawn = PolyCollection(quads[side][:, :, [2, 1]], array=cp[side], cmap="RdYlBu_r", edgecolors="face", linewidths=0.2, rasterized=True)
         drawn.set_clim(least, most)
         axis.add_collection(drawn)
         axis.autoscale_view()
-        axis.set_ylabel(f"{words}, y [m]")
-        axis.set_aspect("equal")
+        axis.set_title(words, loc="left")
+        axis.set_ylabel("y [m]")
         axis.grid(False)
     axes[1].set_xlabel("radius [m]")
-    figure.colorbar(drawn, ax=axes, label="pressure coefficient", shrink=0.9)
+    figure.colorbar(drawn, ax=axes, label="pressure coefficient")
     return figure
 
 
@@ -140,11 +144,12 @@ def volume(run, rotor):
 
 
 def wake(blocks, rotor):
-    """The axial wind in the plane of the axis and the first blade, and in a plane across the wake a quarter of a diameter behind the rotor."""
+    """(words, figure): the axial wind in the plane of the axis and the first blade, and in a plane across the wake a quarter of a diameter behind the rotor."""
     tip = rotor.tip
-    figure, axes = plt.subplots(1, 2, figsize=(10.8, 4.6), layout="constrained")
     behind = 0.5 * tip
-    for axis, normal, level, shown, span in ((axes[0], 1, 0.0, (0, 2), ((-2.0, 4.0), (-2.0, 2.0))), (axes[1], 0, behind, (1, 2), ((-1.6, 1.6),) * 2)):
+    for words, normal, level, shown, span in (("in the plane of the axis", 1, 0.0, (0, 2), ((-2.0, 4.0), (-2.0, 2.0))),
+                                              (f"{behind:.0f} m behind the rotor", 0, behind, (1, 2), ((-1.6, 1.6),) * 2)):
+        figure, axis = plt.subplots(figsize=(5.4, 4.0 * np.ptp(span[1]) / np.ptp(span[0]) + 0.6), layout="constrained")
         for copy in range(rotor.copies):
             for nodes, axial in blocks:
                 places = rotor.turned(nodes, copy)
@@ -153,18 +158,15 @@ def wake(blocks, rotor):
                 triangles, values = cut.surface(places, places[..., normal], level, axial)
                 if len(triangles):
                     flat = triangles[:, :, shown].reshape(-1, 2)
-                    drawn = axis.tripcolor(flat[:, 0], flat[:, 1], np.arange(len(flat)).reshape(-1, 3), values.ravel(), shading="gouraud",
-                                           cmap="viridis", vmin=0.0, vmax=1.2, rasterized=True)
+                    axis.tripcolor(flat[:, 0], flat[:, 1], np.arange(len(flat)).reshape(-1, 3), values.ravel(), shading="gouraud", rasterized=True, **WIND)
         axis.set_xlim(*(tip * s for s in span[0]))
         axis.set_ylim(*(tip * s for s in span[1]))
         axis.set_aspect("equal")
         axis.grid(False)
         axis.set_xlabel(f"{'xyz'[shown[0]]} from the hub [m]")
         axis.set_ylabel(f"{'xyz'[shown[1]]} from the hub [m]")
-    axes[0].set_title("through the axis")
-    axes[1].set_title(f"{behind:.0f} m behind the rotor")
-    figure.colorbar(drawn, ax=axes, label="axial velocity / wind", shrink=0.9)
-    return figure
+        figure.colorbar(ScalarMappable(Normalize(WIND["vmin"], WIND["vmax"]), WIND["cmap"]), ax=axis, label="axial velocity / wind")
+        yield words, figure
 
 
 def pictures(run):
@@ -177,6 +179,8 @@ def pictures(run):
     rotor = Rotor(run, walls)
     if figure := blade(rotor):
         yield ("Pressure on a blade", figure,
-               "Pressure above the undisturbed one on the dynamic pressure of wind and turning at the radius; leading edge and suction side are blue.")
+               "Pressure above the undisturbed one on the dynamic pressure of wind and turning at the radius; leading edge and suction side are blue. Across "
+               "the blade drawn larger than along it.")
     if blocks := volume(run, rotor):
-        yield "Wind through the rotor", wake(blocks, rotor), "Velocity along the axis over the wind's, at the end of the run."
+        for words, figure in wake(blocks, rotor):
+            yield f"Wind {words}", figure, "Velocity along the axis over the wind's, at the end of the run."

@@ -27,7 +27,7 @@ COLOURS = {"float": (0.95, 0.72, 0.10), "brace": (0.93, 0.75, 0.25), "tower": (0
 SKY, HAZE = (0.55, 0.70, 0.86), (0.93, 0.96, 0.98)
 VORTEX = 0.02    # Q in units of (wind / 10 m)^2: low enough for the vortices of coarse grids
 FEWEST_FOR_VORTICES = 100_000   # cells round the rotor, below which surfaces of Q are shapes of cells
-NEAR_SEA, FAR_SEA = 8.0, 60.0   # lengths of the scene: where waves are drawn, where the sea ends
+NEAR_SEA, FAR_SEA = 8.0, 400.0   # lengths of the scene: where waves are drawn, where the sea ends
 SLOW = 0.9       # of the wind: what is faster is not wake
 CAMERAS = {"scene": (-1.0, -1.15, 0.28), "side": (0.0, -1.0, 0.04), "front": (-1.0, 0.0, 0.06), "top": (0.0, -0.02, 1.0), "rotor": (-1.0, -0.75, 0.18)}
 
@@ -357,13 +357,13 @@ class Drawing:
             actor.SetPosition(x, y)
             self.renderer.AddActor2D(actor)
 
-        title = self.run.own_title if len(self.run.own_title) < 80 else self.run.own_title[:77] + "..."
-        text(title, 0.02 * width, 0.945 * height, 26, bold=True)
+        title = self.run.own_title if len(self.run.own_title) < 64 else self.run.own_title[:61] + "..."
+        text(title, 0.02 * width, 0.938 * height, 34, bold=True)
         steady = (self.run.scene.get("aero", {}).get("flow") or {}).get("time") == "steady" and not self.scene.bodies
-        text(("steady" if steady else f"t = {t:.1f} s") + (f", {self.run.changed}" if self.run.changed else ""), 0.02 * width, 0.905 * height, 22)
+        text(("steady" if steady else f"t = {t:.1f} s") + (f", {self.run.changed}" if self.run.changed else ""), 0.02 * width, 0.89 * height, 29)
         if sketched := self.scene.sketched:
             names = " and ".join(filter(None, (", ".join(sketched[:-1]), sketched[-1])))
-            text(f"sketched, not in the scene: {names}", 0.02 * width, 0.008 * height, 14)
+            text(f"sketched, not in the scene: {names}", 0.02 * width, 0.008 * height, 19)
         self.scale_bar(text, width, height)
 
     def scale_bar(self, text, width, height):
@@ -372,7 +372,7 @@ class Drawing:
         tall = 2 * camera.GetDistance() * math.tan(math.radians(0.5 * camera.GetViewAngle()))
         metres = next(m for m in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 1e9) if m >= 0.11 * tall)
         pixels = int(metres / tall * height)
-        x, y = int(0.02 * width), int(0.035 * height)
+        x, y = int(0.02 * width), int(0.047 * height)
         mapper = vtkPolyDataMapper2D()
         mapper.SetInputData(poly_data(np.array([[x, y, 0], [x + pixels, y, 0], [x, y - 5, 0], [x, y + 5, 0], [x + pixels, y - 5, 0], [x + pixels, y + 5, 0]]),
                                       lines=[[0, 1], [2, 3], [4, 5]]))
@@ -381,7 +381,7 @@ class Drawing:
         bar.GetProperty().SetColor(0.12, 0.15, 0.19)
         bar.GetProperty().SetLineWidth(3)
         self.renderer.AddActor2D(bar)
-        text(f"{metres:g} m", x, y + 0.012 * height, 20)
+        text(f"{metres:g} m", x, y + 0.014 * height, 27)
 
     def legend(self):
         if not (self.seen.get("wake") or self.seen.get("vortices")):

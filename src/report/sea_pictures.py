@@ -97,26 +97,23 @@ def surface(run, h5py):
         axis.set_xlabel("x [m]")
         axis.set_ylabel("elevation [m]")
         axis.legend(ncols=len(maps))
+        yield "Height of the water's surface", figure, "Read on the mesh of fields/surface, at the first, middle and last output."
     else:
         corners = maps[0][0]
         shape = np.ptp(corners[..., 1]) / max(np.ptp(corners[..., 0]), 1e-9)
-        figure, axes = plt.subplots(1, len(maps), squeeze=False, sharey=True, figsize=(10.8, float(np.clip(9.4 / len(maps) * shape, 0.8, 4.0)) + 0.9),
-                                    layout="constrained")
         most = _scale(run, maps)
-        for axis, (corners, elevation, time) in zip(axes[0], maps):
+        for corners, elevation, time in maps:
+            figure, axis = plt.subplots(figsize=(5.4, float(np.clip(4.5 * shape, 0.8, 4.5)) + 0.6), layout="constrained")
             seen = np.where(np.abs(elevation) <= HOLE * most, elevation, np.nan)
             drawn = axis.pcolormesh(corners[0, :, :, 0], corners[0, :, :, 1], seen, cmap="RdBu_r", vmin=-most, vmax=most, rasterized=True)
             limits = axis.get_xlim(), axis.get_ylim()
             for piece in scene.pieces(time):
                 if piece.kind == "float" and piece.points[:, 2].min() < 0.0 < piece.points[:, 2].max():
                     plane_picture.outline(axis, piece, (0, 1))
-            axis.set(xlim=limits[0], ylim=limits[1])
+            axis.set(xlim=limits[0], ylim=limits[1], xlabel="x [m]", ylabel="y [m]")
             axis.set_aspect("equal")
-            axis.set_title(f"t = {time:g} s", loc="left")
-            axis.set_xlabel("x [m]")
-        axes[0, 0].set_ylabel("y [m]")
-        figure.colorbar(drawn, ax=list(axes[0]), label="elevation [m]", fraction=0.04, extend="both")
-    yield "Height of the water's surface", figure, "Read on the mesh of fields/surface, at the first, middle and last output; blank where a float leaves no surface."
+            figure.colorbar(drawn, ax=axis, label="elevation [m]", fraction=0.04, extend="both")
+            yield f"Height of the water's surface at {time:g} s", figure, "Read on the mesh of fields/surface; blank where a float leaves no surface."
 
 
 def pictures(run):

@@ -112,8 +112,8 @@ def build_page(figures_of_run, figures, page):
             f"<p class=facts>Parts are core-seconds of a window; waiting is time of a core without work. Efficiency is work done over all core-seconds.</p>"
             + (f"<ul>{sentences}</ul>" if sentences else "") + "</header>"
             f"<section>{table(entries, parts_of(entries), page)}</section>"
-            f"<section class=figures><figure>{figures.as_html(draw(figures_of_run, figures), 'Where the time of a window goes')}"
-            f"</figure></section></main></body></html>")
+            f'<section class="figures"><figure class="wide"><div class="scroll">{figures.as_html(draw(figures_of_run, figures), "Where the time of a window goes")}'
+            f"</div></figure></section></main></body></html>")
 
 
 def main():

@@ -196,7 +196,8 @@ def _end(run):
 
 def trouble(run):
     """Sentences about what went wrong numerically, from the summary and from the numbers themselves."""
-    said = [str(s) for s in run.summary.get("numerical_trouble", [])]
+    reason = str(run.summary.get("exit_reason") or "")
+    said = [str(s) for s in run.summary.get("numerical_trouble", []) if str(s) not in reason]   # the end has been told
     for name, values in zip(run.columns, run.values):
         bad = ~np.isfinite(values)
         if bad.any() and not np.isnan(values).all():
@@ -405,12 +406,24 @@ def _windows(run):
             found.append(Check("good" if share >= 0.9 else "warn", "Air",
                                f"the residual falls to {drop:g} of its start in {100 * share:.0f} % of the windows"
                                + ("" if share >= 0.9 else "; the others end at max_pseudo_steps")))
-    if "flow.density_residual" in run.columns and _value(run.scene, "aero", "flow", "time") == "steady":
-        values = run.column("flow.density_residual")
-        if len(values) and np.nanmax(values) > 0:
-            fell = values[-1] / np.nanmax(values)
-            found.append(Check("good" if fell <= max(drop or 0.0, 1e-3) * 1.01 else "warn", "Residual", f"fell to {fell:.1e} of its largest"))
+    if is_steady(run) and (check := _residual(run)):
+        found.append(check)
     return found
+
+
+def _residual(run):
+    """How far a march to a steady state has come, by the density's residual and by the balance of all fluxes."""
+    values, drop = (run.column("flow.density_residual") if "flow.density_residual" in run.columns else np.empty(0)), _value(run.scene, "aero", "flow", "drop")
+    balance = float(run.column("flow.balance_drop")[-1]) if "flow.balance_drop" in run.columns and len(run.time) else math.nan
+    if balance > 1.0:
+        return Check("bad", "Residual", f"the march did not converge: its flux balance ends at {words.number(balance, 2)} times that of the start. Give it more pseudo-steps (time.end_s), or "
+                     "smaller ones (aero.flow.cfl_max) where it rises on")
+    if not len(values) or not np.nanmax(values) > 0.0:
+        return None
+    fell = values[-1] / np.nanmax(values)
+    text = f"fell to {words.number(fell, 2)} of its largest" + (f", the flux balance to {words.number(balance, 2)} of that of the start" if math.isfinite(balance) else "")
+    enough = fell <= 1.01 * max(drop or 0.0, 1e-3) and not balance > NOT_YET
+    return Check("good" if enough else "warn", "Residual", text + ("" if enough else ": give it more pseudo-steps (time.end_s)"))
 
 
 def _particles(run):
@@ -439,6 +452,7 @@ def _budgets(run):
     return found
 
 
+NOT_YET = 0.1   # of a march's first flux balance: what is above has hardly begun to converge
 STILL, LOOKED_BACK = 0.01, 20   # change of a load that counts as none; over so many pseudo-steps (a quarter of a shorter march)
 
 

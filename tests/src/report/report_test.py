@@ -375,6 +375,41 @@ class PartsTest(unittest.TestCase):
                 if change:
                     self.assertIn("over the last 20 pseudo-steps lift coefficient by 4.8 % changed", found.text)
 
+    def test_a_march_that_ends_above_its_first_flux_balance_is_not_green(self):
+        n = np.arange(1.0, 101.0)
+        for last, level in ((80.0, "bad"), (0.5, "warn"), (1e-4, "good")):
+            with self.subTest(last), tempfile.TemporaryDirectory() as folder:
+                # The density residual falls and the loads stand still in all three.
+                table = {"time_s": n, "flow.density_residual": 10.0 ** (-n / 20), "flow.balance_drop": last ** (n / 100.0), "flow.lift_coefficient": 0.8 + 0 * n}
+                synthetic_run.write(pathlib.Path(folder), table=table, scene="[aero]\nmodel = 'blade_resolved'\n[aero.flow]\ntime = 'steady'\ndrop = 0.0\n", log="")
+                checks = verdict.health(RunData(pathlib.Path(folder)))
+                found = {c.title: c for c in checks}["Residual"]
+                self.assertEqual(found.level, level)
+                if last > 1.0:
+                    self.assertEqual(verdict.headline(checks)[0], "bad")
+                    self.assertIn("did not converge: its flux balance ends at 80 times that of the start", found.text)
+
+    def test_what_the_end_tells_is_told_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), exit_code=3, exit_reason="aero: no residual", numerical_trouble=["aero: no residual"])
+            said = " ".join(c.text for c in verdict.health(RunData(pathlib.Path(folder))))
+            self.assertEqual(said.count("no residual"), 1)
+
+    def test_many_lines_of_one_quantity_have_a_panel_each_with_the_same_axes(self):
+        t = 0.1 * np.arange(100)
+        for count, panels in ((figures.MOST_LINES, 1), (9, 9)):
+            with self.subTest(count), tempfile.TemporaryDirectory() as folder:
+                table = {"time_s": t} | {f"g{n}.elevation_m": (n + 1) * np.sin(t) for n in range(count)}
+                synthetic_run.write(pathlib.Path(folder), table=table, scene="", log="")
+                run = RunData(pathlib.Path(folder))
+                drawing = figures.series([run], next(g for g in quantities.groups(run.columns) if g.title == "Wave gauges"))
+                axes = [axis for axis in drawing.figure.axes if axis.get_visible()]
+                self.assertEqual(len(axes), panels)
+                self.assertEqual(len({axis.get_ylim() for axis in axes}), 1)
+                self.assertEqual(sum(len(axis.lines) for axis in axes), count)
+                self.assertEqual([axis.get_title(loc="left") for axis in axes], [f"g{n}" for n in range(count)] if panels > 1 else [""])
+                figures.plt.close(drawing.figure)
+
     def test_a_thrust_that_still_changes_has_not_settled(self):
         t = 0.1 * np.arange(400)
         for change, level in ((0.0, "good"), (0.1, "warn")):
