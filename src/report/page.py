@@ -145,13 +145,39 @@ def flattened(table, prefix=""):
     return out
 
 
+def as_written(value):
+    """A value as a scene has it, numbers short."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    return "[" + ", ".join(map(as_written, value)) + "]" if isinstance(value, list) else str(value)
+
+
+def without(scenes, key):
+    """The section around a key that some scenes lack as a whole, the largest; the key itself where all have its section."""
+    steps = key.split(".")
+    for n in range(1, len(steps)):
+        section_name = ".".join(steps[:n])
+        if not all(any(k.startswith((section_name + ".", section_name + "[")) for k in scene) for scene in scenes):
+            return section_name
+    return key
+
+
 def differences(runs):
-    """Keys of the scenes that are not the same in all runs."""
-    scenes = [flattened(run.scene) for run in runs]
+    """Keys of the scenes that are not the same in all runs, references aside; one line for a section that some of them lack."""
+    scenes = [{k: v for k, v in flattened(run.scene).items() if not k.startswith("output.expected")} for run in runs]
     keys = [k for k in dict.fromkeys(k for s in scenes for k in s) if any(s.get(k) != scenes[0].get(k) for s in scenes)]
     if not keys:
         return safe('<p class="facts">None: the scenes are the same.</p>') if all(scenes) else ""
-    return parts.table(["Key"] + [r.name for r in runs], [[k] + [s.get(k, "–") for s in scenes] for k in keys])
+    rows = {}
+    for key in keys:
+        name = without(scenes, key)
+        if name == key:
+            rows[name] = [as_written(s[key]) if key in s else "–" for s in scenes]
+        else:
+            rows[name] = ["given" if any(k.startswith((name + ".", name + "[")) for k in s) else "–" for s in scenes]
+    return parts.table(["Key"] + [r.name for r in runs], [[name, *cells] for name, cells in rows.items()], range(1, len(runs) + 1))
 
 
 # ---- figures and tables --------------------------------------------------------------------------------------------------------------

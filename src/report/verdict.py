@@ -191,7 +191,8 @@ def _end(run):
         return Check("warn", "End", "no summary: interrupted, or still running")
     level = "good" if code == 0 else "warn" if code == 5 else "bad"
     word = EXITS.get(code, f"exit code {code}")
-    return Check(level, "End", reason if level == "good" and reason else f"{word}: {reason}" if reason else word)
+    told = reason and (level == "good" or reason.lower().startswith(word.lower()))
+    return Check(level, "End", reason if told else f"{word}: {reason}" if reason else word)
 
 
 def trouble(run):
