@@ -16,6 +16,7 @@ import verdict
 
 SVG_LIMIT_BYTES = 300_000
 MOST_LINES = 4     # of one quantity in a panel; more have a panel each
+LONG_LABEL = 14    # letters, beyond which the unit of a panel has a line of its own
 BINS = 700  # of the min-max envelope that stands for a long series
 # Mid-tones that read on white and on near-black; the page's style sheet refines them for each.
 PALETTE = ["#2f7fc1", "#d9772b", "#2f9e6e", "#b5569e", "#8a7a2c", "#4aa5b8", "#c2504d", "#7a7f87"]
@@ -210,7 +211,8 @@ def _draw(runs, panels):
             if several and legend:
                 legend_entries[legend] = i
         _limits(axis, [v * factor for *_, v in drawn])
-        axis.set_ylabel(f"{label} [{unit}]" if unit and label != unit else label)
+        between = "\n" if len(label) > LONG_LABEL else " "
+        axis.set_ylabel(f"{label}{between}[{unit}]" if unit and label != unit else label)
         axis.yaxis.set_major_locator(MaxNLocator(4))
         axis.margins(x=0.0)
     axes[-1, 0].set_xlabel(_time_label(runs))

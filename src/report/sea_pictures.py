@@ -90,14 +90,16 @@ def surface(run, h5py):
     if not maps:
         return
     if maps[0][1].shape[0] == 1:
-        figure, axis = plt.subplots(figsize=(5.4, 1.9), layout="constrained")
+        figure, axis = plt.subplots(figsize=(5.4, 2.1), layout="constrained")
+        bed = -(run.scene.get("environment") or {}).get("water_depth_m", np.inf)
         for i, (corners, elevation, time) in enumerate(maps):
             x = corners[0, 0, :, 0]
-            axis.plot(0.5 * (x[1:] + x[:-1]), elevation[0], color=figures.PALETTE[i], label=f"t = {time:g} s")
+            dry = elevation[0] <= 0.98 * bed   # no water over this place, or a body in it
+            axis.plot(0.5 * (x[1:] + x[:-1]), np.where(dry, np.nan, elevation[0]), color=figures.PALETTE[i], label=f"t = {time:g} s")
         axis.set_xlabel("x [m]")
         axis.set_ylabel("elevation [m]")
-        axis.legend(ncols=len(maps))
-        yield "Height of the water's surface", figure, "Read on the mesh of fields/surface, at the first, middle and last output."
+        axis.legend(ncols=len(maps), loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
+        yield "Height of the water's surface", figure, "Read on the mesh of fields/surface, at the first, middle and last output; no line where there is no water, or a body."
     else:
         corners = maps[0][0]
         shape = np.ptp(corners[..., 1]) / max(np.ptp(corners[..., 0]), 1e-9)

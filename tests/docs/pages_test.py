@@ -1,4 +1,4 @@
-"""The pages that people look at, in Chromium without a window, made by an installed program: reports of six kinds of run, a comparison and a study, wide and
+"""The pages that people look at, in Chromium without a window, made by an installed program: reports of eight kinds of run, a comparison and a study, wide and
 narrow, light and dark. No error of a script, no missing glyph, no empty or clipped figure, no label on another; the drawn curve is that of the CSV file
 within a pixel. Screenshots stay in BUILD/pages to be looked at.
 Usage: pages_test.py BUILD [unittest's arguments]. Without Chromium it ends with code 77. SPDX-License-Identifier: Apache-2.0"""
@@ -53,7 +53,7 @@ SCENES = (("leble_barakos/case1_engineering.toml", ()), ("tutorials/own_turbine.
           ("validation/naca0012/family.toml", ("--set", "aero.flow.generate.refinement=1", "--set", "time.end_s=60.0")),
           ("leble_barakos/rotor_demo.toml", ("--set", "time.end_s=20.0", "--set", "aero.flow.drop=0.0")),
           ("leble_barakos/case3_demo.toml", ("--until", 1, "--set", "start.air_steps=30", "--set", "sea.fields.interval_s=0.5")),
-          ("tutorials/pendulum.toml", ()))
+          ("leble_barakos/case3_controlled.toml", ("--until", 20)), ("tutorials/pendulum.toml", ()))
 
 
 def widened(mask, pixels):

@@ -418,6 +418,19 @@ class PartsTest(unittest.TestCase):
                 self.assertEqual([axis.get_title(loc="left") for axis in axes], [f"g{n}" for n in range(count)] if panels > 1 else [""])
                 figures.plt.close(drawing.figure)
 
+    def test_labels_of_panels_fit_beside_each_other(self):
+        t = 0.1 * np.arange(100)
+        with tempfile.TemporaryDirectory() as folder:
+            table = {"time_s": t, "rotor.thrust_N": 1e6 + t, "rotor.generator_torque_N_m": 1e7 + 1e6 * t, "rotor.electrical_power_W": 1e7 + 1e6 * t}
+            synthetic_run.write(pathlib.Path(folder), table=table, scene="", log="")
+            run = RunData(pathlib.Path(folder))
+            figure = figures.series([run], next(g for g in quantities.groups(run.columns) if g.title == "rotor: control")).figure
+            figure.canvas.draw()
+            boxes = [axis.yaxis.label.get_window_extent() for axis in figure.axes]
+            self.assertEqual([axis.get_ylabel() for axis in figure.axes], ["generator torque\n[MN m]", "electrical power\n[MW]"])
+            self.assertFalse(boxes[0].overlaps(boxes[1]))
+            figures.plt.close(figure)
+
     def test_a_thrust_that_still_changes_has_not_settled(self):
         t = 0.1 * np.arange(400)
         for change, level in ((0.0, "good"), (0.1, "warn")):
