@@ -59,7 +59,7 @@ def _apart(box, x, y):
     return math.hypot(max(box[0] - x, 0.0, x - box[2]), max(box[1] - y, 0.0, y - box[3]))
 
 
-def _name(axis, labels, size=7.5):
+def _name(axis, labels, size=8.0):
     """Writes names beside their points, the first first, where none lies on another, on a point, nearer to another point or across the edge; what
     finds no place has its row in the table."""
     dots = axis.figure.dpi / 72.0
@@ -95,7 +95,7 @@ def draw(study, metric, axis, numbered=True):
         axis.plot([rung["cost"]["low"], rung["cost"]["high"]], [error, error], "-", color=colour, linewidth=1.0, alpha=0.7)
         axis.plot(cost, error, "o", color=colour, markersize=6 if rung["on_front"] else 4.5)
         name = rung["name"] if len(points) <= LABELLED or not numbered else str(1 + [r["name"] for r in study["rungs"]].index(rung["name"]))
-        labels.append((not rung["on_front"], cost, error, name))
+        labels.append((rung["name"] != study["answer"], not rung["on_front"], cost, error, name))
     front = sorted((r["cost"]["core_s"], e["error"] * unit) for r, e in points if r["on_front"])
     axis.plot([c for c, _ in front], [e for _, e in front], "-", color=figures.PALETTE[0], linewidth=0.8, alpha=0.6, zorder=0)
     if metric["target"]:
@@ -107,24 +107,24 @@ def draw(study, metric, axis, numbered=True):
         highs.append(max(high, bottom))
         axis.plot([cost, cost], [bottom, max(high, bottom)], ":" if e["scatter_of"] else "-", color=figures.PALETTE[2], linewidth=1.2, alpha=0.8)
         axis.plot(cost, bottom, "D", color=figures.PALETTE[2], markersize=7, clip_on=False, zorder=3)
-        labels.append((False, cost, bottom, f"{rung['name']}: reference, 0"))
+        labels.append((False, False, cost, bottom, f"{rung['name']}: reference, 0"))
     axis.set_xscale("log"), axis.set_yscale("log")
     costs = [r["cost"]["core_s"] for r, _ in points + _reference(study, metric)]
-    axis.set_xlim(min(costs) / 1.8, max(costs) * 1.8)
+    axis.set_xlim(min(costs) / 3.2, max(costs) * 1.8)   # names of the cheapest have no place but on the left
     axis.set_ylim(bottom, max(highs) * 1.6)
     _decades(axis.xaxis, min(costs), max(costs)), _decades(axis.yaxis, min(lows), max(highs))
-    _name(axis, [label[1:] for label in sorted(labels)])
+    _name(axis, [label[2:] for label in sorted(labels)])
     if lenders := _lenders(study, metric):
         axis.plot([], [], "-", color=figures.PALETTE[7], linewidth=1.0, label=f"{100 * study['confidence']:g} % interval, own scatter")
         axis.plot([], [], ":", color=figures.PALETTE[7], linewidth=1.2, label="scatter of " + ", ".join(lenders))
-        axis.legend(loc="lower left", fontsize=7.5, frameon=False)
+        axis.legend(loc="lower left", fontsize=8.0, frameon=False)
     axis.set_xlabel("processor time of one run [core-s]")
     axis.set_ylabel(f"error of the {WORDS[metric['measure']].removesuffix(' of')} [{'%' if _in_percent(metric) else metric['column'].rsplit('_', 1)[-1]}]")
     return True
 
 
 def _figure(study, metric):
-    figure, axis = plt.subplots(figsize=(6.4, 3.9), layout="constrained")
+    figure, axis = plt.subplots(figsize=(5.4, 3.8), layout="constrained")
     if not draw(study, metric, axis):
         plt.close(figure)
         return ""
@@ -155,7 +155,7 @@ def draw_values(study, metric, axis):
 
 def _values_figure(study, metric):
     rows = min(len(study["rungs"]), 40)
-    figure, axis = plt.subplots(figsize=(6.4, 1.1 + 0.24 * rows), layout="constrained")
+    figure, axis = plt.subplots(figsize=(5.4, 1.1 + 0.24 * rows), layout="constrained")
     if not draw_values(study, metric, axis):
         plt.close(figure)
         return ""

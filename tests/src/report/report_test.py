@@ -602,6 +602,19 @@ class PartsTest(unittest.TestCase):
         figures.plt.close(figure)
         self.assertIn("scatter of rich", study_page._error_text(study["rungs"][1]["errors"]["surge"], metric))
 
+    def test_in_a_crowd_the_answer_and_the_reference_have_their_names(self):
+        def rung(name, cost, error, front):
+            e = {"error": error, "signed": error, "low": error, "high": error, "replicas": 1, "scatter_of": None, "value": None}
+            return {"name": name, "cost": {"core_s": cost, "low": cost, "high": cost}, "on_front": front, "is_reference": error == 0.0, "errors": {"surge": e}}
+        metric = {"name": "surge", "column": "a.x_m", "measure": "rms", "relative": False, "divide_by": 1.0, "target": 0.1}
+        crowd = [rung(f"symplectic-step_0.{n}", 1.02 + 0.07 * n, 0.09 - 0.008 * n, n > 4) for n in range(9)]
+        study = {"answer": "answer-step_0.5", "confidence": 0.95, "replicas": 0, "metrics": [metric],
+                 "rungs": [rung("answer-step_0.5", 1.0, 0.05, True), *crowd, rung("fine", 30.0, 0.0, True)]}
+        figure, axis = figures.plt.subplots(figsize=(5.4, 3.8))
+        self.assertTrue(study_page.draw(study, metric, axis))
+        self.assertLessEqual({"answer-step_0.5", "fine: reference, 0"}, {text.get_text() for text in axis.texts})
+        figures.plt.close(figure)
+
     def test_a_study_without_reference_draws_what_each_rung_found(self):
         metric = {"name": "surge", "column": "a.x_m", "measure": "mean"}
         study = {"rungs": [{"name": name, "errors": {"surge": {"value": value}}} for name, value in (("a", 1.0), ("b", None), ("c", 3.0))]}
