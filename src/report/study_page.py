@@ -59,7 +59,15 @@ def _apart(box, x, y):
     return math.hypot(max(box[0] - x, 0.0, x - box[2]), max(box[1] - y, 0.0, y - box[3]))
 
 
-def _name(axis, labels, size=8.0):
+NAME_SIZE = 8.0   # points
+
+
+def _wide(text, size):
+    """Width of a name in points."""
+    return 0.62 * size * len(text)
+
+
+def _name(axis, labels, size=NAME_SIZE):
     """Writes names beside their points, the first first, where none lies on another, on a point, nearer to another point or across the edge; what
     finds no place has its row in the table."""
     dots = axis.figure.dpi / 72.0
@@ -67,7 +75,7 @@ def _name(axis, labels, size=8.0):
     (x0, y0), at = axis.transAxes.transform((0.0, 0.0)), axis.transData.transform([label[:2] for label in labels])
     taken = [(x - 4 * dots, y - 4 * dots, x + 4 * dots, y + 4 * dots) for x, y in at]
     for (cost, error, text), (x, y) in zip(labels, at):
-        wide, high = 0.62 * size * len(text) * dots, 1.15 * size * dots
+        wide, high = _wide(text, size) * dots, 1.15 * size * dots
         for right, up in ((6, 5), (-6, 5), (6, -11), (-6, -11), (8, -3), (-8, -3), (6, 14), (-6, 14)):
             left, low = x + right * dots - (wide if right < 0 else 0.0), y + up * dots
             box = (left, low, left + wide, low + high)
@@ -110,7 +118,10 @@ def draw(study, metric, axis, numbered=True):
         labels.append((False, False, cost, bottom, f"{rung['name']}: reference, 0"))
     axis.set_xscale("log"), axis.set_yscale("log")
     costs = [r["cost"]["core_s"] for r, _ in points + _reference(study, metric)]
-    axis.set_xlim(min(costs) / 3.2, max(costs) * 1.8)   # names of the cheapest have no place but on the left
+    # The name of the answer, often the cheapest, may have no place but on its left.
+    answer = study["answer"] or min(points, key=lambda point: point[0]["cost"]["core_s"])[0]["name"]
+    share = min(0.4, (_wide(answer, NAME_SIZE) + 12.0) / (72.0 * axis.get_position().width * axis.figure.get_figwidth()))
+    axis.set_xlim(min(costs) / max(1.8, (1.8 * max(costs) / min(costs)) ** (share / (1.0 - share))), max(costs) * 1.8)
     axis.set_ylim(bottom, max(highs) * 1.6)
     _decades(axis.xaxis, min(costs), max(costs)), _decades(axis.yaxis, min(lows), max(highs))
     _name(axis, [label[2:] for label in sorted(labels)])
