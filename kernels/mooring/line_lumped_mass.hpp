@@ -178,6 +178,13 @@ struct LineLumpedMass {
   template <class Water>
   LineForces rates(double t, const LineEnds& ends, std::span<const double> state, std::span<double> rate, const Water& water,
                    Scratch& scratch) const {
+    return rates_in([&](int, const Eigen::Vector3d& point) { return water(t, point); }, ends, state, rate, scratch);
+  }
+
+  /// The same in water that is asked for by node and place.
+  template <class Around>
+  LineForces rates_in(const Around& water, const LineEnds& ends, std::span<const double> state, std::span<double> rate,
+                      Scratch& scratch) const {
     const Nodes nodes{*this, ends, state};
     for (int i = 0; i < segments; ++i)
       scratch.pull[std::size_t(i)] = pull(nodes.position(i + 1) - nodes.position(i), nodes.velocity(i + 1) - nodes.velocity(i));
@@ -185,7 +192,7 @@ struct LineLumpedMass {
     for (int i = 1; i < segments; ++i) {
       const LineEnd node{nodes.position(i), nodes.velocity(i)};
       const Eigen::Vector3d q = tangent(nodes, i);
-      const LineWater around = water(t, node.position);
+      const LineWater around = water(i, node.position);
       NodeLoad load = node_load(l0, q, node, around);
       add_clumps(i, node, around, load);
       const Eigen::Vector3d force = load.force + scratch.pull[std::size_t(i)] - scratch.pull[std::size_t(i - 1)];
@@ -196,7 +203,7 @@ struct LineLumpedMass {
     }
     const auto end = [&](int i, const LineEnd& e) {
       const Eigen::Vector3d q = tangent(nodes, i);
-      return node_load(0.5 * l0, q, e, water(t, e.position), (i == 0 ? 0.25 : -0.25) * l0 * q.z()).force;
+      return node_load(0.5 * l0, q, e, water(i, e.position), (i == 0 ? 0.25 : -0.25) * l0 * q.z()).force;
     };
     LineForces f;
     f.on_fairlead = end(segments, ends.fairlead) - scratch.pull.back();

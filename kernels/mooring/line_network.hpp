@@ -75,12 +75,15 @@ struct LineNetwork {
     std::vector<LineForces> forces;   ///< on the ends of the lines, as rates() has found them
     std::vector<Eigen::Vector3d> on;  ///< junctions [N]
     std::vector<Eigen::Matrix3d> inertia;
+    std::vector<std::vector<LineWater>> water;  ///< of each line's nodes, then of the junctions: see advance()
   };
   Scratch scratch() const {
     Scratch s;
     for (const Member& m : lines) s.lines.push_back(m.line.scratch());
     s.stages.resize(5 * state_size()), s.ends.resize(lines.size()), s.forces.resize(lines.size());
     s.on.resize(junctions.size()), s.inertia.resize(junctions.size());
+    for (const Member& m : lines) s.water.emplace_back(3 * std::size_t(m.line.segments + 1));
+    s.water.emplace_back(3 * junctions.size());
     return s;
   }
 
@@ -108,9 +111,16 @@ struct LineNetwork {
   template <class Water>
   void rates(double t, std::span<const LineEnds> outer, std::span<const double> state, std::span<double> rate, const Water& water,
              Scratch& scratch) const {
+    rates_in([&](std::size_t, int, const Eigen::Vector3d& point) { return water(t, point); }, outer, state, rate, scratch);
+  }
+
+  /// The same in water that is asked for by line, node and place; junctions are the nodes of a line after the last.
+  template <class Around>
+  void rates_in(const Around& water, std::span<const LineEnds> outer, std::span<const double> state, std::span<double> rate,
+                Scratch& scratch) const {
     for (std::size_t j = 0; j < junctions.size(); ++j) {
       const LineEnd at = junction(int(j), state);
-      const JunctionLoad own = load(junctions[j], at, water(t, at.position));
+      const JunctionLoad own = load(junctions[j], at, water(lines.size(), int(j), at.position));
       scratch.on[j] = own.force, scratch.inertia[j] = own.mass * Eigen::Matrix3d::Identity();
     }
     std::size_t first = 0;
@@ -118,7 +128,8 @@ struct LineNetwork {
       const LineLumpedMass& line = lines[l].line;
       const LineEnds e = ends(l, outer[l], state);
       const std::span<const double> nodes = state.subspan(first, line.state_size());
-      const LineForces f = line.rates(t, e, nodes, rate.subspan(first, line.state_size()), water, scratch.lines[l]);
+      const auto around = [&](int node, const Eigen::Vector3d& point) { return water(l, node, point); };
+      const LineForces f = line.rates_in(around, e, nodes, rate.subspan(first, line.state_size()), scratch.lines[l]);
       const auto add = [&](int j, const Eigen::Vector3d& force, int node) {
         if (j == led) return;
         scratch.on[std::size_t(j)] += force;
@@ -135,7 +146,8 @@ struct LineNetwork {
   }
 
   /// Goes on by h from t, while the led ends move from `from` to `to` on cubics that keep places and velocities. Forces on the
-  /// ends at t + h are in scratch.forces.
+  /// ends at t + h are in scratch.forces. The water is asked for at t, t + h/2 and t + h, where each node's velocity takes it,
+  /// and goes on a parabola between: waves change in the bodies' step, not in the substeps that axial waves of the lines ask for.
   template <class Water>
   void advance(double t, double h, std::span<const LineEnds> from, std::span<const LineEnds> to, std::span<double> state,
                const Water& water, Scratch& scratch, int finer = 1) const {
@@ -153,19 +165,28 @@ struct LineNetwork {
     const auto go = [&](double step, std::span<const double> rate) {
       for (std::size_t i = 0; i < n; ++i) trial[i] = state[i] + step * rate[i];
     };
+    sample_water(t, h, from, state, water, scratch);
+    const auto at = [&](double s) {  // s: substeps since t
+      const double x = s / count, first = (1.0 - x) * (1.0 - 2.0 * x), middle = 4.0 * x * (1.0 - x), last = x * (2.0 * x - 1.0);
+      return [&scratch, first, middle, last](std::size_t line, int node, const Eigen::Vector3d& /*point*/) {
+        const LineWater *a = &scratch.water[line][3 * std::size_t(node)], *b = a + 1, *c = a + 2;
+        return LineWater{first * a->velocity + middle * b->velocity + last * c->velocity,
+                         first * a->acceleration + middle * b->acceleration + last * c->acceleration,
+                         first * a->surface + middle * b->surface + last * c->surface};
+      };
+    };
     for (int m = 0; m < count; ++m) {
-      const double now = t + m * dt;
-      rates(now, ends(m), state, k1, water, scratch);
+      rates_in(at(m), ends(m), state, k1, scratch);
       go(0.5 * dt, k1);
       const std::span<const LineEnds> middle = ends(m + 0.5);
-      rates(now + 0.5 * dt, middle, trial, k2, water, scratch);
+      rates_in(at(m + 0.5), middle, trial, k2, scratch);
       go(0.5 * dt, k2);
-      rates(now + 0.5 * dt, middle, trial, k3, water, scratch);
+      rates_in(at(m + 0.5), middle, trial, k3, scratch);
       go(dt, k3);
-      rates(now + dt, ends(m + 1), trial, k4, water, scratch);
+      rates_in(at(m + 1), ends(m + 1), trial, k4, scratch);
       for (std::size_t i = 0; i < n; ++i) state[i] += dt / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
     }
-    rates(t + h, to, state, k1, water, scratch);
+    rates_in(at(count), to, state, k1, scratch);
   }
 
   /// What the search for rest came to: the largest force left on a node, and what is allowed [N].
@@ -180,6 +201,24 @@ struct LineNetwork {
   Rest rest(std::span<const LineEnds> outer, std::span<double> state) const;
 
  private:
+  template <class Water>
+  void sample_water(double t, double h, std::span<const LineEnds> from, std::span<const double> state, const Water& water,
+                    Scratch& scratch) const {
+    const auto sample = [&](std::size_t line, std::size_t node, const LineEnd& at) {
+      for (int k = 0; k < 3; ++k)
+        scratch.water[line][3 * node + std::size_t(k)] = water(t + 0.5 * k * h, at.position + 0.5 * k * h * at.velocity);
+    };
+    std::size_t first = 0;
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+      const LineLumpedMass& line = lines[l].line;
+      const LineEnds e = ends(l, from[l], state);
+      const LineLumpedMass::Nodes nodes{line, e, state.subspan(first, line.state_size())};
+      for (int i = 0; i <= line.segments; ++i) sample(l, std::size_t(i), {nodes.position(i), nodes.velocity(i)});
+      first += line.state_size();
+    }
+    for (std::size_t j = 0; j < junctions.size(); ++j) sample(lines.size(), j, junction(int(j), state));
+  }
+
   static LineEnd on_cubic(const LineEnd& a, const LineEnd& b, double h, double s) {
     const double r = 1.0 - s, u = s * s * (3.0 - 2.0 * s);
     const Eigen::Vector3d way = b.position - a.position;

@@ -276,3 +276,40 @@ TEST_CASE("a line hanging in a current takes the drag of its chord", "[mooring][
   const double drag = 0.5 * 1025.0 * line.normal_drag * 0.2 * 0.25 * 100.0;
   CHECK(f.on_fairlead.x() + f.on_anchor.x() == Approx(drag).epsilon(0.02));
 }
+
+TEST_CASE("waves load a line the same in long steps of the bodies as in short ones", "[mooring][fast]") {
+  // A wave of 4 m and 8 s in deep water over a chain; the water is asked for three times in a step, whatever its substeps.
+  LineLumpedMass line = chain_line({700, 200, 760});
+  line.bed_contact = false;  // its friction begins at once, whatever the step
+  const LineEnds ends = chain_ends({700, 200, 760});
+  const double omega = 2.0 * pi / 8.0, k = omega * omega / 9.81;
+  int asked = 0;
+  const auto sea = [&](double t, const Vector3d& p) {
+    ++asked;
+    const double phase = k * p.x() - omega * t, u = 2.0 * omega * std::exp(k * std::min(p.z(), 0.0));
+    return LineWater{{u * std::cos(phase), 0.0, u * std::sin(phase)},
+                     {omega * u * std::sin(phase), 0.0, -omega * u * std::cos(phase)},
+                     2.0 * std::cos(phase)};
+  };
+  const auto tensions = [&](double h) {
+    Moving moving(line);
+    std::vector<double> state(line.state_size()), found;
+    REQUIRE(find_rest(line, ends, state).found());
+    const int every = int(std::lround(0.2 / h));
+    for (int n = 0; n < 100 * every; ++n) {
+      const double tension = moving.advance(n * h, h, ends, ends, state, sea).fairlead_tension;
+      if ((n + 1) % every == 0) found.push_back(tension);
+    }
+    return found;
+  };
+  const std::vector<double> fine = tensions(0.0125);
+  const auto [low, high] = std::minmax_element(fine.begin(), fine.end());
+  for (const double h : {0.2, 0.05}) {
+    asked = 0;
+    const std::vector<double> now = tensions(h);
+    CHECK(asked == 3 * (line.segments + 1) * int(std::lround(20.0 / h)));
+    double worst = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i) worst = std::max(worst, std::abs(now[i] - fine[i]));
+    CHECK(worst < 1e-4 * (*high - *low));
+  }
+}
