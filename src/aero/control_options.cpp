@@ -124,6 +124,11 @@ const scene::Section<ControlOptions>& control_section() {
           .only_if("model", {"dtu"})
           .tables("events", &ControlOptions::events, event_section(), "What happens when.")
           .only_if("model", {"dtu", "library"})
+          .number("peak_shaving", &ControlOptions::peak_shaving, "-",
+                  "Share of the rotor's largest steady thrust that is left: blades are pitched farther about rated wind, which "
+                  "costs power there. Without it nothing is cut.",
+                  scene::between(0.4, 1.0))
+          .only_if("model", {"dtu"})
           .path("library", &ControlOptions::library, "The library, a shared object of this machine.")
           .only_if("model", {"library"})
           .required()
@@ -242,7 +247,7 @@ void check_controller_file(scene::Document& doc, const ControlOptions& control, 
 
 }  // namespace
 
-void check_control(scene::Document& doc, const ControlOptions& control, const RotorOptions& rotor,
+void check_control(scene::Document& doc, const ControlOptions& control, const AeroOptions& aero, const RotorOptions& rotor,
                    const std::optional<Operation>& operation, int blades) {
   if (!rotor.joint.empty())
     doc.problem("rotor.joint",
@@ -252,6 +257,13 @@ void check_control(scene::Document& doc, const ControlOptions& control, const Ro
     check_library(doc, control, blades);
   else
     check_controller_file(doc, control, operation);
+  if (control.peak_shaving && aero.model != "bem")
+    doc.problem("control.peak_shaving",
+                fmt::format("needs aero.model = \"bem\": thrust by pitch is that of the blades' sections, not "
+                            "of \"{}\"",
+                            aero.model));
+  if (control.peak_shaving && !operation)
+    doc.problem("control.peak_shaving", "needs rotor.operation: its winds are those of the schedule, its pitch the least one");
   for (std::size_t i = 0; i < control.events.size(); ++i) {
     const EventOptions& event = control.events[i];
     if (i > 0 && event.time_s < control.events[i - 1].time_s)

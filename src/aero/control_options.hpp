@@ -17,6 +17,7 @@ class Document;
 
 namespace spindrift::aero {
 
+struct AeroOptions;
 struct RotorOptions;
 
 enum class ControlModel { none, dtu, library };
@@ -57,6 +58,7 @@ struct ControlOptions {
   Tuning tuning = Tuning::fixed_foundation;
   ControlStart start = ControlStart::operating;
   std::vector<EventOptions> events;
+  std::optional<double> peak_shaving;  ///< share of the largest steady thrust that is left [-]
   // of "library"
   std::string library, input_file;  ///< paths
   std::string procedure = "DISCON", output_name = "controller";
@@ -100,8 +102,8 @@ DriveTrainOptions drive_train_of(const ControllerOptions& controller);
 /// Throws scene::SceneError with all that is wrong with the file.
 ControllerOptions read_controller(const std::string& path);
 
-/// Rules with [rotor] and the files; `operation` is empty where the scene has none.
-void check_control(scene::Document& document, const ControlOptions& control, const RotorOptions& rotor,
+/// Rules with [aero], [rotor] and the files; `operation` is empty where the scene has none.
+void check_control(scene::Document& document, const ControlOptions& control, const AeroOptions& aero, const RotorOptions& rotor,
                    const std::optional<Operation>& operation, int blades);
 
 }  // namespace spindrift::aero

@@ -83,12 +83,19 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
   const int blades = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
-  if (control.model == ControlModel::library)
+  if (control.model == ControlModel::library) {
     control_.emplace(control, blades, rotor.azimuth, rotor.speed, rotor.blade_pitch, step_s);
-  else
-    control_.emplace(control, read_controller(control.file),
-                     rotor.operation.empty() ? std::nullopt : std::optional(read_operation(rotor.operation)), blades,
-                     rotor.azimuth, rotor.speed, rotor.blade_pitch);
+  } else {
+    const ControllerOptions controller = read_controller(control.file);
+    const auto operation = rotor.operation.empty() ? std::nullopt : std::optional(read_operation(rotor.operation));
+    double start_pitch = rotor.blade_pitch;
+    if (control.peak_shaving) {
+      shaving_ = shave_peak([this](double w, double speed, double pitch) { return steady_load(w, speed, pitch); },
+                            law_of(control, controller, operation), *operation, *control.peak_shaving);
+      start_pitch = std::max(start_pitch, shaving_->least_pitch(state(0.0, start).relative_wind));
+    }
+    control_.emplace(control, controller, operation, blades, rotor.azimuth, rotor.speed, start_pitch, shaving_);
+  }
   speed_ = control_->start_speed(), blade_pitch_ = control_->start_pitch();
 }
 
@@ -123,6 +130,13 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
   now.speed = now.omega.dot(now.axis);
   if (*placement_.support != RotorPlacement::earth) now.speed -= bodies[*placement_.support].omega_earth().dot(now.axis);
   return now;
+}
+
+AxialLoad RotorLoads::steady_load(double wind, double speed, double pitch) const {
+  const Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  const DiscLoad disc = std::get<BladeElementMomentum>(model_)(
+      Eigen::Vector3d(wind * axis), {Eigen::Vector3d::Zero(), speed * axis, axis, Eigen::Vector3d::UnitZ(), 0.0, pitch});
+  return {disc.force.x(), disc.moment.x()};
 }
 
 std::size_t RotorLoads::flow_size() const {

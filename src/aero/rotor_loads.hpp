@@ -107,6 +107,8 @@ class RotorLoads {
   std::vector<Eigen::Vector2d> tips(double t, std::span<const Motion> bodies) const;
 
   bool is_controlled() const { return control_.has_value(); }
+  /// Null where the peak of thrust is not cut.
+  const PeakShaving* shaving() const { return shaving_ ? &*shaving_ : nullptr; }
   std::size_t drive_blades() const { return control_ ? control_->blades() : 0; }
   /// What the controller does; of the values recalled last, which must be there.
   struct Drive {
@@ -118,6 +120,8 @@ class RotorLoads {
   BladedLibrary* library() const { return control_ ? control_->library() : nullptr; }
 
  private:
+  /// Steady, in wind along the axis, of a rigid rotor away from its tower.
+  AxialLoad steady_load(double wind, double speed, double pitch) const;
   TurbineControl::Measured measured(double t, const RotorState& now) const;
   std::size_t control_size() const { return control_ ? control_->memory_size() : 0; }
   std::size_t flow_size() const;
@@ -162,6 +166,7 @@ class RotorLoads {
   std::optional<Eigen::Vector3d> thrust_direction_;  ///< earth frame, where the thrust does not follow the axis
   double start_azimuth_, speed_, blade_pitch_;
   Wind wind_;
+  std::optional<PeakShaving> shaving_;
   std::optional<TurbineControl> control_;
   std::optional<Tower> tower_;
   std::optional<BladeRoots> roots_;

@@ -10,8 +10,6 @@
 
 namespace spindrift::aero {
 
-namespace {
-
 ControllerDtu law_of(const ControlOptions& options, const ControllerOptions& o, const std::optional<Operation>& operation) {
   const PitchGainOptions& gains = options.tuning == Tuning::floating ? *o.floating_gains : o.gains;
   ControllerDtu law{.min_speed = o.min_speed,
@@ -36,11 +34,9 @@ ControllerDtu law_of(const ControlOptions& options, const ControllerOptions& o, 
   return law;
 }
 
-}  // namespace
-
 TurbineControl::TurbineControl(const ControlOptions& options, const ControllerOptions& controller,
                                const std::optional<Operation>& operation, int blades, double start_azimuth, double start_speed,
-                               double start_pitch)
+                               double start_pitch, const std::optional<PeakShaving>& shaving)
     : drive_train_(drive_train_of(controller)),
       law_(law_of(options, controller, operation)),
       stop_pitch_rate_(controller.stop_pitch_rate),
@@ -52,6 +48,7 @@ TurbineControl::TurbineControl(const ControlOptions& options, const ControllerOp
       start_pitch_(start_pitch),
       starts_parked_(options.start == ControlStart::parked) {
   if (operation) below_rated_ = operation->below_rated();
+  if (shaving) below_rated_.wind = shaving->wind, below_rated_.pitch = shaving->pitch;
   if (starts_parked_) start_speed_ = 0.0, start_pitch_ = controller.feather;
 }
 

@@ -14,8 +14,13 @@
 #include "kernels/rotor/controller_dtu.hpp"
 #include "src/aero/bladed_library.hpp"
 #include "src/aero/control_options.hpp"
+#include "src/aero/peak_shaving.hpp"
 
 namespace spindrift::aero {
+
+/// Our own controller; `operation` holds the tip-speed ratio where its file gives no gain.
+ControllerDtu law_of(const ControlOptions& options, const ControllerOptions& controller,
+                     const std::optional<Operation>& operation);
 
 class TurbineControl {
  public:
@@ -44,7 +49,8 @@ class TurbineControl {
   enum class Mode { parked, starting, operating, stopping, tripped, braked };
 
   TurbineControl(const ControlOptions& options, const ControllerOptions& controller, const std::optional<Operation>& operation,
-                 int blades, double start_azimuth, double start_speed, double start_pitch);
+                 int blades, double start_azimuth, double start_speed, double start_pitch,
+                 const std::optional<PeakShaving>& shaving = {});
   /// Of options whose model is "library", called at steps of `step_s`.
   TurbineControl(const ControlOptions& options, int blades, double start_azimuth, double start_speed, double start_pitch,
                  double step_s);

@@ -86,7 +86,16 @@ void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::St
               .has_power = load.torque != 0.0};
   const bool parked = s.is_controlled() && s.control.start == aero::ControlStart::parked;
   if (load_model(s) == "blade elements" && !parked) now.pitch = s.rotor.blade_pitch;
+  const aero::PeakShaving* shaving = rotor.shaving();
+  if (shaving && now.pitch) now.pitch = std::max(*now.pitch, shaving->least_pitch(now.wind));
   print(s, now);
+  if (shaving)
+    fmt::print(
+        "  {:<22}steady thrust up to {:.4g} kN, {:g} of the {:.4g} kN that it would have at {:.4g} m/s; from {:.3g} to {:.3g} "
+        "m/s "
+        "blades are pitched farther, by up to {:.3g} degrees\n",
+        "peak shaving", 1e-3 * shaving->limit, *s.control.peak_shaving, 1e-3 * shaving->largest, shaving->largest_at,
+        shaving->from, shaving->to, shaving->farthest / radians_per_degree);
 }
 
 void print_rotor_at_start(const coupling::Scenario& s) {

@@ -106,7 +106,7 @@ void take_from_turbine(scene::Document& document, Scenario& s) {
     take_operating_point(document, s);
     if (!s.rotor.operation.empty()) operation = aero::read_operation(s.rotor.operation);
   } catch (const scene::SceneError&) { return; }
-  if (s.is_controlled()) aero::check_control(document, s.control, s.rotor, operation, blades);
+  if (s.is_controlled()) aero::check_control(document, s.control, s.aero, s.rotor, operation, blades);
 }
 
 /// A saved state is the start: what would make another one has no effect.
@@ -365,7 +365,8 @@ std::string describe_rotor(const Scenario& s) {
   else if (s.is_controlled())
     text += fmt::format(", controlled by {} ({}{})", s.control.file,
                         s.control.tuning == aero::Tuning::floating ? "floating gains" : "gains of a fixed foundation",
-                        s.control.events.empty() ? "" : fmt::format(", {} events", s.control.events.size()));
+                        s.control.events.empty() ? "" : fmt::format(", {} events", s.control.events.size())) +
+            (s.control.peak_shaving ? fmt::format(", peak shaving to {:g} of the largest thrust", *s.control.peak_shaving) : "");
   return text;
 }
 
