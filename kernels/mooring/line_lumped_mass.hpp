@@ -7,10 +7,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/mooring/bed.hpp"
 #include "kernels/mooring/line.hpp"
 #include "kernels/mooring/line_catenary.hpp"
 
@@ -55,7 +57,8 @@ struct LineLumpedMass {
   double normal_added_mass = 1.0, tangential_added_mass = 0.0;  ///< on the displaced mass [-]
   double gravity = 9.81, water_density = 1025.0;
   bool bed_contact = true;
-  double bed_level = 0.0;      ///< z [m]
+  double bed_level = 0.0;  ///< z [m], where there is no `bed`
+  std::shared_ptr<const Bed> bed;
   double bed_stiffness = 3e6;  ///< per depth of sinking in and projected area [Pa/m]
   double bed_damping = 3e5;    ///< [Pa s/m]
   double bed_friction = 0.0;   ///< [-]
@@ -139,7 +142,7 @@ struct LineLumpedMass {
       load.force += wet * displaced * ((1.0 + normal_added_mass) * across + (1.0 + tangential_added_mass) * with);
       load.mass_across += wet * normal_added_mass * displaced, load.mass_along += wet * tangential_added_mass * displaced;
     }
-    if (bed_contact && node.position.z() < bed_level) load.force += bed_force(piece, node);
+    if (const double depth = depth_in_bed(node.position); depth > 0.0) load.force += bed_force(piece, node, depth);
     return load;
   }
 
@@ -157,14 +160,21 @@ struct LineLumpedMass {
     }
   }
 
-  /// The bed pushes up, never holds, and resists sliding.
-  Eigen::Vector3d bed_force(double piece, const LineEnd& node) const {
-    const double push =
-        piece * diameter * std::max(0.0, bed_stiffness * (bed_level - node.position.z()) - bed_damping * node.velocity.z());
-    const Eigen::Vector3d slide(node.velocity.x(), node.velocity.y(), 0.0);
-    Eigen::Vector3d force = -bed_friction * push / std::max(slide.norm(), creep_speed) * slide;
-    force.z() = push;
-    return force;
+  /// How far a point is under the bed, measured upright [m]; 0 over it.
+  double depth_in_bed(const Eigen::Vector3d& point) const {
+    if (!bed_contact || point.z() >= (bed ? bed->highest() : bed_level)) return 0.0;
+    return std::max(0.0, (bed ? bed->level(point.x(), point.y()) : bed_level) - point.z());
+  }
+  Eigen::Vector3d bed_normal(const Eigen::Vector3d& point) const {
+    return bed ? bed->normal(point.x(), point.y()) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+  }
+  /// The bed pushes along its normal, never holds, and resists sliding.
+  Eigen::Vector3d bed_force(double piece, const LineEnd& node, double depth) const {
+    const Eigen::Vector3d normal = bed_normal(node.position);
+    const double rise = node.velocity.dot(normal);
+    const double push = piece * diameter * std::max(0.0, bed_stiffness * (depth * normal.z()) - bed_damping * rise);
+    const Eigen::Vector3d slide = node.velocity - rise * normal;
+    return push * normal - bed_friction * push / std::max(slide.norm(), creep_speed) * slide;
   }
 
   Eigen::Vector3d tangent(const Nodes& nodes, int i) const {
@@ -243,8 +253,9 @@ inline void LineLumpedMass::lay_as_catenary(const LineEnds& ends, std::span<doub
   const double reach = place(length).x();  // differs from x where the line is slack
   for (int i = 1; i < segments; ++i) {
     const Eigen::Vector3d p = place(segment() * (rises ? i : segments - i));
-    Eigen::Map<Eigen::Vector3d>(state.data() + 3 * std::size_t(i - 1)) =
-        low + (reach > 0.0 ? p.x() / reach * x : 0.0) * out + p.z() * Eigen::Vector3d::UnitZ();
+    Eigen::Map<Eigen::Vector3d> node(state.data() + 3 * std::size_t(i - 1));
+    node = low + (reach > 0.0 ? p.x() / reach * x : 0.0) * out + p.z() * Eigen::Vector3d::UnitZ();
+    if (bed && bed_contact) node.z() = std::max(node.z(), bed->level(node.x(), node.y()));
   }
   std::fill(state.begin() + std::ptrdiff_t(3 * inner()), state.end(), 0.0);
 }

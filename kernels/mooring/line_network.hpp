@@ -368,11 +368,14 @@ struct LineNetwork::Newton {
       if (tension <= 0.0) return Eigen::Matrix3d::Zero();
       return chord_stiffness(along, tension, line.axial_stiffness / l0);
     };
-    const auto bed = [&](int node) { return line.bed_contact && nodes.position(node).z() < line.bed_level; };
+    const auto bed = [&](int node, double piece) -> Eigen::Matrix3d {
+      if (!(line.depth_in_bed(nodes.position(node)) > 0.0)) return Eigen::Matrix3d::Zero();
+      const Eigen::Vector3d normal = line.bed_normal(nodes.position(node));
+      return line.bed_stiffness * line.diameter * piece * normal * normal.transpose();
+    };
     const auto at_junction = [&](int j, int node, const Eigen::Matrix3d& next) {
       if (j == led) return;
-      block(junctions, j, j) += next;
-      if (bed(node)) junctions(3 * j + 2, 3 * j + 2) += 0.5 * line.bed_stiffness * line.diameter * l0;
+      block(junctions, j, j) += next + bed(node, 0.5 * l0);
     };
     const std::size_t n = line.inner();
     Eigen::Matrix3d below = segment(0);
@@ -380,8 +383,7 @@ struct LineNetwork::Newton {
     own.to_start[0] = -below;
     for (std::size_t i = 0; i < n; ++i) {
       const Eigen::Matrix3d above = segment(int(i) + 1);
-      own.diagonal[i] = below + above + damping * Eigen::Matrix3d::Identity();
-      if (bed(int(i) + 1)) own.diagonal[i](2, 2) += line.bed_stiffness * line.diameter * l0;
+      own.diagonal[i] = below + above + damping * Eigen::Matrix3d::Identity() + bed(int(i) + 1, l0);
       own.upper[i] = -above, below = above;
     }
     at_junction(member.fairlead, line.segments, below);
@@ -458,16 +460,17 @@ inline void LineNetwork::hang_as_catenaries(std::span<const LineEnds> outer, std
       const LineForces f = hanging[l].forces(span, Eigen::Vector3d::Zero());
       const Eigen::Matrix3d own = hanging[l].stiffness(span);
       const double bed = 0.5 * line.bed_stiffness * line.diameter * line.segment();
-      const auto add = [&](int j, int other, const Eigen::Vector3d& pull, double z) {
+      const auto add = [&](int j, int other, const Eigen::Vector3d& pull, const Eigen::Vector3d& at_end) {
         if (j == led) return;
         force.segment<3>(3 * j) += pull;
         stiffness.block<3, 3>(3 * j, 3 * j) += own;
         if (other != led) stiffness.block<3, 3>(3 * j, 3 * other) -= own;
-        if (!line.bed_contact || z >= line.bed_level) return;
-        force[3 * j + 2] += bed * (line.bed_level - z), stiffness(3 * j + 2, 3 * j + 2) += bed;
+        const double depth = line.depth_in_bed(at_end);
+        if (!(depth > 0.0)) return;
+        force[3 * j + 2] += bed * depth, stiffness(3 * j + 2, 3 * j + 2) += bed;
       };
-      add(lines[l].anchor, lines[l].fairlead, f.on_anchor, e.anchor.position.z());
-      add(lines[l].fairlead, lines[l].anchor, f.on_fairlead, e.fairlead.position.z());
+      add(lines[l].anchor, lines[l].fairlead, f.on_anchor, e.anchor.position);
+      add(lines[l].fairlead, lines[l].anchor, f.on_fairlead, e.fairlead.position);
     }
   };
   std::vector<double> trial(state.begin(), state.end());

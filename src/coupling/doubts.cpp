@@ -12,6 +12,7 @@
 #include "src/bodies/extent.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/moorings/bed_file.hpp"
 #include "src/moorings/doubts.hpp"
 #include "src/sea/doubts.hpp"
 
@@ -405,6 +406,8 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   scene::Doubts all = body_doubts(s.bodies);
   moorings::LineSurroundings around{s.has_sea() ? s.environment.water_depth_m : -1.0, weight(floating),
                                     s.environment.water_density_kg_m3, s.environment.gravity_m_s2, s.time.step()};
+  std::optional<Bed> bed;
+  if (!s.environment.bathymetry.empty()) around.bed = &bed.emplace(moorings::read_bed(s.environment.bathymetry));
   sea::BodiesInSea in_sea{.entry_speed = bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2)};
   for (const auto& [name, body] : s.bodies) {
     around.masses_kg[name] = body.mass_kg;

@@ -7,6 +7,7 @@
 #include "src/aero/turbine.hpp"
 #include "src/bodies/extent.hpp"
 #include "src/bodies/loads.hpp"
+#include "src/moorings/bed_file.hpp"
 
 namespace spindrift::coupling {
 
@@ -83,6 +84,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
         const waves::Kinematics water = sea_now().water(t, point);
         return LineWater{water.velocity, water.acceleration, sea_now().elevation(point.x(), point.y(), t)};
       };
+    if (!s.environment.bathymetry.empty()) around.bed = std::make_shared<const Bed>(moorings::read_bed(s.environment.bathymetry));
     moorings_.emplace(names, start, std::move(around));
     std::vector<bool> on(names.size());
     for (const auto& [name, junction] : s.junctions) moorings_->add_junction(name, junction);

@@ -50,6 +50,9 @@ const scene::Section<EnvironmentOptions>& environment_section() {
           .number("water_density_kg_m3", &EnvironmentOptions::water_density_kg_m3, "kg/m3", "Density of the water.",
                   above(0.0).up_to(2e4))
           .number("water_depth_m", &EnvironmentOptions::water_depth_m, "m", "Depth of the still water.", above(0.0).up_to(1.2e4))
+          .path("bathymetry", &EnvironmentOptions::bathymetry,
+                "CSV file with columns x_m, y_m, depth_m, a row to each place of a grid: the bed on which lines of the model "
+                "lumped_mass lie, straight between the places. Waves know water_depth_m alone.")
           .number("air_density_kg_m3", &EnvironmentOptions::air_density_kg_m3, "kg/m3", "Density of the air.",
                   above(0.0).up_to(100.0));
   return section;

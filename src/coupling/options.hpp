@@ -30,6 +30,7 @@ struct EnvironmentOptions {
   double gravity_m_s2 = standard_gravity;
   double water_density_kg_m3 = 1025.0;
   double water_depth_m = 100.0;
+  std::string bathymetry;  ///< path; empty: the bed is flat
   double air_density_kg_m3 = 1.225;
 };
 

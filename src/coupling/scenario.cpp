@@ -13,6 +13,7 @@
 #include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/timeline.hpp"
+#include "src/moorings/bed_file.hpp"
 #include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
@@ -107,6 +108,16 @@ void take_from_turbine(scene::Document& document, Scenario& s) {
     if (!s.rotor.operation.empty()) operation = aero::read_operation(s.rotor.operation);
   } catch (const scene::SceneError&) { return; }
   if (s.is_controlled()) aero::check_control(document, s.control, s.aero, s.rotor, operation, blades);
+}
+
+void check_bathymetry(scene::Document& document, const Scenario& s) {
+  const std::string& file = s.environment.bathymetry;
+  if (file.empty()) return;
+  if (std::ranges::none_of(s.moorings, [](const auto& line) { return moorings::lies_on_bed(line.options); }))
+    return document.problem("environment.bathymetry", "has no effect: no line of the model lumped_mass meets the bed");
+  try {
+    check_bed(document, s.moorings, moorings::read_bed(file));
+  } catch (const scene::SceneError& e) { document.problem("environment.bathymetry", e.what()); }
 }
 
 /// A saved state is the start: what would make another one has no effect.
@@ -318,6 +329,7 @@ Scenario read_scenario(scene::Document& document) {
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, s.junctions, bodies, s.environment.water_density_kg_m3);
   place_at_junctions(s.moorings, s.junctions, s.environment.water_depth_m);
+  check_bathymetry(document, s);
   if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
   if (!s.rotor.blade_structure.empty() && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",

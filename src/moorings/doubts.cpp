@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/mooring/bed.hpp"
 #include "kernels/mooring/line_catenary.hpp"
 #include "src/moorings/model.hpp"
 
@@ -114,7 +115,6 @@ void doubt_step(scene::Doubts& doubts, const std::string& at, const LineOptions&
 }  // namespace
 
 scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, const LineSurroundings& around) {
-  const double depth_m = around.depth_m;
   scene::Doubts doubts;
   for (const auto& [name, line] : lines) {
     const std::string at = "moorings." + name;
@@ -125,16 +125,21 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     doubt_friction(doubts, at, line);
     if (line_models().named(line.model).make_dynamic)
       doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
-    if (depth_m < 0.0 || line.anchor_body != "earth") continue;
+    if (around.depth_m < 0.0 || line.anchor_body != "earth") continue;
+    const bool on_table = around.bed && lies_on_bed(line);
+    const double depth_m = on_table ? -around.bed->level(line.anchor_m->x(), line.anchor_m->y()) : around.depth_m;
+    const std::string bed_key = on_table ? "environment.bathymetry" : "environment.water_depth_m";
+    if (on_table && !around.bed->covers(line.anchor_m->x(), line.anchor_m->y()))
+      doubts.push_back({at + ".anchor_m", "outside the places of environment.bathymetry", "an anchor among them",
+                        "the depth at their edge holds there; look at x and y of anchor_m, and at the table"});
     const double above = line.anchor_m->z() + depth_m;
     if (above < -0.01 * depth_m - 0.5)
       doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m under the bed", line.anchor_m->z(), -above),
-                        fmt::format("an anchor on the bed at {:.4g} m", -depth_m),
-                        "look at anchor_m and environment.water_depth_m"});
+                        fmt::format("an anchor on the bed at {:.4g} m", -depth_m), "look at anchor_m and " + bed_key});
     else if (hangs(line) && line.bed_contact && above > 0.05 * depth_m)
       doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m->z(), above),
                         fmt::format("an anchor on the bed at {:.4g} m, where the line lies", -depth_m),
-                        "look at anchor_m and environment.water_depth_m, or say bed_contact = false"});
+                        "look at anchor_m and " + bed_key + ", or say bed_contact = false"});
     else if (!hangs(line) && above > 0.5 * depth_m && line.anchor_m->z() < -0.1 * depth_m)
       doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m->z(), above),
                         fmt::format("an anchor near the bed at {:.4g} m", -depth_m),

@@ -20,6 +20,7 @@ struct LineSurroundings {
   double step_s = 0.0;                                  ///< of the bodies
   std::map<std::string, double> masses_kg{};            ///< of each body
   std::map<std::string, Eigen::AlignedBox3d> shapes{};  ///< round those of each body that has any, where the scene describes it
+  const Bed* bed = nullptr;                             ///< null: flat, at that depth
 };
 scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, const LineSurroundings& around);
 /// `depth_m` of the water, negative where there is none.

@@ -21,6 +21,7 @@ namespace spindrift::moorings {
 struct LineEnvironment {
   double gravity_m_s2 = 9.80665, water_density_kg_m3 = 1025.0;
   std::function<LineWater(double t, const Eigen::Vector3d& point)> water = StillWater{};
+  std::shared_ptr<const Bed> bed{};  ///< null: flat, at the level of each line's lower end
 };
 
 /// A line without a state: forces on both ends from where they are.

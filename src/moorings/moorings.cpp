@@ -114,7 +114,10 @@ void Moorings::connect() {
   }
 }
 
-bool Moorings::Network::hangs_free() const { return !junction.empty() || !of.lines[0].line.clumps.empty(); }
+bool Moorings::Network::hangs_free() const {
+  const LineLumpedMass& first = of.lines[0].line;
+  return !junction.empty() || !first.clumps.empty() || (first.bed && first.bed_contact);
+}
 
 LineEnd Moorings::moving(const End& end, std::span<const Motion> bodies) const {
   if (end.body < 0) return {end.point, Eigen::Vector3d::Zero()};

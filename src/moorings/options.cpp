@@ -5,8 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/mooring/bed.hpp"
 #include "src/moorings/model.hpp"
 #include "src/moorings/table_file.hpp"
 #include "src/scene/document.hpp"
@@ -194,6 +197,31 @@ void check_held(scene::Document& doc, const std::vector<scene::Named<LineOptions
 }
 
 }  // namespace
+
+bool lies_on_bed(const LineOptions& line) { return line_models().named(line.model).make_dynamic && line.bed_contact; }
+
+void check_bed(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines, const Bed& bed) {
+  for (const auto& [name, line] : lines) {
+    const LineModel& model = line_models().named(line.model);
+    if (!model.hangs || model.make_dynamic || !line.bed_contact || line.anchor_body != "earth" || !line.anchor_m ||
+        !line.fairlead_m)
+      continue;
+    constexpr int steps = 100;
+    constexpr double most = 0.02;  // of the height of the fairlead over the anchor
+    double low = 0.0, high = -std::numeric_limits<double>::infinity();
+    for (int n = 0; n <= steps; ++n) {
+      const Eigen::Vector3d at = *line.anchor_m + n / double(steps) * line.span();
+      const double z = bed.level(at.x(), at.y());
+      low = std::min(low, z), high = std::max(high, z);
+    }
+    if (high - low > most * std::abs(line.span().z()))
+      doc.problem(
+          "moorings." + name + ".model",
+          fmt::format("is {}, which lies on flat ground, but between anchor and fairlead the bed of environment.bathymetry is "
+                      "{:.4g} to {:.4g} m deep: take lumped_mass, or bed_contact = false",
+                      line.model, -high, -low));
+  }
+}
 
 void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines,
                  const std::vector<scene::Named<JunctionOptions>>& junctions, std::span<const std::string> bodies,

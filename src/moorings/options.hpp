@@ -17,6 +17,10 @@ struct Named;
 class Document;
 }  // namespace spindrift::scene
 
+namespace spindrift {
+class Bed;
+}  // namespace spindrift
+
 namespace spindrift::moorings {
 
 /// [[moorings.NAME.clumps]]
@@ -71,6 +75,12 @@ void place_at_junctions(std::vector<scene::Named<LineOptions>>& lines,
 
 /// What a line given by its dry mass weighs in water [N/m]; of others what the scene says.
 double weight_in_water(const LineOptions& line, double water_density_kg_m3, double gravity_m_s2);
+
+/// Has nodes that meet the bed.
+bool lies_on_bed(const LineOptions& line);
+
+/// Rules of a bed that is given as a table: lines without nodes lie on flat ground. Ends are placed.
+void check_bed(scene::Document& doc, const std::vector<scene::Named<LineOptions>>& lines, const Bed& bed);
 
 /// Rules between sections: bodies and junctions named exist, ends differ, junctions are held, tables are readable. Problems go to
 /// the document. Ends are as read, not yet placed.
