@@ -93,6 +93,9 @@ PeakShaving shave_peak(const SteadyLoad& load, const ControllerDtu& law, const O
     if (shaving.farthest == 0.0) shaving.from = wind;
     shaving.to = wind, shaving.farthest = std::max(shaving.farthest, farther);
   }
+  if (shaving.farthest == 0.0) return shaving;
+  for (double wind = shaving.from - wind_step; wind < shaving.to + wind_step; wind += wind_step / finer)
+    shaving.farthest = std::max(shaving.farthest, shaving.least_pitch(wind) - rotor.pitch(wind));
   return shaving;
 }
 

@@ -50,6 +50,14 @@ TEST_CASE("blades are pitched to the limit from where the thrust reaches it, and
   CHECK(shaving.farthest == Approx(0.04).margin(1e-4));
 }
 
+TEST_CASE("how far blades are pitched beyond operation is known between the rows of the schedule too", "[aero][fast]") {
+  ControllerDtu rated = law();  // at 10.25 m/s
+  rated.rated_power = 1e3 * 10.25 * 10.25;
+  const PeakShaving shaving = shave_peak(linear_rotor, rated, operation(), 0.8);
+  const auto needed = [](double wind) { return 0.2 * (1.0 - 0.8 * 10.25 * 10.25 / (wind * wind)); };
+  CHECK(shaving.farthest == Approx(0.5 * (needed(10.0) + needed(10.5))).margin(1e-4));
+}
+
 TEST_CASE("a share of one leaves operation as it is", "[aero][fast]") {
   const PeakShaving shaving = shave_peak(linear_rotor, law(), operation(), 1.0);
   CHECK(shaving.farthest < 1e-3);
