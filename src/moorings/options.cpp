@@ -77,9 +77,8 @@ const scene::Section<LineOptions>& line_section() {
           .only_if("model", line_models().with("weight_N_m"))
           .required()
           .flag("bed_contact", &LineOptions::bed_contact,
-                "The line may lie on a flat bed at the level of its lower end; a line that ends at junctions without an anchor "
-                "on one at "
-                "the depth of the water.")
+                "The line may lie on the bed: flat at the level of its lower end (of a line that ends at junctions without an "
+                "anchor, at the depth of the water), or under lumped_mass lines that of environment.bathymetry.")
           .only_if("model", line_models().with("bed_contact"))
           .number("bed_friction", &LineOptions::bed_friction, "-", "Friction coefficient between line and bed.", not_negative())
           .only_if("model", line_models().with("bed_friction"))
