@@ -38,27 +38,28 @@ TEST_CASE("from 6 to 25 m/s the DTU turbine turns within 1 % of its table and gi
 
 TEST_CASE("peak shaving cuts the thrust about rated wind to its share, and leaves power far above and below alone",
           "[coupled][fast]") {
-  const auto [wind, share] = GENERATE(table<double, double>({{11.5, 0.8}, {11.5, 0.9}, {12.5, 0.8}, {7.0, 0.8}, {20.0, 0.8}}));
+  const auto [wind, share] = GENERATE(table<double, double>({{11.0, 0.8}, {11.5, 0.8}, {11.5, 0.9}, {7.0, 0.8}, {12.5, 0.8}}));
   CAPTURE(wind, share);
-  const std::vector<std::string> steady = with({"wind.speed_m_s=" + std::to_string(wind), "time.end_s=200.0"});
-  std::vector<std::string> shaved = steady;
-  shaved.push_back("control.peak_shaving=" + std::to_string(share));
+  const auto run = [](double speed, const std::vector<std::string>& more, const Folder& folder) {
+    std::vector<std::string> overrides = with({"wind.speed_m_s=" + std::to_string(speed), "time.end_s=120.0"});
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    REQUIRE(run_scene(scene_file, overrides, folder.path()).exit_code == 0);
+    return history_of(folder);
+  };
   const Folder plain_folder("unshaved"), folder("shaved");
-  REQUIRE(run_scene(scene_file, steady, plain_folder.path()).exit_code == 0);
-  REQUIRE(run_scene(scene_file, shaved, folder.path()).exit_code == 0);
-  const scene::Columns plain = history_of(plain_folder), cut = history_of(folder);
+  const scene::Columns plain = run(wind, {}, plain_folder);
+  const scene::Columns cut = run(wind, {"control.peak_shaving=" + std::to_string(share)}, folder);
   const auto ratio = [&](const char* column) { return mean_of_last(cut, column, 30.0) / mean_of_last(plain, column, 30.0); };
-  if (wind == 7.0 || wind == 20.0) {
+  if (wind == 7.0 || wind == 12.5) {
     CHECK(ratio("rotor.thrust_N") == Approx(1.0).epsilon(1e-3));
     CHECK(ratio("rotor.power_W") == Approx(1.0).epsilon(1e-3));
     return;
   }
   const Folder peak_folder("peak");
-  REQUIRE(run_scene(scene_file, with({"wind.speed_m_s=11.4", "time.end_s=200.0"}), peak_folder.path()).exit_code == 0);
-  const double largest = mean_of_last(history_of(peak_folder), "rotor.thrust_N", 30.0);  // rated wind
-  CHECK(mean_of_last(cut, "rotor.thrust_N", 30.0) == Approx(share * largest).epsilon(0.02));
-  CHECK(ratio("rotor.thrust_N") < 0.97);
-  CHECK(ratio("rotor.power_W") < 1.0);
+  const scene::Columns peak = run(11.3, {}, peak_folder);  // rated wind; the schedule's rows are 0.5 m/s apart
+  CHECK(mean_of_last(cut, "rotor.thrust_N", 30.0) == Approx(share * mean_of_last(peak, "rotor.thrust_N", 30.0)).epsilon(0.01));
+  CHECK(ratio("rotor.thrust_N") < 0.9);
+  CHECK(ratio("rotor.power_W") < 0.97);
 }
 
 TEST_CASE("a turbine starts up from rest, makes its power and shuts down again", "[coupled][fast]") {
