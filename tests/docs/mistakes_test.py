@@ -1,4 +1,4 @@
-"""A hundred mistakes of users: commands, paths, formats, keys, physics. Each ends with code 2 and says what, where, the value and what to do.
+"""A hundred and eighty mistakes of users: commands, paths, formats, keys, physics. Each ends with code 2 and says what, where, the value and what to do.
 Usage: mistakes_test.py PROGRAM. SPDX-License-Identifier: Apache-2.0"""
 import os
 import pathlib
@@ -17,6 +17,10 @@ TURBINE = ROOT / "inputs/turbines/dtu_10mw.toml"
 STUDY = ROOT / "inputs/tutorials/steps.toml"
 BOX = ROOT / "inputs/validation/floating_box/floating_box.toml"
 PENDULUM = ROOT / "inputs/tutorials/pendulum.toml"
+SPAR = ROOT / "inputs/tutorials/spar_in_waves.toml"
+OWN = ROOT / "inputs/tutorials/own_turbine.toml"
+SECTION = ROOT / "inputs/tutorials/wing_section.toml"
+GUST = ROOT / "inputs/tutorials/gust.toml"
 
 
 def check(*overrides, scene=CASE1):
@@ -56,7 +60,13 @@ MISTAKES = [
     (("import", CASE1, "-o", "x"), "this is not an OpenFAST main file", "case1_engineering.toml", "EDFile", "version 3 to 5"),
     (("import", "deck.fst"), "is required", "--out", "", "--help"),
     (("reference", "time.end"), "no such section or key", "time.end", "", "did you mean 'time.end_s'"),
+    (("RUN", CASE1), "there is no command", "", "'RUN'", "did you mean 'run'"),
+    (("run", "check", CASE1), "one word too many", "run:", str(CASE1), "--help"),
+    (("run", CASE1, "--windows", "x", "--trace"), "is no range of windows", "--windows", "'x'", "as 3:12"),
+    (("reference", "platform"), "no such section or key", "", "platform", "did you mean"),
+    (("reference", "a", "b"), "one word too many", "reference:", "'b'", "--help"),
     # paths
+    (("study", ROOT / "inputs/tutorials/step.toml"), "no such file", "step.toml", "", "did you mean '" + str(ROOT / "inputs/tutorials/steps.toml")),
     (("run", "nowhere.toml"), "no such file", "nowhere.toml", "", "in FOLDER"),
     (("run", ROOT / "inputs/tutorials/pendulun.toml"), "no such file", "pendulun.toml", "", "did you mean '" + str(ROOT / "inputs/tutorials/pendulum.toml")),
     (("run", ROOT / "input/tutorials/pendulum.toml"), "no such file", "pendulum.toml", "", f"there is no folder {ROOT}/input/tutorials"),
@@ -108,6 +118,22 @@ MISTAKES = [
     (check('wind.field="wind.bts"', scene=CASE3), "unknown key", "wind.field", '"wind.bts"', "turbulence"),
     (check("aero.flow.turbulence=k-epsilon", scene=WING), "must be one of", "aero.flow.turbulence", '"k-epsilon"', '"k_omega"'),
     (check('output.expected=[{column="platform.pitch_deg", mean=5.0, within=1.0}]', scene=CASE3), "is missing", "output.expected[0].source", "", "who says so"),
+    (check("moorings.line_1.anchor_body=seabed", scene=SPAR), "is not in [bodies]", "moorings.line_1.anchor_body", '"seabed"', "known: spar"),
+    (check("moorings.line_downwind.stiffness_N_m=1e6"), "cannot stand beside axial_stiffness_N", "moorings.line_downwind.stiffness_N_m", "1e6", "give one of"),
+    (check("joints.bearing.axis=[0,0,0]", scene=CASE3), "and not zero", "joints.bearing.axis", "[0, 0, 0]", "is needed by a revolute joint"),
+    (check('joints.bearing.bodies=["platform"]', scene=CASE3), "must have 2 entries", "joints.bearing.bodies", '["platform"]', "first and second body"),
+    (check("coupling.scheme=iqn", scene=CASE3), "must be one of", "coupling.scheme", '"iqn"', 'did you mean "iqn_ils"?'),
+    (check("aero.flow.generate.kind=airfoil", scene=SECTION), "must be one of", "aero.flow.generate.kind", '"airfoil"', 'did you mean "aerofoil"?'),
+    (check("aero.flow.generate.naca=4412", scene=SECTION), "must be a text in quotes", "aero.flow.generate.naca", "4412", '"4412"'),
+    (check('control.events=[{what="stop", time_s=65.0}]', scene=GUST), "must be one of", "control.events[0].what", '"stop"', '"shut_down"'),
+    (check('control.library="x.so"', scene=CASE3), "no such file", "control.library", '"x.so"', "a shared object of this machine"),
+    (check("sea.gauges=[{point_m=[50.0, 0.0]}]", scene=BOX), "is outside the tank", "sea.gauges[0].point_m", "[50.0, 0.0]", ""),
+    (check("environment.gravity_m_s2=-9.81"), "must be", "environment.gravity_m_s2", "-9.81", ">= 0 and <= 100 m/s2"),
+    (check("environment.gravity_m_s2=981"), "must be", "environment.gravity_m_s2", "981", ">= 0 and <= 100 m/s2"),
+    (check("bodies.platform.mass_kg=nan"), "must be", "bodies.platform.mass_kg", "nan", "> 0 kg"),
+    (check("base=x.toml"), "named in scene files only", "base", '"x.toml"', ""),
+    (check("bodies.weight.rotation_deg=30", scene=PENDULUM), "must be a list of 3 numbers", "bodies.weight.rotation_deg", "30", "roll, pitch, yaw"),
+    (check("moorings.line.anchor_body=weight", scene=PENDULUM), "is the body that carries the fairlead", "moorings.line.anchor_body", '"weight"', "two different things"),
     (("reference", "windw"), "no such section or key", "", "windw", "did you mean 'wind'"),
     # physics
     (check("time.integrator=explicit_euler"), "is unstable at any step", "time.integrator", "explicit_euler", "use rk4 or symplectic"),
@@ -124,6 +150,20 @@ MISTAKES = [
     (check("time.window_s=500.0"), "a whole number of windows", "time.end_s", "150", "500 s"),
     (check("environment.water_depth_m=5.0"), "below the sea bed", "bodies.platform.cylinders[0]", "", "z = -5 m"),
     (check("sea.particles.spacing_m=20.0", scene=BOX), "too coarse", "bodies.box", "1 particle", "spacing of 20 m"),
+    (check("checkpoint.interval_s=-1"), "must be", "checkpoint.interval_s", "-1", ">= 0 and <= 1e6 s"),
+    (check("output.history_every=0"), "must be", "output.history_every", "= 0", ">= 1"),
+    (check("wind.speed_m_s=1e3", scene=CASE3), "must be", "wind.speed_m_s", "1000", ">= 0 and <= 300 m/s"),
+    (check("waves.model=stokes", scene=SPAR), "must be one of", "waves.model", '"stokes"', 'did you mean "stokes2"?'),
+    (check("sea.particles.cfl=2", scene=BOX), "must be", "sea.particles.cfl", "2", "> 0 and <= 0.6"),
+    (check("sea.fields.interval_s=-1", scene=BOX), "must be", "sea.fields.interval_s", "-1", "> 0 s"),
+    (check("bodies.box.boxes[0].size_m=[0.4, 0.4]", scene=BOX), "must be a list of 3 numbers", "bodies.box.boxes[0].size_m", "[0.4, 0.4]", "not a list of 2"),
+    (check("aero.flow.flux=roe2", scene=ROTOR), "must be one of", "aero.flow.flux", '"roe2"', 'did you mean "roe"?'),
+    (check("aero.flow.cfl=0", scene=ROTOR), "must be", "aero.flow.cfl", "0", "> 0"),
+    (check("control.model=dtu10", scene=GUST), "must be one of", "control.model", '"dtu10"', '"library"'),
+    (check('output.expected=[{column="platform.pich_deg", mean=5.0, within=1.0, source="x"}]', scene=CASE3), "is no column", "output.expected[0].column", '"platform.pich_deg"', 'did you mean "platform.pitch_deg"?'),
+    (check("waves.height_m=40.0", scene=SPAR), "breaks above", "waves.height_m", "40 m", "22.16 m"),
+    (check("time.step_s=0.05", "time.window_s=0.05", scene=PENDULUM), "is above the limit", "time.step_s", "0.05", "heave of weight"),
+    (check("aero.grid.resolution=100.0", scene=ROTOR), "must be", "aero.grid.resolution", "100", ">= 0.8 and <= 10"),
     (check("aero.flow.incidence_deg=95.0", scene=WING), "must be", "aero.flow.incidence_deg", "95", ">= -90 and <= 90 deg"),
     (check("wind.speed_m_s=0.0", scene=WING), "the resolved air flows", "wind.speed_m_s", "0.0", "must be > 0"),
     (check("aero.flow.generate.far_m=2.0", scene=WING), "found 2", "aero.flow.generate.far_m", "2.0", "at least 5 chords"),
@@ -151,10 +191,52 @@ WRITTEN = [
     (BOX, ["[sea.tank]", "# too shallow", "x_m = [1.0, -1.0]"], 4, "from the lower to the higher end", "sea.tank.x_m", "[1.0, -1.0]", "must go"),
 ]
 
+# In other files: (what is copied beside the scene, changed by (old, new); the scene's lines; words; the file at fault; what, value, what to do).
+TURBINES = ROOT / "inputs/turbines/dtu_10mw"
+BLADE, POLAR = ROOT / "inputs/tutorials/half_size_planform.csv", TURBINES / "polar_24.1.csv"
+OF_TURBINE = f'base = "{OWN}"\n[rotor]\nturbine = "half_size_turbine.toml"\n'
+OF_SECTION = f'base = "{SECTION}"\n[aero.flow.generate]\ncoordinates = "naca4412.dat"\n'
+NEARBY = [ROOT / "inputs/tutorials/half_size_turbine.toml", BLADE, *sorted(TURBINES.glob("polar_*.csv"))]
+OUTLINE, FILE_OF_TURBINE = ROOT / "inputs/tutorials/naca4412.dat", "half_size_turbine.toml"
+IN_FILES = [
+    (OF_TURBINE, FILE_OF_TURBINE, ("blades = 3", "blades = 0"), "turbine.blades", "0", ">= 1 and <= 12"),
+    (OF_TURBINE, FILE_OF_TURBINE, ("hub_radius_m = 1.4", "hub_radius_m = 60.0"), "the first section is the root", "1.4", "turbine.hub_radius_m = 60"),
+    (OF_TURBINE, FILE_OF_TURBINE, ("precone_deg = 2.5", "precone_deg = 95"), "turbine.precone_deg", "95", ">= -45 and <= 45 deg"),
+    (OF_TURBINE, FILE_OF_TURBINE, ("half_size_planform.csv", "half_size_planfrom.csv"), "no such file", "half_size_planfrom.csv", "did you mean '"),
+    (OF_TURBINE, FILE_OF_TURBINE, ("thickness_pct = 24.1", "number = 1"), "names a section otherwise", "36.0", "all by number or all by thickness_pct"),
+    (OF_TURBINE, FILE_OF_TURBINE, ("[turbine]", "[rotor]"), "is missing", "turbine.planform", "CSV file from root to tip"),
+    (OF_TURBINE, BLADE.name, ("twist_deg", "twist"), "means nothing here", '"twist"', "known: span_m, chord_m, twist_deg"),
+    (OF_TURBINE, BLADE.name, ("3.75955,", "0.5,"), "must be above 1.4 of the row before", "span_m = 0.5", ""),
+    (OF_TURBINE, BLADE.name, ("96.915", "thick"), "must be a finite number", '"thick"', "column thickness_pct"),
+    (OF_TURBINE, BLADE.name, (",", ";"), "has semicolons", "", "write commas between columns"),
+    (OF_TURBINE, BLADE.name, (None, "span_m,chord_m,twist_deg,thickness_pct\n"), "needs at least 2 rows", "has 0", ""),
+    (OF_TURBINE, BLADE.name, (None, ""), "holds no table", "", "a header line of column names"),
+    (OF_TURBINE, POLAR.name, ("alpha_deg,", "alpha,"), "means nothing here", '"alpha"', "known: alpha_deg, cl, cd"),
+    (OF_TURBINE, POLAR.name, ("alpha_deg,cl,", "alpha_deg,CL,"), "means nothing here", '"CL"', "known: alpha_deg, cl, cd"),
+    (OF_TURBINE, POLAR.name, (None, "alpha_deg,cl,cd,cm\n-10,0,0,0\n10,1,0,0\n"), "must go from -180 to 180", "alpha_deg", ""),
+    (OF_SECTION, OUTLINE.name, (None, "hello\n"), "needs at least 9 rows", "has 0", ""),
+    (OF_SECTION, OUTLINE.name, (None, "mine\n" + "1000.0 0.0\n" * 9), "is off the chord", "x_c = 1000", "from 0 to 1"),
+    (OF_SECTION, OUTLINE.name, (None, "mine\n" + "1.0\n" * 9), "has 1 values where there are 2", "x_c, y_c", ""),
+]
+
+# In a study: what is changed in STUDY, line at fault, what, key, value, what to do.
+IN_STUDIES = [
+    (('"rms"', '"mse"'), 21, "must be one of", "metrics.swing.measure", '"mse"', '"rms"'),
+    (('variant = "fine"', 'variant = "fin"'), 17, "is no run of this study", "reference.variant", '"fin"', "did you mean 'fine'?"),
+    (("values = [0.01, 0.005, 0.0025]", "values = []"), 14, "must have at least 1 entries", "axes.step.values", "[]", ""),
+    (('["time.end_s=5.0"]', '"time.end_s=5.0"'), 4, "must be a list of texts", "study.set", '"time.end_s=5.0"', "KEY=VALUE"),
+    (("[axes.step]", "[axis.step]"), 12, "unknown section", "axis", "", "did you mean [axes]?"),
+    (("target = 1.0e-4", "target = -1"), 23, "must be > 0", "metrics.swing.target", "-1", ""),
+    (("divide_by = 1.7364818", "divide_by = 0.0"), 22, "must be > 0", "metrics.swing.divide_by", "0.0", ""),
+    (('"pendulum.toml"', '"pendulun.toml"'), 3, "no such file", "study.scene", '"pendulun.toml"', "did you mean '"),
+    (('"time.step_s"', '"time.steps"'), 0, "unknown key", "time.steps", "0.01", "did you mean 'step_s'?"),
+    (("time.end_s=5.0", "time.end_s=-5.0"), 0, "must be", "time.end_s", "-5.0", "> 0 and <= 1e6 s"),
+]
+
 
 class Mistakes(unittest.TestCase):
-    def test_there_are_fifty(self):
-        self.assertGreaterEqual(len(MISTAKES) + len(WRITTEN), 110)
+    def test_there_are_many(self):
+        self.assertGreaterEqual(len(MISTAKES) + len(WRITTEN) + len(IN_FILES) + len(IN_STUDIES), 178)
 
     def answer(self, words, folder):
         environment = dict(os.environ) | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
@@ -186,6 +268,35 @@ class Mistakes(unittest.TestCase):
                     wrong = next((one for one in said.splitlines() if f"{scene}:{line}: " in one), "")
                     for part in (what, key, value, remedy):
                         self.assertIn(part, wrong, said)
+
+    def test_other_files_are_named(self):
+        for lines, file, (old, new), *wanted in IN_FILES:
+            with self.subTest(f"{file}: {old} -> {new}"), tempfile.TemporaryDirectory(prefix="spindrift_mistakes_") as folder:
+                folder = pathlib.Path(os.path.realpath(folder))
+                for near in [*NEARBY, OUTLINE]:
+                    text = near.read_text(encoding="utf-8").replace("../turbines/dtu_10mw/", "")
+                    if near.name == file:
+                        self.assertTrue(old is None or old in text)
+                        text = new if old is None else text.replace(old, new)
+                    (folder / near.name).write_text(text, encoding="utf-8")
+                (folder / "own.toml").write_text(lines, encoding="utf-8")
+                said = self.answer(("check", folder / "own.toml"), folder)
+                for part in (file if file != FILE_OF_TURBINE else "", *wanted):
+                    self.assertIn(part, said)
+
+    def test_studies_are_named(self):
+        for (old, new), line, what, key, value, remedy in IN_STUDIES:
+            with self.subTest(f"{old} -> {new}"), tempfile.TemporaryDirectory(prefix="spindrift_mistakes_") as folder:
+                folder = pathlib.Path(os.path.realpath(folder))
+                text = STUDY.read_text(encoding="utf-8")
+                self.assertIn(old, text)
+                (folder / "study.toml").write_text(text.replace(old, new), encoding="utf-8")
+                (folder / "pendulum.toml").write_text(PENDULUM.read_text(encoding="utf-8"), encoding="utf-8")
+                said = self.answer(("study", "study.toml", "--dry-run"), folder)
+                wrong = next((one for one in said.splitlines() if (f"study.toml:{line}: " if line else "study.toml: ") in one), "")
+                for part in (what, key, value, remedy):
+                    self.assertIn(part, wrong, said)
+                self.assertEqual(said.count(what), 1, "told once:\n" + said)
 
 
 if __name__ == "__main__":
