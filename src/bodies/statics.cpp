@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "kernels/linear/dense.hpp"
@@ -44,12 +45,26 @@ bool evaluate(System& system, double t, Balance& b) {
   return true;
 }
 
-double unbalanced(System& system, double t, const Eigen::VectorXd& x, const Balance& b, const Eigen::MatrixXd& stiff) {
+/// Length of the correction that the stiffness of the chart's centre asks for at x. It, and not the force left over, says whether
+/// a step was one for the better (natural monotonicity, Deuflhard 2011, Newton Methods for Nonlinear Problems, section 3.3): a
+/// platform that heels leaves the stiff tower on it stretched by a hair, which is a large force and nothing to correct.
+double correction_left(System& system, double t, const Eigen::VectorXd& x, const Balance& b, const dense::SingularValues& svd,
+                       Eigen::Index rank) {
   Eigen::VectorXd force;
   Eigen::MatrixXd mass;
   if (!system.forces_at_rest(t, x, force, mass)) return INFINITY;
   b.cholesky.triangularView<Eigen::Lower>().solveInPlace(force);
-  return (stiff.transpose() * force).norm();
+  return (svd.left.leftCols(rank).transpose() * force).cwiseQuotient(svd.values.head(rank)).norm();
+}
+
+/// Of all bodies, over what one iteration may move them.
+double largest_way(const System& system, const Eigen::VectorXd& x, const EquilibriumOptions& options) {
+  const double most = std::max(options.shift_limit_m, options.turn_limit * system.reference_length());
+  const Eigen::VectorXd motion = system.motion_of_freedoms() * x;
+  double way = 0.0;
+  for (Eigen::Index b = 0; b < motion.size() / 6; ++b)
+    way = std::max({way, motion.segment<3>(6 * b).norm() / most, motion.segment<3>(6 * b + 3).norm() / options.turn_limit});
+  return way;
 }
 
 }  // namespace
@@ -114,10 +129,11 @@ Equilibrium find_equilibrium(System& system, const BodiesState& start, double t_
       y = dense::solve(shifted, stiff * balance);
     }
     Eigen::VectorXd x = b.cholesky.transpose().triangularView<Eigen::Upper>().solve(y);
-    const double size = x.cwiseAbs().maxCoeff();
-    if (size > options.step_limit) x *= options.step_limit / size;
-    if (!unstable)
-      for (int halving = 0; halving < 6 && unbalanced(system, t_s, x, b, stiff) > balance.norm(); ++halving) x *= 0.5;
+    x *= std::min(1.0, 1.0 / largest_way(system, x, options));
+    if (!unstable) {
+      const double now = balance.cwiseQuotient(svd.values.head(rank)).norm();
+      for (int halving = 0; halving < 6 && correction_left(system, t_s, x, b, svd, rank) > now; ++halving) x *= 0.5;
+    }
     if (!system.close_chart(t_s, x, Eigen::VectorXd::Zero(n), result.state)) {
       result.problem = "statics: " + system.describe(system.chart_report());
       return result;

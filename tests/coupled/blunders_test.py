@@ -70,11 +70,11 @@ class Blunders(unittest.TestCase):
     def test_a_run_says_what_looks_like_the_slip_before_it_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             said = spindrift("run", ROOT / "inputs" / SCENES["oc3"], "--out", pathlib.Path(folder) / "out", "--no-report",
-                             settings=["bodies.spar.mass_kg=8065.4378", "start.equilibrium=true"])
+                             settings=["bodies.spar.mass_kg=8.0654378e9", "start.equilibrium=true"])
         self.assertEqual(said.returncode, 2, said.stderr)
         both = said.stdout + said.stderr
-        self.assertIn("in t? give kg", both)
-        self.assertLess(both.index("in t? give kg"), both.index("start.equilibrium"))
+        self.assertIn("in g? give kg", both)
+        self.assertLess(both.index("in g? give kg"), both.index("start.equilibrium"))
 
 
 class Nightly(Blunders):

@@ -67,3 +67,23 @@ TEST_CASE("an unstable equilibrium is named, a body that falls for ever refused"
   System falling(bodies, {}, {gravity_source(bodies, 9.81)});
   CHECK_THAT(find_equilibrium(falling, start(falling), 0.0).problem, Contains("heave of bob"));
 }
+
+TEST_CASE("rest a hundred metres away takes some forty iterations, with a stiff part that turns along", "[bodies][fast]") {
+  // A rod on a soft spring under a side force; a second body on it by a spring a million times as stiff, as a tower's pull.
+  const std::vector<Body> bodies{body("hull", 1e6, {1e9, 1e9, 1e9}, {0, 0, -50}), body("top", 1e5, {1e7, 1e7, 1e7}, {0, 0, 50})};
+  const LoadSource springs{"springs",
+                           [](double, std::span<const Motion> m, std::span<Wrench> w) {
+                             w[0].add_force(-1e4 * (m[0].position - Vector3d(0, 0, -50)) + Vector3d(1e6, 0, 0), m[0].position);
+                             w[0].add_moment(-1e9 * euler_angles(m[0].attitude) + Vector3d(0, 2e8, 0));
+                             const Vector3d foot = m[0].point({0, 0, 100}), pull = -1e10 * (m[1].position - foot);
+                             w[1].add_force(pull, m[1].position), w[0].add_force(-pull, foot);
+                             w[1].add_moment(-1e9 * euler_angles(m[1].attitude));
+                           },
+                           {}};
+  System system(bodies, {}, {springs});
+  const Equilibrium rest = find_equilibrium(system, start(system), 0.0);
+  REQUIRE(rest.problem == "");
+  CHECK(rest.state.motions[0].position.x() == Approx(100.0));
+  CHECK(euler_angles(rest.state.motions[0].attitude).y() == Approx(0.2));
+  CHECK(rest.iterations < 50);  // 20 of 5 m each, halved where the stiff part turns, and Newton's last few
+}
