@@ -14,5 +14,7 @@ struct FlowSize {
   double core_seconds_per_pseudo_step = 0.0;  ///< by the stated rate
 };
 FlowSize flow_size(const FlowOptions& flow, const MultiBlockGrid& grid);
+/// The stated rate of a pseudo-step on a grid in space: core-seconds per cell.
+double seconds_per_cell(const FlowOptions& flow);
 
 }  // namespace spindrift::aero

@@ -11,6 +11,7 @@
 #include "src/aero/flow/sweep_gradients.hpp"
 #include "src/aero/flow/sweep_model.hpp"
 #include "src/aero/flow_size.hpp"
+#include "src/aero/grid/coarsen.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/aero/rotor_grid/layout.hpp"
@@ -20,14 +21,18 @@ namespace spindrift::aero {
 
 namespace {
 
-// Measured on one core of 50 GFLOP/s in double (docs/developer/notes/rotor_resolved.md, machine.md): SA with 20 Krylov vectors;
-// inviscid.
-constexpr double viscous_seconds = 12e-6, inviscid_seconds = 7.5e-6;
+// Of a pseudo-step, for each cell, measured on one core of 50 GFLOP/s in double (docs/developer/notes/rotor_resolved.md,
+// machine.md). Of steady marches, whose linear solutions take all their steps, each a sweep over the residual: SA with 20 Krylov
+// vectors; inviscid. Of physical steps, which take some six steps by the matrix: SA; inviscid. In the plane there are two
+// directions of faces, and one cell in depth.
+constexpr double viscous_seconds = 12e-6, inviscid_seconds = 7.5e-6, viscous_physical_seconds = 3.2e-6,
+                 inviscid_physical_seconds = 1.2e-6, planar_share = 0.5;
 
 struct Kind {
   int unknowns = 5, turbulence = 0, time_order = 0, krylov_steps = 0;
-  bool flexible = false, eddies = false;
-  bool moving() const { return time_order > 0; }
+  bool flexible = false, eddies = false, planar = false;
+  bool turns = true;    ///< faces have speeds: a rotor's grid, which turns with it
+  bool moving = false;  ///< nodes have places of steps before
 };
 
 Kind kind_of(const FlowOptions& o) {
@@ -44,21 +49,23 @@ Kind kind_of(const FlowOptions& o) {
 double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   constexpr double wide = sizeof(double), narrow = sizeof(float);
   const auto box = [&](int i, int j, int k, int ghosts, int components) {
-    return double(BoxLayout(i, j, k, {ghosts, ghosts, ghosts}).size(components));
+    return double(BoxLayout(i, j, k, {ghosts, ghosts, kind.planar ? 0 : ghosts}).size(components));
   };
   const linear::CellBox cells{ni, nj, nk};
+  const int directions = kind.planar ? 2 : 3;
   double bytes = wide * (2.0 * box(ni, nj, nk, state_ghosts, kind.unknowns) +
                          box(ni, nj, nk, gradient_ghosts, gradient_components(kind.turbulence, kind.eddies)) +
                          (1 + kind.time_order) * box(ni, nj, nk, 0, kind.unknowns) + box(ni, nj, nk, 0, 1));
-  double matrix = double(linear::StencilMatrix<5>::size(cells, 3)), vectors = kind.krylov_steps + 1;
-  if (kind.turbulence == 1) matrix += double(linear::StencilMatrix<1>::size(cells, 3));
-  if (kind.turbulence == 2) matrix += double(linear::StencilMatrix<2>::size(cells, 3));
+  double matrix = double(linear::StencilMatrix<5>::size(cells, directions)), vectors = kind.krylov_steps + 1;
+  if (kind.turbulence == 1) matrix += double(linear::StencilMatrix<1>::size(cells, directions));
+  if (kind.turbulence == 2) matrix += double(linear::StencilMatrix<2>::size(cells, directions));
   if (kind.flexible) vectors += kind.krylov_steps;
   bytes += narrow * (matrix + box(ni, nj, nk, gradient_ghosts, kind.unknowns) + vectors * double(cells.count()) * kind.unknowns);
   // The grid: see store.hpp. Faces have a vector, speeds (also in a turning frame), and where nodes move two swept volumes.
-  bytes += wide * ((kind.moving() ? 4 : 1) * box(ni + 1, nj + 1, nk + 1, 0, 3) + box(ni, nj, nk, cell_ghosts, 1) +
-                   box(ni, nj, nk, cell_ghosts, 3) + (kind.moving() ? 3 : 1) * box(ni, nj, nk, 0, 1));
-  for (int d = 0; d < 3; ++d) bytes += wide * (kind.moving() ? 6 : 4) * box(ni + (d == 0), nj + (d == 1), nk + (d == 2), 0, 1);
+  bytes += wide * ((kind.moving ? 4 : 1) * box(ni + 1, nj + 1, nk + 1, 0, 3) + box(ni, nj, nk, cell_ghosts, 1) +
+                   box(ni, nj, nk, cell_ghosts, 3) + (kind.moving ? 3 : 1) * box(ni, nj, nk, 0, 1));
+  for (int d = 0; d < 3; ++d)
+    bytes += wide * (3 + (kind.turns ? 1 : 0) + (kind.moving ? 2 : 0)) * box(ni + (d == 0), nj + (d == 1), nk + (d == 2), 0, 1);
   return bytes;
 }
 
@@ -90,24 +97,32 @@ double sector_bytes(const Kind& kind, const RotorGridSpec& spec) {
 
 }  // namespace
 
+double seconds_per_cell(const FlowOptions& flow) {
+  if (flow.time == "steady") return flow.viscous == "none" ? inviscid_seconds : viscous_seconds;
+  return flow.viscous == "none" ? inviscid_physical_seconds : viscous_physical_seconds;
+}
+
 ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
   const Turbine turbine = read_turbine(setup.rotor.turbine);
   const RotorGridSpec spec = rotor_grid_spec(setup.grid, turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
-  const Kind kind = kind_of(setup.flow);
+  Kind kind = kind_of(setup.flow);
+  kind.moving = kind.time_order > 0;
   ResolvedRotorSize size;
   size.sectors = spec.whole ? turbine.blades : 1;
   size.cells = size.sectors * spec.sizes.cells() >> (3 * spec.coarsen);
   size.stations = spec.sizes.span >> spec.coarsen;
   const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order),
                nodes = sizeof(double) * 3.0 * double(size.cells);
-  size.bytes = size.sectors * sector_bytes(kind, spec) + nodes + (kind.moving() ? state : 0.0);
+  size.bytes = size.sectors * sector_bytes(kind, spec) + nodes + (kind.moving ? state : 0.0);
   size.bytes_of_checkpoint = state;
-  size.core_seconds_per_pseudo_step = double(size.cells) * (setup.flow.viscous == "none" ? inviscid_seconds : viscous_seconds);
+  size.core_seconds_per_pseudo_step = double(size.cells) * seconds_per_cell(setup.flow);
   return size;
 }
 
 FlowSize flow_size(const FlowOptions& flow, const MultiBlockGrid& grid) {
-  const Kind kind = kind_of(flow);
+  Kind kind = kind_of(flow);
+  kind.planar = grid.planar;
+  kind.turns = kind.moving = flow.motion && kind.time_order > 0;
   FlowSize size;
   double nodes = 0.0;
   for (const Block& b : grid.blocks) {
@@ -115,9 +130,13 @@ FlowSize flow_size(const FlowOptions& flow, const MultiBlockGrid& grid) {
     size.bytes += block_bytes(kind, {b.ni, b.nj, b.nk});
     nodes += 3.0 * sizeof(double) * double(b.ni + 1) * (b.nj + 1) * (b.nk + 1);
   }
+  // A steady march begins on grids of half the cells along each direction, while the fine one is there already.
+  const double halved = grid.planar ? 0.25 : 0.125;
+  if (kind.time_order == 0 && flow.coarse_steps.value_or(usual_coarse_steps) > 0 && why_not_halved(grid).empty())
+    size.bytes *= 1.0 + halved * (1.0 + halved);
   size.bytes += nodes;
   size.bytes_of_checkpoint = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
-  size.core_seconds_per_pseudo_step = double(size.cells) * (flow.viscous == "none" ? inviscid_seconds : viscous_seconds);
+  size.core_seconds_per_pseudo_step = double(size.cells) * seconds_per_cell(flow) * (grid.planar ? planar_share : 1.0);
   return size;
 }
 
@@ -135,6 +154,7 @@ AirRate measured_air_rate(const ResolvedRotorSetup& scene) {
   rotor.run();
   AirRate rate{.cells = rotor.solver().cells(), .pseudo_steps = std::max(1, rotor.solver().march().steps() - 1)};
   rate.core_seconds = double(std::clock() - begin) / CLOCKS_PER_SEC / (double(rate.cells) * rate.pseudo_steps);
+  rate.core_seconds *= seconds_per_cell(scene.flow) / seconds_per_cell(setup.flow);  // of steps like the scene's
   return rate;
 }
 

@@ -254,9 +254,7 @@ PartCost print_air(const FloatingSystem& floating, const coupling::Start& start,
              size.sectors == 1 ? ", which feels motion along the axis only" : "s", size.stations);
   print_far_sides(setup.grid);
   const bool strong = is_strong(s.coupling.scheme);
-  const double samples = strong ? s.coupling.samples : 1.0;
-  return cost_of_air(setup, size, samples * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps, strong ? 2 : 1,
-                     calibrate);
+  return cost_of_air(setup, size, coupled_pseudo_steps(s), s.start.air_steps, strong ? 2 : 1, calibrate);
 }
 
 void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, const scene::Doubts& angles, bool calibrate,
@@ -272,7 +270,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   print_far_sides(setup.grid);
   print_doubts(angles, coupling::air_doubts(s));
   print_rotor_at_start(s);
-  const PartCost cost = cost_of_air(setup, size, pseudo_steps_per_second(s), 0.0, 1, calibrate);
+  const PartCost cost = cost_of_air(setup, size, expected_pseudo_steps(s), 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks, base, setup.flow.time == "steady");
 }
 
@@ -381,6 +379,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     return done;
   }
   if (scenario.has_flow()) {
+    const double resident = resident_memory();
     const aero::MultiBlockGrid grid = aero::flow_grid(*scenario.aero.flow);
     if (scenario.has_actuator()) aero::require_rotor_inside(grid, scenario.rotor, "rotor.hub_m");
     if (world.rank != 0) return done;
@@ -391,8 +390,9 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     print_doubts(scene::angle_doubts(document.echo()), coupling::air_doubts(scenario));
     if (scenario.has_actuator()) print_rotor_at_start(scenario);
     print_first_cells(scenario, grid);
+    const double start_s = processor_seconds() - begin_s;
     const PartCost cost = cost_of_flow(scenario, grid);
-    print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, base_cost(processor_seconds() - begin_s),
+    print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, {resident + output_bytes, start_s + output_seconds},
                scenario.aero.flow->time == "steady");
     return done;
   }
@@ -415,9 +415,10 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   }
   require_limits(floating, start.state, stability);
   if (world.rank != 0) return done;
+  const BaseCost base = base_cost(start_s);  // before what a census or a grid leaves behind
   if (start.state.motions.empty()) {
     const PartCost cost = print_particles(floating, start);
-    print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size, base_cost(start_s));
+    print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size, base);
     return done;
   }
   if (floating.rotor()) print_campbell(floating, start, stability.linearisation);
@@ -441,7 +442,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     parts.push_back(print_particles(floating, start));
   else
     print_steps(floating, start, start_s);
-  if (!parts.empty()) print_cost(parts, floating.scenario().time.end_s, world.size, base_cost(start_s));
+  if (!parts.empty()) print_cost(parts, floating.scenario().time.end_s, world.size, base);
   if (!arguments.columns.empty()) print_omissions(asked, arguments.columns);
   return done;
 }

@@ -44,14 +44,13 @@ void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, 
     const double cost = p.work_per_second * p.core_seconds_per_work;
     fmt::print("  {:<22}{:.0f} {}, {}\n", p.name, p.count, p.things, bytes_text(p.bytes));
     if (pseudo_steps)
-      fmt::print("  {:<22}at most {:.4g} pseudo-steps of {:.3g} core-s each ({})\n", "", p.work_per_second * simulated_s,
+      fmt::print("  {:<22}{:.4g} {} of {:.3g} core-s each ({})\n", "", p.work_per_second * simulated_s, p.work,
                  p.core_seconds_per_work, p.rate);
     else
       fmt::print("  {:<22}{:.4g} {} per simulated second of {:.3g} core-s each ({}): {:.4g} core-s\n", "", p.work_per_second,
                  p.work, p.core_seconds_per_work, p.rate, cost);
     if (p.work_before > 0.0)
-      fmt::print("  {:<22}{:.4g} {} before t = 0: {:.4g} core-s\n", "", p.work_before, p.work,
-                 p.work_before * p.core_seconds_per_work);
+      fmt::print("  {:<22}{:.4g} core-s before the first window\n", "", p.work_before * p.core_seconds_per_work);
     bytes += p.bytes, checkpoint += p.checkpoint_bytes, per_second += cost, before += p.work_before * p.core_seconds_per_work;
   }
   const double whole = before + per_second * simulated_s;
@@ -59,7 +58,7 @@ void print_cost(std::span<const PartCost> parts, double simulated_s, int ranks, 
              bytes_text(bytes + base.bytes * ranks), bytes_text(checkpoint), ranks, ranks == 1 ? "" : "s",
              bytes_text(bytes / ranks + base.bytes));
   if (pseudo_steps)
-    fmt::print("  {:<22}{:.3g} core-hours at most\n", "predicted core-hours", whole / 3600.0);
+    fmt::print("  {:<22}{:.3g} core-hours\n", "predicted core-hours", whole / 3600.0);
   else
     fmt::print("  {:<22}{:.3g} core-hours for {:g} s ({:.4g} core-s per simulated second)\n", "predicted core-hours",
                whole / 3600.0, simulated_s, per_second);

@@ -2,6 +2,8 @@
 #include "src/app/forecast.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
+#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -17,6 +19,7 @@
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/run/flow_columns.hpp"
+#include "src/run/flow_simulation.hpp"
 #include "src/scene/value.hpp"
 
 namespace spindrift::app {
@@ -62,6 +65,13 @@ void add_columns_of_air(std::vector<std::string>& names, std::initializer_list<s
 
 /// Has a rotor whose loads come once in an iteration of a window, not in every evaluation of the bodies.
 bool exchanges(const coupling::Scenario& s) { return s.has_rotor() && s.coupling.scheme != coupling::SchemeKind::monolithic; }
+
+/// Pseudo-steps of a steady flow, as air settles before t = 0, in those of this one.
+double settling_steps(const aero::FlowOptions& flow, double steps) {
+  aero::FlowOptions steady = flow;
+  steady.time = "steady";
+  return steps * seconds_per_cell(steady) / seconds_per_cell(flow);
+}
 
 double iterations(const coupling::Scenario& s) {
   constexpr double usual = 2.5;  // of a window by the schemes that iterate: 2.2 to 3 in inputs/studies/case3_coupling.toml
@@ -135,6 +145,14 @@ double particle_steps(const FloatingSystem& floating, const sea::ParticleCensus&
   return std::ceil(time.window_s / step * (1.0 - 1e-9));
 }
 
+/// Of a particle in a run beside its place in the store and the notes of its state [bytes]: its seed while the sea is laid out,
+/// two snapshots of the window, its sample for files and their buffers, the copy for a checkpoint, its share of the task graph.
+/// Recorded: 300 after a window or two, 410 to 600 after some tens.
+constexpr double bytes_of_run = 500.0;
+
+/// Of the cost of a sea that is at rest: in motion steps shorten and groups are sorted anew. Recorded: 0.8 to 1.5.
+constexpr double in_motion = 1.15;
+
 PartCost cost_of_particles(const FloatingSystem& floating, const sea::ParticleCensus& census, double steps_per_window) {
   const coupling::Scenario& s = floating.scenario();
   const sph::Parameters& p = floating.particle_plan()->parameters;
@@ -143,28 +161,28 @@ PartCost cost_of_particles(const FloatingSystem& floating, const sea::ParticleCe
   return {.name = "sea",
           .count = double(census.particles()),
           .things = "particles",
-          .bytes = census.bytes + notes * sea::bytes_of_note * double(census.particles()),
+          .bytes = census.bytes + (notes * sea::bytes_of_note + bytes_of_run) * double(census.particles()),
           .checkpoint_bytes = sea::bytes_of_note * double(census.particles()),
           .work_per_second = evaluations,
           .work = "evaluations of all",
-          .core_seconds_per_work = double(census.particles()) / census.evaluations_per_second,
+          .core_seconds_per_work = in_motion * double(census.particles()) / census.evaluations_per_second,
           .rate = fmt::format("{:.3g} M particles per core-s, measured now on a small sea", 1e-6 * census.evaluations_per_second),
           .work_before = s.sea.settle_s() * evaluations};
 }
 
-PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, double per_second, double before,
-                     int notes, bool calibrate) {
+PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, const PseudoSteps& steps,
+                     double before, int notes, bool calibrate) {
   PartCost cost{.name = "air",
                 .count = double(size.cells),
                 .things = "cells",
                 .bytes = size.bytes + (notes - 1) * size.bytes_of_checkpoint,
                 .checkpoint_bytes = size.bytes_of_checkpoint,
-                .work_per_second = per_second,
-                .work = "pseudo-steps at most",
+                .work_per_second = steps.per_second,
+                .work = steps.work,
                 .core_seconds_per_work = size.core_seconds_per_pseudo_step,
                 .rate = {},
-                .work_before = before};
-  std::string source = "stated; --calibrate measures it";
+                .work_before = settling_steps(setup.flow, before)};
+  std::string source = "stated for a core of 50 GFLOP/s; --calibrate measures it";
   if (calibrate) {
     const aero::AirRate rate = aero::measured_air_rate(setup);
     cost.core_seconds_per_work = rate.core_seconds * double(size.cells);
@@ -213,9 +231,7 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
     aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
     setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;
     const bool strong = is_strong(s.coupling.scheme);
-    add(cost_of_air(setup, aero::resolved_rotor_size(setup),
-                    (strong ? s.coupling.samples : 1.0) * setup.flow.max_pseudo_steps / s.time.window_s, s.start.air_steps,
-                    strong ? 2 : 1, true));
+    add(cost_of_air(setup, aero::resolved_rotor_size(setup), coupled_pseudo_steps(s), s.start.air_steps, strong ? 2 : 1, true));
   }
   if (floating.particle_plan()) {
     const sea::ParticleCensus census = particle_census(*floating.particle_plan(), start.state.motions);
@@ -227,43 +243,174 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
   return f;
 }
 
-/// Flow without walls on a standing grid falls by about an order in a pseudo-step: the implicit steps are as large as they may
-/// be.
-bool steps_expected(const coupling::Scenario& s) {
-  return s.has_actuator() && s.aero.flow->time != "steady" && s.aero.flow->drop > 0.0;
+// Pseudo-steps that recorded runs with the default march took (docs/developer/notes/machine.md). A steady rotor until its loads
+// settle: 64 to 141 from 6 to 20 m/s. Any other steady flow: 60 to 92, whether its flux balance is to fall by 1e-3 or by 1e-5. A
+// physical step for each order: 3, without walls 2.
+constexpr double steps_of_rotor = 85.0, steps_of_steady = 75.0, unsteady_steps_per_order = 3.0,
+                 steps_per_order_without_walls = 2.0;
+
+double orders(double drop) { return -std::log10(std::clamp(drop, 1e-16, 0.5)); }
+
+PseudoSteps expected_pseudo_steps(const coupling::Scenario& s) {
+  const aero::FlowOptions& flow = *s.aero.flow;
+  const double windows = s.time.end_s / s.time.window_s;
+  if (flow.time == "steady") {
+    const bool by_loads = has_resolved_rotor(s) && flow.load_change.value_or(1.0) > 0.0;
+    if (!by_loads && flow.drop <= 0.0) return {1.0 / s.time.window_s, "pseudo-steps"};
+    const double usual = by_loads ? steps_of_rotor : steps_of_steady;
+    return {std::min(windows, usual) / s.time.end_s, "pseudo-steps until it has settled, as flows usually do,"};
+  }
+  const double most = flow.max_pseudo_steps;
+  if (flow.drop <= 0.0) return {most / s.time.window_s, "pseudo-steps"};
+  const double per_order = s.has_actuator() ? steps_per_order_without_walls : unsteady_steps_per_order;
+  return {std::min(most, std::ceil(per_order * orders(flow.drop))) / s.time.window_s,
+          "pseudo-steps, as many as are usual to the drop,"};
 }
 
-double pseudo_steps_per_second(const coupling::Scenario& s) {
-  const aero::FlowOptions& flow = *s.aero.flow;
-  const double most = flow.time == "steady" ? 1.0 : flow.max_pseudo_steps;
-  return (steps_expected(s) ? std::min(most, std::ceil(-std::log10(flow.drop))) : most) / s.time.window_s;
+PseudoSteps coupled_pseudo_steps(const coupling::Scenario& s) {
+  PseudoSteps steps = expected_pseudo_steps(s);
+  if (is_strong(s.coupling.scheme)) steps.per_second *= s.coupling.samples;
+  return steps;
 }
+
+namespace {
+
+/// A short march of a flow alone, as a run begins it.
+struct FlowTrial {
+  double begin_s = 0.0;           ///< processor time up to the first pseudo-step
+  double step_s = 0.0;            ///< of a pseudo-step
+  int steps = 0;                  ///< made
+  double expected_windows = 0.0;  ///< of a steady flow: until it has settled
+  double steps_per_window = 1.0;
+  bool settled = false;
+};
+
+/// Steady marches slow down on their way: by the pace of the first steps the rest takes longer than the orders that are left say.
+/// Recorded: 1.0 to 3.6 times.
+constexpr double slower = 2.0;
+
+// A trial goes on for so long [s], for so many pseudo-steps of a steady flow at least (its balance first rises) or windows; it is
+// made where these take no longer than that by the stated rates.
+constexpr double trial_s = 0.5, longest_trial_s = 1.5;
+constexpr int least_steps = 8, least_windows = 2, steps_at_once = 4;
+
+/// A folder that goes away again, without a word in the log, and one thread: as many idle ones would be counted.
+class Aside {
+ public:
+  Aside() : level_(spdlog::get_level()), threads_(omp_get_max_threads()) {
+    spdlog::set_level(spdlog::level::off);
+    omp_set_num_threads(1);
+  }
+  Aside(const Aside&) = delete;
+  Aside& operator=(const Aside&) = delete;
+  ~Aside() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+    omp_set_num_threads(threads_);
+    spdlog::set_level(level_);
+  }
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("spindrift_trial_{}", ::getpid());
+
+ private:
+  spdlog::level::level_enum level_;
+  int threads_;
+};
+
+/// Nothing where the march fails.
+std::optional<FlowTrial> try_flow(const coupling::Scenario& s) {
+  const Aside aside;
+  const runtime::World alone{MPI_COMM_SELF, 0, 1};
+  const io::RunDirectory directory(MPI_COMM_SELF, aside.folder, io::Existing::overwrite);
+  FlowTrial trial;
+  const double before = processor_seconds();
+  run::FlowSimulation flow(s, directory, alone, 0, steps_at_once);
+  flow.begin(directory);
+  const double begun = processor_seconds();
+  trial.begin_s = begun - before;
+  const bool steady = flow.counts_pseudo_steps();
+  const std::int64_t windows = flow.timeline().windows(),
+                     least = std::min<std::int64_t>(windows, steady ? least_steps : least_windows);
+  double started = begun;  // the first window starts the flow, and takes more
+  int at_start = 0;
+  for (std::int64_t window = 0;
+       window < windows && !trial.settled && (window < least || processor_seconds() - before < trial_s);) {
+    const run::Advance advance = flow.advance(window, windows);
+    if (!advance.failure.empty() || advance.windows == 0) {
+      if (steady || trial.steps == 0) return std::nullopt;
+      break;  // the physical steps before count
+    }
+    window += advance.windows;
+    const aero::March& march = flow.solver().march();
+    const double now = processor_seconds();
+    if (steady) {
+      trial.steps = int(window), trial.step_s = (now - begun) / double(window);
+      trial.settled = !advance.settled.empty();
+      const double left = orders(s.aero.flow->drop) / orders(march.balance_drop());
+      trial.expected_windows = trial.settled ? double(window) : double(window) * (left > 1.0 ? 1.0 + slower * (left - 1.0) : 1.0);
+    } else {
+      trial.steps += march.steps() - 1;
+      if (window == 1) at_start = march.steps() - 1, started = now;
+      const int since = trial.steps - at_start;
+      trial.steps_per_window = since > 0 ? double(since) / double(window - 1) : double(trial.steps);
+      trial.step_s = since > 0 ? (now - started) / since : (now - begun) / trial.steps;
+    }
+  }
+  return trial;
+}
+
+/// What the shortest trial takes by the stated rate; a steady flow begins on coarser grids, which takes as long as its first
+/// steps.
+double shortest_trial_s(const coupling::Scenario& s, const aero::FlowSize& size, const PseudoSteps& steps) {
+  const bool steady = s.aero.flow->time == "steady";
+  return size.core_seconds_per_pseudo_step *
+         (steady ? 2.0 * least_steps : double(least_windows) * steps.per_second * s.time.window_s);
+}
+
+}  // namespace
 
 PartCost cost_of_flow(const coupling::Scenario& s, const aero::MultiBlockGrid& grid) {
   const aero::FlowSize size = aero::flow_size(*s.aero.flow, grid);
   const bool strong = !s.bodies.empty() && is_strong(s.coupling.scheme);
-  return {.name = "air",
-          .count = double(size.cells),
-          .things = "cells",
-          .bytes = size.bytes + (strong ? size.bytes_of_checkpoint : 0.0),
-          .checkpoint_bytes = size.bytes_of_checkpoint,
-          .work_per_second = (strong ? s.coupling.samples : 1.0) * pseudo_steps_per_second(s),
-          .work = steps_expected(s) ? "pseudo-steps, one to an order of drop" : "pseudo-steps at most",
-          .core_seconds_per_work = size.core_seconds_per_pseudo_step,
-          .rate = fmt::format("{:.3g} us per cell, stated", 1e6 * size.core_seconds_per_pseudo_step / double(size.cells)),
-          .work_before = double(s.start.air_steps)};
+  const PseudoSteps steps = s.bodies.empty() ? expected_pseudo_steps(s) : coupled_pseudo_steps(s);
+  PartCost cost{.name = "air",
+                .count = double(size.cells),
+                .things = "cells",
+                .bytes = size.bytes + (strong ? size.bytes_of_checkpoint : 0.0),
+                .checkpoint_bytes = size.bytes_of_checkpoint,
+                .work_per_second = steps.per_second,
+                .work = steps.work,
+                .core_seconds_per_work = size.core_seconds_per_pseudo_step,
+                .rate = {},
+                .work_before = settling_steps(*s.aero.flow, s.start.air_steps)};
+  std::string source = "stated for a core of 50 GFLOP/s";
+  if (s.has_flow() && shortest_trial_s(s, size, steps) < longest_trial_s) {
+    if (const std::optional<FlowTrial> trial = try_flow(s)) {
+      cost.core_seconds_per_work = trial->step_s;
+      cost.work_before = trial->begin_s / trial->step_s;
+      if (s.aero.flow->time != "steady")
+        cost.work_per_second = trial->steps_per_window / s.time.window_s, cost.work = "pseudo-steps";
+      else if (s.aero.flow->drop > 0.0)
+        cost.work_per_second = std::min(trial->expected_windows, s.time.end_s / s.time.window_s) / s.time.end_s,
+        cost.work = trial->settled ? "pseudo-steps until it has settled" : "pseudo-steps until it has settled by its pace,";
+      source = fmt::format("measured now: {} pseudo-steps of this flow", trial->steps);
+    }
+  }
+  cost.rate = fmt::format("{:.3g} us per cell, {}", 1e6 * cost.core_seconds_per_work / double(size.cells), source);
+  return cost;
 }
 
 Forecast forecast_of_air(const coupling::Scenario& s) {
+  const double resident = resident_memory();  // before what a trial leaves behind
   PartCost cost;
   if (has_resolved_rotor(s)) {
     const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
-    cost = cost_of_air(setup, aero::resolved_rotor_size(setup), pseudo_steps_per_second(s), 0.0, 1, true);
+    cost = cost_of_air(setup, aero::resolved_rotor_size(setup), expected_pseudo_steps(s), 0.0, 1, true);
   } else {
     cost = cost_of_flow(s, aero::flow_grid(*s.aero.flow));
   }
-  Forecast f{.core_seconds = cost.core_seconds_per_work * cost.work_per_second * s.time.end_s,
-             .bytes = cost.bytes + cost.checkpoint_bytes + resident_memory() + output_bytes};
+  Forecast f{
+      .core_seconds = output_seconds + cost.core_seconds_per_work * (cost.work_before + cost.work_per_second * s.time.end_s),
+      .bytes = cost.bytes + cost.checkpoint_bytes + resident + output_bytes};
   f.columns = columns_of_air_alone();
   return f;
 }

@@ -27,9 +27,18 @@ StepCost measured_steps(coupling::FloatingSystem& floating, const coupling::Star
 /// Of a sea of particles as its census counts it.
 PartCost cost_of_particles(const coupling::FloatingSystem& floating, const sea::ParticleCensus& census, double steps_per_window);
 
-/// Of a resolved rotor with so many pseudo-steps at most per simulated second and before t = 0; notes: states kept.
-PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, double per_second, double before,
-                     int notes, bool calibrate);
+/// Pseudo-steps of a run of air, or of the air in one, and what is said of them.
+struct PseudoSteps {
+  double per_second = 0.0;  ///< simulated
+  std::string work;
+};
+PseudoSteps expected_pseudo_steps(const coupling::Scenario& scenario);
+/// The same of air with bodies, in all evaluations of a window.
+PseudoSteps coupled_pseudo_steps(const coupling::Scenario& scenario);
+
+/// Of a resolved rotor with these pseudo-steps, and so many before t = 0; notes: states kept.
+PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, const PseudoSteps& steps,
+                     double before, int notes, bool calibrate);
 
 /// Substeps of a window beside particles.
 double particle_steps(const coupling::FloatingSystem& floating, const sea::ParticleCensus& census);
@@ -47,15 +56,13 @@ void require_expected_columns(scene::Document& document, const coupling::OutputO
 Forecast forecast(coupling::FloatingSystem& floating, const coupling::Start& start);
 /// Air without bodies: a resolved rotor, or the flow on a grid.
 Forecast forecast_of_air(const coupling::Scenario& scenario);
-/// Of the flow on a grid that stands, whatever is in it.
+/// Of the flow on a grid that stands, whatever is in it; a flow alone on few cells is tried for its rate and its steps.
 PartCost cost_of_flow(const coupling::Scenario& scenario, const aero::MultiBlockGrid& grid);
-/// Pseudo-steps at most per simulated second, of which a steady flow takes one per window.
-double pseudo_steps_per_second(const coupling::Scenario& scenario);
 
 /// Of a run's history, log and the libraries that write them, beside what a check takes [bytes]; measured.
 inline constexpr double output_bytes = 4.5e6;
 /// Processor time of the same: folder, log, scene, summary, checkpoint [s].
-inline constexpr double output_seconds = 0.015;
+inline constexpr double output_seconds = 0.03;
 /// Memory of this process at its largest so far [bytes].
 double peak_memory();
 /// The same now: what was given back is not in it [bytes].

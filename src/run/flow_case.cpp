@@ -25,9 +25,6 @@ namespace spindrift::run {
 
 namespace {
 
-/// Pseudo-steps of a steady march from one call of advance() to the next: clock and disk are asked between them.
-constexpr int steady_chunk = 20;
-
 /// Drop of the flux balance that a coarser grid's flow must reach to be worth beginning with. Those that settle reach 5e-3 within
 /// 100 pseudo-steps; those that ran away end at .3 and more, and some of the finer marches never recover from them.
 constexpr double unsettled = 0.1;
@@ -95,11 +92,11 @@ void look_at_start(aero::FlowSolver& solver, runtime::Executor& march) {
 
 }  // namespace
 
-FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world) {
+FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world, int chunk) {
   const runtime::Span span("aero/start");
   const aero::FlowOptions& o = *s.aero.flow;
   if (has_resolved_rotor(s)) {
-    rotor_ = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, steady_chunk, nullptr,
+    rotor_ = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, chunk, nullptr,
                                                    coupling::grid_progress());
     store_ = &rotor_->store(), solver_ = &rotor_->solver();
     begin(o.start);
@@ -109,7 +106,7 @@ FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world) {
   aero::Tiling tiling = aero::flow_tiling(o, own_grid_);
   aero::require_ranks(std::size_t(tiling.size()), world.size);
   if (o.motion) follow_walls(o);
-  solve(std::move(tiling), s, world, steady_chunk);
+  solve(std::move(tiling), s, world, chunk);
 }
 
 FlowCase::FlowCase(aero::MultiBlockGrid grid, const coupling::Scenario& s, const runtime::World& world, int steps) {

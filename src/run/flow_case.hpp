@@ -19,8 +19,11 @@ namespace spindrift::run {
 
 class FlowCase {
  public:
+  /// Pseudo-steps of a steady march from one run of its graph to the next: clock and disk are asked between them.
+  static constexpr int steady_chunk = 20;
+
   /// Collective. Throws scene::SceneError where the grid does not suit the scene.
-  FlowCase(const coupling::Scenario& scenario, const runtime::World& world);
+  FlowCase(const coupling::Scenario& scenario, const runtime::World& world, int chunk = steady_chunk);
 
   aero::FlowSolver& solver() { return *solver_; }
   const aero::FlowSolver& solver() const { return *solver_; }

@@ -41,13 +41,13 @@ double density_drop(const aero::March& march) {
 }  // namespace
 
 FlowSimulation::FlowSimulation(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::World& world,
-                               std::size_t records)
+                               std::size_t records, int chunk)
     : scenario_(scenario),
       directory_(directory),
       world_(world),
       records_(records),
       timeline_(scenario.time.window_s, scenario.time.window_s, scenario.time.end_s),
-      air_(scenario, world),
+      air_(scenario, world, chunk),
       file_(air_.solver(), air_.store(), world) {
   spdlog::info("air: {} cells in {} tiles of {} blocks, {:.0f} bytes per cell", air_.solver().cells(),
                air_.store().tiling().size(), air_.blocks(),

@@ -17,9 +17,9 @@ namespace spindrift::run {
 
 class FlowSimulation final : public Simulation {
  public:
-  /// `records`: of the trace, per thread. All outlive it. Collective.
+  /// `records`: of the trace, per thread; `chunk`: pseudo-steps of a steady flow in an advance(). All outlive it. Collective.
   FlowSimulation(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::World& world,
-                 std::size_t records);
+                 std::size_t records, int chunk = FlowCase::steady_chunk);
 
   const coupling::Scenario& scenario() const override { return scenario_; }
   const coupling::Timeline& timeline() const override { return timeline_; }
@@ -40,6 +40,8 @@ class FlowSimulation final : public Simulation {
   std::vector<std::unique_ptr<Output>> outputs(const io::RunDirectory& directory, double resume_s) override;
 
   void summarise(io::Summary& summary, runtime::Ledger& ledger) override;
+
+  const aero::FlowSolver& solver() const { return air_.solver(); }
 
  private:
   bool begin_again(const std::string& why);

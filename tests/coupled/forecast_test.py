@@ -1,0 +1,67 @@
+"""What `check` predicts of a run, against the run: memory within 15 %; steps, evaluations and pseudo-steps, which the processor time goes with, within
+1.5 times; cells and particles exactly. Scenes of each kind: bodies, flow in the plane (steady, in physical steps) and in space, particles in the plane and in
+space. No clock is asked.
+SPDX-License-Identifier: Apache-2.0"""
+import csv
+import json
+import re
+import unittest
+
+from running import ROOT, Folder, spindrift
+
+# Scene, overrides, end of the run [s].
+SCENES = {
+    "bodies": ("inputs/leble_barakos/case3_engineering.toml", [], 10.0),
+    "a steady flow that is tried until it has settled": ("inputs/validation/cylinder_low_mach/cylinder.toml", [], 200.0),
+    "a steady flow of which the first steps are tried": ("inputs/tutorials/wing_section.toml", [], 400.0),
+    "physical steps of a flow in the plane": ("inputs/validation/cylinder_re100/cylinder.toml", [], 0.06),
+    "physical steps of a flow in space": ("inputs/validation/taylor_green/taylor_green.toml", [], 0.0088),
+    "particles in the plane": ("inputs/validation/wave_tank/small_tank.toml", [], 0.25),
+    "particles in space, most walls dry": ("inputs/validation/dam_break/obstacle.toml", [], 0.04),
+}
+
+
+class Forecasts(Folder):
+    def test_memory_and_counts_are_those_of_the_run(self):
+        for name, (scene, more, end) in SCENES.items():
+            with self.subTest(name):
+                said = spindrift("check", ROOT / scene, settings=more)
+                self.assertEqual(said.returncode, 0, said.stderr)
+                done = spindrift("run", ROOT / scene, "--out", self.out, "--overwrite", "--no-report", "--quiet", "--until", end, settings=more)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                summary = json.loads((self.out / "summary.json").read_text())
+                self.memory(said.stdout, summary["peak_memory_bytes"])
+                counts = summary["counts"]
+                if "cells" in counts:
+                    self.pseudo_steps(said.stdout, counts, end)
+                elif "particles" in counts:
+                    self.particles(said.stdout, counts, end)
+                else:
+                    each = int(re.search(r"windows of \S+ s, (\d+) steps? each", said.stdout).group(1))
+                    self.assertEqual(counts["steps"], each * counts["windows"])
+
+    def memory(self, said, measured):
+        number, unit = re.search(r"^  memory +(\S+) (MB|GB)", said, re.M).groups()
+        self.assertLess(abs(float(number) * {"MB": 1e6, "GB": 1e9}[unit] / measured - 1.0), 0.15, f"{number} {unit}, measured {measured:.4g}")
+
+    def within(self, predicted, measured):
+        self.assertLess(predicted, 1.5 * measured)
+        self.assertGreater(predicted, measured / 1.5)
+
+    def pseudo_steps(self, said, counts, end):
+        self.assertEqual(int(re.search(r"^  air +(\d+) cells", said, re.M).group(1)), counts["cells"])
+        number, each_second = re.search(r"(\S+) pseudo-steps.*?( per simulated second)? of \S+ core-s each", said).groups()
+        with open(self.out / "history.csv", encoding="utf-8") as file:
+            steps = [float(row["flow.pseudo_steps"]) for row in csv.DictReader(file)]
+        if each_second:
+            self.within(float(number) * end, sum(steps[1:]) / len(steps[1:]) * counts["windows"])
+        else:
+            self.within(float(number), len(steps))
+
+    def particles(self, said, counts, end):
+        self.assertEqual(int(re.search(r"^  particles +(\d+) \(", said, re.M).group(1)), counts["particles"])
+        self.within(float(re.search(r"(\S+) evaluations of all per simulated second", said).group(1)) * end, counts["particle_evaluations"])
+
+
+if __name__ == "__main__":
+    unittest.main()
