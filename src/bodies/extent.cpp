@@ -26,6 +26,34 @@ double extent(const BodyOptions& body) {
   return box.isEmpty() ? 0.0 : 0.5 * box.diagonal().norm();
 }
 
+Reach reach(const BodyOptions& body, const Motion& now) {
+  Reach result;
+  const auto take = [&](const Eigen::Vector3d& point, double radius) {
+    const double z = (now.position + now.attitude * point).z();
+    result.low = result.any ? std::min(result.low, z - radius) : z - radius;
+    result.high = result.any ? std::max(result.high, z + radius) : z + radius;
+    result.any = true;
+  };
+  for (const CylinderOptions& c : body.cylinders) {
+    const Cylinder shape = make_cylinder(c, body);
+    const Eigen::Vector3d axis = now.attitude * shape.axis();
+    const double lean = std::sqrt(std::max(0.0, 1.0 - axis.z() * axis.z()));  // ends are discs
+    take(shape.start, shape.start_radius * lean), take(shape.end, shape.end_radius * lean);
+  }
+  for (const BoxOptions& b : body.boxes) {
+    const Box shape = make_box(b, body);
+    for (int corner = 0; corner < 8; ++corner)
+      take(shape.centre +
+               0.5 * Eigen::Vector3d(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1).cwiseProduct(shape.size),
+           0.0);
+  }
+  for (const SphereOptions& s : body.spheres) {
+    const Sphere shape = make_sphere(s, body);
+    take(shape.centre, shape.radius);
+  }
+  return result;
+}
+
 double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, const NamedBeams& beams, double gravity) {
   std::set<std::string> held;
   for (const auto& joint : joints) held.insert(joint.options.bodies.begin(), joint.options.bodies.end());

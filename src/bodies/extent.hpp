@@ -14,6 +14,13 @@ Eigen::AlignedBox3d bounds(const BodyOptions& body);
 /// Half of the diagonal of `bounds` [m]; 0 where there are none.
 double extent(const BodyOptions& body);
 
+/// Lowest and highest point of the body's shapes where it is now [m]; whether it has any.
+struct Reach {
+  double low = 0.0, high = 0.0;
+  bool any = false;
+};
+Reach reach(const BodyOptions& body, const Motion& now);
+
 /// A bound of the speed at which shapes meet still water at z = 0 [m/s]: their speed at the start, and what a fall from above
 /// the water adds to it where no joint or beam holds the body; the speed of joints that drive a body from the earth.
 double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, const NamedBeams& beams, double gravity);

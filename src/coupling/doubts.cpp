@@ -28,40 +28,6 @@ double weight(const FloatingSystem& floating) {
   return mass * std::abs(floating.scenario().environment.gravity_m_s2);
 }
 
-/// Deepest point of the body's shapes below still water where it starts, its highest and, of shapes, whether it has any.
-struct Reach {
-  double low = 0.0, high = 0.0;
-  bool any = false;
-};
-
-Reach reach(const bodies::BodyOptions& body, const Motion& now) {
-  Reach result;
-  const auto take = [&](const Eigen::Vector3d& point, double radius) {
-    const double z = (now.position + now.attitude * point).z();
-    result.low = result.any ? std::min(result.low, z - radius) : z - radius;
-    result.high = result.any ? std::max(result.high, z + radius) : z + radius;
-    result.any = true;
-  };
-  for (const bodies::CylinderOptions& c : body.cylinders) {
-    const Cylinder shape = make_cylinder(c, body);
-    const Eigen::Vector3d axis = now.attitude * shape.axis();
-    const double lean = std::sqrt(std::max(0.0, 1.0 - axis.z() * axis.z()));  // ends are discs
-    take(shape.start, shape.start_radius * lean), take(shape.end, shape.end_radius * lean);
-  }
-  for (const bodies::BoxOptions& b : body.boxes) {
-    const Box shape = make_box(b, body);
-    for (int corner = 0; corner < 8; ++corner)
-      take(shape.centre +
-               0.5 * Eigen::Vector3d(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1).cwiseProduct(shape.size),
-           0.0);
-  }
-  for (const bodies::SphereOptions& s : body.spheres) {
-    const Sphere shape = make_sphere(s, body);
-    take(shape.centre, shape.radius);
-  }
-  return result;
-}
-
 double volume(const bodies::BodyOptions& body) {
   double sum = 0.0;
   for (const bodies::CylinderOptions& c : body.cylinders) sum += make_cylinder(c, body).volume();
@@ -79,7 +45,7 @@ double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, std
   std::string first;
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const auto& [name, body] = s.bodies[b];
-    const Reach r = reach(body, motions[b]);
+    const bodies::Reach r = bodies::reach(body, motions[b]);
     if (!r.any) continue;
     if (r.low < -s.environment.water_depth_m - 1e-6)
       doubts.push_back({"bodies." + name, fmt::format("reaches down to z = {:.4g} m", r.low),

@@ -17,6 +17,18 @@ namespace {
   throw scene::SceneError({{floating.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
 }
 
+/// A start that the joints do not allow: a spin across a hinge, a speed without the turning that belongs to it.
+void require_kept(const FloatingSystem& floating, std::string key, const Eigen::Vector3d& given, const Eigen::Vector3d& found) {
+  constexpr double relative = 1e-3;  // what is written with four digits
+  if ((found - given).norm() <= relative * given.norm() || given.isZero(0.0)) return;
+  const auto words = [](const Eigen::Vector3d& v) { return fmt::format("[{:.5g}, {:.5g}, {:.5g}]", v.x(), v.y(), v.z()); };
+  refuse(
+      floating, std::move(key), words(given),
+      fmt::format("is not possible with the joints of this body, which leave {} of it: give all bodies that they tie velocities "
+                  "and spins that go together, or leave it out",
+                  words(found)));
+}
+
 /// Moves the bodies from where the scene describes them to how they start, as far as their joints allow.
 void move_to_start(FloatingSystem& floating, bodies::BodiesState& state) {
   const bodies::NamedBodies& bodies = floating.scenario().bodies;
@@ -32,6 +44,11 @@ void move_to_start(FloatingSystem& floating, bodies::BodiesState& state) {
   const bodies::Assembly assembly = floating.multibody().assemble_from(state, 0.0);
   if (!assembly.contradiction.empty()) refuse(floating, "bodies", "", "with these displacements: " + assembly.contradiction);
   state = assembly.state;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto& [name, o] = bodies[b];
+    require_kept(floating, "bodies." + name + ".velocity_m_s", o.velocity_m_s, state.motions[b].velocity);
+    require_kept(floating, "bodies." + name + ".omega_rad_s", o.omega_rad_s, state.motions[b].omega_earth());
+  }
 }
 
 Start start_without_memory(FloatingSystem& floating) {

@@ -80,7 +80,8 @@ def main():
         for case in TABLE[part]["cases"]:
             how, said, wrong = ended(case)
             wrong = wrong or ("" if how == case["ends"] else f"ends {how}, should be {case['ends']}")
-            wrong = wrong or ("" if NAMED[part] in said else f"does not say {NAMED[part]}")
+            named = case.get("named", NAMED[part])
+            wrong = wrong or ("" if named in said else f"does not say {named}")
             faults += bool(wrong)
             if "--table" in sys.argv or wrong:
                 print(f"| {case['what']} | {how}: {said}{' **' + wrong + '**' if wrong else ''} |", flush=True)

@@ -50,6 +50,29 @@ TEST_CASE("a displaced start is the described position moved and turned about th
   CHECK(start.state.motions[0].velocity.x() == Approx(0.1));
 }
 
+TEST_CASE("a spin that a hinge does not allow is refused by name, one about it takes the body along", "[coupling][fast]") {
+  const std::string door = R"(
+[time]
+end_s = 1.0
+window_s = 0.1
+[bodies.door]
+mass_kg = 10.0
+inertia_kg_m2 = [1.0, 1.0, 1.0]
+centre_m = [1.0, 0.0, 0.0]
+[joints.hinge]
+bodies = ["earth", "door"]
+point_m = [0.0, 0.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+)";
+  FloatingSystem about(test::scenario(door, {"bodies.door.omega_rad_s=[0.0,0.0,2.0]"}));
+  CHECK(make_start(about).state.motions[0].velocity.y() == Approx(2.0));
+  FloatingSystem across(test::scenario(door, {"bodies.door.omega_rad_s=[1.0,0.0,2.0]"}));
+  CHECK_THROWS_WITH(make_start(across),
+                    Contains("bodies.door.omega_rad_s") && Contains("[1, 0, 2]") && Contains("leave [0, 0, 2]"));
+  FloatingSystem along(test::scenario(door, {"bodies.door.velocity_m_s=[0.5,0.0,0.0]"}));
+  CHECK_THROWS_WITH(make_start(along), Contains("bodies.door.velocity_m_s"));
+}
+
 TEST_CASE("a step above the limit of the integrator is refused with limit and mode", "[coupling][fast]") {
   // Heave of the moored buoy: omega^2 = (31416 + 10000) / 6283; symplectic limit 2 / omega.
   const double limit = 2.0 / std::sqrt((31415.926535897932 + 1e4) / 6283.185307179586);

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/out_of_place.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/bodies/extent.hpp"
+
+namespace spindrift::coupling {
+
+std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, const bodies::BodiesState& state,
+                                             double rotor_radius_m) {
+  const Scenario& s = floating.scenario();
+  if (!s.has_sea() || s.has_particles()) return {};
+  const double t = double(state.tick) * floating.timeline().tick_s(), bed = -s.environment.water_depth_m;
+  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+    const auto& [name, body] = s.bodies[b];
+    const bodies::Reach r = bodies::reach(body, state.motions[b]);
+    const double most = 0.1 * bodies::extent(body);
+    if (r.any && bed - r.low > most)
+      return NumericalFailure(
+          fmt::format("t = {:.4g} s: body {} is {:.4g} m deep in the bed at z = {:.4g} m, the limit is {:.3g} m, a "
+                      "tenth of its size: the bed carries no bodies; look at its weight, its shapes, its "
+                      "lines and environment.water_depth_m",
+                      t, name, bed - r.low, bed, most),
+          "bodies." + name, long(state.tick), t, most);
+  }
+  if (!floating.rotor()) return {};
+  const aero::RotorState now = floating.rotor()->state(t, state.motions);
+  const double low = now.hub.z() - rotor_radius_m * std::sqrt(std::max(0.0, 1.0 - now.axis.z() * now.axis.z()));
+  const double surface = floating.sea() ? floating.sea()->elevation(now.hub.x(), now.hub.y(), t) : 0.0;
+  if (low < surface)
+    return NumericalFailure(
+        fmt::format("t = {:.4g} s: the rotor reaches {:.4g} m into the water: its hub is at z = {:.4g} m, the "
+                    "surface there at {:.4g} m; look at the hub's height and at what holds the machine up",
+                    t, surface - low, now.hub.z(), surface),
+        "rotor", long(state.tick), t, 0.0);
+  return {};
+}
+
+}  // namespace spindrift::coupling

@@ -1,0 +1,17 @@
+// Bodies and rotors that have come to where no model of the scene holds. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "kernels/base/failure.hpp"
+#include "src/coupling/floating_system.hpp"
+
+namespace spindrift::coupling {
+
+/// What is out of place at the state's time, beside a sea without particles: a body in the bed, which carries nothing, by more
+/// than a tenth of its size; a rotor in the water, whose blades know air alone. Tested in
+/// tests/src/coupling/out_of_place_test.cpp.
+std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, const bodies::BodiesState& state,
+                                             double rotor_radius_m);
+
+}  // namespace spindrift::coupling
