@@ -22,6 +22,10 @@ struct RotorAtStart {
   std::optional<ReynoldsReach> reynolds{};
 };
 
+struct ControlOptions;
+/// Of the machine's events.
+scene::Doubts control_doubts(const ControlOptions& control);
+
 /// A body that turns with the rotor, against the bearing and the blades that it carries.
 struct RotorBody {
   std::string key;                ///< "bodies.rotor"

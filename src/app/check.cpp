@@ -151,7 +151,8 @@ void print_blade_modes(const FloatingSystem& floating) {
 }
 
 void print_modes(const FloatingSystem& floating, const bodies::Linearisation& linearisation) {
-  fmt::print("\nModes about the start\n");
+  fmt::print("\nModes about the start{}\n",
+             floating.scenario().is_controlled() ? " (rotor speed and blade pitch held: what control adds is not in them)" : "");
   std::size_t free = 0;
   for (const bodies::Mode& mode : linearisation.modes)
     if (mode.eigenvalue == 0.0)

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "src/aero/doubts.hpp"
+#include "src/aero/operation.hpp"
 #include "src/aero/turbine_doubts.hpp"
 #include "src/bodies/doubts.hpp"
 #include "src/bodies/extent.hpp"
@@ -140,6 +141,33 @@ void doubt_modes(scene::Doubts& doubts, const FloatingSystem& floating, const St
       doubts.push_back({"bodies", fmt::format("{} leaves the start by itself, doubling in {:.3g} s", mode.name, doubling),
                         "a start that is stable", what_holds(mode.name)});
   }
+}
+
+/// Where the operating table's power first is its largest [m/s]; 0 without a table or its power.
+double rated_wind(const aero::RotorOptions& rotor) {
+  if (rotor.operation.empty()) return 0.0;
+  const aero::Operation table = aero::read_operation(rotor.operation);
+  if (table.power.empty()) return 0.0;
+  constexpr double near_rated = 0.99;
+  const auto rated = std::ranges::find_if(
+      table.power, [most = std::ranges::max(table.power)](double power) { return power >= near_rated * most; });
+  return table.wind[std::size_t(rated - table.power.begin())];
+}
+
+/// Gains of a fixed foundation above rated wind, on a machine that pitches more slowly than they answer (Larsen & Hanson 2007, J.
+/// Phys.: Conf. Ser. 75, 012073). The modes, whose rotor keeps speed and pitch, do not show it.
+void doubt_tuning(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
+  const Scenario& s = floating.scenario();
+  if (s.control.model != aero::ControlModel::dtu || s.control.tuning != aero::Tuning::fixed_foundation) return;
+  if (s.wind.speed_m_s < rated_wind(s.rotor)) return;
+  constexpr double fast_s = 12.0;  // the gains answer within some 10 to 17 s
+  for (const bodies::Mode& mode : stability.linearisation.modes)
+    if (mode.name == "pitch of " + s.rotor.body && mode.eigenvalue.imag() > 0.0 && mode.period_s() > fast_s)
+      doubts.push_back(
+          {"control.tuning",
+           fmt::format("gains of a fixed foundation on {}, which pitches in {:.3g} s", s.rotor.body, mode.period_s()),
+           fmt::format("\"floating\" where that takes longer than about {:g} s", fast_s),
+           "above rated wind such gains take the air's damping away: the machine pitches ever more"});
 }
 
 /// A motion that a flexible beam takes part in, and that the blades meet once or three times a turn.
@@ -344,6 +372,7 @@ void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const St
                         "look at its unit: N, not kN"});
   }
   append(doubts, rotor_doubts(s.aero, s.rotor, s.wind, s.environment.air_density_kg_m3, rotor));
+  append(doubts, control_doubts(s.control));
   doubt_rotor_body(doubts, s, rotor);
   doubt_turn(doubts, s, rotor.speed);
   doubt_cells(doubts, s, rotor.radius);
@@ -406,6 +435,7 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   if (start.state.motions.empty()) return all;
   doubt_acceleration(all, floating, start);
   doubt_modes(all, floating, stability);
+  doubt_tuning(all, floating, stability);
   doubt_statics(all, floating, start);
   doubt_resonance(all, floating, start, stability);
   doubt_length(all, floating, stability);

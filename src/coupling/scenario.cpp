@@ -270,14 +270,15 @@ Scenario read_scenario(scene::Document& document) {
       s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
       "aero.model = \"" + s.aero.model + "\" does not look at the wind; thrust_curve, bem and resolved air do");
   if (!s.wind.steady() && s.resolves_air())
-    document.problem("wind", "must be steady beside a resolved rotor: leave out table, event and turbulence");
+    document.problem("wind", "must be steady in resolved air: leave out table, event and turbulence");
   try {
     s.wind.speed_m_s = aero::starting_speed(s.wind);
   } catch (const scene::SceneError& e) {
     document.problem(s.wind.table.empty() ? "wind.turbulence.file" : "wind.table", e.what());
   }
-  s.control = document.read_where(s.has_rotor() && !s.resolves_air(), aero::control_section(),
-                                  s.resolves_air() ? "a resolved rotor turns as its bearing does" : "aero.model is none");
+  s.control = document.read_where(
+      s.has_rotor() && !s.resolves_air(), aero::control_section(),
+      s.resolves_air() ? "a rotor in resolved air turns as rotor.speed_rpm or its bearing has it" : "aero.model is none");
   take_from_turbine(document, s);
   s.sea = document.read(sea::sea_section());
   s.waves = document.read_where(s.sea.model == "morison" || s.sea.model == "potential" || s.has_particles(), sea::waves_section(),

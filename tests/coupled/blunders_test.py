@@ -13,7 +13,7 @@ SCENES = {"case1": "leble_barakos/case1_engineering.toml", "case2": "leble_barak
           "case3": "leble_barakos/case3_engineering.toml", "case1_demo": "leble_barakos/case1_demo.toml",
           "oc3": "validation/oc3_heave_decay/oc3_heave_decay.toml", "own": "tutorials/own_turbine.toml", "gust": "tutorials/gust.toml",
           "floatbox": "validation/floating_box/floating_box.toml", "tank": "validation/wave_tank/small_tank.toml", "sphere": "validation/free_sphere/free_sphere.toml",
-          "case3_demo": "leble_barakos/case3_demo.toml", "ftower": "leble_barakos/flexible_tower.toml", "pendulum": "tutorials/pendulum.toml",
+          "controlled": "leble_barakos/case3_controlled.toml", "case3_demo": "leble_barakos/case3_demo.toml", "ftower": "leble_barakos/flexible_tower.toml", "pendulum": "tutorials/pendulum.toml",
           "naca": "validation/naca0012/family.toml", "re100": "validation/cylinder_re100/cylinder.toml", "section": "tutorials/wing_section.toml",
           "pitching": "validation/pitching_naca0012/pitching.toml", "rotor_demo": "leble_barakos/rotor_demo.toml", "disc": "validation/actuator/disc.toml",
           "linescene": "validation/actuator/line.toml"}

@@ -80,6 +80,33 @@ TEST_CASE("a turbine starts up from rest, makes its power and shuts down again",
   CHECK(std::abs(rpm[at(349.0)]) < 2.0);
 }
 
+TEST_CASE("above rated wind gains of a fixed foundation make a slow pitch grow, those of floaters let it die",
+          "[coupled][fast]") {
+  // The turbine on a hinge with a weight below it: it pitches in 35 s, and rests at 7.5 degrees in 18 m/s. The hinge is 0.5
+  // degrees off.
+  const bool floating = GENERATE(false, true);
+  const Folder folder("tuning");
+  REQUIRE(run_scene(scene_file,
+                    {"bodies.turbine.mass_kg=8e6", "bodies.turbine.inertia_kg_m2=[2e10, 2e10, 2e8]",
+                     "bodies.turbine.centre_m=[0.0, 0.0, -8.2]", "bodies.turbine.rotation_deg=[0.0, 8.0, 0.0]",
+                     "bodies.turbine.reference_m=[0.0, 0.0, 0.0]", "joints.foundation.type='revolute'",
+                     "joints.foundation.axis=[0.0, 1.0, 0.0]", "wind.speed_m_s=18.0", "time.step_s=0.1", "time.end_s=160.0",
+                     floating ? "control.tuning='floating'" : "control.tuning='fixed_foundation'"},
+                    folder.path())
+              .exit_code == 0);
+  const scene::Columns history = history_of(folder);
+  const auto swing = [&](double from, double to) {  // over one period, highest less lowest
+    double low = 1e9, high = -1e9;
+    for (std::size_t i = 0; i < history["time_s"].size(); ++i)
+      if (history["time_s"][i] >= from && history["time_s"][i] < to)
+        low = std::min(low, history["turbine.pitch_deg"][i]), high = std::max(high, history["turbine.pitch_deg"][i]);
+    return high - low;
+  };
+  const double growth = swing(120.0, 160.0) / swing(20.0, 60.0);
+  CAPTURE(floating, swing(20.0, 60.0), swing(120.0, 160.0));
+  CHECK((floating ? growth < 0.7 : growth > 1.5));
+}
+
 TEST_CASE("a controlled run broken off and continued is the unbroken run, bit for bit", "[coupled][fast]") {
   const Folder folder("control_restart");
   const std::vector<std::string> overrides{"time.end_s=20.0", "wind.speed_m_s=13.0",

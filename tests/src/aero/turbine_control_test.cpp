@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "src/aero/doubts.hpp"
 #include "src/scene/document.hpp"
 #include "tests/order.hpp"
 
@@ -38,6 +39,18 @@ TEST_CASE("the shaft obeys Newton: torque in less torque out is inertia times ac
     CHECK(control.inertia() * (s.speed - before) / 0.05 == Approx(torque - s.shaft_torque).epsilon(1e-9));
     before = s.speed;
   }
+}
+
+TEST_CASE("an emergency stop without a brake is doubted by its place in the list, one with a brake is not", "[aero][fast]") {
+  ControlOptions control{
+      .model = ControlModel::library,
+      .events = {{.what = ControlEvent::grid_loss, .time_s = 1.0}, {.what = ControlEvent::emergency_stop, .time_s = 2.0}}};
+  control.drive_train = DriveTrainOptions{.rotor_inertia_kg_m2 = 1e7};
+  const scene::Doubts doubts = control_doubts(control);
+  REQUIRE(doubts.size() == 1);
+  CHECK(doubts[0].key == "control.events[1]");
+  control.drive_train->brake_torque_N_m = 1e6;
+  CHECK(control_doubts(control).empty());
 }
 
 TEST_CASE("after a loss of grid the generator is off, the blades feather at their largest rate", "[aero][fast]") {
