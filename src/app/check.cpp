@@ -342,12 +342,13 @@ void print_first_cells(const coupling::Scenario& s, const aero::MultiBlockGrid& 
 namespace {
 
 /// What could be left out, with its price in the columns asked for.
-void print_omissions(const coupling::Scenario& scenario, const std::vector<std::string>& columns) {
+void print_omissions(const CheckArguments& arguments, const coupling::Scenario& scenario) {
+  const std::vector<std::string>& columns = arguments.columns;
   if (scenario.has_particles() || scenario.resolves_air() || scenario.bodies.empty()) {
     fmt::print("\nWhat could be left out: not tried, a trial takes more than a moment; spindrift study does\n");
     return;
   }
-  const Trial trial = try_omissions(scenario, columns);
+  const Trial trial = try_omissions(arguments.scene, arguments.overrides, columns);
   fmt::print("\nWhat could be left out (tried over {:g} s; change of mean and deviation over their last two thirds)\n",
              trial.length_s);
   for (std::size_t c = 0; c < columns.size(); ++c)
@@ -358,7 +359,12 @@ void print_omissions(const coupling::Scenario& scenario, const std::vector<std::
       fmt::print("  {:<28}cannot be: {}\n", o.name, o.refused);
       continue;
     }
-    fmt::print("  {:<28}saves {:.0f} % ({})\n", o.name, 100.0 * o.saving, o.keys);
+    fmt::print("  {:<28}saves {:.0f} %, by", o.name, 100.0 * o.saving);
+    for (const std::string& text : o.overrides) {
+      const char* quote = text.find('"') == std::string::npos ? "" : "'";
+      fmt::print(" --set {0}{1}{0}", quote, text);
+    }
+    fmt::print("\n");
     for (std::size_t c = 0; c < columns.size(); ++c)
       fmt::print("  {:<28}{}: mean {:+.2g}, deviation {:+.2g}\n", "", columns[c], o.effects[c].mean, o.effects[c].deviation);
   }
@@ -444,7 +450,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   else
     print_steps(floating, start, start_s);
   if (!parts.empty()) print_cost(parts, floating.scenario().time.end_s, world.size, base);
-  if (!arguments.columns.empty()) print_omissions(asked, arguments.columns);
+  if (!arguments.columns.empty()) print_omissions(arguments, asked);
   return done;
 }
 

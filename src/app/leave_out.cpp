@@ -8,10 +8,13 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <initializer_list>
+#include <limits>
+#include <memory>
 
 #include "src/aero/turbine.hpp"
 #include "src/app/forecast.hpp"
+#include "src/app/scene_file.hpp"
 #include "src/coupling/limits.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/timeline.hpp"
@@ -25,86 +28,111 @@ namespace spindrift::app {
 namespace {
 
 using coupling::Scenario;
+using Overrides = std::vector<std::string>;
 
 constexpr double most_core_seconds = 0.4;  // of one trial
 
-/// A smaller choice: changes the scenario and says how, or leaves it where it has nothing to offer.
+/// A smaller choice: the overrides that make it, none where the scene leaves nothing to choose. `own` is what the document says.
 struct Choice {
   const char* name;
-  std::function<std::optional<std::string>(Scenario&)> make;
+  std::function<Overrides(const Scenario& own, const scene::Document& document)> overrides;
 };
+
+/// Those of these keys that the scene gives, as one override that takes them away; nothing where it gives none.
+Overrides without(const scene::Document& document, std::initializer_list<const char*> keys) {
+  std::string list;
+  for (const char* key : keys)
+    if (document.given(key)) list += fmt::format("{}\"{}\"", list.empty() ? "" : ",", key);
+  if (list.empty()) return {};
+  return {"without=[" + list + "]"};
+}
+
+Overrides operator+(Overrides a, const Overrides& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
 
 const std::vector<Choice>& choices() {
   static const std::vector<Choice> all{
       {"longer step",
-       [](Scenario& s) -> std::optional<std::string> {
+       [](const Scenario& s, const scene::Document&) -> Overrides {
          const std::int64_t steps = coupling::whole_ratio(s.time.window_s, s.time.step()).value_or(1);
          const std::int64_t windows = coupling::whole_ratio(s.time.end_s, s.time.window_s).value_or(1);
-         if (steps > 1) {
-           s.time.step_s = s.time.window_s / double((steps + 1) / 2);
-           return fmt::format("time.step_s = {:.12g}", *s.time.step_s);
-         }
-         s.time.window_s *= 2.0, s.time.step_s = s.time.window_s, s.time.end_s = s.time.window_s * double((windows + 1) / 2);
-         return fmt::format("time.step_s = {0:g}, time.window_s = {0:g}", s.time.window_s);
+         if (steps > 1) return {fmt::format("time.step_s={}", s.time.window_s / double((steps + 1) / 2))};
+         const double window = 2.0 * s.time.window_s;
+         return {fmt::format("time.window_s={}", window), fmt::format("time.step_s={}", window),
+                 fmt::format("time.end_s={}", window * double((windows + 1) / 2))};
        }},
       {"rows half as often",
-       [](Scenario& s) -> std::optional<std::string> {
-         s.output.history_every *= 2;
-         return fmt::format("output.history_every = {}", s.output.history_every);
+       [](const Scenario& s, const scene::Document&) -> Overrides {
+         return {fmt::format("output.history_every={}", 2 * s.output.history_every)};
        }},
       {"still water",
-       [](Scenario& s) -> std::optional<std::string> {
-         if (!s.has_waves()) return std::nullopt;
-         s.waves = {};
-         return "without = [\"waves\"]";
+       [](const Scenario& s, const scene::Document& document) -> Overrides {
+         return s.has_waves() ? without(document, {"waves"}) : Overrides{};
        }},
       {"strips twice as long",
-       [](Scenario& s) -> std::optional<std::string> {
-         if (s.sea.model != "morison") return std::nullopt;
-         s.sea.strip_length_m *= 2.0;
-         return fmt::format("sea.strip_length_m = {:g}", s.sea.strip_length_m);
+       [](const Scenario& s, const scene::Document&) -> Overrides {
+         if (s.sea.model != "morison") return {};
+         return {fmt::format("sea.strip_length_m={}", 2.0 * s.sea.strip_length_m)};
        }},
       {"buoyancy without strips",
-       [](Scenario& s) -> std::optional<std::string> {
-         if (s.sea.model != "morison") return std::nullopt;
-         s.sea.model = "hydrostatic", s.waves = {}, s.sea.coefficients.clear();
-         return "sea.model = \"hydrostatic\", without [waves] and the coefficients of strips in [sea]";
+       [](const Scenario& s, const scene::Document& document) -> Overrides {
+         if (s.sea.model != "morison") return {};
+         return without(document, {"waves", "sea.drag_coefficient", "sea.added_mass_coefficient", "sea.axial_drag_coefficient",
+                                   "sea.axial_added_mass_coefficient", "sea.strip_length_m", "sea.current_m_s",
+                                   "sea.current_profile", "sea.coefficients"}) +
+                Overrides{"sea.model=hydrostatic"};
        }},
       {"first-order waves",
-       [](Scenario& s) -> std::optional<std::string> {
-         if (!s.has_waves() || !sea::wave_models().named(s.waves.model).nonlinear) return std::nullopt;
-         s.waves.model = "airy";
-         return "waves.model = \"airy\"";
+       [](const Scenario& s, const scene::Document&) -> Overrides {
+         if (!s.has_waves() || !sea::wave_models().named(s.waves.model).nonlinear) return {};
+         return {"waves.model=airy"};
        }},
       {"half the wave components",
-       [](Scenario& s) -> std::optional<std::string> {
+       [](const Scenario& s, const scene::Document&) -> Overrides {
          if (!s.has_waves() || sea::wave_models().named(s.waves.model).regular || s.waves.components < 20 ||
              !s.waves.file.empty())
-           return std::nullopt;
-         s.waves.components /= 2;
-         return fmt::format("waves.components = {}", s.waves.components);
+           return {};
+         return {fmt::format("waves.components={}", s.waves.components / 2)};
        }},
       {"thrust curve for blades",
-       [](Scenario& s) -> std::optional<std::string> {
-         if (s.aero.model != "bem" || s.rotor.operation.empty()) return std::nullopt;
-         s.aero.model = "thrust_curve", s.aero.curve = s.rotor.operation;
-         s.rotor.diameter_m = 2.0 * aero::read_turbine(s.rotor.turbine).planform.span.back();
-         return fmt::format("aero.model = \"thrust_curve\", aero.curve = \"{}\", rotor.diameter_m = {:g}", s.rotor.operation,
-                            *s.rotor.diameter_m);
+       [](const Scenario& s, const scene::Document& document) -> Overrides {
+         if (s.aero.model != "bem" || s.rotor.operation.empty()) return {};
+         return without(document, {"aero.induction", "aero.dynamic_inflow", "aero.inflow_time_s", "aero.dynamic_stall",
+                                   "aero.speed_of_sound_m_s", "aero.kinematic_viscosity_m2_s", "rotor.blade_structure"}) +
+                Overrides{"aero.model=thrust_curve", fmt::format("aero.curve=\"{}\"", s.rotor.operation),
+                          fmt::format("rotor.diameter_m={}", 2.0 * aero::read_turbine(s.rotor.turbine).planform.span.back())};
        }},
       {"no gyroscopic moments",
-       [](Scenario& s) -> std::optional<std::string> {
-         bool any = false;
-         for (auto& body : s.bodies) any = any || body.options.gyroscopic, body.options.gyroscopic = false;
-         return any ? std::optional<std::string>("bodies.NAME.gyroscopic = false") : std::nullopt;
+       [](const Scenario& s, const scene::Document&) -> Overrides {
+         Overrides all_bodies;
+         for (const auto& body : s.bodies)
+           if (body.options.gyroscopic) all_bodies.push_back(fmt::format("bodies.{}.gyroscopic=false", body.name));
+         return all_bodies;
        }},
   };
   return all;
 }
 
-struct Outcome {
-  std::vector<Effect> columns;
-  double core_seconds = 0.0;
+/// A scene made ready to run, and what a trial of it showed.
+class Tried {
+ public:
+  explicit Tried(Scenario scenario) : floating_(std::move(scenario)), start_(make_start(floating_)) {
+    require_limits(floating_, start_.state, stability(floating_, start_.state));
+  }
+  /// Mean and deviation of these columns in a run of this length, rows and all; its end is where steps are timed.
+  std::vector<Effect> run(double length_s, const std::vector<std::string>& columns);
+  /// Of the whole run from here on, by the least times of a step and of a row; what others on the computer do only adds to those.
+  double core_seconds() {
+    least_ = std::min(least_, measured_steps(floating_, start_).core_seconds());
+    return least_;
+  }
+
+ private:
+  coupling::FloatingSystem floating_;
+  coupling::Start start_;
+  double least_ = std::numeric_limits<double>::infinity();
 };
 
 /// Mean and deviation over the last two thirds, trapezoidal.
@@ -120,16 +148,11 @@ Effect of_column(std::span<const double> t, std::span<const double> x) {
   return {mean, std::sqrt(std::max(0.0, second / length - mean * mean))};
 }
 
-/// The scene for `length_s`, rows and all.
-Outcome run(Scenario scenario, double length_s, const std::vector<std::string>& columns) {
-  coupling::FloatingSystem floating(std::move(scenario));
-  const coupling::Start start = make_start(floating);
-  require_limits(floating, start.state, stability(floating, start.state));
+std::vector<Effect> Tried::run(double length_s, const std::vector<std::string>& columns) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() / fmt::format("spindrift_trial_{}.csv", ::getpid());
-  Outcome outcome;
   {
     io::History history;
-    coupling::Recorder recorder(floating, history);
+    coupling::Recorder recorder(floating_, history);
     std::vector<std::string> known;
     for (const io::Column& column : history.columns()) known.push_back(column.name);
     for (const std::string& column : columns)
@@ -139,61 +162,57 @@ Outcome run(Scenario scenario, double length_s, const std::vector<std::string>& 
                                   "is no column of this scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?")}});
       }
     history.open(file);
-    bodies::BodiesState state = start.state;
-    const coupling::Timeline& time = floating.timeline();
-    const double begin = processor_seconds();
+    bodies::BodiesState& state = start_.state;
+    const coupling::Timeline& time = floating_.timeline();
     const auto write_row = [&](double t) { recorder.fill(history.row(t), state, t), history.write(); };
     write_row(0.0);
     for (std::int64_t window = 1; double(window) * time.window_s() <= length_s * (1.0 + 1e-12); ++window) {
       for (std::int64_t n = 0; n < time.steps_per_window(); ++n)
-        if (const bodies::StepReport report = floating.multibody().advance(state, time.tick_s(), 1); !report.ok())
-          throw floating.multibody().failure(report, state, time.tick_s());
-      if (window % floating.scenario().output.history_every == 0) write_row(time.window_end_s(window));
+        if (const bodies::StepReport report = floating_.multibody().advance(state, time.tick_s(), 1); !report.ok())
+          throw floating_.multibody().failure(report, state, time.tick_s());
+      if (window % floating_.scenario().output.history_every == 0) write_row(time.window_end_s(window));
     }
-    outcome.core_seconds = processor_seconds() - begin;
     history.flush();
   }
   const scene::Columns table = scene::read_columns(file.string());
-  for (const std::string& column : columns) outcome.columns.push_back(of_column(table["time_s"], table[column]));
+  std::vector<Effect> found;
+  for (const std::string& column : columns) found.push_back(of_column(table["time_s"], table[column]));
   std::filesystem::remove(file);
-  return outcome;
-}
-
-/// Least of two, as others on the computer only add.
-Outcome timed(const Scenario& scenario, double length_s, const std::vector<std::string>& columns) {
-  Outcome first = run(scenario, length_s, columns);
-  first.core_seconds = std::min(first.core_seconds, run(scenario, length_s, columns).core_seconds);
-  return first;
+  return found;
 }
 
 }  // namespace
 
-Trial try_omissions(const Scenario& scenario, const std::vector<std::string>& columns) {
-  Trial trial;
-  double pace = 0.0;  // core-seconds per simulated second
-  {
-    coupling::FloatingSystem floating{Scenario(scenario)};
-    const coupling::Start start = make_start(floating);
-    pace = measured_steps(floating, start).core_seconds() / scenario.time.end_s;
-  }
+Trial try_omissions(const std::string& path, const Overrides& overrides, const std::vector<std::string>& columns) {
+  scene::Document document = load_scene(path, overrides);
+  const Scenario scenario = coupling::read_scenario(document);
+  Tried own{Scenario(scenario)};
+  const double pace = own.core_seconds() / scenario.time.end_s;
   const double windows =
       std::max(3.0, std::floor(std::min(scenario.time.end_s, most_core_seconds / pace) / scenario.time.window_s));
-  trial.length_s = std::min(scenario.time.end_s, windows * scenario.time.window_s);
-  const Outcome own = timed(scenario, trial.length_s, columns);
-  trial.own = own.columns;
+  Trial trial{.length_s = std::min(scenario.time.end_s, windows * scenario.time.window_s)};
+  trial.own = own.run(trial.length_s, columns);
+  std::vector<std::unique_ptr<Tried>> all;
   for (const Choice& choice : choices()) {
-    Scenario smaller = scenario;
-    const std::optional<std::string> keys = choice.make(smaller);
-    if (!keys) continue;
-    Omission omission{.name = choice.name, .keys = *keys, .effects = {}, .saving = 0.0, .refused = {}};
+    Overrides more = choice.overrides(scenario, document);
+    if (more.empty()) continue;
+    Omission omission{.name = choice.name, .overrides = more, .effects = {}, .saving = 0.0, .refused = {}};
+    all.push_back(nullptr);
     try {
-      const Outcome outcome = timed(smaller, trial.length_s, columns);
-      omission.saving = 1.0 - outcome.core_seconds / own.core_seconds;
+      scene::Document smaller = load_scene(path, overrides + more);
+      all.back() = std::make_unique<Tried>(coupling::read_scenario(smaller));
+      const std::vector<Effect> outcome = all.back()->run(trial.length_s, columns);
       for (std::size_t c = 0; c < columns.size(); ++c)
-        omission.effects.push_back(
-            {outcome.columns[c].mean - own.columns[c].mean, outcome.columns[c].deviation - own.columns[c].deviation});
+        omission.effects.push_back({outcome[c].mean - trial.own[c].mean, outcome[c].deviation - trial.own[c].deviation});
     } catch (const std::exception& e) { omission.refused = e.what(); }
     trial.omissions.push_back(std::move(omission));
+  }
+  // In turns, so that all of them meet the computer in the same moods.
+  double core_seconds = 0.0;
+  for (int turn = 0; turn < 3; ++turn) {
+    core_seconds = own.core_seconds();
+    for (std::size_t n = 0; n < all.size(); ++n)
+      if (trial.omissions[n].refused.empty()) trial.omissions[n].saving = 1.0 - all[n]->core_seconds() / core_seconds;
   }
   std::stable_sort(trial.omissions.begin(), trial.omissions.end(),
                    [](const Omission& a, const Omission& b) { return a.saving > b.saving; });

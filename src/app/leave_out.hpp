@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "src/coupling/scenario.hpp"
-
 namespace spindrift::app {
 
 struct Effect {
@@ -15,11 +13,11 @@ struct Effect {
 };
 
 struct Omission {
-  std::string name;             ///< "longer step"
-  std::string keys;             ///< what to write: "time.step_s = 0.1"
-  std::vector<Effect> effects;  ///< by column asked for
-  double saving = 0.0;          ///< of the processor time, 0 ... 1; negative where it costs more
-  std::string refused;          ///< not empty: why it cannot be done
+  std::string name;                    ///< "longer step"
+  std::vector<std::string> overrides;  ///< what makes it: "time.step_s=0.1"
+  std::vector<Effect> effects;         ///< by column asked for
+  double saving = 0.0;                 ///< of the processor time of steps and rows, 0 ... 1; negative where it costs more
+  std::string refused;                 ///< not empty: why it cannot be done
 };
 
 struct Trial {
@@ -28,7 +26,7 @@ struct Trial {
   std::vector<Omission> omissions;  ///< largest saving first
 };
 
-/// Throws scene::SceneError where a column does not exist.
-Trial try_omissions(const coupling::Scenario& scenario, const std::vector<std::string>& columns);
+/// Of the scene in this file with these overrides. Throws scene::SceneError where a column does not exist.
+Trial try_omissions(const std::string& path, const std::vector<std::string>& overrides, const std::vector<std::string>& columns);
 
 }  // namespace spindrift::app
