@@ -32,11 +32,6 @@ SingularValues singular_values(const Eigen::MatrixXd& matrix) {
   return {svd.singularValues(), svd.matrixU(), svd.matrixV()};
 }
 
-SingularValues left_singular_values(const Eigen::MatrixXd& matrix) {
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU);
-  return {svd.singularValues(), svd.matrixU(), {}};
-}
-
 Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) { return matrix.partialPivLu().solve(right); }
 
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {

@@ -35,8 +35,6 @@ struct SingularValues {
 };
 /// By two-sided Jacobi rotations: small values have as many digits as large ones.
 SingularValues singular_values(const Eigen::MatrixXd& matrix);
-/// Values and `left` by divide and conquer, for large matrices; `right` is empty.
-SingularValues left_singular_values(const Eigen::MatrixXd& matrix);
 
 /// x of matrix x = right; LU with partial pivoting.
 Eigen::VectorXd solve(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/waves/radiation_poles.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "kernels/linear/dense.hpp"
 
 namespace spindrift::waves {
@@ -8,18 +11,24 @@ namespace spindrift::waves {
 RadiationPoles fit_radiation_poles(std::span<const double> samples, double h, double tolerance, int most_poles) {
   const Eigen::Index count = Eigen::Index(samples.size()), half = (count + 1) / 2;
   const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(samples.data(), count);
-  Eigen::MatrixXd hankel(half, count - half + 1);
-  for (Eigen::Index i = 0; i < hankel.rows(); ++i)
-    for (Eigen::Index j = 0; j < hankel.cols(); ++j) hankel(i, j) = y[i + j];
-  const dense::SingularValues svd = dense::left_singular_values(hankel);
+  Eigen::MatrixXd hankel(half, half);
+  for (Eigen::Index i = 0; i < half; ++i)
+    for (Eigen::Index j = 0; j < half; ++j) hankel(i, j) = y[i + j];
+  // Symmetric: the sizes of its eigenvalues are its singular values.
+  const dense::SymmetricEigenpairs eigen = dense::symmetric_eigenpairs(hankel);
+  std::vector<Eigen::Index> largest(static_cast<std::size_t>(half));
+  std::iota(largest.begin(), largest.end(), 0);
+  const auto size = [&](Eigen::Index k) { return std::abs(eigen.values[k]); };
+  std::stable_sort(largest.begin(), largest.end(), [&](Eigen::Index a, Eigen::Index b) { return size(a) > size(b); });
   RadiationPoles best;
   best.error = std::sqrt(y.squaredNorm() / double(count));
   if (best.error <= tolerance) return best;
-  const Eigen::Index most = std::min<Eigen::Index>(most_poles, hankel.cols() - 1);
+  const Eigen::Index most = std::min<Eigen::Index>(most_poles, half - 1);
   for (Eigen::Index order = 1; order <= most; ++order) {
-    if (svd.values[order - 1] <= 1e-14 * svd.values[0]) break;
+    if (size(largest[std::size_t(order - 1)]) <= 1e-14 * size(largest[0])) break;
     // One sample later is one application of the system's matrix: U shifted by a row.
-    const Eigen::MatrixXd u = svd.left.leftCols(order);
+    Eigen::MatrixXd u(half, order);
+    for (Eigen::Index k = 0; k < order; ++k) u.col(k) = eigen.vectors.col(largest[std::size_t(k)]);
     const Eigen::MatrixXd shift = dense::least_squares(u.topRows(half - 1), Eigen::MatrixXd(u.bottomRows(half - 1)));
     // U holds the observability matrix up to a change of base, which keeps the eigenvalues.
     const Eigen::VectorXcd roots = dense::eigenvalues(shift);

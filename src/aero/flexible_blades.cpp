@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
 #include "kernels/beam/oscillator.hpp"
+#include "kernels/linear/dense.hpp"
 #include "src/scene/columns.hpp"
 
 namespace spindrift::aero {
@@ -82,9 +83,9 @@ std::array<double, FlexibleBlades::modes> FlexibleBlades::omega_turning(double s
   k.diagonal() += squared();
   for (const beam::BladePoint& p : points_)  // the pull of what has gone ahead, at a pitch of zero
     k -= speed * speed * p.mass * p.value.row(1).transpose() * p.value.row(1);
-  const Eigen::SelfAdjointEigenSolver<beam::BladeModes::Square> eigen(k);
+  const dense::SymmetricEigenpairs eigen = dense::symmetric_eigenpairs(k);
   std::array<double, modes> found{};
-  for (int m = 0; m < modes; ++m) found[std::size_t(m)] = std::sqrt(std::max(0.0, eigen.eigenvalues()[m]));
+  for (int m = 0; m < modes; ++m) found[std::size_t(m)] = std::sqrt(std::max(0.0, eigen.values[m]));
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/beam/modal_link.hpp"
+#include "kernels/rigid/rotation.hpp"
 
 using namespace spindrift;
 using Eigen::Matrix3d, Eigen::Vector3d;

@@ -3,7 +3,10 @@
 #include "kernels/grid/aerofoil.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <vector>
+
+#include "kernels/base/constants.hpp"
 
 using namespace spindrift;
 using Eigen::Vector2d;
