@@ -128,11 +128,13 @@ void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& stat
                width, rounded(m.displacement.x()), rounded(m.displacement.y()), rounded(m.displacement.z()), rounded(degrees.x()),
                rounded(degrees.y()), rounded(degrees.z()));
   }
+  if (!floating.moorings()) return;
+  const std::vector<moorings::LineTension> tensions = floating.moorings()->tensions(state.motions);
   for (std::size_t line = 0; line < lines; ++line)
-    fmt::print("  {:<{}}  tension {:.4g} kN\n", floating.moorings()->name(line), width,
-               1e-3 * floating.moorings()->tension(line, state.motions).fairlead);
+    fmt::print("  {:<{}}  tension {:.4g} kN\n", floating.moorings()->name(line), width, 1e-3 * tensions[line].fairlead);
+  const std::vector<LineEnd> ends = floating.moorings()->junction_motions(state.motions);
   for (std::size_t j = 0; j < junctions; ++j) {
-    const Eigen::Vector3d at = floating.moorings()->junction(j, state.motions).position;
+    const Eigen::Vector3d& at = ends[j].position;
     fmt::print("  {:<{}}  x {:+.3f}  y {:+.3f}  z {:+.3f} m\n", floating.moorings()->junction_name(j), width, at.x(), at.y(),
                at.z());
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -20,12 +21,27 @@ void add_scene(CLI::App& command, SceneArguments& arguments) {
 
 const CLI::Validator not_empty([](std::string& text) { return text.empty() ? "is empty; name a folder" : ""; }, "");
 
+/// A folder that is there or can be made.
+const CLI::Validator folder(
+    [](std::string& text) {
+      std::error_code none;
+      if (text.empty()) return std::string("is empty; name a folder");
+      return std::filesystem::exists(text, none) && !std::filesystem::is_directory(text, none)
+                 ? fmt::format("'{}' is a file; name a folder", text)
+                 : std::string();
+    },
+    "");
+
+constexpr double longest_s = 1e6;  // as time.end_s has it
+
 /// Simulated seconds, at least zero.
 const CLI::Validator time_of_run(
     [](std::string& text) {
       double value = 0.0;
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error != std::errc() || end != text.data() + text.size()) return fmt::format("'{}' is no number of seconds", text);
+      if (error != std::errc() || end != text.data() + text.size() || std::isnan(value))
+        return fmt::format("'{}' is no number of seconds", text);
+      if (value > longest_s) return fmt::format("{} s is longer than any run; give at most {} s", text, longest_s);
       return value >= 0.0 ? std::string() : fmt::format("{} s lies before the start; give a time >= 0", text);
     },
     "");
@@ -33,8 +49,12 @@ const CLI::Validator time_of_run(
 CLI::Validator ends_in(std::vector<std::string> endings) {
   return CLI::Validator(
       [endings](std::string& file) {
-        const std::string ending = std::filesystem::path(file).extension();
-        if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return std::string();
+        const std::filesystem::path path(file);
+        std::error_code none;
+        if (std::find(endings.begin(), endings.end(), path.extension()) != endings.end())
+          return path.has_parent_path() && !std::filesystem::is_directory(path.parent_path(), none)
+                     ? fmt::format("'{}': there is no folder {}", file, std::filesystem::absolute(path.parent_path()).string())
+                     : std::string();
         return fmt::format("'{}' has an ending that is not known; write one of {}", file, fmt::join(endings, ", "));
       },
       "");
@@ -57,8 +77,7 @@ void add_profile(CLI::App& cli, Command& chosen) {
   CLI::App* command = cli.add_subcommand(
       "profile", "Where the time of a coupled scene goes: air alone, sea alone, both in turns, shared and split");
   add_scene(*command, *arguments);
-  command->add_option("-o,--out", arguments->out, "Folder of the runs and figures (default: runs/SCENE_profile)")
-      ->check(not_empty);
+  command->add_option("-o,--out", arguments->out, "Folder of the runs and figures (default: runs/SCENE_profile)")->check(folder);
   command->add_option("--windows", arguments->windows, "Windows that are counted, after two that are not (default: 10)")
       ->check(CLI::Range(1, 100000));
   command->footer(
@@ -223,7 +242,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command->add_option("study", arguments->file, "Study file (TOML)")->required();
     command->add_option("--set", arguments->overrides, "Override a key of the study file")->allow_extra_args(false);
     command->add_option("-o,--out", arguments->out, "Folder of the runs (default: runs/STUDY); finished runs in it are kept")
-        ->check(not_empty);
+        ->check(folder);
     command->add_flag("--dry-run", arguments->dry_run, "Say what would run and the forecast of its cost; run nothing");
     command->footer(
         "Examples:\n"
@@ -236,7 +255,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
     CLI::App* command =
         cli.add_subcommand("import", "Make a scene from an OpenFAST deck (versions 3 to 5) or a windIO turbine (1.x)");
     command->add_option("main", arguments->file, "Main input file (.fst), or turbine (.yaml)")->required();
-    command->add_option("-o,--out,--output", arguments->out, "Folder for scene.toml and its files")->required()->check(not_empty);
+    command->add_option("-o,--out,--output", arguments->out, "Folder for scene.toml and its files")->required()->check(folder);
     command->add_flag(
         "--rigid-tower", arguments->rigid_tower,
         "A tower that bends in the deck stays rigid in the scene; of a windIO turbine no table of a beam is written");

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <string_view>
 
 #include "kernels/base/failure.hpp"
@@ -21,7 +22,11 @@ using namespace spindrift;
 
 /// Runs a command; says what failed, to a person, and returns the exit code.
 int guarded(const std::function<int()>& command) {
+  struct Printed {
+    ~Printed() { std::fflush(stdout); }  // what the command printed stands before what stopped it
+  };
   try {
+    const Printed printed;
     return command();
   } catch (const scene::SceneError& e) {
     spdlog::error("{}", e.what());
@@ -64,6 +69,10 @@ std::string unknown_option(const CLI::App& cli, int argc, char** argv) {
     const std::string word = std::string(argv[i]).substr(0, std::string_view(argv[i]).find('='));
     if (word == "--") return {};
     if (!word.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end()) continue;
+    if (word == "--threads" || word == "--ranks")
+      return fmt::format(
+          "{}: there is no option '{}'; OMP_NUM_THREADS=4 spindrift {} ... has 4 threads, mpirun -n 2 spindrift {} ... 2 ranks",
+          argv[1], word, argv[1], argv[1]);
     const std::string near = scene::nearest(word, known);
     return fmt::format(
         "{}: there is no option '{}'; {}", argv[1], word,
@@ -78,9 +87,12 @@ std::string words_too_many(int argc, char** argv, const std::vector<std::string>
     if (std::string_view(argv[i]) == "--set" && std::string_view(argv[i + 1]).find('=') == std::string_view::npos)
       return fmt::format("{}: --set {} {}: write --set {}={}, in one word", argv[1], argv[i + 1], argv[i + 2], argv[i + 1],
                          argv[i + 2]);
-  for (const std::string& word : left)
+  for (const std::string& word : left) {
     if (word.size() > 2 && word[0] == '-' && word[1] != '-')
       return fmt::format("{}: there is no option '{}'; long options begin with two dashes: '-{}'", argv[1], word, word);
+    if (word.size() == 2 && word[0] == '-')
+      return fmt::format("{}: there is no option '{}'; spindrift {} --help lists them", argv[1], word, argv[1]);
+  }
   return fmt::format("{}: '{}' is one word too many; spindrift {} --help says what it takes", argv[1],
                      left.empty() ? "" : left.front(), argv[1]);
 }
@@ -111,7 +123,13 @@ int main(int argc, char** argv) {
     else
       fmt::print(stderr, "error: {}\n", words_too_many(argc, argv, cli.remaining(true)));
     return app::bad_input;
-  } catch (const CLI::ParseError& e) { return cli.exit(e) == 0 ? 0 : app::bad_input; }
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return cli.exit(e);
+    const bool known = argv[1][0] != '-';
+    fmt::print(stderr, "error: {}{}; spindrift {}--help says what it takes\n", known ? fmt::format("{}: ", argv[1]) : "",
+               e.what(), known ? fmt::format("{} ", argv[1]) : "");
+    return app::bad_input;
+  }
   try {
     int code = app::done;
     {

@@ -102,8 +102,11 @@ void check_columns(const scene::Study& study, const std::string& rung, const std
   if (columns.empty()) return;
   const auto check = [&](const std::string& key, const std::string& column) {
     if (std::find(columns.begin(), columns.end(), column) != columns.end()) return;
+    const std::string quoted = fmt::format("\"{}\"", column);
+    if (std::ranges::any_of(problems, [&](const scene::Problem& p) { return p.key == key && p.value == quoted; }))
+      return;  // told of a run before
     const std::string near = scene::nearest(column, columns);
-    problems.push_back({study.file, 0, key, fmt::format("\"{}\"", column),
+    problems.push_back({study.file, 0, key, quoted,
                         fmt::format("is no column of {}{}", rung, near.empty() ? "" : "; did you mean \"" + near + "\"?")});
   };
   for (const auto& [metric, options] : study.metrics) check(fmt::format("metrics.{}.column", metric), options.column);

@@ -35,8 +35,8 @@ void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& flo
   const long windows = floating.timeline().windows(), unconverged = march.unconverged();
   if (march.spent() && unconverged == 1)
     log_lines.push_back(
-        fmt::format("warning: air: the step to t = {:g} s spent its {} pseudo-steps; the flux balance has fallen by {:.2g} of "
-                    "{:.2g} asked for",
+        fmt::format("warning: air: the step to t = {:g} s spent its {} pseudo-steps; the flux balance is at {:.2g} of "
+                    "that at its start, {:.2g} is asked for",
                     t, march.steps() - 1, march.balance_drop(), flow.drop));
   if (double(unconverged) > flow.unconverged_share * double(std::max(windows, march.ended())))
     throw NumericalFailure(

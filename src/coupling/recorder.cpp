@@ -145,12 +145,15 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     const std::vector<Eigen::Vector2d> tips = floating_.rotor()->tips(t, state.motions);
     for (std::size_t blade = 0; blade < tips_.size(); ++blade) tips_[blade].fill(row, tips[blade]);
   }
-  for (std::size_t line = 0; line < moorings_.size(); ++line) {
-    const moorings::LineTension tension = floating_.moorings()->tension(line, state.motions);
-    moorings_[line].fill(row, tension);
-    if (anchors_[line]) anchors_[line]->fill(row, tension);
+  if (floating_.moorings()) {
+    const std::vector<moorings::LineTension> tensions = floating_.moorings()->tensions(state.motions);
+    for (std::size_t line = 0; line < moorings_.size(); ++line) {
+      moorings_[line].fill(row, tensions[line]);
+      if (anchors_[line]) anchors_[line]->fill(row, tensions[line]);
+    }
+    const std::vector<LineEnd> junctions = floating_.moorings()->junction_motions(state.motions);
+    for (std::size_t j = 0; j < junctions_.size(); ++j) junctions_[j].fill(row, junctions[j]);
   }
-  for (std::size_t j = 0; j < junctions_.size(); ++j) junctions_[j].fill(row, floating_.moorings()->junction(j, state.motions));
   if (floating_.particles()) fill_particles(row, state.motions, t);
   if (waves_) waves_->fill(row, floating_.sea()->elevation(0.0, 0.0, t));
 }

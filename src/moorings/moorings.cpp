@@ -197,21 +197,32 @@ void Moorings::add_added_mass(std::span<const Motion> bodies, std::span<Eigen::M
   }
 }
 
-LineTension Moorings::tension(std::size_t line, std::span<const Motion> bodies) const {
-  const LineForces f = is_dynamic(line) && !memory_.empty()
-                           ? Recalled{std::span(memory_).subspan(lines_[line].dynamic->header)}.at_end()
-                           : forces(line, 0.0, bodies, memory_.empty() ? resting(bodies) : std::vector<LineForces>());
-  return {f.fairlead_tension, f.anchor_tension};
+std::vector<LineTension> Moorings::tensions(std::span<const Motion> bodies) const {
+  const std::vector<LineForces> at_rest = memory_.empty() ? resting(bodies) : std::vector<LineForces>();
+  std::vector<LineTension> all;
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
+    const LineForces f = is_dynamic(l) && !memory_.empty()
+                             ? Recalled{std::span(memory_).subspan(lines_[l].dynamic->header)}.at_end()
+                             : forces(l, 0.0, bodies, at_rest);
+    all.push_back({f.fairlead_tension, f.anchor_tension});
+  }
+  return all;
 }
 
-LineEnd Moorings::junction(std::size_t j, std::span<const Motion> bodies) const {
-  const Junction& own = junctions_[j];
-  const Network& network = networks_[own.network];
-  if (!memory_.empty())
-    return network.of.junction(int(own.member), std::span(memory_).subspan(network.state, network.of.state_size()));
-  std::vector<double> state(network.of.state_size());
-  network.of.rest(ends(network, bodies), state);
-  return network.of.junction(int(own.member), state);
+std::vector<LineEnd> Moorings::junction_motions(std::span<const Motion> bodies) const {
+  std::vector<LineEnd> all(junctions_.size());
+  for (std::size_t n = 0; n < networks_.size(); ++n) {
+    const Network& network = networks_[n];
+    if (network.junction.empty()) continue;
+    std::vector<double> state(network.of.state_size());
+    if (memory_.empty())
+      network.of.rest(ends(network, bodies), state);
+    else
+      std::copy_n(memory_.begin() + std::ptrdiff_t(network.state), state.size(), state.begin());
+    for (std::size_t j = 0; j < junctions_.size(); ++j)
+      if (junctions_[j].network == n) all[j] = network.of.junction(int(junctions_[j].member), state);
+  }
+  return all;
 }
 
 std::vector<double> Moorings::rest(const Network& network, double t, std::span<const Motion> bodies) const {

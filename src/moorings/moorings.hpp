@@ -43,11 +43,11 @@ class Moorings {
   /// it did at the end of the last step, and goes on as it changed in it; without memory as the catenary, or with clumps or
   /// junctions as it rests.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
-  /// Of a dynamic line: at the end of the last step.
-  LineTension tension(std::size_t line, std::span<const Motion> bodies) const;
+  /// Of all lines; of dynamic ones at the end of the last step.
+  std::vector<LineTension> tensions(std::span<const Motion> bodies) const;
   bool is_dynamic(std::size_t line) const { return lines_[line].dynamic.has_value(); }
-  /// At the end of the last step; without memory where it rests.
-  LineEnd junction(std::size_t junction, std::span<const Motion> bodies) const;
+  /// Places and velocities of all junctions at the end of the last step; without memory where they rest.
+  std::vector<LineEnd> junction_motions(std::span<const Motion> bodies) const;
 
   // What dynamic lines remember, as bodies::Memory has it.
   std::size_t memory_size() const { return memory_size_; }

@@ -244,7 +244,13 @@ void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOption
                                   end, line.model));
         return;
       }
-      if (!placed) doc.problem(at + "." + place_key, "is required: the end is at no junction");
+      if (!placed)
+        doc.problem(
+            at + "." + place_key,
+            fmt::format(
+                "is required: the place of the line's end on {}, [x, y, z] in m, earth frame at the start{}",
+                end == "earth" ? "the earth" : fmt::format("body \"{}\"", end),
+                line_models().named(line.model).make_dynamic ? fmt::format("; or name one of [junctions] in {}", key) : ""));
       if (end == "earth" && std::string(key) == "anchor_body") return;
       if (!among(bodies, end))
         doc.problem(at + "." + key, end == "earth" ? "the fairlead must be on a body; \"earth\" may hold the anchor"

@@ -63,6 +63,11 @@ void skip_mark(const std::string& file, std::string& first_line) {
     fail_at(file, 1, "", "is text in UTF-16: save it in UTF-8");
 }
 
+/// A spreadsheet, a program or a picture where a table in text should be.
+void require_text(const std::string& file, int line, const std::string& text) {
+  if (text.find('\0') != std::string::npos) fail_at(file, line, "", "is no text: save the table as text (CSV in UTF-8)");
+}
+
 /// Other ways to write a table, told by name.
 void require_commas(const std::string& file, int line, std::string_view header) {
   const char* wrong = header.find(';') != std::string_view::npos    ? "semicolons"
@@ -81,7 +86,10 @@ void Columns::add_row(const std::vector<std::string_view>& cells, int line) {
   if (cells.size() != names_.size())
     fail_at(file_, line, "",
             fmt::format("has {} values where there are {} columns ({}){}", cells.size(), names_.size(), fmt::join(names_, ", "),
-                        cells.size() == 2 * names_.size() ? "; decimal commas? write points: 0.5, not 0,5" : ""));
+                        cells.size() == 2 * names_.size() ? "; decimal commas? write points: 0.5, not 0,5"
+                        : cells.size() == 1 && cells[0].find(',') != std::string_view::npos
+                            ? "; write blanks between numbers, not commas"
+                            : ""));
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const std::optional<double> value = finite_number(cells[c]);
     if (!value)
@@ -101,6 +109,7 @@ Columns read_columns(const std::string& path) {
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
     if (line == 1) skip_mark(path, text);
+    require_text(path, line, text);
     const std::string_view content = trim(std::string_view(text).substr(0, text.find('#')));
     if (content.empty()) continue;
     const auto cells = split(content);
@@ -125,6 +134,7 @@ Columns read_blank_columns(const std::string& path, std::vector<std::string> nam
   table.names_ = std::move(names);
   table.values_.resize(table.names_.size());
   skip_mark(path, text);
+  require_text(path, 1, text);
   // A title, unless it is a row like those that follow.
   if (const auto cells = split_at_blanks(text); cells.size() == table.names_.size() && std::ranges::all_of(cells, [](auto cell) {
                                                   return finite_number(cell).has_value();

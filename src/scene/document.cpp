@@ -108,9 +108,39 @@ std::string Document::home_of(std::string_view key) const {
   return "";
 }
 
+namespace {
+/// What has no effect only because of a key that is wrong itself is no second mistake.
+void drop_consequences(std::vector<Problem>& problems) {
+  std::vector<std::string> wrong;
+  for (const Problem& p : problems)
+    if (!p.message.starts_with("has no effect") && p.key.find('.') != std::string::npos) wrong.push_back(p.key);
+  std::erase_if(problems, [&](const Problem& p) {
+    return p.message.starts_with("has no effect") &&
+           std::ranges::any_of(wrong, [&](const std::string& key) { return p.message.find(key + " ") != std::string::npos; });
+  });
+}
+
+/// A body or line that only an override names, beside one of nearly that name: "; no file has bodies.plattform: did you mean
+/// bodies.platform?"
+std::string meant(const Value& root, const Problem& p) {
+  const auto steps = p.line == 0 && p.message.starts_with("is missing") ? parse_key(p.key) : std::nullopt;
+  if (!steps || steps->size() < 3) return "";
+  const Value* named = root.find((*steps)[0].name);
+  std::vector<std::string> others;
+  if (named && named->is_table())
+    for (const Value& other : named->children)
+      if (other.key != (*steps)[1].name) others.push_back(other.key);
+  const std::string near = nearest((*steps)[1].name, others);
+  return near.empty() ? ""
+                      : fmt::format("; no file has {0}.{1}: did you mean {0}.{2}?", (*steps)[0].name, (*steps)[1].name, near);
+}
+}  // namespace
+
 void Document::finish() {
   for (const auto& [problem, key] : strays_) problems_[problem].message += home_of(key);
   strays_.clear();
+  drop_consequences(problems_);
+  for (Problem& p : problems_) p.message += meant(root_, p);
   std::vector<std::string> known;
   for (const SectionBase* section : known_) known.push_back(section->name());
   for (const Value& top : root_.children) {

@@ -11,7 +11,10 @@ namespace {
 std::string section_label(const std::string& name) { return "[" + name + "]"; }
 
 /// "model is "morison" or "potential""
-std::string words(const Condition& c) { return fmt::format("{} is {}", c.key, joined(c.values, " or ")); }
+std::string words(const Condition& c) {
+  if (c.values.size() == 1 && c.values[0].empty()) return fmt::format("{} is left out", c.key);
+  return fmt::format("{} is {}", c.key, joined(c.values, " or "));
+}
 
 /// A default that its unit cannot express exactly is moved to the nearest value that it can, so that the echo reads back
 /// to the same bits.

@@ -186,6 +186,15 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
     const std::size_t distance = unit_forgotten ? 1 : edit_distance(lowered(word), lowered(candidate));
     if (distance < best_distance) best = candidate, best_distance = distance;
   }
+  if (!best.empty()) return best;
+  // A word too many before it, `significant_height_m` for `height_m`, or one too few, `length_m` for `rest_length_m`.
+  int longer = 0;
+  for (const std::string& candidate : known) {
+    if (candidate.size() > best.size() && word.ends_with("_" + candidate)) best = candidate;
+    longer += candidate.ends_with(fmt::format("_{}", word));
+  }
+  if (best.empty() && longer == 1 && word.size() > 3)
+    best = *std::ranges::find_if(known, [&](const std::string& c) { return c.ends_with(fmt::format("_{}", word)); });
   return best;
 }
 
@@ -202,11 +211,11 @@ std::string absent_file(const std::filesystem::path& path) {
   std::vector<std::string> names;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end && names.size() < 10'000; entry.increment(error))
     if (std::error_code of_entry; !entry->is_directory(of_entry) && entry->path().extension() == path.extension())
-      names.push_back(entry->path().filename().string());
+      names.push_back(entry->path().stem().string());
   std::sort(names.begin(), names.end());
-  const std::string near = nearest(path.filename().string(), names);
+  const std::string near = nearest(path.stem().string(), names);
   return near.empty() ? "no such file in " + fs::canonical(folder, error).string()
-                      : "no such file; did you mean '" + (path.parent_path() / near).string() + "'?";
+                      : "no such file; did you mean '" + (path.parent_path() / near).string() + path.extension().string() + "'?";
 }
 
 }  // namespace spindrift::scene

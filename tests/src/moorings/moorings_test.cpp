@@ -64,8 +64,8 @@ TEST_CASE("the paper's lines under its mean displacement carry the thrust of 150
   CHECK(-w[0].force.x() == Approx(1.5e6).epsilon(0.03));
   CHECK(w[0].force.y() == Approx(0.0).margin(1.0));
   CHECK(w[1].force == Vector3d::Zero());
-  CHECK(m.tension(0, motions).fairlead == Approx(-0.77e6).epsilon(0.05));  // the downwind line pushes, the two upwind pull
-  CHECK(m.tension(1, motions).fairlead == Approx(0.74e6).epsilon(0.05));
+  CHECK(m.tensions(motions)[0].fairlead == Approx(-0.77e6).epsilon(0.05));  // the downwind line pushes, the two upwind pull
+  CHECK(m.tensions(motions)[1].fairlead == Approx(0.74e6).epsilon(0.05));
 }
 
 TEST_CASE("a rigid shift of everything changes no load", "[moorings][fast]") {
@@ -142,7 +142,7 @@ TEST_CASE("tensions are those of the force that the body feels", "[moorings][fas
   for (std::size_t i = 0; i < m.size(); ++i) {
     const LineOptions line = paper_line(120 * double(i) * radians_per_degree);
     const Vector3d chord = (-line.span() - Vector3d(1, 0, 0)).normalized();
-    sum += m.tension(i, motions).fairlead * chord;
+    sum += m.tensions(motions)[i].fairlead * chord;
   }
   CHECK((sum - loads(m, motions)[0].force).norm() < 1e-6);
   CHECK(m.name(2) == "line_3");
@@ -175,8 +175,8 @@ TEST_CASE("a dynamic line at rest pulls as the catenary does, with memory and wi
   std::vector<double> memory(m.memory_size());
   m.begin(0.0, start(), memory);
   CHECK((loads(m, start())[0].force - still).norm() < 0.01 * still.norm());
-  CHECK(m.tension(0, start()).fairlead == Approx(991.6e3).epsilon(0.015));
-  CHECK(m.tension(0, start()).anchor == Approx(826.2e3).epsilon(0.015));
+  CHECK(m.tensions(start())[0].fairlead == Approx(991.6e3).epsilon(0.015));
+  CHECK(m.tensions(start())[0].anchor == Approx(826.2e3).epsilon(0.015));
   for (int n = 1; n <= 200; ++n) m.remember(0.05 * n, 0.05, start(), memory);
   m.recall(memory);
   CHECK((loads(m, start())[0].force - still).norm() < 0.01 * still.norm());
@@ -259,15 +259,15 @@ TEST_CASE("legs of a bridle load their body, at rest as in the equilibrium that 
   auto turned = start();
   turned[0].attitude = Eigen::AngleAxisd(by_catenaries::yaw_rad, Vector3d::UnitZ());
   CHECK(loads(m, turned)[0].moment.z() == Approx(by_catenaries::moment_z).epsilon(0.01));
-  const Vector3d place = m.junction(0, start()).position;
+  const Vector3d place = m.junction_motions(start())[0].position;
   CHECK((place - by_catenaries::junction).norm() < 0.05);
   std::vector<double> memory(m.memory_size());
   m.begin(0.0, start(), memory);
   CHECK((loads(m, start())[0].force - steady.force).norm() < 1e-3 * steady.force.norm());
-  CHECK((m.junction(0, start()).position - place).norm() < 1e-6);
+  CHECK((m.junction_motions(start())[0].position - place).norm() < 1e-6);
   for (int n = 1; n <= 200; ++n) m.recall(memory), m.remember(0.05 * n, 0.05, start(), memory);
   m.recall(memory);
-  CHECK((m.junction(0, start()).position - place).norm() < 1e-3);
+  CHECK((m.junction_motions(start())[0].position - place).norm() < 1e-3);
   CHECK((loads(m, start())[0].force - steady.force).norm() < 1e-3 * steady.force.norm());
 }
 
@@ -277,7 +277,7 @@ TEST_CASE("a junction follows bodies that move at the start", "[moorings][fast]"
   moving[0].velocity = {0.5, 0.0, 0.0};
   std::vector<double> memory(m.memory_size());
   m.begin(0.0, moving, memory);
-  CHECK((m.junction(0, moving).velocity - 0.5 * by_catenaries::junction_per_surge).norm() < 0.01);
+  CHECK((m.junction_motions(moving)[0].velocity - 0.5 * by_catenaries::junction_per_surge).norm() < 0.01);
 }
 
 TEST_CASE("lines that meet are a function of their memory alone, and others do not change for them", "[moorings][fast]") {
@@ -293,7 +293,7 @@ TEST_CASE("lines that meet are a function of their memory alone, and others do n
   go(whole, memory, 60, 120), go(second, saved, 60, 120);
   CHECK(saved == memory);
   whole.recall(memory), alone.recall(of_line);
-  CHECK(whole.tension(3, heaved(6.0)).fairlead == alone.tension(0, heaved(6.0)).fairlead);
+  CHECK(whole.tensions(heaved(6.0))[3].fairlead == alone.tensions(heaved(6.0))[0].fairlead);
 }
 
 TEST_CASE("a body on a dynamic line is stable up to half the time in which the line's waves stop it", "[moorings][fast]") {

@@ -59,6 +59,8 @@ TEST_CASE("an unknown key is told its nearest neighbour, or where it belongs", "
                                              "s.toml:2: time.end = 3: unknown key; did you mean 'end_s'?"});
   CHECK(problems(good + "integartor = \"rk4\"") ==
         Lines{"s.toml:3: time.integartor = \"rk4\": unknown key; did you mean 'integrator'?"});
+  CHECK(problems(good + "latest_seed = 3") == Lines{"s.toml:3: time.latest_seed = 3: unknown key; did you mean 'seed'?"});
+  CHECK(problems(good + "steps = 3") == Lines{"s.toml:3: time.steps = 3: unknown key; did you mean 'most_steps'?"});
   CHECK(problems(good + "mass_kg = 3") ==
         Lines{"s.toml:3: time.mass_kg = 3: unknown key; [time] has: end_s, window_s, integrator, "
               "most_steps, seed (mass_kg is a key of [bodies.NAME])"});
