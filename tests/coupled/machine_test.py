@@ -395,7 +395,7 @@ class MachineRun(Machine):
         self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in span) / last["rotor.thrust_N"], 1.0, delta=0.02)
         self.ended([PROGRAM, "report", self.path / "out"], 1, 0)
         report = (self.path / "out/report.html").read_text()
-        for picture in ("Pressure on a blade", "Wind through the rotor"):
+        for picture in ("Pressure on a blade", "Wind in the plane of the axis"):
             self.assertIn(picture, report)
 
     def test_each_window_logs_how_it_went(self):

@@ -25,7 +25,7 @@ class RotorRun(Folder):
         self.assertAlmostEqual(last["rotor.power_W"] / (last["rotor.torque_N_m"] * 0.92530), 1.0, places=4)
         self.assertAlmostEqual(last["rotor.rpm"], 8.836, places=9)
         report = (self.out / "report.html").read_text()
-        for picture in ("Pressure on a blade", "Wind through the rotor"):  # vortices from 100,000 cells up
+        for picture in ("Pressure on a blade", "Wind in the plane of the axis"):  # vortices from 100,000 cells up
             self.assertIn(picture, report)
         rows = self.table("spanwise.csv")
         self.assertGreater(len(rows), 8)
