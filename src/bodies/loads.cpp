@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/bodies/loads.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/base/constants.hpp"
+#include "kernels/base/interpolation.hpp"
+
 namespace spindrift::bodies {
 
 LoadSource gravity_source(std::span<const Body> bodies, double gravity_m_s2, const Eigen::Vector3d& down) {
@@ -21,6 +27,53 @@ LoadSource point_load_source(std::string name, std::vector<PointLoad> loads) {
               Wrench& w = wrenches[std::size_t(load.body)];
               w.add_force(load.follows_body ? Eigen::Vector3d(m.attitude * load.force) : load.force, m.point(load.point));
               w.add_moment(load.follows_body ? Eigen::Vector3d(m.attitude * load.moment) : load.moment);
+            }
+          },
+          {}};
+}
+
+namespace {
+
+const Motion& motion_of(std::span<const Motion> bodies, int body) {
+  static const Motion still;
+  return body == earth ? still : bodies[std::size_t(body)];
+}
+
+}  // namespace
+
+JointLaw::Way JointLaw::way(std::span<const Motion> bodies) const {
+  const Motion &a = motion_of(bodies, i), &b = motion_of(bodies, j);
+  const Eigen::Vector3d along = a.attitude * axis;
+  if (turns) {
+    const Eigen::Quaterniond turned = a.attitude.conjugate() * b.attitude;
+    return {std::remainder(2.0 * std::atan2(turned.vec().dot(axis), turned.w()), 2.0 * pi),
+            (b.omega_earth() - a.omega_earth()).dot(along)};
+  }
+  const Eigen::Vector3d apart = b.point(point_j) - a.point(point_i);
+  return {apart.dot(along),
+          (b.point_velocity(point_j) - a.point_velocity(point_i)).dot(along) + apart.dot(a.omega_earth().cross(along))};
+}
+
+double JointLaw::load(const Way& way) const {
+  double load = -stiffness * (way.place - rest) - (damping + quadratic_damping * std::abs(way.rate)) * way.rate -
+                friction * way.rate / std::max(std::abs(way.rate), creep_rate);
+  if (!places.empty()) load += interpolate_linear(places, loads, way.place);
+  return load;
+}
+
+LoadSource joint_law_source(std::vector<JointLaw> laws) {
+  return {"joint_laws",
+          [laws = std::move(laws)](double, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
+            for (const JointLaw& law : laws) {
+              const Eigen::Vector3d load = law.load(law.way(bodies)) * (motion_of(bodies, law.i).attitude * law.axis);
+              const Eigen::Vector3d at = motion_of(bodies, law.j).point(law.point_j);
+              for (const auto& [body, sign] : {std::pair{law.i, -1.0}, std::pair{law.j, 1.0}}) {
+                if (body == earth) continue;
+                if (law.turns)
+                  wrenches[std::size_t(body)].add_moment(sign * load);
+                else
+                  wrenches[std::size_t(body)].add_force(sign * load, at);
+              }
             }
           },
           {}};

@@ -120,6 +120,53 @@ const Section<DriverOptions>& translation_section() {
   return section;
 }
 
+void check_law(const JointLawOptions& o, const scene::Report& report) {
+  if (o.stiffness == 0.0 && o.damping == 0.0 && o.quadratic_damping == 0.0 && o.friction == 0.0 && o.table.empty())
+    report("table", "is not given, nor stiffness, damping or friction: the law has no effect");
+}
+
+const Section<JointLawOptions>& rotation_law_section() {
+  static const auto section =
+      Section<JointLawOptions>("rotation_law",
+                               "Moment on the second body about the axis, and its opposite on the first, by the angle "
+                               "(within half a turn) and its rate: the sum of what is given.")
+          .number("stiffness_N_m_rad", &JointLawOptions::stiffness, "N m/rad", "Spring, against the angle from rest_deg.",
+                  not_negative())
+          .degrees("rest_deg", &JointLawOptions::rest, "Angle at which the spring has no moment.", between(-180.0, 180.0))
+          .number("damping_N_m_s_rad", &JointLawOptions::damping, "N m s/rad", "Damper, against the rate.", not_negative())
+          .number("quadratic_damping_N_m_s2_rad2", &JointLawOptions::quadratic_damping, "N m s2/rad2",
+                  "Damper, against the rate times its magnitude.", not_negative())
+          .number("friction_N_m", &JointLawOptions::friction, "N m",
+                  "Coulomb's friction; below 0.001 rad/s it falls to nothing linearly.", not_negative())
+          .path("table", &JointLawOptions::table,
+                "CSV file with columns angle_deg, moment_N_m on the second body, joined by straight lines; beyond its rows their "
+                "values "
+                "hold.")
+          .check(check_law);
+  return section;
+}
+
+const Section<JointLawOptions>& translation_law_section() {
+  static const auto section =
+      Section<JointLawOptions>("translation_law",
+                               "Force on the second body along the axis, and its opposite on the first, by the "
+                               "distance and its rate: the sum of what is given.")
+          .number("stiffness_N_m", &JointLawOptions::stiffness, "N/m", "Spring, against the distance from rest_m.",
+                  not_negative())
+          .number("rest_m", &JointLawOptions::rest, "m", "Distance at which the spring has no force.")
+          .number("damping_N_s_m", &JointLawOptions::damping, "N s/m", "Damper, against the rate.", not_negative())
+          .number("quadratic_damping_N_s2_m2", &JointLawOptions::quadratic_damping, "N s2/m2",
+                  "Damper, against the rate times its magnitude.", not_negative())
+          .number("friction_N", &JointLawOptions::friction, "N",
+                  "Coulomb's friction; below 0.001 m/s it falls to nothing linearly.", not_negative())
+          .path("table", &JointLawOptions::table,
+                "CSV file with columns distance_m, force_N on the second body, joined by straight lines; beyond its rows their "
+                "values "
+                "hold.")
+          .check(check_law);
+  return section;
+}
+
 void check_joint(const JointOptions& o, const scene::Report& report) {
   if (o.bodies.size() == 2 && o.bodies[0] == o.bodies[1]) report("bodies", "a joint ties two different bodies");
   if (o.type != JointType::spherical && o.type != JointType::fixed && o.axis.norm() == 0.0)
@@ -129,6 +176,10 @@ void check_joint(const JointOptions& o, const scene::Report& report) {
   if (o.rotation && !turns(o.type)) report("rotation", "only a revolute or cylindrical joint can be driven in rotation");
   if (o.translation && !slides(o.type))
     report("translation", "only a translational or cylindrical joint can be driven in translation");
+  if (o.rotation_law && !turns(o.type)) report("rotation_law", "only a revolute or cylindrical joint turns about an axis");
+  if (o.translation_law && !slides(o.type)) report("translation_law", "only a translational or cylindrical joint slides");
+  if (o.rotation && o.rotation_law) report("rotation_law", "has no effect beside the driver in rotation");
+  if (o.translation && o.translation_law) report("translation_law", "has no effect beside the driver in translation");
 }
 
 PrescribedMotion make_driver(const DriverOptions& o, const char* column, double unit) {
@@ -147,6 +198,18 @@ PrescribedMotion make_driver(const DriverOptions& o, const char* column, double 
 
 PrescribedMotion make_rotation(const DriverOptions& o) { return make_driver(o, "angle_deg", radians_per_degree); }
 PrescribedMotion make_translation(const DriverOptions& o) { return make_driver(o, "distance_m", 1.0); }
+
+void read_law_table(JointLaw& law, const std::string& path) {
+  if (path.empty()) return;
+  const char *place = law.turns ? "angle_deg" : "distance_m", *load = law.turns ? "moment_N_m" : "force_N";
+  const scene::Columns table = scene::read_columns(path);
+  table.allow_only({place, load});
+  table.require_rows(2);
+  table.require_increasing(place, law.turns ? "angle" : "distance");
+  law.places.assign(table[place].begin(), table[place].end()), law.loads.assign(table[load].begin(), table[load].end());
+  if (law.turns)
+    for (double& angle : law.places) angle *= radians_per_degree;
+}
 
 int index_of(const NamedBodies& bodies, const std::string& name) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -211,6 +274,9 @@ const Section<JointOptions>& joint_section() {
           .required()
           .table("rotation", &JointOptions::rotation, rotation_section(), "Driver in rotation.")
           .table("translation", &JointOptions::translation, translation_section(), "Driver in translation.")
+          .table("rotation_law", &JointOptions::rotation_law, rotation_law_section(), "Spring and damper in rotation.")
+          .table("translation_law", &JointOptions::translation_law, translation_law_section(),
+                 "Spring and damper in translation.")
           .check(check_joint);
   return section;
 }
@@ -240,6 +306,15 @@ void check_bodies(scene::Document& document, const NamedBodies& bodies, const Na
     };
     check_table(joint.rotation, "rotation", make_rotation);
     check_table(joint.translation, "translation", make_translation);
+    for (const bool turns : {true, false}) {
+      const std::optional<JointLawOptions>& o = turns ? joint.rotation_law : joint.translation_law;
+      JointLaw law{.turns = turns};
+      if (o) try {
+          read_law_table(law, o->table);
+        } catch (const scene::SceneError& e) {
+          document.problem(fmt::format("joints.{}.{}.table", name, turns ? "rotation_law" : "translation_law"), e.what());
+        }
+    }
   }
 }
 
@@ -289,6 +364,25 @@ std::vector<PointLoad> make_point_loads(const NamedBodies& bodies) {
                         .moment = f.moment_N_m,
                         .follows_body = f.follows_body});
   return result;
+}
+
+std::vector<JointLaw> make_joint_laws(const NamedJoints& joints, const NamedBodies& bodies) {
+  std::vector<JointLaw> laws;
+  for (const auto& [name, o] : joints)
+    for (const bool turns : {true, false}) {
+      const std::optional<JointLawOptions>& given = turns ? o.rotation_law : o.translation_law;
+      if (!given) continue;
+      JointLaw law{.i = index_of(bodies, o.bodies[0]), .j = index_of(bodies, o.bodies[1]), .axis = o.axis.normalized()};
+      const auto from_centre = [&](int body) -> Eigen::Vector3d {
+        return body == earth ? o.point_m : Eigen::Vector3d(o.point_m - bodies[std::size_t(body)].options.centre_m);
+      };
+      law.point_i = from_centre(law.i), law.point_j = from_centre(law.j), law.turns = turns;
+      law.stiffness = given->stiffness, law.rest = given->rest, law.damping = given->damping;
+      law.quadratic_damping = given->quadratic_damping, law.friction = given->friction;
+      read_law_table(law, given->table);
+      laws.push_back(std::move(law));
+    }
+  return laws;
 }
 
 Cylinder make_cylinder(const CylinderOptions& c, const BodyOptions& body) {

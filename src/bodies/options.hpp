@@ -79,6 +79,12 @@ struct DriverOptions {
   std::string table;   ///< path
 };
 
+/// [joints.NAME.rotation_law], [joints.NAME.translation_law]: as JointLaw.
+struct JointLawOptions {
+  double stiffness = 0.0, rest = 0.0, damping = 0.0, quadratic_damping = 0.0, friction = 0.0;
+  std::string table;  ///< path
+};
+
 /// [joints.NAME]
 struct JointOptions {
   JointType type = JointType::revolute;
@@ -86,6 +92,7 @@ struct JointOptions {
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< initial earth coordinates
   Eigen::Vector3d axis = Eigen::Vector3d::Zero(), second_axis = Eigen::Vector3d::Zero();
   std::optional<DriverOptions> rotation, translation;
+  std::optional<JointLawOptions> rotation_law, translation_law;
 };
 
 using NamedBodies = std::vector<scene::Named<BodyOptions>>;
@@ -107,6 +114,8 @@ Motion start_motion(const BodyOptions& body);
 std::vector<Body> make_bodies(const NamedBodies& bodies);
 std::vector<Joint> make_joints(const NamedJoints& joints, const NamedBodies& bodies);
 std::vector<PointLoad> make_point_loads(const NamedBodies& bodies);
+/// Throws as make_joints does.
+std::vector<JointLaw> make_joint_laws(const NamedJoints& joints, const NamedBodies& bodies);
 /// Body axes from the centre of mass.
 Cylinder make_cylinder(const CylinderOptions& cylinder, const BodyOptions& body);
 Box make_box(const BoxOptions& box, const BodyOptions& body);

@@ -320,10 +320,10 @@ Table<aero::MassBalance> mass_columns() {
 std::vector<io::ColumnSection> column_sections() {
   return {section_of("BODY.", "each body: its reference point ([bodies.BODY] reference_m, else the centre of mass)",
                      motion_columns()),
-          section_of(
-              "BODY.SOURCE.",
-              "each source of load of a body (gravity, forces, beams, moorings, sea, contact, rotor), about its centre of mass",
-              wrench_columns()),
+          section_of("BODY.SOURCE.",
+                     "each source of load of a body (gravity, forces, joint_laws, beams, moorings, sea, contact, rotor), about "
+                     "its centre of mass",
+                     wrench_columns()),
           section_of("JOINT.", "each joint: its reaction", wrench_columns()),
           section_of("BEAM.", "each beam: how it is bent and the loads at its ends", beam_columns()),
           section_of("joints.", "scenes with joints", constraint_columns()),

@@ -66,6 +66,13 @@ FloatingSystem::FloatingSystem(Scenario scenario)
     for (const bodies::PointLoad& load : loads) on[std::size_t(load.body)] = true;
     add_source(sources, point_load_source("forces", std::move(loads)), on);
   }
+  if (std::vector<bodies::JointLaw> laws = make_joint_laws(s.joints, s.bodies); !laws.empty()) {
+    std::vector<bool> on(names.size());
+    for (const bodies::JointLaw& law : laws)
+      for (const int body : {law.i, law.j})
+        if (body != bodies::earth) on[std::size_t(body)] = true;
+    add_source(sources, joint_law_source(std::move(laws)), on);
+  }
   std::vector<bodies::Joint> joints = make_joints(s.joints, s.bodies);
   if (!s.beams.empty()) {
     beams_ = make_beams(s.beams, s.bodies, bodies, joints);

@@ -168,3 +168,53 @@ TEST_CASE("bodies of very different mass in one chain", "[bodies][fast]") {
   CHECK(std::abs(energy) < 1e-5 * (1.0 + ratio));
   CHECK(system.constraint_residual(state, 3.0) < 1e-12);
 }
+
+TEST_CASE("a door on a spring swings about its rest at its frequency and gives the spring's energy to the damper",
+          "[bodies][fast]") {
+  // Inertia about the hinge 2.5 + 3 x 1 = 5.5 kg m2, spring 50 N m/rad about 0.3 rad: omega = sqrt(50 / 5.5).
+  const double damping = GENERATE(0.0, 2.0), quadratic = GENERATE(0.0, 0.5);
+  const std::vector<Body> bodies{box("door", {1, 0, 0})};
+  const JointLaw spring{.i = earth,
+                        .j = 0,
+                        .axis = z,
+                        .point_j = {-1, 0, 0},
+                        .stiffness = 50.0,
+                        .rest = 0.3,
+                        .damping = damping,
+                        .quadratic_damping = quadratic};
+  System system(bodies, {joint("hinge", JointType::revolute, earth, 0, {0, 0, 0}, z)}, {joint_law_source({spring})});
+  BodiesState state = start(system);
+  const auto energy = [&] {
+    const double off = spring.way(state.motions).place - 0.3;
+    return system.kinetic_energy(state) + 25.0 * off * off;
+  };
+  const double before = energy(), period = 2.0 * pi * std::sqrt(5.5 / 50.0);
+  double lost = 0.0;
+  for (int n = 0; n < 4000; ++n) {
+    const double rate = spring.way(state.motions).rate;
+    run(system, state, 0.25e-3 * period, 1);
+    const double next = spring.way(state.motions).rate, middle = 0.5 * (rate + next);
+    lost += 0.25e-3 * period * (damping + quadratic * std::abs(middle)) * middle * middle;
+  }
+  CHECK(energy() == Approx(before - lost).epsilon(1e-5));
+  if (damping + quadratic == 0.0) CHECK(spring.way(state.motions).place == Approx(0.0).margin(1e-9));  // a whole period
+}
+
+TEST_CASE("a slider between two free bodies pulls both, and its friction brings it to rest", "[bodies][fast]") {
+  const std::vector<Body> bodies{box("first", {0, 0, 0}), box("second", {2, 0, 0})};
+  JointLaw law{.i = 0, .j = 1, .axis = x, .point_i = {1, 0, 0}, .point_j = {-1, 0, 0}, .turns = false, .friction = 3.0};
+  std::vector<Body> moving = bodies;
+  moving[1].initial.velocity = {2, 0, 0};
+  System system(moving, {joint("slide", JointType::translational, 0, 1, {1, 0, 0}, x)}, {joint_law_source({law})});
+  BodiesState state = start(system);
+  const double speed = law.way(state.motions).rate;
+  const Vector3d together = state.motions[0].velocity + state.motions[1].velocity;
+  REQUIRE(speed > 0.5);
+  // Both slow down against each other by 3 N (1/3 + 1/3) 1/kg = 2 m/s2.
+  run(system, state, 1e-3, 100);
+  CHECK(law.way(state.motions).rate == Approx(speed - 0.2));
+  run(system, state, 1e-3, 2000);
+  CHECK(std::abs(law.way(state.motions).rate) < 1e-6);
+  CHECK(law.way(state.motions).place == Approx(0.25 * speed * speed).epsilon(0.01));
+  CHECK((state.motions[0].velocity + state.motions[1].velocity - together).norm() < 1e-9);  // momentum
+}

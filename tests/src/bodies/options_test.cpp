@@ -99,6 +99,20 @@ TEST_CASE("a driver may follow a table in time", "[bodies][fast]") {
   CHECK(joints[0].rotation->at(1.5).rate == Approx(pi / 2));
 }
 
+TEST_CASE("a joint's law is read in degrees, and its table gives the load on the second body", "[bodies][fast]") {
+  std::ofstream(std::filesystem::temp_directory_path() / "spindrift_law_test.csv")
+      << "angle_deg,moment_N_m\n-90,200\n0,0\n90,-50\n";
+  const Read scene = read(platform + rotor + bearing +
+                          "[joints.bearing.rotation_law]\nstiffness_N_m_rad = 7.0\nrest_deg = 90.0\ndamping_N_m_s_rad = 2.0\n"
+                          "table = 'spindrift_law_test.csv'\n");
+  const std::vector<JointLaw> laws = make_joint_laws(scene.joints, scene.bodies);
+  REQUIRE(laws.size() == 1);
+  CHECK(laws[0].turns);
+  CHECK(laws[0].point_j == Vector3d(-1, 0, 0));
+  CHECK(laws[0].load({pi / 4, 0.5}) == Approx(7.0 * pi / 4 - 1.0 - 25.0));
+  CHECK(laws[0].load({-3.0, 0.0}) == Approx(7.0 * (3.0 + pi / 2) + 200.0));  // the first row holds
+}
+
 TEST_CASE("a malformed body or joint is refused with what is wrong", "[bodies][fast]") {
   struct Case {
     std::string text, message;
@@ -120,6 +134,12 @@ TEST_CASE("a malformed body or joint is refused with what is wrong", "[bodies][f
                       "second_axis = [2, 0, 0]\n",
            "parallel"},
       Case{platform + rotor + bearing + "[joints.bearing.translation]\nspeed_m_s = 1.0\n", "only a translational or cylindrical"},
+      Case{platform + rotor + bearing + "[joints.bearing.translation_law]\nstiffness_N_m = 1.0\n",
+           "translational or cylindrical"},
+      Case{platform + rotor + bearing + "[joints.bearing.rotation_law]\nrest_deg = 1.0\n", "the law has no effect"},
+      Case{platform + rotor + bearing +
+               "[joints.bearing.rotation]\nspeed_rpm = 1.0\n[joints.bearing.rotation_law]\nfriction_N_m = 1.0\n",
+           "beside the driver"},
       Case{platform + rotor + bearing + "[joints.bearing.rotation]\namplitude_deg = 5.0\n", "period_s"},
       Case{platform + rotor + bearing + "[joints.bearing.rotation]\nspeed_m_s = 1.0\n", "speed_m_s"});
   CHECK_THROWS_WITH(read(c.text), Contains(c.message));
