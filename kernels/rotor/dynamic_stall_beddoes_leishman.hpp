@@ -14,6 +14,7 @@
 #include "kernels/rotor/blade_element.hpp"
 #include "kernels/rotor/dynamic_inflow_oye.hpp"
 #include "kernels/rotor/dynamic_stall_oye.hpp"
+#include "kernels/rotor/half_turn.hpp"
 
 namespace spindrift {
 
@@ -83,7 +84,7 @@ struct DynamicStallBeddoesLeishman {
   template <class Polar>
   State advance(State s, double attack, double beta, double h, double chord, double speed, const Polar& polar) const {
     if (slope <= 0.0) return s;
-    const double way = 2.0 * std::max(speed, 1e-3) * h / chord, turned = std::remainder(attack - s.attack, 2.0 * pi);
+    const double way = 2.0 * std::max(speed, 1e-3) * h / chord, turned = within_half_turn(attack - s.attack);
     const double rate = turned / h, steep = slope / beta;
     s.wake_1 = s.wake_1 * std::exp(-b1 * beta * beta * way) + A1 * turned * std::exp(-0.5 * b1 * beta * beta * way);
     s.wake_2 = s.wake_2 * std::exp(-b2 * beta * beta * way) + A2 * turned * std::exp(-0.5 * b2 * beta * beta * way);
@@ -115,7 +116,7 @@ struct DynamicStallBeddoesLeishman {
   template <class Polar>
   SectionForce force(const State& s, double attack, double beta, const Polar& polar) const {
     const SectionForce steady = polar(attack);
-    const double off = std::abs(std::remainder(attack - zero_lift, 2.0 * pi));
+    const double off = std::abs(within_half_turn(attack - zero_lift));
     const double away =
         std::clamp((off - DynamicStallOye::fade_from) / (DynamicStallOye::fade_to - DynamicStallOye::fade_from), 0.0, 1.0);
     if (slope <= 0.0 || away >= 1.0) return steady;

@@ -1,10 +1,12 @@
-// What a round tower does to the wind round it: potential flow about a cylinder, as AeroDyn's baseline (Moriarty & Hansen 2005,
-// NREL/EL-500-36881, section on tower influence). Used by src/aero/tower.cpp; tested in tests/src/aero/tower_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// What a round tower does to the wind round it: potential flow about a cylinder and the wake behind it, as AeroDyn's baseline
+// (Moriarty & Hansen 2005, NREL/EL-500-36881, section on tower influence). Used by src/aero/tower.cpp; tested in
+// tests/src/aero/tower_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+
+#include "kernels/base/constants.hpp"
 
 namespace spindrift {
 
@@ -17,6 +19,15 @@ struct TowerFlow {
 inline TowerFlow tower_flow(double x, double y) {
   const double r2 = std::max(x * x + y * y, 1.0);
   return {(y * y - x * x) / (r2 * r2), -2.0 * x * y / (r2 * r2)};
+}
+
+/// The wake behind it, of a tower with this drag coefficient: wind lost over the undisturbed (Powles 1983, as AeroDyn has it).
+/// Its loss of momentum is the tower's drag. Where the blades are before the tower it is nothing.
+inline double tower_wake(double x, double y, double drag) {
+  const double width = std::sqrt(std::sqrt(std::max(x * x + y * y, 1.0)));
+  if (x <= 0.0 || std::abs(y) >= width) return 0.0;
+  const double cosine = std::cos(0.5 * pi * y / width);
+  return -drag / width * cosine * cosine;
 }
 
 }  // namespace spindrift

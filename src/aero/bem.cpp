@@ -115,13 +115,13 @@ void BladeElementMomentum::for_each_force(const Wind& wind, const DiscMotion& ro
       const Induced induced = steady(at);
       const double beta = prandtl_glauert(flow(at, induced).speed);
       const DynamicStallBeddoesLeishman stall = section.leishman();
-      s = forces(at, induced, [&](double a) { return stall.still(std::remainder(a, 2.0 * pi), beta, section); });
+      s = forces(at, induced, [&](double a) { return stall.still(within_half_turn(a), beta, section); });
     } else {
       const Past past = recalled(memory, at.index);
       const Induced induced = unsteady_.inflow ? Induced{past.normal.now, past.tangential.now} : steady(at);
       const double beta = leishman ? prandtl_glauert(flow(at, induced).speed) : 1.0;
       s = forces(at, induced, [&](double a) {
-        const double attack = std::remainder(a, 2.0 * pi);
+        const double attack = within_half_turn(a);
         if (leishman) return section.leishman().force(past.leishman, attack, beta, section);
         SectionForce f = section(a);
         if (unsteady_.stall == UnsteadyFlow::Stall::oye) f.lift = section.oye().lift(attack, f.lift, past.separation);
@@ -206,7 +206,7 @@ void BladeElementMomentum::store(const Past& p, std::span<double> memory, std::s
 
 BladeElementMomentum::Flow BladeElementMomentum::flow(const Place& at, const Induced& induced) const {
   const ElementState s = forces(at, induced, [](double) { return SectionForce{}; });
-  return {std::remainder(s.attack, 2.0 * pi), s.speed};
+  return {within_half_turn(s.attack), s.speed};
 }
 
 double BladeElementMomentum::prandtl_glauert(double speed) const {

@@ -13,6 +13,7 @@
 #include "kernels/rotor/blade_element.hpp"
 #include "kernels/rotor/dynamic_stall_beddoes_leishman.hpp"
 #include "kernels/rotor/dynamic_stall_oye.hpp"
+#include "kernels/rotor/half_turn.hpp"
 #include "src/aero/turbine.hpp"
 
 namespace spindrift::aero {
@@ -70,7 +71,7 @@ class SectionPolars {
 };
 
 inline SectionForce SectionPolars::Table::operator()(double angle) const {
-  const double a = std::remainder(angle, 2.0 * pi);
+  const double a = within_half_turn(angle);
   const std::size_t i = interval(attack, a);
   const double s = std::clamp((a - attack[i]) / (attack[i + 1] - attack[i]), 0.0, 1.0);
   return {(1.0 - s) * lift[i] + s * lift[i + 1], (1.0 - s) * drag[i] + s * drag[i + 1]};

@@ -30,7 +30,8 @@ const scene::Section<TowerOptions>& tower_section() {
                 "Rows upwards of height over still water [m], diameter [m], drag coefficient.")
           .required()
           .flag("changes_wind", &TowerOptions::changes_wind,
-                "The blades meet the wind as it goes round the tower (potential flow); only with model \"bem\".")
+                "The blades meet the wind as it goes round the tower (potential flow) and, behind it, its wake; only with model "
+                "\"bem\".")
           .flag("has_drag", &TowerOptions::has_drag, "The tower has drag of its own.")
           .check([](const TowerOptions& o, const scene::Report& report) {
             if (o.stations.size() < 2) return report("stations", "needs two rows or more");
@@ -75,8 +76,10 @@ Eigen::Vector3d Tower::disturbed(const TowerFrame& now, const Eigen::Vector3d& w
   const double speed = level.norm();
   if (speed == 0.0) return wind;
   const Eigen::Vector3d x = level / speed, y = tower.cross(x);
-  const TowerFlow flow = tower_flow(offset.dot(x) / radius, offset.dot(y) / radius);
-  return wind + left * speed * (flow.along * x + flow.across * y);
+  const double downwind = offset.dot(x) / radius, aside = offset.dot(y) / radius;
+  const TowerFlow flow = tower_flow(downwind, aside);
+  const double wake = tower_wake(downwind, aside, (1.0 - share) * stations_[k].drag + share * stations_[k + 1].drag);
+  return wind + left * speed * ((flow.along + wake) * x + flow.across * y);
 }
 
 TowerLoad Tower::drag(const TowerFrame& now, const Wind& wind, double t) const {

@@ -271,7 +271,12 @@ class Importer {
 
   std::string tower(const Deck& ad) {
     const bool changes_wind = ad.integer({"TwrPotent"}, 0) > 0, drag = ad.flag({"TwrAero"}, false);
-    if (ad.integer({"TwrShadow"}, 0) > 0) leave_out("the tower's wake on a downwind rotor (TwrShadow)");
+    const int wake = ad.integer({"TwrShadow"}, 0);
+    if (wake > 0 && !changes_wind)
+      leave_out("the tower's wake on a downwind rotor (TwrShadow), which comes with its flow (TwrPotent)");
+    if (wake > 1 && changes_wind) leave_out("the wake of TwrShadow 2: that of TwrShadow 1 takes its place");
+    if (wake == 0 && changes_wind && rotor_.hub.x() * rotor_.axis.x() > 0.0)
+      leave_out("TwrShadow 0: the wake of the tower comes with its flow (TwrPotent) where the rotor is behind it");
     if (ad.integer({"TwrPotent"}, 0) > 1) leave_out("Bak's correction of the flow round the tower (TwrPotent 2)");
     const std::size_t count = std::size_t(ad.integer({"NumTwrNds"}, 0));
     if (!(changes_wind || drag) || count < 2) return "";

@@ -2,6 +2,7 @@
 // layouts of OpenFAST, and what becomes of it. SPDX-License-Identifier: Apache-2.0
 #include "src/import/openfast.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include <unistd.h>
@@ -379,6 +380,23 @@ TEST_CASE("what the scene cannot say is told", "[import][fast]") {
   std::ostringstream scene;
   scene << std::ifstream(deck.folder / "scene/scene.toml").rdbuf();
   CHECK(scene.str().find("# - motion of yaw bearing") != std::string::npos);
+}
+
+TEST_CASE("the tower's wake comes with its flow, and decks that mean otherwise are told", "[import][fast]") {
+  const auto told = [](const char* flow, const char* wake, const char* overhang, const char* what) {
+    SmallDeck deck;
+    deck.replace("ad.dat", "0 TwrPotent", std::string(flow) + " TwrPotent");
+    deck.replace("ad.dat", "0 TwrShadow", std::string(wake) + " TwrShadow");
+    deck.replace("ad.dat", "False TwrAero", "True TwrAero\n2 NumTwrNds\nTwrElev TwrDiam TwrCd\n(m) (m) (-)\n10 6 1\n60 4 1");
+    deck.replace("ed.dat", "-4 OverHang", std::string(overhang) + " OverHang");
+    const std::vector<std::string> left_out = deck.import().left_out;
+    return std::ranges::any_of(left_out, [&](const std::string& line) { return line.find(what) != std::string::npos; });
+  };
+  CHECK(!told("1", "1", "4", "TwrShadow"));
+  CHECK(!told("1", "0", "-4", "TwrShadow"));  // before the tower there is none
+  CHECK(told("1", "0", "4", "TwrShadow 0"));
+  CHECK(told("1", "2", "4", "TwrShadow 2"));
+  CHECK(told("0", "1", "4", "comes with its flow"));
 }
 
 TEST_CASE("blades that bend in the deck bend in the scene, in steps that follow them", "[import][fast]") {
