@@ -67,6 +67,14 @@ const scene::Section<RecordOptions>& record_section() {
   return section;
 }
 
+template <class Options>
+void check_shaft(const Options& o, const scene::Report& report) {
+  if (o.shaft_stiffness_N_m_rad && o.generator_inertia_kg_m2 <= 0.0)
+    report("shaft_stiffness_N_m_rad", "needs a generator_inertia_kg_m2 above 0 at the shaft's other end");
+  if (!o.shaft_stiffness_N_m_rad && o.shaft_damping_N_m_s_rad > 0.0)
+    report("shaft_damping_N_m_s_rad", "has no effect without shaft_stiffness_N_m_rad");
+}
+
 const scene::Section<DriveTrainOptions>& drive_train_section() {
   using scene::positive, scene::not_negative, scene::between;
   static const auto section =
@@ -76,6 +84,10 @@ const scene::Section<DriveTrainOptions>& drive_train_section() {
           .required()
           .number("generator_inertia_kg_m2", &DriveTrainOptions::generator_inertia_kg_m2, "kg m2",
                   "Generator, as felt on the low-speed shaft.", not_negative())
+          .number("shaft_stiffness_N_m_rad", &DriveTrainOptions::shaft_stiffness_N_m_rad, "N m/rad",
+                  "Against twist between rotor and generator, on the low-speed shaft; without it the shaft is rigid.", positive())
+          .number("shaft_damping_N_m_s_rad", &DriveTrainOptions::shaft_damping_N_m_s_rad, "N m s/rad", "Against its rate.",
+                  not_negative())
           .number("gear_ratio", &DriveTrainOptions::gear_ratio, "-", "Generator speed over rotor speed.", positive())
           .number("generator_efficiency", &DriveTrainOptions::generator_efficiency, "-", "Electrical over shaft power.",
                   between(0.1, 1.0))
@@ -88,11 +100,13 @@ const scene::Section<DriveTrainOptions>& drive_train_section() {
                   "Of the pitch servo; without it blades go where they are asked to as fast as they may.", positive())
           .number("servo_damping", &DriveTrainOptions::servo_damping, "-", "Its damping ratio.", between(0.1, 2.0))
           .degrees("max_pitch_acceleration_deg_s2", &DriveTrainOptions::max_pitch_acceleration, "Its largest acceleration.",
-                   between(0.01, 1000.0), "deg/s2");
+                   between(0.01, 1000.0), "deg/s2")
+          .check(check_shaft<DriveTrainOptions>);
   return section;
 }
 
 void check_controller(const ControllerOptions& o, const scene::Report& report) {
+  check_shaft(o, report);
   if (!(o.min_speed < o.rated_speed)) report("min_speed_rpm", "must be below rated_speed_rpm");
   if (o.max_torque_N_m * o.rated_speed < o.rated_power_W / o.generator_efficiency)
     report("max_torque_N_m", fmt::format("times the rated speed is {:.4g} W, below the rated shaft power of {:.4g} W",
@@ -187,6 +201,10 @@ const scene::Section<ControllerOptions>& controller_section() {
           .required()
           .number("generator_inertia_kg_m2", &ControllerOptions::generator_inertia_kg_m2, "kg m2",
                   "Generator, as felt on the low-speed shaft.", not_negative())
+          .number("shaft_stiffness_N_m_rad", &ControllerOptions::shaft_stiffness_N_m_rad, "N m/rad",
+                  "Against twist between rotor and generator, on the low-speed shaft; without it the shaft is rigid.", positive())
+          .number("shaft_damping_N_m_s_rad", &ControllerOptions::shaft_damping_N_m_s_rad, "N m s/rad", "Against its rate.",
+                  not_negative())
           .number("brake_torque_N_m", &ControllerOptions::brake_torque_N_m, "N m", "Of the brake, on the low-speed shaft.",
                   not_negative())
           .degrees("feather_deg", &ControllerOptions::feather, "Pitch of feathered blades.", between(45.0, 120.0))
@@ -212,7 +230,9 @@ DriveTrainOptions drive_train_of(const ControllerOptions& c) {
           .max_pitch_rate = c.max_pitch_rate,
           .max_pitch_acceleration = c.max_pitch_acceleration,
           .servo_frequency_Hz = c.servo_frequency_Hz,
-          .servo_damping = c.servo_damping};
+          .servo_damping = c.servo_damping,
+          .shaft_stiffness_N_m_rad = c.shaft_stiffness_N_m_rad,
+          .shaft_damping_N_m_s_rad = c.shaft_damping_N_m_s_rad};
 }
 
 namespace {

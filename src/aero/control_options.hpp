@@ -43,6 +43,8 @@ struct DriveTrainOptions {
   double max_pitch_acceleration = 0.2617993877991494;                         ///< of a servo [rad/s2]
   std::optional<double> servo_frequency_Hz;                                   ///< absent: blades are where they are asked to be
   double servo_damping = 0.7;
+  std::optional<double> shaft_stiffness_N_m_rad;  ///< absent: the shaft is rigid
+  double shaft_damping_N_m_s_rad = 0.0;
 };
 
 /// [[control.records]]
@@ -89,6 +91,8 @@ struct ControllerOptions {
   PitchGainOptions gains;
   std::optional<PitchGainOptions> floating_gains;
   double rotor_inertia_kg_m2 = 0.0, generator_inertia_kg_m2 = 0.0;
+  std::optional<double> shaft_stiffness_N_m_rad;
+  double shaft_damping_N_m_s_rad = 0.0;
   double brake_torque_N_m = 0.0;
   double feather = 1.5707963267948966, stop_pitch_rate = 0.03490658503988659;  ///< [rad], [rad/s]
 };

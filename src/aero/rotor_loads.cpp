@@ -370,8 +370,10 @@ void RotorLoads::add_added_mass(double t, std::span<const Motion> bodies, std::s
 }
 
 RotorLoads::Drive RotorLoads::drive() const {
-  const TurbineControl::State s = TurbineControl::state(memory_);
-  return {s.generator_torque, control_->efficiency() * s.generator_torque * s.speed, s.asked, control_->pitch(memory_)};
+  const std::span<const double> memory = std::span(memory_).first(control_size());
+  const TurbineControl::State s = TurbineControl::state(memory);
+  return {s.generator_torque, control_->efficiency() * s.generator_torque * control_->generator_speed(memory), s.asked,
+          control_->pitch(memory), has_elastic_shaft() ? control_->shaft(memory) : TurbineControl::Shaft{}};
 }
 
 void RotorLoads::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp) const {

@@ -114,7 +114,9 @@ class RotorLoads {
   struct Drive {
     double generator_torque, electrical_power, asked_pitch;  ///< [N m] on the shaft, [W], [rad]
     std::span<const double> pitch;                           ///< of each blade [rad]
+    TurbineControl::Shaft shaft;                             ///< of an elastic one
   };
+  bool has_elastic_shaft() const { return control_ && control_->has_elastic_shaft(); }
   Drive drive() const;
   /// Null where no library controls the rotor.
   BladedLibrary* library() const { return control_ ? control_->library() : nullptr; }

@@ -74,6 +74,11 @@ TurbineControl::State TurbineControl::state(std::span<const double> memory) {
   return std::bit_cast<State>(values);
 }
 
+TurbineControl::Shaft TurbineControl::shaft(std::span<const double> memory) const {
+  const std::span<const double> m = memory.subspan(memory_size() - 3, 3);
+  return {m[0], m[1], m[2]};
+}
+
 void TurbineControl::store(const State& s, std::span<double> memory) {
   const auto values = std::bit_cast<std::array<double, head>>(s);
   std::copy(values.begin(), values.end(), memory.begin());
@@ -101,7 +106,8 @@ void TurbineControl::begin(double t, const Measured& measured, std::span<double>
     s.shaft_torque = measured.torque;
     std::copy_n(measured.velocity.data(), 3, rows.velocity.begin()),
         std::copy_n(measured.turning.data(), 3, rows.turning.begin());
-    ask_library(t, 0.0, measured, s, rows);
+    ask_library(t, 0.0, measured, s.speed, s, rows);
+    lay_shaft(measured, s, memory);
     return store(s, memory);
   }
   if (!starts_parked_) {
@@ -110,7 +116,16 @@ void TurbineControl::begin(double t, const Measured& measured, std::span<double>
   }
   s.shaft_torque = s.generator_torque;
   s.controller = settled(law_, start_speed_, measured.wind, start_pitch_, least_pitch(measured.wind), s.generator_torque);
+  lay_shaft(measured, s, memory);
   store(s, memory);
+}
+
+/// A shaft twisted by what the generator takes at the start.
+void TurbineControl::lay_shaft(const Measured& measured, State& s, std::span<double> memory) const {
+  if (!has_elastic_shaft()) return;
+  s.acceleration = measured.torque / (drive_train_.rotor_inertia_kg_m2 - measured.bending_inertia);
+  const std::span<double> m = memory.subspan(memory_size() - 3, 3);
+  m[0] = s.generator_torque / *drive_train_.shaft_stiffness_N_m_rad, m[1] = s.speed, m[2] = s.generator_torque;
 }
 
 /// Largest torque of the brake [N m].
@@ -149,12 +164,12 @@ void TurbineControl::feather(double h, double rate, State& s, const Rows& rows) 
 }
 
 /// Our own controller, at the end of a step.
-void TurbineControl::ask_law(double h, const Measured& measured, State& s, const Rows& rows) const {
+void TurbineControl::ask_law(double h, const Measured& measured, double speed, State& s, const Rows& rows) const {
   double pitch = 0.0;
   for (double p : rows.pitch) pitch += p / blades_;
   const double least = least_pitch(s.controller.wind);
   s.controller =
-      spindrift::advance(law_, s.controller, s.speed, pitch, measured.wind, h, [this](double w) { return least_pitch(w); });
+      spindrift::advance(law_, s.controller, speed, pitch, measured.wind, h, [this](double w) { return least_pitch(w); });
   if (s.mode == double(Mode::operating)) {
     s.asked = s.controller.pitch, s.generator_torque = s.controller.torque;
   } else if (s.mode == double(Mode::starting)) {
@@ -165,16 +180,17 @@ void TurbineControl::ask_law(double h, const Measured& measured, State& s, const
       s.controller = settled(law_, s.controller.speed, s.controller.wind, std::max(s.asked, least), least, 0.0);
     }
   } else {
-    const double k_torque = s.speed > 0.0 ? law_.torque_gain * s.speed * s.speed : 0.0;
+    const double k_torque = speed > 0.0 ? law_.torque_gain * speed * speed : 0.0;
     s.generator_torque =
-        s.mode == double(Mode::stopping) && s.speed > law_.min_speed ? std::min(s.generator_torque, k_torque) : 0.0;
+        s.mode == double(Mode::stopping) && speed > law_.min_speed ? std::min(s.generator_torque, k_torque) : 0.0;
     return feather(h, s.mode == double(Mode::stopping) ? stop_pitch_rate_ : drive_train_.max_pitch_rate, s, rows);
   }
   std::ranges::fill(rows.asked, s.asked);
 }
 
 /// The library, at the end of a step of h; at the start of the run without one.
-void TurbineControl::ask_library(double t, double h, const Measured& measured, State& s, const Rows& rows) const {
+void TurbineControl::ask_library(double t, double h, const Measured& measured, double generator_speed, State& s,
+                                 const Rows& rows) const {
   const double gear = drive_train_.gear_ratio;
   Eigen::Map<Eigen::Vector3d> velocity(rows.velocity.data()), turning(rows.turning.data());
   const Eigen::Vector3d acceleration = h > 0.0 ? Eigen::Vector3d((measured.velocity - velocity) / h) : Eigen::Vector3d::Zero(),
@@ -188,8 +204,8 @@ void TurbineControl::ask_library(double t, double h, const Measured& measured, S
                               .pitch_1 = pitch(0),
                               .asked_pitch = float(rows.asked[0]),
                               .shaft_power = float(s.shaft_torque * s.speed),
-                              .electrical_power = float(drive_train_.generator_efficiency * s.generator_torque * s.speed),
-                              .generator_speed = float(gear * s.speed),
+                              .electrical_power = float(drive_train_.generator_efficiency * s.generator_torque * generator_speed),
+                              .generator_speed = float(gear * generator_speed),
                               .rotor_speed = float(s.speed),
                               .generator_torque = float(s.generator_torque / gear),
                               .yaw_error = float(measured.yaw_error),
@@ -228,10 +244,8 @@ void TurbineControl::turn_blades(double h, const Rows& rows) const {
   }
 }
 
-void TurbineControl::advance(double t, double h, const Measured& measured, std::span<double> memory) const {
-  State s = state(memory);
-  const Rows rows = this->rows(memory);
-  // The shaft first, under the torque that the generator had: Adams-Bashforth, second order.
+/// Under the torque that the generator had: Adams-Bashforth, second order.
+void TurbineControl::turn_rigid(double h, const Measured& measured, State& s) const {
   const double inertia = inertia_ - measured.bending_inertia;
   const double acceleration = (measured.torque - s.generator_torque) / inertia;
   const double before = s.speed;
@@ -239,13 +253,48 @@ void TurbineControl::advance(double t, double h, const Measured& measured, std::
   if (const double stop = h * brake(s) / inertia; stop > 0.0) s.speed -= std::clamp(s.speed, -stop, stop);
   s.acceleration = acceleration;
   s.shaft_torque = measured.torque - inertia * (s.speed - before) / h;
-  s.azimuth += 0.5 * h * (before + s.speed), s.time = t;
+  s.azimuth += 0.5 * h * (before + s.speed);
+}
+
+/// Rotor and generator on the two ends of a spring and a damper, by the trapezium rule in twist and torque: stable at any step
+/// and without damping of its own. The air's torque is extrapolated to the middle of the step.
+void TurbineControl::turn_elastic(double h, const Measured& measured, State& s, std::span<double> memory) const {
+  Shaft shaft = this->shaft(memory);
+  const double rotor = drive_train_.rotor_inertia_kg_m2 - measured.bending_inertia,
+               generator = drive_train_.generator_inertia_kg_m2, stiffness = *drive_train_.shaft_stiffness_N_m_rad;
+  const double acceleration = measured.torque / rotor, by_air = 1.5 * acceleration - 0.5 * s.acceleration;
+  const double before = s.speed, generator_before = shaft.generator_speed, looseness = 1.0 / rotor + 1.0 / generator;
+  const double per_rate = 0.5 * h * stiffness + drive_train_.shaft_damping_N_m_s_rad;
+  const double rate =
+      (before - generator_before + 0.5 * h * (by_air + s.generator_torque / generator - looseness * stiffness * shaft.twist)) /
+      (1.0 + 0.5 * h * looseness * per_rate);  // of the twist, its mean over the step
+  shaft.torque = stiffness * shaft.twist + per_rate * rate;
+  shaft.twist += h * rate;
+  shaft.generator_speed += h * (shaft.torque - s.generator_torque) / generator;
+  s.speed += h * (by_air - shaft.torque / rotor);
+  if (const double stop = h * brake(s) / rotor; stop > 0.0) s.speed -= std::clamp(s.speed, -stop, stop);
+  s.acceleration = acceleration;
+  s.shaft_torque = measured.torque - (rotor * (s.speed - before) + generator * (shaft.generator_speed - generator_before)) / h;
+  s.azimuth += 0.5 * h * (before + s.speed);
+  const std::span<double> m = memory.subspan(memory_size() - 3, 3);
+  m[0] = shaft.twist, m[1] = shaft.generator_speed, m[2] = shaft.torque;
+}
+
+void TurbineControl::advance(double t, double h, const Measured& measured, std::span<double> memory) const {
+  State s = state(memory);
+  const Rows rows = this->rows(memory);
+  if (has_elastic_shaft())
+    turn_elastic(h, measured, s, memory);
+  else
+    turn_rigid(h, measured, s);
+  s.time = t;
+  const double generator_speed = has_elastic_shaft() ? shaft(memory).generator_speed : s.speed;
 
   happen(t, h, s, rows.stuck);
   if (library_)
-    ask_library(t, h, measured, s, rows);
+    ask_library(t, h, measured, generator_speed, s, rows);
   else
-    ask_law(h, measured, s, rows);
+    ask_law(h, measured, generator_speed, s, rows);
   turn_blades(h, rows);
   store(s, memory);
 }

@@ -28,7 +28,8 @@ class TurbineControl {
   struct State {
     double time;              ///< [s]
     double azimuth, speed;    ///< of blade 1 [rad], [rad/s]
-    double acceleration;      ///< before the last step, of which the next makes a second-order one [rad/s2]
+    double acceleration;      ///< before the last step, of which the next makes a second-order one [rad/s2]; of an elastic shaft
+                              ///< by the air alone
     double generator_torque;  ///< from now on, on the shaft [N m]
     double shaft_torque;      ///< of the last step, on what carries the rotor, brake included [N m]
     double mode;              ///< one of Mode
@@ -55,7 +56,19 @@ class TurbineControl {
   TurbineControl(const ControlOptions& options, int blades, double start_azimuth, double start_speed, double start_pitch,
                  double step_s);
 
-  std::size_t memory_size() const { return head + 4 * std::size_t(blades_) + (library_ ? 6 : 0); }
+  std::size_t memory_size() const {
+    return head + 4 * std::size_t(blades_) + (library_ ? 6 : 0) + (has_elastic_shaft() ? sizeof(Shaft) / sizeof(double) : 0);
+  }
+  /// What twists between rotor and generator, where it does.
+  struct Shaft {
+    double twist, generator_speed;  ///< of the rotor ahead of the generator [rad]; [rad/s]
+    double torque;                  ///< in the last step, on the generator [N m]
+  };
+  bool has_elastic_shaft() const { return drive_train_.shaft_stiffness_N_m_rad.has_value(); }
+  Shaft shaft(std::span<const double> memory) const;
+  double generator_speed(std::span<const double> memory) const {
+    return has_elastic_shaft() ? shaft(memory).generator_speed : state(memory).speed;
+  }
   std::size_t blades() const { return std::size_t(blades_); }
   double inertia() const { return inertia_; }                                ///< of rotor and generator about the shaft [kg m2]
   double rotor_inertia() const { return drive_train_.rotor_inertia_kg_m2; }  ///< of what turns with the blades [kg m2]
@@ -85,8 +98,11 @@ class TurbineControl {
   double least_pitch(double wind) const;
   void happen(double t, double h, State& s, std::span<double> stuck) const;
   double brake(const State& s) const;
-  void ask_law(double h, const Measured& measured, State& s, const Rows& rows) const;
-  void ask_library(double t, double h, const Measured& measured, State& s, const Rows& rows) const;
+  void lay_shaft(const Measured& measured, State& s, std::span<double> memory) const;
+  void turn_rigid(double h, const Measured& measured, State& s) const;
+  void turn_elastic(double h, const Measured& measured, State& s, std::span<double> memory) const;
+  void ask_law(double h, const Measured& measured, double speed, State& s, const Rows& rows) const;
+  void ask_library(double t, double h, const Measured& measured, double generator_speed, State& s, const Rows& rows) const;
   void feather(double h, double rate, State& s, const Rows& rows) const;
   void turn_blades(double h, const Rows& rows) const;
 

@@ -169,8 +169,20 @@ Table<aero::RotorLoads::Drive> drive_columns() {
   static constexpr double degree = radians_per_degree;
   static constexpr ColumnOf<aero::RotorLoads::Drive> table[] = {
       {"generator_torque_N_m", "N m", "of the generator, on the low-speed shaft", [](Of d) { return d.generator_torque; }},
-      {"electrical_power_W", "W", "generator torque times rotor speed times efficiency", [](Of d) { return d.electrical_power; }},
+      {"electrical_power_W", "W", "generator torque times its speed times efficiency", [](Of d) { return d.electrical_power; }},
       {"asked_pitch_deg", "deg", "blade pitch that the controller asks for", [](Of d) { return d.asked_pitch / degree; }}};
+  return table;
+}
+
+Table<aero::RotorLoads::Drive> shaft_columns() {
+  using Of = const aero::RotorLoads::Drive&;
+  static constexpr double degree = radians_per_degree;
+  static constexpr ColumnOf<aero::RotorLoads::Drive> table[] = {
+      {"generator_rpm", "rpm", "speed of the generator, on the low-speed shaft",
+       [](Of d) { return d.shaft.generator_speed / rad_s_per_rpm; }},
+      {"shaft_torque_N_m", "N m", "torque that the twisted shaft carries from rotor to generator",
+       [](Of d) { return d.shaft.torque; }},
+      {"shaft_twist_deg", "deg", "angle of the rotor ahead of the generator", [](Of d) { return d.shaft.twist / degree; }}};
   return table;
 }
 
@@ -333,6 +345,7 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("rotor.", "rotors on bodies", hub_columns()),
           section_of("rotor.", "rotors on bodies", wind_columns()),
           section_of("rotor.", "controlled rotors", drive_columns()),
+          section_of("rotor.", "controlled rotors with an elastic shaft", shaft_columns()),
           section_of("rotor.blade_1.", "each blade of a controlled rotor", pitch_columns()),
           section_of("rotor.blade_1.", "each blade, where rotor.blade_masses or rotor.blade_structure is given", root_columns()),
           section_of("rotor.blade_1.", "each blade that bends", tip_columns()),

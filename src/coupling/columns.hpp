@@ -59,6 +59,7 @@ Table<RotorRow> rotor_columns();                 ///< rotor.
 Table<aero::RotorState> hub_columns();           ///< rotor.
 Table<Eigen::Vector3d> wind_columns();           ///< rotor.
 Table<aero::RotorLoads::Drive> drive_columns();  ///< rotor., of a controlled one
+Table<aero::RotorLoads::Drive> shaft_columns();  ///< rotor., of one whose shaft twists
 Table<double> pitch_columns();                   ///< rotor.blade_N., likewise
 Table<aero::BladeRootLoad> root_columns();
 Table<Eigen::Vector2d> tip_columns();            ///< rotor.blade_N., where blade masses are given

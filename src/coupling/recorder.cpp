@@ -44,6 +44,7 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
   }
   if (floating.rotor() && floating.rotor()->is_controlled()) {
     drive_.emplace(history, "rotor.", drive_columns());
+    if (floating.rotor()->has_elastic_shaft()) shaft_.emplace(history, "rotor.", shaft_columns());
     for (std::size_t blade = 1; blade <= floating.rotor()->drive_blades(); ++blade)
       pitches_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", pitch_columns());
   }
@@ -132,6 +133,7 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     if (drive_) {
       const aero::RotorLoads::Drive drive = floating_.rotor()->drive();
       drive_->fill(row, drive);
+      if (shaft_) shaft_->fill(row, drive);
       for (std::size_t blade = 0; blade < pitches_.size(); ++blade) pitches_[blade].fill(row, drive.pitch[blade]);
     }
   }

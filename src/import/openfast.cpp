@@ -482,6 +482,12 @@ class Importer {
     if (const double brake = deck.number({"HSSBrTqF"}, 0.0); brake > 0.0)
       scene_ << fmt::format("brake_torque_N_m = {:.9g}\n", gear * brake);
     if (rate > 0.0) scene_ << fmt::format("max_pitch_rate_deg_s = {:.9g}\n", rate);
+    if (elastodyn_->flag({"DrTrDOF"}, false) && generator > 0.0) {
+      scene_ << fmt::format("shaft_stiffness_N_m_rad = {:.9g}\nshaft_damping_N_m_s_rad = {:.9g}\n",
+                            elastodyn_->number({"DTTorSpr"}), elastodyn_->number({"DTTorDmp"}, 0.0));
+      carry("shaft: its twist");
+      shaft_twists_ = true;
+    }
     carry(fmt::format("control: {}", deck.path({"DLL_FileName"}).filename().string()));
     const double interval = deck.number({"DLL_DT"}, 0.0), steps = interval > 0.0 ? window / interval : 0.0;
     if (steps >= 1.0 && std::abs(steps - std::round(steps)) < 1e-6 * steps && interval <= longest_step_ * (1.0 + 1e-9))
@@ -499,7 +505,8 @@ class Importer {
     if (tower_moves() && !bends_) leave_out("bending of the tower: it is rigid (--rigid-tower)");
     if (bends_ && !std::ranges::all_of(tower_freedoms, [&](const char* f) { return elastodyn_->flag({f}, false); }))
       leave_out("TwFADOF1, TwFADOF2, TwSSDOF1, TwSSDOF2: not all are on, the tower here bends in all four modes");
-    if (any({"YawDOF", "DrTrDOF", "TeetDOF"})) leave_out("motion of yaw bearing, shaft and teeter");
+    if (any({"YawDOF", "TeetDOF"})) leave_out("motion of yaw bearing and teeter");
+    if (any({"DrTrDOF"}) && !shaft_twists_) leave_out("twist of the shaft: it is rigid where no controller turns the rotor");
     for (const auto& [part, name] :
          {std::pair{"CompSub", "SubDyn: what stands on it is fixed"}, std::pair{"CompIce", "ice"}, std::pair{"CompSoil", "soil"}})
       if (main_.integer({part}, 0) != 0) leave_out(name);
@@ -878,7 +885,8 @@ class Importer {
   double gravity_ = 9.80665, depth_ = 0.0, water_density_ = 1025.0;
   ImportedTower tower_;
   ImportedBlades blades_;
-  bool bends_ = false;  ///< the tower, in the scene
+  bool bends_ = false;         ///< the tower, in the scene
+  bool shaft_twists_ = false;  ///< in the scene
   bool wet_ = false, floats_ = false;
   MassSum ballast_;
   std::ostringstream scene_;

@@ -41,6 +41,47 @@ TEST_CASE("the shaft obeys Newton: torque in less torque out is inertia times ac
   }
 }
 
+TEST_CASE(
+    "a shaft let go swings between rotor and generator at its frequency, keeps their momentum and loses what its damper takes",
+    "[aero][fast]") {
+  const double damping = GENERATE(0.0, 6e6);
+  ControllerOptions train = read_controller(turbines + "dtu_10mw_controller.toml");
+  train.shaft_stiffness_N_m_rad = 2.317e9, train.shaft_damping_N_m_s_rad = damping;
+  const TurbineControl control({.model = ControlModel::dtu, .events = {{.what = ControlEvent::grid_loss, .time_s = 1.0}}}, train,
+                               read_operation(turbines + "dtu_10mw_operation.csv"), 3, 0.0, 0.8, 0.0);
+  std::vector<double> memory(control.memory_size());
+  const double air = 5e6, h = 0.005, rotor = train.rotor_inertia_kg_m2, generator = train.generator_inertia_kg_m2;
+  control.begin(0.0, {air, 9.0}, memory);
+  CHECK(control.shaft(memory).twist == Approx(air / 2.317e9));
+  const auto momentum = [&] {
+    return rotor * TurbineControl::state(memory).speed + generator * control.shaft(memory).generator_speed;
+  };
+  // With the generator off the twist swings about what turns the generator along with the rotor.
+  const double rest = air * generator / (rotor + generator) / 2.317e9,
+               omega = std::sqrt(2.317e9 * (1.0 / rotor + 1.0 / generator));
+  std::vector<double> crossings;
+  std::vector<std::pair<double, double>> peaks;  // time and height
+  double earlier = 0.0, before = control.shaft(memory).twist - rest;
+  for (int n = 1; n <= 800; ++n) {
+    const double had = momentum();
+    control.advance(h * n, h, {air, 9.0}, memory);
+    CHECK(momentum() - had == Approx(h * (air - TurbineControl::state(memory).shaft_torque)).margin(1e-3 * h * air));
+    const double off = control.shaft(memory).twist - rest;
+    if (h * n > 1.02 && before < 0.0 && off >= 0.0) crossings.push_back(h * (n - off / (off - before)));
+    if (h * n > 1.02 && std::abs(before) > std::abs(earlier) && std::abs(before) >= std::abs(off))
+      peaks.emplace_back(h * (n - 1), std::abs(before));
+    earlier = before, before = off;
+  }
+  REQUIRE(crossings.size() > 5);
+  const double ratio = 0.5 * damping * omega / 2.317e9;  // of critical
+  const double period = (crossings.back() - crossings.front()) / double(crossings.size() - 1);
+  CHECK(period == Approx(2.0 * pi / (omega * std::sqrt(1.0 - ratio * ratio))).epsilon(0.005));
+  REQUIRE(peaks.size() > 10);
+  const auto [first_at, first] = peaks.front();
+  const auto [last_at, last] = peaks.back();
+  CHECK(last / first == Approx(std::exp(-ratio * omega * (last_at - first_at))).epsilon(0.02));
+}
+
 TEST_CASE("an emergency stop without a brake is doubted by its place in the list, one with a brake is not", "[aero][fast]") {
   ControlOptions control{
       .model = ControlModel::library,

@@ -375,7 +375,7 @@ TEST_CASE("what the scene cannot say is told", "[import][fast]") {
   std::string all;
   for (const std::string& what : deck.import().left_out) all += what + "\n";
   for (const char* word :
-       {"motion of yaw bearing, shaft and teeter", "the dynamic stall model of UA_Mod 3 has", "ServoDyn (GenDOF is off)"})
+       {"motion of yaw bearing and teeter", "the dynamic stall model of UA_Mod 3 has", "ServoDyn (GenDOF is off)"})
     CHECK(all.find(word) != std::string::npos);
   std::ostringstream scene;
   scene << std::ifstream(deck.folder / "scene/scene.toml").rdbuf();
@@ -670,6 +670,12 @@ TEST_CASE("a controller library of a deck is the scene's, with its drive train a
   CHECK(record(7) == Approx(0.5 * pi));
   CHECK(record(16) == 2.3);
   CHECK(record(19) == Approx(1200.0 * rad_s_per_rpm));
+  CHECK(!drive.shaft_stiffness_N_m_rad);
+  deck.replace("ed.dat", "True GenDOF", "True GenDOF\nTrue DrTrDOF\n8.7e8 DTTorSpr\n6.2e6 DTTorDmp");
+  const decks::Imported twisting = deck.import();
+  scene::Document again = scene::load(twisting.scene.string(), {"control.library='" SPINDRIFT_TEST_CONTROLLER "'"});
+  const aero::DriveTrainOptions shaft = *coupling::read_scenario(again).control.drive_train;
+  CHECK((shaft.shaft_stiffness_N_m_rad == 8.7e8 && shaft.shaft_damping_N_m_s_rad == 6.2e6));
   deck.replace("srv.dat", "lib.so", "other.dll");
   std::string all;
   for (const std::string& what : deck.import().left_out) all += what + "\n";
