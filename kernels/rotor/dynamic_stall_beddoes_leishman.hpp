@@ -11,10 +11,10 @@
 #include <span>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/half_turn.hpp"
 #include "kernels/rotor/blade_element.hpp"
 #include "kernels/rotor/dynamic_inflow_oye.hpp"
 #include "kernels/rotor/dynamic_stall_oye.hpp"
-#include "kernels/rotor/half_turn.hpp"
 
 namespace spindrift {
 

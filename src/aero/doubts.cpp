@@ -186,12 +186,10 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
 
 scene::Doubts control_doubts(const ControlOptions& control) {
   scene::Doubts doubts;
-  if (control.model == ControlModel::none) return doubts;
   const bool library = control.model == ControlModel::library;
-  const double brake = library ? control.drive_train->brake_torque_N_m : read_controller(control.file).brake_torque_N_m;
-  if (brake > 0.0) return doubts;
   for (std::size_t i = 0; i < control.events.size(); ++i)
-    if (control.events[i].what == ControlEvent::emergency_stop)
+    if (control.events[i].what == ControlEvent::emergency_stop &&
+        !((library ? control.drive_train->brake_torque_N_m : read_controller(control.file).brake_torque_N_m) > 0.0))
       doubts.push_back({fmt::format("control.events[{}]", i), "emergency_stop with a brake of 0 N m",
                         fmt::format("brake_torque_N_m above 0 in {}", library ? "control.drive_train" : control.file),
                         "without a brake it is a grid_loss: the blades alone slow the rotor down"});

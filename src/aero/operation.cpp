@@ -26,12 +26,16 @@ std::optional<double> Operation::torque_gain() const {
   return sum / rows;
 }
 
+std::size_t Operation::first_above(double share) const {
+  if (power.empty()) return wind.size();
+  const double least = share * *std::max_element(power.begin(), power.end());
+  return std::size_t(std::find_if(power.begin(), power.end(), [&](double p) { return p > least; }) - power.begin());
+}
+
 Operation Operation::below_rated() const {
   constexpr double rated_share = 0.995;  // of the largest power: rows above it are rated but for the table's round-off
   Operation below;
-  const double most = power.empty() ? 0.0 : *std::max_element(power.begin(), power.end());
-  for (std::size_t i = 0; i < wind.size(); ++i) {
-    if (!power.empty() && power[i] > rated_share * most) break;
+  for (std::size_t i = 0, rows = first_above(rated_share); i < rows; ++i) {
     below.wind.push_back(wind[i]), below.speed.push_back(speed[i]);
     if (!pitch.empty()) below.pitch.push_back(pitch[i]);
     if (!power.empty()) below.power.push_back(power[i]);

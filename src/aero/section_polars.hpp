@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/half_turn.hpp"
 #include "kernels/base/interpolation.hpp"
 #include "kernels/rotor/blade_element.hpp"
 #include "kernels/rotor/dynamic_stall_beddoes_leishman.hpp"
 #include "kernels/rotor/dynamic_stall_oye.hpp"
-#include "kernels/rotor/half_turn.hpp"
 #include "src/aero/turbine.hpp"
 
 namespace spindrift::aero {

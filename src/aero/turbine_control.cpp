@@ -75,8 +75,14 @@ TurbineControl::State TurbineControl::state(std::span<const double> memory) {
 }
 
 TurbineControl::Shaft TurbineControl::shaft(std::span<const double> memory) const {
-  const std::span<const double> m = memory.subspan(memory_size() - 3, 3);
-  return {m[0], m[1], m[2]};
+  std::array<double, shaft_size> values;
+  std::copy_n(memory.begin() + std::ptrdiff_t(memory_size() - shaft_size), shaft_size, values.begin());
+  return std::bit_cast<Shaft>(values);
+}
+
+void TurbineControl::store(const Shaft& shaft, std::span<double> memory) const {
+  std::ranges::copy(std::bit_cast<std::array<double, shaft_size>>(shaft),
+                    memory.begin() + std::ptrdiff_t(memory_size() - shaft_size));
 }
 
 void TurbineControl::store(const State& s, std::span<double> memory) {
@@ -124,8 +130,7 @@ void TurbineControl::begin(double t, const Measured& measured, std::span<double>
 void TurbineControl::lay_shaft(const Measured& measured, State& s, std::span<double> memory) const {
   if (!has_elastic_shaft()) return;
   s.acceleration = measured.torque / (drive_train_.rotor_inertia_kg_m2 - measured.bending_inertia);
-  const std::span<double> m = memory.subspan(memory_size() - 3, 3);
-  m[0] = s.generator_torque / *drive_train_.shaft_stiffness_N_m_rad, m[1] = s.speed, m[2] = s.generator_torque;
+  store(Shaft{s.generator_torque / *drive_train_.shaft_stiffness_N_m_rad, s.speed, s.generator_torque}, memory);
 }
 
 /// Largest torque of the brake [N m].
@@ -276,8 +281,7 @@ void TurbineControl::turn_elastic(double h, const Measured& measured, State& s, 
   s.acceleration = acceleration;
   s.shaft_torque = measured.torque - (rotor * (s.speed - before) + generator * (shaft.generator_speed - generator_before)) / h;
   s.azimuth += 0.5 * h * (before + s.speed);
-  const std::span<double> m = memory.subspan(memory_size() - 3, 3);
-  m[0] = shaft.twist, m[1] = shaft.generator_speed, m[2] = shaft.torque;
+  store(shaft, memory);
 }
 
 void TurbineControl::advance(double t, double h, const Measured& measured, std::span<double> memory) const {
@@ -288,7 +292,7 @@ void TurbineControl::advance(double t, double h, const Measured& measured, std::
   else
     turn_rigid(h, measured, s);
   s.time = t;
-  const double generator_speed = has_elastic_shaft() ? shaft(memory).generator_speed : s.speed;
+  const double generator_speed = this->generator_speed(s, memory);
 
   happen(t, h, s, rows.stuck);
   if (library_)

@@ -57,7 +57,7 @@ class TurbineControl {
                  double step_s);
 
   std::size_t memory_size() const {
-    return head + 4 * std::size_t(blades_) + (library_ ? 6 : 0) + (has_elastic_shaft() ? sizeof(Shaft) / sizeof(double) : 0);
+    return head + 4 * std::size_t(blades_) + (library_ ? 6 : 0) + (has_elastic_shaft() ? shaft_size : 0);
   }
   /// What twists between rotor and generator, where it does.
   struct Shaft {
@@ -66,9 +66,7 @@ class TurbineControl {
   };
   bool has_elastic_shaft() const { return drive_train_.shaft_stiffness_N_m_rad.has_value(); }
   Shaft shaft(std::span<const double> memory) const;
-  double generator_speed(std::span<const double> memory) const {
-    return has_elastic_shaft() ? shaft(memory).generator_speed : state(memory).speed;
-  }
+  double generator_speed(std::span<const double> memory) const { return generator_speed(state(memory), memory); }
   std::size_t blades() const { return std::size_t(blades_); }
   double inertia() const { return inertia_; }                                ///< of rotor and generator about the shaft [kg m2]
   double rotor_inertia() const { return drive_train_.rotor_inertia_kg_m2; }  ///< of what turns with the blades [kg m2]
@@ -89,7 +87,12 @@ class TurbineControl {
 
  private:
   static constexpr std::size_t head = sizeof(State) / sizeof(double);
+  static constexpr std::size_t shaft_size = sizeof(Shaft) / sizeof(double);  ///< at the memory's end
   static void store(const State& s, std::span<double> memory);
+  void store(const Shaft& shaft, std::span<double> memory) const;
+  double generator_speed(const State& s, std::span<const double> memory) const {
+    return has_elastic_shaft() ? shaft(memory).generator_speed : s.speed;
+  }
   /// Of each blade [rad], [rad/s], 1 where it is stuck, [rad]; of libraries, whose last step's motion is kept too.
   struct Rows {
     std::span<double> pitch, rate, stuck, asked, velocity, turning;

@@ -20,9 +20,7 @@ using Sections = std::vector<const scene::SectionBase*>;
 std::string markdown_pages(const Sections& of_scenes, const Sections& of_turbines, const Sections& of_controllers,
                            const Sections& of_studies) {
   return "# Scene reference\n\nEvery key of a scene, a turbine file, a controller file and a study; written by `spindrift "
-         "reference --markdown`, "
-         "not "
-         "by hand. How scenes are composed: `docs/user/scenes.md`.\n" +
+         "reference --markdown`, not by hand. How scenes are composed: `docs/user/scenes.md`.\n" +
          reference_markdown(of_scenes) +
          "\n# Turbine files\n\nThe file that `rotor.turbine` of a scene names. An example: `inputs/turbines/dtu_10mw.toml`.\n" +
          reference_markdown(of_turbines) +

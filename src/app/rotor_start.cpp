@@ -92,8 +92,7 @@ void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::St
   if (shaving)
     fmt::print(
         "  {:<22}steady thrust up to {:.4g} kN, {:g} of the {:.4g} kN that it would have at {:.4g} m/s; from {:.3g} to {:.3g} "
-        "m/s "
-        "blades are pitched farther, by up to {:.3g} degrees\n",
+        "m/s blades are pitched farther, by up to {:.3g} degrees\n",
         "peak shaving", 1e-3 * shaving->limit, *s.control.peak_shaving, 1e-3 * shaving->largest, shaving->largest_at,
         shaving->from, shaving->to, shaving->farthest / radians_per_degree);
 }

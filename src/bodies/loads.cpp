@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/base/constants.hpp"
+#include "kernels/base/half_turn.hpp"
 #include "kernels/base/interpolation.hpp"
 
 namespace spindrift::bodies {
@@ -46,7 +46,7 @@ JointLaw::Way JointLaw::way(std::span<const Motion> bodies) const {
   const Eigen::Vector3d along = a.attitude * axis;
   if (turns) {
     const Eigen::Quaterniond turned = a.attitude.conjugate() * b.attitude;
-    return {std::remainder(2.0 * std::atan2(turned.vec().dot(axis), turned.w()), 2.0 * pi),
+    return {within_half_turn(2.0 * std::atan2(turned.vec().dot(axis), turned.w())),
             (b.omega_earth() - a.omega_earth()).dot(along)};
   }
   const Eigen::Vector3d apart = b.point(point_j) - a.point(point_i);

@@ -140,8 +140,7 @@ const Section<JointLawOptions>& rotation_law_section() {
                   "Coulomb's friction; below 0.001 rad/s it falls to nothing linearly.", not_negative())
           .path("table", &JointLawOptions::table,
                 "CSV file with columns angle_deg, moment_N_m on the second body, joined by straight lines; beyond its rows their "
-                "values "
-                "hold.")
+                "values hold.")
           .check(check_law);
   return section;
 }
@@ -161,8 +160,7 @@ const Section<JointLawOptions>& translation_law_section() {
                   "Coulomb's friction; below 0.001 m/s it falls to nothing linearly.", not_negative())
           .path("table", &JointLawOptions::table,
                 "CSV file with columns distance_m, force_N on the second body, joined by straight lines; beyond its rows their "
-                "values "
-                "hold.")
+                "values hold.")
           .check(check_law);
   return section;
 }
@@ -173,13 +171,6 @@ void check_joint(const JointOptions& o, const scene::Report& report) {
     report("axis", fmt::format("is needed by a {} joint, and not zero", joint_type_names[std::size_t(o.type)]));
   if (o.type == JointType::universal && o.axis.cross(o.second_axis).norm() <= 1e-9 * o.axis.norm() * o.second_axis.norm())
     report("second_axis", "must not be zero or parallel to axis");
-  if (o.rotation && !turns(o.type)) report("rotation", "only a revolute or cylindrical joint can be driven in rotation");
-  if (o.translation && !slides(o.type))
-    report("translation", "only a translational or cylindrical joint can be driven in translation");
-  if (o.rotation_law && !turns(o.type)) report("rotation_law", "only a revolute or cylindrical joint turns about an axis");
-  if (o.translation_law && !slides(o.type)) report("translation_law", "only a translational or cylindrical joint slides");
-  if (o.rotation && o.rotation_law) report("rotation_law", "has no effect beside the driver in rotation");
-  if (o.translation && o.translation_law) report("translation_law", "has no effect beside the driver in translation");
 }
 
 PrescribedMotion make_driver(const DriverOptions& o, const char* column, double unit) {
@@ -199,17 +190,27 @@ PrescribedMotion make_driver(const DriverOptions& o, const char* column, double 
 PrescribedMotion make_rotation(const DriverOptions& o) { return make_driver(o, "angle_deg", radians_per_degree); }
 PrescribedMotion make_translation(const DriverOptions& o) { return make_driver(o, "distance_m", 1.0); }
 
-void read_law_table(JointLaw& law, const std::string& path) {
-  if (path.empty()) return;
-  const char *place = law.turns ? "angle_deg" : "distance_m", *load = law.turns ? "moment_N_m" : "force_N";
-  const scene::Columns table = scene::read_columns(path);
+JointLaw make_law(const JointLawOptions& o, bool turns) {
+  JointLaw law{.turns = turns,
+               .stiffness = o.stiffness,
+               .rest = o.rest,
+               .damping = o.damping,
+               .quadratic_damping = o.quadratic_damping,
+               .friction = o.friction};
+  if (o.table.empty()) return law;
+  const char *place = turns ? "angle_deg" : "distance_m", *load = turns ? "moment_N_m" : "force_N";
+  const scene::Columns table = scene::read_columns(o.table);
   table.allow_only({place, load});
   table.require_rows(2);
-  table.require_increasing(place, law.turns ? "angle" : "distance");
+  table.require_increasing(place, turns ? "angle" : "distance");
   law.places.assign(table[place].begin(), table[place].end()), law.loads.assign(table[load].begin(), table[load].end());
-  if (law.turns)
+  if (turns)
     for (double& angle : law.places) angle *= radians_per_degree;
+  return law;
 }
+
+JointLaw make_rotation_law(const JointLawOptions& o) { return make_law(o, true); }
+JointLaw make_translation_law(const JointLawOptions& o) { return make_law(o, false); }
 
 int index_of(const NamedBodies& bodies, const std::string& name) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -273,10 +274,16 @@ const Section<JointOptions>& joint_section() {
           .only_if("type", {"universal"})
           .required()
           .table("rotation", &JointOptions::rotation, rotation_section(), "Driver in rotation.")
+          .only_if("type", {"revolute", "cylindrical"})
           .table("translation", &JointOptions::translation, translation_section(), "Driver in translation.")
+          .only_if("type", {"translational", "cylindrical"})
           .table("rotation_law", &JointOptions::rotation_law, rotation_law_section(), "Spring and damper in rotation.")
+          .only_if("type", {"revolute", "cylindrical"})
           .table("translation_law", &JointOptions::translation_law, translation_law_section(),
                  "Spring and damper in translation.")
+          .only_if("type", {"translational", "cylindrical"})
+          .at_most_one_of({"rotation", "rotation_law"})
+          .at_most_one_of({"translation", "translation_law"})
           .check(check_joint);
   return section;
 }
@@ -298,23 +305,16 @@ void check_bodies(scene::Document& document, const NamedBodies& bodies, const Na
         document.problem(
             "joints." + name + ".bodies",
             fmt::format("names body \"{}\", which is not in [bodies]; known: {}, earth", body, fmt::join(names, ", ")));
-    const auto check_table = [&, &name = name](const std::optional<DriverOptions>& driver, const char* which, auto make) {
-      if (!driver || driver->table.empty()) return;
+    const auto check_table = [&, &name = name](const auto& given, const char* which, auto make) {
+      if (!given || given->table.empty()) return;
       try {
-        make(*driver);
+        make(*given);
       } catch (const scene::SceneError& e) { document.problem(fmt::format("joints.{}.{}.table", name, which), e.what()); }
     };
     check_table(joint.rotation, "rotation", make_rotation);
     check_table(joint.translation, "translation", make_translation);
-    for (const bool turns : {true, false}) {
-      const std::optional<JointLawOptions>& o = turns ? joint.rotation_law : joint.translation_law;
-      JointLaw law{.turns = turns};
-      if (o) try {
-          read_law_table(law, o->table);
-        } catch (const scene::SceneError& e) {
-          document.problem(fmt::format("joints.{}.{}.table", name, turns ? "rotation_law" : "translation_law"), e.what());
-        }
-    }
+    check_table(joint.rotation_law, "rotation_law", make_rotation_law);
+    check_table(joint.translation_law, "translation_law", make_translation_law);
   }
 }
 
@@ -368,20 +368,18 @@ std::vector<PointLoad> make_point_loads(const NamedBodies& bodies) {
 
 std::vector<JointLaw> make_joint_laws(const NamedJoints& joints, const NamedBodies& bodies) {
   std::vector<JointLaw> laws;
-  for (const auto& [name, o] : joints)
-    for (const bool turns : {true, false}) {
-      const std::optional<JointLawOptions>& given = turns ? o.rotation_law : o.translation_law;
-      if (!given) continue;
-      JointLaw law{.i = index_of(bodies, o.bodies[0]), .j = index_of(bodies, o.bodies[1]), .axis = o.axis.normalized()};
+  for (const auto& [name, o] : joints) {
+    const auto add = [&, &o = o](JointLaw law) {
       const auto from_centre = [&](int body) -> Eigen::Vector3d {
         return body == earth ? o.point_m : Eigen::Vector3d(o.point_m - bodies[std::size_t(body)].options.centre_m);
       };
-      law.point_i = from_centre(law.i), law.point_j = from_centre(law.j), law.turns = turns;
-      law.stiffness = given->stiffness, law.rest = given->rest, law.damping = given->damping;
-      law.quadratic_damping = given->quadratic_damping, law.friction = given->friction;
-      read_law_table(law, given->table);
+      law.i = index_of(bodies, o.bodies[0]), law.j = index_of(bodies, o.bodies[1]), law.axis = o.axis.normalized();
+      law.point_i = from_centre(law.i), law.point_j = from_centre(law.j);
       laws.push_back(std::move(law));
-    }
+    };
+    if (o.rotation_law) add(make_rotation_law(*o.rotation_law));
+    if (o.translation_law) add(make_translation_law(*o.translation_law));
+  }
   return laws;
 }
 

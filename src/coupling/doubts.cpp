@@ -147,11 +147,9 @@ void doubt_modes(scene::Doubts& doubts, const FloatingSystem& floating, const St
 double rated_wind(const aero::RotorOptions& rotor) {
   if (rotor.operation.empty()) return 0.0;
   const aero::Operation table = aero::read_operation(rotor.operation);
-  if (table.power.empty()) return 0.0;
   constexpr double near_rated = 0.99;
-  const auto rated = std::ranges::find_if(
-      table.power, [most = std::ranges::max(table.power)](double power) { return power >= near_rated * most; });
-  return table.wind[std::size_t(rated - table.power.begin())];
+  const std::size_t rated = table.first_above(near_rated);
+  return rated < table.wind.size() ? table.wind[rated] : 0.0;
 }
 
 /// Gains of a fixed foundation above rated wind, on a machine that pitches more slowly than they answer (Larsen & Hanson 2007, J.

@@ -214,11 +214,14 @@ std::vector<LineEnd> Moorings::junction_motions(std::span<const Motion> bodies) 
   for (std::size_t n = 0; n < networks_.size(); ++n) {
     const Network& network = networks_[n];
     if (network.junction.empty()) continue;
-    std::vector<double> state(network.of.state_size());
-    if (memory_.empty())
-      network.of.rest(ends(network, bodies), state);
-    else
-      std::copy_n(memory_.begin() + std::ptrdiff_t(network.state), state.size(), state.begin());
+    std::vector<double> at_rest;
+    std::span<const double> state = std::span(memory_);
+    if (memory_.empty()) {
+      at_rest.resize(network.of.state_size());
+      network.of.rest(ends(network, bodies), at_rest), state = at_rest;
+    } else {
+      state = state.subspan(network.state, network.of.state_size());
+    }
     for (std::size_t j = 0; j < junctions_.size(); ++j)
       if (junctions_[j].network == n) all[j] = network.of.junction(int(junctions_[j].member), state);
   }

@@ -107,12 +107,9 @@ def middle_plane(run):
 QUANTITIES = {"pressure coefficient": (2, "RdYlBu_r"), "Mach number": (3, "viridis")}
 
 
-def flow_slice(run, quantities=tuple(QUANTITIES)):
-    """Quantities of the flow in its middle plane, beside each other; None where the run left no fields."""
-    found = middle_plane(run)
-    if found is None:
-        return None
-    pieces, low, high = found
+def flow_slice(plane, quantities=tuple(QUANTITIES)):
+    """Quantities of the flow in a run's middle plane, beside each other."""
+    pieces, low, high = plane
     aspect = (high[1] - low[1]) / max(high[0] - low[0], 1e-12)
     figure, axes = plt.subplots(1, len(quantities), squeeze=False, figsize=(5.4 * len(quantities), float(np.clip(4.0 * aspect, 1.4, 5.0)) + 0.5), layout="constrained")
     for axis, label in zip(axes[0], quantities):

@@ -424,9 +424,9 @@ def flow(run):
     if figure := flow_pictures.wall_curves(run):
         out += _figure("Along the walls", None, figure,
                        f"In the middle plane of the walls; pressure with its sign turned. {flow_pictures.y_plus_words(run)}".strip())
-    for quantity, words in (("pressure coefficient", "Pressure above the undisturbed one on dynamic pressure"), ("Mach number", "Speed over that of sound")):
-        if figure := flow_pictures.flow_slice(run, (quantity,)):
-            out += _figure(f"Slice of the flow: {quantity}", None, figure, f"{words}, of the cells in the middle plane at the end of the run.")
+    if plane := flow_pictures.middle_plane(run):
+        for quantity, words in (("pressure coefficient", "Pressure above the undisturbed one on dynamic pressure"), ("Mach number", "Speed over that of sound")):
+            out += _figure(f"Slice of the flow: {quantity}", None, flow_pictures.flow_slice(plane, (quantity,)), f"{words}, of the cells in the middle plane at the end of the run.")
     return f'<div class="figures">{out}</div>' if out else ""
 
 

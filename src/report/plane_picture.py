@@ -34,9 +34,10 @@ class Drawing:
         return image
 
     def flow(self):
-        figure = flow_pictures.flow_slice(self.run)
-        if figure is None:
+        plane = flow_pictures.middle_plane(self.run)
+        if plane is None:
             raise ValueError("the flow has no cells in its middle plane")
+        figure = flow_pictures.flow_slice(plane)
         figure.set_dpi(130)
         figure.suptitle(self.run.title, x=0.01, ha="left", fontweight="semibold")
         return figure

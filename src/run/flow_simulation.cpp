@@ -190,8 +190,7 @@ std::string FlowSimulation::unconverged_windows(std::int64_t window) const {
   if (march.spent() && march.unconverged() == 1)
     spdlog::warn(
         "air: the window to t = {:.6g} s spent its {} pseudo-steps; the flux balance is at {:.2g} of that at its start, {:.2g} "
-        "is asked "
-        "for; {}",
+        "is asked for; {}",
         t, march.steps() - 1, march.balance_drop(), o.drop, solver.worst_cells(world_.comm));
   if (double(march.unconverged()) <= most) return {};
   return fmt::format(
@@ -212,8 +211,7 @@ std::string FlowSimulation::failure_at_end() const {
   return fmt::format(
       "aero: not converged in the {} pseudo-steps of the scene: the flux balance is at {:.2g} of that at the start, the density "
       "residual at {:.2g}, {:.2g} is asked for (aero.flow.drop; 0 takes all steps whatever they reach); {}; --restart with a "
-      "larger "
-      "time.end_s goes on",
+      "larger time.end_s goes on",
       march.steps_made(), march.balance_drop(), density_drop(march), o.drop, air_.solver().worst_cells(world_.comm));
 }
 

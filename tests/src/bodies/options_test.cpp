@@ -133,13 +133,14 @@ TEST_CASE("a malformed body or joint is refused with what is wrong", "[bodies][f
       Case{platform + "[joints.a]\ntype = 'universal'\nbodies = ['platform', 'earth']\npoint_m = [0, 0, 0]\naxis = [1, 0, 0]\n"
                       "second_axis = [2, 0, 0]\n",
            "parallel"},
-      Case{platform + rotor + bearing + "[joints.bearing.translation]\nspeed_m_s = 1.0\n", "only a translational or cylindrical"},
+      Case{platform + rotor + bearing + "[joints.bearing.translation]\nspeed_m_s = 1.0\n",
+           "only where type is translational or cylindrical"},
       Case{platform + rotor + bearing + "[joints.bearing.translation_law]\nstiffness_N_m = 1.0\n",
-           "translational or cylindrical"},
+           "only where type is translational or cylindrical"},
       Case{platform + rotor + bearing + "[joints.bearing.rotation_law]\nrest_deg = 1.0\n", "the law has no effect"},
       Case{platform + rotor + bearing +
                "[joints.bearing.rotation]\nspeed_rpm = 1.0\n[joints.bearing.rotation_law]\nfriction_N_m = 1.0\n",
-           "beside the driver"},
+           "cannot stand beside rotation"},
       Case{platform + rotor + bearing + "[joints.bearing.rotation]\namplitude_deg = 5.0\n", "period_s"},
       Case{platform + rotor + bearing + "[joints.bearing.rotation]\nspeed_m_s = 1.0\n", "speed_m_s"});
   CHECK_THROWS_WITH(read(c.text), Contains(c.message));
