@@ -1,6 +1,6 @@
 // An input file of OpenFAST: lines of words, most of them "value Name - comment". Values are found by name, so that files of
-// different versions, with lines added or moved, read alike. Used by openfast.cpp; tested in tests/src/import/deck_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// different versions, with lines added or moved, read alike. Used by openfast.cpp and the sections; tested in
+// tests/src/import/deck_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>

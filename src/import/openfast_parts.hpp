@@ -1,4 +1,4 @@
-// Parts of an OpenFAST deck as plain values: masses, blades with polars, lines. Used by openfast.cpp; tested in
+// Parts of an OpenFAST deck as plain values: masses, blades with polars, lines. Used by the files openfast_*; tested in
 // tests/src/import/openfast_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/import/deck_import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spindrift::decks {
+
+void DeckImport::copy(const std::filesystem::path& file) const {
+  if (!std::filesystem::exists(file)) main.fail(std::nullopt, fmt::format("names {}, which is not there", file.string()));
+  std::filesystem::copy_file(file, folder / file.filename(), std::filesystem::copy_options::overwrite_existing);
+}
+
+bool any_on(const Deck& elastodyn, std::initializer_list<const char*> freedoms) {
+  return std::any_of(freedoms.begin(), freedoms.end(), [&](const char* f) { return elastodyn.flag({f}, false); });
+}
+
+std::string toml_vector(const Eigen::Vector3d& v) {
+  // Round-off of sines and cosines is nothing that a reader should see.
+  const auto clean = [&](double x) { return std::abs(x) < 1e-9 * std::max(1.0, v.norm()) ? 0.0 : x; };
+  return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", clean(v.x()), clean(v.y()), clean(v.z()));
+}
+
+}  // namespace spindrift::decks

@@ -1,0 +1,103 @@
+// [wind] of a scene from InflowWind.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <fstream>
+#include <limits>
+
+#include "src/import/openfast_sections.hpp"
+
+namespace spindrift::decks {
+
+namespace {
+
+std::string mann_box(DeckImport& run, const Deck& w) {
+  w.require({positive("URef"),
+             {"nx", 2, 1e6},
+             {"ny", 2, 1e6},
+             {"nz", 2, 1e6},
+             positive("dx"),
+             positive("dy"),
+             positive("dz"),
+             {"ScaleMethod", 0, 2}});
+  std::string files;
+  for (const char* name : {"FileName_u", "FileName_v", "FileName_w"}) {
+    const std::filesystem::path path = w.path({name});
+    run.copy(path);
+    files += fmt::format("{}\"{}\"", files.empty() ? "" : ", ", path.filename().string());
+  }
+  if (w.integer({"ScaleMethod"}, 0) != 0) run.leave_out("ScaleMethod: the Mann box is not scaled");
+  run.carry("wind: Mann box");
+  return fmt::format(
+      "speed_m_s = {:.9g}\n[wind.turbulence]\nmodel = \"mann\"\nfiles = [{}]\npoints = [{}, {}, {}]\nspacing_m = [{:.9g}, "
+      "{:.9g}, "
+      "{:.9g}]\n",
+      w.number({"URef"}), files, w.integer({"nx"}, 0), w.integer({"ny"}, 0), w.integer({"nz"}, 0), w.number({"dx"}),
+      w.number({"dy"}), w.number({"dz"}));
+}
+
+/// Uniform wind in time: time, speed, direction, vertical speed, shears, gust.
+std::string uniform_wind(DeckImport& run, const Deck& w, double hub_height) {
+  const Deck file(w.path({"FileName_Uni", "Filename"}), '!');
+  std::ofstream out(run.folder / "wind.csv");
+  out << "# From " << file.file().filename().string() << ".\ntime_s,speed_m_s,direction_deg,vertical_m_s\n";
+  double shear = 0.0, before = -std::numeric_limits<double>::infinity();
+  bool sheared = false, changes = false;
+  for (std::size_t n = 0; n < file.size(); ++n) {
+    if (file.words(n).empty()) continue;
+    const std::vector<double> row = file.numbers(n, 8);
+    if (row[1] < 0.0) file.fail(n, fmt::format("has a wind of {:g} m/s: the second column is a speed, not negative", row[1]));
+    if (row[0] <= before) file.fail(n, fmt::format("has a time of {:g} s, not later than the row before", row[0]));
+    before = row[0];
+    out << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", row[0], row[1] + row[7], -row[2], row[3]);
+    if (n > 0 && row[5] != shear) changes = true;
+    shear = row[5];
+    sheared = sheared || row[4] != 0.0 || row[6] != 0.0;
+  }
+  if (sheared) run.leave_out("horizontal and linear vertical shear of the uniform wind file");
+  if (changes) run.leave_out("changes of the power law's exponent in the uniform wind file: the last is used");
+  run.carry("wind: " + file.file().filename().string());
+  std::string text = "table = \"wind.csv\"\n";
+  if (shear != 0.0)
+    text += fmt::format("profile = \"power_law\"\nreference_height_m = {:.9g}\nshear_exponent = {:.9g}\n",
+                        w.number({"RefHt_Uni", "RefHt"}, hub_height), shear);
+  return text;
+}
+
+}  // namespace
+
+std::string import_wind(DeckImport& run, const Deck& w, double hub_height) {
+  w.require({{"WindType", 1, 7}, not_negative("HWindSpeed"), {"PLexp", -1, 1}, angle("PropagationDir"), {"VFlowAng", -90, 90}});
+  const int type = w.integer({"WindType"}, 1);
+  if (type == 1) w.require({positive("RefHt")});
+  std::string text = "\n[wind]\n";
+  const double speed = w.number({"HWindSpeed"}, 0.0), height = w.number({"RefHt"}, hub_height),
+               exponent = w.number({"PLexp"}, 0.0);
+  if (type == 1) {
+    text += fmt::format("speed_m_s = {:.9g}\n", speed);
+    if (exponent != 0.0)
+      text += fmt::format("profile = \"power_law\"\nreference_height_m = {:.9g}\nshear_exponent = {:.9g}\n", height, exponent);
+    run.carry(fmt::format("wind: steady {:.4g} m/s", speed));
+  } else if (type == 3) {
+    const std::filesystem::path box = w.path({"FileName_BTS", "Filename"});
+    run.copy(box);
+    text += fmt::format("[wind.turbulence]\nmodel = \"bts\"\nfile = \"{}\"\n", box.filename().string());
+    run.carry("wind: " + box.filename().string());
+  } else if (type == 5) {
+    text += mann_box(run, w);
+  } else if (type == 2) {
+    text += uniform_wind(run, w, hub_height);
+  } else {
+    run.leave_out(fmt::format("wind of WindType {}: there is none in the scene", type));
+    text += "speed_m_s = 0.0\n";
+  }
+  if (const double to = w.number({"PropagationDir"}, 0.0); to != 0.0) {
+    // InflowWind counts clockwise seen from above, the scene from x towards y.
+    const std::size_t at = text.find("[wind]\n") + 7;
+    text.insert(at, fmt::format("direction_deg = {:.9g}\n", -to));
+  }
+  if (w.number({"VFlowAng"}, 0.0) != 0.0) run.leave_out("VFlowAng: the wind is level");
+  return text;
+}
+
+}  // namespace spindrift::decks
