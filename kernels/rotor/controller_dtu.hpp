@@ -81,10 +81,11 @@ ControllerDtuState advance(const ControllerDtu& c, ControllerDtuState s, double 
   const double lower = c.min_speed, lower_open = c.min_speed / c.open_share;
   const double upper = (2.0 * c.open_share - 1.0) * c.rated_speed, upper_open = c.open_share * c.rated_speed;
   const double optimal = c.torque_gain * s.speed * s.speed, opened = open(s.speed, upper, upper_open);
-  double least_torque = std::min(optimal * open(s.speed, lower, lower_open), c.torque_gain * upper_open * upper_open);
-  double most_torque = std::max(optimal * (1.0 - opened) + c.max_torque * opened, c.torque_gain * lower * lower);
   const double full =
       std::min(c.constant_power ? c.rated_power / std::max(speed, c.min_speed) : c.rated_power / c.rated_speed, c.max_torque);
+  double most_torque = std::max(optimal * (1.0 - opened) + full * opened, c.torque_gain * lower * lower);
+  double least_torque =
+      std::min({optimal * open(s.speed, lower, lower_open), c.torque_gain * upper_open * upper_open, most_torque});
   least_torque += s.full_load * (full - least_torque), most_torque += s.full_load * (full - most_torque);
   const double speed_error = s.speed - (s.speed < 0.5 * (c.min_speed + c.rated_speed) ? c.min_speed : c.rated_speed);
   s.torque_integral = std::clamp(s.torque_integral + h * c.torque_ki * speed_error, least_torque, most_torque);

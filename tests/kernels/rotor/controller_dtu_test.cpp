@@ -58,6 +58,13 @@ TEST_CASE("below rated the torque is K omega^2 and the blades stay at their leas
   CHECK(s.pitch == 0.0);
 }
 
+TEST_CASE("where the speed stands still the generator takes at most rated power, whatever the pitch", "[rotor][fast]") {
+  const double share = GENERATE(0.9, 0.93, 0.96, 0.99, 1.0, 1.05), speed = share * dtu.rated_speed;
+  ControllerDtuState s = settled(dtu, speed, 11.5, 0.0, 0.0, dtu.torque_gain * speed * speed);
+  for (int n = 0; n < 4000; ++n) s = advance(dtu, s, speed, 0.0, 11.5, 0.05, no_pitch);
+  CHECK(s.torque * speed <= dtu.rated_power * (1.0 + 1e-9));
+}
+
 TEST_CASE("at rated speed and pitched blades the power is rated and nothing moves", "[rotor][fast]") {
   const double pitch = GENERATE(0.05, 0.2, 0.4), torque = dtu.rated_power / dtu.rated_speed;
   ControllerDtuState s = settled(dtu, dtu.rated_speed, 15.0, pitch, 0.0, torque);
