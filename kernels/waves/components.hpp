@@ -80,4 +80,20 @@ inline Kinematics kinematics(std::span<const ComponentGroup> sea, double t, doub
   return {{sum(vx), sum(vy), sum(vz)}, {sum(ax), sum(ay), sum(az)}, sum(pressure)};
 }
 
+/// Above still water, z > 0, by the straight line that continues the profiles.
+inline Kinematics kinematics_above(std::span<const ComponentGroup> sea, double t, double x, double y, double z) {
+  Lanes vx{}, vy{}, vz{}, ax{}, ay{}, az{}, pressure{};
+  for (const ComponentGroup& g : sea) {
+    Lanes sine, cosine;
+    lane_sincos(g.kx * x + g.ky * y - g.omega * t + g.phase, sine, cosine);
+    const Lanes even = 1.0 + g.bottom, odd = 1.0 - g.bottom, kz = g.k * z;
+    const Lanes horizontal = g.speed * Lanes(even + kz * odd), vertical = g.speed * Lanes(odd + kz * even);
+    const Lanes u = horizontal * cosine, du = g.omega * horizontal * sine;
+    vx += u * g.cos_b, vy += u * g.sin_b, vz += vertical * sine;
+    ax += du * g.cos_b, ay += du * g.sin_b, az -= g.omega * vertical * cosine;
+    pressure += g.phase_speed * u;
+  }
+  return {{sum(vx), sum(vy), sum(vz)}, {sum(ax), sum(ay), sum(az)}, sum(pressure)};
+}
+
 }  // namespace spindrift::waves

@@ -44,7 +44,7 @@ double nanoseconds(const std::vector<Axis>& set, Kernel&& kernel) {
   return 1e9 * time / double(set.size());
 }
 
-double microseconds(const char* model, const char* wave) {
+double microseconds(const char* model, const char* wave, bool second_order = false) {
   sea::SeaBody platform{"platform", {}, {}};
   for (int i = 0; i < 3; ++i) {
     const double angle = 2.0 * pi / 3.0 * i, x = 46.7 * std::cos(angle), y = 46.7 * std::sin(angle);
@@ -53,7 +53,7 @@ double microseconds(const char* model, const char* wave) {
   sea::SeaOptions options;
   options.model = model;
   sea::WavesOptions waves;
-  waves.model = wave, waves.height_m = 1.88, waves.period_s = 8.8;
+  waves.model = wave, waves.height_m = 1.88, waves.period_s = 8.8, waves.second_order = second_order;
   const sea::EngineeringSea water(options, waves, {1025.0, 20.6, 9.81}, {platform});
   Motion motion;
   motion.position = {0.2, 0, 15.4};
@@ -82,4 +82,5 @@ int main(int argc, char** argv) {
   group.at_most("morison_still", microseconds("morison", "none"), "us", 5.0, Ceiling::fma_double, "with added mass");
   group.at_most("morison_stokes2", microseconds("morison", "stokes2"), "us", 10.0, Ceiling::fma_double, "with added mass");
   group.figure("morison_jonswap_200", microseconds("morison", "jonswap"), "us", "with added mass, 200 harmonics");
+  group.figure("morison_jonswap_200_second_order", microseconds("morison", "jonswap", true), "us", "the same with bound waves");
 }

@@ -86,6 +86,7 @@ const std::vector<Choice>& choices() {
        }},
       {"first-order waves",
        [](const Scenario& s, const scene::Document&) -> Overrides {
+         if (s.has_waves() && s.waves.second_order) return {"waves.second_order=false"};
          if (!s.has_waves() || !sea::wave_models().named(s.waves.model).nonlinear) return {};
          return {"waves.model=airy"};
        }},

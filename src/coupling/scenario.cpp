@@ -398,6 +398,7 @@ std::string describe_sea(const Scenario& s) {
   text += !s.has_waves()         ? ", calm"
           : s.waves.file.empty() ? fmt::format(", waves {} (H {} m, T {} s)", s.waves.model, s.waves.height_m, s.waves.period_s)
                                  : fmt::format(", waves of {}", s.waves.file);
+  if (s.has_waves() && s.waves.second_order) text += " to second order";
   return text;
 }
 

@@ -43,12 +43,13 @@ scene::Doubts wave_doubts(const WavesOptions& w, const SeaEnvironment& e) {
   if (w.period_s > 30.0)
     doubts.push_back({"waves.period_s", fmt::format("{:.4g} s", w.period_s), "up to 30 s: longer ones are tides and surges",
                       "look at its unit: seconds, not a frequency"});
-  if (model.second_order) {
+  if (model.second_order || w.second_order) {
     // Ursell number of second order's range: beyond 26 its second harmonic is no longer small (Hedges 1995).
     const double ursell = w.height_m * length * length / std::pow(e.water_depth, 3);
     if (ursell > 40.0)
-      doubts.push_back({"waves.model", fmt::format("{} with an Ursell number of {:.3g}", w.model, ursell),
-                        "below 40 (Hedges 1995)", "the wave is too long for this depth; look at environment.water_depth_m"});
+      doubts.push_back({w.second_order ? "waves.second_order" : "waves.model",
+                        fmt::format("{} with an Ursell number of {:.3g}", w.model, ursell), "below 40 (Hedges 1995)",
+                        "the wave is too long for this depth; look at environment.water_depth_m"});
   }
   return doubts;
 }

@@ -1,6 +1,8 @@
 // Declarations of [waves] and [sea]: see options.hpp. Why the defaults are what they are: docs/theory/sea_engineering.md,
 // section 5. SPDX-License-Identifier: Apache-2.0
 #include "src/sea/options.hpp"
+
+#include "kernels/waves/bound_waves.hpp"
 #include "src/sea/wave_model.hpp"
 
 namespace spindrift::sea {
@@ -125,6 +127,11 @@ std::vector<scene::Choice> wave_choices() {
 }
 
 void check_waves(const WavesOptions& o, const scene::Report& report) {
+  if (o.second_order && o.spreading_exponent)
+    report("spreading_exponent", "must not be given with second_order: bound waves are those of a sea of one direction");
+  if (o.second_order && o.components > int(waves::BoundWaves::most))
+    report("components", "must be at most " + std::to_string(waves::BoundWaves::most) +
+                             " with second_order, whose cost goes with their square");
   if (!o.spreading_exponent && o.spreading_range != WavesOptions{}.spreading_range)
     report("spreading_range_deg", "has no effect without spreading_exponent");
   if (o.crest_height_m) return;
@@ -163,12 +170,17 @@ const Section<WavesOptions>& waves_section() {
           .number("ramp_s", &WavesOptions::ramp_s, "s", "Time over which the waves grow smoothly from nothing.",
                   scene::not_negative())
           .only_if("model", wave_models().names())
+          .flag("second_order", &WavesOptions::second_order,
+                "With the waves that every two harmonics carry at the sum and the difference of their frequencies; the cost goes "
+                "with the square of components.")
+          .only_if("model", wave_models().with("second_order"))
           .choice("stretching", &WavesOptions::stretching,
                   {{"wheeler", "profiles are squeezed or stretched to the surface"},
                    {"vertical", "constant above still water"},
                    {"extrapolated", "the formula is used up to the surface"}},
                   "How linear kinematics reach the moving surface; nonlinear waves are always extrapolated.")
           .only_if("model", wave_models().with("stretching"))
+          .only_if("second_order", {"false"})
           .integer("seed", &WavesOptions::seed, "-",
                    "Seed of the random phases; the same seed gives the same sea on every machine.", scene::not_negative())
           .only_if("model", wave_models().with("seed"))

@@ -28,6 +28,7 @@ struct WavesOptions {
   int components = 200;                        ///< harmonics of a sea state
   std::string spacing = "equal_energy";        ///< equal_energy, equal_frequency
   std::optional<double> peak_enhancement;      ///< gamma of JONSWAP; from height and period where absent (DNV-RP-C205)
+  bool second_order = false;                   ///< of a sea state: with its bound waves
   std::optional<double> spreading_exponent;    ///< s of |cos(pi b / range)|^2s; absent: one direction
   double spreading_range = 6.283185307179586;  ///< [rad]
   std::optional<double> crest_height_m;        ///< of a constrained sea, over still water

@@ -163,6 +163,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (waved && wave_models().named(waves.model).nonlinear && !wave_models().named(waves.model).second_order)
     wrong("waves.model",
           "must not be '" + waves.model + "' in a sea of particles: its harmonics are not free waves; use 'stokes2'");
+  if (waved && waves.second_order)
+    wrong("waves.second_order", "must not be given in a sea of particles, which makes its own waves of second order");
   if (waved && waves.spreading_exponent && (planar || o.wavemaker))
     wrong("waves.spreading_exponent", "must not be given: the paddle, or the plane of the scene, makes waves along x");
   if (waved && std::abs(std::sin(waves.direction)) > 1e-9 && (planar || o.wavemaker))

@@ -79,6 +79,11 @@ void check_potential(const PotentialOptions& o, const WavesOptions& waves, std::
     problems.push_back({"waves.spreading_exponent",
                         "must not be given with loads of pairs of waves (sea.potential.drift "
                         "\"newman\" and \"full\", sum_frequency_file): they know one direction"});
+  if (waves.second_order)
+    problems.push_back(
+        {"waves.second_order",
+         "must not be given with sea.model 'potential', which is linear in the waves; its own loads of second order "
+         "are sea.potential.drift and sum_frequency_file"});
   if (wave_models().named(waves.model).nonlinear)
     problems.push_back(
         {"waves.model", "must not be '" + waves.model + "': sea.model 'potential' is linear in the waves; use 'airy'"});
@@ -115,6 +120,8 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
       problems.push_back({key, "has no effect: there are no waves"});
     else if (wave_models().named(waves.model).nonlinear)
       problems.push_back({key, "is linear in the waves: waves.model must not be '" + waves.model + "'"});
+    else if (waves.second_order)
+      problems.push_back({key, "is linear in the waves: waves.second_order must be false"});
   }
   const auto check_body = [&](const std::string& key, const std::string& name) {
     if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return b.name == name; }))

@@ -6,7 +6,8 @@ namespace spindrift::sea {
 extern const WaveModel pierson_moskowitz{
     .name = "pierson_moskowitz",
     .help = "irregular, fully developed sea",
-    .keys = {"height_m", "period_s", "stretching", "seed", "components", "spacing", "spreading_exponent", "crest_height_m"},
+    .keys = {"height_m", "period_s", "stretching", "seed", "components", "spacing", "second_order", "spreading_exponent",
+             "crest_height_m"},
     .components = [](const WavesOptions& o, const SeaEnvironment& e) { return random_sea(o, e, 1.0); }};
 
 }  // namespace spindrift::sea

@@ -126,6 +126,10 @@ waves.height_m=30.0 & waves.model="stokes2" : waves
 waves.period_s=0.0
 waves.model="tsunami"
 waves.components=3
+waves.second_order=true
+waves.model="jonswap" & waves.second_order=true & waves.spreading_exponent=2.0 : waves.spreading_exponent
+waves.model="jonswap" & waves.second_order=true & waves.components=2000 : waves.components
+waves.model="jonswap" & waves.second_order=true & waves.stretching="wheeler" : waves.stretching
 start.equilibrium=false & moorings.line_downwind.tension_only=true & moorings.line_downwind.axial_stiffness_N=1e18 & moorings.line_downwind.rest_length_m=900.0 : moorings.line_downwind
 """,
     "leble_barakos/case1_demo.toml": EVERY + WATER + """

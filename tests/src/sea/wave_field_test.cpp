@@ -184,3 +184,95 @@ TEST_CASE("spreading and a constrained crest change any random sea", "[sea][fast
   CHECK(least < -0.5);
   CHECK(most > 0.5);
 }
+
+namespace {
+
+/// Root mean square over times of the two conditions at the moving surface: d eta/dt + u . grad eta - w, and p / (rho g) - eta.
+std::pair<double, double> surface_residuals(const WaveField& sea) {
+  double kinematic = 0.0, dynamic = 0.0;
+  const int n = 400;
+  for (int i = 0; i < n; ++i) {
+    const double t = 1.37 * i, x = 5.0, y = 2.0, d = 1e-4;
+    const waves::Surface s = sea.surface(t, x, y);
+    const double rate = (sea.elevation(t + d, x, y) - sea.elevation(t - d, x, y)) / (2.0 * d);
+    const waves::Kinematics k = sea.kinematics(t, {x, y, s.elevation}, s.elevation);
+    kinematic += std::pow(rate + k.velocity.x() * s.slope_x + k.velocity.y() * s.slope_y - k.velocity.z(), 2) / n;
+    dynamic += std::pow(k.pressure_over_density / water.gravity - s.elevation, 2) / n;
+  }
+  return {std::sqrt(kinematic), std::sqrt(dynamic)};
+}
+
+WavesOptions bound_sea(double height) {
+  WavesOptions options = regular("jonswap");
+  options.height_m = height;
+  options.components = 61;
+  options.direction = 0.5;
+  options.second_order = true;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("the surface's conditions hold to the third power of the height with bound waves, to the second without",
+          "[sea][order]") {
+  const double depth = GENERATE(8.0, 20.6, 300.0);
+  const SeaEnvironment here{1025.0, depth, 9.81};
+  for (const bool second : {true, false}) {
+    std::vector<double> kinematic, dynamic;
+    for (const double height : {0.2, 0.1, 0.05}) {  // so low that every harmonic carries bound waves
+      WavesOptions options = bound_sea(height);
+      options.second_order = second;
+      options.stretching = "extrapolated";
+      REQUIRE(bound_wave_limit(height, 9.81) > 5.0 * 2.0 * pi / 8.8);
+      const auto [a, b] = surface_residuals(WaveField(options, here));
+      kinematic.push_back(a), dynamic.push_back(b);
+    }
+    for (const auto& residual : {kinematic, dynamic})
+      for (std::size_t i = 0; i + 1 < residual.size(); ++i)
+        CHECK(std::log2(residual[i] / residual[i + 1]) == Approx(second ? 3.0 : 2.0).margin(0.1));
+  }
+}
+
+TEST_CASE("a sea of second order is the linear sea and its bound waves, which grow by the ramp squared", "[sea][fast]") {
+  WavesOptions options = bound_sea(1.5), linear = options;
+  linear.second_order = false, linear.stretching = "extrapolated";
+  const WaveField first(linear, water), full(options, water);
+  options.ramp_s = 80.0;
+  const WaveField growing(options, water);
+  CHECK(full.components().size() == first.components().size());
+  const double r = growing.ramp(30.0);
+  const Eigen::Vector3d under(4.0, -3.0, -2.0);
+  CHECK(std::abs(full.elevation(30.0, 4.0, -3.0) - first.elevation(30.0, 4.0, -3.0)) > 1e-3);
+  const auto bound = [&](const auto& of) { return Eigen::Vector3d(of(full) - of(first)); };
+  const auto grown = [&](const auto& of) { return (of(growing) - r * of(first) - r * r * bound(of)).norm(); };
+  CHECK(grown([&](const WaveField& sea) {
+          const waves::Surface s = sea.surface(30.0, 4.0, -3.0);
+          return Eigen::Vector3d(s.elevation, s.slope_x, s.slope_y);
+        }) < 1e-12);
+  CHECK(grown([&](const WaveField& sea) { return sea.kinematics(30.0, under, 0.0).velocity; }) < 1e-12);
+  CHECK(grown([&](const WaveField& sea) { return sea.kinematics(30.0, under, 0.0).acceleration; }) < 1e-12);
+  // Above still water the linear waves go on in a straight line, the bound ones stay as they are there.
+  const auto speed = [&](double z) { return full.kinematics(30.0, {4.0, -3.0, z}, 2.0).velocity; };
+  CHECK((speed(0.6) - 2.0 * speed(0.3) + speed(0.0)).norm() < 1e-13);
+  const double d = 1e-4;
+  CHECK(
+      ((speed(0.3) - speed(0.0)) / 0.3 -
+       (first.kinematics(30.0, {4.0, -3.0, d}, 2.0).velocity - first.kinematics(30.0, {4.0, -3.0, -d}, 2.0).velocity) / (2.0 * d))
+          .norm() < 1e-6);
+}
+
+TEST_CASE("harmonics beyond the limit of the expansion carry no bound waves", "[sea][fast]") {
+  // Stansberg (1998): sqrt(2 g / Hs).
+  CHECK(bound_wave_limit(2.0, 9.81) == Approx(3.1321).epsilon(1e-4));
+  WavesOptions options = regular("jonswap");
+  options.height_m = 1.8, options.period_s = 7.0, options.second_order = true;
+  const WaveField sea(options, water);
+  std::vector<waves::Component> carriers;
+  for (const waves::Component& c : sea.components())
+    if (c.angular_frequency <= bound_wave_limit(1.8, 9.81)) carriers.push_back(c);
+  REQUIRE(carriers.size() < sea.components().size());
+  const waves::BoundWaves bound(carriers, water.water_depth, water.gravity);
+  options.second_order = false;
+  const WaveField linear(options, water);
+  CHECK(sea.elevation(17.0, 3.0, 0.0) == Approx(linear.elevation(17.0, 3.0, 0.0) + bound.surface(17.0, 3.0, 0.0).elevation));
+}
