@@ -106,7 +106,7 @@ void SeaSph<dim, Real>::evaluate() {
   sort_if_due();
   s_.plan.planned = 1;
   run(begin_, [](StepTasks<dim, Real>& tasks) {
-    tasks.evaluate(StepTasks<dim, Real>::Half::begin);
+    tasks.evaluate(Half::begin);
     tasks.limits();
   });
   gather_contacts();
@@ -133,7 +133,7 @@ double SeaSph<dim, Real>::begin_step(double dt_max) {
 template <int dim, class Real>
 void SeaSph<dim, Real>::half_step() {
   if (s_.p.step == StepChoice::verlet) return;
-  run(half_, [](StepTasks<dim, Real>& tasks) { tasks.evaluate(StepTasks<dim, Real>::Half::middle); });
+  run(half_, [](StepTasks<dim, Real>& tasks) { tasks.evaluate(Half::middle); });
   gather_contacts();
 }
 

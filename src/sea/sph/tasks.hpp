@@ -5,13 +5,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "runtime/graph/graph.hpp"
+#include "src/sea/sph/body_tasks.hpp"
+#include "src/sea/sph/halo_tasks.hpp"
 #include "src/sea/sph/schemes.hpp"
-#include "src/sea/sph/state.hpp"
+#include "src/sea/sph/sensor_tasks.hpp"
+#include "src/sea/sph/step_recording.hpp"
 
 namespace spindrift::sph {
 
@@ -30,61 +33,39 @@ class StepTasks {
   void window();
 
   // Its parts, for who drives the step himself.
-  enum class Half { begin, middle };
   void sort();               ///< does its work where plan.sort is set
   void evaluate(Half half);  ///< planes and rates at n, or at n + 1/2
   void limits();             ///< after evaluate(begin): plan.limit
-  void bodies(Half half);    ///< loads, motions, places; nothing without StepDriver::move_bodies
-  void sensors();            ///< notes what sensors read at the last evaluation; nothing without them
   void correct();            ///< to n + 1
   void filters();            ///< density filter and shifting, where the step is due
 
   /// Whether a body may soon leave the groups whose loads are gathered: record again before the next window.
-  bool outdated() const;
+  bool outdated() const { return bodies_.outdated(); }
 
  private:
-  using Data = std::vector<runtime::Datum>;
   using Sweep = GroupSweep<dim, Real>;
-  /// Which of the planned steps a task is part of, seen from within it.
-  using Step = std::function<int(const runtime::Context&)>;
 
-  template <class Do>
-  std::function<void(const runtime::Context&)> if_active(Do&& work) const;
   void steps(bool first);
   void step();
-  void pack(Half half);
   void set_walls();
   void stress();
-  void show(const std::string& what, bool stress);
-  void contacts();
-  void sweep_pairs(const std::string& label, const Sweep& sweep, std::function<Real*()> sums, const Data& data,
+  void sweep_pairs(const std::string& label, const Sweep& sweep, std::function<Real*()> sums, const GroupData& data,
                    bool with_stress = false);
-  void clear(std::size_t which, const std::string& label);
   void extra_sweep(std::size_t which, const std::string& label, const Sweep& sweep, std::function<bool(int step)> due,
                    std::function<double(int group)> apply);
-  void find_bodies();
-  void find_sensors();
-  double path_limit() const;
-  runtime::Uses of_groups(const std::vector<int>& groups, runtime::Use (*how)(runtime::Datum), const Data& data) const;
-  static std::string name(const std::string& path, std::size_t n) { return "sea/" + path + "/" + std::to_string(n); }
 
-  struct Shared;  // what tasks use while they run, beside the sea
-  SeaState<dim, Real>& sea_;
+  static constexpr std::size_t extremes_size = 4;  // speed, acceleration (squares), way by shifting, a request to stop
+  StepRecording<dim, Real> recording_;
   const Sweeps<dim, Real>& sweeps_;
   const StepDriver& driver_;
-  runtime::Graph& graph_;
-  int next_tag_;
-  double path_;                                 // of bodies when this was recorded [m]
-  std::vector<std::vector<int>> bundles_;       // own groups, some thousand particles each
-  std::vector<std::vector<int>> pair_bundles_;  // groups of one colour, colour by colour
-  std::vector<std::pair<int, int>> touching_;   // owners whose contacts are told to bodies
-  std::vector<int> body_groups_;                // own groups that bodies may come into before the next recording
-  std::vector<int> sensor_groups_;              // own groups that sensors' patches are in or near
-  runtime::Datum order_, plan_, loads_, records_;
-  Data state_, planes_, walls_, sums_, stress_, extra_[3], touches_, extremes_, partial_loads_, partial_readings_;
-  Step step_ = [](const runtime::Context&) { return 0; };
-  std::function<bool(int step)> due_;  // further condition on the tasks being recorded
-  std::shared_ptr<Shared> shared_;
+  Sorting<dim, Real> sorting_;
+  HaloTasks<dim, Real> halo_;
+  BodyTasks<dim, Real> bodies_;
+  SensorTasks<dim, Real> sensors_;
+  std::vector<NeighbourLists<dim, Real>> neighbour_lists_;  // one per thread
+  std::vector<runtime::Datum> extremes_data_;
+  std::vector<double> extremes_;  // by bundle
+  double most_[extremes_size] = {};
 };
 
 }  // namespace spindrift::sph
