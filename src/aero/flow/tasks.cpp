@@ -4,6 +4,8 @@
 #include "src/aero/flow/tasks.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <utility>
 
 #include "src/aero/flow/halo.hpp"
@@ -49,401 +51,438 @@ void record_centres(Graph& graph, TileArrays& arrays, const TileMotion& motion, 
   record_halo<double>(graph, arrays.grid, arrays.local, volume, recorded.double_buffers, always, nothing, control);
 }
 
-/// Names of what the tasks share, and the pieces of the graph.
-class StepGraph {
- public:
-  StepGraph(const MarchParts& parts, RecordedGraphs& recorded, Graph& graph)
-      : arrays_(parts.arrays),
-        time_(parts.time),
-        motion_(parts.motion),
-        residual_of_(parts.residual),
-        system_(parts.system),
-        judged_(parts.judgement),
-        recorded_(recorded),
-        g_(graph),
-        owned_(arrays_.tiles.size()) {
-    for (auto* data : {&state_, &state_ghosts_, &gradients_, &gradient_ghosts_, &residual_, &matrix_, &norms_, &vectors_,
-                       &direction_, &direction_ghosts_, &size_, &trial_, &trial_ghosts_, &dots_, &fraction_, &past_, &gathered_})
-      *data = graph.data(owned_);
-    sums_ = graph.datum(), decision_ = graph.datum(), total_size_ = graph.datum(), total_dots_ = graph.datum(),
-    krylov_ = graph.datum(), built_ = graph.datum(), common_ = graph.datum(), total_fraction_ = graph.datum();
-    if (judged_.body_force()) samples_ = graph.data(owned_), sampled_ = graph.datum(), forces_ = graph.datum();
-  }
+/// Data of the tasks of the flow, by owned tile where there are several.
+struct FlowData {
+  std::vector<Datum> state, state_ghosts, gradients, gradient_ghosts, residual, matrix, norms, past;
+  Datum sums;      ///< of the norms, over all tiles
+  Datum decision;  ///< of the judgement: whether and how the march goes on
 
-  /// A common part is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while
-  /// the others still have a sea to go on with. The round of one gives what stands outside the march's own loops that urgency
-  /// too.
-  void record() {
-    if (common())
-      g_.loop("aero/step", {.min = 1, .max = 1, .urgency = 2}, [&] { record_march(2); });
-    else
-      record_march(0);
+  FlowData(Graph& graph, std::size_t tiles) : sums(graph.datum()), decision(graph.datum()) {
+    for (auto* data : {&state, &state_ghosts, &gradients, &gradient_ghosts, &residual, &matrix, &norms, &past})
+      *data = graph.data(tiles);
   }
+};
 
- private:
-  void record_march(int urgency) {
-    if (time_.unsteady()) begin_time_step();
-    begin();
-    if (motion_.moves()) move_grid();
-    g_.loop("aero/pseudo", {.min = 1, .max = std::uint32_t(judged_.march().options().max_steps) + 2, .urgency = urgency}, [&] {
-      residual_of_state();
-      judge();
-      each(
-          "aero/matrix",
-          [&](std::size_t n) {
-            return Uses{reads(decision_),     reads(state_[n]),           reads(state_ghosts_[n]),
-                        reads(gradients_[n]), reads(gradient_ghosts_[n]), writes(matrix_[n])};
-          },
-          [this](std::size_t n) {
-            if (judged_.solving()) system_.build(tile(n), judged_.march().cfl(), judged_.refreshes());
-          });
-      if (common()) {
-        Uses uses{reads(decision_), writes(built_)};
-        uses.push_back(reads(matrix_));
-        g_.collective(
-            "aero/preconditioner", uses, [this](MPI_Comm comm) { system_.preconditioner().refresh_common(comm); },
-            [this] { return judged_.refreshes(); });
-      }
-      g_.loop("aero/krylov", {.min = 1, .max = std::uint32_t(columns()), .urgency = urgency + 1}, [&] { krylov_iteration(); });
-      update();
-      g_.until("aero/converged", {reads(decision_)}, [this] { return ends_march(judged_.march().verdict()); });
-    });
-  }
+/// Data of the tasks of the linear system. `trial`: the state that products without a matrix perturb.
+struct KrylovData {
+  std::vector<Datum> vectors, direction, direction_ghosts, size, trial, trial_ghosts, dots, fraction, gathered;
+  Datum basis;  ///< its dense part
+  Datum total_size, total_dots, total_fraction;
+  Datum built, common;  ///< the preconditioner's common part: its matrix, its solution
 
-  int columns() const { return system_.cycle().most_columns(); }
-  bool common() const { return system_.preconditioner().has_common(); }
-  std::string of(const char* path, std::size_t n) const {
-    return std::string(path) + "/" + std::to_string(arrays_.tiles[n].index);
+  KrylovData(Graph& graph, std::size_t tiles)
+      : basis(graph.datum()),
+        total_size(graph.datum()),
+        total_dots(graph.datum()),
+        total_fraction(graph.datum()),
+        built(graph.datum()),
+        common(graph.datum()) {
+    for (auto* data : {&vectors, &direction, &direction_ghosts, &size, &trial, &trial_ghosts, &dots, &fraction, &gathered})
+      *data = graph.data(tiles);
   }
+};
+
+/// Data of the tasks of a force inside the air; none without one.
+struct ForceData {
+  std::vector<Datum> samples;
+  Datum sampled, forces;
+};
+
+/// The parts of a march and the data of its tasks, which refer to it while they run.
+struct MarchRecording : MarchParts {
+  RecordedGraphs& recorded;
+  Graph& graph;
+  FlowData flow;
+  KrylovData krylov;
+  ForceData force{};
+
+  MarchRecording(const MarchParts& parts, RecordedGraphs& recorded, Graph& graph)
+      : MarchParts(parts), recorded(recorded), graph(graph), flow(graph, owned()), krylov(graph, owned()) {
+    if (judgement.body_force()) force = {graph.data(owned()), graph.datum(), graph.datum()};
+  }
+  MarchRecording(const MarchRecording&) = delete;
+  MarchRecording& operator=(const MarchRecording&) = delete;
+
+  std::size_t owned() const { return arrays.tiles.size(); }
+  FlowTile& tile(std::size_t n) const { return arrays.tiles[n]; }
+  FlowTile& tile_of(int index) const { return arrays.owned(index); }
+  std::string of(const char* path, std::size_t n) const { return std::string(path) + "/" + std::to_string(tile(n).index); }
+  /// A task for each owned tile.
   template <class UsesOf, class Work>
   void each(const char* path, UsesOf&& uses, Work work) {
-    for (std::size_t n = 0; n < owned_; ++n) g_.task(of(path, n), uses(n), [work, n] { work(n); });
+    for (std::size_t n = 0; n < owned(); ++n) graph.task(of(path, n), uses(n), [work, n] { work(n); });
   }
-
-  /// The past moves back by one step; ordered before all that reads the state.
-  void begin_time_step() {
-    each(
-        "aero/past",
-        [&](std::size_t n) {
-          return Uses{reads(state_[n]), updates(past_[n])};
-        },
-        [this](std::size_t n) { residual_of_.keep_past(tile(n)); });
-  }
-  void begin() {
-    Uses uses{updates(decision_)};
-    uses.push_back(reads(past_));
-    g_.task("aero/begin", uses, [this] {
-      judged_.begin();
-      system_.preconditioner().begin(time_.steps);
-      if (!time_.unsteady()) return;
-      time_.begin_step();
-      residual_of_.begin_step();
-      system_.set_physical_rate(time_.weights.now / time_.dt);
-      motion_.begin_step();
-    });
-  }
-
-  /// Nodes, metrics and face speeds of the new time level; what follows waits through the states.
-  void move_grid() {
-    each(
-        "aero/move",
-        [&](std::size_t n) {
-          return Uses{reads(decision_), reads(past_[n]), updates(state_[n])};
-        },
-        [this](std::size_t n) { motion_.move(tile(n)); });
-    record_centres(g_, arrays_, motion_, recorded_, {state_, state_ghosts_}, {reads(decision_)});
-  }
-
-  void residual_of_state() {
-    ghosts_of("aero/ghosts", state_, state_ghosts_, false, 1);
-    each(
-        "aero/gradients",
-        [&](std::size_t n) {
-          return Uses{reads(decision_), reads(state_[n]), reads(state_ghosts_[n]), writes(gradients_[n])};
-        },
-        [this](std::size_t n) { residual_of_.gradients(tile(n), tile(n).state.data()); });
-    gradient_ghosts(
-        "aero/gradient_ghosts", [this] { return residual_of_.has_friction(); }, false, 2);
-    if (judged_.body_force()) body_force();
-    each(
-        "aero/residual",
-        [&](std::size_t n) {
-          Uses uses{reads(state_[n]), reads(state_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]),
-                    reads(past_[n]),  reads(decision_),        writes(residual_[n]), writes(norms_[n])};
-          if (judged_.body_force()) uses.push_back(reads(forces_));
-          return uses;
-        },
-        [this](std::size_t n) {
-          if (judged_.body_force()) judged_.body_force()->spread(n, tile(n));
-          residual_of_.evaluate(tile(n), tile(n).state.data(), tile(n).residual.data());
-          judged_.measure(n, system_, residual_of_);
-        });
-  }
-  /// Forces inside the air, of the flow as it is: products of the linear solver see them as they stand.
-  void body_force() {
-    each(
-        "aero/force/sample",
-        [&](std::size_t n) {
-          return Uses{reads(decision_), reads(state_[n]), writes(samples_[n])};
-        },
-        [this](std::size_t n) { judged_.body_force()->sample(n, tile(n), judged_.force_samples.of(n)); });
-    TileSums& sums = judged_.force_samples;
-    g_.reduce("aero/force/sums", {reads(samples_), reads(decision_), writes(sampled_)},
-              {.partials = sums.partials, .result = sums.result});
-    g_.task("aero/force/act", {reads(sampled_), reads(decision_), writes(forces_)},
-            [this] { judged_.body_force()->act(judged_.force_samples.result); });
-  }
-  void judge() {
-    g_.reduce("aero/norms", {reads(norms_), writes(sums_)}, {.partials = judged_.norms.partials, .result = judged_.norms.result});
-    const Datum loads = g_.datum();
-    g_.reduce("aero/loads", {reads(norms_), writes(loads)}, {.partials = judged_.loads.partials, .result = judged_.loads.result});
-    g_.task("aero/judge", {reads(sums_), reads(loads), updates(decision_)}, [this] {
-      judged_.judge();
-      if (judged_.solving()) system_.begin(judged_.mean_norm(), judged_.model_norm(), judged_.refreshes());
-    });
-  }
-
-  void krylov_iteration() {
-    // v_j, and the direction z = M^-1 v_j.
-    const auto vector_uses = [&](std::size_t n) {
-      return Uses{reads(decision_), reads(krylov_), reads(residual_[n]), updates(vectors_[n])};
-    };
-    const auto direction_uses = [&](std::size_t n) {
-      return Uses{reads(decision_), reads(matrix_[n]), updates(vectors_[n]), writes(direction_[n]), writes(size_[n])};
-    };
-    if (!common()) {
-      for (std::size_t n = 0; n < owned_; ++n) {
-        Uses uses = direction_uses(n);
-        uses.push_back(reads(krylov_)), uses.push_back(reads(residual_[n]));
-        g_.task(of("aero/krylov/direction", n), uses, [this, n](const Context& c) {
-          vector(n, int(c.iteration));
-          direction(n, int(c.iteration));
-        });
-      }
-    } else {
-      for (std::size_t n = 0; n < owned_; ++n) {
-        Uses uses = vector_uses(n);
-        uses.push_back(writes(gathered_[n])), uses.push_back(reads(built_));
-        g_.task(of("aero/krylov/vector", n), uses, [this, n](const Context& c) {
-          vector(n, int(c.iteration));
-          if (judged_.solving()) system_.preconditioner().gather(tile(n), system_.cycle().source(tile(n), int(c.iteration)));
-        });
-      }
-      common_part("aero/krylov/common");
-      for (std::size_t n = 0; n < owned_; ++n) {
-        Uses uses = direction_uses(n);
-        uses.push_back(reads(common_));
-        g_.task(of("aero/krylov/direction", n), uses, [this, n](const Context& c) { direction(n, int(c.iteration)); });
-      }
-    }
-    g_.reduce("aero/krylov/size", {reads(size_), reads(decision_), writes(total_size_)},
-              {Reduction::Operation::max, system_.direction_size.partials, system_.direction_size.result,
-               [this] { return judged_.perturbs(); }});
-    // w = A z: by the stored blocks, or by the residual of a state a little further along z.
-    const HaloField<float> direction{"aero/krylov/direction_ghosts",
-                                     [this](int t) { return tile_of(t).direction_view(); },
-                                     [this](const Tile& t) { return cell_layout(t, gradient_ghosts_count, planar()); },
-                                     state_quantities(),
-                                     1,
-                                     &direction_,
-                                     &direction_ghosts_,
-                                     3,
-                                     &motion_.periodic()};
-    record_halo<float>(
-        g_, arrays_.grid, arrays_.local, direction, recorded_.float_buffers,
-        [this] { return judged_.solving() && !judged_.matrix_free(); }, [](int) {}, {reads(decision_)});
-    each(
-        "aero/krylov/perturb",
-        [&](std::size_t n) {
-          return Uses{reads(decision_), reads(state_[n]), reads(total_size_), reads(direction_[n]), writes(trial_[n])};
-        },
-        [this](std::size_t n) {
-          if (judged_.perturbs()) system_.perturb(tile(n));
-        });
-    ghosts_of("aero/krylov/trial_ghosts", trial_, trial_ghosts_, true, 4);
-    each(
-        "aero/krylov/gradients",
-        [&](std::size_t n) {
-          return Uses{reads(decision_), reads(trial_[n]), reads(trial_ghosts_[n]), writes(gradients_[n])};
-        },
-        [this](std::size_t n) {
-          if (judged_.perturbs()) residual_of_.gradients(tile(n), tile(n).trial.data());
-        });
-    gradient_ghosts(
-        "aero/krylov/gradient_ghosts", [this] { return judged_.perturbs() && residual_of_.has_friction(); }, true, 5);
-    for (std::size_t n = 0; n < owned_; ++n)
-      g_.task(of("aero/krylov/product", n),
-              {reads(decision_), reads(direction_[n]), reads(direction_ghosts_[n]), reads(total_size_), reads(trial_[n]),
-               reads(trial_ghosts_[n]), reads(gradients_[n]), reads(gradient_ghosts_[n]), reads(matrix_[n]), reads(past_[n]),
-               reads(residual_[n]), updates(vectors_[n]), writes(dots_[n])},
-              [this, n](const Context& c) {
-                if (judged_.solving())
-                  system_.product(tile(n), int(c.iteration), judged_.march().cfl(), judged_.matrix_free(), system_.dots.of(n));
-              });
-    g_.reduce("aero/krylov/dots", {reads(dots_), reads(decision_), writes(total_dots_)},
-              {.partials = system_.dots.partials, .result = system_.dots.result, .active = [this] { return judged_.solving(); }});
-    g_.task("aero/krylov/append", {reads(total_dots_), reads(decision_), updates(krylov_)}, [this] {
-      if (judged_.solving()) system_.append();
-    });
-    g_.until("aero/krylov/enough", {reads(krylov_), reads(decision_)},
-             [this] { return !judged_.solving() || system_.solved(judged_.march().options().krylov_drop); });
-  }
-
-  void vector(std::size_t n, int iteration) {
-    if (judged_.solving()) system_.make_vector(tile(n), iteration);
-  }
-  void direction(std::size_t n, int iteration) {
-    system_.direction_size.of(n)[0] = judged_.solving() ? system_.make_direction(tile(n), iteration) : 0.0;
-  }
-  /// Between what tiles gather and what they make of it; one task of all ranks, beside others of this rank that wait for none of
-  /// it.
-  void common_part(const char* label) {
-    Uses uses{reads(decision_), reads(built_), writes(common_)};
-    uses.push_back(reads(gathered_));
-    g_.collective(
-        label, uses, [this](MPI_Comm comm) { system_.preconditioner().common(comm); }, [this] { return judged_.solving(); });
-  }
-
-  void update() {
-    g_.task("aero/solution", {reads(decision_), updates(krylov_)}, [this] {
-      if (judged_.solving()) system_.cycle().finish();
-    });
-    const auto update_uses = [&](std::size_t n) {
-      return Uses{reads(decision_), reads(krylov_),       reads(matrix_[n]),
-                  reads(state_[n]), updates(vectors_[n]), writes(fraction_[n])};
-    };
-    const bool between = common() && system_.cycle().precondition_at_end();
-    if (between) {
-      each(
-          "aero/combine",
-          [&](std::size_t n) {
-            return Uses{reads(decision_), reads(krylov_), reads(built_), updates(vectors_[n]), writes(gathered_[n])};
-          },
-          [this](std::size_t n) {
-            if (!judged_.solving()) return;
-            system_.cycle().combine(tile(n));
-            system_.preconditioner().gather(tile(n), system_.cycle().solution(tile(n)));
-          });
-      common_part("aero/common");
-    }
-    each(
-        "aero/update",
-        [&](std::size_t n) {
-          Uses uses = update_uses(n);
-          if (between) uses.push_back(reads(common_));
-          return uses;
-        },
-        [this, between](std::size_t n) {
-          double& fraction = system_.fraction.of(n)[0];
-          fraction = 1.0;
-          if (!judged_.solving()) return;
-          if (!between) system_.cycle().combine(tile(n));
-          system_.solve_for_update(tile(n));
-          fraction = system_.update_fraction(tile(n));
-        });
-    g_.reduce("aero/fraction", {reads(fraction_), writes(total_fraction_)},
-              {Reduction::Operation::min, system_.fraction.partials, system_.fraction.result});
-    g_.task("aero/updated", {reads(total_fraction_), reads(krylov_), updates(decision_)}, [this] {
-      if (!judged_.solving()) return;
-      if (system_.fraction.one() < 0.0)
-        judged_.march().not_updated();
-      else
-        judged_.march().updated(system_.fraction.one(), system_.cycle().columns(), system_.linear_drop());
-    });
-    each(
-        "aero/apply",
-        [&](std::size_t n) {
-          return Uses{reads(decision_), reads(total_fraction_), reads(vectors_[n]), updates(state_[n]), updates(trial_[n])};
-        },
-        [this](std::size_t n) { apply(tile(n)); });
-  }
-
-  /// The state after the judgement: a step further, back where it was, or as it is.
-  void apply(FlowTile& tile) const {
-    const March& march = judged_.march();
-    if (march.verdict() == Verdict::go_on) return system_.apply_update(tile);
-    if (march.verdict() == Verdict::rejected) {
-      std::copy_n(tile.trial.data(), tile.trial.size(), tile.state.data());
-      return;
-    }
-    if (march.verdict() == Verdict::failed && march.rejections() > 0) std::swap(tile.state, tile.trial);
-  }
-
-  // ---- ghosts
-
-  void ghosts_of(const char* label, const std::vector<Datum>& inside, const std::vector<Datum>& ghosts, bool trial, int tag) {
-    const HaloField<double> field{label,
-                                  [this, trial](int t) { return trial ? tile_of(t).trial_view() : tile_of(t).state_view(); },
-                                  [this](const Tile& t) { return cell_layout(t, state_ghosts, planar()); },
-                                  state_quantities(),
-                                  state_ghosts,
-                                  &inside,
-                                  &ghosts,
-                                  tag,
-                                  &motion_.periodic()};
-    record_halo<double>(
-        g_, arrays_.grid, arrays_.local, field, recorded_.double_buffers, [this, trial] { return !trial || judged_.perturbs(); },
-        [this, trial](int n) {
-          FlowTile& t = tile(std::size_t(n));
-          residual_of_.fill_ghosts(t, trial ? t.trial.data() : t.state.data());
-        },
-        {reads(decision_)});
-  }
-  void gradient_ghosts(const char* label, std::function<bool()> active, bool trial, int tag) {
-    std::vector<Quantity> quantities{Quantity::tensor, Quantity::vector};
-    for (int t = 0; t < turbulence(); ++t) quantities.push_back(Quantity::vector);
-    if (!arrays_.tiles.empty() && tile(0).eddies)
-      quantities.insert(quantities.end(), std::size_t(2 + turbulence()), Quantity::scalar);
-    const HaloField<double> field{label,
-                                  [this](int t) { return tile_of(t).gradient_view(); },
-                                  [this](const Tile& t) { return cell_layout(t, gradient_ghosts_count, planar()); },
-                                  quantities,
-                                  1,
-                                  &gradients_,
-                                  &gradient_ghosts_,
-                                  tag,
-                                  &motion_.periodic()};
-    record_halo<double>(g_, arrays_.grid, arrays_.local, field, recorded_.double_buffers, active,
-                        [this, trial](int n) {
-                          FlowTile& t = tile(std::size_t(n));
-                          residual_of_.fill_gradient_ghosts(t, trial ? t.trial.data() : t.state.data());
-                        },
-                        {reads(decision_)});
-  }
+  /// Whether the preconditioner has a part of all tiles together.
+  bool common() const { return system.preconditioner().has_common(); }
+  int turbulence() const { return arrays.tiles.empty() ? 0 : tile(0).turbulence; }
   std::vector<Quantity> state_quantities() const {
     std::vector<Quantity> q{Quantity::scalar, Quantity::vector, Quantity::scalar};
     for (int t = 0; t < turbulence(); ++t) q.push_back(Quantity::scalar);
     return q;
   }
-  static constexpr int gradient_ghosts_count = aero::gradient_ghosts;
-
-  FlowTile& tile(std::size_t n) const { return arrays_.tiles[n]; }
-  FlowTile& tile_of(int index) const { return arrays_.owned(index); }
-  bool planar() const { return arrays_.planar(); }
-  int turbulence() const { return arrays_.tiles.empty() ? 0 : tile(0).turbulence; }
-
-  TileArrays& arrays_;
-  PhysicalTime& time_;
-  TileMotion& motion_;
-  FlowResidual& residual_of_;
-  ImplicitSystem& system_;
-  Judgement& judged_;
-  RecordedGraphs& recorded_;
-  Graph& g_;
-  std::size_t owned_;
-  std::vector<Datum> state_, state_ghosts_, gradients_, gradient_ghosts_, residual_, matrix_, norms_, vectors_, direction_,
-      direction_ghosts_, size_, trial_, trial_ghosts_, dots_, fraction_, past_, gathered_, samples_;
-  Datum sampled_, forces_;
-  Datum sums_, decision_, total_size_, total_dots_, krylov_, built_, common_, total_fraction_;
 };
+
+// ---- ghosts
+
+void ghosts_of(MarchRecording& r, const char* label, const std::vector<Datum>& inside, const std::vector<Datum>& ghosts,
+               bool trial, int tag) {
+  const HaloField<double> field{label,
+                                [&r, trial](int t) { return trial ? r.tile_of(t).trial_view() : r.tile_of(t).state_view(); },
+                                [&r](const Tile& t) { return cell_layout(t, state_ghosts, r.arrays.planar()); },
+                                r.state_quantities(),
+                                state_ghosts,
+                                &inside,
+                                &ghosts,
+                                tag,
+                                &r.motion.periodic()};
+  record_halo<double>(
+      r.graph, r.arrays.grid, r.arrays.local, field, r.recorded.double_buffers,
+      [&r, trial] { return !trial || r.judgement.perturbs(); },
+      [&r, trial](int n) {
+        FlowTile& t = r.tile(std::size_t(n));
+        r.residual.fill_ghosts(t, trial ? t.trial.data() : t.state.data());
+      },
+      {reads(r.flow.decision)});
+}
+
+void gradient_ghosts(MarchRecording& r, const char* label, std::function<bool()> active, bool trial, int tag) {
+  std::vector<Quantity> quantities{Quantity::tensor, Quantity::vector};
+  for (int t = 0; t < r.turbulence(); ++t) quantities.push_back(Quantity::vector);
+  if (!r.arrays.tiles.empty() && r.tile(0).eddies)
+    quantities.insert(quantities.end(), std::size_t(2 + r.turbulence()), Quantity::scalar);
+  const HaloField<double> field{label,
+                                [&r](int t) { return r.tile_of(t).gradient_view(); },
+                                [&r](const Tile& t) { return cell_layout(t, aero::gradient_ghosts, r.arrays.planar()); },
+                                quantities,
+                                1,
+                                &r.flow.gradients,
+                                &r.flow.gradient_ghosts,
+                                tag,
+                                &r.motion.periodic()};
+  record_halo<double>(r.graph, r.arrays.grid, r.arrays.local, field, r.recorded.double_buffers, active,
+                      [&r, trial](int n) {
+                        FlowTile& t = r.tile(std::size_t(n));
+                        r.residual.fill_gradient_ghosts(t, trial ? t.trial.data() : t.state.data());
+                      },
+                      {reads(r.flow.decision)});
+}
+
+// ---- the residual
+
+/// The past moves back by one step; ordered before all that reads the state.
+void begin_time_step(MarchRecording& r) {
+  r.each(
+      "aero/past",
+      [&](std::size_t n) {
+        return Uses{reads(r.flow.state[n]), updates(r.flow.past[n])};
+      },
+      [&r](std::size_t n) { r.residual.keep_past(r.tile(n)); });
+}
+
+void begin_march(MarchRecording& r) {
+  Uses uses{updates(r.flow.decision)};
+  uses.push_back(reads(r.flow.past));
+  r.graph.task("aero/begin", uses, [&r] {
+    r.judgement.begin();
+    r.system.preconditioner().begin(r.time.steps);
+    if (!r.time.unsteady()) return;
+    r.time.begin_step();
+    r.residual.begin_step();
+    r.system.set_physical_rate(r.time.weights.now / r.time.dt);
+    r.motion.begin_step();
+  });
+}
+
+/// Nodes, metrics and face speeds of the new time level; what follows waits through the states.
+void move_grid(MarchRecording& r) {
+  r.each(
+      "aero/move",
+      [&](std::size_t n) {
+        return Uses{reads(r.flow.decision), reads(r.flow.past[n]), updates(r.flow.state[n])};
+      },
+      [&r](std::size_t n) { r.motion.move(r.tile(n)); });
+  record_centres(r.graph, r.arrays, r.motion, r.recorded, {r.flow.state, r.flow.state_ghosts}, {reads(r.flow.decision)});
+}
+
+/// Forces inside the air, of the flow as it is: products of the linear solver see them as they stand.
+void body_force(MarchRecording& r) {
+  r.each(
+      "aero/force/sample",
+      [&](std::size_t n) {
+        return Uses{reads(r.flow.decision), reads(r.flow.state[n]), writes(r.force.samples[n])};
+      },
+      [&r](std::size_t n) { r.judgement.body_force()->sample(n, r.tile(n), r.judgement.force_samples.of(n)); });
+  TileSums& sums = r.judgement.force_samples;
+  r.graph.reduce("aero/force/sums", {reads(r.force.samples), reads(r.flow.decision), writes(r.force.sampled)},
+                 {.partials = sums.partials, .result = sums.result});
+  r.graph.task("aero/force/act", {reads(r.force.sampled), reads(r.flow.decision), writes(r.force.forces)},
+               [&r] { r.judgement.body_force()->act(r.judgement.force_samples.result); });
+}
+
+void residual_of_state(MarchRecording& r) {
+  ghosts_of(r, "aero/ghosts", r.flow.state, r.flow.state_ghosts, false, 1);
+  r.each(
+      "aero/gradients",
+      [&](std::size_t n) {
+        return Uses{reads(r.flow.decision), reads(r.flow.state[n]), reads(r.flow.state_ghosts[n]), writes(r.flow.gradients[n])};
+      },
+      [&r](std::size_t n) { r.residual.gradients(r.tile(n), r.tile(n).state.data()); });
+  gradient_ghosts(
+      r, "aero/gradient_ghosts", [&r] { return r.residual.has_friction(); }, false, 2);
+  if (r.judgement.body_force()) body_force(r);
+  r.each(
+      "aero/residual",
+      [&](std::size_t n) {
+        Uses uses{reads(r.flow.state[n]),           reads(r.flow.state_ghosts[n]), reads(r.flow.gradients[n]),
+                  reads(r.flow.gradient_ghosts[n]), reads(r.flow.past[n]),         reads(r.flow.decision),
+                  writes(r.flow.residual[n]),       writes(r.flow.norms[n])};
+        if (r.judgement.body_force()) uses.push_back(reads(r.force.forces));
+        return uses;
+      },
+      [&r](std::size_t n) {
+        if (r.judgement.body_force()) r.judgement.body_force()->spread(n, r.tile(n));
+        r.residual.evaluate(r.tile(n), r.tile(n).state.data(), r.tile(n).residual.data());
+        r.judgement.measure(n, r.system, r.residual);
+      });
+}
+
+void judge(MarchRecording& r) {
+  r.graph.reduce("aero/norms", {reads(r.flow.norms), writes(r.flow.sums)},
+                 {.partials = r.judgement.norms.partials, .result = r.judgement.norms.result});
+  const Datum loads = r.graph.datum();
+  r.graph.reduce("aero/loads", {reads(r.flow.norms), writes(loads)},
+                 {.partials = r.judgement.loads.partials, .result = r.judgement.loads.result});
+  r.graph.task("aero/judge", {reads(r.flow.sums), reads(loads), updates(r.flow.decision)}, [&r] {
+    r.judgement.judge();
+    if (r.judgement.solving()) r.system.begin(r.judgement.mean_norm(), r.judgement.model_norm(), r.judgement.refreshes());
+  });
+}
+
+// ---- the linear system and the update
+
+void make_vector(const MarchRecording& r, std::size_t n, int iteration) {
+  if (r.judgement.solving()) r.system.make_vector(r.tile(n), iteration);
+}
+
+void make_direction(const MarchRecording& r, std::size_t n, int iteration) {
+  r.system.direction_size.of(n)[0] = r.judgement.solving() ? r.system.make_direction(r.tile(n), iteration) : 0.0;
+}
+
+/// Between what tiles gather and what they make of it; one task of all ranks, beside others of this rank that wait for none of
+/// it.
+void common_part(MarchRecording& r, const char* label) {
+  Uses uses{reads(r.flow.decision), reads(r.krylov.built), writes(r.krylov.common)};
+  uses.push_back(reads(r.krylov.gathered));
+  r.graph.collective(
+      label, uses, [&r](MPI_Comm comm) { r.system.preconditioner().common(comm); }, [&r] { return r.judgement.solving(); });
+}
+
+void krylov_iteration(MarchRecording& r) {
+  // v_j, and the direction z = M^-1 v_j.
+  const auto vector_uses = [&](std::size_t n) {
+    return Uses{reads(r.flow.decision), reads(r.krylov.basis), reads(r.flow.residual[n]), updates(r.krylov.vectors[n])};
+  };
+  const auto direction_uses = [&](std::size_t n) {
+    return Uses{reads(r.flow.decision), reads(r.flow.matrix[n]), updates(r.krylov.vectors[n]), writes(r.krylov.direction[n]),
+                writes(r.krylov.size[n])};
+  };
+  if (!r.common()) {
+    for (std::size_t n = 0; n < r.owned(); ++n) {
+      Uses uses = direction_uses(n);
+      uses.push_back(reads(r.krylov.basis)), uses.push_back(reads(r.flow.residual[n]));
+      r.graph.task(r.of("aero/krylov/direction", n), uses, [&r, n](const Context& c) {
+        make_vector(r, n, int(c.iteration));
+        make_direction(r, n, int(c.iteration));
+      });
+    }
+  } else {
+    for (std::size_t n = 0; n < r.owned(); ++n) {
+      Uses uses = vector_uses(n);
+      uses.push_back(writes(r.krylov.gathered[n])), uses.push_back(reads(r.krylov.built));
+      r.graph.task(r.of("aero/krylov/vector", n), uses, [&r, n](const Context& c) {
+        make_vector(r, n, int(c.iteration));
+        if (r.judgement.solving())
+          r.system.preconditioner().gather(r.tile(n), r.system.cycle().source(r.tile(n), int(c.iteration)));
+      });
+    }
+    common_part(r, "aero/krylov/common");
+    for (std::size_t n = 0; n < r.owned(); ++n) {
+      Uses uses = direction_uses(n);
+      uses.push_back(reads(r.krylov.common));
+      r.graph.task(r.of("aero/krylov/direction", n), uses, [&r, n](const Context& c) { make_direction(r, n, int(c.iteration)); });
+    }
+  }
+  r.graph.reduce("aero/krylov/size", {reads(r.krylov.size), reads(r.flow.decision), writes(r.krylov.total_size)},
+                 {Reduction::Operation::max, r.system.direction_size.partials, r.system.direction_size.result,
+                  [&r] { return r.judgement.perturbs(); }});
+  // w = A z: by the stored blocks, or by the residual of a state a little further along z.
+  const HaloField<float> direction{"aero/krylov/direction_ghosts",
+                                   [&r](int t) { return r.tile_of(t).direction_view(); },
+                                   [&r](const Tile& t) { return cell_layout(t, aero::gradient_ghosts, r.arrays.planar()); },
+                                   r.state_quantities(),
+                                   1,
+                                   &r.krylov.direction,
+                                   &r.krylov.direction_ghosts,
+                                   3,
+                                   &r.motion.periodic()};
+  record_halo<float>(
+      r.graph, r.arrays.grid, r.arrays.local, direction, r.recorded.float_buffers,
+      [&r] { return r.judgement.solving() && !r.judgement.matrix_free(); }, [](int) {}, {reads(r.flow.decision)});
+  r.each(
+      "aero/krylov/perturb",
+      [&](std::size_t n) {
+        return Uses{reads(r.flow.decision), reads(r.flow.state[n]), reads(r.krylov.total_size), reads(r.krylov.direction[n]),
+                    writes(r.krylov.trial[n])};
+      },
+      [&r](std::size_t n) {
+        if (r.judgement.perturbs()) r.system.perturb(r.tile(n));
+      });
+  ghosts_of(r, "aero/krylov/trial_ghosts", r.krylov.trial, r.krylov.trial_ghosts, true, 4);
+  r.each(
+      "aero/krylov/gradients",
+      [&](std::size_t n) {
+        return Uses{reads(r.flow.decision), reads(r.krylov.trial[n]), reads(r.krylov.trial_ghosts[n]),
+                    writes(r.flow.gradients[n])};
+      },
+      [&r](std::size_t n) {
+        if (r.judgement.perturbs()) r.residual.gradients(r.tile(n), r.tile(n).trial.data());
+      });
+  gradient_ghosts(
+      r, "aero/krylov/gradient_ghosts", [&r] { return r.judgement.perturbs() && r.residual.has_friction(); }, true, 5);
+  for (std::size_t n = 0; n < r.owned(); ++n)
+    r.graph.task(r.of("aero/krylov/product", n),
+                 {reads(r.flow.decision), reads(r.krylov.direction[n]), reads(r.krylov.direction_ghosts[n]),
+                  reads(r.krylov.total_size), reads(r.krylov.trial[n]), reads(r.krylov.trial_ghosts[n]),
+                  reads(r.flow.gradients[n]), reads(r.flow.gradient_ghosts[n]), reads(r.flow.matrix[n]), reads(r.flow.past[n]),
+                  reads(r.flow.residual[n]), updates(r.krylov.vectors[n]), writes(r.krylov.dots[n])},
+                 [&r, n](const Context& c) {
+                   if (r.judgement.solving())
+                     r.system.product(r.tile(n), int(c.iteration), r.judgement.march().cfl(), r.judgement.matrix_free(),
+                                      r.system.dots.of(n));
+                 });
+  r.graph.reduce(
+      "aero/krylov/dots", {reads(r.krylov.dots), reads(r.flow.decision), writes(r.krylov.total_dots)},
+      {.partials = r.system.dots.partials, .result = r.system.dots.result, .active = [&r] { return r.judgement.solving(); }});
+  r.graph.task("aero/krylov/append", {reads(r.krylov.total_dots), reads(r.flow.decision), updates(r.krylov.basis)}, [&r] {
+    if (r.judgement.solving()) r.system.append();
+  });
+  r.graph.until("aero/krylov/enough", {reads(r.krylov.basis), reads(r.flow.decision)},
+                [&r] { return !r.judgement.solving() || r.system.solved(r.judgement.march().options().krylov_drop); });
+}
+
+/// The state after the judgement: a step further, back where it was, or as it is.
+void apply(const MarchRecording& r, FlowTile& tile) {
+  const March& march = r.judgement.march();
+  if (march.verdict() == Verdict::go_on) return r.system.apply_update(tile);
+  if (march.verdict() == Verdict::rejected) {
+    std::copy_n(tile.trial.data(), tile.trial.size(), tile.state.data());
+    return;
+  }
+  if (march.verdict() == Verdict::failed && march.rejections() > 0) std::swap(tile.state, tile.trial);
+}
+
+void update_state(MarchRecording& r) {
+  r.graph.task("aero/solution", {reads(r.flow.decision), updates(r.krylov.basis)}, [&r] {
+    if (r.judgement.solving()) r.system.cycle().finish();
+  });
+  const auto update_uses = [&](std::size_t n) {
+    return Uses{reads(r.flow.decision), reads(r.krylov.basis),        reads(r.flow.matrix[n]),
+                reads(r.flow.state[n]), updates(r.krylov.vectors[n]), writes(r.krylov.fraction[n])};
+  };
+  const bool between = r.common() && r.system.cycle().precondition_at_end();
+  if (between) {
+    r.each(
+        "aero/combine",
+        [&](std::size_t n) {
+          return Uses{reads(r.flow.decision), reads(r.krylov.basis), reads(r.krylov.built), updates(r.krylov.vectors[n]),
+                      writes(r.krylov.gathered[n])};
+        },
+        [&r](std::size_t n) {
+          if (!r.judgement.solving()) return;
+          r.system.cycle().combine(r.tile(n));
+          r.system.preconditioner().gather(r.tile(n), r.system.cycle().solution(r.tile(n)));
+        });
+    common_part(r, "aero/common");
+  }
+  r.each(
+      "aero/update",
+      [&](std::size_t n) {
+        Uses uses = update_uses(n);
+        if (between) uses.push_back(reads(r.krylov.common));
+        return uses;
+      },
+      [&r, between](std::size_t n) {
+        double& fraction = r.system.fraction.of(n)[0];
+        fraction = 1.0;
+        if (!r.judgement.solving()) return;
+        if (!between) r.system.cycle().combine(r.tile(n));
+        r.system.solve_for_update(r.tile(n));
+        fraction = r.system.update_fraction(r.tile(n));
+      });
+  r.graph.reduce("aero/fraction", {reads(r.krylov.fraction), writes(r.krylov.total_fraction)},
+                 {Reduction::Operation::min, r.system.fraction.partials, r.system.fraction.result});
+  r.graph.task("aero/updated", {reads(r.krylov.total_fraction), reads(r.krylov.basis), updates(r.flow.decision)}, [&r] {
+    if (!r.judgement.solving()) return;
+    if (r.system.fraction.one() < 0.0)
+      r.judgement.march().not_updated();
+    else
+      r.judgement.march().updated(r.system.fraction.one(), r.system.cycle().columns(), r.system.linear_drop());
+  });
+  r.each(
+      "aero/apply",
+      [&](std::size_t n) {
+        return Uses{reads(r.flow.decision), reads(r.krylov.total_fraction), reads(r.krylov.vectors[n]), updates(r.flow.state[n]),
+                    updates(r.krylov.trial[n])};
+      },
+      [&r](std::size_t n) { apply(r, r.tile(n)); });
+}
+
+// ---- the march
+
+void pseudo_march(MarchRecording& r, int urgency) {
+  if (r.time.unsteady()) begin_time_step(r);
+  begin_march(r);
+  if (r.motion.moves()) move_grid(r);
+  r.graph.loop(
+      "aero/pseudo", {.min = 1, .max = std::uint32_t(r.judgement.march().options().max_steps) + 2, .urgency = urgency}, [&] {
+        residual_of_state(r);
+        judge(r);
+        r.each(
+            "aero/matrix",
+            [&](std::size_t n) {
+              return Uses{reads(r.flow.decision),     reads(r.flow.state[n]),           reads(r.flow.state_ghosts[n]),
+                          reads(r.flow.gradients[n]), reads(r.flow.gradient_ghosts[n]), writes(r.flow.matrix[n])};
+            },
+            [&r](std::size_t n) {
+              if (r.judgement.solving()) r.system.build(r.tile(n), r.judgement.march().cfl(), r.judgement.refreshes());
+            });
+        if (r.common()) {
+          Uses uses{reads(r.flow.decision), writes(r.krylov.built)};
+          uses.push_back(reads(r.flow.matrix));
+          r.graph.collective(
+              "aero/preconditioner", uses, [&r](MPI_Comm comm) { r.system.preconditioner().refresh_common(comm); },
+              [&r] { return r.judgement.refreshes(); });
+        }
+        r.graph.loop("aero/krylov", {.min = 1, .max = std::uint32_t(r.system.cycle().most_columns()), .urgency = urgency + 1},
+                     [&] { krylov_iteration(r); });
+        update_state(r);
+        r.graph.until("aero/converged", {reads(r.flow.decision)}, [&r] { return ends_march(r.judgement.march().verdict()); });
+      });
+}
 
 }  // namespace
 
 void record_march(Graph& graph, const MarchParts& parts, RecordedGraphs& recorded) {
-  // The pieces of the graph live on in its tasks.
-  auto pieces = std::make_shared<StepGraph>(parts, recorded, graph);
-  pieces->record();
-  recorded.pieces.push_back(std::move(pieces));
+  auto recording = std::make_shared<MarchRecording>(parts, recorded, graph);
+  recorded.pieces.push_back(recording);
+  MarchRecording& r = *recording;
+  // A common part is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while
+  // the others still have a sea to go on with. The round of one gives what stands outside the march's own loops that urgency
+  // too.
+  if (r.common())
+    graph.loop("aero/step", {.min = 1, .max = 1, .urgency = 2}, [&] { pseudo_march(r, 2); });
+  else
+    pseudo_march(r, 0);
 }
 
 void record_geometry(Graph& graph, TileArrays& arrays, const TileMotion& motion, RecordedGraphs& recorded) {
