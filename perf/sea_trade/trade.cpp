@@ -57,7 +57,7 @@ Outcome standing_wave(const Parameters& given, double c0_over_wave_speed) {
   const double seconds = perf::user_seconds() - start,
                halves = double(crossings.size()) - 2.0;  // the first half is starting noise
   return {0.5 * halves * period / (crossings.back() - crossings[1]) - 1.0, 1.0 - std::pow(peaks.back() / peaks[1], 2.0 / halves),
-          seconds / sea.time(), 1e6 * seconds / (double(sea.work().evaluations) * double(seeds.size()))};
+          seconds / sea.time(), 1e6 * seconds / (double(sea.state().work.evaluations) * double(seeds.size()))};
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ void Recorder::declare_particles(io::History& history) {
 void Recorder::fill_particles(std::span<double> row, std::span<const Motion> motions, double t) const {
   const sea::ParticlePlan& plan = *floating_.particle_plan();
   const sea::ParticleSea& sea = *floating_.particles();
-  water_->fill(row, {double(sea.lost()), double(sea.left()), sea.extent()});
+  const sea::ParticleSea::Counts counts = sea.counts();
+  water_->fill(row, {double(counts.lost), double(counts.left), sea.extent()});
   if (paddle_) paddle_->fill(row, sea.paddle(t));
   std::vector<std::array<double, 2>> places;
   std::vector<double> marks;  // of gauges that go with bodies: where the waterline is

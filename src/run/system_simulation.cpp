@@ -348,11 +348,12 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
     summary.counts.emplace_back("step_evaluations", totals.body_steps);
   }
   if (const sea::ParticleSea* sea = floating_.particles()) {
-    summary.counts.emplace_back("particles", std::int64_t(sea->particles()));
-    summary.counts.emplace_back("particle_evaluations", sea->evaluations());
-    summary.counts.emplace_back("particle_sorts", sea->sorts());
-    summary.counts.emplace_back("particles_lost", std::int64_t(sea->lost()));
-    summary.counts.emplace_back("particles_left", std::int64_t(sea->left()));
+    const sea::ParticleSea::Counts counts = sea->counts();
+    summary.counts.emplace_back("particles", std::int64_t(counts.particles));
+    summary.counts.emplace_back("particle_evaluations", counts.evaluations);
+    summary.counts.emplace_back("particle_sorts", counts.sorts);
+    summary.counts.emplace_back("particles_lost", std::int64_t(counts.lost));
+    summary.counts.emplace_back("particles_left", std::int64_t(counts.left));
   }
   // Bodies beside particles move within tasks of the sea, and ask for their loads within their own.
   if (parts_.has(sea_part) && !floating_.scenario().bodies.empty()) {

@@ -10,6 +10,7 @@
 #include "kernels/base/binned_sum.hpp"
 #include "kernels/sph/time_step.hpp"
 #include "runtime/mpi/stop_request.hpp"
+#include "src/sea/particle_solids.hpp"
 #include "src/sea/sph/bounds.hpp"
 #include "src/sea/sph/by_identity.hpp"
 #include "src/sea/sph/damping.hpp"
@@ -55,6 +56,27 @@ double body_step_limit(const ParticleBody& body, const sph::Points& points, cons
   return sph::body_step_limit(solid, body.mass / width, p, dim);
 }
 
+/// What a sensor of the scene reads; `reach` [m]: of the kernel.
+template <int dim, class Real>
+sph::Patch patch_of(const ParticlePlan& plan, const SensorOptions& sensor, double reach,
+                    const ParticleSolids<dim, Real>& solids) {
+  constexpr sph::Cut cut = dim == 2 ? sph::Cut::plane : sph::Cut::space;
+  const double d = plan.options.spacing_m;
+  sph::Patch patch{.owner = sph::wall_owner, .low = sensor.low_m, .high = sensor.high_m, .mean_over = sensor.mean_over_s};
+  if (sensor.body.empty()) {
+    patch.points = sph::points_of_rectangle(patch.low, patch.high, 0.5 * d, cut);
+    for (int k = 0; k < 3; ++k)  // the particles of the wall on either side of it that water feels
+      if (patch.low[k] == patch.high[k]) patch.low[k] -= reach, patch.high[k] += reach;
+  } else {
+    const auto named = std::find_if(plan.bodies.begin(), plan.bodies.end(), [&](const auto& b) { return b.name == sensor.body; });
+    const Motion& described = named->described;
+    patch.owner = solids.owner(std::size_t(named - plan.bodies.begin()));
+    patch.low -= described.position, patch.high -= described.position;
+    patch.points = sph::points_of_surface(named->shapes, patch.low, patch.high, d, cut);
+  }
+  return patch;
+}
+
 template <int dim, class Real>
 class Sea final : public ParticleSea {
  public:
@@ -66,46 +88,28 @@ class Sea final : public ParticleSea {
         ranks_(world.size),
         sea_(parameters, tank.domain, tank.seeds, {.comm = world.comm}),
         particles_(tank.seeds.size()),
-        owner_of_body_(plan.bodies.size(), 0),
-        loads_(plan.bodies.size()),
-        contacts_(plan.bodies.size()),
-        motions_(start.begin(), start.end()) {
+        solids_(sea_, plan, start, tank, tank.paddle ? std::optional(wavemaker_of(plan)) : std::nullopt) {
     for (const DampingZoneOptions& z : plan.damping_zones)
       sea_.state().damping.zones.push_back({z.from_m, z.to_m, z.rate_1_s, z.axis == "y" ? 1 : 0});
     steps_.steps.choose = [this](double limit) {
       const WindowDriver::Step step = driver_->choose(limit);
       return sph::StepControl::Choice{step.dt, step.last};
     };
-    if (tank.paddle) {
-      wavemaker_.emplace(wavemaker_of(plan)), paddle_ = *tank.paddle;
-      sea_.add_body(paddle_, wavemaker_->at_rest());
-    }
     const auto mine = sph::identities_of(particles_, world.rank, world.size);
     owner_.reserve(mine.last - mine.first);
     tank.seeds.for_each([&](std::size_t id, const sph::Seed<dim>& seed) {
       if (id >= mine.first && id < mine.last) owner_.push_back(seed.owner);
     });
-    std::size_t shaped = 0;
-    for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
-      if (plan.bodies[b].shapes.empty()) continue;
-      owner_of_body_[b] = tank.bodies[shaped++];
-      sea_.add_body(owner_of_body_[b], start[b], plan.bodies[b].mass / width_);
-    }
-    for (const SensorOptions& sensor : plan.sensors) add_sensor(plan, sensor);
+    for (const SensorOptions& sensor : plan.sensors) sea_.add_sensor(patch_of(plan, sensor, parameters.reach(), solids_));
   }
 
   void evaluate(double t, std::span<const Motion> bodies) override {
-    place(t, bodies);
+    solids_.place(t, bodies);
     if (ranks_ > 1) sea_.repartition();
     sea_.sort();
     (void)sea_.step_limit();
-    sea_.read_sensors();
-    for (std::size_t b = 0; b < loads_.size(); ++b) {
-      loads_[b] = contacts_[b] = Wrench{.point = motions_[b].position};
-      if (!owner_of_body_[b]) continue;
-      loads_[b] = of_width(sea_.load_on(owner_of_body_[b], motions_[b].position));
-      contacts_[b] = of_width(sea_.contact_on(owner_of_body_[b], motions_[b].position));
-    }
+    read_sensors(sea_.state(), comm_);
+    solids_.take_loads();
   }
 
   void balance() override {
@@ -115,7 +119,7 @@ class Sea final : public ParticleSea {
     driver_ = &driver;
     if (moves_solids())
       steps_.move_bodies = [this](const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> motions) {
-        move(half, loads, motions);
+        solids_.move(*driver_, half, loads, motions);
       };
     tasks_.push_back(sea_.tasks(steps_, graph, omp_get_max_threads(), first_tag));
     tasks_.back()->window();
@@ -128,7 +132,7 @@ class Sea final : public ParticleSea {
   void forget_tasks() override { tasks_.clear(); }
   void open(double t, std::span<const Motion> bodies, bool settling) override {
     sea_.state().damping.everywhere = settling ? settle_damping_ : 0.0, t_ = t;
-    place(t, bodies);
+    solids_.place(t, bodies);
     sph::Plan& plan = sea_.state().plan;
     plan.left = 1.0;                               // until the driver calls a step the last
     plan.drift = 2.0 * sea_.parameters().drift();  // sorts first: what follows depends on the state alone
@@ -142,16 +146,14 @@ class Sea final : public ParticleSea {
     const std::string what = failure->what(), told = what.starts_with("t = ") ? "" : "t = " + sph::in_words(t_) + " s: ";
     throw NumericalFailure(told + what, failure->place, failure->step, told.empty() ? failure->time_s : t_, failure->limit);
   }
-  void take_snapshot(int slot) override {
-    snapshots_[std::size_t(slot)] = {sea_.save(), loads_, contacts_, motions_, sea_.state().records};
-  }
+  void take_snapshot(int slot) override { snapshots_[std::size_t(slot)] = {sea_.save(), solids_.state(), sea_.state().records}; }
   void return_to(int slot) override {
     const Saved& n = snapshots_[std::size_t(slot)];
     sea_.restore(n.sea);
-    loads_ = n.loads, contacts_ = n.contacts, motions_ = n.motions, sea_.state().records = n.records;
+    solids_.set(n.solids), sea_.state().records = n.records;
   }
-  std::span<const Wrench> loads() const override { return loads_; }
-  std::span<const Wrench> contacts() const override { return contacts_; }
+  std::span<const Wrench> loads() const override { return solids_.state().loads; }
+  std::span<const Wrench> contacts() const override { return solids_.state().contacts; }
 
   std::vector<double> surface(std::span<const std::array<double, 2>> places) const override {
     std::vector<std::array<double, dim - 1>> horizontal;
@@ -161,14 +163,14 @@ class Sea final : public ParticleSea {
       else
         horizontal.push_back(place);
     }
-    const auto& domain = sea_.columns().domain();
+    const auto& domain = sea_.state().columns.domain();
     return sph::surface_heights<dim>(sea_.store(), sea_.parameters(), domain,
                                      std::span<const std::array<double, dim - 1>>(horizontal),
                                      std::numeric_limits<double>::quiet_NaN(), comm_);
   }
   Reading probe(const Eigen::Vector3d& at) const override {
     const auto reading =
-        sph::probe<dim>(sea_.store(), sea_.parameters(), sea_.columns().domain(), sph::from_earth<dim>(at), comm_);
+        sph::probe<dim>(sea_.store(), sea_.parameters(), sea_.state().columns.domain(), sph::from_earth<dim>(at), comm_);
     return {reading.pressure, sph::to_earth<dim>(reading.velocity)};
   }
   sph::PatchReading sensor(std::size_t n) const override {
@@ -176,9 +178,7 @@ class Sea final : public ParticleSea {
     reading.force *= width_;
     return reading;
   }
-  sph::Wavemaker::Stroke paddle(double t) const override {
-    return wavemaker_ ? wavemaker_->stroke(t) : sph::Wavemaker::Stroke{0.0, 0.0};
-  }
+  sph::Wavemaker::Stroke paddle(double t) const override { return solids_.paddle(t); }
 
   /// Of all ranks. The energy has the same bits wherever particles lie in memory, which depends on when they were last sorted.
   Extent extent() const override {
@@ -265,7 +265,7 @@ class Sea final : public ParticleSea {
             {},
             {},
             sea_.time(),
-            sea_.work().steps};
+            sea_.state().work.steps};
   }
   void restore(const ParticleState& state) override {
     sph::set_by_identity<dim, Real>(sea_, sph::identities_of(particles_, runtime::rank_in(comm_), ranks_), state.values, owner_,
@@ -282,81 +282,19 @@ class Sea final : public ParticleSea {
     for (std::size_t n = 0; n < records.size(); ++n) sea_.state().records[n].unpack(records[n]);
   }
 
-  std::size_t particles() const override { return particles_; }
-  std::size_t lost() const override { return sea_.state().gone().lost; }
-  std::size_t left() const override { return sea_.state().gone().over_edge + sea_.state().gone().through_open_sides; }
-  std::size_t bytes() const override { return sea_.store().bytes(); }
-  std::int64_t steps() const override { return sea_.work().steps; }
-  std::int64_t evaluations() const override { return sea_.work().evaluations; }
-  std::int64_t sorts() const override { return sea_.work().sorts; }
+  Counts counts() const override {
+    const auto gone = sea_.state().gone();
+    const sph::Work& work = sea_.state().work;
+    return {particles_, gone.lost, gone.over_edge + gone.through_open_sides, work.evaluations, work.sorts};
+  }
 
  private:
   /// The last step's end, which no step has looked at yet.
   void require_bounded() const {
     const std::optional<sph::Beyond> beyond = sph::beyond_bounds(sea_.store(), sea_.parameters(), comm_);
     if (!beyond) return;
-    throw NumericalFailure("t = " + sph::in_words(t_) + " s: " + beyond->describe(dim), "sea", long(sea_.work().steps), t_,
+    throw NumericalFailure("t = " + sph::in_words(t_) + " s: " + beyond->describe(dim), "sea", long(sea_.state().work.steps), t_,
                            beyond->limit);
-  }
-  void add_sensor(const ParticlePlan& plan, const SensorOptions& sensor) {
-    constexpr sph::Cut cut = dim == 2 ? sph::Cut::plane : sph::Cut::space;
-    const double d = plan.options.spacing_m;
-    sph::Patch patch{.owner = sph::wall_owner, .low = sensor.low_m, .high = sensor.high_m, .mean_over = sensor.mean_over_s};
-    if (sensor.body.empty()) {
-      patch.points = sph::points_of_rectangle(patch.low, patch.high, 0.5 * d, cut);
-      for (int k = 0; k < 3; ++k)  // the particles of the wall on either side of it that water feels
-        if (patch.low[k] == patch.high[k]) patch.low[k] -= sea_.parameters().reach(), patch.high[k] += sea_.parameters().reach();
-    } else {
-      const auto named =
-          std::find_if(plan.bodies.begin(), plan.bodies.end(), [&](const auto& b) { return b.name == sensor.body; });
-      const Motion& described = named->described;
-      patch.owner = owner_of_body_[std::size_t(named - plan.bodies.begin())];
-      patch.low -= described.position, patch.high -= described.position;
-      patch.points = sph::points_of_surface(named->shapes, patch.low, patch.high, d, cut);
-    }
-    sea_.add_sensor(std::move(patch));
-  }
-  void place(double t, std::span<const Motion> bodies) {
-    motions_.assign(bodies.begin(), bodies.end());
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      if (owner_of_body_[b]) sea_.place_body(owner_of_body_[b], bodies[b]);
-    if (wavemaker_) sea_.place_body(paddle_, wavemaker_->motion(t));
-  }
-  /// Loads of evaluate() and places of place(), within a window.
-  void move(const sph::HalfStep& half, std::span<const Wrench> loads, std::span<Motion> solids) {
-    const std::vector<sph::Solid>& known = sea_.state().solids;
-    for (std::size_t b = 0; b < loads_.size(); ++b) {
-      loads_[b] = contacts_[b] = Wrench{.point = motions_[b].position};
-      if (!owner_of_body_[b]) continue;
-      for (std::size_t s = 0; s < known.size(); ++s)
-        if (known[s].owner == owner_of_body_[b]) loads_[b] = of_width(loads[s]);
-      for (const sph::Touch& touch : half.contacts) {
-        if (touch.on != owner_of_body_[b] && touch.of != owner_of_body_[b]) continue;
-        Wrench w = touch.wrench.about(motions_[b].position);
-        if (touch.of == owner_of_body_[b]) w.force = -w.force, w.moment = -w.moment;
-        const Wrench wide = of_width(w);
-        contacts_[b].force += wide.force, contacts_[b].moment += wide.moment;
-      }
-    }
-    double t = half.to;
-    try {
-      t = driver_->move(half.half == 1 || sea_.parameters().step == sph::StepChoice::verlet, motions_);
-    } catch (const NumericalFailure& failure) {
-      sea_.state().plan.failure = failure;
-      return;
-    }
-    for (std::size_t s = 0; s < known.size(); ++s) {
-      if (wavemaker_ && known[s].owner == paddle_) solids[s] = wavemaker_->motion(t);
-      for (std::size_t b = 0; b < motions_.size(); ++b)
-        if (known[s].owner == owner_of_body_[b]) solids[s] = motions_[b];
-    }
-  }
-  Wrench of_width(Wrench load) const {
-    if constexpr (dim == 2) {  // in the plane: no roll, no yaw
-      load.force[1] = 0.0, load.moment[0] = load.moment[2] = 0.0;
-    }
-    load.force *= width_, load.moment *= width_;
-    return load;
   }
 
   double width_, settle_damping_;
@@ -365,17 +303,12 @@ class Sea final : public ParticleSea {
   sph::SeaSph<dim, Real> sea_;
   std::size_t particles_;
   std::vector<std::uint16_t> owner_;  ///< of this rank's run of identities
-  std::optional<sph::Wavemaker> wavemaker_;
-  std::uint16_t paddle_ = 0;
-  std::vector<std::uint16_t> owner_of_body_;  ///< 0: it has no particles
-  std::vector<Wrench> loads_, contacts_;
-  std::vector<Motion> motions_;
+  ParticleSolids<dim, Real> solids_;
   double t_ = 0.0;  ///< at the window's start
   // Windows as tasks.
   struct Saved {
     sph::Saved<dim> sea;
-    std::vector<Wrench> loads, contacts;
-    std::vector<Motion> motions;
+    SolidsState solids;
     std::vector<sph::PatchRecord> records;
   };
   WindowDriver* driver_ = nullptr;
@@ -416,10 +349,10 @@ double measure(const sph::Parameters& scene, ParticleCensus& census) {
   sea.step(1e300);
   const std::clock_t begin = std::clock();
   const int steps = 8;
-  const long before = sea.work().evaluations;
+  const long before = sea.state().work.evaluations;
   for (int s = 0; s < steps; ++s) sea.step(1e300);
   const double seconds = std::max(1e-6, double(std::clock() - begin) / CLOCKS_PER_SEC);
-  census.evaluations_per_second = double(seeds.size()) * double(sea.work().evaluations - before) / seconds;
+  census.evaluations_per_second = double(seeds.size()) * double(sea.state().work.evaluations - before) / seconds;
   census.bytes = double(sea.store().bytes()) / double(seeds.size());
   return double(seeds.size()) / std::pow(n, dim) - 1.0;
 }

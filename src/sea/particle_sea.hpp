@@ -178,14 +178,12 @@ class ParticleSea {
   virtual ParticleState layout() const = 0;
   virtual void restore(const ParticleState& state) = 0;
 
-  virtual std::size_t particles() const = 0;
-  /// Particles that slipped through walls; that left over the walls' edge or through open sides.
-  virtual std::size_t lost() const = 0;
-  virtual std::size_t left() const = 0;
-  virtual std::size_t bytes() const = 0;
-  virtual std::int64_t steps() const = 0;
-  virtual std::int64_t evaluations() const = 0;
-  virtual std::int64_t sorts() const = 0;
+  struct Counts {
+    std::size_t particles;   ///< of all ranks, as seeded
+    std::size_t lost, left;  ///< slipped through walls; left over the walls' edge or through open sides
+    std::int64_t evaluations, sorts;
+  };
+  virtual Counts counts() const = 0;
 };
 
 }  // namespace spindrift::sea

@@ -2,6 +2,9 @@
 #include "src/sea/sph/sensor_tasks.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "runtime/mpi/exchange.hpp"
 
 namespace spindrift::sph {
 
@@ -60,6 +63,32 @@ void SensorTasks<dim, Real>::record() {
   }));
 }
 
+template <int dim, class Real>
+void read_sensors(SeaState<dim, Real>& sea, MPI_Comm comm) {
+  for (std::size_t n = 0; n < sea.patches.size(); ++n) {
+    if (!sea.records[n].empty()) continue;
+    const Patch& patch = sea.patches[n];
+    runtime::Packer mine;
+    std::vector<double> part(sums_of(patch)), sums(part.size(), 0.0);
+    for (const int g : groups_near(patch, sea.solids, sea.columns, sea.p.reach() + 2.0 * sea.p.drift())) {
+      if (!sea.subdomain.owns(g)) continue;
+      read_patch(sea.store, sea.p, sea.columns.domain(), patch, sea.solids, g, std::span<double>(part));
+      mine.put_one(g), mine.put(std::span<const double>(part));
+    }
+    std::vector<std::pair<int, std::vector<double>>> parts;
+    for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take()))
+      for (runtime::Unpacker from(bytes); !from.done();) {
+        const int g = from.one<int>();
+        parts.emplace_back(g, from.many<double>());
+      }
+    std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [g, values] : parts)
+      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += values[k];
+    sea.records[n].add(0.0, reading_of(patch, sums));
+  }
+}
+
+template void read_sensors(SeaState<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>&, MPI_Comm);
 template class SensorTasks<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>;
 
 }  // namespace spindrift::sph

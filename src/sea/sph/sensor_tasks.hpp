@@ -28,4 +28,8 @@ class SensorTasks {
   std::vector<double> partial_, total_;  // by group: sums of all patches (sensors.hpp)
 };
 
+/// Outside of windows: those that have read nothing so far do, at the last evaluation. On all ranks of `comm` alike.
+template <int dim, class Real>
+void read_sensors(SeaState<dim, Real>& sea, MPI_Comm comm);
+
 }  // namespace spindrift::sph

@@ -69,7 +69,7 @@ Lift lift_of(const Held& held, double spacing, double wetted, double duration) {
   while (sea.time() < duration) {
     sea.state().damping.everywhere = sea.time() < 0.5 * duration ? 2.0 : 0.0;  // calms the start
     const double dt = sea.begin_step(1.0), load = sea.load_on(tank.bodies[0], motion.position).force[2];
-    if (sea.work().steps == 0) first = load;
+    if (sea.state().work.steps == 0) first = load;
     if (sea.time() > 0.6 * duration) force += dt * load, lasted += dt;
     sea.half_step(), sea.end_step();
   }

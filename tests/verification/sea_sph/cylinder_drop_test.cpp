@@ -55,7 +55,7 @@ Errors depth_errors(const Drop& drop) {
   }
   SeaSph<2> sea(tank.p, {{-1, -1}, {3, 3}}, seeds);
   sea.add_body(2, cylinder);
-  sea.place_body(2, cylinder);
+  place_body(sea.state(), 2, cylinder);
 
   const double mass = 0.5 * tank.p.eos.rho0 * pi * radius * radius, start = cylinder.position[2];
   const auto depth_at = [&](double scaled_time) {
@@ -64,10 +64,10 @@ Errors depth_errors(const Drop& drop) {
       const double dt = sea.begin_step(time - sea.time()), z = cylinder.position[2], v = cylinder.velocity[2];
       const auto acceleration = [&] { return sea.load_on(2, cylinder.position).force[2] / mass - tank.p.gravity; };
       cylinder.velocity[2] = v + 0.5 * dt * acceleration(), cylinder.position[2] = z + 0.5 * dt * v;
-      sea.place_body(2, cylinder);
+      place_body(sea.state(), 2, cylinder);
       sea.half_step();
       cylinder.velocity[2] = v + dt * acceleration(), cylinder.position[2] = z + 0.5 * dt * (v + cylinder.velocity[2]);
-      sea.place_body(2, cylinder);
+      place_body(sea.state(), 2, cylinder);
       sea.end_step();
     }
     return (start - cylinder.position[2]) / diameter;

@@ -49,7 +49,8 @@ double step_with(Sea& sea, std::vector<Floater>& bodies, double dt_max) {
     for (std::size_t n = 0; n < bodies.size(); ++n) {
       Floater& body = bodies[n];
       const Start& start = starts[n];
-      const Wrench load = sea.load_on(body.owner, body.motion.position) += sea.contact_on(body.owner, body.motion.position);
+      const Wrench load = sea.load_on(body.owner, body.motion.position) +=
+          contact_on(sea.contacts(), body.owner, body.motion.position);
       Eigen::Vector3d velocity = start.velocity;
       velocity[0] += body.surges ? speed_dt * load.force[0] / body.mass : 0.0;
       velocity[2] += speed_dt * (load.force[2] / body.mass - sea.parameters().gravity - body.damping * body.motion.velocity[2]);
@@ -60,7 +61,7 @@ double step_with(Sea& sea, std::vector<Floater>& bodies, double dt_max) {
       const double angle = start.angle + way_dt * (last ? 0.5 * (start.rate + rate) : start.rate);
       body.motion.attitude = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
       body.motion.omega = {0.0, rate, 0.0};
-      sea.place_body(body.owner, body.motion);
+      place_body(sea.state(), body.owner, body.motion);
     }
   };
   advance(0.5 * dt, 0.5 * dt, false);

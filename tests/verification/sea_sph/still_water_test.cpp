@@ -32,7 +32,7 @@ void check_rest(const Tank& tank, double duration, long steps_at_least, double t
   tank.add_walls_to(seeds, tank.columns, tank.rows + 6, modified);
   SeaSph<2> sea(tank.p, {{-1, -1}, {2, 2}}, seeds);
   const double height = rest_of(sea, tank).mean_height;
-  while (sea.time() < duration || sea.work().steps < steps_at_least) sea.advance(0.5);
+  while (sea.time() < duration || sea.state().work.steps < steps_at_least) sea.advance(0.5);
   const Rest rest = rest_of(sea, tank);
   CHECK(rest.pressure_rms < tolerance);
   CHECK(std::abs(rest.mean_height - height) < 0.02 * tank.p.spacing);

@@ -56,10 +56,10 @@ double error_of(Flow flow, int n, ViscosityChoice viscosity = ViscosityChoice::l
   while (sea.time() < 0.5) {
     const double dt = sea.begin_step(0.5 - sea.time());
     lid.position += 0.5 * dt * lid.velocity;
-    sea.place_body(2, lid);
+    place_body(sea.state(), 2, lid);
     sea.half_step();
     lid.position += 0.5 * dt * lid.velocity;
-    sea.place_body(2, lid);
+    place_body(sea.state(), 2, lid);
     sea.end_step();
   }
   double error2 = 0.0, flow2 = 0.0;

@@ -124,7 +124,7 @@ TEST_CASE("ghost nodes turn with their body, and its walls mirror the velocity o
   sea.add_body(1, motion);
   motion.attitude = Eigen::AngleAxisd(0.5 * pi, Eigen::Vector3d::UnitY());  // z to x: now beside the right face
   motion.velocity = {0.25, 0.0, 0.0};
-  sea.place_body(1, motion);
+  place_body(sea.state(), 1, motion);
   sea.evaluate();
   for (std::size_t slot = 0; slot < sea.store().slots(); ++slot) {
     if (sea.store().owner[slot / cluster_size] != 1 || sea.store().id[slot] == no_particle) continue;

@@ -47,7 +47,7 @@ void goes_back_bit_for_bit(StepChoice step, MPI_Comm comm) {
   REQUIRE(sea.store().lost.size() == 1);
   const auto saved = by_identity(sea, scene.seeds.size(), comm);
   const double time = sea.time();
-  const long steps = sea.work().steps;
+  const long steps = sea.state().work.steps;
   for (int n = 0; n < 10; ++n) sea.step(1.0);
   const std::vector<double> first = values_of(sea, scene.seeds.size(), comm);
   set_by_identity<2, float>(sea, mine, saved.values, owner, time, steps);

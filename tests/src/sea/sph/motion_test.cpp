@@ -26,7 +26,7 @@ TEMPLATE_TEST_CASE("a block without pressure drifts and falls as one point, exac
   const auto seeds = still_block<3>(p.spacing, {9, 8, 7}, drift);
   SeaSph<3, TestType> sea(p, Domain<3>{{-5, -5, -5}, {5, 5, 5}}, seeds);
   sea.advance(0.5);
-  CHECK(sea.work().sorts > 5);
+  CHECK(sea.state().work.sorts > 5);
   const double t = sea.time(), fall = -0.5 * p.gravity * t * t;
   CHECK(t == Approx(0.5).epsilon(1e-14));
   double worst = 0.0;
@@ -65,5 +65,5 @@ TEST_CASE("steps end exactly at the time asked for", "[sph][fast]") {
   SeaSph<2, float> sea(p, Domain<2>{{-5, -5}, {5, 5}}, still_block<2>(p.spacing, {8, 8}, {}));
   for (int n = 0; n < 4; ++n) sea.advance(0.01);
   CHECK(sea.time() == Approx(0.04).epsilon(1e-14));
-  CHECK(sea.work().steps >= 4);
+  CHECK(sea.state().work.steps >= 4);
 }

@@ -37,9 +37,9 @@ TEST_CASE("a body's particles follow its motion and come back exactly", "[sph][f
   moved.position += Eigen::Vector3d(0.5, -0.2, 0.3);
   moved.attitude = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()) * start.attitude;
   moved.velocity = {1, 2, 3}, moved.omega = {0.1, -0.5, 0.2};
-  sea.place_body(1, moved);
+  place_body(sea.state(), 1, moved);
   sea.evaluate();  // sorts: the body went more than the drift
-  CHECK(sea.work().sorts == 1);
+  CHECK(sea.state().work.sorts == 1);
   double worst = 0.0;
   for (std::size_t slot = 0; slot < sea.store().slots(); ++slot) {
     if (sea.store().id[slot] == no_particle || sea.store().owner[slot / cluster_size] != 1) continue;

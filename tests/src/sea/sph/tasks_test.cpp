@@ -10,6 +10,7 @@
 #include <map>
 
 #include "src/sea/sph/lattice.hpp"
+#include "src/sea/sph/load_balance.hpp"
 #include "src/sea/sph/sea_sph.hpp"
 #include "src/sea/sph/shapes.hpp"
 #include "tests/src/sea/sph/scenes.hpp"
@@ -108,14 +109,14 @@ Everything run(const Scene& scene, Resources resources, int windows, StepControl
   sea.set_step_control(step_control);
   for (int n = 0; n < windows; ++n) sea.advance(window);
   CHECK(sea.time() == Approx(windows * window));
-  CHECK(sea.work().sorts > 0);
+  CHECK(sea.state().work.sorts > 0);
   CHECK(sea.store().lost.empty());
-  if (imbalance) *imbalance = sea.imbalance();
+  if (imbalance) *imbalance = sph::imbalance(sea.state(), runtime::Communicator(comm));
   return everything(sea, comm);
 }
 
 std::vector<int> striped(const SeaSph<3, float>& sea, int ranks) {
-  std::vector<int> rank_of_group(std::size_t(sea.columns().groups()), 0);
+  std::vector<int> rank_of_group(std::size_t(sea.state().columns.groups()), 0);
   for (std::size_t g = 0; g < rank_of_group.size(); ++g) rank_of_group[g] = int(g % std::size_t(ranks));
   return rank_of_group;
 }
@@ -133,8 +134,8 @@ TEST_CASE("a window as one graph has the bits of its steps one by one", "[sph][t
     const double dt = step_by_step.step(left);
     left = dt < left ? left - dt : 0.0;
   }
-  CHECK(window_by_window.work().steps == step_by_step.work().steps);
-  CHECK(window_by_window.work().evaluations == step_by_step.work().evaluations);
+  CHECK(window_by_window.state().work.steps == step_by_step.state().work.steps);
+  CHECK(window_by_window.state().work.evaluations == step_by_step.state().work.evaluations);
   CHECK(window_by_window.time() == step_by_step.time());
   CHECK(same(everything(window_by_window), everything(step_by_step)));
 }
@@ -154,7 +155,7 @@ TEST_CASE("fixed steps are made in full and refused beyond their limit", "[sph][
   SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 1});
   sea.set_step_control({.dt = 2e-4, .steps_per_check = 8});
   sea.advance(0.004);
-  CHECK(sea.work().steps == 20);
+  CHECK(sea.state().work.steps == 20);
   CHECK(sea.time() == Approx(0.004).epsilon(1e-12));
   sea.set_step_control({.dt = 2e-3, .steps_per_check = 8});
   CHECK_THROWS_WITH(sea.advance(0.004), Catch::Contains("fixed step") && Catch::Contains("beyond the limit"));
@@ -181,7 +182,7 @@ TEST_CASE("a body in the loop gets the loads that the facade gives", "[sph][task
       CHECK(w.force == seen[at].force);
       CHECK(w.moment == seen[at].moment);
       motion.velocity = {0, 0, -1}, motion.position = scene.box.position - Eigen::Vector3d(0, 0, to);
-      other.place_body(2, motion);
+      place_body(other.state(), 2, motion);
     };
     compare(t + 0.5 * dt);
     other.half_step(), ++at;
@@ -251,7 +252,7 @@ void same_bits_on_ranks() {
       run(scene, {.comm = world, .threads = 2, .random_schedule = std::uint64_t(7 + runtime::rank_in(world))}, 3, step_control),
       expected));
   CHECK(same(run(scene, {.comm = world, .threads = 1, .rank_of_group = striped(probe, ranks)}, 3, step_control), expected));
-  const std::vector<int> last(std::size_t(probe.columns().groups()), ranks - 1);  // others have no particle
+  const std::vector<int> last(std::size_t(probe.state().columns.groups()), ranks - 1);  // others have no particle
   CHECK(same(run(scene, {.comm = world, .threads = 1, .repartition_above = 1e9, .rank_of_group = last}, 3, step_control),
              expected));
   double imbalance = 0.0;  // all on one rank at the start, dealt out after the first window
