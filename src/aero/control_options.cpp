@@ -105,6 +105,34 @@ const scene::Section<DriveTrainOptions>& drive_train_section() {
   return section;
 }
 
+const scene::Section<YawOptions>& yaw_section() {
+  using scene::positive, scene::not_negative, scene::between;
+  static const auto section =
+      scene::Section<YawOptions>("yaw", "A drive that turns the nacelle into the wind.")
+          .text("joint", &YawOptions::joint,
+                "The yaw bearing: a revolute joint about an upright axis, the nacelle its second body.")
+          .required()
+          .degrees("start_error_deg", &YawOptions::start_error,
+                   "The drive starts once the filtered wind has been off the rotor's axis by more than this ...",
+                   between(0.1, 180.0))
+          .number("delay_s", &YawOptions::delay_s, "s", "... for so long.", not_negative())
+          .degrees("stop_error_deg", &YawOptions::stop_error, "It stops where the filtered wind is off by no more than this.",
+                   between(0.0, 90.0))
+          .number("filter_time_s", &YawOptions::filter_time_s, "s",
+                  "Time constant of the low-pass filter of the wind at the hub; 0: none.", not_negative())
+          .degrees("rate_deg_s", &YawOptions::rate, "At which the nacelle turns.", between(0.001, 20.0), "deg/s")
+          .number("stiffness_N_m_rad", &YawOptions::stiffness_N_m_rad, "N m/rad", "Of the drive about the angle asked for.",
+                  positive())
+          .required()
+          .number("damping_N_m_s_rad", &YawOptions::damping_N_m_s_rad, "N m s/rad", "Of the drive about the rate asked for.",
+                  not_negative())
+          .required()
+          .check([](const YawOptions& o, const scene::Report& report) {
+            if (!(o.stop_error < o.start_error)) report("stop_error_deg", "must be below start_error_deg");
+          });
+  return section;
+}
+
 void check_controller(const ControllerOptions& o, const scene::Report& report) {
   check_shaft(o, report);
   if (!(o.min_speed < o.rated_speed)) report("min_speed_rpm", "must be below rated_speed_rpm");
@@ -143,6 +171,8 @@ const scene::Section<ControlOptions>& control_section() {
                   "costs power there. Without it nothing is cut.",
                   scene::between(0.4, 1.0))
           .only_if("model", {"dtu"})
+          .table("yaw", &ControlOptions::yaw, yaw_section(),
+                 "A drive that turns the nacelle into the wind; without it no one does.")
           .path("library", &ControlOptions::library, "The library, a shared object of this machine.")
           .only_if("model", {"library"})
           .required()

@@ -53,6 +53,15 @@ struct RecordOptions {
   double value = 0.0;
 };
 
+/// [control.yaw]
+struct YawOptions {
+  std::string joint;
+  double start_error = 0.13962634015954636, stop_error = 0.017453292519943295;  ///< 8 and 1 degrees [rad]
+  double filter_time_s = 10.0, delay_s = 60.0;
+  double rate = 0.005235987755982988;  ///< 0.3 deg/s [rad/s]
+  double stiffness_N_m_rad = 0.0, damping_N_m_s_rad = 0.0;
+};
+
 /// [control]
 struct ControlOptions {
   ControlModel model = ControlModel::none;
@@ -60,6 +69,7 @@ struct ControlOptions {
   Tuning tuning = Tuning::fixed_foundation;
   ControlStart start = ControlStart::operating;
   std::vector<EventOptions> events;
+  std::optional<YawOptions> yaw;
   std::optional<double> peak_shaving;  ///< share of the largest steady thrust that is left [-]
   // of "library"
   std::string library, input_file;  ///< paths

@@ -186,6 +186,19 @@ Table<aero::RotorLoads::Drive> shaft_columns() {
   return table;
 }
 
+Table<YawDrive::Reading> yaw_columns() {
+  using Of = const YawDrive::Reading&;
+  static constexpr double degree = radians_per_degree;
+  static constexpr ColumnOf<YawDrive::Reading> table[] = {
+      {"yaw_angle_deg", "deg", "of the nacelle about its bearing since the scene's position, positive from x to y",
+       [](Of y) { return y.angle / degree; }},
+      {"yaw_error_deg", "deg", "of the filtered wind from the rotor axis, positive where the nacelle must turn from x to y",
+       [](Of y) { return y.error / degree; }},
+      {"yaw_rate_deg_s", "deg/s", "at which the drive turns the nacelle; 0: it holds", [](Of y) { return y.rate / degree; }},
+      {"yaw_moment_N_m", "N m", "of the drive on the nacelle, positive from x to y", [](Of y) { return y.moment; }}};
+  return table;
+}
+
 Table<double> pitch_columns() {
   static constexpr double degree = radians_per_degree;
   static constexpr ColumnOf<double> table[] = {
@@ -333,8 +346,8 @@ std::vector<io::ColumnSection> column_sections() {
   return {section_of("BODY.", "each body: its reference point ([bodies.BODY] reference_m, else the centre of mass)",
                      motion_columns()),
           section_of("BODY.SOURCE.",
-                     "each source of load of a body (gravity, forces, joint_laws, beams, moorings, sea, contact, rotor), about "
-                     "its centre of mass",
+                     "each source of load of a body (gravity, forces, joint_laws, beams, moorings, sea, contact, rotor, "
+                     "yaw_drive), about its centre of mass",
                      wrench_columns()),
           section_of("JOINT.", "each joint: its reaction", wrench_columns()),
           section_of("BEAM.", "each beam: how it is bent and the loads at its ends", beam_columns()),
@@ -346,6 +359,7 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("rotor.", "rotors on bodies", wind_columns()),
           section_of("rotor.", "controlled rotors", drive_columns()),
           section_of("rotor.", "controlled rotors with an elastic shaft", shaft_columns()),
+          section_of("rotor.", "rotors with a yaw drive", yaw_columns()),
           section_of("rotor.blade_1.", "each blade of a controlled rotor", pitch_columns()),
           section_of("rotor.blade_1.", "each blade, where rotor.blade_masses or rotor.blade_structure is given", root_columns()),
           section_of("rotor.blade_1.", "each blade that bends", tip_columns()),

@@ -10,6 +10,7 @@
 #include "src/aero/rotor_loads.hpp"
 #include "src/bodies/beams.hpp"
 #include "src/bodies/state.hpp"
+#include "src/coupling/yaw_drive.hpp"
 #include "src/io/column_group.hpp"
 #include "src/moorings/moorings.hpp"
 #include "src/sea/particle_sea.hpp"
@@ -60,6 +61,7 @@ Table<aero::RotorState> hub_columns();           ///< rotor.
 Table<Eigen::Vector3d> wind_columns();           ///< rotor.
 Table<aero::RotorLoads::Drive> drive_columns();  ///< rotor., of a controlled one
 Table<aero::RotorLoads::Drive> shaft_columns();  ///< rotor., of one whose shaft twists
+Table<YawDrive::Reading> yaw_columns();          ///< rotor., of one with a yaw drive
 Table<double> pitch_columns();                   ///< rotor.blade_N., likewise
 Table<aero::BladeRootLoad> root_columns();
 Table<Eigen::Vector2d> tip_columns();            ///< rotor.blade_N., where blade masses are given

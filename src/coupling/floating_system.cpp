@@ -203,6 +203,20 @@ FloatingSystem::FloatingSystem(Scenario scenario)
           [this](double t, double h, std::span<const Motion> m, std::span<double> memory) { rotor_->remember(t, h, m, memory); }};
     add_source(sources, std::move(source), on);
   }
+  if (s.control.yaw) {
+    yaw_.emplace(*s.control.yaw, s.joints, s.bodies);
+    std::vector<bool> on(names.size());
+    on[std::size_t(yaw_->nacelle())] = true;
+    if (yaw_->carrier() != bodies::earth) on[std::size_t(yaw_->carrier())] = true;
+    bodies::LoadSource source{
+        "yaw_drive", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { yaw_->add_loads(t, m, w); }, {}};
+    source.memory = {
+        YawDrive::memory_size,
+        [this](double t, std::span<const Motion> m, std::span<double> memory) { yaw_->begin(t, *rotor_, m, memory); },
+        [this](std::span<const double> memory) { yaw_->recall(memory); },
+        [this](double t, double, std::span<const Motion> m, std::span<double> memory) { yaw_->remember(t, *rotor_, m, memory); }};
+    add_source(sources, std::move(source), on);
+  }
   clocks_.resize(sources.size());
   multibody_ = std::make_unique<bodies::System>(std::move(bodies), std::move(joints), std::move(sources), s.time.integrator);
   loads_changed();

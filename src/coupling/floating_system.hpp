@@ -17,6 +17,7 @@
 #include "src/bodies/system.hpp"
 #include "src/coupling/scenario.hpp"
 #include "src/coupling/timeline.hpp"
+#include "src/coupling/yaw_drive.hpp"
 #include "src/moorings/moorings.hpp"
 #include "src/sea/engineering_sea.hpp"
 #include "src/sea/particle_sea.hpp"
@@ -46,6 +47,9 @@ class FloatingSystem {
   /// Where the rotor is, and its loads by the engineering model; of a resolved rotor by blade element momentum on the same
   /// blades, for estimates (static equilibrium, linearisation, `check`).
   const std::optional<aero::RotorLoads>& rotor() const { return rotor_; }
+
+  /// Empty where nothing turns the nacelle.
+  const std::optional<YawDrive>& yaw() const { return yaw_; }
 
   /// Whether rotor and bodies are parts of a window that exchange data by a scheme; else the rotor, if there is one, loads the
   /// bodies as they go.
@@ -107,6 +111,7 @@ class FloatingSystem {
   std::optional<moorings::Moorings> moorings_;
   std::optional<sea::EngineeringSea> sea_;
   std::optional<aero::RotorLoads> rotor_;
+  std::optional<YawDrive> yaw_;
   RotorLoadFunction rotor_elsewhere_;
   const aero::RotorLoad* rotor_written_ = nullptr;
   std::vector<Eigen::Vector3d> reference_points_;

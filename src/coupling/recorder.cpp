@@ -48,6 +48,7 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
     for (std::size_t blade = 1; blade <= floating.rotor()->drive_blades(); ++blade)
       pitches_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", pitch_columns());
   }
+  if (floating.yaw()) yaw_.emplace(history, "rotor.", yaw_columns());
   for (std::size_t blade = 1; floating.rotor() && blade <= floating.rotor()->roots(); ++blade)
     roots_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", root_columns());
   for (std::size_t blade = 1; floating.rotor() && floating.rotor()->flexible() && blade <= floating.rotor()->roots(); ++blade)
@@ -138,6 +139,7 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
       for (std::size_t blade = 0; blade < pitches_.size(); ++blade) pitches_[blade].fill(row, drive.pitch[blade]);
     }
   }
+  if (yaw_) yaw_->fill(row, floating_.yaw()->reading(t, *floating_.rotor(), state.motions));
   if (!roots_.empty()) {
     const std::size_t b = floating_.rotor()->body();
     const std::vector<aero::BladeRootLoad> of_roots = floating_.rotor()->root_loads(

@@ -49,6 +49,7 @@ class Recorder {
   std::optional<Group<aero::RotorState>> hub_;
   std::optional<Group<Eigen::Vector3d>> wind_;
   std::optional<Group<aero::RotorLoads::Drive>> drive_, shaft_;
+  std::optional<Group<YawDrive::Reading>> yaw_;
   std::vector<Group<double>> pitches_;
   std::vector<Group<aero::BladeRootLoad>> roots_;
   std::vector<Group<Eigen::Vector2d>> tips_;

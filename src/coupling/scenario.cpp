@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -42,6 +43,34 @@ void check_names(scene::Document& document, const Scenario& s) {
   check("beams", names(s.beams));
   check("moorings", names(s.moorings));
   check("junctions", names(s.junctions));
+}
+
+/// Rules between the yaw drive, its bearing and the rotor.
+void check_yaw(scene::Document& document, const Scenario& s) {
+  const aero::YawOptions& yaw = *s.control.yaw;
+  if (s.coupling.scheme != SchemeKind::monolithic)
+    document.problem("coupling.scheme", "must be \"monolithic\" with [control.yaw]: the drive steps with the bodies");
+  if (s.aero.model != "thrust_curve" && s.aero.model != "bem")
+    document.problem("control.yaw", fmt::format("needs wind: aero.model is \"{}\"; thrust_curve and bem have it", s.aero.model));
+  const auto joint = std::ranges::find(s.joints, yaw.joint, &scene::Named<bodies::JointOptions>::name);
+  if (joint == s.joints.end()) {
+    const std::vector<std::string> known = names(s.joints);
+    return document.problem("control.yaw.joint",
+                            fmt::format("names \"{}\", which is not in [joints]; known: {}", yaw.joint, fmt::join(known, ", ")));
+  }
+  const bodies::JointOptions& o = joint->options;
+  if (o.type != JointType::revolute || o.rotation)
+    document.problem("control.yaw.joint",
+                     fmt::format("must be a revolute joint without [joints.{}.rotation]: the drive turns it", yaw.joint));
+  constexpr double upright = 0.94;  // cos of 20 degrees
+  if (std::abs(o.axis.normalized().z()) < upright)
+    document.problem("control.yaw.joint", fmt::format("must turn about an upright axis: see joints.{}.axis", yaw.joint));
+  std::string carrier = s.rotor.body;
+  for (const auto& [name, bearing] : s.joints)
+    if (name == s.rotor.joint && bearing.bodies.size() == 2) carrier = bearing.bodies[bearing.bodies[1] == s.rotor.body ? 0 : 1];
+  if (o.bodies.size() == 2 && o.bodies[1] != carrier && o.bodies[1] != s.rotor.body)
+    document.problem("control.yaw.joint", fmt::format("must have the body that carries the rotor, {}, as its second body, not {}",
+                                                      carrier, o.bodies[1]));
 }
 
 /// Rules between a sea of particles and the rest of the scene.
@@ -335,6 +364,7 @@ Scenario read_scenario(scene::Document& document) {
   if (!s.rotor.blade_structure.empty() && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",
                      "must be \"monolithic\" with rotor.blade_structure: blades that bend step with the bodies");
+  if (s.control.yaw) check_yaw(document, s);
   if (s.is_controlled() && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",
                      s.control.model == aero::ControlModel::library
@@ -380,6 +410,7 @@ std::string describe_rotor(const Scenario& s) {
                         s.control.tuning == aero::Tuning::floating ? "floating gains" : "gains of a fixed foundation",
                         s.control.events.empty() ? "" : fmt::format(", {} events", s.control.events.size())) +
             (s.control.peak_shaving ? fmt::format(", peak shaving to {:g} of the largest thrust", *s.control.peak_shaving) : "");
+  if (s.control.yaw) text += fmt::format(", turned into the wind at {}", s.control.yaw->joint);
   return text;
 }
 
