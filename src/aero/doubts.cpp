@@ -98,6 +98,17 @@ void doubt_closure(scene::Doubts& doubts, const FlowOptions& flow, double reynol
                       fmt::format("laminar up to {:.0e}", most), advice});
 }
 
+/// Of a section: beyond stall it sheds vortices; a steady march that ends there has found one state among them.
+void doubt_stall(scene::Doubts& doubts, const FlowOptions& flow) {
+  constexpr double most = 20.0;
+  if (flow.viscous == "none" || flow.time != "steady") return;
+  if (const double degrees = std::abs(flow.incidence) / radians_per_degree; degrees > most)
+    doubts.push_back(
+        {"aero.flow.incidence_deg", fmt::format("{:.3g} degrees in steady flow", degrees),
+         fmt::format("up to {:g}: beyond stall the flow is not steady, and a closure's lift and drag are guesses", most),
+         "take aero.flow.time = \"bdf2\" and means over time, or look at its unit"});
+}
+
 /// A window in which the air passes the body twice sees none of what is shed.
 void doubt_window(scene::Doubts& doubts, const FlowOptions& flow, double passes, double window) {
   if (flow.time == "steady") return;
@@ -232,6 +243,8 @@ scene::Doubts flow_doubts(const FlowOptions& flow, double speed, double window, 
   if (const double incidence = flow.incidence / radians_per_degree; std::abs(incidence) > 45.0)
     doubts.push_back({"aero.flow.incidence_deg", fmt::format("{:.4g} degrees", incidence), "up to 45 degrees of a section",
                       "look at its unit: degrees"});
+  else
+    doubt_stall(doubts, flow);
   if (const double share = flow.reference_area_m2 / (length * flow.width_m); share < 0.05 || share > 20.0)
     doubts.push_back({"aero.flow.reference_area_m2", fmt::format("{:.4g} m2", flow.reference_area_m2),
                       fmt::format("about chord times width, {:.3g} m2", length * flow.width_m), "look at its unit: m2"});

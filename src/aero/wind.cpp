@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "kernels/base/constants.hpp"
@@ -155,6 +156,18 @@ double starting_speed(const WindOptions& wind) {
   if (!wind.table.empty()) return read_wind_table(wind.table).speed.front();
   if (wind.turbulence && wind.turbulence->model == TurbulenceModel::bts) return read_bts(wind.turbulence->file).wind;
   return wind.speed_m_s;
+}
+
+bool turns(const WindOptions& wind) {
+  if (wind.event &&
+      (wind.event->what == WindEvent::ecd || wind.event->what == WindEvent::edc || wind.event->direction_change != 0.0))
+    return true;
+  if (wind.table.empty()) return false;
+  const WindTable table = read_wind_table(wind.table);
+  const auto changes = [](const std::vector<double>& column, double from) {
+    return std::ranges::any_of(column, [from](double v) { return v != from; });
+  };
+  return changes(table.direction, wind.direction) || changes(table.vertical, 0.0);
 }
 
 Wind wind_of(const WindOptions& wind, const WindSite& site) {

@@ -21,6 +21,7 @@ struct Wind {
   WindProfile profile = {};
   std::shared_ptr<const WindInTime> in_time = {};  ///< null: steady
 
+  bool steady() const { return !in_time; }
   Eigen::Vector3d at(double t, const Eigen::Vector3d& point) const {
     if (in_time) return changing(t, point);
     return profile.uniform() ? velocity : Eigen::Vector3d(profile.share(point.z()) * velocity);
@@ -45,6 +46,9 @@ Wind wind_of(const WindOptions& wind, const WindSite& site);
 
 /// The speed that the scene's wind begins with, from its files where those say so [m/s].
 double starting_speed(const WindOptions& wind);
+
+/// Whether its direction changes in time; throws scene::SceneError where its table cannot be read.
+bool turns(const WindOptions& wind);
 
 /// In words: "8 m/s, eog at 60 s".
 std::string describe_wind(const WindOptions& wind);

@@ -5,7 +5,9 @@
 
 #include <string>
 
+#include "src/aero/flow/boundary.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
+#include "src/aero/wind.hpp"
 #include "src/coupling/scenario.hpp"
 
 namespace spindrift::coupling {
@@ -24,5 +26,10 @@ struct PlacedRotor {
 PlacedRotor placed_rotor(const Scenario& scenario);
 /// [m], of the turbine file's blades or rotor.diameter_m; 0 where the scene has neither.
 double rotor_radius(const Scenario& scenario);
+/// The undisturbed wind of a scene with a rotor, and how a step of the resolved air that ends at t takes one that changes.
+aero::Wind rotor_wind(const Scenario& scenario);
+inline aero::UndisturbedWind wind_until(const aero::Wind& wind, double t) {
+  return [wind, t](const Eigen::Vector3d& place, double ago) { return wind.at(t - ago, place); };
+}
 
 }  // namespace spindrift::coupling

@@ -161,6 +161,27 @@ void check_saved_start(scene::Document& document, const Scenario& s) {
   if (s.sea.initial && s.sea.initial->state == "file") document.problem("sea.initial.state", why);
 }
 
+/// What of a wind that changes resolved air can have.
+void check_changing_wind(scene::Document& document, const Scenario& s) {
+  const std::string leave_out = "leave out table, event and turbulence";
+  if (!s.has_actuator() && !has_resolved_rotor(s))
+    return document.problem("wind", "must be steady in resolved air without a rotor: " + leave_out);
+  if (s.aero.flow->time == "steady")
+    return document.problem("wind", "must be steady where aero.flow.time is \"steady\": take \"bdf2\", or " + leave_out);
+  if (s.wind.turbulence)
+    return document.problem("wind.turbulence",
+                            "has no place in resolved air: its wide cells would lose it on the way to the rotor; aero.model = "
+                            "\"bem\" takes it");
+  if (s.wind.event &&
+      (s.wind.event->what == aero::WindEvent::ews_vertical || s.wind.event->what == aero::WindEvent::ews_horizontal))
+    return document.problem(
+        "wind.event.what",
+        "must not be extreme shear in resolved air, which would have to come from its far sides; aero.model = "
+        "\"bem\" takes it");
+  if (has_resolved_rotor(s) && s.aero.grid->sectors != "all" && aero::turns(s.wind))
+    document.problem("wind", "must keep its direction with one sector of blades: take aero.grid.sectors = \"all\"");
+}
+
 /// Of a rotor that no body carries.
 void check_standing_actuator(scene::Document& document, const Scenario& s) {
   aero::check_actuator(document, s.aero, s.rotor, "rotor.hub_m");
@@ -245,6 +266,8 @@ PlacedRotor placed_rotor(const Scenario& s) {
   return placed;
 }
 
+aero::Wind rotor_wind(const Scenario& s) { return aero::wind_of(s.wind, {placed_rotor(s).rotor.hub_m, 2.0 * rotor_radius(s)}); }
+
 aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
   constexpr double usual_load_change = 1e-3;
   aero::FlowOptions flow = *s.aero.flow;
@@ -298,10 +321,9 @@ Scenario read_scenario(scene::Document& document) {
   s.wind = document.read_where(
       s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
       "aero.model = \"" + s.aero.model + "\" does not look at the wind; thrust_curve, bem and resolved air do");
-  if (!s.wind.steady() && s.resolves_air())
-    document.problem("wind", "must be steady in resolved air: leave out table, event and turbulence");
   try {
     s.wind.speed_m_s = aero::starting_speed(s.wind);
+    if (!s.wind.steady() && s.resolves_air()) check_changing_wind(document, s);
   } catch (const scene::SceneError& e) {
     document.problem(s.wind.table.empty() ? "wind.turbulence.file" : "wind.table", e.what());
   }

@@ -13,6 +13,7 @@
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/grid_motion.hpp"
 #include "src/aero/resolved_rotor.hpp"
+#include "src/aero/wind.hpp"
 #include "src/coupling/scenario.hpp"
 
 namespace spindrift::run {
@@ -69,6 +70,7 @@ class FlowCase {
   void make_actuator(const coupling::Scenario& scenario, const runtime::World& world);
   void follow_walls(const aero::FlowOptions& options);
 
+  aero::Wind wind_;                             ///< where it changes in time
   std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< has grid, store and solver itself
   aero::MultiBlockGrid own_grid_;
   std::unique_ptr<aero::GridStore> own_store_;

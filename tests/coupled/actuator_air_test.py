@@ -101,10 +101,11 @@ class ActuatorAir(Folder):
                 self.assertGreater(held[-1]["rotor.thrust_N"], 1e6)
 
     def test_the_same_bits_however_it_is_run(self):
-        for model, more in (("actuator_line", []), ("actuator_disc", []), ("actuator_line", ["coupling.scheme=iqn_ils"])):
+        for model, more in (("actuator_line", []), ("actuator_disc", ["wind.event={what='ecd', start_s=0.3}"]),
+                            ("actuator_line", ["coupling.scheme=iqn_ils"])):
             with self.subTest(model=model, more=more):
                 settings = [f"aero.model={model}", *more]
-                name = model + "".join(more)
+                name = model + str(len("".join(more)))
                 self.run_scene(FLOATING, name, settings=settings)
                 self.run_scene(FLOATING, name + "t", settings=settings, threads=2)
                 self.assertEqual(self.text(name), self.text(name + "t"))
@@ -113,6 +114,20 @@ class ActuatorAir(Folder):
                 self.run_scene(FLOATING, name + "p", "--until", 1.2, settings=settings, threads=2)
                 self.run_scene(FLOATING, name + "p", "--restart", settings=settings)
                 self.assertEqual(self.text(name), self.text(name + "p"))
+
+    def test_a_gust_is_at_the_blades_at_once(self):
+        gust = "wind.event={what='step', start_s=0.6, speed_change_m_s=1.0}"
+        for text, name in ((HELD, "held"), (ALONE, "alone")):
+            self.run_scene(text, name)
+            self.run_scene(text, name + "_gust", settings=[gust])
+        for name in ("held", "alone"):
+            calm, gusty = self.rows(name), self.rows(name + "_gust")
+            rise = {round(a["time_s"], 3): b["rotor.thrust_N"] / a["rotor.thrust_N"] for a, b in zip(calm, gusty) if a["time_s"] > 0.0}
+            self.assertAlmostEqual(rise[0.3], 1.0, delta=1e-12)
+            # The wake has not changed yet: a tenth more wind is a tenth more thrust at the least.
+            self.assertGreater(rise[0.9], 1.08)
+            self.assertLess(rise[1.5], 1.25)
+        self.assertAlmostEqual(self.rows("held_gust")[-1]["rotor.thrust_N"] / self.rows("alone_gust")[-1]["rotor.thrust_N"], 1.0, delta=1e-9)
 
     def test_air_and_sea_on_ranks_of_their_own(self):
         self.run_scene(FLOATING, "shared")
@@ -138,6 +153,8 @@ class ActuatorAir(Folder):
             (["aero.flow.time=steady"], "aero.flow.time", 'must be "bdf1" or "bdf2"'),
             (["coupling.scheme=monolithic"], "coupling.scheme", 'must not be "monolithic"'),
             ([f"start.air={ROOT}/README.md"], "start.air", "takes the air of a blade-resolved rotor"),
+            (["wind.turbulence={model='kaimal'}"], "wind.turbulence", "has no place in resolved air"),
+            (["wind.event={what='ews_vertical'}"], "wind.event.what", "must not be extreme shear"),
             (["aero.flow.start=rest"], "aero.flow.start", 'must be "wind"'),
             (["aero.flow.generate.high_m=[450.0, 450.0, 180.0]", "aero.flow.generate.core_high_m=[50.0, 110.0, 180.0]"], "joints.bearing.point_m",
              "puts the rotor out of the grid"),

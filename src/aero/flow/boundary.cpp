@@ -77,8 +77,13 @@ gas::Vector<double> BoundaryFace::wall_velocity() const {
 }
 
 gas::Primitive<double> BoundaryFace::stream() const {
+  const auto place = [&] { return face_centre(*tile.geometry, boundary.where.side, k, j, i); };
+  if (setting.wind) {
+    const Eigen::Vector3d u = setting.wind(place(), 0.0);
+    return {setting.stream.p, u.x(), u.y(), u.z(), setting.stream.T};
+  }
   if (setting.profile.uniform()) return setting.stream;
-  return stream_at(setting.stream, setting.profile, face_centre(*tile.geometry, boundary.where.side, k, j, i).z());
+  return stream_at(setting.stream, setting.profile, place().z());
 }
 
 double BoundaryFace::weight() const { return wall_weight(*tile.geometry, boundary.where.side, k, j, i); }

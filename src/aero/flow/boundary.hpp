@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "kernels/rotor/wind_profile.hpp"
 #include "src/aero/flow/condition.hpp"
@@ -12,10 +13,14 @@
 
 namespace spindrift::aero {
 
+/// Undisturbed velocity at a place, so long before the end of the physical step [m, s -> m/s].
+using UndisturbedWind = std::function<Eigen::Vector3d(const Eigen::Vector3d& place, double ago)>;
+
 struct BoundarySetting {
   gas::IdealGas gas;
   gas::Primitive<double> stream{};  ///< undisturbed flow, above the references; at the reference height of
   WindProfile profile{};            ///< its velocity over the height z
+  UndisturbedWind wind;             ///< in place of that velocity, where it changes in time; else empty
   gas::Reservoir reservoir{};       ///< that the undisturbed flow comes from
   std::array<double, 2> carried{};  ///< of the turbulence unknowns in it
   double reference_speed = 1e30;    ///< of the far field's waves [m/s]; beyond the sound speed: the physical ones

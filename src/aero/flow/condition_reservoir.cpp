@@ -9,8 +9,8 @@ extern const BoundaryCondition reservoir_condition{
     .ghosts =
         [](const BoundaryFace& at) {
           const BoundarySetting& s = at.setting;
-          const auto q =
-              gas::inflow_reservoir(s.gas, at.inside, s.profile.uniform() ? s.reservoir : reservoir_of(s.gas, at.stream()));
+          const bool one = s.profile.uniform() && !s.wind;
+          const auto q = gas::inflow_reservoir(s.gas, at.inside, one ? s.reservoir : reservoir_of(s.gas, at.stream()));
           return Ghosts{q, q};
         },
     // At constant entropy and total enthalpy dh = dp / rho = -u du; in scaled unknowns at the stream's speed the factors are

@@ -67,6 +67,7 @@ void FlowResidual::begin_step() { boundary_.weights = time_.weights; }
 
 void FlowResidual::keep_past(FlowTile& tile) const {
   if (!time_.unsteady()) return;
+  if (boundary_.wind) keep_driving(tile);
   if (time_.order > 1) std::swap(tile.before, tile.before_that);
   const TileGeometry& g = *tile.geometry;
   const std::size_t component = std::size_t(tile.cells.component);
@@ -79,6 +80,56 @@ void FlowResidual::keep_past(FlowTile& tile) const {
       for (int t = 0; t < tile.turbulence; ++t) {
         const int c = mean_unknowns + t;
         tile.before.data()[to + c * tile.inner.component] = v * w.rho * tile.state.data()[from + c * tile.cells.component];
+      }
+    }
+  });
+}
+
+/// What makes the undisturbed wind change acts on all air alike: its acceleration by the weights of the step that begins, and
+/// what the rate of change of its kinetic energy has beyond the power of that acceleration. A uniform wind stays uniform to
+/// round-off.
+void FlowResidual::keep_driving(FlowTile& tile) const {
+  PhysicalTime step = time_;
+  const double before = step.before;
+  step.begin_step();
+  const double shares[3] = {step.weights.now / step.dt, step.weights.old / step.dt, step.weights.older / step.dt},
+               ago[3] = {0.0, step.dt, step.dt + before};
+  const TileGeometry& g = *tile.geometry;
+  const std::ptrdiff_t c = tile.inner.component;
+  if (tile.driving.size() == 0) tile.driving = AlignedArray<double>(tile.inner.size(4));
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; ++i) {
+      const double* centre = g.centre_data.data() + g.cell_box.at(k, j, i);
+      const Eigen::Vector3d x(centre[0], centre[g.cell_box.component], centre[2 * g.cell_box.component]);
+      const Eigen::Vector3d now = boundary_.wind(x, 0.0);
+      Eigen::Vector3d acceleration = shares[0] * now;
+      double power = 0.5 * shares[0] * now.squaredNorm();
+      for (int n = 1; n < 3; ++n)
+        if (shares[n] != 0.0) {
+          const Eigen::Vector3d u = boundary_.wind(x, ago[n]);
+          acceleration += shares[n] * u, power += 0.5 * shares[n] * u.squaredNorm();
+        }
+      double* to = tile.driving.data() + tile.inner.at(k, j, i);
+      for (int n = 0; n < 3; ++n) to[n * c] = acceleration[n];
+      to[3 * c] = power - now.dot(acceleration);
+    }
+  });
+}
+
+void FlowResidual::add_driving(const FlowTile& tile, const double* state, double* residual) const {
+  const TileGeometry& g = *tile.geometry;
+  const std::ptrdiff_t c = tile.inner.component;
+  for_rows(tile.box, [&](int k, int j) {
+    for (int i = 0; i < tile.box.ni; i += row_lanes) {
+      const auto w =
+          gas::conserved(gas_, gas::load_primitive<Row>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component)));
+      const Row v = Row::load(g.volume_data.data() + g.cell_box.at(k, j, i));
+      const double* by = tile.driving.data() + tile.inner.at(k, j, i);
+      const Row x = Row::load(by), y = Row::load(by + c), z = Row::load(by + 2 * c);
+      const Row rates[4] = {w.rho * x, w.rho * y, w.rho * z, w.mx * x + w.my * y + w.mz * z + w.rho * Row::load(by + 3 * c)};
+      for (int n = 0; n < 4; ++n) {
+        double* to = residual + tile.inner.at(k, j, i) + (n + 1) * c;
+        (Row::load(to) - v * rates[n]).store(to);
       }
     }
   });
@@ -115,6 +166,7 @@ void FlowResidual::evaluate(FlowTile& tile, double* state, double* residual) con
           residual[at + i] -= tile.geometry->volume_data.data()[cells.at(k, j, i)] * tile.source.data()[at + i];
       });
   }
+  if (boundary_.wind) add_driving(tile, state, residual);
   if (boundary_.turning) add_turning(tile, state, residual);
   if (time_.unsteady()) add_time_derivative(tile, state, residual);
 }

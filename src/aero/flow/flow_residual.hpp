@@ -26,6 +26,7 @@ class FlowResidual {
   /// A physical step begins: its length and weights as the time has them.
   void begin_step();
   void set_dt(double dt) { boundary_.dt = dt; }
+  void set_wind(UndisturbedWind wind) { boundary_.wind = std::move(wind); }
   /// The state as it is becomes the past. @pre the grid has not moved yet.
   void keep_past(FlowTile& tile) const;
 
@@ -46,6 +47,8 @@ class FlowResidual {
   std::vector<WallPoint> wall_points(const FlowTile& tile) const;
 
  private:
+  void keep_driving(FlowTile& tile) const;
+  void add_driving(const FlowTile& tile, const double* state, double* residual) const;
   void add_turning(const FlowTile& tile, const double* state, double* residual) const;
   void add_time_derivative(const FlowTile& tile, const double* state, double* residual) const;
 

@@ -54,6 +54,9 @@ class FlowSolver {
   void use_physical_pseudo_time() { system_.use_physical_pseudo_time(); }
   /// In place of the one the setting names; before record().
   void use(std::unique_ptr<Preconditioner> preconditioner) { system_.use(std::move(preconditioner)); }
+  /// The undisturbed wind where it changes in time: before each physical step. Far sides take it, and what makes it change
+  /// drives all air alike, so that a gust is where the blades are at once, as in a blade-element model.
+  void set_wind(UndisturbedWind wind) { residual_.set_wind(std::move(wind)); }
   /// A force inside the air; before record().
   void set_body_force(std::shared_ptr<BodyForce> force);
   /// Bands whose loads each judgement sums beside those of the patches; before record().

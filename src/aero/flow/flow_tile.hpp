@@ -57,7 +57,9 @@ struct FlowTile {
   AlignedArray<double> before, before_that;  ///< conserved times volume one and two steps ago
   AlignedArray<double> source;  ///< added to the rate of change of conserved amounts per volume; empty but under body forces and
                                 ///< in manufactured solutions
-  AlignedArray<double> rate;    ///< V / pseudo-time step [m3/s]
+  AlignedArray<double>
+      driving;                ///< of a wind that changes: acceleration [m/s2] and a power [W/kg], flow_residual.cpp; else empty
+  AlignedArray<double> rate;  ///< V / pseudo-time step [m3/s]
   std::array<AlignedArray<double>, 6> open;  ///< per side with walls: 1 where the flux scheme acts, 0 on wall faces; else empty
   std::array<AlignedArray<double>, 6> through;  ///< per side with boundaries other than walls: mass fluxes of its faces in the
                                                 ///< residual evaluated last [kg/s], along the direction of the index; else empty

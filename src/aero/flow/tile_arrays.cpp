@@ -13,8 +13,9 @@
 namespace spindrift::aero {
 
 std::size_t FlowTile::bytes() const {
-  std::size_t sum = state.bytes() + trial.bytes() + source.bytes() + gradients.bytes() + residual.bytes() + before.bytes() +
-                    before_that.bytes() + rate.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() + direction.bytes();
+  std::size_t sum = state.bytes() + trial.bytes() + source.bytes() + driving.bytes() + gradients.bytes() + residual.bytes() +
+                    before.bytes() + before_that.bytes() + rate.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() +
+                    direction.bytes();
   for (const auto& v : vectors) sum += v.bytes();
   for (const auto& v : directions_kept) sum += v.bytes();
   for (const auto& v : open) sum += v.bytes();
