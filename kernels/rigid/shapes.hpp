@@ -1,13 +1,17 @@
 // The simple solids that a floating body is made of, in body axes from its centre of mass.
-// Filled from [[bodies.NAME.cylinders]]; read by every sea model (wetted volume, strips, particles); tested in
+// Filled from [[bodies.NAME.cylinders]] and its like; read by every sea model (wetted volume, strips, particles); tested in
 // tests/kernels/waves. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
 
+#include <memory>
+
 #include "kernels/base/constants.hpp"
 
 namespace spindrift {
+
+class ClosedSurface;
 
 /// Circular cylinder with flat ends, or a cone frustum where the two radii differ. Body axes from the centre of mass [m].
 struct Cylinder {
@@ -36,6 +40,14 @@ struct Sphere {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 1.0;
   double volume() const { return 4.0 / 3.0 * pi * radius * radius * radius; }
+};
+
+/// A closed surface of triangles, shared by all who read it; in 2-D the prism of its outline.
+struct Mesh {
+  std::shared_ptr<const ClosedSurface> surface;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the body axes, in the surface's coordinates [m]
+  double volume() const;
+  double section() const;  ///< of a prism: its area across y [m2]
 };
 
 }  // namespace spindrift

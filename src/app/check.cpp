@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/rigid/closed_surface.hpp"
 #include "src/aero/first_cells.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow_grid.hpp"
@@ -68,6 +69,45 @@ PartCost print_particles(const FloatingSystem& floating, const coupling::Start& 
   fmt::print("  {:<22}{:.4g} s at rest, set by {}{}; {:.0f} to a window\n", "largest step", census.step_s, census.step_set_by,
              s.time.step_s ? fmt::format("; the scene asks for {} s", *s.time.step_s) : "", steps_per_window);
   return cost_of_particles(floating, census, steps_per_window);
+}
+
+/// Statics of the surfaces that a scene takes from files, where they are at the start; in 2-D of their outline in its width.
+void print_meshes(const FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::Scenario& s = floating.scenario();
+  for (std::size_t b = 0; b < s.bodies.size(); ++b)
+    for (const scene::MeshOptions& mesh : s.bodies[b].options.meshes) {
+      const bool planar = mesh.prism != nullptr;
+      const ClosedSurface& surface = planar ? *mesh.prism : *mesh.surface;
+      const double share = planar ? s.sea.particles->width_m / surface.box().sizes()[1] : 1.0;
+      const Motion& now = start.state.motions[b];
+      const Eigen::Vector3d size = mesh.surface->box().sizes();
+      const Eigen::Matrix3d inertia = surface.inertia() / surface.volume(), turn = now.attitude.toRotationMatrix();
+      const auto place = [&](const Eigen::Vector3d& x) {  // without the last digits of sums that cancel
+        const Eigen::Vector3d plain = x.unaryExpr([&](double c) { return std::abs(c) < 1e-9 * size.norm() ? 0.0 : c; });
+        return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", plain[0], plain[1], plain[2]);
+      };
+      const std::string inertia_over_mass =
+          planar ? fmt::format("{:.6g} m2 in pitch", inertia(1, 1))
+                 : fmt::format("[{:.6g}, {:.6g}, {:.6g}] m2", inertia(0, 0), inertia(1, 1), inertia(2, 2));
+      fmt::print("\nMesh {} of {}: {} triangles, {:.6g} x {:.6g} x {:.6g} m{}\n", mesh.name, s.bodies[b].name,
+                 mesh.surface->triangles().size(), size[0], size[1], size[2],
+                 planar ? fmt::format("; of its outline in the plane y = {:g} m, {:g} m wide", s.bodies[b].options.centre_m[1],
+                                      s.sea.particles->width_m)
+                        : "");
+      fmt::print("  {:<22}{:.6g} m3 about {}; of even density its inertia about there is the mass times {}\n", "volume",
+                 share * surface.volume(), place(surface.centre()), inertia_over_mass);
+      const Submerged under = submerged(surface, turn, now.position - turn * s.bodies[b].options.centre_m);
+      if (!(under.volume > 0.0)) {
+        fmt::print("  {:<22}above the water\n", "at the start");
+        continue;
+      }
+      const double over = under.centre[2] - now.position[2];  // of the centre of buoyancy
+      fmt::print("  {:<22}{:.6g} m3 ({:.6g} kg) under water, centre of buoyancy {}\n", "at the start", share * under.volume,
+                 s.environment.water_density_kg_m3 * share * under.volume, place(under.centre));
+      fmt::print("  {:<22}{:.6g} m2; metacentre over the centre of mass: {}{:+.4g} m in pitch\n", "waterplane",
+                 share * under.area, planar ? "" : fmt::format("{:+.4g} m in roll, ", over + under.metacentric_radius_roll()),
+                 over + under.metacentric_radius_pitch());
+    }
 }
 
 void print_doubts(scene::Doubts doubts, const scene::Doubts& more) {
@@ -426,6 +466,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   if (world.rank != 0) return done;
   const BaseCost base = base_cost(start_s);  // before what a census or a grid leaves behind
   if (start.state.motions.empty()) {
+    print_meshes(floating, start);
     const PartCost cost = print_particles(floating, start);
     print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size, base);
     return done;
@@ -447,9 +488,10 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     parts.push_back(*air);
   } else if (floating.scenario().resolves_air())
     parts.push_back(print_air(floating, start, arguments.calibrate));
-  if (floating.particle_plan())
+  if (floating.particle_plan()) {
+    print_meshes(floating, start);
     parts.push_back(print_particles(floating, start));
-  else
+  } else
     print_steps(floating, start, start_s);
   if (!parts.empty()) print_cost(parts, floating.scenario().time.end_s, world.size, base);
   if (!arguments.columns.empty()) print_omissions(arguments, asked);

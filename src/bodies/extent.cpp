@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "kernels/rigid/closed_surface.hpp"
+
 namespace spindrift::bodies {
 
 Eigen::AlignedBox3d bounds(const BodyOptions& body) {
@@ -15,6 +17,8 @@ Eigen::AlignedBox3d bounds(const BodyOptions& body) {
       box.extend(end + Eigen::Vector3d::Constant(radius)), box.extend(end - Eigen::Vector3d::Constant(radius));
     }
   for (const BoxOptions& b : body.boxes) box.extend(b.centre_m + 0.5 * b.size_m), box.extend(b.centre_m - 0.5 * b.size_m);
+  for (const scene::MeshOptions& m : body.meshes)
+    if (m.surface) box.extend(m.surface->box());
   for (const SphereOptions& s : body.spheres)
     box.extend(s.centre_m + Eigen::Vector3d::Constant(0.5 * s.diameter_m)),
         box.extend(s.centre_m - Eigen::Vector3d::Constant(0.5 * s.diameter_m));
@@ -51,6 +55,8 @@ Reach reach(const BodyOptions& body, const Motion& now) {
     const Sphere shape = make_sphere(s, body);
     take(shape.centre, shape.radius);
   }
+  for (const scene::MeshOptions& m : body.meshes)
+    for (const Eigen::Vector3d& point : m.surface->points()) take(point - body.centre_m, 0.0);
   return result;
 }
 

@@ -63,6 +63,11 @@ const Section<SphereOptions>& sphere_section() {
   return section;
 }
 
+const Section<scene::MeshOptions>& mesh_section() {
+  static const auto section = scene::mesh_section("A surface of triangles as the body's wetted shape, for a sea of particles.");
+  return section;
+}
+
 const Section<ForceOptions>& force_section() {
   static const auto section = Section<ForceOptions>("forces", "A constant force and moment on the body.")
                                   .vector("point_m", &ForceOptions::point_m, "m",
@@ -244,6 +249,8 @@ const Section<BodyOptions>& body_section() {
           .tables("cylinders", &BodyOptions::cylinders, cylinder_section(), "Shape that meets the water.")
           .tables("boxes", &BodyOptions::boxes, box_section(), "Shape that meets a sea of particles.")
           .tables("spheres", &BodyOptions::spheres, sphere_section(), "Shape that meets a sea of particles.")
+          .tables("meshes", &BodyOptions::meshes, mesh_section(),
+                  "Shape that meets a sea of particles: a closed surface of triangles from an STL file.")
           .tables("forces", &BodyOptions::forces, force_section(), "Constant forces and moments.")
           .check(check_inertia);
   return section;
@@ -318,6 +325,13 @@ void check_bodies(scene::Document& document, const NamedBodies& bodies, const Na
   }
 }
 
+void load_meshes(scene::Document& document, NamedBodies& bodies, bool planar) {
+  for (auto& [name, body] : bodies)
+    for (std::size_t n = 0; n < body.meshes.size(); ++n) try {
+        scene::load_surface(body.meshes[n], planar ? std::optional(body.centre_m[1]) : std::nullopt);
+      } catch (const scene::SceneError& e) { document.problem(fmt::format("bodies.{}.meshes[{}].file", name, n), e.what()); }
+}
+
 Motion described_motion(const BodyOptions& body) { return {.position = body.centre_m}; }
 
 Motion start_motion(const BodyOptions& body) {
@@ -390,6 +404,9 @@ Cylinder make_cylinder(const CylinderOptions& c, const BodyOptions& body) {
           .end_radius = 0.5 * c.end_diameter_m.value_or(c.diameter_m)};
 }
 Box make_box(const BoxOptions& b, const BodyOptions& body) { return {.centre = b.centre_m - body.centre_m, .size = b.size_m}; }
+Mesh make_mesh(const scene::MeshOptions& m, const BodyOptions& body) {
+  return {.surface = m.prism ? m.prism : m.surface, .origin = body.centre_m};
+}
 Sphere make_sphere(const SphereOptions& s, const BodyOptions& body) {
   return {.centre = s.centre_m - body.centre_m, .radius = 0.5 * s.diameter_m};
 }

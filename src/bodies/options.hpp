@@ -12,6 +12,7 @@
 #include "kernels/rigid/shapes.hpp"
 #include "src/bodies/loads.hpp"
 #include "src/bodies/model.hpp"
+#include "src/scene/surface_file.hpp"
 
 namespace spindrift::scene {
 template <class Options>
@@ -65,6 +66,7 @@ struct BodyOptions {
   std::vector<CylinderOptions> cylinders;
   std::vector<BoxOptions> boxes;
   std::vector<SphereOptions> spheres;
+  std::vector<scene::MeshOptions> meshes;
   std::vector<ForceOptions> forces;
 
   const Eigen::Vector3d& reference() const { return reference_m ? *reference_m : centre_m; }
@@ -104,6 +106,8 @@ const scene::Section<JointOptions>& joint_section();
 /// Rules between sections: at least one body (unless water alone is what the scene is about), joints between bodies that exist,
 /// readable tables, unique cylinder names.
 void check_bodies(scene::Document& document, const NamedBodies& bodies, const NamedJoints& joints, bool water_alone = false);
+/// Reads the surfaces that bodies name; what is wrong with one goes to the document.
+void load_meshes(scene::Document& document, NamedBodies& bodies, bool planar);
 
 /// The position that the scene describes: axes parallel to the earth's, at rest.
 Motion described_motion(const BodyOptions& body);
@@ -120,5 +124,6 @@ std::vector<JointLaw> make_joint_laws(const NamedJoints& joints, const NamedBodi
 Cylinder make_cylinder(const CylinderOptions& cylinder, const BodyOptions& body);
 Box make_box(const BoxOptions& box, const BodyOptions& body);
 Sphere make_sphere(const SphereOptions& sphere, const BodyOptions& body);
+Mesh make_mesh(const scene::MeshOptions& mesh, const BodyOptions& body);
 
 }  // namespace spindrift::bodies

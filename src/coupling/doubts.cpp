@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/rigid/closed_surface.hpp"
 #include "src/aero/doubts.hpp"
 #include "src/aero/operation.hpp"
 #include "src/aero/turbine_doubts.hpp"
@@ -34,7 +35,41 @@ double volume(const bodies::BodyOptions& body) {
   for (const bodies::CylinderOptions& c : body.cylinders) sum += make_cylinder(c, body).volume();
   for (const bodies::BoxOptions& b : body.boxes) sum += make_box(b, body).volume();
   for (const bodies::SphereOptions& s : body.spheres) sum += make_sphere(s, body).volume();
+  for (const scene::MeshOptions& m : body.meshes) sum += m.surface->volume();
   return sum;
+}
+
+/// Units of surfaces of triangles, which a file does not tell: what they displace against the body's mass.
+void doubt_meshes(scene::Doubts& doubts, const Scenario& s) {
+  constexpr double most = 1e3;
+  const auto doubt_surface = [&](const std::string& key, const ClosedSurface& surface) {
+    if (surface.was_inside_out())
+      doubts.push_back({key, "all facets run clockwise seen from outside", "counter-clockwise",
+                        "they are turned; look whether it is the surface that you mean"});
+    if (const auto crossing = surface.crossing())
+      doubts.push_back(
+          {key,
+           fmt::format("facets {} and {} cut through each other at ({:.4g}, {:.4g}, {:.4g}) m", surface.facet(crossing->first),
+                       surface.facet(crossing->second), crossing->place[0], crossing->place[1], crossing->place[2]),
+           "parts that do not overlap", "what two of them enclose counts twice: unite them, or give each a file of its own"});
+  };
+  if (s.sea.tank)
+    for (std::size_t n = 0; n < s.sea.tank->meshes.size(); ++n)
+      doubt_surface(fmt::format("sea.tank.meshes[{}].file", n), *s.sea.tank->meshes[n].surface);
+  for (const auto& [name, body] : s.bodies)
+    for (std::size_t n = 0; n < body.meshes.size(); ++n) {
+      const ClosedSurface& surface = *body.meshes[n].surface;
+      const double displaced = s.environment.water_density_kg_m3 * surface.volume(), ratio = displaced / body.mass_kg;
+      const Eigen::Vector3d size = surface.box().sizes();
+      const std::string key = fmt::format("bodies.{}.meshes[{}].scale", name, n);
+      if (ratio > most || ratio < 1.0 / most)
+        doubts.push_back(
+            {key,
+             fmt::format("{:g}: {:.4g} x {:.4g} x {:.4g} m, which displace {:.4g} kg of water where the body has {:.4g} kg",
+                         body.meshes[n].scale, size[0], size[1], size[2], displaced, body.mass_kg),
+             "a shape that fits the mass", "an STL file has no unit: 0.001 for one in millimetres"});
+      doubt_surface(fmt::format("bodies.{}.meshes[{}].file", name, n), surface);
+    }
 }
 
 /// Draft of the deepest body that the water carries; doubts about bodies below the bed and about weights that the water cannot
@@ -409,6 +444,7 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   }
   append(all, line_doubts(s.moorings, around));
   append(all, junction_doubts(s.junctions, around.depth_m));
+  doubt_meshes(all, s);
   if (s.has_sea() && !motions.empty()) in_sea.draft = doubt_floating(all, floating, motions);
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), in_sea));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));

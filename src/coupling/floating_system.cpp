@@ -125,7 +125,8 @@ FloatingSystem::FloatingSystem(Scenario scenario)
     bool only_cylinders = true;
     for (std::size_t b = 0; b < names.size(); ++b) {
       on[b] = !shaped[b].shapes.empty();
-      only_cylinders = only_cylinders && s.bodies[b].options.boxes.empty() && s.bodies[b].options.spheres.empty();
+      only_cylinders = only_cylinders && s.bodies[b].options.boxes.empty() && s.bodies[b].options.spheres.empty() &&
+                       s.bodies[b].options.meshes.empty();
     }
     if (only_cylinders && !names.empty()) {
       sea::SeaOptions still;

@@ -80,7 +80,7 @@ void check_particles(scene::Document& document, const Scenario& s) {
     document.problem(p.key, p.what);
   if (s.start.equilibrium)
     for (const auto& [name, body] : s.bodies)
-      if (!body.boxes.empty() || !body.spheres.empty())
+      if (!body.boxes.empty() || !body.spheres.empty() || !body.meshes.empty())
         document.problem("start.equilibrium",
                          fmt::format("is found by hydrostatics of cylinders: bodies.{} has other shapes", name));
   std::vector<std::string> columns;
@@ -298,6 +298,8 @@ std::vector<sea::ParticleBody> particle_bodies(const bodies::NamedBodies& bodies
     for (const bodies::CylinderOptions& c : body.cylinders) particle_body.shapes.push_back(make_cylinder(c, body));
     for (const bodies::BoxOptions& b : body.boxes) particle_body.shapes.push_back(make_box(b, body));
     for (const bodies::SphereOptions& s : body.spheres) particle_body.shapes.push_back(make_sphere(s, body));
+    for (const scene::MeshOptions& m : body.meshes)
+      if (m.surface) particle_body.shapes.push_back(make_mesh(m, body));
     result.push_back(std::move(particle_body));
   }
   return result;
@@ -332,6 +334,9 @@ Scenario read_scenario(scene::Document& document) {
       s.resolves_air() ? "a rotor in resolved air turns as rotor.speed_rpm or its bearing has it" : "aero.model is none");
   take_from_turbine(document, s);
   s.sea = document.read(sea::sea_section());
+  const bool planar = s.sea.particles && s.sea.particles->planar();
+  load_meshes(document, s.bodies, planar);
+  if (s.sea.tank) load_meshes(document, *s.sea.tank, planar);
   s.waves = document.read_where(s.sea.model == "morison" || s.sea.model == "potential" || s.has_particles(), sea::waves_section(),
                                 "sea.model is \"" + s.sea.model + "\"; morison, potential and sph have waves");
   s.moorings = document.read_named(moorings::line_section());
@@ -374,7 +379,8 @@ Scenario read_scenario(scene::Document& document) {
   check_bodies(document, s.bodies, s.joints, s.has_particles());
   check_beams(document, s.beams, s.bodies);
   for (const auto& [name, body] : s.bodies)
-    for (const auto& [shapes, any] : {std::pair{"boxes", !body.boxes.empty()}, std::pair{"spheres", !body.spheres.empty()}})
+    for (const auto& [shapes, any] : {std::pair{"boxes", !body.boxes.empty()}, std::pair{"spheres", !body.spheres.empty()},
+                                      std::pair{"meshes", !body.meshes.empty()}})
       if (!s.has_particles() && any)
         document.problem(fmt::format("bodies.{}.{}", name, shapes),
                          "has no effect: only sea.model = \"sph\" knows this shape, others cylinders");

@@ -3,6 +3,7 @@ nacelle, blades, lines, the undisturbed waves. Tower, nacelle and braces are dra
 Called by scene_picture.py and paraview.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
 import functools
 import math
+import pathlib
 
 import numpy as np
 
@@ -53,6 +54,29 @@ def box(centre, size):
     corners = np.array([[i, j, k] for k in (-0.5, 0.5) for j in (-0.5, 0.5) for i in (-0.5, 0.5)])
     sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
     return np.asarray(centre, float) + corners * np.asarray(size, float), sides
+
+
+@functools.cache
+def stl(path):
+    """Points and triangles of an STL file; none where it is gone or broken."""
+    try:
+        data = pathlib.Path(path).read_bytes()
+        count = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
+        if len(data) == 84 + 50 * count:
+            facets = np.frombuffer(data, np.dtype([("corners", "<f4", 12), ("rest", "<u2")]), count, 84)["corners"][:, 3:]
+        else:
+            facets = np.array([line.split()[1:4] for line in data.decode().lower().splitlines() if line.split()[:1] == ["vertex"]], float)
+        points, triangles = np.unique(np.asarray(facets, float).reshape(-1, 3), axis=0, return_inverse=True)
+        return points, triangles.reshape(-1, 3).tolist()
+    except (OSError, ValueError):
+        return np.empty((0, 3)), []
+
+
+def mesh(given):
+    """The same where the scene puts it."""
+    points, triangles = stl(given.get("file", ""))
+    points = given.get("scale", 1.0) * points @ attitude(*given.get("rotation_deg", [0, 0, 0])).T + np.asarray(given.get("position_m", [0, 0, 0]), float)
+    return points, triangles
 
 
 def sphere(centre, diameter):
@@ -251,6 +275,7 @@ class Scene3d:
         points += [frustum(c["start_m"], c["end_m"], c["diameter_m"], c.get("end_diameter_m"))[0] for c in given.get("cylinders", []) if "start_m" in c]
         points += [box(b["centre_m"], b["size_m"])[0] for b in given.get("boxes", [])]
         points += [sphere(b["centre_m"], b["diameter_m"])[0] for b in given.get("spheres", [])]
+        points += [mesh(m)[0] for m in given.get("meshes", [])]
         return np.concatenate(points) if points else np.empty((0, 3))
 
     # ---- pieces -------------------------------------------------------------------------------------------------------------------------
@@ -267,7 +292,11 @@ class Scene3d:
             for b in given.get("spheres", []):
                 points, polygons = sphere(b["centre_m"], b["diameter_m"])
                 found.append(Piece("float", f"{body} {b.get('name', '')}".strip(), self.moved(body, points, t), polygons))
-            if not any(given.get(shape) for shape in ("cylinders", "boxes", "spheres")) and self.hub0 is None:
+            for m in given.get("meshes", []):
+                points, polygons = mesh(m)
+                if polygons:
+                    found.append(Piece("float", f"{body} {m.get('name', '')}".strip(), self.moved(body, points, t), polygons))
+            if not any(given.get(shape) for shape in ("cylinders", "boxes", "spheres", "meshes")) and self.hub0 is None:
                 points, polygons = sphere(given.get("centre_m", [0, 0, 0]), 0.06 * self._reach())
                 found.append(Piece("float", body, self.moved(body, points, t), polygons))
         if self.hub0 is not None:

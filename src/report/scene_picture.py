@@ -189,7 +189,7 @@ class Drawing:
         """Lowest and highest corner of what is drawn at the start; of a floating turbine without its lines, which reach far."""
         pieces = self.scene.pieces(self.run.time[0])
         solid = [p.points for p in pieces if p.kind != "line"]
-        shaped = self.scene.hub0 is not None or any(body.get(shape) for body in self.scene.bodies.values() for shape in ("cylinders", "boxes", "spheres"))
+        shaped = self.scene.hub0 is not None or any(body.get(shape) for body in self.scene.bodies.values() for shape in ("cylinders", "boxes", "spheres", "meshes"))
         points = solid if shaped else [p.points for p in pieces]
         if self.scene.hub0 is not None:   # the whole disc, wherever the blades are
             tip = self.scene.blades.tip if self.scene.blades else 0.75 * abs(self.scene.hub0[2])
@@ -226,6 +226,7 @@ class Drawing:
             x, y, z, tank = found
             self.sheet(x, y, z)
             self.sides(x, y, z, tank)
+            self.walls()
             return
         near, far = NEAR_SEA * self.extent(), FAR_SEA * self.extent()   # far: where a flat sea looks as if it ended in the horizon
         beyond = np.geomspace(near, far, 25)[1:]
@@ -250,6 +251,12 @@ class Drawing:
             n = len(top)
             points = np.concatenate([top, np.column_stack([top[:, :2], np.full(n, bed)])])
             self.add("tank", poly_data(points, [[i, i + 1, n + i + 1, n + i] for i in range(n - 1)]), (0.10, 0.30, 0.45), 0.45)
+
+    def walls(self):
+        """Beaches and sills from files, as far as they reach; a basin would hide what it holds."""
+        for given in (self.run.scene["sea"].get("tank") or {}).get("meshes", []):
+            if given.get("water", "outside") == "outside":
+                self.add("wall", poly_data(*geometry.mesh(given)), (0.62, 0.56, 0.45))
 
     def wake(self, t):
         """Slow air in the upright plane through the axis, and the surfaces of tip vortices, coloured by the axial wind."""

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/particle_options.hpp"
 
+#include <fmt/format.h>
+
 #include "src/scene/cases.hpp"
+#include "src/scene/document.hpp"
 #include "src/scene/section.hpp"
 
 namespace spindrift::sea {
@@ -132,6 +135,16 @@ const Section<ParticleOptions>& particle_section() {
   return section;
 }
 
+const Section<scene::MeshOptions>& tank_mesh_section() {
+  static const auto section =
+      scene::mesh_section(
+          "A surface of triangles as walls of the tank: a beach, a sill, a basin. Walls are stairs of the particles' lattice.")
+          .choice("water", &scene::MeshOptions::water,
+                  {{"outside", "the surface encloses something solid"}, {"inside", "all around the surface is solid: a basin"}},
+                  "Where water may be.");
+  return section;
+}
+
 const Section<TankOptions>& tank_section() {
   static const std::vector<scene::Choice> sides = {{"wall", "walls of particles"},
                                                    {"periodic", "what leaves on one side enters on the other"},
@@ -153,12 +166,21 @@ const Section<TankOptions>& tank_section() {
                 "Slopes and beaches: rows [x, z] of the bed's height, straight between them and level beyond; level at the water "
                 "depth "
                 "where there are none.")
+          .tables(
+              "meshes", &TankOptions::meshes, tank_mesh_section(),
+              "Walls from STL files, closed surfaces of triangles: beaches, sills, basins. They become stairs of the lattice.")
           .check([](const TankOptions& o, const scene::Report& report) {
             check_span(o.x_m, "x_m", report);
             for (std::size_t n = 1; n < o.bed_m.size(); ++n)
               if (!(o.bed_m[n][0] > o.bed_m[n - 1][0])) return report("bed_m", "x must increase from row to row");
           });
   return section;
+}
+
+void load_meshes(scene::Document& document, TankOptions& tank, bool planar) {
+  for (std::size_t n = 0; n < tank.meshes.size(); ++n) try {
+      scene::load_surface(tank.meshes[n], planar ? std::optional(0.0) : std::nullopt);
+    } catch (const scene::SceneError& e) { document.problem(fmt::format("sea.tank.meshes[{}].file", n), e.what()); }
 }
 
 const Section<BoxOptions>& water_section() {

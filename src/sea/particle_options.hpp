@@ -10,12 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "src/scene/surface_file.hpp"
 #include "src/sea/sph/parameters.hpp"
 
 namespace spindrift::scene {
 template <class Options>
 class Section;
-}
+class Document;
+}  // namespace spindrift::scene
 
 namespace spindrift::sea {
 
@@ -57,6 +59,7 @@ struct TankOptions {
   double top_m = 0.0;  ///< of the walls; above it is open
   std::string sides_x = "wall", sides_y = "wall";
   std::string over_edge = "splash";
+  std::vector<scene::MeshOptions> meshes;
   std::vector<std::array<double, 2>> bed_m;  ///< [x, z]: height of the bed along x; flat at the water depth where empty
 };
 
@@ -121,6 +124,8 @@ struct FieldsOptions {
 
 const scene::Section<ParticleOptions>& particle_section();
 const scene::Section<TankOptions>& tank_section();
+/// Reads the surfaces of the tank's walls; what is wrong with one goes to the document.
+void load_meshes(scene::Document& document, TankOptions& tank, bool planar);
 const scene::Section<BoxOptions>& water_section();
 const scene::Section<BoxOptions>& obstacle_section();
 const scene::Section<WavemakerOptions>& wavemaker_section();

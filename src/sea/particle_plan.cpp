@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "kernels/rigid/closed_surface.hpp"
 #include "src/sea/particle_sea.hpp"
 #include "src/sea/sph/sensors.hpp"
 #include "src/sea/wave_field.hpp"
@@ -93,6 +94,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
   plan.tank.x = t.x_m, plan.tank.y = t.y_m, plan.tank.depth = environment.water_depth, plan.tank.top = t.top_m;
   plan.tank.periodic = {t.sides_x == "periodic", t.sides_y == "periodic"};
   plan.tank.open = {t.sides_x == "open", t.sides_y == "open"}, plan.tank.over_edge_open = t.over_edge == "open";
+  for (const scene::MeshOptions& m : t.meshes) plan.tank.walls.push_back({m.prism ? m.prism : m.surface, m.water == "inside"});
   plan.tank.bed = t.bed_m, plan.tank.modified_walls = o.particles->modified_walls();
   for (const BoxOptions& box : o.water) plan.tank.water.push_back(block_of(box));
   for (const BoxOptions& box : o.obstacles) plan.tank.obstacles.push_back(block_of(box));
@@ -156,6 +158,18 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (p.modified_walls() && !t.bed_m.empty())
     wrong("sea.particles.walls", "must be \"dynamic\" above slopes (sea.tank.bed_m): stairs have no ghost nodes");
 
+  for (std::size_t n = 0; n < t.meshes.size(); ++n) {
+    const std::string key = fmt::format("sea.tank.meshes[{}]", n);
+    if (p.modified_walls())
+      wrong("sea.particles.walls", "must not be modified ones with " + key + ": stairs have no ghost nodes");
+    if (!t.meshes[n].surface) continue;
+    const Eigen::AlignedBox3d& box = t.meshes[n].surface->box();
+    const double y_low = planar ? 0.0 : t.y_m[0], y_high = planar ? 0.0 : t.y_m[1];
+    if (!box.intersects(
+            Eigen::AlignedBox3d(Eigen::Vector3d(t.x_m[0], y_low, -depth), Eigen::Vector3d(t.x_m[1], y_high, t.top_m))))
+      wrong(key, fmt::format("is outside the tank: it reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m",
+                             box.min()[0], box.min()[1], box.min()[2], box.max()[0], box.max()[1], box.max()[2]));
+  }
   if (o.wavemaker && !waved) wrong("sea.wavemaker", "has no wave to make: give [waves]");
   if (waved && !o.wavemaker && !starts_in_waves(o))
     wrong("waves.model", "has no effect: the sea of particles has neither [sea.wavemaker] nor sea.initial.state = \"waves\"");
@@ -259,13 +273,19 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   const sph::Cut cut = planar ? sph::Cut::plane : sph::Cut::space;
   for (const ParticleBody& body : bodies)
     for (const sph::BodyShape& shape : body.shapes) {
-      constexpr double enough = 1e5;  // points tell where a shape reaches, however small particles are
-      const auto points =
-          sph::fill_shape(shape, std::max(d, std::pow(sph::volume_of(shape, cut) / enough, planar ? 0.5 : 1.0 / 3.0)), cut);
       const std::string key = "bodies." + body.name;
-      if (points.size() < (planar ? 4u : 8u))
-        wrong(key, fmt::format("has a shape of {} particle{} at a spacing of {} m: too coarse", points.size(),
-                               points.size() == 1 ? "" : "s", d));
+      const auto* mesh = std::get_if<Mesh>(&shape);
+      constexpr double enough = 1e5;  // points tell where a shape reaches, however small particles are
+      sph::Points points;
+      if (mesh)
+        for (const Eigen::Vector3d& x : mesh->surface->points()) points.push_back(x - mesh->origin);
+      else
+        points =
+            sph::fill_shape(shape, std::max(d, std::pow(sph::volume_of(shape, cut) / enough, planar ? 0.5 : 1.0 / 3.0)), cut);
+      const double count = mesh ? std::round(sph::volume_of(shape, cut) / std::pow(d, planar ? 2 : 3)) : double(points.size());
+      if (count < (planar ? 4.0 : 8.0))
+        wrong(key,
+              fmt::format("has a shape of {} particle{} at a spacing of {} m: too coarse", count, count == 1.0 ? "" : "s", d));
       Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
       for (const Eigen::Vector3d& x : points)
         low = low.cwiseMin(body.described.point(x)), high = high.cwiseMax(body.described.point(x));
@@ -275,10 +295,13 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
           if (point[0] > low[0] - d && point[0] < high[0] + d) highest = std::max(highest, point[1]);
         return highest;
       }();
-      if (low[2] < bed) wrong(key, fmt::format("reaches {:.4g} m, below the bed at {:.4g} m", low[2], bed));
+      const std::string size = mesh ? fmt::format("; its mesh is {:.4g} x {:.4g} x {:.4g} m: look at its scale", high[0] - low[0],
+                                                  high[1] - low[1], high[2] - low[2])
+                                    : "";
+      if (low[2] < bed) wrong(key, fmt::format("reaches {:.4g} m, below the bed at {:.4g} m{}", low[2], bed, size));
       const bool outside_x = t.sides_x == "wall" && (low[0] < t.x_m[0] || high[0] > t.x_m[1]);
       const bool outside_y = !planar && t.sides_y == "wall" && (low[1] < t.y_m[0] || high[1] > t.y_m[1]);
-      if (outside_x || outside_y) wrong(key, "stands in a wall of the tank");
+      if (outside_x || outside_y) wrong(key, "stands in a wall of the tank" + size);
     }
   return problems;
 }

@@ -369,11 +369,11 @@ ParticleCensus census_of(const ParticlePlan& plan, std::span<const Motion> start
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     const ParticleBody& body = plan.bodies[b];
     if (body.shapes.empty()) continue;
-    const std::size_t count = tank.body_particles[shaped++];
+    const sph::Points& points = tank.body_points[shaped++];
+    const std::size_t count = points.size();
     census.bodies += count, census.walls -= count;
     const double width = dim == 2 ? plan.options.width_m : 1.0, cell = std::pow(p.spacing, dim) * tank.cell_volume;
     const double edge = std::pow(cell, 1.0 / dim);
-    const auto points = sph::fill_body(body.shapes, edge, dim == 2 ? sph::Cut::plane : sph::Cut::space);
     census.floats.push_back({body.name, double(count) * cell * width, sph::wetted_volume(points, start[b], cell, edge) * width,
                              sph::rise_to_float(points, start[b], cell, edge, body.mass / (p.eos.rho0 * width))});
     const double limit = body_step_limit<dim>(body, points, p, dim == 2 ? plan.options.width_m : 1.0);

@@ -238,6 +238,21 @@ aero.flow.generate.kind="aerofoil" & aero.flow.generate.naca="4012" : aero.flow.
 aero.flow.generate.kind="aerofoil" & aero.flow.generate.naca="21112" : aero.flow.generate.naca
 aero.flow.generate.kind="wing" & aero.flow.generate.trailing_edge="open" : aero.flow.generate.trailing_edge
 """,
+    "validation/stl_buoy/stl_buoy.toml": """
+bodies.buoy.meshes[0].file="nothing.stl"
+bodies.buoy.meshes[0].file="/dev/zero"
+bodies.buoy.meshes[0].file="/etc/hostname" : /etc/hostname
+bodies.buoy.meshes[0].scale=0.0
+bodies.buoy.meshes[0].scale=1000.0 : bodies.buoy
+bodies.buoy.meshes[0].scale=0.001 : bodies.buoy
+bodies.buoy.meshes[0].position_m=[0.0, 0.0]
+sea.tank.meshes[0].file="/dev/zero"
+sea.tank.meshes[0].position_m=[100.0, 0.0, 0.0]
+sea.tank.meshes[0].water="beside"
+sea.particles.walls="modified"
+sea.particles.dimensions="2" & sea.tank.y_m=[0.0, 0.0] & bodies.buoy.meshes[0].position_m=[0.0, 3.0, 0.0] : bodies.buoy.meshes[0].file
+start.equilibrium=true
+""",
     "validation/dam_break/koshizuka_oka.toml": """
 sea.particles.dimensions="4"
 sea.particles.spacing_m=-1.0

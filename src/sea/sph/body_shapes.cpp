@@ -4,6 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "kernels/rigid/closed_surface.hpp"
+#include "src/sea/sph/mesh_fill.hpp"
+
 namespace spindrift::sph {
 
 double signed_distance(const BodyShape& shape, Eigen::Vector3d x, Cut cut) {
@@ -23,6 +26,7 @@ double signed_distance(const BodyShape& shape, Eigen::Vector3d x, Cut cut) {
     if (cut == Cut::plane) out[1] = -1e300;
     return out.cwiseMax(0.0).norm() + std::min(out.maxCoeff(), 0.0);
   }
+  if (const auto* m = std::get_if<Mesh>(&shape)) return m->surface->signed_distance(x + m->origin);
   const Sphere& s = std::get<Sphere>(shape);
   Eigen::Vector3d from = x - s.centre;
   if (cut == Cut::plane) from[1] = 0.0;
@@ -35,6 +39,7 @@ double volume_of(const BodyShape& shape, Cut cut) {
     return std::abs(c->axis()[1]) > 0.5 ? pi * c->start_radius * c->start_radius
                                         : (c->start_radius + c->end_radius) * c->length();
   if (const auto* b = std::get_if<Box>(&shape)) return b->size[0] * b->size[2];
+  if (const auto* m = std::get_if<Mesh>(&shape)) return m->section();
   const double r = std::get<Sphere>(shape).radius;
   return pi * r * r;
 }
@@ -68,6 +73,7 @@ Points fill_cylinder(const Cylinder& c, double spacing, Cut cut) {
 
 Points fill_shape(const BodyShape& shape, double spacing, Cut cut) {
   if (const auto* c = std::get_if<Cylinder>(&shape)) return fill_cylinder(*c, spacing, cut);
+  if (const auto* m = std::get_if<Mesh>(&shape)) return cut == Cut::plane ? fill_mesh<2>(*m, spacing) : fill_mesh<3>(*m, spacing);
   Points points;
   Eigen::Vector3d centre;
   if (const auto* b = std::get_if<Box>(&shape)) {

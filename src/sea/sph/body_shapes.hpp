@@ -1,6 +1,6 @@
-// The particles of a body that is a union of cylinders, boxes and spheres, and how far a point is from its surface. Each shape is
-// filled so that its particles displace its volume (shapes.hpp); where shapes overlap, the later one leaves the earlier one's
-// room. Called by particle_sea.cpp; tested in tests/src/sea/sph/shapes_test.cpp. SPDX-License-Identifier: Apache-2.0
+// The particles of a body that is a union of cylinders, boxes, spheres and meshes, and how far a point is from its surface. Each
+// shape is filled so that its particles displace its volume (shapes.hpp); where shapes overlap, the later one leaves the earlier
+// one's room. Called by particle_sea.cpp; tested in tests/src/sea/sph/shapes_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -16,9 +16,10 @@
 namespace spindrift::sph {
 
 /// In body axes from the centre of mass.
-using BodyShape = std::variant<Cylinder, Box, Sphere>;
+using BodyShape = std::variant<Cylinder, Box, Sphere, Mesh>;
 
-/// A 2-D scene cuts bodies in the plane y = 0 of their centre: a cylinder along y is a disc, one in the plane a rectangle.
+/// A 2-D scene cuts bodies in the plane y = 0 of their centre: a cylinder along y is a disc, one in the plane a rectangle, a mesh
+/// is a prism.
 enum class Cut { space, plane };
 
 /// Distance of a point from the surface, negative inside [m]; exact but at the rims of cones.

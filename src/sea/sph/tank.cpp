@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 
 #include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/lattice.hpp"
+#include "src/sea/sph/mesh_fill.hpp"
 #include "src/sea/sph/packing.hpp"
 #include "src/sea/sph/solids.hpp"
 
@@ -92,6 +94,7 @@ class Layout {
     p_.mass_factor = lattice_.cell() / std::pow(p.spacing, dim) * ratio;
     row_mass_ = p.eos.rho0 * lattice_.edge[dim - 1] * ratio;
     cell_volume_ = lattice_.cell() / std::pow(p.spacing, dim);
+    find_walls();
     fill_bodies();
     find_displaced_water();
   }
@@ -103,7 +106,7 @@ class Layout {
     result.cell_volume = cell_volume_;
     std::uint16_t owner = wall_owner + 1;
     if (plan_.paddle) result.paddle = owner++;
-    for (const Points& points : points_) result.bodies.push_back(owner++), result.body_particles.push_back(points.size());
+    for (const Points& points : points_) result.bodies.push_back(owner++), result.body_points.push_back(points);
     // Of the water beside bodies: those that move and all that they stand between, air too, so that the surface stays.
     std::vector<std::array<double, dim>> points, fixed = std::move(air_);
     double lowest = 1e300, highest = plan_.top;
@@ -172,6 +175,33 @@ class Layout {
   double bed_of_column(int i) const { return plan_.bed_at(lattice_.at(0, i)); }
   bool is_obstacle(const std::array<double, dim>& x) const {
     return std::any_of(plan_.obstacles.begin(), plan_.obstacles.end(), [&](const auto& block) { return inside<dim>(block, x); });
+  }
+  /// What a place of the lattice inside the tank is by the surfaces of walls.
+  enum class Of : std::uint8_t { water, wall, core };
+  Of by_surfaces(const std::array<int, dim>& index) const {
+    if (solid_.empty()) return Of::water;
+    std::size_t n = 0;
+    for (int k = 0; k < dim; ++k) {
+      if (index[k] < 0) return Of::water;
+      n = n * std::size_t(lattice_.count[k]) + std::size_t(std::min(index[k], lattice_.count[k] - 1));
+    }
+    return solid_[n];
+  }
+  void find_walls() {
+    if (plan_.walls.empty()) return;
+    const std::array<int, 3> count = dim == 2 ? std::array<int, 3>{lattice_.count[0], 1, lattice_.count[dim - 1]}
+                                              : std::array<int, 3>{lattice_.count[0], lattice_.count[1], lattice_.count[dim - 1]};
+    solid_.assign(std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]), Of::water);
+    const Eigen::Vector3d origin = to_earth<dim>(lattice_.at(std::array<int, dim>{})), edges = to_earth<dim>(lattice_.edge);
+    const double deep = layers_ * p_.spacing;
+    for (const TankPlan::Walls& walls : plan_.walls) {
+      auto of = solid_.begin();
+      for_distances(*walls.surface, origin, edges, count, -deep, deep, [&](const std::array<int, 3>&, double distance) {
+        const double depth = walls.water_inside ? distance : -distance;
+        if (depth > 0.0) *of = std::max(*of, depth > deep ? Of::core : Of::wall);
+        ++of;
+      });
+    }
   }
   /// So deep in an obstacle that water outside does not feel it.
   bool is_core(const std::array<double, dim>& x) const {
@@ -259,7 +289,8 @@ class Layout {
       std::array<double, dim> x = lattice_.at(index), under = x;
       if (x[dim - 1] > surface && x[dim - 1] < surface + near_bodies * lattice_.edge[dim - 1] && with_air)
         under[dim - 1] = surface - 0.5 * lattice_.edge[dim - 1];
-      if (!inside<dim>(block, under) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x)) return;
+      if (!inside<dim>(block, under) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x) || by_surfaces(index) != Of::water)
+        return;
       Seed<dim> seed{.position = x};
       if (p_.gravity > 0.0) {
         const double rows_above = (surface - x[dim - 1]) / lattice_.edge[dim - 1];
@@ -366,7 +397,9 @@ class Layout {
       if constexpr (dim == 3) wall = wall || (walled(1) && (index[1] < 0 || index[1] >= lattice_.count[1]));
       bool in_tank = index[0] >= 0 && index[0] < lattice_.count[0];
       if constexpr (dim == 3) in_tank = in_tank && index[1] >= 0 && index[1] < lattice_.count[1];
-      if ((wall || (in_tank && is_obstacle(x))) && !is_core(x)) next(wall_particle(x, wall_owner));
+      const Of of = in_tank ? by_surfaces(index) : Of::water;
+      if ((wall || of == Of::wall || (in_tank && is_obstacle(x))) && !is_core(x) && of != Of::core)
+        next(wall_particle(x, wall_owner));
     });
   }
 
@@ -432,6 +465,7 @@ class Layout {
   int layers_;
   double row_mass_ = 0.0;     ///< mass per area of a row of water [kg/m2]
   double cell_volume_ = 0.0;  ///< of the lattice over spacing^dim
+  std::vector<Of> solid_;     ///< by place of the lattice inside the tank, z fastest; empty where no surface makes walls
   std::vector<Points> points_;
   std::vector<double> extent_;
   std::vector<std::array<double, dim>> air_;  ///< places of the lattice over the water, near bodies

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,11 @@ struct TankPlan {
     Eigen::Vector3d low, high;
   };
   std::vector<Block> water, obstacles;  ///< water empty: the tank up to z = 0
+  struct Walls {
+    std::shared_ptr<const ClosedSurface> surface;
+    bool water_inside = false;
+  };
+  std::vector<Walls> walls;  ///< beside the tank's own, as stairs of the lattice
   std::optional<Paddle> paddle;
   double paddle_reach = 0.0;  ///< farthest way of the paddle's upper edge [m]
   struct Body {
@@ -55,8 +61,8 @@ struct TankParticles {
   std::size_t water = 0, walls = 0;
   std::optional<std::uint16_t> paddle;  ///< owner
   std::vector<std::uint16_t> bodies;    ///< owners, in the plan's order
-  std::vector<std::size_t> body_particles;
-  double cell_volume = 0.0;  ///< of the lattice over spacing^dim: the share of a particle's mass it stands for
+  std::vector<Points> body_points;      ///< in body axes
+  double cell_volume = 0.0;             ///< of the lattice over spacing^dim: the share of a particle's mass it stands for
 };
 
 /// p.mass_factor is set from the lattice; everything else of p is given.

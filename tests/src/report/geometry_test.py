@@ -53,6 +53,23 @@ water_depth_m = 20.0
 """
 
 
+class Surfaces(unittest.TestCase):
+    def test_an_stl_file_is_drawn_where_the_scene_puts_it_whichever_kind_it_is(self):
+        source = ROOT / "inputs/validation/stl_buoy/buoy.stl"
+        points, triangles = geometry.mesh({"file": str(source), "scale": 2.0, "position_m": [1.0, 0.0, 0.0]})
+        self.assertEqual((len(points), len(triangles)), (24, 44))
+        np.testing.assert_allclose([points.min(axis=0), points.max(axis=0)], [[-0.4, -1.4, -1.2], [2.4, 1.4, 1.0]])
+        corners = geometry.mesh({"file": str(source)})
+        with tempfile.TemporaryDirectory() as folder:
+            binary = np.zeros(44, np.dtype([("corners", "<f4", 12), ("rest", "<u2")]))
+            binary["corners"][:, 3:] = corners[0][np.array(corners[1])].reshape(44, 9)
+            path = pathlib.Path(folder) / "buoy.stl"
+            path.write_bytes(bytes(80) + (44).to_bytes(4, "little") + binary.tobytes())
+            again = geometry.mesh({"file": str(path)})
+        np.testing.assert_allclose(again[0][np.array(again[1])], corners[0][np.array(corners[1])], atol=1e-6)
+        self.assertEqual(geometry.mesh({"file": "/nowhere.stl"})[1], [])
+
+
 class Geometry(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -5,10 +5,12 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/rigid/closed_surface.hpp"
 #include "src/sea/sph/damping.hpp"
 #include "src/sea/sph/gauges.hpp"
 #include "src/sea/sph/sea_sph.hpp"
 #include "src/sea/sph/tank.hpp"
+#include "tests/kernels/rigid/surfaces.hpp"
 
 using namespace spindrift;
 using namespace spindrift::sph;
@@ -24,6 +26,10 @@ struct Held {
 
 /// Volume (area of the section) under a level, by thin slices.
 double volume_under(const Held& held, const Motion& motion, double level, Cut cut) {
+  if (const auto* mesh = std::get_if<Mesh>(&held.shape))
+    return submerged(*mesh->surface, motion.attitude.toRotationMatrix(), motion.position - Eigen::Vector3d(0.0, 0.0, level))
+               .volume /
+           (cut == Cut::plane ? mesh->surface->box().sizes()[1] : 1.0);
   constexpr int slices = 300;
   constexpr double reach = 1.6;
   const double step = 2.0 * reach / slices;
@@ -91,8 +97,15 @@ Lift lift_of(const Held& held, double spacing, double wetted, double duration) {
 
 const BodyShape cylinder = Cylinder{.start = {0, -1, 0}, .end = {0, 1, 0}, .start_radius = 1.0, .end_radius = 1.0};
 const BodyShape upright = Cylinder{.start = {0, 0, -1.2}, .end = {0, 0, 1.2}, .start_radius = 1.0, .end_radius = 1.0};
+const BodyShape standing_box = Box{.centre = {0, 0, 0}, .size = {2.0, 1.6, 2.0}};
 const BodyShape box = Box{.centre = {0, 0, 0}, .size = {2.0, 1.6, 1.6}};
 const BodyShape ball = Sphere{.centre = {0, 0, 0}, .radius = 1.0};
+
+Mesh mesh_of(const std::vector<Facet>& facets) {
+  Triangulation found = weld(facets);
+  REQUIRE_FALSE(why_not_closed(found));
+  return {.surface = std::make_shared<const ClosedSurface>(std::move(found))};
+}
 
 }  // namespace
 
@@ -142,4 +155,41 @@ TEST_CASE("water lifts held bodies by Archimedes' force within a twentieth of a 
   CAPTURE(spacing, sum / cases, thick);
   CHECK(std::abs(sum / cases) < 0.035);
   CHECK(thick <= (spacing <= 0.2 ? 0 : 3));
+}
+
+// The same shapes by their formulas and as triangles, ten particles to the draft.
+TEST_CASE("water lifts bodies of triangles by Archimedes' force within 2 %, as it does the shapes that they stand for",
+          "[verification][sea][nightly]") {
+  struct Case {
+    const char* name;
+    BodyShape shape, mesh;
+    double height, wetted;
+  };
+  const Case cases[] = {{"sphere", ball, mesh_of(testing::sphere_facets(1.0, 40, 80)), -0.2, 7.5},
+                        {"cylinder", upright, mesh_of(testing::cylinder_facets(1.0, -1.2, 1.2, 96)), 0.0, 10.7},
+                        {"box", standing_box, mesh_of(testing::box_facets({2.0, 1.6, 2.0})), -0.2, 11.8}};
+  for (const Case& c : cases) {
+    const std::array<double, 2> offset{0.3, 0.2};
+    const Lift shape = lift_of<3>({c.shape, c.height, 0.2, offset}, 0.12, c.wetted, 1.0),
+               mesh = lift_of<3>({c.mesh, c.height, 0.2, offset}, 0.12, c.wetted, 1.0);
+    std::printf("%s: lift by formula %.4f, of triangles %.4f (at the first step %.4f, %.4f)\n", c.name, shape.settled,
+                mesh.settled, shape.first, mesh.first);
+    CAPTURE(c.name, shape.settled, mesh.settled);
+    CHECK(mesh.settled == Approx(1.0).margin(0.02));
+    CHECK(mesh.settled == Approx(shape.settled).margin(0.02));
+  }
+}
+
+TEST_CASE("water of the plane lifts the outlines of bodies of triangles by Archimedes' force within 2 %",
+          "[verification][sea][fast]") {
+  const auto outline = [](const std::vector<Facet>& facets) {
+    return Mesh{.surface = std::make_shared<const ClosedSurface>(prism_of(outline_of(*mesh_of(facets).surface, 0.0)))};
+  };
+  for (const auto& [name, mesh, wetted] : {std::tuple("box", outline(testing::box_facets({2.0, 1.6, 1.6})), 3.2),
+                                           std::tuple("disc", outline(testing::sphere_facets(1.0, 40, 80)), 2.7)}) {
+    const Lift lift = lift_of<2>({mesh, -0.2, 0.2, {0.3, 0.2}}, 0.12, wetted, 1.0);
+    std::printf("outline of a %s: lift %.4f (at the first step %.4f)\n", name, lift.settled, lift.first);
+    CAPTURE(name, lift.settled, lift.first);
+    CHECK(lift.settled == Approx(1.0).margin(0.02));
+  }
 }

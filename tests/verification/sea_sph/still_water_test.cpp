@@ -3,6 +3,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
+#include "kernels/rigid/closed_surface.hpp"
+#include "src/sea/sph/damping.hpp"
+#include "src/sea/sph/gauges.hpp"
+#include "src/sea/sph/tank.hpp"
+#include "tests/kernels/rigid/surfaces.hpp"
 #include "tests/verification/sea_sph/tank.hpp"
 
 using namespace spindrift::sph;
@@ -65,4 +70,35 @@ TEST_CASE("still water between extrapolated walls is at rest too", "[verificatio
 TEST_CASE("still water stays still over 1e5 steps", "[verification][sea][nightly]") {
   check_rest(Tank(0.025, 1.0, 0.5, 10.0), 2.0, 100000, 0.01);
   check_rest(Tank(0.025, 1.0, 0.5, 20.0), 4.0, 0, 0.005);
+}
+
+TEST_CASE("a round basin of triangles holds its water: none is lost, and the pressure on its floor is hydrostatic",
+          "[verification][sea][fast]") {
+  const double depth = 0.8;
+  spindrift::Triangulation round = spindrift::weld(spindrift::testing::cylinder_facets(0.9, -depth, 1.0, 48));
+  REQUIRE_FALSE(why_not_closed(round));
+  TankPlan plan;
+  plan.x = plan.y = {-1.2, 1.2}, plan.depth = 1.0, plan.top = 0.3;
+  plan.walls = {{std::make_shared<const spindrift::ClosedSurface>(std::move(round)), true}};
+  Parameters p;
+  p.spacing = 0.1, p.h_over_d = 1.5, p.kernel = KernelChoice::quintic, p.boundary = BoundaryChoice::extrapolated;
+  p.diffusion = DiffusionChoice::fourtakas, p.alpha = 0.02, p.alpha_solid = 0.0;
+  p.eos = {1000.0, 10.0 * std::sqrt(p.gravity * plan.depth)};
+  const auto tank = lay_out<3>(plan, p);
+  SeaSph<3> sea(p, tank.domain, tank.seeds);
+  const std::array<std::array<double, 2>, 3> places{{{0.0, 0.0}, {0.5, 0.1}, {-0.3, -0.4}}};
+  double read = 0.0, expected = 0.0;
+  while (sea.time() < 0.8) {
+    sea.state().damping.everywhere = sea.time() < 0.4 ? 5.0 : 0.0;
+    sea.advance(1.0);
+    if (sea.time() < 0.6) continue;
+    const auto levels = surface_heights<3>(sea.store(), p, tank.domain, std::span<const std::array<double, 2>>(places), 0.0);
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      read += probe<3>(sea.store(), p, tank.domain, {places[n][0], places[n][1], -depth}).pressure;
+      expected += p.eos.rho0 * p.gravity * (levels[n] + depth);
+    }
+  }
+  CAPTURE(read / expected);
+  CHECK(read == Approx(expected).epsilon(0.02));
+  CHECK(sea.store().lost.empty());
 }

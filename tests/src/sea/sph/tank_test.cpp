@@ -99,7 +99,7 @@ TEST_CASE("a union of shapes displaces its volume, and water leaves it room", "[
   const double overlap =
       0.4 * 0.4 * 0.2 - 0.4 * (0.5 * 0.5 * std::asin(0.4) - 0.2 * std::sqrt(0.21) - 0.4 * (0.5 - std::sqrt(0.21)));
   const double volume = pi * 0.25 * 2.0 + 0.192 - overlap;
-  CHECK(double(t.body_particles[0]) * d * d * d * t.cell_volume == Approx(volume).epsilon(0.02));
+  CHECK(double(t.body_points[0].size()) * d * d * d * t.cell_volume == Approx(volume).epsilon(0.02));
   for_owner(t, water_owner, [&](const Seed<3>& s) {
     const Eigen::Vector3d x(s.position[0] - 3.0, s.position[1] - 2.0, s.position[2] + 1.0);
     CHECK(signed_distance(shapes, x, Cut::space) > 0.0);  // nearest in the corner between the two shapes
@@ -141,7 +141,7 @@ TEST_CASE("seeds made anew are the same at every visit, water moved aside by bod
   const auto t = lay_out<2>(plan, p);
   const std::vector<Seed<2>> once = t.seeds.all();
   REQUIRE(once.size() == t.seeds.size());
-  CHECK(once.size() == t.water + t.walls + t.body_particles.at(0));
+  CHECK(once.size() == t.water + t.walls + t.body_points.at(0).size());
   std::size_t next = 0, differing = 0, off_lattice = 0;
   t.seeds.for_each([&](std::size_t id, const Seed<2>& seed) {
     differing += id != next || seed.position != once[next].position || seed.deviation != once[next].deviation ||
