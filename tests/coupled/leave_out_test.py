@@ -140,7 +140,7 @@ def section(scene):
     text += "| (the scene itself) | |" + "".join(f" {o[0]:.4g} | {o[1]:.3g} |" for _, o, _, _ in own) + "\n"
     for name, saving, changes, wrong in rows:
         if not changes:
-            text += f"| {name} | cannot be: {saving} |" + " | |" * len(columns) + "\n"
+            text += f"| {name} | cannot be: {saving.replace(f'{ROOT}/', '')} |" + " | |" * len(columns) + "\n"
             continue
         text += f"| {name} | {saving[0]:.0%} / {saving[1]:.0%} |" + "".join(f" {e[k]:+.2g} / {m[k]:+.2g} |" for _, _, e, m in changes for k in (0, 1))
         text += (f" **{wrong}**" if wrong else "") + "\n"
