@@ -21,7 +21,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double weld_within = 1e-6;  ///< of the size: a float in a file has seven digits
-constexpr int leaf_triangles = 4;
 
 std::string in_words(double x) {
   char text[32];
@@ -165,9 +164,6 @@ ClosedSurface::ClosedSurface(Triangulation surface)
     integrate();
   }
   make_normals();
-  nodes_.reserve(order_.size());
-  nodes_.push_back({{}, 0, int(order_.size()), 0});
-  for (std::size_t n = 0; n < nodes_.size(); ++n) divide(int(n));
 }
 
 void ClosedSurface::integrate() {
@@ -193,6 +189,7 @@ void ClosedSurface::make_normals() {
   normals_.assign(triangles_.size(), Vector3d::Zero());
   corner_normals_.assign(points_.size(), Vector3d::Zero());
   side_normals_.assign(triangles_.size(), {});
+  std::vector<int> with_area;
   for (std::size_t n = 0; n < triangles_.size(); ++n) {
     const auto& t = triangles_[n];
     const auto at = [&](int k) -> const Vector3d& { return points_[std::size_t(t[std::size_t(k % 3)])]; };
@@ -200,7 +197,7 @@ void ClosedSurface::make_normals() {
     double longest = 0.0;
     for (int k = 0; k < 3; ++k) longest = std::max(longest, (at(k + 1) - at(k)).squaredNorm());
     if (!(area.norm() > 1e-12 * longest)) continue;  // a line: its neighbours have its sides
-    order_.push_back(int(n));
+    with_area.push_back(int(n));
     normals_[n] = area.normalized();
     for (int k = 0; k < 3; ++k) {
       const Vector3d to = at(k + 1) - at(k), back = at(k + 2) - at(k);
@@ -214,63 +211,30 @@ void ClosedSurface::make_normals() {
     for (const Side& s : edge) side_normals_[std::size_t(s.triangle)][std::size_t(s.number)] = sum;
     return true;
   });
-}
-
-void ClosedSurface::divide(int number) {
-  Node node = nodes_[std::size_t(number)];
-  const auto middle = [&](int t) {
-    Vector3d sum = Vector3d::Zero();
-    for (const int p : triangles_[std::size_t(t)]) sum += points_[std::size_t(p)];
-    return sum;
+  const auto corner = [&](int t, std::size_t k) -> const Vector3d& {
+    return points_[std::size_t(triangles_[std::size_t(t)][k])];
   };
-  Eigen::AlignedBox3d middles;
-  for (int n = node.first; n < node.last; ++n) {
-    for (const int p : triangles_[std::size_t(order_[std::size_t(n)])]) node.box.extend(points_[std::size_t(p)]);
-    middles.extend(middle(order_[std::size_t(n)]));
-  }
-  if (node.last - node.first > leaf_triangles) {
-    int axis;
-    middles.sizes().maxCoeff(&axis);
-    const int half = (node.first + node.last) / 2;
-    std::nth_element(order_.begin() + node.first, order_.begin() + half, order_.begin() + node.last,
-                     [&](int a, int b) { return std::pair(middle(a)[axis], a) < std::pair(middle(b)[axis], b); });
-    node.left = int(nodes_.size());
-    nodes_.push_back({{}, node.first, half, 0});
-    nodes_.push_back({{}, half, node.last, 0});
-  }
-  nodes_[std::size_t(number)] = node;
+  tree_ = BoxTree(
+      std::move(with_area),
+      [&](int t) {
+        Eigen::AlignedBox3d box;
+        for (std::size_t k = 0; k < 3; ++k) box.extend(corner(t, k));
+        return box;
+      },
+      [&](int t) -> Vector3d { return corner(t, 0) + corner(t, 1) + corner(t, 2); });
 }
 
 ClosedSurface::Nearest ClosedSurface::nearest(const Vector3d& x) const {
   double least = std::numeric_limits<double>::infinity();
   NearestOnTriangle best{Vector3d::Zero()};
   int of = 0;
-  const auto bound = [&](int n) {
-    const Node& node = nodes_[std::size_t(n)];
-    return squared_distance_to_box(x, node.box.min(), node.box.max());
-  };
-  std::array<std::pair<double, int>, 128> waiting;  // both children of each level may wait
-  std::size_t count = 0;
-  waiting[count++] = {bound(0), 0};
-  while (count > 0) {
-    const auto [nearer, number] = waiting[--count];
-    if (nearer >= least) continue;
-    const Node& node = nodes_[std::size_t(number)];
-    if (node.left == 0) {
-      for (int n = node.first; n < node.last; ++n) {
-        const auto& t = triangles_[std::size_t(order_[std::size_t(n)])];
-        const NearestOnTriangle found =
-            nearest_place_on_triangle(x, points_[std::size_t(t[0])], points_[std::size_t(t[1])], points_[std::size_t(t[2])]);
-        if (const double d = (found.point - x).squaredNorm(); d < least) least = d, best = found, of = order_[std::size_t(n)];
-      }
-      continue;
-    }
-    const double left = bound(node.left), right = bound(node.left + 1);
-    const std::pair near(std::min(left, right), left < right ? node.left : node.left + 1),
-        far(std::max(left, right), left < right ? node.left + 1 : node.left);
-    if (far.first < least) waiting[count++] = far;
-    if (near.first < least) waiting[count++] = near;
-  }
+  tree_.search(x, 1.0, least, [&](int n) {
+    const int number = tree_.order()[std::size_t(n)];
+    const auto& t = triangles_[std::size_t(number)];
+    const NearestOnTriangle found =
+        nearest_place_on_triangle(x, points_[std::size_t(t[0])], points_[std::size_t(t[1])], points_[std::size_t(t[2])]);
+    if (const double d = (found.point - x).squaredNorm(); d < least) least = d, best = found, of = number;
+  });
   const auto t = std::size_t(of);
   const Vector3d& normal = best.corner >= 0 ? corner_normals_[std::size_t(triangles_[t][std::size_t(best.corner)])]
                            : best.side >= 0 ? side_normals_[t][std::size_t(best.side)]
@@ -309,12 +273,12 @@ std::optional<ClosedSurface::Crossing> ClosedSurface::crossing() const {
   while (!waiting.empty()) {
     const auto [a, b] = waiting.back();
     waiting.pop_back();
-    const Node &p = nodes_[std::size_t(a)], &q = nodes_[std::size_t(b)];
+    const BoxTree::Node &p = tree_.nodes()[std::size_t(a)], &q = tree_.nodes()[std::size_t(b)];
     if (!p.box.intersects(q.box)) continue;
     if (p.left == 0 && q.left == 0) {
       for (int i = p.first; i < p.last; ++i)
         for (int j = a == b ? i + 1 : q.first; j < q.last; ++j) {
-          const int first = order_[std::size_t(i)], second = order_[std::size_t(j)];
+          const int first = tree_.order()[std::size_t(i)], second = tree_.order()[std::size_t(j)];
           if (share_a_corner(triangles_[std::size_t(first)], triangles_[std::size_t(second)])) continue;
           if (const auto place = place_of_crossing(first, second)) return Crossing{first, second, *place};
         }

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "kernels/grid/box_tree.hpp"
+
 namespace spindrift {
 
 /// Three corners as a file has them, counter-clockwise seen from outside.
@@ -68,21 +70,15 @@ class ClosedSurface {
   std::optional<Misplaced> misplaced_part() const;
 
  private:
-  struct Node {
-    Eigen::AlignedBox3d box;
-    int first, last, left;  ///< triangles of `order_`; children at `left` and `left` + 1, 0 in leaves
-  };
   void integrate();
   void make_normals();
-  void divide(int node);
   std::optional<Eigen::Vector3d> place_of_crossing(int first, int second) const;
 
   std::vector<Eigen::Vector3d> points_, normals_, corner_normals_;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<std::size_t> facets_;
   std::vector<std::array<Eigen::Vector3d, 3>> side_normals_;  ///< of the side from each corner to the next
-  std::vector<int> order_;                                    ///< triangles with an area, by node
-  std::vector<Node> nodes_;
+  BoxTree tree_;                                              ///< of the triangles with an area
   Eigen::AlignedBox3d box_;
   bool was_inside_out_ = false;
   double volume_ = 0.0;

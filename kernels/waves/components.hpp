@@ -64,14 +64,18 @@ inline Surface surface(std::span<const ComponentGroup> sea, double t, double x, 
   return {sum(eta), sum(sx), sum(sy)};
 }
 
-/// At the height z [m] where the profiles C and S are evaluated: the caller has applied its stretching rule.
-inline Kinematics kinematics(std::span<const ComponentGroup> sea, double t, double x, double y, double z) {
+/// The profiles of the horizontal and the vertical velocity over the depth.
+struct Profiles {
+  Lanes horizontal, vertical;
+};
+template <class ProfilesOf>
+Kinematics kinematics_of(std::span<const ComponentGroup> sea, double t, double x, double y, const ProfilesOf& profiles_of) {
   Lanes vx{}, vy{}, vz{}, ax{}, ay{}, az{}, pressure{};
   for (const ComponentGroup& g : sea) {
     Lanes sine, cosine;
     lane_sincos(g.kx * x + g.ky * y - g.omega * t + g.phase, sine, cosine);
-    const Lanes up = exp(Lanes(g.k * z)), down = g.bottom / up;
-    const Lanes horizontal = g.speed * (up + down), vertical = g.speed * (up - down);
+    const Profiles profiles = profiles_of(g);
+    const Lanes horizontal = g.speed * profiles.horizontal, vertical = g.speed * profiles.vertical;
     const Lanes u = horizontal * cosine, du = g.omega * horizontal * sine;
     vx += u * g.cos_b, vy += u * g.sin_b, vz += vertical * sine;
     ax += du * g.cos_b, ay += du * g.sin_b, az -= g.omega * vertical * cosine;
@@ -80,20 +84,20 @@ inline Kinematics kinematics(std::span<const ComponentGroup> sea, double t, doub
   return {{sum(vx), sum(vy), sum(vz)}, {sum(ax), sum(ay), sum(az)}, sum(pressure)};
 }
 
+/// At the height z [m] where the profiles C and S are evaluated: the caller has applied its stretching rule.
+inline Kinematics kinematics(std::span<const ComponentGroup> sea, double t, double x, double y, double z) {
+  return kinematics_of(sea, t, x, y, [z](const ComponentGroup& g) -> Profiles {
+    const Lanes up = exp(Lanes(g.k * z)), down = g.bottom / up;
+    return {up + down, up - down};
+  });
+}
+
 /// Above still water, z > 0, by the straight line that continues the profiles.
 inline Kinematics kinematics_above(std::span<const ComponentGroup> sea, double t, double x, double y, double z) {
-  Lanes vx{}, vy{}, vz{}, ax{}, ay{}, az{}, pressure{};
-  for (const ComponentGroup& g : sea) {
-    Lanes sine, cosine;
-    lane_sincos(g.kx * x + g.ky * y - g.omega * t + g.phase, sine, cosine);
+  return kinematics_of(sea, t, x, y, [z](const ComponentGroup& g) -> Profiles {
     const Lanes even = 1.0 + g.bottom, odd = 1.0 - g.bottom, kz = g.k * z;
-    const Lanes horizontal = g.speed * Lanes(even + kz * odd), vertical = g.speed * Lanes(odd + kz * even);
-    const Lanes u = horizontal * cosine, du = g.omega * horizontal * sine;
-    vx += u * g.cos_b, vy += u * g.sin_b, vz += vertical * sine;
-    ax += du * g.cos_b, ay += du * g.sin_b, az -= g.omega * vertical * cosine;
-    pressure += g.phase_speed * u;
-  }
-  return {{sum(vx), sum(vy), sum(vz)}, {sum(ax), sum(ay), sum(az)}, sum(pressure)};
+    return {even + kz * odd, odd + kz * even};
+  });
 }
 
 }  // namespace spindrift::waves

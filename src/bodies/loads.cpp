@@ -61,20 +61,22 @@ double JointLaw::load(const Way& way) const {
   return load;
 }
 
+void JointLaw::add(double load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
+  const Eigen::Vector3d along = load * (motion_of(bodies, i).attitude * axis);
+  const Eigen::Vector3d at = motion_of(bodies, j).point(point_j);
+  for (const auto& [body, sign] : {std::pair{i, -1.0}, std::pair{j, 1.0}}) {
+    if (body == earth) continue;
+    if (turns)
+      wrenches[std::size_t(body)].add_moment(sign * along);
+    else
+      wrenches[std::size_t(body)].add_force(sign * along, at);
+  }
+}
+
 LoadSource joint_law_source(std::vector<JointLaw> laws) {
   return {"joint_laws",
           [laws = std::move(laws)](double, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
-            for (const JointLaw& law : laws) {
-              const Eigen::Vector3d load = law.load(law.way(bodies)) * (motion_of(bodies, law.i).attitude * law.axis);
-              const Eigen::Vector3d at = motion_of(bodies, law.j).point(law.point_j);
-              for (const auto& [body, sign] : {std::pair{law.i, -1.0}, std::pair{law.j, 1.0}}) {
-                if (body == earth) continue;
-                if (law.turns)
-                  wrenches[std::size_t(body)].add_moment(sign * load);
-                else
-                  wrenches[std::size_t(body)].add_force(sign * load, at);
-              }
-            }
+            for (const JointLaw& law : laws) law.add(law.load(law.way(bodies)), bodies, wrenches);
           },
           {}};
 }

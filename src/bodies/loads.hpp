@@ -44,6 +44,8 @@ struct JointLaw {
   Way way(std::span<const Motion> bodies) const;
   /// On body j, positive about or along the axis [N m] or [N].
   double load(const Way& way) const;
+  /// Adds such a load to body j, and its opposite to body i.
+  void add(double load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
 };
 LoadSource joint_law_source(std::vector<JointLaw> laws);
 

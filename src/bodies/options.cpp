@@ -217,13 +217,13 @@ JointLaw make_law(const JointLawOptions& o, bool turns) {
 JointLaw make_rotation_law(const JointLawOptions& o) { return make_law(o, true); }
 JointLaw make_translation_law(const JointLawOptions& o) { return make_law(o, false); }
 
+}  // namespace
+
 int index_of(const NamedBodies& bodies, const std::string& name) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (bodies[b].name == name) return int(b);
   return earth;
 }
-
-}  // namespace
 
 const Section<BodyOptions>& body_section() {
   static const auto section =
@@ -323,13 +323,6 @@ void check_bodies(scene::Document& document, const NamedBodies& bodies, const Na
     check_table(joint.rotation_law, "rotation_law", make_rotation_law);
     check_table(joint.translation_law, "translation_law", make_translation_law);
   }
-}
-
-void load_meshes(scene::Document& document, NamedBodies& bodies, bool planar) {
-  for (auto& [name, body] : bodies)
-    for (std::size_t n = 0; n < body.meshes.size(); ++n) try {
-        scene::load_surface(body.meshes[n], planar ? std::optional(body.centre_m[1]) : std::nullopt);
-      } catch (const scene::SceneError& e) { document.problem(fmt::format("bodies.{}.meshes[{}].file", name, n), e.what()); }
 }
 
 Motion described_motion(const BodyOptions& body) { return {.position = body.centre_m}; }

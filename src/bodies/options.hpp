@@ -106,9 +106,9 @@ const scene::Section<JointOptions>& joint_section();
 /// Rules between sections: at least one body (unless water alone is what the scene is about), joints between bodies that exist,
 /// readable tables, unique cylinder names.
 void check_bodies(scene::Document& document, const NamedBodies& bodies, const NamedJoints& joints, bool water_alone = false);
-/// Reads the surfaces that bodies name; what is wrong with one goes to the document.
-void load_meshes(scene::Document& document, NamedBodies& bodies, bool planar);
 
+/// `earth` where no body has the name.
+int index_of(const NamedBodies& bodies, const std::string& name);
 /// The position that the scene describes: axes parallel to the earth's, at rest.
 Motion described_motion(const BodyOptions& body);
 /// How the body starts (displacement, rotation about the reference point, velocities).

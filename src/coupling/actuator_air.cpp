@@ -45,7 +45,7 @@ class ActuatorAir final : public AirSide {
       : floating_(floating),
         world_(world),
         flow_(*floating.scenario().aero.flow),
-        wind_(rotor_wind(floating.scenario())),
+        wind_(changing_wind(floating.scenario())),
         turbine_(aero::read_turbine(floating.scenario().rotor.turbine)),
         state_(now),
         told_blades_(floating.scenario().aero.model == "actuator_line" ? turbine_.blades : 0),
@@ -79,7 +79,7 @@ class ActuatorAir final : public AirSide {
     t_ = t, state_ = at_end;
     if (dt == 0.0) return;
     solver_->next_time_step(dt);
-    if (!wind_.steady()) solver_->set_wind(wind_until(wind_, t));
+    solver_->set_wind(wind_until(wind_, t));
     actuator_->place(motion(at_end));
     solver_->clear_rows();
   }
@@ -268,7 +268,7 @@ class ActuatorAir final : public AirSide {
   const FloatingSystem& floating_;
   const runtime::World world_;
   aero::FlowOptions flow_;  ///< with the preconditioner that "auto" became
-  const aero::Wind wind_;
+  const aero::Wind wind_;   ///< where it changes in time
   const aero::Turbine turbine_;
   aero::RotorState state_;  ///< of the last prepare()
   int told_blades_;

@@ -26,10 +26,10 @@ struct PlacedRotor {
 PlacedRotor placed_rotor(const Scenario& scenario);
 /// [m], of the turbine file's blades or rotor.diameter_m; 0 where the scene has neither.
 double rotor_radius(const Scenario& scenario);
-/// The undisturbed wind of a scene with a rotor, and how a step of the resolved air that ends at t takes one that changes.
+/// The undisturbed wind of a scene with a rotor.
 aero::Wind rotor_wind(const Scenario& scenario);
-inline aero::UndisturbedWind wind_until(const aero::Wind& wind, double t) {
-  return [wind, t](const Eigen::Vector3d& place, double ago) { return wind.at(t - ago, place); };
-}
+/// How a step of the resolved air that ends at t takes it: empty where it is steady, which reads no file.
+aero::UndisturbedWind wind_until(const aero::Wind& wind, double t);
+inline aero::Wind changing_wind(const Scenario& scenario) { return scenario.wind.steady() ? aero::Wind{} : rotor_wind(scenario); }
 
 }  // namespace spindrift::coupling

@@ -64,7 +64,7 @@ class ResolvedAir final : public AirSide {
         world_(world),
         first_(upright(floating, now)),
         setup_(setup_at(floating, first_)),
-        wind_(rotor_wind(floating.scenario())),
+        wind_(changing_wind(floating.scenario())),
         state_(now),
         size_(aero::resolved_rotor_size(setup_)),
         computed_{{}, std::vector<aero::RotorLoad>(std::size_t(size_.sectors))} {}
@@ -99,7 +99,7 @@ class ResolvedAir final : public AirSide {
     t_ = t, state_ = at_end;
     if (dt == 0.0) return;
     rotor_->solver().next_time_step(dt);
-    if (!wind_.steady()) rotor_->solver().set_wind(wind_until(wind_, t));
+    rotor_->solver().set_wind(wind_until(wind_, t));
     rotor_->move_to(pose(at_end));
     rotor_->solver().clear_rows();
   }
@@ -306,7 +306,7 @@ class ResolvedAir final : public AirSide {
   const runtime::World world_;
   aero::RotorState first_;  ///< at the start, upright
   aero::ResolvedRotorSetup setup_;
-  aero::Wind wind_;
+  aero::Wind wind_;                                  ///< where it changes in time
   std::shared_ptr<const aero::MadeRotorGrid> grid_;  ///< until rotor_ has it
   std::unique_ptr<aero::ResolvedRotor> rotor_;       ///< made by begin() or restore()
   std::optional<AirFile> file_;

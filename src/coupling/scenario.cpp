@@ -268,6 +268,11 @@ PlacedRotor placed_rotor(const Scenario& s) {
 
 aero::Wind rotor_wind(const Scenario& s) { return aero::wind_of(s.wind, {placed_rotor(s).rotor.hub_m, 2.0 * rotor_radius(s)}); }
 
+aero::UndisturbedWind wind_until(const aero::Wind& wind, double t) {
+  if (wind.steady()) return {};
+  return [wind, t](const Eigen::Vector3d& place, double ago) { return wind.at(t - ago, place); };
+}
+
 aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
   constexpr double usual_load_change = 1e-3;
   aero::FlowOptions flow = *s.aero.flow;
@@ -335,8 +340,10 @@ Scenario read_scenario(scene::Document& document) {
   take_from_turbine(document, s);
   s.sea = document.read(sea::sea_section());
   const bool planar = s.sea.particles && s.sea.particles->planar();
-  load_meshes(document, s.bodies, planar);
-  if (s.sea.tank) load_meshes(document, *s.sea.tank, planar);
+  const auto plane = [planar](double y) { return planar ? std::optional(y) : std::nullopt; };
+  for (auto& [name, body] : s.bodies)
+    load_surfaces(document, fmt::format("bodies.{}.meshes", name), body.meshes, plane(body.centre_m[1]));
+  if (s.sea.tank) load_surfaces(document, "sea.tank.meshes", s.sea.tank->meshes, plane(0.0));
   s.waves = document.read_where(s.sea.model == "morison" || s.sea.model == "potential" || s.has_particles(), sea::waves_section(),
                                 "sea.model is \"" + s.sea.model + "\"; morison, potential and sph have waves");
   s.moorings = document.read_named(moorings::line_section());

@@ -27,11 +27,7 @@ YawState stored(std::span<const double> memory) {
 YawDrive::YawDrive(const aero::YawOptions& o, const bodies::NamedJoints& joints, const bodies::NamedBodies& bodies)
     : controller_{o.start_error, o.stop_error, o.filter_time_s, o.delay_s, o.rate} {
   const auto joint = std::ranges::find(joints, o.joint, &scene::Named<bodies::JointOptions>::name);
-  const auto index = [&](const std::string& name) {
-    const auto at = std::ranges::find(bodies, name, &scene::Named<bodies::BodyOptions>::name);
-    return at == bodies.end() ? bodies::earth : int(at - bodies.begin());
-  };
-  law_.i = index(joint->options.bodies[0]), law_.j = index(joint->options.bodies[1]);
+  law_.i = index_of(bodies, joint->options.bodies[0]), law_.j = index_of(bodies, joint->options.bodies[1]);
   law_.axis = joint->options.axis.normalized();
   law_.stiffness = o.stiffness_N_m_rad, law_.damping = o.damping_N_m_s_rad;
   up_ = law_.axis.z() > 0.0 ? 1.0 : -1.0;
@@ -48,11 +44,7 @@ double YawDrive::moment(double t, std::span<const Motion> bodies) const {
 }
 
 void YawDrive::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
-  const Eigen::Quaterniond carrier =
-      law_.i == bodies::earth ? Eigen::Quaterniond::Identity() : bodies[std::size_t(law_.i)].attitude;
-  const Eigen::Vector3d load = up_ * moment(t, bodies) * (carrier * law_.axis);
-  if (law_.i != bodies::earth) wrenches[std::size_t(law_.i)].add_moment(-load);
-  wrenches[std::size_t(law_.j)].add_moment(load);
+  law_.add(up_ * moment(t, bodies), bodies, wrenches);
 }
 
 YawDrive::Reading YawDrive::reading(double t, const aero::RotorLoads& rotor, std::span<const Motion> bodies) const {

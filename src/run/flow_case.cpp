@@ -95,7 +95,7 @@ void look_at_start(aero::FlowSolver& solver, runtime::Executor& march) {
 FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world, int chunk) {
   const runtime::Span span("aero/start");
   const aero::FlowOptions& o = *s.aero.flow;
-  if (!s.wind.steady()) wind_ = coupling::rotor_wind(s);
+  wind_ = coupling::changing_wind(s);
   if (has_resolved_rotor(s)) {
     rotor_ = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, chunk, nullptr,
                                                    coupling::grid_progress());
@@ -196,7 +196,7 @@ void FlowCase::place(std::int64_t window, double window_s) {
 }
 
 void FlowCase::move(std::int64_t window, double window_s) {
-  if (!wind_.steady()) solver_->set_wind(coupling::wind_until(wind_, double(window + 1) * window_s));
+  solver_->set_wind(coupling::wind_until(wind_, double(window + 1) * window_s));
   if (rotor_ && !steady()) rotor_->move_to(rotor_->turned(window + 1));
   if (motion_) solver_->motion().move_to(motion_->poses(double(window + 1) * window_s));
   if (actuator_) place_actuator(steady() ? 0.0 : double(window + 1) * window_s);

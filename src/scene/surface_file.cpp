@@ -19,6 +19,7 @@
 
 #include "kernels/rigid/closed_surface.hpp"
 #include "kernels/rigid/rotation.hpp"
+#include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/section.hpp"
 
@@ -192,6 +193,12 @@ void load_surface(MeshOptions& mesh, std::optional<double> plane_y) {
     mesh.prism = std::make_shared<const ClosedSurface>(prism_of(outline));
   }
   mesh.surface = std::move(surface);
+}
+
+void load_surfaces(Document& document, const std::string& key, std::vector<MeshOptions>& meshes, std::optional<double> plane_y) {
+  for (std::size_t n = 0; n < meshes.size(); ++n) try {
+      load_surface(meshes[n], plane_y);
+    } catch (const SceneError& e) { document.problem(fmt::format("{}[{}].file", key, n), e.what()); }
 }
 
 Section<MeshOptions> mesh_section(const std::string& help) {

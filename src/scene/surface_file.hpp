@@ -17,6 +17,7 @@ class ClosedSurface;
 
 namespace spindrift::scene {
 
+class Document;
 template <class Options>
 class Section;
 
@@ -40,5 +41,7 @@ std::vector<std::array<Eigen::Vector3d, 3>> read_stl(const std::string& path);
 /// Sets `surface`, and `prism` where a 2-D scene's plane of this y is given. Throws SceneError, also where the surface is not
 /// closed or does not reach the plane.
 void load_surface(MeshOptions& mesh, std::optional<double> plane_y = std::nullopt);
+/// The same of all that stand at a key of the scene; what is wrong with one goes to the document.
+void load_surfaces(Document& document, const std::string& key, std::vector<MeshOptions>& meshes, std::optional<double> plane_y);
 
 }  // namespace spindrift::scene

@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/particle_options.hpp"
 
-#include <fmt/format.h>
-
 #include "src/scene/cases.hpp"
-#include "src/scene/document.hpp"
 #include "src/scene/section.hpp"
 
 namespace spindrift::sea {
@@ -175,12 +172,6 @@ const Section<TankOptions>& tank_section() {
               if (!(o.bed_m[n][0] > o.bed_m[n - 1][0])) return report("bed_m", "x must increase from row to row");
           });
   return section;
-}
-
-void load_meshes(scene::Document& document, TankOptions& tank, bool planar) {
-  for (std::size_t n = 0; n < tank.meshes.size(); ++n) try {
-      scene::load_surface(tank.meshes[n], planar ? std::optional(0.0) : std::nullopt);
-    } catch (const scene::SceneError& e) { document.problem(fmt::format("sea.tank.meshes[{}].file", n), e.what()); }
 }
 
 const Section<BoxOptions>& water_section() {

@@ -16,8 +16,7 @@
 namespace spindrift::scene {
 template <class Options>
 class Section;
-class Document;
-}  // namespace spindrift::scene
+}
 
 namespace spindrift::sea {
 
@@ -124,8 +123,6 @@ struct FieldsOptions {
 
 const scene::Section<ParticleOptions>& particle_section();
 const scene::Section<TankOptions>& tank_section();
-/// Reads the surfaces of the tank's walls; what is wrong with one goes to the document.
-void load_meshes(scene::Document& document, TankOptions& tank, bool planar);
 const scene::Section<BoxOptions>& water_section();
 const scene::Section<BoxOptions>& obstacle_section();
 const scene::Section<WavemakerOptions>& wavemaker_section();

@@ -1,10 +1,9 @@
 """Actuator disc and lines in resolved air whose turbine stands on bodies: the flow of the same rotor without bodies where they do not move, same bits
 however it is run, what is refused. Usage: actuator_air_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
-import csv
 import os
 import unittest
 
-from running import Folder, ROOT, spindrift
+from running import Folder, ROOT, rows, spindrift
 
 # Four cells to the radius and sides at five radii: what is tested is the exchange, not the flow.
 FLOW = """
@@ -83,8 +82,7 @@ class ActuatorAir(Folder):
         return done.stdout + done.stderr
 
     def rows(self, name):
-        with open(self.path / name / "history.csv") as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return rows(self.path / name / "history.csv")
 
     def text(self, name):
         return (self.path / name / "history.csv").read_text()
@@ -138,9 +136,7 @@ class ActuatorAir(Folder):
         self.run_scene(FLOATING, "run")
         last = self.rows("run")[-1]
         self.assertAlmostEqual(sum(last[f"rotor.blade_{b}.thrust_N"] for b in (1, 2, 3)) / last["rotor.thrust_N"], 1.0, delta=1e-12)
-        with open(self.path / "run/spanwise.csv") as file:
-            span = list(csv.DictReader(file))
-        thrust = sum(float(s["length_m"]) * float(s["normal_N_m"]) for s in span)
+        thrust = sum(s["length_m"] * s["normal_N_m"] for s in rows(self.path / "run/spanwise.csv"))
         self.assertAlmostEqual(thrust / last["rotor.thrust_N"], 1.0, delta=1e-6)
 
     def test_blades_that_leave_the_grid_end_the_run_by_name(self):

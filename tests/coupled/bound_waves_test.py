@@ -1,12 +1,11 @@
 """Random seas of second order, by the program: their surface is that of Sharma & Dean's kernels, loads follow it, runs go on from a checkpoint with the same
 bits, and what a scene may not ask of them is refused by name. SPDX-License-Identifier: Apache-2.0"""
-import csv
 import math
 import unittest
 
 import numpy
 
-from running import Folder, spindrift
+from running import columns, Folder, spindrift
 
 HEIGHT, PERIOD, DEPTH, GRAVITY, COMPONENTS = 3.0, 9.0, 30.0, 9.80665, 40
 SCENE = f"""
@@ -86,14 +85,8 @@ class BoundWaves(Folder):
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return out / "history.csv" if code == 0 else done.stdout + done.stderr
 
-    @staticmethod
-    def columns(path):
-        with open(path, encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        return {name: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
-
     def test_the_surface_is_that_of_sharma_and_dean_and_loads_follow_it(self):
-        linear, full = self.columns(self.run_scene("linear")), self.columns(self.run_scene("full", "waves.second_order=true"))
+        linear, full = columns(self.run_scene("linear")), columns(self.run_scene("full", "waves.second_order=true"))
         t = linear["time_s"]
         peak = 2.0 * math.pi / PERIOD
         omega = peak * (0.5 + (numpy.arange(COMPONENTS) + 0.5) * 4.5 / COMPONENTS)  # equal steps from half the peak to five of it

@@ -2,11 +2,10 @@
 first row are those that `check` states, and its mean tension over the run stays there. Under the thrust of a turbine the equilibrium is found however far away:
 there all loads of the run's first row balance. Scene: the OC3 spar of inputs/tutorials.
 SPDX-License-Identifier: Apache-2.0"""
-import csv
 import re
 import unittest
 
-from running import ROOT, Folder, spindrift
+from running import Folder, ROOT, rows, spindrift
 
 SCENE = ROOT / "inputs/tutorials/spar_in_waves.toml"
 SEA = ["start.equilibrium=true", "waves.model=jonswap", "waves.height_m=6.0", "waves.period_s=10.0"]
@@ -21,8 +20,7 @@ class Equilibrium(Folder):
     def rows_of(self, settings, until):
         done = spindrift("run", SCENE, "--out", self.out, "--overwrite", "--no-report", "--quiet", "--until", until, settings=settings)
         self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.out / "history.csv", encoding="utf-8") as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return rows(self.out / "history.csv")
 
     def test_twenty_seeds_start_from_the_equilibrium_under_the_mean_loads(self):
         said = spindrift("check", SCENE, settings=SEA).stdout

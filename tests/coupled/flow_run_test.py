@@ -1,19 +1,17 @@
 """The air alone as a user runs it: scenes with grids made by the program, fields and walls for ParaView, the report's pictures.
 Usage: flow_run_test.py SPINDRIFT"""
-import csv
 import json
 import unittest
 import xml.etree.ElementTree
 
-from running import Folder, ROOT, spindrift
+from running import Folder, ROOT, rows, spindrift
 
 CASES = ROOT / "inputs/validation"
 
 
 class FlowRun(Folder):
     def history(self, out=None):
-        with open((out or self.out) / "history.csv") as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return rows((out or self.out) / "history.csv")
 
     def test_a_plate_leaves_history_fields_walls_and_pictures(self):
         done = spindrift("run", CASES / "flat_plate/flat_plate.toml", "--out", self.out, "--set", "aero.flow.generate.refinement=1",

@@ -1,12 +1,11 @@
 """The coupled machine as a user runs it: a blade-resolved rotor on a floating platform, with an engineering sea and with one of particles.
 Same bits by threads, ranks, placements and restarts; starts from saved fluids; what is refused. Usage: machine_test.py SPINDRIFT [CLASS...]"""
-import csv
 import json
 import os
 import subprocess
 import unittest
 
-from running import Folder, PROGRAM, ROOT
+from running import Folder, PROGRAM, ROOT, rows
 
 CASES = ROOT / "inputs/leble_barakos"
 
@@ -106,8 +105,7 @@ class Machine(Folder):
         return (self.path / name / "history.csv").read_text()
 
     def rows(self, name):
-        with open(self.path / name / "history.csv") as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return rows(self.path / name / "history.csv")
 
     def check_bits(self, text, settings, until):
         self.spindrift(text, "whole", settings=settings, threads=1)
@@ -390,8 +388,7 @@ class MachineRun(Machine):
         self.assertEqual((self.path / "out/spanwise.csv").read_text(), (self.path / "split/spanwise.csv").read_text())
         last = self.rows("out")[-1]
         self.assertAlmostEqual(3.0 * last["rotor.blade_1.thrust_N"] / last["rotor.thrust_N"], 1.0, delta=1e-9)
-        with open(self.path / "out/spanwise.csv") as file:
-            span = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        span = rows(self.path / "out/spanwise.csv")
         self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in span) / last["rotor.thrust_N"], 1.0, delta=0.02)
         self.ended([PROGRAM, "report", self.path / "out"], 1, 0)
         report = (self.path / "out/report.html").read_text()

@@ -1,11 +1,10 @@
 """An aerofoil that pitches, with default settings, against Theodorsen's flat plate (NACA Report 496, 1935): the thinner the section the nearer.
 Usage: pitching_test.py SPINDRIFT"""
 import cmath
-import csv
 import math
 import unittest
 
-from running import Folder, ROOT, spindrift
+from running import Folder, ROOT, rows, spindrift
 
 SCENE = ROOT / "inputs/validation/pitching_naca0012/pitching.toml"
 PERIOD_S, AMPLITUDE, REDUCED = 0.307716, math.radians(2.5), 0.2
@@ -24,10 +23,9 @@ class Pitching(Folder):
         done = spindrift("run", SCENE, "--out", self.out, "--overwrite", "--no-report", "--set", "aero.flow.generate.kind='aerofoil'",
                          "--set", f"aero.flow.generate.naca='{digits}'", timeout=1200)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        with open(self.out / "history.csv") as file:
-            rows = list(csv.DictReader(file))[-40:]
-        turn = sum(float(row["flow.lift_coefficient"]) * cmath.exp(-2j * math.pi * float(row["time_s"]) / PERIOD_S) for row in rows)
-        return 2j * turn / len(rows) / AMPLITUDE
+        last = rows(self.out / "history.csv")[-40:]
+        turn = sum(row["flow.lift_coefficient"] * cmath.exp(-2j * math.pi * row["time_s"] / PERIOD_S) for row in last)
+        return 2j * turn / len(last) / AMPLITUDE
 
     def test_thin_sections_have_the_lift_of_a_plate(self):
         exact, found = plate(), {thickness: self.swing(f"00{thickness:02d}") for thickness in (3, 6, 12)}

@@ -1,9 +1,8 @@
 """The blade-resolved rotor as a user runs it: history, loads along the span, what `check` says, a restart, what is refused.
 Usage: rotor_run_test.py SPINDRIFT"""
-import csv
 import unittest
 
-from running import Folder, ROOT, spindrift
+from running import Folder, ROOT, rows, spindrift
 
 SCENE = ROOT / "inputs/leble_barakos/rotor_demo.toml"
 # 6 400 cells a sector.
@@ -14,8 +13,7 @@ TURNING = ["aero.flow.time=bdf2", "aero.flow.max_pseudo_steps=3", "aero.flow.dro
 
 class RotorRun(Folder):
     def table(self, name):
-        with open(self.out / name) as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return rows(self.out / name)
 
     def test_a_steady_run_leaves_thrust_torque_power_and_loads_along_the_span(self):
         done = spindrift("run", SCENE, "--out", self.out, settings=[*TINY, "time.end_s=40", "aero.flow.drop=0"])

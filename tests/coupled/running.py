@@ -1,10 +1,13 @@
 """What the tests of the program share: the program under test (the first argument), the sources, a run of it, a folder of its own for each test.
 SPDX-License-Identifier: Apache-2.0"""
+import csv
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+
+import numpy
 
 PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -15,6 +18,18 @@ def spindrift(*arguments, settings=(), ranks=0, timeout=600, env=None, cwd=None)
     launcher = [ROOT / "ci/mpirun", ranks] if ranks else []
     words = [*launcher, PROGRAM, *arguments, *(word for text in settings for word in ("--set", text))]
     return subprocess.run([str(word) for word in words], capture_output=True, text=True, errors="replace", check=False, timeout=timeout, env=env, cwd=cwd)
+
+
+def rows(path):
+    """Of a table that a run left, history.csv or spanwise.csv: numbers by column."""
+    with open(path, encoding="utf-8") as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def columns(path):
+    """The same the other way round: arrays by column."""
+    found = rows(path)
+    return {name: numpy.array([row[name] for row in found]) for name in found[0]}
 
 
 class Folder(unittest.TestCase):

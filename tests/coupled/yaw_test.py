@@ -1,11 +1,10 @@
 """A nacelle that a yaw drive turns into the wind, by the program: it starts, stops and holds as asked, on land and afloat, goes on from a checkpoint with the
 same bits, and what a scene may not ask of it is refused by name. SPDX-License-Identifier: Apache-2.0"""
-import csv
 import unittest
 
 import numpy
 
-from running import Folder, ROOT, spindrift
+from running import columns, Folder, ROOT, spindrift
 
 TURBINE = ROOT / "inputs/turbines/dtu_10mw.toml"
 SCENE = f"""
@@ -61,12 +60,6 @@ class Yaw(Folder):
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return self.path / name / "history.csv" if code == 0 else done.stdout + done.stderr
 
-    @staticmethod
-    def columns(path):
-        with open(path, encoding="utf-8") as file:
-            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-        return {name: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
-
     def check_turn(self, h, direction):
         t, angle, way = h["time_s"], h["rotor.yaw_angle_deg"], numpy.sign(direction)
         # The filtered wind passes 8 of 25 degrees after 2 s; ten later the drive starts: 21.9 degrees at half a degree a second.
@@ -82,12 +75,12 @@ class Yaw(Folder):
     def test_a_step_of_the_winds_direction_turns_the_nacelle_and_it_stops_within_the_threshold(self):
         for direction in (25.0, -25.0):
             with self.subTest(direction):
-                self.check_turn(self.columns(self.run_scene(f"turn{direction:g}", direction=direction)), direction)
+                self.check_turn(columns(self.run_scene(f"turn{direction:g}", direction=direction)), direction)
         down = SCENE.replace("axis = [0.0, 0.0, 1.0]", "axis = [0.0, 0.0, -1.0]")  # an axis that points down changes nothing
-        self.check_turn(self.columns(self.run_scene("down", text=down)), 25.0)
+        self.check_turn(columns(self.run_scene("down", text=down)), 25.0)
 
     def test_small_errors_leave_it_where_it_is_and_a_drive_that_holds_is_a_spring(self):
-        h = self.columns(self.run_scene("small", "time.end_s=60.0", direction=7.0))
+        h = columns(self.run_scene("small", "time.end_s=60.0", direction=7.0))
         self.assertEqual(numpy.abs(h["rotor.yaw_rate_deg_s"]).max(), 0.0)
         self.assertAlmostEqual(h["rotor.yaw_error_deg"][-1], 7.0, delta=0.1)
         settled = h["time_s"] > 40.0
@@ -98,7 +91,7 @@ class Yaw(Folder):
         event = SCENE.replace('table = "wind.csv"', 'speed_m_s = 10.0\n[wind.event]\nwhat = "ecd"\nstart_s = 20.0')
         settings = ("time.end_s=80.0", "control.yaw.delay_s=2.0", "control.yaw.filter_time_s=1.0", "control.yaw.rate_deg_s=2.0")
         whole = self.run_scene("whole", *settings, text=event)
-        h = self.columns(whole)
+        h = columns(whole)
         self.assertGreater(numpy.abs(h["rotor.yaw_error_deg"]).max(), 20.0)
         self.assertLess(numpy.abs(h["rotor.yaw_error_deg"][-1]), 1.0)
         self.assertEqual(h["rotor.yaw_rate_deg_s"][-1], 0.0)
@@ -123,7 +116,7 @@ start_m = [0.0, 0.0, 0.0]
 end_m = [0.0, 0.0, 115.63]
 properties = "{TURBINE.parent}/dtu_10mw/tower.csv"
 """).replace('bodies = ["tower", "nacelle"]', 'bodies = ["tower_top", "nacelle"]').replace("[control.yaw]", '[control]\nmodel = "dtu"\n[control.yaw]').replace("speed_rpm = 8.0\n", 'operating_point = "table"\n')
-        h = self.columns(self.run_scene("beam", "time.step_s=0.01", "time.end_s=90.0", "control.yaw.stiffness_N_m_rad=2e9", "control.yaw.damping_N_m_s_rad=5e7", text=beam))
+        h = columns(self.run_scene("beam", "time.step_s=0.01", "time.end_s=90.0", "control.yaw.stiffness_N_m_rad=2e9", "control.yaw.damping_N_m_s_rad=5e7", text=beam))
         self.assertTrue(20.0 < h["rotor.yaw_angle_deg"][-1] < 25.5, h["rotor.yaw_angle_deg"][-1])
         self.assertEqual(h["rotor.yaw_rate_deg_s"][-1], 0.0)
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "kernels/grid/nearest_point.hpp"
 
@@ -12,7 +13,6 @@ namespace spindrift::aero {
 namespace {
 
 using Face = WallSurface::Face;
-constexpr int leaf_faces = 4;
 
 Eigen::Vector3d middle(const Face& f) { return f[0] + 0.25 * ((f[1] - f[0]) + (f[2] - f[0]) + (f[3] - f[0])); }
 
@@ -28,11 +28,18 @@ double squared_distance_to_face(const Eigen::Vector3d& p, const Face& f, const E
 
 }  // namespace
 
-WallSurface::WallSurface(std::vector<Face> faces) : faces_(std::move(faces)) {
-  if (faces_.empty()) return;
-  nodes_.reserve(faces_.size());
-  nodes_.push_back({{}, {}, 0, int(faces_.size()), 0});
-  for (std::size_t n = 0; n < nodes_.size(); ++n) divide(int(n));
+WallSurface::WallSurface(std::vector<Face> faces) {
+  std::vector<int> all(faces.size());
+  std::iota(all.begin(), all.end(), 0);
+  tree_ = BoxTree(
+      std::move(all),
+      [&](int n) {
+        Eigen::AlignedBox3d box;
+        for (const Eigen::Vector3d& corner : faces[std::size_t(n)]) box.extend(corner);
+        return box;
+      },
+      [&](int n) { return middle(faces[std::size_t(n)]); });
+  for (const int n : tree_.order()) faces_.push_back(faces[std::size_t(n)]);
   balls_.reserve(faces_.size());
   for (const Face& f : faces_) {
     const Eigen::Vector3d m = middle(f);
@@ -40,29 +47,6 @@ WallSurface::WallSurface(std::vector<Face> faces) : faces_(std::move(faces)) {
     for (const auto& corner : f) radius = std::max(radius, (corner - m).norm());
     balls_.push_back({m, radius});
   }
-}
-
-void WallSurface::divide(int number) {
-  Node node = nodes_[number];
-  const double inf = std::numeric_limits<double>::infinity();
-  node.low.setConstant(inf), node.high.setConstant(-inf);
-  Eigen::Vector3d first = node.low, last = node.high;  // box of the middles
-  for (int f = node.first; f < node.last; ++f) {
-    for (const auto& corner : faces_[f]) node.low = node.low.cwiseMin(corner), node.high = node.high.cwiseMax(corner);
-    const Eigen::Vector3d m = middle(faces_[f]);
-    first = first.cwiseMin(m), last = last.cwiseMax(m);
-  }
-  if (node.last - node.first > leaf_faces) {
-    int axis;
-    (last - first).maxCoeff(&axis);
-    const int half = (node.first + node.last) / 2;
-    std::nth_element(faces_.begin() + node.first, faces_.begin() + half, faces_.begin() + node.last,
-                     [&](const Face& a, const Face& b) { return middle(a)[axis] < middle(b)[axis]; });
-    node.left = int(nodes_.size());
-    nodes_.push_back({{}, {}, node.first, half, 0});
-    nodes_.push_back({{}, {}, half, node.last, 0});
-  }
-  nodes_[number] = node;
 }
 
 double WallSurface::closer(const Eigen::Vector3d& p, int face, double least) const {
@@ -74,24 +58,9 @@ double WallSurface::closer(const Eigen::Vector3d& p, int face, double least) con
 
 double WallSurface::distance(const Eigen::Vector3d& p, int& face) const {
   double least = squared_distance_to_face(p, faces_[face], balls_[face].middle);
-  std::array<std::pair<double, int>, 128> stack;  // depth is log2(faces) + 1; both children of a level may wait
-  int waiting = 0;
-  const auto box = [&](int n) { return (1.0 - rounding) * squared_distance_to_box(p, nodes_[n].low, nodes_[n].high); };
-  stack[waiting++] = {box(0), 0};
-  while (waiting > 0) {
-    const auto [bound, number] = stack[--waiting];
-    if (bound >= least) continue;
-    const Node& node = nodes_[number];
-    if (node.left == 0) {
-      for (int f = node.first; f < node.last; ++f)
-        if (const double d = closer(p, f, least); d < least) least = d, face = f;
-      continue;
-    }
-    const double left = box(node.left), right = box(node.left + 1);
-    const bool left_first = left < right;
-    if (std::max(left, right) < least) stack[waiting++] = {std::max(left, right), left_first ? node.left + 1 : node.left};
-    if (std::min(left, right) < least) stack[waiting++] = {std::min(left, right), left_first ? node.left : node.left + 1};
-  }
+  tree_.search(p, 1.0 - rounding, least, [&](int f) {
+    if (const double d = closer(p, f, least); d < least) least = d, face = f;
+  });
   return std::sqrt(least);
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/grid/box_tree.hpp"
 #include "src/aero/grid/multi_block.hpp"
 #include "src/aero/grid/store.hpp"
 
@@ -34,12 +35,6 @@ class WallSurface {
   }
 
  private:
-  /// Faces [first, last); children stand at `left` and `left + 1`, leaves have left = 0.
-  struct Node {
-    Eigen::Vector3d low, high;
-    int first, last, left;
-  };
-  void divide(int node);
   /// Squared distance to a face where that is less than `least`; else a number that is not less.
   double closer(const Eigen::Vector3d& point, int face, double least) const;
   std::vector<Face> faces_;
@@ -48,7 +43,7 @@ class WallSurface {
     double radius;
   };
   std::vector<Ball> balls_;  ///< round each face
-  std::vector<Node> nodes_;
+  BoxTree tree_;             ///< whose order the faces have
 };
 
 /// All faces of the named patches, and their images through periodic connections (one step each way).
