@@ -3,7 +3,7 @@
 // each), and what the exchange between windows takes. Windows of all kinds in turns, each going on from where the last one of its
 // kind left air and sea. Starts itself again as two ranks: rank 0 measures, rank 1 is the air's of split windows and sleeps
 // otherwise. Threads whatever OMP_NUM_THREADS says. Run by perf/run coupling; what was measured is in
-// docs/developer/notes/machine.md. SPDX-License-Identifier: Apache-2.0
+// docs/developer/notes/coupled_system.md. SPDX-License-Identifier: Apache-2.0
 #include <mpi.h>
 #include <omp.h>
 #include <unistd.h>

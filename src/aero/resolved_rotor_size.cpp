@@ -22,7 +22,7 @@ namespace spindrift::aero {
 namespace {
 
 // Of a pseudo-step, for each cell, measured on one core of 50 GFLOP/s in double (docs/developer/notes/rotor_resolved.md,
-// machine.md). Of steady marches, whose linear solutions take all their steps, each a sweep over the residual: SA with 20 Krylov
+// coupled_system.md). Of steady marches, whose linear solutions take all their steps, each a residual sweep: SA with 20 Krylov
 // vectors; inviscid. Of physical steps, which take some six steps by the matrix: SA; inviscid. In the plane there are two
 // directions of faces, and one cell in depth.
 constexpr double viscous_seconds = 12e-6, inviscid_seconds = 7.5e-6, viscous_physical_seconds = 3.2e-6,

@@ -155,9 +155,9 @@ def table(names):
             sections[scene] = section(scene)
             print(sections[scene], flush=True)
         PAGE.write_text("# What could be left out\n\n"
-                        "What `spindrift check --columns` states of each smaller choice, from a trial of some tenths of a second of processor time, beside what whole runs with and\n"
-                        "without it gave: what it saves of the processor time after the start, and by how much it changes mean and deviation over the last two thirds. Bold where they\n"
-                        f"differ by more than a factor of two and either is more than {NO_SAVING:.0%} of the time, or {NOTHING:.0%} of the deviation. Written by\n"
+                        "`spindrift check --columns` states for each smaller choice what it would save and change, from a trial of some tenths of a second of processor time. Here this is\n"
+                        "compared with whole runs with and without the choice: saving of processor time after the start, change of mean and deviation over the last two thirds. Bold where\n"
+                        f"they differ by more than a factor of two and either is more than {NO_SAVING:.0%} of the time, or {NOTHING:.0%} of the deviation. Written by\n"
                         "`tests/coupled/leave_out_test.py build/release/spindrift --table`.\n\n" + "\n".join(sections[s] for s in SCENES if s in sections), encoding="utf-8")
 
 
