@@ -74,20 +74,20 @@ void march(perf::Group& group, const std::string& name, double mach, bool sequen
   History h;
   const double begin = perf::user_seconds();
   if (sequenced) {
-    c.solver->march().look();
+    c.solver->judgement().march.look();
     c.run();
-    start = c.solver->march().mass_residual(), volume_start = c.solver->march().density_residual();
+    start = c.solver->march().mass_residual, volume_start = c.solver->march().now.density;
     s.march.drop = 1e-5;
     Case coarse = aerofoil_case(halved(grid), s);
     coarse.run();
     transfer(*coarse.solver, *c.solver);
-    c.solver->march().begin_after_look();
+    c.solver->judgement().march.begin_after_look();
   }
-  c.solver->judgement().watch([&](const PseudoRow& row) {
+  c.solver->judgement().rows.watcher = [&](const PseudoRow& row) {
     h.cost.push_back((perf::user_seconds() - begin) / cells * 1e6);
     h.by_volume.push_back(row.density_residual), h.balance.push_back(row.mass_residual);
     h.drag.push_back(coefficients(s, row.force).drag);
-  });
+  };
   c.run();
   volume_start = std::max(volume_start, *std::ranges::max_element(h.by_volume));
   start = std::max(start, *std::ranges::max_element(h.balance));

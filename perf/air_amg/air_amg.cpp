@@ -62,8 +62,8 @@ Solved solve(const Problem& p, const Form& form) {
   const double begin = perf::user_seconds();
   c.run();
   Solved r{.us = (perf::user_seconds() - begin) / double(c.solver->cells()) * 1e6,
-           .iterations = c.solver->march().krylov(),
-           .drop = c.solver->march().linear_drop()};
+           .iterations = c.solver->march().last.krylov,
+           .drop = c.solver->march().last.linear_drop};
   r.per_drop = r.us * std::max(1.0, std::log(p.drop) / std::log(r.drop));
   return r;
 }
@@ -175,8 +175,8 @@ void cylinder(perf::Group& group) {
     const double us = (perf::user_seconds() - begin) / double(c.solver->cells()) * 1e6;
     const std::string name = std::string("cylinder_m0001_6_orders_") + form.name;
     group.figure(name, us, "us/cell", "192 x 96 cells, inviscid, default march");
-    group.figure(name + "_steps", c.solver->march().steps(), "-");
-    group.figure(name + "_krylov", double(c.solver->march().krylov_total()), "-");
+    group.figure(name + "_steps", c.solver->march().steps, "-");
+    group.figure(name + "_krylov", double(c.solver->march().krylov_total), "-");
     if (alone == 0.0)
       alone = us;
     else

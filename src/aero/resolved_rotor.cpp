@@ -233,7 +233,7 @@ std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const double> sums) co
 }
 
 std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const PseudoRow> rows) const {
-  std::vector<double> mean(solver_->judgement().load_sums().size(), 0.0);
+  std::vector<double> mean(solver_->judgement().loads.result.size(), 0.0);
   for (const PseudoRow& row : rows)
     for (std::size_t n = 0; n < mean.size(); ++n) mean[n] += row.loads[n] / double(rows.size());
   return span_loads(std::span<const double>(mean));
@@ -254,13 +254,13 @@ void ResolvedRotor::prepare(MPI_Comm comm, runtime::ExecutorOptions options) {
 
 RotorLoad ResolvedRotor::advance(const RotorPose& end, double pitch) {
   move_to(end, pitch);
-  solver_->clear_rows();
+  solver_->judgement().rows.all.clear();
   march_->run();
-  const March& march = solver_->march();
-  if (march.verdict() == Verdict::failed)
-    throw NumericalFailure(fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}){}", march.why(), march.steps(), march.cfl(),
-                                       solver_->judgement().trouble()),
-                           "aero/rotor", long(solver_->time_steps()), double(solver_->time_steps()) * setup_.dt);
+  const MarchState& march = solver_->march();
+  if (march.verdict == Verdict::failed)
+    throw NumericalFailure(
+        fmt::format("aero: {} (pseudo-step {}, CFL {:.3g}){}", march.why, march.steps, march.cfl, solver_->judgement().trouble()),
+        "aero/rotor", long(solver_->time_steps()), double(solver_->time_steps()) * setup_.dt);
   return load();
 }
 

@@ -87,7 +87,7 @@ class ResolvedRotor {
   RotorLoad blade_load(int blade, const PseudoRow& row) const;
   int grid_blades() const { return int(stations_.size()); }
   /// Along the blades of the grid from root to tip, the same on every rank: after the last march, or the mean over rows of it.
-  std::vector<SpanLoad> span_loads() const { return span_loads(solver_->judgement().load_sums()); }
+  std::vector<SpanLoad> span_loads() const { return span_loads(solver_->judgement().loads.result); }
   std::vector<SpanLoad> span_loads(std::span<const PseudoRow> rows) const;
 
   // For whoever couples: a window may be tried, undone and tried again.

@@ -152,7 +152,7 @@ AirRate measured_air_rate(const ResolvedRotorSetup& scene) {
   rotor.prepare(MPI_COMM_SELF, {.threads = 1});
   const std::clock_t begin = std::clock();
   rotor.run();
-  AirRate rate{.cells = rotor.solver().cells(), .pseudo_steps = std::max(1, rotor.solver().march().steps() - 1)};
+  AirRate rate{.cells = rotor.solver().cells(), .pseudo_steps = std::max(1, rotor.solver().march().steps - 1)};
   rate.core_seconds = double(std::clock() - begin) / CLOCKS_PER_SEC / (double(rate.cells) * rate.pseudo_steps);
   rate.core_seconds *= seconds_per_cell(scene.flow) / seconds_per_cell(setup.flow);  // of steps like the scene's
   return rate;

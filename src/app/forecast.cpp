@@ -340,7 +340,7 @@ std::optional<FlowTrial> try_flow(const coupling::Scenario& s) {
       break;  // the physical steps before count
     }
     window += advance.windows;
-    const aero::March& march = flow.solver().march();
+    const aero::MarchState& march = flow.solver().march();
     const double now = processor_seconds();
     if (steady) {
       trial.steps = int(window), trial.step_s = (now - begun) / double(window);
@@ -348,8 +348,8 @@ std::optional<FlowTrial> try_flow(const coupling::Scenario& s) {
       const double left = orders(s.aero.flow->drop) / orders(march.balance_drop());
       trial.expected_windows = trial.settled ? double(window) : double(window) * (left > 1.0 ? 1.0 + slower * (left - 1.0) : 1.0);
     } else {
-      trial.steps += march.steps() - 1;
-      if (window == 1) at_start = march.steps() - 1, started = now;
+      trial.steps += march.steps - 1;
+      if (window == 1) at_start = march.steps - 1, started = now;
       const int since = trial.steps - at_start;
       trial.steps_per_window = since > 0 ? double(since) / double(window - 1) : double(trial.steps);
       trial.step_s = since > 0 ? (now - started) / since : (now - begun) / trial.steps;

@@ -78,10 +78,10 @@ class ActuatorAir final : public AirSide {
   void prepare(double t, double dt, const aero::RotorState& at_end) override {
     t_ = t, state_ = at_end;
     if (dt == 0.0) return;
-    solver_->next_time_step(dt);
+    solver_->set_time_step(dt);
     solver_->set_wind(wind_until(wind_, t));
     actuator_->place(motion(at_end));
-    solver_->clear_rows();
+    solver_->judgement().rows.all.clear();
   }
 
   Tasks record(runtime::Graph& graph) override {
@@ -91,7 +91,7 @@ class ActuatorAir final : public AirSide {
   void forget_tasks() override { solver_->forget_graphs(); }
 
   aero::RotorLoad load_at_end() override {
-    if (solver_->march().verdict() != aero::Verdict::stopped) require_inside();  // first: what cuts the blades spoils the march
+    if (solver_->march().verdict != aero::Verdict::stopped) require_inside();  // first: what cuts the blades spoils the march
     require_good_step(*solver_, floating_, t_, log_lines_);
     const aero::PseudoRow& row = solver_->rows().back();
     computed_.rotor = actuator_->load(row);
@@ -99,7 +99,7 @@ class ActuatorAir final : public AirSide {
     return load_ = ramped(computed_.rotor, floating_, t_);
   }
   void ease(int retry) override {
-    if (solver_) solver_->march().ease(share_of_cfl(retry));
+    if (solver_) solver_->judgement().march.ease(share_of_cfl(retry));
   }
   const aero::RotorLoad* written() const override { return &load_; }
 
@@ -232,7 +232,7 @@ class ActuatorAir final : public AirSide {
     held.hub_velocity.setZero(), held.omega = state_.speed * state_.axis;
     const std::shared_ptr<aero::Actuator> disc = actuator_of(mean, held);
     solver->set_body_force(disc);
-    solver->march().ease(share_of_cfl(retry));
+    solver->judgement().march.ease(share_of_cfl(retry));
     spdlog::info("air settles for {} pseudo-steps behind the held rotor's disc: {} cells", steps, solver->cells());
     runtime::Graph graph(world_.comm);
     solver->record(graph);

@@ -26,25 +26,24 @@ constexpr const char* choice_name = "air/preconditioner";
 void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& floating, double t,
                        std::vector<std::string>& log_lines) {
   const aero::FlowOptions& flow = *floating.scenario().aero.flow;
-  const aero::March& march = solver.march();
-  if (march.verdict() == aero::Verdict::stopped) throw runtime::StopAsked();
-  if (march.verdict() == aero::Verdict::failed)
+  const aero::MarchState& march = solver.march();
+  if (march.verdict == aero::Verdict::stopped) throw runtime::StopAsked();
+  if (march.verdict == aero::Verdict::failed)
     throw NumericalFailure(fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}){}; try aero.flow.cfl_max below {:g}", t,
-                                       march.why(), march.steps(), march.cfl(), solver.judgement().trouble(), flow.cfl_max),
+                                       march.why, march.steps, march.cfl, solver.judgement().trouble(), flow.cfl_max),
                            "aero/rotor", long(solver.time_steps()), t);
-  const long windows = floating.timeline().windows(), unconverged = march.unconverged();
-  if (march.spent() && unconverged == 1)
+  const long windows = floating.timeline().windows(), unconverged = march.unconverged;
+  if (march.spent && unconverged == 1)
     log_lines.push_back(
         fmt::format("warning: air: the step to t = {:g} s spent its {} pseudo-steps; the flux balance is at {:.2g} of "
                     "that at its start, {:.2g} is asked for",
-                    t, march.steps() - 1, march.balance_drop(), flow.drop));
-  if (double(unconverged) > flow.unconverged_share * double(std::max(windows, march.ended())))
+                    t, march.steps - 1, march.balance_drop(), flow.drop));
+  if (double(unconverged) > flow.unconverged_share * double(std::max(windows, march.ended)))
     throw NumericalFailure(
         fmt::format("t = {:g} s: aero: {} of {} steps spent their {} pseudo-steps without the drop of {:.2g}, more than "
                     "aero.flow.unconverged_share = {:g} of the run's; the last ended at {:.2g}; try more "
                     "aero.flow.max_pseudo_steps or a shorter window",
-                    t, unconverged, march.ended(), flow.max_pseudo_steps, flow.drop, flow.unconverged_share,
-                    march.balance_drop()),
+                    t, unconverged, march.ended, flow.max_pseudo_steps, flow.drop, flow.unconverged_share, march.balance_drop()),
         "aero/rotor", long(solver.time_steps()), t);
 }
 
@@ -56,34 +55,34 @@ int settling_piece(double cells, int steps) {
 void settle(Settling settling, int steps, std::vector<std::string>& log_lines) {
   aero::FlowSolver& solver = settling.solver;
   const auto& thrust = settling.thrust;
-  const aero::March& march = solver.march();
+  const aero::MarchState& march = solver.march();
   const std::optional<io::CheckpointReader> saved = settling.file && settling.first_try ? settling.file->newest() : std::nullopt;
   if (saved) {
     settling.state.read(*saved);
     log_lines.push_back(
-        fmt::format("the air goes on settling after {} pseudo-steps, from {}", march.steps() - 1, saved->path().string()));
+        fmt::format("the air goes on settling after {} pseudo-steps, from {}", march.steps - 1, saved->path().string()));
   }
-  const int before = saved ? march.steps() - 1 : 0;
+  const int before = saved ? march.steps - 1 : 0;
   const auto begin = std::chrono::steady_clock::now();
   double said_s = 0.0;
-  for (int done = before; done == before || (march.spent() && done < steps);) {
-    if (done > before) solver.judgement().keep_last_row();
+  for (int done = before; done == before || (march.spent && done < steps);) {
+    if (done > before) solver.judgement().rows.keep_last();
     settling.run();
-    done = march.steps() - 1;
-    if (march.verdict() == aero::Verdict::stopped) throw runtime::StopAsked();
-    if (settling.file && settling.first_try && march.spent() && done < steps) settling.file->offer(done, settling.state.arrays());
+    done = march.steps - 1;
+    if (march.verdict == aero::Verdict::stopped) throw runtime::StopAsked();
+    if (settling.file && settling.first_try && march.spent && done < steps) settling.file->offer(done, settling.state.arrays());
     const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (spent_s - said_s < 10.0 || done >= steps) continue;
     said_s = spent_s;
     spdlog::info("air settles: {} of {} pseudo-steps, thrust {:.4g} kN, about {} left", done, steps,
                  1e-3 * thrust(solver.rows().back()), io::duration_text(spent_s / (done - before) * (steps - done)));
   }
-  if (march.verdict() == aero::Verdict::failed)
+  if (march.verdict == aero::Verdict::failed)
     throw NumericalFailure(
-        fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}{}", march.why(),
-                    march.steps(), march.cfl(), solver.judgement().trouble(),
-                    settling.file ? settling.file->save_failed(march.steps(), settling.state.arrays()) : std::string()),
-        "aero/rotor", march.steps(), 0.0);
+        fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}{}", march.why, march.steps,
+                    march.cfl, solver.judgement().trouble(),
+                    settling.file ? settling.file->save_failed(march.steps, settling.state.arrays()) : std::string()),
+        "aero/rotor", march.steps, 0.0);
   const auto& rows = solver.rows();
   constexpr std::size_t look_back = 20;
   const double end = thrust(rows.back());
@@ -92,8 +91,7 @@ void settle(Settling settling, int steps, std::vector<std::string>& log_lines) {
           ? fmt::format(", {:+.2g} % in the last {}", 100.0 * (end / thrust(rows[rows.size() - 1 - look_back]) - 1.0), look_back)
           : std::string();
   log_lines.push_back(fmt::format("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}",
-                                  march.steps() - 1, 1e-3 * end, change,
-                                  march.density_residual() / march.first_density_residual()));
+                                  march.steps - 1, 1e-3 * end, change, march.density_drop()));
 }
 
 aero::RotorLoad ramped(aero::RotorLoad load, const FloatingSystem& floating, double t) {

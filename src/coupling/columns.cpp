@@ -314,18 +314,18 @@ Table<WindowReport> strong_columns() {
   return table;
 }
 
-Table<aero::March> march_columns() {
-  using Of = const aero::March&;
-  static constexpr ColumnOf<aero::March> table[] = {
-      {"pseudo_steps", "-", "pseudo-steps of the window's last physical step", [](Of m) { return double(m.steps() - 1); }},
-      {"density_residual", "kg/(m3 s)", "root mean square over the cells after them", [](Of m) { return m.density_residual(); }},
+Table<aero::MarchState> march_columns() {
+  using Of = const aero::MarchState&;
+  static constexpr ColumnOf<aero::MarchState> table[] = {
+      {"pseudo_steps", "-", "pseudo-steps of the window's last physical step", [](Of m) { return double(m.steps - 1); }},
+      {"density_residual", "kg/(m3 s)", "root mean square over the cells after them", [](Of m) { return m.now.density; }},
       {"residual_drop", "-", "the same over its largest in that step",
-       [](Of m) { return m.first_density_residual() > 0.0 ? m.density_residual() / m.first_density_residual() : 0.0; }},
+       [](Of m) { return m.first.density > 0.0 ? m.density_drop() : 0.0; }},
       {"balance_drop", "-", "norm of all scaled flux balances over that of the step's start",
        [](Of m) { return m.balance_drop(); }},
       {"unconverged_steps", "-", "steps so far that spent their pseudo-steps without the drop",
-       [](Of m) { return double(m.unconverged()); }},
-      {"cfl", "-", "CFL number of the last pseudo-step", [](Of m) { return m.cfl(); }}};
+       [](Of m) { return double(m.unconverged); }},
+      {"cfl", "-", "CFL number of the last pseudo-step", [](Of m) { return m.cfl; }}};
   return table;
 }
 

@@ -16,7 +16,7 @@
 #include "src/sea/particle_sea.hpp"
 
 namespace spindrift::aero {
-class March;
+struct MarchState;
 struct MassBalance;
 }  // namespace spindrift::aero
 
@@ -78,7 +78,7 @@ Table<double> run_up_columns();
 Table<sph::PatchReading> sensor_columns();
 Table<WindowReport> window_columns();     ///< coupling.
 Table<WindowReport> strong_columns();     ///< coupling., of schemes that iterate
-Table<aero::March> march_columns();       ///< air.
+Table<aero::MarchState> march_columns();  ///< air.
 Table<aero::MassBalance> mass_columns();  ///< air., of the air alone flow.
 
 /// All of them, for pages.

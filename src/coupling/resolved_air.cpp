@@ -98,10 +98,10 @@ class ResolvedAir final : public AirSide {
   void prepare(double t, double dt, const aero::RotorState& at_end) override {
     t_ = t, state_ = at_end;
     if (dt == 0.0) return;
-    rotor_->solver().next_time_step(dt);
+    rotor_->solver().set_time_step(dt);
     rotor_->solver().set_wind(wind_until(wind_, t));
     rotor_->move_to(pose(at_end));
-    rotor_->solver().clear_rows();
+    rotor_->solver().judgement().rows.all.clear();
   }
 
   Tasks record(runtime::Graph& graph) override {
@@ -117,7 +117,7 @@ class ResolvedAir final : public AirSide {
     return load_ = ramped(along_axis(computed_.rotor), floating_, t_);
   }
   void ease(int retry) override {
-    if (rotor_) rotor_->solver().march().ease(share_of_cfl(retry));
+    if (rotor_) rotor_->solver().judgement().march.ease(share_of_cfl(retry));
   }
   const aero::RotorLoad* written() const override { return &load_; }
 
@@ -255,7 +255,7 @@ class ResolvedAir final : public AirSide {
     aero::ResolvedRotor held(steady, world_.size, world_.rank, piece, grid(), grid_progress());
     spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held.solver().cells());
     held.solver().start_uniform();
-    held.solver().march().ease(share_of_cfl(retry));
+    held.solver().judgement().march.ease(share_of_cfl(retry));
     held.prepare(world_.comm, {.watchdog_s = floating_.scenario().runtime.watchdog_s});
     const AirFile state(held.solver(), held.store(), world_);
     coupling::settle({.solver = held.solver(),

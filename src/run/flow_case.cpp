@@ -85,9 +85,9 @@ void hold(aero::FlowSolver& solver, const HeldTurbulence& stream) {
 
 /// Marches once; `march` was recorded of the solver.
 void look_at_start(aero::FlowSolver& solver, runtime::Executor& march) {
-  solver.march().look();
+  solver.judgement().march.look();
   march.run();
-  solver.clear_rows();
+  solver.judgement().rows.all.clear();
 }
 
 }  // namespace
@@ -212,7 +212,7 @@ void FlowCase::return_to(const aero::FlowSnapshot& to, std::int64_t window, doub
   solver_->restart().restore(to);
   if (rotor_ && !steady()) rotor_->placed_at(window);
   if (motion_) place(window, window_s);
-  solver_->clear_rows();
+  solver_->judgement().rows.all.clear();
 }
 
 void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Executor& march, const runtime::World& world) {
@@ -236,30 +236,30 @@ void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Exec
     if (coarser) {
       look_at_start(solver, executor);
       aero::begin_with(coarser->solver(), solver, {}, world.comm);
-      solver.march().begin_after_look();
+      solver.judgement().march.begin_after_look();
     }
     executor.run();
-    const aero::March& done = solver.march();
-    if (done.verdict() == aero::Verdict::stopped) break;  // the fine march stops at its first step
-    if (done.verdict() == aero::Verdict::failed) {
+    const aero::MarchState& done = solver.march();
+    if (done.verdict == aero::Verdict::stopped) break;  // the fine march stops at its first step
+    if (done.verdict == aero::Verdict::failed) {
       spdlog::warn("air: on a coarser grid of {} cells the march failed ({}); the next begins without it", solver.cells(),
-                   done.why());
+                   done.why);
       coarser.reset();
       continue;
     }
-    if (done.spent() && done.balance_drop() > std::max(unsettled, o.coarse_drop)) {
+    if (done.spent && done.balance_drop() > std::max(unsettled, o.coarse_drop)) {
       spdlog::info(
           "air: on a coarser grid of {} cells the flux balance is at {:.2g} after {} pseudo-steps; the next begins without it",
-          solver.cells(), done.balance_drop(), done.steps() - 1);
+          solver.cells(), done.balance_drop(), done.steps - 1);
       coarser.reset();
       continue;
     }
-    spdlog::info("air: {} pseudo-steps on a coarser grid of {} cells, flux balance down to {:.2g}: {}", done.steps() - 1,
-                 solver.cells(), done.balance_drop(), done.why());
+    spdlog::info("air: {} pseudo-steps on a coarser grid of {} cells, flux balance down to {:.2g}: {}", done.steps - 1,
+                 solver.cells(), done.balance_drop(), done.why);
     coarser = std::move(next);
   }
   if (coarser) aero::begin_with(coarser->solver(), *solver_, {}, world.comm), way_ = Way::coarser_grids;
-  solver_->march().begin_after_look();
+  solver_->judgement().march.begin_after_look();
 }
 
 void FlowCase::take(Way way) {
@@ -282,8 +282,8 @@ std::string FlowCase::begin_again(const coupling::Scenario& s) {
     return {};
   }
   begin(o.start);
-  solver_->march().begin_again();
-  solver_->clear_rows();
+  solver_->judgement().march.begin_again();
+  solver_->judgement().rows.all.clear();
   return what;
 }
 

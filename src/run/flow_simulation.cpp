@@ -34,10 +34,6 @@ class FinalFlow final : public Output {
   std::function<void(std::int64_t)> write_;
 };
 
-double density_drop(const aero::March& march) {
-  return march.density_residual() / std::max(march.first_density_residual(), 1e-300);
-}
-
 }  // namespace
 
 FlowSimulation::FlowSimulation(const coupling::Scenario& scenario, const io::RunDirectory& directory, const runtime::World& world,
@@ -103,7 +99,7 @@ void FlowSimulation::restore(const io::CheckpointReader& file) {
   if (air_.motion()) air_.place(window, timeline_.window_s());
   // Where nothing is left to do, what is said and written of the flow needs its residual and its slopes at walls.
   if (air_.steady() && window >= timeline_.windows()) {
-    air_.solver().march().look();
+    air_.solver().judgement().march.look();
     march_->run();
   }
 }
@@ -119,22 +115,22 @@ void FlowSimulation::save(io::CheckpointCopy& copy) {
 
 Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   aero::FlowSolver& solver = air_.solver();
-  aero::March& march = solver.march();
-  if (air_.steady() && march.spent() && march.stands_still())
+  const aero::MarchState& march = solver.march();
+  if (air_.steady() && march.spent && solver.judgement().march.stands_still())
     begin_again(fmt::format("the flux balance is at {:.2g} and was not halved in the last {} pseudo-steps, CFL {:.2g}",
-                            march.balance_drop(), march.still_for(), march.cfl()));
+                            march.balance_drop(), march.still_for, march.cfl));
   aero::FlowSnapshot before = air_.snapshot();
   rows_.clear(), rows_from_ = window;
   for (int retry = 0;; ++retry) {
-    march.ease(coupling::share_of_cfl(retry));
+    solver.judgement().march.ease(coupling::share_of_cfl(retry));
     air_.move(window, timeline_.window_s());
     march_->run();
-    const bool given_up = march.verdict() == aero::Verdict::stopped && !air_.steady();
-    if (march.verdict() != aero::Verdict::failed && !given_up) break;
+    const bool given_up = march.verdict == aero::Verdict::stopped && !air_.steady();
+    if (march.verdict != aero::Verdict::failed && !given_up) break;
     const std::string failure =
         fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}",
-                    timeline_.window_end_s(window), march.why(), march.steps(), march.cfl(), march.density_residual(),
-                    march.first_density_residual(), solver.judgement().trouble());
+                    timeline_.window_end_s(window), march.why, march.steps, march.cfl, march.now.density, march.first.density,
+                    solver.judgement().trouble());
     air_.return_to(before, window, timeline_.window_s());
     if (given_up) return {};
     if (retry == coupling::most_retries && begin_again(failure)) {
@@ -151,21 +147,21 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   Advance advance;
   if (air_.steady()) {
     // The last row of a chunk that goes on is judged, and written, by the next.
-    const std::size_t judged = solver.rows().size() - (march.spent() ? 1 : 0);
+    const std::size_t judged = solver.rows().size() - (march.spent ? 1 : 0);
     const auto count = std::min(std::int64_t(judged), last - window);
     rows_.assign(solver.rows().begin(), solver.rows().begin() + count);
     last_rows_.insert(last_rows_.end(), rows_.begin(), rows_.end());
     while (last_rows_.size() > averaged(last)) last_rows_.pop_front();
-    if (march.verdict() == aero::Verdict::converged && !march.spent())
-      advance.settled = fmt::format("{}; flux balance at {:.2g}, density residual at {:.2g} of the start", march.why(),
-                                    march.balance_drop(), density_drop(march));
+    if (march.verdict == aero::Verdict::converged && !march.spent)
+      advance.settled = fmt::format("{}; flux balance at {:.2g}, density residual at {:.2g} of the start", march.why,
+                                    march.balance_drop(), march.density_drop());
     if (!advance.settled.empty())
       if (const std::string walls = unresolved_walls(first_cells(solver, world_)); !walls.empty())
         advance.failure = fmt::format("aero: {}, but {}", std::exchange(advance.settled, {}), walls);
-    solver.judgement().keep_last_row();
+    solver.judgement().rows.keep_last();
   } else {
     rows_ = {solver.rows().back()};
-    solver.clear_rows();
+    solver.judgement().rows.all.clear();
     advance.failure = unconverged_windows(window + 1);
   }
   advance.windows = std::int64_t(rows_.size());
@@ -184,20 +180,20 @@ bool FlowSimulation::begin_again(const std::string& why) {
 /// did than aero.flow.unconverged_share allows, else empty.
 std::string FlowSimulation::unconverged_windows(std::int64_t window) const {
   const aero::FlowSolver& solver = air_.solver();
-  const aero::March& march = solver.march();
+  const aero::MarchState& march = solver.march();
   const aero::FlowOptions& o = *scenario_.aero.flow;
   const double t = timeline_.window_end_s(window), most = o.unconverged_share * double(timeline_.windows());
-  if (march.spent() && march.unconverged() == 1)
+  if (march.spent && march.unconverged == 1)
     spdlog::warn(
         "air: the window to t = {:.6g} s spent its {} pseudo-steps; the flux balance is at {:.2g} of that at its start, {:.2g} "
         "is asked for; {}",
-        t, march.steps() - 1, march.balance_drop(), o.drop, solver.worst_cells(world_.comm));
-  if (double(march.unconverged()) <= most) return {};
+        t, march.steps - 1, march.balance_drop(), o.drop, solver.worst_cells(world_.comm));
+  if (double(march.unconverged) <= most) return {};
   return fmt::format(
       "aero: {} of {} windows spent their {} pseudo-steps without the drop of {:.2g} (aero.flow.max_pseudo_steps, .drop), at "
       "most "
       "{:g} may (aero.flow.unconverged_share); the last, to t = {:.6g} s, ended at {:.2g}; {}",
-      march.unconverged(), march.ended(), solver.setting().march.max_steps, o.drop, std::floor(most), t, march.balance_drop(),
+      march.unconverged, march.ended, solver.setting().march.max_steps, o.drop, std::floor(most), t, march.balance_drop(),
       solver.worst_cells(world_.comm));
 }
 
@@ -207,12 +203,12 @@ std::string FlowSimulation::failure_at_end() const {
     const std::string walls = unresolved_walls(first_cells(air_.solver(), world_));
     return walls.empty() ? walls : "aero: " + walls;
   }
-  const aero::March& march = air_.solver().march();
+  const aero::MarchState& march = air_.solver().march();
   return fmt::format(
       "aero: not converged in the {} pseudo-steps of the scene: the flux balance is at {:.2g} of that at the start, the density "
       "residual at {:.2g}, {:.2g} is asked for (aero.flow.drop; 0 takes all steps whatever they reach); {}; --restart with a "
       "larger time.end_s goes on",
-      march.steps_made(), march.balance_drop(), density_drop(march), o.drop, air_.solver().worst_cells(world_.comm));
+      march.steps_made(), march.balance_drop(), march.density_drop(), o.drop, air_.solver().worst_cells(world_.comm));
 }
 
 std::string FlowSimulation::done() const { return air_.steady() ? "done: the pseudo-steps of the scene are spent" : "done"; }
@@ -223,7 +219,7 @@ void FlowSimulation::declare(io::History& history) {
 
 void FlowSimulation::fill_row(std::int64_t window, std::span<double> row) {
   columns_->fill(row, timeline_.window_end_s(window), air_.solver().setting(), rows_.at(std::size_t(window - rows_from_ - 1)),
-                 *scenario_.aero.flow, flow_wind(scenario_), air_.solver().march().unconverged());
+                 *scenario_.aero.flow, flow_wind(scenario_), air_.solver().march().unconverged);
 }
 
 std::vector<std::unique_ptr<Output>> FlowSimulation::outputs(const io::RunDirectory&, double) {
@@ -258,7 +254,7 @@ void FlowSimulation::write_at_end(std::int64_t window) {
 void FlowSimulation::summarise(io::Summary& summary, runtime::Ledger&) {
   summary.counts.emplace_back("cells", air_.solver().cells());
   summary.numerical_trouble.insert(summary.numerical_trouble.end(), doubts_.begin(), doubts_.end());
-  summary.counts.emplace_back("krylov_steps", air_.solver().march().krylov_total());
+  summary.counts.emplace_back("krylov_steps", air_.solver().march().krylov_total);
 }
 
 }  // namespace spindrift::run

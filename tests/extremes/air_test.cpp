@@ -42,8 +42,8 @@ Left march(const MultiBlockGrid& grid, double mach, bool from_rest, double cfl, 
   if (from_rest) c.solver->start([](const Eigen::Vector3d&) { return gas::Primitive<double>{}; });
   c.prepare();
   c.run();
-  const March& m = c.solver->march();
-  Left left{true, m.density_residual(), m.first_density_residual(), m.cfl(), m.rejections(), m.verdict(), m.why()};
+  const MarchState& m = c.solver->march();
+  Left left{true, m.now.density, m.first.density, m.cfl, m.rejections, m.verdict, m.why};
   for (const FlowTile& tile : c.solver->tiles())
     for_rows(tile.box, [&](int k, int j) {
       for (int i = 0; i < tile.box.ni; ++i) {

@@ -37,10 +37,10 @@ Left march(const ResolvedRotorSetup& setup, bool from_rest) {
   from_rest ? solver.start([](const Eigen::Vector3d&) { return gas::Primitive<double>{}; }) : solver.start_uniform();
   r.prepare(MPI_COMM_SELF, {.threads = 1});
   r.run();
-  const March& m = solver.march();
-  CAPTURE(m.why(), m.cfl(), m.rejections());
-  CHECK((m.verdict() == Verdict::converged || (m.verdict() == Verdict::failed && *m.why() != '\0')));
-  Left left{.load = r.load(), .residual = m.density_residual(), .stirred = m.first_density_residual()};
+  const MarchState& m = solver.march();
+  CAPTURE(m.why, m.cfl, m.rejections);
+  CHECK((m.verdict == Verdict::converged || (m.verdict == Verdict::failed && *m.why != '\0')));
+  Left left{.load = r.load(), .residual = m.now.density, .stirred = m.first.density};
   const gas::IdealGas& gas = solver.setting().gas;
   for (const FlowTile& tile : solver.tiles())
     for_rows(tile.box, [&](int k, int j) {

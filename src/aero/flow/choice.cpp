@@ -48,7 +48,7 @@ Choice choose_preconditioner(FlowSolver& solver, MPI_Comm comm, int threads) {
     runtime::Graph graph(comm);
     trial.record(graph);
     runtime::Executor(std::move(graph), {.threads = threads}).run();
-    Trial t{.preconditioner = name, .iterations = trial.march().krylov(), .drop = trial.march().linear_drop()};
+    Trial t{.preconditioner = name, .iterations = trial.march().last.krylov, .drop = trial.march().last.linear_drop};
     const double wanted = s.march.krylov_drop;
     t.needed = t.drop <= wanted ? t.iterations : t.drop < 1.0 ? t.iterations * std::log(wanted) / std::log(t.drop) : 1e6;
     t.cost = cost_of(t, {}, solver.cells(), groups, groups <= s.common.direct_groups);

@@ -17,44 +17,43 @@ constexpr double from_the_first = 2.0;  ///< as matrix_free_below
 
 }  // namespace
 
+double MarchState::balance_drop() const {
+  const auto of = [](double now, double was) { return was > 0.0 ? now / was : 0.0; };
+  return std::max(of(now.mean, first.mean), of(now.model, std::max(first.model, first.mean)));
+}
+
 void March::begin_step() {
-  steps_ = rejections_ = in_a_row_ = 0;
+  s_.steps = s_.rejections = rejected_in_a_row_ = 0;
   last_step_ = looking_ ? 0 : o_.max_steps;
-  first_ = before_ = first_mean_ = first_model_ = 0.0;
-  matrix_free_ = retry_ = spent_ = singular_ = false;
-  ceiling_ = 0.0;
-  fraction_ = 1.0, linear_drop_ = 0.0;
+  s_.first = {};
+  s_.matrix_free = s_.spent = false;
+  s_.last.fraction = 1.0, s_.last.linear_drop = 0.0;
+  made_ = Made::nothing;
+  ceiling_ = matrix_.cfl = 0.0;
   loads_.clear();
-  cfl_of_matrix_ = 0.0;
 }
 
 void March::begin_after_look() {
-  reference_ = density_, reference_mean_ = mean_, reference_model_ = model_;
-  if (spent_) uncount();  // a look is no march
+  reference_ = s_.now;
+  reopen();  // a look is no march
   looking_ = false;
   begin_step();
-  verdict_ = Verdict::go_on;
 }
 
 void March::ease(double factor) {
-  eased_ = factor < 1.0 ? factor * cfl_ / o_.cfl_max : 1.0;
-  cfl_ = std::min(cfl_, std::max(o_.cfl_least, eased_ * o_.cfl_max));
+  eased_ = factor < 1.0 ? factor * s_.cfl / o_.cfl_max : 1.0;
+  s_.cfl = std::min(s_.cfl, std::max(o_.cfl_least, eased_ * o_.cfl_max));
 }
 
-void March::stop() {
-  why_ = "asked to stop";
-  verdict_ = Verdict::stopped;
-  spent_ = true, ++ended_, unconverged_ += o_.drop > 0.0;  // as a march that ends for want of steps: resume() undoes it
-}
-
-/// What a restart needs of a march besides its loads, one after the other.
+/// What a restart needs of a march besides its loads, as a file has it: the mean flow's norm twice.
 template <class Self, class Body>
 void March::for_saved(Self& m, Body&& body) {
   const auto each = [&](auto&... values) { (body(values), ...); };
-  each(m.cfl_, m.cfl_of_step_, m.density_, m.mass_, m.first_, m.before_, m.fraction_, m.linear_drop_, m.steps_, m.rejections_,
-       m.in_a_row_, m.krylov_, m.ceiling_, m.since_refresh_, m.drop_of_matrix_, m.matrix_free_, m.mean_, m.model_, m.first_mean_,
-       m.first_model_, m.ended_, m.unconverged_, m.spent_, m.reference_, m.reference_mean_, m.reference_model_, m.abandoned_,
-       m.better_, m.since_better_);
+  auto& s = m.s_;
+  each(s.cfl, s.last.cfl, s.now.density, s.mass_residual, s.first.density, s.now.mean, s.last.fraction, s.last.linear_drop,
+       s.steps, s.rejections, m.rejected_in_a_row_, s.last.krylov, m.ceiling_, m.matrix_.age, m.matrix_.drop, s.matrix_free,
+       s.now.mean, s.now.model, s.first.mean, s.first.model, s.ended, s.unconverged, s.spent, m.reference_.density,
+       m.reference_.mean, m.reference_.model, s.steps_before, m.better_, s.still_for);
 }
 
 std::vector<double> March::save() const {
@@ -77,127 +76,138 @@ void March::load(std::span<const double> from) {
   loads_.assign(from.begin() + std::ptrdiff_t(n), from.begin() + std::ptrdiff_t(n + count));
 }
 
-void March::uncount() { --ended_, unconverged_ -= o_.drop > 0.0; }
-
-double March::balance_drop() const {
-  const auto of = [](double now, double was) { return was > 0.0 ? now / was : 0.0; };
-  return std::max(of(mean_, first_mean_), of(model_, std::max(first_model_, first_mean_)));
+/// A march that has ended goes on: it has not ended for want of steps.
+void March::reopen() {
+  if (s_.spent) --s_.ended, s_.unconverged -= o_.drop > 0.0;
+  s_.spent = false;
+  s_.verdict = Verdict::go_on;
 }
 
 void March::resume(int more_steps) {
   // The last step of the run before was judged and not solved: it is judged again.
-  last_step_ = --steps_ + (std::exchange(looking_, false) ? 0 : more_steps);
-  if (spent_) uncount();
-  verdict_ = Verdict::go_on;
-  spent_ = false;
-  retry_ = true;
-  cfl_of_matrix_ = 0.0;
+  last_step_ = --s_.steps + (std::exchange(looking_, false) ? 0 : more_steps);
+  reopen();
+  made_ = Made::nothing;
+  matrix_.cfl = 0.0;
 }
 
 bool March::stands_still() const {
   if (!o_.by_balance || o_.drop <= 0.0 || better_ <= o_.still_above) return false;
-  return since_better_ >= o_.still_steps || cfl_ <= 10.0 * o_.cfl_least;
+  return s_.still_for >= o_.still_steps || s_.cfl <= 10.0 * o_.cfl_least;
 }
 
 void March::begin_again() {
-  if (spent_) uncount();
-  abandoned_ += std::max(0, steps_ - 1);
-  cfl_ = o_.cfl_start, eased_ = 1.0;
-  since_refresh_ = since_better_ = 0, drop_of_matrix_ = 0.0;
+  reopen();
+  s_.steps_before += std::max(0, s_.steps - 1);
+  s_.cfl = o_.cfl_start, eased_ = 1.0;
+  s_.still_for = 0, matrix_ = {};
   begin_step();
-  verdict_ = Verdict::go_on;
 }
 
 Verdict March::judge(const Norms& n, double load) {
-  const double total = std::sqrt(n.mean), density = std::sqrt(n.density / n.cells);
-  const bool fresh = steps_ == 0;
-  const bool singular = std::exchange(singular_, false), stepped = !fresh && !retry_;
-  const bool leapt = stepped && n.model > n.mean && std::sqrt(n.model) > o_.leap_limit * model_ && model_ > 0.0;
-  const bool bad = n.broken > 0.0 || !std::isfinite(total) || singular || (stepped && total > o_.rise_limit * before_) || leapt;
-  ++steps_;
-  if (bad) {
-    ++rejections_;
-    if (fresh) {
-      why_ = "the state it starts from has no finite residual";
-      return verdict_ = Verdict::failed;
-    }
-    if (leapt) ceiling_ = 0.5 * cfl_;
-    cfl_ *= o_.back_off;
-    retry_ = true;
-    cfl_of_matrix_ = 0.0;
-    if (++in_a_row_ > 12 || cfl_ < o_.cfl_least) {
-      why_ = "no pseudo-step was small enough";
-      return verdict_ = Verdict::failed;
-    }
-    return verdict_ = Verdict::rejected;
-  }
-  density_ = density, mass_ = std::sqrt(n.mass / n.cells), mean_ = total, model_ = std::sqrt(n.model);
-  if (fresh) {
-    first_ = std::max(density, reference_), before_ = total;
-    first_mean_ = std::max({total, reference_mean_, std::sqrt(n.forced)}),
-    first_model_ = std::max(std::sqrt(n.model), reference_model_);
-    if (reference_ > 0.0) cfl_ = std::clamp(o_.cfl_start * first_ / density, cfl_, std::max(cfl_, o_.cfl_max));
-  }
-  first_ = std::max(first_, density);  // what an impulsive start stirs up counts as the start
+  const Residuals found{std::sqrt(n.density / n.cells), std::sqrt(n.mean), std::sqrt(n.model)}, before = s_.now;
+  const bool fresh = s_.steps == 0;
+  const Made made = std::exchange(made_, Made::nothing);
+  const bool stepped = made == Made::step;
+  const bool leapt = stepped && n.model > n.mean && found.model > o_.leap_limit * before.model && before.model > 0.0;
+  ++s_.steps;
+  if (n.broken > 0.0 || !std::isfinite(found.mean) || made == Made::singular_matrix || leapt ||
+      (stepped && found.mean > o_.rise_limit * before.mean))
+    return reject(leapt);
+  s_.now = found, s_.mass_residual = std::sqrt(n.mass / n.cells);
+  if (fresh) begin_drop(n);
+  s_.first.density = std::max(s_.first.density, found.density);  // what an impulsive start stirs up counts as the start
   if (stepped) {
-    in_a_row_ = 0;
-    const double ratio = before_ > 0.0 ? total / before_ : 1.0;
-    // Full steps let the number grow by what the residual fell, and by a little where it did not rise much; shortened ones hold
-    // it. So does a linear system that was hardly solved: its solution is no Newton step, and larger ones would be worse.
-    if (linear_drop_ > 0.9)
-      cfl_ *= 0.6;
-    else if (fraction_ > 0.99 && linear_drop_ < 0.7)
-      cfl_ *= std::clamp(ratio < 1.0 ? std::max(1.3, 1.0 / ratio) : 1.3 / (ratio * ratio), 0.5, o_.growth);
-    else if (fraction_ < 0.3)
-      cfl_ *= 0.5;
-    if (ceiling_ > 0.0) {
-      ceiling_ *= 1.1;
-      cfl_ = std::min(cfl_, ceiling_);
-    }
-    cfl_ = std::clamp(cfl_, o_.cfl_least, std::max(o_.cfl_least, eased_ * o_.cfl_max));
+    rejected_in_a_row_ = 0, ++s_.still_for;
+    adapt_cfl(before.mean > 0.0 ? found.mean / before.mean : 1.0);
   }
-  retry_ = false;
-  before_ = total;
-  if (stepped) ++since_better_;
-  if (fresh || balance_drop() < 0.5 * better_) better_ = balance_drop(), since_better_ = 0;
-  if (o_.by_balance && o_.drop > 0.0 && o_.matrix_free_below > 0.0 && !matrix_free_ && since_better_ >= circling_steps)
-    o_.matrix_free_below = from_the_first;
-  if (o_.matrix_free_below > 0.0) matrix_free_ = density < o_.matrix_free_below * first_;
-  const double of_matrix = cfl_of_matrix_ > 0.0 ? cfl_ / cfl_of_matrix_ : 0.0;
-  refresh_ = !matrix_free_ || ++since_refresh_ >= o_.refresh_every || !(of_matrix > 0.5 && of_matrix < 2.0) ||
-             linear_drop_ > std::max(o_.krylov_drop, 1.5 * drop_of_matrix_);
-  if (refresh_) since_refresh_ = 0, cfl_of_matrix_ = cfl_;
-  const auto done = [&](const char* why) {
-    why_ = why, ++ended_;
-    return verdict_ = Verdict::converged;
-  };
+  if (fresh || s_.balance_drop() < 0.5 * better_) better_ = s_.balance_drop(), s_.still_for = 0;
+  choose_operator();
   if (int(loads_.size()) > o_.load_window) loads_.erase(loads_.begin());
   loads_.push_back(load);
-  if (steps_ > o_.min_steps) {
-    if (o_.by_balance && balance_drop() <= o_.drop) return done("the flux balance fell by the drop asked for");
-    if (o_.by_balance && n.mean + n.model <= n.noise) return done("the flux balance is down to round-off");
-    if (!o_.by_balance && density <= o_.drop * first_) return done("the density residual fell by the drop asked for");
-    if (density <= o_.absolute) return done("the density residual is below the absolute limit");
-    if (o_.load_change > 0.0 && int(loads_.size()) > o_.load_window) {
-      const auto [low, high] = std::minmax_element(loads_.end() - o_.load_window, loads_.end());
-      if (*high - *low <= o_.load_change * std::max(std::abs(*low), std::abs(*high))) return done("the loads have settled");
-    }
+  if (s_.steps > o_.min_steps)
+    if (const char* why = why_done(n)) return end(Verdict::converged, why);
+  if (s_.steps > last_step_) return end(Verdict::converged, "the number of pseudo-steps is spent", true);
+  return s_.verdict = Verdict::go_on;
+}
+
+Verdict March::end(Verdict verdict, const char* why, bool spent) {
+  s_.why = why;
+  s_.ended += verdict != Verdict::failed;
+  if (spent) s_.spent = true, s_.unconverged += o_.drop > 0.0;
+  return s_.verdict = verdict;
+}
+
+Verdict March::reject(bool leapt) {
+  ++s_.rejections;
+  if (s_.steps == 1) return end(Verdict::failed, "the state it starts from has no finite residual");
+  if (leapt) ceiling_ = 0.5 * s_.cfl;
+  s_.cfl *= o_.back_off;
+  matrix_.cfl = 0.0;
+  if (++rejected_in_a_row_ > 12 || s_.cfl < o_.cfl_least) return end(Verdict::failed, "no pseudo-step was small enough");
+  return s_.verdict = Verdict::rejected;
+}
+
+/// The first state of a march has been found good.
+void March::begin_drop(const Norms& n) {
+  const Residuals& least = reference_;
+  s_.first = {std::max(s_.now.density, least.density), std::max({s_.now.mean, least.mean, std::sqrt(n.forced)}),
+              std::max(s_.now.model, least.model)};
+  if (least.density > 0.0)
+    s_.cfl = std::clamp(o_.cfl_start * s_.first.density / s_.now.density, s_.cfl, std::max(s_.cfl, o_.cfl_max));
+}
+
+/// After a step that is kept, by the mean flow's residual over that before it. Full steps let the number grow by what the
+/// residual fell, and by a little where it did not rise much; shortened ones hold it. So does a linear system that was hardly
+/// solved: its solution is no Newton step, and larger ones would be worse.
+void March::adapt_cfl(double ratio) {
+  if (s_.last.linear_drop > 0.9)
+    s_.cfl *= 0.6;
+  else if (s_.last.fraction > 0.99 && s_.last.linear_drop < 0.7)
+    s_.cfl *= std::clamp(ratio < 1.0 ? std::max(1.3, 1.0 / ratio) : 1.3 / (ratio * ratio), 0.5, o_.growth);
+  else if (s_.last.fraction < 0.3)
+    s_.cfl *= 0.5;
+  if (ceiling_ > 0.0) {
+    ceiling_ *= 1.1;
+    s_.cfl = std::min(s_.cfl, ceiling_);
   }
-  if (steps_ > last_step_) {
-    spent_ = true;
-    unconverged_ += o_.drop > 0.0;
-    return done("the number of pseudo-steps is spent");
+  s_.cfl = std::clamp(s_.cfl, o_.cfl_least, std::max(o_.cfl_least, eased_ * o_.cfl_max));
+}
+
+/// The stored matrix or the linearised residual, and whether the matrix is made anew.
+void March::choose_operator() {
+  if (o_.by_balance && o_.drop > 0.0 && o_.matrix_free_below > 0.0 && !s_.matrix_free && s_.still_for >= circling_steps)
+    o_.matrix_free_below = from_the_first;
+  if (o_.matrix_free_below > 0.0) s_.matrix_free = s_.now.density < o_.matrix_free_below * s_.first.density;
+  const double of_matrix = matrix_.cfl > 0.0 ? s_.cfl / matrix_.cfl : 0.0;
+  s_.refresh = !s_.matrix_free || ++matrix_.age >= o_.refresh_every || !(of_matrix > 0.5 && of_matrix < 2.0) ||
+               s_.last.linear_drop > std::max(o_.krylov_drop, 1.5 * matrix_.drop);
+  if (s_.refresh) matrix_.age = 0, matrix_.cfl = s_.cfl;
+}
+
+/// Null: it is not.
+const char* March::why_done(const Norms& n) const {
+  if (o_.by_balance && s_.balance_drop() <= o_.drop) return "the flux balance fell by the drop asked for";
+  if (o_.by_balance && n.mean + n.model <= n.noise) return "the flux balance is down to round-off";
+  if (!o_.by_balance && s_.now.density <= o_.drop * s_.first.density) return "the density residual fell by the drop asked for";
+  if (s_.now.density <= o_.absolute) return "the density residual is below the absolute limit";
+  if (o_.load_change > 0.0 && int(loads_.size()) > o_.load_window) {
+    const auto [low, high] = std::minmax_element(loads_.end() - o_.load_window, loads_.end());
+    if (*high - *low <= o_.load_change * std::max(std::abs(*low), std::abs(*high))) return "the loads have settled";
   }
-  return verdict_ = Verdict::go_on;
+  return nullptr;
 }
 
 void March::updated(double fraction, int krylov, double linear_drop) {
-  cfl_of_step_ = cfl_;
-  linear_drop_ = linear_drop;
-  if (refresh_) drop_of_matrix_ = linear_drop;
-  fraction_ = fraction;
-  krylov_ = krylov;
-  krylov_total_ += krylov;
+  made_ = Made::step;
+  s_.last = {s_.cfl, fraction, linear_drop, krylov};
+  if (s_.refresh) matrix_.drop = linear_drop;
+  s_.krylov_total += krylov;
+}
+
+void March::not_updated() {
+  made_ = Made::singular_matrix;
+  s_.last.linear_drop = 1.0;
 }
 
 }  // namespace spindrift::aero

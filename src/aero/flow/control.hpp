@@ -4,9 +4,9 @@
 // tests/src/aero/flow/control_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace spindrift::aero {
@@ -47,9 +47,54 @@ struct Norms {
 enum class Verdict : std::uint8_t { go_on, rejected, converged, failed, stopped };
 constexpr bool ends_march(Verdict v) { return v == Verdict::converged || v == Verdict::failed || v == Verdict::stopped; }
 
+/// Of a state, over all cells.
+struct Residuals {
+  double density = 0.0;  ///< root mean square of the density's rate [kg/(m3 s)]
+  double mean = 0.0;     ///< norm of the scaled flux balances of the mean flow
+  double model = 0.0;    ///< likewise of turbulence
+};
+
+/// A pseudo-step that was made.
+struct PseudoStep {
+  double cfl = 0.0;
+  double fraction = 1.0;     ///< of the update that was applied
+  double linear_drop = 0.0;  ///< of the linear system's residual
+  int krylov = 0;            ///< iterations
+};
+
+/// Where a march is, as last judged.
+struct MarchState {
+  Verdict verdict = Verdict::go_on;
+  const char* why = "";  ///< it ended
+  bool spent = false;    ///< it ended for want of steps
+  int steps = 0;         ///< states judged since it began
+  int rejections = 0;
+  double cfl = 0.0;            ///< of the next step
+  Residuals now, first;        ///< `first`: of its start, or of what stands for that
+  double mass_residual = 0.0;  ///< root mean square of the mass balances [kg/s]
+  PseudoStep last;
+  int still_for = 0;         ///< pseudo-steps since the flux balance last came to half
+  bool matrix_free = false;  ///< the products of the next step
+  /// Whether the matrix is to be made anew: always where it is the operator; else after refresh_every steps, or sooner where the
+  /// CFL number has left a factor of two, a step was rejected, or a linear system was solved worse than with the fresh matrix.
+  bool refresh = true;
+  long steps_before = 0;  ///< pseudo-steps of a steady march before it began again
+  long krylov_total = 0;
+  long ended = 0, unconverged = 0;  ///< marches so far that came to an end, and those of them that ended for want of steps
+
+  long steps_made() const { return steps_before + steps - 1; }
+  double density_drop() const { return now.density / std::max(first.density, 1e-300); }
+  /// The norm of all scaled flux balances over its start, or over that of forces inside the air where a step starts nearer its
+  /// end: the larger of the mean flow's and of turbulence's, which starts with as much as the mean flow at least.
+  double balance_drop() const;
+};
+
 class March {
  public:
-  explicit March(const MarchOptions& options) : o_(options), cfl_(options.cfl_start) {}
+  explicit March(const MarchOptions& options) : o_(options) { s_.cfl = options.cfl_start; }
+
+  const MarchState& state() const { return s_; }
+  const MarchOptions& options() const { return o_; }
 
   /// A new physical step: the CFL number stays.
   void begin_step();
@@ -57,7 +102,6 @@ class March {
   void ease(double factor);
   /// A steady march goes on where it was, for at most so many more steps.
   void resume(int more_steps);
-  void set_drop(double drop) { o_.drop = drop; }
   /// The next run judges the state it finds and makes no step; of a march that has begun it changes nothing else ...
   void look() { looking_ = true; }
   /// ... and the one after it begins anew with another state, but what its residual was then counts as the start of its drop.
@@ -74,60 +118,40 @@ class March {
   /// After each update: the fraction of it that was applied, and the Krylov iterations it took. Without one, as a matrix was
   /// singular, the step is rejected.
   void updated(double fraction, int krylov, double linear_drop);
-  void not_updated() { singular_ = true, linear_drop_ = 1.0; }
+  void not_updated();
   /// Instead of another step.
-  void stop();
-
-  double cfl() const { return cfl_; }
-  double cfl_of_step() const { return steps_ == 0 ? cfl_ : cfl_of_step_; }  ///< of the step made last
-  int steps() const { return steps_; }
-  long steps_made() const { return abandoned_ + steps_ - 1; }  ///< of a steady march also before it began again
-  int still_for() const { return since_better_; }              ///< pseudo-steps since the flux balance last came to half
-  int rejections() const { return rejections_; }
-  bool matrix_free() const { return matrix_free_; }
-  double density_residual() const { return density_; }
-  double mass_residual() const { return mass_; }
-  double first_density_residual() const { return first_; }
-  /// The norm of all scaled flux balances over its start, or over that of forces inside the air where a step starts nearer its
-  /// end: the larger of the mean flow's and of turbulence's, which starts with as much as the mean flow at least.
-  double balance_drop() const;
-  /// Marches so far that came to an end, and those of them that ended for want of steps.
-  long ended() const { return ended_; }
-  long unconverged() const { return unconverged_; }
-  Verdict verdict() const { return verdict_; }
-  bool spent() const { return spent_; }  ///< ended for want of steps
-  /// Whether the matrix is to be made anew: always where it is the operator; else after refresh_every steps, or sooner where the
-  /// CFL number has left a factor of two, a step was rejected, or a linear system was solved worse than with the fresh matrix.
-  bool refresh() const { return refresh_; }
-  const char* why() const { return why_; }
-  int krylov() const { return krylov_; }
-  long krylov_total() const { return krylov_total_; }
-  double fraction() const { return fraction_; }
-  double linear_drop() const { return linear_drop_; }
-  const MarchOptions& options() const { return o_; }
+  void stop() { end(Verdict::stopped, "asked to stop", true); }
 
  private:
+  /// Since the last judgement.
+  enum class Made : std::uint8_t { nothing, step, singular_matrix };
+  /// The matrix of the preconditioner.
+  struct Matrix {
+    int age = 0;                   ///< pseudo-steps
+    double cfl = 0.0, drop = 0.0;  ///< the CFL number it was made for; of the first linear system that was solved with it
+  };
+
   template <class Self, class Body>
   static void for_saved(Self& march, Body&& body);
-  void uncount();  ///< the march that ended for want of steps goes on
+  void reopen();
+  Verdict end(Verdict verdict, const char* why, bool spent = false);
+  Verdict reject(bool leapt);
+  void begin_drop(const Norms& norms);
+  void adapt_cfl(double ratio);
+  void choose_operator();
+  const char* why_done(const Norms& norms) const;
+
   MarchOptions o_;
-  double cfl_, cfl_of_step_ = 0.0, eased_ = 1.0, density_ = 0.0, mass_ = 0.0, first_ = 0.0, before_ = 0.0, fraction_ = 1.0,
-               linear_drop_ = 0.0;
-  double mean_ = 0.0, model_ = 0.0, first_mean_ = 0.0, first_model_ = 0.0;  ///< norms of the flux balances: now, at the start
-  long ended_ = 0, unconverged_ = 0;
-  long abandoned_ = 0;   ///< pseudo-steps of marches that began again
-  double better_ = 0.0;  ///< the balance's drop when it last came to half of what it was
-  int since_better_ = 0;
-  int steps_ = 0, last_step_ = 0, rejections_ = 0, in_a_row_ = 0, krylov_ = 0;
-  long krylov_total_ = 0;
-  int since_refresh_ = 0;
-  double cfl_of_matrix_ = 0.0, drop_of_matrix_ = 0.0;
+  MarchState s_;
+  Residuals reference_;   ///< least that count as those of the start
+  double eased_ = 1.0;    ///< share of the scene's largest CFL number
   double ceiling_ = 0.0;  ///< of the CFL number after a leap of turbulence; 0: none
-  double reference_ = 0.0, reference_mean_ = 0.0, reference_model_ = 0.0;  ///< least residuals that count as those of the start
-  bool refresh_ = true, matrix_free_ = false, retry_ = false, spent_ = false, looking_ = false, singular_ = false;
-  Verdict verdict_ = Verdict::go_on;
-  const char* why_ = "";
-  std::vector<double> loads_;
+  double better_ = 0.0;   ///< the balance's drop when it last came to half of what it was
+  int last_step_ = 0, rejected_in_a_row_ = 0;
+  bool looking_ = false;
+  Made made_ = Made::nothing;
+  Matrix matrix_;
+  std::vector<double> loads_;  ///< of the last load_window steps, and one more
 };
 
 }  // namespace spindrift::aero

@@ -15,7 +15,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
       motion_(arrays_, time_),
       system_(setting, arrays_, residual_),
       judgement_(setting, std::move(conditions), arrays_),
-      restart_(arrays_, motion_, time_, judgement_.march(), system_, setting.common.common_steps) {}
+      restart_(arrays_, motion_, time_, judgement_.march, system_, setting.common.common_steps) {}
 
 void FlowSolver::gather_bands(LoadBands bands) {
   if (!recorded_.empty()) throw std::logic_error("flow: bands of loads come before the march is recorded");
@@ -45,14 +45,10 @@ void FlowSolver::start_from(const FlowSolver& other) {
   forget();
 }
 
-void FlowSolver::set_time_step(double dt, double before) {
-  next_time_step(dt);
-  time_.before = before;
-}
-
-void FlowSolver::next_time_step(double dt) {
+void FlowSolver::set_time_step(double dt, std::optional<double> before) {
   setting_.dt = time_.dt = dt;
   residual_.set_dt(dt);
+  if (before) time_.before = *before;
 }
 
 void FlowSolver::record(runtime::Graph& graph) {

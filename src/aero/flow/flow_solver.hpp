@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,8 +28,6 @@ class FlowSolver {
  public:
   /// `conditions` by patch of the grid's tiling. The grid must outlive the solver and have been built.
   FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<PatchCondition> conditions);
-  FlowSolver(const FlowSolver&) = delete;
-  FlowSolver& operator=(const FlowSolver&) = delete;
 
   /// Every cell as the undisturbed flow there.
   void start_uniform();
@@ -68,25 +67,20 @@ class FlowSolver {
   /// What recorded graphs refer to is freed: their executors are gone.
   void forget_graphs() { recorded_ = {}; }
 
-  /// Length of the physical step and of the one before it [s].
-  void set_time_step(double dt, double before);
-  /// Length of the next physical step; that of the last one is kept.
-  void next_time_step(double dt);
+  /// Length of the next physical step and, where it is not that of the last one made, of the one before it [s].
+  void set_time_step(double dt, std::optional<double> before = {});
   /// Physical steps since the start.
   std::int64_t time_steps() const { return time_.steps; }
 
   const FlowSetting& setting() const { return setting_; }
-  GridStore& grid() { return arrays_.grid; }
-  const GridStore& grid() const { return arrays_.grid; }
+  GridStore& grid() const { return arrays_.grid; }
   std::span<FlowTile> tiles() { return arrays_.tiles; }
   std::span<const FlowTile> tiles() const { return arrays_.tiles; }
   TileMotion& motion() { return motion_; }
   Judgement& judgement() { return judgement_; }
   const Judgement& judgement() const { return judgement_; }
-  March& march() { return judgement_.march(); }
-  const March& march() const { return judgement_.march(); }
-  const std::vector<PseudoRow>& rows() const { return judgement_.rows(); }
-  void clear_rows() { judgement_.clear_rows(); }
+  const MarchState& march() const { return judgement_.march.state(); }
+  const std::vector<PseudoRow>& rows() const { return judgement_.rows.all; }
   FlowRestart& restart() { return restart_; }
   const FlowRestart& restart() const { return restart_; }
   std::string worst_cells(MPI_Comm comm) const { return aero::worst_cells(arrays_, system_, comm); }

@@ -38,17 +38,25 @@ double noise_of(const FlowTile& tile, const FlowSetting& s) {
 
 }  // namespace
 
+void PseudoRows::add(PseudoRow row) {
+  all.push_back(std::move(row));
+  if (watcher) watcher(all.back());
+}
+
+void PseudoRows::keep_last() {
+  if (all.size() > 1) all.erase(all.begin(), all.end() - 1);
+}
+
 Judgement::Judgement(const FlowSetting& setting, std::vector<PatchCondition> conditions, TileArrays& arrays)
-    : conditions_(std::move(conditions)),
+    : march(setting.march),
+      conditions_(std::move(conditions)),
       arrays_(arrays),
-      march_(setting.march),
-      max_steps_(setting.march.max_steps),
       unsteady_(setting.time_order > 0),
       stops_anywhere_(unsteady_ || (setting.march.refresh_every == 1 && setting.common.common_every == 1)) {
   norms.resize(arrays.tiles.size(), norm_count);
   loads.resize(arrays.tiles.size(), patch_sums());
   for (FlowTile& tile : arrays.tiles) tile.noise = noise_of(tile, setting);
-  rows_.reserve(1024);
+  rows.all.reserve(1024);
 }
 
 std::size_t Judgement::patch_sums() const { return std::max<std::size_t>(1, conditions_.size()) * load_components; }
@@ -67,13 +75,9 @@ void Judgement::set_body_force(std::shared_ptr<BodyForce> force) {
 
 void Judgement::begin() {
   solving_ = true;
-  if (unsteady_ || march_.steps() == 0) return march_.begin_step();
-  march_.resume(max_steps_);
-  if (!rows_.empty()) rows_.pop_back();
-}
-
-void Judgement::keep_last_row() {
-  if (rows_.size() > 1) rows_.erase(rows_.begin(), rows_.end() - 1);
+  if (unsteady_ || march.state().steps == 0) return march.begin_step();
+  march.resume(march.options().max_steps);
+  if (!rows.all.empty()) rows.all.pop_back();
 }
 
 void Judgement::measure(std::size_t owned, const ImplicitSystem& system, const FlowResidual& residual) {
@@ -130,15 +134,18 @@ MassBalance Judgement::mass() const {
   return {of[0], of[1], of[2], of[3]};
 }
 
+Norms Judgement::sums() const {
+  return {.density = norms.result[0],
+          .mass = norms.result[4],
+          .mean = norms.result[1],
+          .model = norms.result[2],
+          .cells = double(arrays_.cells()),
+          .broken = norms.result[3],
+          .noise = norms.result[5],
+          .forced = norms.result[7]};
+}
+
 void Judgement::judge() {
-  norms_ = {.density = norms.result[0],
-            .mass = norms.result[4],
-            .mean = norms.result[1],
-            .model = norms.result[2],
-            .cells = double(arrays_.cells()),
-            .broken = norms.result[3],
-            .noise = norms.result[5],
-            .forced = norms.result[7]};
   double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
   for (std::size_t p = 0; p < conditions_.size(); ++p)
     if (conditions_[p].loads)
@@ -150,30 +157,31 @@ void Judgement::judge() {
   if (body_force_) bodies = body_force_->loads();
   const Eigen::Map<const Eigen::Vector3d> on_bodies(bodies.data());
   const double load = body_force_ ? on_bodies.norm() : std::sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
-  const double cfl = march_.cfl_of_step();
-  Verdict verdict = march_.judge(norms_, load);
-  rows_.push_back({.step = int(march_.steps_made()),
-                   .krylov = march_.krylov(),
-                   .rejections = march_.rejections(),
-                   .matrices = matrices_,
-                   .cfl = cfl,
-                   .density_residual = march_.density_residual(),
-                   .mass_residual = march_.mass_residual(),
-                   .mean_residual = std::sqrt(norms_.mean),
-                   .model_residual = std::sqrt(norms_.model),
-                   .balance_drop = march_.balance_drop(),
-                   .fraction = march_.fraction(),
-                   .matrix_free = matrix_free_,
-                   .mass = mass(),
-                   .force = {force[0], force[1], force[2]},
-                   .moment = {moment[0], moment[1], moment[2]},
-                   .loads = loads.result,
-                   .bodies = std::move(bodies)});
-  if (watcher_) watcher_(rows_.back());
-  if (norms.result[6] > 0.0 && verdict == Verdict::go_on && stops_anywhere_) march_.stop(), verdict = march_.verdict();
-  if (verdict == Verdict::failed) name_trouble();
-  solving_ = verdict == Verdict::go_on;
-  matrix_free_ = march_.matrix_free();
+  const MarchState& m = march.state();
+  const double cfl = m.steps == 0 ? m.cfl : m.last.cfl;
+  const Norms n = sums();
+  march.judge(n, load);
+  rows.add({.step = int(m.steps_made()),
+            .krylov = m.last.krylov,
+            .rejections = m.rejections,
+            .matrices = matrices_,
+            .cfl = cfl,
+            .density_residual = m.now.density,
+            .mass_residual = m.mass_residual,
+            .mean_residual = std::sqrt(n.mean),
+            .model_residual = std::sqrt(n.model),
+            .balance_drop = m.balance_drop(),
+            .fraction = m.last.fraction,
+            .matrix_free = matrix_free_,
+            .mass = mass(),
+            .force = {force[0], force[1], force[2]},
+            .moment = {moment[0], moment[1], moment[2]},
+            .loads = loads.result,
+            .bodies = std::move(bodies)});
+  if (norms.result[6] > 0.0 && m.verdict == Verdict::go_on && stops_anywhere_) march.stop();
+  if (m.verdict == Verdict::failed) name_trouble();
+  solving_ = m.verdict == Verdict::go_on;
+  matrix_free_ = m.matrix_free;
   if (refreshes()) ++matrices_;
 }
 

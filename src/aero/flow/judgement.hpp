@@ -21,7 +21,7 @@
 
 namespace spindrift::aero {
 
-/// What a pseudo-step did; one row for each since the last clear.
+/// What a pseudo-step did.
 struct PseudoRow {
   int step = 0, krylov = 0, rejections = 0, matrices = 0;  ///< matrices made so far
   double cfl = 0.0, density_residual = 0.0, mass_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, balance_drop = 0.0,
@@ -32,6 +32,16 @@ struct PseudoRow {
   std::array<double, 3> moment{};  ///< likewise, about the origin [N m]
   std::vector<double> loads{};     ///< by patch, see patch_loads, then by band, see band_loads
   std::vector<double> bodies{};    ///< of the force inside the air, BodyForce::loads
+};
+
+/// The rows of a march, one for each state that was judged.
+struct PseudoRows {
+  std::vector<PseudoRow> all;                     ///< since they were last cleared
+  std::function<void(const PseudoRow&)> watcher;  ///< called with each row as it is made: progress, clocks
+
+  void add(PseudoRow row);
+  /// Between two chunks of a steady march: its last row will be judged again.
+  void keep_last();
 };
 
 class Judgement {
@@ -51,34 +61,24 @@ class Judgement {
   void measure(std::size_t owned, const ImplicitSystem& system, const FlowResidual& residual);
   /// One place where the march goes on, back, or ends: after the sums over all tiles. Leaves a row.
   void judge();
-  /// After judge(): squared scaled norms of the mean flow and of turbulence.
-  double mean_norm() const { return norms_.mean; }
-  double model_norm() const { return norms_.model; }
+  /// The norms of all tiles together, once they have been summed.
+  Norms sums() const;
   /// Whether a pseudo-step is to be made, with products free of a matrix, with a fresh matrix.
   bool solving() const { return solving_; }
   bool perturbs() const { return solving_ && matrix_free_; }
   bool matrix_free() const { return matrix_free_; }
-  bool refreshes() const { return solving_ && march_.refresh(); }
+  bool refreshes() const { return solving_ && march.state().refresh; }
 
-  March& march() { return march_; }
-  const March& march() const { return march_; }
   const std::vector<PatchCondition>& conditions() const { return conditions_; }
-  /// Of all pseudo-steps since the last clear.
-  const std::vector<PseudoRow>& rows() const { return rows_; }
-  void clear_rows() { rows_.clear(); }
-  /// Between two chunks of a steady march: its last row will be judged again.
-  void keep_last_row();
-  /// Called with each row as it is made: progress, clocks.
-  void watch(std::function<void(const PseudoRow&)> watcher) { watcher_ = std::move(watcher); }
   /// Where a march failed on this rank: block, cell and the limit that bound there; empty where none did.
   const std::string& trouble() const { return trouble_; }
-  /// Loads by patch and by band as last judged, the same on every rank.
-  std::span<const double> load_sums() const { return loads.result; }
-  /// Likewise the balance of mass of the whole grid.
+  /// As last judged, the same on every rank: the balance of mass of the whole grid, loads of a patch.
   MassBalance mass() const;
   PatchLoads patch(int patch) const { return patch_loads(loads.result, patch); }
 
-  TileSums norms, loads, force_samples;
+  March march;
+  PseudoRows rows;
+  TileSums norms, loads, force_samples;  ///< `loads`: by patch, then by band
 
  private:
   void name_trouble();
@@ -86,19 +86,14 @@ class Judgement {
 
   std::vector<PatchCondition> conditions_;
   TileArrays& arrays_;
-  March march_;
-  Norms norms_;
   LoadBands bands_;
   std::shared_ptr<BodyForce> body_force_;
-  int max_steps_;  ///< of one run of the march
   bool unsteady_;
   /// Whether a march that ends before its time goes on with the same bits: a physical step begins anew, and a steady march where
   /// nothing outlives a pseudo-step.
   bool stops_anywhere_;
   bool solving_ = false, matrix_free_ = false;
   int matrices_ = 0;  ///< made so far
-  std::vector<PseudoRow> rows_;
-  std::function<void(const PseudoRow&)> watcher_;
   std::string trouble_;
 };
 

@@ -254,7 +254,9 @@ void judge(MarchRecording& r) {
                  {.partials = r.judgement.loads.partials, .result = r.judgement.loads.result});
   r.graph.task("aero/judge", {reads(r.flow.sums), reads(loads), updates(r.flow.decision)}, [&r] {
     r.judgement.judge();
-    if (r.judgement.solving()) r.system.begin(r.judgement.mean_norm(), r.judgement.model_norm(), r.judgement.refreshes());
+    if (!r.judgement.solving()) return;
+    const Norms n = r.judgement.sums();
+    r.system.begin(n.mean, n.model, r.judgement.refreshes());
   });
 }
 
@@ -357,7 +359,7 @@ void krylov_iteration(MarchRecording& r) {
                   reads(r.flow.residual[n]), updates(r.krylov.vectors[n]), writes(r.krylov.dots[n])},
                  [&r, n](const Context& c) {
                    if (r.judgement.solving())
-                     r.system.product(r.tile(n), int(c.iteration), r.judgement.march().cfl(), r.judgement.matrix_free(),
+                     r.system.product(r.tile(n), int(c.iteration), r.judgement.march.state().cfl, r.judgement.matrix_free(),
                                       r.system.dots.of(n));
                  });
   r.graph.reduce(
@@ -367,18 +369,18 @@ void krylov_iteration(MarchRecording& r) {
     if (r.judgement.solving()) r.system.append();
   });
   r.graph.until("aero/krylov/enough", {reads(r.krylov.basis), reads(r.flow.decision)},
-                [&r] { return !r.judgement.solving() || r.system.solved(r.judgement.march().options().krylov_drop); });
+                [&r] { return !r.judgement.solving() || r.system.solved(r.judgement.march.options().krylov_drop); });
 }
 
 /// The state after the judgement: a step further, back where it was, or as it is.
 void apply(const MarchRecording& r, FlowTile& tile) {
-  const March& march = r.judgement.march();
-  if (march.verdict() == Verdict::go_on) return r.system.apply_update(tile);
-  if (march.verdict() == Verdict::rejected) {
+  const MarchState& march = r.judgement.march.state();
+  if (march.verdict == Verdict::go_on) return r.system.apply_update(tile);
+  if (march.verdict == Verdict::rejected) {
     std::copy_n(tile.trial.data(), tile.trial.size(), tile.state.data());
     return;
   }
-  if (march.verdict() == Verdict::failed && march.rejections() > 0) std::swap(tile.state, tile.trial);
+  if (march.verdict == Verdict::failed && march.rejections > 0) std::swap(tile.state, tile.trial);
 }
 
 void update_state(MarchRecording& r) {
@@ -424,9 +426,9 @@ void update_state(MarchRecording& r) {
   r.graph.task("aero/updated", {reads(r.krylov.total_fraction), reads(r.krylov.basis), updates(r.flow.decision)}, [&r] {
     if (!r.judgement.solving()) return;
     if (r.system.fraction.one() < 0.0)
-      r.judgement.march().not_updated();
+      r.judgement.march.not_updated();
     else
-      r.judgement.march().updated(r.system.fraction.one(), r.system.cycle().columns(), r.system.linear_drop());
+      r.judgement.march.updated(r.system.fraction.one(), r.system.cycle().columns(), r.system.linear_drop());
   });
   r.each(
       "aero/apply",
@@ -444,7 +446,7 @@ void pseudo_march(MarchRecording& r, int urgency) {
   begin_march(r);
   if (r.motion.moves()) move_grid(r);
   r.graph.loop(
-      "aero/pseudo", {.min = 1, .max = std::uint32_t(r.judgement.march().options().max_steps) + 2, .urgency = urgency}, [&] {
+      "aero/pseudo", {.min = 1, .max = std::uint32_t(r.judgement.march.options().max_steps) + 2, .urgency = urgency}, [&] {
         residual_of_state(r);
         judge(r);
         r.each(
@@ -454,7 +456,7 @@ void pseudo_march(MarchRecording& r, int urgency) {
                           reads(r.flow.gradients[n]), reads(r.flow.gradient_ghosts[n]), writes(r.flow.matrix[n])};
             },
             [&r](std::size_t n) {
-              if (r.judgement.solving()) r.system.build(r.tile(n), r.judgement.march().cfl(), r.judgement.refreshes());
+              if (r.judgement.solving()) r.system.build(r.tile(n), r.judgement.march.state().cfl, r.judgement.refreshes());
             });
         if (r.common()) {
           Uses uses{reads(r.flow.decision), writes(r.krylov.built)};
@@ -466,7 +468,7 @@ void pseudo_march(MarchRecording& r, int urgency) {
         r.graph.loop("aero/krylov", {.min = 1, .max = std::uint32_t(r.system.cycle().most_columns()), .urgency = urgency + 1},
                      [&] { krylov_iteration(r); });
         update_state(r);
-        r.graph.until("aero/converged", {reads(r.flow.decision)}, [&r] { return ends_march(r.judgement.march().verdict()); });
+        r.graph.until("aero/converged", {reads(r.flow.decision)}, [&r] { return ends_march(r.judgement.march.state().verdict); });
       });
 }
 

@@ -105,12 +105,12 @@ void transfer(const FlowSolver& from, FlowSolver& to, const CellPlace& place, MP
 }
 
 void begin_with(const FlowSolver& coarse, FlowSolver& fine, const CellPlace& place, MPI_Comm comm) {
-  const March& march = coarse.march();
-  if (march.verdict() == Verdict::failed)
+  const MarchState& march = coarse.march();
+  if (march.verdict == Verdict::failed)
     throw NumericalFailure(
         fmt::format("aero: on the coarser grid of the start (aero.flow.coarse_steps): {} (pseudo-step {}, CFL {:.3g}){}",
-                    march.why(), march.steps(), march.cfl(), coarse.judgement().trouble()),
-        "aero", march.steps(), 0.0);
+                    march.why, march.steps, march.cfl, coarse.judgement().trouble()),
+        "aero", march.steps, 0.0);
   transfer(coarse, fine, place, comm);
 }
 

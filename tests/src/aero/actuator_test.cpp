@@ -96,7 +96,7 @@ TEST_CASE("what the blades take the air loses: force and power to round-off", "[
   const auto actuator = act_in(*c, kind, turning(6.4257, 0.7), 4.0);
   c->prepare();
   c->run();
-  REQUIRE(c->solver->march().verdict() != Verdict::failed);
+  REQUIRE(c->solver->march().verdict != Verdict::failed);
   // The box's own cells at the disc, though longer ones begin three quarters of a radius upstream.
   CHECK(cell_at_rotor(*c->store, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), tip_radius(), MPI_COMM_SELF) ==
         Approx(tip_radius() / 4.0).epsilon(1e-9));
@@ -248,7 +248,7 @@ TEST_CASE("a disc of the DTU 10 MW rotor at ten cells to the radius has the thru
   const auto actuator = act_in(*c, Actuator::Kind::disc, turning(rpm), o.cells);
   c->prepare(MPI_COMM_SELF, {});
   c->run();
-  REQUIRE(c->solver->march().verdict() == Verdict::converged);
+  REQUIRE(c->solver->march().verdict == Verdict::converged);
   const RotorLoad load = actuator->load(c->solver->rows().back());
   const double expected = blade_element_thrust(wind, rpm);
   CAPTURE(wind, load.thrust, expected, load.power, c->solver->rows().size());
@@ -310,9 +310,9 @@ RotorLoad load_of_lines(const Wind8& o, double rpm, int steps, double step) {
   for (int n = 1; n <= steps; ++n) {
     lines->place(turning(rpm, n * step * rpm * rad_s_per_rpm));
     c->run();
-    REQUIRE(c->solver->march().verdict() != Verdict::failed);
+    REQUIRE(c->solver->march().verdict != Verdict::failed);
     load = lines->load(c->solver->rows().back());
-    c->solver->clear_rows();
+    c->solver->judgement().rows.all.clear();
     if (n % 5 == 0) UNSCOPED_INFO(n * step << " s: " << load.thrust << " N, " << load.power << " W");
   }
   return load;

@@ -72,7 +72,7 @@ TEST_CASE("a march that begins with a coarser grid's flow is nearer its end afte
     if (sequenced) CHECK(start_from_coarser(s, 60, rotor).thrust > 0.8e6);
     rotor.prepare(MPI_COMM_SELF, {.threads = 1});
     rotor.run();
-    CHECK(rotor.solver().march().rejections() == 0);
+    CHECK(rotor.solver().march().rejections == 0);
     thrust[sequenced] = rotor.load().thrust;
   }
   constexpr double settled = 1.65e6;  // of inviscid demo grids, within five per cent

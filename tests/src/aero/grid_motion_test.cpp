@@ -149,7 +149,7 @@ double lift(double wind, double turned) {
   Case c(motion.moved_grid(0.0), s, {{"wall", {Condition::slip, true}}});
   c.prepare();
   c.run();
-  REQUIRE(c.solver->march().verdict() == Verdict::converged);
+  REQUIRE(c.solver->march().verdict == Verdict::converged);
   const auto& f = c.solver->rows().back().force;
   return (std::cos(a) * f[2] - std::sin(a) * f[0]) / (0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed);
 }

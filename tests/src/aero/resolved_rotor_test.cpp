@@ -235,7 +235,7 @@ TEST_CASE(
     rotor.solver().start_uniform();
     rotor.prepare(MPI_COMM_SELF, {.threads = 1});
     rotor.run();
-    return Marched{rotor.load(), rotor.solver().march().linear_drop()};
+    return Marched{rotor.load(), rotor.solver().march().last.linear_drop};
   };
   const ResolvedRotorSetup plain = preconditioned("steady", "block_ilu");
   const Marched ilu = marched(plain, 10.0), ilu_long = marched(plain, 1000.0);

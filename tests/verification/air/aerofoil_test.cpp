@@ -49,12 +49,12 @@ Result result(const Case& c) {
   const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
   const auto drag = [&](const PseudoRow& row) { return (row.force[0] * std::cos(alpha) + row.force[2] * std::sin(alpha)) / q; };
   const std::array<double, 3>& f = rows.back().force;
-  const March& m = c.solver->march();
+  const MarchState& m = c.solver->march();
   return {(f[2] * std::cos(alpha) - f[0] * std::sin(alpha)) / q,
           drag(rows.back()),
-          m.density_residual() / m.first_density_residual(),
-          m.verdict(),
-          m.steps(),
+          m.density_drop(),
+          m.verdict,
+          m.steps,
           drag(rows.back()) / drag(rows[rows.size() - std::min<std::size_t>(rows.size(), 11)]) - 1.0};
 }
 Result aerofoil(MultiBlockGrid grid, double mach, double drop, int steps = 250) {
@@ -71,11 +71,11 @@ std::vector<Result> family(int members, double drop) {
   for (int m = 0; m < members; ++m) {
     Case fine = aerofoil_case(naca0012({.n = 1 << m}), 0.15, drop, 400);
     if (coarse) {
-      fine.solver->march().look();
+      fine.solver->judgement().march.look();
       fine.run();
-      fine.solver->clear_rows();
+      fine.solver->judgement().rows.all.clear();
       transfer(*coarse->solver, *fine.solver);
-      fine.solver->march().begin_after_look();
+      fine.solver->judgement().march.begin_after_look();
     }
     fine.run();
     all.push_back(result(fine));

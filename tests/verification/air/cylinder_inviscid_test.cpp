@@ -46,7 +46,7 @@ Outcome cylinder(double mach, const std::string& flux, int around = 96) {
   c.prepare();
   c.run();
   const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
-  Outcome r{0, c.solver->rows().back().force[0] / q, 1e9, -1e9, 0, 0, c.solver->march().verdict() == Verdict::converged};
+  Outcome r{0, c.solver->rows().back().force[0] / q, 1e9, -1e9, 0, 0, c.solver->march().verdict == Verdict::converged};
   const double first = c.solver->rows().front().density_residual;
   for (const PseudoRow& row : c.solver->rows())
     if (row.density_residual > 1e-3 * first) r.steps_to_3_orders = row.step + 1;

@@ -50,12 +50,12 @@ TEST_CASE("a cylinder at Re 100 sheds vortices at Strouhal number 0.164 to 0.166
   const auto advance = [&](double until, double dt) {
     for (double t = time.empty() ? 0.0 : time.back(); t < until - 0.5 * dt;) {
       c.run();
-      REQUIRE(c.solver->march().verdict() == Verdict::converged);
-      REQUIRE(!c.solver->march().spent());  // two orders within 40 pseudo-steps
-      t += dt, steps += c.solver->march().steps();
+      REQUIRE(c.solver->march().verdict == Verdict::converged);
+      REQUIRE(!c.solver->march().spent);  // two orders within 40 pseudo-steps
+      t += dt, steps += c.solver->march().steps;
       const PseudoRow& row = c.solver->rows().back();
       time.push_back(t), lift.push_back(row.force[2] / q), drag.push_back(row.force[0] / q);
-      c.solver->clear_rows();
+      c.solver->judgement().rows.all.clear();
     }
   };
   advance(100.0 / s.speed, coarse);

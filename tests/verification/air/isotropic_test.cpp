@@ -190,8 +190,8 @@ Decay decay_of(const std::string& closure, int n, double upwinding) {
     Drain last = drain();  // nothing before the first step, for want of gradients
     for (int m = 0; m < steps; ++m) {
       c.run();
-      REQUIRE(c.solver->march().verdict() == Verdict::converged);
-      c.solver->clear_rows();
+      REQUIRE(c.solver->march().verdict == Verdict::converged);
+      c.solver->judgement().rows.all.clear();
       const Drain now = drain();
       const bool first = last.all == 0.0;
       const double time = step * faster, laminar = first ? now.laminar : 0.5 * (last.laminar + now.laminar),
@@ -202,7 +202,7 @@ Decay decay_of(const std::string& closure, int n, double upwinding) {
     return f;
   };
   d.to_98 = advance(first_steps, first_step);
-  c.solver->next_time_step(second_step);
+  c.solver->set_time_step(second_step);
   d.to_171 = advance(second_steps, second_step);
   return d;
 }

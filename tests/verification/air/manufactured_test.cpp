@@ -179,8 +179,8 @@ Errors errors(int n, bool planar) {
   set_source(c.solver->tiles(), [&](const Point& x, std::array<double, 7>& values) { m.source(x, values); });
   c.prepare();
   c.run();
-  CAPTURE(n, planar, Model::name, c.solver->march().steps(), c.solver->march().why());
-  REQUIRE(c.solver->march().density_residual() <= 1e-6 * c.solver->march().first_density_residual());
+  CAPTURE(n, planar, Model::name, c.solver->march().steps, c.solver->march().why);
+  REQUIRE(c.solver->march().now.density <= 1e-6 * c.solver->march().first.density);
   double sum[3] = {}, cells = 0;
   each([&](FlowTile& tile, int k, int j, int i, const Point& x) {
     const double* at = tile.state.data() + tile.cells.at(k, j, i);

@@ -90,8 +90,8 @@ inline PlateResult plate_result(const Case& c) {
           c.solver->rows().back().force[0] / (2.0 * q),
           points[m].y_plus,
           5e6 * edge * theta,
-          c.solver->march().density_residual() / c.solver->march().first_density_residual(),
-          c.solver->march().steps()};
+          c.solver->march().density_drop(),
+          c.solver->march().steps};
 }
 
 }  // namespace spindrift::aero::testing

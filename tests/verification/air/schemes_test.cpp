@@ -33,13 +33,13 @@ Outcome aerofoil(const char* flux, const char* model, double mach, const char* l
   for (FlowTile& tile : c.solver->tiles()) fill_wall_distance(*tile.geometry, wall);
   c.prepare();
   c.run();
-  CAPTURE(flux, model, mach, c.solver->march().steps(), c.solver->march().why());
-  CHECK(c.solver->march().verdict() == Verdict::converged);
-  CHECK_FALSE(c.solver->march().spent());
+  CAPTURE(flux, model, mach, c.solver->march().steps, c.solver->march().why);
+  CHECK(c.solver->march().verdict == Verdict::converged);
+  CHECK_FALSE(c.solver->march().spent);
   const std::array<double, 3>& f = c.solver->rows().back().force;
   const double q = 0.5 * rho * s.speed * s.speed;
   return {(f[2] * std::cos(alpha) - f[0] * std::sin(alpha)) / q, (f[0] * std::cos(alpha) + f[2] * std::sin(alpha)) / q,
-          c.solver->march().steps()};
+          c.solver->march().steps};
 }
 
 }  // namespace

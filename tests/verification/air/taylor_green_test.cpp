@@ -77,10 +77,10 @@ Decay decay(int n, double dt, double end, const MarchOptions& march) {
   Decay d;
   while (d.time.empty() || d.time.back() < end - 0.5 * dt) {
     c.run();
-    REQUIRE(c.solver->march().verdict() == Verdict::converged);
-    REQUIRE(!c.solver->march().spent());
-    d.steps += c.solver->march().steps();
-    c.solver->clear_rows();
+    REQUIRE(c.solver->march().verdict == Verdict::converged);
+    REQUIRE(!c.solver->march().spent);
+    d.steps += c.solver->march().steps;
+    c.solver->judgement().rows.all.clear();
     d.time.push_back((d.time.empty() ? 0.0 : d.time.back()) + dt), d.energy.push_back(energy(c));
   }
   for (std::size_t m = 1; m < d.energy.size(); ++m) {

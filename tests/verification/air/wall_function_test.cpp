@@ -44,9 +44,9 @@ PlateResult law_plate(int n, double y_plus, Condition wall_condition, const std:
   if (model != "sa") s.first_order_model = true, s.march.matrix_free_below = 2.0;
   Case c = plate_case(coarse_at_wall(flat_plate(n), height), s, wall_condition);
   c.run();
-  CAPTURE(n, y_plus, model, c.solver->march().steps());
-  CHECK(c.solver->march().verdict() == Verdict::converged);
-  CHECK(!c.solver->march().spent());
+  CAPTURE(n, y_plus, model, c.solver->march().steps);
+  CHECK(c.solver->march().verdict == Verdict::converged);
+  CHECK(!c.solver->march().spent);
   return plate_result(c);
 }
 

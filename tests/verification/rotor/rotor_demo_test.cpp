@@ -45,7 +45,7 @@ TEST_CASE("the rotor of default size has the report's thrust to five and its pow
   const RotorLoad load = rotor.load();
   CAPTURE(o.wind, load.thrust, load.power, rotor.solver().cells());
   CHECK(rotor.solver().cells() <= 20000);
-  CHECK(rotor.solver().march().verdict() == Verdict::converged);
+  CHECK(rotor.solver().march().verdict == Verdict::converged);
   CHECK(load.thrust == Approx(o.thrust).epsilon(0.05));
   CHECK(load.power == Approx(o.power).epsilon(o.wind < 8.0 ? 0.14 : 0.10));
   double friction = 0.0, tangential = 0.0, worst = 0.0;

@@ -57,17 +57,17 @@ constexpr std::size_t averaged = 40;
 Point march(ResolvedRotor& rotor, double wind, const std::string& name) {
   const std::clock_t begin = std::clock();
   rotor.prepare(MPI_COMM_SELF);
-  rotor.solver().judgement().watch([&](const PseudoRow& row) {  // hours may pass
+  rotor.solver().judgement().rows.watcher = [&](const PseudoRow& row) {  // hours may pass
     if (row.step % 10 != 0) return;
     fmt::print("  {} step {}: CFL {:.0f}, density residual {:.3g}, thrust {:.1f} kN\n", name, row.step, row.cfl,
                row.density_residual, 1e-3 * rotor.load(row).thrust);
     std::fflush(stdout);
-  });
+  };
   rotor.run();
-  rotor.solver().judgement().watch({});
-  const March& m = rotor.solver().march();
-  CAPTURE(name, m.why(), m.rejections());
-  CHECK(m.verdict() == Verdict::converged);
+  rotor.solver().judgement().rows.watcher = {};
+  const MarchState& m = rotor.solver().march();
+  CAPTURE(name, m.why, m.rejections);
+  CHECK(m.verdict == Verdict::converged);
   const auto& rows = rotor.solver().rows();
   REQUIRE(rows.size() > averaged);
   Point p{.cells = rotor.solver().cells()};
@@ -82,8 +82,8 @@ Point march(ResolvedRotor& rotor, double wind, const std::string& name) {
       "{}: {} cells, {} steps, CFL {:.0f}, residual fallen by {:.2g}, {:.0f} s of CPU\n  thrust {:.1f} kN, power {:.0f} kW; "
       "thrust swings by "
       "{:.2f} % and creeps by {:+.2f} % in 20 steps\n",
-      name, p.cells, m.steps() - 1, m.cfl(), m.density_residual() / m.first_density_residual(),
-      double(std::clock() - begin) / CLOCKS_PER_SEC, 1e-3 * p.thrust, 1e-3 * p.power, 100.0 * p.swing, 100.0 * p.creep);
+      name, p.cells, m.steps - 1, m.cfl, m.density_drop(), double(std::clock() - begin) / CLOCKS_PER_SEC, 1e-3 * p.thrust,
+      1e-3 * p.power, 100.0 * p.swing, 100.0 * p.creep);
   for (const SpanLoad& row : rotor.span_loads(std::span(rows).last(averaged))) {
     const double share = row.radius / tip_radius;
     const testing::BemLoad bem = testing::bem_load(row.radius, wind);

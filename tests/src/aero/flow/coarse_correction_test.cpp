@@ -71,7 +71,7 @@ TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterat
   const Case ilu = solved(swirling("block_ilu"));
   REQUIRE(ilu.solver->tiles().size() == 64);
   const std::vector<double> state = state_of(*ilu.solver);
-  const int alone = ilu.solver->march().krylov();
+  const int alone = ilu.solver->march().last.krylov;
   const std::vector<double> before = state_of(*swirl(swirling("block_ilu")).solver);
   double change = 0.0;
   for (std::size_t n = 0; n < state.size(); ++n) change = std::max(change, std::abs(state[n] - before[n]));
@@ -80,8 +80,8 @@ TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterat
         PreconditionerOptions{.group_cells = 2}}) {
     const Case c = solved(swirling("coarse", o));
     CAPTURE(o.group_cells, o.direct_groups, alone);
-    CHECK(c.solver->march().linear_drop() <= 1e-2);
-    CHECK(c.solver->march().krylov() < alone);
+    CHECK(c.solver->march().last.linear_drop <= 1e-2);
+    CHECK(c.solver->march().last.krylov < alone);
     double apart = 0.0;
     const std::vector<double> other = state_of(*c.solver);
     for (std::size_t n = 0; n < state.size(); ++n) apart = std::max(apart, std::abs(other[n] - state[n]));
@@ -101,8 +101,8 @@ TEST_CASE("threads and reruns leave every bit of preconditioners with a common p
 
 TEST_CASE("pressure by multigrid ends in the solution of block ILU", "[flow][fast]") {
   const Case ilu = solved(swirling("block_ilu")), amg = solved(swirling("pressure_amg"));
-  CAPTURE(ilu.solver->march().krylov(), amg.solver->march().krylov());
-  CHECK(amg.solver->march().linear_drop() <= 1e-2);
+  CAPTURE(ilu.solver->march().last.krylov, amg.solver->march().last.krylov);
+  CHECK(amg.solver->march().last.linear_drop <= 1e-2);
   const std::vector<double> a = state_of(*ilu.solver), b = state_of(*amg.solver),
                             before = state_of(*swirl(swirling("block_ilu")).solver);
   double change = 0.0, apart = 0.0;
@@ -126,8 +126,8 @@ void coarse_on(int ranks) {
     if (eliminated)
       CHECK(fingerprint(*whole.solver) == fingerprint(*part.solver));
     else
-      CHECK(part.solver->march().linear_drop() <= 1e-2);
-    CHECK(std::abs(whole.solver->march().krylov() - part.solver->march().krylov()) <= 2);
+      CHECK(part.solver->march().last.linear_drop <= 1e-2);
+    CHECK(std::abs(whole.solver->march().last.krylov - part.solver->march().last.krylov) <= 2);
     CHECK(part.solver->rows().back().density_residual == Approx(whole.solver->rows().back().density_residual).epsilon(0.1));
   }
 }

@@ -48,7 +48,7 @@ TEST_CASE("air at rest between walls held at two temperatures conducts heat by F
           {"j_max", {.condition = Condition::no_slip, .temperature = high}}});
   c.prepare();
   c.run();
-  CHECK(c.solver->march().verdict() == Verdict::converged);
+  CHECK(c.solver->march().verdict == Verdict::converged);
   // The flux, conductivity times slope, is the same at every height, so the integral of viscosity over temperature is linear.
   const auto integral = [&](double T) {
     double sum = 0.0;

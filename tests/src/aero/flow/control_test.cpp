@@ -19,10 +19,10 @@ TEST_CASE("a falling residual raises the CFL number up to its limit and ends at 
   march.begin_step();
   double residual = 1.0;
   for (int n = 0; n < 30 && march.judge(of(residual), 0.0) == Verdict::go_on; ++n) march.updated(1.0, 5, 0.1), residual *= 0.5;
-  CHECK(march.cfl() == 100.0);
-  CHECK(march.verdict() == Verdict::converged);
-  CHECK(march.steps() == 11);
-  CHECK(march.mass_residual() == 2.0 * march.density_residual());
+  CHECK(march.state().cfl == 100.0);
+  CHECK(march.state().verdict == Verdict::converged);
+  CHECK(march.state().steps == 11);
+  CHECK(march.state().mass_residual == 2.0 * march.state().now.density);
 }
 
 TEST_CASE("a residual that leaps or is not finite takes the step back and makes the next one smaller", "[flow][fast]") {
@@ -32,7 +32,7 @@ TEST_CASE("a residual that leaps or is not finite takes the step back and makes 
     REQUIRE(march.judge(of(1.0), 0.0) == Verdict::go_on);
     march.updated(1.0, 5, 0.1);
     CHECK(march.judge(of(leap), 0.0) == Verdict::rejected);
-    CHECK(march.cfl() == Approx(2.0));
+    CHECK(march.state().cfl == Approx(2.0));
     CHECK(march.judge(of(1.0), 0.0) == Verdict::go_on);
   }
 }
@@ -43,7 +43,7 @@ TEST_CASE("a step whose matrix was singular is taken back and the next one is sm
   REQUIRE(march.judge(of(1.0), 0.0) == Verdict::go_on);
   march.not_updated();
   CHECK(march.judge(of(1.0), 0.0) == Verdict::rejected);
-  CHECK(march.cfl() == Approx(2.0));
+  CHECK(march.state().cfl == Approx(2.0));
   CHECK(march.judge(of(1.0), 0.0) == Verdict::go_on);
 }
 
@@ -53,12 +53,12 @@ TEST_CASE("a march that is asked to stop ends as one whose steps are spent; an e
   march.begin_step();
   march.judge(of(1.0), 0.0);
   march.stop();
-  CHECK(ends_march(march.verdict()));
-  CHECK(march.spent());
+  CHECK(ends_march(march.state().verdict));
+  CHECK(march.state().spent);
   march.ease(0.1);
-  CHECK(march.cfl() == Approx(1.0));
+  CHECK(march.state().cfl == Approx(1.0));
   march.ease(1.0);
-  CHECK(march.cfl() == Approx(1.0));  // it grows from there
+  CHECK(march.state().cfl == Approx(1.0));  // it grows from there
 }
 
 TEST_CASE("what no step size cures ends in a failure with its reason", "[flow][fast]") {
@@ -72,7 +72,7 @@ TEST_CASE("what no step size cures ends in a failure with its reason", "[flow][f
     if (verdict == Verdict::rejected) march.judge(of(1.0), 0.0);
   }
   CHECK(verdict == Verdict::failed);
-  CHECK(std::string(march.why()) == "no pseudo-step was small enough");
+  CHECK(std::string(march.state().why) == "no pseudo-step was small enough");
   March broken({});
   broken.begin_step();
   CHECK(broken.judge(of(std::numeric_limits<double>::quiet_NaN()), 0.0) == Verdict::failed);
@@ -84,10 +84,10 @@ TEST_CASE("linear systems that were hardly solved lower the CFL number, shortene
   march.judge(of(1.0), 0.0);
   march.updated(1.0, 20, 0.95);
   march.judge(of(0.9), 0.0);
-  CHECK(march.cfl() == Approx(6.0));
+  CHECK(march.state().cfl == Approx(6.0));
   march.updated(0.5, 20, 0.1);
   march.judge(of(0.8), 0.0);
-  CHECK(march.cfl() == Approx(6.0));
+  CHECK(march.state().cfl == Approx(6.0));
 }
 
 TEST_CASE("a density residual below the absolute limit ends a march whatever its drop", "[flow][fast]") {
@@ -95,8 +95,8 @@ TEST_CASE("a density residual below the absolute limit ends a march whatever its
   march.begin_step();
   double residual = 1.0;
   while (march.judge(of(residual), 0.0) == Verdict::go_on) march.updated(1.0, 5, 0.1), residual *= 0.5;
-  CHECK(march.verdict() == Verdict::converged);
-  CHECK_FALSE(march.spent());
+  CHECK(march.state().verdict == Verdict::converged);
+  CHECK_FALSE(march.state().spent);
   CHECK(residual == 1.0 / 128);
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("by the flux balance a march ends when mean flow and turbulence have b
   CHECK(march.judge(state(1e-3, 0.5), 0.0) == Verdict::go_on);  // turbulence is on its way
   march.updated(1.0, 5, 0.1);
   CHECK(march.judge(state(1e-3, 1e-3), 0.0) == Verdict::converged);
-  CHECK(march.balance_drop() == Approx(1e-3));
+  CHECK(march.state().balance_drop() == Approx(1e-3));
   // Turbulence that starts with a thousand times the mean flow's is no reason to leave that where it is.
   March other({.drop = 1e-2, .by_balance = true});
   other.begin_step();
@@ -139,7 +139,7 @@ TEST_CASE("a balance that is round-off from the start has converged", "[flow][fa
   march.judge(noise, 0.0);
   march.updated(1.0, 5, 0.1);
   CHECK(march.judge(noise, 0.0) == Verdict::converged);
-  CHECK_FALSE(march.spent());
+  CHECK_FALSE(march.state().spent);
 }
 
 TEST_CASE("marches that end for want of steps are counted, and the count goes through a restart", "[flow][fast]") {
@@ -147,14 +147,14 @@ TEST_CASE("marches that end for want of steps are counted, and the count goes th
   for (int window = 0; window < 2; ++window) {
     march.begin_step();
     while (march.judge(of(1.0), 0.0) == Verdict::go_on) march.updated(1.0, 5, 0.1);
-    CHECK(march.spent());
+    CHECK(march.state().spent);
   }
   March again({.drop = 1e-6, .max_steps = 3});
   again.load(march.save());
-  CHECK(again.unconverged() == 2);
-  CHECK(again.ended() == 2);
+  CHECK(again.state().unconverged == 2);
+  CHECK(again.state().ended == 2);
   again.resume(3);  // a steady march that goes on has not ended
-  CHECK(again.unconverged() == 1);
+  CHECK(again.state().unconverged == 1);
 }
 
 TEST_CASE("a march stands still where its balance is not halved for long, far from its end or at no step size", "[flow][fast]") {
@@ -175,9 +175,9 @@ TEST_CASE("a march stands still where its balance is not halved for long, far fr
   CHECK(again.stands_still());
   again.begin_again();
   CHECK_FALSE(again.stands_still());
-  CHECK(again.cfl() == 5.0);
+  CHECK(again.state().cfl == 5.0);
   again.judge(of(1.0), 0.0);
-  CHECK(again.steps_made() == 201);  // what was spent counts
+  CHECK(again.state().steps_made() == 201);  // what was spent counts
   March no_length({.cfl_start = 0.01, .cfl_max = 0.01, .drop = 1e-6, .by_balance = true});
   no_length.begin_step();
   no_length.judge(of(1.0), 0.0);
@@ -201,44 +201,44 @@ TEST_CASE("a march that goes in circles with the stored matrix takes the lineari
   circle(march, 1.0, 1);
   const std::vector<double> before = march.save();
   circle(march, 0.1, 6);
-  CHECK(!march.matrix_free());
+  CHECK(!march.state().matrix_free);
   circle(march, 0.1, 1);
-  CHECK(march.matrix_free());
+  CHECK(march.state().matrix_free);
   march.begin_step();
   circle(march, 1.0, 1);
-  CHECK(march.matrix_free());
+  CHECK(march.state().matrix_free);
   March restarted(options);
   restarted.load(march.save());
   restarted.begin_step();
   circle(restarted, 1.0, 1);
-  CHECK(restarted.matrix_free());
+  CHECK(restarted.state().matrix_free);
   march.load(before);  // a window that is made again begins as it did
   circle(march, 0.1, 1);
-  CHECK(!march.matrix_free());
+  CHECK(!march.state().matrix_free);
 
   // A balance that falls, however it goes on, and windows whose number of steps is given keep the matrix.
   March falls(options);
   falls.begin_step();
   double at = 1.0;
   for (int n = 0; n < 20; ++n, at *= 0.87) circle(falls, at, 1);
-  CHECK(!falls.matrix_free());
+  CHECK(!falls.state().matrix_free);
   March all({.drop = 0.0, .by_balance = true, .max_steps = 50, .matrix_free_below = 1e-2});
   all.begin_step();
   circle(all, 1.0, 1), circle(all, 0.1, 20);
-  CHECK(!all.matrix_free());
+  CHECK(!all.state().matrix_free);
 }
 
 TEST_CASE("a look at a march that has begun judges its state again and changes nothing", "[flow][fast]") {
   March march({.drop = 1e-6, .by_balance = true, .max_steps = 3});
   march.begin_step();
   while (march.judge(of(0.5), 0.0) == Verdict::go_on) march.updated(1.0, 5, 0.1);
-  const int steps = march.steps();
-  const double cfl = march.cfl();
+  const int steps = march.state().steps;
+  const double cfl = march.state().cfl;
   march.look();
   march.resume(100);
   CHECK(march.judge(of(0.5), 0.0) == Verdict::converged);
-  CHECK(march.spent());
-  CHECK(march.steps() == steps);
-  CHECK(march.cfl() == cfl);
-  CHECK(march.unconverged() == 1);
+  CHECK(march.state().spent);
+  CHECK(march.state().steps == steps);
+  CHECK(march.state().cfl == cfl);
+  CHECK(march.state().unconverged == 1);
 }

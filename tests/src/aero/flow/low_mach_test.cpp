@@ -34,10 +34,10 @@ March3 cylinder(double mach) {
   Case c(grid, s, {{"wall", {Condition::slip, true}}, {"far", {Condition::far_field, false}}});
   c.prepare();
   c.run();
-  CHECK(c.solver->march().verdict() == Verdict::converged);
-  CHECK_FALSE(c.solver->march().spent());
+  CHECK(c.solver->march().verdict == Verdict::converged);
+  CHECK_FALSE(c.solver->march().spent);
   const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
-  return {c.solver->march().steps(), c.solver->rows().back().force[0] / q};
+  return {c.solver->march().steps, c.solver->rows().back().force[0] / q};
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ std::vector<double> vortex_on_moving_grid(int steps, int order, bool moving) {
     };
     c.solver->motion().move_to({pose});
     c.run();
-    REQUIRE_FALSE(c.solver->march().spent());
+    REQUIRE_FALSE(c.solver->march().spent);
   }
   for (int n = 1; n <= steps && !moving; ++n) c.run();
   std::vector<double> all;

@@ -49,8 +49,8 @@ TEST_CASE("a disturbance in a box of far fields leaves and the stream comes back
   Case c = bump(setting, 1, 0);
   c.prepare();
   c.run();
-  CHECK(c.solver->march().verdict() == Verdict::converged);
-  CHECK(c.solver->march().density_residual() < 1.1e-9 * c.solver->march().first_density_residual());
+  CHECK(c.solver->march().verdict == Verdict::converged);
+  CHECK(c.solver->march().now.density < 1.1e-9 * c.solver->march().first.density);
   CHECK(stream_deviation(*c.solver) < 1e-8);
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("a state without a finite residual is refused by name, not marched on"
   c.solver->tiles()[1].state.data()[c.solver->tiles()[1].cells.at(1, 1, 1)] = std::nan("");
   c.prepare();
   c.run();
-  CHECK(c.solver->march().verdict() == Verdict::failed);
+  CHECK(c.solver->march().verdict == Verdict::failed);
   CHECK(c.solver->judgement().trouble().find("no finite residual in the row of block 0 cell (") != std::string::npos);
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("memory stays below 2 kB per cell with a turbulence model, the implici
     c.run(order == 0 ? 1 : 3);
     int most = 0;
     for (const PseudoRow& row : c.solver->rows()) most = std::max(most, row.krylov);
-    CHECK(c.solver->march().verdict() == Verdict::converged);
+    CHECK(c.solver->march().verdict == Verdict::converged);
     CHECK((order == 0 ? most == setting.march.krylov_steps : most >= 3));
     const double per_cell = double(c.solver->bytes() + c.store->bytes()) / double(c.solver->cells());
     CAPTURE(order, most, per_cell);

@@ -51,7 +51,7 @@ double after_march(int n, double amplitude, WindLaw law, int steps) {
          {{"i_min", open}, {"i_max", open}, {"j_min", open}, {"j_max", open}, {"k_min", open}, {"k_max", open}});
   c.prepare();
   c.run();
-  CHECK(c.solver->march().verdict() != Verdict::failed);
+  CHECK(c.solver->march().verdict != Verdict::failed);
   return deviation(*c.solver);
 }
 
