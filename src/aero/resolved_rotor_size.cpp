@@ -63,7 +63,7 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   bytes += narrow * (matrix + box(ni, nj, nk, gradient_ghosts, kind.unknowns) + vectors * double(cells.count()) * kind.unknowns);
   // The grid: see store.hpp. Faces have a vector, speeds (also in a turning frame), and where nodes move two swept volumes.
   bytes += wide * ((kind.moving ? 4 : 1) * box(ni + 1, nj + 1, nk + 1, 0, 3) + box(ni, nj, nk, cell_ghosts, 1) +
-                   box(ni, nj, nk, cell_ghosts, 3) + (kind.moving ? 3 : 1) * box(ni, nj, nk, 0, 1));
+                   box(ni, nj, nk, cell_ghosts, 3) + box(ni, nj, nk, 0, 1));
   for (int d = 0; d < 3; ++d)
     bytes += wide * (3 + (kind.turns ? 1 : 0) + (kind.moving ? 2 : 0)) * box(ni + (d == 0), nj + (d == 1), nk + (d == 2), 0, 1);
   return bytes;

@@ -53,7 +53,7 @@ void set_nodes(TileGeometry& g, const Tile& tile, const BlockPose& pose) {
       for (int j = 0; j <= tile.nj; ++j)
         for (int i = 0; i <= tile.ni; ++i) {
           const std::ptrdiff_t at = g.node_box.at(k, j, i), c = g.node_box.component;
-          const double* x = g.reference_node_data.data() + at;
+          const double* x = g.history->reference_nodes.data() + at;
           const Eigen::Vector3d shaped = pose.shape_at(node_of_block(tile.to_block, {i, j, k}), {x[0], x[c], x[2 * c]});
           const Eigen::Vector3d placed = pose.map.rotation * shaped + pose.map.translation;
           for (int d = 0; d < 3; ++d) g.node_data.data()[at + d * c] = placed[d];
@@ -65,7 +65,7 @@ void set_nodes(TileGeometry& g, const Tile& tile, const BlockPose& pose) {
       g, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return pose.map.rotation * pose.shape(x) + pose.map.translation; });
 }
 /// From one pose to another: displacement at the origin and turn, those of the middle of the step to second order.
-TileGeometry::RigidRate change(const RigidMap& from, const RigidMap& to) {
+RigidRate change(const RigidMap& from, const RigidMap& to) {
   const Eigen::AngleAxisd axis(to.rotation * from.rotation.transpose());
   const Eigen::Vector3d turn = axis.axis() * axis.angle();
   return {to.translation - from.translation - turn.cross(0.5 * (to.translation + from.translation)), turn};
@@ -101,7 +101,7 @@ void TileMotion::place(std::vector<BlockPose> before, std::vector<BlockPose> now
     set_nodes(g, arrays_.of(tile), pose(now, tile));
     update_metrics(g, planar);
     update_sweeps(g, planar);
-    g.over_step = change(pose(before, tile).map, pose(now, tile).map);
+    g.history->over_step = change(pose(before, tile).map, pose(now, tile).map);
   }
   before_ = std::move(before);
   now_ = next_ = std::move(now);
@@ -117,9 +117,9 @@ void TileMotion::move(FlowTile& tile) const {
   update_sweeps(g, planar);
   update_speeds(g, time_.weights, time_.dt, planar);
   // As face speeds: of this step and the one before it, second order at the new time level.
-  const auto old = std::exchange(g.over_step, change(pose(before_, tile).map, pose(now_, tile).map));
-  g.rate.velocity = (time_.weights.now * g.over_step.velocity - time_.weights.older * old.velocity) / time_.dt;
-  g.rate.omega = (time_.weights.now * g.over_step.omega - time_.weights.older * old.omega) / time_.dt;
+  const RigidRate now = change(pose(before_, tile).map, pose(now_, tile).map), old = std::exchange(g.history->over_step, now);
+  g.rate.velocity = (time_.weights.now * now.velocity - time_.weights.older * old.velocity) / time_.dt;
+  g.rate.omega = (time_.weights.now * now.omega - time_.weights.older * old.omega) / time_.dt;
   fill_boundary_geometry(g, arrays_.grid.tiling().boundary(tile.index));
 }
 

@@ -41,11 +41,13 @@ int flow_directions(bool planar) { return planar ? 2 : 3; }
 
 std::size_t TileGeometry::bytes() const {
   std::size_t sum = 0;
-  for (const auto* a : {&node_data, &volume_data, &centre_data, &wall_distance_data, &reference_node_data, &old_node_data,
-                        &older_node_data, &old_volume_data, &older_volume_data})
-    sum += a->bytes();
-  for (const auto* family : {&face_data, &swept_data, &old_swept_data, &speed_data})
-    for (const auto& a : *family) sum += a.bytes();
+  const auto add = [&sum](const AlignedArray<double>& a) { sum += a.bytes(); };
+  for (const auto* a : {&node_data, &volume_data, &centre_data, &wall_distance_data}) add(*a);
+  for (const auto* family : {&face_data, &speed_data}) std::ranges::for_each(*family, add);
+  if (!history) return sum;
+  const MotionHistory& h = *history;
+  for (const auto* a : {&h.reference_nodes, &h.old_nodes, &h.older_nodes}) add(*a);
+  for (const auto* family : {&h.swept, &h.old_swept}) std::ranges::for_each(*family, add);
   return sum;
 }
 
@@ -76,16 +78,12 @@ std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Ti
   });
   update_metrics(g, planar);
   if (moving) {
-    g.reference_node_data = AlignedArray<double>(g.node_box.size(3));
-    g.old_node_data = AlignedArray<double>(g.node_box.size(3));
-    g.older_node_data = AlignedArray<double>(g.node_box.size(3));
-    std::ranges::copy(g.node_data.span(), g.reference_node_data.data());
-    std::ranges::copy(g.node_data.span(), g.old_node_data.data());
+    MotionHistory& h = g.history.emplace();
+    for (auto* nodes : {&h.reference_nodes, &h.old_nodes, &h.older_nodes}) *nodes = AlignedArray<double>(g.node_box.size(3));
+    std::ranges::copy(g.node_data.span(), h.reference_nodes.data());
+    std::ranges::copy(g.node_data.span(), h.old_nodes.data());
     for (int d = 0; d < 3; ++d)
-      for (auto* family : {&g.swept_data, &g.old_swept_data, &g.speed_data})
-        (*family)[d] = AlignedArray<double>(g.face_box[d].size(1));
-    g.old_volume_data = AlignedArray<double>(g.inner_box.size(1));
-    g.older_volume_data = AlignedArray<double>(g.inner_box.size(1));
+      for (auto* family : {&h.swept, &h.old_swept, &g.speed_data}) (*family)[d] = AlignedArray<double>(g.face_box[d].size(1));
     begin_step(g);
     begin_step(g);
   }
@@ -134,23 +132,20 @@ void fill_boundary_geometry(TileGeometry& g, std::span<const TileBoundary> bound
 }
 
 void begin_step(TileGeometry& g) {
-  std::swap(g.old_node_data, g.older_node_data);
-  std::ranges::copy(g.node_data.span(), g.old_node_data.data());
-  for (int d = 0; d < 3; ++d) std::swap(g.swept_data[d], g.old_swept_data[d]);
-  std::swap(g.old_volume_data, g.older_volume_data);
-  BoxView<double> old = g.old_volume();
-  const BoxView<const double> volume = g.volume();
-  for_box(g.inner_box, [&](int k, int j, int i) { old(0, k, j, i) = volume(0, k, j, i); });
+  MotionHistory& h = *g.history;
+  std::swap(h.old_nodes, h.older_nodes);
+  std::ranges::copy(g.node_data.span(), h.old_nodes.data());
+  std::swap(h.swept, h.old_swept);
 }
 
 void move_nodes(TileGeometry& g, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& position) {
-  const BoxView<const double> reference = g.reference_nodes();
+  const BoxView<const double> reference{g.history->reference_nodes.data(), g.node_box};
   BoxView<double> x = g.nodes();
   for_box(g.node_box, [&](int k, int j, int i) { set_vector(x, k, j, i, position(vector_at(reference, k, j, i))); });
 }
 
 void move_rigidly(TileGeometry& g, const RigidMap& map) {
-  const BoxView<const double> reference = g.reference_nodes();
+  const BoxView<const double> reference{g.history->reference_nodes.data(), g.node_box};
   BoxView<double> x = g.nodes();
   for_box(g.node_box, [&](int k, int j, int i) {
     const Eigen::Vector3d moved = map.rotation * vector_at(reference, k, j, i) + map.translation;
@@ -159,9 +154,9 @@ void move_rigidly(TileGeometry& g, const RigidMap& map) {
 }
 
 void update_sweeps(TileGeometry& g, bool planar) {
-  const BoxView<const double> now = g.nodes(), old = g.old_nodes();
+  const BoxView<const double> now = g.nodes(), old{g.history->old_nodes.data(), g.node_box};
   for (int d = 0; d < flow_directions(planar); ++d) {
-    BoxView<double> swept = g.swept(d);
+    BoxView<double> swept{g.history->swept[d].data(), g.face_box[d]};
     for_box(g.face_box[d],
             [&](int k, int j, int i) { swept(0, k, j, i) = swept_volume(face_at(old, d, k, j, i), face_at(now, d, k, j, i)); });
   }
@@ -169,19 +164,22 @@ void update_sweeps(TileGeometry& g, bool planar) {
 
 void update_speeds(TileGeometry& g, TimeWeights weights, double dt, bool planar) {
   for (int d = 0; d < flow_directions(planar); ++d) {
-    BoxView<double> speed = g.speed(d), swept = g.swept(d), old = g.old_swept(d);
+    BoxView<double> speed = g.speed(d);
+    const BoxView<const double> swept{g.history->swept[d].data(), g.face_box[d]},
+        old{g.history->old_swept[d].data(), g.face_box[d]};
     for_box(g.face_box[d],
             [&](int k, int j, int i) { speed(0, k, j, i) = swept_rate(weights, swept(0, k, j, i), old(0, k, j, i), dt); });
   }
 }
 
 Eigen::Vector3d node_velocity(const TileGeometry& g, TimeWeights w, double dt, int k, int j, int i) {
+  const MotionHistory& h = *g.history;
   Eigen::Vector3d v;
   for (int c = 0; c < 3; ++c) {
     const std::ptrdiff_t at = c * g.node_box.component + g.node_box.at(k, j, i);
-    const double now = g.node_data.data()[at], old = g.old_node_data.data()[at];
+    const double now = g.node_data.data()[at], old = h.old_nodes.data()[at];
     // With differences, not positions: digits of small steps far from the origin.
-    v[c] = (w.now * (now - old) - w.older * (old - g.older_node_data.data()[at])) / dt;
+    v[c] = (w.now * (now - old) - w.older * (old - h.older_nodes.data()[at])) / dt;
   }
   return v;
 }

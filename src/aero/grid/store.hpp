@@ -1,12 +1,13 @@
 // The geometry of the tiles a rank owns: nodes, face vectors, volumes, centres, wall distances, and at moving grids what faces
 // sweep. Bytes per cell (8 x 16 x 64 tile; padding and ghosts counted): nodes 32, faces 80, volume 13, centres 38, wall distance
-// 8: 171; moving adds nodes 97, sweeps 80, volumes 16: 364 (docs/theory/grid.md). Called by src/aero/flow; tested in
+// 8: 171; moving adds nodes 97, sweeps 80: 348 (docs/theory/grid.md). Called by src/aero/flow; tested in
 // tests/src/aero/grid/store_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,20 @@
 #include "src/aero/grid/tiling.hpp"
 
 namespace spindrift::aero {
+
+/// The rigid part of a motion: velocity at the origin [m/s] and rate of turn [rad/s] now, or what they came to over the last
+/// step.
+struct RigidRate {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), omega = Eigen::Vector3d::Zero();
+};
+
+/// Where the nodes of a tile of a moving grid come from, and what its faces swept on the way.
+struct MotionHistory {
+  AlignedArray<double> reference_nodes;                  ///< as made
+  AlignedArray<double> old_nodes, older_nodes;           ///< one and two steps ago
+  std::array<AlignedArray<double>, 3> swept, old_swept;  ///< [m3] in this step and in the one before
+  RigidRate over_step;
+};
 
 /// Arrays of one tile. Face n of direction d lies below cell n of that direction; its vector [m2] points towards growing index.
 /// In a planar grid the faces across k are left zero: nothing flows through them.
@@ -33,37 +48,21 @@ struct TileGeometry {
   AlignedArray<double> centre_data;               ///< 3 [m]
   AlignedArray<double> wall_distance_data;        ///< 1 [m]; infinite where there is no wall
 
-  // Moving grids only (empty otherwise).
-  AlignedArray<double> reference_node_data;                        ///< nodes as made
-  AlignedArray<double> old_node_data, older_node_data;             ///< nodes one and two steps ago
-  std::array<AlignedArray<double>, 3> swept_data, old_swept_data;  ///< [m3] in this step and in the one before
-  std::array<AlignedArray<double>, 3> speed_data;                  ///< [m3/s] volume per time swept, see swept_rate
-  AlignedArray<double> old_volume_data, older_volume_data;         ///< [m3] interior, one and two steps ago
-  /// The rigid part of a motion: velocity at the origin [m/s] and rate of turn [rad/s] now, or what they came to over the last
-  /// step.
-  struct RigidRate {
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), omega = Eigen::Vector3d::Zero();
-  };
-  RigidRate rate, over_step;
+  // Where the grid or its frame moves (empty otherwise).
+  std::array<AlignedArray<double>, 3> speed_data;  ///< [m3/s] volume per time swept, see swept_rate
+  RigidRate rate;
+  std::optional<MotionHistory> history;  ///< of a grid built as moving
 
   BoxView<double> nodes() { return {node_data.data(), node_box}; }
   BoxView<double> volume() { return {volume_data.data(), cell_box}; }
   BoxView<double> centre() { return {centre_data.data(), cell_box}; }
   BoxView<double> wall_distance() { return {wall_distance_data.data(), inner_box}; }
-  BoxView<double> old_volume() { return {old_volume_data.data(), inner_box}; }
-  BoxView<double> older_volume() { return {older_volume_data.data(), inner_box}; }
-  BoxView<double> reference_nodes() { return {reference_node_data.data(), node_box}; }
-  BoxView<double> old_nodes() { return {old_node_data.data(), node_box}; }
   BoxView<double> face(int direction) { return {face_data[direction].data(), face_box[direction]}; }
-  BoxView<double> swept(int direction) { return {swept_data[direction].data(), face_box[direction]}; }
-  BoxView<double> old_swept(int direction) { return {old_swept_data[direction].data(), face_box[direction]}; }
   BoxView<double> speed(int direction) { return {speed_data[direction].data(), face_box[direction]}; }
   BoxView<const double> nodes() const { return {node_data.data(), node_box}; }
   BoxView<const double> volume() const { return {volume_data.data(), cell_box}; }
   BoxView<const double> centre() const { return {centre_data.data(), cell_box}; }
   BoxView<const double> wall_distance() const { return {wall_distance_data.data(), inner_box}; }
-  BoxView<const double> old_volume() const { return {old_volume_data.data(), inner_box}; }
-  BoxView<const double> older_volume() const { return {older_volume_data.data(), inner_box}; }
   BoxView<const double> face(int direction) const { return {face_data[direction].data(), face_box[direction]}; }
   BoxView<const double> speed(int direction) const { return {speed_data[direction].data(), face_box[direction]}; }
   bool moving() const { return speed_data[0].size() > 0; }
