@@ -55,9 +55,11 @@ void add_critical_path(std::string& out, const Efficiency& e) {
 std::string efficiency_table(const Efficiency& e) {
   std::string out;
   if (std::isnan(e.critical_path_s)) {  // no records: the factors that are known, in a line
-    print(out, "parallel efficiency %.1f %% (load balance %.1f %%, communication %.1f %%) of %d thread%s on %d rank%s\n",
-          100.0 * e.parallel, 100.0 * e.load_balance, 100.0 * e.communication, e.threads, e.threads == 1 ? "" : "s", e.ranks,
-          e.ranks == 1 ? "" : "s");
+    print(out,
+          "%d thread%s on %d rank%s, busy for %.1f %% of the time: parallel efficiency = load balance %.1f %% x communication "
+          "%.1f %%",
+          e.threads, e.threads == 1 ? "" : "s", e.ranks, e.ranks == 1 ? "" : "s", 100.0 * e.parallel, 100.0 * e.load_balance,
+          100.0 * e.communication);
     return out;
   }
   const double all = e.threads * e.elapsed_s;

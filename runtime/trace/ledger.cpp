@@ -34,8 +34,8 @@ ThreadTimes sum_of(const Team& team) {
 
 }  // namespace
 
-Ledger::Ledger(std::size_t records) : begin_ns_(Clock::now_ns()), capacity_(records) {
-  widen(gone_.trace.threads, std::size_t(omp_get_max_threads()));
+Ledger::Ledger(std::size_t records, int threads) : begin_ns_(Clock::now_ns()), capacity_(records) {
+  widen(gone_.trace.threads, std::size_t(threads > 0 ? threads : omp_get_max_threads()));
   active = this;
 }
 Ledger::~Ledger() { active = nullptr; }

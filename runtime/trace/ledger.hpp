@@ -21,8 +21,9 @@ class Span;
 
 class Ledger {
  public:
-  /// From now on every executor of this process is counted. `records`: of spans, kept for the trace. One ledger at a time.
-  explicit Ledger(std::size_t records = 0);
+  /// From now on every executor of this process is counted. `records`: of spans, kept for the trace. `threads`: that the run
+  /// uses, also before its first executor; 0: those of OpenMP. One ledger at a time.
+  explicit Ledger(std::size_t records = 0, int threads = 0);
   ~Ledger();
   Ledger(const Ledger&) = delete;
   Ledger& operator=(const Ledger&) = delete;

@@ -257,12 +257,14 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   spdlog::info("spindrift {} ({}), {} rank{}: {}", build.version, build.commit, world.size, world.size == 1 ? "" : "s",
                arguments.scene);
   const bool fluids = scenario->has_particles() || scenario->resolves_air();  // bodies take one thread
-  const runtime::Affinity affinity = runtime::affinity(world, fluids ? omp_get_max_threads() : 1);
+  const int threads = fluids ? omp_get_max_threads() : 1;
+  const runtime::Affinity affinity = runtime::affinity(world, threads);
   spdlog::info("{}", affinity.places);
   if (world.rank == 0)
     for (const std::string& crowded : affinity.crowding) spdlog::warn("{}", crowded);
 
-  run::RunSettings settings{.restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet};
+  run::RunSettings settings{
+      .restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet, .threads = threads};
   settings.scene = arguments.scene, settings.record_graph = arguments.record_graph,
   settings.windows = windows_of(arguments.windows);
   settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();

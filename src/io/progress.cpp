@@ -83,7 +83,7 @@ std::string progress_text(double time_s, double start_s, double end_s, double sp
   std::string text = fmt::format("t = {:.{}f} of {:.{}f} s   {:3.0f} %", time_s, decimals, end_s, decimals, std::floor(percent));
   if (speed > 0.0) {
     text +=
-        speed >= 0.1 ? fmt::format("   {:.3g} x real time", speed) : fmt::format("   {:.3g} wall s per simulated s", 1.0 / speed);
+        speed >= 1.0 ? fmt::format("   {:.3g} x real time", speed) : fmt::format("   {:.3g} wall s per simulated s", 1.0 / speed);
     text += fmt::format("   {} to go", duration_text((end_s - time_s) / speed));
   }
   return text;

@@ -4,7 +4,6 @@ SPDX-License-Identifier: Apache-2.0"""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import Normalize, TwoSlopeNorm
-from matplotlib.ticker import MaxNLocator
 
 import figures
 
@@ -107,12 +106,20 @@ def middle_plane(run):
 QUANTITIES = {"pressure coefficient": (2, "RdYlBu_r"), "Mach number": (3, "viridis")}
 
 
-def flow_slice(plane, quantities=tuple(QUANTITIES)):
-    """Quantities of the flow in a run's middle plane, beside each other."""
+def round_steps(least, most, count=5):
+    """Multiples of 1, 2 or 5 times a power of ten between two values, some `count` of them."""
+    power = 10.0 ** np.floor(np.log10((most - least) / count))
+    step = next(s * power for s in (1.0, 2.0, 5.0, 10.0) if (most - least) / (s * power) <= 1.2 * count)
+    return step * np.arange(np.ceil(least / step - 1e-9), np.floor(most / step + 1e-9) + 1)
+
+
+def flow_slice(plane, quantities=tuple(QUANTITIES), wide=5.4):
+    """Quantities of the flow in a run's middle plane, one above the other; `wide` [inches]."""
     pieces, low, high = plane
     aspect = (high[1] - low[1]) / max(high[0] - low[0], 1e-12)
-    figure, axes = plt.subplots(1, len(quantities), squeeze=False, figsize=(5.4 * len(quantities), float(np.clip(4.0 * aspect, 1.4, 5.0)) + 0.5), layout="constrained")
-    for axis, label in zip(axes[0], quantities):
+    tall = float(np.clip(0.74 * wide * aspect, 0.26 * wide, 0.93 * wide)) + 0.5
+    figure, axes = plt.subplots(len(quantities), 1, squeeze=False, figsize=(wide, tall * len(quantities)), layout="constrained")
+    for axis, label in zip(axes[:, 0], quantities):
         n, colours = QUANTITIES[label]
         seen = np.concatenate([p[n][inside(p, low, high)] for p in pieces])
         least, most = np.percentile(seen, [0.5, 99.5]) if len(seen) else (0.0, 1.0)
@@ -123,7 +130,7 @@ def flow_slice(plane, quantities=tuple(QUANTITIES)):
             drawn = axis.pcolormesh(piece[0], piece[1], piece[n], cmap=colours, norm=scale, rasterized=True)
         bar = figure.colorbar(drawn, ax=axis, label=label)
         if isinstance(scale, TwoSlopeNorm):
-            bar.set_ticks(sorted({*MaxNLocator(4).tick_values(least, 0.0), *MaxNLocator(2).tick_values(0.0, most)}))
+            bar.set_ticks(round_steps(least, most))
             bar.ax.set_ylim(least, most)
         axis.set_xlim(low[0], high[0])
         axis.set_ylim(low[1], high[1])

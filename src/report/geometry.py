@@ -10,6 +10,14 @@ import numpy as np
 ROUND = 36  # corners of a circle
 
 
+def round_edge(x, y, near, far):
+    """A square sheet about its middle, drawn in beyond `near` so that its edge is a circle: corners would bend the horizon."""
+    square, away = np.maximum(abs(x), abs(y)), np.hypot(x, y)
+    part = np.clip(np.log(np.maximum(square, near) / near) / math.log(far / near), 0.0, 1.0)
+    drawn = 1.0 - part * (1.0 - square / np.maximum(away, 1e-300))
+    return x * drawn, y * drawn
+
+
 class Piece:
     """A surface of quadrilaterals and triangles, or polylines: `kind` says what it shows (float, tower, nacelle, blade, line, brace); `sketched`
     where the scene does not describe its shape."""

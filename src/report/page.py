@@ -41,13 +41,14 @@ def _span(run):
         return ""
     if verdict.is_steady(run):
         return "At the end of the march."
-    if verdict.kind(run) == "tank":
-        return "Of the whole run."
+    if verdict.kind(run) == "tank" or verdict.is_impact(run):
+        return "Of the whole run." if not any(text.startswith("wave height") for text, _, _ in verdict.answers(run)) else "Over the last two waves."
     if decay.decays(run):
         return "Period and damping from the peaks of the whole run."
     count = verdict.waves_in_means(run)
     swings = " ± standard deviation" if any("±" in value for _, value, _ in verdict.answers(run)) else ""
-    return f"Means{swings} over {run.mean_range()[1]}" + (f", {number(count, 3)} waves." if math.isfinite(count) else ".")
+    return f"Means{swings} over {run.mean_range()[1]}" + (f", {number(count, 3)} waves" if math.isfinite(count) else "") + (
+        "; least and greatest of the whole run." if any(text.endswith(("least", "greatest")) for text, _, _ in verdict.answers(run)) else ".")
 
 
 def scene_as_given(run):
@@ -228,26 +229,41 @@ def key_figures(run):
 
 def expected(run):
     """The scene's references beside what the run gave."""
-    rows, changed = [], run.changed_keys()   # references are of the scene as its file has it
+    rows, by, changed = [], {}, run.changed_keys()   # references are of the scene as its file has it
     for r in verdict.references(run):
         unit, factor = quantities.scaled(quantities.unit_of(r.column, run.described), abs(r.wanted))
         off = r.found - r.wanted
         share = f" ({100.0 * off / abs(r.wanted):+.1f} %)".replace("-", "−") if r.wanted and not r.why_not else ""
         outcome = {True: "met", False: "not judged" if changed else "not met", None: f"not compared: {r.why_not}"}[r.agrees()]
-        rows.append([_spoken(run, r.column), unit, f"{number(factor * r.wanted)} ± {number(factor * r.within, 2)}", "–" if r.why_not else number(factor * r.found),
-                     "–" if r.why_not else number(factor * off, 2) + share, outcome, f"{r.source}{f'; mean {r.span}' if r.span else ''}"])
-    return parts.table(["Quantity", "Unit", "Expected", "Found", "Difference", "Outcome", "By"], rows, (5, 6)) if rows else ""
+        rows.append([_spoken(run, r.column), outcome, unit, f"{number(factor * r.wanted)} ± {number(factor * r.within, 2)}", "–" if r.why_not else number(factor * r.found),
+                     "–" if r.why_not else number(factor * off, 2) + share])
+        by.setdefault(f"{r.source}{f'; mean {r.span}' if r.span else ''}", []).append(quantities.spoken(r.column))
+    said = "".join(f"<li>{escape(', '.join(names))}: {escape(source)}</li>" for source, names in by.items() if source)
+    return parts.table(["Quantity", "Outcome", "Unit", "Expected", "Found", "Difference"], rows, (1,)) + safe(f'<ul class="facts">{said}</ul>' * bool(said)) if rows else ""
 
 
 def compared_figures(runs):
-    """Means of each run, and how far each is from the first."""
-    names = [n for n in quantities.key_columns(runs[0].columns) if all(n in r.columns for r in runs)]
+    """Means of each run, and how far each is from the first; folded: least and greatest values."""
     runs = [r for r in runs if len(r.time)]
-    if not names or len(runs) < 2:
+    if len(runs) < 2:
         return ""
-    rows, spans = [], [r.mean_range() for r in runs]
+    spans = [r.mean_range() for r in runs]
+    of_rows = {r.name: s[0] for r, s in zip(runs, spans)}
+    table = _compared(runs, "Mean of", lambda r, name: mean(r.time[of_rows[r.name]], r.column(name)[of_rows[r.name]]))
+    if not table:
+        return ""
+    said = "; ".join(f"{r.name}: {s[1]}" for r, s in zip(runs, spans))
+    extremes = "".join(_compared(runs, title, lambda r, name, function=function: float(function(r.column(name)))) for title, function in (("Greatest", np.nanmax), ("Least", np.nanmin)))
+    return (table + safe(f'<p class="facts">Means over {escape(said)}. In brackets: difference from the first, of displacements and angles, which go round zero, in their own unit.</p>')
+            + safe(f"<details><summary>Greatest and least values of the whole runs</summary>{extremes}</details>"))
+
+
+def _compared(runs, title, figure_of):
+    """A row a quantity, a column a run."""
+    names = [n for n in quantities.key_columns(runs[0].columns) if all(n in r.columns for r in runs)]
+    rows = []
     for name in names:
-        means = [mean(r.time[s[0]], r.column(name)[s[0]]) for r, s in zip(runs, spans)]
+        means = [figure_of(r, name) for r in runs]
         means = [0.0 if abs(m) <= r.round_off(name) else m for m, r in zip(means, runs)]
         if not any(means) and all(name in r.columns and not (abs(r.column(name)) > r.round_off(name)).any() for r in runs):   # zero throughout, in all
             continue
@@ -260,11 +276,7 @@ def compared_figures(runs):
             off = f"{change:+.2f} %".replace("-", "−") if share else f"{'+' if change > 0.0 else ''}{number(change, 3)} {unit}".strip()
             cells.append(number(factor * value) + (safe(f" <small>({escape(off)})</small>") if math.isfinite(change) else ""))
         rows.append([_spoken(runs[0], name), unit] + cells)
-    if not rows:
-        return ""
-    said = "; ".join(f"{r.name}: {s[1]}" for r, s in zip(runs, spans))
-    return (parts.table(["Mean of", "Unit"] + [r.name for r in runs], rows)
-            + safe(f'<p class="facts">Means over {escape(said)}. In brackets: difference from the first, of displacements and angles, which go round zero, in their own unit.</p>'))
+    return parts.table([title, "Unit"] + [r.name for r in runs], rows) if rows else ""
 
 
 def _figure(title, legend, figure, caption):
@@ -379,7 +391,7 @@ def spectra(runs):
     names, lowest = runs[0].columns, min(marks(runs[0]).values(), default=None)
     if not len(runs[0].time) or verdict.is_steady(runs[0]) or not quantities.bodies_of(names):
         return ""
-    if decay.decays(runs[0]):   # some swings have a period, and no spectrum worth looking at
+    if decay.decays(runs[0]) or verdict.is_impact(runs[0]):   # some swings have a period, and no spectrum worth looking at
         return ""
     length = figures.segment_s(runs[0].time)
     if lowest is not None and length * lowest < 3.0:

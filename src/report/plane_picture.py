@@ -2,15 +2,19 @@
 Called by spindrift_picture.py; tested in tests/src/report/geometry_test.py. SPDX-License-Identifier: Apache-2.0"""
 import textwrap
 
+import matplotlib
 import numpy as np
 
 import flow_pictures
 import geometry
+import painted
 import run_fields
 from figures import plt
 
 INK = "#22262b"
-MOST_DRAWN = 60_000
+SPEED = matplotlib.colormaps["viridis"].with_extremes(under="#9aa0a6")
+MOST_DRAWN = 400_000
+STRETCHED = 14.0
 
 
 class Drawing:
@@ -37,7 +41,7 @@ class Drawing:
         plane = flow_pictures.middle_plane(self.run)
         if plane is None:
             raise ValueError("the flow has no cells in its middle plane")
-        figure = flow_pictures.flow_slice(plane)
+        figure = flow_pictures.flow_slice(plane, wide=8.0)
         figure.set_dpi(130)
         figure.suptitle(self.run.title, x=0.01, ha="left", fontweight="semibold")
         return figure
@@ -59,35 +63,31 @@ class Drawing:
             keep &= (position[:, 0] >= x[0]) & (position[:, 0] <= x[1]) & (position[:, 2] >= bed)
         water = keep & (owner == 0) if owner is not None else keep
         solids = keep & (owner != 0) if owner is not None else np.zeros(len(position), bool)
-        chosen = np.flatnonzero(water)
-        chosen = chosen[:: max(1, len(chosen) // MOST_DRAWN)]
         low = position[keep, 2].min()
         z = [low, min(tank.get("top_m", np.inf), self.top + 0.12 * (self.top - low))]   # no more air than the water of any time leaves
         if solids.any():
             x = [x[0] - 3 * spacing, x[1] + 3 * spacing]
-        span = (x[1] - x[0]) / max(z[1] - z[0], 1e-9)
-        high = float(np.clip(9.4 / span, 1.0, 6.0))
-        wide = 9.4 if span > 5.0 else max(6.0, min(9.4, high * span))   # of the water, beside its scales
-        figure, axis = plt.subplots(figsize=(wide + 1.6, high + (1.9 if span > 5.0 else 1.6)), dpi=130, layout="constrained", facecolor="white")
-        size = max(0.2, min(600.0, (1.15 * spacing * 72 * min(high / max(z[1] - z[0], 1e-9), wide / (x[1] - x[0]))) ** 2)) if np.isfinite(spacing) else 2.0
-        if solids.any():
-            axis.scatter(position[solids, 0], position[solids, 2], c="#9aa0a6", s=size, linewidths=0)
-        drawn = axis.scatter(position[chosen, 0], position[chosen, 2], c=speed[chosen], s=size, linewidths=0, cmap="viridis", vmin=0.0, vmax=self.most or 1.0)
+        limits = tuple(x), (z[0] - 0.02 * (z[1] - z[0]), z[1])
+        figure, axis, scale = frame(self.run.title, *(np.ptp(limit) for limit in limits))
+        shown = np.flatnonzero(keep & ~self._drawn(position, owner, time, spacing))
+        shown = shown[:: max(1, len(shown) // MOST_DRAWN)]
+        value = np.where(water, speed, -1.0)   # walls are below the scale
+        drawn = painted.paint(axis, position[shown, 0], position[shown, 2], value[shown], spacing, limits, cmap=SPEED, vmin=0.0, vmax=self.most or 1.0)
         solids_at(axis, self.scene, time)
-        axis.set_xlim(*x)
-        axis.set_ylim(z[0] - 0.02 * (z[1] - z[0]), z[1])
-        if span < 14.0:
-            axis.set_aspect("equal")
+        axis.set(xlim=limits[0], ylim=limits[1], xlabel="x [m]", ylabel="z [m]")
         axis.grid(False)
-        axis.set_xlabel("x [m]")
-        axis.set_ylabel("z [m]")
-        figure.suptitle(textwrap.fill(self.run.title, int(9.5 * figure.get_figwidth())), x=0.01, ha="left", fontweight="semibold", fontsize=12)
-        axis.set_title(f"t = {time:.3g} s", loc="left", fontsize=11)
-        if span > 5.0:
-            figure.colorbar(drawn, ax=axis, label="speed of the water [m/s]", orientation="horizontal", shrink=0.4, aspect=40, pad=0.02)
-        else:
-            figure.colorbar(drawn, ax=axis, label="speed of the water [m/s]", fraction=0.03, pad=0.01)
+        axis.set_title(f"t = {time:.3g} s", loc="left", fontsize=12)
+        figure.colorbar(drawn, cax=scale, label="speed of the water [m/s]", orientation="horizontal" if scale.get_position().width > scale.get_position().height else "vertical")
         return figure
+
+    def _drawn(self, position, owner, time, spacing):
+        """Particles of bodies that are drawn themselves."""
+        hidden = np.zeros(len(position), bool)
+        for piece in self.scene.pieces(time) if owner is not None else ():
+            if piece.kind == "float":
+                low, high = piece.points.min(axis=0) - spacing, piece.points.max(axis=0) + spacing
+                hidden |= (owner > 1) & ((position >= low) & (position <= high)).all(axis=1)
+        return hidden
 
     def _greatest_speed_and_height(self):
         """Of the water and the floats of all outputs, so that the colours and the frame of a film mean the same throughout."""
@@ -102,6 +102,27 @@ class Drawing:
                 floats = [piece.points[:, 2].max() for piece in self.scene.pieces(time) if piece.kind == "float"]
                 top = max([top, float(np.max(height, initial=-np.inf)), *floats])
         return most, top
+
+
+def frame(title, wide_m, high_m):
+    """Figure, axes and place of the colours' scale for a stretch of water, in inches, so that every frame of a film has the same: beside low water the
+    scale would be too short, so it lies below it. One metre is as long upwards as sideways, but in tanks longer than STRETCHED of their height."""
+    span = wide_m / max(high_m, 1e-9)
+    below = span > 5.0
+    high = float(np.clip(9.4 / min(span, STRETCHED), 0.5, 5.6))
+    wide = 9.4 if span > STRETCHED else high * span
+    left, right, bottom = 0.85, 0.25 if below else 1.25, 1.4 if below else 0.65
+    all_wide = max(6.5, left + wide + right)
+    lines = textwrap.wrap(title, int(8.8 * all_wide)) or [""]
+    top = 0.45 + 0.26 * len(lines)
+    all_high = bottom + high + top
+    figure = plt.figure(figsize=(all_wide, all_high), dpi=130, facecolor="white")
+    left += 0.5 * (all_wide - left - wide - right)
+    axis = figure.add_axes((left / all_wide, bottom / all_high, wide / all_wide, high / all_high))
+    box = (left + 0.3 * wide, 0.62, 0.4 * wide, 0.14) if below else (left + wide + 0.12, bottom, 0.2, high)
+    scale = figure.add_axes((box[0] / all_wide, box[1] / all_high, box[2] / all_wide, box[3] / all_high))
+    figure.text(0.1 / all_wide, 1.0 - 0.08 / all_high, "\n".join(lines), ha="left", va="top", fontweight="semibold", fontsize=13)
+    return figure, axis, scale
 
 
 def solids_at(axis, scene, time):

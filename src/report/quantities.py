@@ -168,7 +168,7 @@ def key_columns(names):
     """Columns of the key figures: motions of the first body, coefficients of a flow, rotor loads, tensions, gauges."""
     bodies = bodies_of(names)
     chosen = [c for b in bodies[:1] for c in (p[1][0][1] for p in _triple(names, b, ("x", "y", "z", "roll", "pitch", "yaw")))]
-    wanted = (".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".tension_N", ".lift_coefficient", ".drag_coefficient", "flow.fx_N", "flow.fz_N",
+    wanted = (".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".electrical_power_W", "rotor.asked_pitch_deg", ".tension_N", ".lift_coefficient", ".drag_coefficient", "flow.fx_N", "flow.fz_N",
               ".elevation_m", ".pressure_Pa", "sea.lost_particles")
     sector = {"flow.fx_N", "flow.fz_N"} if "rotor.thrust_N" in names else set()   # of a rotor: loads of the sector that is solved
     farthest = set() if bodies or "wavemaker.displacement_m" in names else {"sea.x_max_m"}   # of water that runs: a broken dam

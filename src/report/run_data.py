@@ -44,8 +44,10 @@ class RunData:
         changed = self.changed_keys()
         if not changed or any(words.startswith("output.title") for words in map(str, self.summary.get("set") or [])):
             return ""
-        said = ", ".join(words.replace("=", " = ", 1) for words in changed)
-        return "with " + said if len(said) <= 60 else f"with {len(changed)} keys changed" if len(changed) > 1 else f"with {changed[0].partition('=')[0]} changed"
+        left_out = [words.partition("=")[2].strip("[] ").replace('"', "") for words in changed if words.startswith("without=")]
+        given = [words.replace("=", " = ", 1) for words in changed if not words.startswith("without=")]
+        said = ", ".join([*(f"without {what}" for what in left_out), *(["with " + ", ".join(given)] if given else [])])
+        return said if len(said) <= 65 else f"with {len(changed)} keys changed" if len(changed) > 1 else f"with {changed[0].partition('=')[0]} changed"
 
     def changed_keys(self):
         """What --set changed of the results, as given: KEY=VALUE."""

@@ -27,8 +27,9 @@ class Fields:
         """(time, file) of the output nearest to t, or None."""
         return min(self.files[name], key=lambda entry: abs(entry[0] - t), default=None)
 
-    def surface(self, t):
-        """x, y, z (nj, ni) of the water's surface at t between two outputs, and the height of the bed; None without outputs."""
+    def surface(self, t, floats=()):
+        """x, y, z (nj, ni) of the water's surface at t between two outputs, and the height of the bed; None without outputs. Where a float, given as its
+        points, stands in the water, the heights around go through it."""
         if not self.files["surface"]:
             return None
         times = np.array(self.times("surface"))
@@ -36,7 +37,12 @@ class Fields:
         before = max(0, after - 1)
         (x, y, z0, bed), (_, _, z1, _) = self._surface(before), self._surface(after)
         share = 0.0 if after == before else float(np.clip((t - times[before]) / (times[after] - times[before]), 0.0, 1.0))
-        return x, y, (1 - share) * z0 + share * z1, bed
+        z, reach = (1 - share) * z0 + share * z1, [np.ptp(a) / max(n - 1, 1) for a, n in ((x, x.shape[1]), (y, y.shape[0]))]
+        beside = np.zeros(z.shape, bool)
+        for points in floats:
+            low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
+            beside |= np.all([(c > a - h) & (c < b + h) for c, a, b, h in zip((x, y), low, high, reach)], axis=0)
+        return x, y, filled(np.where(beside, np.nan, z)), bed
 
     def _surface(self, index):
         key = ("surface", index)
@@ -77,13 +83,17 @@ def without_holes(z, bed):
     for axis in (0, 1):
         for step in (-1, 1):
             wide |= np.roll(dry, step, axis)
-    z = np.where(wide, np.nan, z)
+    return filled(np.where(wide, np.nan, z))
+
+
+def filled(z):
+    """Holes (nan) closed from their edges."""
     for _ in range(200):
         if not np.isnan(z).any() or np.isnan(z).all():
             break
         padded = np.pad(z, 1, mode="edge")
         around = np.stack([padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]])
         known = ~np.isnan(around)
-        filled = np.where(known.any(axis=0), np.nansum(around, axis=0) / np.maximum(known.sum(axis=0), 1), np.nan)
-        z = np.where(np.isnan(z), filled, z)
+        mean = np.where(known.any(axis=0), np.nansum(around, axis=0) / np.maximum(known.sum(axis=0), 1), np.nan)
+        z = np.where(np.isnan(z), mean, z)
     return z

@@ -108,12 +108,13 @@ def wind_colours():
 class Drawing:
     """A window that is filled again for every time; `seen` counts what the last one shows, by kind."""
 
-    def __init__(self, run, size=(1600, 900), camera="scene"):
-        self.run, self.scene, self.camera, self.seen = run, geometry.Scene3d(run), camera, {}
+    def __init__(self, run, size=(1600, 900), camera="scene", finer=1):
+        """`finer`: samples of a pixel along each side, which smooth its edges."""
+        self.run, self.scene, self.camera, self.seen, self.finer = run, geometry.Scene3d(run), camera, {}, finer
         self.fields = run_fields.Fields(run)
         self.renderer, self.window = vtkRenderer(), vtkRenderWindow()
         self.window.SetOffScreenRendering(1)
-        self.window.SetSize(*size)
+        self.window.SetSize(*(finer * side for side in size))
         self.window.SetMultiSamples(0)
         self.renderer.UseFXAAOn()
         self.window.AddRenderer(self.renderer)
@@ -214,14 +215,15 @@ class Drawing:
         if not pieces or self.scene.carrier() not in self.scene.bodies:
             return
         level, far, middle = min(p.points[:, 2].min() for p in pieces), FAR_SEA * self.extent(), self.centre()
-        corners = [[middle[0] + i * far, middle[1] + j * far, level] for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-        self.add("ground", poly_data(np.array(corners), [[0, 1, 2, 3]]), opacity=0.55)
+        around = np.linspace(0.0, 2.0 * np.pi, 180, endpoint=False)   # a square's corners would bend the horizon
+        edge = np.column_stack([middle[0] + far * np.cos(around), middle[1] + far * np.sin(around), np.full(len(around), level)])
+        self.add("ground", poly_data(edge, [list(range(len(edge)))]), opacity=0.55)
 
     def water(self, t):
         if not self.water_model():
             self.ground()
             return
-        found = self.fields.surface(t)
+        found = self.fields.surface(t, [piece.points for piece in self.scene.pieces(t) if piece.kind == "float" and piece.points[:, 2].min() < 0.0 < piece.points[:, 2].max()])
         if found is not None:
             x, y, z, tank = found
             self.sheet(x, y, z)
@@ -232,10 +234,10 @@ class Drawing:
         beyond = np.geomspace(near, far, 25)[1:]
         middle, along = self.centre(), np.concatenate([-beyond[::-1], np.linspace(-near, near, 801), beyond])
         across = np.concatenate([-beyond[::-1], np.linspace(-near, near, 41), beyond])
-        x, y = np.meshgrid(middle[0] + along, middle[1] + across)
+        x, y = geometry.round_edge(*np.meshgrid(along, across), near, far)
         # Waves fade out before the sheet is too coarse for them.
-        shown = np.clip(2.0 - 4.0 * np.hypot(x - middle[0], y - middle[1]) / near, 0.0, 1.0)
-        self.sheet(x, y, shown * self.scene.elevation(middle[0] + along, t))
+        shown = np.clip(2.0 - 4.0 * np.hypot(x, y) / near, 0.0, 1.0)
+        self.sheet(middle[0] + x, middle[1] + y, shown * self.scene.elevation(middle[0] + along, t))
 
     def sheet(self, x, y, z):
         nj, ni = z.shape
@@ -370,7 +372,7 @@ class Drawing:
         text(("steady" if steady else f"t = {t:.1f} s") + (f", {self.run.changed}" if self.run.changed else ""), 0.02 * width, 0.89 * height, 29)
         if sketched := self.scene.sketched:
             names = " and ".join(filter(None, (", ".join(sketched[:-1]), sketched[-1])))
-            text(f"sketched, not in the scene: {names}", 0.02 * width, 0.008 * height, 19)
+            text(f"sketched, not in the scene: {names}", 0.02 * width, 0.005 * height, 23)
         self.scale_bar(text, width, height)
 
     def scale_bar(self, text, width, height):
@@ -379,14 +381,14 @@ class Drawing:
         tall = 2 * camera.GetDistance() * math.tan(math.radians(0.5 * camera.GetViewAngle()))
         metres = next(m for m in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 1e9) if m >= 0.11 * tall)
         pixels = int(metres / tall * height)
-        x, y = int(0.02 * width), int(0.047 * height)
+        x, y, half = int(0.02 * width), int(0.052 * height), 5 * self.finer
         mapper = vtkPolyDataMapper2D()
-        mapper.SetInputData(poly_data(np.array([[x, y, 0], [x + pixels, y, 0], [x, y - 5, 0], [x, y + 5, 0], [x + pixels, y - 5, 0], [x + pixels, y + 5, 0]]),
+        mapper.SetInputData(poly_data(np.array([[x, y, 0], [x + pixels, y, 0], [x, y - half, 0], [x, y + half, 0], [x + pixels, y - half, 0], [x + pixels, y + half, 0]]),
                                       lines=[[0, 1], [2, 3], [4, 5]]))
         bar = vtkActor2D()
         bar.SetMapper(mapper)
         bar.GetProperty().SetColor(0.12, 0.15, 0.19)
-        bar.GetProperty().SetLineWidth(3)
+        bar.GetProperty().SetLineWidth(3 * self.finer)
         self.renderer.AddActor2D(bar)
         text(f"{metres:g} m", x, y + 0.014 * height, 27)
 
@@ -428,4 +430,7 @@ class Drawing:
         grab.Update()
         image = grab.GetOutput()
         width, height, _ = image.GetDimensions()
-        return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)[::-1]
+        pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)[::-1]
+        if self.finer == 1:
+            return pixels
+        return pixels.reshape(height // self.finer, self.finer, width // self.finer, self.finer, 3).mean(axis=(1, 3)).round().astype(np.uint8)

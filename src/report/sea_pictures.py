@@ -6,11 +6,12 @@ import numpy as np
 
 import figures
 import geometry
+import painted
 import plane_picture
 from figures import plt
 
 HOLE = 2.0           # times the scale of the colours: what is lower is no wave but the place of a body
-MOST_DRAWN = 40_000  # particles in one picture; thinned evenly beyond
+MOST_DRAWN = 400_000  # particles in one picture; thinned evenly beyond
 
 
 def _outputs(run, name):
@@ -52,18 +53,18 @@ def particles(run, h5py):
         figure, axes = plt.subplots(len(shown), 1, squeeze=False, sharex=True, layout="constrained",
                                     figsize=(5.4, min(2.4, max(0.9, 5.0 / span)) * len(shown) + 0.5))
         top = max(np.percentile(factor * s[index], 99.5) for s in shown)
-        # As large as its share of the water, some 4.3 inches of which lie side by side; thinned ones and those of no spacing as their number asks for.
-        wide = max(np.ptp(s[0]) for s in shown)
-        size = (1.2 * spacing * 4.3 * 72 / wide) ** 2 if np.isfinite(spacing) and wide > 0.0 else 3000.0 / max(len(s[0]) for s in shown)
         limits = [(min(np.min(s[n]) for s in shown), max(np.max(s[n]) for s in shown)) for n in (0, 1)]
+        floats = [piece.points[:, 2].max() for _, _, _, _, time in shown for piece in scene.pieces(time) if piece.kind == "float"]
+        height = np.ptp(limits[1])
+        upper = float(np.clip(max(floats, default=-np.inf), limits[1][1] + 0.25 * height, limits[1][1] + 0.7 * height))   # whole floats where they are low
         for axis, s in zip(axes[:, 0], shown):
-            drawn = axis.scatter(s[0], s[1], c=factor * s[index], s=float(np.clip(size, 0.3, 40.0)), linewidths=0, cmap="viridis",
-                                 vmin=0.0, vmax=top or 1.0, rasterized=True)
+            drawn = painted.paint(axis, s[0], s[1], factor * s[index], spacing, (limits[0], (limits[1][0], upper)),
+                                  cmap="viridis", vmin=0.0, vmax=top or 1.0)
             axis.set_ylabel("z [m]")
             axis.set_title(f"t = {s[4]:g} s", loc="left")
             plane_picture.solids_at(axis, scene, s[4])
             axis.set_xlim(*limits[0])   # lines and towers reach far beyond the water
-            axis.set_ylim(limits[1][0], limits[1][1] + 0.25 * np.ptp(limits[1]))
+            axis.set_ylim(limits[1][0], upper)
             if span < 12.0:
                 axis.set_aspect("equal")
         axes[-1, 0].set_xlabel("x [m]")
@@ -77,6 +78,18 @@ def _scale(run, maps):
     if isinstance(height, (int, float)) and height > 0.0:
         return 0.75 * height
     return max(1.5 * np.percentile(np.abs(m[1]), 90) for m in maps) or 1.0
+
+
+def beside_floats(corners, scene, time):
+    """Cells (nj, ni) of the mesh of the surface that a float stands in, in part or whole: their height is not that of the water."""
+    x, y = (corners[0, :, :, n] for n in (0, 1))
+    inside, centre = np.zeros(np.subtract(x.shape, 1), bool), [0.25 * (a[1:, 1:] + a[:-1, 1:] + a[1:, :-1] + a[:-1, :-1]) for a in (x, y)]
+    half = [0.5 * np.ptp(a) / max(n - 1, 1) for a, n in ((x, x.shape[1]), (y, y.shape[0]))]
+    for piece in scene.pieces(time):
+        if piece.kind == "float" and piece.points[:, 2].min() < 0.0 < piece.points[:, 2].max():
+            low, high = piece.points[:, :2].min(axis=0), piece.points[:, :2].max(axis=0)
+            inside |= np.all([(c > a - h) & (c < b + h) for c, a, b, h in zip(centre, low, high, half)], axis=0)
+    return inside
 
 
 def surface(run, h5py):
@@ -106,7 +119,7 @@ def surface(run, h5py):
         most = _scale(run, maps)
         for corners, elevation, time in maps:
             figure, axis = plt.subplots(figsize=(5.4, float(np.clip(4.5 * shape, 0.8, 4.5)) + 0.6), layout="constrained")
-            seen = np.where(np.abs(elevation) <= HOLE * most, elevation, np.nan)
+            seen = np.where((np.abs(elevation) <= HOLE * most) & ~beside_floats(corners, scene, time), elevation, np.nan)
             drawn = axis.pcolormesh(corners[0, :, :, 0], corners[0, :, :, 1], seen, cmap="RdBu_r", vmin=-most, vmax=most, rasterized=True)
             limits = axis.get_xlim(), axis.get_ylim()
             for piece in scene.pieces(time):

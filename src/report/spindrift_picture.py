@@ -106,7 +106,7 @@ def drawing_of(run, given):
         return plane_picture.Drawing(run)
     import scene_picture
     # A film is smaller: half of its width and height is what a page shows of it.
-    return scene_picture.Drawing(run, (1600, 900) if given.kind == "picture" else (960, 540), given.camera)
+    return scene_picture.Drawing(run, (1600, 900), given.camera, finer=2) if given.kind == "picture" else scene_picture.Drawing(run, (960, 540), given.camera)
 
 
 def picture(run, given):

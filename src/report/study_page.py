@@ -10,6 +10,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 import figures
 import html_page
 import page
+import quantities
 from html_page import section
 from study_judge import WORDS
 
@@ -22,6 +23,11 @@ def _in_percent(metric):
 
 def _unit(metric):
     return 100.0 if _in_percent(metric) else 1.0
+
+
+def _unit_of(metric):
+    """Of an absolute error: the measure's own, or the column's."""
+    return {"phase": "deg", "period": "s", "damping": "-"}.get(metric["measure"]) or quantities.unit_of(metric["column"]) or "-"
 
 
 def _plain(value, _=None):
@@ -76,7 +82,7 @@ def _name(axis, labels, size=NAME_SIZE):
     taken = [(x - 4 * dots, y - 4 * dots, x + 4 * dots, y + 4 * dots) for x, y in at]
     for (cost, error, text), (x, y) in zip(labels, at):
         wide, high = _wide(text, size) * dots, 1.15 * size * dots
-        for right, up in ((6, 5), (-6, 5), (6, -11), (-6, -11), (8, -3), (-8, -3), (6, 14), (-6, 14)):
+        for right, up in ((6, 5), (-6, 5), (6, -11), (-6, -11), (8, -3), (-8, -3), (6, 14), (-6, 14), (6, 24), (-6, 24)):
             left, low = x + right * dots - (wide if right < 0 else 0.0), y + up * dots
             box = (left, low, left + wide, low + high)
             inside = x0 <= left and left + wide <= x0 + width and y0 <= low and low + high <= y0 + height
@@ -119,9 +125,10 @@ def draw(study, metric, axis, numbered=True):
     axis.set_xscale("log"), axis.set_yscale("log")
     costs = [r["cost"]["core_s"] for r, _ in points + _reference(study, metric)]
     # The name of the answer, often the cheapest, may have no place but on its left.
-    answer = study["answer"] or min(points, key=lambda point: point[0]["cost"]["core_s"])[0]["name"]
-    share = min(0.4, (_wide(answer, NAME_SIZE) + 12.0) / (72.0 * axis.get_position().width * axis.figure.get_figwidth()))
-    axis.set_xlim(min(costs) / max(1.8, (1.8 * max(costs) / min(costs)) ** (share / (1.0 - share))), max(costs) * 1.8)
+    answer = next((rung for rung, _ in points if rung["name"] == study["answer"]), min(points, key=lambda point: point[0]["cost"]["core_s"])[0])
+    share = min(0.4, (_wide(answer["name"], NAME_SIZE) + 12.0) / (72.0 * axis.get_position().width * axis.figure.get_figwidth()))
+    at, highest = answer["cost"]["core_s"], 1.8 * max(costs)
+    axis.set_xlim(min(min(costs) / 1.8, at / (highest / at) ** (share / (1.0 - share))), highest)
     axis.set_ylim(bottom, max(highs) * 1.6)
     _decades(axis.xaxis, min(costs), max(costs)), _decades(axis.yaxis, min(lows), max(highs))
     _name(axis, [label[2:] for label in sorted(labels)])
@@ -130,7 +137,7 @@ def draw(study, metric, axis, numbered=True):
         axis.plot([], [], ":", color=figures.PALETTE[7], linewidth=1.2, label="scatter of " + ", ".join(lenders))
         axis.legend(loc="lower left", fontsize=8.0, frameon=False)
     axis.set_xlabel("processor time of one run [core-s]")
-    axis.set_ylabel(f"error of the {WORDS[metric['measure']].removesuffix(' of')} [{'%' if _in_percent(metric) else metric['column'].rsplit('_', 1)[-1]}]")
+    axis.set_ylabel(f"error of the {WORDS[metric['measure']].removesuffix(' of')} [{'%' if _in_percent(metric) else _unit_of(metric)}]")
     return True
 
 

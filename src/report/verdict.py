@@ -10,6 +10,7 @@ import words
 from geometry import Scene3d
 
 EXITS = {0: "Done", 2: "Bad input", 3: "Numerical failure", 4: "Machine failure", 5: "Stopped on request"}
+LEANS = 0.866   # cosine of 30 degrees, which nothing that is to float upright leans by
 SWINGS = 0.02   # of its mean: a standard deviation that is told with it
 ORDER = {"bad": 0, "warn": 1, "good": 2}
 
@@ -87,6 +88,17 @@ def _changes_of_wind(scene):
     return f" with {' and '.join(said)}" if said else ""
 
 
+def _event(run):
+    event = _value(run.scene, "wind", "event")
+    return isinstance(event, dict) and bool(event.get("what"))
+
+
+def is_impact(run):
+    """Bodies that go into water with a speed: their way and loads count, no mean does."""
+    moves = any(any(body.get("velocity_m_s") or []) for body in (run.scene.get("bodies") or {}).values() if isinstance(body, dict))
+    return moves and _value(run.scene, "sea", "model") == "sph" and decay.is_free(run) and not decay.decays(run)
+
+
 def _walls(run):
     return "flow.lift_coefficient" in run.columns or "flow.drag_coefficient" in run.columns
 
@@ -112,8 +124,12 @@ def answers(run):
             swings = math.isfinite(swing) and swing > max(SWINGS * abs(value), run.round_off(name))
             said.append((text, words.number(factor * value) + (f" ± {words.number(factor * swing, 2)}" if swings else ""), unit))
 
-    sort = kind(run)
-    if sort in ("floating turbine", "bodies"):
+    sort, least, greatest = kind(run), lambda name: float(np.nanmin(run.column(name))), lambda name: float(np.nanmax(run.column(name)))
+    if sort == "bodies" and is_impact(run):
+        body = quantities.bodies_of(run.columns)[0]
+        add("heave, at the end", f"{body}.z_m", lambda name: float(run.column(name)[-1]))
+        add("largest load of the water, up", f"{body}.sea.fz_N", greatest)
+    elif sort in ("floating turbine", "bodies"):
         body = quantities.bodies_of(run.columns)[0]
         swings = decay.decays(run)
         for d in swings[:2]:   # what a decay test is made for
@@ -126,11 +142,21 @@ def answers(run):
     for text, name in (("thrust", "rotor.thrust_N"), ("power", "rotor.power_W"), ("lift coefficient", "flow.lift_coefficient"),
                        ("drag coefficient", "flow.drag_coefficient")):
         add(text, name)
+    add("electrical power", "rotor.electrical_power_W")
+    if _event(run):   # what it is simulated for
+        for name, text in (("rotor.thrust_N", "thrust"), ("rotor.rpm", "rotor speed")):
+            add(f"{text}, least", name, least), add(f"{text}, greatest", name, greatest)
     tensions = [n for n in run.columns if n.endswith(".tension_N")]
     if tensions:
         largest = max(tensions, key=lambda n: np.nanmax(run.column(n), initial=0.0))
         add("largest tension", largest, lambda n: float(np.nanmax(run.column(n))))
-    if sort == "tank":
+    period = _value(run.scene, "waves", "period_s")
+    if sort == "tank" and isinstance(period, (int, float)) and run.time[-1] - run.time[0] > 4.0 * period:
+        last = run.time >= run.time[-1] - 2.0 * period
+        for name in run.columns:
+            if name.endswith(".elevation_m") and not name.startswith("waves.") and len(said) < 4:
+                add(f"wave height at {name.rpartition('.')[0]}", name, lambda n: float(np.ptp(run.column(n)[last])))
+    elif sort == "tank":
         for name in run.columns:
             if name.endswith(".elevation_m") and not name.startswith("waves.") and len(said) < 4:
                 add(f"{name.rpartition('.')[0]}, highest", name, lambda n: float(np.nanmax(run.column(n))))
@@ -259,6 +285,8 @@ def _places(run):
         low, high, upright, at = np.array(low), np.array(high), np.array(upright), run.time[rows]
         if upright.min() < 0.0 and _has_a_top(scene.bodies[body], points):
             found.append(Check(serious, "Upright", f"{body} has turned over at t = {words.number(at[int((upright < 0.0).argmax())])} s"))
+        elif upright.min() < LEANS * max(upright[0], 0.0) and _has_a_top(scene.bodies[body], points):
+            found.append(Check("warn", "Upright", f"{body} leans by up to {math.degrees(math.acos(max(-1.0, upright.min()))):.0f} degrees, past 30 first at t = {words.number(at[int((upright < LEANS).argmax())])} s"))
         afloat = high >= -0.05 * size
         if moored and points[:, 2].max() > 0.0 and not afloat[-1]:
             last = np.flatnonzero(afloat)[-1] if afloat.any() else 0
@@ -484,6 +512,8 @@ def _settled(run):
         return None
     body, moving = next(iter(quantities.bodies_of(run.columns)), None), []
     first, second = np.array_split(chosen, 2)
+    if is_impact(run):
+        return Check("good", "Settled", "an impact: its way and its loads count, no mean does")
     if decay.decays(run):
         return Check("good", "Settled", "a free motion, which nothing drives: its means say nothing, its period and damping do")
     period = _value(run.scene, "waves", "period_s") or _value(run.scene, "waves", "peak_period_s")
@@ -518,7 +548,9 @@ def _settled(run):
     if isinstance(asked, (int, float)) and run.time[-1] - run.time[0] < 1.2 * asked and not moving and kind(run) == "floating turbine":
         return Check("warn", "Settled", f"not known: the run is hardly longer than the stretch of its means (output.means_over_s = {words.number(asked)}), which begins with the start")
     if moving:
-        return Check("warn", "Settled", "not yet: between the halves of the stretch of the means, " + ", ".join(moving) + " changed")
+        return Check("warn", "Settled", "not yet: between the halves of the stretch of the means, " + ", ".join(moving) + " changed"
+                     + (": turbulence takes a longer stretch, 600 s as a rule (time.end_s, output.means_over_s)" if _value(run.scene, "wind", "turbulence") else
+                        ": run on (time.end_s), or leave more of the start out (output.means_over_s)"))
     return Check("good", "Settled", "means of both halves of their stretch agree")
 
 

@@ -24,7 +24,7 @@ namespace spindrift::run {
 
 Driver::Driver(const io::RunDirectory& directory, const runtime::Parts& parts, const RunSettings& settings,
                runtime::StopRequest& stop)
-    : directory_(directory), parts_(parts), settings_(settings), stop_(stop), ledger_(settings.records()) {
+    : directory_(directory), parts_(parts), settings_(settings), stop_(stop), ledger_(settings.records(), settings.threads) {
   if (!settings.trace || settings.windows) ledger_.pause();
 }
 

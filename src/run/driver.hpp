@@ -26,6 +26,7 @@ struct RunSettings {
   bool restart = false;           ///< from the newest checkpoint of the directory
   bool trace = false;
   bool quiet = false;           ///< no progress
+  int threads = 0;              ///< of this rank; 0: those of OpenMP
   bool accept_history = false;  ///< a restart goes on with rows of history.csv missing or changed
   std::string scene;            ///< its file, for recordings
   std::string record_graph;     ///< file of the recording; empty: none

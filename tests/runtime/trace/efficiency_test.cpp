@@ -122,7 +122,7 @@ TEST_CASE("without records the totals stand and the rest is unknown", "[trace][f
   CHECK(std::isnan(e.overlap_gain));
   CHECK(e.recorded == 0.0);
   CHECK(efficiency_table(e) ==
-        "parallel efficiency 37.5 % (load balance 90.0 %, communication 41.7 %) of 2 threads on 2 ranks\n");
+        "2 threads on 2 ranks, busy for 37.5 % of the time: parallel efficiency = load balance 90.0 % x communication 41.7 %");
 
   // Ranks send no more than these totals are made of.
   std::vector<RankTrace> sums;

@@ -52,6 +52,17 @@ TEST_CASE("tasks of executors that are gone and of live ones are one sum", "[tra
   CHECK(std::ranges::count(trace.nodes, "sea/force/0", &TraceNode::label) == 1);
 }
 
+TEST_CASE("a run on one thread is not charged for the others of OpenMP", "[trace][fast]") {
+  const Ledger ledger(0, 1);
+  {
+    const Span start("sea/start");
+    work_for(ms);
+  }
+  const RankTrace trace = ledger.trace(0);
+  REQUIRE(trace.threads.size() == 1);
+  CHECK(trace.threads[0].task_ns >= ms);
+}
+
 TEST_CASE("for each thread work, waiting, messages and overhead make up the ledger's time", "[trace][fast]") {
   const std::int64_t begin = Clock::now_ns();
   const Ledger ledger;

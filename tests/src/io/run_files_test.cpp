@@ -162,6 +162,7 @@ TEST_CASE("the log file has every line, is appended to, and warnings are counted
 TEST_CASE("progress in words: time, fraction, speed, time to go", "[io][fast]") {
   CHECK(io::progress_text(75, 0, 150, 200) == "t = 75.0 of 150.0 s    50 %   200 x real time   0:00 to go");
   CHECK(io::progress_text(0.5, 0, 5, 1e-3) == "t = 0.500 of 5.000 s    10 %   1e+03 wall s per simulated s   1:15:00 to go");
+  CHECK(io::progress_text(0.5, 0, 5, 0.103) == "t = 0.500 of 5.000 s    10 %   9.71 wall s per simulated s   0:44 to go");
   CHECK(io::progress_text(149.99, 0, 150, 0) == "t = 150.0 of 150.0 s    99 %");  // 100 % only when done
   CHECK(io::progress_text(100, 100, 100, 1) == "t = 100.000 of 100.000 s   100 %   1 x real time   0:00 to go");
   CHECK(io::pseudo_steps_text(40, 0, 300, 2) == "pseudo-step 40 of at most 300   2 per second   at most 2:10 to go");

@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True
 
 import geometry
 import geometry_fields
+import painted
 import run_fields
 import synthetic_run
 from run_data import RunData
@@ -210,6 +211,51 @@ class Geometry(unittest.TestCase):
         z = np.zeros((9, 9))
         z[4, 4] = -20.0
         np.testing.assert_array_equal(run_fields.without_holes(z, -20.0), np.zeros((9, 9)))
+
+    def test_a_far_sea_ends_in_a_circle_and_is_not_folded(self):
+        along = np.concatenate([-np.geomspace(8.0, 400.0, 25)[::-1], np.geomspace(8.0, 400.0, 25)])
+        x, y = geometry.round_edge(*np.meshgrid(along, along), 8.0, 400.0)
+        np.testing.assert_allclose(np.hypot(x, y)[[0, -1]], 400.0)
+        self.assertTrue((np.diff(x, axis=1) > 0.0).all() and (np.diff(y, axis=0) > 0.0).all())
+        np.testing.assert_allclose(geometry.round_edge(np.array([3.0]), np.array([-8.0]), 8.0, 400.0), [[3.0], [-8.0]])
+
+    def test_water_beside_a_float_has_the_height_of_the_water_around(self):
+        """A mesh of 20 m: cells that a float of 12 m stands in are not let down by it."""
+        import h5py
+        with tempfile.TemporaryDirectory() as folder:
+            run = synthetic_run.write(pathlib.Path(folder) / "run")
+            (run / "fields").mkdir()
+            x, y = np.meshgrid(np.arange(-60.0, 61.0, 5.0), np.arange(-40.0, 41.0, 5.0))
+            with h5py.File(run / "fields/surface_000000.h5", "w") as file:
+                file.attrs["time_s"] = 0.0
+                z = np.where((abs(x) < 8.0) & (abs(y) < 8.0), -2.5, 0.3)
+                file["water/points"] = np.stack([np.stack([x, y, h], axis=-1) for h in (np.full(x.shape, -30.0), z)])
+            fields, float_ = run_fields.Fields(RunData(run)), np.array([[-6.0, -6.0, -12.0], [6.0, 6.0, 4.0]])
+            self.assertEqual(fields.surface(0.0)[2].min(), -2.5)
+            np.testing.assert_allclose(fields.surface(0.0, [float_])[2], 0.3)
+
+
+class Painted(unittest.TestCase):
+    LIMITS = (0.0, 1.0), (0.0, 1.0)
+
+    def at(self, x, z, values, spacing):
+        return painted.raster(np.asarray(x), np.asarray(z), np.asarray(values, float), spacing, self.LIMITS)
+
+    def test_water_of_particles_has_no_gaps_and_each_pixel_the_value_of_the_nearest(self):
+        x, z = (a.ravel() for a in np.meshgrid(np.arange(0.05, 1.0, 0.1), np.arange(0.05, 0.6, 0.1)))
+        picture = self.at(x, z, 10.0 * z + x, 0.1)
+        rows, columns = picture.shape
+        self.assertFalse(np.ma.getmaskarray(picture)[: int(0.58 * rows)].any())
+        self.assertTrue(np.ma.getmaskarray(picture)[int(0.65 * rows):].all())
+        self.assertAlmostEqual(picture[int(0.26 * rows), int(0.37 * columns)], 10.0 * 0.25 + 0.35)
+
+    def test_particles_drawn_apart_leave_no_hole_and_spray_is_not_joined(self):
+        x, z = (a.ravel() for a in np.meshgrid(np.arange(0.1, 0.8, 0.17), np.arange(0.1, 0.8, 0.1)))
+        picture = self.at([*x, 0.5], [*z, 0.97], np.ones(len(x) + 1), 0.1)
+        rows, columns = picture.shape
+        self.assertFalse(np.ma.getmaskarray(picture)[int(0.2 * rows): int(0.6 * rows), int(0.2 * columns): int(0.7 * columns)].any())
+        self.assertTrue(np.ma.getmaskarray(picture)[int(0.87 * rows), int(0.5 * columns)])
+        self.assertFalse(np.ma.getmaskarray(picture)[int(0.97 * rows), int(0.5 * columns)])
 
 
 if __name__ == "__main__":
