@@ -444,6 +444,9 @@ def _residual(run):
     """How far a march to a steady state has come, by the density's residual and by the balance of all fluxes."""
     values, drop = (run.column("flow.density_residual") if "flow.density_residual" in run.columns else np.empty(0)), _value(run.scene, "aero", "flow", "drop")
     balance = float(run.column("flow.balance_drop")[-1]) if "flow.balance_drop" in run.columns and len(run.time) else math.nan
+    if balance > 1.0 and "the loads have settled" in str(run.summary.get("exit_reason") or "") and len(values) and values[-1] < 0.01 * np.nanmax(values):
+        return Check("warn", "Residual", f"the loads have settled and the density residual fell to {words.number(values[-1] / np.nanmax(values), 2)} of its largest; the flux balance, "
+                     f"that of turbulence in it, ends at {words.number(balance, 2)} times that of the start: the loads may be trusted, the wake less")
     if balance > 1.0:
         return Check("bad", "Residual", f"the march did not converge: its flux balance ends at {words.number(balance, 2)} times that of the start. Give it more pseudo-steps (time.end_s), or "
                      "smaller ones (aero.flow.cfl_max) where it rises on")

@@ -445,6 +445,10 @@ class PartsTest(unittest.TestCase):
                 if last > 1.0:
                     self.assertEqual(verdict.headline(checks)[0], "bad")
                     self.assertIn("did not converge: its flux balance ends at 80 times that of the start", found.text)
+                # A march that the program ended as its loads had settled is not to be thrown away for it.
+                synthetic_run.write(pathlib.Path(folder), table=table, scene="[aero]\nmodel = 'blade_resolved'\n[aero.flow]\ntime = 'steady'\ndrop = 0.0\n", log="",
+                                    exit_reason="done: the loads have settled; flux balance at 80")
+                self.assertEqual({c.title: c.level for c in verdict.health(RunData(pathlib.Path(folder)))}["Residual"], "good" if last < 0.1 else "warn")
 
     def test_what_the_end_tells_is_told_once(self):
         with tempfile.TemporaryDirectory() as folder:
