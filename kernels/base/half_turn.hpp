@@ -1,4 +1,4 @@
-// Angles within half a turn. SPDX-License-Identifier: Apache-2.0
+// Angles within half a turn. Used by kernels/rotor, src/bodies and src/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Interpolation in one variable on given nodes: straight lines, and cubics that never overshoot the data.
 // Monotone cubic: Fritsch & Butland (1984), SIAM J. Sci. Stat. Comput. 5, in the weighted form of Moler's pchip.
-// Used by kernels/mooring/line_table.hpp, kernels/rotor and src/aero; tested in tests/kernels/base/root_test.cpp.
+// Used by kernels/mooring, kernels/beam and src/aero; tested in tests/kernels/base/root_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,7 +2,7 @@
 // normal velocity is multiplied by the local Mach number where that is below one. The artificial viscosity of pressure on
 // velocity then scales with rho |u| and not rho c, so its error does not grow as 1/M; the pressure jump in the mass flux, which
 // ties even cells to odd ones, stays whole. On moving grids |u| is the velocity relative to the grid, so that a wing in a wind
-// and a wing that flies see the same flux. Called by src/aero/flow; tested in tests/kernels/gas/flux_test.cpp.
+// and a wing that flies have the same flux. Called by src/aero/flow; tested in tests/kernels/gas/flux_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,6 +1,6 @@
 // Slopes of the cubic spline through points (two continuous derivatives), for interpolate_hermite of
 // kernels/base/interpolation.hpp. Tridiagonal system of the first derivatives (de Boor 1978, chapter 4) with parabolic ends. Used
-// by kernels/grid/aerofoil.hpp; tested in tests/kernels/grid/spline_test.cpp. SPDX-License-Identifier: Apache-2.0
+// by kernels/grid/aerofoil.cpp; tested in tests/kernels/grid/spline_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>

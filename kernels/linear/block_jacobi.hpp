@@ -1,5 +1,5 @@
 // Block-Jacobi: each cell's own block inverted, neighbours left out. In the place where block ILU keeps its pivots
-// (block_ilu.hpp). Called by src/aero/flow/preconditioner.cpp; tested in tests/kernels/linear/block_ilu_test.cpp.
+// (block_ilu.hpp). Called by src/aero/flow/preconditioner.cpp; tested in tests/src/aero/flow/linear_solver_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -13,7 +13,7 @@ namespace spindrift {
 struct LineForces {
   Eigen::Vector3d on_fairlead = Eigen::Vector3d::Zero();  ///< [N]
   Eigen::Vector3d on_anchor = Eigen::Vector3d::Zero();  ///< [N]; differs from -on_fairlead by the weight and bed load of the line
-  double fairlead_tension = 0.0;                        ///< [N], negative where a two-way spring pushes
+  double fairlead_tension = 0.0;                        ///< [N], negative where a spring pushes
   double anchor_tension = 0.0;                          ///< [N]
 };
 

@@ -91,7 +91,7 @@ ControllerDtuState advance(const ControllerDtu& c, ControllerDtuState s, double 
   s.torque_integral = std::clamp(s.torque_integral + h * c.torque_ki * speed_error, least_torque, most_torque);
   s.torque = std::clamp(s.torque_integral + c.torque_kp * speed_error, least_torque, most_torque);
 
-  // Pitch: a PI loop on rated speed whose gains fall as the blades feel pitch more.
+  // Pitch: a PI loop on rated speed whose gains fall as torque depends more on pitch.
   const double scheduled =
       1.0 / (1.0 + c.schedule_linear * s.schedule_pitch + c.schedule_quadratic * s.schedule_pitch * s.schedule_pitch);
   const double over = s.speed - c.rated_speed;

@@ -1,4 +1,4 @@
-// The wake of a rotor takes time to answer: Oye's two first-order filters behind the quasi-steady induced velocity.
+// A rotor's induced velocities follow its load with a lag: Oye's two first-order filters behind the quasi-steady velocity.
 // Oye (1990), in Snel & Schepers (1995), ECN-C--94-107; Hansen (2008), Aerodynamics of Wind Turbines, eqs. 9.17 to 9.22. Used by
 // src/aero/bem.cpp; tested in tests/kernels/rotor/unsteady_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once

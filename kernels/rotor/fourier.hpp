@@ -1,5 +1,5 @@
 // A load as a Fourier series in the rotor's azimuth, as the paper gives its thrust with the tower behind the blades
-// (Leble & Barakos 2016, fig. 13). Used by src/aero/prescribed.hpp; tested in tests/kernels/rotor/fourier_test.cpp.
+// (Leble & Barakos 2016, fig. 13). Used by src/aero/prescribed.cpp; tested in tests/kernels/rotor/fourier_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -30,7 +30,7 @@ inline double sigma_extreme(double hub_wind, double intensity, double average_wi
 /// Longitudinal turbulence scale parameter at the hub [m] (eq. 5).
 inline double scale_parameter(double hub_height) { return hub_height <= 60.0 ? 0.7 * hub_height : 42.0; }
 
-/// sigma / (1 + 0.1 D / Lambda): what a rotor of this size feels of the turbulence [m/s].
+/// sigma / (1 + 0.1 D / Lambda): the turbulence averaged over a rotor of this size [m/s].
 inline double felt_sigma(const Site& s) {
   return sigma_normal(s.hub_wind, s.reference_intensity) / (1.0 + 0.1 * s.diameter / scale_parameter(s.hub_height));
 }

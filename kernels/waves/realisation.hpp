@@ -1,7 +1,7 @@
 // One realisation of a sea state: harmonics with fixed amplitudes and random phases (Tucker, Challenor & Carter 1984,
-// deterministic amplitudes). The same seed gives the same sea on every machine. The amplitudes are scaled so that sum a^2/2 =
+// deterministic amplitudes). The same seed gives the same sea on every computer. The amplitudes are scaled so that sum a^2/2 =
 // Hs^2/16 exactly, which makes up for the cut tail (0.2 % of the energy) and for DNV's approximate normalisation. Called by
-// src/sea/wave_field; tested in tests/kernels/waves/spectra_test.cpp. SPDX-License-Identifier: Apache-2.0
+// src/sea/wave_models.cpp; tested in tests/kernels/waves/spectra_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // Spectra of wind seas: Pierson-Moskowitz and JONSWAP, one-sided in angular frequency.
 // Hasselmann et al. (1973); form with significant height and peak period after DNV-RP-C205 (2010), section 3.5.5.
-// Called by src/sea/wave_field; tested in tests/kernels/waves/spectra_test.cpp.
+// Called by realisation.hpp and src/sea/wave_jonswap.cpp; tested in tests/kernels/waves/spectra_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,7 +1,7 @@
 // Second-order Stokes wave of finite depth as two harmonics: the Airy wave and the bound wave at twice its phase.
 // Dean & Dalrymple (1991), eqs. 11.3-11.5, written with s = tanh kh:
 //   eta_2 = (k a^2 / 4) (3 - s^2) / s^3 cos 2 psi,   phi_2 = (3/8) a^2 omega cosh 2k(z+h) / sinh^4 kh sin 2 psi,  a = H / 2.
-// The mean level is zero, dispersion is linear. Called by src/sea/wave_field; tested in
+// The mean level is zero, dispersion is linear. Called by src/sea/wave_stokes2.cpp; tested in
 // tests/kernels/waves/wave_kernels_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

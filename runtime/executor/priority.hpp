@@ -1,5 +1,5 @@
 // Priorities as cost-to-go: the measured cost of the longest chain of tasks from here to the end of the graph, so that what holds
-// up most runs first. A loop's urgency goes before it: cost-to-go cannot see that a loop with global reductions leaves threads
+// up most runs first. A loop's urgency goes before it: cost-to-go ignores that a loop with global reductions leaves threads
 // idle which another loop could fill only if it still has tasks left (replayed on 64 nodes: efficiency 0.77 with such a loop
 // first, 0.57 with the other first). Called by Executor between runs; tested in tests/runtime/priority_test.cpp.
 // SPDX-License-Identifier: Apache-2.0

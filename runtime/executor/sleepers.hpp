@@ -26,7 +26,7 @@ class Sleepers {
   alignas(64) std::atomic<std::uint32_t> epoch_{0};
 };
 
-/// Whether this process's threads, together with those of the other ranks of the machine, outnumber the processors they may use.
+/// Whether this process's threads, together with those of the other ranks of the computer, outnumber the processors they may use.
 bool oversubscribed(int threads, int ranks_on_node);
 
 }  // namespace spindrift::runtime

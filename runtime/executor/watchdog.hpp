@@ -1,6 +1,6 @@
-// A thread that looks on: when nothing has completed for too long it writes down what every unfinished node waits for, and if no
+// A thread that watches: when nothing has completed for too long it writes down what every unfinished node waits for, and if no
 // task is inside its work either, ends the run. A task that just takes long is named but left alone, unless another rank does not
-// answer: that ends the run wherever it is, also between two graphs.
+// reply: that ends the run wherever it is, also between two graphs.
 // Used by Executor; tested in tests/runtime/failure_test.cpp and tests/faults/faults.py (stopped_rank).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

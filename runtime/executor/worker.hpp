@@ -90,7 +90,7 @@ class alignas(64) Worker {
   const int id_;
   const bool keeps_next_;         ///< not in a random schedule
   bool nested_ = false;           ///< polling inside a task
-  std::uint32_t next_ = no_node;  ///< ready and first in turn, without the way through the queue
+  std::uint32_t next_ = no_node;  ///< ready and first in turn, without passing through the queue
   struct Seen {
     std::uint64_t beats = 0;
     std::int64_t since_ns = 0;

@@ -1,5 +1,5 @@
 // How a task says which data it touches. A datum is a name for something that tasks share (a tile's state, a halo, a residual);
-// the runtime never sees its bytes. Order follows from the accesses alone (graph/edges.hpp).
+// the runtime never touches its bytes. Order follows from the accesses alone (graph/edges.hpp).
 // Used by every tasks.cpp; tested in tests/runtime/graph_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -28,7 +28,7 @@ class Use {
  private:
   Access how_;
   Datum one_;
-  std::span<const Datum> many_;  ///< seen only while the task is being recorded
+  std::span<const Datum> many_;  ///< read only while the task is being recorded
   bool single_ = true;
 };
 

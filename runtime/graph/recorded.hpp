@@ -58,7 +58,7 @@ struct Graph::Recorded {
   std::vector<Edge> edges;  ///< valid if edges_known
   bool edges_known = false;
 
-  // Merging the accesses of one node: last position in `touched` at which a datum was seen.
+  // Merging the accesses of one node: last position in `touched` of a datum.
   std::vector<std::uint32_t> seen_at;
 };
 

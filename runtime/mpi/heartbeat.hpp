@@ -1,4 +1,4 @@
-// Who is still there. A thread of each process answers the others on a communicator of its own, whatever the tasks do. A watchdog
+// Which ranks are alive. A thread of each process replies to others on a communicator of its own, whatever tasks do. A watchdog
 // that has seen nothing complete for long asks: rank 0 all others; these rank 0, which says whom it has not heard. Nothing is
 // sent as long as work goes on. Where a rank stands still no call of MPI may return on the others, so the thread also ends the
 // processes that have not ended by themselves in time. Owned by MpiEnvironment; asked by executor/watchdog.cpp; tested in
@@ -35,7 +35,7 @@ class Heartbeat {
   std::string silent();
   /// All ranks end with `exit_code` in so many seconds, unless this process has left MPI before. The first call counts.
   void end_within(double seconds);
-  static constexpr int exit_code = 4;  ///< a failure of the machine (docs: exit codes)
+  static constexpr int exit_code = 4;  ///< a system failure (docs: exit codes)
 
  private:
   using Time = std::chrono::steady_clock::time_point;

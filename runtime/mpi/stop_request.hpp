@@ -1,4 +1,4 @@
-// "Finish the window, save, stop": a signal sent to any rank, a file, or a limit on wall time, agreed on by all ranks. Looked at
+// "Finish the window, save, stop": a signal sent to any rank, a file, or a limit on wall time, agreed on by all ranks. Checked
 // between windows and, through a sum over the ranks, between the pieces in which a resolved rotor's air settles. Used by
 // src/coupling; tested in tests/runtime/stop_request_test.cpp and tests/faults. SPDX-License-Identifier: Apache-2.0
 #pragma once

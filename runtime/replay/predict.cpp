@@ -219,7 +219,7 @@ Recording typical(const Recording& recording) {
           if (rank.graphs[run.graph].nodes[n].peer < 0) task += double(run.ns[n][e]);
         }
       run.task_ns = std::llround(task);
-      double least = double(run.overhead_ns);  // what others took from the machine between two tasks is in it too
+      double least = double(run.overhead_ns);  // what others took from the computer between two tasks is in it too
       for (const RunRecord* other : alike) least = std::min(least, double(other->overhead_ns));
       run.overhead_ns = std::llround(least);
       if (rank.rank == 0) wall += double(run.wall_ns = (run.task_ns + run.overhead_ns) / recording.threads);

@@ -1,4 +1,4 @@
-// What a window of a recording takes on another machine and in another placement of the two sides (air; sea and bodies). Used by
+// What a window of a recording takes on another computer and in another placement of the two sides (air; sea and bodies). Used by
 // `spindrift replay` and `spindrift profile`; tested in tests/runtime/replay/predict_test.cpp. SPDX-License-Identifier:
 // Apache-2.0
 #pragma once
@@ -41,7 +41,7 @@ enum class Side { first, second, either };
 using SideOf = std::function<Side(std::string_view module)>;
 
 /// One window of which every execution took the median of what it took in all windows that were like the first: what a window
-/// takes without what other programs on the machine took from it. Throws std::invalid_argument where there is no window.
+/// takes without what other programs on the computer took from it. Throws std::invalid_argument where there is no window.
 Recording typical(const Recording& recording);
 
 /// The executor's own work per task, on average over all runs.

@@ -1,4 +1,4 @@
-// Discrete-event simulation of the executor on a machine that need not be there: every rank's recorded graph is replayed by the
+// Discrete-event simulation of the executor on any computer: every rank's recorded graph is replayed by the
 // executor's own program, counters, levels of priority, homes of tasks, queues and stealing, with the recorded times of each
 // execution; messages, reductions and collective calls by a model of the network. Used by predict.hpp; tested in
 // tests/runtime/replay/simulate_test.cpp. SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-// How well a run used the machine, in the terms of POP and TALP (docs/developer/efficiency.md has every formula and its source).
+// How well a run used its cores, in the terms of POP and TALP (docs/developer/efficiency.md has every formula and its source).
 // Computed at the end of a run from the times of all threads, and, as far as records were kept, from what happened; printed by
 // efficiency_table.hpp and written to summary.json by the program. Tested in tests/runtime/trace/efficiency_test.cpp.
 // SPDX-License-Identifier: Apache-2.0

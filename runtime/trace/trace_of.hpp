@@ -23,7 +23,7 @@ RankTrace by_module(const RankTrace& trace);
 
 /// All ranks' traces on rank 0 of `comm` (elsewhere nothing), times on the clock of its rank 0; those without records by_module.
 /// Collective.
-/// The clocks are compared by the fastest of 20 round trips: good to half of it, about 1 us within a machine.
+/// The clocks are compared by the fastest of 20 round trips: good to half of it, about 1 us within a computer.
 std::vector<RankTrace> gather_traces(const RankTrace& mine, MPI_Comm comm);
 
 }  // namespace spindrift::runtime

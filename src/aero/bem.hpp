@@ -27,8 +27,8 @@
 
 namespace spindrift::aero {
 
-/// Way of the bent blade: along its coned axis outward, and the two ways of its modes, which turn with its pitch; units, earth
-/// frame.
+/// Directions of the bent blade: along its coned axis outward, and those of its modes, which turn with its pitch; unit vectors,
+/// earth frame.
 struct BladeAxes {
   Eigen::Vector3d along, x, y;  ///< at a pitch of zero x is downwind and y ahead
 };
@@ -49,7 +49,7 @@ struct BentBlades {
   Modal rate(int blade) const { return Modal(rates.data() + beam::BladeModes::count * blade); }
 };
 
-/// The rotor as its blades see it; earth frame.
+/// Motion of the rotor; earth frame.
 struct DiscMotion {
   Eigen::Vector3d hub_velocity;                   ///< [m/s]
   Eigen::Vector3d omega;                          ///< of the blades, spin included [rad/s]
@@ -64,7 +64,7 @@ struct DiscMotion {
   double pitch(int blade) const { return pitches.empty() ? blade_pitch : pitches[std::size_t(blade)]; }
 };
 
-/// Way of blade b of so many from the hub, square to the axis.
+/// Direction of blade b of so many from the hub, normal to the axis.
 inline Eigen::Vector3d blade_direction(const DiscMotion& rotor, int b, int blades) {
   const double azimuth = rotor.azimuth + 2.0 * pi * b / blades;
   return std::cos(azimuth) * rotor.up + std::sin(azimuth) * rotor.axis.cross(rotor.up);
@@ -83,7 +83,7 @@ struct DiscLoad {
   int unbalanced = 0;  ///< elements that found no induction: they act as free aerofoils
 };
 
-/// What of the flow round the blades takes time.
+/// Unsteady effects of the flow round the blades.
 struct UnsteadyFlow {
   bool inflow = false;                  ///< the wake, by Oye's filters
   std::optional<double> inflow_time{};  ///< tau_1 [s]; absent: by wind and induction

@@ -17,7 +17,7 @@ class Columns;
 
 namespace spindrift::aero {
 
-/// What a blade does to the hub: force along the rotor's axis downwind, along the way of the blade, outward along it (square to
+/// Load of a blade on the hub: force along the rotor's axis downwind, in the blade's direction of motion, outward (normal to
 /// the axis), and the moments about its root that these make by the blade's length.
 struct BladeRootLoad {
   double downwind = 0.0, ahead = 0.0, outward = 0.0;  ///< [N]

@@ -45,7 +45,7 @@ scene::Section<PitchGainOptions> gain_section(const char* name, const char* help
       .flag("constant_power", &PitchGainOptions::constant_power, "Above rated; false: constant torque.");
 }
 
-/// Records that the program fills, or that answer it.
+/// Records that the program fills, or reads.
 bool is_taken(int record) {
   constexpr std::array others{1, 28, 35, 36, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 55, 56, 61, 62, 63, 64, 65, 102, 107};
   return std::ranges::find(others, record) != others.end() ||
@@ -83,7 +83,7 @@ const scene::Section<DriveTrainOptions>& drive_train_section() {
                   positive())
           .required()
           .number("generator_inertia_kg_m2", &DriveTrainOptions::generator_inertia_kg_m2, "kg m2",
-                  "Generator, as felt on the low-speed shaft.", not_negative())
+                  "Generator, referred to the low-speed shaft.", not_negative())
           .number("shaft_stiffness_N_m_rad", &DriveTrainOptions::shaft_stiffness_N_m_rad, "N m/rad",
                   "Against twist between rotor and generator, on the low-speed shaft; without it the shaft is rigid.", positive())
           .number("shaft_damping_N_m_s_rad", &DriveTrainOptions::shaft_damping_N_m_s_rad, "N m s/rad", "Against its rate.",
@@ -173,7 +173,7 @@ const scene::Section<ControlOptions>& control_section() {
           .only_if("model", {"dtu"})
           .table("yaw", &ControlOptions::yaw, yaw_section(),
                  "A drive that turns the nacelle into the wind; without it no one does.")
-          .path("library", &ControlOptions::library, "The library, a shared object of this machine.")
+          .path("library", &ControlOptions::library, "The library, a shared object of this computer.")
           .only_if("model", {"library"})
           .required()
           .path("input_file", &ControlOptions::input_file, "File whose name the library is given (DISCON.IN).")
@@ -230,7 +230,7 @@ const scene::Section<ControllerOptions>& controller_section() {
                   positive())
           .required()
           .number("generator_inertia_kg_m2", &ControllerOptions::generator_inertia_kg_m2, "kg m2",
-                  "Generator, as felt on the low-speed shaft.", not_negative())
+                  "Generator, referred to the low-speed shaft.", not_negative())
           .number("shaft_stiffness_N_m_rad", &ControllerOptions::shaft_stiffness_N_m_rad, "N m/rad",
                   "Against twist between rotor and generator, on the low-speed shaft; without it the shaft is rigid.", positive())
           .number("shaft_damping_N_m_s_rad", &ControllerOptions::shaft_damping_N_m_s_rad, "N m s/rad", "Against its rate.",

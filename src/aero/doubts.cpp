@@ -109,7 +109,7 @@ void doubt_stall(scene::Doubts& doubts, const FlowOptions& flow) {
          "take aero.flow.time = \"bdf2\" and means over time, or look at its unit"});
 }
 
-/// A window in which the air passes the body twice sees none of what is shed.
+/// A window in which the air passes the body twice resolves no vortex shedding.
 void doubt_window(scene::Doubts& doubts, const FlowOptions& flow, double passes, double window) {
   if (flow.time == "steady") return;
   if (passes > 2.0)

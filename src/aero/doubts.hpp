@@ -10,7 +10,7 @@
 
 namespace spindrift::aero {
 
-/// The rotor as the machine has it at the start.
+/// The rotor at the start, as the floating system has it.
 struct RotorAtStart {
   Eigen::Vector3d hub, axis;            ///< earth frame
   double speed = 0.0;                   ///< [rad/s]
@@ -23,7 +23,7 @@ struct RotorAtStart {
 };
 
 struct ControlOptions;
-/// Of the machine's events.
+/// Of the controller's events.
 scene::Doubts control_doubts(const ControlOptions& control);
 
 /// A body that turns with the rotor, against the bearing and the blades that it carries.

@@ -64,7 +64,7 @@ const scene::Section<FlowOptions>& flow_section() {
           .choice("wall_distance", &FlowOptions::wall_distance,
                   {{"exact", "to the nearest point of all walls"},
                    {"poisson", "from Poisson's equation (Spalding): smooth, larger than the exact one where walls are convex"}},
-                  "Distance from walls that the turbulence model sees.")
+                  "Distance from walls for the turbulence model.")
           .only_if("turbulence", closures().with("wall_distance"))
           .number("wind_eddy_viscosity", &FlowOptions::wind_eddy_viscosity, "-",
                   "Eddy viscosity of the undisturbed air over its laminar one. Default by closure: 0.21 of Spalart-Allmaras "
@@ -90,10 +90,9 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"minmod", "the most dissipative"},
                    {"first_order", "no reconstruction"}},
                   "Limiter of the reconstruction.")
-          .number(
-              "upwinding", &FlowOptions::upwinding, "-",
-              "Share of the jump between reconstructed states that the flux sees; below 1 less dissipation, for resolved eddies.",
-              above(0.0).up_to(1.0))
+          .number("upwinding", &FlowOptions::upwinding, "-",
+                  "Share of the jump between reconstructed states in the flux; below 1 less dissipation, for resolved eddies.",
+                  above(0.0).up_to(1.0))
           .flag("first_order_turbulence", &FlowOptions::first_order_turbulence,
                 "Whether what the turbulence model transports is carried by first-order upwind differences, as in CFL3D and "
                 "FUN3D, and not by limited "
@@ -162,7 +161,7 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"auto",
                     "block_ilu or coarse, by trial at the start: iterations and a model of their cost; logged and written into "
                     "scene.toml"}},
-                  "Approximate inverse that the linear solver works with; docs/user/air.md says which for what.")
+                  "Approximate inverse that the linear solver works with; docs/user/air_choices.md says which for what.")
           .integer("group_cells", &FlowOptions::group_cells, "-",
                    "Longest side of a group of cells of the coarse correction; 0: a group is a whole tile.", between(0, 64))
           .only_if("preconditioner", {"coarse", "auto"})

@@ -55,7 +55,7 @@ struct FlowOptions {
   std::string time = "steady";
   KrylovMethod krylov{};  ///< GMRES
   std::string preconditioner = "block_ilu";
-  int group_cells = 8, direct_groups = 512, common_every = 1, common_steps = 1;  ///< of preconditioners with a common part
+  int group_cells = 8, direct_groups = 512, common_every = 1, common_steps = 1;  ///< of preconditioners with a coarse level
   std::string wall_distance = "exact";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, residual_kg_m3_s = 0.0;
   std::optional<double> load_change;  ///< unset: 1e-3 for a steady resolved rotor, else 0

@@ -117,7 +117,7 @@ const scene::Section<AeroOptions>& aero_section() {
           .choice("dynamic_inflow", &AeroOptions::dynamic_inflow,
                   {{"none", "the wake follows the rotor at once"},
                    {"oye", "two filters in series behind the quasi-steady induction, after Oye"}},
-                  "How the wake answers to a change of load or wind.")
+                  "How the wake responds to a change of load or wind.")
           .only_if("model", {"bem"})
           .number("inflow_time_s", &AeroOptions::inflow_time_s, "s",
                   "Larger time constant of the wake; without it by wind and induction, 1.1 R / (U (1 - 1.3 a)).",

@@ -1,4 +1,4 @@
-// The blade-resolved rung of the rotor: a turbine's blades turning in compressible air. Grid, tiles, solver and poses put
+// The blade-resolved rotor: a turbine's blades turning in compressible air. Grid, tiles, solver and poses put
 // together from a scene's options; thrust, torque, loads by blade and along the span handed out. Frames and signs:
 // docs/user/conventions.md; method: docs/theory/rotor_resolved.md. Built by src/run/flow_case.cpp; tested in
 // tests/src/aero/resolved_rotor_test.cpp. SPDX-License-Identifier: Apache-2.0
@@ -31,7 +31,7 @@ RotorPose hub_pose(const RotorOptions& rotor);
 struct SpanLoad {
   int blade = 1;
   double radius = 0.0, length = 0.0, chord = 0.0;  ///< [m]
-  StationLoad load;      ///< normal (downwind) and tangential (the way the rotor turns), pressure and friction [N/m]
+  StationLoad load;      ///< normal (downwind) and tangential (as the rotor turns), pressure and friction [N/m]
   StationLoad friction;  ///< friction's part [N/m]
 };
 
@@ -73,7 +73,7 @@ class ResolvedRotor {
 
   /// Where the rotor is at the end of the next physical step; `pitch` [rad] beyond that of the grid, of all blades.
   void move_to(const RotorPose& pose, double pitch = 0.0);
-  /// Where it is now and was one step ago, without flow in between: starts away from the scene's own pose.
+  /// Its present pose and that of one step ago, without flow in between: starts away from the scene's own pose.
   void place(const RotorPose& before, const RotorPose& now, double pitch_before = 0.0, double pitch = 0.0);
   /// Restarts: the solver has been placed by FlowRestart::load_march.
   void placed_at(std::int64_t step);

@@ -41,7 +41,7 @@ struct ResolvedRotorSize {
 };
 ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup);
 
-/// Processor seconds per cell and pseudo-step of this scene's schemes on this machine now: a short march on some thousand cells,
+/// Processor seconds per cell and pseudo-step of this scene's schemes on this computer: a short march on some thousand cells,
 /// one thread.
 struct AirRate {
   double core_seconds = 0.0;

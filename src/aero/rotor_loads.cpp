@@ -244,7 +244,7 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
     load.force += ramp * drag.force, load.moment += ramp * drag.moment;
   }
   if (control_) {
-    // The body feels what the shaft gives it, and the turning of the spinning rotor's axis.
+    // On the body act the shaft's torque, and the gyroscopic moment of the spinning rotor.
     if (!memory_.empty()) load.moment += (ramp * TurbineControl::state(memory_).shaft_torque - load.shaft_torque) * now.axis;
     const Eigen::Vector3d carrier = now.omega - now.speed * now.axis;
     load.moment -= carrier.cross(Eigen::Vector3d(control_->rotor_inertia() * now.speed * now.axis));

@@ -30,14 +30,14 @@ struct RotorPlacement {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< downwind, earth frame; normalised on use
 };
 
-/// What the rotor does now.
+/// Motion of the rotor.
 struct RotorState {
   double azimuth = 0.0;               ///< of blade 1 from its upright position, in [0, 2 pi) [rad]
   double speed = 0.0;                 ///< [rad/s]
   Eigen::Vector3d hub, hub_velocity;  ///< earth frame [m], [m/s]
   Eigen::Vector3d axis, up;           ///< unit, earth frame; blade 1 is along `up` at azimuth zero
   Eigen::Vector3d omega;              ///< of the blades, earth frame [rad/s]
-  double relative_wind = 0.0;         ///< along the axis, seen from the hub [m/s]
+  double relative_wind = 0.0;         ///< along the axis, relative to the hub [m/s]
 
   friend bool operator==(const RotorState&, const RotorState&) = default;
 };
@@ -76,7 +76,7 @@ class RotorLoads {
   RotorState state(double t, std::span<const Motion> bodies) const;
   /// Undisturbed, earth frame [m/s].
   Eigen::Vector3d wind(double t, const Eigen::Vector3d& point) const { return wind_.at(t, point); }
-  /// Wind along the axis, seen from a hub that is there and moves so [m/s].
+  /// Wind along the axis, relative to a hub that is there and moves so [m/s].
   double relative_wind(double t, const Eigen::Vector3d& hub, const Eigen::Vector3d& hub_velocity,
                        const Eigen::Vector3d& axis) const {
     return (wind_.at(t, hub) - hub_velocity).dot(axis);
@@ -164,7 +164,7 @@ class RotorLoads {
   RotorPlacement placement_;
   Eigen::Vector3d hub_, axis_;                 ///< axes of the rotor's body, from its centre of mass
   Eigen::Vector3d support_axis_, support_up_;  ///< axes of what carries azimuth zero: the support, the earth, or the body itself
-  Eigen::Quaterniond start_turn_;              ///< attitude of the body seen from the support at the start
+  Eigen::Quaterniond start_turn_;              ///< attitude of the body relative to the support at the start
   std::optional<Eigen::Vector3d> thrust_direction_;  ///< earth frame, where the thrust does not follow the axis
   double start_azimuth_, speed_, blade_pitch_;
   Wind wind_;

@@ -11,7 +11,7 @@
 
 namespace spindrift::aero {
 
-/// C_T = T / (rho A U^2 / 2), C_Q = Q / (rho A R U^2 / 2), of the wind U along the axis seen from the hub.
+/// C_T = T / (rho A U^2 / 2), C_Q = Q / (rho A R U^2 / 2), of the wind U along the axis relative to the hub.
 struct Coefficients {
   double thrust = 0.0, torque = 0.0;
 };

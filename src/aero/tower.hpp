@@ -1,4 +1,4 @@
-// The tower as the rotor's wind feels it, and its own drag. It stands on what carries the rotor and moves with it.
+// The tower's effect on the rotor's wind, and its own drag. It stands on what carries the rotor and moves with it.
 // Made from [aero.tower]; used by rotor_loads.cpp and bem.cpp; tested in tests/src/aero/tower_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -43,7 +43,7 @@ struct OutlineOptions {
 struct TurbineOptions {
   int blades = 3;
   double hub_radius_m = 0.0;
-  double precone = 0.0;  ///< [rad], positive: blades lean upwind
+  double precone = 0.0;  ///< [rad], positive: blades tilt upwind
   std::string planform;  ///< path
   std::string elements = "between_stations";
   std::vector<PolarOptions> polars;

@@ -162,7 +162,7 @@ void TurbineControl::happen(double t, double h, State& s, std::span<double> stuc
   }
 }
 
-/// Blades on their way to feather; the generator's torque is up to the caller.
+/// Blades pitch to feather; the generator's torque is up to the caller.
 void TurbineControl::feather(double h, double rate, State& s, const Rows& rows) const {
   s.asked = s.mode == double(Mode::parked) ? drive_train_.feather : std::min(s.asked + h * rate, drive_train_.feather);
   std::ranges::fill(rows.asked, s.asked);

@@ -30,20 +30,20 @@ class TurbineControl {
     double azimuth, speed;    ///< of blade 1 [rad], [rad/s]
     double acceleration;      ///< before the last step, of which the next makes a second-order one [rad/s2]; of an elastic shaft
                               ///< by the air alone
-    double generator_torque;  ///< from now on, on the shaft [N m]
+    double generator_torque;  ///< over the next step, on the shaft [N m]
     double shaft_torque;      ///< of the last step, on what carries the rotor, brake included [N m]
     double mode;              ///< one of Mode
     double asked;             ///< pitch that the blades are asked for, their mean [rad]
-    double brake_torque;      ///< of the brake from now on, at most [N m]
+    double brake_torque;      ///< of the brake over the next step, at most [N m]
     double calls;             ///< that a library has had
     ControllerDtuState controller;
   };
-  /// What is measured at the end of a step; what only libraries look at may be left out.
+  /// What is measured at the end of a step; what only libraries use may be left out.
   struct Measured {
     double torque = 0.0;                       ///< of the blades, at the speed and pitch that the memory has [N m]
     double wind = 0.0;                         ///< along the axis, that the hub meets [m/s]
     double wind_speed = 0.0, yaw_error = 0.0;  ///< horizontal, at the hub [m/s]; of it, from the axis [rad]
-    /// Of the hub [m/s] and of what carries the rotor [rad/s]: downwind, to the left seen downwind, and up.
+    /// Of the hub [m/s] and of what carries the rotor [rad/s]: downwind, to the left when facing downwind, and up.
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), turning = Eigen::Vector3d::Zero();
     double bending_inertia = 0.0;  ///< of the rotor, that bends instead of following the shaft [kg m2]
   };

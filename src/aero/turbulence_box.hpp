@@ -12,7 +12,7 @@
 
 namespace spindrift::aero {
 
-/// Components u along the wind, v across (to the left, seen along it), w up.
+/// Components u along the wind, v across (to the left when facing along it), w up.
 struct TurbulenceBox {
   int across = 0, up = 0, steps = 0;                ///< points across, up, in time
   double across_m = 0.0, up_m = 0.0, step_s = 0.0;  ///< between them
@@ -55,7 +55,7 @@ struct MannGrid {
 TurbulenceBox read_mann(const std::array<std::string, 3>& paths, const MannGrid& grid, double wind, double hub_height);
 
 /// A box by Veers' method (1988, SAND88-0152) from Kaimal's spectra and the exponential coherence of IEC 61400-1: the same for
-/// the same seed on every machine.
+/// the same seed on every computer.
 struct KaimalOptions {
   int across = 15, up = 15;
   double width_m = 0.0, height_m = 0.0;

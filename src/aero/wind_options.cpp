@@ -93,7 +93,7 @@ const scene::Section<TurbulenceOptions>& turbulence_section() {
           .only_if("model", mann)
           .required()
           .number("start_s", &TurbulenceOptions::start_s, "s", "Time in the box at t = 0.", scene::not_negative())
-          .integer("seed", &TurbulenceOptions::seed, "-", "The same seed gives the same wind on every machine.",
+          .integer("seed", &TurbulenceOptions::seed, "-", "The same seed gives the same wind on every computer.",
                    scene::not_negative())
           .only_if("model", kaimal)
           .number("reference_intensity", &TurbulenceOptions::reference_intensity, "-",

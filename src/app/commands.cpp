@@ -92,7 +92,7 @@ void add_profile(CLI::App& cli, Command& chosen) {
 void add_replay(CLI::App& cli, Command& chosen) {
   auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* command = cli.add_subcommand(
-      "replay", "Replay a recorded window on a machine that need not be there: time, efficiency, waiting, messages");
+      "replay", "Replay a recorded window on any number of ranks and threads: time, efficiency, waiting, messages");
   command->add_option("recording", arguments->recording, "Recording: spindrift run SCENE --record-graph FILE")->required();
   command->add_option("--ranks", arguments->ranks, "Ranks in all, one or more numbers: 1,2,4 (default: 1)")
       ->delimiter(',')
@@ -331,7 +331,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
       "  spindrift check inputs/leble_barakos/case1_engineering.toml\n"
       "  spindrift run inputs/leble_barakos/case1_engineering.toml --out run1\n"
       "  spindrift help run\n"
-      "Exit codes: 0 done, 2 bad input, 3 numerical failure (state saved), 4 machine failure, 5 stopped on request with a "
+      "Exit codes: 0 done, 2 bad input, 3 numerical failure (state saved), 4 system failure, 5 stopped on request with a "
       "checkpoint, 6 study: no run within the targets.");
 }
 
@@ -343,7 +343,7 @@ std::string commands_markdown(const CLI::App& cli) {
     out += fmt::format("\n## spindrift {}\n\n```text\n{}```\n", command->get_name(), command->help("spindrift"));
   return out +
          "\n## Exit codes\n\n| code | meaning |\n|---|---|\n| 0 | done |\n| 2 | bad input: nothing ran |\n"
-         "| 3 | numerical failure: the last good state is saved |\n| 4 | failure of the machine: disk, memory, network, a "
+         "| 3 | numerical failure: the last good state is saved |\n| 4 | failure of the system: disk, memory, network, a "
          "missing "
          "package |\n| 5 | stopped on request, with a checkpoint: `--restart` goes on |\n| 6 | a study: no run is within the "
          "targets |\n\nThe code also stands in "

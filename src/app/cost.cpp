@@ -31,7 +31,7 @@ std::vector<std::string> beyond_machine(double bytes, double core_seconds) {
                     bytes_text(bytes), bytes_text(memory)));
   if (core_seconds > year_s * cores)
     warnings.push_back(
-        fmt::format("time: {} on the {:.0f} cores of this machine; usual is up to a year: look at time.end_s and "
+        fmt::format("time: {} on the {:.0f} cores of this computer; usual is up to a year: look at time.end_s and "
                     "at the steps, or take fewer cells or particles",
                     io::duration_text(core_seconds / cores), cores));
   return warnings;

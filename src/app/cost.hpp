@@ -28,7 +28,7 @@ struct BaseCost {
   double bytes = 0.0, core_seconds = 0.0;
 };
 
-/// Where memory or time of so much is beyond this machine, or beyond a year of all its cores: a warning each.
+/// Where memory or time of so much is beyond this computer, or beyond a year of all its cores: a warning each.
 std::vector<std::string> beyond_machine(double bytes, double core_seconds);
 
 /// `simulated_s`: from t = 0 to the end. `ranks`: of this run.

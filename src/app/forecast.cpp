@@ -243,9 +243,9 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
   return f;
 }
 
-// Pseudo-steps that recorded runs with the default march took (docs/developer/notes/coupled_system.md). A steady rotor until its loads
-// settle: 64 to 141 from 6 to 20 m/s. Any other steady flow: 60 to 92, whether its flux balance is to fall by 1e-3 or by 1e-5. A
-// physical step for each order: 3, without walls 2.
+// Pseudo-steps that recorded runs with the default march took (docs/developer/notes/coupled_system.md). A steady rotor until its
+// loads settle: 64 to 141 from 6 to 20 m/s. Any other steady flow: 60 to 92, whether its flux balance is to fall by 1e-3 or by
+// 1e-5. A physical step for each order: 3, without walls 2.
 constexpr double steps_of_rotor = 85.0, steps_of_steady = 75.0, unsteady_steps_per_order = 3.0,
                  steps_per_order_without_walls = 2.0;
 

@@ -1,5 +1,5 @@
 // spindrift: the program. Parses the command line, starts MPI, calls a command, turns failures into exit codes
-// (docs/developer/errors.md): 0 done, 2 bad input, 3 numerical failure, 4 machine failure, 5 stopped on request, 6 a target of a
+// (docs/developer/errors.md): 0 done, 2 bad input, 3 numerical failure, 4 system failure, 5 stopped on request, 6 a target of a
 // study is out of reach. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

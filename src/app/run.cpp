@@ -107,7 +107,7 @@ io::HistoryStatistics statistics(const io::RunDirectory& directory, const coupli
 }
 
 /// The summary of a run that began, however it ended: what is thrown becomes an exit code, and a sentence in summary.json, before
-/// it goes on (a failure of the machine, which the other ranks may not know of) or ends the run (what all ranks know).
+/// it goes on (a failure of the system, which the other ranks may not know of) or ends the run (what all ranks know).
 io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& world, const std::function<io::Summary()>& run) {
   io::Summary summary;
   const auto end = [&](int code, const std::string& why) {

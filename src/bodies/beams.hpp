@@ -33,7 +33,7 @@ LoadSource beam_source(std::vector<Beam> beams, const Eigen::Vector3d& gravity_m
 /// How a beam is bent and what it carries. Loads are those of the side of the end on the side of the start, in the beam's axes
 /// there, about its two ends.
 struct BeamReading {
-  Eigen::Vector3d displacement, rotation;  ///< of the end seen from the start, its axes [m], rotation vector [rad]
+  Eigen::Vector3d displacement, rotation;  ///< of the end relative to the start, its axes [m], rotation vector [rad]
   Eigen::Vector3d start_force, start_moment, end_force, end_moment;
 };
 /// Accelerations of centres of mass and of rotation in earth axes, as System::evaluate gives them.

@@ -25,10 +25,10 @@ class PartitionedCoordinates {
   /// u = tangent * (independent u) + drift where C u = side; `jacobian` is the one factorised.
   void solve_tangent(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& side, Eigen::MatrixXd& tangent,
                      Eigen::VectorXd& drift);
-  /// Values of the dependent coordinates, in their order, that answer to these of all rows, the independent ones being 0. At
+  /// Values of the dependent coordinates, in their order, that fulfil these of all rows, the independent ones being 0. At
   /// least one row is active; valid until the next call.
   const Eigen::VectorXd& solve(const Eigen::VectorXd& rows);
-  /// Values of the active rows, in their order, that answer to these of the dependent coordinates; at least one row is active.
+  /// Values of the active rows, in their order, that belong to these of the dependent coordinates; at least one row is active.
   Eigen::VectorXd solve_transposed(const Eigen::VectorXd& dependent) const { return lu_.transpose().solve(dependent); }
 
  private:

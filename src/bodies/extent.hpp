@@ -14,7 +14,7 @@ Eigen::AlignedBox3d bounds(const BodyOptions& body);
 /// Half of the diagonal of `bounds` [m]; 0 where there are none.
 double extent(const BodyOptions& body);
 
-/// Lowest and highest point of the body's shapes where it is now [m]; whether it has any.
+/// Lowest and highest point of the body's shapes at its present place [m]; whether it has any.
 struct Reach {
   double low = 0.0, high = 0.0;
   bool any = false;

@@ -50,7 +50,7 @@ struct Memory {
   std::size_t size = 0;  ///< values
   /// Fills the values at the start of a run, where the bodies are so.
   std::function<void(double t, std::span<const Motion>, std::span<double>)> begin;
-  /// Loads asked for from now on are those with these values; with none they are the steady ones, as statics and modes want them.
+  /// Loads evaluated after this are those with these values; with none they are the steady ones, as statics and modes want them.
   std::function<void(std::span<const double>)> recall;
   /// @pre `recall` was called with these values, which are those of t - h. @post they are those of t, where the bodies are so.
   std::function<void(double t, double h, std::span<const Motion>, std::span<double>)> remember;

@@ -58,7 +58,7 @@ struct BodyOptions {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> reference_m;
   bool gyroscopic = true;
-  // How it starts, as seen from the position that the scene describes.
+  // How it starts, relative to the position that the scene describes.
   Eigen::Vector3d displacement_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw about the reference point [rad]
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();

@@ -16,7 +16,7 @@ struct EquilibriumOptions {
   int iterations = 200;
   double step_tolerance = 1e-10;  ///< last Newton correction, of the reference length or radians
   double turn_limit = 0.1;        ///< largest turn of a body in one iteration [rad]
-  double shift_limit_m = 5.0;     ///< largest way of a body in one iteration, or turn_limit of the reference length [m]
+  double shift_limit_m = 5.0;     ///< largest displacement of a body in one iteration, or turn_limit of the reference length [m]
   double free_fraction = 1e-8;    ///< stiffness over mass below this fraction of the largest counts as none
   double load_tolerance = 1e-7;   ///< load that a free direction may carry, as a fraction of all loads
 };

@@ -191,7 +191,7 @@ void System::Work::gather_forces(bool at_rest) {
     const Eigen::Vector3d omega = motions[b].omega;
     if (bodies[b].gyroscopic) {
       f.tail<3>() -= omega.cross(bodies[b].inertia * omega);
-    } else if (support[b] >= 0) {  // M = I (alpha - omega_support x omega): the spin does not feel its axis turning
+    } else if (support[b] >= 0) {  // M = I (alpha - omega_support x omega): without gyroscopic moment of the spin
       const Eigen::Vector3d turning = pose.axes.transpose() * mechanism.poses()[std::size_t(support[b])].spin;
       f.tail<3>() += bodies[b].inertia * turning.cross(omega);
     }

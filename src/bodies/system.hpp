@@ -31,7 +31,7 @@ struct StepReport {
     none,
     newton,        ///< the position equations did not converge
     singular,      ///< the constraints lost rank: the mechanism is in a singular position
-    inconsistent,  ///< a constraint found redundant at the start is no longer satisfied
+    inconsistent,  ///< a constraint that was redundant at the start is violated
     not_finite,    ///< a position, velocity or acceleration is not a finite number
     mass,          ///< mass plus added mass is not positive definite
     stiff,         ///< the step is beyond what loads as stiff as they are now allow: `value` is about that [s]

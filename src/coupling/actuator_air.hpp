@@ -1,5 +1,5 @@
 // Actuator disc and lines as a side of a coupled window: the grid stands in the earth's frame and the rotor goes through it where
-// the bodies take it, one physical step per window or sample. Wake and inflow are thus felt at the blades as the platform moves.
+// the bodies take it, one physical step per window or sample. So the blades meet wake and inflow as the platform moves.
 // Method: docs/theory/actuator.md. Made by make_air(); tested in tests/coupled/actuator_air_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

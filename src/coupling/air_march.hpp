@@ -22,12 +22,12 @@ void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& flo
                        std::vector<std::string>& log_lines);
 
 /// Steady flow before the run (start.air_steps): runs the march, a piece of its steps at a time, until `steps` are made; a line
-/// of progress now and then. Throws NumericalFailure where it fails, runtime::StopAsked.
+/// of progress every few seconds. Throws NumericalFailure where it fails, runtime::StopAsked.
 struct Settling {
   aero::FlowSolver& solver;
   const AirFile& state;                                  ///< of the solver
-  std::optional<SettlingFile> file;                      ///< where it is kept between pieces, and goes on from
-  bool first_try = true;                                 ///< later ones are not kept: they begin anew
+  std::optional<SettlingFile> file;                      ///< where it is saved between pieces, and goes on from
+  bool first_try = true;                                 ///< later ones are not saved: they begin anew
   std::function<void()> run;                             ///< makes a piece
   std::function<double(const aero::PseudoRow&)> thrust;  ///< [N] of a row of the march
 };
@@ -40,7 +40,7 @@ aero::RotorLoad ramped(aero::RotorLoad load, const FloatingSystem& floating, dou
 
 /// By trial on the flow as it is, into solver and `flow`. Collective.
 void choose_preconditioner(aero::FlowSolver& solver, aero::FlowOptions& flow, MPI_Comm comm, std::vector<std::string>& log_lines);
-/// What it became, for checkpoints, and from there; nothing where the file has none.
+/// The choice made, into checkpoints and out of them; nothing where the file has none.
 SavedArray choice_array(const std::string& preconditioner, int rank);
 std::optional<std::string> choice_in(const io::CheckpointReader& file);
 

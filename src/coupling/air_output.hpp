@@ -1,6 +1,6 @@
 // What the resolved air leaves in a run's folder for people: fields/air.xdmf (pressure, velocity, temperature, turbulence at cell
 // centres), fields/walls.xdmf, spanwise.csv. At the end of a run of the air alone, at chosen times of a coupled one. Called by
-// src/run and resolved_air.cpp; tested in tests/coupled/rotor_run_test.py and machine_test.py. SPDX-License-Identifier:
+// src/run and resolved_air.cpp; tested in tests/coupled/rotor_run_test.py and coupled_system_test.py. SPDX-License-Identifier:
 // Apache-2.0
 #pragma once
 

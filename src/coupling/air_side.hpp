@@ -1,6 +1,6 @@
-// The air's side of a coupled window: told how the rotor is to move, it answers with the rotor's load. One interface for the
-// engineering models, which answer at once, and for resolved air, whose work is tasks of a graph that may run beside those of the
-// sea. Its state can be kept and gone back to, so that windows repeat, and goes into checkpoints. Used by window.cpp; implemented
+// The air's side of a coupled window: from the motion of the rotor it computes the rotor's load. One interface for the
+// engineering models, which compute it at once, and for resolved air, whose work is tasks of a graph that may run beside those of
+// the sea. Its state can be saved and restored for repeated windows, and goes into checkpoints. Used by window.cpp; implemented
 // here and in resolved_air.cpp; tested in tests/src/coupling/window_test.cpp and tests/coupled/resolved_air_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -26,12 +26,12 @@ class AirSide {
  public:
   virtual ~AirSide() = default;
 
-  /// Where what settles before the run is kept while it does (settling_file.hpp); before begin(). The directory outlives the air.
+  /// Where the flow is saved while it settles before the run (settling_file.hpp); before begin(). The directory outlives the air.
   virtual void settle_in(const io::RunDirectory&) {}
-  /// Load on the rotor at the start of the run, where it is in state `now`; what has to settle first, settles here, unless
+  /// Load on the rotor at the start of the run, where it is in state `now`; air that has to settle first does so here, unless
   /// it has been restored. Collective.
   virtual aero::RotorLoad begin(double t, const aero::RotorState& now) = 0;
-  /// What is to come: `dt` seconds, at whose end `t` the rotor is in this state.
+  /// The next step: `dt` seconds, at whose end `t` the rotor is in this state.
   virtual void prepare(double t, double dt, const aero::RotorState& at_end) = 0;
   /// Records the tasks that do it.
   virtual Tasks record(runtime::Graph&) { return Tasks::none; }
@@ -44,10 +44,10 @@ class AirSide {
   virtual bool asks_ranks() const { return false; }
   /// With the steps of this retry from here on (retries.hpp); after return_to().
   virtual void ease(int /*retry*/) {}
-  /// The load to be written to history, where it is not simply that of the rotor's state now.
+  /// The load to be written to history, where it is not that of the rotor's present state.
   virtual const aero::RotorLoad* written() const { return nullptr; }
 
-  /// Notes the state to go back to: of a window, and of the piece of it that is being iterated.
+  /// Saves the state to be restored: of a window, and of the piece of it that is being iterated.
   enum Snapshot { window, piece };
   virtual void take_snapshot(Snapshot) {}
   virtual void return_to(Snapshot) {}
@@ -55,7 +55,7 @@ class AirSide {
   virtual std::vector<SavedArray> saved() const { return {}; }
   virtual void restore(const io::CheckpointReader&) {}
 
-  /// Its columns of history.csv, and what stands in them now.
+  /// Its columns of history.csv, and their present values.
   virtual std::vector<io::Column> columns() const { return {}; }
   virtual std::vector<double> values() const { return {}; }
   // Files for people, in the run's folder; collective over the ranks of the air.
@@ -73,7 +73,7 @@ class AirSide {
 std::unique_ptr<AirSide> make_air(const FloatingSystem& floating, const aero::RotorState& now, const runtime::World& world);
 /// Of a floating system whose rotor, if it has one, loads the bodies as they go: nothing to do.
 std::unique_ptr<AirSide> make_no_air();
-/// Answers by the floating system's engineering rotor.
+/// Loads by the floating system's engineering rotor.
 std::unique_ptr<AirSide> make_engineering_air(const FloatingSystem& floating);
 
 }  // namespace spindrift::coupling

@@ -19,7 +19,7 @@ class BodySide {
  public:
   virtual ~BodySide() = default;
 
-  /// What is to come: from this state to the end tick.
+  /// The next window: from this state to the end tick.
   virtual void prepare(const bodies::BodiesState& from, std::int64_t end_tick) = 0;
   /// Records the tasks that do it.
   virtual Tasks record(runtime::Graph&) { return Tasks::none; }
@@ -27,11 +27,11 @@ class BodySide {
   virtual bodies::BodiesState finish() = 0;
   /// With the steps of this retry from here on (retries.hpp).
   virtual void ease(int /*retry*/) {}
-  /// Whether what was recorded no longer serves; once its executors are gone, forget_tasks() and record again.
+  /// Whether the recorded tasks are outdated; once their executors are gone, forget_tasks() and record again.
   virtual bool outdated() const { return false; }
   virtual void forget_tasks() {}
 
-  // What is not in the bodies' state (particles) is noted and gone back to; numbered as AirSide::Snapshot.
+  // What is not in the bodies' state (particles) is saved and restored; numbered as AirSide::Snapshot.
   virtual void take_snapshot(int) {}
   virtual void return_to(int) {}
 

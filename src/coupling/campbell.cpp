@@ -117,7 +117,7 @@ double missed_part(const Staggering& scheme, double omega, double window) {
 
 namespace {
 
-/// Windows that are looked at: beyond the longest of them no scheme is of use.
+/// Windows that are tried: beyond the longest of them no scheme is of use.
 constexpr double longest_window = 50.0;
 
 /// The floating system about the state under a load of the rotor that stays as it is, in earth axes at the hub, and what the load

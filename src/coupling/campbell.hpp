@@ -49,7 +49,7 @@ double missed_part(const Staggering& scheme, double omega, double window);
 
 /// How a loose scheme fares on the floating system.
 struct LooseVerdict {
-  double hub_mass_kg = 0.0;  ///< that the hub's axial motion feels, the water's included
+  double hub_mass_kg = 0.0;  ///< effective mass of the hub's axial motion, water included
   double air_mass_kg = 0.0;  ///< that blades moving across their chords carry along, where a turbine file tells
   double slope_N_s_m = 0.0;  ///< thrust lost per m/s downwind
   double mass_ratio() const { return hub_mass_kg > 0.0 ? air_mass_kg / hub_mass_kg : 0.0; }

@@ -50,7 +50,7 @@ Table<bodies::BeamReading> beam_columns() {
   using Of = const bodies::BeamReading&;
   static constexpr double degree = radians_per_degree;
   static constexpr ColumnOf<bodies::BeamReading> table[] = {
-      {"deflection_x_m", "m", "of the end along the beam's x, seen from its start", [](Of b) { return b.displacement[0]; }},
+      {"deflection_x_m", "m", "of the end along the beam's x, relative to its start", [](Of b) { return b.displacement[0]; }},
       {"deflection_y_m", "m", "of the end along its y", [](Of b) { return b.displacement[1]; }},
       {"turn_x_deg", "deg", "by which the end turns about the beam's x", [](Of b) { return b.rotation[0] / degree; }},
       {"turn_y_deg", "deg", "about its y", [](Of b) { return b.rotation[1] / degree; }},
@@ -147,7 +147,7 @@ Table<aero::BladeRootLoad> root_columns() {
   static constexpr ColumnOf<aero::BladeRootLoad> table[] = {
       {"root_downwind_N", "N", "force of the blade on the hub along the axis: air, weight and inertia",
        [](Of l) { return l.downwind; }},
-      {"root_ahead_N", "N", "along the blade's way", [](Of l) { return l.ahead; }},
+      {"root_ahead_N", "N", "in the blade's direction of motion", [](Of l) { return l.ahead; }},
       {"root_outward_N", "N", "outward, square to the axis", [](Of l) { return l.outward; }},
       {"root_flap_N_m", "N m", "flapwise bending moment at the root, positive where the blade is pushed downwind",
        [](Of l) { return l.flap; }},
@@ -160,7 +160,7 @@ Table<Eigen::Vector2d> tip_columns() {
   using Of = const Eigen::Vector2d&;
   static constexpr ColumnOf<Eigen::Vector2d> table[] = {
       {"tip_downwind_m", "m", "bending of the blade's tip downwind, square to the blade", [](Of tip) { return tip.x(); }},
-      {"tip_ahead_m", "m", "bending of the blade's tip along its way", [](Of tip) { return tip.y(); }}};
+      {"tip_ahead_m", "m", "bending of the blade's tip in its direction of motion", [](Of tip) { return tip.y(); }}};
   return table;
 }
 
@@ -270,7 +270,7 @@ Table<double> gauge_columns() {
 
 Table<double> run_up_columns() {
   static constexpr ColumnOf<double> table[] = {
-      {"run_up_m", "m", "the same over where the body's waterline (z = 0 where the scene describes it) is there now",
+      {"run_up_m", "m", "the same over the present place of the body's waterline there (z = 0 of the scene)",
        [](const double& v) { return v; }}};
   return table;
 }

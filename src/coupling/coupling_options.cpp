@@ -46,7 +46,7 @@ const scene::Section<CouplingOptions>& coupling_section() {
                   "Order of the parts in an evaluation.")
           .only_if("scheme", schemes.with("composition"))
           .integer("predictor_order", &CouplingOptions::predictor_order, "-",
-                   "Order of the polynomial in time that extrapolates loads: what css bodies see, where strong schemes begin.",
+                   "Order of the polynomial in time that extrapolates loads: on the bodies with css, where strong schemes begin.",
                    between(0, 2))
           .only_if("scheme", schemes.with("predictor_order"))
           .number("relaxation", &CouplingOptions::relaxation, "-",

@@ -187,7 +187,7 @@ double rated_wind(const aero::RotorOptions& rotor) {
   return rated < table.wind.size() ? table.wind[rated] : 0.0;
 }
 
-/// Gains of a fixed foundation above rated wind, on a machine that pitches more slowly than they answer (Larsen & Hanson 2007, J.
+/// Gains of a fixed foundation above rated wind, on a turbine that pitches more slowly than they act (Larsen & Hanson 2007, J.
 /// Phys.: Conf. Ser. 75, 012073). The modes, whose rotor keeps speed and pitch, do not show it.
 void doubt_tuning(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
   const Scenario& s = floating.scenario();
@@ -221,7 +221,7 @@ void doubt_resonance(scene::Doubts& doubts, const FloatingSystem& floating, cons
   }
 }
 
-/// Shorter than any swing of the bodies: nothing of them is seen.
+/// Shorter than any swing of the bodies.
 void doubt_length(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
   const Scenario& s = floating.scenario();
   if (floating.particle_plan() || s.has_waves() || !s.has_sea() || s.is_controlled()) return;

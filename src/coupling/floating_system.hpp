@@ -101,7 +101,7 @@ class FloatingSystem {
 
  private:
   const sea::EngineeringSea& sea_now() const { return mean_loads_ && still_sea_ ? *still_sea_ : *sea_; }
-  /// What loads follow from besides time and motions has changed.
+  /// To be called when anything that loads depend on, besides time and motions, has changed.
   void loads_changed();
   void add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadSource source, std::vector<bool> on);
 
@@ -125,7 +125,7 @@ class FloatingSystem {
   std::unique_ptr<bodies::System> multibody_;
 };
 
-/// Asks for the floating system's loads in another way while this lives.
+/// Changes how the floating system's loads are evaluated while this lives.
 template <void (FloatingSystem::*use)(bool)>
 class LoadsAsked {
  public:

@@ -43,7 +43,7 @@ bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::Bodies
   const Scenario& s = floating.scenario();
   bodies::StepLimit limit{std::numeric_limits<double>::infinity(), "", 0.0};
   for (const auto& [name, line] : s.moorings) {
-    // Others are seen by the linearisation as they are.
+    // The linearisation has the others as they are.
     if (line.model != LineSpringDamper::name || !line.tension_only) continue;
     const std::optional<bodies::Pull> fairlead = pull_at(s, state, line.body, *line.fairlead_m),
                                       anchor = pull_at(s, state, line.anchor_body, *line.anchor_m);

@@ -1,4 +1,4 @@
-// Limits on steps and windows that the linearised floating system of start.hpp does not show: lines that are slack at the start
+// Limits on steps and windows that the linearised floating system of start.hpp does not have: lines that are slack at the start
 // and snap taut later, and loose coupling of rotor and bodies. Scenes beyond them are refused, by `check` and by `run` alike.
 // Tested in tests/src/coupling/limits_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace spindrift::coupling {
 
-/// Of the tension-only line whose spring, taut, is the stiffest for what its ends move: joints and added mass are in it. step_s
+/// Of the tension-only line whose taut spring is stiffest for the mobility of its ends, joints and added mass included. step_s
 /// infinite where there is none.
 bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::BodiesState& state);
 

@@ -21,7 +21,7 @@ namespace {
 // Least bytes of one: state, sums and place of a particle; state, matrix in float and metrics of a cell; a strip of a cylinder;
 // a number of a matrix over all bodies.
 constexpr double of_particle = 100.0, of_cell = 600.0, of_strip = 150.0, of_number = 8.0;
-constexpr double most_things = 1e12;  ///< beyond any machine, whatever its memory
+constexpr double most_things = 1e12;  ///< beyond any computer, whatever its memory
 
 /// Water of the tank, or of its blocks, and one layer of its walls.
 double particles(const Scenario& s, double spacing, double top) {

@@ -1,4 +1,4 @@
-// Whether a scene fits into the memory of the machine: counted in double precision from its keys, before any of it is made.
+// Whether a scene fits into the computer's memory: counted in double precision from its keys, before any of it is made.
 // Called by `run` and `check` before all else; what is counted is the least that a scene takes, so that nothing that fits is
 // refused. Tested in tests/src/coupling/memory_limits_test.cpp and by the malformed scenes. SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -24,7 +24,7 @@ std::vector<Demand> demands_of(const Scenario& scenario, double memory_bytes);
 /// the value that would fit.
 void require_memory(const Scenario& scenario, double memory_bytes);
 
-/// What this process may use of this machine [bytes]: its memory, or the limit of its control group.
+/// What this process may use of this computer [bytes]: its memory, or the limit of its control group.
 double machine_memory();
 
 }  // namespace spindrift::coupling

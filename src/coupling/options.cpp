@@ -72,7 +72,7 @@ const scene::Section<StartOptions>& start_section() {
           .number("ramp_s", &StartOptions::ramp_s, "s",
                   "Rotor loads grow smoothly from nothing over this time; 0 applies them at once.", scene::between(0.0, 1e6))
           .integer("air_steps", &StartOptions::air_steps, "-",
-                   "Resolved rotor on a body: pseudo-steps by which its air settles before t = 0, seen from the turning rotor, "
+                   "Resolved rotor on a body: pseudo-steps in the turning rotor's frame by which its air settles before t = 0, "
                    "hub held. 0: "
                    "the undisturbed wind everywhere, and no load on the bodies in the first window.",
                    scene::between(0, 1e6))
@@ -147,7 +147,7 @@ const scene::Section<CheckpointOptions>& checkpoint_section() {
 
 const scene::Section<RuntimeOptions>& runtime_section() {
   static const auto section =
-      scene::Section<RuntimeOptions>("runtime", "How the machine's time is used.")
+      scene::Section<RuntimeOptions>("runtime", "How the computer's time is used.")
           .number("wall_limit_s", &RuntimeOptions::wall_limit_s, "s",
                   "Wall time after which the run finishes its window, writes a checkpoint and ends with exit code 5; 0: none.",
                   scene::between(0.0, 1e9))

@@ -1,6 +1,6 @@
 // Which ranks of a run have the air and which the sea: as [coupling] says, or as the program was started in two sections (MPMD:
 // `mpirun -n 1 spindrift run s.toml --fluid air : -n 2 spindrift run s.toml --fluid sea`). Sections must have been given the same
-// scene and the same options. Called by src/app/run.cpp; tested in tests/coupled/machine_test.py.
+// scene and the same options. Called by src/app/run.cpp; tested in tests/coupled/coupled_system_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -243,7 +243,7 @@ class ResolvedAir final : public AirSide {
       }
   }
 
-  /// A steady march seen from the turning rotor, hub held where it starts, upright; the physical steps go on from its flow, which
+  /// A steady march in the rotor's turning frame, hub held at its start, upright; the physical steps go on from its flow, which
   /// does not know of a lean that an equilibrium gave the rotor. Its solver is gone before the moving one is made: two would not
   /// fit where one does.
   aero::TileStates settle(int steps, int retry) {

@@ -1,6 +1,6 @@
 // Resolved air as a side of a coupled window: a blade-resolved rotor whose hub goes where the bodies take it, one physical step
-// per window or sample. A grid of one sector keeps its periodicity only along and about its axis: such a rotor feels the hub's
-// motion along the axis it starts with, and its thrust and torque follow the axis as it leans. Made by make_air(); tested in
+// per window or sample. A grid of one sector keeps its periodicity only along and about its axis: such a rotor follows the
+// hub's motion along the axis of the start; its thrust and torque turn with the axis as it tilts. Made by make_air(); tested in
 // tests/coupled/resolved_air_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

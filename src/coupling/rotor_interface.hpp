@@ -1,5 +1,5 @@
-// What the rotor and the rest of the floating system tell each other, as rows of plain numbers that compare: motion of the hub
-// one way, load at the hub the other. Motion: hub, its velocity (over the reference length), angular velocity of what carries the
+// What the rotor and the rest of the floating system exchange, as rows of numbers of comparable size: motion of the hub to the
+// rotor, load at the hub to bodies. Motion: hub, its velocity (over the reference length), angular velocity of what carries the
 // rotor, rotor axis and its upright (as unit vectors: no angle to wrap), azimuth with whole turns, rate. Load: force over
 // weight-like scale, moment over that and the length. Used by window.cpp; tested in tests/src/coupling/window_test.cpp.
 // SPDX-License-Identifier: Apache-2.0

@@ -1,6 +1,6 @@
 // Air that one run leaves for another to start from (start.air; Leble & Barakos 2016, section 4.6): beside tiles and march, a
 // checkpoint of a resolved rotor says on which grid and with which settings it was made, where the rotor was and what load it
-// computed. Written by src/run, read by resolved_air.cpp; tested in tests/coupled/machine_test.py.
+// computed. Written by src/run, read by resolved_air.cpp; tested in tests/coupled/coupled_system_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,7 +22,7 @@ io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file
 /// Whereby saved air must be like this scene's: "aero.grid.cells_round = 28" and so on, one a line. Into the checkpoint.
 void write_air_settings(io::CheckpointCopy& copy, const Scenario& scenario);
 
-/// What a rotor feels as a whole, and each blade of its grid (blade 1 first).
+/// Loads of the rotor as a whole, and of each blade of its grid (blade 1 first).
 struct ComputedLoads {
   aero::RotorLoad rotor;
   std::vector<aero::RotorLoad> blades;
@@ -35,7 +35,7 @@ SavedArray computed_loads_array(const ComputedLoads& computed, int rank);
 std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const ComputedLoads& computed, int rank);
 
 ComputedLoads computed_loads_in(const io::CheckpointReader& file, int blades);
-/// What the air of a coupled run last answered and its physical step [s], for a run that goes on from there.
+/// The last load of the air of a coupled run and its physical step [s], for a run that goes on from there.
 struct SavedRotorLoad {
   aero::RotorLoad load;
   double dt;

@@ -1,5 +1,5 @@
-// An array of a side's state on its way into a checkpoint: the side says which arrays there are and hands in its pieces; ranks
-// that have another side know neither. Used by air_file.cpp, sides.cpp and src/run; tested through tests/coupled/machine_test.py.
+// An array of a side's state to be written into a checkpoint: the side says which arrays there are and hands in its pieces; ranks
+// that have another side know neither. Used by air_file.cpp, sides.cpp and src/run; tested in coupled_system_test.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -25,7 +25,7 @@ struct SavedArray {
 /// Collective over the file's ranks.
 void write(io::CheckpointWriter& file, const SavedArray& array);
 void write(io::CheckpointCopy& copy, std::vector<SavedArray> arrays);
-/// The arrays that a part of the ranks has; `arrays` are looked at there alone. Collective over all ranks, which the file is of.
+/// The arrays that a part of the ranks has; `arrays` are read there alone. Collective over all ranks, which the file is of.
 void write(io::CheckpointCopy& copy, const runtime::Parts& parts, int part, std::vector<SavedArray> arrays);
 
 }  // namespace spindrift::coupling

@@ -1,5 +1,5 @@
 // A scene, read and checked: the options of every module, side by side, and the rules between them.
-// From here on nobody sees the parser. Built by read_scenario; used by FloatingSystem; tested in
+// Nothing after it uses the parser. Built by read_scenario; used by FloatingSystem; tested in
 // tests/src/coupling/scenario_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -69,7 +69,7 @@ std::span<const scene::SectionBase* const> all_sections();
 /// Reads and checks the whole document; throws scene::SceneError with every problem.
 Scenario read_scenario(scene::Document& document);
 
-/// The bodies as the sea sees them, in the order of the scene.
+/// The bodies for the engineering sea, in the order of the scene.
 std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies);
 
 /// The same for a sea of particles.

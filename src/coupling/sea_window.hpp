@@ -1,6 +1,6 @@
 // A window of a scene with a sea of particles: substeps in which water, bodies and moorings go on together (Leble & Barakos 2016,
-// section 2.5), recorded as tasks. The bodies see the water's load of t over the first half of a substep, that of its middle over
-// the whole of it: second order, with any of their integrators. Made by make_body_side(); tested in
+// section 2.5), recorded as tasks. The bodies take the water's load of t over the first half of a substep, that of its middle
+// over the whole of it: second order, with any of their integrators. Made by make_body_side(); tested in
 // tests/coupled/particle_sea_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

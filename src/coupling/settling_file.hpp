@@ -1,4 +1,4 @@
-// What a steady march before the run has come to, kept in the run's folder while it lasts: killed there, the run goes on settling
+// The state of a steady march before the run, saved in the run's folder while it lasts: killed there, the run goes on settling
 // where it was when it is started again, with the same bits. The folder goes once the run's first checkpoint is there. Used by
 // resolved_air.cpp and actuator_air.cpp; tested in
 // tests/src/coupling/settling_file_test.cpp and tests/coupled/settling_test.py. SPDX-License-Identifier: Apache-2.0
@@ -20,7 +20,7 @@ namespace spindrift::coupling {
 /// All members are collective over the ranks of `world`.
 class SettlingFile {
  public:
-  /// `wall_interval_s` of the scene's checkpoints; 0: nothing is kept.
+  /// `wall_interval_s` of the scene's checkpoints; 0: nothing is saved.
   SettlingFile(const io::RunDirectory& directory, const runtime::World& world, double wall_interval_s);
 
   /// The newest state of this very scene; nothing where there is none.

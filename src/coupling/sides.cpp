@@ -25,7 +25,7 @@ std::string text(Unpacker& from) {
   return {all.begin(), all.end()};
 }
 
-/// Has the ranks of a part `pack` what they answer and all ranks `unpack` it. Where the part fails numerically, or the user's
+/// Has the ranks of a part `pack` their result and all ranks `unpack` it. Where the part fails numerically, or the user's
 /// files are not what they should be, all throw.
 template <class Pack, class Unpack>
 void answer_of(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpack) {

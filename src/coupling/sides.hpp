@@ -1,7 +1,7 @@
 // The two sides of a coupled window on the ranks that have them. Placed `shared`, every rank has both; placed `split`, a rank has
-// the air or the bodies with their sea, and what one side answers (the rotor's load; the bodies' state: a handful of numbers)
+// the air or the bodies with their sea, and the result of a side (the rotor's load; the bodies' state: a few numbers)
 // goes to all ranks. The schemes do not know the difference, so results do not depend on it. Used by src/run; tested in
-// tests/coupled/machine_test.py and tests/src/coupling/sides_test.cpp. SPDX-License-Identifier: Apache-2.0
+// tests/coupled/coupled_system_test.py and tests/src/coupling/sides_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ Sides make_sides(FloatingSystem& floating, std::span<const Motion> start, const 
 /// Collective.
 void on_parts(const runtime::Parts& parts, const std::function<void()>& work);
 
-/// A side that is asked where the part is and answers everywhere. `own` is null where this rank has not the part.
+/// A side that runs on the ranks of its part and has its result on all. `own` is null where this rank has not the part.
 std::unique_ptr<AirSide> share_air(const runtime::Parts& parts, std::unique_ptr<AirSide> own);
 std::unique_ptr<BodySide> share_bodies(const runtime::Parts& parts, std::unique_ptr<BodySide> own);
 

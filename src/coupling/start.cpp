@@ -95,7 +95,7 @@ void require_stable_particles(FloatingSystem& floating, const Stability& stabili
   if (!stability.linearisation.report.ok())
     refuse(floating, "bodies", "",
            "the start cannot be evaluated: " + floating.multibody().describe(stability.linearisation.report));
-  constexpr double margin = 0.9;  // the water adds stiffness that the linearisation does not see
+  constexpr double margin = 0.9;  // the water adds stiffness that the linearisation does not have
   const double bodies = margin * stability.limit.step_s;
   if (bodies == 0.0)
     refuse(floating, "time.integrator", std::string(name(floating.multibody().integrator())),

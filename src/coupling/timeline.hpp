@@ -31,7 +31,7 @@ class Timeline {
   std::int64_t windows() const { return windows_; }
   double tick_s() const { return window_s_ / double(steps_); }
   double window_s() const { return window_s_; }
-  /// End of the n-th window, exactly the same number whichever way it was reached.
+  /// End of the n-th window, exactly the same number however it was reached.
   double window_end_s(std::int64_t window) const { return double(window) * window_s_; }
   std::int64_t tick_of_window(std::int64_t window) const { return window * steps_; }
 

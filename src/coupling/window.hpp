@@ -1,5 +1,5 @@
 // A window shared by the rotor and the rest of the floating system (bodies, sea, moorings, advanced in their own steps): the
-// rotor is asked once per window and sample, and the bodies see its loads as a signal in time, by a loose scheme or iterated
+// rotor is evaluated once per window and sample, and the bodies take its loads as a signal in time, by a loose scheme or iterated
 // until both agree. Where there is no such interface (no rotor, or coupling.scheme = "monolithic") a window is the bodies' steps
 // alone. What iterates is a pure function of a snapshot in memory, so a window may be repeated, cut, or begun again after a
 // restart. Schemes: kernels/coupling. Called by src/run; tested in tests/src/coupling/window_test.cpp and
@@ -32,7 +32,7 @@ struct WindowReport {
   WindowLog log;           ///< loose: one evaluation; the residual is what the scheme neglects, as is
   double mismatch = 0.0;   ///< residual over the loads
   std::string failure;     ///< not empty: the state is that of the window's start
-  bool of_a_side = false;  ///< what failed is a side's own march, which smaller steps may mend
+  bool of_a_side = false;  ///< a side's own march failed, which smaller steps may mend
   bool stopped = false;    ///< given up since the run is to stop; likewise
   bool ok() const { return failure.empty() && !stopped; }
 };
@@ -46,7 +46,7 @@ class CoupledWindow {
   CoupledWindow(const CoupledWindow&) = delete;
   CoupledWindow& operator=(const CoupledWindow&) = delete;
 
-  /// Motion and loads of the run's first state; what has to settle first, settles. Not before restore().
+  /// Motion and loads of the run's first state, after the air has settled where it has to. Not before restore().
   void begin(const bodies::BodiesState& state);
   /// From a window's start to its end; `retry`: with smaller steps (retries.hpp).
   WindowReport advance(bodies::BodiesState& state, int retry = 0);
@@ -59,7 +59,7 @@ class CoupledWindow {
   /// Totals since the object was made.
   struct Totals {
     std::int64_t windows = 0, evaluations = 0, probes = 0, retries = 0, cuts = 0, body_steps = 0, rotor_calls = 0;
-    std::int64_t snapshot_ns = 0;  ///< noting the state at the start of each window
+    std::int64_t snapshot_ns = 0;  ///< saving the state at the start of each window
   };
   const Totals& totals() const { return totals_; }
   AirSide& air() { return *air_; }

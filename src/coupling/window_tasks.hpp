@@ -1,7 +1,7 @@
 // The sides of a window as one task graph: air and bodies at once, so that what one leaves idle the other fills, or one of them
 // where a scheme wants it alone. Each selection of sides is a program of its own: recorded once, replayed. First the sides are
-// given what to do (exchange/extrapolate), at the end each is asked for its result (exchange/hub_motion, exchange/rotor_load);
-// between them nothing but data orders. What outputs of the last window have handed on
+// given what to do (exchange/extrapolate), at the end the result of each is taken (exchange/hub_motion, exchange/rotor_load);
+// between them only data orders the tasks. What outputs of the last window have handed on
 // is written beside them (output_task.hpp). Used by window.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -37,7 +37,7 @@ class WindowTasks {
   /// before or after it.
   void run(Run sides, const Exchange& exchange = {});
 
-  /// The executor that tells most of where time went: of both sides, else of one; null where none has run.
+  /// The executor whose record covers most: that of both sides, else of one; null where none has run.
   const runtime::Executor* executor() const;
   /// Core-seconds of tasks whose labels begin so, on this rank.
   double core_seconds(std::string_view module) const;
@@ -53,7 +53,7 @@ class WindowTasks {
   OutputTask& output_;
   MPI_Comm comm_;
   runtime::ExecutorOptions options_;
-  const Exchange* exchange_ = nullptr;  ///< of the run that is under way
+  const Exchange* exchange_ = nullptr;  ///< of the present run
   std::array<Program, 3> programs_;     ///< by Run
   std::array<double, 2> dropped_{};     ///< core-seconds of executors that are gone: of the air, of the sea
   std::int64_t wall_ns_ = 0;

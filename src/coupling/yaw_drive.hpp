@@ -1,5 +1,5 @@
 // The drive that turns a nacelle into the wind, [control.yaw]: a moment about the yaw bearing, towards the angle that the
-// controller of kernels/rotor/controller_yaw.hpp asks for. A source of load of the bodies, which keeps what it remembers. Built
+// controller of kernels/rotor/controller_yaw.hpp asks for. A source of load of the bodies, with a memory (bodies::Memory). Built
 // by floating_system.cpp; tested in tests/coupled/yaw_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

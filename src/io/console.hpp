@@ -1,4 +1,4 @@
-// What a person sees: lines of log, and below them, on a terminal, one line of progress that is rewritten in place.
+// The terminal: lines of log, and below them, on a terminal, one line of progress that is rewritten in place.
 // One per process, because there is one terminal. Used by log.cpp and progress.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,5 +1,5 @@
 // Whether a file will fit, asked before it is begun: a clear refusal instead of an HDF5 file that can neither be finished nor
-// closed. Called by checkpoint.cpp and fields.cpp. Tested in tests/src/io/checkpoint_faults_test.cpp. SPDX-License-Identifier:
+// closed. Called by shared_hdf5.cpp. Tested in tests/src/io/checkpoint_faults_test.cpp. SPDX-License-Identifier:
 // Apache-2.0
 #pragma once
 

@@ -40,7 +40,7 @@ struct ModeLine {
 struct Summary {
   std::string title, scene;            ///< scene: the path given on the command line
   std::vector<std::string> overrides;  ///< of its keys, from there too
-  int exit_code = 0;                   ///< 0 done, 2 bad input, 3 numerical failure, 4 machine failure, 5 stopped on request
+  int exit_code = 0;                   ///< 0 done, 2 bad input, 3 numerical failure, 4 system failure, 5 stopped on request
   std::string exit_reason;             ///< one sentence
   std::vector<std::string> numerical_trouble;  ///< one sentence each: what, where, when
   std::int64_t warnings = 0;

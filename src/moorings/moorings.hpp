@@ -18,7 +18,7 @@
 
 namespace spindrift::moorings {
 
-/// Tensions of one line [N]; negative where a two-way spring pushes.
+/// Tensions of one line [N]; negative where a spring pushes (tension_only = false).
 struct LineTension {
   double fairlead, anchor;
 };

@@ -1,5 +1,5 @@
 // The file of a tabulated line: columns distance_m, tension_N.
-// Called by options.cpp (to check) and moorings.cpp (to use); tested in tests/src/moorings/options_test.cpp.
+// Called by options.cpp (to check) and line_table.cpp (to use); tested in tests/src/moorings/options_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

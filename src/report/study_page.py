@@ -150,7 +150,7 @@ def _figure(study, metric):
     target = f"; the dashed line is the target, {_plain(metric['target'] * _unit(metric))}{' %' if _in_percent(metric) else ''}" if metric["target"] else ""
     borrowed = f"Dotted bars: scatter of {', '.join(_lenders(study, metric))}. " if _lenders(study, metric) else ""
     bars = f"Bars are {100 * study['confidence']:g} % intervals from {study['replicas']} replicas, paired with the reference. " if study["replicas"] else ""
-    marked = "; orange: the answer" * bool(study["answer"]) + "; diamond: the reference, at its cost" * bool(_reference(study, metric))
+    marked = "; orange: the result" * bool(study["answer"]) + "; diamond: the reference, at its cost" * bool(_reference(study, metric))
     return (f"<figure><h3>{page.escape(metric['name'])}: {page.escape(what)}</h3>{figures.as_html(figure, 'Error against cost: ' + what)}"
             f"<figcaption>{bars}{page.escape(borrowed)}The line joins what nothing beats in both error and cost, over all targets{page.escape(target)}{marked}.</figcaption></figure>")
 
@@ -213,7 +213,7 @@ def _table(study):
                          f"<td>{page.number(value, 4) if (value := rung['errors'][m['name']]['value']) is not None else '-'}</td>" * valued[m["name"]]
                          for m in study["metrics"])
         cost, notes = rung["cost"], []
-        notes += ["<strong>the answer</strong>"] if rung["name"] == study["answer"] else []
+        notes += ["<strong>the result</strong>"] if rung["name"] == study["answer"] else []
         notes += ["reference"] if rung["is_reference"] else ["Pareto front"] if rung["on_front"] else []
         notes += [f"failed: {page.escape(rung['failed'])}"] if rung["failed"] else []
         confidence = (f"<td>{'-' if rung['confidence'] is None or rung['is_reference'] else page.number(100 * rung['confidence'], 3) + ' %'}</td>"

@@ -9,7 +9,7 @@ import quantities
 import words
 from geometry import Scene3d
 
-EXITS = {0: "Done", 2: "Bad input", 3: "Numerical failure", 4: "Machine failure", 5: "Stopped on request"}
+EXITS = {0: "Done", 2: "Bad input", 3: "Numerical failure", 4: "System failure", 5: "Stopped on request"}
 LEANS = 0.866   # cosine of 30 degrees, which nothing that is to float upright leans by
 SWINGS = 0.02   # of its mean: a standard deviation that is told with it
 ORDER = {"bad": 0, "warn": 1, "good": 2}

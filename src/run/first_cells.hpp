@@ -13,8 +13,8 @@ namespace spindrift::run {
 /// Of a flow with a turbulence model, as its last residual left it; else none. Collective.
 aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::World& world);
 
-/// Why loads are no answer, whatever the residual: over most of the resolved walls one cell bridges the buffer layer (y+ above
-/// 30), which leaves a fraction of the friction. Empty where they may be one.
+/// Why loads are wrong, whatever the residual: over most of the resolved walls one cell bridges the buffer layer (y+ above
+/// 30), which leaves a fraction of the friction. Empty where they may be right.
 std::string unresolved_walls(const aero::FirstCells& cells);
 
 }  // namespace spindrift::run

@@ -20,7 +20,7 @@ namespace spindrift::run {
 
 class FlowCase {
  public:
-  /// Pseudo-steps of a steady march from one run of its graph to the next: clock and disk are asked between them.
+  /// Pseudo-steps of a steady march from one run of its graph to the next: clock and disk are checked between them.
   static constexpr int steady_chunk = 20;
 
   /// Collective. Throws scene::SceneError where the grid does not suit the scene.
@@ -44,16 +44,16 @@ class FlowCase {
   /// Where they go in the window that follows.
   void move(std::int64_t window, double window_s);
 
-  /// The state at the end of a window, kept in memory to go back to.
+  /// The state at the end of a window, saved in memory to be restored.
   aero::FlowSnapshot snapshot() const { return solver_->restart().snapshot(); }
   void return_to(const aero::FlowSnapshot& to, std::int64_t window, double window_s);
 
   /// How a steady march that is no rotor's begins and steps, in the order in which they are tried.
   enum class Way : std::uint8_t { coarser_grids, own_grid, physical_pseudo_time };
   Way way() const { return way_; }
-  /// The way that a checkpoint says; its state follows.
+  /// The beginning that a checkpoint names; its state follows.
   void take(Way way);
-  /// The march gives up what it has and begins again in the next way there is: says which, or nothing where there is none left.
+  /// The march begins again by the next method in that order: returns its name, or nothing where there is none left.
   std::string begin_again(const coupling::Scenario& scenario);
 
   /// Grid sequencing of grids that are no rotor's: the flow settles on coarser grids first, the coarsest before the others, their

@@ -1,4 +1,4 @@
-// The air alone as the driver sees it: a scene whose aero.model is "blade_resolved" and that has no bodies: a rotor, wings,
+// The air alone, as the driver runs it: a scene whose aero.model is "blade_resolved" and that has no bodies: a rotor, wings,
 // plates or cylinders in the wind. Steady scenes have a row of history per pseudo-step (a window is one), unsteady ones a row per
 // window. Used by driver.cpp; tested in tests/coupled/flow_run_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once

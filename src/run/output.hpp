@@ -12,7 +12,7 @@
 
 namespace spindrift::run {
 
-/// Windows completed since outputs were last asked: before < n <= now. The run is to end with `last`.
+/// Windows completed since outputs were last taken: before < n <= now. The run is to end with `last`.
 struct Windows {
   std::int64_t before, now, last;
 };

@@ -45,7 +45,7 @@ class ProgressOutput final : public Output {
   io::Progress progress_;
 };
 
-/// A checkpoint when [checkpoint] asks for one (io::CheckpointPlan) and at the end of the run, and the way back from the newest.
+/// A checkpoint when [checkpoint] asks for one (io::CheckpointPlan) and at the end of the run, and restoring the newest.
 /// Written beside the next window: what counts is what has been renamed to its place.
 class Checkpoints final : public Output {
  public:

@@ -1,4 +1,4 @@
-// What checkpoints keep of history.csv, so that a restart knows whether its rows are whole. Called by outputs.cpp; tested in
+// What checkpoints store of history.csv, so that a restart knows whether its rows are whole. Called by outputs.cpp; tested in
 // tests/coupled/restart_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

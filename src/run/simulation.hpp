@@ -28,7 +28,7 @@ namespace spindrift::run {
 struct Advance {
   std::int64_t windows = 0;  ///< completed: one, or more pseudo-steps of a steady flow; none where the first failed, or was given
                              ///< up since the run is to stop
-  std::string settled;       ///< not empty: nothing changes any more, and why
+  std::string settled;       ///< not empty: why it has settled
   std::string failure;       ///< not empty: the numerics gave up: what, where, when, limit
 };
 

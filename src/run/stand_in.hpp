@@ -1,6 +1,6 @@
 // Sides of a window that take no time, so that the other can be measured alone: bodies that stay where they are, air without
-// load. Used by system_simulation.cpp for `spindrift profile`; tested in tests/coupled/machine_test.py. SPDX-License-Identifier:
-// Apache-2.0
+// load. Used by system_simulation.cpp for `spindrift profile`; tested in
+// tests/coupled/coupled_system_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// A floating system as the driver sees it: bodies, moorings, sea and rotor in windows (src/coupling/window.hpp), whatever of them
+// A floating system as the driver runs it: bodies, moorings, sea and rotor in windows (src/coupling/window.hpp), whatever of them
 // the scene has. Used by driver.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

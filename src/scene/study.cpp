@@ -60,10 +60,10 @@ const Section<StudyOptions>& study_section() {
                  at_least(1))
         .number("budget_core_h", &StudyOptions::budget_core_h, "h",
                 "Core-hours that may be spent: what the forecast puts beyond them is left out, dearest first.", positive())
-        .number("confidence", &StudyOptions::confidence, "-", "Of the intervals, and at least of the answer.",
+        .number("confidence", &StudyOptions::confidence, "-", "Of the intervals, and at least of the result.",
                 between(0.5, 0.999))
         .integer("repeats", &StudyOptions::repeats, "-",
-                 "Runs that compete for the answer are timed so often; the least time counts.", between(1, 20));
+                 "Runs that compete for the result are timed so often; the least time counts.", between(1, 20));
   }();
   return section;
 }

@@ -1,4 +1,4 @@
-// TOML text to a tree of values with lines: the only place that sees toml++ 3.3.0, and what protects it from bad bytes.
+// TOML text to a tree of values with lines: the only place that includes toml++ 3.3.0, and what protects it from bad bytes.
 // Called by src/scene/layers.cpp; tested in tests/src/scene/document_test.cpp and fuzzed by
 // tests/src/scene/fuzz_scene_reader.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -21,7 +21,7 @@ struct BodiesInSea {
 scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const SeaEnvironment& environment,
                          const BodiesInSea& bodies);
 
-/// Waves and drafts that few particles show: what such a run answers, and which spacing would do. `draft` 0: nothing floats.
+/// Waves and drafts of few particles: what they come to in such a run, and which spacing would do. `draft` 0: nothing floats.
 std::vector<std::string> resolution_notes(const SeaOptions& sea, const WavesOptions& waves, double draft);
 
 /// Length of a linear wave [m].

@@ -33,7 +33,7 @@ std::vector<Strip> strips_of(const SeaBody& body, const SeaOptions& options) {
     for (std::size_t j = 0; j < body.cylinders.size(); ++j)
       if (j != i) others.push_back(body.cylinders[j].shape);
     const double touching = 1e-6 * shape.length();
-    // The hydrostatic rung needs the exact volume only: one strip.
+    // The hydrostatic model needs the exact volume only: one strip.
     const double longest = options.model != "hydrostatic" ? options.strip_length_m : shape.length();
     append_strips(shape, coefficients_of(body.cylinders[i].name, options),
                   exposed_area(shape.start, shape.start_radius, others, touching),

@@ -1,4 +1,4 @@
-// Water loads on floating bodies at engineering fidelity: rungs `hydrostatic` (exact buoyancy in still water, linear damping) and
+// Water loads on floating bodies by engineering models: `hydrostatic` (exact buoyancy in still water, linear damping) and
 // `morison` (waves and current; Froude-Krylov, added mass and drag by strips), `potential` (a boundary-element code's
 // coefficients, with drag by strips). Equations and what is left out: docs/theory/sea_engineering.md. Built by the coupling from
 // checked options; called in every evaluation of the right-hand side, without allocation. Tested in tests/src/sea.
@@ -33,7 +33,7 @@ struct NamedCylinder {
   Cylinder shape;  ///< body axes from the centre of mass
 };
 
-/// A body as the sea sees it; in the order of the motions. A body without cylinders costs nothing.
+/// A body with its shapes; in the order of the motions. A body without cylinders costs nothing.
 struct SeaBody {
   std::string name;
   Motion initial;  ///< as the scene states it: turns initial earth coordinates into body axes
@@ -106,7 +106,7 @@ class EngineeringSea {
   std::vector<BodyStrips> bodies_;
 };
 
-// What is wrong with a scene's sea beyond what one section sees: one sentence each with its key; empty when nothing is.
+// Rules between the sections of a scene's sea that it breaks: one sentence each with its key; empty when nothing is.
 // wave_problems (wave_field.hpp) is the third of these.
 /// Names that do not exist, options without effect.
 std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOptions& waves, const std::vector<SeaBody>& bodies);

@@ -182,7 +182,7 @@ const Section<WavesOptions>& waves_section() {
           .only_if("model", wave_models().with("stretching"))
           .only_if("second_order", {"false"})
           .integer("seed", &WavesOptions::seed, "-",
-                   "Seed of the random phases; the same seed gives the same sea on every machine.", scene::not_negative())
+                   "Seed of the random phases; the same seed gives the same sea on every computer.", scene::not_negative())
           .only_if("model", wave_models().with("seed"))
           .integer("components", &WavesOptions::components, "-", "Number of harmonics.", scene::between(8, 20000))
           .only_if("model", wave_models().with("components"))

@@ -1,4 +1,4 @@
-// What a scene may say about waves and about the engineering rungs of the sea: [waves], [sea], [[sea.coefficients]],
+// What a scene may say about waves and about the engineering models of the sea: [waves], [sea], [[sea.coefficients]],
 // [[sea.damping]]. Read by the coupling, which builds an EngineeringSea from them; tested in tests/src/sea.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

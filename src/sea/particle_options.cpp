@@ -49,7 +49,7 @@ const Section<ParticleOptions>& particle_section() {
                   "Smoothing length h over d; pairs meet within 2 h. Larger is smoother and dearer.", between(1.0, 3.0))
           .choice("kernel", &ParticleOptions::kernel,
                   {{"quintic_spline", sph::KernelChoice::quintic,
-                    "quintic B-spline; at h/d 1.5 it does not feel the rows of particles: waves keep speed and height"},
+                    "quintic B-spline; at h/d 1.5 rows of particles have no effect on it: waves keep speed and height"},
                    {"wendland", sph::KernelChoice::wendland, "Wendland's C2, an eighth cheaper; waves need h/d 2.5"},
                    {"cubic_spline", sph::KernelChoice::cubic, "cubic B-spline"}},
                   "Smoothing kernel.")

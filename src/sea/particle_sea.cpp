@@ -65,7 +65,7 @@ sph::Patch patch_of(const ParticlePlan& plan, const SensorOptions& sensor, doubl
   sph::Patch patch{.owner = sph::wall_owner, .low = sensor.low_m, .high = sensor.high_m, .mean_over = sensor.mean_over_s};
   if (sensor.body.empty()) {
     patch.points = sph::points_of_rectangle(patch.low, patch.high, 0.5 * d, cut);
-    for (int k = 0; k < 3; ++k)  // the particles of the wall on either side of it that water feels
+    for (int k = 0; k < 3; ++k)  // the particles of the wall on either side of it within reach of water
       if (patch.low[k] == patch.high[k]) patch.low[k] -= reach, patch.high[k] += reach;
   } else {
     const auto named = std::find_if(plan.bodies.begin(), plan.bodies.end(), [&](const auto& b) { return b.name == sensor.body; });
@@ -289,7 +289,7 @@ class Sea final : public ParticleSea {
   }
 
  private:
-  /// The last step's end, which no step has looked at yet.
+  /// The last step's end, which no step has checked.
   void require_bounded() const {
     const std::optional<sph::Beyond> beyond = sph::beyond_bounds(sea_.store(), sea_.parameters(), comm_);
     if (!beyond) return;
@@ -331,7 +331,7 @@ std::unique_ptr<ParticleSea> make_sea(const ParticlePlan& plan, std::span<const 
   return std::make_unique<Sea<dim, Real>>(plan, start, parameters, tank, world);
 }
 
-/// Evaluations per core-second (processor time, so that a busy machine does not count) and bytes per particle of a small sea of
+/// Evaluations per core-second (processor time, so that other programs do not count) and bytes per particle of a small sea of
 /// the same schemes; returns its particles of walls to one of water.
 template <int dim, class Real>
 double measure(const sph::Parameters& scene, ParticleCensus& census) {

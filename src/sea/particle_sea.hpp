@@ -1,4 +1,4 @@
-// The sea of particles as the coupling sees it: bodies held or moving in a tank, advanced in substeps between which the coupling
+// The sea of particles for the coupling: bodies held or moving in a tank, advanced in substeps between which the coupling
 // moves them, with instruments, output and a state that can be saved and put back. Hides dimensions and precision.
 // Called by src/coupling (sea_window.cpp, recorder.cpp) and src/run; tested in tests/coupled/particle_sea_test.cpp and
 // tests/coupled.
@@ -60,11 +60,11 @@ struct ParticlePlan {
 ParticlePlan particle_plan(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
                            std::vector<ParticleBody> bodies, double entry_speed);
 
-/// What is wrong with a sea of particles beyond what one section sees.
+/// Rules between the sections of a sea of particles that it breaks.
 std::vector<OptionProblem> particle_problems(const SeaOptions& options, const WavesOptions& waves,
                                              const SeaEnvironment& environment, std::span<const ParticleBody> bodies);
 
-/// Of a particle in the note of a state, kept in memory to go back to [bytes]: saved.hpp.
+/// Of a particle in a state saved in memory [bytes]: saved.hpp.
 inline constexpr double bytes_of_note = 62.0;
 
 /// What a scene amounts to, without running it.
@@ -73,7 +73,7 @@ struct ParticleCensus {
   double bytes = 0.0;                   ///< of the particles in memory
   double step_s = 0.0;                  ///< largest step at rest
   std::string step_set_by;              ///< "sound", "body NAME"
-  double evaluations_per_second = 0.0;  ///< measured now on a small sea of the same schemes, one thread
+  double evaluations_per_second = 0.0;  ///< measured on a small sea of the same schemes, one thread
   struct Body {
     std::string name;
     double volume_m3 = 0.0, wetted_m3 = 0.0;  ///< that its particles stand for: in all, and under z = 0 at the start
@@ -139,7 +139,7 @@ class ParticleSea {
   virtual void open(double t_s, std::span<const Motion> bodies, bool settling) = 0;
   /// Throws the NumericalFailure of the window, or runtime::StopAsked where it was given up.
   virtual void close() = 0;
-  /// Notes the state (0, 1), and goes back to it bit for bit.
+  /// Saves the state (0, 1), and restores it bit for bit.
   virtual void take_snapshot(int slot) = 0;
   virtual void return_to(int slot) = 0;
 

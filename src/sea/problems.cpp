@@ -1,4 +1,4 @@
-// What is wrong with the sea of a scene, beyond what each section sees by itself: declared in engineering_sea.hpp and
+// Rules between the sections of the sea of a scene: declared in engineering_sea.hpp and
 // wave_field.hpp. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ void check_potential(const PotentialOptions& o, const WavesOptions& waves, std::
     return;
   }
   const bool pairs = o.drift == "full" || !o.sum_frequency_file.empty();
-  if (pairs && waves.model != "airy" && waves.components > int(SecondOrderLoads::most_components))
+  if (pairs && waves.components > int(SecondOrderLoads::most_components))
     problems.push_back(
         {"waves.components", "must be at most " + std::to_string(SecondOrderLoads::most_components) +
                                  " with loads of pairs of frequencies (sea.potential.drift \"full\", sum_frequency_file)"});

@@ -145,7 +145,7 @@ MISTAKES = [
     (check("aero.flow.generate.kind=airfoil", scene=SECTION), "must be one of", "aero.flow.generate.kind", '"airfoil"', 'did you mean "aerofoil"?'),
     (check("aero.flow.generate.naca=4412", scene=SECTION), "must be a text in quotes", "aero.flow.generate.naca", "4412", '"4412"'),
     (check('control.events=[{what="stop", time_s=65.0}]', scene=GUST), "must be one of", "control.events[0].what", '"stop"', '"shut_down"'),
-    (check('control.library="x.so"', scene=CASE3), "no such file", "control.library", '"x.so"', "a shared object of this machine"),
+    (check('control.library="x.so"', scene=CASE3), "no such file", "control.library", '"x.so"', "a shared object of this computer"),
     (check("sea.gauges=[{point_m=[50.0, 0.0]}]", scene=BOX), "is outside the tank", "sea.gauges[0].point_m", "[50.0, 0.0]", ""),
     (check("environment.gravity_m_s2=-9.81"), "must be", "environment.gravity_m_s2", "-9.81", ">= 0 and <= 100 m/s2"),
     (check("environment.gravity_m_s2=981"), "must be", "environment.gravity_m_s2", "981", ">= 0 and <= 100 m/s2"),

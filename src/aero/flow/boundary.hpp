@@ -33,7 +33,7 @@ struct BoundarySetting {
   void (*wall_carried)(const double* inside, double nu, double distance, double* ghost) = nullptr;
 };
 
-/// A face as its condition sees it.
+/// A face of a boundary, with what its condition needs.
 class BoundaryFace {
  public:
   const FlowTile& tile;

@@ -1,8 +1,8 @@
 // Block ILU of each tile with a coarse correction over all of them: unknowns of a group of cells move together (five numbers per
 // group, a group being a tile or a piece of one), the groups' matrix is the sum of the blocks between them, and
 //   z = Q v + ILU^-1 (v - A Q v),   Q v = P (P^T A P)^-1 P^T v
-// (Nicolaides 1987; multiplicative as A-DEF1 in Tang, Nabben, Vuik & Erlangga 2009). What tiles cut from each other, ILU cannot
-// see; this is what passes between them in one iteration. The groups' matrix is eliminated where there are few groups, on every
+// (Nicolaides 1987; multiplicative as A-DEF1 in Tang, Nabben, Vuik & Erlangga 2009). ILU by tile has no
+// coupling across tiles; the groups carry it in one iteration. Their matrix is eliminated where there are few groups, on every
 // process alike, so that bits do not depend on ranks; many are left to a cycle of multigrid, where they do. Turbulence unknowns
 // stay with ILU. Called by make_preconditioner() and choice.cpp; tested in tests/src/aero/flow/coarse_correction_test.cpp.
 // SPDX-License-Identifier: Apache-2.0

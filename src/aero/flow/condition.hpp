@@ -1,5 +1,5 @@
 // The conditions that a scene may set on a patch of the air's grid. Each is a file, condition_NAME.cpp, and a line in
-// conditions.inc. The file has its name, what the reference says of it, the keys that it reads, what the sweeps see at its faces,
+// conditions.inc. The file has its name, what the reference says of it, the keys that it reads, what its faces are to the sweeps,
 // its ghost cells and how they follow the cell inside; the line names its enumerator. Formulas are in kernels/gas/boundary.hpp.
 // Used by the sweeps of src/aero/flow and by flow_options.cpp; tested in tests/src/aero/flow/conditions_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
@@ -33,7 +33,7 @@ enum class Surface : unsigned char {
   mirror,  ///< a plane: the flux scheme acts between mirror images, so that half a flow is the whole one cell by cell; its mass
            ///< flux there is none by symmetry
   slip,    ///< a wall: no flux scheme, through it goes pressure alone
-  no_slip  ///< a wall that the gas sticks to
+  no_slip  ///< a wall at whose velocity the gas moves
 };
 
 /// Ghost cells behind a face, the first at it.
@@ -76,7 +76,7 @@ inline bool sticks(Condition c) { return sticks(of(c)); }
 inline bool is_closed(Condition c) { return is_closed(of(c)); }
 
 // What several of them are made of.
-/// Behind a wall that the gas sticks to, at its velocity and, where it is held at one, its temperature.
+/// Behind a no-slip wall, at its velocity and, where it is held at one, its temperature.
 Ghosts no_slip_ghosts(const BoundaryFace& at);
 void fold_no_slip(const FoldedFace& at);
 void fold_mirror(const FoldedFace& at);

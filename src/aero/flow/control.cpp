@@ -35,7 +35,7 @@ void March::begin_step() {
 
 void March::begin_after_look() {
   reference_ = s_.now;
-  reopen();  // a look is no march
+  reopen();  // a judgement is no march
   looking_ = false;
   begin_step();
 }

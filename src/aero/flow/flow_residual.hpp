@@ -43,7 +43,7 @@ class FlowResidual {
   const BoundarySetting& boundary() const { return boundary_; }
   const ViscousSetting& viscous() const { return viscous_; }
   bool has_friction() const { return viscous_.active; }
-  /// What is seen on the walls of a tile.
+  /// Values on the walls of a tile.
   std::vector<WallPoint> wall_points(const FlowTile& tile) const;
 
  private:

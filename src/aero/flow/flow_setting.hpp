@@ -32,7 +32,7 @@ struct FlowSetting {
       false;  ///< turbulence is carried by first-order upwind differences, as in CFL3D and FUN3D; else second order, limited
   std::optional<double> wind_eddy_viscosity;  ///< of the undisturbed flow over its laminar one; unset: the closure's
   std::optional<double> wind_intensity;       ///< of its turbulence, of two equations: k = 3/2 (intensity times wind)^2
-  double upwinding = 1.0;                     ///< share of the jump between reconstructed states that the flux sees
+  double upwinding = 1.0;                     ///< share of the jump between reconstructed states in the flux
   bool viscous = false, thin_layer = false;
   double smooth = 0.0;  ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
   bool preconditioned = true;
@@ -43,11 +43,11 @@ struct FlowSetting {
   MarchOptions march;
   KrylovMethod krylov = KrylovMethod::gmres;
   std::string preconditioner = "block_ilu";
-  PreconditionerOptions common;  ///< of preconditioners that have a common part
+  PreconditionerOptions common;  ///< of preconditioners that have a coarse level
   int time_order = 0;            ///< 0 steady, 1 BDF1, 2 BDF2
   double dt = 0.0;               ///< physical step [s]
   double held_rate = 0.0;  ///< steady flow: added to the matrix as a physical step of this rate would [1/s]; trials (choice.hpp)
-  /// Steady flow seen from a frame that turns about an axis through `centre` along the stream: velocities stay those in space,
+  /// Steady flow in a frame that turns about an axis through `centre` along the stream: velocities stay those in space,
   /// their components turn with the frame. Blades are at rest in the grid.
   Eigen::Vector3d frame_omega = Eigen::Vector3d::Zero(), frame_centre = Eigen::Vector3d::Zero();  ///< [rad/s], [m]
 };

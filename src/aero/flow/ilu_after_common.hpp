@@ -1,5 +1,5 @@
-// What preconditioners share that solve something common to all tiles first and leave the rest to block ILU tile by tile: when
-// ILU and the common part are made anew, and how a common part goes on over physical steps, snapshots and restarts. Base of
+// What preconditioners share that solve a coarse level of all tiles first and leave the rest to block ILU tile by tile: when
+// ILU and the coarse level are made anew, and how a coarse level goes on over physical steps, snapshots and restarts. Base of
 // coarse_correction.cpp and pressure_amg.cpp; tested in tests/src/aero/flow/coarse_correction_test.cpp, kept_set_up_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -51,14 +51,14 @@ class IluAfterCommon : public Preconditioner {
   void set_kept_number(std::uint64_t number) final { number_ = number > 0 ? number : ++numbers_; }
 
  protected:
-  /// What the common part needs of a tile's blocks; `anew`: also what the next set_up() is made of, which otherwise stays.
+  /// What the coarse level needs of a tile's blocks; `anew`: also what the next set_up() is made of, which otherwise stays.
   /// Returns a cell whose diagonal block is singular, or -1.
   virtual std::ptrdiff_t fill(FlowTile& tile, bool anew) = 0;
-  /// The common part's matrix and its solver, of all tiles. Collective.
+  /// The coarse level's matrix and its solver, of all tiles. Collective.
   virtual void set_up(MPI_Comm comm) = 0;
-  /// Its answer to what was gathered. Collective. Both may throw SingularMatrix.
+  /// Its solution for what was gathered. Collective. Both may throw SingularMatrix.
   virtual void solve_common(MPI_Comm comm) = 0;
-  /// z from that answer and ILU of what it leaves.
+  /// z from that solution and ILU of what it leaves.
   virtual void apply_common(const Piece& piece) = 0;
   // A tile's part of that matrix.
   virtual std::size_t matrix_size(const FlowTile& tile) const = 0;

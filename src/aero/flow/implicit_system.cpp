@@ -122,7 +122,7 @@ double ImplicitSystem::make_direction(FlowTile& tile, int j) {
   return spread_direction(tile, j);
 }
 
-/// Puts the direction M^-1 v_j where neighbours look for it; returns its largest component in the units of the unknowns, or in
+/// Puts the direction M^-1 v_j where neighbours read it; returns its largest component in the units of the unknowns, or in
 /// that of a cell's own turbulence where this is more: omega at walls is 1e5 times what it is in the flow.
 double ImplicitSystem::spread_direction(FlowTile& tile, int j) const {
   const float* z = cycle_.direction(tile, j);

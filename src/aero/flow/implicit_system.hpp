@@ -41,7 +41,7 @@ class ImplicitSystem {
   void build(FlowTile& tile, double cfl, bool anew);
   /// Krylov vector of iteration j.
   void make_vector(FlowTile& tile, int j) const;
-  /// Its direction z = M^-1 v, put where neighbours look for it; returns its largest component in the units of the unknowns.
+  /// Its direction z = M^-1 v, put where neighbours read it; returns its largest component in the units of the unknowns.
   double make_direction(FlowTile& tile, int j);
   /// For matrix-free products: the state a little further along the direction.
   void perturb(FlowTile& tile) const;

@@ -1,4 +1,4 @@
-// Forces and moments of the flow on its walls, patch by patch, and what is seen on a wall: pressure, friction, first cell's y+.
+// Forces and moments of the flow on its walls, patch by patch, and the values on a wall: pressure, friction, first cell's y+.
 // Called by flow_solver.cpp (partials of a tile, summed in the order of tiles) and by output; tested in tests/src/aero/flow.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

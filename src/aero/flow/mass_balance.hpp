@@ -12,7 +12,7 @@ namespace spindrift::aero {
 
 /// [kg/s]. growth + outflow - inflow = residual, but for round-off.
 struct MassBalance {
-  double inflow = 0.0, outflow = 0.0;  ///< through boundaries, seen from faces that may move; neither is negative
+  double inflow = 0.0, outflow = 0.0;  ///< through boundaries, relative to faces that may move; neither is negative
   double growth = 0.0;                 ///< by the time scheme; 0 in steady flow
   double residual = 0.0;               ///< of all cells: what the pseudo-steps left
 };

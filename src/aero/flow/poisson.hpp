@@ -1,5 +1,5 @@
 // An elliptic problem on the tiles: -div grad phi = source, phi given on some patches, no flux through the others. Second order
-// on curvilinear grids: two-point fluxes solved by multigrid, what leans is corrected for (deferred correction, over-relaxed form
+// on curvilinear grids: two-point fluxes solved by multigrid, skewed faces corrected for (deferred correction, over-relaxed form
 // of Jasak 1996) until the whole residual has fallen. With it a smooth distance from walls (Spalding 1994, as in Tucker 2003) for
 // grids where the exact one is not wanted. Called where a solver is set up; tested in tests/src/aero/flow/poisson_test.cpp.
 // SPDX-License-Identifier: Apache-2.0

@@ -1,5 +1,5 @@
 // What approximates the inverse of a pseudo-step's matrix, behind one interface: by tile (block ILU, block-Jacobi, none), from
-// each tile's own tasks; and, where it has one, a common part of all tiles and processes (coarse correction, multigrid) between
+// each tile's own tasks; and, where it has one, a coarse level of all tiles and processes (coarse correction, multigrid) between
 // two tasks of each tile. The Krylov cycle knows nothing else of it. Called by the tasks of src/aero/flow; tested in
 // tests/src/aero/flow/linear_solver_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -14,11 +14,11 @@
 
 namespace spindrift::aero {
 
-/// Of the preconditioners with a common part.
+/// Of the preconditioners with a coarse level.
 struct PreconditionerOptions {
   int group_cells = 8;      ///< coarse correction: longest side of a group of cells; 0: a group is a tile
   int direct_groups = 512;  ///< up to so many groups are solved by elimination, more by multigrid
-  int common_every = 1;  ///< refreshes of the matrix within a physical step (or march) that one set-up of the common part serves
+  int common_every = 1;  ///< refreshes of the matrix within a physical step (or march) that one set-up of the coarse level serves
   int common_steps = 1;  ///< physical steps whose first matrices one set-up serves: made anew at steps 0, n, 2n, ...
 };
 
@@ -39,10 +39,10 @@ class Preconditioner {
   virtual std::ptrdiff_t refresh(FlowTile& tile) = 0;
   virtual void apply(const Piece& piece) = 0;
 
-  /// Whether there is a common part. If so: refresh() of all tiles, then refresh_common(); gather() of all, common(), apply() of
+  /// Whether there is a coarse level. If so: refresh() of all tiles, then refresh_common(); gather() of all, common(), apply() of
   /// all.
   virtual bool has_common() const { return false; }
-  /// What the common part needs of v.
+  /// What the coarse level needs of v.
   virtual void gather(FlowTile&, const float*) {}
   /// A march begins, or this physical step: of what came before nothing may be used but what save_kept() saves, so that a restart
   /// has the same bits.
@@ -50,7 +50,7 @@ class Preconditioner {
   /// Tasks that all ranks run together, as often, one at a time in a process.
   virtual void refresh_common(MPI_Comm) {}
   virtual void common(MPI_Comm) {}
-  /// Whether the common part had no solution since it was last made anew: what apply() gives is of no use then.
+  /// Whether the coarse level had no solution since it was last made anew: what apply() gives is of no use then.
   virtual bool singular() const { return false; }
 
   // A set-up that outlives a physical step: what it was made of in each tile goes into snapshots and checkpoints; the same set-up

@@ -46,7 +46,7 @@ struct ConvectiveSetting {
   bool first_order_model = false;  ///< what turbulence carries by its upwind cell, unreconstructed
   double law_slope =
       0.5;  ///< of a first cell at a wall with a wall function: what of the difference ahead is its state at the face
-  double upwinding = 1.0;  ///< share of the jump between both states that the flux sees
+  double upwinding = 1.0;  ///< share of the jump between both states in the flux
 };
 
 /// residual = sum of fluxes out of each cell [in the units of conserved amounts per second].

@@ -68,7 +68,7 @@ struct KrylovData {
   std::vector<Datum> vectors, direction, direction_ghosts, size, trial, trial_ghosts, dots, fraction, gathered;
   Datum basis;  ///< its dense part
   Datum total_size, total_dots, total_fraction;
-  Datum built, common;  ///< the preconditioner's common part: its matrix, its solution
+  Datum built, common;  ///< the preconditioner's coarse level: its matrix, its solution
 
   KrylovData(Graph& graph, std::size_t tiles)
       : basis(graph.datum()),
@@ -204,7 +204,7 @@ void move_grid(MarchRecording& r) {
   record_centres(r.graph, r.arrays, r.motion, r.recorded, {r.flow.state, r.flow.state_ghosts}, {reads(r.flow.decision)});
 }
 
-/// Forces inside the air, of the flow as it is: products of the linear solver see them as they stand.
+/// Forces inside the air, of the flow as it is: products of the linear solver hold them fixed.
 void body_force(MarchRecording& r) {
   r.each(
       "aero/force/sample",
@@ -478,7 +478,7 @@ void record_march(Graph& graph, const MarchParts& parts, RecordedGraphs& recorde
   auto recording = std::make_shared<MarchRecording>(parts, recorded, graph);
   recorded.pieces.push_back(recording);
   MarchRecording& r = *recording;
-  // A common part is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while
+  // A coarse level is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while
   // the others still have a sea to go on with. The round of one gives what stands outside the march's own loops that urgency
   // too.
   if (r.common())

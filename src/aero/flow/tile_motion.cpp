@@ -22,7 +22,7 @@ void TileMotion::check(const std::vector<BlockPose>& poses) const {
     throw std::invalid_argument("flow: " + std::to_string(poses.size()) + " poses for " +
                                 std::to_string(tiling.block_cells.size()) + " blocks");
   if (tiling.periodic.empty()) return;
-  // Across a periodic link both sides must see the same motion: only along the period, or about and along its axis.
+  // Across a periodic link both sides must have the same motion: only along the period, or about and along its axis.
   for (const BlockPose& p : poses) {
     const std::vector<RigidMap> maps = moved_maps(tiling.periodic, p.map);
     for (std::size_t n = 0; n < maps.size(); ++n) {
@@ -94,7 +94,7 @@ void TileMotion::place(std::vector<BlockPose> before, std::vector<BlockPose> now
   for (FlowTile& tile : arrays_.tiles) {
     TileGeometry& g = *tile.geometry;
     set_nodes(g, arrays_.of(tile), pose(before, tile));
-    aero::begin_step(g);  // nothing was swept on the way here
+    aero::begin_step(g);  // nothing was swept up to here
     update_metrics(g, planar);
     update_sweeps(g, planar);
     aero::begin_step(g);

@@ -45,7 +45,7 @@ class TileMotion {
   /// Maps across periodic links of the grid where it is.
   const std::vector<RigidMap>& periodic() const { return periodic_; }
 
-  /// Rigid poses now and one step ago, for a restart.
+  /// Rigid poses at present and one step ago, for a restart.
   void save(std::vector<double>& to) const;
   void load(std::span<const double> from);
 

@@ -1,5 +1,5 @@
 // A structured multi-block grid as geometry: blocks of nodes, how their sides meet, and which sides bound the flow.
-// What generators make, readers read and writers write; the solver cuts it into tiles (tiling.hpp) and never sees this again.
+// What generators make, readers read and writers write; the solver cuts it into tiles (tiling.hpp) and does not use this again.
 // Used throughout src/aero; tested in tests/src/aero/grid.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -15,7 +15,7 @@ namespace spindrift::aero {
 /// scene::SceneError.
 MultiBlockGrid read_plot3d(const std::filesystem::path& file, double planar_width = 1.0);
 
-enum class Plot3dForm { formatted, binary };  ///< binary: Fortran records, double precision, this machine's byte order
+enum class Plot3dForm { formatted, binary };  ///< binary: Fortran records, double precision, this computer's byte order
 /// Multi-block, every coordinate to the last digit; a planar grid as two-dimensional.
 void write_plot3d(const MultiBlockGrid& grid, const std::filesystem::path& file, Plot3dForm form = Plot3dForm::formatted);
 

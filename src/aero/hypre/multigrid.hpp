@@ -1,5 +1,5 @@
 // Algebraic multigrid of a sparse matrix whose rows are spread over processes: hypre's BoomerAMG (Henson & Yang 2002), for any
-// elliptic problem. The one place that hands a communicator to hypre; nothing of hypre is seen in this header.
+// elliptic problem. The one place that hands a communicator to hypre; nothing of hypre is in this header.
 // hypre keeps global state: one call at a time in a process, from collective tasks or between runs. Its coarse grids depend on
 // the number of processes, so results are equal across ranks to tolerance, and to the bit across threads and reruns. Called by
 // src/aero/flow; tested in tests/src/aero/flow (poisson_test, coarse_correction_test). SPDX-License-Identifier: Apache-2.0

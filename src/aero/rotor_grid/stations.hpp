@@ -21,7 +21,7 @@ struct BladeStation {
   double wetted_area = 0.0;  ///< sum of the faces' areas [m2]
   Eigen::Vector3d quarter = Eigen::Vector3d::Zero();     ///< point at a quarter of the chord [m]
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();      ///< downwind along the rotor's axis
-  Eigen::Vector3d tangential = Eigen::Vector3d::Zero();  ///< the way the rotor turns, in the rotor's plane
+  Eigen::Vector3d tangential = Eigen::Vector3d::Zero();  ///< in the direction of rotation, in the rotor's plane
   Eigen::Vector3d chordwise = Eigen::Vector3d::Zero();   ///< from trailing to leading edge, unit
 };
 

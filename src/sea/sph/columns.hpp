@@ -46,7 +46,7 @@ struct Domain {
   }
 };
 
-/// A neighbouring column, and what to add to the positions in it to see them beside the first one (periodic sides) [m].
+/// A neighbouring column, and what to add to its positions so that they are beside the first one (periodic sides) [m].
 template <int dim>
 struct Neighbour {
   int group = -1;

@@ -1,6 +1,6 @@
 // Contact of bodies with walls and with each other as a sweep: forces between solid particles of different owners that come
 // closer than a spacing (kernels/sph/contact.hpp). A group finds the pairs inside itself and with its forward neighbours, in the
-// order of clusters and lanes, so sums over groups in order are the same bits for any number of threads. Clusters are looked at
+// order of clusters and lanes, so sums over groups in order are the same bits for any number of threads. Clusters are tested
 // only where the box round a body reaches them: a body afloat far from walls costs one test per cluster of wall. Called by
 // tasks.cpp; tested in tests/src/sea/sph/contact_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -104,7 +104,7 @@ void apply_stress(Store<dim, Real>& store, const Array<Real>& sums, const Parame
     }
   }
 }
-/// Moves the water of a group; returns the longest way [m].
+/// Moves the water of a group; returns the largest displacement [m].
 template <int dim, class Real>
 double apply_shifting(Store<dim, Real>& store, const Array<Real>& sums, const Parameters& p, int group, double dt) {
   Shifting<dim> shifting;

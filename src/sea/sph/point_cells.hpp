@@ -13,7 +13,7 @@ namespace spindrift::sph {
 template <int dim>
 class PointCells {
  public:
-  /// Of cells `width` wide [m]. The points are looked at here only.
+  /// Of cells `width` wide [m]. The points are read here only.
   PointCells(std::span<const std::array<double, dim>> points, double width) : width_(width) {
     std::array<double, dim> high;
     low_.fill(1e300), high.fill(-1e300);

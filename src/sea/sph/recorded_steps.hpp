@@ -41,7 +41,7 @@ class RecordedSteps {
 
   /// Groups or what is in them have changed: record again.
   void forget();
-  /// Who drives windows from now on.
+  /// Who drives the following windows.
   void drive(StepDriver driver);
   const StepDriver& driver() const { return driver_; }
   /// Of the last window: its costs and records.

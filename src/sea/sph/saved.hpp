@@ -1,4 +1,4 @@
-// The state of some groups outside the store: a window's snapshot, a checkpoint, groups on their way to another rank. It holds
+// The state of some groups outside the store: a window's snapshot, a checkpoint, groups sent to another rank. It holds
 // the order of the particles too, so that what follows has the same bits. Plain arrays, to be written as they are. Called by
 // sea_sph.cpp; tested in tests/src/sea/sph/tasks_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -31,7 +31,7 @@ class SeaSph {
   void set_step_control(StepControl control);
   void set_bodies(MoveBodies move);
 
-  /// One step no longer than dt_max [s]; returns its length. Solids stay; with moving ones use the three parts.
+  /// One step of at most dt_max [s]; returns its length. Solids stay; with moving ones use the three parts.
   double step(double dt_max);
 
   // A step in three parts, between which moving solids are placed (place_body): at n + 1/2 before half_step, at n + 1 after it
@@ -43,7 +43,7 @@ class SeaSph {
   /// Evaluates the state at n and returns the longest step that it allows [s].
   double step_limit();
 
-  /// Sorts now, whatever the drift. What follows is then a function of the particles' state alone.
+  /// Sorts at once, whatever the drift. What follows is then a function of the particles' state alone.
   void sort();
   /// Goes on as after `steps` steps at `time` [s]; the caller has put that state into store().
   void resume(double time, long steps) { s_.plan.time = time, s_.plan.steps = s_.work.steps = steps; }

@@ -43,7 +43,7 @@ struct PatchReading {
 class PatchRecord {
  public:
   explicit PatchRecord(double mean_over = 0.0) : mean_over_(mean_over) {}
-  /// Readings that held for dt [s]; what is older than the mean asks for goes.
+  /// Readings that held for dt [s]; what is from before the mean's interval is dropped.
   void add(double dt, const PatchReading& reading) {
     steps_.push_back({dt, reading});
     for (double kept = lasted(); kept - steps_.front().dt >= mean_over_ && steps_.size() > 1; steps_.pop_front())

@@ -25,7 +25,7 @@
 
 namespace spindrift::sph {
 
-/// Half a step as bodies see it.
+/// Half a step, for the bodies.
 struct HalfStep {
   int half;                         ///< 0: loads are those of `time`; 1: of the middle of the step
   double time, to;                  ///< begin of the step, and the time that the motions are wanted at [s]

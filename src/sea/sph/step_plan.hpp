@@ -1,4 +1,4 @@
-// The steps of a window: how long they are, how many until the limits are looked at again, when the particles are sorted, why a
+// The steps of a window: how long they are, how many until the limits are checked again, when the particles are sorted, why a
 // window ends before its time. All ranks have the same `Plan`: it is computed from global extremes and sums only. Called by
 // tasks.cpp and sea_sph.cpp; tested in tests/src/sea/sph/step_plan_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,7 +29,7 @@ struct Work {
 /// How the steps of a window are chosen.
 struct StepControl {
   double dt = 0.0;  ///< a fixed step [s]; 0: as the limits allow
-  /// Steps between two looks at the limits (and sorts). 1: before each, with a reduction over all ranks in each step.
+  /// Steps between two checks of the limits (and sorts). 1: before each, with a reduction over all ranks in each step.
   int steps_per_check = 1;
   /// A step chosen by who counts time himself, and whether the window ends with it.
   struct Choice {
@@ -50,9 +50,9 @@ struct Plan {
   int planned = 0;                                      ///< steps until the next check of the limits
   double speed = 0.0, acceleration = 0.0, limit = 0.0;  ///< largest at the last check of the limits, and what they allow [s]
   StepLimits limits{};
-  double drift = 0.0, solid_drift = 0.0;  ///< bounds on the way since the last sort [m]
+  double drift = 0.0, solid_drift = 0.0;  ///< bounds on the distance gone since the last sort [m]
   double way = 0.0, solid_way = 0.0;      ///< and since the last check of the limits
-  double shifted = 0.0;                   ///< largest way by shifting since the last check of the limits
+  double shifted = 0.0;                   ///< largest displacement by shifting since the last check of the limits
   double solid_path = 0.0;                ///< of bodies in all [m]
   bool sort = false;
   bool last = false;                        ///< the step planned ends the window (StepControl::choose)
@@ -65,7 +65,7 @@ struct Plan {
   bool sort_is_due(double drift) const;
   /// The particles have been sorted: what follows depends on them alone.
   void sorted();
-  /// Takes in the extremes of the state at n (squares of speed and acceleration, way by shifting [m]) and finds the largest
+  /// Takes in the extremes of the state at n (squares of speed and acceleration, shift [m]) and finds the largest
   /// stable step; body_limit [s] is that of light bodies. A step that no flow would need is a failure.
   void check_limits(const Parameters& p, double body_limit, double speed2, double acceleration2, double shifted);
   /// The next `count` steps are dt [s] long.

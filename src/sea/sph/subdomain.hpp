@@ -1,4 +1,4 @@
-// Which rank owns which group, which groups of others it sees (its halo) and which of its own it shows to whom. Pairs across a
+// Which rank owns which group, which groups of others it receives (its halo) and which of its own it sends where. Pairs across a
 // border are computed on both sides, in the order of the whole scene, so that sums do not depend on ranks (tasks.cpp).
 // Called by ordering.cpp, sea_sph.cpp and tasks.cpp; tested in tests/src/sea/sph/subdomain_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
@@ -15,7 +15,7 @@
 namespace spindrift::sph {
 
 struct Subdomain {
-  /// A rank with groups beside mine. Both lists ascend, so that what one rank shows is what the other sees.
+  /// A rank with groups beside mine. Both lists ascend, so that what one rank sends another receives.
   struct Border {
     int rank = 0;
     std::vector<int> shown, seen;

@@ -203,7 +203,7 @@ class Layout {
       });
     }
   }
-  /// So deep in an obstacle that water outside does not feel it.
+  /// So deep in an obstacle that it is beyond the reach of water outside.
   bool is_core(const std::array<double, dim>& x) const {
     const Eigen::Vector3d at = to_earth<dim>(x);
     return std::any_of(plan_.obstacles.begin(), plan_.obstacles.end(), [&](const TankPlan::Block& block) {
@@ -354,7 +354,7 @@ class Layout {
     }
     return mirror_in_box<dim>(x, low, high);
   }
-  /// Mirror image of a body's particle in its surface, as far in as water sees.
+  /// Mirror image of a body's particle in its surface, as far in as the support reaches.
   std::array<double, dim> ghost_of_body(const TankPlan::Body& body, const Eigen::Vector3d& local) const {
     const double depth = -signed_distance(body.shapes, local, cut);
     if (depth <= 0.0 || depth > layers_ * p_.spacing) return {};
@@ -429,7 +429,7 @@ class Layout {
     }
   }
 
-  /// Room for walls, the paddle's way, splashes and bodies; sides that repeat or are open have exactly their length.
+  /// Room for walls, the paddle's stroke, splashes and bodies; sides that repeat or are open have exactly their length.
   Domain<dim> domain(double lowest, double highest) const {
     Domain<dim> domain;
     const double margin = (layers_ + 2) * p_.spacing;

@@ -38,7 +38,7 @@ struct TankPlan {
   };
   std::vector<Walls> walls;  ///< beside the tank's own, as stairs of the lattice
   std::optional<Paddle> paddle;
-  double paddle_reach = 0.0;  ///< farthest way of the paddle's upper edge [m]
+  double paddle_reach = 0.0;  ///< largest displacement of the paddle's upper edge [m]
   struct Body {
     std::string name;
     std::vector<BodyShape> shapes;

@@ -94,7 +94,7 @@ StepTasks<dim, Real>::StepTasks(SeaState<dim, Real>& sea, const Sweeps<dim, Real
   sea.touches.resize(std::size_t(sea.columns.groups()));
 }
 
-/// Sort where it is due, look at the limits, step; until the window is over.
+/// Sort where it is due, check the limits, step; until the window is over.
 template <int dim, class Real>
 void StepTasks<dim, Real>::window() {
   auto& r = recording_;
@@ -112,14 +112,14 @@ void StepTasks<dim, Real>::window() {
   });
 }
 
-/// The first of the planned steps looks at the limits; the others go on.
+/// The first of the planned steps checks the limits; the others go on.
 template <int dim, class Real>
 void StepTasks<dim, Real>::steps(bool first) {
   auto& r = recording_;
   SeaState<dim, Real>& sea = r.sea;
   if (first) {
     r.step = [](const Context&) { return 0; };
-    // Nothing is planned before the look.
+    // Nothing is planned before the check.
     r.graph.task("sea/plan", {updates(r.plan)}, [&sea] { sea.plan.planned = sea.plan.ended() ? 0 : 1; });
     evaluate(Half::begin);
     limits();

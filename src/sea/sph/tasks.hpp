@@ -1,7 +1,7 @@
 // The step of the sea as tasks of a runtime::Graph. `tasks.cpp` read top to bottom is the algorithm. Data that tasks share are
 // the groups' (state, planes, sums); colours fix the order of the sums, ranks exchange planes, and substeps of different regions
 // overlap. Between two checks of the limits nothing but data orders; a check is a reduction over all ranks.
-// Called by sea_sph.cpp, or to record the sea into the graph of a whole machine; tested in tests/src/sea/sph/tasks_test.cpp.
+// Called by sea_sph.cpp, or to record the sea into the graph of a floating system; tested in tests/src/sea/sph/tasks_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -54,7 +54,7 @@ class StepTasks {
   void extra_sweep(std::size_t which, const std::string& label, const Sweep& sweep, std::function<bool(int step)> due,
                    std::function<double(int group)> apply);
 
-  static constexpr std::size_t extremes_size = 4;  // speed, acceleration (squares), way by shifting, a request to stop
+  static constexpr std::size_t extremes_size = 4;  // speed, acceleration (squares), shift, a request to stop
   StepRecording<dim, Real> recording_;
   const Sweeps<dim, Real>& sweeps_;
   const StepDriver& driver_;

@@ -38,7 +38,7 @@ class Wavemaker {
   /// Of the paddle as a rigid body: position of the point (x, 0, hinge) that a flap turns about.
   Motion motion(double t) const;
   Motion at_rest() const;
-  /// Farthest way of the face from its place at rest, at still water [m]: the sum of the amplitudes.
+  /// Largest displacement of the face from rest, at still water [m]: the sum of the amplitudes.
   double reach() const;
   std::span<const Harmonic> harmonics() const { return harmonics_; }
   const Paddle& paddle() const { return paddle_; }

@@ -1,5 +1,5 @@
-"""The coupled machine as a user runs it: a blade-resolved rotor on a floating platform, with an engineering sea and with one of particles.
-Same bits by threads, ranks, placements and restarts; starts from saved fluids; what is refused. Usage: machine_test.py SPINDRIFT [CLASS...]"""
+"""The coupled system as a user runs it: a blade-resolved rotor on a floating platform, with an engineering sea and with one of particles.
+Same bits by threads, ranks, placements and restarts; starts from saved fluids; what is refused. Usage: coupled_system_test.py SPINDRIFT [CLASS...]"""
 import json
 import os
 import subprocess
@@ -76,7 +76,7 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
        "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 
 
-class Machine(Folder):
+class System(Folder):
     SPLIT = ["coupling.placement='split'"]
 
     def spindrift(self, text, name, *arguments, settings=(), threads=1, ranks=1, code=0):
@@ -118,7 +118,7 @@ class Machine(Folder):
         self.assertEqual(self.text("whole"), self.text("parts"))
 
 
-class Profile(Machine):
+class Profile(System):
     SETTINGS = ["time.end_s=0.25", "time.window_s=0.05"]
 
     def profiled(self, ranks, threads=1):
@@ -177,7 +177,7 @@ class Profile(Machine):
         self.assertFalse((self.path / "out").exists())
 
 
-class Junctions(Machine):
+class Junctions(System):
     BRIDLES = f"""
 base = "{ROOT}/inputs/tutorials/spar_on_bridles.toml"
 [time]
@@ -209,7 +209,7 @@ drag_area_m2 = 2.0
                 self.assertIn(word, self.ended([PROGRAM, "check", self.path / "scene.toml", "--set", setting], 1, 2))
 
 
-class MachineRun(Machine):
+class SystemRun(System):
     def test_an_engineering_sea_gives_the_same_bits_however_it_is_run_and_loads_meet_the_bodies(self):
         self.check_bits(ENGINEERING, [], 0.3)
         rows = self.rows("whole")
@@ -260,7 +260,7 @@ class MachineRun(Machine):
             self.spindrift(text, name + "_parts", "--restart", settings=end)
             for other in ("_threads", "_ranks", "_parts"):
                 self.assertEqual(self.text(name), self.text(name + other))
-        # Without water the machine falls, but for its lines; the air does its work on it all the same.
+        # Without water the platform falls, but for its lines; the air does its work on it all the same.
         last = self.rows("dry")[-1]
         self.assertAlmostEqual(last["platform.z_m"], -0.5 * 9.81 * 0.09, delta=0.01)
         self.assertGreater(last["rotor.thrust_N"], 1e6)
@@ -431,7 +431,7 @@ class MachineRun(Machine):
             self.spindrift(text, name + "_third", settings=[*start, "time.window_s=0.05", "coupling.scheme='cps'", "aero.flow.cfl_max=10"])
             third = self.rows(name + "_third")
             self.assertEqual(len(third), 5)
-            # Close by what the thrust alone would do to the machine in this time, some 2 cm.
+            # Close by what the thrust alone would do to the platform in this time, some 2 cm.
             self.assertAlmostEqual(third[-1]["platform.x_m"], after[-1]["platform.x_m"], delta=0.02 * 0.02)
             self.assertNotEqual(third[-1]["platform.x_m"], after[-1]["platform.x_m"])
             # Much shorter ones: the air is where the rotor is, not where cps2 had foretold it for 0.1 s; no jolt.
@@ -452,7 +452,7 @@ class MachineRun(Machine):
             self.assertIn(words, self.spindrift(ENGINEERING, "refused", settings=[setting], code=2))
 
 
-class Ramp(Machine):
+class Ramp(System):
     """A process for every window while the CFL number climbs, on one to four ranks of one and two threads in turn."""
     WINDOWS = 20
     SETTINGS = ["aero.flow.cfl=0.005", "aero.flow.cfl_max=1e7", "aero.flow.max_pseudo_steps=2", "start.air_steps=5"]
@@ -476,7 +476,7 @@ class Ramp(Machine):
         self.check_restarts(PARTICLES, 2.0, 0.1)
 
 
-class Placement(Machine):
+class Placement(System):
     def check_split(self, text, settings, until):
         self.spindrift(text, "shared", settings=settings)
         self.spindrift(text, "split", settings=[*settings, *self.SPLIT], ranks=2, threads=2)
@@ -525,7 +525,7 @@ class Placement(Machine):
                 self.assertIn(word, said)
 
     def test_a_failure_of_one_fluid_stops_both_with_the_reason_and_the_last_good_state(self):
-        # The largest step of the particles at rest, which they outgrow round a machine too heavy to float. (The air's:
+        # The largest step of the particles at rest, which they outgrow round a platform too heavy to float. (The air's:
         # tests/src/coupling/sides_test.cpp.)
         heavy = ["time.step_s=0.008333333333333333", "bodies.platform.mass_kg=5e8", "time.end_s=1.5", *self.SPLIT]
         said = self.spindrift(PARTICLES, "failed", settings=heavy, ranks=2, code=3)
@@ -544,7 +544,7 @@ class Placement(Machine):
             self.assertIn("leaves no rank for the sea", self.spindrift(ENGINEERING, "refused", settings=[*self.SPLIT, setting], ranks=ranks, code=2))
 
 
-class Saved(Machine):
+class Saved(System):
     def from_air(self, name):
         return ENGINEERING.replace("air_steps = 10", f'air = "{self.path / name}"')
 
