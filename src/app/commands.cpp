@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "src/scene/text_check.hpp"
+
 namespace spindrift::app {
 
 namespace {
@@ -320,7 +322,15 @@ void add_commands(CLI::App& cli, Command& chosen) {
       } else {
         const auto named = [&](const CLI::App* app) { return app->get_name() == *topic; };
         const std::vector<const CLI::App*> found = std::as_const(cli).get_subcommands(named);
-        if (found.empty()) throw CLI::ValidationError("help", fmt::format("there is no command '{}'", *topic));
+        if (found.empty()) {
+          std::vector<std::string> known;
+          for (const CLI::App* one : std::as_const(cli).get_subcommands([](const CLI::App*) { return true; }))
+            known.push_back(one->get_name());
+          const std::string near = scene::nearest(*topic, known);
+          throw CLI::ValidationError(
+              fmt::format("there is no command '{}'{}", *topic, near.empty() ? "" : fmt::format("; did you mean '{}'?", near)),
+              CLI::ExitCodes::ValidationError);
+        }
         fmt::print("{}", found.front()->help("spindrift"));
       }
       chosen = [](const auto&) { return done; };

@@ -51,6 +51,7 @@ std::string unknown_command(const CLI::App& cli, int argc, char** argv) {
   const std::string word = argv[1];
   if (std::find(known.begin(), known.end(), word) != known.end()) return {};
   if (word.ends_with(".toml")) return fmt::format("'{}' is a file: spindrift run {}", word, word);
+  if (word == "version") return "there is no command 'version'; spindrift --version says it, with --verbose in full";
   const std::string near = scene::nearest(word, known);
   return fmt::format("there is no command '{}'; {}", word,
                      near.empty() ? fmt::format("known: {}", fmt::join(known, ", ")) : fmt::format("did you mean '{}'?", near));

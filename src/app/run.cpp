@@ -269,6 +269,10 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   settings.windows = windows_of(arguments.windows);
   settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();
   if (arguments.until_s >= 0.0) settings.until_s = arguments.until_s;
+  if (arguments.until_s > scenario->time.end_s)
+    spdlog::info(
+        "--until {:g} s lies beyond the scene's end: the run ends at time.end_s = {:g} s, which --set time.end_s={:g} changes",
+        arguments.until_s, scenario->time.end_s, arguments.until_s);
   if (system) {
     for (const std::string& note : system->start.notes) spdlog::info("{}", note);
     for (const std::string& note : coupling::resolution_notes(*system->floating)) spdlog::info("{}", note);

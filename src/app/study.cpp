@@ -18,6 +18,7 @@
 #include "src/app/scene_run.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/io/build_info.hpp"
+#include "src/io/machine_failure.hpp"
 #include "src/report/report.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/error.hpp"
@@ -162,6 +163,9 @@ int study(const StudyArguments& arguments, const runtime::World& world) {
   const scene::Study study = scene::read_study(arguments.file, arguments.overrides);
   check_history(study);
   const fs::path folder = arguments.out.empty() ? fs::path("runs") / fs::path(arguments.file).stem() : fs::path(arguments.out);
+  if (fs::exists(folder / "history.csv") && !fs::exists(folder / "plan.json"))
+    throw io::InputError(fmt::format("--out {}: is the folder of a run; a study has a folder of its own, name another with --out",
+                                     folder.string()));
   Json plan{{"study", study.file},
             {"program", fs::read_symlink("/proc/self/exe").string()},
             {"commit", io::build_info().commit},

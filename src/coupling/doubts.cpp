@@ -319,6 +319,11 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (s.wind.event && s.has_rotor() && s.wind.event->start_s > s.time.end_s)
     doubts.push_back({"wind.event.start_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.wind.event->start_s, s.time.end_s),
                       "before the end of the run", "the gust does not come; look at its unit: s"});
+  for (std::size_t n = 0; n < s.control.events.size(); ++n)
+    if (const double at = s.control.events[n].time_s; at > s.time.end_s)
+      doubts.push_back({fmt::format("control.events[{}].time_s", n),
+                        fmt::format("{:.4g} s in a run of {:.4g} s", at, s.time.end_s), "before the end of the run",
+                        "it does not come; look at its unit: s"});
   if (constexpr double most = 36000.0; s.time.end_s > most)
     doubts.push_back(
         {"time.end_s", fmt::format("{:.4g} s", s.time.end_s), fmt::format("up to {:g} s, ten hours", most), "in ms? give s"});

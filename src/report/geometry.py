@@ -10,6 +10,13 @@ import numpy as np
 ROUND = 36  # corners of a circle
 
 
+def upright(along):
+    """Frame of an axis. Rows: the axis, sideways, up."""
+    up = np.array([0.0, 0.0, 1.0]) - along[2] * along
+    up /= np.linalg.norm(up)
+    return np.stack([along, np.cross(up, along), up])
+
+
 def round_edge(x, y, near, far):
     """A square sheet about its middle, drawn in beyond `near` so that its edge is a circle: corners would bend the horizon."""
     square, away = np.maximum(abs(x), abs(y)), np.hypot(x, y)
@@ -244,11 +251,14 @@ class Scene3d:
             return np.asarray(rotor.get("hub_m", [0, 0, 0]), float)
         return None
 
-    def axis(self, t):
+    def described_axis(self):
         rotor = self.scene.get("rotor", {})
         joint = (self.scene.get("joints") or {}).get(rotor.get("joint", ""), {})
         along = np.asarray(joint.get("axis", rotor.get("axis", [1.0, 0.0, 0.0])), float)
-        along = along / np.linalg.norm(along)
+        return along / np.linalg.norm(along)
+
+    def axis(self, t):
+        along = self.described_axis()
         body = self.carrier()
         if body in self.bodies:
             along = attitude(*(self.at(f"{body}.{q}_deg", t) for q in ("roll", "pitch", "yaw"))) @ along
@@ -265,10 +275,12 @@ class Scene3d:
 
     def rotor_frame(self, t):
         """Rows: axis, sideways, up."""
-        along = self.axis(t)
-        up = np.array([0.0, 0.0, 1.0]) - along[2] * along
-        up /= np.linalg.norm(up)
-        return np.stack([along, np.cross(up, along), up])
+        return upright(self.axis(t))
+
+    def sector(self, t):
+        """Hub and frame of a grid of one sector, which stays on the axis that the scene describes and follows the hub along it."""
+        along, begin = self.described_axis(), self.hub(self.run.time[0])
+        return begin + (self.hub(t) - begin) @ along * along, upright(along)
 
     def _blades(self):
         turbine, path = self.run.turbine()

@@ -280,13 +280,15 @@ class Drawing:
         tip = self.scene.blades.tip if self.scene.blades else 0.75 * abs(hub[2])
         count = self.scene.blades.count if self.scene.blades else 3   # as geometry.py draws them without a turbine file
         copies = count if (self.run.scene["aero"].get("grid") or {}).get("sectors") == "one" else 1
+        # One sector is drawn turned to the axis as it is now, as its loads are.
+        at, own = self.scene.sector(time) if copies > 1 else (hub, frame)
         cells = sum(block["velocity"][..., 0].size for block in blocks)
         slow, axial_at, cores, axial_of = [], [], [], []
         for block in blocks:
-            nodes = (block["points"] - hub) @ frame.T
+            nodes = (block["points"] - at) @ own.T
             if np.hypot(nodes[..., 1], nodes[..., 2]).min() > 1.6 * tip or nodes[..., 0].min() > 3.2 * tip or nodes[..., 0].max() < -0.3 * tip:
                 continue
-            velocity = block["velocity"] @ frame.T
+            velocity = block["velocity"] @ own.T
             axial = cut.at_nodes(velocity[..., 0]) / self.wind
             q = None
             if min(velocity.shape[:3]) > 1 and cells * copies >= FEWEST_FOR_VORTICES:
@@ -309,16 +311,17 @@ class Drawing:
             # By corners: cells far downstream are longer than what is shown of them.
             near = (points[..., 0].max(axis=1) > -0.3 * tip) & (points[..., 0].min(axis=1) < 3.0 * tip)
             near &= np.hypot(points[..., 1], points[..., 2]).min(axis=1) < 1.5 * tip
-            chosen = near & condition(middle, values.mean(axis=1))
+            chosen = near & condition(middle, values)
             return triangles(hub + points[chosen] @ frame, values[chosen]) if chosen.any() else None
 
-        plane = kept(slow, axial_at, lambda middle, value: value < 1.05 * SLOW)
+        # By corners here too: what is slow of a triangle is cut out below.
+        plane = kept(slow, axial_at, lambda middle, values: values.min(axis=1) < SLOW)
         if plane is not None:
             plane = clipped(plane, None, SLOW)
-            for at, normal in (((0.03 * tip, 0, 0), (1, 0, 0)), ((2.0 * tip, 0, 0), (-1, 0, 0)), ((0, 0, 1.25 * tip), (0, 0, -1)), ((0, 0, -1.25 * tip), (0, 0, 1))):
-                plane = clipped(plane, (hub + np.array(at) @ frame, np.array(normal, float) @ frame), 0.0)
+            for place, normal in (((0.03 * tip, 0, 0), (1, 0, 0)), ((2.0 * tip, 0, 0), (-1, 0, 0)), ((0, 0, 1.25 * tip), (0, 0, -1)), ((0, 0, -1.25 * tip), (0, 0, 1))):
+                plane = clipped(plane, (hub + np.array(place) @ frame, np.array(normal, float) @ frame), 0.0)
         # What is bound to the blades hides them.
-        vortices = kept(cores, axial_of, lambda middle, value: (middle[:, 0] > 0.03 * tip) & (np.hypot(middle[:, 1], middle[:, 2]) < 1.3 * tip))
+        vortices = kept(cores, axial_of, lambda middle, values: (middle[:, 0] > 0.03 * tip) & (np.hypot(middle[:, 1], middle[:, 2]) < 1.3 * tip))
         return plane, smooth(vortices, 180.0) if vortices is not None else None
 
     # ---- picture ------------------------------------------------------------------------------------------------------------------------

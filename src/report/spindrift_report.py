@@ -80,6 +80,9 @@ def main():
                     "name the folder of a run (run SCENE --out FOLDER)")
         if not any((folder / name).exists() for name in ("history.csv", "summary.json", "scene.toml", "study.json")):
             fail(2, f"{folder} is not a run directory: it has neither history.csv nor summary.json; name the folder of a run (run SCENE --out FOLDER)")
+    studies = [folder for folder in given.directories if (folder / "study.json").exists()]
+    if studies and len(given.directories) > 1:
+        fail(2, f"{studies[0]} is the folder of a study, which has a page of its own: spindrift report {studies[0]}; its runs are the folders in it")
     seen = {}
     for folder in given.directories:
         if (twice := seen.setdefault(folder.resolve(), folder)) is not folder:

@@ -19,6 +19,8 @@ FOREIGN = re.compile(r"^(_|std|MPI|hypre|h5py|numpy|np|OMP|omp|HYPRE|H5|METIS|Ei
 
 # Names that the program puts together, and symbols of equations.
 PUT_TOGETHER = {"heave_x_m", "heave_y_m", "heave_z_m", "p_ref"}
+# Keys of other programs' files.
+OTHERS_KEYS = {"control.torque.tsr"}
 # Files of other projects.
 ELSEWHERE = {"tests/quasi_static_chain.cpp"}
 # What the program is built with: {find_package's name: (Debian's package, Spack's, word of the install guide)}.
@@ -130,6 +132,28 @@ class Names(unittest.TestCase):
                 if not ("_" in bare or "." in bare or "::" in bare or word.endswith("()") or re.match(r"[A-Z][a-z]+[A-Z]", bare)):
                     continue
                 if not all(p in self.words or p in PUT_TOGETHER for p in parts):
+                    dead.append(f"{page}: {word}")
+        self.complain(dead)
+
+    def test_dotted_keys_are_keys_of_their_section_or_columns(self):
+        """`rotor.blade_pitch_deg`: each word of it being one of the sources is not enough."""
+        reference, keys, section = (ROOT / "inputs/REFERENCE.md").read_text(encoding="utf-8"), set(), ""
+        for line in reference.splitlines():
+            if found := re.match(r"## `\[+([^\]]+)\]+`", line):
+                section = found[1]
+                keys.add(section)
+            elif found := re.match(r"\| `([a-z_0-9A-Z]+)` \|", line):
+                keys.add(f"{section}.{found[1]}")
+        columns = set(re.findall(r"^\| `([\w.]+)` \|", (ROOT / "docs/reference/columns.md").read_text(encoding="utf-8"), re.M))
+        named = {key.split(".")[0] for key in keys if "NAME" in key} | {"turbine", "controller", "study", "reference", "replicas", "load_cases"}
+        first, dead = {key.split(".")[0] for key in keys} - named, []
+        numbered = {re.sub(r"_[A-Z]\b", "_1", column) for column in columns}
+        for page in self.pages:
+            if not page.startswith(("docs/user", "docs/tutorials", "README.md", "inputs/")) or page == "inputs/REFERENCE.md":
+                continue
+            text = re.sub(r"```.*?```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.S)
+            for word in re.findall(r"`([a-z_]+(?:\.\w+)+)(?: = [^`]*)?`", text):
+                if word.split(".")[0] in first and word.rpartition(".")[2] not in SUFFIXES and word not in keys | columns | numbered | OTHERS_KEYS:
                     dead.append(f"{page}: {word}")
         self.complain(dead)
 

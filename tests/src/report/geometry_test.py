@@ -161,6 +161,13 @@ class Geometry(unittest.TestCase):
         turn = geometry.about(np.array([0.0, 1.0, 0.0]), np.radians(10.0))
         np.testing.assert_allclose(end.mean(axis=0), turn @ [40.0, 0.0, 3.0] + [4.0, 0.0, -4.0], atol=1e-9)
 
+    def test_a_grid_of_one_sector_stays_upright_and_follows_the_hub_along_its_axis(self):
+        """The platform leans by 10 degrees and moves by 4 m: the hub, 123 m above its reference, goes downwind by some 25 m and sinks."""
+        hub, frame = self.scene.sector(40.0)
+        np.testing.assert_allclose(frame, np.eye(3), atol=1e-12)
+        np.testing.assert_allclose(hub, [4.0 + 123.0 * np.sin(np.radians(10.0)), 0.0, 119.0], atol=1e-9)
+        np.testing.assert_allclose(self.scene.rotor_frame(40.0)[0], [np.cos(np.radians(10.0)), 0.0, -np.sin(np.radians(10.0))], atol=1e-12)
+
     def test_blades_are_a_third_of_a_turn_apart_lean_upwind_and_turn_towards_minus_y(self):
         blades = [piece.points for piece in self.kinds(0.0)["blade"]]
         tips = [b[np.argmax(np.linalg.norm(b - self.scene.hub(0.0), axis=1))] - self.scene.hub(0.0) for b in blades]
