@@ -24,7 +24,7 @@ void LineLumpedMass::lay_as_catenary(const LineEnds& ends, std::span<double> sta
     const Eigen::Vector3d p = place(segment() * (rises ? i : segments - i));
     Eigen::Map<Eigen::Vector3d> node(state.data() + 3 * std::size_t(i - 1));
     node = low + (reach > 0.0 ? p.x() / reach * x : 0.0) * out + p.z() * Eigen::Vector3d::UnitZ();
-    if (bed && bed_contact) node.z() = std::max(node.z(), bed->level(node.x(), node.y()));
+    if (bed.shape && bed.contact) node.z() = std::max(node.z(), bed.shape->level(node.x(), node.y()));
   }
   std::fill(state.begin() + std::ptrdiff_t(3 * inner()), state.end(), 0.0);
 }

@@ -45,6 +45,34 @@ struct LineClump {
   double drag_area = 0.0, added_mass = 0.5;  ///< coefficient times area [m2]; coefficient on the displaced mass [-]
 };
 
+/// The bed under a line: it pushes along its normal, never holds, and resists sliding.
+struct LineBed {
+  bool contact = true;
+  double level = 0.0;                ///< z [m], where there is no `shape`
+  std::shared_ptr<const Bed> shape;  ///< null: level
+  double stiffness = 3e6;            ///< per depth of sinking in and projected area [Pa/m]
+  double damping = 3e5;              ///< [Pa s/m]
+  double friction = 0.0;             ///< [-]
+
+  static constexpr double creep_speed = 0.01;  ///< below it friction falls to nothing linearly [m/s]
+
+  /// How far a point is under the bed, measured upright [m]; 0 over it.
+  double depth(const Eigen::Vector3d& point) const {
+    if (!contact || point.z() >= (shape ? shape->highest() : level)) return 0.0;
+    return std::max(0.0, (shape ? shape->level(point.x(), point.y()) : level) - point.z());
+  }
+  Eigen::Vector3d normal(const Eigen::Vector3d& point) const {
+    return shape ? shape->normal(point.x(), point.y()) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+  }
+  /// On a piece of line of this projected area [m2] that has sunk in so deep.
+  Eigen::Vector3d force(double area, const LineEnd& node, double depth) const {
+    const Eigen::Vector3d up = normal(node.position);
+    const double rise = node.velocity.dot(up), push = area * std::max(0.0, stiffness * (depth * up.z()) - damping * rise);
+    const Eigen::Vector3d slide = node.velocity - rise * up;
+    return push * up - friction * push / std::max(slide.norm(), creep_speed) * slide;
+  }
+};
+
 struct LineLumpedMass {
   static constexpr std::string_view name = "lumped_mass";
   double length = 1.0;                               ///< L, unstretched [m]
@@ -56,15 +84,8 @@ struct LineLumpedMass {
   double normal_drag = 1.33, tangential_drag = 0.2;  ///< on d and on pi d, each per length [-]
   double normal_added_mass = 1.0, tangential_added_mass = 0.0;  ///< on the displaced mass [-]
   double gravity = 9.81, water_density = 1025.0;
-  bool bed_contact = true;
-  double bed_level = 0.0;  ///< z [m], where there is no `bed`
-  std::shared_ptr<const Bed> bed;
-  double bed_stiffness = 3e6;  ///< per depth of sinking in and projected area [Pa/m]
-  double bed_damping = 3e5;    ///< [Pa s/m]
-  double bed_friction = 0.0;   ///< [-]
+  LineBed bed;
   std::vector<LineClump> clumps;
-
-  static constexpr double creep_speed = 0.01;  ///< below it friction falls to nothing linearly [m/s]
 
   double segment() const { return length / segments; }
   double area() const { return 0.25 * pi * diameter * diameter; }
@@ -76,15 +97,15 @@ struct LineLumpedMass {
 
   /// The line in rest that the nodes tend to as they grow many.
   LineCatenary catenary() const {
-    return {.length = length, .weight_per_m = weight_per_m(), .axial_stiffness = axial_stiffness, .bed_contact = bed_contact};
+    return {.length = length, .weight_per_m = weight_per_m(), .axial_stiffness = axial_stiffness, .bed_contact = bed.contact};
   }
 
   /// Fastest rate of the nodes [1/s]: axial waves of two segments, the bed's spring and damper, friction at creeping speed.
   double fastest_rate() const {
     double rate = 2.0 / segment() * std::sqrt(axial_stiffness / mass_per_m);
-    if (!bed_contact) return rate;
-    rate = std::max({rate, std::sqrt(bed_stiffness * diameter / mass_per_m), bed_damping * diameter / mass_per_m});
-    return std::max(rate, bed_friction * weight_per_m() / (mass_per_m * creep_speed));
+    if (!bed.contact) return rate;
+    rate = std::max({rate, std::sqrt(bed.stiffness * diameter / mass_per_m), bed.damping * diameter / mass_per_m});
+    return std::max(rate, bed.friction * weight_per_m() / (mass_per_m * LineBed::creep_speed));
   }
   /// Substep: RK4 is stable up to 2.78 of the fastest rate on the real axis and 2.83 on the imaginary one; a fifth is kept back.
   double largest_step() const { return 2.2 / fastest_rate(); }
@@ -142,7 +163,7 @@ struct LineLumpedMass {
       load.force += wet * displaced * ((1.0 + normal_added_mass) * across + (1.0 + tangential_added_mass) * with);
       load.mass_across += wet * normal_added_mass * displaced, load.mass_along += wet * tangential_added_mass * displaced;
     }
-    if (const double depth = depth_in_bed(node.position); depth > 0.0) load.force += bed_force(piece, node, depth);
+    if (const double depth = bed.depth(node.position); depth > 0.0) load.force += bed.force(piece * diameter, node, depth);
     return load;
   }
 
@@ -158,23 +179,6 @@ struct LineLumpedMass {
       load.force += displaced * (1.0 + c.added_mass) * water.acceleration;
       load.mass_across += c.mass + c.added_mass * displaced, load.mass_along += c.mass + c.added_mass * displaced;
     }
-  }
-
-  /// How far a point is under the bed, measured upright [m]; 0 over it.
-  double depth_in_bed(const Eigen::Vector3d& point) const {
-    if (!bed_contact || point.z() >= (bed ? bed->highest() : bed_level)) return 0.0;
-    return std::max(0.0, (bed ? bed->level(point.x(), point.y()) : bed_level) - point.z());
-  }
-  Eigen::Vector3d bed_normal(const Eigen::Vector3d& point) const {
-    return bed ? bed->normal(point.x(), point.y()) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
-  }
-  /// The bed pushes along its normal, never holds, and resists sliding.
-  Eigen::Vector3d bed_force(double piece, const LineEnd& node, double depth) const {
-    const Eigen::Vector3d normal = bed_normal(node.position);
-    const double rise = node.velocity.dot(normal);
-    const double push = piece * diameter * std::max(0.0, bed_stiffness * (depth * normal.z()) - bed_damping * rise);
-    const Eigen::Vector3d slide = node.velocity - rise * normal;
-    return push * normal - bed_friction * push / std::max(slide.norm(), creep_speed) * slide;
   }
 
   Eigen::Vector3d tangent(const Nodes& nodes, int i) const {

@@ -143,9 +143,9 @@ struct LineNetwork::Newton {
       return chord_stiffness(along, tension, line.axial_stiffness / l0);
     };
     const auto bed = [&](int node, double piece) -> Eigen::Matrix3d {
-      if (!(line.depth_in_bed(nodes.position(node)) > 0.0)) return Eigen::Matrix3d::Zero();
-      const Eigen::Vector3d normal = line.bed_normal(nodes.position(node));
-      return line.bed_stiffness * line.diameter * piece * normal * normal.transpose();
+      if (!(line.bed.depth(nodes.position(node)) > 0.0)) return Eigen::Matrix3d::Zero();
+      const Eigen::Vector3d normal = line.bed.normal(nodes.position(node));
+      return line.bed.stiffness * line.diameter * piece * normal * normal.transpose();
     };
     const auto at_junction = [&](int j, int node, const Eigen::Matrix3d& next) {
       if (j == led) return;
@@ -233,13 +233,13 @@ void LineNetwork::hang_as_catenaries(std::span<const LineEnds> outer, std::span<
       const Eigen::Vector3d span = e.fairlead.position - e.anchor.position;
       const LineForces f = hanging[l].forces(span, Eigen::Vector3d::Zero());
       const Eigen::Matrix3d own = hanging[l].stiffness(span);
-      const double bed = 0.5 * line.bed_stiffness * line.diameter * line.segment();
+      const double bed = 0.5 * line.bed.stiffness * line.diameter * line.segment();
       const auto add = [&](int j, int other, const Eigen::Vector3d& pull, const Eigen::Vector3d& at_end) {
         if (j == led) return;
         force.segment<3>(3 * j) += pull;
         stiffness.block<3, 3>(3 * j, 3 * j) += own;
         if (other != led) stiffness.block<3, 3>(3 * j, 3 * other) -= own;
-        const double depth = line.depth_in_bed(at_end);
+        const double depth = line.bed.depth(at_end);
         if (!(depth > 0.0)) return;
         force[3 * j + 2] += bed * depth, stiffness(3 * j + 2, 3 * j + 2) += bed;
       };

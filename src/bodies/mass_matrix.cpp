@@ -31,7 +31,7 @@ void MassMatrix::gather_added(double t, std::span<const Motion> motions, const M
   for (const LoadSource& source : sources_)
     if (source.added_mass) source.added_mass(t, motions, added_);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Eigen::Matrix3d& axes = mechanism.poses()[b].axes;
+    const Eigen::Matrix3d& axes = mechanism.solved().poses[b].axes;
     mass_[b].topLeftCorner<3, 3>() += l * l * added_[b].topLeftCorner<3, 3>();
     mass_[b].topRightCorner<3, 3>() += l * added_[b].topRightCorner<3, 3>() * axes;
     mass_[b].bottomLeftCorner<3, 3>() += l * axes.transpose() * added_[b].bottomLeftCorner<3, 3>();
@@ -49,8 +49,8 @@ void MassMatrix::gather_couplings(double t, std::span<const Motion> motions, con
     first += source.coupling->pairs.size();
   }
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const Eigen::Matrix3d &i = mechanism.poses()[std::size_t(pairs_[p][0])].axes,
-                          &j = mechanism.poses()[std::size_t(pairs_[p][1])].axes;
+    const Eigen::Matrix3d &i = mechanism.solved().poses[std::size_t(pairs_[p][0])].axes,
+                          &j = mechanism.solved().poses[std::size_t(pairs_[p][1])].axes;
     between_chart_[p].topLeftCorner<3, 3>() = l * l * between_[p].topLeftCorner<3, 3>();
     between_chart_[p].topRightCorner<3, 3>() = l * between_[p].topRightCorner<3, 3>() * j;
     between_chart_[p].bottomLeftCorner<3, 3>() = l * i.transpose() * between_[p].bottomLeftCorner<3, 3>();

@@ -63,25 +63,25 @@ Mechanism::Mechanism(std::span<const Body> bodies, std::span<const Joint> joints
     : length_(reference_length(bodies, joints)),
       joints_(joints, initial_poses(bodies, length_), length_),
       weight_(partition_weights(bodies)),
-      pose_(initial_poses(bodies, length_)),
+      solved_{.poses = initial_poses(bodies, length_)},
       attitude_(bodies.size()) {
-  for (auto* v : {&x_, &u_, &bias_, &drift_}) v->setZero(coordinates());
+  for (auto* v : {&x_, &solved_.velocity, &solved_.bias, &solved_.drift}) v->setZero(coordinates());
   for (auto* v : {&residual_, &side_}) v->setZero(joints_.count());
   jacobian_.setZero(joints_.count(), coordinates());
 }
 
 void Mechanism::place_bodies() {
-  for (std::size_t b = 0; b < pose_.size(); ++b) {
+  for (std::size_t b = 0; b < solved_.poses.size(); ++b) {
     const auto x = x_.segment<6>(Eigen::Index(6 * b));
-    pose_[b].position = chart_.centre[b].position / length_ + x.head<3>();
+    solved_.poses[b].position = chart_.centre[b].position / length_ + x.head<3>();
     attitude_[b] = (chart_.centre[b].attitude * rotation_exp(x.tail<3>())).normalized();
-    pose_[b].axes = attitude_[b].toRotationMatrix();
+    solved_.poses[b].axes = attitude_[b].toRotationMatrix();
   }
 }
 
 /// Jacobian with respect to the chart coordinates instead of the angular velocities: rotation columns times T(theta).
 void Mechanism::chart_jacobian() {
-  joints_.jacobian(pose_, jacobian_);
+  joints_.jacobian(solved_.poses, jacobian_);
   for (int b = 0; b < bodies(); ++b) {
     const Eigen::Matrix3d rate = rotation_rate_matrix(x_.segment<3>(6 * b + 3));
     for (int row = 0; row < joints_.count(); ++row) {
@@ -95,20 +95,20 @@ void Mechanism::set_partition(const BodiesState& state) {
   coordinates_.set(state.independent, state.active);
   chart_.tangent.resize(Eigen::Index(coordinates_.dependent().size()), freedoms());
   chart_.displaced.resize(Eigen::Index(coordinates_.dependent().size()));
-  tangent_.resize(coordinates(), freedoms());
+  solved_.tangent.resize(coordinates(), freedoms());
 }
 
 /// Factorises at the present positions and sets tangent and drift: u = tangent * (independent u) + drift.
 void Mechanism::solve_tangent() {
-  joints_.jacobian(pose_, jacobian_);
+  joints_.jacobian(solved_.poses, jacobian_);
   coordinates_.factorise(jacobian_);
-  joints_.velocity_side(pose_, side_);
-  coordinates_.solve_tangent(jacobian_, side_, tangent_, drift_);
+  joints_.velocity_side(solved_.poses, side_);
+  coordinates_.solve_tangent(jacobian_, side_, solved_.tangent, solved_.drift);
 }
 
 /// Chooses the partition anew where the present one has degraded; false where none can be used.
 bool Mechanism::choose_again(BodiesState& state, StepReport& report) {
-  const double steepest = largest_magnitude(tangent_);
+  const double steepest = largest_magnitude(solved_.tangent);
   if (steepest <= degraded_tangent) return true;
   const std::vector<char> active = state.active, independent = state.independent;
   const PartitionChoice choice = choose_partition(jacobian_, weight_, state.active, state.independent);
@@ -127,14 +127,14 @@ bool Mechanism::choose_again(BodiesState& state, StepReport& report) {
 
 StepReport Mechanism::open(BodiesState& state, double t, bool choose) {
   StepReport report;
-  newton_iterations_ = 0;
+  solved_.newton_iterations = 0;
   chart_.t = t;
   chart_.centre = state.motions;
   x_.setZero();
   joints_.set_time(t);
   place_bodies();
   if (choose) {
-    joints_.jacobian(pose_, jacobian_);
+    joints_.jacobian(solved_.poses, jacobian_);
     choose_partition(jacobian_, weight_, state.active, state.independent);
     report.repartitioned = true;
   } else {
@@ -155,9 +155,9 @@ StepReport Mechanism::open(BodiesState& state, double t, bool choose) {
   }
   solve_velocities(chart_.velocity);
   const std::vector<int>& dependent = coordinates_.dependent();
-  for (std::size_t r = 0; r < dependent.size(); ++r) chart_.tangent.row(Eigen::Index(r)) = tangent_.row(dependent[r]);
-  chart_.drift = drift_;
-  chart_.bias = bias_;
+  for (std::size_t r = 0; r < dependent.size(); ++r) chart_.tangent.row(Eigen::Index(r)) = solved_.tangent.row(dependent[r]);
+  chart_.drift = solved_.drift;
+  chart_.bias = solved_.bias;
   return report;
 }
 
@@ -178,11 +178,11 @@ StepReport Mechanism::solve_positions(double t, const Eigen::VectorXd& x) {
   bool fresh = false;
   for (int iteration = 0;; ++iteration) {
     place_bodies();
-    joints_.residual(pose_, residual_);
+    joints_.residual(solved_.poses, residual_);
     int joint = -1;
     const double norm = worst(residual_, coordinates_.active(), &joint);
     double reach = 1.0;
-    for (const Pose& p : pose_) reach = std::max(reach, p.position.cwiseAbs().maxCoeff());
+    for (const Pose& p : solved_.poses) reach = std::max(reach, p.position.cwiseAbs().maxCoeff());
     if (norm <= newton_goal * reach || (norm <= newton_tolerance * reach && norm > 0.25 * previous)) return report;
     if (iteration == newton_limit || !std::isfinite(norm)) {
       report.trouble = std::isfinite(norm) ? StepReport::Trouble::newton : StepReport::Trouble::not_finite;
@@ -200,41 +200,42 @@ StepReport Mechanism::solve_positions(double t, const Eigen::VectorXd& x) {
     const Eigen::VectorXd& solved = coordinates_.solve(residual_);
     for (std::size_t r = 0; r < dependent.size(); ++r) x_[dependent[r]] -= solved[Eigen::Index(r)];
     previous = norm;
-    ++newton_iterations_;
+    ++solved_.newton_iterations;
   }
 }
 
 void Mechanism::solve_velocities(const Eigen::VectorXd& u) {
   solve_tangent();
-  u_.noalias() = tangent_ * u;
-  u_ += drift_;
+  solved_.velocity.noalias() = solved_.tangent * u;
+  solved_.velocity += solved_.drift;
   for (int b = 0; b < bodies(); ++b) {
-    pose_[std::size_t(b)].velocity = u_.segment<3>(6 * b);
-    pose_[std::size_t(b)].spin = pose_[std::size_t(b)].axes * u_.segment<3>(6 * b + 3);
+    solved_.poses[std::size_t(b)].velocity = solved_.velocity.segment<3>(6 * b);
+    solved_.poses[std::size_t(b)].spin = solved_.poses[std::size_t(b)].axes * solved_.velocity.segment<3>(6 * b + 3);
   }
-  bias_.setZero();
+  solved_.bias.setZero();
   const std::vector<int>& dependent = coordinates_.dependent();
   if (dependent.empty()) return;
-  joints_.acceleration_side(pose_, residual_);
+  joints_.acceleration_side(solved_.poses, residual_);
   const Eigen::VectorXd& solved = coordinates_.solve(residual_);
-  for (std::size_t r = 0; r < dependent.size(); ++r) bias_[dependent[r]] = solved[Eigen::Index(r)];
+  for (std::size_t r = 0; r < dependent.size(); ++r) solved_.bias[dependent[r]] = solved[Eigen::Index(r)];
 }
 
 void Mechanism::chart_rate(Eigen::VectorXd& x_rate) const {
   const std::vector<int>& independent = coordinates_.independent();
   for (std::size_t c = 0; c < independent.size(); ++c) {
     const int k = independent[c], first = 6 * (k / 6) + 3;
-    x_rate[Eigen::Index(c)] = k < first ? u_[k] : rotation_rate(x_.segment<3>(first), u_.segment<3>(first))[k - first];
+    x_rate[Eigen::Index(c)] =
+        k < first ? solved_.velocity[k] : rotation_rate(x_.segment<3>(first), solved_.velocity.segment<3>(first))[k - first];
   }
 }
 
 void Mechanism::motions(std::vector<Motion>& out) const {
-  for (std::size_t b = 0; b < pose_.size(); ++b) {
+  for (std::size_t b = 0; b < solved_.poses.size(); ++b) {
     const auto k = Eigen::Index(6 * b);
     out[b].position = chart_.centre[b].position + length_ * x_.segment<3>(k);
     out[b].attitude = attitude_[b];
-    out[b].velocity = length_ * u_.segment<3>(k);
-    out[b].omega = u_.segment<3>(k + 3);
+    out[b].velocity = length_ * solved_.velocity.segment<3>(k);
+    out[b].omega = solved_.velocity.segment<3>(k + 3);
   }
 }
 
@@ -253,12 +254,12 @@ double Mechanism::worst(const Eigen::VectorXd& values, std::span<const int> rows
 }
 
 double Mechanism::residual(int* joint) {
-  joints_.residual(pose_, residual_);
+  joints_.residual(solved_.poses, residual_);
   return worst(residual_, joints_.all(), joint);
 }
 
 double Mechanism::velocity_residual(int* joint) {
-  residual_.noalias() = jacobian_ * u_;
+  residual_.noalias() = jacobian_ * solved_.velocity;
   residual_ -= side_;
   return worst(residual_, joints_.all(), joint);
 }
@@ -272,7 +273,7 @@ void Mechanism::reactions(const Eigen::VectorXd& out_of_balance, std::vector<Wre
   const Eigen::VectorXd of_active = coordinates_.solve_transposed(on_dependent);
   Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(joints_.count());
   for (std::size_t r = 0; r < active.size(); ++r) multipliers[active[r]] = of_active[Eigen::Index(r)];
-  joints_.reactions(pose_, multipliers, on_j);
+  joints_.reactions(solved_.poses, multipliers, on_j);
 }
 
 std::vector<int> Mechanism::joints_behind(int row) const {

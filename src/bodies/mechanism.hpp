@@ -20,7 +20,7 @@ class Mechanism {
  public:
   Mechanism(std::span<const Body> bodies, std::span<const Joint> joints);
 
-  int bodies() const { return int(pose_.size()); }
+  int bodies() const { return int(solved_.poses.size()); }
   int coordinates() const { return 6 * bodies(); }
   const JointRows& joints() const { return joints_; }
   int freedoms() const { return int(coordinates_.independent().size()); }
@@ -38,15 +38,18 @@ class Mechanism {
   /// Motions in SI units.
   void motions(std::vector<Motion>& out) const;
   /// Angles of the joints that turn, continued from those in `angles`.
-  void turn_joints(std::vector<double>& angles) const { joints_.turn_joints(pose_, angles); }
+  void turn_joints(std::vector<double>& angles) const { joints_.turn_joints(solved_.poses, angles); }
 
-  /// All velocities = tangent * independent ones + drift, in chart units; accelerations = tangent * independent ones + bias.
-  const Eigen::MatrixXd& tangent() const { return tangent_; }
-  const Eigen::VectorXd& velocity() const { return u_; }
+  /// What was solved last, in chart units: velocity = tangent * independent ones + drift, accelerations = tangent * independent
+  /// ones + bias.
+  struct Solved {
+    std::vector<Pose> poses;
+    Eigen::MatrixXd tangent;
+    Eigen::VectorXd velocity, drift, bias;
+    int newton_iterations = 0;  ///< since the chart was opened
+  };
+  const Solved& solved() const { return solved_; }
   const Eigen::VectorXd& open_velocity() const { return chart_.velocity; }  ///< independent velocities at the centre
-  const Eigen::VectorXd& bias() const { return bias_; }
-  const std::vector<Pose>& poses() const { return pose_; }
-  int newton_iterations() const { return newton_iterations_; }
 
   /// Largest residual of all rows, redundant ones included, at the positions last solved; over L.
   double residual(int* joint = nullptr);
@@ -81,14 +84,11 @@ class Mechanism {
   Eigen::VectorXd weight_;  // of the coordinates in the choice of the partition
   Chart chart_;
 
-  // positions, velocities, factors last solved
-  std::vector<Pose> pose_;
+  Solved solved_;
   std::vector<Eigen::Quaterniond> attitude_;
-  Eigen::VectorXd x_, u_;
+  Eigen::VectorXd x_;
   Eigen::MatrixXd jacobian_;
-  Eigen::VectorXd residual_, side_, bias_, drift_;
-  Eigen::MatrixXd tangent_;
-  int newton_iterations_ = 0;
+  Eigen::VectorXd residual_, side_;
 };
 
 }  // namespace spindrift::bodies

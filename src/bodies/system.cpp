@@ -142,11 +142,11 @@ void System::Work::count_power(double weight) {
   double gain = 0.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto k = Eigen::Index(6 * b);
-    Vector6 rate = mechanism.bias().segment<6>(k);
-    if (mechanism.freedoms() > 0) rate.noalias() += mechanism.tangent().middleRows<6>(k) * acceleration;
+    Vector6 rate = mechanism.solved().bias.segment<6>(k);
+    if (mechanism.freedoms() > 0) rate.noalias() += mechanism.solved().tangent.middleRows<6>(k) * acceleration;
     rate.head<3>() *= mechanism.length();
     gain += bodies[b].mass * rate.head<3>().dot(motions[b].velocity) + motions[b].omega.dot(bodies[b].inertia * rate.tail<3>());
-    rates[b] << rate.head<3>(), mechanism.poses()[b].axes * rate.tail<3>();
+    rates[b] << rate.head<3>(), mechanism.solved().poses[b].axes * rate.tail<3>();
   }
   step_work.add(weight, loads.power(), mass.added_mass_power(motions, rates), gain);
 }
@@ -183,7 +183,7 @@ bool System::Work::count_work(double h, double kinetic_before) {
 void System::Work::gather_forces(bool at_rest) {
   const double l = mechanism.length();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Pose& pose = mechanism.poses()[b];
+    const Pose& pose = mechanism.solved().poses[b];
     auto f = force.segment<6>(Eigen::Index(6 * b));
     f.head<3>() = l * loads.total()[b].force;
     f.tail<3>() = pose.axes.transpose() * loads.total()[b].moment;
@@ -192,7 +192,7 @@ void System::Work::gather_forces(bool at_rest) {
     if (bodies[b].gyroscopic) {
       f.tail<3>() -= omega.cross(bodies[b].inertia * omega);
     } else if (support[b] >= 0) {  // M = I (alpha - omega_support x omega): without gyroscopic moment of the spin
-      const Eigen::Vector3d turning = pose.axes.transpose() * mechanism.poses()[std::size_t(support[b])].spin;
+      const Eigen::Vector3d turning = pose.axes.transpose() * mechanism.solved().poses[std::size_t(support[b])].spin;
       f.tail<3>() += bodies[b].inertia * turning.cross(omega);
     }
   }
@@ -211,13 +211,13 @@ bool System::Work::accelerations(double t, const Eigen::VectorXd& x, const Eigen
   mechanism.solve_velocities(u);
   gather(t);
   gather_forces(false);
-  mass.multiply(mechanism.bias(), inertial);
+  mass.multiply(mechanism.solved().bias, inertial);
   force -= inertial;
-  condensed_force.noalias() = mechanism.tangent().transpose() * force;
+  condensed_force.noalias() = mechanism.solved().tangent.transpose() * force;
   if (mechanism.freedoms() == 0) return true;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (!force.segment<6>(Eigen::Index(6 * b)).allFinite()) return fail(StepReport::Trouble::not_finite, int(b));
-  cholesky.compute(mass.condense(mechanism.tangent()));
+  cholesky.compute(mass.condense(mechanism.solved().tangent));
   if (cholesky.info() != Eigen::Success) return fail(StepReport::Trouble::mass, -1);
   acceleration = condensed_force;
   cholesky.solveInPlace(acceleration);
@@ -263,7 +263,7 @@ bool System::Work::advance(double t, double t_end, double h, bool evaluated) {
     return true;
   };
   const bool done = step(integrator, rates, t, h, u, integration) && close(t_end, integration.x, u);
-  report.newton_iterations = mechanism.newton_iterations();
+  report.newton_iterations = mechanism.solved().newton_iterations;
   if (!done) return false;
   constexpr double stiffest = 2.2;  // a twentieth beyond the limit of rk4
   constexpr double most_onset = 0.25;
@@ -365,7 +365,7 @@ Assembly System::assemble_from(const BodiesState& near, double t_s) {
     return assembly;
   }
   worst = mechanism.velocity_residual(&joint);
-  if (worst > consistency_tolerance * (1.0 + mechanism.velocity().cwiseAbs().maxCoeff())) {
+  if (worst > consistency_tolerance * (1.0 + mechanism.solved().velocity.cwiseAbs().maxCoeff())) {
     contradict("these joints ask for velocities that contradict each other:", joint, worst);
     return assembly;
   }
@@ -422,15 +422,15 @@ const Evaluation& System::evaluate(const BodiesState& state, double t_s) {
   w.accelerations(t_s, zero, w.mechanism.open_velocity());
   e.report = w.report;
   if (!e.report.ok()) return e;
-  const Eigen::VectorXd all = w.mechanism.tangent() * w.acceleration + w.mechanism.bias();
+  const Eigen::VectorXd all = w.mechanism.solved().tangent * w.acceleration + w.mechanism.solved().bias;
   for (std::size_t b = 0; b < w.bodies.size(); ++b) {
     const auto k = Eigen::Index(6 * b);
     e.acceleration[b] = w.mechanism.length() * all.segment<3>(k);
-    e.angular_acceleration[b] = w.mechanism.poses()[b].axes * all.segment<3>(k + 3);
+    e.angular_acceleration[b] = w.mechanism.solved().poses[b].axes * all.segment<3>(k + 3);
     w.rates[b] << e.acceleration[b], e.angular_acceleration[b];
   }
   // M bias was taken off the forces above: out of balance = M a - F over all coordinates
-  w.mass.multiply(all - w.mechanism.bias(), w.inertial);
+  w.mass.multiply(all - w.mechanism.solved().bias, w.inertial);
   w.mechanism.reactions(w.inertial - w.force, e.joint_reactions);
   e.by_source = w.loads.by_source();
   w.mass.add_reactions(t_s, w.motions, w.rates, e.by_source);
@@ -516,8 +516,8 @@ bool System::forces_at_rest(double t_s, const Eigen::VectorXd& x, Eigen::VectorX
   w_->mechanism.solve_velocities(Eigen::VectorXd::Zero(freedoms()));
   w_->gather(t_s);
   w_->gather_forces(true);
-  force.noalias() = w_->mechanism.tangent().transpose() * w_->force;
-  mass = w_->mass.condense(w_->mechanism.tangent());
+  force.noalias() = w_->mechanism.solved().tangent.transpose() * w_->force;
+  mass = w_->mass.condense(w_->mechanism.solved().tangent);
   if (all_loads) {
     *all_loads = 0.0;
     std::vector<Wrench> one(w_->bodies.size());
@@ -540,7 +540,7 @@ bool System::close_chart(double t_s, const Eigen::VectorXd& x, const Eigen::Vect
 }
 
 Eigen::MatrixXd System::motion_of_freedoms() const {
-  Eigen::MatrixXd motion = w_->mechanism.tangent();
+  Eigen::MatrixXd motion = w_->mechanism.solved().tangent;
   for (Eigen::Index b = 0; b < motion.rows() / 6; ++b) motion.middleRows<3>(6 * b) *= w_->mechanism.length();
   return motion;
 }

@@ -18,9 +18,12 @@ LineLumpedMass nodes_of(const LineOptions& o, const LineEnvironment& environment
   line.normal_drag = o.drag_coefficient, line.tangential_drag = o.axial_drag_coefficient;
   line.normal_added_mass = o.added_mass_coefficient, line.tangential_added_mass = o.axial_added_mass_coefficient;
   line.gravity = environment.gravity_m_s2, line.water_density = environment.water_density_kg_m3;
-  line.bed_contact = o.bed_contact, line.bed_level = o.bed_level_m.value_or(std::min(o.anchor_m->z(), o.fairlead_m->z()));
-  line.bed = environment.bed;
-  line.bed_stiffness = o.bed_stiffness_Pa_m, line.bed_damping = o.bed_damping_Pa_s_m, line.bed_friction = o.bed_friction;
+  line.bed = {.contact = o.bed_contact,
+              .level = o.bed_level_m.value_or(std::min(o.anchor_m->z(), o.fairlead_m->z())),
+              .shape = environment.bed,
+              .stiffness = o.bed_stiffness_Pa_m,
+              .damping = o.bed_damping_Pa_s_m,
+              .friction = o.bed_friction};
   for (const ClumpOptions& c : o.clumps) {
     const int node = std::clamp(int(std::lround(c.distance_m / line.segment())), 1, line.segments - 1);
     line.clumps.push_back({node, c.mass_kg, c.volume_m3, c.drag_area_m2, c.added_mass_coefficient});

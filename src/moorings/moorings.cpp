@@ -116,7 +116,7 @@ void Moorings::connect() {
 
 bool Moorings::Network::hangs_free() const {
   const LineLumpedMass& first = of.lines[0].line;
-  return !junction.empty() || !first.clumps.empty() || (first.bed && first.bed_contact);
+  return !junction.empty() || !first.clumps.empty() || (first.bed.shape && first.bed.contact);
 }
 
 LineEnd Moorings::moving(const End& end, std::span<const Motion> bodies) const {

@@ -65,6 +65,42 @@ bool inside(const TankPlan::Block& block, const std::array<double, dim>& x) {
   return true;
 }
 
+/// What the places of the lattice inside a tank are by the surfaces of walls.
+template <int dim>
+class PlacesBySurfaces {
+ public:
+  enum class Of : std::uint8_t { water, wall, core };
+
+  /// Walls are `deep` [m], behind them is core.
+  PlacesBySurfaces(const TankPlan& plan, const Lattice<dim>& lattice, double deep) : count_(lattice.count) {
+    if (plan.walls.empty()) return;
+    const std::array<int, 3> count{count_[0], dim == 2 ? 1 : count_[1], count_[dim - 1]};
+    of_.assign(std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]), Of::water);
+    const Eigen::Vector3d origin = to_earth<dim>(lattice.at(std::array<int, dim>{})), edges = to_earth<dim>(lattice.edge);
+    for (const TankPlan::Walls& walls : plan.walls) {
+      auto of = of_.begin();
+      for_distances(*walls.surface, origin, edges, count, -deep, deep, [&](const std::array<int, 3>&, double distance) {
+        const double depth = walls.water_inside ? distance : -distance;
+        if (depth > 0.0) *of = std::max(*of, depth > deep ? Of::core : Of::wall);
+        ++of;
+      });
+    }
+  }
+  Of operator()(const std::array<int, dim>& index) const {
+    if (of_.empty()) return Of::water;
+    std::size_t n = 0;
+    for (int k = 0; k < dim; ++k) {
+      if (index[k] < 0) return Of::water;
+      n = n * std::size_t(count_[k]) + std::size_t(std::min(index[k], count_[k] - 1));
+    }
+    return of_[n];
+  }
+
+ private:
+  std::array<int, dim> count_;
+  std::vector<Of> of_;  ///< z fastest; empty where no surface makes walls
+};
+
 /// Where a particle of water at rest is at t = 0 in the motion of the waves, and its velocity: displacements of linear theory,
 /// (U/omega) (-C sin psi, S cos psi) along and up, which keep volume to first order.
 template <int dim>
@@ -87,14 +123,18 @@ template <int dim>
 class Layout {
  public:
   using Visit = typename SeedStream<dim>::Visit;
+  using Of = typename PlacesBySurfaces<dim>::Of;
 
   Layout(const TankPlan& plan, const Parameters& p)
-      : plan_(plan), p_(p), lattice_(plan, p.spacing), layers_(int(std::ceil(p.reach() / p.spacing - 1e-9)) - 1) {
+      : plan_(plan),
+        p_(p),
+        lattice_(plan, p.spacing),
+        layers_(int(std::ceil(p.reach() / p.spacing - 1e-9)) - 1),
+        by_surfaces_(plan, lattice_, layers_ * p.spacing) {
     const double ratio = p.gravity > 0.0 ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0;
     p_.mass_factor = lattice_.cell() / std::pow(p.spacing, dim) * ratio;
     row_mass_ = p.eos.rho0 * lattice_.edge[dim - 1] * ratio;
     cell_volume_ = lattice_.cell() / std::pow(p.spacing, dim);
-    find_walls();
     fill_bodies();
     find_displaced_water();
   }
@@ -175,33 +215,6 @@ class Layout {
   double bed_of_column(int i) const { return plan_.bed_at(lattice_.at(0, i)); }
   bool is_obstacle(const std::array<double, dim>& x) const {
     return std::any_of(plan_.obstacles.begin(), plan_.obstacles.end(), [&](const auto& block) { return inside<dim>(block, x); });
-  }
-  /// What a place of the lattice inside the tank is by the surfaces of walls.
-  enum class Of : std::uint8_t { water, wall, core };
-  Of by_surfaces(const std::array<int, dim>& index) const {
-    if (solid_.empty()) return Of::water;
-    std::size_t n = 0;
-    for (int k = 0; k < dim; ++k) {
-      if (index[k] < 0) return Of::water;
-      n = n * std::size_t(lattice_.count[k]) + std::size_t(std::min(index[k], lattice_.count[k] - 1));
-    }
-    return solid_[n];
-  }
-  void find_walls() {
-    if (plan_.walls.empty()) return;
-    const std::array<int, 3> count = dim == 2 ? std::array<int, 3>{lattice_.count[0], 1, lattice_.count[dim - 1]}
-                                              : std::array<int, 3>{lattice_.count[0], lattice_.count[1], lattice_.count[dim - 1]};
-    solid_.assign(std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]), Of::water);
-    const Eigen::Vector3d origin = to_earth<dim>(lattice_.at(std::array<int, dim>{})), edges = to_earth<dim>(lattice_.edge);
-    const double deep = layers_ * p_.spacing;
-    for (const TankPlan::Walls& walls : plan_.walls) {
-      auto of = solid_.begin();
-      for_distances(*walls.surface, origin, edges, count, -deep, deep, [&](const std::array<int, 3>&, double distance) {
-        const double depth = walls.water_inside ? distance : -distance;
-        if (depth > 0.0) *of = std::max(*of, depth > deep ? Of::core : Of::wall);
-        ++of;
-      });
-    }
   }
   /// So deep in an obstacle that it is beyond the reach of water outside.
   bool is_core(const std::array<double, dim>& x) const {
@@ -289,7 +302,8 @@ class Layout {
       std::array<double, dim> x = lattice_.at(index), under = x;
       if (x[dim - 1] > surface && x[dim - 1] < surface + near_bodies * lattice_.edge[dim - 1] && with_air)
         under[dim - 1] = surface - 0.5 * lattice_.edge[dim - 1];
-      if (!inside<dim>(block, under) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x) || by_surfaces(index) != Of::water)
+      if (!inside<dim>(block, under) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x) ||
+          by_surfaces_(index) != Of::water)
         return;
       Seed<dim> seed{.position = x};
       if (p_.gravity > 0.0) {
@@ -397,7 +411,7 @@ class Layout {
       if constexpr (dim == 3) wall = wall || (walled(1) && (index[1] < 0 || index[1] >= lattice_.count[1]));
       bool in_tank = index[0] >= 0 && index[0] < lattice_.count[0];
       if constexpr (dim == 3) in_tank = in_tank && index[1] >= 0 && index[1] < lattice_.count[1];
-      const Of of = in_tank ? by_surfaces(index) : Of::water;
+      const Of of = in_tank ? by_surfaces_(index) : Of::water;
       if ((wall || of == Of::wall || (in_tank && is_obstacle(x))) && !is_core(x) && of != Of::core)
         next(wall_particle(x, wall_owner));
     });
@@ -463,9 +477,9 @@ class Layout {
   Parameters p_;
   Lattice<dim> lattice_;
   int layers_;
+  PlacesBySurfaces<dim> by_surfaces_;
   double row_mass_ = 0.0;     ///< mass per area of a row of water [kg/m2]
   double cell_volume_ = 0.0;  ///< of the lattice over spacing^dim
-  std::vector<Of> solid_;     ///< by place of the lattice inside the tank, z fastest; empty where no surface makes walls
   std::vector<Points> points_;
   std::vector<double> extent_;
   std::vector<std::array<double, dim>> air_;  ///< places of the lattice over the water, near bodies

@@ -22,7 +22,7 @@ std::shared_ptr<const Bed> inclined(double x_per_y = 0.0) {
 LineLumpedMass chain_on(std::shared_ptr<const Bed> bed) {
   LineLumpedMass line;
   line.length = 200.0, line.segments = 40, line.diameter = 0.2, line.mass_per_m = 250.0, line.axial_stiffness = 1e9;
-  line.bed = std::move(bed);
+  line.bed.shape = std::move(bed);
   return line;
 }
 
@@ -60,13 +60,13 @@ TEST_CASE("a line that lies on a slope hangs on its upper end by its weight alon
           "[mooring][fast]") {
   const double x_per_y = GENERATE(0.0, 0.7);
   const LineLumpedMass line = chain_on(inclined(x_per_y));
-  const Vector3d normal = line.bed->normal(1.0, 1.0), up = (Vector3d::UnitZ() - normal.z() * normal).normalized();
+  const Vector3d normal = line.bed.shape->normal(1.0, 1.0), up = (Vector3d::UnitZ() - normal.z() * normal).normalized();
   const double weight = line.weight_per_m(), sine = up.z();
   // Pulled straight up the slope, sunk in by what the bed gives under the part of the weight that is square to it.
-  const double sunk = weight * normal.z() / (line.bed_stiffness * line.diameter), pull = 2e5;
+  const double sunk = weight * normal.z() / (line.bed.stiffness * line.diameter), pull = 2e5;
   const double stretched =
       line.length + (pull * line.length + 0.5 * weight * sine * line.length * line.length) / line.axial_stiffness;
-  const Vector3d low(-100.0, 0.0, line.bed->level(-100.0, 0.0));
+  const Vector3d low(-100.0, 0.0, line.bed.shape->level(-100.0, 0.0));
   const auto end = [&](double along) { return LineEnd{low + along * up - sunk * normal, Vector3d::Zero()}; };
   const Resting r = rest(line, {end(0.0), end(stretched)});
   REQUIRE(r.found);
@@ -83,7 +83,7 @@ TEST_CASE("a chain leaves a slope where the catenary from there leaves it along 
   // T = T_a - w (height of the anchor over the point) on the bed, and w times the height over the point where it leaves beyond.
   LineLumpedMass line = chain_on(inclined());
   line.length = 420.0, line.segments = 200;
-  const Vector3d anchor(400.0, 0.0, line.bed->level(400.0, 0.0)), fairlead(30.0, 0.0, -150.0);
+  const Vector3d anchor(400.0, 0.0, line.bed.shape->level(400.0, 0.0)), fairlead(30.0, 0.0, -150.0);
   const Resting r = rest(line, {{anchor, Vector3d::Zero()}, {fairlead, Vector3d::Zero()}});
   REQUIRE(r.found);
   // On the bed and in the water dT = w dz alike: between the ends it is the difference of their heights.
@@ -92,7 +92,7 @@ TEST_CASE("a chain leaves a slope where the catenary from there leaves it along 
   int laid = 0;
   for (int i = 1; i < line.segments; ++i) {
     const Vector3d node = Eigen::Map<const Vector3d>(r.state.data() + 3 * (i - 1));
-    laid += line.depth_in_bed(node) > 0.0;
+    laid += line.bed.depth(node) > 0.0;
   }
   CHECK((laid > 20 && laid < 180));
 }
@@ -100,10 +100,10 @@ TEST_CASE("a chain leaves a slope where the catenary from there leaves it along 
 TEST_CASE("a chain that slides down a slope comes to rest by friction, and not without", "[mooring][fast]") {
   const double friction = GENERATE(0.0, 0.6);  // the slope is 0.3
   LineLumpedMass line = chain_on(inclined());
-  line.length = 40.0, line.segments = 8, line.bed_friction = friction;
+  line.length = 40.0, line.segments = 8, line.bed.friction = friction;
   const LineNetwork network{.lines = {{line, 0, 1}}, .junctions = {LineJunction{}, LineJunction{}}};
   std::vector<double> state(network.state_size());
-  const Vector3d up = Vector3d(1.0, 0.0, slope).normalized(), low(0.0, 0.0, line.bed->level(0.0, 0.0));
+  const Vector3d up = Vector3d(1.0, 0.0, slope).normalized(), low(0.0, 0.0, line.bed.shape->level(0.0, 0.0));
   const auto at = [&](int i) { return Vector3d(low + line.segment() * i * up - Vector3d(0.0, 0.0, 0.004)); };
   for (int i = 1; i < line.segments; ++i) Eigen::Map<Vector3d>(state.data() + 3 * (i - 1)) = at(i);
   Eigen::Map<Vector3d>(state.data() + network.first_of_junctions()) = at(0);
@@ -122,9 +122,9 @@ TEST_CASE("a flat table is a flat bed", "[mooring][fast]") {
   LineLumpedMass level, table;
   level.length = 760.0, level.segments = 40, level.diameter = 0.252, level.mass_per_m = 390.0, level.axial_stiffness = 1.674e9;
   table = level;
-  level.bed_level = -200.0;
-  table.bed = std::make_shared<const Bed>(std::vector<double>{0.0, 1000.0}, std::vector<double>{0.0},
-                                          std::vector<double>{-200.0, -200.0});
+  level.bed.level = -200.0;
+  table.bed.shape = std::make_shared<const Bed>(std::vector<double>{0.0, 1000.0}, std::vector<double>{0.0},
+                                                std::vector<double>{-200.0, -200.0});
   const LineEnds ends{{{700, 0, -200}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
   const Resting a = rest(level, ends), b = rest(table, ends);
   REQUIRE((a.found && b.found));

@@ -20,7 +20,7 @@ struct Chain {
 LineLumpedMass chain_line(const Chain& c) {
   LineLumpedMass line;
   line.length = c.length, line.diameter = 0.252, line.mass_per_m = 390.0, line.axial_stiffness = 1.674e9;
-  line.gravity = standard_gravity, line.bed_level = -c.depth, line.bed_friction = 0.5;
+  line.gravity = standard_gravity, line.bed.level = -c.depth, line.bed.friction = 0.5;
   line.normal_drag = 1.37, line.tangential_drag = 0.64;
   return line;
 }
@@ -55,8 +55,8 @@ double energy(const LineLumpedMass& line, const LineEnds& ends, std::span<const 
     const Vector3d v = nodes.velocity(i), q = line.tangent(nodes, i), along = v.dot(q) * q;
     sum += 0.5 * (m + line.normal_added_mass * displaced) * (v - along).squaredNorm() +
            0.5 * (m + line.tangential_added_mass * displaced) * along.squaredNorm();
-    const double z = nodes.position(i).z(), sunk = line.bed_contact ? std::max(line.bed_level - z, 0.0) : 0.0;
-    sum += line.weight_per_m() * l0 * z + 0.5 * line.bed_stiffness * line.diameter * l0 * sunk * sunk;
+    const double z = nodes.position(i).z(), sunk = line.bed.contact ? std::max(line.bed.level - z, 0.0) : 0.0;
+    sum += line.weight_per_m() * l0 * z + 0.5 * line.bed.stiffness * line.diameter * l0 * sunk * sunk;
   }
   return sum;
 }
@@ -121,7 +121,7 @@ TEST_CASE("tensions of a shaken chain have the extremes of OrcaFlex to 5 per cen
 
 TEST_CASE("the static shape of a lumped-mass line converges with the second order to the catenary", "[mooring][fast]") {
   LineLumpedMass line = chain_line({700, 200, 760});
-  line.bed_contact = false;
+  line.bed.contact = false;
   const LineEnds ends = chain_ends({700, 200, 760});
   const LineForces exact = line.catenary().forces(ends.fairlead.position - ends.anchor.position, Vector3d::Zero());
   std::vector<double> h, fairlead, anchor;
@@ -151,7 +151,7 @@ TEST_CASE("a slack line falls to rest, and every line finds its rest", "[mooring
 
 TEST_CASE("a weight in the middle of a light line hangs on two straight halves", "[mooring][fast]") {
   LineLumpedMass line;
-  line.length = 100.0, line.diameter = 0.01, line.mass_per_m = 0.1, line.axial_stiffness = 1e9, line.bed_contact = false;
+  line.length = 100.0, line.diameter = 0.01, line.mass_per_m = 0.1, line.axial_stiffness = 1e9, line.bed.contact = false;
   line.clumps = {{10, 5e3, 1.0, 0.0, 0.5}};
   const LineEnds ends{{{0, 0, -60}, Vector3d::Zero()}, {{80, 0, -60}, Vector3d::Zero()}};
   auto scratch = line.scratch();
@@ -179,7 +179,7 @@ TEST_CASE("lines of all kinds find their rest", "[mooring][fast]") {
     line.segments = int(between(2.0, 60.0));
     const double out = between(0.0, 1000.0), up = between(-100.0, 600.0);
     line.length = std::max(1.0, std::hypot(out, up) * between(0.995, 1.5));
-    line.bed_contact = n % 2 == 0, line.bed_level = -700.0 + std::min(up, 0.0);
+    line.bed.contact = n % 2 == 0, line.bed.level = -700.0 + std::min(up, 0.0);
     std::vector<double> state(line.state_size());
     const auto rest = find_rest(line, {{{0, 0, -700}, Vector3d::Zero()}, {{out, 0, -700 + up}, Vector3d::Zero()}}, state);
     missed += !rest.found();
@@ -189,7 +189,7 @@ TEST_CASE("lines of all kinds find their rest", "[mooring][fast]") {
 
 TEST_CASE("a line that snaps taut gives back no more than the energy put in", "[mooring][fast]") {
   LineLumpedMass line = chain_line({0, 0, 100});
-  line.bed_contact = false, line.damping_ratio = GENERATE(0.0, 0.1, 1.0);
+  line.bed.contact = false, line.damping_ratio = GENERATE(0.0, 0.1, 1.0);
   const bool in_water = GENERATE(false, true);
   if (!in_water) line.normal_drag = line.tangential_drag = 0.0;
   auto scratch = line.scratch();
@@ -222,7 +222,7 @@ TEST_CASE("a line that snaps taut gives back no more than the energy put in", "[
 
 TEST_CASE("slowly moved, a lumped-mass line carries what the catenary carries", "[mooring][fast]") {
   LineLumpedMass line = chain_line({700, 200, 760});
-  line.segments = 40, line.bed_friction = 0.0;
+  line.segments = 40, line.bed.friction = 0.0;
   Moving moving(line);
   std::vector<double> state(line.state_size());
   const auto ends = [](double t) {
@@ -245,7 +245,7 @@ TEST_CASE("slowly moved, a lumped-mass line carries what the catenary carries", 
 TEST_CASE("a taut line rings at the frequency of a string", "[mooring][fast]") {
   LineLumpedMass line;
   line.length = 100.0, line.segments = 40, line.diameter = 0.1, line.mass_per_m = 60.0, line.axial_stiffness = 1e8;
-  line.gravity = 1e-9, line.damping_ratio = 0.0, line.normal_drag = line.tangential_drag = 0.0, line.bed_contact = false;
+  line.gravity = 1e-9, line.damping_ratio = 0.0, line.normal_drag = line.tangential_drag = 0.0, line.bed.contact = false;
   const LineEnds ends{{{0, 0, -60}, Vector3d::Zero()}, {{101, 0, -60}, Vector3d::Zero()}};
   Moving moving(line);
   std::vector<double> state(line.state_size());
@@ -265,7 +265,7 @@ TEST_CASE("a taut line rings at the frequency of a string", "[mooring][fast]") {
 
 TEST_CASE("a line hanging in a current takes the drag of its chord", "[mooring][fast]") {
   LineLumpedMass line;
-  line.length = 100.0, line.diameter = 0.2, line.mass_per_m = 300.0, line.axial_stiffness = 1e8, line.bed_contact = false;
+  line.length = 100.0, line.diameter = 0.2, line.mass_per_m = 300.0, line.axial_stiffness = 1e8, line.bed.contact = false;
   const LineEnds ends{{{0, 0, -140}, Vector3d::Zero()}, {{0, 0, -39.9}, Vector3d::Zero()}};
   Moving moving(line);
   std::vector<double> state(line.state_size());
@@ -280,7 +280,7 @@ TEST_CASE("a line hanging in a current takes the drag of its chord", "[mooring][
 TEST_CASE("waves load a line the same in long steps of the bodies as in short ones", "[mooring][fast]") {
   // A wave of 4 m and 8 s in deep water over a chain; the water is asked for three times in a step, whatever its substeps.
   LineLumpedMass line = chain_line({700, 200, 760});
-  line.bed_contact = false;  // its friction begins at once, whatever the step
+  line.bed.contact = false;  // its friction begins at once, whatever the step
   const LineEnds ends = chain_ends({700, 200, 760});
   const double omega = 2.0 * pi / 8.0, k = omega * omega / 9.81;
   int asked = 0;

@@ -20,14 +20,14 @@ LineEnd at(double x, double y, double z) { return {{x, y, z}, Vector3d::Zero()};
 LineLumpedMass light_string(double length, double axial_stiffness) {
   LineLumpedMass line;
   line.length = length, line.segments = 10, line.diameter = 0.002, line.mass_per_m = 0.01, line.axial_stiffness = axial_stiffness;
-  line.bed_contact = false;
+  line.bed.contact = false;
   return line;
 }
 
 LineLumpedMass chain_of(double length, int segments) {
   LineLumpedMass line;
   line.length = length, line.segments = segments, line.diameter = 0.252, line.mass_per_m = 390.0, line.axial_stiffness = 1.674e9;
-  line.bed_level = -200.0;
+  line.bed.level = -200.0;
   return line;
 }
 
