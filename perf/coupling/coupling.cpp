@@ -85,7 +85,7 @@ void measure(perf::Group& group, const runtime::Parts& parts) {
   Coupled split(demo(), parts);
   meet(), split.advance(1);
 
-  const double tasks_before = shared.window->tasks().wall_seconds(),
+  const double tasks_before = shared.window->sides().tasks().wall_seconds(),
                kept_before = 1e-9 * double(shared.window->totals().snapshot_ns);
   std::vector<double> both, air, sea, air_one, sea_one, sum_ratio, in_shared, in_split, gain;
   for (int n = 0; n < rounds; ++n) {
@@ -117,7 +117,7 @@ void measure(perf::Group& group, const runtime::Parts& parts) {
 
   double wall = 0.0;
   for (const double s : in_shared) wall += s;
-  const double tasks = shared.window->tasks().wall_seconds() - tasks_before,
+  const double tasks = shared.window->sides().tasks().wall_seconds() - tasks_before,
                kept = 1e-9 * double(shared.window->totals().snapshot_ns) - kept_before;
   group.at_most("exchange_of_window", 100.0 * (wall - tasks - kept) / wall, "%", 0.1, perf::Ceiling::none,
                 "all that is neither tasks nor snapshot");

@@ -99,11 +99,11 @@ Actuator::Actuator(const Turbine& turbine, Kind kind, const ActuatorOptions& opt
   for (const bool turning : {false, true})
     for (std::size_t at = 0; at < n; ++at)
       for (std::size_t of = 0; of < n; ++of) {
-        const BladeElementMomentum::BladeSection s = sections_.section(of);
+        const BladeElementMomentum::BladeSection& s = sections_.section(of);
         const double half = 0.5 * s.length * s.normal_axial;
-        (turning ? ring_swirl_ : ring_axial_)
-            .push_back(
-                ring_mean(sections_.radius(at), s.radius - half, s.radius + half, joint_width(width_[at], width_[of]), turning));
+        (turning ? rings_.swirl : rings_.axial)
+            .push_back(ring_mean(sections_.section(at).radius, s.radius - half, s.radius + half,
+                                 joint_width(width_[at], width_[of]), turning));
       }
 }
 
@@ -118,7 +118,7 @@ void Actuator::place(const DiscMotion& rotor) {
   for (Point& p : points_) {
     const double azimuth = first + 2.0 * pi * p.blade / azimuths_;
     const Eigen::Vector3d out = std::cos(azimuth) * rotor.up + std::sin(azimuth) * side;
-    const BladeElementMomentum::BladeSection s = sections_.section(p.element);
+    const BladeElementMomentum::BladeSection& s = sections_.section(p.element);
     p.arm = s.axial * rotor.axis + s.radius * out;
     p.normal = s.normal_axial * rotor.axis + s.normal_radial * out;
     p.ahead = rotor.axis.cross(out);
@@ -200,7 +200,7 @@ void Actuator::spread(std::size_t n, FlowTile& tile) const {
 
 /// Of the winds that it meets.
 void Actuator::section_loads(Point& p) const {
-  const BladeElementMomentum::BladeSection s = sections_.section(p.element);
+  const BladeElementMomentum::BladeSection& s = sections_.section(p.element);
   const double pitch = rotor_.pitches.empty() || kind_ == Kind::disc ? rotor_.blade_pitch : rotor_.pitches[std::size_t(p.blade)];
   const SectionPolars::InUse polars = sections_.polars(p.element, std::hypot(p.normal_wind, p.tangential_wind));
   double lift = 0.0;
@@ -235,7 +235,7 @@ const Actuator::WakeMatrix& Actuator::wake(int level) {
   const std::size_t n = sections_.elements();
   std::vector<double> edge(n + 1), width(n + 1);
   for (std::size_t e = 0; e <= n; ++e) {
-    const BladeElementMomentum::BladeSection s = sections_.section(std::min(e, n - 1));
+    const BladeElementMomentum::BladeSection& s = sections_.section(std::min(e, n - 1));
     edge[e] = s.radius + (e < n ? -0.5 : 0.5) * s.length * s.normal_axial;
     width[e] = 0.5 * (width_[e > 0 ? e - 1 : 0] + width_[std::min(e, n - 1)]);
   }
@@ -244,7 +244,7 @@ const Actuator::WakeMatrix& Actuator::wake(int level) {
   std::vector<TrailedVelocity> of_edge(n + 1);
   for (int later = 0; later < blades_; ++later)
     for (std::size_t at = 0; at < n; ++at) {
-      const BladeElementMomentum::BladeSection s = sections_.section(at);
+      const BladeElementMomentum::BladeSection& s = sections_.section(at);
       for (std::size_t e = 0; e <= n; ++e)
         of_edge[e] = missing_velocity(s.radius, edge[e], 2.0 * pi * later / blades_, helix, lifting_width_chords * s.chord,
                                       joint_width(width_[at], width[e]));
@@ -337,8 +337,8 @@ void Actuator::act_disc() {
       for (std::size_t at = 0; at < n; ++at) {
         mean_axial[at] = mean_swirl[at] = 0.0;
         for (std::size_t of = 0; of < n; ++of) {
-          mean_axial[at] += ring_axial_[at * n + of] * axial[of];
-          mean_swirl[at] += ring_swirl_[at * n + of] * swirl[of];
+          mean_axial[at] += rings_.axial[at * n + of] * axial[of];
+          mean_swirl[at] += rings_.swirl[at * n + of] * swirl[of];
         }
       }
       for (std::size_t e = 0; e < n; ++e) {
@@ -394,7 +394,7 @@ std::vector<SpanLoad> Actuator::span_loads() const {
   const std::size_t n = sections_.elements(), told = kind_ == Kind::lines ? std::size_t(blades_) : 1;
   std::vector<SpanLoad> all(told * n);
   for (const Point& p : points_) {
-    const BladeElementMomentum::BladeSection s = sections_.section(p.element);
+    const BladeElementMomentum::BladeSection& s = sections_.section(p.element);
     SpanLoad& to = all[(kind_ == Kind::lines ? std::size_t(p.blade) : 0) * n + p.element];
     to.blade = kind_ == Kind::lines ? p.blade + 1 : 1;
     to.radius = s.radius, to.length = s.length * s.normal_axial, to.chord = s.chord;

@@ -113,8 +113,10 @@ class Actuator final : public BodyForce {
   std::int64_t placed_ = 0;
   std::vector<Point> points_;  ///< [blade or azimuth][element]
   std::vector<Part> parts_;
-  std::map<int, WakeMatrix> wakes_;              ///< of helices, by angle
-  std::vector<double> ring_axial_, ring_swirl_;  ///< [at][of] of the disc
+  std::map<int, WakeMatrix> wakes_;  ///< of helices, by angle
+  struct {
+    std::vector<double> axial, swirl;  ///< [at][of]
+  } rings_;                            ///< of the disc
 };
 
 /// Of a scene's turbine with the rotor where `rotor` says. Collective.

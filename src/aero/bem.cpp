@@ -19,8 +19,9 @@ BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::st
   hub_radius_ = radius(0), tip_radius_ = radius(p.span.size() - 1);
   for (const BladePiece& piece : blade_pieces(turbine)) {
     const double across = std::hypot(piece.outward, piece.downwind);
-    elements_.push_back({piece.radius, piece.axial, -piece.downwind / across, piece.outward / across, piece.length, piece.chord,
-                         piece.twist, SectionPolars(turbine.polars, piece.place)});
+    elements_.push_back(
+        {{piece.radius, piece.axial, -piece.downwind / across, piece.outward / across, piece.length, piece.chord, piece.twist},
+         SectionPolars(turbine.polars, piece.place)});
   }
 }
 

@@ -132,24 +132,16 @@ class BladeElementMomentum {
     double length, chord, twist;         ///< [m], [m], [rad]
   };
   std::size_t elements() const { return elements_.size(); }
-  BladeSection section(std::size_t element) const {
-    const Element& e = elements_[element];
-    return {e.radius, e.axial, e.normal_radial, e.normal_axial, e.length, e.chord, e.twist};
-  }
+  const BladeSection& section(std::size_t element) const { return elements_[element]; }
   /// Of an element at this speed relative to the air [m/s]; holds as long as the rotor does.
   SectionPolars::InUse polars(std::size_t element, double speed) const { return in_use(elements_[element], speed, 0.0); }
   Annulus annulus(std::size_t element, double blade_pitch) const { return annulus(elements_[element], blade_pitch); }
-  double radius(std::size_t element) const { return elements_[element].radius; }
-  double chord(std::size_t element) const { return elements_[element].chord; }
   /// Of one element by itself; the two winds as in solve_element.
   ElementState solve(std::size_t element, double normal_wind, double tangential_wind, double blade_pitch) const;
 
  private:
   /// One of blade_pieces.
-  struct Element {
-    double radius, axial;                ///< of its middle, from the hub [m]; axial downwind
-    double normal_radial, normal_axial;  ///< its normal
-    double length, chord, twist;         ///< [m], [m], [rad]
+  struct Element : BladeSection {
     SectionPolars polars;
   };
   /// An element of one blade in the flow.

@@ -33,7 +33,8 @@ void interpolate(const ResolvedRotor& from, ResolvedRotor& to, MPI_Comm comm) {
     const Index coarse = from.solver().grid().tiling().block_cells[std::size_t(block)],
                 fine = to.solver().grid().tiling().block_cells[std::size_t(block)];
     const std::size_t d = std::size_t(direction);
-    const int tip = d == 2 && fine[2] == to.radial_cells() ? to.span_cells() : 0, coarse_tip = tip > 0 ? from.span_cells() : 0;
+    const int tip = d == 2 && fine[2] == to.made().radial_cells() ? to.made().span_cells() : 0,
+              coarse_tip = tip > 0 ? from.made().span_cells() : 0;
     return cell < tip ? (cell + 0.5) * coarse_tip / tip
                       : coarse_tip + (cell - tip + 0.5) * (coarse[d] - coarse_tip) / (fine[d] - tip);
   };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/failure.hpp"
@@ -84,22 +85,18 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
 
 ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk,
                              std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told)
-    : setup_(setup),
-      made_(made ? std::move(made) : made_rotor_grid(setup, told)),
-      turbine_(made_->turbine),
-      spec_(made_->spec),
-      grid_(made_->grid),
-      stations_(made_->stations),
-      start_(hub_pose(setup.rotor)) {
+    : setup_(setup), made_(made ? std::move(made) : made_rotor_grid(setup, told)), start_(hub_pose(setup.rotor)) {
   const RotorOptions& rotor = setup.rotor;
-  pitching_ = std::make_unique<BladePitching>(grid_, turbine_, spec_);
+  const MultiBlockGrid& grid = made_->grid;
+  const Turbine& turbine = made_->turbine;
+  pitching_ = std::make_unique<BladePitching>(grid, turbine, made_->spec);
 
   // Seen from the rotor a steady flow stands still: nodes rest in the earth where the rotor is at the start, and only their frame
   // turns.
-  pose_ = pose_before_ = start_;
-  const MultiBlockGrid placed = steady() ? carried(grid_, map_of(start_)) : MultiBlockGrid();
-  const MultiBlockGrid& solved_on = steady() ? placed : grid_;
-  const std::vector<std::string> blades = blade_patches(grid_);
+  now_ = before_ = {start_};
+  const MultiBlockGrid placed = steady() ? carried(grid, map_of(start_)) : MultiBlockGrid();
+  const MultiBlockGrid& solved_on = steady() ? placed : grid;
+  const std::vector<std::string> blades = blade_patches(grid);
   if (told) told("tiles", 0.0);
   Tiling tiling = make_tiling(solved_on, blades);
   const FlowOptions flow = with_default_patches(setup.flow, tiling);
@@ -116,7 +113,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
                      told ? [&](double share) { told("wall distances", share); } : std::function<void(double)>());
 
   FlowSetting setting = flow_setting(flow, setup.air_density, setup.wind, setup.dt, setup.profile);
-  const double tip = turbine_.planform.span.back() * std::cos(turbine_.precone);
+  const double tip = turbine.planform.span.back() * std::cos(turbine.precone);
   setting.speed = std::hypot(setup.wind.norm(), rotor.speed * tip);
   if (steady()) {
     if (chunk > 0) setting.march.max_steps = chunk;
@@ -125,7 +122,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   }
   solver_ = std::make_unique<FlowSolver>(*store_, setting, std::move(conditions));
   solver_->gather_bands(rows_of_faces());
-  if (!steady()) place(turned(-1), turned(0));
+  if (!steady()) place({turned(-1)}, {turned(0)});
 }
 
 // ---- motion
@@ -136,42 +133,41 @@ RotorPose ResolvedRotor::turned(std::int64_t step) const {
   return pose;
 }
 
-std::vector<BlockPose> ResolvedRotor::block_poses(const RotorPose& pose, double pitch) const {
-  const RigidMap map = map_of(pose);
-  if (pitch == 0.0) return {BlockPose{.map = map, .shape = {}}};
-  std::vector<BlockPose> poses(grid_.blocks.size(), BlockPose{.map = map, .shape = {}});
+std::vector<BlockPose> ResolvedRotor::block_poses(const RotorPlace& place) const {
+  const RigidMap map = map_of(place.pose);
+  if (place.pitch == 0.0) return {BlockPose{.map = map, .shape = {}}};
+  std::vector<BlockPose> poses(made_->grid.blocks.size(), BlockPose{.map = map, .shape = {}});
   for (int b = 0; b < int(poses.size()); ++b)
     if (pitching_->moves(b))
-      poses[std::size_t(b)].shape_at = [this, b, pitch](const Index& n, const Eigen::Vector3d&) {
+      poses[std::size_t(b)].shape_at = [this, b, pitch = place.pitch](const Index& n, const Eigen::Vector3d&) {
         return pitching_->node(b, n[2], n[1], n[0], pitch);
       };
   return poses;
 }
 
-void ResolvedRotor::move_to(const RotorPose& pose, double pitch) {
-  solver_->motion().move_to(block_poses(pose, pitch));
-  pose_before_ = pose_, pitch_before_ = pitch_;
-  pose_ = pose, pitch_ = pitch;
+void ResolvedRotor::move_to(const RotorPlace& end) {
+  solver_->motion().move_to(block_poses(end));
+  before_ = std::exchange(now_, end);
 }
 
-void ResolvedRotor::place(const RotorPose& before, const RotorPose& now, double pitch_before, double pitch) {
-  solver_->motion().place(block_poses(before, pitch_before), block_poses(now, pitch));
-  pose_before_ = before, pose_ = now, pitch_before_ = pitch_before, pitch_ = pitch;
+void ResolvedRotor::place(const RotorPlace& before, const RotorPlace& now) {
+  solver_->motion().place(block_poses(before), block_poses(now));
+  before_ = before, now_ = now;
 }
 
-void ResolvedRotor::placed_at(std::int64_t step) { pose_before_ = turned(step - 1), pose_ = turned(step); }
+void ResolvedRotor::placed_at(std::int64_t step) { before_.pose = turned(step - 1), now_.pose = turned(step); }
 
 // ---- loads
 
 RotorLoad ResolvedRotor::about_hub(const Eigen::Vector3d& force, const Eigen::Vector3d& moment, bool all) const {
-  const Eigen::Vector3d axis = pose_.hub.attitude * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d axis = pose().hub.attitude * Eigen::Vector3d::UnitX();
   RotorLoad load;
-  load.force = force, load.moment = moment - pose_.hub.position.cross(force);
-  if (all && !whole()) {  // blades alike at equal angles: what lies across the axis cancels
-    load.force = blades() * axis.dot(load.force) * axis;
-    load.moment = blades() * axis.dot(load.moment) * axis;
+  load.force = force, load.moment = moment - pose().hub.position.cross(force);
+  if (all && !made_->spec.whole) {  // blades alike at equal angles: what lies across the axis cancels
+    load.force = made_->turbine.blades * axis.dot(load.force) * axis;
+    load.moment = made_->turbine.blades * axis.dot(load.moment) * axis;
   }
-  load.thrust = axis.dot(load.force), load.torque = axis.dot(load.moment), load.power = load.torque * pose_.speed;
+  load.thrust = axis.dot(load.force), load.torque = axis.dot(load.moment), load.power = load.torque * pose().speed;
   return load;
 }
 
@@ -195,17 +191,17 @@ RotorLoad ResolvedRotor::blade_load(const PatchLoads& p) const {
 
 RotorLoad ResolvedRotor::load() const {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
-  for (int b = 1; b <= grid_blades(); ++b) {
+  for (int b = 1; b <= made_->blades(); ++b) {
     const RotorLoad blade = blade_load(b);
     force += blade.force, moment += blade.moment;
   }
-  return about_hub(force, moment + pose_.hub.position.cross(force), true);
+  return about_hub(force, moment + pose().hub.position.cross(force), true);
 }
 
 LoadBands ResolvedRotor::rows_of_faces() const {
   int count = 0;
-  std::vector<int> first_of_block(grid_.blocks.size(), -1);  // station of k = 0
-  for (const auto& blade : stations_)
+  std::vector<int> first_of_block(made_->grid.blocks.size(), -1);  // station of k = 0
+  for (const auto& blade : made_->stations)
     for (const BladeStation& s : blade) {
       if (first_of_block[std::size_t(s.block)] < 0) first_of_block[std::size_t(s.block)] = count - s.k;
       ++count;
@@ -219,11 +215,11 @@ LoadBands ResolvedRotor::rows_of_faces() const {
 
 std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const double> sums) const {
   int count = 0;
-  for (const auto& blade : stations_) count += int(blade.size());
+  for (const auto& blade : made_->stations) count += int(blade.size());
   std::vector<SpanLoad> loads;
-  const Eigen::Matrix3d to_rotor = pose_.attitude().toRotationMatrix().transpose();
-  for (std::size_t blade = 0; blade < stations_.size(); ++blade)
-    for (const BladeStation& s : stations_[blade]) {
+  const Eigen::Matrix3d to_rotor = pose().attitude().toRotationMatrix().transpose();
+  for (std::size_t blade = 0; blade < made_->stations.size(); ++blade)
+    for (const BladeStation& s : made_->stations[blade]) {
       const BandLoads band = band_loads(sums, count, int(loads.size()));
       const Eigen::Vector3d pressure = to_rotor * Eigen::Map<const Eigen::Vector3d>(band.pressure_force.data()),
                             friction = to_rotor * Eigen::Map<const Eigen::Vector3d>(band.viscous_force.data());
@@ -252,8 +248,8 @@ void ResolvedRotor::prepare(MPI_Comm comm, runtime::ExecutorOptions options) {
   march_ = std::make_unique<runtime::Executor>(std::move(graph), options);
 }
 
-RotorLoad ResolvedRotor::advance(const RotorPose& end, double pitch) {
-  move_to(end, pitch);
+RotorLoad ResolvedRotor::advance(const RotorPlace& end) {
+  move_to(end);
   solver_->judgement().rows.all.clear();
   march_->run();
   const MarchState& march = solver_->march();
@@ -265,14 +261,13 @@ RotorLoad ResolvedRotor::advance(const RotorPose& end, double pitch) {
 }
 
 ResolvedRotor::Snapshot ResolvedRotor::snapshot() const {
-  return {
-      .air = solver_->restart().snapshot(), .before = pose_before_, .now = pose_, .pitch_before = pitch_before_, .pitch = pitch_};
+  return {.air = solver_->restart().snapshot(), .before = before_, .now = now_};
 }
 
 void ResolvedRotor::restore(const Snapshot& s) {
   solver_->restart().restore(s.air);
-  pose_before_ = s.before, pose_ = s.now, pitch_before_ = s.pitch_before, pitch_ = s.pitch;
-  if (s.pitch_before != 0.0 || s.pitch != 0.0) place(s.before, s.now, s.pitch_before, s.pitch);
+  before_ = s.before, now_ = s.now;
+  if (s.before.pitch != 0.0 || s.now.pitch != 0.0) place(s.before, s.now);
 }
 
 }  // namespace spindrift::aero

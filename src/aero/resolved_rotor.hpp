@@ -40,12 +40,22 @@ struct MadeRotorGrid {
   Turbine turbine;
   RotorGridSpec spec;
   MultiBlockGrid grid;
-  std::vector<std::vector<BladeStation>> stations;
+  std::vector<std::vector<BladeStation>> stations;  ///< by blade
+
+  int blades() const { return int(stations.size()); }                       ///< that it has, one where it is of one sector
+  int span_cells() const { return spec.sizes.span >> spec.coarsen; }        ///< from hub to tip
+  int radial_cells() const { return spec.sizes.radial() >> spec.coarsen; }  ///< from hub to outer radius
 };
 /// Patches of its blades.
 std::vector<std::string> blade_patches(const MultiBlockGrid& grid);
 /// Throws scene::SceneError where the scene does not make a grid fit for use.
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told = {});
+
+/// Where a rotor is.
+struct RotorPlace {
+  RotorPose pose;
+  double pitch = 0.0;  ///< of all blades, beyond that of the grid [rad]
+};
 
 class ResolvedRotor {
  public:
@@ -59,22 +69,17 @@ class ResolvedRotor {
   FlowSolver& solver() { return *solver_; }
   const FlowSolver& solver() const { return *solver_; }
   GridStore& store() { return *store_; }
-  const MultiBlockGrid& grid() const { return grid_; }
-  const Tiling& tiling() const { return store_->tiling(); }
-  int span_cells() const { return spec_.sizes.span >> spec_.coarsen; }        ///< from hub to tip
-  int radial_cells() const { return spec_.sizes.radial() >> spec_.coarsen; }  ///< from hub to outer radius
+  const MadeRotorGrid& made() const { return *made_; }
   bool steady() const { return setup_.dt == 0.0; }
-  int blades() const { return turbine_.blades; }
-  bool whole() const { return spec_.whole; }
 
   /// The rotor turning at the scene's speed with its hub at rest, after so many physical steps.
   RotorPose turned(std::int64_t step) const;
-  const RotorPose& pose() const { return pose_; }
+  const RotorPose& pose() const { return now_.pose; }
 
-  /// Where the rotor is at the end of the next physical step; `pitch` [rad] beyond that of the grid, of all blades.
-  void move_to(const RotorPose& pose, double pitch = 0.0);
+  /// Where the rotor is at the end of the next physical step.
+  void move_to(const RotorPlace& end);
   /// Its present pose and that of one step ago, without flow in between: starts away from the scene's own pose.
-  void place(const RotorPose& before, const RotorPose& now, double pitch_before = 0.0, double pitch = 0.0);
+  void place(const RotorPlace& before, const RotorPlace& now);
   /// Restarts: the solver has been placed by FlowRestart::load_march.
   void placed_at(std::int64_t step);
 
@@ -85,7 +90,6 @@ class ResolvedRotor {
   /// Of one blade of the grid (1, 2, ...), about the hub; after the last march, or from a row of it.
   RotorLoad blade_load(int blade) const;
   RotorLoad blade_load(int blade, const PseudoRow& row) const;
-  int grid_blades() const { return int(stations_.size()); }
   /// Along the blades of the grid from root to tip, the same on every rank: after the last march, or the mean over rows of it.
   std::vector<SpanLoad> span_loads() const { return span_loads(solver_->judgement().loads.result); }
   std::vector<SpanLoad> span_loads(std::span<const PseudoRow> rows) const;
@@ -96,11 +100,10 @@ class ResolvedRotor {
   /// The march as it stands: a steady flow, or the physical step that move_to() has prepared. Collective.
   void run() { march_->run(); }
   /// One physical step that ends in this pose; the load at its end. Throws NumericalFailure naming place and limit. Collective.
-  RotorLoad advance(const RotorPose& end, double pitch = 0.0);
+  RotorLoad advance(const RotorPlace& end);
   struct Snapshot {
     FlowSnapshot air;
-    RotorPose before, now;
-    double pitch_before = 0.0, pitch = 0.0;
+    RotorPlace before, now;
   };
   Snapshot snapshot() const;
   void restore(const Snapshot& from);
@@ -108,22 +111,18 @@ class ResolvedRotor {
  private:
   LoadBands rows_of_faces() const;
   std::vector<SpanLoad> span_loads(std::span<const double> sums) const;
-  std::vector<BlockPose> block_poses(const RotorPose& pose, double pitch) const;
+  std::vector<BlockPose> block_poses(const RotorPlace& place) const;
   RotorLoad blade_load(const PatchLoads& loads) const;
   RotorLoad about_hub(const Eigen::Vector3d& force, const Eigen::Vector3d& moment, bool all) const;
 
   ResolvedRotorSetup setup_;
   std::shared_ptr<const MadeRotorGrid> made_;
-  const Turbine& turbine_;
-  const RotorGridSpec& spec_;
-  const MultiBlockGrid& grid_;
-  const std::vector<std::vector<BladeStation>>& stations_;
   std::unique_ptr<BladePitching> pitching_;
   std::unique_ptr<GridStore> store_;
   std::unique_ptr<FlowSolver> solver_;
   std::unique_ptr<runtime::Executor> march_;
-  RotorPose start_, pose_, pose_before_;
-  double pitch_ = 0.0, pitch_before_ = 0.0;
+  RotorPose start_;
+  RotorPlace before_, now_;
 };
 
 }  // namespace spindrift::aero

@@ -11,11 +11,6 @@ namespace spindrift::aero {
 
 namespace {
 
-double whole_turns_off(double angle) {
-  const double rest = std::fmod(angle, 2 * pi);
-  return rest < 0.0 ? rest + 2 * pi : rest;
-}
-
 double mean(std::span<const double> values) {
   double sum = 0.0;
   for (double v : values) sum += v;
@@ -32,10 +27,41 @@ double diameter_of(const RotorOptions& rotor) {
   return rotor.turbine.empty() ? 0.0 : 2.0 * BladeElementMomentum(read_turbine(rotor.turbine), "madsen", 1.0).tip_radius();
 }
 
+/// Steady, in wind along the axis, of a rigid rotor away from its tower.
+AxialLoad steady_load(const BladeElementMomentum& bem, double wind, double speed, double pitch) {
+  const Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  const DiscLoad disc =
+      bem(Eigen::Vector3d(wind * axis), {Eigen::Vector3d::Zero(), speed * axis, axis, Eigen::Vector3d::UnitZ(), 0.0, pitch});
+  return {disc.force.x(), disc.moment.x()};
+}
+
 UnsteadyFlow::Stall stall_named(std::string_view name) {
   if (name == "oye") return UnsteadyFlow::Stall::oye;
   if (name == "beddoes_leishman") return UnsteadyFlow::Stall::beddoes_leishman;
   return UnsteadyFlow::Stall::none;
+}
+
+/// Of blades at rest in the turning rotor, bent by the air and by their own weight and inertia.
+FlexibleBlades::Bending settled_bending(const BladeElementMomentum& bem, const FlexibleBlades& blades, const HubField& hub,
+                                        const Wind& wind, double t, DiscMotion motion, std::span<const double> flow) {
+  FlexibleBlades::Bending bending;
+  const std::size_t used = std::size_t(FlexibleBlades::modes * blades.blades());
+  std::array<double, std::size_t(FlexibleBlades::modes) * FlexibleBlades::max_blades> air{};
+  constexpr int most = 50;  // the air's force hardly changes with bending: each pass leaves a tenth or less of the error
+  constexpr double enough = 1e-12;
+  for (int pass = 0; pass < most; ++pass) {
+    const FlexibleBlades::Bending before = bending;
+    const BentBlades bent = blades.bent(before);
+    motion.bent = &bent;
+    bem.on_modes(wind, motion, t, flow, std::span(air).first(used));
+    blades.settle(motion, hub, air, bending);
+    double change = 0.0, size = 0.0;
+    for (std::size_t k = 0; k < used; ++k)
+      change = std::max(change, std::abs(bending.amplitudes[k] - before.amplitudes[k])),
+      size = std::max(size, std::abs(bending.amplitudes[k]));
+    if (change <= enough * size) break;
+  }
+  return bending;
 }
 
 }  // namespace
@@ -43,24 +69,11 @@ UnsteadyFlow::Stall stall_named(std::string_view name) {
 RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,
                        const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control,
                        double step_s, const Eigen::Vector3d& gravity)
-    : placement_(placement),
-      start_azimuth_(rotor.azimuth),
-      speed_(rotor.speed),
-      blade_pitch_(rotor.blade_pitch),
+    : bearing_(placement, rotor.azimuth, start),
+      start_{rotor.azimuth, rotor.speed, rotor.blade_pitch},
       wind_(wind_of(wind, {placement.hub, diameter_of(rotor)})),
       gravity_(gravity) {
-  const Motion& body = start[placement.body];
-  const Eigen::Vector3d axis = placement.axis.normalized();
-  hub_ = body.attitude.conjugate() * (placement.hub - body.position);
-  axis_ = body.attitude.conjugate() * axis;
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ() - axis.z() * axis;
-  if (up.norm() < 1e-6)
-    up = Eigen::Vector3d::UnitX() - axis.x() * axis;  // a vertical axis has no upright blade: downwind instead
-  const Eigen::Quaterniond support = support_attitude(start).conjugate();
-  support_axis_ = support * axis;
-  support_up_ = support * up.normalized();
-  start_turn_ = support * body.attitude;
-  if (aero.thrust_frame == "earth") thrust_direction_ = axis;
+  if (aero.thrust_frame == "earth") thrust_direction_ = placement.axis.normalized();
   if (aero.model == "prescribed") model_ = Prescribed(aero);
   if (aero.model == "thrust_curve") model_ = ThrustCurve(aero, rotor, air_density);
   if (aero.model == "bem")
@@ -80,72 +93,43 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const
     roots_.emplace(turbine, structure.masses);
     flexible_.emplace(turbine, structure, rotor.blade_damping);
   }
+  if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) parts_.flow = bem->memory_size();
+  if (flexible_) parts_.bending = flexible_->memory_size();
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
   const int blades = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
   if (control.model == ControlModel::library) {
-    control_.emplace(control, blades, rotor.azimuth, rotor.speed, rotor.blade_pitch, step_s);
+    control_.emplace(control, blades, TurbineControl::Start{rotor.azimuth, rotor.speed, rotor.blade_pitch}, step_s);
   } else {
     const ControllerOptions controller = read_controller(control.file);
     const auto operation = rotor.operation.empty() ? std::nullopt : std::optional(read_operation(rotor.operation));
     double start_pitch = rotor.blade_pitch;
     if (control.peak_shaving) {
-      shaving_ = shave_peak([this](double w, double speed, double pitch) { return steady_load(w, speed, pitch); },
+      const auto& bem = std::get<BladeElementMomentum>(model_);
+      shaving_ = shave_peak([&](double w, double speed, double pitch) { return steady_load(bem, w, speed, pitch); },
                             law_of(control, controller, operation), *operation, *control.peak_shaving);
       start_pitch = std::max(start_pitch, shaving_->least_pitch(state(0.0, start).relative_wind));
     }
-    control_.emplace(control, controller, operation, blades, rotor.azimuth, rotor.speed, start_pitch, shaving_);
+    control_.emplace(control, controller, operation, blades, TurbineControl::Start{rotor.azimuth, rotor.speed, start_pitch},
+                     shaving_);
   }
-  speed_ = control_->start_speed(), blade_pitch_ = control_->start_pitch();
-}
-
-Eigen::Quaterniond RotorLoads::support_attitude(std::span<const Motion> bodies) const {
-  if (!placement_.support) return bodies[placement_.body].attitude;
-  return *placement_.support == RotorPlacement::earth ? Eigen::Quaterniond::Identity() : bodies[*placement_.support].attitude;
+  start_ = control_->start();
+  parts_.control = control_->memory_size();
 }
 
 RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
-  const Motion& body = bodies[placement_.body];
-  const Eigen::Quaterniond support = support_attitude(bodies);
-  RotorState now;
-  now.hub = body.point(hub_);
-  now.hub_velocity = body.point_velocity(hub_);
-  now.axis = body.attitude * axis_;
-  now.up = support * support_up_;
-  now.omega = body.omega_earth();
-  now.relative_wind = relative_wind(t, now.hub, now.hub_velocity, now.axis);
-  if (!placement_.support) {
-    now.speed = speed_;
-    double azimuth = start_azimuth_ + speed_ * t;
-    if (control_ && !memory_.empty()) {
-      const TurbineControl::State drive = TurbineControl::state(memory_);
-      now.speed = drive.speed, azimuth = drive.azimuth + drive.speed * (t - drive.time);
-    }
-    now.azimuth = whole_turns_off(azimuth);
-    now.omega += now.speed * now.axis;
-    return now;
+  double azimuth = start_.azimuth + start_.speed * t, speed = start_.speed;
+  if (control_ && !memory_.empty()) {
+    const TurbineControl::State drive = TurbineControl::state(memory_);
+    speed = drive.speed, azimuth = drive.azimuth + drive.speed * (t - drive.time);
   }
-  const Eigen::Quaterniond since = support.conjugate() * body.attitude * start_turn_.conjugate();
-  now.azimuth = whole_turns_off(start_azimuth_ + 2.0 * std::atan2(since.vec().dot(support_axis_), since.w()));
-  now.speed = now.omega.dot(now.axis);
-  if (*placement_.support != RotorPlacement::earth) now.speed -= bodies[*placement_.support].omega_earth().dot(now.axis);
+  RotorState now = bearing_.state(bodies, azimuth, speed);
+  now.relative_wind = aero::relative_wind(wind_, t, now.hub, now.hub_velocity, now.axis);
   return now;
 }
 
-AxialLoad RotorLoads::steady_load(double wind, double speed, double pitch) const {
-  const Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
-  const DiscLoad disc = std::get<BladeElementMomentum>(model_)(
-      Eigen::Vector3d(wind * axis), {Eigen::Vector3d::Zero(), speed * axis, axis, Eigen::Vector3d::UnitZ(), 0.0, pitch});
-  return {disc.force.x(), disc.moment.x()};
-}
-
-std::size_t RotorLoads::flow_size() const {
-  const auto* bem = std::get_if<BladeElementMomentum>(&model_);
-  return bem ? bem->memory_size() : 0;
-}
-
 DiscMotion RotorLoads::disc_motion(const RotorState& now, std::span<const double> memory) const {
-  DiscMotion motion{now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, blade_pitch_, now.hub};
+  DiscMotion motion{now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, start_.pitch, now.hub};
   if (control_ && !memory.empty()) motion.pitches = control_->pitch(memory);
   if (tower_ && tower_->changes_wind()) motion.tower = &*tower_, motion.tower_frame = tower_frame(now);
   return motion;
@@ -153,36 +137,13 @@ DiscMotion RotorLoads::disc_motion(const RotorState& now, std::span<const double
 
 HubField RotorLoads::hub_field(const RotorState& now) const {
   HubField field{now.omega, Eigen::Vector3d::Zero(), gravity_};
-  if (!placement_.support) field.omega_rate = (now.omega - now.speed * now.axis).cross(Eigen::Vector3d(now.speed * now.axis));
+  if (!bearing_.is_turned()) field.omega_rate = (now.omega - now.speed * now.axis).cross(Eigen::Vector3d(now.speed * now.axis));
   return field;
-}
-
-FlexibleBlades::Bending RotorLoads::settled(const Wind& wind, double t, const RotorState& now, DiscMotion motion,
-                                            std::span<const double> flow) const {
-  const auto& bem = std::get<BladeElementMomentum>(model_);
-  FlexibleBlades::Bending bending;
-  const std::size_t used = std::size_t(FlexibleBlades::modes * flexible_->blades());
-  OnModes air{};
-  constexpr int most = 50;  // the air's force hardly changes with bending: each pass leaves a tenth or less of the error
-  constexpr double enough = 1e-12;
-  for (int pass = 0; pass < most; ++pass) {
-    const FlexibleBlades::Bending before = bending;
-    const BentBlades bent = flexible_->bent(before);
-    motion.bent = &bent;
-    bem.on_modes(wind, motion, t, flow, std::span(air).first(used));
-    flexible_->settle(motion, hub_field(now), air, bending);
-    double change = 0.0, size = 0.0;
-    for (std::size_t k = 0; k < used; ++k)
-      change = std::max(change, std::abs(bending.amplitudes[k] - before.amplitudes[k])),
-      size = std::max(size, std::abs(bending.amplitudes[k]));
-    if (change <= enough * size) break;
-  }
-  return bending;
 }
 
 void RotorLoads::fill_air_load(const Wind& wind, double t, const RotorState& now, bool at_rest, AirLoad& load) const {
   const auto& bem = std::get<BladeElementMomentum>(model_);
-  const std::span<const double> memory(memory_), flow = flow_part(memory);
+  const std::span<const double> memory(memory_), flow = parts_.of_flow(memory);
   DiscMotion motion = disc_motion(now, memory);
   const int blades = int(roots());
   load.roots.resize(std::size_t(blades));
@@ -194,7 +155,8 @@ void RotorLoads::fill_air_load(const Wind& wind, double t, const RotorState& now
     return;
   }
   const bool moves = !memory.empty() && !at_rest;
-  load.bending = moves ? flexible_->predicted(bending_part(memory), t) : settled(wind, t, now, motion, flow);
+  load.bending = moves ? flexible_->predicted(parts_.of_bending(memory), t)
+                       : settled_bending(bem, *flexible_, hub_field(now), wind, t, motion, flow);
   const BentBlades bent = flexible_->bent(load.bending);
   motion.bent = &bent;
   load.disc = bem.on_modes(wind, motion, t, flow,
@@ -232,7 +194,7 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
     }
   } else {
     AxialLoad axial;
-    const double pitch = control_ && !memory_.empty() ? mean(control_->pitch(memory_)) : blade_pitch_;
+    const double pitch = control_ && !memory_.empty() ? mean(control_->pitch(memory_)) : start_.pitch;
     if (const auto* prescribed = std::get_if<Prescribed>(&model_)) axial = (*prescribed)(t, now.azimuth);
     if (const auto* curve = std::get_if<ThrustCurve>(&model_)) axial = (*curve)(now.relative_wind, now.speed, pitch);
     load.thrust = ramp * axial.thrust, load.torque = ramp * axial.torque, load.shaft_torque = load.torque;
@@ -247,7 +209,7 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
     // On the body act the shaft's torque, and the gyroscopic moment of the spinning rotor.
     if (!memory_.empty()) load.moment += (ramp * TurbineControl::state(memory_).shaft_torque - load.shaft_torque) * now.axis;
     const Eigen::Vector3d carrier = now.omega - now.speed * now.axis;
-    load.moment -= carrier.cross(Eigen::Vector3d(control_->rotor_inertia() * now.speed * now.axis));
+    load.moment -= carrier.cross(Eigen::Vector3d(control_->drive_train().rotor_inertia_kg_m2 * now.speed * now.axis));
   }
   return load;
 }
@@ -260,11 +222,11 @@ std::optional<ReynoldsReach> RotorLoads::reynolds(double t, const RotorState& no
 std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Motion> bodies, const Eigen::Vector3d& acceleration,
                                                   const Eigen::Vector3d& omega_rate, const Eigen::Vector3d& gravity,
                                                   double ramp) const {
-  const Motion& body = bodies[placement_.body];
+  const Motion& body = bodies[bearing_.body()];
   const RotorState now = state(t, bodies);
   const Eigen::Vector3d arm = now.hub - body.position, turning = body.omega_earth();
   HubMotion hub{acceleration + omega_rate.cross(arm) + turning.cross(turning.cross(arm)), now.omega, omega_rate};
-  if (!placement_.support) hub.omega_rate += turning.cross(Eigen::Vector3d(now.speed * now.axis));
+  if (!bearing_.is_turned()) hub.omega_rate += turning.cross(Eigen::Vector3d(now.speed * now.axis));
   const AirLoad& air = air_load(t, now);
   DiscMotion disc = disc_motion(now, memory_);
   const int blades = int(roots_->blades());
@@ -309,42 +271,45 @@ TurbineControl::Measured RotorLoads::measured(double t, const RotorState& now) c
 void RotorLoads::begin(double t, std::span<const Motion> bodies, std::span<double> memory) {
   recall({});
   const RotorState now = state(t, bodies);
-  if (control_) control_->begin(t, measured(t, now), memory.first(control_size()));
-  if (flow_size() > 0) std::get<BladeElementMomentum>(model_).begin(wind_, disc_motion(now, memory), t, flow_part(memory));
+  if (control_) control_->begin(t, measured(t, now), memory.first(parts_.control));
+  if (parts_.flow > 0) std::get<BladeElementMomentum>(model_).begin(wind_, disc_motion(now, memory), t, parts_.of_flow(memory));
   if (flexible_) {
     // At rest in the turning rotor: amplitudes go with the azimuth, and so have rates.
-    const std::span<const double> flow = flow_part(std::span<const double>(memory));
+    const std::span<const double> flow = parts_.of_flow(std::span<const double>(memory));
     constexpr double soon = 0.02;  // [s]
     RotorState later = now;
     later.azimuth += soon * now.speed;
     DiscMotion motion = disc_motion(now, memory);
-    FlexibleBlades::Bending bending = settled(wind_, t, now, motion, flow);
-    const FlexibleBlades::Bending next = settled(wind_, t, later, disc_motion(later, memory), flow);
+    const auto& bem = std::get<BladeElementMomentum>(model_);
+    FlexibleBlades::Bending bending = settled_bending(bem, *flexible_, hub_field(now), wind_, t, motion, flow);
+    const FlexibleBlades::Bending next =
+        settled_bending(bem, *flexible_, hub_field(later), wind_, t, disc_motion(later, memory), flow);
     for (std::size_t k = 0; k < bending.rates.size(); ++k) bending.rates[k] = (next.amplitudes[k] - bending.amplitudes[k]) / soon;
     const BentBlades bent = flexible_->bent(bending);
     motion.bent = &bent;
     OnModes air{};
     std::get<BladeElementMomentum>(model_).on_modes(
         wind_, motion, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * flexible_->blades())));
-    flexible_->begin(t, motion, hub_field(now), bending, air, bending_part(memory));
+    flexible_->begin(t, motion, hub_field(now), bending, air, parts_.of_bending(memory));
   }
   recall(memory);
 }
 
 void RotorLoads::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const {
   const RotorState now = state(t, bodies);
-  if (control_) control_->advance(t, h, measured(t, now), memory.first(control_size()));
-  const std::span<double> flow = flow_part(memory);
+  if (control_) control_->advance(t, h, measured(t, now), memory.first(parts_.control));
+  const std::span<double> flow = parts_.of_flow(memory);
   DiscMotion motion = disc_motion(now, memory);
   FlexibleBlades::Bending bending;
   BentBlades bent;
-  if (flexible_) bending = flexible_->predicted(bending_part(memory), t), bent = flexible_->bent(bending), motion.bent = &bent;
-  if (flow_size() > 0) std::get<BladeElementMomentum>(model_).remember(wind_, motion, t, h, flow);
+  if (flexible_)
+    bending = flexible_->predicted(parts_.of_bending(memory), t), bent = flexible_->bent(bending), motion.bent = &bent;
+  if (parts_.flow > 0) std::get<BladeElementMomentum>(model_).remember(wind_, motion, t, h, flow);
   if (flexible_) {
     OnModes air{};
     std::get<BladeElementMomentum>(model_).on_modes(
         wind_, motion, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * flexible_->blades())));
-    flexible_->advance(t, h, motion, hub_field(now), air, bending_part(memory));
+    flexible_->advance(t, h, motion, hub_field(now), air, parts_.of_bending(memory));
   }
 }
 
@@ -353,7 +318,8 @@ std::vector<Eigen::Vector2d> RotorLoads::tips(double t, std::span<const Motion> 
   const std::span<const double> memory(memory_);
   const DiscMotion motion = disc_motion(now, memory);
   const FlexibleBlades::Bending bending =
-      memory.empty() ? settled(wind_, t, now, motion, {}) : flexible_->predicted(bending_part(memory), t);
+      memory.empty() ? settled_bending(std::get<BladeElementMomentum>(model_), *flexible_, hub_field(now), wind_, t, motion, {})
+                     : flexible_->predicted(parts_.of_bending(memory), t);
   std::vector<Eigen::Vector2d> tips;
   for (int b = 0; b < flexible_->blades(); ++b) tips.push_back(flexible_->tip(motion, b, bending));
   return tips;
@@ -362,25 +328,26 @@ std::vector<Eigen::Vector2d> RotorLoads::tips(double t, std::span<const Motion> 
 void RotorLoads::add_added_mass(double t, std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> matrices) const {
   if (memory_.empty()) return;
   const RotorState now = state(t, bodies);
-  const Eigen::Vector3d arm = now.hub - bodies[std::size_t(placement_.body)].position;
+  const Eigen::Vector3d arm = now.hub - bodies[bearing_.body()].position;
   // Acceleration of the hub from that of the body: a + alpha x arm.
   Eigen::Matrix<double, 6, 6> to_hub = Eigen::Matrix<double, 6, 6>::Identity();
   to_hub.topRightCorner<3, 3>() << 0.0, arm.z(), -arm.y(), -arm.z(), 0.0, arm.x(), arm.y(), -arm.x(), 0.0;
-  matrices[std::size_t(placement_.body)] += to_hub.transpose() * flexible_->added_mass(disc_motion(now, memory_)) * to_hub;
+  matrices[bearing_.body()] += to_hub.transpose() * flexible_->added_mass(disc_motion(now, memory_)) * to_hub;
 }
 
 RotorLoads::Drive RotorLoads::drive() const {
-  const std::span<const double> memory = std::span(memory_).first(control_size());
+  const std::span<const double> memory = std::span(memory_).first(parts_.control);
   const TurbineControl::State s = TurbineControl::state(memory);
-  return {s.generator_torque, control_->efficiency() * s.generator_torque * control_->generator_speed(memory), s.asked,
-          control_->pitch(memory), has_elastic_shaft() ? control_->shaft(memory) : TurbineControl::Shaft{}};
+  return {s.generator_torque,
+          control_->drive_train().generator_efficiency * s.generator_torque * control_->generator_speed(memory), s.asked,
+          control_->pitch(memory), control_->has_elastic_shaft() ? control_->shaft(memory) : TurbineControl::Shaft{}};
 }
 
 void RotorLoads::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp) const {
   const RotorState now = state(t, bodies);
   const RotorLoad load = this->load(t, now, ramp);
-  wrenches[placement_.body].add_force(load.force, now.hub);
-  wrenches[placement_.body].add_moment(load.moment);
+  wrenches[bearing_.body()].add_force(load.force, now.hub);
+  wrenches[bearing_.body()].add_moment(load.moment);
 }
 
 void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
@@ -388,7 +355,7 @@ void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::s
   Wind mean_wind = wind_;
   mean_wind.in_time = nullptr;
   RotorState now = state(t, bodies);
-  now.relative_wind = (mean_wind.at(t, now.hub) - now.hub_velocity).dot(now.axis);
+  now.relative_wind = aero::relative_wind(mean_wind, t, now.hub, now.hub_velocity, now.axis);
   const bool of_sections = std::holds_alternative<BladeElementMomentum>(model_);
   AirLoad air;
   const double first = now.azimuth;
@@ -396,14 +363,8 @@ void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::s
     now.azimuth = whole_turns_off(first + 2.0 * pi * place / places);
     if (of_sections) fill_air_load(mean_wind, t, now, true, air);
     const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places, of_sections ? &air : nullptr);
-    add_at_hub(bodies, wrenches, load.force, load.moment);
+    bearing_.add_load(bodies, wrenches, load.force, load.moment);
   }
-}
-
-void RotorLoads::add_at_hub(std::span<const Motion> bodies, std::span<Wrench> wrenches, const Eigen::Vector3d& force,
-                            const Eigen::Vector3d& moment) const {
-  wrenches[placement_.body].add_force(force, bodies[placement_.body].point(hub_));
-  wrenches[placement_.body].add_moment(moment);
 }
 
 }  // namespace spindrift::aero

@@ -9,38 +9,16 @@
 #include <span>
 #include <variant>
 
-#include "kernels/rigid/motion.hpp"
-#include "kernels/rigid/wrench.hpp"
 #include "src/aero/bem.hpp"
 #include "src/aero/blade_roots.hpp"
 #include "src/aero/flexible_blades.hpp"
 #include "src/aero/options.hpp"
 #include "src/aero/prescribed.hpp"
+#include "src/aero/rotor_bearing.hpp"
 #include "src/aero/thrust_curve.hpp"
 #include "src/aero/turbine_control.hpp"
 
 namespace spindrift::aero {
-
-/// How the rotor sits in the scene at the start: from its bearing, or from [rotor] itself where it names no joint.
-struct RotorPlacement {
-  static constexpr int earth = -1;
-  int body = 0;                ///< index of the body that takes the load
-  std::optional<int> support;  ///< what it turns against (a body or `earth`); without one it turns by [rotor] speed_rpm
-  Eigen::Vector3d hub = Eigen::Vector3d::Zero();    ///< earth coordinates [m]
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< downwind, earth frame; normalised on use
-};
-
-/// Motion of the rotor.
-struct RotorState {
-  double azimuth = 0.0;               ///< of blade 1 from its upright position, in [0, 2 pi) [rad]
-  double speed = 0.0;                 ///< [rad/s]
-  Eigen::Vector3d hub, hub_velocity;  ///< earth frame [m], [m/s]
-  Eigen::Vector3d axis, up;           ///< unit, earth frame; blade 1 is along `up` at azimuth zero
-  Eigen::Vector3d omega;              ///< of the blades, earth frame [rad/s]
-  double relative_wind = 0.0;         ///< along the axis, relative to the hub [m/s]
-
-  friend bool operator==(const RotorState&, const RotorState&) = default;
-};
 
 struct RotorLoad {
   double thrust = 0.0;        ///< [N]
@@ -49,6 +27,12 @@ struct RotorLoad {
   double shaft_torque = 0.0;  ///< of the blades on the hub: of the air and, where they bend, their inertia [N m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< all of it, about the hub, earth frame
 };
+
+/// Along the axis, relative to a hub that is there and moves so [m/s].
+inline double relative_wind(const Wind& wind, double t, const Eigen::Vector3d& hub, const Eigen::Vector3d& hub_velocity,
+                            const Eigen::Vector3d& axis) {
+  return (wind.at(t, hub) - hub_velocity).dot(axis);
+}
 
 class RotorLoads {
  public:
@@ -66,21 +50,12 @@ class RotorLoads {
 
   /// Blades that bend do not follow the rotor's body at once: adds what they take off its inertia, about its centre of mass,
   /// earth axes, [force; moment]. Rigid ones, and blades under mean loads, are masses of the body.
-  bool has_added_mass() const { return flexible_.has_value(); }
   void add_added_mass(double t, std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> matrices) const;
 
-  /// Adds a load known from elsewhere, about the hub, to the rotor body's wrench.
-  void add_at_hub(std::span<const Motion> bodies, std::span<Wrench> wrenches, const Eigen::Vector3d& force,
-                  const Eigen::Vector3d& moment) const;
-
   RotorState state(double t, std::span<const Motion> bodies) const;
-  /// Undisturbed, earth frame [m/s].
-  Eigen::Vector3d wind(double t, const Eigen::Vector3d& point) const { return wind_.at(t, point); }
-  /// Wind along the axis, relative to a hub that is there and moves so [m/s].
-  double relative_wind(double t, const Eigen::Vector3d& hub, const Eigen::Vector3d& hub_velocity,
-                       const Eigen::Vector3d& axis) const {
-    return (wind_.at(t, hub) - hub_velocity).dot(axis);
-  }
+  const RotorBearing& bearing() const { return bearing_; }
+  /// Undisturbed.
+  const Wind& wind() const { return wind_; }
   RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const;
 
   /// Of blade elements; empty where no polar depends on it.
@@ -88,7 +63,7 @@ class RotorLoads {
 
   // What the rotor remembers from step to step, as bodies::Memory has it: the drive train with its controller, then the flow
   // round the blades, then their bending. Without values to recall it turns as at the start, in steady flow.
-  std::size_t memory_size() const { return control_size() + flow_size() + bending_size(); }
+  std::size_t memory_size() const { return parts_.control + parts_.flow + parts_.bending; }
   void begin(double t, std::span<const Motion> bodies, std::span<double> memory);
   void recall(std::span<const double> memory) { memory_.assign(memory.begin(), memory.end()), last_.known = false; }
   void remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const;
@@ -96,7 +71,6 @@ class RotorLoads {
   /// Loads at the blades' roots, one to a blade; none without `rotor.blade_masses`. Acceleration of the rotor's body: of its
   /// centre of mass and of its turning, earth frame. Of a rotor that no body turns, a change of its speed is left out.
   std::size_t roots() const { return roots_ ? roots_->blades() : 0; }
-  std::size_t body() const { return std::size_t(placement_.body); }
   std::vector<BladeRootLoad> root_loads(double t, std::span<const Motion> bodies, const Eigen::Vector3d& acceleration,
                                         const Eigen::Vector3d& omega_rate, const Eigen::Vector3d& gravity_m_s2,
                                         double ramp = 1.0) const;
@@ -106,37 +80,32 @@ class RotorLoads {
   /// Bending of each blade's tip, downwind and ahead [m].
   std::vector<Eigen::Vector2d> tips(double t, std::span<const Motion> bodies) const;
 
-  bool is_controlled() const { return control_.has_value(); }
+  /// Null where nothing controls the rotor.
+  const TurbineControl* control() const { return control_ ? &*control_ : nullptr; }
   /// Null where the peak of thrust is not cut.
   const PeakShaving* shaving() const { return shaving_ ? &*shaving_ : nullptr; }
-  std::size_t drive_blades() const { return control_ ? control_->blades() : 0; }
   /// What the controller does; of the values recalled last, which must be there.
   struct Drive {
     double generator_torque, electrical_power, asked_pitch;  ///< [N m] on the shaft, [W], [rad]
     std::span<const double> pitch;                           ///< of each blade [rad]
     TurbineControl::Shaft shaft;                             ///< of an elastic one
   };
-  bool has_elastic_shaft() const { return control_ && control_->has_elastic_shaft(); }
   Drive drive() const;
-  /// Null where no library controls the rotor.
-  BladedLibrary* library() const { return control_ ? control_->library() : nullptr; }
 
  private:
-  /// Steady, in wind along the axis, of a rigid rotor away from its tower.
-  AxialLoad steady_load(double wind, double speed, double pitch) const;
   TurbineControl::Measured measured(double t, const RotorState& now) const;
-  std::size_t control_size() const { return control_ ? control_->memory_size() : 0; }
-  std::size_t flow_size() const;
-  std::size_t bending_size() const { return flexible_ ? flexible_->memory_size() : 0; }
-  /// What is remembered of the flow and of the bending.
-  template <class T>
-  std::span<T> flow_part(std::span<T> memory) const {
-    return memory.empty() ? memory : memory.subspan(control_size(), flow_size());
-  }
-  template <class T>
-  std::span<T> bending_part(std::span<T> memory) const {
-    return memory.empty() ? memory : memory.subspan(control_size() + flow_size());
-  }
+  /// What is remembered, one after the other: how many values of each.
+  struct MemoryParts {
+    std::size_t control = 0, flow = 0, bending = 0;
+    template <class T>
+    std::span<T> of_flow(std::span<T> memory) const {
+      return memory.empty() ? memory : memory.subspan(control, flow);
+    }
+    template <class T>
+    std::span<T> of_bending(std::span<T> memory) const {
+      return memory.empty() ? memory : memory.subspan(control + flow);
+    }
+  };
   HubField hub_field(const RotorState& now) const;
   /// Forces of the air on the modes of all blades.
   using OnModes = std::array<double, std::size_t(FlexibleBlades::modes) * FlexibleBlades::max_blades>;
@@ -155,25 +124,19 @@ class RotorLoads {
   const AirLoad& air_load(double t, const RotorState& now) const;
   /// `air`: null for models without blades.
   RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, const AirLoad* air) const;
-  FlexibleBlades::Bending settled(const Wind& wind, double t, const RotorState& now, DiscMotion motion,
-                                  std::span<const double> flow) const;
   DiscMotion disc_motion(const RotorState& now, std::span<const double> memory) const;
-  /// Attitude of what carries azimuth zero.
-  Eigen::Quaterniond support_attitude(std::span<const Motion> bodies) const;
 
-  RotorPlacement placement_;
-  Eigen::Vector3d hub_, axis_;                 ///< axes of the rotor's body, from its centre of mass
-  Eigen::Vector3d support_axis_, support_up_;  ///< axes of what carries azimuth zero: the support, the earth, or the body itself
-  Eigen::Quaterniond start_turn_;              ///< attitude of the body relative to the support at the start
+  RotorBearing bearing_;
   std::optional<Eigen::Vector3d> thrust_direction_;  ///< earth frame, where the thrust does not follow the axis
-  double start_azimuth_, speed_, blade_pitch_;
+  TurbineControl::Start start_;
   Wind wind_;
   std::optional<PeakShaving> shaving_;
   std::optional<TurbineControl> control_;
   std::optional<Tower> tower_;
   std::optional<BladeRoots> roots_;
   std::optional<FlexibleBlades> flexible_;
-  Eigen::Vector3d gravity_;     ///< [m/s2]
+  Eigen::Vector3d gravity_;  ///< [m/s2]
+  MemoryParts parts_;
   std::vector<double> memory_;  ///< recalled; empty: steady
   std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
   mutable AirLoad last_;

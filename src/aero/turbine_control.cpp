@@ -35,37 +35,27 @@ ControllerDtu law_of(const ControlOptions& options, const ControllerOptions& o, 
 }
 
 TurbineControl::TurbineControl(const ControlOptions& options, const ControllerOptions& controller,
-                               const std::optional<Operation>& operation, int blades, double start_azimuth, double start_speed,
-                               double start_pitch, const std::optional<PeakShaving>& shaving)
+                               const std::optional<Operation>& operation, int blades, const Start& start,
+                               const std::optional<PeakShaving>& shaving)
     : drive_train_(drive_train_of(controller)),
-      law_(law_of(options, controller, operation)),
-      stop_pitch_rate_(controller.stop_pitch_rate),
+      law_{law_of(options, controller, operation), controller.stop_pitch_rate, {}},
       events_(options.events),
       blades_(blades),
-      inertia_(controller.rotor_inertia_kg_m2 + controller.generator_inertia_kg_m2),
-      start_azimuth_(start_azimuth),
-      start_speed_(start_speed),
-      start_pitch_(start_pitch),
-      starts_parked_(options.start == ControlStart::parked) {
-  if (operation) below_rated_ = operation->below_rated();
-  if (shaving) below_rated_.wind = shaving->wind, below_rated_.pitch = shaving->pitch;
-  if (starts_parked_) start_speed_ = 0.0, start_pitch_ = controller.feather;
+      start_(options.start == ControlStart::parked ? Start{start.azimuth, 0.0, controller.feather, true} : start) {
+  if (operation) law_.below_rated = operation->below_rated();
+  if (shaving) law_.below_rated.wind = shaving->wind, law_.below_rated.pitch = shaving->pitch;
 }
 
-TurbineControl::TurbineControl(const ControlOptions& options, int blades, double start_azimuth, double start_speed,
-                               double start_pitch, double step_s)
+TurbineControl::TurbineControl(const ControlOptions& options, int blades, const Start& start, double step_s)
     : drive_train_(*options.drive_train),
       events_(options.events),
       blades_(blades),
-      inertia_(drive_train_.rotor_inertia_kg_m2 + drive_train_.generator_inertia_kg_m2),
-      start_azimuth_(start_azimuth),
-      start_speed_(start_speed),
-      start_pitch_(start_pitch),
+      start_(start),
       library_(std::make_unique<BladedLibrary>(options, blades)),
       step_(step_s) {}
 
-double TurbineControl::least_pitch(double wind) const {
-  return below_rated_.pitch.empty() ? 0.0 : interpolate_linear(below_rated_.wind, below_rated_.pitch, wind);
+double TurbineControl::Law::least_pitch(double wind) const {
+  return below_rated.pitch.empty() ? 0.0 : interpolate_linear(below_rated.wind, below_rated.pitch, wind);
 }
 
 TurbineControl::State TurbineControl::state(std::span<const double> memory) {
@@ -104,9 +94,9 @@ TurbineControl::Rows TurbineControl::rows(std::span<double> memory) const {
 
 void TurbineControl::begin(double t, const Measured& measured, std::span<double> memory) const {
   std::ranges::fill(memory, 0.0);
-  State s{t, start_azimuth_, start_speed_, 0.0, 0.0, 0.0, double(Mode::parked), start_pitch_, 0.0, 0.0, {}};
+  State s{t, start_.azimuth, start_.speed, 0.0, 0.0, 0.0, double(Mode::parked), start_.pitch, 0.0, 0.0, {}};
   const Rows rows = this->rows(memory);
-  std::ranges::fill(rows.pitch, start_pitch_), std::ranges::fill(rows.asked, start_pitch_);
+  std::ranges::fill(rows.pitch, start_.pitch), std::ranges::fill(rows.asked, start_.pitch);
   if (library_) {
     s.mode = double(Mode::operating);
     s.shaft_torque = measured.torque;
@@ -116,12 +106,13 @@ void TurbineControl::begin(double t, const Measured& measured, std::span<double>
     lay_shaft(measured, s, memory);
     return store(s, memory);
   }
-  if (!starts_parked_) {
+  if (!start_.parked) {
     s.mode = double(Mode::operating);
-    s.generator_torque = std::clamp(measured.torque, 0.0, law_.max_torque);
+    s.generator_torque = std::clamp(measured.torque, 0.0, law_.dtu.max_torque);
   }
   s.shaft_torque = s.generator_torque;
-  s.controller = settled(law_, start_speed_, measured.wind, start_pitch_, least_pitch(measured.wind), s.generator_torque);
+  s.controller =
+      settled(law_.dtu, start_.speed, measured.wind, start_.pitch, law_.least_pitch(measured.wind), s.generator_torque);
   lay_shaft(measured, s, memory);
   store(s, memory);
 }
@@ -172,23 +163,23 @@ void TurbineControl::feather(double h, double rate, State& s, const Rows& rows) 
 void TurbineControl::ask_law(double h, const Measured& measured, double speed, State& s, const Rows& rows) const {
   double pitch = 0.0;
   for (double p : rows.pitch) pitch += p / blades_;
-  const double least = least_pitch(s.controller.wind);
-  s.controller =
-      spindrift::advance(law_, s.controller, speed, pitch, measured.wind, h, [this](double w) { return least_pitch(w); });
+  const double least = law_.least_pitch(s.controller.wind);
+  s.controller = spindrift::advance(law_.dtu, s.controller, speed, pitch, measured.wind, h,
+                                    [this](double w) { return law_.least_pitch(w); });
   if (s.mode == double(Mode::operating)) {
     s.asked = s.controller.pitch, s.generator_torque = s.controller.torque;
   } else if (s.mode == double(Mode::starting)) {
     s.generator_torque = 0.0;
-    s.asked = std::max(s.asked - h * stop_pitch_rate_, std::max(least, s.controller.pitch));
-    if (s.controller.speed >= law_.min_speed) {
+    s.asked = std::max(s.asked - h * law_.stop_pitch_rate, std::max(least, s.controller.pitch));
+    if (s.controller.speed >= law_.dtu.min_speed) {
       s.mode = double(Mode::operating);
-      s.controller = settled(law_, s.controller.speed, s.controller.wind, std::max(s.asked, least), least, 0.0);
+      s.controller = settled(law_.dtu, s.controller.speed, s.controller.wind, std::max(s.asked, least), least, 0.0);
     }
   } else {
-    const double k_torque = speed > 0.0 ? law_.torque_gain * speed * speed : 0.0;
+    const double k_torque = speed > 0.0 ? law_.dtu.torque_gain * speed * speed : 0.0;
     s.generator_torque =
-        s.mode == double(Mode::stopping) && speed > law_.min_speed ? std::min(s.generator_torque, k_torque) : 0.0;
-    return feather(h, s.mode == double(Mode::stopping) ? stop_pitch_rate_ : drive_train_.max_pitch_rate, s, rows);
+        s.mode == double(Mode::stopping) && speed > law_.dtu.min_speed ? std::min(s.generator_torque, k_torque) : 0.0;
+    return feather(h, s.mode == double(Mode::stopping) ? law_.stop_pitch_rate : drive_train_.max_pitch_rate, s, rows);
   }
   std::ranges::fill(rows.asked, s.asked);
 }
@@ -251,7 +242,7 @@ void TurbineControl::turn_blades(double h, const Rows& rows) const {
 
 /// Under the torque that the generator had: Adams-Bashforth, second order.
 void TurbineControl::turn_rigid(double h, const Measured& measured, State& s) const {
-  const double inertia = inertia_ - measured.bending_inertia;
+  const double inertia = drive_train_.rotor_inertia_kg_m2 + drive_train_.generator_inertia_kg_m2 - measured.bending_inertia;
   const double acceleration = (measured.torque - s.generator_torque) / inertia;
   const double before = s.speed;
   s.speed += h * (1.5 * acceleration - 0.5 * s.acceleration);

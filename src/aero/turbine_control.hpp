@@ -49,12 +49,16 @@ class TurbineControl {
   };
   enum class Mode { parked, starting, operating, stopping, tripped, braked };
 
+  /// With which a run begins.
+  struct Start {
+    double azimuth = 0.0, speed = 0.0, pitch = 0.0;  ///< of blade 1 [rad], [rad/s], [rad]
+    bool parked = false;
+  };
+
   TurbineControl(const ControlOptions& options, const ControllerOptions& controller, const std::optional<Operation>& operation,
-                 int blades, double start_azimuth, double start_speed, double start_pitch,
-                 const std::optional<PeakShaving>& shaving = {});
+                 int blades, const Start& start, const std::optional<PeakShaving>& shaving = {});
   /// Of options whose model is "library", called at steps of `step_s`.
-  TurbineControl(const ControlOptions& options, int blades, double start_azimuth, double start_speed, double start_pitch,
-                 double step_s);
+  TurbineControl(const ControlOptions& options, int blades, const Start& start, double step_s);
 
   std::size_t memory_size() const {
     return head + 4 * std::size_t(blades_) + (library_ ? 6 : 0) + (has_elastic_shaft() ? shaft_size : 0);
@@ -68,14 +72,10 @@ class TurbineControl {
   Shaft shaft(std::span<const double> memory) const;
   double generator_speed(std::span<const double> memory) const { return generator_speed(state(memory), memory); }
   std::size_t blades() const { return std::size_t(blades_); }
-  double inertia() const { return inertia_; }                                ///< of rotor and generator about the shaft [kg m2]
-  double rotor_inertia() const { return drive_train_.rotor_inertia_kg_m2; }  ///< of what turns with the blades [kg m2]
-  double efficiency() const { return drive_train_.generator_efficiency; }
+  const DriveTrainOptions& drive_train() const { return drive_train_; }
   /// Null where the controller is our own.
   BladedLibrary* library() const { return library_.get(); }
-  /// Speed and pitch with which a run begins.
-  double start_speed() const { return start_speed_; }
-  double start_pitch() const { return start_pitch_; }
+  const Start& start() const { return start_; }
 
   /// Settled at the start; a library's first call.
   void begin(double t, const Measured& measured, std::span<double> memory) const;
@@ -98,7 +98,6 @@ class TurbineControl {
     std::span<double> pitch, rate, stuck, asked, velocity, turning;
   };
   Rows rows(std::span<double> memory) const;
-  double least_pitch(double wind) const;
   void happen(double t, double h, State& s, std::span<double> stuck) const;
   double brake(const State& s) const;
   void lay_shaft(const Measured& measured, State& s, std::span<double> memory) const;
@@ -110,13 +109,17 @@ class TurbineControl {
   void turn_blades(double h, const Rows& rows) const;
 
   DriveTrainOptions drive_train_;
-  ControllerDtu law_;
-  double stop_pitch_rate_ = 0.0;  ///< [rad/s]
-  Operation below_rated_;         ///< least pitch against wind
+  /// Our own controller.
+  struct Law {
+    ControllerDtu dtu;
+    double stop_pitch_rate = 0.0;  ///< [rad/s]
+    Operation below_rated;         ///< least pitch against wind
+    double least_pitch(double wind) const;
+  };
+  Law law_;
   std::vector<EventOptions> events_;
   int blades_;
-  double inertia_, start_azimuth_, start_speed_, start_pitch_;
-  bool starts_parked_ = false;
+  Start start_;
   std::unique_ptr<BladedLibrary> library_;
   double step_ = 0.0;  ///< that a library is told of at its first call [s]
 };

@@ -106,14 +106,14 @@ StepCost measured_steps(FloatingSystem& floating, const coupling::Start& start) 
   cost.rows = std::ceil(double(t.windows()) / floating.scenario().output.history_every) + 1.0;
   const coupling::FullLoads full(floating);
   bodies::BodiesState state = start.state;
-  floating.reset_clocks();
+  floating.sources.reset_clocks();
   const std::int64_t begin_ns = runtime::Clock::now_ns();
   cost.step_s = least_seconds([&] { return floating.multibody().advance(state, t.tick_s(), 1).ok(); });
   const double step_alone = cost.step_s;
   if (exchanges(s)) {
     const double wall_ns = double(runtime::Clock::now_ns() - begin_ns);
-    for (std::size_t n = 0; n < floating.clocks().size(); ++n) {
-      const coupling::SourceClock clock = floating.clocks()[n];
+    for (std::size_t n = 0; n < floating.sources.clocks.size(); ++n) {
+      const coupling::LoadSources::Clock clock = floating.sources.clocks[n];
       if (floating.multibody().loads()[n].name != "rotor" || clock.calls == 0) continue;
       const double share = std::min(1.0, double(clock.ns) / wall_ns);
       cost.exchanges = double(t.windows()) * iterations(s);
@@ -121,7 +121,7 @@ StepCost measured_steps(FloatingSystem& floating, const coupling::Start& start) 
       cost.step_s *= 1.0 - share;
     }
   }
-  floating.reset_clocks();
+  floating.sources.reset_clocks();
   io::History history;
   coupling::Recorder recorder(floating, history);
   const std::filesystem::path file = std::filesystem::temp_directory_path() / fmt::format("spindrift_rows_{}.csv", ::getpid());
@@ -141,7 +141,7 @@ StepCost measured_steps(FloatingSystem& floating, const coupling::Start& start) 
 
 double particle_steps(const FloatingSystem& floating, const sea::ParticleCensus& census) {
   const coupling::TimeOptions& time = floating.scenario().time;
-  const double step = std::min({time.step_s.value_or(census.step_s), floating.body_step_limit(), census.step_s, time.window_s});
+  const double step = std::min({time.step_s.value_or(census.step_s), floating.body_step_limit_s, census.step_s, time.window_s});
   return std::ceil(time.window_s / step * (1.0 - 1e-9));
 }
 

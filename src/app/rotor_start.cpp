@@ -76,7 +76,7 @@ void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::St
   const aero::RotorLoads& rotor = *floating.rotor();
   const aero::RotorState state = rotor.state(0.0, start.state.motions);
   const aero::RotorLoad load = rotor.load(0.0, state);
-  Working now{.wind = rotor.relative_wind(0.0, state.hub, Eigen::Vector3d::Zero(), state.axis),
+  Working now{.wind = aero::relative_wind(rotor.wind(), 0.0, state.hub, Eigen::Vector3d::Zero(), state.axis),
               .speed = state.speed,
               .pitch = {},
               .radius = coupling::rotor_radius(s),

@@ -14,11 +14,10 @@ namespace {
 constexpr const char* set_up_name = "flow/set_up";
 }
 
-AirFile::AirFile(aero::FlowSolver& solver, const aero::GridStore& store, const runtime::World& world)
-    : solver_(solver), world_(world) {
+AirFile::AirFile(aero::FlowSolver& solver, const runtime::World& world) : solver_(solver), world_(world) {
   const std::int64_t per_cell =
       solver.tiles().empty() ? 0 : std::int64_t(solver.restart().size(0)) / solver.tiles()[0].box.count();
-  for (const aero::Tile& tile : store.tiling().tiles) starts_.push_back(total_), total_ += tile.count() * per_cell;
+  for (const aero::Tile& tile : solver.grid().tiling().tiles) starts_.push_back(total_), total_ += tile.count() * per_cell;
 }
 
 std::vector<SavedArray> AirFile::arrays() const {

@@ -1,5 +1,6 @@
 // The state of the resolved air in a checkpoint: tiles one after the other in the order of the tiling, whatever rank has them,
-// and the march. Used by src/run and resolved_air.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
+// and the march. Used by src/run, air_march.cpp and air_settling.cpp; tested through tests/coupled. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace spindrift::coupling {
 
 class AirFile {
  public:
-  /// Both are to outlive it. `world`: of those that have the air; all members are for all of them together.
-  AirFile(aero::FlowSolver& solver, const aero::GridStore& store, const runtime::World& world);
+  /// The solver is to outlive it. `world`: of those that have the air; all members are for all of them together.
+  AirFile(aero::FlowSolver& solver, const runtime::World& world);
   std::vector<SavedArray> arrays() const;
   /// Throws io::InputError where the file's air has another size.
   void read(const io::CheckpointReader& file) const;

@@ -2,16 +2,17 @@
 #include "src/coupling/air_march.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/stop_request.hpp"
+#include "runtime/trace/ledger.hpp"
 #include "src/aero/flow/choice.hpp"
-#include "src/io/progress.hpp"
+#include "src/coupling/columns.hpp"
+#include "src/coupling/flow_scene.hpp"
+#include "src/coupling/retries.hpp"
 
 namespace spindrift::coupling {
 
@@ -21,8 +22,20 @@ namespace {
 constexpr std::array<const char*, 2> choices{"block_ilu", "coarse"};
 constexpr const char* choice_name = "air/preconditioner";
 
-}  // namespace
+SavedArray choice_array(const std::string& preconditioner, int rank) {
+  SavedArray array{choice_name, 1, {}};
+  if (rank == 0) array.pieces.push_back({0, {double(std::ranges::find(choices, preconditioner) - choices.begin())}});
+  return array;
+}
 
+/// Nothing where the file has none.
+std::optional<std::string> choice_in(const io::CheckpointReader& file) {
+  if (!file.has(choice_name)) return {};
+  return choices.at(std::size_t(file.read<double>(choice_name).at(0)));
+}
+
+/// Throws NumericalFailure where the step to `t` failed or too many steps have not converged, runtime::StopAsked where it was
+/// given up; a first step that was spent goes to `log_lines`.
 void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& floating, double t,
                        std::vector<std::string>& log_lines) {
   const aero::FlowOptions& flow = *floating.scenario().aero.flow;
@@ -47,76 +60,111 @@ void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& flo
         "aero/rotor", long(solver.time_steps()), t);
 }
 
-int settling_piece(double cells, int steps) {
-  constexpr double cells_of_a_piece = 2.5e6;  // half a minute of a core
-  return std::clamp(int(cells_of_a_piece / cells), std::min(10, steps), steps);
+}  // namespace
+
+double step_of(const Scenario& s) {
+  return is_strong(s.coupling.scheme) ? s.time.window_s / s.coupling.samples : s.time.window_s;
 }
 
-void settle(Settling settling, int steps, std::vector<std::string>& log_lines) {
-  aero::FlowSolver& solver = settling.solver;
-  const auto& thrust = settling.thrust;
-  const aero::MarchState& march = solver.march();
-  const std::optional<io::CheckpointReader> saved = settling.file && settling.first_try ? settling.file->newest() : std::nullopt;
-  if (saved) {
-    settling.state.read(*saved);
-    log_lines.push_back(
-        fmt::format("the air goes on settling after {} pseudo-steps, from {}", march.steps - 1, saved->path().string()));
-  }
-  const int before = saved ? march.steps - 1 : 0;
-  const auto begin = std::chrono::steady_clock::now();
-  double said_s = 0.0;
-  for (int done = before; done == before || (march.spent && done < steps);) {
-    if (done > before) solver.judgement().rows.keep_last();
-    settling.run();
-    done = march.steps - 1;
-    if (march.verdict == aero::Verdict::stopped) throw runtime::StopAsked();
-    if (settling.file && settling.first_try && march.spent && done < steps) settling.file->offer(done, settling.state.arrays());
-    const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (spent_s - said_s < 10.0 || done >= steps) continue;
-    said_s = spent_s;
-    spdlog::info("air settles: {} of {} pseudo-steps, thrust {:.4g} kN, about {} left", done, steps,
-                 1e-3 * thrust(solver.rows().back()), io::duration_text(spent_s / (done - before) * (steps - done)));
-  }
-  if (march.verdict == aero::Verdict::failed)
-    throw NumericalFailure(
-        fmt::format("aero: while the air settles (start.air_steps): {} (pseudo-step {}, CFL {:.3g}){}{}", march.why, march.steps,
-                    march.cfl, solver.judgement().trouble(),
-                    settling.file ? settling.file->save_failed(march.steps, settling.state.arrays()) : std::string()),
-        "aero/rotor", march.steps, 0.0);
-  const auto& rows = solver.rows();
-  constexpr std::size_t look_back = 20;
-  const double end = thrust(rows.back());
-  const std::string change =
-      rows.size() > look_back + 1
-          ? fmt::format(", {:+.2g} % in the last {}", 100.0 * (end / thrust(rows[rows.size() - 1 - look_back]) - 1.0), look_back)
-          : std::string();
-  log_lines.push_back(fmt::format("air settled by {} pseudo-steps: thrust {:.4g} kN{}, density residual fallen by {:.2g}",
-                                  march.steps - 1, 1e-3 * end, change, march.density_drop()));
+MarchingAir::MarchingAir(const FloatingSystem& floating, const aero::RotorState& now, const runtime::World& world)
+    : floating_(floating),
+      world_(world),
+      state_(now),
+      preconditioner_(scenario().aero.flow->preconditioner),
+      wind_(changing_wind(scenario())) {}
+
+void MarchingAir::prepare(double t, double dt, const aero::RotorState& at_end) {
+  t_ = t, state_ = at_end;
+  if (dt == 0.0) return;
+  solver_->set_time_step(dt);
+  solver_->set_wind(wind_until(wind_, t));
+  move();
+  solver_->judgement().rows.all.clear();
 }
 
-aero::RotorLoad ramped(aero::RotorLoad load, const FloatingSystem& floating, double t) {
-  const double ramp = floating.ramp(t);
+Tasks MarchingAir::record(runtime::Graph& graph) {
+  solver_->record(graph);
+  return Tasks::many;
+}
+
+aero::RotorLoad MarchingAir::load_at_end() {
+  require_good_step(*solver_, floating_, t_, log_lines_);
+  loads_.computed = computed();
+  return answer();
+}
+
+aero::RotorLoad MarchingAir::answer() {
+  aero::RotorLoad load = felt(loads_.computed.rotor);
+  const double ramp = floating_.ramp(t_);
   load.thrust *= ramp, load.torque *= ramp, load.power *= ramp, load.force *= ramp, load.moment *= ramp;
-  return load;
+  return loads_.answered = load;
 }
 
-void choose_preconditioner(aero::FlowSolver& solver, aero::FlowOptions& flow, MPI_Comm comm,
-                           std::vector<std::string>& log_lines) {
-  const aero::Choice choice = aero::choose_preconditioner(solver, comm);
-  flow.preconditioner = choice.preconditioner;
-  solver.use(aero::make_preconditioner(choice.preconditioner, solver.setting().common));
-  log_lines.push_back(fmt::format("air: preconditioner \"{}\" ({})", choice.preconditioner, choice.reason));
+void MarchingAir::ease(int retry) {
+  if (solver_) solver_->judgement().march.ease(share_of_cfl(retry));
 }
 
-SavedArray choice_array(const std::string& preconditioner, int rank) {
-  SavedArray array{choice_name, 1, {}};
-  if (rank == 0) array.pieces.push_back({0, {double(std::ranges::find(choices, preconditioner) - choices.begin())}});
-  return array;
+void MarchingAir::choose() {
+  const aero::Choice choice = aero::choose_preconditioner(*solver_, world_.comm);
+  preconditioner_ = choice.preconditioner;
+  solver_->use(aero::make_preconditioner(preconditioner_, solver_->setting().common));
+  log_lines_.push_back(fmt::format("air: preconditioner \"{}\" ({})", preconditioner_, choice.reason));
 }
 
-std::optional<std::string> choice_in(const io::CheckpointReader& file) {
-  if (!file.has(choice_name)) return {};
-  return choices.at(std::size_t(file.read<double>(choice_name).at(0)));
+void MarchingAir::settle(const SteadyMarch& march, int retry) {
+  std::optional<SettlingFile> file;
+  if (const double interval_s = scenario().checkpoint.wall_interval_s; directory_ && interval_s > 0.0)
+    file.emplace(*directory_, world_, interval_s);
+  coupling::settle(march, scenario().start.air_steps, retry, std::move(file), world_, log_lines_);
 }
+
+std::vector<SavedArray> MarchingAir::saved() const {
+  std::vector<SavedArray> arrays = AirFile(*solver_, world_).arrays();
+  for (SavedArray& array : computed_arrays()) arrays.push_back(std::move(array));
+  arrays.push_back(rotor_load_array({loads_.answered, step_of(scenario())}, world_.rank));
+  if (scenario().aero.flow->preconditioner == "auto") arrays.push_back(choice_array(preconditioner_, world_.rank));
+  return arrays;
+}
+
+void MarchingAir::restore(const io::CheckpointReader& file) {
+  const runtime::Span span("aero/start");
+  if (const std::optional<std::string> named = choice_in(file); automatic() && named) {
+    preconditioner_ = *named;
+    log_lines_.push_back(fmt::format("air: preconditioner \"{}\" (as before the restart)", *named));
+  }
+  make();
+  AirFile(*solver_, world_).read(file);
+  if (automatic()) choose();  // the run that left it had named one
+  loads_ = {computed_loads_in(file, int(loads_.computed.blades.size())), rotor_load_in(file).load};
+}
+
+std::vector<io::Column> MarchingAir::columns() const {
+  std::vector<io::Column> columns;
+  for (const auto& c : march_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
+  for (const auto& c : mass_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
+  for (std::size_t b = 1; b <= loads_.computed.blades.size(); ++b)
+    for (const auto& c : blade_columns()) columns.push_back({fmt::format("rotor.blade_{}.{}", b, c.name), c.unit, c.meaning});
+  return columns;
+}
+
+std::vector<double> MarchingAir::values() const {
+  std::vector<double> values;
+  for (const auto& c : march_columns()) values.push_back(c.value(solver_->march()));
+  for (const auto& c : mass_columns()) values.push_back(c.value(solver_->judgement().mass()));
+  for (const aero::RotorLoad& blade : loads_.computed.blades)
+    for (const auto& c : blade_columns()) values.push_back(c.value(blade));
+  return values;
+}
+
+void MarchingAir::open_output(const io::RunDirectory& directory, double resume_s) {
+  directory_ = &directory;
+  const aero::FlowOptions& flow = *scenario().aero.flow;
+  if (flow.preconditioner == "auto" && world_.rank == 0) write_choice(directory, preconditioner_);
+  output_ = std::make_unique<AirOutput>(
+      world_.comm, *solver_, directory.fields(),
+      AirOutput::Choice{.walls = flow.surfaces, .moves = !scenario().has_actuator(), .resume_s = resume_s});
+}
+
+void MarchingAir::write_span() { coupling::write_span(world_, span_loads(), *directory_); }
 
 }  // namespace spindrift::coupling

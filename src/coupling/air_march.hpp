@@ -1,47 +1,89 @@
-// What the airs that march in pseudo-time share as sides of a coupled window: how they settle, how a step is judged, and how
-// preconditioner = "auto" is chosen, written and found again. Used by resolved_air.cpp and actuator_air.cpp; tested in
-// tests/coupled. SPDX-License-Identifier: Apache-2.0
+// The air's side of a coupled window where the air marches in pseudo-time on a grid: physical steps, files, columns and output.
+// What blades on a moving grid and actuators in a resting one have of their own is in resolved_air.cpp and actuator_air.cpp,
+// which derive from it. Tested in tests/coupled. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/wind.hpp"
 #include "src/coupling/air_file.hpp"
+#include "src/coupling/air_output.hpp"
+#include "src/coupling/air_settling.hpp"
+#include "src/coupling/air_side.hpp"
 #include "src/coupling/floating_system.hpp"
-#include "src/coupling/saved_array.hpp"
-#include "src/coupling/settling_file.hpp"
+#include "src/coupling/saved_air.hpp"
 
 namespace spindrift::coupling {
 
-/// Throws NumericalFailure where the step to `t` failed or too many steps have not converged, runtime::StopAsked where it was
-/// given up; a first step that was spent goes to `log_lines`.
-void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& floating, double t,
-                       std::vector<std::string>& log_lines);
+class MarchingAir : public AirSide {
+ public:
+  void settle_in(const io::RunDirectory& directory) final { directory_ = &directory; }
+  void prepare(double t, double dt, const aero::RotorState& at_end) final;
+  Tasks record(runtime::Graph& graph) final;
+  void forget_tasks() final { solver_->forget_graphs(); }
+  aero::RotorLoad load_at_end() override;
+  void ease(int retry) final;
+  const aero::RotorLoad* written() const final { return &loads_.answered; }
+  std::vector<SavedArray> saved() const final;
+  void restore(const io::CheckpointReader& file) override;
+  std::vector<io::Column> columns() const final;
+  std::vector<double> values() const final;
+  void open_output(const io::RunDirectory& directory, double resume_s) final;
+  Writing copy_fields(std::int64_t number, double t) final { return output_->copy(number, t); }
+  void write_span() final;
+  std::vector<std::string> log_lines() final { return std::exchange(log_lines_, {}); }
 
-/// Steady flow before the run (start.air_steps): runs the march, a piece of its steps at a time, until `steps` are made; a line
-/// of progress every few seconds. Throws NumericalFailure where it fails, runtime::StopAsked.
-struct Settling {
-  aero::FlowSolver& solver;
-  const AirFile& state;                                  ///< of the solver
-  std::optional<SettlingFile> file;                      ///< where it is saved between pieces, and goes on from
-  bool first_try = true;                                 ///< later ones are not saved: they begin anew
-  std::function<void()> run;                             ///< makes a piece
-  std::function<double(const aero::PseudoRow&)> thrust;  ///< [N] of a row of the march
+ protected:
+  /// `now`: of the rotor at the start. loads_.computed is to have as many blades as are told one by one.
+  MarchingAir(const FloatingSystem& floating, const aero::RotorState& now, const runtime::World& world);
+
+  /// solver_, in the wind as it comes.
+  virtual void make() = 0;
+  /// The rotor goes where state_ has it at the end of the step.
+  virtual void move() = 0;
+  /// After a step.
+  virtual ComputedLoads computed() const = 0;
+  virtual std::vector<SavedArray> computed_arrays() const = 0;
+  virtual std::vector<aero::SpanLoad> span_loads() const = 0;
+  /// What the bodies feel of a rotor's load.
+  virtual aero::RotorLoad felt(const aero::RotorLoad& load) const { return load; }
+
+  const Scenario& scenario() const { return floating_.scenario(); }
+  /// Whether the preconditioner is still to be chosen; by trial on the flow as it is.
+  bool automatic() const { return preconditioner_ == "auto"; }
+  void choose();
+  /// Until start.air_steps are made, from the CFL number of this retry.
+  void settle(const SteadyMarch& march, int retry);
+  /// loads_.computed as the bodies feel it, with the factor that start.ramp_s gives now.
+  aero::RotorLoad answer();
+
+  /// After the last step: as computed, and as answered.
+  struct Loads {
+    ComputedLoads computed;
+    aero::RotorLoad answered;
+  };
+
+  const FloatingSystem& floating_;
+  const runtime::World world_;
+  double t_ = 0.0;  ///< of the last prepare(), as the rotor's state
+  aero::RotorState state_;
+  Loads loads_;
+  std::string preconditioner_;          ///< or what "auto" became
+  aero::FlowSolver* solver_ = nullptr;  ///< made by begin() or restore()
+  std::vector<std::string> log_lines_;
+
+ private:
+  const aero::Wind wind_;  ///< where it changes in time
+  const io::RunDirectory* directory_ = nullptr;
+  std::unique_ptr<AirOutput> output_;
 };
-void settle(Settling settling, int steps, std::vector<std::string>& log_lines);
-/// Pseudo-steps of a piece, by the size of the grid alone, as the bits go by it.
-int settling_piece(double cells, int steps);
 
-/// The load with the factor that start.ramp_s gives at `t`.
-aero::RotorLoad ramped(aero::RotorLoad load, const FloatingSystem& floating, double t);
-
-/// By trial on the flow as it is, into solver and `flow`. Collective.
-void choose_preconditioner(aero::FlowSolver& solver, aero::FlowOptions& flow, MPI_Comm comm, std::vector<std::string>& log_lines);
-/// The choice made, into checkpoints and out of them; nothing where the file has none.
-SavedArray choice_array(const std::string& preconditioner, int rank);
-std::optional<std::string> choice_in(const io::CheckpointReader& file);
+/// Of the air in a coupled window [s].
+double step_of(const Scenario& scenario);
 
 }  // namespace spindrift::coupling

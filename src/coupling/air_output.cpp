@@ -19,10 +19,9 @@ bool on_wall(const aero::FlowSolver& solver, const aero::TileBoundary& b) {
 
 }  // namespace
 
-AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::GridStore& store,
-                     const std::filesystem::path& folder, Choice choice)
+AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const std::filesystem::path& folder, Choice choice)
     : solver_(solver) {
-  const aero::Tiling& tiling = store.tiling();
+  const aero::Tiling& tiling = solver.grid().tiling();
   std::vector<io::GridBlock> blocks;
   for (const aero::Tile& tile : tiling.tiles)
     blocks.push_back({fmt::format("tile_{}", blocks.size()), tile.ni, tile.nj, tile.nk});

@@ -1,6 +1,6 @@
 // What the resolved air leaves in a run's folder for people: fields/air.xdmf (pressure, velocity, temperature, turbulence at cell
 // centres), fields/walls.xdmf, spanwise.csv. At the end of a run of the air alone, at chosen times of a coupled one. Called by
-// src/run and resolved_air.cpp; tested in tests/coupled/rotor_run_test.py and coupled_system_test.py. SPDX-License-Identifier:
+// src/run and air_march.cpp; tested in tests/coupled/rotor_run_test.py and coupled_system_test.py. SPDX-License-Identifier:
 // Apache-2.0
 #pragma once
 
@@ -25,8 +25,7 @@ class AirOutput {
     double resume_s = io::from_the_start;
   };
   /// The solver is to outlive it. Collective over `comm`.
-  AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const aero::GridStore& store, const std::filesystem::path& folder,
-            Choice choice);
+  AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const std::filesystem::path& folder, Choice choice);
   /// A copy of the flow as it is, to be written while this object lives.
   Writing copy(std::int64_t number, double time_s) const;
 

@@ -1,7 +1,7 @@
 // The air's side of a coupled window: from the motion of the rotor it computes the rotor's load. One interface for the
 // engineering models, which compute it at once, and for resolved air, whose work is tasks of a graph that may run beside those of
-// the sea. Its state can be saved and restored for repeated windows, and goes into checkpoints. Used by window.cpp; implemented
-// here and in resolved_air.cpp; tested in tests/src/coupling/window_test.cpp and tests/coupled/resolved_air_test.cpp.
+// the sea. Its state can be saved and restored for repeated windows, and goes into checkpoints. Used by window_sides.cpp;
+// implemented here and in air_march.cpp; tested in tests/src/coupling/window_test.cpp and tests/coupled/resolved_air_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

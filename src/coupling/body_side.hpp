@@ -1,6 +1,6 @@
 // The bodies' side of a window: bodies and moorings in their own steps, with an engineering sea, which they ask as they go, or
 // with one of particles, whose substeps are tasks that may run beside those of the air. A pure function of the state at its
-// start. Used by window_tasks.cpp and window.cpp; implemented here and in sea_window.cpp; tested in tests/coupled.
+// start. Used by window_tasks.cpp and window_sides.cpp; implemented here and in sea_window.cpp; tested in tests/coupled.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

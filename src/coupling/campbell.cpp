@@ -132,7 +132,7 @@ LooseLoop loop_of(FloatingSystem& floating, const bodies::BodiesState& state, co
   for (const Wrench& w : loads) load += w;
   load = load.about(hub);
   floating.replace_rotor_loads([&](double, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
-    rotor.add_at_hub(bodies, wrenches, load.force, load.moment);
+    rotor.bearing().add_load(bodies, wrenches, load.force, load.moment);
   });
   LooseLoop loop{linearise(floating.multibody(), state, 0.0).matrix, {}, {}};
   floating.replace_rotor_loads({});
@@ -177,7 +177,7 @@ LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& 
   for (int side = 0; side < 2; ++side) {
     aero::RotorState moved = hub;
     moved.hub_velocity += (side ? change : -change) * hub.axis;
-    moved.relative_wind = rotor.relative_wind(0.0, hub.hub, moved.hub_velocity, hub.axis);
+    moved.relative_wind = aero::relative_wind(rotor.wind(), 0.0, hub.hub, moved.hub_velocity, hub.axis);
     thrust[side] = rotor.load(0.0, moved).force.dot(hub.axis);
   }
   verdict.slope_N_s_m = (thrust[0] - thrust[1]) / (2 * change);

@@ -158,7 +158,8 @@ std::string what_holds(const std::string& mode) {
 
 void doubt_modes(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
   if (floating.particle_plan()) return;
-  const bool drag = floating.has_waves();  // quadratic in the motion, it is not in the modes: only what no drag holds is told
+  const bool drag =
+      floating.scenario().has_given_waves();  // quadratic in the motion, it is not in the modes: only what no drag holds is told
   double fastest = 0.0;
   for (const bodies::Mode& mode : stability.linearisation.modes) fastest = std::max(fastest, std::abs(mode.eigenvalue));
   for (const bodies::Mode& mode : stability.linearisation.modes) {

@@ -48,7 +48,8 @@ aero::AeroOptions engineering_rung(const Scenario& s) {
 }  // namespace
 
 FloatingSystem::FloatingSystem(Scenario scenario)
-    : scenario_(std::move(scenario)), timeline_(scenario_.time.window_s, scenario_.tick_s(), scenario_.time.end_s) {
+    : scenario_(std::move(scenario)),
+      timeline_(scenario_.time.window_s, scenario_.tick_s(), scenario_.time.end_s, scenario_.sea.settle_s()) {
   const Scenario& s = scenario_;
   const std::vector<Motion> start = described_motions(s.bodies);
   std::vector<std::string> names;
@@ -57,21 +58,20 @@ FloatingSystem::FloatingSystem(Scenario scenario)
     reference_points_.push_back(body.options.reference() - body.options.centre_m);
   }
 
-  std::vector<bodies::LoadSource> sources;
   std::vector<bodies::Body> bodies = make_bodies(s.bodies);
-  add_source(sources, gravity_source(bodies, s.environment.gravity_m_s2), std::vector<bool>(names.size(), true));
+  sources.add(gravity_source(bodies, s.environment.gravity_m_s2), std::vector<bool>(names.size(), true));
 
   if (std::vector<bodies::PointLoad> loads = make_point_loads(s.bodies); !loads.empty()) {
     std::vector<bool> on(names.size());
     for (const bodies::PointLoad& load : loads) on[std::size_t(load.body)] = true;
-    add_source(sources, point_load_source("forces", std::move(loads)), on);
+    sources.add(point_load_source("forces", std::move(loads)), on);
   }
   if (std::vector<bodies::JointLaw> laws = make_joint_laws(s.joints, s.bodies); !laws.empty()) {
     std::vector<bool> on(names.size());
     for (const bodies::JointLaw& law : laws)
       for (const int body : {law.i, law.j})
         if (body != bodies::earth) on[std::size_t(body)] = true;
-    add_source(sources, joint_law_source(std::move(laws)), on);
+    sources.add(joint_law_source(std::move(laws)), on);
   }
   std::vector<bodies::Joint> joints = make_joints(s.joints, s.bodies);
   if (!s.beams.empty()) {
@@ -81,7 +81,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
       on[std::size_t(beam.j)] = true;
       if (beam.i != bodies::earth) on[std::size_t(beam.i)] = true;
     }
-    add_source(sources, beam_source(beams_, gravity_m_s2()), on);
+    sources.add(beam_source(beams_, s.environment.gravity()), on);
   }
   if (!s.moorings.empty()) {
     moorings::LineEnvironment around{s.environment.gravity_m_s2, s.environment.water_density_kg_m3};
@@ -113,7 +113,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
                          moorings_->remember(t, h, m, memory);
                        }};
     }
-    add_source(sources, std::move(source), on);
+    sources.add(std::move(source), on);
   }
   if (s.has_particles()) {
     const std::vector<sea::ParticleBody> shaped = particle_bodies(s.bodies);
@@ -134,26 +134,24 @@ FloatingSystem::FloatingSystem(Scenario scenario)
       still.axial_added_mass_coefficient = 1.0;
       sea_.emplace(still, sea::WavesOptions{}, sea_environment(s.environment), sea_bodies(s.bodies));
     }
-    add_source(sources,
-               {"sea",
-                [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
-                  if (particles_)
-                    particles_->add_loads(m, w);
-                  else if (sea_)
-                    sea_->add_loads(t, m, w);
-                },
-                [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
-                  if (!particles_ && sea_) sea_->add_added_mass(t, m, a);  // particles push back by themselves
-                }},
-               on);
+    sources.add({"sea",
+                 [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
+                   if (particles_)
+                     particles_->add_loads(m, w);
+                   else if (sea_)
+                     sea_->add_loads(t, m, w);
+                 },
+                 [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
+                   if (!particles_ && sea_) sea_->add_added_mass(t, m, a);  // particles push back by themselves
+                 }},
+                on);
     if (particle_plan_->parameters.contact && std::find(on.begin(), on.end(), true) != on.end())
-      add_source(sources,
-                 {"contact",
-                  [this](double, std::span<const Motion> m, std::span<Wrench> w) {
-                    if (particles_) particles_->add_contacts(m, w);
-                  },
-                  {}},
-                 on);
+      sources.add({"contact",
+                   [this](double, std::span<const Motion> m, std::span<Wrench> w) {
+                     if (particles_) particles_->add_contacts(m, w);
+                   },
+                   {}},
+                  on);
   } else if (s.has_sea()) {
     const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
     sea_.emplace(s.sea, s.waves, sea_environment(s.environment), wetted, timeline_.tick_s());
@@ -175,11 +173,11 @@ FloatingSystem::FloatingSystem(Scenario scenario)
           [this](double t, std::span<const Motion> m, std::span<double> memory) { sea_->begin(t, m, memory); },
           [this](std::span<const double> memory) { sea_->recall(memory); },
           [this](double t, double, std::span<const Motion> m, std::span<double> memory) { sea_->remember(t, m, memory); }};
-    add_source(sources, std::move(source), on);
+    sources.add(std::move(source), on);
   }
   if (s.has_rotor()) {
     rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start, s.control,
-                   timeline_.tick_s(), gravity_m_s2());
+                   timeline_.tick_s(), s.environment.gravity());
     std::vector<bool> on(names.size());
     on[std::size_t(index_of(names, s.rotor.body))] = true;
     bodies::LoadSource source{"rotor",
@@ -192,7 +190,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
                                   rotor_->add_loads(t, m, w, ramp(t));
                               },
                               {}};
-    if (rotor_->has_added_mass())
+    if (rotor_->flexible())
       source.added_mass = [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
         if (!mean_loads_) rotor_->add_added_mass(t, m, a);
       };
@@ -202,7 +200,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
           [this](double t, std::span<const Motion> m, std::span<double> memory) { rotor_->begin(t, m, memory); },
           [this](std::span<const double> memory) { rotor_->recall(memory); },
           [this](double t, double h, std::span<const Motion> m, std::span<double> memory) { rotor_->remember(t, h, m, memory); }};
-    add_source(sources, std::move(source), on);
+    sources.add(std::move(source), on);
   }
   if (s.control.yaw) {
     yaw_.emplace(*s.control.yaw, s.joints, s.bodies);
@@ -216,38 +214,14 @@ FloatingSystem::FloatingSystem(Scenario scenario)
         [this](double t, std::span<const Motion> m, std::span<double> memory) { yaw_->begin(t, *rotor_, m, memory); },
         [this](std::span<const double> memory) { yaw_->recall(memory); },
         [this](double t, double, std::span<const Motion> m, std::span<double> memory) { yaw_->remember(t, *rotor_, m, memory); }};
-    add_source(sources, std::move(source), on);
+    sources.add(std::move(source), on);
   }
-  clocks_.resize(sources.size());
-  multibody_ = std::make_unique<bodies::System>(std::move(bodies), std::move(joints), std::move(sources), s.time.integrator);
+  multibody_ = std::make_unique<bodies::System>(std::move(bodies), std::move(joints), sources.take(), s.time.integrator);
   loads_changed();
 }
 
-/// Wraps the source so that its time is counted; two readings of the clock, 16 ns, per evaluation.
-void FloatingSystem::add_source(std::vector<bodies::LoadSource>& sources, bodies::LoadSource source, std::vector<bool> on) {
-  const std::size_t index = sources.size();
-  const auto clocked = [this, index](auto inner) {
-    return [this, index, inner](double t, auto motions, auto out) {
-      const std::int64_t begin = runtime::Clock::now_ns();
-      inner(t, motions, out);
-      clocks_[index].ns += runtime::Clock::now_ns() - begin;
-      ++clocks_[index].calls;
-    };
-  };
-  source.loads = clocked(source.loads);
-  if (source.added_mass) source.added_mass = clocked(source.added_mass);
-  if (source.memory)
-    source.memory->remember = [this, index, inner = source.memory->remember](double t, double h, auto motions, auto memory) {
-      const std::int64_t begin = runtime::Clock::now_ns();
-      inner(t, h, motions, memory);
-      clocks_[index].ns += runtime::Clock::now_ns() - begin;
-    };
-  sources.push_back(std::move(source));
-  loaded_.push_back(std::move(on));
-}
-
-void FloatingSystem::replace_rotor_loads(RotorLoadFunction loads) {
-  rotor_elsewhere_ = std::move(loads);
+void FloatingSystem::replace_rotor_loads(RotorLoadFunction loads, const aero::RotorLoad* written) {
+  rotor_elsewhere_ = std::move(loads), rotor_written_ = written;
   loads_changed();
 }
 

@@ -68,7 +68,7 @@ void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& s
   const TimeOptions& time = floating.scenario().time;
   if (floating.particle_plan() && !time.step_s) {
     constexpr double margin = 0.9;
-    if (limit.step_s > 0.0) floating.limit_body_step(std::min(floating.body_step_limit(), margin * limit.step_s));
+    if (limit.step_s > 0.0) floating.body_step_limit_s = std::min(floating.body_step_limit_s, margin * limit.step_s);
     return;
   }
   // A window in which rk4 finds its step too long is tried again with pieces of it; the others cannot tell.

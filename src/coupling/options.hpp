@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -32,6 +34,8 @@ struct EnvironmentOptions {
   double water_depth_m = 100.0;
   std::string bathymetry;  ///< path; empty: the bed is flat
   double air_density_kg_m3 = 1.225;
+
+  Eigen::Vector3d gravity() const { return {0.0, 0.0, -gravity_m_s2}; }
 };
 
 struct StartOptions {

@@ -26,7 +26,7 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies_.emplace_back(history, bodies[b].name + ".", motion_columns());
     for (std::size_t s = 0; s < loads.size(); ++s)
-      if (floating.loads_body(s, b))
+      if (floating.sources.loads_body(s, b))
         loads_.push_back({s, b, {history, bodies[b].name + "." + loads[s].name + ".", wrench_columns()}});
   }
   for (const bodies::Joint& joint : floating.multibody().joints())
@@ -42,10 +42,10 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
     hub_.emplace(history, "rotor.", hub_columns());
     wind_.emplace(history, "rotor.", wind_columns());
   }
-  if (floating.rotor() && floating.rotor()->is_controlled()) {
+  if (const aero::TurbineControl* control = floating.rotor() ? floating.rotor()->control() : nullptr) {
     drive_.emplace(history, "rotor.", drive_columns());
-    if (floating.rotor()->has_elastic_shaft()) shaft_.emplace(history, "rotor.", shaft_columns());
-    for (std::size_t blade = 1; blade <= floating.rotor()->drive_blades(); ++blade)
+    if (control->has_elastic_shaft()) shaft_.emplace(history, "rotor.", shaft_columns());
+    for (std::size_t blade = 1; blade <= control->blades(); ++blade)
       pitches_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", pitch_columns());
   }
   if (floating.yaw()) yaw_.emplace(history, "rotor.", yaw_columns());
@@ -62,7 +62,7 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
     }
   for (std::size_t j = 0; floating.moorings() && j < floating.moorings()->junctions(); ++j)
     junctions_.emplace_back(history, floating.moorings()->junction_name(j) + ".", junction_columns());
-  if (floating.has_waves()) waves_.emplace(history, "waves.", wave_columns());
+  if (floating.scenario().has_given_waves()) waves_.emplace(history, "waves.", wave_columns());
   if (floating.particle_plan()) declare_particles(history);
 }
 
@@ -121,7 +121,7 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
   if (constraints_) constraints_->fill(row, floating_.multibody().constraint_residual_now());
   for (std::size_t n = 0; n < beams_.size(); ++n)
     beams_[n].fill(row, read_beam(floating_.beams()[n], state.motions, now.acceleration, now.angular_acceleration,
-                                  floating_.gravity_m_s2()));
+                                  floating_.scenario().environment.gravity()));
   if (energy_) {
     const std::span<const double> work = state.work;
     for (std::size_t s = 0; s < works_.size(); ++s) works_[s].fill(row, work[s]);
@@ -131,7 +131,7 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     const aero::RotorState rotor = floating_.rotor()->state(t, state.motions);
     rotor_->fill(row, {floating_.written_rotor_load(t, rotor), rotor.azimuth / radians_per_degree, rotor.speed / rad_s_per_rpm});
     hub_->fill(row, rotor);
-    wind_->fill(row, floating_.rotor()->wind(t, rotor.hub));
+    wind_->fill(row, floating_.rotor()->wind().at(t, rotor.hub));
     if (drive_) {
       const aero::RotorLoads::Drive drive = floating_.rotor()->drive();
       drive_->fill(row, drive);
@@ -141,9 +141,10 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
   }
   if (yaw_) yaw_->fill(row, floating_.yaw()->reading(t, *floating_.rotor(), state.motions));
   if (!roots_.empty()) {
-    const std::size_t b = floating_.rotor()->body();
-    const std::vector<aero::BladeRootLoad> of_roots = floating_.rotor()->root_loads(
-        t, state.motions, now.acceleration[b], now.angular_acceleration[b], floating_.gravity_m_s2(), floating_.ramp(t));
+    const std::size_t b = floating_.rotor()->bearing().body();
+    const std::vector<aero::BladeRootLoad> of_roots =
+        floating_.rotor()->root_loads(t, state.motions, now.acceleration[b], now.angular_acceleration[b],
+                                      floating_.scenario().environment.gravity(), floating_.ramp(t));
     for (std::size_t blade = 0; blade < roots_.size(); ++blade) roots_[blade].fill(row, of_roots[blade]);
   }
   if (!tips_.empty()) {

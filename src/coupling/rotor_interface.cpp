@@ -50,7 +50,7 @@ aero::RotorState RotorInterface::state(double t, const Vector& m) const {
   s.azimuth = 2 * pi * (turns - std::floor(turns));
   s.speed = m[16];
   s.omega = m.segment<3>(6) + s.speed * s.axis;
-  s.relative_wind = floating_.rotor()->relative_wind(t, s.hub, s.hub_velocity, s.axis);
+  s.relative_wind = aero::relative_wind(floating_.rotor()->wind(), t, s.hub, s.hub_velocity, s.axis);
   return s;
 }
 
@@ -61,7 +61,7 @@ Vector RotorInterface::rows(const aero::RotorLoad& load) const {
 }
 
 void RotorInterface::add_load(const Vector& load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
-  floating_.rotor()->add_at_hub(bodies, wrenches, force_ * load.head<3>(), force_ * length_ * load.tail<3>());
+  floating_.rotor()->bearing().add_load(bodies, wrenches, force_ * load.head<3>(), force_ * length_ * load.tail<3>());
 }
 
 }  // namespace spindrift::coupling

@@ -97,7 +97,7 @@ void write_air_settings(io::CheckpointCopy& copy, const Scenario& scenario) {
 
 ComputedLoads computed_loads(const aero::ResolvedRotor& rotor) {
   ComputedLoads computed{rotor.load(), {}};
-  for (int b = 1; b <= rotor.grid_blades(); ++b) computed.blades.push_back(rotor.blade_load(b));
+  for (int b = 1; b <= rotor.made().blades(); ++b) computed.blades.push_back(rotor.blade_load(b));
   return computed;
 }
 
@@ -115,7 +115,7 @@ std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const Com
   std::vector<double> pose(attitude.data(), attitude.data() + 9);
   pose.push_back(rotor.pose().speed);
   std::vector<SavedArray> arrays{computed_loads_array(computed, rank)};
-  for (auto& [name, values] : {std::pair{pose_name, pose}, std::pair{grid_name, measure(rotor.grid())}}) {
+  for (auto& [name, values] : {std::pair{pose_name, pose}, std::pair{grid_name, measure(rotor.made().grid)}}) {
     arrays.push_back({name, std::int64_t(values.size()), {}});
     if (rank == 0) arrays.back().pieces.push_back({0, values});
   }
@@ -155,7 +155,7 @@ ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scena
   if (const std::string there = missing(theirs, ours), here = missing(ours, theirs); !there.empty() || !here.empty())
     refuse(fmt::format("its air was made with {}, this scene has {}", there.empty() ? "the default" : there,
                        here.empty() ? "the default" : here));
-  const std::vector<double> grid = file.read<double>(grid_name), mine = measure(rotor.grid());
+  const std::vector<double> grid = file.read<double>(grid_name), mine = measure(rotor.made().grid);
   for (std::size_t n = 0; n < mine.size(); ++n)
     if (!(std::abs(grid[n] - mine[n]) <= 1e-9 * std::abs(mine[2])) || grid[0] != mine[0])
       refuse(
@@ -186,7 +186,7 @@ ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scena
     solver.restart().load(n, values);
   }
   solver.forget();
-  ComputedLoads computed = computed_loads_in(file, rotor.grid_blades());
+  ComputedLoads computed = computed_loads_in(file, rotor.made().blades());
   if (turned) {
     computed.rotor.force = by * computed.rotor.force, computed.rotor.moment = by * computed.rotor.moment;
     for (aero::RotorLoad& blade : computed.blades) blade.force = by * blade.force, blade.moment = by * blade.moment;

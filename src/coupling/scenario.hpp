@@ -52,6 +52,8 @@ struct Scenario {
   bool is_controlled() const { return control.model != aero::ControlModel::none; }
   bool has_sea() const { return sea.model != "none"; }
   bool has_waves() const { return has_sea() && waves.model != "none"; }
+  /// Given by theory; particles make their own.
+  bool has_given_waves() const { return has_waves() && !has_particles(); }
   bool has_particles() const { return sea.has_particles(); }
 
   /// The unit of time that steps are counted in. Substeps of a sea of particles are even numbers of ticks (bodies are evaluated

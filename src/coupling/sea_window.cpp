@@ -88,7 +88,7 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
   Step choose(double limit) override {
     // A step that the scene gives stays.
     const double share = floating_.scenario().time.step_s ? 1.0 : share_of_substep(retry_);
-    ticks_ = choose_substep(floating_, state_.tick, end_ - state_.tick, share * std::min(limit, floating_.body_step_limit()));
+    ticks_ = choose_substep(floating_, state_.tick, end_ - state_.tick, share * std::min(limit, floating_.body_step_limit_s));
     const Step step{double(ticks_) * floating_.timeline().tick_s(), state_.tick + ticks_ == end_};
     if (!sea_.moves_solids()) {  // nobody will ask
       std::vector<Motion> motions;

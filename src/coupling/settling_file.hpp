@@ -1,6 +1,6 @@
 // The state of a steady march before the run, saved in the run's folder while it lasts: killed there, the run goes on settling
 // where it was when it is started again, with the same bits. The folder goes once the run's first checkpoint is there. Used by
-// resolved_air.cpp and actuator_air.cpp; tested in
+// air_march.cpp and air_settling.cpp; tested in
 // tests/src/coupling/settling_file_test.cpp and tests/coupled/settling_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -100,7 +100,7 @@ void require_stable_particles(FloatingSystem& floating, const Stability& stabili
   if (bodies == 0.0)
     refuse(floating, "time.integrator", std::string(name(floating.multibody().integrator())),
            fmt::format("is unstable at any step for {}, which is undamped; use rk4 or symplectic", stability.limit.mode));
-  floating.limit_body_step(bodies);
+  floating.body_step_limit_s = bodies;
   const std::optional<double>& step = floating.scenario().time.step_s;
   if (!step) return;
   const sph::Parameters& p = floating.particle_plan()->parameters;

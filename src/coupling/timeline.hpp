@@ -23,9 +23,12 @@ inline double nearest_divisor(double whole, double part) { return whole / std::m
 /// Windows of equal length, each of the same number of steps (ticks).
 class Timeline {
  public:
-  /// The ratios are whole (see whole_ratio).
-  Timeline(double window_s, double step_s, double end_s)
-      : window_s_(window_s), steps_(whole_ratio(window_s, step_s).value()), windows_(whole_ratio(end_s, window_s).value()) {}
+  /// The ratios are whole (see whole_ratio). `held_s` before t = 0 the bodies are held.
+  Timeline(double window_s, double step_s, double end_s, double held_s = 0.0)
+      : window_s_(window_s),
+        steps_(whole_ratio(window_s, step_s).value()),
+        windows_(whole_ratio(end_s, window_s).value()),
+        held_(std::llround(held_s / window_s)) {}
 
   std::int64_t steps_per_window() const { return steps_; }
   std::int64_t windows() const { return windows_; }
@@ -34,10 +37,13 @@ class Timeline {
   /// End of the n-th window, exactly the same number however it was reached.
   double window_end_s(std::int64_t window) const { return double(window) * window_s_; }
   std::int64_t tick_of_window(std::int64_t window) const { return window * steps_; }
+  /// Windows before t = 0, and the tick (not above zero) with which the run begins.
+  std::int64_t held_windows() const { return held_; }
+  std::int64_t first_tick() const { return -tick_of_window(held_); }
 
  private:
   double window_s_;
-  std::int64_t steps_, windows_;
+  std::int64_t steps_, windows_, held_;
 };
 
 }  // namespace spindrift::coupling

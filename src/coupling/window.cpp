@@ -4,47 +4,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
-#include "kernels/base/failure.hpp"
-#include "runtime/mpi/stop_request.hpp"
 #include "runtime/trace/clock.hpp"
 
 namespace spindrift::coupling {
 
-namespace {
-
-Vector not_finite(Eigen::Index rows) { return Vector::Constant(rows, std::numeric_limits<double>::quiet_NaN()); }
-
-}  // namespace
-
 CoupledWindow::CoupledWindow(FloatingSystem& floating, Sides sides, MPI_Comm comm, std::size_t records)
     : floating_(floating),
       options_(floating.scenario().coupling),
-      air_(sides.air                  ? std::move(sides.air)
-           : floating.has_interface() ? make_engineering_air(floating)
-                                      : make_no_air()),
-      bodies_(sides.bodies ? std::move(sides.bodies) : make_body_side(floating)),
-      tasks_(*air_, *bodies_, output_, comm, {.records = records, .watchdog_s = floating.scenario().runtime.watchdog_s}),
+      sides_(floating, std::move(sides), comm, records),
       loads_(options_.predictor_order),
       motions_(1),
       load_now_(RotorInterface::load_rows) {
-  if (!floating.has_interface()) return;
-  interface_.emplace(floating);
+  if (!sides_.interface) return;
   const CouplingScheme& scheme = of(options_.scheme);
   if (scheme.staggering != nullptr) loose_.emplace(scheme.staggering(options_));
   if (scheme.strong != nullptr) strong_ = scheme.strong(options_);
-  floating_.replace_rotor_loads([this](double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
-    rotor_signal_(t, load_now_);
-    interface_->add_load(load_now_, bodies, wrenches);
-  });
-  floating_.write_rotor_load(air_->written());
+  floating_.replace_rotor_loads(
+      [this](double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
+        rotor_signal_(t, load_now_);
+        sides_.interface->add_load(load_now_, bodies, wrenches);
+      },
+      sides_.air().written());
 }
 
-CoupledWindow::~CoupledWindow() {
-  floating_.replace_rotor_loads({});
-  floating_.write_rotor_load(nullptr);
-}
+CoupledWindow::~CoupledWindow() { floating_.replace_rotor_loads({}); }
 
 template <class Signal>
 void CoupledWindow::use_signal(const Signal& signal) {
@@ -52,10 +36,10 @@ void CoupledWindow::use_signal(const Signal& signal) {
 }
 
 void CoupledWindow::begin(const bodies::BodiesState& state) {
-  if (!interface_) return;
+  if (!sides_.interface) return;
   const double t = time(state.tick);
-  const Vector motion = interface_->motion(t, state.motions, 0.0);
-  const Vector load = interface_->rows(air_->begin(t, interface_->state(t, motion)));
+  const Vector motion = sides_.interface->motion(t, state.motions, 0.0);
+  const Vector load = sides_.interface->rows(sides_.air().begin(t, sides_.interface->state(t, motion)));
   if (loose_) {
     loose_->begin(t, motion, load);
     use_signal(loose_->load());
@@ -66,82 +50,30 @@ void CoupledWindow::begin(const bodies::BodiesState& state) {
   }
 }
 
-bool CoupledWindow::take_motion(bodies::BodiesState& state) {
-  bodies_failure_ = {};
-  try {
-    state = bodies_->finish();
-  } catch (const NumericalFailure& failure) { bodies_failure_.what = failure.what(); } catch (const runtime::StopAsked&) {
-    bodies_failure_.stopped = true;
-  }
-  totals_.body_steps = bodies_->steps();
-  return bodies_failure_.none();
-}
-
-Vector CoupledWindow::take_load() {
-  air_failure_ = {};
-  ++totals_.rotor_calls;
-  Vector rows = not_finite(RotorInterface::load_rows);
-  try {
-    rows = interface_->rows(air_->load_at_end());
-  } catch (const NumericalFailure& failure) { air_failure_.what = failure.what(); } catch (const runtime::StopAsked&) {
-    air_failure_.stopped = true;
-  }
-  return rows;
-}
-
-bool CoupledWindow::move(bodies::BodiesState& state, std::int64_t end) {
-  bool moved = false;
-  tasks_.run(
-      Run::bodies,
-      {.give = [&] { bodies_->prepare(state, end); }, .take_motion = [&] { moved = take_motion(state); }, .take_load = {}});
-  return moved;
-}
-
-Vector CoupledWindow::air_load(double t, double dt, const Vector& motion) {
-  Vector load;
-  tasks_.run(Run::air, {.give = [&] { air_->prepare(t, dt, interface_->state(t, motion)); },
-                        .take_motion = {},
-                        .take_load = [&] { load = take_load(); }});
-  return load;
-}
-
-std::pair<bool, Vector> CoupledWindow::move_beside_air(bodies::BodiesState& state, std::int64_t end, double t, double dt,
-                                                       const std::function<Vector()>& motion) {
-  std::pair<bool, Vector> result;
-  tasks_.run(Run::both, {.give =
-                             [&] {
-                               bodies_->prepare(state, end);
-                               air_->prepare(t, dt, interface_->state(t, motion()));
-                             },
-                         .take_motion = [&] { result.first = take_motion(state); },
-                         .take_load = [&] { result.second = take_load(); }});
-  return result;
-}
-
 WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
-  air_failure_ = bodies_failure_ = {};
   const std::int64_t begin = runtime::Clock::now_ns();
-  air_->take_snapshot(AirSide::window), bodies_->take_snapshot(AirSide::window);
+  sides_.take_snapshot(AirSide::window);
   totals_.snapshot_ns += runtime::Clock::now_ns() - begin;
-  air_->ease(retry), bodies_->ease(retry);
+  sides_.begin_window(retry);
   // Before t = 0 the sea settles round bodies that are held; the air waits.
-  last_ = !interface_ || state.tick < 0 ? advance_bodies(state) : loose_ ? advance_loose(state) : advance_strong(state);
-  last_.stopped = stopped();
-  last_.of_a_side = !last_.failure.empty() && !trouble().empty();
-  if (!last_.ok()) air_->return_to(AirSide::window), bodies_->return_to(AirSide::window);
+  last_ = !sides_.interface || state.tick < 0 ? advance_bodies(state) : loose_ ? advance_loose(state) : advance_strong(state);
+  last_.stopped = sides_.stopped();
+  last_.of_a_side = !last_.failure.empty() && !sides_.trouble().empty();
+  if (!last_.ok()) sides_.return_to(AirSide::window, Run::both);
   ++totals_.windows;
   totals_.evaluations += last_.log.evaluations, totals_.probes += last_.log.probes;
   totals_.retries += last_.log.retries, totals_.cuts += last_.log.cuts;
+  totals_.body_steps = sides_.bodies().steps(), totals_.rotor_calls = sides_.rotor_calls();
   return last_;
 }
 
 WindowReport CoupledWindow::advance_bodies(bodies::BodiesState& state) {
   WindowReport report;
   bodies::BodiesState end = state;
-  if (move(end, state.tick + floating_.timeline().steps_per_window()))
+  if (sides_.move(end, state.tick + floating_.timeline().steps_per_window()))
     state = std::move(end);
   else
-    report.failure = trouble();
+    report.failure = sides_.trouble();
   return report;
 }
 
@@ -154,15 +86,15 @@ class CoupledWindow::LooseParts {
 
   Vector move(const Extrapolation& load, double begin, double end) {
     w_.use_signal(load);
-    return w_.move(state_, end_tick_) ? new_motion(begin, end) : not_finite(RotorInterface::motion_rows);
+    return w_.sides_.move(state_, end_tick_) ? new_motion(begin, end) : not_finite(RotorInterface::motion_rows);
   }
   Vector load(const Waveform& motion, double begin, double end) {
-    return w_.air_load(end, w_.floating_.timeline().window_s(), motion_for_air(motion, begin, end));
+    return w_.sides_.air_load(end, w_.floating_.timeline().window_s(), motion_for_air(motion, begin, end));
   }
   std::pair<Vector, Vector> both(const Extrapolation& load, const Waveform& motion, double begin, double end) {
     w_.use_signal(load);
-    auto [moved, new_load] = w_.move_beside_air(state_, end_tick_, end, w_.floating_.timeline().window_s(),
-                                                [&] { return motion_for_air(motion, begin, end); });
+    auto [moved, new_load] = w_.sides_.move_beside_air(state_, end_tick_, end, w_.floating_.timeline().window_s(),
+                                                       [&] { return motion_for_air(motion, begin, end); });
     return {moved ? new_motion(begin, end) : not_finite(RotorInterface::motion_rows), std::move(new_load)};
   }
   bodies::BodiesState& state() { return state_; }
@@ -170,8 +102,8 @@ class CoupledWindow::LooseParts {
  private:
   /// Of the hub, now that the bodies have moved.
   Vector new_motion(double begin, double end) const {
-    return w_.interface_->motion(end, state_.motions,
-                                 RotorInterface::azimuth(start_motion_) + (end - begin) * RotorInterface::rate(start_motion_));
+    return w_.sides_.interface->motion(
+        end, state_.motions, RotorInterface::azimuth(start_motion_) + (end - begin) * RotorInterface::rate(start_motion_));
   }
   /// Of the hub at the end, which the scheme extrapolates or holds.
   Vector motion_for_air(const Waveform& motion, double begin, double end) const {
@@ -228,7 +160,7 @@ class CoupledWindow::Pieces final : public WindowParts {
   }
 
   Vector evaluate(const Vector& x) override {
-    if (w_.stopped()) return not_finite(x.size());  // what the scheme tries next is of no use
+    if (w_.sides_.stopped()) return not_finite(x.size());  // what the scheme tries next is of no use
     return w_.options_.composition == Composition::parallel ? parallel_answer(*this, x, load_rows()) : serial_answer(*this, x);
   }
   /// Bodies: loads at the samples to motions at the samples.
@@ -237,7 +169,7 @@ class CoupledWindow::Pieces final : public WindowParts {
     show(loads);
     Vector motions(samples() * RotorInterface::motion_rows);
     for (int s = 1; s <= samples(); ++s)
-      if (w_.move(state_, tick(s)))
+      if (w_.sides_.move(state_, tick(s)))
         put_motion(s, motions);
       else
         return not_finite(motions.size());
@@ -249,7 +181,7 @@ class CoupledWindow::Pieces final : public WindowParts {
     restore(Run::air);
     Vector loads(load_rows());
     for (int s = 1; s <= samples(); ++s)
-      if (!put_load(s, w_.air_load(w_.time(tick(s)), dt(), part(motions, s, RotorInterface::motion_rows)), loads))
+      if (!put_load(s, w_.sides_.air_load(w_.time(tick(s)), dt(), part(motions, s, RotorInterface::motion_rows)), loads))
         return not_finite(loads.size());
     end_load_ = part(loads, samples(), RotorInterface::load_rows);
     return loads;
@@ -260,8 +192,8 @@ class CoupledWindow::Pieces final : public WindowParts {
     show(given_loads);
     Vector motions(samples() * RotorInterface::motion_rows), loads(load_rows());
     for (int s = 1; s <= samples(); ++s) {
-      const auto [moved, load] = w_.move_beside_air(state_, tick(s), w_.time(tick(s)), dt(),
-                                                    [&] { return part(given_motions, s, RotorInterface::motion_rows); });
+      const auto [moved, load] = w_.sides_.move_beside_air(state_, tick(s), w_.time(tick(s)), dt(),
+                                                           [&] { return part(given_motions, s, RotorInterface::motion_rows); });
       if (!put_load(s, load, loads) || !moved) return {not_finite(motions.size()), not_finite(loads.size())};
       put_motion(s, motions);
     }
@@ -296,11 +228,10 @@ class CoupledWindow::Pieces final : public WindowParts {
   double load_size() const { return end_load_.norm(); }
 
  private:
-  void save_start() { w_.air_->take_snapshot(AirSide::piece), w_.bodies_->take_snapshot(AirSide::piece); }
+  void save_start() { w_.sides_.take_snapshot(AirSide::piece); }
   void restore(Run sides) {
-    w_.air_failure_.what.clear(), w_.bodies_failure_.what.clear();
-    if (has_air(sides)) w_.air_->return_to(AirSide::piece);
-    if (has_bodies(sides)) w_.bodies_->return_to(AirSide::piece), state_ = start_;
+    w_.sides_.return_to(AirSide::piece, sides);
+    if (has_bodies(sides)) state_ = start_;
   }
   /// The signal through the loads at the samples.
   void show(const Vector& loads) {
@@ -315,7 +246,7 @@ class CoupledWindow::Pieces final : public WindowParts {
     const double t = w_.time(tick(s));
     const Vector turned = RotorInterface::turned(w_.motions_.last(), t - w_.time(start_.tick));
     motions.segment((s - 1) * RotorInterface::motion_rows, RotorInterface::motion_rows) =
-        w_.interface_->motion(t, state_.motions, RotorInterface::azimuth(turned));
+        w_.sides_.interface->motion(t, state_.motions, RotorInterface::azimuth(turned));
   }
   bool put_load(int s, const Vector& load, Vector& loads) {
     loads.segment((s - 1) * RotorInterface::load_rows, RotorInterface::load_rows) = load;
@@ -356,7 +287,7 @@ WindowReport CoupledWindow::advance_strong(bodies::BodiesState& state) {
 
 std::string CoupledWindow::describe(const WindowLog& log, const bodies::BodiesState& state) const {
   const double begin = time(state.tick), window = floating_.timeline().window_s();
-  if (log.bound == Bound::not_finite && !trouble().empty()) return trouble();
+  if (log.bound == Bound::not_finite && !sides_.trouble().empty()) return sides_.trouble();
   if (log.bound == Bound::not_finite)
     return fmt::format("t = {:g} s: the rotor's load over the window of {:g} s is not a finite number", begin, window);
   return fmt::format(
@@ -389,14 +320,14 @@ bool CoupledWindow::restore(std::span<const double> values) {
 
 void CoupledWindow::declare(io::History& history) {
   air_column_ = history.columns().size();
-  for (const io::Column& column : air_->columns()) history.add(column);
-  if (!interface_) return;
+  for (const io::Column& column : sides_.air().columns()) history.add(column);
+  if (!sides_.interface) return;
   columns_.emplace(history, "coupling.", window_columns());
   if (strong_) strong_columns_.emplace(history, "coupling.", strong_columns());
 }
 
 void CoupledWindow::put(std::span<double> row) const {
-  const std::vector<double> air = air_->values();
+  const std::vector<double> air = sides_.air().values();
   std::copy(air.begin(), air.end(), row.begin() + std::ptrdiff_t(air_column_));
   if (columns_) columns_->fill(row, last_);
   if (strong_columns_) strong_columns_->fill(row, last_);

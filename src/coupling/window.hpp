@@ -11,18 +11,14 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "kernels/coupling/solve_window.hpp"
 #include "kernels/coupling/staggered.hpp"
 #include "src/coupling/columns.hpp"
 #include "src/coupling/floating_system.hpp"
-#include "src/coupling/output_task.hpp"
-#include "src/coupling/rotor_interface.hpp"
-#include "src/coupling/sides.hpp"
 #include "src/coupling/strong_scheme.hpp"
-#include "src/coupling/window_tasks.hpp"
+#include "src/coupling/window_sides.hpp"
 #include "src/io/history.hpp"
 
 namespace spindrift::coupling {
@@ -43,8 +39,6 @@ class CoupledWindow {
   /// the engineering rotor, and the bodies, where none are given. `comm`: of the ranks that share its tasks.
   explicit CoupledWindow(FloatingSystem& floating, Sides sides = {}, MPI_Comm comm = MPI_COMM_SELF, std::size_t records = 0);
   ~CoupledWindow();
-  CoupledWindow(const CoupledWindow&) = delete;
-  CoupledWindow& operator=(const CoupledWindow&) = delete;
 
   /// Motion and loads of the run's first state, after the air has settled where it has to. Not before restore().
   void begin(const bodies::BodiesState& state);
@@ -62,14 +56,10 @@ class CoupledWindow {
     std::int64_t snapshot_ns = 0;  ///< saving the state at the start of each window
   };
   const Totals& totals() const { return totals_; }
-  AirSide& air() { return *air_; }
-  const AirSide& air() const { return *air_; }
-  /// Whether a window is one evaluation.
+  WindowSides& sides() { return sides_; }
+  const WindowSides& sides() const { return sides_; }
+  /// Whether a window is more than one evaluation.
   bool iterates() const { return strong_ != nullptr; }
-  const WindowTasks& tasks() const { return tasks_; }
-  const BodySide& bodies() const { return *bodies_; }
-  /// Is written beside the next window.
-  OutputTask& output() { return output_; }
 
   // Columns of history.csv: those of the air, and how the last window went.
   void declare(io::History& history);
@@ -78,26 +68,8 @@ class CoupledWindow {
  private:
   class LooseParts;
   class Pieces;
-  friend class LooseParts;
-  friend class Pieces;
-  /// Why a side did not come to the end of its last run.
-  struct SideFailure {
-    std::string what;      ///< empty: it did, or was stopped
-    bool stopped = false;  ///< given up since the run is to stop
-    bool none() const { return what.empty() && !stopped; }
-  };
 
   double time(std::int64_t tick) const { return double(tick) * floating_.timeline().tick_s(); }
-  /// Bodies alone from `state` to the tick `end`; false where they fail. Air alone over `dt` seconds that end at `t` with the hub
-  /// moving so; the load's rows are not finite where it fails. Or both at once, on a motion that is extrapolated as a task.
-  bool move(bodies::BodiesState& state, std::int64_t end);
-  Vector air_load(double t, double dt, const Vector& motion);
-  std::pair<bool, Vector> move_beside_air(bodies::BodiesState& state, std::int64_t end, double t, double dt,
-                                          const std::function<Vector()>& motion);
-  bool take_motion(bodies::BodiesState& state);
-  Vector take_load();
-  bool stopped() const { return air_failure_.stopped || bodies_failure_.stopped; }
-  const std::string& trouble() const { return air_failure_.what.empty() ? bodies_failure_.what : air_failure_.what; }
   WindowReport advance_bodies(bodies::BodiesState& state);
   template <class Signal>
   void use_signal(const Signal& signal);
@@ -108,18 +80,13 @@ class CoupledWindow {
 
   FloatingSystem& floating_;
   const CouplingOptions options_;
-  std::optional<RotorInterface> interface_;
-  std::unique_ptr<AirSide> air_;
-  std::unique_ptr<BodySide> bodies_;
-  OutputTask output_;
-  WindowTasks tasks_;
+  WindowSides sides_;
   std::optional<Staggered> loose_;        ///< the scheme of the scene, where it is one of these
   std::unique_ptr<StrongScheme> strong_;  ///< likewise
   Extrapolation loads_, motions_;         ///< strong: at the ends of the last pieces
   Waveform signal_;                       ///< strong: loads over the piece
   std::function<void(double, Vector&)> rotor_signal_;
   Vector load_now_;  ///< scratch of the right-hand side
-  SideFailure air_failure_, bodies_failure_;
   WindowReport last_;
   Totals totals_;
   std::size_t air_column_ = 0;

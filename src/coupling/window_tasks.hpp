@@ -2,7 +2,8 @@
 // where a scheme wants it alone. Each selection of sides is a program of its own: recorded once, replayed. First the sides are
 // given what to do (exchange/extrapolate), at the end the result of each is taken (exchange/hub_motion, exchange/rotor_load);
 // between them only data orders the tasks. What outputs of the last window have handed on
-// is written beside them (output_task.hpp). Used by window.cpp; tested through tests/coupled. SPDX-License-Identifier: Apache-2.0
+// is written beside them (output_task.hpp). Used by window_sides.cpp; tested through tests/coupled. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <array>

@@ -54,7 +54,7 @@ YawDrive::Reading YawDrive::reading(double t, const aero::RotorLoads& rotor, std
 }
 
 void YawDrive::begin(double t, const aero::RotorLoads& rotor, std::span<const Motion> bodies, std::span<double> memory) const {
-  const Eigen::Vector3d wind = rotor.wind(t, rotor.state(t, bodies).hub);
+  const Eigen::Vector3d wind = rotor.wind().at(t, rotor.state(t, bodies).hub);
   store({t, wind.x(), wind.y(), 0.0, 0.0, start_angle_}, memory);
 }
 
@@ -64,7 +64,7 @@ void YawDrive::recall(std::span<const double> memory) {
 
 void YawDrive::remember(double t, const aero::RotorLoads& rotor, std::span<const Motion> bodies, std::span<double> memory) const {
   const aero::RotorState now = rotor.state(t, bodies);
-  const Eigen::Vector3d wind = rotor.wind(t, now.hub);
+  const Eigen::Vector3d wind = rotor.wind().at(t, now.hub);
   store(controller_.advanced(stored(memory), t, wind.x(), wind.y(), now.axis.x(), now.axis.y()), memory);
 }
 

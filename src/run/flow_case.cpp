@@ -197,7 +197,7 @@ void FlowCase::place(std::int64_t window, double window_s) {
 
 void FlowCase::move(std::int64_t window, double window_s) {
   solver_->set_wind(coupling::wind_until(wind_, double(window + 1) * window_s));
-  if (rotor_ && !steady()) rotor_->move_to(rotor_->turned(window + 1));
+  if (rotor_ && !steady()) rotor_->move_to({rotor_->turned(window + 1)});
   if (motion_) solver_->motion().move_to(motion_->poses(double(window + 1) * window_s));
   if (actuator_) place_actuator(steady() ? 0.0 : double(window + 1) * window_s);
 }

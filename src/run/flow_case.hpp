@@ -34,7 +34,7 @@ class FlowCase {
   const aero::ResolvedRotor* rotor() const { return rotor_.get(); }
   const aero::Actuator* actuator() const { return actuator_.get(); }
   const aero::GridMotion* motion() const { return motion_ ? &*motion_ : nullptr; }
-  std::size_t blocks() const { return (rotor_ ? rotor_->grid() : own_grid_).blocks.size(); }
+  std::size_t blocks() const { return (rotor_ ? rotor_->made().grid : own_grid_).blocks.size(); }
   bool steady() const { return solver_->setting().time_order == 0; }
 
   /// Metrics of all tiles; before any march.

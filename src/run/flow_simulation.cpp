@@ -44,7 +44,7 @@ FlowSimulation::FlowSimulation(const coupling::Scenario& scenario, const io::Run
       records_(records),
       timeline_(scenario.time.window_s, scenario.time.window_s, scenario.time.end_s),
       air_(scenario, world, chunk),
-      file_(air_.solver(), air_.store(), world) {
+      file_(air_.solver(), world) {
   spdlog::info("air: {} cells in {} tiles of {} blocks, {:.0f} bytes per cell", air_.solver().cells(),
                air_.store().tiling().size(), air_.blocks(),
                double(air_.solver().bytes() + air_.store().bytes()) / double(std::max(1L, air_.solver().cells())) * world.size);
@@ -236,9 +236,8 @@ std::size_t FlowSimulation::averaged(std::int64_t windows) const {
 }
 
 void FlowSimulation::write_at_end(std::int64_t window) {
-  const auto fields =
-      std::make_shared<const coupling::AirOutput>(world_.comm, air_.solver(), air_.store(), directory_.fields(),
-                                                  coupling::AirOutput::Choice{.walls = scenario_.aero.flow->surfaces});
+  const auto fields = std::make_shared<const coupling::AirOutput>(
+      world_.comm, air_.solver(), directory_.fields(), coupling::AirOutput::Choice{.walls = scenario_.aero.flow->surfaces});
   output_.hand_on([fields, write = fields->copy(window, timeline_.window_end_s(window))] { write(); });
   for (const std::string& doubt : doubts_of(first_cells(air_.solver(), world_))) {
     doubts_.push_back(fmt::format("air: {}", doubt));

@@ -44,16 +44,22 @@ void restore_particles(const coupling::FloatingSystem& floating, const io::Check
   } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
 }
 
+/// Null where no library controls the rotor.
+aero::BladedLibrary* library_of(const coupling::FloatingSystem& floating) {
+  const aero::TurbineControl* control = floating.rotor() ? floating.rotor()->control() : nullptr;
+  return control ? control->library() : nullptr;
+}
+
 /// What a controller library was told, so that a run that goes on can tell it again; nothing without one.
 constexpr const char* library_log = "control/calls";
 
 void save_library(const coupling::FloatingSystem& floating, io::CheckpointCopy& copy) {
-  const aero::BladedLibrary* library = floating.rotor() ? floating.rotor()->library() : nullptr;
+  const aero::BladedLibrary* library = library_of(floating);
   if (library) copy.write<std::byte>(library_log, std::as_bytes(library->log()));
 }
 
 void restore_library(const coupling::FloatingSystem& floating, const io::CheckpointReader& file) {
-  aero::BladedLibrary* library = floating.rotor() ? floating.rotor()->library() : nullptr;
+  aero::BladedLibrary* library = library_of(floating);
   if (!library) return;
   const std::vector<std::byte> bytes = file.read<std::byte>(library_log);
   std::vector<aero::BladedLibrary::Told> log(bytes.size() / sizeof(aero::BladedLibrary::Told));
@@ -114,7 +120,7 @@ class SeaFields final : public Output {
 
  private:
   void write(std::int64_t window) {
-    task_.hand_on(output_.copy(floating_.timeline().tick_of_window(window) - floating_.first_tick(),
+    task_.hand_on(output_.copy(floating_.timeline().tick_of_window(window) - floating_.timeline().first_tick(),
                                floating_.timeline().window_end_s(window)));
   }
   const coupling::FloatingSystem& floating_;
@@ -137,7 +143,7 @@ class AirFields final : public Output {
 
  private:
   void write(std::int64_t window) {
-    task_.hand_on(air_.copy_fields(floating_.timeline().tick_of_window(window) - floating_.first_tick(),
+    task_.hand_on(air_.copy_fields(floating_.timeline().tick_of_window(window) - floating_.timeline().first_tick(),
                                    floating_.timeline().window_end_s(window)));
   }
   const coupling::FloatingSystem& floating_;
@@ -156,15 +162,15 @@ SystemSimulation::SystemSimulation(coupling::FloatingSystem& floating, bodies::B
       window_(floating, sides_in_filled_sea(floating, state_.motions, parts, moves), parts.mine().comm, records) {}
 
 std::int64_t SystemSimulation::file_number(std::int64_t window) const {
-  return floating_.timeline().tick_of_window(window) - floating_.first_tick();
+  return floating_.timeline().tick_of_window(window) - floating_.timeline().first_tick();
 }
 
 std::int64_t SystemSimulation::begin(const io::RunDirectory& directory) {
-  if (parts_.has(air_part)) window_.air().settle_in(directory);
-  std::int64_t window = -floating_.held_windows();
+  if (parts_.has(air_part)) window_.sides().air().settle_in(directory);
+  std::int64_t window = -floating_.timeline().held_windows();
   if (floating_.scenario().start.file.empty()) {
     window_.begin(state_);  // rotor and bodies begin at t = 0, whatever is held before
-    state_.tick = floating_.first_tick();
+    state_.tick = floating_.timeline().first_tick();
   } else {
     window = take_over();
   }
@@ -226,7 +232,7 @@ void SystemSimulation::restore(const io::CheckpointReader& file) {
 
 void SystemSimulation::restore_fluids(const io::CheckpointReader& file) {
   coupling::on_parts(parts_, [&] {
-    window_.air().restore(file);
+    window_.sides().air().restore(file);
     restore_particles(floating_, file);
   });
 }
@@ -242,7 +248,7 @@ void SystemSimulation::save(io::CheckpointCopy& copy) {
     copy.write<double>("coupling/history", history);
   }
   save_library(floating_, copy);
-  coupling::write(copy, parts_, air_part, window_.air().saved());
+  coupling::write(copy, parts_, air_part, window_.sides().air().saved());
   if (has_resolved_rotor(floating_.scenario())) write_air_settings(copy, floating_.scenario());
   if (!floating_.particle_plan()) return;
   sea::ParticleState particles;
@@ -258,7 +264,7 @@ void SystemSimulation::save(io::CheckpointCopy& copy) {
 Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
   const auto begin = std::chrono::steady_clock::now();
   const double end_s = floating_.timeline().window_end_s(window + 1);
-  const std::int64_t steps = window_.bodies().steps();
+  const std::int64_t steps = window_.sides().bodies().steps();
   coupling::WindowReport report = window_.advance(state_);
   for (int retry = 1; report.of_a_side && !report.stopped && retry <= coupling::most_retries; ++retry) {
     spdlog::warn(
@@ -268,7 +274,7 @@ Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
         coupling::share_of_cfl(retry));
     report = window_.advance(state_, retry);
   }
-  if (aero::BladedLibrary* library = floating_.rotor() ? floating_.rotor()->library() : nullptr)
+  if (aero::BladedLibrary* library = library_of(floating_))
     for (const std::string& warning : library->take_warnings()) spdlog::warn("{}", warning);
   if (report.stopped) return {};
   log_window(report, end_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
@@ -276,18 +282,18 @@ Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
     spdlog::warn("window that ends at t = {:g} s: {} retries and {} cuts, {} evaluations, ended by {}", end_s, report.log.retries,
                  report.log.cuts, report.log.evaluations, bound_name(report.log.bound));
   if (!report.ok()) return {.failure = report.failure};
-  steps_ += floating_.particle_plan() ? window_.bodies().steps() - steps : floating_.timeline().steps_per_window();
+  steps_ += floating_.particle_plan() ? window_.sides().bodies().steps() - steps : floating_.timeline().steps_per_window();
   return {.windows = 1};
 }
 
 /// Start-up is not in the windows' times. Collective.
 void SystemSimulation::start_clocks() {
-  floating_.reset_clocks();
+  floating_.sources.reset_clocks();
   core_seconds_[3] = runtime::summed(parts_.world().comm, {1e-9 * double(parts_.waited_ns())})[0];
 }
 
 void SystemSimulation::write_log_lines() {
-  for (const std::string& sentence : window_.air().log_lines()) spdlog::info("{}", sentence);
+  for (const std::string& sentence : window_.sides().air().log_lines()) spdlog::info("{}", sentence);
 }
 
 /// A line of log.txt for a window: how it went, and core-seconds of each side on all ranks; not for single evaluations of a
@@ -295,8 +301,8 @@ void SystemSimulation::write_log_lines() {
 void SystemSimulation::log_window(const coupling::WindowReport& report, double end_s, double wall_s) {
   const bool resolved = floating_.scenario().resolves_air() || floating_.particle_plan();
   if (!resolved && !window_.iterates()) return;
-  const coupling::WindowTasks& tasks = window_.tasks();
-  const double bodies = parts_.has(sea_part) ? 1e-9 * double(window_.bodies().own_ns()) : 0.0;
+  const coupling::WindowTasks& tasks = window_.sides().tasks();
+  const double bodies = parts_.has(sea_part) ? 1e-9 * double(window_.sides().bodies().own_ns()) : 0.0;
   const std::vector<double> now =
       runtime::summed(parts_.world().comm, {tasks.core_seconds("aero") + tasks.core_seconds("rotor"), tasks.core_seconds("sea"),
                                             bodies, 1e-9 * double(parts_.waited_ns())});
@@ -323,17 +329,17 @@ bool SystemSimulation::has_rows() const { return parts_.has(sea_part); }
 
 void SystemSimulation::fill_row(std::int64_t window, std::span<double> row) {
   // Loads that are evaluated once more for the row are the output's time.
-  const std::vector<coupling::SourceClock> clocks(floating_.clocks().begin(), floating_.clocks().end());
+  const std::vector<coupling::LoadSources::Clock> clocks = floating_.sources.clocks;
   recorder_->fill(row, state_, floating_.timeline().window_end_s(window));
-  floating_.set_clocks(clocks);
+  floating_.sources.clocks = clocks;
   window_.put(row);
 }
 
 std::vector<std::unique_ptr<Output>> SystemSimulation::outputs(const io::RunDirectory& directory, double resume_s) {
-  window_.air().open_output(directory, resume_s);
+  window_.sides().air().open_output(directory, resume_s);
   std::vector<std::unique_ptr<Output>> outputs;
   outputs.push_back(std::make_unique<SeaFields>(floating_, output(), directory.fields(), parts_.mine(), resume_s));
-  outputs.push_back(std::make_unique<AirFields>(floating_, output(), window_.air()));
+  outputs.push_back(std::make_unique<AirFields>(floating_, output(), window_.sides().air()));
   return outputs;
 }
 
@@ -357,8 +363,9 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
   }
   // Bodies beside particles move within tasks of the sea, and ask for their loads within their own.
   if (parts_.has(sea_part) && !floating_.scenario().bodies.empty()) {
-    if (floating_.particles()) ledger.move("sea", "bodies/substeps", window_.bodies().own_ns(), window_.bodies().steps());
-    const auto clocks = floating_.clocks();
+    if (floating_.particles())
+      ledger.move("sea", "bodies/substeps", window_.sides().bodies().own_ns(), window_.sides().bodies().steps());
+    const auto& clocks = floating_.sources.clocks;
     for (std::size_t s = 0; s < clocks.size(); ++s)
       ledger.move("bodies", floating_.multibody().loads()[s].name + "/loads", clocks[s].ns, clocks[s].calls);
   }

@@ -29,7 +29,7 @@ class SystemSimulation final : public Simulation {
   void restore(const io::CheckpointReader& file) override;
   void save(io::CheckpointCopy& copy) override;
   Advance advance(std::int64_t window, std::int64_t last) override;
-  coupling::OutputTask& output() override { return window_.output(); }
+  coupling::OutputTask& output() override { return window_.sides().output(); }
 
   void declare(io::History& history) override;
   bool has_rows() const override;

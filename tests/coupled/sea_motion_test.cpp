@@ -112,7 +112,7 @@ TEST_CASE("bodies' motion from a file gives the sea's bits of moving bodies", "[
     const std::unique_ptr<FloatingSystem> floating = platform();
     bodies::BodiesState state = make_start(*floating).state;
     floating->fill_sea(state.motions, alone);
-    state.tick = floating->first_tick();
+    state.tick = floating->timeline().first_tick();
     Heard heard(file);
     const std::unique_ptr<BodySide> side = make_particle_side(
         *floating, [&heard](sea::WindowDriver& bodies) -> sea::WindowDriver& { return heard.between(bodies); });

@@ -127,7 +127,7 @@ TEST_CASE("without a correction blades in an undisturbed stream have the loads o
   for (const Actuator::Point& p : actuator.points()) {
     CHECK(p.weight == Approx(1.0).epsilon(0.01));
     CHECK(p.sampled.x() == Approx(8.0).epsilon(1e-13));
-    const double speed = 6.4257 * rad_s_per_rpm * sections.radius(p.element);
+    const double speed = 6.4257 * rad_s_per_rpm * sections.section(p.element).radius;
     CHECK(p.tangential_wind == Approx(speed).epsilon(1e-12));
   }
   const DiscMotion still{.hub_velocity = {8.0, 0.0, 0.0},

@@ -96,12 +96,14 @@ TEST_CASE("spanwise loads agree with an independent computation on the same tabl
   const auto row =
       GENERATE(Row{25.111, 3437.8, 943.33}, Row{42.384, 5729, 1009.1}, Row{59.658, 8358.5, 1009}, Row{76.931, 10089, 933.55});
   std::size_t i = 0;
-  while (bem.radius(i + 1) < row.radius) ++i;
-  const double s = (row.radius - bem.radius(i)) / (bem.radius(i + 1) - bem.radius(i)), omega = 8.8362 * rad_s_per_rpm;
+  while (bem.section(i + 1).radius < row.radius) ++i;
+  const double s = (row.radius - bem.section(i).radius) / (bem.section(i + 1).radius - bem.section(i).radius),
+               omega = 8.8362 * rad_s_per_rpm;
   double normal = 0.0, tangential = 0.0;
   for (const auto& [element, weight] : {std::pair{i, 1.0 - s}, std::pair{i + 1, s}}) {
-    const ElementState e = bem.solve(element, 11.0 * std::cos(2.5 * radians_per_degree), omega * bem.radius(element), 0.0);
-    const double pressure = 0.5 * 1.225 * e.speed * e.speed * bem.chord(element);
+    const ElementState e =
+        bem.solve(element, 11.0 * std::cos(2.5 * radians_per_degree), omega * bem.section(element).radius, 0.0);
+    const double pressure = 0.5 * 1.225 * e.speed * e.speed * bem.section(element).chord;
     normal += weight * pressure * e.normal, tangential += weight * pressure * e.tangential;
   }
   CHECK(normal == Approx(row.normal).epsilon(0.01));
@@ -251,7 +253,7 @@ TEST_CASE("after a pitch step thrust overshoots and settles with the published t
   const BladeElementMomentum steady(dtu(), "madsen", 1.225);
   double slowed = 0.0, area = 0.0;
   for (std::size_t i = 0; i + 1 < dtu().planform.span.size(); ++i) {
-    const double r = steady.radius(i), ring = r * (dtu().planform.span[i + 1] - dtu().planform.span[i]);
+    const double r = steady.section(i).radius, ring = r * (dtu().planform.span[i + 1] - dtu().planform.span[i]);
     slowed += ring * steady.solve(i, 11.0, 8.836 * rad_s_per_rpm * r, 0.0).axial_induction, area += ring;
   }
   const bool given = GENERATE(true, false);

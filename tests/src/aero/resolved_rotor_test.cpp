@@ -59,7 +59,7 @@ double free_stream(int steps) {
   rotor.prepare(MPI_COMM_SELF, {.threads = 1});
   for (int n = 1; n <= steps; ++n) {
     const double t = n * s.dt;
-    rotor.move_to(on_platform(rotor, n, t), 4.0 * radians_per_degree * std::sin(1.3 * t));
+    rotor.move_to({on_platform(rotor, n, t), 4.0 * radians_per_degree * std::sin(1.3 * t)});
     rotor.run();
   }
   return testing::stream_deviation(rotor.solver());
@@ -93,7 +93,7 @@ double sheared_stream(double resolution, WindLaw law) {
   ResolvedRotor rotor(s);
   rotor.solver().start_uniform();
   rotor.prepare(MPI_COMM_SELF, {.threads = 1});
-  for (int n = 1; n <= 3; ++n) rotor.advance(rotor.turned(n));
+  for (int n = 1; n <= 3; ++n) rotor.advance({rotor.turned(n)});
   double squares = 0.0, volume = 0.0;
   for (const FlowTile& tile : rotor.solver().tiles()) {
     const TileGeometry& g = *tile.geometry;
@@ -154,7 +154,7 @@ ResolvedRotorSetup turning() {
   s.flow.viscous = "full", s.flow.turbulence = "sa", s.flow.max_pseudo_steps = 3;
   return s;
 }
-RotorLoad step(ResolvedRotor& rotor, int n) { return rotor.advance(on_platform(rotor, n, 0.05 * n), 0.01 * n); }
+RotorLoad step(ResolvedRotor& rotor, int n) { return rotor.advance({on_platform(rotor, n, 0.05 * n), 0.01 * n}); }
 }  // namespace
 
 TEST_CASE("threads leave every bit of a turning rotor as it is", "[rotor][fast]") {
@@ -201,7 +201,7 @@ TEST_CASE("a window undone and done again leaves the bits of one done once", "[r
   const ResolvedRotor::Snapshot before = twice.snapshot();
   RotorPose astray = on_platform(twice, 3, 0.15);
   astray.hub.position += Vector3d(0.1, 0.0, 0.05);
-  const RotorLoad other = twice.advance(astray, -0.02);
+  const RotorLoad other = twice.advance({astray, -0.02});
   CHECK((other.force - expected.force).norm() > 1.0);
   twice.restore(before);
   const RotorLoad again = step(twice, 3);
@@ -263,12 +263,12 @@ TEST_CASE("a turning periodic sector with a common part kept over steps: same bi
     one.solver().start_uniform(), three.solver().start_uniform();
     one.prepare(MPI_COMM_SELF, {.threads = 1}), three.prepare(MPI_COMM_SELF, {.threads = 3}),
         again.prepare(MPI_COMM_SELF, {.threads = 2});
-    for (int n = 1; n <= 3; ++n) one.advance(one.turned(n)), three.advance(three.turned(n));
+    for (int n = 1; n <= 3; ++n) one.advance({one.turned(n)}), three.advance({three.turned(n)});
     CHECK(testing::state_of(one.solver()) == testing::state_of(three.solver()));
     ResolvedRotor::Snapshot saved = three.snapshot();  // step 4 goes on with the set-up of step 3
     saved.air.set_up.number = 0;                       // another rotor's
     again.restore(saved);
-    one.advance(one.turned(4)), again.advance(again.turned(4));
+    one.advance({one.turned(4)}), again.advance({again.turned(4)});
     CHECK(testing::state_of(one.solver()) == testing::state_of(again.solver()));
   }
 }
@@ -281,7 +281,7 @@ TEST_CASE("two ranks give a periodic sector with an eliminated coarse correction
   whole.solver().start_uniform(), part.solver().start_uniform();
   whole.prepare(MPI_COMM_SELF, {.threads = 1}), part.prepare(MPI_COMM_WORLD, {.threads = 1});
   for (int n = 1; n <= 2; ++n) {
-    const RotorLoad a = whole.advance(whole.turned(n)), b = part.advance(part.turned(n));
+    const RotorLoad a = whole.advance({whole.turned(n)}), b = part.advance({part.turned(n)});
     CHECK(a.force == b.force);
     CHECK(a.moment == b.moment);
   }

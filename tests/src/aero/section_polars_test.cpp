@@ -131,7 +131,7 @@ TEST_CASE("an element at the geometric mean of two Reynolds numbers is one with 
     for (auto values : {&Polar::lift, &Polar::drag})
       for (double& v : p.*values) v *= 1.1;
   const std::size_t e = GENERATE(5, 20, 35);
-  const double chord = BladeElementMomentum(mean, "madsen", 1.225).chord(e), nu = 2e-5, reynolds = 40.0 * chord / nu;
+  const double chord = BladeElementMomentum(mean, "madsen", 1.225).section(e).chord, nu = 2e-5, reynolds = 40.0 * chord / nu;
   const BladeElementMomentum bem(at_two_reynolds(0.25 * reynolds, 4.0 * reynolds, 1.2), "madsen", 1.225, {}, nu);
   const ElementState got = bem.solve(e, 9.6, std::sqrt(40.0 * 40.0 - 9.6 * 9.6), 0.0),
                      expected =
