@@ -8,6 +8,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
+#include "kernels/base/smooth_step.hpp"
 #include "kernels/rotor/gusts_iec.hpp"
 #include "src/aero/turbulence_box.hpp"
 #include "src/scene/columns.hpp"
@@ -51,58 +52,127 @@ class WindInTime {
       iec_ = {speed_ * wind_profile(options).share(site.hub.z()), site.hub.z(), site.diameter, event_->reference_wind_m_s,
               event_->reference_intensity};
     }
-    if (options.turbulence) make_box(*options.turbulence, options);
+    if (options.turbulence) make_box(*options.turbulence, options), take_means(wind_profile(options));
   }
 
   Eigen::Vector3d at(double t, const Eigen::Vector3d& point, const WindProfile& profile) const {
-    double speed = speed_, direction = direction_, vertical = 0.0, added = 0.0;
-    if (!table_.time.empty()) {
-      speed = interpolate_linear(table_.time, table_.speed, t);
-      if (!table_.direction.empty()) direction = interpolate_linear(table_.time, table_.direction, t);
-      if (!table_.vertical.empty()) vertical = interpolate_linear(table_.time, table_.vertical, t);
-    }
-    const Eigen::Vector3d from_hub = point - site_.hub;
-    if (event_) {
-      const double since = t - event_->start_s, sense = event_->reversed ? -1.0 : 1.0;
-      switch (event_->what) {
-        case WindEvent::step:
-          if (since >= 0.0) speed += event_->speed_change_m_s, direction += event_->direction_change;
-          break;
-        case WindEvent::ramp: {
-          const double share = std::clamp(since / event_->duration_s, 0.0, 1.0);
-          speed += share * event_->speed_change_m_s, direction += share * event_->direction_change;
-          break;
-        }
-        case WindEvent::eog:
-          added = iec::eog(iec_, since);
-          break;
-        case WindEvent::ecd:
-          added = iec::ecd_speed(since), direction += sense * iec::ecd_direction(iec_, since);
-          break;
-        case WindEvent::edc:
-          direction += sense * iec::edc_direction(iec_, since);
-          break;
-        case WindEvent::ews_vertical:
-          added = sense * iec::ews(iec_, from_hub.z(), since);
-          break;
-        case WindEvent::ews_horizontal:
-          added = sense * iec::ews(iec_, across(direction).dot(from_hub), since);
-          break;
-      }
-    }
-    if (box_.values.empty()) return (profile.share(point.z()) * speed + added) * along(direction) + vertical * up();
-    // Frozen turbulence: what is downwind passed the hub earlier. Half the width ahead, so that no time is below zero.
-    const double later = along(direction_).dot(from_hub) / box_.wind;
-    const Eigen::Vector3d gust =
-        box_.at(t + start_ + 0.5 * box_.width() / box_.wind - later, across(direction_).dot(from_hub), point.z());
-    const double mean = box_.has_mean ? 0.0 : profile.share(point.z()) * speed + added;
-    return (mean + gust.x()) * along(direction) + gust.y() * across(direction) + (vertical + gust.z()) * up();
+    const Uniform u = uniform(t);
+    const double added = u.added + shear(t, u.direction, point);
+    if (!has_box()) return (profile.share(point.z()) * u.speed + added) * along(u.direction) + u.vertical * up();
+    const Eigen::Vector3d gust = box_.at(time_in_box(t, point), across(direction_).dot(point - site_.hub), point.z());
+    const double mean = box_.has_mean ? 0.0 : profile.share(point.z()) * u.speed + added;
+    return (mean + gust.x()) * along(u.direction) + gust.y() * across(u.direction) + (u.vertical + gust.z()) * up();
   }
+
+  Eigen::Vector3d common(double t, const Eigen::Vector3d& point, const WindProfile& profile) const {
+    const Uniform u = uniform(t);
+    const double z = point.z(), side = across(u.direction).dot(point - site_.hub);
+    const double added = u.added + share_beside(side, z) * shear(t, u.direction, held_inside(side, z, u.direction));
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    if (has_box()) mean = mean_of_planes_.at(time_in_box(t, site_.hub), 0.0, 0.0);
+    return (profile.share(z) * u.speed + added + mean.x()) * along(u.direction) + mean.y() * across(u.direction) +
+           (u.vertical + mean.z()) * up();
+  }
+
+  Eigen::Vector3d fluctuation(double t, const Eigen::Vector3d& point, const WindProfile& profile) const {
+    if (!has_box()) return Eigen::Vector3d::Zero();
+    const double z = point.z(), side = across(direction_).dot(point - site_.hub), share = share_beside(side, z);
+    if (share == 0.0) return Eigen::Vector3d::Zero();
+    const double time = time_in_box(t, point),
+                 mean = box_.has_mean ? profile.share(std::clamp(z, bottom(), top())) * speed_ : 0.0;
+    const Eigen::Vector3d gust = box_.at(time, side, z) - mean_of_planes_.at(time, 0.0, 0.0);
+    return share * ((gust.x() - mean) * along(direction_) + gust.y() * across(direction_) + gust.z() * up());
+  }
+
+  bool has_box() const { return !box_.values.empty(); }
+  double carrier() const { return box_.wind; }
 
  private:
   static Eigen::Vector3d along(double direction) { return {std::cos(direction), std::sin(direction), 0.0}; }
   static Eigen::Vector3d across(double direction) { return {-std::sin(direction), std::cos(direction), 0.0}; }
   static Eigen::Vector3d up() { return Eigen::Vector3d::UnitZ(); }
+
+  /// What events and tables make of the wind, the same everywhere.
+  struct Uniform {
+    double speed, direction, vertical, added;
+  };
+  Uniform uniform(double t) const {
+    Uniform u{speed_, direction_, 0.0, 0.0};
+    if (!table_.time.empty()) {
+      u.speed = interpolate_linear(table_.time, table_.speed, t);
+      if (!table_.direction.empty()) u.direction = interpolate_linear(table_.time, table_.direction, t);
+      if (!table_.vertical.empty()) u.vertical = interpolate_linear(table_.time, table_.vertical, t);
+    }
+    if (!event_) return u;
+    const double since = t - event_->start_s, sense = event_->reversed ? -1.0 : 1.0;
+    switch (event_->what) {
+      case WindEvent::step:
+        if (since >= 0.0) u.speed += event_->speed_change_m_s, u.direction += event_->direction_change;
+        break;
+      case WindEvent::ramp: {
+        const double share = std::clamp(since / event_->duration_s, 0.0, 1.0);
+        u.speed += share * event_->speed_change_m_s, u.direction += share * event_->direction_change;
+        break;
+      }
+      case WindEvent::eog:
+        u.added = iec::eog(iec_, since);
+        break;
+      case WindEvent::ecd:
+        u.added = iec::ecd_speed(since), u.direction += sense * iec::ecd_direction(iec_, since);
+        break;
+      case WindEvent::edc:
+        u.direction += sense * iec::edc_direction(iec_, since);
+        break;
+      case WindEvent::ews_vertical:
+      case WindEvent::ews_horizontal:
+        break;
+    }
+    return u;
+  }
+  bool is_shear() const {
+    return event_ && (event_->what == WindEvent::ews_vertical || event_->what == WindEvent::ews_horizontal);
+  }
+  /// Extreme shear: added to the speed.
+  double shear(double t, double direction, const Eigen::Vector3d& point) const {
+    if (!is_shear()) return 0.0;
+    const Eigen::Vector3d from_hub = point - site_.hub;
+    const double offset = event_->what == WindEvent::ews_vertical ? from_hub.z() : across(direction).dot(from_hub);
+    return (event_->reversed ? -1.0 : 1.0) * iec::ews(iec_, offset, t - event_->start_s);
+  }
+  /// Frozen turbulence: what is downwind passed the hub earlier. Half the width ahead, so that no time is below zero.
+  double time_in_box(double t, const Eigen::Vector3d& point) const {
+    const double later = along(direction_).dot(point - site_.hub) / box_.wind;
+    return t + start_ + 0.5 * box_.width() / box_.wind - later;
+  }
+  /// Sides, bottom and top of what varies over the rotor [m].
+  double half_width() const { return has_box() ? 0.5 * box_.width() : 0.55 * site_.diameter; }
+  double bottom() const { return has_box() ? box_.bottom : site_.hub.z() - half_width(); }
+  double top() const { return has_box() ? box_.top() : site_.hub.z() + half_width(); }
+  /// Of what varies over the rotor: one there, none a quarter of the diameter beside it.
+  double share_beside(double side, double z) const {
+    const double beside = std::max({std::abs(side) - half_width(), bottom() - z, z - top(), 0.0});
+    return smooth_step(1.0 - beside / (0.25 * site_.diameter));
+  }
+  Eigen::Vector3d held_inside(double side, double z, double direction) const {
+    const Eigen::Vector3d middle(site_.hub.x(), site_.hub.y(), std::clamp(z, bottom(), top()));
+    return middle + std::clamp(side, -half_width(), half_width()) * across(direction);
+  }
+
+  /// Mean of each plane of the box, without the wind that the profile has there.
+  void take_means(const WindProfile& profile) {
+    mean_of_planes_ = {.across = 1, .up = 1, .steps = box_.steps, .step_s = box_.step_s, .periodic = box_.periodic};
+    const std::size_t points = std::size_t(box_.across) * std::size_t(box_.up);
+    double carried = 0.0;
+    for (int row = 0; box_.has_mean && row < box_.up; ++row)
+      carried += speed_ * profile.share(box_.bottom + row * box_.up_m) / box_.up;
+    for (int step = 0; step < box_.steps; ++step) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (std::size_t p = 0; p < points; ++p)
+        for (std::size_t c = 0; c < 3; ++c) sum[Eigen::Index(c)] += box_.values[(std::size_t(step) * points + p) * 3 + c];
+      sum /= double(points), sum.x() -= carried;
+      for (int c = 0; c < 3; ++c) mean_of_planes_.values.push_back(float(sum[c]));
+    }
+  }
 
   void make_box(const TurbulenceOptions& o, const WindOptions& wind) {
     start_ = o.start_s;
@@ -147,10 +217,16 @@ class WindInTime {
   WindTable table_;
   std::optional<WindEventOptions> event_;
   iec::Site iec_;
-  TurbulenceBox box_;
+  TurbulenceBox box_, mean_of_planes_;
 };
 
 Eigen::Vector3d Wind::changing(double t, const Eigen::Vector3d& point) const { return in_time->at(t, point, profile); }
+Eigen::Vector3d Wind::common(double t, const Eigen::Vector3d& point) const { return in_time->common(t, point, profile); }
+Eigen::Vector3d Wind::fluctuation(double t, const Eigen::Vector3d& point) const {
+  return in_time->fluctuation(t, point, profile);
+}
+bool Wind::turbulent() const { return in_time && in_time->has_box(); }
+double Wind::carrier() const { return in_time->carrier(); }
 
 double starting_speed(const WindOptions& wind) {
   if (!wind.table.empty()) return read_wind_table(wind.table).speed.front();

@@ -1,5 +1,5 @@
 // The undisturbed wind: its speed by a law of the height above still water, its changes in time, its turbulence.
-// Made from [wind]; used by rotor_loads.cpp, bem.cpp and, where it is steady, the scenes of the resolved air; tested in
+// Made from [wind]; used by rotor_loads.cpp, bem.cpp and, for resolved air, changing_wind.cpp; tested in
 // tests/src/aero/wind_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,6 +26,14 @@ struct Wind {
     if (in_time) return changing(t, point);
     return profile.uniform() ? velocity : Eigen::Vector3d(profile.share(point.z()) * velocity);
   }
+
+  /// at() in two parts, of a wind that changes in time: what is the same along the wind, of turbulence the mean of each plane of
+  /// the box, and the rest, none where !turbulent(). The rest fades out beside the box, extreme shear beside the rotor.
+  Eigen::Vector3d common(double t, const Eigen::Vector3d& point) const;
+  Eigen::Vector3d fluctuation(double t, const Eigen::Vector3d& point) const;
+  bool turbulent() const;
+  /// Speed by which turbulence is carried [m/s], the way that the wind blows at the start.
+  double carrier() const;
 
  private:
   Eigen::Vector3d changing(double t, const Eigen::Vector3d& point) const;

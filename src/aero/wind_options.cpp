@@ -120,6 +120,10 @@ const scene::Section<TurbulenceOptions>& turbulence_section() {
           .only_if("model", kaimal)
           .number("step_s", &TurbulenceOptions::step_s, "s", "Time between its planes.", scene::positive())
           .only_if("model", kaimal)
+          .number(
+              "inflow_plane_m", &TurbulenceOptions::inflow_plane_m, "m",
+              "Resolved air: how far upwind of the hub forces on a plane bring the turbulence in; without it a rotor's diameter.",
+              scene::above(0.0).up_to(1e5))
           .check(check_turbulence);
   return section;
 }

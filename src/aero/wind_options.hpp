@@ -46,6 +46,7 @@ struct TurbulenceOptions {
   int points_across = 15, points_up = 15;
   std::optional<double> width_m;
   double duration_s = 600.0, step_s = 0.2;
+  std::optional<double> inflow_plane_m;  ///< in resolved air, upwind of the hub
 };
 
 /// [wind]
@@ -60,6 +61,10 @@ struct WindOptions {
   std::optional<TurbulenceOptions> turbulence;
 
   bool steady() const { return table.empty() && !event && !turbulence; }
+  /// By more than its profile: turbulence or extreme shear.
+  bool varies_over_rotor() const {
+    return turbulence || (event && (event->what == WindEvent::ews_vertical || event->what == WindEvent::ews_horizontal));
+  }
 };
 
 const scene::Section<WindOptions>& wind_section();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/rigid/closed_surface.hpp"
+#include "src/aero/changing_wind.hpp"
 #include "src/aero/first_cells.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow_grid.hpp"
@@ -16,7 +17,6 @@
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/tiling.hpp"
 #include "src/aero/resolved_rotor.hpp"
-#include "src/aero/wind.hpp"
 #include "src/app/commands.hpp"
 #include "src/app/cost.hpp"
 #include "src/app/forecast.hpp"
@@ -361,6 +361,7 @@ std::optional<PartCost> print_actuated_air(const coupling::Scenario& s, int rank
   const aero::MultiBlockGrid grid = aero::flow_grid(*s.aero.flow);
   const auto [rotor, hub_key] = coupling::placed_rotor(s);
   aero::require_rotor_inside(grid, rotor, hub_key);
+  aero::require_inflow_plane_inside(grid, s.wind, coupling::wind_site(s));
   fmt::print("\nResolved air (estimates above take the rotor's load from blade elements)\n  {:<10}{}\n", "grid",
              aero::describe_flow_grid(*s.aero.flow));
   if (!print_flow_grid(*s.aero.flow, grid, ranks)) return {};
@@ -430,7 +431,10 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   if (scenario.has_flow()) {
     const double resident = resident_memory();
     const aero::MultiBlockGrid grid = aero::flow_grid(*scenario.aero.flow);
-    if (scenario.has_actuator()) aero::require_rotor_inside(grid, scenario.rotor, "rotor.hub_m");
+    if (scenario.has_actuator()) {
+      aero::require_rotor_inside(grid, scenario.rotor, "rotor.hub_m");
+      aero::require_inflow_plane_inside(grid, scenario.wind, coupling::wind_site(scenario));
+    }
     if (world.rank != 0) return done;
     fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,

@@ -100,7 +100,7 @@ void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::St
 void print_rotor_at_start(const coupling::Scenario& s) {
   const aero::RotorOptions rotor = coupling::placed_rotor(s).rotor;
   const Eigen::Vector3d axis = rotor.axis.normalized();
-  const aero::Wind wind = coupling::rotor_wind(s);
+  const aero::Wind wind = aero::wind_of(s.wind, coupling::wind_site(s));
   Working now{.wind = wind.at(0.0, rotor.hub_m).dot(axis),
               .speed = rotor.speed,
               .pitch = rotor.blade_pitch,

@@ -77,9 +77,14 @@ void MarchingAir::prepare(double t, double dt, const aero::RotorState& at_end) {
   t_ = t, state_ = at_end;
   if (dt == 0.0) return;
   solver_->set_time_step(dt);
-  solver_->set_wind(wind_until(wind_, t));
+  solver_->set_wind(wind_.until(t));
   move();
   solver_->judgement().rows.all.clear();
+}
+
+void MarchingAir::place_wind() {
+  wind_.place(solver_->grid(), world_.comm);
+  if (wind_.has_plane()) log_lines_.push_back("air: " + wind_.description());
 }
 
 Tasks MarchingAir::record(runtime::Graph& graph) {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/aero/changing_wind.hpp"
 #include "src/aero/flow/flow_solver.hpp"
-#include "src/aero/wind.hpp"
 #include "src/coupling/air_file.hpp"
 #include "src/coupling/air_output.hpp"
 #include "src/coupling/air_settling.hpp"
@@ -57,6 +57,8 @@ class MarchingAir : public AirSide {
   /// Whether the preconditioner is still to be chosen; by trial on the flow as it is.
   bool automatic() const { return preconditioner_ == "auto"; }
   void choose();
+  /// At the end of make().
+  void place_wind();
   /// Until start.air_steps are made, from the CFL number of this retry.
   void settle(const SteadyMarch& march, int retry);
   /// loads_.computed as the bodies feel it, with the factor that start.ramp_s gives now.
@@ -78,7 +80,7 @@ class MarchingAir : public AirSide {
   std::vector<std::string> log_lines_;
 
  private:
-  const aero::Wind wind_;  ///< where it changes in time
+  aero::ChangingWind wind_;
   const io::RunDirectory* directory_ = nullptr;
   std::unique_ptr<AirOutput> output_;
 };

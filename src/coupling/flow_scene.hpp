@@ -5,9 +5,8 @@
 
 #include <string>
 
-#include "src/aero/flow/boundary.hpp"
+#include "src/aero/changing_wind.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
-#include "src/aero/wind.hpp"
 #include "src/coupling/scenario.hpp"
 
 namespace spindrift::coupling {
@@ -26,10 +25,10 @@ struct PlacedRotor {
 PlacedRotor placed_rotor(const Scenario& scenario);
 /// [m], of the turbine file's blades or rotor.diameter_m; 0 where the scene has neither.
 double rotor_radius(const Scenario& scenario);
-/// The undisturbed wind of a scene with a rotor.
-aero::Wind rotor_wind(const Scenario& scenario);
-/// How a step of the resolved air that ends at t takes it: empty where it is steady, which reads no file.
-aero::UndisturbedWind wind_until(const aero::Wind& wind, double t);
-inline aero::Wind changing_wind(const Scenario& scenario) { return scenario.wind.steady() ? aero::Wind{} : rotor_wind(scenario); }
+aero::WindSite wind_site(const Scenario& scenario);
+/// Where it is steady no file is read.
+inline aero::ChangingWind changing_wind(const Scenario& scenario) {
+  return scenario.wind.steady() ? aero::ChangingWind() : aero::ChangingWind(scenario.wind, wind_site(scenario));
+}
 
 }  // namespace spindrift::coupling

@@ -137,6 +137,7 @@ class ResolvedAir final : public MarchingAir {
     runtime::Graph geometry(world_.comm);
     solver_->record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
+    place_wind();
   }
   void move() override { rotor_->move_to({frame_.pose(state_)}); }
   ComputedLoads computed() const override { return computed_loads(*rotor_); }

@@ -168,18 +168,23 @@ void check_changing_wind(scene::Document& document, const Scenario& s) {
     return document.problem("wind", "must be steady in resolved air without a rotor: " + leave_out);
   if (s.aero.flow->time == "steady")
     return document.problem("wind", "must be steady where aero.flow.time is \"steady\": take \"bdf2\", or " + leave_out);
-  if (s.wind.turbulence)
-    return document.problem("wind.turbulence",
-                            "has no place in resolved air: its wide cells would lose it on the way to the rotor; aero.model = "
-                            "\"bem\" takes it");
-  if (s.wind.event &&
-      (s.wind.event->what == aero::WindEvent::ews_vertical || s.wind.event->what == aero::WindEvent::ews_horizontal))
-    return document.problem(
-        "wind.event.what",
-        "must not be extreme shear in resolved air, which would have to come from its far sides; aero.model = "
-        "\"bem\" takes it");
-  if (has_resolved_rotor(s) && s.aero.grid->sectors != "all" && aero::turns(s.wind))
-    document.problem("wind", "must keep its direction with one sector of blades: take aero.grid.sectors = \"all\"");
+  if (has_resolved_rotor(s) && s.aero.grid->sectors != "all") {
+    const std::string take = ": take aero.grid.sectors = \"all\"";
+    if (aero::turns(s.wind)) document.problem("wind", "must keep its direction with one sector of blades" + take);
+    if (s.wind.varies_over_rotor()) document.problem("wind", "must be the same for all blades with one sector of them" + take);
+  }
+  if (s.has_actuator() && s.aero.flow->generate && s.aero.flow->generate->kind.ends_with("box")) {
+    const aero::GenerateOptions& box = *s.aero.flow->generate;
+    const auto corner = [](const std::array<double, 3>& x) { return Eigen::Vector3d(x[0], x[1], x[2]); };
+    const std::string why = aero::why_inflow_plane_outside(s.wind, wind_site(s), corner(box.low_m), corner(box.high_m));
+    if (!why.empty()) document.problem("wind.turbulence.inflow_plane_m", why);
+  }
+  if (has_resolved_rotor(s) && s.wind.turbulence && s.wind.turbulence->inflow_plane_m) {
+    const double upwind = s.aero.grid->upstream_extent * rotor_radius(s);
+    if (*s.wind.turbulence->inflow_plane_m > upwind)
+      document.problem("wind.turbulence.inflow_plane_m",
+                       fmt::format("must be at most {:.4g} m, where the grid of the rotor ends", upwind));
+  }
 }
 
 /// Of a rotor that no body carries.
@@ -266,12 +271,7 @@ PlacedRotor placed_rotor(const Scenario& s) {
   return placed;
 }
 
-aero::Wind rotor_wind(const Scenario& s) { return aero::wind_of(s.wind, {placed_rotor(s).rotor.hub_m, 2.0 * rotor_radius(s)}); }
-
-aero::UndisturbedWind wind_until(const aero::Wind& wind, double t) {
-  if (wind.steady()) return {};
-  return [wind, t](const Eigen::Vector3d& place, double ago) { return wind.at(t - ago, place); };
-}
+aero::WindSite wind_site(const Scenario& s) { return {placed_rotor(s).rotor.hub_m, 2.0 * rotor_radius(s)}; }
 
 aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
   constexpr double usual_load_change = 1e-3;
@@ -331,6 +331,8 @@ Scenario read_scenario(scene::Document& document) {
   try {
     s.wind.speed_m_s = aero::starting_speed(s.wind);
     if (!s.wind.steady() && s.resolves_air()) check_changing_wind(document, s);
+    if (s.wind.turbulence && s.wind.turbulence->inflow_plane_m && !s.resolves_air())
+      document.problem("wind.turbulence.inflow_plane_m", "has no effect on blade elements, which take the box as it is");
   } catch (const scene::SceneError& e) {
     document.problem(s.wind.table.empty() ? "wind.turbulence.file" : "wind.table", e.what());
   }

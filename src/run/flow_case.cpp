@@ -16,7 +16,6 @@
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/coarsen.hpp"
 #include "src/aero/turbine.hpp"
-#include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/grid_progress.hpp"
 #include "src/scene/error.hpp"
@@ -100,6 +99,7 @@ FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world, int
     rotor_ = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, chunk, nullptr,
                                                    coupling::grid_progress());
     store_ = &rotor_->store(), solver_ = &rotor_->solver();
+    place_wind(world.comm);
     begin(o.start);
     return;
   }
@@ -134,6 +134,7 @@ void FlowCase::solve(aero::Tiling tiling, const coupling::Scenario& s, const run
   solver_ = own_solver_.get();
   if (held) hold(*solver_, *held);
   if (s.has_actuator()) make_actuator(s, world);
+  place_wind(world.comm);
   begin(o.start);
   if (motion_) place(0, s.time.window_s);
 }
@@ -155,6 +156,11 @@ void FlowCase::make_actuator(const coupling::Scenario& s, const runtime::World& 
   actuator_ = aero::make_actuator(s.aero, turbine, s.environment.air_density_kg_m3, *store_, rotor_at_start_, world.comm);
   solver_->set_body_force(actuator_);
   spdlog::info("air: {}", actuator_->description());
+}
+
+void FlowCase::place_wind(MPI_Comm comm) {
+  wind_.place(*store_, comm);
+  if (wind_.has_plane()) spdlog::info("air: {}", wind_.description());
 }
 
 /// The flow that aero.flow.start names: the wind, air at rest, or a Taylor-Green vortex.
@@ -196,7 +202,7 @@ void FlowCase::place(std::int64_t window, double window_s) {
 }
 
 void FlowCase::move(std::int64_t window, double window_s) {
-  solver_->set_wind(coupling::wind_until(wind_, double(window + 1) * window_s));
+  solver_->set_wind(wind_.until(double(window + 1) * window_s));
   if (rotor_ && !steady()) rotor_->move_to({rotor_->turned(window + 1)});
   if (motion_) solver_->motion().move_to(motion_->poses(double(window + 1) * window_s));
   if (actuator_) place_actuator(steady() ? 0.0 : double(window + 1) * window_s);

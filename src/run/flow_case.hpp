@@ -10,10 +10,10 @@
 #include "runtime/executor/executor.hpp"
 #include "runtime/mpi/environment.hpp"
 #include "src/aero/actuator.hpp"
+#include "src/aero/changing_wind.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/grid_motion.hpp"
 #include "src/aero/resolved_rotor.hpp"
-#include "src/aero/wind.hpp"
 #include "src/coupling/scenario.hpp"
 
 namespace spindrift::run {
@@ -68,9 +68,10 @@ class FlowCase {
   void begin(const std::string& start);
   void place_actuator(double time);
   void make_actuator(const coupling::Scenario& scenario, const runtime::World& world);
+  void place_wind(MPI_Comm comm);
   void follow_walls(const aero::FlowOptions& options);
 
-  aero::Wind wind_;                             ///< where it changes in time
+  aero::ChangingWind wind_;
   std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< has grid, store and solver itself
   aero::MultiBlockGrid own_grid_;
   std::unique_ptr<aero::GridStore> own_store_;

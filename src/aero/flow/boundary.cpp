@@ -78,8 +78,8 @@ gas::Vector<double> BoundaryFace::wall_velocity() const {
 
 gas::Primitive<double> BoundaryFace::stream() const {
   const auto place = [&] { return face_centre(*tile.geometry, boundary.where.side, k, j, i); };
-  if (setting.wind) {
-    const Eigen::Vector3d u = setting.wind(place(), 0.0);
+  if (!setting.wind.steady()) {
+    const Eigen::Vector3d u = setting.wind.velocity(place(), 0.0);
     return {setting.stream.p, u.x(), u.y(), u.z(), setting.stream.T};
   }
   if (setting.profile.uniform()) return setting.stream;
@@ -87,6 +87,14 @@ gas::Primitive<double> BoundaryFace::stream() const {
 }
 
 double BoundaryFace::weight() const { return wall_weight(*tile.geometry, boundary.where.side, k, j, i); }
+
+Eigen::Vector3d InflowPlane::acceleration(const Eigen::Vector3d& cell, double extent) const {
+  constexpr double reach = 4.0;
+  const double along = normal.dot(cell - centre);
+  if (std::abs(along) > reach * width + extent) return Eigen::Vector3d::Zero();
+  const double share = std::erf((along + 0.5 * extent) / width) - std::erf((along - 0.5 * extent) / width);
+  return share / (2.0 * extent) * push(cell);
+}
 
 void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
   const TileGeometry& g = *tile.geometry;

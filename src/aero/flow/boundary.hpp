@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 
 #include "kernels/rotor/wind_profile.hpp"
 #include "src/aero/flow/condition.hpp"
@@ -13,14 +14,32 @@
 
 namespace spindrift::aero {
 
-/// Undisturbed velocity at a place, so long before the end of the physical step [m, s -> m/s].
-using UndisturbedWind = std::function<Eigen::Vector3d(const Eigen::Vector3d& place, double ago)>;
+/// Forces on a plane across the wind. They give the air that passes the turbulence that wide cells of far sides would lose
+/// (Gilling & Sorensen 2011, Wind Energy 14, 661; Troldborg et al. 2014, Wind Energy 17, 657).
+struct InflowPlane {
+  Eigen::Vector3d centre, normal;  ///< [m]; the way the wind blows
+  double width = 1.0;              ///< of the Gaussian over which the forces are spread along the normal [m]
+  /// At the end of the physical step: acceleration integrated over the normal [m2/s2].
+  std::function<Eigen::Vector3d(const Eigen::Vector3d& place)> push;
+
+  /// Mean over a cell of this centre and extent along the normal [m/s2].
+  Eigen::Vector3d acceleration(const Eigen::Vector3d& cell, double extent) const;
+};
+
+/// The undisturbed wind where it changes in time.
+struct UndisturbedWind {
+  /// At a place, so long before the end of the physical step [m, s -> m/s]; empty where the wind is steady.
+  std::function<Eigen::Vector3d(const Eigen::Vector3d& place, double ago)> velocity;
+  std::optional<InflowPlane> plane;
+
+  bool steady() const { return !velocity; }
+};
 
 struct BoundarySetting {
   gas::IdealGas gas;
   gas::Primitive<double> stream{};  ///< undisturbed flow, above the references; at the reference height of
   WindProfile profile{};            ///< its velocity over the height z
-  UndisturbedWind wind;             ///< in place of that velocity, where it changes in time; else empty
+  UndisturbedWind wind;             ///< in place of that velocity, where it changes in time
   gas::Reservoir reservoir{};       ///< that the undisturbed flow comes from
   std::array<double, 2> carried{};  ///< of the turbulence unknowns in it
   double reference_speed = 1e30;    ///< of the far field's waves [m/s]; beyond the sound speed: the physical ones

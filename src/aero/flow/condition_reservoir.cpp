@@ -9,7 +9,7 @@ extern const BoundaryCondition reservoir_condition{
     .ghosts =
         [](const BoundaryFace& at) {
           const BoundarySetting& s = at.setting;
-          const bool one = s.profile.uniform() && !s.wind;
+          const bool one = s.profile.uniform() && s.wind.steady();
           const auto q = gas::inflow_reservoir(s.gas, at.inside, one ? s.reservoir : reservoir_of(s.gas, at.stream()));
           return Ghosts{q, q};
         },

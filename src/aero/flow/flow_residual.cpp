@@ -67,7 +67,7 @@ void FlowResidual::begin_step() { boundary_.weights = time_.weights; }
 
 void FlowResidual::keep_past(FlowTile& tile) const {
   if (!time_.unsteady()) return;
-  if (boundary_.wind) keep_driving(tile);
+  if (!boundary_.wind.steady()) keep_driving(tile);
   if (time_.order > 1) std::swap(tile.before, tile.before_that);
   const TileGeometry& g = *tile.geometry;
   const std::size_t component = std::size_t(tile.cells.component);
@@ -87,7 +87,7 @@ void FlowResidual::keep_past(FlowTile& tile) const {
 
 /// What makes the undisturbed wind change acts on all air alike: its acceleration by the weights of the step that begins, and
 /// what the rate of change of its kinetic energy has beyond the power of that acceleration. A uniform wind stays uniform to
-/// round-off.
+/// round-off. Forces on the inflow plane come in addition.
 void FlowResidual::keep_driving(FlowTile& tile) const {
   PhysicalTime step = time_;
   const double before = step.before;
@@ -101,17 +101,20 @@ void FlowResidual::keep_driving(FlowTile& tile) const {
     for (int i = 0; i < tile.box.ni; ++i) {
       const double* centre = g.centre_data.data() + g.cell_box.at(k, j, i);
       const Eigen::Vector3d x(centre[0], centre[g.cell_box.component], centre[2 * g.cell_box.component]);
-      const Eigen::Vector3d now = boundary_.wind(x, 0.0);
+      const Eigen::Vector3d now = boundary_.wind.velocity(x, 0.0);
       Eigen::Vector3d acceleration = shares[0] * now;
       double power = 0.5 * shares[0] * now.squaredNorm();
       for (int n = 1; n < 3; ++n)
         if (shares[n] != 0.0) {
-          const Eigen::Vector3d u = boundary_.wind(x, ago[n]);
+          const Eigen::Vector3d u = boundary_.wind.velocity(x, ago[n]);
           acceleration += shares[n] * u, power += 0.5 * shares[n] * u.squaredNorm();
         }
+      power -= now.dot(acceleration);
+      if (boundary_.wind.plane)
+        acceleration += boundary_.wind.plane->acceleration(x, extent_along(g, boundary_.wind.plane->normal, k, j, i));
       double* to = tile.driving.data() + tile.inner.at(k, j, i);
       for (int n = 0; n < 3; ++n) to[n * c] = acceleration[n];
-      to[3 * c] = power - now.dot(acceleration);
+      to[3 * c] = power;
     }
   });
 }
@@ -166,7 +169,7 @@ void FlowResidual::evaluate(FlowTile& tile, double* state, double* residual) con
           residual[at + i] -= tile.geometry->volume_data.data()[cells.at(k, j, i)] * tile.source.data()[at + i];
       });
   }
-  if (boundary_.wind) add_driving(tile, state, residual);
+  if (!boundary_.wind.steady()) add_driving(tile, state, residual);
   if (boundary_.turning) add_turning(tile, state, residual);
   if (time_.unsteady()) add_time_derivative(tile, state, residual);
 }

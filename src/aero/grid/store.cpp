@@ -90,6 +90,18 @@ std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Ti
   return geometry;
 }
 
+double extent_along(const TileGeometry& g, const Eigen::Vector3d& normal, int k, int j, int i) {
+  double area = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    const BoxLayout& box = g.face_box[std::size_t(d)];
+    const double* face = g.face_data[std::size_t(d)].data() + box.at(k, j, i);
+    double both = 0.0;  // faces below and above
+    for (int c = 0; c < 3; ++c) both += normal[c] * (face[c * box.component] + face[c * box.component + box.stride(d)]);
+    area += 0.5 * std::abs(both);
+  }
+  return g.volume_data.data()[g.cell_box.at(k, j, i)] / area;
+}
+
 void update_metrics(TileGeometry& g, bool planar) {
   const BoxView<const double> x = g.nodes();
   for (int d = 0; d < flow_directions(planar); ++d) {

@@ -73,6 +73,9 @@ struct TileGeometry {
 /// fill_boundary_geometry and by the links (geometry_quantities).
 std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar, bool moving);
 
+/// Of a cell, along a unit vector: its volume over the area that it shows there [m].
+double extent_along(const TileGeometry& geometry, const Eigen::Vector3d& normal, int k, int j, int i);
+
 /// Faces, volumes and centres from the nodes as they are.
 void update_metrics(TileGeometry& geometry, bool planar);
 

@@ -74,7 +74,7 @@ TEST_CASE("a uniform wind that gusts and turns stays uniform, at rest in pressur
   };
   for (int n = 1; n <= 8; ++n) {
     const double t = n * s.dt;
-    run.solver->set_wind([&, t](const Vector3d&, double ago) { return wind(t - ago); });
+    run.solver->set_wind({[&, t](const Vector3d&, double ago) { return wind(t - ago); }, {}});
     run.run();
     double off = 0.0;
     for (const FlowTile& tile : run.solver->tiles())

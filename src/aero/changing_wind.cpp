@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/aero/changing_wind.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "src/scene/error.hpp"
+
+namespace spindrift::aero {
+
+namespace {
+
+constexpr double cells_of_width = 2.0;
+constexpr double cells_of_wave = 8.0;  ///< of the shortest that the scheme of second order carries over a diameter
+
+Eigen::Vector3d way_of(const WindOptions& wind) { return {std::cos(wind.direction), std::sin(wind.direction), 0.0}; }
+
+/// Longest extent along the normal of the cells that the plane passes through within a radius; zero where there are none.
+double longest_at(const GridStore& store, const InflowPlane& plane, double radius, MPI_Comm comm) {
+  double longest = 0.0;
+  for (const int tile : store.owned()) {
+    const TileGeometry& g = store[tile];
+    const Tile& cells = store.tiling().tiles[std::size_t(tile)];
+    const std::ptrdiff_t c = g.cell_box.component;
+    for (int k = 0; k < cells.nk; ++k)
+      for (int j = 0; j < cells.nj; ++j)
+        for (int i = 0; i < cells.ni; ++i) {
+          const double* x = g.centre_data.data() + g.cell_box.at(k, j, i);
+          const Eigen::Vector3d arm = Eigen::Vector3d(x[0], x[c], x[2 * c]) - plane.centre;
+          const double along = arm.dot(plane.normal), extent = extent_along(g, plane.normal, k, j, i);
+          if (std::abs(along) <= 0.5 * extent && (arm - along * plane.normal).norm() <= radius)
+            longest = std::max(longest, extent);
+        }
+  }
+  runtime::Packer mine;
+  mine.put_one(longest);
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take()))
+    longest = std::max(longest, runtime::Unpacker(bytes).one<double>());
+  return longest;
+}
+
+constexpr const char* plane_key = "wind.turbulence.inflow_plane_m";
+
+/// So far upwind of the hub, or by a diameter where nothing is given.
+Eigen::Vector3d inflow_plane_centre(const WindOptions& wind, const WindSite& site) {
+  const std::optional<double> upwind = wind.turbulence ? wind.turbulence->inflow_plane_m : std::nullopt;
+  return site.hub - upwind.value_or(site.diameter) * way_of(wind);
+}
+
+}  // namespace
+
+std::string why_inflow_plane_outside(const WindOptions& wind, const WindSite& site, const Eigen::Vector3d& low,
+                                     const Eigen::Vector3d& high) {
+  if (!wind.turbulence) return {};
+  const Eigen::Vector3d centre = inflow_plane_centre(wind, site);
+  for (int d = 0; d < 3; ++d)
+    if (centre[d] < low[d] || centre[d] > high[d])
+      return fmt::format(
+          "puts the plane where turbulence enters, {:.4g} m upwind of the hub, out of the grid, which goes from {:g} to "
+          "{:g} m along {}",
+          (centre - site.hub).norm(), low[d], high[d], "xyz"[d]);
+  return {};
+}
+
+void require_inflow_plane_inside(const MultiBlockGrid& grid, const WindOptions& wind, const WindSite& site) {
+  Eigen::Vector3d low = grid.blocks.at(0).nodes.at(0), high = low;
+  for (const Block& block : grid.blocks)
+    for (const Eigen::Vector3d& x : block.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  if (const std::string why = why_inflow_plane_outside(wind, site, low, high); !why.empty())
+    throw scene::SceneError({scene::Problem{.key = plane_key, .message = why}});
+}
+
+ChangingWind::ChangingWind(const WindOptions& wind, const WindSite& site)
+    : wind_(wind_of(wind, site)), site_(site), plane_{inflow_plane_centre(wind, site), way_of(wind), 1.0, {}} {}
+
+void ChangingWind::place(const GridStore& store, MPI_Comm comm) {
+  if (!has_plane()) return;
+  const double cell = longest_at(store, plane_, 0.5 * site_.diameter, comm);
+  if (!(cell > 0.0))
+    throw scene::SceneError({scene::Problem{
+        .key = plane_key, .message = "puts the plane where turbulence enters out of the grid, which has no cells there"}});
+  plane_.width = cells_of_width * cell;
+}
+
+UndisturbedWind ChangingWind::until(double t) const {
+  if (wind_.steady()) return {};
+  const auto common = [wind = wind_, t](const Eigen::Vector3d& place, double ago) { return wind.common(t - ago, place); };
+  if (!has_plane()) return {common, {}};
+  InflowPlane plane = plane_;
+  // The head that takes air from the carrier's speed to what it is to have, by momentum that it takes along.
+  plane.push = [wind = wind_, t, normal = plane_.normal](const Eigen::Vector3d& place) -> Eigen::Vector3d {
+    const Eigen::Vector3d gust = wind.fluctuation(t, place);
+    return (wind.carrier() + 0.5 * gust.dot(normal)) * gust;
+  };
+  return {common, plane};
+}
+
+std::string ChangingWind::description() const {
+  if (!has_plane()) return {};
+  const double shortest = cells_of_wave / cells_of_width * plane_.width, upwind = (site_.hub - plane_.centre).norm();
+  std::string text =
+      fmt::format("turbulence enters {:.4g} m upwind of the hub, spread over {:.3g} m, and comes to it after {:.3g} s", upwind,
+                  plane_.width, upwind / wind_.carrier());
+  if (shortest > site_.diameter)
+    text += fmt::format("; the cells there are wide: of waves shorter than {:.3g} m little comes to the rotor", shortest);
+  return text;
+}
+
+}  // namespace spindrift::aero
