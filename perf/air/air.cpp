@@ -74,14 +74,14 @@ void march(perf::Group& group, const std::string& name, double mach, bool sequen
   History h;
   const double begin = perf::user_seconds();
   if (sequenced) {
-    c.solver->judgement().march.look();
+    c.solver->judgement().march.judge_only();
     c.run();
     start = c.solver->march().mass_residual, volume_start = c.solver->march().now.density;
     s.march.drop = 1e-5;
     Case coarse = aerofoil_case(halved(grid), s);
     coarse.run();
     transfer(*coarse.solver, *c.solver);
-    c.solver->judgement().march.begin_after_look();
+    c.solver->judgement().march.begin_after_judging();
   }
   c.solver->judgement().rows.watcher = [&](const PseudoRow& row) {
     h.cost.push_back((perf::user_seconds() - begin) / cells * 1e6);

@@ -49,7 +49,7 @@ class Actuator final : public BodyForce {
   /// Of one line (1, 2, ...).
   RotorLoad blade_load(int blade, const PseudoRow& row) const;
   /// Lines with columns of their own in history.csv; of a disc none.
-  int told_blades() const { return kind_ == Kind::lines ? blades_ : 0; }
+  int history_blades() const { return kind_ == Kind::lines ? blades_ : 0; }
   /// Along the blades from root to tip: of each line, or the mean over the disc's azimuths.
   std::vector<SpanLoad> span_loads() const;
   double tip_radius() const { return sections_.tip_radius(); }

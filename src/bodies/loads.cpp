@@ -41,7 +41,7 @@ const Motion& motion_of(std::span<const Motion> bodies, int body) {
 
 }  // namespace
 
-JointLaw::Way JointLaw::way(std::span<const Motion> bodies) const {
+JointLaw::Deflection JointLaw::deflection(std::span<const Motion> bodies) const {
   const Motion &a = motion_of(bodies, i), &b = motion_of(bodies, j);
   const Eigen::Vector3d along = a.attitude * axis;
   if (turns) {
@@ -54,10 +54,10 @@ JointLaw::Way JointLaw::way(std::span<const Motion> bodies) const {
           (b.point_velocity(point_j) - a.point_velocity(point_i)).dot(along) + apart.dot(a.omega_earth().cross(along))};
 }
 
-double JointLaw::load(const Way& way) const {
-  double load = -stiffness * (way.place - rest) - (damping + quadratic_damping * std::abs(way.rate)) * way.rate -
-                friction * way.rate / std::max(std::abs(way.rate), creep_rate);
-  if (!places.empty()) load += interpolate_linear(places, loads, way.place);
+double JointLaw::load(const Deflection& at) const {
+  double load = -stiffness * (at.place - rest) - (damping + quadratic_damping * std::abs(at.rate)) * at.rate -
+                friction * at.rate / std::max(std::abs(at.rate), creep_rate);
+  if (!places.empty()) load += interpolate_linear(places, loads, at.place);
   return load;
 }
 
@@ -76,7 +76,7 @@ void JointLaw::add(double load, std::span<const Motion> bodies, std::span<Wrench
 LoadSource joint_law_source(std::vector<JointLaw> laws) {
   return {"joint_laws",
           [laws = std::move(laws)](double, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
-            for (const JointLaw& law : laws) law.add(law.load(law.way(bodies)), bodies, wrenches);
+            for (const JointLaw& law : laws) law.add(law.load(law.deflection(bodies)), bodies, wrenches);
           },
           {}};
 }

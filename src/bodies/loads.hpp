@@ -38,12 +38,12 @@ struct JointLaw {
 
   static constexpr double creep_rate = 1e-3;  ///< [rad/s], [m/s]
 
-  struct Way {
+  struct Deflection {
     double place, rate;
   };
-  Way way(std::span<const Motion> bodies) const;
+  Deflection deflection(std::span<const Motion> bodies) const;
   /// On body j, positive about or along the axis [N m] or [N].
-  double load(const Way& way) const;
+  double load(const Deflection& at) const;
   /// Adds such a load to body j, and its opposite to body i.
   void add(double load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
 };

@@ -33,14 +33,14 @@ YawDrive::YawDrive(const aero::YawOptions& o, const bodies::NamedJoints& joints,
   up_ = law_.axis.z() > 0.0 ? 1.0 : -1.0;
   std::vector<Motion> start;
   for (const auto& body : bodies) start.push_back(start_motion(body.options));
-  start_angle_ = up_ * law_.way(start).place;
+  start_angle_ = up_ * law_.deflection(start).place;
   recall({});
 }
 
 double YawDrive::moment(double t, std::span<const Motion> bodies) const {
-  const bodies::JointLaw::Way way = law_.way(bodies);
-  return -law_.stiffness * within_half_turn(up_ * way.place - controller_.asked(state_, t)) -
-         law_.damping * (up_ * way.rate - state_.turning * controller_.rate);
+  const bodies::JointLaw::Deflection at = law_.deflection(bodies);
+  return -law_.stiffness * within_half_turn(up_ * at.place - controller_.asked(state_, t)) -
+         law_.damping * (up_ * at.rate - state_.turning * controller_.rate);
 }
 
 void YawDrive::add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
@@ -49,8 +49,8 @@ void YawDrive::add_loads(double t, std::span<const Motion> bodies, std::span<Wre
 
 YawDrive::Reading YawDrive::reading(double t, const aero::RotorLoads& rotor, std::span<const Motion> bodies) const {
   const Eigen::Vector3d axis = rotor.state(t, bodies).axis;
-  return {up_ * law_.way(bodies).place, YawController::error(state_, axis.x(), axis.y()), state_.turning * controller_.rate,
-          moment(t, bodies)};
+  return {up_ * law_.deflection(bodies).place, YawController::error(state_, axis.x(), axis.y()),
+          state_.turning * controller_.rate, moment(t, bodies)};
 }
 
 void YawDrive::begin(double t, const aero::RotorLoads& rotor, std::span<const Motion> bodies, std::span<double> memory) const {

@@ -84,7 +84,7 @@ void hold(aero::FlowSolver& solver, const HeldTurbulence& stream) {
 
 /// Marches once; `march` was recorded of the solver.
 void look_at_start(aero::FlowSolver& solver, runtime::Executor& march) {
-  solver.judgement().march.look();
+  solver.judgement().march.judge_only();
   march.run();
   solver.judgement().rows.all.clear();
 }
@@ -242,7 +242,7 @@ void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Exec
     if (coarser) {
       look_at_start(solver, executor);
       aero::begin_with(coarser->solver(), solver, {}, world.comm);
-      solver.judgement().march.begin_after_look();
+      solver.judgement().march.begin_after_judging();
     }
     executor.run();
     const aero::MarchState& done = solver.march();
@@ -264,13 +264,13 @@ void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Exec
                  solver.cells(), done.balance_drop(), done.why);
     coarser = std::move(next);
   }
-  if (coarser) aero::begin_with(coarser->solver(), *solver_, {}, world.comm), way_ = Way::coarser_grids;
-  solver_->judgement().march.begin_after_look();
+  if (coarser) aero::begin_with(coarser->solver(), *solver_, {}, world.comm), start_ = Start::coarser_grids;
+  solver_->judgement().march.begin_after_judging();
 }
 
-void FlowCase::take(Way way) {
-  way_ = way;
-  if (way == Way::physical_pseudo_time) solver_->use_physical_pseudo_time();
+void FlowCase::take(Start start) {
+  start_ = start;
+  if (start == Start::physical_pseudo_time) solver_->use_physical_pseudo_time();
 }
 
 std::string FlowCase::begin_again(const coupling::Scenario& s) {
@@ -278,11 +278,11 @@ std::string FlowCase::begin_again(const coupling::Scenario& s) {
   if (rotor_ || !steady()) return {};
   const std::string start = fmt::format("aero.flow.start = \"{}\" on the grid itself", o.start);
   std::string what;
-  if (way_ == Way::coarser_grids) {
-    take(Way::own_grid);
+  if (start_ == Start::coarser_grids) {
+    take(Start::own_grid);
     what = fmt::format("from {}, without coarser grids", start);
-  } else if (way_ == Way::own_grid && o.low_mach) {
-    take(Way::physical_pseudo_time);
+  } else if (start_ == Start::own_grid && o.low_mach) {
+    take(Start::physical_pseudo_time);
     what = fmt::format("from {}, with the pseudo-time of low_mach = false", start);
   } else {
     return {};

@@ -49,10 +49,10 @@ class FlowCase {
   void return_to(const aero::FlowSnapshot& to, std::int64_t window, double window_s);
 
   /// How a steady march that is no rotor's begins and steps, in the order in which they are tried.
-  enum class Way : std::uint8_t { coarser_grids, own_grid, physical_pseudo_time };
-  Way way() const { return way_; }
+  enum class Start : std::uint8_t { coarser_grids, own_grid, physical_pseudo_time };
+  Start start() const { return start_; }
   /// The beginning that a checkpoint names; its state follows.
-  void take(Way way);
+  void take(Start start);
   /// The march begins again by the next method in that order: returns its name, or nothing where there is none left.
   std::string begin_again(const coupling::Scenario& scenario);
 
@@ -79,7 +79,7 @@ class FlowCase {
   std::optional<aero::GridMotion> motion_;  ///< of an unsteady flow
   std::shared_ptr<aero::Actuator> actuator_;
   aero::DiscMotion rotor_at_start_{};  ///< of the actuator
-  Way way_ = Way::own_grid;
+  Start start_ = Start::own_grid;
   aero::GridStore* store_ = nullptr;
   aero::FlowSolver* solver_ = nullptr;
 };

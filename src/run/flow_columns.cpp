@@ -71,7 +71,7 @@ FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor,
       mass_(history, "flow.", coupling::mass_columns()) {
   if (rotor_ || actuator_) {
     rotor_columns_.emplace(history, "rotor.", coupling::rotor_columns());
-    for (int b = 1; b <= (rotor_ ? rotor_->made().blades() : actuator_->told_blades()); ++b)
+    for (int b = 1; b <= (rotor_ ? rotor_->made().blades() : actuator_->history_blades()); ++b)
       blades_.emplace_back(history, fmt::format("rotor.blade_{}.", b), coupling::blade_columns());
   } else {
     coefficients_.emplace(history, "flow.", coefficient_columns());

@@ -91,7 +91,7 @@ void FlowSimulation::restore(const io::CheckpointReader& file) {
   const runtime::Span span("aero/start");
   if (scenario_.aero.flow->preconditioner == "auto") use(file.text("preconditioner"), "as before the restart");
   record();
-  air_.take(FlowCase::Way(file.integer("way")));
+  air_.take(FlowCase::Start(file.integer("way")));
   file_.read(file);
   const std::int64_t window = file.integer("window");
   air_.solver().set_time_step(timeline_.window_s(), timeline_.window_s());
@@ -99,14 +99,14 @@ void FlowSimulation::restore(const io::CheckpointReader& file) {
   if (air_.motion()) air_.place(window, timeline_.window_s());
   // Where nothing is left to do, what is said and written of the flow needs its residual and its slopes at walls.
   if (air_.steady() && window >= timeline_.windows()) {
-    air_.solver().judgement().march.look();
+    air_.solver().judgement().march.judge_only();
     march_->run();
   }
 }
 
 void FlowSimulation::save(io::CheckpointCopy& copy) {
   if (!chosen_.empty()) copy.set("preconditioner", chosen_);
-  copy.set("way", std::int64_t(air_.way()));
+  copy.set("way", std::int64_t(air_.start()));
   write(copy, file_.arrays());
   if (!air_.rotor()) return;
   write_air_settings(copy, scenario_);

@@ -24,7 +24,7 @@ double MarchState::balance_drop() const {
 
 void March::begin_step() {
   s_.steps = s_.rejections = rejected_in_a_row_ = 0;
-  last_step_ = looking_ ? 0 : o_.max_steps;
+  last_step_ = judging_only_ ? 0 : o_.max_steps;
   s_.first = {};
   s_.matrix_free = s_.spent = false;
   s_.last.fraction = 1.0, s_.last.linear_drop = 0.0;
@@ -33,10 +33,10 @@ void March::begin_step() {
   loads_.clear();
 }
 
-void March::begin_after_look() {
+void March::begin_after_judging() {
   reference_ = s_.now;
   reopen();  // a judgement is no march
-  looking_ = false;
+  judging_only_ = false;
   begin_step();
 }
 
@@ -85,7 +85,7 @@ void March::reopen() {
 
 void March::resume(int more_steps) {
   // The last step of the run before was judged and not solved: it is judged again.
-  last_step_ = --s_.steps + (std::exchange(looking_, false) ? 0 : more_steps);
+  last_step_ = --s_.steps + (std::exchange(judging_only_, false) ? 0 : more_steps);
   reopen();
   made_ = Made::nothing;
   matrix_.cfl = 0.0;

@@ -103,9 +103,9 @@ class March {
   /// A steady march goes on where it was, for at most so many more steps.
   void resume(int more_steps);
   /// The next run judges the state it finds and makes no step; of a march that has begun it changes nothing else ...
-  void look() { looking_ = true; }
+  void judge_only() { judging_only_ = true; }
   /// ... and the one after it begins anew with another state, but what its residual was then counts as the start of its drop.
-  void begin_after_look();
+  void begin_after_judging();
   /// Whether a steady march that is to end by its flux balance will not: it stands still, or takes steps of no length.
   bool stands_still() const;
   /// From another state, or by another pseudo-time: the steps made so far still count.
@@ -148,7 +148,7 @@ class March {
   double ceiling_ = 0.0;  ///< of the CFL number after a leap of turbulence; 0: none
   double better_ = 0.0;   ///< the balance's drop when it last came to half of what it was
   int last_step_ = 0, rejected_in_a_row_ = 0;
-  bool looking_ = false;
+  bool judging_only_ = false;
   Made made_ = Made::nothing;
   Matrix matrix_;
   std::vector<double> loads_;  ///< of the last load_window steps, and one more

@@ -67,7 +67,7 @@ void FlowResidual::begin_step() { boundary_.weights = time_.weights; }
 
 void FlowResidual::keep_past(FlowTile& tile) const {
   if (!time_.unsteady()) return;
-  if (!boundary_.wind.steady()) keep_driving(tile);
+  if (!boundary_.wind.steady()) store_driving(tile);
   if (time_.order > 1) std::swap(tile.before, tile.before_that);
   const TileGeometry& g = *tile.geometry;
   const std::size_t component = std::size_t(tile.cells.component);
@@ -88,7 +88,7 @@ void FlowResidual::keep_past(FlowTile& tile) const {
 /// What makes the undisturbed wind change acts on all air alike: its acceleration by the weights of the step that begins, and
 /// what the rate of change of its kinetic energy has beyond the power of that acceleration. A uniform wind stays uniform to
 /// round-off. Forces on the inflow plane come in addition.
-void FlowResidual::keep_driving(FlowTile& tile) const {
+void FlowResidual::store_driving(FlowTile& tile) const {
   PhysicalTime step = time_;
   const double before = step.before;
   step.begin_step();

@@ -47,7 +47,7 @@ class FlowResidual {
   std::vector<WallPoint> wall_points(const FlowTile& tile) const;
 
  private:
-  void keep_driving(FlowTile& tile) const;
+  void store_driving(FlowTile& tile) const;
   void add_driving(const FlowTile& tile, const double* state, double* residual) const;
   void add_turning(const FlowTile& tile, const double* state, double* residual) const;
   void add_time_derivative(const FlowTile& tile, const double* state, double* residual) const;

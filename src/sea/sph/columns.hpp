@@ -37,12 +37,12 @@ struct Domain {
     return outside && x[dim - 1] > edge;
   }
   /// How a particle that is no more in the tank left it.
-  enum class Way { lost, over_edge, open_side };
-  Way way_out(const std::array<double, dim>& x) const {
+  enum class Exit { lost, over_edge, open_side };
+  Exit exit_of(const std::array<double, dim>& x) const {
     for (int k = 0; k < dim - 1; ++k)
-      if (open[k] && (x[k] < low[k] || x[k] >= high[k])) return Way::open_side;
+      if (open[k] && (x[k] < low[k] || x[k] >= high[k])) return Exit::open_side;
     const bool over_top = x[dim - 1] >= high[dim - 1] && std::isfinite(edge) && std::isfinite(x[dim - 1]);
-    return over_top || passed_edge(x) ? Way::over_edge : Way::lost;
+    return over_top || passed_edge(x) ? Exit::over_edge : Exit::lost;
   }
 };
 

@@ -30,14 +30,14 @@ void HaloTasks<dim, Real>::record(StepRecording<dim, Real>& recording, const std
     const auto rank = std::size_t(border.rank);
     Message& message = messages_.emplace_back();
     const Datum out = r.graph.datum(), in = r.graph.datum();
-    Uses gather = of_groups(border.shown, reads, stress ? r.stress : r.planes);
-    for (const int g : border.shown) gather.push_back(reads(r.walls[std::size_t(g)]));
+    Uses gather = of_groups(border.sent, reads, stress ? r.stress : r.planes);
+    for (const int g : border.sent) gather.push_back(reads(r.walls[std::size_t(g)]));
     gather.push_back(reads(r.order)), gather.push_back(reads(r.plan)), gather.push_back(writes(out)),
         gather.push_back(writes(in));
     const auto fill = r.if_active([&store, &message, &border, sizes, values] {
-      message.out.resize(sizes(border.shown)), message.in.resize(sizes(border.seen));
+      message.out.resize(sizes(border.sent)), message.in.resize(sizes(border.received));
       Real* to = message.out.data();
-      for (const int g : border.shown) {
+      for (const int g : border.sent) {
         const Group& group = store.groups[std::size_t(g)];
         to = std::copy(values(group.fluid), values(group.end), to);
       }
@@ -52,12 +52,12 @@ void HaloTasks<dim, Real>::record(StepRecording<dim, Real>& recording, const std
     r.graph.receive(task_name(label + "/receive", rank), {updates(in)},
                     {border.rank, tag, [&message] { return std::as_writable_bytes(std::span(message.in)); }});
     Uses scatter = {reads(r.order), reads(r.plan), reads(in)};
-    for (const int g : border.seen)
+    for (const int g : border.received)
       for (const GroupData* data : {&r.planes, &r.walls, &r.sums, &r.stress, &r.extra[0], &r.extra[1], &r.extra[2]})
         scatter.push_back(writes((*data)[std::size_t(g)]));
     r.graph.task(task_name(label + "/scatter", rank), scatter, r.if_active([&store, &message, &border, size, stress, values] {
       const Real* from = message.in.data();
-      for (const int g : border.seen) {
+      for (const int g : border.received) {
         const Group& group = store.groups[std::size_t(g)];
         for (std::size_t cluster = group.fluid; cluster < group.end; ++cluster, from += size) {
           std::copy(from, from + size, values(std::uint32_t(cluster)));

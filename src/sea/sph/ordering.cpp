@@ -203,7 +203,7 @@ void Sorting<dim, Real>::anchor(int part) {
 }
 
 template <int dim, class Real>
-void Sorting<dim, Real>::show(MPI_Comm comm) {
+void Sorting<dim, Real>::exchange_halo(MPI_Comm comm) {
   exchange_halo_structure(store_, columns_, subdomain_, comm);
   source_ = {};
 }
@@ -219,7 +219,7 @@ void Sorting<dim, Real>::all(MPI_Comm comm) {
   for (int array = 0; array < count; ++array) reorder(array);
   make_anchors();
   for (int part = 0; part < parts; ++part) anchor(part);
-  show(comm);
+  exchange_halo(comm);
 }
 
 template <int dim, class Real>
@@ -233,7 +233,7 @@ void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& column
   std::vector<runtime::Bytes> parcels(std::size_t(runtime::ranks_in(comm)));
   for (const Subdomain::Border& border : subdomain.borders) {
     runtime::Packer packer;
-    for (const int g : border.shown) {
+    for (const int g : border.sent) {
       const Group& group = store.groups[std::size_t(g)];
       const std::size_t count = group.end - group.fluid;
       packer.put_one(group.solid - group.fluid);
@@ -248,7 +248,7 @@ void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& column
     const auto append = [](auto& to, const auto& values) { to.insert(to.end(), values.begin(), values.end()); };
     for (const Subdomain::Border& border : subdomain.borders) {
       runtime::Unpacker from(came[std::size_t(border.rank)]);
-      for (const int g : border.seen) {
+      for (const int g : border.received) {
         Group& group = store.groups[std::size_t(g)];
         group.fluid = std::uint32_t(store.owner.size());
         group.solid = group.fluid + from.one<std::uint32_t>();
@@ -260,15 +260,15 @@ void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& column
       }
     }
   }
-  store.pack.resize(store.seen_clusters() * pack_planes<dim> * cluster_size);
-  store.sums.resize(store.seen_clusters() * sum_planes<dim> * cluster_size);
-  store.stress.resize(store.seen_clusters() * std::size_t(store.stress_planes) * cluster_size);
+  store.pack.resize(store.all_clusters() * pack_planes<dim> * cluster_size);
+  store.sums.resize(store.all_clusters() * sum_planes<dim> * cluster_size);
+  store.stress.resize(store.all_clusters() * std::size_t(store.stress_planes) * cluster_size);
   for (std::size_t n = 0; n < store.extra_sums.size(); ++n)
-    store.extra_sums[n].resize(store.seen_clusters() * std::size_t(store.extra_planes[n]) * cluster_size);
+    store.extra_sums[n].resize(store.all_clusters() * std::size_t(store.extra_planes[n]) * cluster_size);
   for (int k = 0; k < dim; ++k) {
     // The search reads boxes a register at a time: one register more than there are clusters.
-    store.low[k].resize(store.seen_clusters() + cluster_size);
-    store.high[k].resize(store.seen_clusters() + cluster_size);
+    store.low[k].resize(store.all_clusters() + cluster_size);
+    store.high[k].resize(store.all_clusters() + cluster_size);
   }
 }
 

@@ -27,15 +27,15 @@ class Sorting {
         anchor_step_(anchor_step),
         arrays_(store.deviation_before.empty() ? 2 * dim + 2 : 3 * dim + 3) {}
 
-  void begin();                 ///< gives the planes back: they hold nothing between steps, and their room serves the sort
-  void classify(int part);      ///< finds the group of each particle
-  void migrate(MPI_Comm comm);  ///< sends away, takes in, lists lost ones; collective
-  void halve(int part);         ///< orders the particles of some groups
-  void lay_out();               ///< clusters of groups
-  void reorder(int array);      ///< one array of the state, 0 to arrays() - 1
-  void make_anchors();          ///< room for them
-  void anchor(int part);        ///< anchors of some clusters
-  void show(MPI_Comm comm);     ///< the structure of the halo, room for the planes; collective
+  void begin();                       ///< gives the planes back: they hold nothing between steps, and their room serves the sort
+  void classify(int part);            ///< finds the group of each particle
+  void migrate(MPI_Comm comm);        ///< sends away, takes in, lists lost ones; collective
+  void halve(int part);               ///< orders the particles of some groups
+  void lay_out();                     ///< clusters of groups
+  void reorder(int array);            ///< one array of the state, 0 to arrays() - 1
+  void make_anchors();                ///< room for them
+  void anchor(int part);              ///< anchors of some clusters
+  void exchange_halo(MPI_Comm comm);  ///< the structure of the halo, room for the planes; collective
   int arrays() const { return arrays_; }
   void all(MPI_Comm comm);  ///< the whole, one after the other
 

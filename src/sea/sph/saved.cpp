@@ -68,8 +68,8 @@ Saved<dim> save_groups(const SeaState<dim, Real>& sea, std::span<const int> grou
             plan.limit,
             plan.drift,
             plan.solid_drift,
-            plan.way,
-            plan.solid_way,
+            plan.travel,
+            plan.solid_travel,
             plan.shifted,
             plan.solid_path,
             double(sea.work.steps),
@@ -165,8 +165,8 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
   const auto& n = s.plan;
   plan = Plan{};
   plan.time = n[0], plan.steps = long(n[1]), plan.left = n[2], plan.dt = n[3], plan.planned = int(n[4]), plan.speed = n[5];
-  plan.acceleration = n[6], plan.limit = n[7], plan.drift = n[8], plan.solid_drift = n[9], plan.way = n[10];
-  plan.solid_way = n[11], plan.solid_path = n[13];
+  plan.acceleration = n[6], plan.limit = n[7], plan.drift = n[8], plan.solid_drift = n[9], plan.travel = n[10];
+  plan.solid_travel = n[11], plan.solid_path = n[13];
   for (const Saved<dim>& piece : pieces)
     plan.shifted = std::max(plan.shifted, piece.plan[12]);  // each rank's own since the last check of the limits
   sea.energy = s.energy;

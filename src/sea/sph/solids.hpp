@@ -55,7 +55,7 @@ struct Solid {
   }
 
   /// A bound on how far any particle goes from the motion now to another one [m]: the same on all ranks.
-  double way_to(const Motion& to) const {
+  double travel_to(const Motion& to) const {
     const double half_chord = (motion.attitude.conjugate() * to.attitude).vec().norm();
     return (to.position - motion.position).norm() + 2.0 * half_chord * radius;
   }

@@ -70,12 +70,12 @@ struct SeaState {
     plan.sorted();
     ++work.sorts;
     if (store.lost.empty() || plan.failure) return;
-    using Way = typename Domain<dim>::Way;
+    using Exit = typename Domain<dim>::Exit;
     const Gone gone = this->gone();
-    const auto stop = [&](Way way, std::size_t count, std::size_t limit, const std::string& how, const std::string& advice) {
+    const auto stop = [&](Exit by, std::size_t count, std::size_t limit, const std::string& how, const std::string& advice) {
       if (count <= limit || plan.failure) return;
       const auto last = std::find_if(store.lost.rbegin(), store.lost.rend(),
-                                     [&](const auto& particle) { return columns.domain().way_out(particle.position) == way; });
+                                     [&](const auto& particle) { return columns.domain().exit_of(particle.position) == by; });
       std::string place = "(";
       for (int k = 0; k < dim; ++k) place += (k > 0 ? ", " : "") + in_words(last->position[k]);
       plan.failure =
@@ -83,10 +83,10 @@ struct SeaState {
                                "), the last one, " + std::to_string(last->id) + ", at " + place + ") m; " + advice,
                            "sea", plan.steps, plan.time, double(limit));
     };
-    stop(Way::lost, gone.lost, p.lost_at_most, "left the tank through its walls",
+    stop(Exit::lost, gone.lost, p.lost_at_most, "left the tank through its walls",
          "check that walls and obstacles are closed and bodies start clear of them, take a smaller sea.particles.cfl, or raise "
          "sea.particles.lost_at_most");
-    stop(Way::over_edge, gone.over_edge, p.left_at_most, "left over the upper edge of the tank's walls",
+    stop(Exit::over_edge, gone.over_edge, p.left_at_most, "left over the upper edge of the tank's walls",
          "raise sea.tank.top_m, or let them go with sea.tank.over_edge = \"open\"");
   }
   /// Particles that are no more in the tank.
@@ -95,14 +95,14 @@ struct SeaState {
   };
   Gone gone() const {
     Gone gone;
-    for (const LostParticle<dim>& particle : store.lost) switch (columns.domain().way_out(particle.position)) {
-        case Domain<dim>::Way::lost:
+    for (const LostParticle<dim>& particle : store.lost) switch (columns.domain().exit_of(particle.position)) {
+        case Domain<dim>::Exit::lost:
           ++gone.lost;
           break;
-        case Domain<dim>::Way::over_edge:
+        case Domain<dim>::Exit::over_edge:
           ++gone.over_edge;
           break;
-        case Domain<dim>::Way::open_side:
+        case Domain<dim>::Exit::open_side:
           ++gone.through_open_sides;
           break;
       }
@@ -117,7 +117,7 @@ struct SeaState {
   bool has_contacts() const { return p.contact && !free.empty(); }
   /// Notes where a body is now; placing its particles is for each group.
   void set_motion(Solid& solid, const Motion& motion) {
-    plan.count_way_of_body(solid.way_to(motion));
+    plan.count_travel_of_body(solid.travel_to(motion));
     solid.motion = motion;
     follow(solid);
   }

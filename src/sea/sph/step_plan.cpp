@@ -6,10 +6,12 @@
 
 namespace spindrift::sph {
 
-bool Plan::sort_is_due(double drift) const { return std::max(this->drift + 2.0 * way, solid_drift + 2.0 * solid_way) > drift; }
+bool Plan::sort_is_due(double drift) const {
+  return std::max(this->drift + 2.0 * travel, solid_drift + 2.0 * solid_travel) > drift;
+}
 
 void Plan::sorted() {
-  drift = solid_drift = way = solid_way = 0.0;
+  drift = solid_drift = travel = solid_travel = 0.0;
   sort = false;
 }
 
@@ -34,9 +36,9 @@ void Plan::start_steps(double dt, int count) {
   this->dt = dt, planned = count;
   // Over the steps a particle goes at most (|v| + T |a|) T; the half steps' acceleration may be larger, hence the factor two.
   const double duration = dt * count;
-  way = duration * (speed + 2.0 * duration * acceleration) + shifted;
-  drift += way - shifted;
-  solid_way = 0.0;
+  travel = duration * (speed + 2.0 * duration * acceleration) + shifted;
+  drift += travel - shifted;
+  solid_travel = 0.0;
 }
 
 void Plan::choose_steps(const StepControl& control) {

@@ -50,10 +50,10 @@ struct Plan {
   int planned = 0;                                      ///< steps until the next check of the limits
   double speed = 0.0, acceleration = 0.0, limit = 0.0;  ///< largest at the last check of the limits, and what they allow [s]
   StepLimits limits{};
-  double drift = 0.0, solid_drift = 0.0;  ///< bounds on the distance gone since the last sort [m]
-  double way = 0.0, solid_way = 0.0;      ///< and since the last check of the limits
-  double shifted = 0.0;                   ///< largest displacement by shifting since the last check of the limits
-  double solid_path = 0.0;                ///< of bodies in all [m]
+  double drift = 0.0, solid_drift = 0.0;    ///< bounds on the distance gone since the last sort [m]
+  double travel = 0.0, solid_travel = 0.0;  ///< and since the last check of the limits
+  double shifted = 0.0;                     ///< largest displacement by shifting since the last check of the limits
+  double solid_path = 0.0;                  ///< of bodies in all [m]
   bool sort = false;
   bool last = false;                        ///< the step planned ends the window (StepControl::choose)
   std::optional<NumericalFailure> failure;  ///< set where the numerics gave up; what is left of the window does nothing
@@ -75,8 +75,8 @@ struct Plan {
   void choose_steps(const StepControl& control);
   /// The steps planned were made: clocks and counters.
   void finish_steps(const StepControl& control, StepChoice step, Work& work);
-  /// A body has gone `way` [m].
-  void count_way_of_body(double way) { solid_drift += way, solid_way += way, solid_path += way; }
+  /// A body has gone `travel` [m].
+  void count_travel_of_body(double travel) { solid_drift += travel, solid_travel += travel, solid_path += travel; }
 };
 
 }  // namespace spindrift::sph

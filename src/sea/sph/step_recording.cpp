@@ -44,7 +44,7 @@ StepRecording<dim, Real>::StepRecording(SeaState<dim, Real>& sea, runtime::Graph
     for (std::size_t n = 0; n < subdomain.own.size(); ++n)
       (*data)[std::size_t(subdomain.own[n])] = graph.datum(float(n) / float(subdomain.own.size()));
     for (const Subdomain::Border& border : subdomain.borders)
-      for (const int g : border.seen) (*data)[std::size_t(g)] = graph.datum();
+      for (const int g : border.received) (*data)[std::size_t(g)] = graph.datum();
   }
   for (const int g : subdomain.own) {
     const Group& group = sea.store.groups[std::size_t(g)];

@@ -58,7 +58,7 @@ struct Store {
   float frame(int axis, std::size_t cluster) const { return float(anchor[axis][cluster] - corner[axis]); }
   std::size_t slots() const { return deviation.size(); }           ///< of own groups
   std::size_t clusters() const { return slots() / cluster_size; }  ///< of own groups
-  std::size_t seen_clusters() const { return owner.size(); }       ///< of own groups and the halo
+  std::size_t all_clusters() const { return owner.size(); }        ///< of own groups and the halo
   Real* pack_of(std::size_t cluster) { return pack.data() + cluster * pack_planes<dim> * cluster_size; }
   const Real* pack_of(std::size_t cluster) const { return pack.data() + cluster * pack_planes<dim> * cluster_size; }
   Real* sums_of(std::size_t cluster) { return sums.data() + cluster * sum_planes<dim> * cluster_size; }

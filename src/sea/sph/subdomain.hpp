@@ -18,7 +18,7 @@ struct Subdomain {
   /// A rank with groups beside mine. Both lists ascend, so that what one rank sends another receives.
   struct Border {
     int rank = 0;
-    std::vector<int> shown, seen;
+    std::vector<int> sent, received;
   };
   int rank = 0;
   std::vector<int> rank_of_group;
@@ -43,8 +43,8 @@ Subdomain subdomain_of(const Columns<dim>& columns, std::vector<int> rank_of_gro
       around[std::size_t(g)].push_back(near.group), around[std::size_t(near.group)].push_back(g);
     });
   }
-  std::vector<std::set<int>> shown(std::size_t(1 + *std::max_element(t.rank_of_group.begin(), t.rank_of_group.end())));
-  auto seen = shown;
+  std::vector<std::set<int>> sent(std::size_t(1 + *std::max_element(t.rank_of_group.begin(), t.rank_of_group.end())));
+  auto received = sent;
   for (const int g : t.own) {
     std::set<int> near{g};
     for (int ring = 0; ring < rings; ++ring) {
@@ -54,11 +54,12 @@ Subdomain subdomain_of(const Columns<dim>& columns, std::vector<int> rank_of_gro
     for (const int n : near) {
       if (t.owns(n)) continue;
       const auto r = std::size_t(t.rank_of_group[std::size_t(n)]);
-      shown[r].insert(g), seen[r].insert(n);
+      sent[r].insert(g), received[r].insert(n);
     }
   }
-  for (std::size_t r = 0; r < shown.size(); ++r)
-    if (!shown[r].empty()) t.borders.push_back({int(r), {shown[r].begin(), shown[r].end()}, {seen[r].begin(), seen[r].end()}});
+  for (std::size_t r = 0; r < sent.size(); ++r)
+    if (!sent[r].empty())
+      t.borders.push_back({int(r), {sent[r].begin(), sent[r].end()}, {received[r].begin(), received[r].end()}});
   return t;
 }
 

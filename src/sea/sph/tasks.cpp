@@ -195,7 +195,7 @@ void StepTasks<dim, Real>::sort() {
   serial("sea/sort/anchors", [](S& s) { s.make_anchors(); });
   parallel("sort/anchor", S::parts, [](S& s, int n) { s.anchor(n); });
   together("sea/sort/show", [&sea](S& s, MPI_Comm comm) {
-    s.show(comm);
+    s.exchange_halo(comm);
     sea.sorted();
   });
 }

@@ -185,19 +185,19 @@ TEST_CASE("a door on a spring swings about its rest at its frequency and gives t
   System system(bodies, {joint("hinge", JointType::revolute, earth, 0, {0, 0, 0}, z)}, {joint_law_source({spring})});
   BodiesState state = start(system);
   const auto energy = [&] {
-    const double off = spring.way(state.motions).place - 0.3;
+    const double off = spring.deflection(state.motions).place - 0.3;
     return system.kinetic_energy(state) + 25.0 * off * off;
   };
   const double before = energy(), period = 2.0 * pi * std::sqrt(5.5 / 50.0);
   double lost = 0.0;
   for (int n = 0; n < 4000; ++n) {
-    const double rate = spring.way(state.motions).rate;
+    const double rate = spring.deflection(state.motions).rate;
     run(system, state, 0.25e-3 * period, 1);
-    const double next = spring.way(state.motions).rate, middle = 0.5 * (rate + next);
+    const double next = spring.deflection(state.motions).rate, middle = 0.5 * (rate + next);
     lost += 0.25e-3 * period * (damping + quadratic * std::abs(middle)) * middle * middle;
   }
   CHECK(energy() == Approx(before - lost).epsilon(1e-5));
-  if (damping + quadratic == 0.0) CHECK(spring.way(state.motions).place == Approx(0.0).margin(1e-9));  // a whole period
+  if (damping + quadratic == 0.0) CHECK(spring.deflection(state.motions).place == Approx(0.0).margin(1e-9));  // a whole period
 }
 
 TEST_CASE("a slider between two free bodies pulls both, and its friction brings it to rest", "[bodies][fast]") {
@@ -207,14 +207,14 @@ TEST_CASE("a slider between two free bodies pulls both, and its friction brings 
   moving[1].initial.velocity = {2, 0, 0};
   System system(moving, {joint("slide", JointType::translational, 0, 1, {1, 0, 0}, x)}, {joint_law_source({law})});
   BodiesState state = start(system);
-  const double speed = law.way(state.motions).rate;
+  const double speed = law.deflection(state.motions).rate;
   const Vector3d together = state.motions[0].velocity + state.motions[1].velocity;
   REQUIRE(speed > 0.5);
   // Both slow down against each other by 3 N (1/3 + 1/3) 1/kg = 2 m/s2.
   run(system, state, 1e-3, 100);
-  CHECK(law.way(state.motions).rate == Approx(speed - 0.2));
+  CHECK(law.deflection(state.motions).rate == Approx(speed - 0.2));
   run(system, state, 1e-3, 2000);
-  CHECK(std::abs(law.way(state.motions).rate) < 1e-6);
-  CHECK(law.way(state.motions).place == Approx(0.25 * speed * speed).epsilon(0.01));
+  CHECK(std::abs(law.deflection(state.motions).rate) < 1e-6);
+  CHECK(law.deflection(state.motions).place == Approx(0.25 * speed * speed).epsilon(0.01));
   CHECK((state.motions[0].velocity + state.motions[1].velocity - together).norm() < 1e-9);  // momentum
 }

@@ -71,11 +71,11 @@ std::vector<Result> family(int members, double drop) {
   for (int m = 0; m < members; ++m) {
     Case fine = aerofoil_case(naca0012({.n = 1 << m}), 0.15, drop, 400);
     if (coarse) {
-      fine.solver->judgement().march.look();
+      fine.solver->judgement().march.judge_only();
       fine.run();
       fine.solver->judgement().rows.all.clear();
       transfer(*coarse->solver, *fine.solver);
-      fine.solver->judgement().march.begin_after_look();
+      fine.solver->judgement().march.begin_after_judging();
     }
     fine.run();
     all.push_back(result(fine));

@@ -234,7 +234,7 @@ TEST_CASE("a look at a march that has begun judges its state again and changes n
   while (march.judge(of(0.5), 0.0) == Verdict::go_on) march.updated(1.0, 5, 0.1);
   const int steps = march.state().steps;
   const double cfl = march.state().cfl;
-  march.look();
+  march.judge_only();
   march.resume(100);
   CHECK(march.judge(of(0.5), 0.0) == Verdict::converged);
   CHECK(march.state().spent);

@@ -74,13 +74,13 @@ TEST_CASE("a march that begins with a coarser grid's flow ends where the other d
   Case plain(grid, s, patches), sequenced(grid, s, patches), coarse(halved(grid), s, patches);
   for (Case* c : {&plain, &sequenced, &coarse}) c->prepare();
   plain.run(), coarse.run();
-  sequenced.solver->judgement().march.look();
+  sequenced.solver->judgement().march.judge_only();
   sequenced.run();
   CHECK(sequenced.solver->march().steps == 1);
   CHECK(sequenced.solver->march().now.density == plain.solver->rows().front().density_residual);
   sequenced.solver->judgement().rows.all.clear();
   transfer(*coarse.solver, *sequenced.solver);
-  sequenced.solver->judgement().march.begin_after_look();
+  sequenced.solver->judgement().march.begin_after_judging();
   sequenced.run();
   const MarchState &a = plain.solver->march(), &b = sequenced.solver->march();
   CAPTURE(a.steps, b.steps, a.krylov_total, b.krylov_total);

@@ -98,7 +98,7 @@ TEST_CASE("particles are sorted before they could leave their cells, bodies' way
   CHECK((steps + 3) * 2.0 * 1e-3 > p.drift());
   plan.sorted();
   CHECK_FALSE(plan.sort_is_due(p.drift()));
-  plan.count_way_of_body(1.1 * p.drift());
+  plan.count_travel_of_body(1.1 * p.drift());
   CHECK(plan.sort_is_due(p.drift()));
   plan.sorted();
   CHECK(plan.solid_path == Approx(1.1 * p.drift()));

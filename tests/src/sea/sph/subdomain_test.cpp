@@ -25,18 +25,18 @@ TEST_CASE("what one rank shows is what the other sees, and every neighbour of an
   CHECK(owned == rank_of_group.size());
   for (const auto& [between, b] : border) {
     REQUIRE(border.count({between.second, between.first}) == 1);
-    CHECK(b->shown == border[{between.second, between.first}]->seen);
-    CHECK(std::is_sorted(b->shown.begin(), b->shown.end()));
-    for (const int g : b->shown) CHECK(rank_of_group[std::size_t(g)] == between.first);
-    for (const int g : b->seen) CHECK(rank_of_group[std::size_t(g)] == between.second);
+    CHECK(b->sent == border[{between.second, between.first}]->received);
+    CHECK(std::is_sorted(b->sent.begin(), b->sent.end()));
+    for (const int g : b->sent) CHECK(rank_of_group[std::size_t(g)] == between.first);
+    for (const int g : b->received) CHECK(rank_of_group[std::size_t(g)] == between.second);
   }
   for (int g = 0; g < columns.groups(); ++g)
     columns.for_forward(g, [&](const Neighbour<3>& near) {
       const int a = rank_of_group[std::size_t(g)], b = rank_of_group[std::size_t(near.group)];
       if (a == b) return;
-      const auto &seen = border.at({a, b})->seen, &shown = border.at({a, b})->shown;
-      CHECK(std::binary_search(seen.begin(), seen.end(), near.group));
-      CHECK(std::binary_search(shown.begin(), shown.end(), g));
+      const auto &received = border.at({a, b})->received, &sent = border.at({a, b})->sent;
+      CHECK(std::binary_search(received.begin(), received.end(), near.group));
+      CHECK(std::binary_search(sent.begin(), sent.end(), g));
     });
 }
 
