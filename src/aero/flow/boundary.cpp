@@ -163,8 +163,8 @@ void set_open_faces(FlowTile& tile) {
       for (int m = boundary.where.low[1]; m < boundary.where.high[1]; ++m)
         for (int n = boundary.where.low[0]; n < boundary.where.high[0]; ++n) flags.data()[m * row + n] = 1.0 - elsewhere;
     };
-    mark(tile.open[std::size_t(side)], 1.0);
-    if (boundary.condition->wall_law) mark(tile.law[std::size_t(side)], 0.0);
+    mark(tile.sides[std::size_t(side)].open, 1.0);
+    if (boundary.condition->wall_law) mark(tile.sides[std::size_t(side)].law, 0.0);
     static_cast<void>(a);
   }
 }

@@ -1,6 +1,6 @@
 // preconditioner = "auto": one linear system of the flow as it starts is solved with each candidate, and that with the least cost
 // by a stated model of iterations is taken. No clock decides, so that any number of threads, ranks and another day choose alike.
-// Called by src/run and src/coupling (resolved_air.cpp); tested in tests/src/aero/flow/choice_test.cpp.
+// Called by src/run and src/coupling (air_march.cpp); tested in tests/src/aero/flow/choice_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

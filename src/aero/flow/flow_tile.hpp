@@ -35,6 +35,14 @@ struct UpdateLimit {
   const char* what = "";
 };
 
+/// Numbers of the faces on one side of a tile, see open_row; empty where nothing there asks for them.
+struct SideFaces {
+  AlignedArray<double> open;     ///< where there are walls: 1 where the flux scheme acts, 0 on wall faces
+  AlignedArray<double> law;      ///< where one has a wall function: 1 on its faces
+  AlignedArray<double> through;  ///< where there are other boundaries: mass fluxes in the residual evaluated last [kg/s], along
+                                 ///< the direction of the index
+};
+
 struct FlowTile {
   TileGeometry* geometry = nullptr;
   int index = 0;                     ///< in the tiling
@@ -60,10 +68,7 @@ struct FlowTile {
   AlignedArray<double>
       driving;                ///< of a wind that changes: acceleration [m/s2] and a power [W/kg], flow_residual.cpp; else empty
   AlignedArray<double> rate;  ///< V / pseudo-time step [m3/s]
-  std::array<AlignedArray<double>, 6> open;  ///< per side with walls: 1 where the flux scheme acts, 0 on wall faces; else empty
-  std::array<AlignedArray<double>, 6> through;  ///< per side with boundaries other than walls: mass fluxes of its faces in the
-                                                ///< residual evaluated last [kg/s], along the direction of the index; else empty
-  std::array<AlignedArray<double>, 6> law;  ///< likewise: 1 on faces of walls with a wall function; empty where there are none
+  std::array<SideFaces, 6> sides;
 
   AlignedArray<float> mean_matrix, turbulence_matrix;
   AlignedArray<float> direction;                     ///< with one ghost: what the operator is applied to

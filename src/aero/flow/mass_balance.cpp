@@ -11,7 +11,7 @@ void set_through_faces(FlowTile& tile) {
   const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk};
   for (const FlowBoundary& boundary : tile.boundaries) {
     const Side side = boundary.where.side;
-    AlignedArray<double>& through = tile.through[std::size_t(side)];
+    AlignedArray<double>& through = tile.sides[std::size_t(side)].through;
     if (is_closed(*boundary.condition) || through.size() > 0) continue;
     through = AlignedArray<double>(std::size_t(open_row(tile.box, direction_of(side)) * extent[along(side)[1]] + row_lanes));
   }
@@ -25,7 +25,7 @@ MassBalance mass_balance(const FlowTile& tile, const gas::IdealGas& gas, const P
     const int d = direction_of(side);
     const std::ptrdiff_t row = open_row(tile.box, d);
     const double outward = at_end(side) ? 1.0 : -1.0;
-    const double* through = tile.through[std::size_t(side)].data();
+    const double* through = tile.sides[std::size_t(side)].through.data();
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const std::ptrdiff_t place = d == 0 ? k * row + j : (d == 1 ? k : j) * row + i;
       const double out = outward * through[place];

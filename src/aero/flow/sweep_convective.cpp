@@ -29,7 +29,7 @@ void straighten_at_walls(const FlowTile& tile, const double* state, int d, int k
   const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk}, at[3] = {i, j, k};
   const std::ptrdiff_t step = tile.cells.stride(d);
   for (const int end : {0, 1}) {
-    const auto& law = tile.law[std::size_t(2 * d + end)];
+    const auto& law = tile.sides[std::size_t(2 * d + end)].law;
     const int face = end == 0 ? 1 : extent[d] - 1;
     if (law.size() == 0 || extent[d] < 2) continue;
     double(&side)[mean_unknowns + 2][piece] = end == 0 ? states.left : states.right;
@@ -99,10 +99,10 @@ void sweep_convective(FlowTile& tile, const double* state, double* residual, con
       fluxes(tile, state, 0, k, j, i, std::min(piece, box.ni + 1 - i), s, row[0] + i, stride);
     const std::ptrdiff_t place = k * open_row(box, 0) + j;
     for (const int end : {0, 1})
-      if (const auto& open = tile.open[std::size_t(end)]; open.size() > 0)
+      if (const auto& open = tile.sides[std::size_t(end)].open; open.size() > 0)
         for (int c = 0; c < unknowns; ++c) row[c][end * box.ni] *= open.data()[place];
     for (const int end : {0, 1})
-      if (auto& through = tile.through[std::size_t(end)]; through.size() > 0) through.data()[place] = row[0][end * box.ni];
+      if (auto& through = tile.sides[std::size_t(end)].through; through.size() > 0) through.data()[place] = row[0][end * box.ni];
     double* out = residual + inner.at(k, j, 0);
     for (int c = 0; c < unknowns; ++c)
       for (int i = 0; i < box.ni; i += row_lanes)
@@ -114,8 +114,8 @@ void sweep_convective(FlowTile& tile, const double* state, double* residual, con
     for (int m = 0; m < others; ++m)
       for (int n = 0; n <= last; ++n) {
         const int k = d == 1 ? m : n, j = d == 1 ? n : m;
-        const auto& open = tile.open[std::size_t(2 * d + (n == last ? 1 : 0))];
-        auto& through = tile.through[std::size_t(2 * d + (n == last ? 1 : 0))];
+        const auto& open = tile.sides[std::size_t(2 * d + (n == last ? 1 : 0))].open;
+        auto& through = tile.sides[std::size_t(2 * d + (n == last ? 1 : 0))].through;
         const bool kept = (n == 0 || n == last) && through.size() > 0;
         const bool masked = (n == 0 || n == last) && open.size() > 0;
         for (int first = 0; first < box.ni; first += piece) {

@@ -83,7 +83,7 @@ void add_faces(FlowTile& tile, const double* state, const double* eddy, int d, c
         if ((s.mach_floor < 1.0 || s.preconditioned_waves) && g.moving()) add_grid_velocity(g, d, k, j, i, f);
         gas::FluxJacobian<Row> b = convection(s, ql, qr, f);
         const int n = d == 1 ? j : k;
-        const auto masked = [&](int end) -> const AlignedArray<double>& { return tile.open[std::size_t(2 * d + end)]; };
+        const auto masked = [&](int end) -> const AlignedArray<double>& { return tile.sides[std::size_t(2 * d + end)].open; };
         if (d > 0) {
           for (const int end : {0, 1})
             if (n == end * extent[d] && masked(end).size() > 0) {

@@ -18,9 +18,7 @@ std::size_t FlowTile::bytes() const {
                     direction.bytes();
   for (const auto& v : vectors) sum += v.bytes();
   for (const auto& v : directions_kept) sum += v.bytes();
-  for (const auto& v : open) sum += v.bytes();
-  for (const auto& v : through) sum += v.bytes();
-  for (const auto& v : law) sum += v.bytes();
+  for (const SideFaces& side : sides) sum += side.open.bytes() + side.law.bytes() + side.through.bytes();
   return sum;
 }
 
