@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "kernels/rotor/actuator_line.hpp"
-#include "runtime/mpi/exchange.hpp"
+#include "src/aero/largest_of_cells.hpp"
 
 namespace spindrift::aero {
 
@@ -54,27 +54,11 @@ double narrowest(const Turbine& turbine, const ActuatorOptions& o, double cell) 
 
 double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const Eigen::Vector3d& axis, double radius,
                      MPI_Comm comm) {
-  double largest = 0.0;
-  for (const int tile : store.owned()) {
-    const TileGeometry& g = store[tile];
-    const Tile& cells = store.tiling().tiles[std::size_t(tile)];
-    const std::ptrdiff_t c = g.cell_box.component;
-    for (int k = 0; k < cells.nk; ++k)
-      for (int j = 0; j < cells.nj; ++j)
-        for (int i = 0; i < cells.ni; ++i) {
-          const std::ptrdiff_t at = g.cell_box.at(k, j, i);
-          const double* x = g.centre_data.data() + at;
-          const Eigen::Vector3d arm = Eigen::Vector3d(x[0], x[c], x[2 * c]) - hub;
-          const double along = arm.dot(axis), size = std::cbrt(g.volume_data.data()[at]);
-          if (std::abs(along) <= std::max(blade_depth * radius, 0.5 * size) && (arm - along * axis).norm() <= radius)
-            largest = std::max(largest, size);
-        }
-  }
-  runtime::Packer mine;
-  mine.put_one(largest);
-  for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take()))
-    largest = std::max(largest, runtime::Unpacker(bytes).one<double>());
-  return largest;
+  return largest_of_cells(store, comm, [&](const TileGeometry& g, int k, int j, int i, const Eigen::Vector3d& centre) {
+    const Eigen::Vector3d arm = centre - hub;
+    const double along = arm.dot(axis), size = std::cbrt(g.volume_data.data()[g.cell_box.at(k, j, i)]);
+    return std::abs(along) <= std::max(blade_depth * radius, 0.5 * size) && (arm - along * axis).norm() <= radius ? size : 0.0;
+  });
 }
 
 Actuator::Actuator(const Turbine& turbine, Kind kind, const ActuatorOptions& options, double air_density, double cell,

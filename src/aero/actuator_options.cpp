@@ -33,17 +33,17 @@ const scene::Section<ActuatorOptions>& actuator_section() {
 
 namespace {
 
-/// Empty where the blades are between two corners of a grid at any azimuth. The turbine file is sound.
-std::string why_outside(const RotorOptions& rotor, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+/// Empty where the blades are between the corners of a grid at any azimuth. The turbine file is sound.
+std::string why_outside(const RotorOptions& rotor, const Corners& grid) {
   const double radius = read_turbine(rotor.turbine).planform.span.back();
   const Eigen::Vector3d axis = rotor.axis.normalized();
   for (int d = 0; d < 3; ++d) {
     const double reach = radius * std::sqrt(std::max(0.0, 1.0 - axis[d] * axis[d]));
-    if (rotor.hub_m[d] - reach < low[d] || rotor.hub_m[d] + reach > high[d])
+    if (rotor.hub_m[d] - reach < grid.low[d] || rotor.hub_m[d] + reach > grid.high[d])
       return fmt::format(
           "puts the rotor out of the grid, which goes from {:g} to {:g} m along {}: the blades reach {:g} m from the "
           "hub there",
-          low[d], high[d], "xyz"[d], reach);
+          grid.low[d], grid.high[d], "xyz"[d], reach);
   }
   return {};
 }
@@ -58,12 +58,9 @@ void check_actuator(scene::Document& document, const AeroOptions& aero, const Ro
       if (read_turbine(rotor.turbine).polars.empty())
         document.problem("rotor.turbine",
                          fmt::format("names a turbine without polars, which aero.model \"{}\" needs", aero.model));
-      if (aero.flow && aero.flow->generate && aero.flow->generate->kind.ends_with("box") && rotor.axis.norm() > 0.0) {
-        const GenerateOptions& box = *aero.flow->generate;
-        const auto corner = [](const std::array<double, 3>& x) { return Eigen::Vector3d(x[0], x[1], x[2]); };
-        if (const std::string why = why_outside(rotor, corner(box.low_m), corner(box.high_m)); !why.empty())
-          document.problem(hub_key, why);
-      }
+      const std::optional<Corners> box = aero.flow ? box_corners(*aero.flow) : std::nullopt;
+      if (box && rotor.axis.norm() > 0.0)
+        if (const std::string why = why_outside(rotor, *box); !why.empty()) document.problem(hub_key, why);
     } catch (const scene::SceneError& e) { document.problem("rotor.turbine", e.what()); }
   if (aero.model == "actuator_line" && aero.flow && aero.flow->time == "steady")
     document.problem("aero.flow.time",
@@ -76,10 +73,7 @@ void require_rotor_inside(const MultiBlockGrid& grid, const RotorOptions& rotor,
   if (grid.planar)
     throw scene::SceneError(
         {scene::Problem{.key = "aero.model", .message = "acts on a grid of three dimensions; that of aero.flow is planar"}});
-  Eigen::Vector3d low = grid.blocks.at(0).nodes.at(0), high = low;
-  for (const Block& block : grid.blocks)
-    for (const Eigen::Vector3d& x : block.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  if (const std::string why = why_outside(rotor, low, high); !why.empty())
+  if (const std::string why = why_outside(rotor, corners(grid)); !why.empty())
     throw scene::SceneError({scene::Problem{.key = hub_key, .message = why}});
 }
 

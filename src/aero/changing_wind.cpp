@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "src/aero/largest_of_cells.hpp"
 #include "src/scene/error.hpp"
 
 namespace spindrift::aero {
@@ -20,26 +20,11 @@ Eigen::Vector3d way_of(const WindOptions& wind) { return {std::cos(wind.directio
 
 /// Longest extent along the normal of the cells that the plane passes through within a radius; zero where there are none.
 double longest_at(const GridStore& store, const InflowPlane& plane, double radius, MPI_Comm comm) {
-  double longest = 0.0;
-  for (const int tile : store.owned()) {
-    const TileGeometry& g = store[tile];
-    const Tile& cells = store.tiling().tiles[std::size_t(tile)];
-    const std::ptrdiff_t c = g.cell_box.component;
-    for (int k = 0; k < cells.nk; ++k)
-      for (int j = 0; j < cells.nj; ++j)
-        for (int i = 0; i < cells.ni; ++i) {
-          const double* x = g.centre_data.data() + g.cell_box.at(k, j, i);
-          const Eigen::Vector3d arm = Eigen::Vector3d(x[0], x[c], x[2 * c]) - plane.centre;
-          const double along = arm.dot(plane.normal), extent = extent_along(g, plane.normal, k, j, i);
-          if (std::abs(along) <= 0.5 * extent && (arm - along * plane.normal).norm() <= radius)
-            longest = std::max(longest, extent);
-        }
-  }
-  runtime::Packer mine;
-  mine.put_one(longest);
-  for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take()))
-    longest = std::max(longest, runtime::Unpacker(bytes).one<double>());
-  return longest;
+  return largest_of_cells(store, comm, [&](const TileGeometry& g, int k, int j, int i, const Eigen::Vector3d& centre) {
+    const Eigen::Vector3d arm = centre - plane.centre;
+    const double along = arm.dot(plane.normal), extent = extent_along(g, plane.normal, k, j, i);
+    return std::abs(along) <= 0.5 * extent && (arm - along * plane.normal).norm() <= radius ? extent : 0.0;
+  });
 }
 
 constexpr const char* plane_key = "wind.turbulence.inflow_plane_m";
@@ -52,24 +37,20 @@ Eigen::Vector3d inflow_plane_centre(const WindOptions& wind, const WindSite& sit
 
 }  // namespace
 
-std::string why_inflow_plane_outside(const WindOptions& wind, const WindSite& site, const Eigen::Vector3d& low,
-                                     const Eigen::Vector3d& high) {
+std::string why_inflow_plane_outside(const WindOptions& wind, const WindSite& site, const Corners& grid) {
   if (!wind.turbulence) return {};
   const Eigen::Vector3d centre = inflow_plane_centre(wind, site);
   for (int d = 0; d < 3; ++d)
-    if (centre[d] < low[d] || centre[d] > high[d])
+    if (centre[d] < grid.low[d] || centre[d] > grid.high[d])
       return fmt::format(
           "puts the plane where turbulence enters, {:.4g} m upwind of the hub, out of the grid, which goes from {:g} to "
           "{:g} m along {}",
-          (centre - site.hub).norm(), low[d], high[d], "xyz"[d]);
+          (centre - site.hub).norm(), grid.low[d], grid.high[d], "xyz"[d]);
   return {};
 }
 
 void require_inflow_plane_inside(const MultiBlockGrid& grid, const WindOptions& wind, const WindSite& site) {
-  Eigen::Vector3d low = grid.blocks.at(0).nodes.at(0), high = low;
-  for (const Block& block : grid.blocks)
-    for (const Eigen::Vector3d& x : block.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  if (const std::string why = why_inflow_plane_outside(wind, site, low, high); !why.empty())
+  if (const std::string why = why_inflow_plane_outside(wind, site, corners(grid)); !why.empty())
     throw scene::SceneError({scene::Problem{.key = plane_key, .message = why}});
 }
 

@@ -14,9 +14,8 @@
 
 namespace spindrift::aero {
 
-/// Empty where the wind is not turbulent or the middle of the plane is between two corners of a grid.
-std::string why_inflow_plane_outside(const WindOptions& wind, const WindSite& site, const Eigen::Vector3d& low,
-                                     const Eigen::Vector3d& high);
+/// Empty where the wind is not turbulent or the middle of the plane is between the corners of a grid.
+std::string why_inflow_plane_outside(const WindOptions& wind, const WindSite& site, const Corners& grid);
 /// Throws scene::SceneError where the wind is turbulent and the middle of the plane is not between the corners of the grid.
 void require_inflow_plane_inside(const MultiBlockGrid& grid, const WindOptions& wind, const WindSite& site);
 

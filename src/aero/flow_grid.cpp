@@ -232,6 +232,12 @@ GeneratedSize generated_size(const GenerateOptions& g) {
   return {base * n2, "aero.flow.generate.refinement"};
 }
 
+std::optional<Corners> box_corners(const FlowOptions& o) {
+  if (!o.generate || !o.generate->kind.ends_with("box")) return {};
+  const auto corner = [](const std::array<double, 3>& x) { return Eigen::Vector3d(x[0], x[1], x[2]); };
+  return Corners{corner(o.generate->low_m), corner(o.generate->high_m)};
+}
+
 MultiBlockGrid flow_grid(const FlowOptions& o) {
   MultiBlockGrid grid;
   if (o.generate) {

@@ -41,6 +41,8 @@ struct GenerateOptions {
 };
 const scene::Section<GenerateOptions>& generate_section();
 
+/// Of a box that is to be generated; nothing of other grids, which have to be read or made.
+std::optional<Corners> box_corners(const FlowOptions& options);
 /// Reads or makes the grid; it is sound, and has coarser ones where the scene asks for them. Throws scene::SceneError.
 MultiBlockGrid flow_grid(const FlowOptions& options);
 /// How many cells such a grid has, and the key that decides it: known before it is made.

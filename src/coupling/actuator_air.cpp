@@ -88,7 +88,7 @@ class ActuatorAir final : public MarchingAir {
     solver_->set_body_force(actuator_);
     log_lines_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB; {}", solver_->cells(), store_->tiling().size(),
                                      1e-6 * double(solver_->bytes() + store_->bytes()) * world_.size, actuator_->description()));
-    place_wind();
+    place_wind(), tell_wind();
   }
   void move() override { actuator_->place(motion()); }
   ComputedLoads computed() const override {

@@ -82,8 +82,7 @@ void MarchingAir::prepare(double t, double dt, const aero::RotorState& at_end) {
   solver_->judgement().rows.all.clear();
 }
 
-void MarchingAir::place_wind() {
-  wind_.place(solver_->grid(), world_.comm);
+void MarchingAir::tell_wind() {
   if (wind_.has_plane()) log_lines_.push_back("air: " + wind_.description());
 }
 

@@ -57,8 +57,9 @@ class MarchingAir : public AirSide {
   /// Whether the preconditioner is still to be chosen; by trial on the flow as it is.
   bool automatic() const { return preconditioner_ == "auto"; }
   void choose();
-  /// At the end of make().
-  void place_wind();
+  /// At the end of make(); and its line for the log, once.
+  void place_wind() { wind_.place(solver_->grid(), world_.comm); }
+  void tell_wind();
   /// Until start.air_steps are made, from the CFL number of this retry.
   void settle(const SteadyMarch& march, int retry);
   /// loads_.computed as the bodies feel it, with the factor that start.ramp_s gives now.

@@ -186,6 +186,7 @@ class ResolvedAir final : public MarchingAir {
   void tell_size() {
     log_lines_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB", solver_->cells(), solver_->grid().tiling().size(),
                                      1e-6 * double(solver_->bytes() + solver_->grid().bytes()) * world_.size));
+    tell_wind();
     if (const std::string note = aero::far_side_note(setup_.grid); !note.empty()) log_lines_.push_back("air: " + note);
   }
 

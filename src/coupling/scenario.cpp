@@ -173,12 +173,9 @@ void check_changing_wind(scene::Document& document, const Scenario& s) {
     if (aero::turns(s.wind)) document.problem("wind", "must keep its direction with one sector of blades" + take);
     if (s.wind.varies_over_rotor()) document.problem("wind", "must be the same for all blades with one sector of them" + take);
   }
-  if (s.has_actuator() && s.aero.flow->generate && s.aero.flow->generate->kind.ends_with("box")) {
-    const aero::GenerateOptions& box = *s.aero.flow->generate;
-    const auto corner = [](const std::array<double, 3>& x) { return Eigen::Vector3d(x[0], x[1], x[2]); };
-    const std::string why = aero::why_inflow_plane_outside(s.wind, wind_site(s), corner(box.low_m), corner(box.high_m));
-    if (!why.empty()) document.problem("wind.turbulence.inflow_plane_m", why);
-  }
+  if (const std::optional<aero::Corners> box = s.has_actuator() ? aero::box_corners(*s.aero.flow) : std::nullopt)
+    if (const std::string why = aero::why_inflow_plane_outside(s.wind, wind_site(s), *box); !why.empty())
+      document.problem("wind.turbulence.inflow_plane_m", why);
   if (has_resolved_rotor(s) && s.wind.turbulence && s.wind.turbulence->inflow_plane_m) {
     const double upwind = s.aero.grid->upstream_extent * rotor_radius(s);
     if (*s.wind.turbulence->inflow_plane_m > upwind)

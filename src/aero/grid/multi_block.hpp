@@ -68,4 +68,15 @@ struct MultiBlockGrid {
   bool planar = false;
 };
 
+/// Least and greatest coordinates [m].
+struct Corners {
+  Eigen::Vector3d low, high;
+};
+inline Corners corners(const MultiBlockGrid& grid) {
+  Corners c{grid.blocks.at(0).nodes.at(0), grid.blocks.at(0).nodes.at(0)};
+  for (const Block& block : grid.blocks)
+    for (const Eigen::Vector3d& x : block.nodes) c.low = c.low.cwiseMin(x), c.high = c.high.cwiseMax(x);
+  return c;
+}
+
 }  // namespace spindrift::aero
