@@ -1,6 +1,6 @@
 """The scene as surfaces and lines in the earth frame at any time of a run, from scene.toml and history.csv alone: shapes of the bodies, tower,
 nacelle, blades, lines, the undisturbed waves. Tower, nacelle and braces are drawn for the eye: a scene has their mass, not their shape.
-Called by scene_picture.py and paraview.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+Called by scene_picture.py and geometry_fields.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
 import functools
 import math
 import pathlib
@@ -8,6 +8,9 @@ import pathlib
 import numpy as np
 
 ROUND = 36  # corners of a circle
+# The kinds of pieces and the colour of each.
+COLOURS = {"float": (0.95, 0.72, 0.10), "brace": (0.93, 0.75, 0.25), "tower": (0.90, 0.92, 0.94), "nacelle": (0.80, 0.83, 0.87),
+           "hub": (0.80, 0.83, 0.87), "blade": (0.97, 0.97, 0.98), "line": (1.0, 0.30, 0.16)}
 
 
 def upright(along):

@@ -1,51 +1,99 @@
-"""fields/geometry.xdmf: bodies, tower, nacelle, blades and lines as surfaces over time, beside the fields of air and water, and
-fields/paraview.py, which opens all of them with sensible looks (paraview --script=fields/paraview.py).
+"""fields/geometry.xdmf and wake.xdmf: bodies, tower, nacelle, blades and lines, and the slow air behind a resolved rotor, as surfaces over time, beside
+the fields of air and water; fields/paraview.py opens all of them as the run's pictures show them (paraview --script=fields/paraview.py).
 Called by spindrift_report.py; read back in tests/src/report/geometry_test.py. SPDX-License-Identifier: Apache-2.0"""
 import numpy as np
 
 import geometry
 import run_fields
+import verdict
+import wake
 
-KINDS = ["float", "brace", "tower", "nacelle", "hub", "blade", "line"]
+KINDS = list(geometry.COLOURS)
 MOST_TIMES = 200
 
 STATE = '''# Opens the fields of this run in ParaView:  paraview --script={folder}/paraview.py
+# What is hidden at first is in the pipeline browser: particles, the air and its walls.
 import pathlib
 from paraview.simple import *
 
 folder = pathlib.Path(__file__).resolve().parent if "__file__" in globals() else pathlib.Path({folder!r})
 view = GetActiveViewOrCreate("RenderView")
+view.UseColorPaletteForBackground, view.BackgroundColorMode = 0, "Gradient"
+view.Background, view.Background2 = [0.93, 0.96, 0.98], [0.55, 0.70, 0.86]
+colours = {colours!r}
 
 
-def show(name, color=None, by=None, opacity=1.0, representation="Surface"):
-    if not (folder / f"{{name}}.xdmf").exists():
-        return None
-    source = OpenDataFile(str(folder / f"{{name}}.xdmf"))
-    RenameSource(name, source)
-    shown = Show(source, view)
-    shown.SetRepresentationType(representation)
-    shown.Opacity = opacity
-    ColorBy(shown, by)
-    if by is None and color:
-        shown.AmbientColor = shown.DiffuseColor = color
-    return source
-
-
-show("geometry", by=("CELLS", "kind"))
-show("surface", color=[0.16, 0.42, 0.58], opacity=0.6)
-show("particles", by=("POINTS", "velocity"), representation="Points")
-show("walls", by=("CELLS", "pressure_coefficient"))
-air = show("air", by=("CELLS", "velocity"), opacity=0.0)
-if air is not None:   # the upright plane through the middle of the air
-    plane = Slice(Input=air)
-    plane.SliceType.Normal = [0.0, 1.0, 0.0]
-    shown = Show(plane, view)
-    ColorBy(shown, ("CELLS", "velocity"))
-    Hide(air, view)
+sources = {{}}
+for name in ("geometry", "surface", "particles", "wake", "walls", "air"):
+    if (folder / f"{{name}}.xdmf").exists():
+        sources[name] = OpenDataFile(str(folder / f"{{name}}.xdmf"))
+        RenameSource(name, sources[name])
 GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 GetAnimationScene().GoToLast()
-view.CameraPosition, view.CameraViewUp = [-600.0, -700.0, 250.0], [0.0, 0.0, 1.0]
-ResetCamera()
+
+
+def show(name, by, opacity=1.0, representation="Surface", hidden=False):
+    """Coloured by an array of the points or cells, or plainly by three numbers."""
+    if name not in sources:
+        return None
+    shown = Show(sources[name], view)
+    shown.SetRepresentationType(representation)
+    shown.Opacity = opacity
+    if isinstance(by, list):
+        ColorBy(shown, None)
+        shown.AmbientColor = shown.DiffuseColor = by
+    else:
+        ColorBy(shown, by)
+        shown.RescaleTransferFunctionToDataRange()
+    if hidden:
+        Hide(sources[name], view)
+    return shown
+
+
+geometry = show("geometry", ("CELLS", "kind"))
+if geometry:
+    kinds = GetColorTransferFunction("kind")
+    kinds.InterpretValuesAsCategories = 1
+    kinds.Annotations = [word for n, kind in enumerate(colours) for word in (str(n), kind)]
+    kinds.IndexedColors = [part for colour in colours.values() for part in colour]
+    geometry.LineWidth = 3.0
+water = show("surface", [0.16, 0.42, 0.58], opacity=0.6, hidden={plane})
+show("particles", ("POINTS", "velocity"), representation="Points", hidden=bool(water) and not {plane})
+wake = show("wake", ("POINTS", "axial_wind"), hidden=True)
+if wake:   # slower than {slow} of the wind, from the disc to a diameter behind it
+    slow = Clip(Input=sources["wake"], ClipType="Scalar", Scalars=["POINTS", "axial_wind"], Value={slow}, Invert=1)
+    for radii, invert in ((0.03, 0), (2.0, 1)):
+        slow = Clip(Input=slow, ClipType="Plane", Invert=invert)
+        slow.ClipType.Origin = [x + radii * {radius} * n for x, n in zip({hub}, {axis})]
+        slow.ClipType.Normal = {axis}
+    RenameSource("slow air", slow)
+    shown = Show(slow, view)
+    shown.Opacity = 0.85
+    ColorBy(shown, ("POINTS", "axial_wind"))
+    wind = GetColorTransferFunction("axial_wind")
+    wind.ApplyPreset("Viridis (matplotlib)", True)
+    wind.RescaleTransferFunction(0.0, 1.2)
+    bar = GetScalarBar(wind, view)
+    bar.Title, bar.ComponentTitle, bar.TitleColor, bar.LabelColor = "axial wind / free wind", "", [0.1, 0.1, 0.1], [0.1, 0.1, 0.1]
+    shown.SetScalarBarVisibility(view, True)
+show("walls", ("CELLS", "pressure_coefficient"), hidden=bool(geometry))
+show("air", ("CELLS", "velocity"), hidden=bool(geometry or wake))
+Render()   # the first one resets the camera
+view.CameraViewUp = [0.0, 0.0, 1.0]
+middle, length = {middle!r}, {length!r}   # of the bodies and the turbine [m]
+if {plane}:   # a section or a tank, seen along y
+    view.CameraParallelProjection = 1
+    low = sources.get("walls") or sources.get("particles") or next(iter(sources.values()))
+    low, high = (low.GetDataInformation().GetBounds()[n::2] for n in (0, 1))
+    view.CameraFocalPoint = [0.5 * (a + b) for a, b in zip(low, high)]
+    view.CameraPosition = [view.CameraFocalPoint[0], low[1] - 10.0 * (high[0] - low[0]), view.CameraFocalPoint[2]]
+    view.CameraParallelScale = 0.5 * max(high[0] - low[0], high[2] - low[2])
+elif length:
+    view.CameraFocalPoint = middle
+    view.CameraPosition = [middle[0] - 1.7 * length, middle[1] - 1.95 * length, middle[2] + 0.5 * length]
+else:
+    view.CameraPosition = [-600.0, -700.0, 250.0]
+    ResetCamera()
 Render()
 '''
 
@@ -71,16 +119,50 @@ def _cells(pieces):
 
 
 def write(run):
-    """Nothing where the run has no fields or no bodies. Returns the files written."""
+    """Nothing where the run has no fields. Returns the files written."""
     folder = run.folder / "fields"
     if not folder.is_dir() or not len(run.time):
         return []
+    scene, times = geometry.Scene3d(run), _times(run)
+    pieces = scene.pieces(times[0])
+    solid = [piece.points for piece in pieces if piece.kind != "line"] or [piece.points for piece in pieces]
+    low, high = (f(np.concatenate(solid), axis=0) for f in (np.min, np.max)) if solid else (np.zeros(3), np.zeros(3))
     state = folder / "paraview.py"
-    state.write_text(STATE.format(folder=str(folder.resolve())), encoding="utf-8")
-    scene = geometry.Scene3d(run)
-    times = _times(run)
-    if not scene.pieces(times[0]):
-        return [state]
+    rotor = scene.hub0 is not None
+    state.write_text(STATE.format(
+        folder=str(folder.resolve()), colours=geometry.COLOURS, middle=_numbers(0.5 * (low + high)), length=round(float((high - low).max()), 4),
+        plane=verdict.is_plane(run), slow=wake.SLOW, radius=float(wake.tip(scene)) if rotor else 0.0, hub=_numbers(scene.hub(times[-1]) if rotor else np.zeros(3)),
+        axis=_numbers(scene.rotor_frame(times[-1])[0] if rotor else [1, 0, 0])), encoding="utf-8")
+    return [state, *([_solids(folder, scene, times)] if pieces else []), *_slow_air(run, scene, folder)]
+
+
+def _numbers(values):
+    return [round(float(x), 4) for x in values]
+
+
+def _slow_air(run, scene, folder):
+    """wake.xdmf, of a resolved rotor."""
+    fields, wind = run_fields.Fields(run), (run.scene.get("wind") or {}).get("speed_m_s", 0.0)
+    if scene.hub0 is None or wind <= 0.0 or not fields.files["air"]:
+        return []
+    import h5py
+    steps = ""
+    with h5py.File(folder / "wake.h5", "w") as file:
+        for n, t in enumerate(fields.times("air")[:: -(-len(fields.files["air"]) // MOST_TIMES)]):
+            found = [surface for surface in wake.surfaces(run, scene, fields.air(t)[0], t, wind) if surface is not None]
+            if not found:
+                continue
+            points, values = (np.concatenate(parts).astype(np.float32) for parts in zip(*found))
+            count = len(points)
+            file[f"points_{n}"], file[f"axial_wind_{n}"], file[f"cells_{n}"] = points.reshape(-1, 3), values.ravel(), np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
+            steps += (f'<Grid Name="wake" GridType="Uniform"><Time Value="{t:.12g}"/>\n'
+                      f'<Topology TopologyType="Triangle" NumberOfElements="{count}">{_item("wake", f"{count} 3", "Int", f"cells_{n}")}</Topology>\n'
+                      f'<Geometry GeometryType="XYZ">{_item("wake", f"{3 * count} 3", "Float", f"points_{n}")}</Geometry>\n'
+                      f'<Attribute Name="axial_wind" AttributeType="Scalar" Center="Node">{_item("wake", 3 * count, "Float", f"axial_wind_{n}")}</Attribute>\n</Grid>\n')
+    return [_in_time(folder, "wake", steps)] if steps else []
+
+
+def _solids(folder, scene, times):
     import h5py
     flat, kinds = _cells(scene.pieces(times[0]))
     steps = ""
@@ -91,13 +173,18 @@ def write(run):
             points = np.concatenate([piece.points for piece in scene.pieces(t)])
             file[f"points_{n}"] = points.astype(np.float32)
             steps += (f'<Grid Name="geometry" GridType="Uniform"><Time Value="{t:.12g}"/>\n'
-                      f'<Topology TopologyType="Mixed" NumberOfElements="{len(kinds)}">{_item(len(flat), "Int", "cells")}</Topology>\n'
-                      f'<Geometry GeometryType="XYZ">{_item(f"{len(points)} 3", "Float", f"points_{n}")}</Geometry>\n'
-                      f'<Attribute Name="kind" AttributeType="Scalar" Center="Cell">{_item(len(kinds), "Int", "kind")}</Attribute>\n</Grid>\n')
-    (folder / "geometry.xdmf").write_text('<?xml version="1.0"?>\n<Xdmf Version="2.2"><Domain>\n<Grid Name="geometry" GridType="Collection" CollectionType="Temporal">\n'
-                                          + steps + "</Grid>\n</Domain></Xdmf>\n", encoding="utf-8")
-    return [state, folder / "geometry.xdmf"]
+                      f'<Topology TopologyType="Mixed" NumberOfElements="{len(kinds)}">{_item("geometry", len(flat), "Int", "cells")}</Topology>\n'
+                      f'<Geometry GeometryType="XYZ">{_item("geometry", f"{len(points)} 3", "Float", f"points_{n}")}</Geometry>\n'
+                      f'<Attribute Name="kind" AttributeType="Scalar" Center="Cell">{_item("geometry", len(kinds), "Int", "kind")}</Attribute>\n</Grid>\n')
+    return _in_time(folder, "geometry", steps)
 
 
-def _item(dimensions, kind, name):
-    return f'<DataItem Dimensions="{dimensions}" NumberType="{kind}" Precision="4" Format="HDF">geometry.h5:/{name}</DataItem>'
+def _in_time(folder, name, steps):
+    path = folder / f"{name}.xdmf"
+    path.write_text(f'<?xml version="1.0"?>\n<Xdmf Version="2.2"><Domain>\n<Grid Name="{name}" GridType="Collection" CollectionType="Temporal">\n'
+                    + steps + "</Grid>\n</Domain></Xdmf>\n", encoding="utf-8")
+    return path
+
+
+def _item(file, dimensions, kind, name):
+    return f'<DataItem Dimensions="{dimensions}" NumberType="{kind}" Precision="4" Format="HDF">{file}.h5:/{name}</DataItem>'

@@ -17,18 +17,13 @@ from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkActor2D, vtkLight, vtkPolyDataMapper, vtkPolyDataMapper2D, vtkRenderer, vtkRenderWindow,
                                             vtkTextActor, vtkWindowToImageFilter)
 
-import cut
 import geometry
 import run_fields
+import wake
 
-# What each kind of piece looks like: colour, opacity.
-COLOURS = {"float": (0.95, 0.72, 0.10), "brace": (0.93, 0.75, 0.25), "tower": (0.90, 0.92, 0.94), "nacelle": (0.80, 0.83, 0.87), "hub": (0.80, 0.83, 0.87),
-           "blade": (0.97, 0.97, 0.98), "line": (1.0, 0.30, 0.16), "sea": (0.16, 0.42, 0.58), "ground": (0.66, 0.69, 0.62)}
+COLOURS = geometry.COLOURS | {"sea": (0.16, 0.42, 0.58), "ground": (0.66, 0.69, 0.62)}
 SKY, HAZE = (0.55, 0.70, 0.86), (0.93, 0.96, 0.98)
-VORTEX = 0.02    # Q in units of (wind / 10 m)^2: low enough for the vortices of coarse grids
-FEWEST_FOR_VORTICES = 100_000   # cells round the rotor, below which surfaces of Q are shapes of cells
 NEAR_SEA, FAR_SEA = 8.0, 400.0   # lengths of the scene: where waves are drawn, where the sea ends
-SLOW = 0.9       # of the wind: what is faster is not wake
 CAMERAS = {"scene": (-1.0, -1.15, 0.28), "side": (0.0, -1.0, 0.04), "front": (-1.0, 0.0, 0.06), "top": (0.0, -0.02, 1.0), "rotor": (-1.0, -0.75, 0.18)}
 
 
@@ -193,7 +188,7 @@ class Drawing:
         shaped = self.scene.hub0 is not None or any(body.get(shape) for body in self.scene.bodies.values() for shape in ("cylinders", "boxes", "spheres", "meshes"))
         points = solid if shaped else [p.points for p in pieces]
         if self.scene.hub0 is not None:   # the whole disc, wherever the blades are
-            tip = self.scene.blades.tip if self.scene.blades else 0.75 * abs(self.scene.hub0[2])
+            tip = wake.tip(self.scene)
             points.append(self.scene.hub0 + tip * np.array([[0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]))
         if not points:
             return np.array([-50.0, -50.0, -50.0]), np.array([50.0, 50.0, 50.0])
@@ -276,53 +271,13 @@ class Drawing:
             self.add("vortices", vortices, opacity=0.9, scalars=True)
 
     def _wake(self, blocks, time):
-        hub, frame = self.scene.hub(time), self.scene.rotor_frame(time)
-        tip = self.scene.blades.tip if self.scene.blades else 0.75 * abs(hub[2])
-        count = self.scene.blades.count if self.scene.blades else 3   # as geometry.py draws them without a turbine file
-        copies = count if (self.run.scene["aero"].get("grid") or {}).get("sectors") == "one" else 1
-        # One sector is drawn turned to the axis as it is now, as its loads are.
-        at, own = self.scene.sector(time) if copies > 1 else (hub, frame)
-        cells = sum(block["velocity"][..., 0].size for block in blocks)
-        slow, axial_at, cores, axial_of = [], [], [], []
-        for block in blocks:
-            nodes = (block["points"] - at) @ own.T
-            if np.hypot(nodes[..., 1], nodes[..., 2]).min() > 1.6 * tip or nodes[..., 0].min() > 3.2 * tip or nodes[..., 0].max() < -0.3 * tip:
-                continue
-            velocity = block["velocity"] @ own.T
-            axial = cut.at_nodes(velocity[..., 0]) / self.wind
-            q = None
-            if min(velocity.shape[:3]) > 1 and cells * copies >= FEWEST_FOR_VORTICES:
-                g = cut.gradient(nodes, velocity)
-                q = cut.at_nodes(-0.5 * np.einsum("...ij,...ji->...", g, g)) * (10.0 / self.wind) ** 2
-            for copy in range(copies):
-                turn = geometry.about(np.array([1.0, 0.0, 0.0]), 2 * np.pi * copy / copies)
-                places = nodes @ turn.T
-                beside = 0.013 * tip   # not in a plane that blocks share
-                if places[..., 1].min() <= beside <= places[..., 1].max():
-                    points, values = cut.surface(places, places[..., 1], beside, axial)
-                    slow.append(points), axial_at.append(values)
-                if q is not None:
-                    points, values = cut.surface(places, q, VORTEX, axial)
-                    cores.append(points), axial_of.append(values)
-
-        def kept(points, values, condition):
-            points, values = np.concatenate(points or [np.empty((0, 3, 3))]), np.concatenate(values or [np.empty((0, 3))])
-            middle = points.mean(axis=1)
-            # By corners: cells far downstream are longer than what is shown of them.
-            near = (points[..., 0].max(axis=1) > -0.3 * tip) & (points[..., 0].min(axis=1) < 3.0 * tip)
-            near &= np.hypot(points[..., 1], points[..., 2]).min(axis=1) < 1.5 * tip
-            chosen = near & condition(middle, values)
-            return triangles(hub + points[chosen] @ frame, values[chosen]) if chosen.any() else None
-
-        # By corners here too: what is slow of a triangle is cut out below.
-        plane = kept(slow, axial_at, lambda middle, values: values.min(axis=1) < SLOW)
-        if plane is not None:
-            plane = clipped(plane, None, SLOW)
+        plane, vortices = wake.surfaces(self.run, self.scene, blocks, time, self.wind)
+        if plane is not None:   # only what is slow of its triangles, and what lies behind the disc
+            hub, frame, tip = self.scene.hub(time), self.scene.rotor_frame(time), wake.tip(self.scene)
+            plane = clipped(triangles(*plane), None, wake.SLOW)
             for place, normal in (((0.03 * tip, 0, 0), (1, 0, 0)), ((2.0 * tip, 0, 0), (-1, 0, 0)), ((0, 0, 1.25 * tip), (0, 0, -1)), ((0, 0, -1.25 * tip), (0, 0, 1))):
                 plane = clipped(plane, (hub + np.array(place) @ frame, np.array(normal, float) @ frame), 0.0)
-        # What is bound to the blades hides them.
-        vortices = kept(cores, axial_of, lambda middle, values: (middle[:, 0] > 0.03 * tip) & (np.hypot(middle[:, 1], middle[:, 2]) < 1.3 * tip))
-        return plane, smooth(vortices, 180.0) if vortices is not None else None
+        return plane, smooth(triangles(*vortices), 180.0) if vortices is not None else None
 
     # ---- picture ------------------------------------------------------------------------------------------------------------------------
 

@@ -91,17 +91,9 @@ def moment(run, asked):
     return wanted
 
 
-def is_plane(run):
-    """Sections and tanks have no depth worth a view."""
-    import verdict
-    if verdict.kind(run) in ("flow", "tank"):
-        return True
-    planar = str((run.scene.get("sea", {}).get("particles") or {}).get("dimensions")) == "2"
-    return planar and any((run.folder / "fields").glob("particles_*.h5"))
-
-
 def drawing_of(run, given):
-    if is_plane(run):
+    import verdict
+    if verdict.is_plane(run):
         if given.camera != "scene":
             fail(2, f"--camera {given.camera}: sections and tanks are drawn in their plane, without a camera; leave it out")
         import plane_picture

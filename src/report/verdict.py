@@ -39,6 +39,14 @@ def is_steady(run):
     return _value(run.scene, "aero", "flow", "time") == "steady" and kind(run) in ("flow", "rotor")
 
 
+def is_plane(run):
+    """Sections and tanks have no depth worth a view."""
+    if kind(run) in ("flow", "tank"):
+        return True
+    planar = str((run.scene.get("sea", {}).get("particles") or {}).get("dimensions")) == "2"
+    return planar and any((run.folder / "fields").glob("particles_*.h5"))
+
+
 def _value(table, *keys):
     for key in keys:
         table = table.get(key) if isinstance(table, dict) else None

@@ -13,7 +13,7 @@ MADE = re.compile(r"^(/|~|runs/|run\d*/|build/|fields/|checkpoints/|perf/results
 SUFFIXES = {"md", "cpp", "hpp", "py", "toml", "csv", "png", "css", "html", "txt", "nmf", "p3d", "json", "sh", "webm", "mp4", "def"}
 # Files of runs, of users and of other programs, named without a folder.
 OUTSIDE = {"scene.toml", "history.csv", "summary.json", "log.txt", "trace.json", "report.html", "comparison.html", "study.html", "study.json", "load_cases.csv", "spanwise.csv", "rotor.p3d", "rotor.nmf", "rotor.cgns",
-           "picture.png", "film.mp4", "film.webm", "paraview.py", "geometry.xdmf", "latest.json", "settings.json", "perf.json", "compile_commands.json", "exit.txt"}
+           "picture.png", "film.mp4", "film.webm", "paraview.py", "geometry.xdmf", "wake.xdmf", "latest.json", "settings.json", "perf.json", "compile_commands.json", "exit.txt"}
 # Words in backticks that look like identifiers of ours and belong to a language, a library or a system.
 FOREIGN = re.compile(r"^(_|std|MPI|hypre|h5py|numpy|np|OMP|omp|HYPRE|H5|METIS|Eigen|toml|spdlog|fmt|CLI|TBB|tbb|vtk|pv|gcc|clang|git|apt|cmake|ctest|mpirun)\b")
 

@@ -13,11 +13,13 @@ ROOT = HERE.parents[2]
 sys.path[:0] = [str(HERE), str(ROOT / "src/report")]
 sys.dont_write_bytecode = True
 
+import cut
 import geometry
 import geometry_fields
 import painted
 import run_fields
 import synthetic_run
+import wake
 from run_data import RunData
 
 SCENE = f"""
@@ -213,6 +215,40 @@ class Geometry(unittest.TestCase):
             self.assertEqual(count, len(kinds))
             self.assertEqual(set(kinds), set(range(len(geometry_fields.KINDS))))
             self.assertTrue(all(file[f"points_{n}"].shape == file["points_0"].shape for n in range(50)))
+
+    def test_the_wake_for_paraview_is_the_slow_air_in_the_upright_plane_through_the_axis(self):
+        """Air that is at half the wind in a tube behind the disc: there is 0.5 in the wake's surface, which lies in the plane of the axis as it leans then."""
+        import h5py
+        (self.folder / "fields").mkdir()
+        nodes = np.stack(np.meshgrid(np.linspace(-50.0, 250.0, 31), np.linspace(-130.0, 130.0, 27), np.linspace(-10.0, 250.0, 27), indexing="ij"), axis=-1).transpose(2, 1, 0, 3)
+        for n, t in enumerate((0.0, 20.0)):
+            hub, frame = self.scene.hub(t), self.scene.rotor_frame(t)
+            middle = nodes
+            for axis in range(3):
+                middle = cut.between(middle, axis)
+            along = (middle - hub) @ frame.T
+            slow = (along[..., 0] > 0.0) & (np.hypot(along[..., 1], along[..., 2]) < 70.0)
+            with h5py.File(self.folder / f"fields/air_{n}.h5", "w") as file:
+                file.attrs["time_s"] = t
+                file["box/points"] = nodes
+                file["box/velocity"] = np.where(slow, 0.5, 1.0)[..., None] * 11.4 * frame[0]
+        with open(self.folder / "scene.toml", "a", encoding="utf-8") as scene:
+            scene.write("\n[wind]\nspeed_m_s = 11.4\n[aero]\nmodel = 'actuator_disc'\n")
+        written = geometry_fields.write(RunData(self.folder))
+        self.assertEqual([path.name for path in written], ["paraview.py", "geometry.xdmf", "wake.xdmf"])
+        compile(written[0].read_text(), "paraview.py", "exec")
+        times = [float(time.get("Value")) for time in xml.etree.ElementTree.parse(written[2]).getroot().iter("Time")]
+        self.assertEqual(times, [0.0, 20.0])
+        with h5py.File(self.folder / "fields/wake.h5") as file:
+            for n, t in enumerate(times):
+                points, wind = file[f"points_{n}"][...], file[f"axial_wind_{n}"][...]
+                local = (points - self.scene.hub(t)) @ self.scene.rotor_frame(t).T
+                np.testing.assert_allclose(local[:, 1], 0.013 * wake.tip(self.scene), atol=1e-3)
+                inside = (local[:, 0] > 20.0) & (abs(local[:, 2]) < 50.0)
+                self.assertGreater(inside.sum(), 100)
+                np.testing.assert_allclose(wind[inside], 0.5, atol=1e-5)
+                self.assertLess(abs(local[:, 2]).max(), 95.0)   # free air is left out
+                self.assertEqual(file[f"cells_{n}"][...].max() + 1, len(points))
 
     def test_holes_in_the_surface_are_closed(self):
         z = np.zeros((9, 9))
