@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -384,32 +386,44 @@ void print_first_cells(const coupling::Scenario& s, const aero::MultiBlockGrid& 
 
 namespace {
 
+std::string changed_by(const std::optional<double>& change) { return change ? fmt::format("{:+.2g}", *change) : "unknown"; }
+
 /// What could be left out, with its price in the columns asked for.
 void print_omissions(const CheckArguments& arguments, const coupling::Scenario& scenario) {
   const std::vector<std::string>& columns = arguments.columns;
   if (scenario.has_particles() || scenario.resolves_air() || scenario.bodies.empty()) {
-    fmt::print("\nWhat could be left out: not tried, a trial takes more than a moment; spindrift study does\n");
+    fmt::print("\nWhat could be left out: not tried, fluids take longer than a trial may; spindrift study does\n");
     return;
   }
+  std::fflush(stdout);  // what has been said can be read meanwhile
   const Trial trial = try_omissions(arguments.scene, arguments.overrides, columns);
-  fmt::print("\nWhat could be left out (tried over {:g} s; change of mean and deviation over their last two thirds)\n",
-             trial.length_s);
+  const std::string length = trial.whole() ? fmt::format("over the whole run, {:g} s", trial.end_s)
+                                           : fmt::format("over {:g} of {:g} s, as far as {:g} s of processor time carry",
+                                                         trial.length_s, trial.end_s, trial_budget_s);
+  fmt::print("\nWhat could be left out (tried {}; change of mean and deviation over their last two thirds)\n", length);
+  for (const std::string& why : trial.unlike) fmt::print("  effects unknown, the trial is not like the run: {}\n", why);
+  if (!trial.whole() && trial.unlike.empty()) fmt::print("  unknown: no larger than its scatter between parts of the trial\n");
   for (std::size_t c = 0; c < columns.size(); ++c)
-    fmt::print("  {:<28}{}: mean {:.4g}, deviation {:.4g}\n", c == 0 ? "the scene itself" : "", columns[c], trial.own[c].mean,
-               trial.own[c].deviation);
+    fmt::print("  {:<28}{}: mean {:.4g}, deviation {:.4g}\n", c == 0 ? "the scene itself" : "", columns[c], *trial.own[c].mean,
+               *trial.own[c].deviation);
   for (const Omission& o : trial.omissions) {
     if (!o.refused.empty()) {
       fmt::print("  {:<28}cannot be: {}\n", o.name, o.refused);
       continue;
     }
-    fmt::print("  {:<28}saves {:.0f} %, by", o.name, 100.0 * o.saving);
+    const double percent = 100.0 * o.saving.error;
+    if (o.saving.shows())
+      fmt::print("  {:<28}saves {:.0f} % (+- {:.1g}), by", o.name, 100.0 * o.saving.share, percent);
+    else
+      fmt::print("  {:<28}saves nothing that shows (+- {:.1g} %), by", o.name, percent);
     for (const std::string& text : o.overrides) {
       const char* quote = text.find('"') == std::string::npos ? "" : "'";
       fmt::print(" --set {0}{1}{0}", quote, text);
     }
     fmt::print("\n");
     for (std::size_t c = 0; c < columns.size(); ++c)
-      fmt::print("  {:<28}{}: mean {:+.2g}, deviation {:+.2g}\n", "", columns[c], o.effects[c].mean, o.effects[c].deviation);
+      fmt::print("  {:<28}{}: mean {}, deviation {}\n", "", columns[c], changed_by(o.effects[c].mean),
+                 changed_by(o.effects[c].deviation));
   }
 }
 

@@ -2,8 +2,6 @@
 #include "src/app/forecast.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -16,6 +14,7 @@
 #include "runtime/trace/clock.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_size.hpp"
+#include "src/app/aside.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/run/flow_columns.hpp"
@@ -293,28 +292,6 @@ constexpr double slower = 2.0;
 // made where these take no longer than that by the stated rates.
 constexpr double trial_s = 0.5, longest_trial_s = 1.5;
 constexpr int least_steps = 8, least_windows = 2, steps_at_once = 4;
-
-/// A folder that goes away again, without a word in the log, and one thread: as many idle ones would be counted.
-class Aside {
- public:
-  Aside() : level_(spdlog::get_level()), threads_(omp_get_max_threads()) {
-    spdlog::set_level(spdlog::level::off);
-    omp_set_num_threads(1);
-  }
-  Aside(const Aside&) = delete;
-  Aside& operator=(const Aside&) = delete;
-  ~Aside() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
-    omp_set_num_threads(threads_);
-    spdlog::set_level(level_);
-  }
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("spindrift_trial_{}", ::getpid());
-
- private:
-  spdlog::level::level_enum level_;
-  int threads_;
-};
 
 /// Nothing where the march fails.
 std::optional<FlowTrial> try_flow(const coupling::Scenario& s) {

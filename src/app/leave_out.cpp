@@ -2,22 +2,32 @@
 #include "src/app/leave_out.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <limits>
 #include <memory>
+#include <span>
+#include <stdexcept>
 
+#include "runtime/mpi/parts.hpp"
+#include "runtime/trace/clock.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/aero/wind.hpp"
+#include "src/app/aside.hpp"
 #include "src/app/forecast.hpp"
 #include "src/app/scene_file.hpp"
-#include "src/coupling/limits.hpp"
-#include "src/coupling/recorder.hpp"
+#include "src/app/scene_run.hpp"
+#include "src/coupling/flow_scene.hpp"
 #include "src/coupling/timeline.hpp"
+#include "src/io/console.hpp"
+#include "src/io/history.hpp"
+#include "src/io/run_directory.hpp"
+#include "src/run/outputs.hpp"
+#include "src/run/system_simulation.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/text_check.hpp"
@@ -29,8 +39,6 @@ namespace {
 
 using coupling::Scenario;
 using Overrides = std::vector<std::string>;
-
-constexpr double most_core_seconds = 0.4;  // of one trial
 
 /// A smaller choice: the overrides that make it, none where the scene leaves nothing to choose. `own` is what the document says.
 struct Choice {
@@ -116,107 +124,301 @@ const std::vector<Choice>& choices() {
   return all;
 }
 
-/// A scene made ready to run, and what a trial of it showed.
+/// The run of a scene, in pieces.
 class Tried {
  public:
-  explicit Tried(Scenario scenario) : floating_(std::move(scenario)), start_(make_start(floating_)) {
-    require_limits(floating_, start_.state, stability(floating_, start_.state));
+  Tried(const std::string& path, const Overrides& overrides, const std::filesystem::path& folder)
+      : ready_(read_scene(path, overrides)),
+        parts_(runtime::World{MPI_COMM_SELF, 0, 1}),
+        directory_(MPI_COMM_SELF, folder, io::Existing::overwrite),
+        simulation_(*ready_.floating, ready_.start.state, parts_, 0),
+        rows_(simulation_, history_) {
+    simulation_.declare(history_);
+    window_ = simulation_.begin(directory_);
+    history_.open(directory_.history());
+    rows_.begin(window_);
   }
-  /// Mean and deviation of these columns in a run of this length, rows and all; its end is where steps are timed.
-  std::vector<Effect> run(double length_s, const std::vector<std::string>& columns);
-  /// Of the whole run from here on, by the least times of a step and of a row; what others on the computer do only adds to those.
-  double core_seconds() {
-    least_ = std::min(least_, measured_steps(floating_, start_).core_seconds());
-    return least_;
+  /// As far as this time; the processor time of its windows and rows [s]. Throws where the numerics fail.
+  double advance_to(double time_s);
+  const ReadyScene& scene() const { return ready_; }
+  const io::History& history() const { return history_; }
+  /// Rows so far.
+  scene::Columns columns() {
+    history_.flush();
+    return scene::read_columns(directory_.history().string());
   }
 
  private:
-  coupling::FloatingSystem floating_;
-  coupling::Start start_;
-  double least_ = std::numeric_limits<double>::infinity();
+  ReadyScene ready_;
+  runtime::Parts parts_;
+  io::RunDirectory directory_;
+  run::SystemSimulation simulation_;
+  io::History history_;
+  run::HistoryOutput rows_;
+  std::int64_t window_ = 0;
 };
 
-/// Mean and deviation over the last two thirds, trapezoidal.
-Effect of_column(std::span<const double> t, std::span<const double> x) {
-  const double from = t.front() + (t.back() - t.front()) / 3.0;
+double Tried::advance_to(double time_s) {
+  const coupling::Timeline& timeline = simulation_.timeline();
+  const std::int64_t last = timeline.windows(),
+                     to = std::min(last, std::int64_t(std::ceil(time_s / timeline.window_s() * (1.0 - 1e-12))));
+  const double before = processor_seconds();
+  while (window_ < to) {
+    const run::Advance advance = simulation_.advance(window_, last);
+    if (!advance.failure.empty()) throw std::runtime_error(advance.failure);
+    const run::Windows done{window_, window_ + advance.windows, last};
+    window_ = done.now;
+    if (rows_.due(done)) rows_.take(done);
+  }
+  return processor_seconds() - before;
+}
+
+void require_columns(const io::History& history, const std::vector<std::string>& columns) {
+  std::vector<std::string> known;
+  for (const io::Column& column : history.columns()) known.push_back(column.name);
+  for (const std::string& column : columns)
+    if (std::find(known.begin(), known.end(), column) == known.end()) {
+      const std::string near = scene::nearest(column, known);
+      throw scene::SceneError({{"--columns", 0, "", column,
+                                "is no column of this scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?")}});
+    }
+}
+
+struct Moments {
+  double mean = 0.0, deviation = 0.0;
+};
+
+/// From one time to another, trapezoidal.
+Moments moments(std::span<const double> t, std::span<const double> x, double from, double to) {
   double length = 0.0, first = 0.0, second = 0.0;
   for (std::size_t i = 1; i < t.size(); ++i) {
-    if (t[i - 1] < from) continue;
+    if (t[i - 1] < from || t[i] > to) continue;
     const double h = t[i] - t[i - 1];
     length += h, first += 0.5 * h * (x[i] + x[i - 1]), second += 0.5 * h * (x[i] * x[i] + x[i - 1] * x[i - 1]);
   }
+  if (!(length > 0.0)) return {};
   const double mean = first / length;
   return {mean, std::sqrt(std::max(0.0, second / length - mean * mean))};
 }
 
-std::vector<Effect> Tried::run(double length_s, const std::vector<std::string>& columns) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / fmt::format("spindrift_trial_{}.csv", ::getpid());
-  {
-    io::History history;
-    coupling::Recorder recorder(floating_, history);
-    std::vector<std::string> known;
-    for (const io::Column& column : history.columns()) known.push_back(column.name);
-    for (const std::string& column : columns)
-      if (std::find(known.begin(), known.end(), column) == known.end()) {
-        const std::string near = scene::nearest(column, known);
-        throw scene::SceneError({{"--columns", 0, "", column,
-                                  "is no column of this scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?")}});
-      }
-    history.open(file);
-    bodies::BodiesState& state = start_.state;
-    const coupling::Timeline& time = floating_.timeline();
-    const auto write_row = [&](double t) { recorder.fill(history.row(t), state, t), history.write(); };
-    write_row(0.0);
-    for (std::int64_t window = 1; double(window) * time.window_s() <= length_s * (1.0 + 1e-12); ++window) {
-      for (std::int64_t n = 0; n < time.steps_per_window(); ++n)
-        if (const bodies::StepReport report = floating_.multibody().advance(state, time.tick_s(), 1); !report.ok())
-          throw floating_.multibody().failure(report, state, time.tick_s());
-      if (window % floating_.scenario().output.history_every == 0) write_row(time.window_end_s(window));
-    }
-    history.flush();
+/// Of the last two thirds of a run: the first is that of the start.
+constexpr double start_share = 1.0 / 3.0;
+
+Moments settled(std::span<const double> t, std::span<const double> x) {
+  return moments(t, x, t.front() + start_share * (t.back() - t.front()), t.back());
+}
+
+/// What the smaller choice changes. Of a trial that is cut short only what holds in each of its parts: a change that is not twice
+/// its standard error over them may as well be none.
+Effect effect_of(const scene::Columns& own, const scene::Columns& less, const std::string& column, bool whole) {
+  const auto t = own["time_s"], u = less["time_s"], x = own[column], y = less[column];
+  const Moments a = settled(t, x), b = settled(u, y);
+  Effect effect{.mean = b.mean - a.mean, .deviation = b.deviation - a.deviation};
+  if (whole) return effect;
+  constexpr int parts = 4;
+  const double from = start_share * t.back(), length = (t.back() - from) / parts;
+  std::array<double, parts> means{}, deviations{};
+  for (int n = 0; n < parts; ++n) {
+    const double begin = from + n * length, end = begin + length;
+    const Moments c = moments(t, x, begin, end), d = moments(u, y, begin, end);
+    means[n] = d.mean - c.mean, deviations[n] = d.deviation - c.deviation;
   }
-  const scene::Columns table = scene::read_columns(file.string());
-  std::vector<Effect> found;
-  for (const std::string& column : columns) found.push_back(of_column(table["time_s"], table[column]));
-  std::filesystem::remove(file);
-  return found;
+  const auto holds = [](const std::array<double, parts>& changes, double change) {
+    double sum = 0.0, squares = 0.0;
+    for (const double c : changes) sum += c;
+    for (const double c : changes) squares += (c - sum / parts) * (c - sum / parts);
+    return std::abs(change) >= 2.0 * std::sqrt(squares / (parts - 1) / parts);
+  };
+  if (!holds(means, a.mean == b.mean ? 0.0 : *effect.mean)) effect.mean.reset();
+  if (!holds(deviations, *effect.deviation)) effect.deviation.reset();
+  return effect;
+}
+
+/// Of the pieces of two runs made in turns. What others on the computer do makes some of them longer; of runs made again the
+/// shortest counts. The error is that of a ratio of sums over pieces.
+Saving saving_of(const std::vector<double>& own, const std::vector<double>& less) {
+  double a = 0.0, b = 0.0, squares = 0.0;
+  for (std::size_t n = 0; n < own.size(); ++n) a += own[n], b += less[n];
+  if (!(a > 0.0) || own.size() < 2) return {0.0, std::numeric_limits<double>::infinity()};
+  for (std::size_t n = 0; n < own.size(); ++n) squares += (less[n] - b / a * own[n]) * (less[n] - b / a * own[n]);
+  const double pieces = double(own.size());
+  return {1.0 - b / a, 2.0 * std::sqrt(squares * pieces / (pieces - 1.0)) / a};
+}
+
+/// Mean and deviation of a load in the trial must be those of the run, or its response is another.
+bool alike(const Moments& trial, const Moments& run, double scale) {
+  constexpr double close = 0.1;
+  const double mean = std::abs(trial.mean - run.mean), deviation = std::abs(trial.deviation - run.deviation);
+  return mean <= close * std::max(run.deviation, close * scale) && deviation <= close * std::max(run.deviation, close * scale);
+}
+
+/// Why a trial of this length tells nothing of the effects on the whole run: what happens later, slow motions.
+std::vector<std::string> unlike_the_run(const ReadyScene& scene, double length_s) {
+  const Scenario& s = scene.floating->scenario();
+  const double end_s = s.time.end_s;
+  std::vector<std::string> why;
+  constexpr int most_samples = 20000;
+  const int samples = int(std::min<double>(most_samples, std::ceil(end_s / s.time.window_s))) + 1;
+  std::vector<double> t, trial_t;
+  for (int n = 0; n < samples; ++n) t.push_back(end_s * n / (samples - 1));
+  for (const double time : t)
+    if (time <= length_s) trial_t.push_back(time);
+  const auto compare = [&](const std::string& what, const char* unit, const std::function<double(double)>& value) {
+    std::vector<double> x;
+    for (const double time : t) x.push_back(value(time));
+    const Moments run = settled(t, x), trial = settled(trial_t, std::span(x).first(trial_t.size()));
+    if (alike(trial, run, std::abs(run.mean))) return;
+    why.push_back(fmt::format("{}: mean {:.3g}, deviation {:.3g} {} in the run, {:.3g}, {:.3g} in the trial", what, run.mean,
+                              run.deviation, unit, trial.mean, trial.deviation));
+  };
+  if (s.has_rotor() && !s.wind.steady()) {
+    const aero::WindSite site = coupling::wind_site(s);
+    const aero::Wind wind = wind_of(s.wind, site);
+    const Eigen::Vector3d along(std::cos(s.wind.direction), std::sin(s.wind.direction), 0.0);
+    compare("wind at the hub", "m/s", [&](double time) { return wind.at(time, site.hub).dot(along); });
+    compare("wind across", "m/s", [&](double time) { return wind.at(time, site.hub).cross(along).norm(); });
+  }
+  if (s.has_given_waves() && scene.floating->sea())
+    compare("surface of the sea", "m", [&](double time) { return scene.floating->sea()->elevation(0.0, 0.0, time); });
+  for (const aero::EventOptions& event : s.control.events)
+    if (event.time_s > start_share * length_s) why.push_back(fmt::format("an event of the control at t = {:g} s", event.time_s));
+  const bodies::Mode* slowest = nullptr;
+  for (const bodies::Mode& mode : scene.modes)
+    if (std::abs(mode.eigenvalue.imag()) > 1e-6 && (slowest == nullptr || mode.period_s() > slowest->period_s())) slowest = &mode;
+  constexpr double least_periods = 4.0;  // one to each part
+  if (slowest != nullptr && (1.0 - start_share) * length_s < least_periods * slowest->period_s())
+    why.push_back(fmt::format("slow motion: {} has a period of {:.3g} s", slowest->name, slowest->period_s()));
+  return why;
+}
+
+/// How far a trial is: on a terminal a line that is rewritten, elsewhere a line now and then.
+class Waiting {
+ public:
+  ~Waiting() {
+    if (terminal_) io::console::set_status("");
+  }
+  void say(int round, double share) {
+    const double now = 1e-9 * double(runtime::Clock::now_ns());
+    if (now < next_) return;
+    next_ = now + (terminal_ ? 0.2 : 10.0);
+    const std::string text = fmt::format("trying what could be left out{}: {:.0f} %", round > 1 ? ", again for the time" : "",
+                                         std::floor(100.0 * share));
+    if (terminal_)
+      io::console::set_status(text);
+    else
+      io::console::print(text, true);
+  }
+
+ private:
+  const bool terminal_ = io::console::is_terminal();
+  double next_ = 1e-9 * double(runtime::Clock::now_ns()) + 2.0;
+};
+
+/// All runs of a trial, advanced piece by piece in turns, so that all of them meet the computer in the same moods.
+class Trials {
+ public:
+  Trials(const std::string& path, const Overrides& overrides, const std::vector<Omission>& omissions,
+         const std::filesystem::path& folder, const std::function<void(double)>& say)
+      : refused(omissions.size()), less_(omissions.size()) {
+    own_ = std::make_unique<Tried>(path, overrides, folder / "own");
+    for (std::size_t n = 0; n < omissions.size(); ++n) {
+      say(0.0);
+      try {
+        less_[n] = std::make_unique<Tried>(path, overrides + omissions[n].overrides, folder / std::to_string(n));
+      } catch (const std::exception& e) { refused[n] = e.what(); }
+    }
+  }
+  /// Processor time by piece, of the scene and of each omission; empty of those that were refused.
+  struct Times {
+    std::vector<double> own;
+    std::vector<std::vector<double>> less;
+  };
+  Times run(double length_s, int pieces, const std::function<void(double)>& say) {
+    Times times{.own = {}, .less = std::vector<std::vector<double>>(less_.size())};
+    for (int piece = 1; piece <= pieces; ++piece) {
+      const double to = piece == pieces ? length_s : length_s * piece / pieces;
+      times.own.push_back(own_->advance_to(to));
+      for (std::size_t n = 0; n < less_.size(); ++n) {
+        if (!less_[n]) continue;
+        try {
+          times.less[n].push_back(less_[n]->advance_to(to));
+        } catch (const std::exception& e) { refused[n] = e.what(), less_[n].reset(); }
+        say((piece - 1 + double(n + 1) / double(less_.size())) / pieces);
+      }
+    }
+    return times;
+  }
+  Tried& own() { return *own_; }
+  Tried& less(std::size_t n) { return *less_[n]; }
+  std::vector<std::string> refused;
+
+ private:
+  std::unique_ptr<Tried> own_;
+  std::vector<std::unique_ptr<Tried>> less_;
+};
+
+void take_least(std::vector<double>& least, const std::vector<double>& again) {
+  for (std::size_t n = 0; n < std::min(least.size(), again.size()); ++n) least[n] = std::min(least[n], again[n]);
 }
 
 }  // namespace
 
 Trial try_omissions(const std::string& path, const Overrides& overrides, const std::vector<std::string>& columns) {
+  const Aside aside;
   scene::Document document = load_scene(path, overrides);
   const Scenario scenario = coupling::read_scenario(document);
-  Tried own{Scenario(scenario)};
-  const double pace = own.core_seconds() / scenario.time.end_s;
-  const double windows =
-      std::max(3.0, std::floor(std::min(scenario.time.end_s, most_core_seconds / pace) / scenario.time.window_s));
-  Trial trial{.length_s = std::min(scenario.time.end_s, windows * scenario.time.window_s)};
-  trial.own = own.run(trial.length_s, columns);
-  std::vector<std::unique_ptr<Tried>> all;
-  for (const Choice& choice : choices()) {
-    Overrides more = choice.overrides(scenario, document);
-    if (more.empty()) continue;
-    Omission omission{.name = choice.name, .overrides = more, .effects = {}, .saving = 0.0, .refused = {}};
-    all.push_back(nullptr);
-    try {
-      scene::Document smaller = load_scene(path, overrides + more);
-      all.back() = std::make_unique<Tried>(coupling::read_scenario(smaller));
-      const std::vector<Effect> outcome = all.back()->run(trial.length_s, columns);
-      for (std::size_t c = 0; c < columns.size(); ++c)
-        omission.effects.push_back({outcome[c].mean - trial.own[c].mean, outcome[c].deviation - trial.own[c].deviation});
-    } catch (const std::exception& e) { omission.refused = e.what(); }
-    trial.omissions.push_back(std::move(omission));
+  Trial trial;
+  for (const Choice& choice : choices())
+    if (Overrides more = choice.overrides(scenario, document); !more.empty())
+      trial.omissions.push_back({.name = choice.name, .overrides = std::move(more), .effects = {}, .saving = {}, .refused = {}});
+
+  // A trial of seconds is made again: its pieces are too short to be timed once.
+  constexpr double repeat_below_s = 4.0;
+  constexpr int most_rounds = 5;
+  Waiting waiting;
+  Trials::Times least;
+  double used_s = 0.0;
+  for (int round = 1; round == 1 || (round <= most_rounds && used_s < repeat_below_s); ++round) {
+    const auto say = [&](double share) { waiting.say(round, share); };
+    Trials trials(path, overrides, trial.omissions, aside.folder, say);
+    if (round == 1) {
+      require_columns(trials.own().history(), columns);
+      ReadyScene scene = read_scene(path, overrides);
+      const double run_s = measured_steps(*scene.floating, scene.start).core_seconds();
+      const double all_s = run_s * double(1 + trial.omissions.size());
+      const double windows = std::ceil(scenario.time.end_s / scenario.time.window_s * std::min(1.0, trial_budget_s / all_s));
+      trial.end_s = scenario.time.end_s;
+      trial.length_s = std::min(trial.end_s, std::max(3.0, windows) * scenario.time.window_s);
+      if (!trial.whole()) trial.unlike = unlike_the_run(scene, trial.length_s);
+    }
+    constexpr int pieces = 50;
+    const double before = processor_seconds();
+    const Trials::Times times = trials.run(trial.length_s, pieces, say);
+    used_s += processor_seconds() - before;
+    if (round > 1) {
+      take_least(least.own, times.own);
+      for (std::size_t n = 0; n < times.less.size(); ++n) take_least(least.less[n], times.less[n]);
+      continue;
+    }
+    least = times;
+    const scene::Columns own = trials.own().columns();
+    for (const std::string& column : columns) {
+      const Moments m = settled(own["time_s"], own[column]);
+      trial.own.push_back({m.mean, m.deviation});
+    }
+    for (std::size_t n = 0; n < trial.omissions.size(); ++n) {
+      Omission& omission = trial.omissions[n];
+      omission.refused = trials.refused[n];
+      if (!omission.refused.empty()) continue;
+      const scene::Columns less = trials.less(n).columns();
+      for (const std::string& column : columns)
+        omission.effects.push_back(trial.unlike.empty() ? effect_of(own, less, column, trial.whole()) : Effect{});
+    }
   }
-  // In turns, so that all of them meet the computer in the same moods.
-  double core_seconds = 0.0;
-  for (int turn = 0; turn < 3; ++turn) {
-    core_seconds = own.core_seconds();
-    for (std::size_t n = 0; n < all.size(); ++n)
-      if (trial.omissions[n].refused.empty()) trial.omissions[n].saving = 1.0 - all[n]->core_seconds() / core_seconds;
-  }
+  for (std::size_t n = 0; n < trial.omissions.size(); ++n)
+    if (trial.omissions[n].refused.empty()) trial.omissions[n].saving = saving_of(least.own, least.less[n]);
   std::stable_sort(trial.omissions.begin(), trial.omissions.end(),
-                   [](const Omission& a, const Omission& b) { return a.saving > b.saving; });
+                   [](const Omission& a, const Omission& b) { return a.saving.share > b.saving.share; });
   return trial;
 }
 

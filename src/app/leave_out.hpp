@@ -1,32 +1,49 @@
-// What a scene could do without: each smaller choice that it leaves open, tried for a moment beside the scene itself, with its
-// effect on the columns asked for and what it saves. For scenes whose trial takes moments: bodies with engineering loads. Called
-// by `spindrift check --columns`; tested in tests/coupled/leave_out_test.py. SPDX-License-Identifier: Apache-2.0
+// What a scene could do without: each smaller choice that it leaves open, run beside the scene itself, with its effect on the
+// columns asked for and what it saves. For bodies with engineering loads: the whole run of each where all of them together keep
+// to a budget of processor time, else as much of it as the budget carries; what that cannot tell is left open. Called by
+// `spindrift check --columns`; tested in tests/coupled/leave_out_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace spindrift::app {
 
+/// Mean and standard deviation of a column, or what a choice changes of them, in the column's unit.
 struct Effect {
-  double mean = 0.0, deviation = 0.0;  ///< change of the column's mean and standard deviation, in its unit
+  std::optional<double> mean, deviation;  ///< nothing where the trial cannot tell
+};
+
+/// Share of the processor time of windows and rows, and twice its standard error.
+struct Saving {
+  double share = 0.0;  ///< 0 ... 1; negative where it costs more
+  double error = 0.0;
+  bool shows() const { return std::abs(share) > error; }
 };
 
 struct Omission {
   std::string name;                    ///< "longer step"
   std::vector<std::string> overrides;  ///< what makes it: "time.step_s=0.1"
   std::vector<Effect> effects;         ///< by column asked for
-  double saving = 0.0;                 ///< of the processor time of steps and rows, 0 ... 1; negative where it costs more
-  std::string refused;                 ///< not empty: why it cannot be done
+  Saving saving;
+  std::string refused;  ///< not empty: why it cannot be done
 };
 
 struct Trial {
-  double length_s = 0.0;            ///< simulated
-  std::vector<Effect> own;          ///< mean and deviation of the columns themselves
-  std::vector<Omission> omissions;  ///< largest saving first
+  double length_s = 0.0, end_s = 0.0;  ///< simulated, and of the whole run
+  std::vector<std::string> unlike;     ///< why a trial that is cut short tells nothing of effects
+  std::vector<Effect> own;             ///< mean and deviation of the columns themselves
+  std::vector<Omission> omissions;     ///< largest saving first
+  bool whole() const { return length_s >= end_s; }
 };
 
-/// Of the scene in this file with these overrides. Throws scene::SceneError where a column does not exist.
+/// Processor time of all runs of a trial together [s]; those of a scene whose whole run takes longer are cut short.
+inline constexpr double trial_budget_s = 120.0;
+
+/// Of the scene in this file with these overrides. Says how far it is where it takes more than two seconds. Throws
+/// scene::SceneError where a column does not exist.
 Trial try_omissions(const std::string& path, const std::vector<std::string>& overrides, const std::vector<std::string>& columns);
 
 }  // namespace spindrift::app
