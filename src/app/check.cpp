@@ -60,8 +60,12 @@ PartCost print_particles(const FloatingSystem& floating, const coupling::Start& 
   const sph::Parameters& p = floating.particle_plan()->parameters;
   const double steps_per_window = particle_steps(floating, census);
   fmt::print("\nSea of particles\n");
-  fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls,
-             census.bodies);
+  if (census.counted)
+    fmt::print("  {:<22}about {:.3g} ({:.3g} water, {:.3g} walls, {:.3g} bodies), by columns and volumes\n", "particles",
+               double(census.particles()), double(census.water), double(census.walls), double(census.bodies));
+  else
+    fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls,
+               census.bodies);
   for (const sea::ParticleCensus::Body& body : census.floats)
     fmt::print("  {:<22}{:.6g} m3 displaced by its particles, {:.6g} m3 at the start; {}\n", body.name, body.volume_m3,
                body.wetted_m3,

@@ -17,6 +17,7 @@
 #include "src/sea/sph/gauges.hpp"
 #include "src/sea/sph/lattice.hpp"
 #include "src/sea/sph/sea_sph.hpp"
+#include "src/sea/sph/tank_count.hpp"
 #include "src/sea/wave_field.hpp"
 
 namespace spindrift::sea {
@@ -49,11 +50,13 @@ sph::Wavemaker wavemaker_of(const ParticlePlan& plan) {
 
 /// Largest step of a floating body in explicit coupling, as SeaSph::add_body bounds it.
 template <int dim>
-double body_step_limit(const ParticleBody& body, const sph::Points& points, const sph::Parameters& p, double width) {
+double body_step_limit(const ParticleBody& body, const sph::TankCount::Body& of, const sph::Parameters& p, double width) {
   sph::Solid solid;
-  for (const Eigen::Vector3d& x : points)
+  for (const Eigen::Vector3d& x : of.points)
     solid.local.push_back(x), solid.low = solid.low.cwiseMin(x), solid.high = solid.high.cwiseMax(x);
-  return sph::body_step_limit(solid, body.mass / width, p, dim);
+  if (of.particles == double(of.points.size())) return sph::body_step_limit(solid, body.mass / width, p, dim);
+  const double coarse = std::pow(of.cell, 1.0 / dim), relative_weight = body.mass / width / (of.particles * p.mass(dim));
+  return 0.5 * sph::step_limit_body(relative_weight, solid.layers(coarse, dim) * coarse / p.spacing, p.spacing, p.eos.c0);
 }
 
 /// What a sensor of the scene reads; `reach` [m]: of the kernel.
@@ -357,26 +360,50 @@ double measure(const sph::Parameters& scene, ParticleCensus& census) {
   return double(seeds.size()) / std::pow(n, dim) - 1.0;
 }
 
+/// Places of the lattice that are laid out in about a second; near bodies each takes longer.
+constexpr double laid_out_at_most = 1e6;
+
+/// Of particles by kind; points: some of each body's, which stand for `cell` each.
+template <int dim>
+ParticleCensus counted_or_laid_out(const ParticlePlan& plan, std::span<const Motion> start, sph::Parameters& p,
+                                   std::vector<sph::TankCount::Body>& bodies) {
+  const sph::TankPlan with_bodies = tank_with_bodies(plan, start);
+  ParticleCensus census;
+  census.counted = sph::lattice_places<dim>(with_bodies, p) > laid_out_at_most;
+  if (census.counted) {
+    sph::TankCount count = sph::count_tank<dim>(with_bodies, p);
+    p.mass_factor = count.mass_factor;
+    census.water = std::size_t(count.water), census.walls = std::size_t(count.walls);
+    bodies = std::move(count.bodies);
+    return census;
+  }
+  const auto tank = sph::lay_out<dim>(with_bodies, p);
+  census.water = tank.water, census.walls = tank.seeds.size() - tank.water;
+  for (const sph::Points& points : tank.body_points) {
+    census.walls -= points.size();
+    bodies.push_back({double(points.size()), points, std::pow(p.spacing, dim) * tank.cell_volume});
+  }
+  return census;
+}
+
 template <int dim, class Real>
 ParticleCensus census_of(const ParticlePlan& plan, std::span<const Motion> start) {
-  ParticleCensus census;
   sph::Parameters p = plan.parameters;
-  const double walls_to_water = measure<dim, Real>(p, census);
-  const auto tank = sph::lay_out<dim>(tank_with_bodies(plan, start), p);
-  census.water = tank.water, census.walls = tank.seeds.size() - tank.water;
+  std::vector<sph::TankCount::Body> bodies;
+  ParticleCensus census = counted_or_laid_out<dim>(plan, start, p, bodies);
+  const double walls_to_water = measure<dim, Real>(plan.parameters, census);
   census.step_s = sph::step_limits(p.cfl, p.h(), p.eos.c0, 0.0, p.gravity, 0.0).smallest(), census.step_set_by = "sound";
   std::size_t shaped = 0;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     const ParticleBody& body = plan.bodies[b];
     if (body.shapes.empty()) continue;
-    const sph::Points& points = tank.body_points[shaped++];
-    const std::size_t count = points.size();
-    census.bodies += count, census.walls -= count;
-    const double width = dim == 2 ? plan.options.width_m : 1.0, cell = std::pow(p.spacing, dim) * tank.cell_volume;
-    const double edge = std::pow(cell, 1.0 / dim);
-    census.floats.push_back({body.name, double(count) * cell * width, sph::wetted_volume(points, start[b], cell, edge) * width,
-                             sph::rise_to_float(points, start[b], cell, edge, body.mass / (p.eos.rho0 * width))});
-    const double limit = body_step_limit<dim>(body, points, p, dim == 2 ? plan.options.width_m : 1.0);
+    const sph::TankCount::Body& of = bodies[shaped++];
+    census.bodies += std::size_t(std::llround(of.particles));
+    const double width = dim == 2 ? plan.options.width_m : 1.0, edge = std::pow(of.cell, 1.0 / dim);
+    census.floats.push_back({body.name, double(of.points.size()) * of.cell * width,
+                             sph::wetted_volume(of.points, start[b], of.cell, edge) * width,
+                             sph::rise_to_float(of.points, start[b], of.cell, edge, body.mass / (p.eos.rho0 * width))});
+    const double limit = body_step_limit<dim>(body, of, p, width);
     if (limit < census.step_s) census.step_s = limit, census.step_set_by = "body " + body.name;
   }
   census.bytes *= double(census.particles());

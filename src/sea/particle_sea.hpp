@@ -70,6 +70,7 @@ inline constexpr double bytes_of_note = 62.0;
 /// What a scene amounts to, without running it.
 struct ParticleCensus {
   std::size_t water = 0, walls = 0, bodies = 0;
+  bool counted = false;                 ///< by columns and volumes, not laid out: within some per cent
   double bytes = 0.0;                   ///< of the particles in memory
   double step_s = 0.0;                  ///< largest step at rest
   std::string step_set_by;              ///< "sound", "body NAME"
@@ -82,6 +83,7 @@ struct ParticleCensus {
   std::vector<Body> floats;
   std::size_t particles() const { return water + walls + bodies; }
 };
+/// Seas that take seconds to lay out are counted.
 ParticleCensus particle_census(const ParticlePlan& plan, std::span<const Motion> start);
 
 /// Particles for output, of this rank's run of identities (the ranks' samples one after the other are in the order of

@@ -40,6 +40,15 @@ class Forecasts(Folder):
                     each = int(re.search(r"windows of \S+ s, (\d+) steps? each", said.stdout).group(1))
                     self.assertEqual(counts["steps"], each * counts["windows"])
 
+    def test_a_sea_that_takes_minutes_to_lay_out_is_counted(self):
+        for scene, spacing, volume in (("free_sphere/free_sphere", 0.025, 4.18879), ("stl_buoy/stl_buoy", 0.0125, 1.07)):
+            with self.subTest(scene):
+                said = spindrift("check", ROOT / f"inputs/validation/{scene}.toml", settings=[f"sea.particles.spacing_m={spacing}"], timeout=60)
+                self.assertEqual(said.returncode, 0, said.stderr)
+                every, water, walls, bodies = (float(n) for n in re.search(r"^  particles +about (\S+) \((\S+) water, (\S+) walls, (\S+) bodies\)", said.stdout, re.M).groups())
+                self.assertLess(abs(bodies * spacing**3 / volume - 1.0), 0.01)
+                self.assertLess(abs((water + walls + bodies) / every - 1.0), 0.01)
+
     def memory(self, said, measured):
         number, unit = re.search(r"^  memory +(\S+) (MB|GB)", said, re.M).groups()
         self.assertLess(abs(float(number) * {"MB": 1e6, "GB": 1e9}[unit] / measured - 1.0), 0.15, f"{number} {unit}, measured {measured:.4g}")

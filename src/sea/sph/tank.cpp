@@ -13,6 +13,7 @@
 #include "src/sea/sph/mesh_fill.hpp"
 #include "src/sea/sph/packing.hpp"
 #include "src/sea/sph/solids.hpp"
+#include "src/sea/sph/tank_lattice.hpp"
 
 namespace spindrift::sph {
 
@@ -29,34 +30,6 @@ double TankPlan::bed_at(double at) const {
 
 namespace {
 
-/// The lattice of a tank: cells counted from the lower corner of the water at the level bed.
-template <int dim>
-struct Lattice {
-  std::array<double, dim> corner, edge;
-  std::array<int, dim> count;  ///< inside the walls; along z up to their top
-
-  Lattice(const TankPlan& plan, double spacing) {
-    const auto cells = [&](int axis, double low, double high, double whole) {
-      corner[axis] = low, edge[axis] = whole / std::max(1.0, std::round(whole / spacing));
-      count[axis] = int(std::ceil((high - low) / edge[axis] * (1.0 - 1e-12)));
-    };
-    cells(0, plan.x[0], plan.x[1], plan.x[1] - plan.x[0]);
-    if constexpr (dim == 3) cells(1, plan.y[0], plan.y[1], plan.y[1] - plan.y[0]);
-    cells(dim - 1, -plan.depth, plan.top, plan.depth);
-  }
-  double at(int axis, int index) const { return corner[axis] + (index + 0.5) * edge[axis]; }
-  std::array<double, dim> at(const std::array<int, dim>& index) const {
-    std::array<double, dim> x;
-    for (int k = 0; k < dim; ++k) x[k] = at(k, index[k]);
-    return x;
-  }
-  double cell() const {
-    double volume = 1.0;
-    for (double e : edge) volume *= e;
-    return volume;
-  }
-};
-
 template <int dim>
 bool inside(const TankPlan::Block& block, const std::array<double, dim>& x) {
   const Eigen::Vector3d at = to_earth<dim>(x);
@@ -72,7 +45,7 @@ class PlacesBySurfaces {
   enum class Of : std::uint8_t { water, wall, core };
 
   /// Walls are `deep` [m], behind them is core.
-  PlacesBySurfaces(const TankPlan& plan, const Lattice<dim>& lattice, double deep) : count_(lattice.count) {
+  PlacesBySurfaces(const TankPlan& plan, const TankLattice<dim>& lattice, double deep) : count_(lattice.count) {
     if (plan.walls.empty()) return;
     const std::array<int, 3> count{count_[0], dim == 2 ? 1 : count_[1], count_[dim - 1]};
     of_.assign(std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]), Of::water);
@@ -129,9 +102,9 @@ class Layout {
       : plan_(plan),
         p_(p),
         lattice_(plan, p.spacing),
-        layers_(int(std::ceil(p.reach() / p.spacing - 1e-9)) - 1),
+        layers_(wall_layers(p)),
         by_surfaces_(plan, lattice_, layers_ * p.spacing) {
-    const double ratio = p.gravity > 0.0 ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0;
+    const double ratio = mean_density_ratio(plan, p);
     p_.mass_factor = lattice_.cell() / std::pow(p.spacing, dim) * ratio;
     row_mass_ = p.eos.rho0 * lattice_.edge[dim - 1] * ratio;
     cell_volume_ = lattice_.cell() / std::pow(p.spacing, dim);
@@ -475,7 +448,7 @@ class Layout {
   };
   TankPlan plan_;
   Parameters p_;
-  Lattice<dim> lattice_;
+  TankLattice<dim> lattice_;
   int layers_;
   PlacesBySurfaces<dim> by_surfaces_;
   double row_mass_ = 0.0;     ///< mass per area of a row of water [kg/m2]

@@ -7,6 +7,7 @@
 #include "kernels/sph/kernel_wendland.hpp"
 #include "src/sea/sph/body_shapes.hpp"
 #include "src/sea/sph/tank.hpp"
+#include "src/sea/sph/tank_count.hpp"
 #include "tests/kernels/rigid/surfaces.hpp"
 
 using namespace spindrift;
@@ -134,6 +135,9 @@ TEST_CASE("a beach of triangles is the beach of the bed's rows, particle by part
   p.spacing = 0.1, p.h_over_d = 1.5, p.eos = {1000.0, 10.0 * std::sqrt(9.81)};
   const auto rows = lay_out<3>(by_rows, p), surface = lay_out<3>(by_surface, p);
   CHECK(rows.water == surface.water);
+  const TankCount counted = count_tank<3>(by_surface, p);
+  CHECK(counted.water == Approx(double(surface.water)).epsilon(0.02));
+  CHECK(counted.walls == Approx(double(surface.walls)).epsilon(0.1));
   const auto water = [](const TankParticles<3>& t) {
     std::vector<std::array<double, 3>> places;
     for (const Seed<3>& s : t.seeds.all())
@@ -161,6 +165,9 @@ TEST_CASE("a basin of triangles holds water inside and is solid around", "[sea][
   p.spacing = 0.1, p.h_over_d = 1.5, p.eos = {1000.0, 10.0 * std::sqrt(9.81)};
   const auto tank = lay_out<3>(plan, p);
   CHECK(double(tank.water) * 1e-3 == Approx(pi).epsilon(0.02));
+  const TankCount counted = count_tank<3>(plan, p);
+  CHECK(counted.water == Approx(double(tank.water)).epsilon(0.02));
+  CHECK(counted.walls == Approx(double(tank.walls)).epsilon(0.1));
   for (const Seed<3>& s : tank.seeds.all()) {
     const double r = std::hypot(s.position[0], s.position[1]);
     if (s.owner == water_owner) REQUIRE(r < 1.0);

@@ -6,6 +6,7 @@
 
 #include "kernels/sph/kernel_wendland.hpp"
 #include "src/sea/sph/solids.hpp"
+#include "src/sea/sph/tank_count.hpp"
 
 using namespace spindrift;
 using namespace spindrift::sph;
@@ -261,4 +262,66 @@ TEST_CASE("ghost nodes of modified walls lie in the water, as far from the face 
   CHECK(tank_nodes > 1000);
   CHECK(obstacle_nodes > 100);
   CHECK(body_nodes > 100);
+}
+
+namespace {
+
+/// Counted and laid out, of each kind: walls without bodies.
+template <int dim>
+void check_count(const TankPlan& plan, Parameters p, double of_water, double of_walls) {
+  const TankCount counted = count_tank<dim>(plan, p);
+  const auto t = lay_out<dim>(plan, p);
+  double walls = double(t.seeds.size() - t.water);
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    walls -= double(t.body_points[b].size());
+    CHECK(counted.bodies[b].particles == Approx(double(t.body_points[b].size())).epsilon(0.01));
+  }
+  CHECK(counted.water == Approx(double(t.water)).epsilon(of_water));
+  CHECK(counted.walls == Approx(walls).epsilon(of_walls));
+  CHECK(counted.mass_factor == Approx(p.mass_factor).epsilon(1e-12));
+}
+
+}  // namespace
+
+TEST_CASE("a tank of boxes, a slope or a paddle is counted to the particle without laying it out", "[sea][sph][fast]") {
+  const double spacing = GENERATE(0.1, 0.13);
+  const Parameters p = particles(spacing, 1.0);
+  TankPlan plan = tank(4.0, 1.0, 1.0);
+  check_count<3>(plan, p, 0.0, 0.0);
+  plan.open = {true, false}, plan.periodic = {false, true};
+  check_count<3>(plan, p, 0.0, 0.0);
+  plan.open = plan.periodic = {};
+  plan.bed = {{1.0, -1.0}, {4.0, 0.3}};
+  check_count<2>(plan, p, 0.0, 0.0);
+  check_count<3>(plan, p, 0.0, 0.0);
+  plan.paddle = Paddle{.flap = true, .x = 0.0, .hinge = -0.6, .bed = -1.0}, plan.paddle_reach = 0.35;
+  check_count<2>(plan, p, 0.0, 0.0);
+  check_count<3>(plan, p, 0.0, 0.0);
+}
+
+TEST_CASE("boxes of water and obstacles are counted to the particle", "[sea][sph][fast]") {
+  TankPlan plan = tank(4.0, 2.0, 1.0);
+  plan.water = {{{0.0, 0.0, -1.0}, {1.2, 2.0, 0.1}}, {{3.0, 0.5, -1.0}, {3.6, 1.5, -0.4}}};
+  plan.obstacles = {{{0.5, 0.5, -1.0}, {3.3, 1.5, -0.2}}};
+  check_count<2>(plan, particles(0.1, 1.0), 0.0, 0.0);
+  check_count<3>(plan, particles(0.1, 1.0), 0.0, 0.0);
+}
+
+TEST_CASE("water round bodies and surfaces is counted within a hundredth, their walls within a tenth", "[sea][sph][fast]") {
+  TankPlan plan = tank(3.0, 2.0, 1.0);
+  const Parameters p = particles(0.06, 1.0);
+  plan.bodies = {{"ball", {Sphere{Eigen::Vector3d::Zero(), 0.4}}, {}},
+                 {"box", {Box{Eigen::Vector3d::Zero(), {0.5, 0.6, 0.7}}, Sphere{{0.2, 0.0, 0.3}, 0.3}}, {}}};
+  plan.bodies[0].motion.position = {0.8, 1.0, 0.1}, plan.bodies[1].motion.position = {2.2, 1.0, -0.1};
+  check_count<3>(plan, p, 0.01, 0.0);
+}
+
+TEST_CASE("a lattice of 1e12 places is counted in a moment", "[sea][sph][fast]") {
+  const Parameters p = particles(2e-4, 1.0);
+  const TankPlan plan = tank(4.0, 2.0, 1.0);
+  const TankCount counted = count_tank<3>(plan, p);
+  CHECK(counted.water == Approx(1e12).epsilon(1e-6));
+  // Two layers: the bed with its margin, and the sides up to the top.
+  CHECK(counted.walls == Approx(2.0 * (20000.0 * 10000.0 + 60000.0 * 7500.0)).epsilon(1e-3));
+  CHECK(lattice_places<3>(plan, p) == Approx(1.5e12).epsilon(0.01));
 }
