@@ -80,22 +80,28 @@ bool is_wing(const GenerateOptions& grid) { return grid.kind == "naca0012" || gr
 /// Length that the flow's Reynolds number goes with, where the program makes the grid and knows it; else 0.
 double length_of(const FlowOptions& flow) {
   if (!flow.generate) return 0.0;
-  if (is_wing(*flow.generate)) return 1.0;  // the chord
+  if (is_wing(*flow.generate) || flow.generate->kind == "wing") return 1.0;  // the chord
   return flow.generate->kind == "cylinder" ? 2.0 * flow.generate->radius_m : 0.0;
 }
 
-/// Where closures were made for, and where laminar flow ends: a wing's boundary layer turns turbulent by itself between 1e5 and
-/// 3e6, below 1e4 nothing does; the closures have no model of that change (Spalart & Allmaras 1994; Menter 1994).
+/// Where closures were made for, and where laminar flow ends: the boundary layer of a plate turns turbulent by itself from 5e5 on
+/// (White 2011, sec. 7.1), behind the suction peak of a section or on a cylinder earlier; below 1e4 nothing does. The closures
+/// have no model of that change (Spalart & Allmaras 1994; Menter 1994).
 void doubt_closure(scene::Doubts& doubts, const FlowOptions& flow, double reynolds) {
   if (flow.viscous == "none" || reynolds <= 0.0) return;
-  constexpr double least = 2e4, most = 3e6;
-  const std::string advice = "look at aero.flow.viscosity_Pa_s (air: 1.8e-5), the wind and the size, or choose the other";
+  constexpr double least = 2e4, most = 5e5;
+  const std::string look =
+      "look at aero.flow.viscosity_Pa_s (air: 1.8e-5), the wind and the size, or take aero.flow.turbulence = ";
   if (flow.turbulence != "none" && reynolds < least)
     doubts.push_back({"aero.flow.turbulence", fmt::format("{} at a Reynolds number of {:.3g}", flow.turbulence, reynolds),
-                      fmt::format("turbulence above {:.0e}", least), advice});
+                      fmt::format("turbulence above {:.0e}", least), look + "\"none\""});
   if (flow.turbulence == "none" && reynolds > most)
-    doubts.push_back({"aero.flow.turbulence", fmt::format("laminar flow at a Reynolds number of {:.3g}", reynolds),
-                      fmt::format("laminar up to {:.0e}", most), advice});
+    doubts.push_back(
+        {"aero.flow.turbulence", fmt::format("laminar flow at a Reynolds number of {:.3g}", reynolds),
+         fmt::format("laminar up to {:.0e}, beyond which boundary layers turn turbulent and drag, stall and what is shed are "
+                     "others",
+                     most),
+         look + "\"sst\" or \"sa\""});
 }
 
 /// Of a section: beyond stall it sheds vortices; a steady march that ends there has found one state among them.
