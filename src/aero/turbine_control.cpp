@@ -106,13 +106,20 @@ void TurbineControl::begin(double t, const Measured& measured, std::span<double>
     lay_shaft(measured, s, memory);
     return store(s, memory);
   }
+  const double least = law_.least_pitch(measured.wind);
+  const auto settled_at = [&](double torque) {
+    return settled(law_.dtu, start_.speed, measured.wind, start_.pitch, least, torque);
+  };
   if (!start_.parked) {
     s.mode = double(Mode::operating);
-    s.generator_torque = std::clamp(measured.torque, 0.0, law_.dtu.max_torque);
+    // What the law asks of the generator at this speed and pitch: the torque of the air may be that of a gust's moment.
+    const ControllerDtuState by_air = settled_at(std::clamp(measured.torque, 0.0, law_.dtu.max_torque));
+    s.generator_torque = spindrift::advance(law_.dtu, by_air, start_.speed, start_.pitch, measured.wind, 0.0, [this](double w) {
+                           return law_.least_pitch(w);
+                         }).torque;
   }
   s.shaft_torque = s.generator_torque;
-  s.controller =
-      settled(law_.dtu, start_.speed, measured.wind, start_.pitch, law_.least_pitch(measured.wind), s.generator_torque);
+  s.controller = settled_at(s.generator_torque);
   lay_shaft(measured, s, memory);
   store(s, memory);
 }
