@@ -67,41 +67,53 @@ const scene::Section<RecordOptions>& record_section() {
   return section;
 }
 
-template <class Options>
-void check_shaft(const Options& o, const scene::Report& report) {
+void check_shaft(const DriveTrainOptions& o, const scene::Report& report) {
   if (o.shaft_stiffness_N_m_rad && o.generator_inertia_kg_m2 <= 0.0)
     report("shaft_stiffness_N_m_rad", "needs a generator_inertia_kg_m2 above 0 at the shaft's other end");
   if (!o.shaft_stiffness_N_m_rad && o.shaft_damping_N_m_s_rad > 0.0)
     report("shaft_damping_N_m_s_rad", "has no effect without shaft_stiffness_N_m_rad");
 }
 
-const scene::Section<DriveTrainOptions>& drive_train_section() {
+/// A member of the drive train as one of the options that hold it.
+template <class Options, class M>
+M Options::*of(M DriveTrainOptions::*member) {
+  return member;
+}
+
+/// Keys of a drive train, which a controller file and [control.drive_train] have alike.
+template <class Options>
+scene::Section<Options> with_drive_train(scene::Section<Options> section) {
   using scene::positive, scene::not_negative, scene::between;
+  using Train = DriveTrainOptions;
+  return section
+      .number("rotor_inertia_kg_m2", of<Options>(&Train::rotor_inertia_kg_m2), "kg m2", "Blades and hub about the shaft.",
+              positive())
+      .required()
+      .number("generator_inertia_kg_m2", of<Options>(&Train::generator_inertia_kg_m2), "kg m2",
+              "Generator, referred to the low-speed shaft.", not_negative())
+      .number("shaft_stiffness_N_m_rad", of<Options>(&Train::shaft_stiffness_N_m_rad), "N m/rad",
+              "Against twist between rotor and generator, on the low-speed shaft; without it the shaft is rigid.", positive())
+      .number("shaft_damping_N_m_s_rad", of<Options>(&Train::shaft_damping_N_m_s_rad), "N m s/rad", "Against its rate.",
+              not_negative())
+      .number("generator_efficiency", of<Options>(&Train::generator_efficiency), "-", "Electrical over shaft power.",
+              between(0.1, 1.0))
+      .number("brake_torque_N_m", of<Options>(&Train::brake_torque_N_m), "N m", "Of the brake, on the low-speed shaft.",
+              not_negative())
+      .degrees("feather_deg", of<Options>(&Train::feather), "Pitch of feathered blades.", between(45.0, 120.0))
+      .degrees("max_pitch_rate_deg_s", of<Options>(&Train::max_pitch_rate), "Largest rate of the blades' pitch.",
+               between(0.01, 100.0), "deg/s")
+      .number("servo_frequency_Hz", of<Options>(&Train::servo_frequency_Hz), "Hz",
+              "Of the pitch servo; where there is none, blades go where they are asked to as fast as they may.", positive())
+      .number("servo_damping", of<Options>(&Train::servo_damping), "-", "Its damping ratio.", between(0.1, 2.0))
+      .degrees("max_pitch_acceleration_deg_s2", of<Options>(&Train::max_pitch_acceleration), "Its largest acceleration.",
+               between(0.01, 1000.0), "deg/s2");
+}
+
+const scene::Section<DriveTrainOptions>& drive_train_section() {
   static const auto section =
-      scene::Section<DriveTrainOptions>("drive_train", "What a controller library turns and pitches.")
-          .number("rotor_inertia_kg_m2", &DriveTrainOptions::rotor_inertia_kg_m2, "kg m2", "Blades and hub about the shaft.",
-                  positive())
-          .required()
-          .number("generator_inertia_kg_m2", &DriveTrainOptions::generator_inertia_kg_m2, "kg m2",
-                  "Generator, referred to the low-speed shaft.", not_negative())
-          .number("shaft_stiffness_N_m_rad", &DriveTrainOptions::shaft_stiffness_N_m_rad, "N m/rad",
-                  "Against twist between rotor and generator, on the low-speed shaft; without it the shaft is rigid.", positive())
-          .number("shaft_damping_N_m_s_rad", &DriveTrainOptions::shaft_damping_N_m_s_rad, "N m s/rad", "Against its rate.",
-                  not_negative())
-          .number("gear_ratio", &DriveTrainOptions::gear_ratio, "-", "Generator speed over rotor speed.", positive())
-          .number("generator_efficiency", &DriveTrainOptions::generator_efficiency, "-", "Electrical over shaft power.",
-                  between(0.1, 1.0))
-          .number("brake_torque_N_m", &DriveTrainOptions::brake_torque_N_m, "N m", "Of the brake, on the low-speed shaft.",
-                  not_negative())
-          .degrees("feather_deg", &DriveTrainOptions::feather, "Pitch of feathered blades.", between(45.0, 120.0))
-          .degrees("max_pitch_rate_deg_s", &DriveTrainOptions::max_pitch_rate, "Largest rate of the blades' pitch.",
-                   between(0.01, 100.0), "deg/s")
-          .number("servo_frequency_Hz", &DriveTrainOptions::servo_frequency_Hz, "Hz",
-                  "Of the pitch servo; without it blades go where they are asked to as fast as they may.", positive())
-          .number("servo_damping", &DriveTrainOptions::servo_damping, "-", "Its damping ratio.", between(0.1, 2.0))
-          .degrees("max_pitch_acceleration_deg_s2", &DriveTrainOptions::max_pitch_acceleration, "Its largest acceleration.",
-                   between(0.01, 1000.0), "deg/s2")
-          .check(check_shaft<DriveTrainOptions>);
+      with_drive_train(scene::Section<DriveTrainOptions>("drive_train", "What a controller library turns and pitches."))
+          .number("gear_ratio", &DriveTrainOptions::gear_ratio, "-", "Generator speed over rotor speed.", scene::positive())
+          .check(check_shaft);
   return section;
 }
 
@@ -197,11 +209,10 @@ const scene::Section<ControllerOptions>& controller_section() {
   static const auto fixed = gain_section("gains", "Pitch gains on a fixed foundation.");
   static const auto floating = gain_section("floating_gains", "Pitch gains on a floater.");
   static const auto section =
-      scene::Section<ControllerOptions>("controller", "A turbine's controller and drive train, on the low-speed shaft.")
+      with_drive_train(
+          scene::Section<ControllerOptions>("controller", "A turbine's controller and drive train, on the low-speed shaft."))
           .number("rated_power_W", &ControllerOptions::rated_power_W, "W", "Electrical.", positive())
           .required()
-          .number("generator_efficiency", &ControllerOptions::generator_efficiency, "-", "Electrical over shaft power.",
-                  between(0.1, 1.0))
           .rpm("min_speed_rpm", &ControllerOptions::min_speed, "Least speed of operation.", positive())
           .required()
           .rpm("rated_speed_rpm", &ControllerOptions::rated_speed, "Rated speed.", positive())
@@ -216,28 +227,10 @@ const scene::Section<ControllerOptions>& controller_section() {
                   positive())
           .number("filter_damping", &ControllerOptions::filter_damping, "-", "Its damping ratio.", between(0.1, 2.0))
           .degrees("max_pitch_deg", &ControllerOptions::max_pitch, "Largest pitch of operation.", between(1.0, 120.0))
-          .degrees("max_pitch_rate_deg_s", &ControllerOptions::max_pitch_rate, "Largest rate of the blades' pitch.",
-                   between(0.01, 100.0), "deg/s")
-          .degrees("max_pitch_acceleration_deg_s2", &ControllerOptions::max_pitch_acceleration,
-                   "Largest acceleration of the blades' pitch.", between(0.01, 1000.0), "deg/s2")
-          .number("servo_frequency_Hz", &ControllerOptions::servo_frequency_Hz, "Hz", "Of the pitch servo.", positive())
-          .number("servo_damping", &ControllerOptions::servo_damping, "-", "Its damping ratio.", between(0.1, 2.0))
           .degrees("switch_pitch_deg", &ControllerOptions::switch_pitch, "Full load begins this far above the least pitch.",
                    between(0.0, 10.0))
           .table("gains", &ControllerOptions::gains, fixed, "Pitch gains on a fixed foundation.")
           .table("floating_gains", &ControllerOptions::floating_gains, floating, "Pitch gains on a floater.")
-          .number("rotor_inertia_kg_m2", &ControllerOptions::rotor_inertia_kg_m2, "kg m2", "Blades and hub about the shaft.",
-                  positive())
-          .required()
-          .number("generator_inertia_kg_m2", &ControllerOptions::generator_inertia_kg_m2, "kg m2",
-                  "Generator, referred to the low-speed shaft.", not_negative())
-          .number("shaft_stiffness_N_m_rad", &ControllerOptions::shaft_stiffness_N_m_rad, "N m/rad",
-                  "Against twist between rotor and generator, on the low-speed shaft; without it the shaft is rigid.", positive())
-          .number("shaft_damping_N_m_s_rad", &ControllerOptions::shaft_damping_N_m_s_rad, "N m s/rad", "Against its rate.",
-                  not_negative())
-          .number("brake_torque_N_m", &ControllerOptions::brake_torque_N_m, "N m", "Of the brake, on the low-speed shaft.",
-                  not_negative())
-          .degrees("feather_deg", &ControllerOptions::feather, "Pitch of feathered blades.", between(45.0, 120.0))
           .degrees("stop_pitch_rate_deg_s", &ControllerOptions::stop_pitch_rate, "Rate of pitch in a shut-down and a start-up.",
                    between(0.01, 100.0), "deg/s")
           .check(check_controller);
@@ -249,20 +242,6 @@ ControllerOptions read_controller(const std::string& path) {
   const ControllerOptions options = doc.read(controller_section());
   doc.finish();
   return options;
-}
-
-DriveTrainOptions drive_train_of(const ControllerOptions& c) {
-  return {.rotor_inertia_kg_m2 = c.rotor_inertia_kg_m2,
-          .generator_inertia_kg_m2 = c.generator_inertia_kg_m2,
-          .generator_efficiency = c.generator_efficiency,
-          .brake_torque_N_m = c.brake_torque_N_m,
-          .feather = c.feather,
-          .max_pitch_rate = c.max_pitch_rate,
-          .max_pitch_acceleration = c.max_pitch_acceleration,
-          .servo_frequency_Hz = c.servo_frequency_Hz,
-          .servo_damping = c.servo_damping,
-          .shaft_stiffness_N_m_rad = c.shaft_stiffness_N_m_rad,
-          .shaft_damping_N_m_s_rad = c.shaft_damping_N_m_s_rad};
 }
 
 namespace {

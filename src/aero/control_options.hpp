@@ -87,31 +87,24 @@ struct PitchGainOptions {
 };
 
 /// [controller] of a controller file. Speeds and torques on the low-speed shaft.
-struct ControllerOptions {
-  double rated_power_W = 0.0;  ///< electrical
-  double generator_efficiency = 1.0;
+struct ControllerOptions : DriveTrainOptions {
+  ControllerOptions() { servo_frequency_Hz = 1.0; }
+
+  double rated_power_W = 0.0;                 ///< electrical
   double min_speed = 0.0, rated_speed = 0.0;  ///< [rad/s]
   double max_torque_N_m = 0.0;
   std::optional<double> torque_gain_N_m_s2;
   double torque_kp_N_m_s = 0.0, torque_ki_N_m = 0.0;
   double filter_frequency_Hz = 0.4, filter_damping = 0.7;
-  double max_pitch = 1.5707963267948966, max_pitch_rate = 0.17453292519943295, max_pitch_acceleration = 0.2617993877991494;
-  double servo_frequency_Hz = 1.0, servo_damping = 0.7;
+  double max_pitch = 1.5707963267948966;
   double switch_pitch = 0.008726646259971648;
   PitchGainOptions gains;
   std::optional<PitchGainOptions> floating_gains;
-  double rotor_inertia_kg_m2 = 0.0, generator_inertia_kg_m2 = 0.0;
-  std::optional<double> shaft_stiffness_N_m_rad;
-  double shaft_damping_N_m_s_rad = 0.0;
-  double brake_torque_N_m = 0.0;
-  double feather = 1.5707963267948966, stop_pitch_rate = 0.03490658503988659;  ///< [rad], [rad/s]
+  double stop_pitch_rate = 0.03490658503988659;  ///< [rad/s]
 };
 
 const scene::Section<ControlOptions>& control_section();
 const scene::Section<ControllerOptions>& controller_section();
-
-/// What of a controller file is the drive train.
-DriveTrainOptions drive_train_of(const ControllerOptions& controller);
 
 /// Throws scene::SceneError with all that is wrong with the file.
 ControllerOptions read_controller(const std::string& path);

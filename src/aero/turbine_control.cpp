@@ -37,7 +37,7 @@ ControllerDtu law_of(const ControlOptions& options, const ControllerOptions& o, 
 TurbineControl::TurbineControl(const ControlOptions& options, const ControllerOptions& controller,
                                const std::optional<Operation>& operation, int blades, const Start& start,
                                const std::optional<PeakShaving>& shaving)
-    : drive_train_(drive_train_of(controller)),
+    : drive_train_(controller),
       law_{law_of(options, controller, operation), controller.stop_pitch_rate, {}},
       events_(options.events),
       blades_(blades),

@@ -51,7 +51,7 @@ std::size_t TileGeometry::bytes() const {
   return sum;
 }
 
-std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar, bool moving) {
+std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar) {
   auto geometry = std::make_unique<TileGeometry>();
   TileGeometry& g = *geometry;
   g.node_box = BoxLayout(tile.ni + 1, tile.nj + 1, tile.nk + 1);
@@ -77,17 +77,18 @@ std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Ti
     set_vector(x, k, j, i, block.nodes[block.node(at[2], at[1], at[0])]);
   });
   update_metrics(g, planar);
-  if (moving) {
-    MotionHistory& h = g.history.emplace();
-    for (auto* nodes : {&h.reference_nodes, &h.old_nodes, &h.older_nodes}) *nodes = AlignedArray<double>(g.node_box.size(3));
-    std::ranges::copy(g.node_data.span(), h.reference_nodes.data());
-    std::ranges::copy(g.node_data.span(), h.old_nodes.data());
-    for (int d = 0; d < 3; ++d)
-      for (auto* family : {&h.swept, &h.old_swept, &g.speed_data}) (*family)[d] = AlignedArray<double>(g.face_box[d].size(1));
-    begin_step(g);
-    begin_step(g);
-  }
   return geometry;
+}
+
+void make_movable(TileGeometry& g) {
+  MotionHistory& h = g.history.emplace();
+  for (auto* nodes : {&h.reference_nodes, &h.old_nodes, &h.older_nodes}) *nodes = AlignedArray<double>(g.node_box.size(3));
+  std::ranges::copy(g.node_data.span(), h.reference_nodes.data());
+  std::ranges::copy(g.node_data.span(), h.old_nodes.data());
+  for (int d = 0; d < 3; ++d)
+    for (auto* family : {&h.swept, &h.old_swept, &g.speed_data}) (*family)[d] = AlignedArray<double>(g.face_box[d].size(1));
+  begin_step(g);
+  begin_step(g);
 }
 
 double extent_along(const TileGeometry& g, const Eigen::Vector3d& normal, int k, int j, int i) {
@@ -234,7 +235,8 @@ GridStore::GridStore(Tiling tiling, std::vector<int> rank_of_tile, int rank)
 }
 
 void GridStore::build(int tile, const MultiBlockGrid& grid, bool moving) {
-  geometry_[tile] = make_geometry(grid, tiling_.tiles[tile], tiling_.planar, moving);
+  geometry_[tile] = make_geometry(grid, tiling_.tiles[tile], tiling_.planar);
+  if (moving) make_movable(*geometry_[tile]);
 }
 
 void GridStore::build_all(const MultiBlockGrid& grid, bool moving) {

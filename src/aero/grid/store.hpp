@@ -71,7 +71,10 @@ struct TileGeometry {
 
 /// Copies a tile's nodes out of its block and builds faces, volumes, centres. Ghosts of volume and centre are filled by
 /// fill_boundary_geometry and by the links (geometry_quantities).
-std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar, bool moving);
+std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar);
+
+/// Lets a tile's nodes move from where they are: gives it room for what they were and what its faces sweep, all at rest.
+void make_movable(TileGeometry& geometry);
 
 /// Of a cell, along a unit vector: its volume over the area that it shows there [m].
 double extent_along(const TileGeometry& geometry, const Eigen::Vector3d& normal, int k, int j, int i);
