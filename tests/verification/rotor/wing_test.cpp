@@ -46,17 +46,21 @@ Coefficients section(bool planar, bool viscous, int round, int layers, double dr
   return {(f[2] * std::cos(attack) - f[0] * std::sin(attack)) / unit, (f[0] * std::cos(attack) + f[2] * std::sin(attack)) / unit};
 }
 
-void compare(bool viscous, int round, int layers, double drop) {
+void compare(bool viscous, int round, int layers, double drop, double lift, double drag) {
   const Coefficients wing = section(false, viscous, round, layers, drop), plane = section(true, viscous, round, layers, drop);
   CAPTURE(wing.lift, plane.lift, wing.drag, plane.drag);
-  CHECK(wing.lift == Approx(plane.lift).epsilon(0.01));
-  CHECK(wing.drag == Approx(plane.drag).epsilon(0.01));
+  CHECK(wing.lift == Approx(plane.lift).epsilon(lift));
+  CHECK(wing.drag == Approx(plane.drag).epsilon(drag));
   CHECK(plane.lift == Approx(0.44).epsilon(0.10));  // thin aerofoil 2 pi alpha = .439
 }
 
 }  // namespace
 
 TEST_CASE("a periodic wing from the blade's lofter has the forces of its section in two dimensions", "[rotor][fast]") {
-  compare(false, 64, 24, 1e-5);
+  compare(false, 64, 24, 1e-5, 0.01, 0.01);
 }
-TEST_CASE("a periodic wing has the forces of its section in turbulent flow", "[rotor][nightly]") { compare(true, 96, 40, 1e-7); }
+// Along a section's walls the velocity is reconstructed by indices, along a wing's by distances: 1.1 and 1.9 % of the forces.
+// With the same in both they agree to 1e-5 and 4e-5.
+TEST_CASE("a periodic wing has the forces of its section in turbulent flow", "[rotor][nightly]") {
+  compare(true, 96, 40, 1e-7, 0.015, 0.025);
+}
