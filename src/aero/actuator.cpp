@@ -95,6 +95,8 @@ void Actuator::place(const DiscMotion& rotor) {
   const bool stands =
       kind_ == Kind::disc && placed_ > 0 && rotor.hub == rotor_.hub && rotor.axis == rotor_.axis && rotor.up == rotor_.up;
   rotor_ = rotor;
+  pitches_.assign(rotor.pitches.begin(), rotor.pitches.end());
+  rotor_.pitches = pitches_;
   if (stands) return;
   ++placed_;
   const Eigen::Vector3d side = rotor.axis.cross(rotor.up);
@@ -185,7 +187,7 @@ void Actuator::spread(std::size_t n, FlowTile& tile) const {
 /// Of the winds that it meets.
 void Actuator::section_loads(Point& p) const {
   const BladeElementMomentum::BladeSection& s = sections_.section(p.element);
-  const double pitch = rotor_.pitches.empty() || kind_ == Kind::disc ? rotor_.blade_pitch : rotor_.pitches[std::size_t(p.blade)];
+  const double pitch = kind_ == Kind::disc ? rotor_.blade_pitch : rotor_.pitch(p.blade);
   const SectionPolars::InUse polars = sections_.polars(p.element, std::hypot(p.normal_wind, p.tangential_wind));
   double lift = 0.0;
   const ElementState state =

@@ -32,7 +32,8 @@ class Actuator final : public BodyForce {
   Actuator(const Turbine& turbine, Kind kind, const ActuatorOptions& options, double air_density, double cell,
            double kinematic_viscosity = air_kinematic_viscosity);
 
-  /// Where the rotor is and how it moves; the velocities sampled next are those that its blades meet.
+  /// Where the rotor is and how it moves; the velocities sampled next are those that its blades meet. The blades of a disc are
+  /// alike: they have `blade_pitch`.
   void place(const DiscMotion& rotor);
   const DiscMotion& motion() const { return rotor_; }
 
@@ -110,6 +111,7 @@ class Actuator final : public BodyForce {
   BladeElementMomentum sections_;
   std::vector<double> width_;  ///< of the kernel, by element [m]
   DiscMotion rotor_{};
+  std::vector<double> pitches_;  ///< those of rotor_
   std::int64_t placed_ = 0;
   std::vector<Point> points_;  ///< [blade or azimuth][element]
   std::vector<Part> parts_;

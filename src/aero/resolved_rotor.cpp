@@ -135,11 +135,12 @@ RotorPose ResolvedRotor::turned(std::int64_t step) const {
 
 std::vector<BlockPose> ResolvedRotor::block_poses(const RotorPlace& place) const {
   const RigidMap map = map_of(place.pose);
-  if (place.pitch == 0.0) return {BlockPose{.map = map, .shape = {}}};
+  if (!place.pitches_blades()) return {BlockPose{.map = map, .shape = {}}};
   std::vector<BlockPose> poses(made_->grid.blocks.size(), BlockPose{.map = map, .shape = {}});
   for (int b = 0; b < int(poses.size()); ++b)
     if (pitching_->moves(b))
-      poses[std::size_t(b)].shape_at = [this, b, pitch = place.pitch](const Index& n, const Eigen::Vector3d&) {
+      poses[std::size_t(b)].shape_at = [this, b, pitch = place.pitches.at(std::size_t(b / BladePitching::blocks_of_sector))](
+                                           const Index& n, const Eigen::Vector3d&) {
         return pitching_->node(b, n[2], n[1], n[0], pitch);
       };
   return poses;
@@ -267,7 +268,7 @@ ResolvedRotor::Snapshot ResolvedRotor::snapshot() const {
 void ResolvedRotor::restore(const Snapshot& s) {
   solver_->restart().restore(s.air);
   before_ = s.before, now_ = s.now;
-  if (s.before.pitch != 0.0 || s.now.pitch != 0.0) place(s.before, s.now);
+  if (s.before.pitches_blades() || s.now.pitches_blades()) place(s.before, s.now);
 }
 
 }  // namespace spindrift::aero

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -54,7 +55,11 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
 /// Where a rotor is.
 struct RotorPlace {
   RotorPose pose;
-  double pitch = 0.0;  ///< of all blades, beyond that of the grid [rad]
+  std::vector<double> pitches = {};  ///< of each sector's blade, beyond that of the grid as made [rad]; none: as made
+
+  bool pitches_blades() const {
+    return std::ranges::any_of(pitches, [](double p) { return p != 0.0; });
+  }
 };
 
 class ResolvedRotor {
@@ -75,6 +80,9 @@ class ResolvedRotor {
   /// The rotor turning at the scene's speed with its hub at rest, after so many physical steps.
   RotorPose turned(std::int64_t step) const;
   const RotorPose& pose() const { return now_.pose; }
+  /// At the end of the last step and at its beginning.
+  const RotorPlace& now() const { return now_; }
+  const RotorPlace& before() const { return before_; }
 
   /// Where the rotor is at the end of the next physical step.
   void move_to(const RotorPlace& end);

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "kernels/rigid/motion.hpp"
 #include "kernels/rigid/wrench.hpp"
@@ -29,6 +30,7 @@ struct RotorState {
   Eigen::Vector3d axis, up;           ///< unit, earth frame; blade 1 is along `up` at azimuth zero
   Eigen::Vector3d omega;              ///< of the blades, earth frame [rad/s]
   double relative_wind = 0.0;         ///< along the axis, relative to the hub [m/s]
+  std::vector<double> pitches = {};   ///< of each blade [rad], for air that is not asked by RotorLoads; none: as [rotor] has it
 
   friend bool operator==(const RotorState&, const RotorState&) = default;
 };

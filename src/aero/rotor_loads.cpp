@@ -205,13 +205,26 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
     const TowerLoad drag = tower_->drag(tower_frame(now), wind, t);
     load.force += ramp * drag.force, load.moment += ramp * drag.moment;
   }
-  if (control_) {
-    // On the body act the shaft's torque, and the gyroscopic moment of the spinning rotor.
-    if (!memory_.empty()) load.moment += (ramp * TurbineControl::state(memory_).shaft_torque - load.shaft_torque) * now.axis;
-    const Eigen::Vector3d carrier = now.omega - now.speed * now.axis;
-    load.moment -= carrier.cross(Eigen::Vector3d(control_->drive_train().rotor_inertia_kg_m2 * now.speed * now.axis));
-  }
+  if (control_) add_drive(now, load.shaft_torque, ramp, load.moment);
   return load;
+}
+
+/// On the body act the shaft's torque in place of that on the rotor (`torque`, ramped), and the gyroscopic moment of the spinning
+/// rotor.
+void RotorLoads::add_drive(const RotorState& now, double torque, double ramp, Eigen::Vector3d& moment) const {
+  if (!memory_.empty()) moment += (ramp * TurbineControl::state(memory_).shaft_torque - torque) * now.axis;
+  const Eigen::Vector3d carrier = now.omega - now.speed * now.axis;
+  moment -= carrier.cross(Eigen::Vector3d(control_->drive_train().rotor_inertia_kg_m2 * now.speed * now.axis));
+}
+
+void RotorLoads::add_air_load(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, const HubLoad& air,
+                              double ramp) const {
+  Eigen::Vector3d moment = ramp * air.moment;
+  if (control_) {
+    const RotorState now = state(t, bodies);
+    add_drive(now, moment.dot(now.axis), ramp, moment);
+  }
+  bearing_.add_load(bodies, wrenches, ramp * air.force, moment);
 }
 
 std::optional<ReynoldsReach> RotorLoads::reynolds(double t, const RotorState& now) const {
@@ -251,7 +264,8 @@ std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Moti
 }
 
 TurbineControl::Measured RotorLoads::measured(double t, const RotorState& now) const {
-  TurbineControl::Measured m{.torque = load(t, now).shaft_torque, .wind = now.relative_wind};
+  TurbineControl::Measured m{.torque = air_moment_ ? air_moment_(t).dot(now.axis) : load(t, now).shaft_torque,
+                             .wind = now.relative_wind};
   if (flexible_ && !memory_.empty()) {
     const Eigen::Matrix3d turning = flexible_->added_mass(disc_motion(now, memory_)).bottomRightCorner<3, 3>();
     m.bending_inertia = -now.axis.dot(turning * now.axis);

@@ -5,8 +5,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <variant>
 
 #include "src/aero/bem.hpp"
@@ -26,6 +28,15 @@ struct RotorLoad {
   double power = 0.0;         ///< torque times rotor speed [W]
   double shaft_torque = 0.0;  ///< of the blades on the hub: of the air and, where they bend, their inertia [N m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< all of it, about the hub, earth frame
+
+  RotorLoad times(double factor) const {
+    return {factor * thrust, factor * torque, factor * power, factor * shaft_torque, factor * force, factor * moment};
+  }
+};
+
+/// Of the air on the blades, about the hub, earth frame [N], [N m].
+struct HubLoad {
+  Eigen::Vector3d force, moment;
 };
 
 /// Along the axis, relative to a hub that is there and moves so [m/s].
@@ -51,6 +62,13 @@ class RotorLoads {
   /// Blades that bend do not follow the rotor's body at once: adds what they take off its inertia, about its centre of mass,
   /// earth axes, [force; moment]. Rigid ones, and blades under mean loads, are masses of the body.
   void add_added_mass(double t, std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> matrices) const;
+
+  /// Adds a load of air computed elsewhere, times `ramp`; with a drive train the body feels the shaft's torque, not the air's.
+  void add_air_load(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, const HubLoad& air,
+                    double ramp = 1.0) const;
+  /// The drive train is turned by this moment of the air [N m] in time instead of that of the model, where it is given.
+  using AirMoment = std::function<Eigen::Vector3d(double)>;
+  void turn_by(AirMoment moment) { air_moment_ = std::move(moment); }
 
   RotorState state(double t, std::span<const Motion> bodies) const;
   const RotorBearing& bearing() const { return bearing_; }
@@ -125,6 +143,7 @@ class RotorLoads {
   /// `air`: null for models without blades.
   RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, const AirLoad* air) const;
   DiscMotion disc_motion(const RotorState& now, std::span<const double> memory) const;
+  void add_drive(const RotorState& now, double torque, double ramp, Eigen::Vector3d& moment) const;
 
   RotorBearing bearing_;
   std::optional<Eigen::Vector3d> thrust_direction_;  ///< earth frame, where the thrust does not follow the axis
@@ -139,6 +158,7 @@ class RotorLoads {
   MemoryParts parts_;
   std::vector<double> memory_;  ///< recalled; empty: steady
   std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
+  AirMoment air_moment_;
   mutable AirLoad last_;
 };
 

@@ -253,6 +253,10 @@ void print_campbell(FloatingSystem& floating, const coupling::Start& start, cons
 
   const coupling::FullLoads full(floating);
   const coupling::LooseVerdict verdict = loose_verdict(floating, start.state, c, linearisation);
+  if (verdict.schemes.empty()) {
+    fmt::print("\nCoupling of rotor and platform: the bodies cannot move, any scheme will do\n");
+    return;
+  }
   fmt::print(
       "\nCoupling of rotor and platform (window {} s): mass at the hub {:.3g} kg, thrust falls {:.4g} kN per m/s, fastest {:.3g} "
       "Hz\n",

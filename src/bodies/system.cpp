@@ -395,6 +395,8 @@ void System::begin(BodiesState& state, double t_s) {
   w_->memory.begin(t_s, state);
 }
 
+void System::recall(const BodiesState& state) { w_->memory.recall(state.memory); }
+
 StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces) {
   Work& w = *w_;
   const double begin = double(state.tick) * tick_s, length = double(ticks) * tick_s, h = length / pieces;

@@ -89,6 +89,9 @@ class System {
   /// it loads are the steady ones.
   void begin(BodiesState& state, double t_s);
 
+  /// Sources of load remember what this state has, for whoever asks them about it.
+  void recall(const BodiesState& state);
+
   /// One step of `ticks` ticks with the chosen integrator, or so many equal pieces of it. On trouble the state is left as it was.
   /// Does not allocate unless the independent set is chosen anew.
   StepReport advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces = 1);

@@ -106,8 +106,9 @@ class ActuatorAir final : public MarchingAir {
             .axis = state_.axis,
             .up = state_.up,
             .azimuth = state_.azimuth,
-            .blade_pitch = scenario().rotor.blade_pitch,
-            .hub = state_.hub};
+            .blade_pitch = state_.pitches.empty() ? scenario().rotor.blade_pitch : state_.pitches.front(),
+            .hub = state_.hub,
+            .pitches = state_.pitches};
   }
 
   std::unique_ptr<aero::FlowSolver> solver_of(const aero::FlowOptions& flow, double dt) const {

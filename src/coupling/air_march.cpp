@@ -97,12 +97,7 @@ aero::RotorLoad MarchingAir::load_at_end() {
   return answer();
 }
 
-aero::RotorLoad MarchingAir::answer() {
-  aero::RotorLoad load = felt(loads_.computed.rotor);
-  const double ramp = floating_.ramp(t_);
-  load.thrust *= ramp, load.torque *= ramp, load.power *= ramp, load.force *= ramp, load.moment *= ramp;
-  return loads_.answered = load;
-}
+aero::RotorLoad MarchingAir::answer() { return loads_.answered = felt(loads_.computed.rotor).times(floating_.ramp_of_air(t_)); }
 
 void MarchingAir::ease(int retry) {
   if (solver_) solver_->judgement().march.ease(share_of_cfl(retry));

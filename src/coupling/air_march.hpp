@@ -62,7 +62,7 @@ class MarchingAir : public AirSide {
   void tell_wind();
   /// Until start.air_steps are made, from the CFL number of this retry.
   void settle(const SteadyMarch& march, int retry);
-  /// loads_.computed as the bodies feel it, with the factor that start.ramp_s gives now.
+  /// loads_.computed as the bodies feel it, with FloatingSystem::ramp_of_air() of now.
   aero::RotorLoad answer();
 
   /// After the last step: as computed, and as answered.

@@ -51,9 +51,13 @@ class FloatingSystem {
   /// they are given. For coupling windows.
   using RotorLoadFunction = std::function<void(double, std::span<const Motion>, std::span<Wrench>)>;
   void replace_rotor_loads(RotorLoadFunction loads, const aero::RotorLoad* written = nullptr);
+  /// The air's moment that turns the rotor where the scene has control, as aero::RotorLoads::turn_by has it.
+  void turn_rotor_by(aero::RotorLoads::AirMoment moment) {
+    if (rotor_) rotor_->turn_by(std::move(moment));
+  }
   /// The rotor's load as history has it: what a coupling window wrote here, else that of its state.
   aero::RotorLoad written_rotor_load(double t, const aero::RotorState& now) const {
-    return rotor_written_ ? *rotor_written_ : rotor_->load(t, now, ramp(t));
+    return rotor_written_ ? rotor_written_->times(ramp_after_air(t)) : rotor_->load(t, now, ramp(t));
   }
 
   /// Of a scene with particles, before any is made.
@@ -68,6 +72,10 @@ class FloatingSystem {
 
   /// Factor on the rotor's loads at time t [s] (start.ramp_s): 0 at the start, 1 after the ramp, with a continuous rate.
   double ramp(double t) const;
+  /// Its parts in a coupling window: what the air's side answers has the first. A drive train is turned by the whole of it, and
+  /// the second goes on what the bodies feel.
+  double ramp_of_air(double t) const { return rotor_->control() ? 1.0 : ramp(t); }
+  double ramp_after_air(double t) const { return rotor_->control() ? ramp(t) : 1.0; }
   /// Until told otherwise loads are ramped; the statics and stability ask for their full value (FullLoads below).
   void use_full_loads(bool full) { full_loads_ = full, loads_changed(); }
   /// For the statics: loads at their full mean value. The water is still but for its current, the wind is without gusts and

@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "kernels/base/constants.hpp"
+#include "kernels/base/failure.hpp"
 #include "runtime/trace/ledger.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/coupling/air_march.hpp"
@@ -109,6 +112,11 @@ class ResolvedAir final : public MarchingAir {
     return answer();
   }
 
+  aero::RotorLoad load_at_end() override {
+    if (solver_->march().verdict != aero::Verdict::stopped) require_pitch();  // first: the grid did not follow
+    return MarchingAir::load_at_end();
+  }
+
   void take_snapshot(Snapshot slot) override { snapshots_[slot] = Saved{rotor_->snapshot(), loads_}; }
   void return_to(Snapshot slot) override {
     rotor_->restore(snapshots_[slot]->air);
@@ -117,6 +125,7 @@ class ResolvedAir final : public MarchingAir {
   void restore(const io::CheckpointReader& file) override {
     MarchingAir::restore(file);
     restored_dt_ = rotor_load_in(file).dt;
+    if (const std::optional<RotorPlaces> places = rotor_places_in(file)) rotor_->place(places->before, places->now);
     tell_size();
   }
 
@@ -139,11 +148,37 @@ class ResolvedAir final : public MarchingAir {
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
     place_wind();
   }
-  void move() override { rotor_->move_to({frame_.pose(state_)}); }
+  void move() override { rotor_->move_to({frame_.pose(state_), changes(state_)}); }
   ComputedLoads computed() const override { return computed_loads(*rotor_); }
-  std::vector<SavedArray> computed_arrays() const override { return rotor_arrays(*rotor_, loads_.computed, world_.rank); }
+  std::vector<SavedArray> computed_arrays() const override {
+    std::vector<SavedArray> arrays = rotor_arrays(*rotor_, loads_.computed, world_.rank);
+    if (is_pitched()) arrays.push_back(rotor_places_array({rotor_->before(), rotor_->now()}, world_.rank));
+    return arrays;
+  }
   std::vector<aero::SpanLoad> span_loads() const override { return rotor_->span_loads(); }
   aero::RotorLoad felt(const aero::RotorLoad& load) const override { return frame_.felt(load, state_); }
+
+  bool is_pitched() const { return floating_.rotor()->control() != nullptr; }
+  /// Pitch of each sector's blade beyond that of the grid, as far as the grid follows.
+  std::vector<double> changes(const aero::RotorState& s) const {
+    constexpr double most = aero::BladePitching::most_change;
+    std::vector<double> changes;
+    for (std::size_t b = 0; b < std::min(s.pitches.size(), std::size_t(size_.sectors)); ++b)
+      changes.push_back(std::clamp(s.pitches[b] - setup_.rotor.blade_pitch, -most, most));
+    return changes;
+  }
+  /// Throws NumericalFailure where a blade is pitched beyond what the grid follows.
+  void require_pitch() const {
+    constexpr double most = aero::BladePitching::most_change, degree = radians_per_degree;
+    const double made = setup_.rotor.blade_pitch;
+    for (std::size_t b = 0; b < state_.pitches.size(); ++b)
+      if (const double pitch = state_.pitches[b]; !(std::abs(pitch - made) <= most))
+        throw NumericalFailure(
+            fmt::format("t = {:g} s: aero: blade {} is pitched to {:.4g} degrees, {:.4g} from where its grid is made; it follows "
+                        "within {:g} degrees: give a rotor.blade_pitch_deg (now {:.4g}) nearer to where the blades go",
+                        t_, b + 1, pitch / degree, std::abs(pitch - made) / degree, most / degree, made / degree),
+            "aero/rotor", long(solver_->time_steps()), t_, most);
+  }
 
   double share_at_hub() const { return setup_.profile.share(frame_.start.hub.z()); }
 
@@ -176,11 +211,15 @@ class ResolvedAir final : public MarchingAir {
     return held.solver().restart().save_tiles();
   }
 
-  /// The grid where the rotor is, with a last step of `dt` at its velocity.
+  /// The grid where the rotor is, with a last step of `dt` at its velocity, in which blades pitched as they did in the last one.
   void place_at(const aero::RotorState& now, double dt) {
     aero::RotorState before = now;
     before.hub -= dt * now.hub_velocity, before.azimuth -= dt * now.speed;
-    rotor_->place({frame_.pose(before)}, {frame_.pose(now)});
+    const std::vector<double> pitches = changes(now);
+    std::vector<double> pitches_before = pitches;
+    const std::vector<double>&was = rotor_->before().pitches, &is = rotor_->now().pitches;
+    for (std::size_t b = 0; b < std::min({pitches.size(), was.size(), is.size()}); ++b) pitches_before[b] -= is[b] - was[b];
+    rotor_->place({frame_.pose(before), pitches_before}, {frame_.pose(now), pitches});
   }
 
   void tell_size() {

@@ -7,7 +7,8 @@
 
 namespace spindrift::coupling {
 
-RotorInterface::RotorInterface(const FloatingSystem& floating) : floating_(floating) {
+RotorInterface::RotorInterface(FloatingSystem& floating)
+    : floating_(floating), pitches_(floating.rotor()->control() ? floating.rotor()->control()->blades() : 0) {
   // Loads in accelerations of the whole floating system, lengths in hub heights over its centre of mass: rows then compare.
   double mass = 0.0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -20,11 +21,14 @@ RotorInterface::RotorInterface(const FloatingSystem& floating) : floating_(float
   force_ = mass;
 }
 
-Vector RotorInterface::motion(double t, std::span<const Motion> bodies, double near) const {
-  const aero::RotorState s = floating_.rotor()->state(t, bodies);
-  Vector m(motion_rows);
-  m << s.hub / length_, s.hub_velocity / length_, s.omega - s.speed * s.axis, s.axis, s.up,
+Vector RotorInterface::motion(double t, const bodies::BodiesState& bodies, double near) const {
+  if (pitches_ > 0) floating_.multibody().recall(bodies);
+  const aero::RotorState s = floating_.rotor()->state(t, bodies.motions);
+  Vector m(motion_rows());
+  m.head<hub_rows>() << s.hub / length_, s.hub_velocity / length_, s.omega - s.speed * s.axis, s.axis, s.up,
       near + std::remainder(s.azimuth - near, 2 * pi), s.speed;
+  if (pitches_ > 0)
+    m.tail(Eigen::Index(pitches_)) = Eigen::Map<const Vector>(floating_.rotor()->drive().pitch.data(), Eigen::Index(pitches_));
   return m;
 }
 
@@ -50,6 +54,7 @@ aero::RotorState RotorInterface::state(double t, const Vector& m) const {
   s.azimuth = 2 * pi * (turns - std::floor(turns));
   s.speed = m[16];
   s.omega = m.segment<3>(6) + s.speed * s.axis;
+  s.pitches.assign(m.data() + hub_rows, m.data() + m.size());
   s.relative_wind = aero::relative_wind(floating_.rotor()->wind(), t, s.hub, s.hub_velocity, s.axis);
   return s;
 }
@@ -60,8 +65,8 @@ Vector RotorInterface::rows(const aero::RotorLoad& load) const {
   return rows;
 }
 
-void RotorInterface::add_load(const Vector& load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
-  floating_.rotor()->bearing().add_load(bodies, wrenches, force_ * load.head<3>(), force_ * length_ * load.tail<3>());
+aero::HubLoad RotorInterface::load(const Vector& rows) const {
+  return {force_ * rows.head<3>(), force_ * length_ * rows.tail<3>()};
 }
 
 }  // namespace spindrift::coupling

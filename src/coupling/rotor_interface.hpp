@@ -1,8 +1,8 @@
 // What the rotor and the rest of the floating system exchange, as rows of numbers of comparable size: motion of the hub to the
 // rotor, load at the hub to bodies. Motion: hub, its velocity (over the reference length), angular velocity of what carries the
-// rotor, rotor axis and its upright (as unit vectors: no angle to wrap), azimuth with whole turns, rate. Load: force over
-// weight-like scale, moment over that and the length. Used by window.cpp; tested in tests/src/coupling/window_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// rotor, rotor axis and its upright (as unit vectors: no angle to wrap), azimuth with whole turns, rate; under control the pitch
+// of each blade. Load: force over weight-like scale, moment over that and the length. Used by window.cpp; tested in
+// tests/src/coupling/window_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <span>
@@ -14,13 +14,14 @@ namespace spindrift::coupling {
 
 class RotorInterface {
  public:
-  static constexpr Eigen::Index motion_rows = 17, load_rows = 6;
+  static constexpr Eigen::Index load_rows = 6;
 
-  /// The floating system has a rotor.
-  explicit RotorInterface(const FloatingSystem& floating);
+  /// The floating system has a rotor, and outlives this.
+  explicit RotorInterface(FloatingSystem& floating);
 
-  /// `near`: an azimuth [rad] within half a turn of the true one, whole turns counted.
-  Vector motion(double t, std::span<const Motion> bodies, double near) const;
+  Eigen::Index motion_rows() const { return hub_rows + Eigen::Index(pitches_); }
+  /// `near`: an azimuth [rad] within half a turn of the true one, whole turns counted. What the state remembers is recalled.
+  Vector motion(double t, const bodies::BodiesState& bodies, double near) const;
   /// The motion after `dt` of standing still with the rotor turning on.
   static Vector turned(const Vector& motion, double dt);
   /// The motion after `dt` of going on at its velocity.
@@ -31,11 +32,13 @@ class RotorInterface {
   /// The rotor that moves so, and its load as rows.
   aero::RotorState state(double t, const Vector& motion) const;
   Vector rows(const aero::RotorLoad& load) const;
-  /// Puts it on the rotor's body.
-  void add_load(const Vector& load, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+  aero::HubLoad load(const Vector& rows) const;
 
  private:
-  const FloatingSystem& floating_;
+  static constexpr Eigen::Index hub_rows = 17;
+
+  FloatingSystem& floating_;
+  std::size_t pitches_;                ///< blades that a controller pitches
   double length_ = 1.0, force_ = 1.0;  ///< scales [m], [N]
 };
 

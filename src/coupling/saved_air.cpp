@@ -22,7 +22,7 @@ namespace spindrift::coupling {
 namespace {
 
 constexpr const char *settings_name = "air/settings", *pose_name = "air/pose", *load_name = "air/load",
-                     *rotor_load_name = "air/answer", *grid_name = "air/grid";
+                     *rotor_load_name = "air/answer", *grid_name = "air/grid", *places_name = "air/places";
 
 /// The parameters of a section as lines "heading.key = value"; of all keys where none are named.
 void add_lines(std::string& lines, const scene::SectionBase& section, const std::string& heading, const void* options,
@@ -144,6 +144,36 @@ SavedRotorLoad rotor_load_in(const io::CheckpointReader& file) {
   return {load_at(values.data()), values[load_numbers]};
 }
 
+SavedArray rotor_places_array(const RotorPlaces& places, int rank) {
+  std::vector<double> values;
+  for (const aero::RotorPlace* place : {&places.before, &places.now}) {
+    const aero::RotorPose& p = place->pose;
+    const Eigen::Vector4d q = p.hub.attitude.coeffs();
+    values.insert(values.end(), p.hub.position.data(), p.hub.position.data() + 3);
+    values.insert(values.end(), q.data(), q.data() + 4);
+    values.insert(values.end(), {p.azimuth, p.speed, double(place->pitches.size())});
+    values.insert(values.end(), place->pitches.begin(), place->pitches.end());
+  }
+  SavedArray array{places_name, std::int64_t(values.size()), {}};
+  if (rank == 0) array.pieces.push_back({0, std::move(values)});
+  return array;
+}
+std::optional<RotorPlaces> rotor_places_in(const io::CheckpointReader& file) {
+  if (!file.has(places_name)) return {};
+  const std::vector<double> values = file.read<double>(places_name);
+  const double* from = values.data();
+  RotorPlaces places;
+  for (aero::RotorPlace* place : {&places.before, &places.now}) {
+    place->pose.hub.position = Eigen::Map<const Eigen::Vector3d>(from);
+    place->pose.hub.attitude.coeffs() = Eigen::Map<const Eigen::Vector4d>(from + 3);
+    place->pose.azimuth = from[7], place->pose.speed = from[8];
+    const auto pitches = std::size_t(from[9]);
+    place->pitches.assign(from + 10, from + 10 + pitches);
+    from += 10 + pitches;
+  }
+  return places;
+}
+
 ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
                          const aero::RotorPose& start) {
   const auto refuse = [&](const std::string& why) {
@@ -166,6 +196,15 @@ ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scena
   if (std::abs(pose[9] - start.speed) > 0.01 * std::abs(start.speed))
     refuse(fmt::format("its rotor turned at {:.4g} rpm, this one turns at {:.4g}", pose[9] / rad_s_per_rpm,
                        start.speed / rad_s_per_rpm));
+
+  if (const std::optional<RotorPlaces> places = rotor_places_in(file)) {
+    // Beyond, the flow that was saved does not fit the blades that it meets here.
+    constexpr double most = 1.0 * radians_per_degree;
+    for (const double pitch : places->now.pitches)
+      if (std::abs(pitch) > most)
+        refuse(fmt::format("its blades were pitched by {:.3g} degrees from where their grid is made, beyond {:g}",
+                           pitch / radians_per_degree, most / radians_per_degree));
+  }
 
   const Eigen::Matrix3d now = start.attitude().toRotationMatrix(), saved = Eigen::Map<const Eigen::Matrix3d>(pose.data());
   const bool turned = now != saved;  // where it is not, not a bit changes

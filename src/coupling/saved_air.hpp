@@ -43,6 +43,14 @@ struct SavedRotorLoad {
 SavedArray rotor_load_array(const SavedRotorLoad& saved, int rank);
 SavedRotorLoad rotor_load_in(const io::CheckpointReader& file);
 
+/// Where a rotor with blades that pitch was at the beginning and at the end of its last step: what TileMotion does not keep.
+struct RotorPlaces {
+  aero::RotorPlace before, now;
+};
+SavedArray rotor_places_array(const RotorPlaces& places, int rank);
+/// Nothing where no blade could pitch.
+std::optional<RotorPlaces> rotor_places_in(const io::CheckpointReader& file);
+
 /// Gives `rotor` the flow of the file, carried along with the blades to `start`, without a past. Returns what was computed,
 /// turned likewise. Throws io::InputError naming the key where the file's air is another one.
 ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <set>
 
+#include "kernels/base/constants.hpp"
 #include "src/aero/operation.hpp"
+#include "src/aero/rotor_grid/pitching.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
@@ -48,6 +50,10 @@ void check_names(scene::Document& document, const Scenario& s) {
 /// Rules between the yaw drive, its bearing and the rotor.
 void check_yaw(scene::Document& document, const Scenario& s) {
   const aero::YawOptions& yaw = *s.control.yaw;
+  if (s.resolves_air())
+    return document.problem("control.yaw", fmt::format("does not go with aero.model \"{}\": the drive steps with the bodies and "
+                                                       "the undisturbed wind; thrust_curve and bem have it",
+                                                       s.aero.model));
   if (s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme", "must be \"monolithic\" with [control.yaw]: the drive steps with the bodies");
   if (s.aero.model != "thrust_curve" && s.aero.model != "bem")
@@ -206,6 +212,64 @@ void check_carried_actuator(scene::Document& document, const Scenario& s) {
   if (s.wind.speed_m_s <= 0.0) document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
 }
 
+/// What of [control] the blades of resolved air can follow: those of a disc or of one sector are alike.
+void check_blades_of_their_own(scene::Document& document, const Scenario& s) {
+  const bool disc = s.aero.model == "actuator_disc";
+  if (!disc && !(has_resolved_rotor(s) && s.aero.grid->sectors == "one")) return;
+  const std::string why = disc ? "needs blades of their own, which a disc has not: take aero.model \"actuator_line\""
+                               : "needs blades of their own: one sector stands for all; take aero.grid.sectors = \"all\"";
+  for (std::size_t n = 0; n < s.control.events.size(); ++n)
+    if (s.control.events[n].what == aero::ControlEvent::blade_stuck)
+      document.problem(fmt::format("control.events[{}].what", n), "\"blade_stuck\" " + why);
+  if (s.control.individual_pitch) document.problem("control.individual_pitch", why);
+}
+
+/// The grid of resolved blades follows their pitch so far from that of [rotor]. Events that are known to take them farther are
+/// told here, what the controller does as the run goes.
+void check_pitch_of_grid(scene::Document& document, const Scenario& s) try {
+  constexpr double degree = radians_per_degree, most = aero::BladePitching::most_change;
+  const bool library = s.control.model == aero::ControlModel::library;
+  if (library && !s.control.drive_train) return;
+  const aero::ControllerOptions controller = library ? aero::ControllerOptions() : aero::read_controller(s.control.file);
+  const aero::DriveTrainOptions train = library ? *s.control.drive_train : aero::DriveTrainOptions(controller);
+  const double made = s.rotor.blade_pitch;
+  if (const bool parked = s.control.start == aero::ControlStart::parked; parked && std::abs(train.feather - made) > 1e-6)
+    document.problem("control.start", fmt::format("\"parked\" has the blades at feather, {:g} degrees; their grid is made at "
+                                                  "rotor.blade_pitch_deg, {:g}: give that the same",
+                                                  train.feather / degree, made / degree));
+  for (std::size_t n = 0; n < s.control.events.size(); ++n) {
+    const aero::EventOptions& event = s.control.events[n];
+    if (event.what == aero::ControlEvent::blade_stuck) continue;
+    const bool starts = event.what == aero::ControlEvent::start_up;
+    const bool slow = !library && (starts || event.what == aero::ControlEvent::shut_down);
+    const double rate = slow ? controller.stop_pitch_rate : train.max_pitch_rate;
+    if (rate * (s.time.end_s - event.time_s) <= most || (!starts && train.feather - made <= most)) continue;
+    document.problem(
+        fmt::format("control.events[{}].what", n),
+        fmt::format("pitches the blades {} feather, {:g} degrees, at {:g} degrees per second: their grid, made at "
+                    "rotor.blade_pitch_deg = {:g}, follows within {:g} degrees. End the run {:.3g} s after the event "
+                    "at most, or take another aero.model",
+                    starts ? "from" : "to", train.feather / degree, rate / degree, made / degree, most / degree, most / rate));
+  }
+} catch (const scene::SceneError&) {  // told by check_control
+}
+
+/// Rules between [control] and resolved air that bodies carry.
+void check_control_of_air(scene::Document& document, const Scenario& s) {
+  if (s.control.model == aero::ControlModel::library && is_strong(s.coupling.scheme))
+    document.problem("coupling.scheme",
+                     "must be a loose one with a controller library (\"cps\", \"cps2\", \"css\"): it is called once after every "
+                     "step of the bodies, and no window may be repeated");
+  check_blades_of_their_own(document, s);
+  if (has_resolved_rotor(s)) check_pitch_of_grid(document, s);
+  try {
+    if (!s.rotor.turbine.empty() && aero::read_turbine(s.rotor.turbine).polars.empty())
+      document.problem("control.model",
+                       "needs a rotor.turbine with polars: the controller begins settled on the torque of blade elements");
+  } catch (const scene::SceneError&) {  // told by check_rotor
+  }
+}
+
 /// Rules between resolved air and the bodies that carry its rotor.
 void check_resolved_air(scene::Document& document, const Scenario& s) {
   if (s.aero.flow->time == "steady")
@@ -334,8 +398,9 @@ Scenario read_scenario(scene::Document& document) {
     document.problem(s.wind.table.empty() ? "wind.turbulence.file" : "wind.table", e.what());
   }
   s.control = document.read_where(
-      s.has_rotor() && !s.resolves_air(), aero::control_section(),
-      s.resolves_air() ? "a rotor in resolved air turns as rotor.speed_rpm or its bearing has it" : "aero.model is none");
+      s.has_rotor(), aero::control_section(),
+      s.resolves_air() ? "without [bodies] the rotor turns as rotor.speed_rpm has it: a drive train steps with them"
+                       : "aero.model is none");
   take_from_turbine(document, s);
   s.sea = document.read(sea::sea_section());
   const bool planar = s.sea.particles && s.sea.particles->planar();
@@ -399,7 +464,9 @@ Scenario read_scenario(scene::Document& document) {
     document.problem("coupling.scheme",
                      "must be \"monolithic\" with rotor.blade_structure: blades that bend step with the bodies");
   if (s.control.yaw) check_yaw(document, s);
-  if (s.is_controlled() && s.coupling.scheme != SchemeKind::monolithic)
+  if (s.is_controlled() && s.resolves_air())
+    check_control_of_air(document, s);
+  else if (s.is_controlled() && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",
                      s.control.model == aero::ControlModel::library
                          ? "must be \"monolithic\" with a controller library: it is called once after every accepted step of the "
@@ -428,12 +495,13 @@ std::string describe_bodies(const Scenario& s) {
 }
 
 std::string describe_rotor(const Scenario& s) {
-  if (has_resolved_rotor(s))
-    return fmt::format("blade_resolved, {}{}", s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
-  if (s.has_actuator())
-    return fmt::format("{}, {}{}", s.aero.model, s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
-  if (!s.has_rotor()) return "none";
-  std::string text = fmt::format("{} on body {}", s.aero.model, s.rotor.body);
+  std::string text;
+  if (has_resolved_rotor(s) || s.has_actuator())
+    text = fmt::format("{}, {}{}", s.aero.model, s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
+  else if (s.has_rotor())
+    text = fmt::format("{} on body {}", s.aero.model, s.rotor.body);
+  else
+    return "none";
   if (s.rotor.operating_point == "table")
     text += fmt::format(", {:.4g} rpm and blade pitch {:.4g} deg of its operating table", s.rotor.speed / rad_s_per_rpm,
                         s.rotor.blade_pitch / radians_per_degree);

@@ -20,15 +20,22 @@ CoupledWindow::CoupledWindow(FloatingSystem& floating, Sides sides, MPI_Comm com
   const CouplingScheme& scheme = of(options_.scheme);
   if (scheme.staggering != nullptr) loose_.emplace(scheme.staggering(options_));
   if (scheme.strong != nullptr) strong_ = scheme.strong(options_);
+  const auto load_at = [this](double t) {
+    rotor_signal_(t, load_now_);
+    return sides_.interface->load(load_now_);
+  };
   floating_.replace_rotor_loads(
-      [this](double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
-        rotor_signal_(t, load_now_);
-        sides_.interface->add_load(load_now_, bodies, wrenches);
+      [this, load_at](double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
+        floating_.rotor()->add_air_load(t, bodies, wrenches, load_at(t), floating_.ramp_after_air(t));
       },
       sides_.air().written());
+  floating_.turn_rotor_by([load_at](double t) { return load_at(t).moment; });
 }
 
-CoupledWindow::~CoupledWindow() { floating_.replace_rotor_loads({}); }
+CoupledWindow::~CoupledWindow() {
+  floating_.replace_rotor_loads({});
+  floating_.turn_rotor_by({});
+}
 
 template <class Signal>
 void CoupledWindow::use_signal(const Signal& signal) {
@@ -38,7 +45,7 @@ void CoupledWindow::use_signal(const Signal& signal) {
 void CoupledWindow::begin(const bodies::BodiesState& state) {
   if (!sides_.interface) return;
   const double t = time(state.tick);
-  const Vector motion = sides_.interface->motion(t, state.motions, 0.0);
+  const Vector motion = sides_.interface->motion(t, state, 0.0);
   const Vector load = sides_.interface->rows(sides_.air().begin(t, sides_.interface->state(t, motion)));
   if (loose_) {
     loose_->begin(t, motion, load);
@@ -86,7 +93,7 @@ class CoupledWindow::LooseParts {
 
   Vector move(const Extrapolation& load, double begin, double end) {
     w_.use_signal(load);
-    return w_.sides_.move(state_, end_tick_) ? new_motion(begin, end) : not_finite(RotorInterface::motion_rows);
+    return w_.sides_.move(state_, end_tick_) ? new_motion(begin, end) : not_finite(w_.motion_rows());
   }
   Vector load(const Waveform& motion, double begin, double end) {
     return w_.sides_.air_load(end, w_.floating_.timeline().window_s(), motion_for_air(motion, begin, end));
@@ -95,7 +102,7 @@ class CoupledWindow::LooseParts {
     w_.use_signal(load);
     auto [moved, new_load] = w_.sides_.move_beside_air(state_, end_tick_, end, w_.floating_.timeline().window_s(),
                                                        [&] { return motion_for_air(motion, begin, end); });
-    return {moved ? new_motion(begin, end) : not_finite(RotorInterface::motion_rows), std::move(new_load)};
+    return {moved ? new_motion(begin, end) : not_finite(w_.motion_rows()), std::move(new_load)};
   }
   bodies::BodiesState& state() { return state_; }
 
@@ -103,7 +110,7 @@ class CoupledWindow::LooseParts {
   /// Of the hub, now that the bodies have moved.
   Vector new_motion(double begin, double end) const {
     return w_.sides_.interface->motion(
-        end, state_.motions, RotorInterface::azimuth(start_motion_) + (end - begin) * RotorInterface::rate(start_motion_));
+        end, state_, RotorInterface::azimuth(start_motion_) + (end - begin) * RotorInterface::rate(start_motion_));
   }
   /// Of the hub at the end, which the scheme extrapolates or holds.
   Vector motion_for_air(const Waveform& motion, double begin, double end) const {
@@ -167,13 +174,13 @@ class CoupledWindow::Pieces final : public WindowParts {
   Vector first(const Vector& loads) override {
     restore(Run::bodies);
     show(loads);
-    Vector motions(samples() * RotorInterface::motion_rows);
+    Vector motions(samples() * w_.motion_rows());
     for (int s = 1; s <= samples(); ++s)
       if (w_.sides_.move(state_, tick(s)))
         put_motion(s, motions);
       else
         return not_finite(motions.size());
-    end_motion_ = part(motions, samples(), RotorInterface::motion_rows);
+    end_motion_ = part(motions, samples(), w_.motion_rows());
     return motions;
   }
   /// Rotor: motions to loads.
@@ -181,7 +188,7 @@ class CoupledWindow::Pieces final : public WindowParts {
     restore(Run::air);
     Vector loads(load_rows());
     for (int s = 1; s <= samples(); ++s)
-      if (!put_load(s, w_.sides_.air_load(w_.time(tick(s)), dt(), part(motions, s, RotorInterface::motion_rows)), loads))
+      if (!put_load(s, w_.sides_.air_load(w_.time(tick(s)), dt(), part(motions, s, w_.motion_rows())), loads))
         return not_finite(loads.size());
     end_load_ = part(loads, samples(), RotorInterface::load_rows);
     return loads;
@@ -190,25 +197,22 @@ class CoupledWindow::Pieces final : public WindowParts {
   std::pair<Vector, Vector> both(const Vector& given_loads, const Vector& given_motions) {
     restore(Run::both);
     show(given_loads);
-    Vector motions(samples() * RotorInterface::motion_rows), loads(load_rows());
+    Vector motions(samples() * w_.motion_rows()), loads(load_rows());
     for (int s = 1; s <= samples(); ++s) {
       const auto [moved, load] = w_.sides_.move_beside_air(state_, tick(s), w_.time(tick(s)), dt(),
-                                                           [&] { return part(given_motions, s, RotorInterface::motion_rows); });
+                                                           [&] { return part(given_motions, s, w_.motion_rows()); });
       if (!put_load(s, load, loads) || !moved) return {not_finite(motions.size()), not_finite(loads.size())};
       put_motion(s, motions);
     }
-    end_motion_ = part(motions, samples(), RotorInterface::motion_rows),
-    end_load_ = part(loads, samples(), RotorInterface::load_rows);
+    end_motion_ = part(motions, samples(), w_.motion_rows()), end_load_ = part(loads, samples(), RotorInterface::load_rows);
     return {motions, loads};
   }
   Vector guess() const {
     const bool both = w_.options_.composition == Composition::parallel;
-    Vector x(load_rows() + (both ? samples() * RotorInterface::motion_rows : 0));
+    Vector x(load_rows() + (both ? samples() * w_.motion_rows() : 0));
     for (int s = 1; s <= samples(); ++s) {
       x.segment((s - 1) * RotorInterface::load_rows, RotorInterface::load_rows) = w_.loads_.at(w_.time(tick(s)));
-      if (both)
-        x.segment(load_rows() + (s - 1) * RotorInterface::motion_rows, RotorInterface::motion_rows) =
-            w_.motions_.at(w_.time(tick(s)));
+      if (both) x.segment(load_rows() + (s - 1) * w_.motion_rows(), w_.motion_rows()) = w_.motions_.at(w_.time(tick(s)));
     }
     return x;
   }
@@ -245,8 +249,8 @@ class CoupledWindow::Pieces final : public WindowParts {
   void put_motion(int s, Vector& motions) {
     const double t = w_.time(tick(s));
     const Vector turned = RotorInterface::turned(w_.motions_.last(), t - w_.time(start_.tick));
-    motions.segment((s - 1) * RotorInterface::motion_rows, RotorInterface::motion_rows) =
-        w_.sides_.interface->motion(t, state_.motions, RotorInterface::azimuth(turned));
+    motions.segment((s - 1) * w_.motion_rows(), w_.motion_rows()) =
+        w_.sides_.interface->motion(t, state_, RotorInterface::azimuth(turned));
   }
   bool put_load(int s, const Vector& load, Vector& loads) {
     loads.segment((s - 1) * RotorInterface::load_rows, RotorInterface::load_rows) = load;

@@ -69,6 +69,7 @@ class CoupledWindow {
   class LooseParts;
   class Pieces;
 
+  Eigen::Index motion_rows() const { return sides_.interface->motion_rows(); }
   double time(std::int64_t tick) const { return double(tick) * floating_.timeline().tick_s(); }
   WindowReport advance_bodies(bodies::BodiesState& state);
   template <class Signal>

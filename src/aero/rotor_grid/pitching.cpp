@@ -71,9 +71,8 @@ Eigen::Vector3d BladePitching::node(int block, int k, int j, int i, double chang
   const double turn = share(block, k, j, i) * change;
   if (turn == 0.0) return as_made;
   const Eigen::Vector3d along = axis(block);
-  // Nose into the wind turns the leading edge, which is ahead in the turning direction, upstream: about the outward axis,
-  // positive.
-  Eigen::Vector3d p = Eigen::AngleAxisd(turn, along) * as_made;
+  // Blade 1 points along z and moves towards -y, and so does its nose: upwind, towards -x, it goes by a negative turn about z.
+  Eigen::Vector3d p = Eigen::AngleAxisd(-turn, along) * as_made;
   // The turned section of the hub cylinder is no piece of it: slide along the blade's axis, on the root's straight lines, back to
   // the radius the node had; less and less so further out.
   const double r0 = radius(as_made);

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/base/constants.hpp"
 #include "src/aero/grid/multi_block.hpp"
 #include "src/aero/rotor_grid/layout.hpp"
 #include "src/aero/turbine.hpp"
@@ -32,6 +33,8 @@ class BladePitching {
   Eigen::Vector3d axis(int block) const;
 
   static constexpr int blocks_of_sector = 10;
+  /// Within which grids of all resolutions stay whole and their cells good [rad].
+  static constexpr double most_change = 15.0 * radians_per_degree;
 
  private:
   const MultiBlockGrid& grid_;

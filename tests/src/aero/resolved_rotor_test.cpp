@@ -47,6 +47,11 @@ RotorPose on_platform(const ResolvedRotor& rotor, std::int64_t step, double t) {
   return pose;
 }
 
+/// All blades alike.
+RotorPlace pitched(const ResolvedRotor& rotor, const RotorPose& pose, double pitch) {
+  return {pose, std::vector<double>(std::size_t(rotor.made().blades()), pitch)};
+}
+
 /// Largest deviation from the stream after that many steps; velocity over the tip's.
 double free_stream(int steps) {
   ResolvedRotorSetup s = tiny("bdf2", true);
@@ -58,8 +63,8 @@ double free_stream(int steps) {
   rotor.solver().start_uniform();
   rotor.prepare(MPI_COMM_SELF, {.threads = 1});
   for (int n = 1; n <= steps; ++n) {
-    const double t = n * s.dt;
-    rotor.move_to({on_platform(rotor, n, t), 4.0 * radians_per_degree * std::sin(1.3 * t)});
+    const double t = n * s.dt, pitch = 4.0 * radians_per_degree * std::sin(1.3 * t);
+    rotor.move_to({on_platform(rotor, n, t), {pitch, -pitch, 0.5 * pitch}});
     rotor.run();
   }
   return testing::stream_deviation(rotor.solver());
@@ -154,7 +159,7 @@ ResolvedRotorSetup turning() {
   s.flow.viscous = "full", s.flow.turbulence = "sa", s.flow.max_pseudo_steps = 3;
   return s;
 }
-RotorLoad step(ResolvedRotor& rotor, int n) { return rotor.advance({on_platform(rotor, n, 0.05 * n), 0.01 * n}); }
+RotorLoad step(ResolvedRotor& rotor, int n) { return rotor.advance(pitched(rotor, on_platform(rotor, n, 0.05 * n), 0.01 * n)); }
 }  // namespace
 
 TEST_CASE("threads leave every bit of a turning rotor as it is", "[rotor][fast]") {
@@ -201,7 +206,7 @@ TEST_CASE("a window undone and done again leaves the bits of one done once", "[r
   const ResolvedRotor::Snapshot before = twice.snapshot();
   RotorPose astray = on_platform(twice, 3, 0.15);
   astray.hub.position += Vector3d(0.1, 0.0, 0.05);
-  const RotorLoad other = twice.advance({astray, -0.02});
+  const RotorLoad other = twice.advance(pitched(twice, astray, -0.02));
   CHECK((other.force - expected.force).norm() > 1.0);
   twice.restore(before);
   const RotorLoad again = step(twice, 3);

@@ -205,3 +205,40 @@ TEST_CASE("the same scene with bem in place of a curve: the rotor in its bearing
   const RotorLoads fixed(aero, options, wind, 1.225, {.body = 0, .support = std::nullopt, .hub = {0, 0, 119}}, start());
   CHECK((loads(fixed, 0.0, bodies)[0].force - disc.force).norm() < 1e-6 * disc.force.norm());
 }
+
+TEST_CASE("a drive train that air computed elsewhere turns does what it does under the same load of its own model",
+          "[aero][fast]") {
+  RotorOptions options = turbine();
+  options.joint = "", options.speed = 0.8, options.blade_pitch = 0.05;
+  options.operation = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw_operation.csv";
+  ControlOptions control;
+  control.model = ControlModel::dtu, control.file = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw_controller.toml";
+  const WindOptions wind{.speed_m_s = 12.0};
+  const RotorPlacement place{.body = 0, .support = std::nullopt, .hub = {0, 0, 119}};
+  const auto bodies = moved(0.09, 0.0, 0.0, 0.02);
+  RotorLoads own(constant_thrust(), options, wind, 1.225, place, start(), control, 0.05),
+      other({}, options, wind, 1.225, place, start(), control, 0.05);
+  const Vector3d axis = own.state(0.0, bodies).axis;
+  const HubLoad air{1.5e6 * axis, 1e7 * axis};
+  other.turn_by([&](double) { return air.moment; });
+  std::vector<double> a(own.memory_size()), b(other.memory_size());
+  own.begin(0.0, bodies, a), other.begin(0.0, bodies, b);
+  for (int n = 1; n <= 40; ++n) {
+    own.recall(a), other.recall(b);
+    own.remember(0.05 * n, 0.05, bodies, a), other.remember(0.05 * n, 0.05, bodies, b);
+  }
+  own.recall(a), other.recall(b);
+  const RotorState now = own.state(2.0, bodies);
+  CHECK(std::abs(now.speed - 0.8) > 1e-3);
+  CHECK(other.state(2.0, bodies).speed == Approx(now.speed).epsilon(1e-12));
+  CHECK(other.drive().generator_torque == Approx(own.drive().generator_torque).epsilon(1e-12));
+  std::vector<Wrench> w(bodies.size());
+  for (std::size_t i = 0; i < w.size(); ++i) w[i].point = bodies[i].position;
+  other.add_air_load(2.0, bodies, w, air, 0.5);
+  const auto expected = loads(own, 2.0, bodies, 0.5);
+  CHECK((w[0].force - expected[0].force).norm() < 1e-6);
+  CHECK((w[0].moment - expected[0].moment).norm() < 1e-3);
+  // Half the shaft's torque acts on the body, the whole of the air's turns the rotor.
+  const double half = own.load(2.0, now, 0.5).moment.dot(axis), whole = own.load(2.0, now, 1.0).moment.dot(axis);
+  CHECK(half == Approx(0.5 * whole));
+}

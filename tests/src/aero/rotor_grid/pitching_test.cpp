@@ -43,7 +43,7 @@ TEST_CASE("blades pitch as rigid bodies; grids stay whole within 15 degrees eith
   CHECK(q.general.volume == Approx(grid_quality(grid).volume).epsilon(1e-5));
   for (const int block : {0, 10, 20}) {
     const Block &before = grid.blocks[std::size_t(block)], &after = moved.blocks[std::size_t(block)];
-    const Eigen::AngleAxisd turn(change, pitching.axis(block));
+    const Eigen::AngleAxisd turn(-change, pitching.axis(block));
     double rigid = 0.0, off_hub = 0.0;
     for (int k = 0; k <= spec.sizes.span; ++k)
       for (int j = 0; j <= before.nj; ++j) {
@@ -54,6 +54,30 @@ TEST_CASE("blades pitch as rigid bodies; grids stay whole within 15 degrees eith
       }
     CHECK(rigid < 1e-12);
     CHECK(off_hub < 1e-12);
+  }
+}
+
+TEST_CASE("a pitched grid has its noses upwind, where a grid made at that pitch has them", "[rotor_grid][fast]") {
+  RotorGridSpec spec = spec_of(1.0, 2e-3, 0.0, true);
+  const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
+  const BladePitching pitching(grid, dtu(), spec);
+  const double change = 8.0 * radians_per_degree;
+  const MultiBlockGrid moved = pitched(grid, pitching, change);
+  spec.pitch = change;
+  const MultiBlockGrid made = make_rotor_grid(dtu(), spec);
+  // Of blade 1, which points up and moves towards -y: its foremost node of each section.
+  const auto nose = [](const MultiBlockGrid& of, int k) {
+    const Block& ring = of.blocks[0];
+    Eigen::Vector3d foremost = ring.nodes[ring.node(k, 0, 0)];
+    for (int j = 0; j <= ring.nj; ++j)
+      if (const Eigen::Vector3d& p = ring.nodes[ring.node(k, j, 0)]; p.y() < foremost.y()) foremost = p;
+    return foremost;
+  };
+  for (const int k : {spec.sizes.span / 3, spec.sizes.span / 2, 3 * spec.sizes.span / 4}) {
+    const Eigen::Vector3d before = nose(grid, k), after = nose(moved, k), expected = nose(made, k);
+    CAPTURE(k, before.transpose(), after.transpose(), expected.transpose());
+    CHECK(after.x() < before.x());
+    CHECK((after - expected).norm() < 0.2 * (after - before).norm());
   }
 }
 
