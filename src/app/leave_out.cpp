@@ -140,7 +140,6 @@ class Tried {
   }
   /// As far as this time; the processor time of its windows and rows [s]. Throws where the numerics fail.
   double advance_to(double time_s);
-  const ReadyScene& scene() const { return ready_; }
   const io::History& history() const { return history_; }
   /// Rows so far.
   scene::Columns columns() {
@@ -317,10 +316,11 @@ class Waiting {
 /// All runs of a trial, advanced piece by piece in turns, so that all of them meet the computer in the same moods.
 class Trials {
  public:
-  Trials(const std::string& path, const Overrides& overrides, const std::vector<Omission>& omissions,
-         const std::filesystem::path& folder, const std::function<void(double)>& say)
+  Trials(const std::string& path, const Overrides& overrides, const std::vector<std::string>& columns,
+         const std::vector<Omission>& omissions, const std::filesystem::path& folder, const std::function<void(double)>& say)
       : refused(omissions.size()), less_(omissions.size()) {
     own_ = std::make_unique<Tried>(path, overrides, folder / "own");
+    require_columns(own_->history(), columns);  // before the others take their time
     for (std::size_t n = 0; n < omissions.size(); ++n) {
       say(0.0);
       try {
@@ -380,9 +380,8 @@ Trial try_omissions(const std::string& path, const Overrides& overrides, const s
   double used_s = 0.0;
   for (int round = 1; round == 1 || (round <= most_rounds && used_s < repeat_below_s); ++round) {
     const auto say = [&](double share) { waiting.say(round, share); };
-    Trials trials(path, overrides, trial.omissions, aside.folder, say);
+    Trials trials(path, overrides, columns, trial.omissions, aside.folder, say);
     if (round == 1) {
-      require_columns(trials.own().history(), columns);
       ReadyScene scene = read_scene(path, overrides);
       const double run_s = measured_steps(*scene.floating, scene.start).core_seconds();
       const double all_s = run_s * double(1 + trial.omissions.size());
