@@ -287,7 +287,7 @@ class Checks(unittest.TestCase):
         def cost(size, text=None):
             text = text or checked(f"leble_barakos/case3_{size}.toml")[1]
             number = lambda pattern: float(re.search(pattern, text).group(1))
-            return {"cells": number(r"air +(\d+) cells"), "water": number(r"\((\d+) water"), "hours": number(r"predicted core-hours +(\S+) core-hours"),
+            return {"cells": number(r"air +(\d+) cells"), "water": number(r"\((\S+) water"), "hours": number(r"predicted core-hours +(\S+) core-hours"),
                     "rate": number(r"\((\S+) us per cell"), "memory": re.search(r"memory +(\S+) GB", text), "verdict": "A loose scheme will do." in text}
         air = checked("tutorials/wing_section.toml")[1]   # on a grid of its own
         self.assertGreater(float(re.search(r"predicted core-hours +(\S+) core-hours", air).group(1)), 1e-4)
