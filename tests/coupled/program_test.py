@@ -242,6 +242,17 @@ class Program(Folder):
         # None of these scenes holds a megabyte of its own; a part that is made without being asked for would.
         self.assertLess(max(memory) - min(memory), 4e6)
 
+    def test_the_man_page_names_every_command_and_option_and_no_other(self):
+        page = (ROOT / "ci/packaging/spindrift.1").read_text().replace(r"\-", "-")
+        commands = re.findall(r"^  ([a-z]+)  ", spindrift("--help").stdout, re.M)
+        self.assertGreaterEqual(len(commands), 9)
+        for command in commands:
+            self.assertIn(rf"\fB{command}\fR", page)
+            entry = page.partition(rf"\fB{command}\fR")[2].partition(".TP")[0]
+            helped = re.findall(r"^ +(-[-a-z,]+)", spindrift(command, "--help").stdout.split("Examples:")[0], re.M)
+            options = {option for line in helped for option in line.split(",") if option.startswith("--")}
+            self.assertEqual(set(re.findall(r"--[a-z][a-z-]+", entry)), options - {"--help"}, command)
+
     def test_the_reference_in_the_repository_is_that_of_the_program(self):
         text = spindrift("reference", "--markdown").stdout
         self.assertEqual(text, (ROOT / "inputs/REFERENCE.md").read_text(), "run ci/reference and commit inputs/REFERENCE.md")

@@ -62,17 +62,13 @@ class Installed(installed.Prefix):
         for _, folder in named:
             self.assertTrue((self.prefix / folder).is_dir(), folder)
 
-    def test_completion_and_man_page_know_every_command(self):
-        helped = start(self.program, "--help").stdout
-        commands = re.findall(r"^  ([a-z]+)  ", helped, re.M)
+    def test_the_completion_knows_every_command(self):
+        self.assertTrue((self.prefix / "share/man/man1/spindrift.1").is_file())
+        commands = re.findall(r"^  ([a-z]+)  ", start(self.program, "--help").stdout, re.M)
         self.assertGreaterEqual(len(commands), 9)
-        completion, page = ((self.prefix / name).read_text() for name in ("share/bash-completion/completions/spindrift", "share/man/man1/spindrift.1"))
+        completion = (self.prefix / "share/bash-completion/completions/spindrift").read_text()
         for command in commands:
             self.assertRegex(completion, rf"\b{command}\b")
-            self.assertIn(rf"\fB{command}\fR", page)
-            for option in re.findall(r"--[a-z][a-z-]+", start(self.program, command, "--help").stdout.split("Examples:")[0]):
-                if option not in ("--help", "--pictures"):
-                    self.assertIn(option.replace("-", r"\-"), page, command)
         done = start("bash", "-c", f'source {self.prefix}/share/bash-completion/completions/spindrift; COMP_WORDS=({self.program} ru); COMP_CWORD=1; _spindrift; '
                                    f'echo "${{COMPREPLY[@]}}"; COMP_WORDS=({self.program} run --unt); COMP_CWORD=2; _spindrift; echo "${{COMPREPLY[@]}}"')
         self.assertEqual(done.stdout.split(), ["run", "--until"])
