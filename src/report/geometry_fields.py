@@ -10,6 +10,7 @@ import wake
 
 KINDS = list(geometry.COLOURS)
 MOST_TIMES = 200
+MOST_CELLS = 2_000_000   # cut for the wake, of all its times: some ten seconds
 
 STATE = '''# Opens the fields of this run in ParaView:  paraview --script={folder}/paraview.py
 # What is hidden at first is in the pipeline browser: particles, the air and its walls.
@@ -146,9 +147,11 @@ def _slow_air(run, scene, folder):
     if scene.hub0 is None or wind <= 0.0 or not fields.files["air"]:
         return []
     import h5py
-    steps = ""
+    times, steps = fields.times("air"), ""
+    cells = sum(block["velocity"][..., 0].size for block in fields.air(times[-1])[0])
+    most = min(MOST_TIMES, max(1, MOST_CELLS // max(cells, 1)))
     with h5py.File(folder / "wake.h5", "w") as file:
-        for n, t in enumerate(fields.times("air")[:: -(-len(fields.files["air"]) // MOST_TIMES)]):
+        for n, t in enumerate(times[::-1][:: -(-len(times) // most)][::-1]):   # the last one always
             found = [surface for surface in wake.surfaces(run, scene, fields.air(t)[0], t, wind) if surface is not None]
             if not found:
                 continue
