@@ -143,8 +143,8 @@ def _numbers(values):
 
 def _slow_air(run, scene, folder):
     """wake.xdmf, of a resolved rotor."""
-    fields, wind = run_fields.Fields(run), (run.scene.get("wind") or {}).get("speed_m_s", 0.0)
-    if scene.hub0 is None or wind <= 0.0 or not fields.files["air"]:
+    fields = run_fields.Fields(run)
+    if scene.hub0 is None or wake.wind(scene) <= 0.0 or not fields.files["air"]:
         return []
     import h5py
     times, steps = fields.times("air"), ""
@@ -152,7 +152,7 @@ def _slow_air(run, scene, folder):
     most = min(MOST_TIMES, max(1, MOST_CELLS // max(cells, 1)))
     with h5py.File(folder / "wake.h5", "w") as file:
         for n, t in enumerate(times[::-1][:: -(-len(times) // most)][::-1]):   # the last one always
-            found = [surface for surface in wake.surfaces(run, scene, fields.air(t)[0], t, wind) if surface is not None]
+            found = [surface for surface in wake.surfaces(scene, fields.air(t)[0], t) if surface is not None]
             if not found:
                 continue
             points, values = (np.concatenate(parts).astype(np.float32) for parts in zip(*found))

@@ -130,7 +130,7 @@ class Drawing:
         fill.SetLightTypeToHeadlight()
         fill.SetIntensity(0.45)
         self.renderer.AddLight(fill)
-        self.wind = (run.scene.get("wind") or {}).get("speed_m_s", 0.0)
+        self.wind = wake.wind(self.scene)
 
     # ---- pieces -------------------------------------------------------------------------------------------------------------------------
 
@@ -271,7 +271,7 @@ class Drawing:
             self.add("vortices", vortices, opacity=0.9, scalars=True)
 
     def _wake(self, blocks, time):
-        plane, vortices = wake.surfaces(self.run, self.scene, blocks, time, self.wind)
+        plane, vortices = wake.surfaces(self.scene, blocks, time)
         if plane is not None:   # only what is slow of its triangles, and what lies behind the disc
             hub, frame, tip = self.scene.hub(time), self.scene.rotor_frame(time), wake.tip(self.scene)
             plane = clipped(triangles(*plane), None, wake.SLOW)

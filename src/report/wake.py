@@ -15,12 +15,17 @@ def tip(scene):
     return scene.blades.tip if scene.blades else 0.75 * abs(scene.hub0[2])
 
 
-def surfaces(run, scene, blocks, time, wind):
+def wind(scene):
+    """Free wind at the hub [m/s]."""
+    return (scene.scene.get("wind") or {}).get("speed_m_s", 0.0)
+
+
+def surfaces(scene, blocks, time):
     """The plane and the vortices, each as triangles in the earth's frame (n, 3, 3) with the axial over the free wind at their corners (n, 3), or None.
     Triangles are whole: those at the edge of the slow air are in part faster than `SLOW`."""
-    hub, frame, radius = scene.hub(time), scene.rotor_frame(time), tip(scene)
+    hub, frame, radius, free = scene.hub(time), scene.rotor_frame(time), tip(scene), wind(scene)
     count = scene.blades.count if scene.blades else 3   # as geometry.py draws them without a turbine file
-    copies = count if (run.scene["aero"].get("grid") or {}).get("sectors") == "one" else 1
+    copies = count if (scene.scene["aero"].get("grid") or {}).get("sectors") == "one" else 1
     # One sector is drawn turned to the axis as it is now, as its loads are.
     at, own = scene.sector(time) if copies > 1 else (hub, frame)
     cells = sum(block["velocity"][..., 0].size for block in blocks)
@@ -30,11 +35,11 @@ def surfaces(run, scene, blocks, time, wind):
         if np.hypot(nodes[..., 1], nodes[..., 2]).min() > 1.6 * radius or nodes[..., 0].min() > 3.2 * radius or nodes[..., 0].max() < -0.3 * radius:
             continue
         velocity = block["velocity"] @ own.T
-        axial = cut.at_nodes(velocity[..., 0]) / wind
+        axial = cut.at_nodes(velocity[..., 0]) / free
         q = None
         if min(velocity.shape[:3]) > 1 and cells * copies >= FEWEST_FOR_VORTICES:
             g = cut.gradient(nodes, velocity)
-            q = cut.at_nodes(-0.5 * np.einsum("...ij,...ji->...", g, g)) * (10.0 / wind) ** 2
+            q = cut.at_nodes(-0.5 * np.einsum("...ij,...ji->...", g, g)) * (10.0 / free) ** 2
         for copy in range(copies):
             turn = geometry.about(np.array([1.0, 0.0, 0.0]), 2 * np.pi * copy / copies)
             places = nodes @ turn.T

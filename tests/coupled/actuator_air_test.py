@@ -1,9 +1,8 @@
 """Actuator disc and lines in resolved air whose turbine stands on bodies: the flow of the same rotor without bodies where they do not move, same bits
 however it is run, what is refused. Usage: actuator_air_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
-import os
 import unittest
 
-from running import Folder, ROOT, rows, spindrift
+from running import ROOT, Runs, rows
 
 # Four cells to the radius and sides at five radii: what is tested is the exchange, not the flow.
 FLOW = """
@@ -72,21 +71,7 @@ window_s = 0.3
 """ + FLOW % "hub_m = [0.0, 0.0, 119.0]\naxis = [1.0, 0.0, 0.0]\nspeed_rpm = 8.8"
 
 
-class ActuatorAir(Folder):
-    def run_scene(self, text, name, *arguments, settings=(), ranks=0, threads=1, code=0):
-        scene = self.path / "scene.toml"
-        scene.write_text(text)
-        done = spindrift("run", scene, "--quiet", "--no-report", "--out", self.path / name, *arguments, settings=settings, ranks=ranks,
-                         env={**os.environ, "OMP_NUM_THREADS": str(threads)})
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout + done.stderr
-
-    def rows(self, name):
-        return rows(self.path / name / "history.csv")
-
-    def text(self, name):
-        return (self.path / name / "history.csv").read_text()
-
+class ActuatorAir(Runs):
     def test_a_rotor_whose_body_is_held_has_the_flow_of_the_rotor_alone(self):
         for model in ("actuator_line", "actuator_disc"):
             with self.subTest(model):

@@ -1,10 +1,9 @@
 """A turbine under control in resolved air, as actuators and as blades: it settles where blade elements do, a pitch of the blades does to the thrust what blade
 elements say, events, same bits however it is run, what is refused. Usage: air_control_test.py SPINDRIFT [Actuators | Blades].
 SPDX-License-Identifier: Apache-2.0"""
-import os
 import unittest
 
-from running import Folder, ROOT, rows, spindrift
+from running import ROOT, Runs
 
 FIXED = ROOT / "inputs/control/dtu_10mw_fixed.toml"
 DISC = ROOT / "inputs/control/dtu_10mw_disc.toml"
@@ -58,22 +57,7 @@ def mean(history, column, after):
     return sum(values) / len(values)
 
 
-class Runs(Folder):
-    def run_scene(self, scene, name, *arguments, settings=(), ranks=0, threads=1, code=0):
-        if isinstance(scene, str):
-            text, scene = scene, self.path / "scene.toml"
-            scene.write_text(text)
-        done = spindrift("run", scene, "--quiet", "--no-report", "--out", self.path / name, *arguments, settings=settings, ranks=ranks,
-                         env={**os.environ, "OMP_NUM_THREADS": str(threads)})
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout + done.stderr
-
-    def rows(self, name):
-        return rows(self.path / name / "history.csv")
-
-    def text(self, name):
-        return (self.path / name / "history.csv").read_text()
-
+class Controlled(Runs):
     def same_bits(self, scene, name, settings, until, on_ranks=None):
         self.run_scene(scene, name, settings=settings)
         if on_ranks is not None:
@@ -92,7 +76,7 @@ class Runs(Folder):
                 self.assertFalse((self.path / "run").exists())
 
 
-class Actuators(Runs):
+class Actuators(Controlled):
     def test_a_disc_settles_where_blade_elements_do(self):
         # Below rated wind a disc of five cells to the radius has 7 % more torque than blade elements; above it the controller holds power and speed.
         for wind, speed, power, pitch in ((8.0, 0.04, 0.1, 0.2), (13.0, 0.002, 0.002, 0.4)):
@@ -158,7 +142,7 @@ class Actuators(Runs):
         self.refused(alone, (([], "control", "a drive train steps with them"),))
 
 
-class Blades(Runs):
+class Blades(Controlled):
     def test_blades_that_pitch_change_the_thrust_as_blade_elements_say(self):
         # Out at up to 10 degrees per second from 0.3 s on. The wake follows within seconds: blade elements have it at once, or not at all yet (dynamic inflow).
         # 0.39 here; blade elements 0.40 and 0.61. A lift that builds up over chords (Wagner) and coarse blades take a share of it.

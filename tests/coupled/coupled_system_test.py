@@ -5,7 +5,7 @@ import os
 import subprocess
 import unittest
 
-from running import Folder, PROGRAM, ROOT, rows
+from running import PROGRAM, ROOT, Runs, rows
 
 CASES = ROOT / "inputs/leble_barakos"
 
@@ -76,7 +76,7 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
        "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 
 
-class System(Folder):
+class System(Runs):
     SPLIT = ["coupling.placement='split'"]
 
     def spindrift(self, text, name, *arguments, settings=(), threads=1, ranks=1, code=0):
@@ -100,12 +100,6 @@ class System(Folder):
             words += [*([":"] if words[-1] != "none" else []), "-n", str(ranks), PROGRAM, "run", self.path / "scene.toml", "--quiet", "--no-report",
                       "--out", self.path / name, *map(str, arguments)]
         return self.ended(words, 1, code)
-
-    def text(self, name):
-        return (self.path / name / "history.csv").read_text()
-
-    def rows(self, name):
-        return rows(self.path / name / "history.csv")
 
     def check_bits(self, text, settings, until):
         self.spindrift(text, "whole", settings=settings, threads=1)

@@ -1,6 +1,7 @@
 """What the tests of the program share: the program under test (the first argument), the sources, a run of it, a folder of its own for each test.
 SPDX-License-Identifier: Apache-2.0"""
 import csv
+import os
 import pathlib
 import subprocess
 import sys
@@ -40,3 +41,23 @@ class Folder(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.path = pathlib.Path(folder.name)
         self.out = self.path / "run"
+
+
+class Runs(Folder):
+    """Runs of scenes, each by a name of its own below `path`."""
+
+    def run_scene(self, scene, name, *arguments, settings=(), ranks=0, threads=1, code=0):
+        """Of a file, or of a text; what was said."""
+        if isinstance(scene, str):
+            text, scene = scene, self.path / "scene.toml"
+            scene.write_text(text)
+        done = spindrift("run", scene, "--quiet", "--no-report", "--out", self.path / name, *arguments, settings=settings, ranks=ranks,
+                         env={**os.environ, "OMP_NUM_THREADS": str(threads)})
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def rows(self, name):
+        return rows(self.path / name / "history.csv")
+
+    def text(self, name):
+        return (self.path / name / "history.csv").read_text()

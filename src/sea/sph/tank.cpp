@@ -30,14 +30,6 @@ double TankPlan::bed_at(double at) const {
 
 namespace {
 
-template <int dim>
-bool inside(const TankPlan::Block& block, const std::array<double, dim>& x) {
-  const Eigen::Vector3d at = to_earth<dim>(x);
-  for (int k = 0; k < 3; ++k)
-    if (!(dim == 2 && k == 1) && !(at[k] > block.low[k] && at[k] < block.high[k])) return false;
-  return true;
-}
-
 /// What the places of the lattice inside a tank are by the surfaces of walls.
 template <int dim>
 class PlacesBySurfaces {
@@ -187,7 +179,8 @@ class Layout {
   }
   double bed_of_column(int i) const { return plan_.bed_at(lattice_.at(0, i)); }
   bool is_obstacle(const std::array<double, dim>& x) const {
-    return std::any_of(plan_.obstacles.begin(), plan_.obstacles.end(), [&](const auto& block) { return inside<dim>(block, x); });
+    return std::any_of(plan_.obstacles.begin(), plan_.obstacles.end(),
+                       [&](const auto& block) { return inside<dim>(block, to_earth<dim>(x)); });
   }
   /// So deep in an obstacle that it is beyond the reach of water outside.
   bool is_core(const std::array<double, dim>& x) const {
@@ -275,7 +268,7 @@ class Layout {
       std::array<double, dim> x = lattice_.at(index), under = x;
       if (x[dim - 1] > surface && x[dim - 1] < surface + near_bodies * lattice_.edge[dim - 1] && with_air)
         under[dim - 1] = surface - 0.5 * lattice_.edge[dim - 1];
-      if (!inside<dim>(block, under) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x) ||
+      if (!inside<dim>(block, to_earth<dim>(under)) || x[dim - 1] < bed_of_column(index[0]) || is_obstacle(x) ||
           by_surfaces_(index) != Of::water)
         return;
       Seed<dim> seed{.position = x};
@@ -326,7 +319,7 @@ class Layout {
       if (walled(1)) low[1] = plan_.y[0], high[1] = plan_.y[1];
     low[dim - 1] = -plan_.depth;
     for (const TankPlan::Block& block : plan_.obstacles) {
-      if (!inside<dim>(block, x)) continue;
+      if (!inside<dim>(block, to_earth<dim>(x))) continue;
       std::array<double, dim> offset{};
       double nearest = layers_ * p_.spacing;
       for (int k = 0; k < dim; ++k) {

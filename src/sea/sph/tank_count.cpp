@@ -97,11 +97,7 @@ class Counting {
   bool is_water(const Eigen::Vector3d& x) const {
     if (x[0] < plan_.x[0] || x[0] > plan_.x[1] || x[2] < plan_.bed_at(x[0])) return false;
     if (dim == 3 && (x[1] < plan_.y[0] || x[1] > plan_.y[1])) return false;
-    const auto holds = [&](const TankPlan::Block& block) {
-      for (int k = 0; k < 3; ++k)
-        if (!(dim == 2 && k == 1) && !(x[k] > block.low[k] && x[k] < block.high[k])) return false;
-      return true;
-    };
+    const auto holds = [&](const TankPlan::Block& block) { return inside<dim>(block, x); };
     if (std::any_of(plan_.obstacles.begin(), plan_.obstacles.end(), holds)) return false;
     return plan_.water.empty() ? x[2] < 0.0 : std::any_of(plan_.water.begin(), plan_.water.end(), holds);
   }

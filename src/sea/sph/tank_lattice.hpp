@@ -38,6 +38,14 @@ struct TankLattice {
   }
 };
 
+/// Whether a place [m] is in a block of water or of an obstacle; of the plane whatever its y.
+template <int dim>
+bool inside(const TankPlan::Block& block, const Eigen::Vector3d& x) {
+  for (int k = 0; k < 3; ++k)
+    if (!(dim == 2 && k == 1) && !(x[k] > block.low[k] && x[k] < block.high[k])) return false;
+  return true;
+}
+
 /// Mean density of the water of the depth at rest over that under no pressure: a column of whole cells fills it.
 inline double mean_density_ratio(const TankPlan& plan, const Parameters& p) {
   return p.gravity > 0.0 ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0;
