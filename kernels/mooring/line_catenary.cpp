@@ -22,16 +22,28 @@ CatenaryState LineCatenary::solve(double x, double z) const {
   return grounded(x, z);
 }
 
-LineForces LineCatenary::forces(const Eigen::Vector3d& span, const Eigen::Vector3d& /*rate: the line is quasi-static*/) const {
+LineForces pulls_in_space(const Eigen::Vector3d& span, const PlanePull& up, const PlanePull& down) {
   const double x = std::hypot(span.x(), span.y());
-  const CatenaryState s = solve(x, std::abs(span.z()));
   const Eigen::Vector3d out =
       x > 0.0 ? Eigen::Vector3d(span.x() / x, span.y() / x, 0.0) : Eigen::Vector3d::Zero();  // anchor to fairlead
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  const double upper = std::hypot(s.horizontal, s.vertical), lower = std::hypot(s.lower_horizontal, s.lower_vertical);
-  if (span.z() >= 0.0)
-    return {-s.horizontal * out - s.vertical * up, s.lower_horizontal * out + s.lower_vertical * up, upper, lower};
-  return {-s.lower_horizontal * out + s.lower_vertical * up, s.horizontal * out - s.vertical * up, lower, upper};
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  const double upper = std::hypot(up.horizontal, up.vertical), lower = std::hypot(down.horizontal, down.vertical);
+  if (span.z() >= 0.0) return {-up.horizontal * out - up.vertical * z, down.horizontal * out + down.vertical * z, upper, lower};
+  return {-down.horizontal * out + down.vertical * z, up.horizontal * out - up.vertical * z, lower, upper};
+}
+
+Eigen::Matrix3d plane_in_space(const Eigen::Vector3d& span, const Eigen::Matrix2d& plane, double pull) {
+  const double x = std::hypot(span.x(), span.y()), lateral = x > 0.0 ? pull / x : plane(0, 0);
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // columns: away from the anchor, sideways, up
+  if (x > 0.0) frame.topLeftCorner<2, 2>() << span.x() / x, -span.y() / x, span.y() / x, span.x() / x;
+  Eigen::Matrix3d local = Eigen::Matrix3d::Zero();
+  local << plane(0, 0), 0.0, plane(0, 1), 0.0, lateral, 0.0, plane(1, 0), 0.0, plane(1, 1);
+  return frame * local * frame.transpose();
+}
+
+LineForces LineCatenary::forces(const Eigen::Vector3d& span, const Eigen::Vector3d& /*rate: the line is quasi-static*/) const {
+  const CatenaryState s = solve(std::hypot(span.x(), span.y()), std::abs(span.z()));
+  return pulls_in_space(span, {s.horizontal, s.vertical}, {s.lower_horizontal, s.lower_vertical});
 }
 
 Eigen::Matrix2d LineCatenary::plane_stiffness(const CatenaryState& s) const {
@@ -65,12 +77,7 @@ Eigen::Matrix3d LineCatenary::stiffness(const Eigen::Vector3d& span) const {
     }
     plane(0, 1) = -plane(0, 1), plane(1, 0) = -plane(1, 0);
   }
-  const double lateral = x > 0.0 ? (span.z() < 0.0 ? s.lower_horizontal : s.horizontal) / x : plane(0, 0);
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // columns: away from the anchor, sideways, up
-  if (x > 0.0) frame.topLeftCorner<2, 2>() << span.x() / x, -span.y() / x, span.y() / x, span.x() / x;
-  Eigen::Matrix3d local = Eigen::Matrix3d::Zero();
-  local << plane(0, 0), 0.0, plane(0, 1), 0.0, lateral, 0.0, plane(1, 0), 0.0, plane(1, 1);
-  return frame * local * frame.transpose();
+  return plane_in_space(span, plane, span.z() < 0.0 ? s.lower_horizontal : s.horizontal);
 }
 
 LineCatenary::BedParts LineCatenary::bed_parts(double h, double on_bed) const {

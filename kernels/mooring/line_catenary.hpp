@@ -28,6 +28,15 @@ struct CatenaryState {
   bool converged = true;
 };
 
+/// Pull on an end of a line in its vertical plane [N]: towards the other end; of the upper end downwards, of the lower upwards.
+struct PlanePull {
+  double horizontal, vertical;
+};
+/// Forces on both ends of a line between them; whichever is higher is the upper one.
+LineForces pulls_in_space(const Eigen::Vector3d& span, const PlanePull& upper, const PlanePull& lower);
+/// The stiffness of the fairlead from that in the plane and the horizontal pull there.
+Eigen::Matrix3d plane_in_space(const Eigen::Vector3d& span, const Eigen::Matrix2d& plane, double pull);
+
 struct LineCatenary {
   static constexpr std::string_view name = "catenary";
   double length = 0.0;           ///< L, unstretched [m]

@@ -262,6 +262,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
         "--rigid-tower", arguments->rigid_tower,
         "A tower that bends in the deck stays rigid in the scene; of a windIO turbine no table of a beam is written");
     command->add_flag("--rigid-blades", arguments->rigid_blades, "Blades that bend in the deck stay rigid in the scene");
+    command->add_flag("--quasi-static-lines", arguments->quasi_static_lines,
+                      "MoorDyn's lines come over as catenaries, several in a row as one of sections");
     command->footer(
         "Examples:\n"
         "  spindrift import 5MW_OC3Spar.fst -o spar\n"

@@ -20,11 +20,15 @@ int import_deck(const ImportArguments& arguments, const runtime::World& world) {
   const bool windio = ending == ".yaml" || ending == ".yml";
   if (windio && arguments.rigid_blades)
     throw scene::SceneError({{"command line", 0, "--rigid-blades", "", "has no effect: windIO's blades are carried over rigid"}});
+  if (windio && arguments.quasi_static_lines)
+    throw scene::SceneError({{"command line", 0, "--quasi-static-lines", "", "has no effect: a windIO turbine has no lines"}});
   const auto tower = arguments.rigid_tower ? decks::ImportedTower::rigid : decks::ImportedTower::as_in_deck;
   const decks::Imported result =
       windio ? decks::import_windio(arguments.file, arguments.out, tower)
-             : decks::import_openfast(arguments.file, arguments.out, tower,
-                                      arguments.rigid_blades ? decks::ImportedBlades::rigid : decks::ImportedBlades::as_in_deck);
+             : decks::import_openfast(
+                   arguments.file, arguments.out, tower,
+                   arguments.rigid_blades ? decks::ImportedBlades::rigid : decks::ImportedBlades::as_in_deck,
+                   arguments.quasi_static_lines ? decks::ImportedLines::quasi_static : decks::ImportedLines::as_in_deck);
   fmt::print("{}\n\nCarried over\n", result.scene.string());
   for (const std::string& what : result.carried) fmt::print("  {}\n", what);
   if (!result.left_out.empty()) fmt::print("\nLeft out\n");

@@ -86,7 +86,7 @@ void write_scene(const DeckImport& run, double step, const std::string& sections
 }  // namespace
 
 Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder, ImportedTower tower,
-                         ImportedBlades blades) {
+                         ImportedBlades blades, ImportedLines lines) {
   DeckImport run{Deck(main_file), folder};
   const Deck& main = run.main;
   refuse_unknown(main);
@@ -106,7 +106,7 @@ Imported import_openfast(const std::filesystem::path& main_file, const std::file
   const std::string bodies = import_bodies(run, elastodyn, rotor, system, water);
   const ImportedRotor turbine = import_rotor(run, elastodyn, rotor, system, blades);
   const bool has_waves = water.text.find("[waves]") != std::string::npos;
-  const std::string moorings = system.floats ? import_moorings(run, environment, has_waves) : "";
+  const std::string moorings = system.floats ? import_moorings(run, environment, has_waves, lines) : "";
   const double step = std::min(system.tower_bends ? flexible_step : rigid_step, turbine.longest_step);
   const ImportedControl control = import_control(run, elastodyn, rotor, !turbine.text.empty(), {step, turbine.longest_step});
   list_rigid_parts(run, elastodyn, system.tower_bends, control.shaft_twists);

@@ -18,10 +18,13 @@ struct Imported {
 /// A tower that bends in the deck (TwFADOF1 ... TwSSDOF2) is a beam of the scene, or by choice one rigid body with the platform.
 enum class ImportedTower { rigid, as_in_deck };
 enum class ImportedBlades { rigid, as_in_deck };
+/// MoorDyn's lines are dynamic, or by choice catenaries; MAP++ has no others.
+enum class ImportedLines { quasi_static, as_in_deck };
 
 /// Reads the deck and writes scene.toml and its files into a folder that is made where it is missing. Throws scene::SceneError
 /// naming file and line of what cannot be read.
 Imported import_openfast(const std::filesystem::path& main_file, const std::filesystem::path& folder,
-                         ImportedTower tower = ImportedTower::as_in_deck, ImportedBlades blades = ImportedBlades::as_in_deck);
+                         ImportedTower tower = ImportedTower::as_in_deck, ImportedBlades blades = ImportedBlades::as_in_deck,
+                         ImportedLines lines = ImportedLines::as_in_deck);
 
 }  // namespace spindrift::decks

@@ -2,14 +2,89 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <sstream>
+#include <algorithm>
 
 #include "kernels/base/constants.hpp"
 #include "src/import/openfast_sections.hpp"
 
 namespace spindrift::decks {
 
-std::string import_moorings(DeckImport& run, const ImportedEnvironment& environment, bool has_waves) {
+namespace {
+
+double weight_in_water(const ImportedLine& l, const ImportedEnvironment& e) {
+  return e.gravity * (l.mass_per_m - e.water_density * 0.25 * pi * l.diameter * l.diameter);
+}
+
+bool hangs(const ImportedLine& l, const ImportedEnvironment& e) { return weight_in_water(l, e) > 0.0 && l.axial_stiffness > 0.0; }
+
+std::string no_weight(std::size_t line) { return fmt::format("line {}: it has no weight in water or no stiffness", line + 1); }
+
+std::string ends(const ImportedLine& lowest, const ImportedLine& highest) {
+  return (highest.at_fairlead.empty() ? "body = \"platform\"\nfairlead_m = " + toml_vector(highest.fairlead)
+                                      : "body = \"" + highest.at_fairlead + "\"") +
+         (lowest.at_anchor.empty() ? "\nanchor_m = " + toml_vector(lowest.anchor)
+                                   : "\nanchor_body = \"" + lowest.at_anchor + "\"") +
+         "\n";
+}
+
+bool on_bed(const ImportedLine& l, const ImportedEnvironment& e) {
+  return !l.at_anchor.empty() || l.anchor.z() <= -e.depth + 1e-6 * e.depth;
+}
+
+std::string bed_keys(const ImportedLine& l, const ImportedEnvironment& e) {
+  if (!on_bed(l, e)) return "bed_contact = false\n";
+  return l.bed_friction > 0.0 ? fmt::format("bed_friction = {:.9g}\n", l.bed_friction) : "";
+}
+
+/// A line alone at rest at all times, or one of several that meet.
+std::string single_line(std::size_t n, const ImportedLine& l, const ImportedEnvironment& e, bool catenary) {
+  std::string text = fmt::format("\n[moorings.line_{}]\nmodel = \"{}\"\n", n + 1, catenary ? "catenary" : "lumped_mass") +
+                     ends(l, l) +
+                     fmt::format("rest_length_m = {:.9g}\naxial_stiffness_N = {:.9g}\n", l.length, l.axial_stiffness);
+  if (catenary) {
+    text += fmt::format("weight_N_m = {:.9g}\n", weight_in_water(l, e));
+  } else if (const auto& d = l.dynamics) {
+    text += fmt::format("mass_kg_m = {:.9g}\ndiameter_m = {:.9g}\nsegments = {}\ndamping_ratio = {:.9g}\n", l.mass_per_m,
+                        l.diameter, d->segments, d->damping_ratio) +
+            fmt::format("drag_coefficient = {:.9g}\naxial_drag_coefficient = {:.9g}\n", d->drag, d->axial_drag) +
+            fmt::format("added_mass_coefficient = {:.9g}\naxial_added_mass_coefficient = {:.9g}\n", d->added_mass,
+                        d->axial_added_mass);
+    if (on_bed(l, e))
+      text += fmt::format("bed_stiffness_Pa_m = {:.9g}\nbed_damping_Pa_s_m = {:.9g}\n", d->bed_stiffness, d->bed_damping);
+  } else {
+    text += fmt::format("mass_kg_m = {:.9g}\ndiameter_m = {:.9g}\n", l.mass_per_m, l.diameter);
+  }
+  return text + bed_keys(l, e);
+}
+
+/// Lines one after another as one of sections, the points between them as its clumps.
+std::string line_of_sections(DeckImport& run, const ImportedRow& row, const ImportedMoorings& all, const ImportedEnvironment& e) {
+  const ImportedLine &lowest = all.lines[row.lines.front()], &highest = all.lines[row.lines.back()];
+  std::string text = fmt::format("\n[moorings.line_{}]\nmodel = \"composite_catenary\"\n", row.lines.front() + 1) +
+                     ends(lowest, highest) + bed_keys(lowest, e),
+              clumps;
+  double distance = 0.0;
+  for (std::size_t k = 0; k < row.lines.size(); ++k) {
+    const ImportedLine& l = all.lines[row.lines[k]];
+    text +=
+        fmt::format("[[moorings.line_{}.sections]]\nrest_length_m = {:.9g}\nweight_N_m = {:.9g}\naxial_stiffness_N = {:.9g}\n",
+                    row.lines.front() + 1, l.length, weight_in_water(l, e), l.axial_stiffness);
+    distance += l.length;
+    if (k == row.points.size()) break;
+    const ImportedJunction& point = all.junctions[row.points[k]];
+    if (point.mass > 0.0 || point.volume > 0.0)
+      clumps += fmt::format("[[moorings.line_{}.clumps]]\ndistance_m = {:.9g}\nmass_kg = {:.9g}\nvolume_m3 = {:.9g}\n",
+                            row.lines.front() + 1, distance, point.mass, point.volume);
+    if (all.lines[row.lines[k + 1]].bed_friction != lowest.bed_friction && on_bed(lowest, e))
+      run.leave_out(fmt::format("bed friction of line {}: all of line_{} has that of the section at the anchor",
+                                row.lines[k + 1] + 1, row.lines.front() + 1));
+  }
+  return text + clumps;
+}
+
+}  // namespace
+
+std::string import_moorings(DeckImport& run, const ImportedEnvironment& environment, bool has_waves, ImportedLines choice) {
   const int kind = run.main.integer({"CompMooring"}, 0);
   if (kind == 0) return "";
   if (kind != 1 && kind != 3) {
@@ -17,50 +92,54 @@ std::string import_moorings(DeckImport& run, const ImportedEnvironment& environm
     return "";
   }
   const Deck file(run.main.path({"MooringFile"}));
-  const auto [lines, junctions] =
+  const std::string file_name = file.file().filename().string();
+  const ImportedMoorings all =
       kind == 1 ? read_map(file, environment.depth, run.left_out) : read_moordyn(file, environment.depth, run.left_out);
-  if (kind == 3 && file.integer({"WaveKin", "WaterKin"}, 0) == 0 && has_waves)
+  const auto& [lines, junctions] = all;
+  const bool at_rest = kind == 1 || choice == ImportedLines::quasi_static;
+  const std::vector<ImportedRow> rows = at_rest ? rows_of(all) : std::vector<ImportedRow>();
+  std::vector<const ImportedRow*> row_of(lines.size(), nullptr);
+  std::vector<bool> between(junctions.size(), false);
+  for (const ImportedRow& row : rows) {
+    for (const std::size_t l : row.lines) row_of[l] = &row;
+    for (const std::size_t p : row.points) between[p] = true;
+  }
+  const bool any_dynamic = std::ranges::find(row_of, nullptr) != row_of.end();
+  if (kind == 1 && any_dynamic)
+    run.leave_out(file_name +
+                  ": lines that meet at a node with others are dynamic here, with the drag, added mass and damping of "
+                  "chain by default");
+  if (kind == 3 && at_rest && any_dynamic)
+    run.leave_out(file_name + ": lines that meet at a point with others stay dynamic in spite of --quasi-static-lines");
+  if (kind == 3 && any_dynamic && file.integer({"WaveKin", "WaterKin"}, 0) == 0 && has_waves)
     run.leave_out("MoorDyn's still water round the lines (WaveKin 0): here they feel the scene's waves");
-  std::ostringstream text;
+
+  std::string text;
+  std::size_t written = 0;
   for (std::size_t n = 0; n < lines.size(); ++n) {
-    const ImportedLine& l = lines[n];
-    const double weight = environment.gravity * (l.mass_per_m - environment.water_density * 0.25 * pi * l.diameter * l.diameter);
-    if (!(weight > 0.0) || !(l.axial_stiffness > 0.0)) {
-      run.leave_out(fmt::format("line {}: it has no weight in water or no stiffness", n + 1));
+    const ImportedRow* row = row_of[n];
+    if (row && row->lines.front() != n) continue;
+    const std::vector<std::size_t> parts = row ? row->lines : std::vector{n};
+    const auto weightless = std::ranges::find_if_not(parts, [&](std::size_t l) { return hangs(lines[l], environment); });
+    if (weightless != parts.end()) {
+      run.leave_out(no_weight(*weightless) + (parts.size() > 1 ? ", nor come the lines in a row with it" : ""));
       continue;
     }
-    const bool meets = !l.at_anchor.empty() || !l.at_fairlead.empty();
-    const bool on_bed = !l.at_anchor.empty() || l.anchor.z() <= -environment.depth + 1e-6 * environment.depth;
-    text << fmt::format("\n[moorings.line_{}]\nmodel = \"{}\"\n", n + 1, meets || l.dynamics ? "lumped_mass" : "catenary")
-         << (l.at_fairlead.empty() ? "body = \"platform\"\nfairlead_m = " + toml_vector(l.fairlead)
-                                   : "body = \"" + l.at_fairlead + "\"")
-         << (l.at_anchor.empty() ? "\nanchor_m = " + toml_vector(l.anchor) : "\nanchor_body = \"" + l.at_anchor + "\"")
-         << fmt::format("\nrest_length_m = {:.9g}\naxial_stiffness_N = {:.9g}\n", l.length, l.axial_stiffness);
-    if (const auto& d = l.dynamics) {
-      text << fmt::format("mass_kg_m = {:.9g}\ndiameter_m = {:.9g}\nsegments = {}\ndamping_ratio = {:.9g}\n", l.mass_per_m,
-                          l.diameter, d->segments, d->damping_ratio)
-           << fmt::format("drag_coefficient = {:.9g}\naxial_drag_coefficient = {:.9g}\n", d->drag, d->axial_drag)
-           << fmt::format("added_mass_coefficient = {:.9g}\naxial_added_mass_coefficient = {:.9g}\n", d->added_mass,
-                          d->axial_added_mass);
-      if (on_bed)
-        text << fmt::format("bed_stiffness_Pa_m = {:.9g}\nbed_damping_Pa_s_m = {:.9g}\n", d->bed_stiffness, d->bed_damping);
-    } else if (meets) {
-      text << fmt::format("mass_kg_m = {:.9g}\ndiameter_m = {:.9g}\n", l.mass_per_m, l.diameter);
-    } else {
-      text << fmt::format("weight_N_m = {:.9g}\n", weight);
-    }
-    if (!on_bed)
-      text << "bed_contact = false\n";
-    else if (l.bed_friction > 0.0)
-      text << fmt::format("bed_friction = {:.9g}\n", l.bed_friction);
+    text +=
+        parts.size() == 1 ? single_line(n, lines[n], environment, row != nullptr) : line_of_sections(run, *row, all, environment);
+    ++written;
   }
-  for (const ImportedJunction& j : junctions)
-    text << fmt::format("\n[junctions.{}]\nposition_m = {}\nmass_kg = {:.9g}\nvolume_m3 = {:.9g}\ndrag_area_m2 = {:.9g}\n",
-                        j.name, toml_vector(j.at), j.mass, j.volume, j.drag_area)
-         << fmt::format("added_mass_coefficient = {:.9g}\n", j.added_mass);
-  run.carry(fmt::format("moorings: {} lines", lines.size()) +
-            (junctions.empty() ? "" : fmt::format(", {} junctions", junctions.size())));
-  return text.str();
+  std::size_t points = 0;
+  for (std::size_t p = 0; p < junctions.size(); ++p) {
+    if (between[p]) continue;
+    const ImportedJunction& j = junctions[p];
+    text += fmt::format("\n[junctions.{}]\nposition_m = {}\nmass_kg = {:.9g}\nvolume_m3 = {:.9g}\ndrag_area_m2 = {:.9g}\n",
+                        j.name, toml_vector(j.at), j.mass, j.volume, j.drag_area) +
+            fmt::format("added_mass_coefficient = {:.9g}\n", j.added_mass);
+    ++points;
+  }
+  run.carry(fmt::format("moorings: {} lines", written) + (points == 0 ? "" : fmt::format(", {} junctions", points)));
+  return text;
 }
 
 }  // namespace spindrift::decks

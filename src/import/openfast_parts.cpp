@@ -405,9 +405,6 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
     found.push_back(line);
   });
   std::vector<ImportedJunction> junctions = junctions_of(found, by_number);
-  if (!junctions.empty())
-    left_out.push_back(file_name +
-                       ": lines at free nodes are dynamic here, with the drag, added mass and damping of chain by default");
   // "repeat 120 240": all lines again, turned about z.
   const std::size_t once = found.size(), points_once = junctions.size();
   std::size_t turns = 0;
@@ -531,6 +528,34 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
     found.push_back(line);
   });
   return {found, junctions_of(found, points)};
+}
+
+std::vector<ImportedRow> rows_of(const ImportedMoorings& moorings) {
+  const std::vector<ImportedLine>& lines = moorings.lines;
+  const auto at = [&](std::size_t l, const std::string& name) {
+    return lines[l].at_anchor == name || lines[l].at_fairlead == name;
+  };
+  std::vector<ImportedRow> found;
+  for (std::size_t first = 0; first < lines.size(); ++first) {
+    if (!lines[first].at_anchor.empty()) continue;
+    ImportedRow row{{first}, {}};
+    std::string end = lines[first].at_fairlead;
+    while (!end.empty()) {
+      std::vector<std::size_t> others;
+      for (std::size_t l = 0; l < lines.size(); ++l)
+        if (l != row.lines.back() && at(l, end)) others.push_back(l);
+      if (others.size() != 1) break;
+      const ImportedLine& next = lines[others[0]];
+      const bool upwards = next.at_anchor == end;
+      if (!upwards && next.at_anchor.empty()) break;  // down to the bed again
+      for (std::size_t p = 0; p < moorings.junctions.size(); ++p)
+        if (moorings.junctions[p].name == end) row.points.push_back(p);
+      row.lines.push_back(others[0]);
+      end = upwards ? next.at_fairlead : next.at_anchor;
+    }
+    if (end.empty()) found.push_back(row);
+  }
+  return found;
 }
 
 }  // namespace spindrift::decks

@@ -94,8 +94,16 @@ struct ImportedMoorings {
   std::vector<ImportedLine> lines;
   std::vector<ImportedJunction> junctions;
 };
-/// Lines of MAP++ are in rest at all times; those that end at a free node are dynamic in the scene, which has no others there.
+/// Lines of MAP++ are in rest at all times.
 ImportedMoorings read_map(const Deck& file, double water_depth, std::vector<std::string>& left_out);
 ImportedMoorings read_moordyn(const Deck& file, double water_depth, std::vector<std::string>& left_out);
+
+/// Lines from the bed to the platform without a branch, and the points between them, as indices; a line alone is one.
+struct ImportedRow {
+  std::vector<std::size_t> lines, points;  ///< from the anchor up
+};
+/// In the order of their first lines. Lines that are in none meet at a point with others, or hang on the bed or the platform at
+/// both ends.
+std::vector<ImportedRow> rows_of(const ImportedMoorings& moorings);
 
 }  // namespace spindrift::decks

@@ -8,6 +8,7 @@
 #include "kernels/base/constants.hpp"
 #include "kernels/mooring/bed.hpp"
 #include "kernels/mooring/line_catenary.hpp"
+#include "src/moorings/composite.hpp"
 #include "src/moorings/model.hpp"
 
 namespace spindrift::moorings {
@@ -17,27 +18,26 @@ namespace {
 bool hangs(const LineOptions& line) { return line_models().named(line.model).hangs; }
 
 void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N) {
-  if (line.rest_length_m == 0.0) return;  // a table has none
+  if (line.length_m() == 0.0) return;  // a table has none
+  const std::string key = at + (line.sections.empty() ? ".rest_length_m" : ".sections");
   const Eigen::Vector3d along = line.span();
-  const double apart = along.norm(), length = line.rest_length_m, round = std::hypot(along.x(), along.y()) + std::abs(along.z());
+  const double apart = along.norm(), length = line.length_m(), round = std::hypot(along.x(), along.y()) + std::abs(along.z());
   const std::string what = fmt::format("{:.4g} m for ends {:.4g} m apart", length, apart);
-  const double stiffness = line.stiffness_N_m ? *line.stiffness_N_m : line.axial_stiffness_N.value_or(0.0) / length;
   if (apart > length) {
-    const double tension = stiffness * (apart - length);
+    const double tension = line.series_stiffness_N_m() * (apart - length);
     if (tension > weight_N && weight_N > 0.0)
-      doubts.push_back({at + ".rest_length_m", fmt::format("{}, a tension of {:.3g} N at the start", what, tension),
+      doubts.push_back({key, fmt::format("{}, a tension of {:.3g} N at the start", what, tension),
                         fmt::format("a tension below the weight of all bodies, {:.3g} N", weight_N),
                         "look at the length, the stiffness and the place of the ends"});
     else if (constexpr double most = 0.03; hangs(line) && apart > (1.0 + most) * length)
-      doubts.push_back({at + ".rest_length_m", fmt::format("{}, stretched by {:.3g} %", what, 100.0 * (apart / length - 1.0)),
+      doubts.push_back({key, fmt::format("{}, stretched by {:.3g} %", what, 100.0 * (apart / length - 1.0)),
                         fmt::format("up to {:.2g} %: chain and wire break there", 100.0 * most),
                         "look at the length and the place of the ends, and at their units: m"});
   } else if (hangs(line) && length > round && line.anchor_body == "earth") {
-    doubts.push_back({at + ".rest_length_m", what, fmt::format("less than straight down and along the bed, {:.4g} m", round),
+    doubts.push_back({key, what, fmt::format("less than straight down and along the bed, {:.4g} m", round),
                       "the line hangs down and does nothing; look at the length and at the anchor"});
   } else if (!hangs(line) && length > 1.5 * apart) {
-    doubts.push_back(
-        {at + ".rest_length_m", what, "up to 1.5 times the distance", "the line is slack until the body has drifted far"});
+    doubts.push_back({key, what, "up to 1.5 times the distance", "the line is slack until the body has drifted far"});
   }
 }
 
@@ -45,13 +45,30 @@ void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOption
 /// N over 1.7e5 d^2 N/m, wire rope 4e10 over 3.4e4, spiral strand 9e10 over 4.2e4, polyester 1.1e9 over 2e3, nylon 1.2e8 over 650
 /// (diameters d in m; Orcina's fits to manufacturers' tables). A weight in kg/m is a tenth of that in N/m.
 void doubt_material(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N_m) {
-  if (!hangs(line) || !line.axial_stiffness_N) return;
-  const double ratio = *line.axial_stiffness_N / weight_N_m;
-  if (ratio < 6e4 || ratio > 4e6)
-    doubts.push_back({at + (line.mass_kg_m == 0.0 ? ".weight_N_m" : ".mass_kg_m"),
-                      fmt::format("{:.4g} N/m in water with an axial stiffness of {:.4g} N", weight_N_m, *line.axial_stiffness_N),
-                      "a stiffness of 6e4 to 4e6 m times the weight in water",
-                      "look at the units: N/m in water, not kg/m or kN/m; N, not kN"});
+  const auto doubt = [&](const std::string& key, double weight, double stiffness) {
+    if (const double ratio = stiffness / weight; ratio < 6e4 || ratio > 4e6)
+      doubts.push_back({at + key, fmt::format("{:.4g} N/m in water with an axial stiffness of {:.4g} N", weight, stiffness),
+                        "a stiffness of 6e4 to 4e6 m times the weight in water",
+                        "look at the units: N/m in water, not kg/m or kN/m; N, not kN"});
+  };
+  if (hangs(line) && line.axial_stiffness_N)
+    doubt(line.mass_kg_m == 0.0 ? ".weight_N_m" : ".mass_kg_m", weight_N_m, *line.axial_stiffness_N);
+  for (std::size_t n = 0; n < line.sections.size(); ++n)
+    doubt(fmt::format(".sections[{}].weight_N_m", n), line.sections[n].weight_N_m, line.sections[n].axial_stiffness_N);
+}
+
+/// A line at rest is lifted by all of a float, also where it would lie at the surface.
+void doubt_floats(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around) {
+  if (line.sections.empty() || around.depth_m < 0.0) return;
+  const CompositeParts parts = composite_parts(line, around.water_density_kg_m3, around.gravity_m_s2);
+  const std::vector<double> heights =
+      LineComposite(parts.sections, parts.hung, line.bed_friction, line.bed_contact).joint_heights(line.span());
+  for (std::size_t joint = 0; joint < heights.size(); ++joint)
+    if (const double z = line.anchor_m->z() + heights[joint]; parts.hung[joint] < 0.0 && z > 0.0)
+      doubts.push_back({at + ".clumps",
+                        fmt::format("the float at {:.4g} m is {:.4g} m above the surface at the start", parts.joints[joint], z),
+                        "floats under water: this model has all of their lift at any height",
+                        "look at volume_m3 and mass_kg, or take lumped_mass and a junction, which floats"});
 }
 
 /// Where the line leaves its body: on the body, and on the side of its anchor.
@@ -67,7 +84,7 @@ void doubt_fairlead(scene::Doubts& doubts, const std::string& at, const LineOpti
     return;
   }
   const Eigen::Vector2d out = (*line.fairlead_m - box.center()).head<2>(), to = (-line.span()).head<2>();
-  if (out.norm() < 0.02 * half || to.norm() < 0.1 * line.rest_length_m || line.anchor_body != "earth") return;
+  if (out.norm() < 0.02 * half || to.norm() < 0.1 * line.length_m() || line.anchor_body != "earth") return;
   constexpr double least = -0.3;  // of the cosine: 107 degrees
   if (out.dot(to) < least * out.norm() * to.norm())
     doubts.push_back({at + ".anchor_m",
@@ -121,6 +138,7 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     const double weight_N_m = weight_in_water(line, around.water_density_kg_m3, around.gravity_m_s2);
     doubt_length(doubts, at, line, around.weight_N);
     doubt_material(doubts, at, line, weight_N_m);
+    doubt_floats(doubts, at, line, around);
     doubt_fairlead(doubts, at, line, around);
     doubt_friction(doubts, at, line);
     if (line_models().named(line.model).make_dynamic)

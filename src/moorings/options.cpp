@@ -21,24 +21,43 @@ namespace {
 const scene::Section<ClumpOptions>& clump_section() {
   using scene::positive, scene::not_negative;
   static const auto section =
-      scene::Section<ClumpOptions>("clumps", "A weight or a float on a dynamic line, at the node nearest to its place.")
+      scene::Section<ClumpOptions>("clumps", "A weight or a float on a line; of lumped_mass at the node nearest to its place.")
           .number("distance_m", &ClumpOptions::distance_m, "m", "From the anchor along the unstretched line.", positive())
           .required()
           .number("mass_kg", &ClumpOptions::mass_kg, "kg", "Mass, dry.", not_negative())
           .required()
           .number("volume_m3", &ClumpOptions::volume_m3, "m3", "Volume.", not_negative())
-          .number("drag_area_m2", &ClumpOptions::drag_area_m2, "m2", "Drag coefficient times area.", not_negative())
+          .number("drag_area_m2", &ClumpOptions::drag_area_m2, "m2", "Drag coefficient times area; of dynamic lines.",
+                  not_negative())
           .number("added_mass_coefficient", &ClumpOptions::added_mass_coefficient, "-",
-                  "On the displaced mass; a sphere's by default.", not_negative());
+                  "On the displaced mass, of dynamic lines; a sphere's by default.", not_negative());
+  return section;
+}
+
+const scene::Section<SectionOptions>& part_section() {
+  using scene::positive;
+  static const auto section =
+      scene::Section<SectionOptions>("sections", "A part of a line between two joints, or a joint and an end.")
+          .number("rest_length_m", &SectionOptions::rest_length_m, "m", "Unstretched length.", positive())
+          .required()
+          .number("weight_N_m", &SectionOptions::weight_N_m, "N/m", "Weight in water per unstretched length.", positive())
+          .required()
+          .number("axial_stiffness_N", &SectionOptions::axial_stiffness_N, "N", "Axial stiffness EA.", positive())
+          .required();
   return section;
 }
 
 /// What `check` can say of one line by itself.
 void check_line(const LineOptions& o, const scene::Report& report) {
   for (const ClumpOptions& clump : o.clumps) {
-    if (clump.distance_m >= o.rest_length_m && o.rest_length_m > 0.0)
-      report("clumps", fmt::format("has one at {} m, where the line of {} m has ended", clump.distance_m, o.rest_length_m));
+    if (clump.distance_m >= o.length_m() && o.length_m() > 0.0)
+      report("clumps", fmt::format("has one at {} m, where the line of {} m has ended", clump.distance_m, o.length_m()));
     if (clump.mass_kg == 0.0 && clump.volume_m3 == 0.0) report("clumps", "has one without mass and volume");
+    if (const ClumpOptions none; !o.sections.empty() && (clump.drag_area_m2 != none.drag_area_m2 ||
+                                                         clump.added_mass_coefficient != none.added_mass_coefficient))
+      report("clumps", fmt::format("has one with drag_area_m2 or added_mass_coefficient, which have no effect on {}: the line is "
+                                   "at rest at all times",
+                                   o.model));
   }
   if (o.anchor_body == o.body) report("anchor_body", "is the body that carries the fairlead: a line ties two different things");
 }
@@ -116,6 +135,10 @@ const scene::Section<LineOptions>& line_section() {
                   "Pressure of the bed under the line's diameter per speed of sinking in.", not_negative())
           .only_if("model", line_models().with("bed_damping_Pa_s_m"))
           .only_if("bed_contact", {"true"})
+          .tables("sections", &LineOptions::sections, part_section(), "Parts of the line, from the anchor to the fairlead.")
+          .only_if("model", line_models().with("sections"))
+          .required()
+          .size(1)
           .tables("clumps", &LineOptions::clumps, clump_section(), "Weights and floats on the line.")
           .only_if("model", line_models().with("clumps"))
           .path("table", &LineOptions::table,
@@ -127,6 +150,19 @@ const scene::Section<LineOptions>& line_section() {
           .one_of({"axial_stiffness_N", "stiffness_N_m"})
           .check(check_line);
   return section;
+}
+
+double LineOptions::length_m() const {
+  double sum = rest_length_m;
+  for (const SectionOptions& s : sections) sum += s.rest_length_m;
+  return sum;
+}
+
+double LineOptions::series_stiffness_N_m() const {
+  if (stiffness_N_m) return *stiffness_N_m;
+  double compliance = axial_stiffness_N ? rest_length_m / *axial_stiffness_N : 0.0;
+  for (const SectionOptions& s : sections) compliance += s.rest_length_m / s.axial_stiffness_N;
+  return compliance > 0.0 ? 1.0 / compliance : 0.0;
 }
 
 double weight_in_water(const LineOptions& o, double water_density, double gravity) {
@@ -240,7 +276,7 @@ void check_lines(scene::Document& doc, const std::vector<scene::Named<LineOption
         if (!line_models().named(line.model).make_dynamic)
           doc.problem(at + "." + key,
                       fmt::format("names junction \"{}\": of the models of lines only lumped_mass has nodes that move "
-                                  "with it, not {}",
+                                  "with it, not {}; sections one after another are a composite_catenary",
                                   end, line.model));
         return;
       }

@@ -23,6 +23,11 @@ class Bed;
 
 namespace spindrift::moorings {
 
+/// [[moorings.NAME.sections]]
+struct SectionOptions {
+  double rest_length_m = 0.0, weight_N_m = 0.0, axial_stiffness_N = 0.0;
+};
+
 /// [[moorings.NAME.clumps]]
 struct ClumpOptions {
   double distance_m = 0.0;
@@ -51,6 +56,8 @@ struct LineOptions {
   bool bed_contact = true;
   double bed_friction = 0.0;
   std::string table;  ///< path
+  // composite_catenary
+  std::vector<SectionOptions> sections;  ///< from the anchor to the fairlead
   // lumped_mass
   int segments = 20;
   double diameter_m = 0.0, mass_kg_m = 0.0;
@@ -63,6 +70,10 @@ struct LineOptions {
 
   /// Of a line whose ends are placed.
   Eigen::Vector3d span() const { return *fairlead_m - *anchor_m; }
+  /// Of the whole line, 0 where the model has none [m].
+  double length_m() const;
+  /// Of the whole line, its sections in a row [N/m].
+  double series_stiffness_N_m() const;
 };
 
 const scene::Section<LineOptions>& line_section();

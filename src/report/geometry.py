@@ -353,7 +353,8 @@ class Scene3d:
     def _line(self, name, line, t):
         fairlead, anchor = self._end(line, "body", "fairlead_m", t), self._end(line, "anchor_body", "anchor_m", t)
         stiff = line.get("tension_only") is False   # a spring both ways stays straight
-        points = hanging(fairlead, anchor, None if stiff else line.get("rest_length_m"))
+        length = line.get("rest_length_m") or sum(part["rest_length_m"] for part in line.get("sections", []))
+        points = hanging(fairlead, anchor, None if stiff else length)
         return Piece("line", name, points, lines=[list(range(len(points)))])
 
     def _support(self, t):

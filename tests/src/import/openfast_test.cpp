@@ -14,6 +14,7 @@
 #include "kernels/base/constants.hpp"
 #include "src/aero/flexible_blades.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/bodies/linearise.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
 #include "src/scene/document.hpp"
@@ -108,14 +109,16 @@ struct SmallDeck {
     REQUIRE(text.find(from) != std::string::npos);
     text.replace(text.find(from), from.size(), to);
   }
-  decks::Imported import(decks::ImportedTower tower = decks::ImportedTower::as_in_deck) const {
+  decks::Imported import(decks::ImportedTower tower = decks::ImportedTower::as_in_deck,
+                         decks::ImportedLines lines = decks::ImportedLines::as_in_deck) const {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder / "deck/wamit");
     for (const auto& [name, text] : files) std::ofstream(folder / "deck" / name) << text;
-    return decks::import_openfast(folder / "deck/main.fst", folder / "scene", tower);
+    return decks::import_openfast(folder / "deck/main.fst", folder / "scene", tower, decks::ImportedBlades::as_in_deck, lines);
   }
-  coupling::Scenario scenario(decks::ImportedTower tower = decks::ImportedTower::as_in_deck) const {
-    scene::Document document = scene::load(import(tower).scene.string());
+  coupling::Scenario scenario(decks::ImportedTower tower = decks::ImportedTower::as_in_deck,
+                              decks::ImportedLines lines = decks::ImportedLines::as_in_deck) const {
+    scene::Document document = scene::load(import(tower, lines).scene.string());
     return coupling::read_scenario(document);
   }
   std::string refusal() const {
@@ -125,6 +128,10 @@ struct SmallDeck {
     return "";
   }
 };
+
+bool has_word(const std::vector<std::string>& sentences, const std::string& word) {
+  return std::ranges::any_of(sentences, [&](const std::string& s) { return s.find(word) != std::string::npos; });
+}
 
 }  // namespace
 
@@ -300,10 +307,6 @@ SmallDeck deck_that_bends() {
   deck.replace("tower.dat", "0 4000 1 1", "0 4000 3e11 4e11");
   deck.replace("tower.dat", "1 2000 1 1", "1 2000 1e11 2e11");
   return deck;
-}
-
-bool has_word(const std::vector<std::string>& sentences, const std::string& word) {
-  return std::ranges::any_of(sentences, [&](const std::string& s) { return s.find(word) != std::string::npos; });
 }
 
 }  // namespace
@@ -486,7 +489,83 @@ TEST_CASE("free points of MoorDyn are junctions of the scene", "[import][fast]")
   for (int n = 0; n < 20; ++n) REQUIRE(floating.multibody().advance(start.state, floating.timeline().tick_s(), 1).ok());
 }
 
-TEST_CASE("free nodes of MAP++ are junctions, and their lines dynamic", "[import][fast]") {
+TEST_CASE("lines of MAP++ one after another are one line of sections", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("map.dat", "chain 0.1 100 4e8 0.5 1 1 1 1\n", "chain 0.1 100 4e8 0.5 1 1 1 1\nrope 0.08 20 1e8 0.2 1 1 1 1\n");
+  deck.replace("map.dat", "2 Vessel 4 0 -30 0 0 # # #\n",
+               "2 Vessel 4 0 -30 0 0 # # #\n3 Connect #350 #0 #-190 1000 0.5 0 0 0\n4 Connect #200 #0 #-120 0 0 0 0 0\n");
+  // The rows in any order, the middle one from above.
+  deck.replace("map.dat", "1 chain 540 1 2 plot\n", "1 rope 250 4 2 plot\n2 chain 180 1 3\n3 rope 130 4 3\n");
+  const coupling::Scenario s = deck.scenario();
+  REQUIRE(s.moorings.size() == 3);
+  CHECK(s.junctions.empty());
+  for (const auto& [name, line] : s.moorings) {
+    CHECK(line.model == "composite_catenary");
+    REQUIRE(line.sections.size() == 3);
+    CHECK((line.sections[0].rest_length_m == 180.0 && line.sections[1].rest_length_m == 130.0));
+    CHECK(line.sections[2].rest_length_m == 250.0);
+    CHECK(line.sections[0].axial_stiffness_N == 4e8);
+    CHECK(line.sections[2].weight_N_m == Approx(9.80665 * (20.0 - 1025.0 * 0.25 * pi * 0.0064)));
+    CHECK((line.bed_contact && line.bed_friction == 0.5 && line.anchor_m->z() == -200.0));
+    REQUIRE(line.clumps.size() == 1);
+    CHECK((line.clumps[0].distance_m == 180.0 && line.clumps[0].mass_kg == 1000.0 && line.clumps[0].volume_m3 == 0.5));
+  }
+  CHECK(s.moorings[1].options.fairlead_m->y() == Approx(4.0 * std::sin(120.0 * radians_per_degree)));
+  const std::vector<std::string> left_out = deck.import().left_out;
+  CHECK(has_word(left_out, "bed friction of line 3"));
+  CHECK_FALSE(has_word(left_out, "dynamic here"));
+  deck.replace("map.dat", "rope 0.08 20", "rope 0.8 20");
+  CHECK(has_word(deck.import().left_out, "line 3: it has no weight in water or no stiffness, nor come the lines in a row"));
+}
+
+TEST_CASE("a line cut in two in the deck holds its platform as the whole one does", "[import][fast]") {
+  SmallDeck deck;
+  const auto rates = [&] {
+    coupling::FloatingSystem floating(deck.scenario());
+    const coupling::Start start = make_start(floating);
+    std::vector<double> found;
+    for (const bodies::Mode& mode : bodies::linearise(floating.multibody(), start.state, 0.0).modes)
+      found.push_back(std::abs(mode.eigenvalue));
+    return found;
+  };
+  const std::vector<double> whole = rates();
+  deck.replace("map.dat", "2 Vessel 4 0 -30 0 0 # # #\n", "2 Vessel 4 0 -30 0 0 # # #\n3 Connect #200 #0 #-120 0 0 0 0 0\n");
+  deck.replace("map.dat", "1 chain 540 1 2 plot\n", "1 chain 340 1 3 plot\n2 chain 200 3 2 plot\n");
+  const std::vector<double> cut = rates();
+  REQUIRE(cut.size() == whole.size());
+  CHECK(cut.size() >= 6);
+  for (std::size_t n = 0; n < cut.size(); ++n) CHECK(cut[n] == Approx(whole[n]).epsilon(1e-5).margin(1e-6));
+}
+
+TEST_CASE("MoorDyn's lines are catenaries where that is asked for, several in a row one of sections, but not where they branch",
+          "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("main.fst", "1 CompMooring", "3 CompMooring");
+  deck.files["map.dat"] =
+      "--- LINE TYPES ---\nName Diam MassDen EA BA/-zeta EI Cd Ca CdAx CaAx\n(-) (m) (kg/m) (N) (N-s/-) (-) (-) (-) (-) (-)\n"
+      "chain 0.1 100 4e8 -1 0 1 1 0 0\nrope 0.08 20 1e8 -1 0 1 1 0 0\n---- POINTS ----\nID Attachment X Y Z M V CdA CA\n"
+      "(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)\n1 Fixed 500 0 -200 0 0 0 0\n2 Vessel 4 5 -30 0 0 0 0\n3 Free 250 0 -180 500 0 0 "
+      "0\n"
+      "4 Fixed -500 0 -200 0 0 0 0\n5 Vessel -4 0 -30 0 0 0 0\n6 Vessel 4 -5 -30 0 0 0 0\n7 Fixed 0 500 -200 0 0 0 0\n"
+      "8 Free 0 50 -60 1000 0 0 0\n---- LINES ----\nID LineType AttachA AttachB UnstrLen NumSegs Outputs\n"
+      "(#) (name) (#) (#) (m) (-) (-)\n1 chain 1 3 280 20 -\n2 rope 3 2 260 20 -\n3 chain 4 5 540 20 -\n4 chain 7 8 490 20 -\n"
+      "5 chain 8 2 60 5 -\n6 chain 8 6 60 5 -\n---- OPTIONS ----\n0.5 FrictionCoefficient\n";
+  const auto models = [&](decks::ImportedLines lines) {
+    std::vector<std::string> found;
+    for (const auto& [name, line] : deck.scenario(decks::ImportedTower::as_in_deck, lines).moorings)
+      found.push_back(name + " " + line.model);
+    return found;
+  };
+  CHECK(models(decks::ImportedLines::as_in_deck).size() == 6);
+  CHECK(models(decks::ImportedLines::quasi_static) == std::vector<std::string>{"line_1 composite_catenary", "line_3 catenary",
+                                                                               "line_4 lumped_mass", "line_5 lumped_mass",
+                                                                               "line_6 lumped_mass"});
+  const auto imported = deck.import(decks::ImportedTower::as_in_deck, decks::ImportedLines::quasi_static);
+  CHECK(has_word(imported.left_out, "stay dynamic in spite of --quasi-static-lines"));
+  CHECK(has_word(imported.carried, "moorings: 5 lines, 1 junctions"));
+}
+
+TEST_CASE("free nodes of MAP++ at which several lines meet are junctions, and their lines dynamic", "[import][fast]") {
   SmallDeck deck;
   deck.replace(
       "map.dat", "1 fix 500 0 depth 0 0 # # #\n2 Vessel 4 0 -30 0 0 # # #\n",
@@ -501,7 +580,7 @@ TEST_CASE("free nodes of MAP++ are junctions, and their lines dynamic", "[import
   CHECK((s.junctions[1].options.mass_kg == 1000.0 && s.junctions[1].options.volume_m3 == 0.5));
   CHECK((s.moorings[3].options.body == "junction_4_2" && s.moorings[3].options.model == "lumped_mass"));
   CHECK((s.moorings[4].options.anchor_body == "junction_4_2" && s.moorings[4].options.body == "platform"));
-  CHECK(has_word(deck.import().left_out, "lines at free nodes are dynamic here"));
+  CHECK(has_word(deck.import().left_out, "lines that meet at a node with others are dynamic here"));
 }
 
 TEST_CASE("what takes time in AeroDyn's flow is turned on as the deck says", "[import][fast]") {

@@ -8,6 +8,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/failure.hpp"
+#include "src/moorings/composite.hpp"
 
 using namespace spindrift;
 using namespace spindrift::moorings;
@@ -132,6 +133,45 @@ TEST_CASE("lines of all models take no energy from a body that moves in a circle
   line = paper_line(2.0);
   line.model = "catenary", line.weight_N_m = 2e3;
   CHECK(std::abs(work(line)) < 1e-5);  // passes slack, touching and taut
+  line.model = "composite_catenary", line.rest_length_m = 0.0, line.weight_N_m = 0.0, line.axial_stiffness_N.reset();
+  line.sections = {{60.0, 2e3, 4e8}, {56.73, 3e3, 2e8}}, line.clumps = {{50.0, 2e3, 0.5}, {90.0, 100.0, 4.0}};
+  CHECK(std::abs(work(line)) < 1e-5);
+}
+
+TEST_CASE("sections and clumps of a scene are cut into one row, from the anchor up", "[moorings][fast]") {
+  LineOptions line;
+  line.sections = {{300.0, 1e3, 5e8}, {200.0, 400.0, 2e8}};
+  line.clumps = {{420.0, 500.0, 2.0}, {100.0, 1e3, 0.0}, {300.0, 0.0, 1.0}, {300.0, 2e3, 0.0}};
+  const CompositeParts parts = composite_parts(line, 1000.0, 10.0);
+  REQUIRE(parts.sections.size() == 4);
+  const double lengths[] = {100.0, 200.0, 120.0, 80.0}, weights[] = {1e3, 1e3, 400.0, 400.0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(parts.sections[i].length == lengths[i]);
+    CHECK(parts.sections[i].weight_per_m == weights[i]);
+  }
+  CHECK(parts.hung == std::vector<double>{1e4, 1e4, -1.5e4});
+  CHECK(parts.joints == std::vector<double>{100.0, 300.0, 420.0});
+}
+
+TEST_CASE("a line of sections loads its body as the catenary of one does, and a weight on it as statics have it",
+          "[moorings][fast]") {
+  LineOptions one, row;
+  one.model = "catenary", row.model = "composite_catenary", one.body = row.body = "platform";
+  one.fairlead_m = row.fairlead_m = Vector3d(0, 0, -4), one.anchor_m = row.anchor_m = Vector3d(300, 250, -54);
+  one.rest_length_m = 400.0, one.weight_N_m = 3e3, one.axial_stiffness_N = 1.6e9, one.bed_friction = row.bed_friction = 0.4;
+  row.sections = {{150.0, 3e3, 1.6e9}, {250.0, 3e3, 1.6e9}};
+  Moorings a(names, start()), b(names, start()), hung(names, start());
+  a.add("line", one), b.add("line", row);
+  const Wrench plain = loads(a, start())[0];
+  CHECK((loads(b, start())[0].force - plain.force).norm() < 1e-9 * plain.force.norm());
+  CHECK((loads(b, start())[0].moment - plain.moment).norm() < 1e-9 * plain.force.norm());
+  CHECK(b.tensions(start())[0].anchor == Approx(a.tensions(start())[0].anchor).epsilon(1e-9));
+  CHECK(b.memory_size() == 0);
+  row.bed_contact = false, row.bed_friction = 0.0, row.clumps = {{300.0, 2e3, 0.5}};  // all of its weight is at its two ends
+  hung.add("line", row);
+  const LineForces f = composite_line(row, 1025.0, 9.80665).forces(row.span(), Vector3d::Zero());
+  CHECK(f.on_fairlead.z() + f.on_anchor.z() == Approx(-(400.0 * 3e3 + 9.80665 * (2e3 - 0.5 * 1025.0))));
+  CHECK((loads(hung, start())[0].force - f.on_fairlead).norm() < 1e-6);
 }
 
 TEST_CASE("tensions are those of the force that the body feels", "[moorings][fast]") {

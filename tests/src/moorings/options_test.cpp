@@ -73,6 +73,63 @@ TEST_CASE("a malformed mooring line is refused with what is wrong", "[moorings][
   CHECK_THROWS_WITH(read(c.keys), Contains(c.message));
 }
 
+TEST_CASE("a malformed line of sections is refused with what is wrong", "[moorings][fast]") {
+  const std::string row = ends + "model = 'composite_catenary'\n",
+                    two = row +
+                          "sections = [{rest_length_m = 60, weight_N_m = 1e3, axial_stiffness_N = 4e8}, {rest_length_m = "
+                          "70, weight_N_m = 200, axial_stiffness_N = 5e7}]\n";
+  const LineOptions line = read(two + "bed_friction = 0.5\nclumps = [{distance_m = 60, mass_kg = 1e3}]\n");
+  CHECK((line.sections.size() == 2 && line.sections[1].weight_N_m == 200.0 && line.length_m() == 130.0));
+  CHECK(line.series_stiffness_N_m() == Approx(1.0 / (60.0 / 4e8 + 70.0 / 5e7)));
+  struct Case {
+    std::string keys, message;
+  };
+  const auto c = GENERATE_COPY(
+      Case{row, "sections"}, Case{row + "sections = []\n", "must have at least 1"},
+      Case{row + "sections = [{rest_length_m = 60, weight_N_m = 1e3}]\n", "sections[0].axial_stiffness_N"},
+      Case{row + "sections = [{rest_length_m = 60, weight_N_m = -1, axial_stiffness_N = 4e8}]\n", "sections[0].weight_N_m"},
+      Case{row + "sections = [{rest_length_m = 0, weight_N_m = 1, axial_stiffness_N = 4e8}]\n", "sections[0].rest_length_m"},
+      Case{row + "sections = [{rest_length_m = 60, weight_N_m = 1, axial_stiffness_N = 'chain'}]\n",
+           "sections[0].axial_stiffness_N"},
+      Case{row + "sections = [{rest_length_m = 60, weight_N_m = 1, axial_stiffness_N = 4e8, diameter_m = 0.1}]\n",
+           "sections[0].diameter_m"},
+      Case{two + "rest_length_m = 130\n", "rest_length_m"}, Case{two + "weight_N_m = 1e3\n", "weight_N_m"},
+      Case{two + "axial_stiffness_N = 1e8\n", "axial_stiffness_N"}, Case{two + "segments = 20\n", "segments"},
+      Case{two + "bed_contact = false\nbed_friction = 0.5\n", "bed_friction"},
+      Case{two + "clumps = [{distance_m = 130, mass_kg = 1e3}]\n", "where the line of 130 m has ended"},
+      Case{two + "clumps = [{distance_m = 60, mass_kg = 0}]\n", "without mass and volume"},
+      Case{two + "clumps = [{distance_m = 60, mass_kg = 1e3, drag_area_m2 = 2}]\n", "have no effect on composite_catenary"},
+      Case{two + "anchor_body = 'buoy'\n", "must be false for a line between two bodies"},
+      Case{catenary + "sections = [{rest_length_m = 60, weight_N_m = 1e3, axial_stiffness_N = 4e8}]\n", "sections"},
+      Case{"body = 'crow'\nanchor_m = [-162.6, 0, -20.6]\n" + two.substr(ends.size()) +
+               "[moorings.leg]\nbody = 'platform'\nfairlead_m = [-46.7, 0, -7]\nanchor_body = 'crow'\nmodel = 'lumped_mass'\n"
+               "rest_length_m = 130\naxial_stiffness_N = 4e8\ndiameter_m = 0.1\nmass_kg_m = 100\n[junctions.crow]\nposition_m = "
+               "[-80, 0, -15]\n",
+           "not composite_catenary; sections one after another are a composite_catenary"});
+  CHECK_THROWS_WITH(read(c.keys), Contains(c.message));
+}
+
+TEST_CASE("a line of sections is doubted as others are, and where a float would fly", "[moorings][fast]") {
+  LineOptions line;
+  line.model = "composite_catenary", line.body = "platform";
+  line.fairlead_m = {0, 0, -7}, line.anchor_m = {400, 0, -54};
+  line.sections = {{200.0, 1e3, 5e8}, {210.0, 400.0, 2e8}}, line.clumps = {{300.0, 100.0, 5.0}};
+  const LineSurroundings around{54.0, 1e8};
+  const auto of = [&](const std::string& key) {
+    std::string said;
+    for (const auto& doubt : line_doubts({{"a", line}}, around))
+      if (doubt.key == "moorings.a." + key) said += doubt.what;
+    return said;
+  };
+  CHECK(line_doubts({{"a", line}}, around).empty());
+  line.clumps[0].volume_m3 = 200.0;
+  CHECK_THAT(of("clumps"), Contains("the float at 300 m is") && Contains("above the surface"));
+  line.clumps.clear(), line.sections[1].weight_N_m = 40.0;
+  CHECK_THAT(of("sections[1].weight_N_m"), Contains("40 N/m in water"));
+  line.sections[1] = {100.0, 400.0, 2e8};
+  CHECK_THAT(of("sections"), Contains("300 m for ends 402.8 m apart"));
+}
+
 TEST_CASE("a dynamic line says what it weighs, and is refused where it would float", "[moorings][fast]") {
   const std::string dynamic = ends + "model = 'lumped_mass'\nrest_length_m = 130\naxial_stiffness_N = 4e8\n";
   const LineOptions line = read(dynamic + "diameter_m = 0.1\nmass_kg_m = 100\n");
