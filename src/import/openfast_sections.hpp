@@ -41,8 +41,8 @@ ImportedWater import_water(DeckImport& run, double depth, double water_density);
 
 /// WaveMod; 10 where "1P90" stands: a regular wave of given phase.
 int wave_model(const Deck& waves);
-/// [waves].
-std::string import_waves(DeckImport& run, const Deck& waves);
+/// [waves]. `linear`: why the scene's loads take waves of the first order alone; empty where they take those of the second.
+std::string import_waves(DeckImport& run, const Deck& waves, const std::string& linear);
 /// Keys of [sea]: SeaState's standard current, the sum of a power law of 1/7 over the depth, a part of the uppermost metres, and
 /// one that is the same at all depths.
 std::string import_current(DeckImport& run, const Deck& waves, double depth);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "src/import/hydrodyn_members.hpp"
@@ -162,6 +163,10 @@ void refuse_unknown_water(const Deck& hd, const Deck& waves) {
                  {"ConstWaveMod", 0, 2},
                  not_negative("CrestTime"),
                  not_negative("WvHiCOff"),
+                 not_negative("WvLowCOffD"),
+                 not_negative("WvHiCOffD"),
+                 not_negative("WvLowCOffS"),
+                 not_negative("WvHiCOffS"),
                  {"CurrMod", 0, 2},
                  not_negative("CurrSSV0"),
                  not_negative("CurrNSV0"),
@@ -210,7 +215,11 @@ ImportedWater import_water(DeckImport& run, double depth, double water_density) 
       if (hd.integer({key}, 0) != 0) run.leave_out(fmt::format("{} without PotMod 1", key));
   sea += matrices(hd);
   const std::string platform = cylinders(all) + added_force(hd);
-  sea += import_waves(run, waves);
+  const bool diffracts = std::ranges::any_of(all, &Member::diffracts);
+  sea += import_waves(run, waves,
+                      potential   ? "the sea is potential flow, which is linear in the waves"
+                      : diffracts ? "members diffract (MacCamy & Fuchs), which is linear in the waves"
+                                  : "");
   run.carry(fmt::format("sea: {}", potential ? "potential flow with drag of strips" : "Morison strips"));
   return {sea, platform, ballast};
 }

@@ -47,6 +47,43 @@ std::string waves_of_file(DeckImport& run, const Deck& waves) {
   return text + spreading(run, waves, 5);
 }
 
+/// SeaState has waves at differences and at sums of frequencies by a switch each, and of them a band; a scene has all or none.
+std::string second_order(DeckImport& run, const Deck& waves, int model, const std::string& linear) {
+  const bool differences = waves.flag({"WvDiffQTF"}, false), sums = waves.flag({"WvSumQTF"}, false);
+  if (!differences && !sums) return "";
+  std::string why = linear;
+  if (model != 2) why = fmt::format("waves of WaveMod {} have none in the scene", model);
+  if (waves.integer({"WaveDirMod"}, 0) != 0 && why.empty()) why = "the sea is short-crested";
+  if (differences != sums && why.empty()) why = "a scene has those at sums and differences together";
+  // The band must hold the pairs of the spectrum's peak; the scene's harmonics reach up to sqrt(2 g/Hs).
+  const double peak = 2.0 * pi / waves.number({"WaveTp"}, 1.0);
+  const double limit = std::sqrt(2.0 * standard_gravity / std::max(waves.number({"WaveHs"}, 0.0), 1e-6));
+  const double low_d = waves.number({"WvLowCOffD"}, 0.0), high_d = waves.number({"WvHiCOffD"}, 2.0 * limit),
+               low_s = waves.number({"WvLowCOffS"}, 0.0), high_s = waves.number({"WvHiCOffS"}, 2.0 * limit);
+  if (why.empty() && (low_s > 2.0 * peak || high_s < 2.0 * peak || low_d > 0.5 * peak || high_d < 0.5 * peak))
+    why = "its cut-offs leave out pairs of the spectrum's peak";
+  if (!why.empty()) {
+    run.leave_out(fmt::format("waves of second order ({}): {}",
+                              differences && sums ? "WvDiffQTF, WvSumQTF"
+                              : sums              ? "WvSumQTF"
+                                                  : "WvDiffQTF",
+                              why));
+    return "";
+  }
+  if (low_d > 0.0 || high_d < limit)
+    run.leave_out(
+        fmt::format("cut-offs of the differences of frequencies, {:g} and {:g} rad/s (WvLowCOffD, WvHiCOffD): the scene "
+                    "has all",
+                    low_d, high_d));
+  if (low_s > peak || high_s < 2.0 * limit)
+    run.leave_out(
+        fmt::format("cut-offs of the sums of frequencies, {:g} and {:g} rad/s (WvLowCOffS, WvHiCOffS): the scene has all "
+                    "up to {:.3g}",
+                    low_s, high_s, 2.0 * limit));
+  run.carry("waves of second order at sums and differences of frequencies");
+  return "second_order = true\n";
+}
+
 }  // namespace
 
 int wave_model(const Deck& waves) {
@@ -55,10 +92,11 @@ int wave_model(const Deck& waves) {
   return waves.integer({"WaveMod"}, 0);
 }
 
-std::string import_waves(DeckImport& run, const Deck& waves) {
+std::string import_waves(DeckImport& run, const Deck& waves, const std::string& linear) {
   const int model = wave_model(waves);
   if (model == 0) return "";
   const double height = waves.number({"WaveHs"}, 0.0), period = waves.number({"WaveTp"}, 0.0);
+  const std::string bound = second_order(run, waves, model, linear);
   if (model == 5) return waves_of_file(run, waves);
   if (model != 1 && model != 2 && model != 10) {
     run.leave_out(fmt::format("waves of WaveMod {}", model));
@@ -78,7 +116,7 @@ std::string import_waves(DeckImport& run, const Deck& waves) {
       text += fmt::format("peak_enhancement = {:.9g}\n", peak);
     run.leave_out("the phases of the irregular waves: those of the seed are others than HydroDyn's");
   }
-  text += spreading(run, waves, model);
+  text += bound + spreading(run, waves, model);
   if (const int kind = waves.integer({"ConstWaveMod"}, 0); kind != 0 && model == 2) {
     if (kind != 1) run.leave_out("the trough of the constrained wave (ConstWaveMod 2): half of CrestHmax is its crest");
     text += fmt::format("crest_height_m = {:.9g}\ncrest_time_s = {:.9g}\ncrest_place_m = [{:.9g}, {:.9g}]\n",

@@ -253,6 +253,49 @@ TEST_CASE("short-crested seas, constrained crests and currents over depth of the
   CHECK(std::hypot(bed[1], bed[2]) == Approx(0.0).margin(1e-12));
 }
 
+TEST_CASE("waves of second order of the deck are the scene's where it has the same, and told where it has not",
+          "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("sea.dat", "1 WaveMod", "2 WaveMod");
+  deck.replace("hd.dat", "1 PotMod", "0 PotMod");
+  deck.files["sea.dat"] += "True WvDiffQTF\nTrue WvSumQTF\n0 WvLowCOffD\n3.5 WvHiCOffD\n0.1 WvLowCOffS\n7.0 WvHiCOffS\n";
+  CHECK(deck.scenario().waves.second_order);
+  const decks::Imported whole = deck.import();
+  CHECK(has_word(whole.carried, "waves of second order"));
+  CHECK_FALSE((has_word(whole.left_out, "COff") || has_word(whole.left_out, "QTF")));
+  const auto with = [&](const std::string& file, const std::string& from, const std::string& to) {
+    SmallDeck other = deck;
+    other.replace(file, from, to);
+    const bool bound = other.scenario().waves.second_order;
+    return std::pair{bound, other.import().left_out};
+  };
+  // A band without the pairs of small energy, and one without those of the peak (9 s: 0.7 rad/s).
+  const auto [narrow, told] = with("sea.dat", "7.0 WvHiCOffS", "3.5 WvHiCOffS");
+  CHECK((narrow && has_word(told, "0.1 and 3.5 rad/s (WvLowCOffS, WvHiCOffS)")));
+  struct Case {
+    std::string file, from, to, said;
+  };
+  for (const Case& c :
+       {Case{"sea.dat", "7.0 WvHiCOffS", "1.2 WvHiCOffS",
+             "(WvDiffQTF, WvSumQTF): its cut-offs leave out pairs of the spectrum's peak"},
+        Case{"sea.dat", "True WvSumQTF", "False WvSumQTF", "(WvDiffQTF): a scene has those at sums and differences together"},
+        Case{"sea.dat", "True WvDiffQTF", "False WvDiffQTF", "(WvSumQTF): a scene has"},
+        Case{"sea.dat", "2 WaveMod", "1 WaveMod", "waves of WaveMod 1 have none in the scene"},
+        Case{"hd.dat", "0 PotMod", "1 PotMod", "the sea is potential flow"},
+        Case{"sea.dat", "True WvDiffQTF", "1 WaveDirMod\n2 WaveDirSpread\n90 WaveDirRange\nTrue WvDiffQTF",
+             "the sea is short-crested"}}) {
+    CAPTURE(c.to);
+    const auto [bound, left_out] = with(c.file, c.from, c.to);
+    CHECK_FALSE(bound);
+    CHECK(has_word(left_out, c.said));
+  }
+  for (const auto& [from, to] : {std::pair{"7.0 WvHiCOffS", "-7.0 WvHiCOffS"}, std::pair{"True WvSumQTF", "maybe WvSumQTF"}}) {
+    SmallDeck other = deck;
+    other.replace("sea.dat", from, to);
+    CHECK(other.refusal().find("sea.dat:") != std::string::npos);
+  }
+}
+
 TEST_CASE("an elevation in time of the deck is the scene's sea", "[import][fast]") {
   SmallDeck deck;
   deck.replace("sea.dat", "1 WaveMod", "5 WaveMod\n\"measured\" WvKinFile");
