@@ -48,14 +48,38 @@ rate_deg_s = 0.5
 stiffness_N_m_rad = 2e10
 damping_N_m_s_rad = 2e9
 """
+SPRING, DAMPER, INERTIA = 1e8, 1e7, 2.4e8   # that hold the spar in yaw, and its own
+AFLOAT = SCENE[:SCENE.index("[bodies.tower]")] + SCENE[SCENE.index("[bodies.nacelle]"):SCENE.index("[joints.foot]")] + f"""
+[start]
+equilibrium = true
+[environment]
+water_depth_m = 300.0
+[sea]
+model = "hydrostatic"
+[[sea.matrices]]
+body = "spar"
+point_m = [0.0, 0.0, -20.0]
+stiffness = [[2e5, 0, 0, 0, 0, 0], [0, 2e5, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, {SPRING}]]
+damping = [[5e5, 0, 0, 0, 0, 0], [0, 5e5, 0, 0, 0, 0], [0, 0, 5e5, 0, 0, 0], [0, 0, 0, 5e8, 0, 0], [0, 0, 0, 0, 5e8, 0], [0, 0, 0, 0, 0, {DAMPER}]]
+[bodies.spar]
+mass_kg = {1025.0 * numpy.pi * 36.0 * 120.0 - 674000.0}
+inertia_kg_m2 = [2e10, 2e10, {INERTIA}]
+centre_m = [0.0, 0.0, -85.0]
+[[bodies.spar.cylinders]]
+name = "hull"
+start_m = [0.0, 0.0, -120.0]
+end_m = [0.0, 0.0, 12.0]
+diameter_m = 12.0
+""" + SCENE[SCENE.index("[joints.yaw_bearing]"):].replace('["tower", "nacelle"]', '["spar", "nacelle"]')
+TURNING = "time_s,speed_m_s,direction_deg\n0,9,0\n20,9,0\n60,9,30\n1000,9,30\n"
 STEP = "time_s,speed_m_s,direction_deg\n0,9,0\n20,9,0\n20.5,9,{0}\n1000,9,{0}\n"
 
 
 class Yaw(Folder):
-    def run_scene(self, name, *settings, direction=25.0, text=SCENE, more=(), code=0):
+    def run_scene(self, name, *settings, direction=25.0, wind=STEP, text=SCENE, more=(), code=0):
         scene = self.path / "scene.toml"
         scene.write_text(text)
-        (self.path / "wind.csv").write_text(STEP.format(direction))
+        (self.path / "wind.csv").write_text(wind.format(direction))
         done = spindrift("run", scene, "--out", self.path / name, "--no-report", "--quiet", *more, settings=settings)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return self.path / name / "history.csv" if code == 0 else done.stdout + done.stderr
@@ -99,6 +123,30 @@ class Yaw(Folder):
             name = f"parts{until:g}"
             self.run_scene(name, *settings, text=event, more=("--until", until))
             self.assertEqual(self.run_scene(name, *settings, text=event, more=("--restart",)).read_bytes(), whole.read_bytes())
+
+    def test_a_floater_turns_against_the_drive_that_follows_the_wind(self):
+        settings = ("time.end_s=160.0",)
+        whole = self.run_scene("afloat", *settings, text=AFLOAT, wind=TURNING)
+        h = columns(whole)
+        t, turning, spar = h["time_s"], h["rotor.yaw_rate_deg_s"] != 0.0, h["spar.yaw_deg"]
+        self.assertGreater(h["rotor.yaw_rate_deg_s"].max(), 0.0)
+        self.assertFalse(turning[-1])
+        self.assertLess(numpy.abs(h["rotor.yaw_error_deg"][t > 140.0]).max(), 1.5)   # stopped at half a degree, then the spar swung back
+        self.assertAlmostEqual(h["nacelle.yaw_deg"][-1], 30.0, delta=1.5)
+        # It starts by pushing the spar the other way.
+        first = int(numpy.argmax(turning))
+        self.assertLess((spar[first:first + 15] - spar[first]).min(), -0.01)
+        for axis in ("mx_N_m", "my_N_m", "mz_N_m"):
+            self.assertEqual(numpy.abs(h[f"spar.yaw_drive.{axis}"] + h[f"nacelle.yaw_drive.{axis}"]).max(), 0.0)
+        # The spar's own equation of motion, with the drive's moment the other way round; it leans by some degrees, which is left out.
+        on_spar = INERTIA * h["spar.awz_rad_s2"] + DAMPER * h["spar.wz_rad_s"] + SPRING * numpy.radians(spar)
+        moment = h["rotor.yaw_moment_N_m"]
+        self.assertGreater(numpy.abs(moment).max(), 1.5e6)
+        self.assertLess(numpy.sqrt(numpy.mean((on_spar + moment)**2)), 0.02 * numpy.sqrt(numpy.mean(moment**2)))
+        for until in (41.3, 63.7):
+            name = f"afloat{until:g}"
+            self.run_scene(name, *settings, text=AFLOAT, wind=TURNING, more=("--until", until))
+            self.assertEqual(self.run_scene(name, *settings, text=AFLOAT, wind=TURNING, more=("--restart",)).read_bytes(), whole.read_bytes())
 
     def test_a_controlled_turbine_with_a_bending_tower_turns(self):
         beam = SCENE[:SCENE.index("[bodies.tower]")] + SCENE[SCENE.index("[bodies.nacelle]"):]
