@@ -3,6 +3,9 @@
 
 #include <mpi.h>
 
+#include <unistd.h>
+
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -14,14 +17,22 @@
 #include "src/aero/grid/neutral_map.hpp"
 #include "src/aero/grid/plot3d.hpp"
 #include "src/aero/operation.hpp"
+#include "src/aero/prescribed.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/aero/turbulence_box.hpp"
+#include "src/aero/wind.hpp"
+#include "src/bodies/beam_options.hpp"
 #include "src/import/openfast_parts.hpp"
+#include "src/import/windio.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/machine_failure.hpp"
+#include "src/moorings/bed_file.hpp"
 #include "src/moorings/table_file.hpp"
 #include "src/scene/columns.hpp"
+#include "src/scene/surface_file.hpp"
 #include "src/sea/wamit.hpp"
+#include "src/sea/wave_field.hpp"
+#include "tests/src/import/windio_sample.hpp"
 
 namespace spindrift::testing {
 
@@ -108,6 +119,39 @@ void write_map(Path file) {
   aero::write_neutral_map(grid, file);
 }
 
+/// A corner of a cube, closed.
+constexpr std::array<std::array<std::array<float, 3>, 3>, 4> tetrahedron{{{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}},
+                                                                          {{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}},
+                                                                          {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}},
+                                                                          {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}};
+void read_surface(Path file) {
+  scene::MeshOptions mesh;
+  mesh.file = file;
+  scene::load_surface(mesh);
+}
+void write_stl(Path file) {
+  std::ofstream out(file);
+  out << "solid corner\n";
+  for (const auto& facet : tetrahedron) {
+    out << "facet\nouter loop\n";
+    for (const auto& corner : facet) out << "vertex " << corner[0] << ' ' << corner[1] << ' ' << corner[2] << '\n';
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid\n";
+}
+void write_binary_stl(Path file) {
+  std::ofstream out(file, std::ios::binary);
+  out << std::string(80, ' ');
+  const auto put = [&](const auto& value) { out.write(reinterpret_cast<const char*>(&value), sizeof value); };
+  put(std::uint32_t(tetrahedron.size()));
+  for (const auto& facet : tetrahedron) put(std::array<float, 3>{}), put(facet), put(std::uint16_t(0));
+}
+
+void read_turbine_of_windio(Path file) {
+  const auto folder = std::filesystem::temp_directory_path() / ("spindrift_windio_seed_" + std::to_string(getpid()));
+  decks::import_windio(file, folder);
+}
+
 template <decks::ImportedMoorings read(const decks::Deck&, double, std::vector<std::string>&)>
 void read_lines(Path file) {
   std::vector<std::string> left_out;
@@ -172,6 +216,47 @@ const std::vector<Reader>& readers() {
            "crow Connect 50 0 -60 1000 0.5 0 0 0\n=== LINE PROPERTIES ===\nLine LineType UnstrLen NodeAnch NodeFair Flags\n"
            "() () (m) () () ()\nlong chain 490 bed crow plot\nshort chain 56 crow hull plot\n=== SOLVER OPTIONS ===\nOption\n()\n"
            "repeat 120 240\n")},
+      {"stl", true, read_surface, write_stl, true, ".stl"},
+      {"stl_binary", false, read_surface, write_binary_stl, false, ".stl"},
+      {"bed", true, [](Path f) { (void)moorings::read_bed(f); },
+       text("x_m,y_m,depth_m\n0,0,100\n500,0,120\n0,300,110\n500,300,150\n")},
+      {"beam", true,
+       [](Path f) {
+         bodies::BeamOptions beam;
+         beam.end_m = {0.0, 0.0, 10.0}, beam.properties = f;
+         (void)bodies::read_properties(beam);
+       },
+       text("distance_m,diameter_m,thickness_m\n0,6,0.05\n4,5.5,0.04\n10,5,0.03\n")},
+      {"wind_table", true,
+       [](Path f) {
+         aero::WindOptions wind;
+         wind.table = f;
+         (void)aero::turns(wind);
+       },
+       text("time_s,speed_m_s,direction_deg\n0,8,0\n10,9,5\n20,11,-5\n")},
+      {"load_table", true,
+       [](Path f) {
+         aero::AeroOptions rotor;
+         rotor.table = f, rotor.interpolation = "cubic";
+         (void)aero::Prescribed(rotor);
+       },
+       text("time_s,thrust_N,torque_N_m\n0,1e5,1e6\n10,2e5,2e6\n")},
+      {"elevation", true,
+       [](Path f) {
+         sea::WavesOptions waves;
+         waves.model = "elevation", waves.file = f;
+         (void)sea::WaveField(waves, {});
+       },
+       [](Path f) {
+         std::ofstream out(f);
+         out << "time_s,elevation_m\n";
+         for (int n = 0; n < 24; ++n) out << n << ',' << (n % 8 < 4 ? 1 : -1) * (1 + n % 3) << '\n';
+       }},
+      {"elastodyn", true, [](Path f) { (void)decks::rotor_frame(decks::Deck(f)); },
+       text("ElastoDyn\n3 NumBl\n40 TipRad\n2 HubRad\n-3 PreCone1\n-4 OverHang\n-6 ShftTilt\n2 Twr2Shft\n60 TowerHt\n"
+            "10 TowerBsHt\n10 RotSpeed\n5 PtfmPitch\n3000000 PtfmMass\n50 GBRatio\n95 GBoxEff\n"),
+       true},
+      {"windio", true, read_turbine_of_windio, text(small_turbine), false, ".yaml"},
       {"recording", true, read_recording, write_recording},
       {"checkpoint", false, read_checkpoint, write_checkpoint},
   };
