@@ -42,14 +42,14 @@ ElementState BladeElementMomentum::solve(std::size_t element, double normal_wind
 
 template <class Visit>
 void BladeElementMomentum::for_each_place(const Wind& wind, const DiscMotion& rotor, double t, const Visit& visit) const {
-  const Eigen::Vector3d at_hub = wind.at(t, rotor.hub) - rotor.hub_velocity, side = rotor.axis.cross(rotor.up);
+  const Eigen::Vector3d at_hub = wind.at(t, rotor.hub) - rotor.hub_velocity, side = rotor.ahead(rotor.up);
   const Eigen::Vector3d in_disc = at_hub - at_hub.dot(rotor.axis) * rotor.axis;
   const double across = in_disc.norm(), skew = std::atan2(across, std::abs(at_hub.dot(rotor.axis)));
   const Eigen::Vector3d downstream = across > 0.0 ? Eigen::Vector3d(in_disc / across) : Eigen::Vector3d::Zero();
   std::size_t index = 0;
   for (int b = 0; b < blades_; ++b) {
     const double azimuth = rotor.azimuth + 2.0 * pi * b / blades_;
-    const Eigen::Vector3d out = std::cos(azimuth) * rotor.up + std::sin(azimuth) * side, ahead = rotor.axis.cross(out);
+    const Eigen::Vector3d out = std::cos(azimuth) * rotor.up + std::sin(azimuth) * side, ahead = rotor.ahead(out);
     const double pitch = rotor.pitch(b);
     const BladeAxes axes = rotor.bent ? blade_axes(rotor, out, rotor.bent->precone, pitch) : BladeAxes{};
     for (const Element& e : elements_) {

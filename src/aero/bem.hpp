@@ -60,20 +60,23 @@ struct DiscMotion {
   const Tower* tower = nullptr;                   ///< whose flow the blades meet
   TowerFrame tower_frame = {};
   const BentBlades* bent = nullptr;  ///< rigid without
+  double sense = 1.0;                ///< blades turn about the axis; -1: mirrored ones turn the other way
 
   double pitch(int blade) const { return pitches.empty() ? blade_pitch : pitches[std::size_t(blade)]; }
+  /// Which way a blade along `out` goes.
+  Eigen::Vector3d ahead(const Eigen::Vector3d& out) const { return sense * axis.cross(out); }
 };
 
 /// Direction of blade b of so many from the hub, normal to the axis.
 inline Eigen::Vector3d blade_direction(const DiscMotion& rotor, int b, int blades) {
   const double azimuth = rotor.azimuth + 2.0 * pi * b / blades;
-  return std::cos(azimuth) * rotor.up + std::sin(azimuth) * rotor.axis.cross(rotor.up);
+  return std::cos(azimuth) * rotor.up + std::sin(azimuth) * rotor.ahead(rotor.up);
 }
 
 /// Of a blade that points along `out`.
 inline BladeAxes blade_axes(const DiscMotion& rotor, const Eigen::Vector3d& out, double precone, double pitch) {
   const double c = std::cos(precone), s = std::sin(precone);
-  const Eigen::Vector3d downwind = c * rotor.axis + s * out, ahead = rotor.axis.cross(out);
+  const Eigen::Vector3d downwind = c * rotor.axis + s * out, ahead = rotor.ahead(out);
   return {c * out - s * rotor.axis, std::cos(pitch) * downwind + std::sin(pitch) * ahead,
           std::cos(pitch) * ahead - std::sin(pitch) * downwind};
 }

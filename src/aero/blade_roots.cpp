@@ -72,9 +72,9 @@ void BladeRoots::add_mass_loads(const HubMotion& hub, const Eigen::Vector3d& axi
   }
 }
 
-BladeRootLoad BladeRoots::seen(const Wrench& w, const Eigen::Vector3d& axis, const Eigen::Vector3d& out) {
-  const Eigen::Vector3d ahead = axis.cross(out);
-  return {w.force.dot(axis), w.force.dot(ahead), w.force.dot(out), -w.moment.dot(ahead), w.moment.dot(axis)};
+BladeRootLoad BladeRoots::seen(const Wrench& w, const Eigen::Vector3d& axis, const Eigen::Vector3d& out, double sense) {
+  const Eigen::Vector3d side = axis.cross(out);
+  return {w.force.dot(axis), sense * w.force.dot(side), w.force.dot(out), -w.moment.dot(side), sense * w.moment.dot(axis)};
 }
 
 }  // namespace spindrift::aero

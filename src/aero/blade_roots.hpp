@@ -59,7 +59,8 @@ class BladeRoots {
                       const Eigen::Vector3d& gravity_m_s2, Wrench& wrench, std::span<const MassMotion> bent = {}) const;
   /// Where the masses are, along the blade from the rotor's axis [m]: two to a row of the table.
   static std::vector<double> stations(const BladeMasses& masses);
-  static BladeRootLoad seen(const Wrench& wrench, const Eigen::Vector3d& axis, const Eigen::Vector3d& out);
+  /// `sense`: 1, or -1 of blades that turn against the axis.
+  static BladeRootLoad seen(const Wrench& wrench, const Eigen::Vector3d& axis, const Eigen::Vector3d& out, double sense = 1.0);
 
  private:
   struct Point {

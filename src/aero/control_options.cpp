@@ -261,8 +261,10 @@ void check_library(scene::Document& doc, const ControlOptions& control, int blad
   } catch (const scene::SceneError& e) { doc.problem("control.library", e.what()); }
 }
 
-void check_controller_file(scene::Document& doc, const ControlOptions& control, const std::optional<Operation>& operation) {
-  if (control.file.empty()) return doc.problem("control.file", "must be given: rotor.turbine names no controller");
+void check_controller_file(scene::Document& doc, const ControlOptions& control, const std::optional<Operation>& operation,
+                           const std::string& section) {
+  if (control.file.empty())
+    return doc.problem("control.file", fmt::format("must be given: {}.turbine names no controller", section));
   try {
     const ControllerOptions c = read_controller(control.file);
     if (control.tuning == Tuning::floating && !c.floating_gains)
@@ -277,15 +279,15 @@ void check_controller_file(scene::Document& doc, const ControlOptions& control, 
 }  // namespace
 
 void check_control(scene::Document& doc, const ControlOptions& control, const AeroOptions& aero, const RotorOptions& rotor,
-                   const std::optional<Operation>& operation, int blades) {
+                   const std::optional<Operation>& operation, int blades, const std::string& section) {
   if (!rotor.joint.empty())
-    doc.problem("rotor.joint",
+    doc.problem(section + ".joint",
                 "must be left out with [control]: the drive train turns the rotor within rotor.body, whose mass "
                 "and inertia are those with the rotor");
   if (control.model == ControlModel::library)
     check_library(doc, control, blades);
   else
-    check_controller_file(doc, control, operation);
+    check_controller_file(doc, control, operation, section);
   if (control.peak_shaving && aero.model != "bem")
     doc.problem("control.peak_shaving",
                 fmt::format("needs aero.model = \"bem\": thrust by pitch is that of the blades' sections, not "

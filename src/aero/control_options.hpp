@@ -109,8 +109,8 @@ const scene::Section<ControllerOptions>& controller_section();
 /// Throws scene::SceneError with all that is wrong with the file.
 ControllerOptions read_controller(const std::string& path);
 
-/// Rules with [aero], [rotor] and the files; `operation` is empty where the scene has none.
+/// Rules with [aero], the rotor (of `section`) and the files; `operation` is empty where the scene has none.
 void check_control(scene::Document& document, const ControlOptions& control, const AeroOptions& aero, const RotorOptions& rotor,
-                   const std::optional<Operation>& operation, int blades);
+                   const std::optional<Operation>& operation, int blades, const std::string& section = "rotor");
 
 }  // namespace spindrift::aero

@@ -218,7 +218,7 @@ void FlexibleBlades::advance(double t, double h, const DiscMotion& rotor, const 
   const Vector6 at_end = memory[1] > 0.0 ? Vector6(1.5 * mean - 0.5 * last) : mean;
   const Bending end = predicted(memory, t);
   DiscMotion start = rotor;
-  start.azimuth -= h * rotor.omega.dot(rotor.axis);
+  start.azimuth -= h * rotor.sense * rotor.omega.dot(rotor.axis);
   for (int b = 0; b < blades_; ++b) {
     Row state = row(memory, b);
     const BladeAxes axes = this->axes(rotor, b);

@@ -149,70 +149,96 @@ const scene::Section<AeroOptions>& aero_section() {
   return section;
 }
 
-const scene::Section<RotorOptions>& rotor_section() {
+namespace {
+
+scene::Section<RotorOptions> with_rotor_keys(scene::Section<RotorOptions> section) {
   const std::vector<std::string> no_joint{""};
+  return section.text("body", &RotorOptions::body, "Body that takes the rotor's load.")
+      .text("joint", &RotorOptions::joint, "Joint that is the bearing: its point is the hub, its axis the rotor's, downwind.")
+      .vector("hub_m", &RotorOptions::hub_m, "m", "Hub, initial earth coordinates.")
+      .only_if("joint", no_joint)
+      .vector("axis", &RotorOptions::axis, "-", "Rotor axis, downwind, initial earth frame; any length.")
+      .only_if("joint", no_joint)
+      .choice("operating_point", &RotorOptions::operating_point,
+              {{"given", "speed_rpm, or the driver of the bearing, and blade_pitch_deg"},
+               {"table",
+                "the operating table's for the undisturbed wind at the hub; it takes the place of the bearing's "
+                "speed_rpm"}},
+              "Where rotor speed and blade pitch come from; with [control], those of the start.")
+      .rpm("speed_rpm", &RotorOptions::speed, "Constant rotor speed where no body turns.", scene::between(-1e4, 1e4))
+      .only_if("joint", no_joint)
+      .only_if("operating_point", {"given"})
+      .degrees("azimuth_deg", &RotorOptions::azimuth, "Azimuth of blade 1 at the start; zero is up.",
+               scene::between(-360.0, 360.0))
+      .degrees("blade_pitch_deg", &RotorOptions::blade_pitch, "Blade pitch, positive nose into the wind (towards feather).",
+               scene::between(-180.0, 180.0))
+      .only_if("operating_point", {"given"})
+      .number("diameter_m", &RotorOptions::diameter_m, "m", "Rotor diameter.", scene::positive())
+      .path("turbine", &RotorOptions::turbine, "Turbine file: blades as section tables (inputs/turbines).")
+      .path("operation", &RotorOptions::operation,
+            "CSV file with wind_m_s, speed_rpm and, if any, blade_pitch_deg and power_W: steady operation. Without it that of "
+            "the turbine file, if it names one; else the rotor speed of the scene stands for every wind.")
+      .path("blade_masses", &RotorOptions::blade_masses,
+            "CSV file with span_m (from the rotor axis along the blade) and mass_kg_m: with it the loads at the blades' "
+            "roots are "
+            "written. The rotor's body has that mass already.")
+      .path("blade_structure", &RotorOptions::blade_structure,
+            "CSV file with span_m (from the rotor axis along the blade), mass_kg_m, flap_N_m2, edge_N_m2 (stiffness against "
+            "bending square to the chord and along it) and twist_deg (of the chord, nose into the wind): with it the blades "
+            "bend in three modes, and loads at their roots are written. The rotor's body has their mass already.")
+      .numbers("blade_damping", &RotorOptions::blade_damping, "-",
+               "Structural damping of the blades' modes, first flapwise, first edgewise, second flapwise: ratio to the "
+               "critical one.",
+               scene::between(0.0, 0.5))
+      .size(3, 3)
+      .check(check_axis)
+      .check(check_damping);
+}
+
+}  // namespace
+
+const scene::Section<RotorOptions>& rotor_section() {
   static const auto section =
-      scene::Section<RotorOptions>("rotor", "The rotor: what carries it, how it turns, how large it is.")
-          .text("body", &RotorOptions::body, "Body that takes the rotor's load.")
-          .text("joint", &RotorOptions::joint, "Joint that is the bearing: its point is the hub, its axis the rotor's, downwind.")
-          .vector("hub_m", &RotorOptions::hub_m, "m", "Hub, initial earth coordinates.")
-          .only_if("joint", no_joint)
-          .vector("axis", &RotorOptions::axis, "-", "Rotor axis, downwind, initial earth frame; any length.")
-          .only_if("joint", no_joint)
-          .choice("operating_point", &RotorOptions::operating_point,
-                  {{"given", "speed_rpm, or the driver of the bearing, and blade_pitch_deg"},
-                   {"table",
-                    "the operating table's for the undisturbed wind at the hub; it takes the place of the bearing's "
-                    "speed_rpm"}},
-                  "Where rotor speed and blade pitch come from; with [control], those of the start.")
-          .rpm("speed_rpm", &RotorOptions::speed, "Constant rotor speed where no body turns.", scene::between(-1e4, 1e4))
-          .only_if("joint", no_joint)
-          .only_if("operating_point", {"given"})
-          .degrees("azimuth_deg", &RotorOptions::azimuth, "Azimuth of blade 1 at the start; zero is up.",
-                   scene::between(-360.0, 360.0))
-          .degrees("blade_pitch_deg", &RotorOptions::blade_pitch, "Blade pitch, positive nose into the wind (towards feather).",
-                   scene::between(-180.0, 180.0))
-          .only_if("operating_point", {"given"})
-          .number("diameter_m", &RotorOptions::diameter_m, "m", "Rotor diameter.", scene::positive())
-          .path("turbine", &RotorOptions::turbine, "Turbine file: blades as section tables (inputs/turbines).")
-          .path(
-              "operation", &RotorOptions::operation,
-              "CSV file with wind_m_s, speed_rpm and, if any, blade_pitch_deg and power_W: steady operation. Without it that of "
-              "the turbine file, if it names one; else the rotor speed of the scene stands for every wind.")
-          .path("blade_masses", &RotorOptions::blade_masses,
-                "CSV file with span_m (from the rotor axis along the blade) and mass_kg_m: with it the loads at the blades' "
-                "roots are "
-                "written. The rotor's body has that mass already.")
-          .path("blade_structure", &RotorOptions::blade_structure,
-                "CSV file with span_m (from the rotor axis along the blade), mass_kg_m, flap_N_m2, edge_N_m2 (stiffness against "
-                "bending square to the chord and along it) and twist_deg (of the chord, nose into the wind): with it the blades "
-                "bend in three modes, and loads at their roots are written. The rotor's body has their mass already.")
-          .numbers("blade_damping", &RotorOptions::blade_damping, "-",
-                   "Structural damping of the blades' modes, first flapwise, first edgewise, second flapwise: ratio to the "
-                   "critical one.",
-                   scene::between(0.0, 0.5))
-          .size(3, 3)
-          .check(check_axis)
-          .check(check_damping);
+      with_rotor_keys(scene::Section<RotorOptions>("rotor", "The rotor: what carries it, how it turns, how large it is."));
+  return section;
+}
+
+const scene::Section<RotorOptions>& rotors_section() {
+  static const auto section =
+      with_rotor_keys(scene::Section<RotorOptions>(
+                          "rotors",
+                          "One of several rotors on the same bodies, in place of [rotor]; [aero], [wind] and [control] "
+                          "are for all of them, and each has a controller of its own.")
+                          .named())
+          .choice("turns", &RotorOptions::turns,
+                  {{"clockwise", Turning::clockwise, "about the axis"},
+                   {"counter_clockwise", Turning::counter_clockwise,
+                    "against it, with blades that are mirrored; a bearing that drives it has a negative speed_rpm"}},
+                  "Which way the rotor turns, seen from upwind; speed, azimuth and torque are positive that way.")
+          .vector(
+              "tower_foot_m", &RotorOptions::tower_foot_m, "m",
+              "Earth x and y of the axis of this rotor's own tower at the start, in place of aero.tower.foot_m; each of several "
+              "rotors has it where there is [aero.tower].");
   return section;
 }
 
 void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptions& rotor, std::span<const std::string> bodies,
-                 std::span<const std::string> joints) {
+                 std::span<const std::string> joints, const std::string& section) {
+  const auto own = [&](const char* key) { return section + "." + key; };
   const auto among = [](std::span<const std::string> names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   if (aero.model == "none" && rotor.body.empty()) return;
   if (rotor.body.empty())
-    doc.problem("rotor.body", "must name the body that takes the load of [aero]");
+    doc.problem(own("body"), "must name the body that takes the load of [aero]");
   else if (!among(bodies, rotor.body))
-    doc.problem("rotor.body",
+    doc.problem(own("body"),
                 fmt::format("names body \"{}\", which is not in [bodies]; known: {}", rotor.body, fmt::join(bodies, ", ")));
   if (!rotor.joint.empty() && !among(joints, rotor.joint))
-    doc.problem("rotor.joint",
+    doc.problem(own("joint"),
                 fmt::format("names joint \"{}\", which is not in [joints]; known: {}", rotor.joint, fmt::join(joints, ", ")));
   if (aero.model == "thrust_curve" && !rotor.diameter_m) {
-    doc.problem("rotor.diameter_m", "must be given: aero.model \"thrust_curve\" needs the disc area");
+    doc.problem(own("diameter_m"), "must be given: aero.model \"thrust_curve\" needs the disc area");
     return;
   }
   const auto try_file = [&](const std::string& key, const std::string& path, auto read) {
@@ -221,26 +247,26 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
       } catch (const scene::SceneError& e) { doc.problem(key, e.what()); }
   };
   if (aero.model == "bem" && rotor.turbine.empty())
-    doc.problem("rotor.turbine", "must name a turbine file: aero.model \"bem\" needs the blades");
-  try_file("rotor.turbine", rotor.turbine, [&] {
+    doc.problem(own("turbine"), "must name a turbine file: aero.model \"bem\" needs the blades");
+  try_file(own("turbine"), rotor.turbine, [&] {
     const bool depends = depends_on_reynolds(read_turbine(rotor.turbine));
     if (aero.kinematic_viscosity_m2_s && !depends)
       doc.problem("aero.kinematic_viscosity_m2_s",
                   fmt::format("has no effect: no section of {} has polars at several Reynolds numbers", rotor.turbine));
   });
   if (!rotor.blade_masses.empty() && aero.model != "bem")
-    doc.problem("rotor.blade_masses", "has no effect: only aero.model = \"bem\" knows the loads along a blade");
+    doc.problem(own("blade_masses"), "has no effect: only aero.model = \"bem\" knows the loads along a blade");
   else if (!rotor.turbine.empty())
-    try_file("rotor.blade_masses", rotor.blade_masses,
+    try_file(own("blade_masses"), rotor.blade_masses,
              [&] { read_blade_masses(read_turbine(rotor.turbine), rotor.blade_masses); });
   if (!rotor.blade_structure.empty() && aero.model != "bem")
-    doc.problem("rotor.blade_structure", "has no effect: only aero.model = \"bem\" has blades that bend");
+    doc.problem(own("blade_structure"), "has no effect: only aero.model = \"bem\" has blades that bend");
   else if (!rotor.blade_structure.empty() && !rotor.blade_masses.empty())
-    doc.problem("rotor.blade_masses", "is given beside rotor.blade_structure, which has masses too: one of the two");
+    doc.problem(own("blade_masses"), "is given beside rotor.blade_structure, which has masses too: one of the two");
   else if (!rotor.turbine.empty())
-    try_file("rotor.blade_structure", rotor.blade_structure,
+    try_file(own("blade_structure"), rotor.blade_structure,
              [&] { read_blade_structure(read_turbine(rotor.turbine), rotor.blade_structure); });
-  try_file("rotor.operation", rotor.operation, [&] { read_operation(rotor.operation); });
+  try_file(own("operation"), rotor.operation, [&] { read_operation(rotor.operation); });
   try_file("aero.table", aero.table, [&] { Prescribed model(aero); });
   try_file("aero.curve", aero.curve, [&] { ThrustCurve model(aero, rotor, 1.0); });
 }

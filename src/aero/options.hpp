@@ -1,9 +1,10 @@
-// Options of the rotor and its air at engineering fidelity: [aero], [rotor], and the rules between them.
+// Options of the rotor and its air at engineering fidelity: [aero], [rotor] or [rotors.NAME], and the rules between them.
 // Declared in options.cpp; read by src/app; tested in tests/src/aero/options_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,6 +60,10 @@ struct AeroOptions {
   }
 };
 
+/// Which way a rotor turns, seen from upwind.
+enum class Turning { clockwise, counter_clockwise };
+
+/// [rotor]; [rotors.NAME], which has the last two too.
 struct RotorOptions {
   std::string body;                                 ///< takes the load
   std::string joint;                                ///< the bearing: gives hub, axis and rotation; empty: the next three
@@ -74,13 +79,20 @@ struct RotorOptions {
   std::string blade_masses;               ///< path: mass along the blades, for loads at their roots; empty: not written
   std::string blade_structure;            ///< path: mass and stiffness along blades that bend; empty: rigid
   std::vector<double> blade_damping{0.005, 0.005, 0.005};  ///< of their modes, share of the critical one
+  Turning turns = Turning::clockwise;
+  std::optional<std::array<double, 2>> tower_foot_m;  ///< of its own tower, in place of that of [aero.tower]
+
+  /// About the axis; -1: against it.
+  double sense() const { return turns == Turning::clockwise ? 1.0 : -1.0; }
 };
 
 const scene::Section<AeroOptions>& aero_section();
 const scene::Section<RotorOptions>& rotor_section();
+const scene::Section<RotorOptions>& rotors_section();
 
-/// Rules between sections: the body and joint exist, the rotor has what its model needs, data files are readable.
+/// Rules between sections: the body and joint exist, the rotor has what its model needs, data files are readable. `section`:
+/// the rotor's, "rotor" or "rotors.NAME".
 void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptions& rotor, std::span<const std::string> bodies,
-                 std::span<const std::string> joints);
+                 std::span<const std::string> joints, const std::string& section = "rotor");
 
 }  // namespace spindrift::aero

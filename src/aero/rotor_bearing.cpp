@@ -41,16 +41,17 @@ RotorState RotorBearing::state(std::span<const Motion> bodies, double azimuth, d
   now.axis = body.attitude * axis_;
   now.up = support * support_up_;
   now.omega = body.omega_earth();
+  now.sense = placement_.sense;
   if (!is_turned()) {
     now.speed = speed;
     now.azimuth = whole_turns_off(azimuth);
-    now.omega += now.speed * now.axis;
+    now.omega += now.speed * now.shaft();
     return now;
   }
   const Eigen::Quaterniond since = support.conjugate() * body.attitude * start_turn_.conjugate();
-  now.azimuth = whole_turns_off(start_azimuth_ + 2.0 * std::atan2(since.vec().dot(support_axis_), since.w()));
-  now.speed = now.omega.dot(now.axis);
-  if (*placement_.support != RotorPlacement::earth) now.speed -= bodies[*placement_.support].omega_earth().dot(now.axis);
+  now.azimuth = whole_turns_off(start_azimuth_ + now.sense * 2.0 * std::atan2(since.vec().dot(support_axis_), since.w()));
+  now.speed = now.omega.dot(now.shaft());
+  if (*placement_.support != RotorPlacement::earth) now.speed -= bodies[*placement_.support].omega_earth().dot(now.shaft());
   return now;
 }
 

@@ -20,9 +20,10 @@ struct RotorPlacement {
   std::optional<int> support;  ///< what it turns against (a body or `earth`); without one it turns by [rotor] speed_rpm
   Eigen::Vector3d hub = Eigen::Vector3d::Zero();    ///< earth coordinates [m]
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< downwind, earth frame; normalised on use
+  double sense = 1.0;  ///< it turns about the axis, clockwise seen from upwind; -1: the other way, its blades mirrored
 };
 
-/// Motion of the rotor.
+/// Motion of the rotor. Azimuth and speed are positive the way that its blades are made for.
 struct RotorState {
   double azimuth = 0.0;               ///< of blade 1 from its upright position, in [0, 2 pi) [rad]
   double speed = 0.0;                 ///< [rad/s]
@@ -31,6 +32,12 @@ struct RotorState {
   Eigen::Vector3d omega;              ///< of the blades, earth frame [rad/s]
   double relative_wind = 0.0;         ///< along the axis, relative to the hub [m/s]
   std::vector<double> pitches = {};   ///< of each blade [rad], for air that is not asked by RotorLoads; none: as [rotor] has it
+  double sense = 1.0;                 ///< as RotorPlacement has it
+
+  /// About which it turns.
+  Eigen::Vector3d shaft() const { return sense * axis; }
+  /// Turning of what carries it [rad/s].
+  Eigen::Vector3d carrier_omega() const { return omega - speed * shaft(); }
 
   friend bool operator==(const RotorState&, const RotorState&) = default;
 };

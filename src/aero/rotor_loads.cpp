@@ -17,15 +17,7 @@ double mean(std::span<const double> values) {
   return sum / double(values.size());
 }
 
-TowerFrame tower_frame(const RotorState& now) {
-  return {now.hub, now.axis, now.up, now.hub_velocity, now.omega - now.speed * now.axis};
-}
-
-/// From [rotor], else from the blades; 0 where nothing says.
-double diameter_of(const RotorOptions& rotor) {
-  if (rotor.diameter_m) return *rotor.diameter_m;
-  return rotor.turbine.empty() ? 0.0 : 2.0 * BladeElementMomentum(read_turbine(rotor.turbine), "madsen", 1.0).tip_radius();
-}
+TowerFrame tower_frame(const RotorState& now) { return {now.hub, now.axis, now.up, now.hub_velocity, now.carrier_omega()}; }
 
 /// Steady, in wind along the axis, of a rigid rotor away from its tower.
 AxialLoad steady_load(const BladeElementMomentum& bem, double wind, double speed, double pitch) {
@@ -66,12 +58,17 @@ FlexibleBlades::Bending settled_bending(const BladeElementMomentum& bem, const F
 
 }  // namespace
 
-RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,
+double rotor_diameter(const RotorOptions& rotor) {
+  if (rotor.diameter_m) return *rotor.diameter_m;
+  return rotor.turbine.empty() ? 0.0 : 2.0 * BladeElementMomentum(read_turbine(rotor.turbine), "madsen", 1.0).tip_radius();
+}
+
+RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, Wind wind, double air_density,
                        const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control,
                        double step_s, const Eigen::Vector3d& gravity)
     : bearing_(placement, rotor.azimuth, start),
       start_{rotor.azimuth, rotor.speed, rotor.blade_pitch},
-      wind_(wind_of(wind, {placement.hub, diameter_of(rotor)})),
+      wind_(std::move(wind)),
       gravity_(gravity) {
   if (aero.thrust_frame == "earth") thrust_direction_ = placement.axis.normalized();
   if (aero.model == "prescribed") model_ = Prescribed(aero);
@@ -130,6 +127,7 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
 
 DiscMotion RotorLoads::disc_motion(const RotorState& now, std::span<const double> memory) const {
   DiscMotion motion{now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, start_.pitch, now.hub};
+  motion.sense = now.sense;
   if (control_ && !memory.empty()) motion.pitches = control_->pitch(memory);
   if (tower_ && tower_->changes_wind()) motion.tower = &*tower_, motion.tower_frame = tower_frame(now);
   return motion;
@@ -137,7 +135,7 @@ DiscMotion RotorLoads::disc_motion(const RotorState& now, std::span<const double
 
 HubField RotorLoads::hub_field(const RotorState& now) const {
   HubField field{now.omega, Eigen::Vector3d::Zero(), gravity_};
-  if (!bearing_.is_turned()) field.omega_rate = (now.omega - now.speed * now.axis).cross(Eigen::Vector3d(now.speed * now.axis));
+  if (!bearing_.is_turned()) field.omega_rate = now.carrier_omega().cross(Eigen::Vector3d(now.speed * now.shaft()));
   return field;
 }
 
@@ -187,10 +185,10 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
       reaction = flexible_->reaction(motion, hub_field(now), air->bending, air->on_modes);
     }
     load.force = ramp * disc.force, load.moment = ramp * disc.moment;
-    load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.axis), load.shaft_torque = load.torque;
+    load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.shaft()), load.shaft_torque = load.torque;
     if (flexible_) {
       load.force += ramp * reaction.head<3>(), load.moment += ramp * reaction.tail<3>();
-      load.shaft_torque += ramp * reaction.tail<3>().dot(now.axis);
+      load.shaft_torque += ramp * reaction.tail<3>().dot(now.shaft());
     }
   } else {
     AxialLoad axial;
@@ -198,7 +196,7 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
     if (const auto* prescribed = std::get_if<Prescribed>(&model_)) axial = (*prescribed)(t, now.azimuth);
     if (const auto* curve = std::get_if<ThrustCurve>(&model_)) axial = (*curve)(now.relative_wind, now.speed, pitch);
     load.thrust = ramp * axial.thrust, load.torque = ramp * axial.torque, load.shaft_torque = load.torque;
-    load.force = load.thrust * thrust_direction_.value_or(now.axis), load.moment = load.torque * now.axis;
+    load.force = load.thrust * thrust_direction_.value_or(now.axis), load.moment = load.torque * now.shaft();
   }
   load.power = load.torque * now.speed;
   if (tower_) {
@@ -212,9 +210,8 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
 /// On the body act the shaft's torque in place of that on the rotor (`torque`, ramped), and the gyroscopic moment of the spinning
 /// rotor.
 void RotorLoads::add_drive(const RotorState& now, double torque, double ramp, Eigen::Vector3d& moment) const {
-  if (!memory_.empty()) moment += (ramp * TurbineControl::state(memory_).shaft_torque - torque) * now.axis;
-  const Eigen::Vector3d carrier = now.omega - now.speed * now.axis;
-  moment -= carrier.cross(Eigen::Vector3d(control_->drive_train().rotor_inertia_kg_m2 * now.speed * now.axis));
+  if (!memory_.empty()) moment += (ramp * TurbineControl::state(memory_).shaft_torque - torque) * now.shaft();
+  moment -= now.carrier_omega().cross(Eigen::Vector3d(control_->drive_train().rotor_inertia_kg_m2 * now.speed * now.shaft()));
 }
 
 void RotorLoads::add_air_load(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, const HubLoad& air,
@@ -222,7 +219,7 @@ void RotorLoads::add_air_load(double t, std::span<const Motion> bodies, std::spa
   Eigen::Vector3d moment = ramp * air.moment;
   if (control_) {
     const RotorState now = state(t, bodies);
-    add_drive(now, moment.dot(now.axis), ramp, moment);
+    add_drive(now, moment.dot(now.shaft()), ramp, moment);
   }
   bearing_.add_load(bodies, wrenches, ramp * air.force, moment);
 }
@@ -239,7 +236,7 @@ std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Moti
   const RotorState now = state(t, bodies);
   const Eigen::Vector3d arm = now.hub - body.position, turning = body.omega_earth();
   HubMotion hub{acceleration + omega_rate.cross(arm) + turning.cross(turning.cross(arm)), now.omega, omega_rate};
-  if (!bearing_.is_turned()) hub.omega_rate += turning.cross(Eigen::Vector3d(now.speed * now.axis));
+  if (!bearing_.is_turned()) hub.omega_rate += turning.cross(Eigen::Vector3d(now.speed * now.shaft()));
   const AirLoad& air = air_load(t, now);
   DiscMotion disc = disc_motion(now, memory_);
   const int blades = int(roots_->blades());
@@ -258,20 +255,20 @@ std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Moti
       moved = flexible_->mass_motions(disc, b, field, beyond, air.bending, air.on_modes);
     }
     roots_->add_mass_loads(hub, now.axis, out, gravity, w, moved);
-    loads.push_back(BladeRoots::seen(w, now.axis, out));
+    loads.push_back(BladeRoots::seen(w, now.axis, out, now.sense));
   }
   return loads;
 }
 
 TurbineControl::Measured RotorLoads::measured(double t, const RotorState& now) const {
-  TurbineControl::Measured m{.torque = air_moment_ ? air_moment_(t).dot(now.axis) : load(t, now).shaft_torque,
+  TurbineControl::Measured m{.torque = air_moment_ ? air_moment_(t).dot(now.shaft()) : load(t, now).shaft_torque,
                              .wind = now.relative_wind};
   if (flexible_ && !memory_.empty()) {
     const Eigen::Matrix3d turning = flexible_->added_mass(disc_motion(now, memory_)).bottomRightCorner<3, 3>();
     m.bending_inertia = -now.axis.dot(turning * now.axis);
   }
   if (!control_->library()) return m;
-  const Eigen::Vector3d wind = wind_.at(t, now.hub), up = Eigen::Vector3d::UnitZ(), carrier = now.omega - now.speed * now.axis;
+  const Eigen::Vector3d wind = wind_.at(t, now.hub), up = Eigen::Vector3d::UnitZ(), carrier = now.carrier_omega();
   Eigen::Vector3d along(now.axis.x(), now.axis.y(), 0.0);
   along = along.norm() > 0.0 ? Eigen::Vector3d(along.normalized()) : Eigen::Vector3d::UnitX();
   Eigen::Matrix3d nacelle;  // rows: downwind, left, up

@@ -45,11 +45,14 @@ inline double relative_wind(const Wind& wind, double t, const Eigen::Vector3d& h
   return (wind.at(t, hub) - hub_velocity).dot(axis);
 }
 
+/// From [rotor], else from the blades; 0 where nothing says [m].
+double rotor_diameter(const RotorOptions& rotor);
+
 class RotorLoads {
  public:
   /// `start`: initial motions of all bodies, in the order of every later call; `step_s`: of the bodies. Data files have been
   /// checked (check_rotor); throws scene::SceneError where one cannot be read.
-  RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density_kg_m3,
+  RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, Wind wind, double air_density_kg_m3,
              const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control = {},
              double step_s = 0.0, const Eigen::Vector3d& gravity_m_s2 = Eigen::Vector3d::Zero());
 

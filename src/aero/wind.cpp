@@ -196,20 +196,24 @@ class WindInTime {
                       hub_wind, site_.hub.z());
         break;
       case TurbulenceModel::kaimal: {
-        const double side = o.width_m.value_or(1.1 * site_.diameter);
+        const double round = 1.1 * site_.diameter, width = o.width_m.value_or(round + site_.across),
+                     height = o.width_m.value_or(round + site_.up);
         const double sigma = o.extreme ? iec::sigma_extreme(hub_wind, o.reference_intensity, 0.2 * o.reference_wind_m_s)
                                        : iec::sigma_normal(hub_wind, o.reference_intensity);
-        box_ = kaimal_box({o.points_across, o.points_up, side, side, o.duration_s, o.step_s, hub_wind, site_.hub.z(),
+        box_ = kaimal_box({o.points_across, o.points_up, width, height, o.duration_s, o.step_s, hub_wind, site_.hub.z(),
                            o.sigma_m_s.value_or(sigma), std::uint64_t(o.seed)});
         break;
       }
     }
-    const double radius = 0.5 * site_.diameter;
-    if (0.5 * box_.width() < radius || box_.bottom > site_.hub.z() - radius || box_.top() < site_.hub.z() + radius)
+    const double radius = 0.5 * site_.diameter, above = radius + 0.5 * site_.up;
+    if (0.5 * box_.width() < radius + 0.5 * site_.across || box_.bottom > site_.hub.z() - above ||
+        box_.top() < site_.hub.z() + above)
       refuse("",
-             fmt::format("the box is {:.4g} m wide and goes from z = {:.4g} to {:.4g} m: it does not cover the rotor of {:.4g} m "
-                         "at {:.4g} m",
-                         box_.width(), box_.bottom, box_.top(), site_.diameter, site_.hub.z()));
+             fmt::format(
+                 "the box is {:.4g} m wide and goes from z = {:.4g} to {:.4g} m: it does not cover the rotor{} of {:.4g} m "
+                 "at {:.4g} m{}",
+                 box_.width(), box_.bottom, box_.top(), site_.across + site_.up > 0.0 ? "s" : "", site_.diameter, site_.hub.z(),
+                 site_.across > 0.0 ? fmt::format(", whose hubs are {:.4g} m apart across the wind", site_.across) : ""));
   }
 
   double speed_, direction_, start_ = 0.0;

@@ -45,8 +45,9 @@ inline WindProfile wind_profile(const WindOptions& wind) {
 
 /// Where the rotor is and how large: what gusts and boxes are made for.
 struct WindSite {
-  Eigen::Vector3d hub = Eigen::Vector3d::Zero();  ///< at the start [m]
-  double diameter = 0.0;                          ///< [m]
+  Eigen::Vector3d hub = Eigen::Vector3d::Zero();  ///< at the start; of several the middle [m]
+  double diameter = 0.0;                          ///< of several the largest [m]
+  double across = 0.0, up = 0.0;                  ///< of several, from hub to hub at most, across the wind and upwards [m]
 };
 
 /// Throws scene::SceneError where a file cannot be read, or a box does not cover the rotor or (t_end) the run.

@@ -43,14 +43,25 @@ namespace {
 
 using coupling::FloatingSystem;
 
+/// Of a source of load "rotor.a": "rotor a".
+std::string spoken(std::string name) {
+  std::ranges::replace(name, '.', ' ');
+  return name;
+}
+
 void print_models(const FloatingSystem& floating) {
   const coupling::Scenario& s = floating.scenario();
   fmt::print("\nWhat will be modelled\n");
-  fmt::print("  {:<10}{}\n", "bodies", coupling::describe_bodies(s));
-  fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
-  if (s.has_rotor() && s.aero.model != "prescribed") fmt::print("  {:<10}{}\n", "wind", aero::describe_wind(s.wind));
-  fmt::print("  {:<10}{}\n", "sea", coupling::describe_sea(s));
-  fmt::print("  {:<10}{}\n", "moorings", coupling::describe_moorings(s));
+  std::size_t width = 10;
+  for (const FloatingSystem::Rotor& rotor : floating.rotors()) width = std::max(width, rotor.name.size() + 2);
+  const auto print = [width](const std::string& what, const std::string& how) { fmt::print("  {:<{}}{}\n", what, width, how); };
+  print("bodies", coupling::describe_bodies(s));
+  const std::vector<coupling::Scenario> each = coupling::by_rotor(s);
+  if (each.empty()) print("rotor", coupling::describe_rotor(s));
+  for (std::size_t n = 0; n < each.size(); ++n) print(spoken(floating.rotors()[n].name), coupling::describe_rotor(each[n]));
+  if (s.has_rotor() && s.aero.model != "prescribed") print("wind", aero::describe_wind(s.wind));
+  print("sea", coupling::describe_sea(s));
+  print("moorings", coupling::describe_moorings(s));
 }
 
 /// Of a sea of particles: how many, how large, how long. Nothing of it is made but a list of places.
@@ -186,16 +197,22 @@ void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& stat
   }
 }
 
-void print_blade_modes(const FloatingSystem& floating) {
-  if (!floating.rotor() || !floating.rotor()->flexible()) return;
-  const aero::FlexibleBlades& blades = *floating.rotor()->flexible();
-  const double speed = floating.scenario().rotor.speed;
+void print_blade_modes(const coupling::Scenario& one, const FloatingSystem::Rotor& rotor) {
+  if (!rotor.loads.flexible()) return;
+  const aero::FlexibleBlades& blades = *rotor.loads.flexible();
+  const double speed = one.rotor.speed;
   const auto hertz = [](const auto& omega) {
     return fmt::format("{:.3f}, {:.3f}, {:.3f} Hz", omega[0] / (2.0 * pi), omega[1] / (2.0 * pi), omega[2] / (2.0 * pi));
   };
-  fmt::print("\nBlades of {:.0f} kg bend with {} at rest", blades.mass(), hertz(blades.omega()));
+  fmt::print("\nBlades {}of {:.0f} kg bend with {} at rest", one.rotors.empty() ? "" : "of " + spoken(rotor.name) + " ",
+             blades.mass(), hertz(blades.omega()));
   if (speed != 0.0) fmt::print(", {} at {:.2f} rpm", hertz(blades.omega_turning(speed)), speed / rad_s_per_rpm);
   fmt::print(" (held hub)\n");
+}
+
+void print_all_blade_modes(const FloatingSystem& floating) {
+  const std::vector<coupling::Scenario> each = coupling::by_rotor(floating.scenario());
+  for (std::size_t n = 0; n < each.size(); ++n) print_blade_modes(each[n], floating.rotors()[n]);
 }
 
 void print_modes(const FloatingSystem& floating, const bodies::Linearisation& linearisation) {
@@ -232,10 +249,10 @@ void print_modes(const FloatingSystem& floating, const bodies::Linearisation& li
 /// Blank where there is none.
 std::string hertz(double f) { return f > 0.0 ? fmt::format("{:.4f}", f) : "-"; }
 
-void print_campbell(FloatingSystem& floating, const coupling::Start& start, const bodies::Linearisation& linearisation) {
-  const double speed = floating.rotor()->state(0.0, start.state.motions).speed;
-  const coupling::Campbell c = campbell(floating.scenario(), linearisation, speed);
-  fmt::print("\nFrequencies [Hz]: rotor, waves and platform (wind and most probable waves by sea state after Lee et al. 1985)\n");
+/// Of these rotors, "rotor" or "rotors a, b".
+void print_frequencies(const std::string& rotors, const coupling::Campbell& c) {
+  fmt::print("\nFrequencies [Hz]: {}, waves and platform (wind and most probable waves by sea state after Lee et al. 1985)\n",
+             rotors);
   fmt::print("  {:<14}{:>10}{:>10}{:>10}{:>10}{:>10}   within {:.0f} %\n", "", "wind m/s", "height m", "waves", "1P", "3P",
              100.0 * coupling::close);
   for (const coupling::CampbellRow& row : c.rows) {
@@ -245,12 +262,36 @@ void print_campbell(FloatingSystem& floating, const coupling::Start& start, cons
     fmt::print("\n");
   }
   for (double wind : c.meets_waves_m_s) fmt::print("  1P meets the most probable waves at a wind of {:.1f} m/s\n", wind);
+}
+
+/// The rotor's, or one table for all rotors that turn alike.
+void print_all_frequencies(const FloatingSystem& floating, const coupling::Start& start,
+                           const bodies::Linearisation& linearisation) {
+  std::vector<std::pair<std::string, coupling::Campbell>> tables;
+  const std::vector<coupling::Scenario> each = coupling::by_rotor(floating.scenario());
+  for (std::size_t n = 0; n < each.size(); ++n) {
+    const FloatingSystem::Rotor& rotor = floating.rotors()[n];
+    coupling::Campbell c = campbell(each[n], linearisation, rotor.loads.state(0.0, start.state.motions).speed);
+    const auto alike = std::ranges::find_if(tables, [&](const auto& table) {
+      return std::ranges::equal(table.second.rows, c.rows, {}, &coupling::CampbellRow::once, &coupling::CampbellRow::once);
+    });
+    if (alike == tables.end())
+      tables.emplace_back(spoken(rotor.name), std::move(c));
+    else
+      alike->first += ", " + spoken(rotor.name);
+  }
+  for (const auto& [rotors, c] : tables) print_frequencies(rotors, c);
+}
+
+void print_coupling(FloatingSystem& floating, const coupling::Start& start, const bodies::Linearisation& linearisation) {
   if (floating.scenario().coupling.scheme == coupling::SchemeKind::monolithic) {
     fmt::print(
         "\nCoupling of rotor and platform: monolithic; the rotor answers in every evaluation of the bodies, nothing lags\n");
     return;
   }
 
+  const double speed = floating.rotor()->state(0.0, start.state.motions).speed;
+  const coupling::Campbell c = campbell(floating.scenario(), linearisation, speed);
   const coupling::FullLoads full(floating);
   const coupling::LooseVerdict verdict = loose_verdict(floating, start.state, c, linearisation);
   if (verdict.schemes.empty()) {
@@ -485,8 +526,8 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
     for (const std::string& note : coupling::resolution_notes(floating)) fmt::print("  note: {}\n", note);
     print_doubts(angles, coupling::doubts(floating, start, stability));
-    if (floating.rotor() && !start.state.motions.empty()) print_rotor_at_start(floating, start);
-    if (!start.state.motions.empty()) print_modes(floating, stability.linearisation), print_blade_modes(floating);
+    if (floating.rotor() && !start.state.motions.empty()) print_rotors_at_start(floating, start);
+    if (!start.state.motions.empty()) print_modes(floating, stability.linearisation), print_all_blade_modes(floating);
   }
   require_limits(floating, start.state, stability);
   if (world.rank != 0) return done;
@@ -497,7 +538,10 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size, base);
     return done;
   }
-  if (floating.rotor()) print_campbell(floating, start, stability.linearisation);
+  if (floating.rotor()) {
+    print_all_frequencies(floating, start, stability.linearisation);
+    print_coupling(floating, start, stability.linearisation);
+  }
   const auto equilibrium_now = [&] {
     const coupling::MeanLoads mean(floating);
     return find_equilibrium(floating.multibody(), start.state, 0.0);

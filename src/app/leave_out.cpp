@@ -47,9 +47,9 @@ struct Choice {
 };
 
 /// Those of these keys that the scene gives, as one override that takes them away; nothing where it gives none.
-Overrides without(const scene::Document& document, std::initializer_list<const char*> keys) {
+Overrides without(const scene::Document& document, const std::vector<std::string>& keys) {
   std::string list;
-  for (const char* key : keys)
+  for (const std::string& key : keys)
     if (document.given(key)) list += fmt::format("{}\"{}\"", list.empty() ? "" : ",", key);
   if (list.empty()) return {};
   return {"without=[" + list + "]"};
@@ -108,10 +108,16 @@ const std::vector<Choice>& choices() {
       {"thrust curve for blades",
        [](const Scenario& s, const scene::Document& document) -> Overrides {
          if (s.aero.model != "bem" || s.rotor.operation.empty()) return {};
-         return without(document, {"aero.induction", "aero.dynamic_inflow", "aero.inflow_time_s", "aero.dynamic_stall",
-                                   "aero.speed_of_sound_m_s", "aero.kinematic_viscosity_m2_s", "rotor.blade_structure"}) +
-                Overrides{"aero.model=thrust_curve", fmt::format("aero.curve=\"{}\"", s.rotor.operation),
-                          fmt::format("rotor.diameter_m={}", 2.0 * aero::read_turbine(s.rotor.turbine).planform.span.back())};
+         std::vector<std::string> of_blades{"aero.induction",     "aero.dynamic_inflow",     "aero.inflow_time_s",
+                                            "aero.dynamic_stall", "aero.speed_of_sound_m_s", "aero.kinematic_viscosity_m2_s"};
+         Overrides curve{"aero.model=thrust_curve", fmt::format("aero.curve=\"{}\"", s.rotor.operation)};
+         for (const Scenario& one : coupling::by_rotor(s)) {
+           if (one.rotor.operation != s.rotor.operation) return {};  // one curve is for all rotors
+           of_blades.push_back(one.rotor_section + ".blade_structure");
+           curve.push_back(fmt::format("{}.diameter_m={}", one.rotor_section,
+                                       2.0 * aero::read_turbine(one.rotor.turbine).planform.span.back()));
+         }
+         return without(document, of_blades) + curve;
        }},
       {"no gyroscopic moments",
        [](const Scenario& s, const scene::Document&) -> Overrides {
@@ -271,11 +277,11 @@ std::vector<std::string> unlike_the_run(const ReadyScene& scene, double length_s
                               run.deviation, unit, trial.mean, trial.deviation));
   };
   if (s.has_rotor() && !s.wind.steady()) {
-    const aero::WindSite site = coupling::wind_site(s);
-    const aero::Wind wind = wind_of(s.wind, site);
+    const aero::Wind& wind = scene.floating->rotor()->wind();
     const Eigen::Vector3d along(std::cos(s.wind.direction), std::sin(s.wind.direction), 0.0);
-    compare("wind at the hub", "m/s", [&](double time) { return wind.at(time, site.hub).dot(along); });
-    compare("wind across", "m/s", [&](double time) { return wind.at(time, site.hub).cross(along).norm(); });
+    const Eigen::Vector3d hub = coupling::placed_rotor(s).rotor.hub_m;
+    compare("wind at the hub", "m/s", [&](double time) { return wind.at(time, hub).dot(along); });
+    compare("wind across", "m/s", [&](double time) { return wind.at(time, hub).cross(along).norm(); });
   }
   if (s.has_given_waves() && scene.floating->sea())
     compare("surface of the sea", "m", [&](double time) { return scene.floating->sea()->elevation(0.0, 0.0, time); });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
@@ -34,6 +35,11 @@ std::string load_model(const coupling::Scenario& s) {
   return s.aero.model == "thrust_curve" ? "the thrust curve" : "as prescribed";
 }
 
+/// "Rotor", or of [rotors.a] "Rotor a".
+std::string heading(const coupling::Scenario& s) {
+  return s.rotors.empty() ? "Rotor" : "Rotor " + s.rotor_section.substr(s.rotor_section.find('.') + 1);
+}
+
 std::string of_table(const aero::Operation& table, const Working& now, bool compares) {
   const aero::OperatingPoint point = table.at(now.wind);
   std::string text = fmt::format("{:.4g} rpm", point.speed / rad_s_per_rpm);
@@ -48,7 +54,7 @@ std::string of_table(const aero::Operation& table, const Working& now, bool comp
 }
 
 void print(const coupling::Scenario& s, const Working& now) {
-  fmt::print("\nRotor at the start\n  {:<22}{:.4g} rpm", "speed", now.speed / rad_s_per_rpm);
+  fmt::print("\n{} at the start\n  {:<22}{:.4g} rpm", heading(s), "speed", now.speed / rad_s_per_rpm);
   if (now.pitch) fmt::print(", blades at {:.4g} degrees", *now.pitch / radians_per_degree);
   const bool blown = s.aero.model != "prescribed" && now.wind > 0.0;
   if (blown) fmt::print(", wind of {:.4g} m/s at the hub", now.wind);
@@ -68,12 +74,8 @@ void print(const coupling::Scenario& s, const Working& now) {
     fmt::print("  {:<22}{}\n", "operating table", of_table(aero::read_operation(s.rotor.operation), now, now.has_power));
 }
 
-}  // namespace
-
-void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::Start& start) {
-  const coupling::Scenario& s = floating.scenario();
-  const coupling::FullLoads full(floating);
-  const aero::RotorLoads& rotor = *floating.rotor();
+/// `s`: the scene with this rotor alone.
+void print_at_start(const coupling::Scenario& s, const aero::RotorLoads& rotor, const coupling::Start& start) {
   const aero::RotorState state = rotor.state(0.0, start.state.motions);
   const aero::RotorLoad load = rotor.load(0.0, state);
   Working now{.wind = aero::relative_wind(rotor.wind(), 0.0, state.hub, Eigen::Vector3d::Zero(), state.axis),
@@ -95,6 +97,14 @@ void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::St
         "m/s blades are pitched farther, by up to {:.3g} degrees\n",
         "peak shaving", 1e-3 * shaving->limit, *s.control.peak_shaving, 1e-3 * shaving->largest, shaving->largest_at,
         shaving->from, shaving->to, shaving->farthest / radians_per_degree);
+}
+
+}  // namespace
+
+void print_rotors_at_start(coupling::FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::FullLoads full(floating);
+  const std::vector<coupling::Scenario> each = coupling::by_rotor(floating.scenario());
+  for (std::size_t n = 0; n < each.size(); ++n) print_at_start(each[n], floating.rotors()[n].loads, start);
 }
 
 void print_rotor_at_start(const coupling::Scenario& s) {

@@ -8,8 +8,8 @@
 
 namespace spindrift::app {
 
-/// Of a rotor that bodies carry.
-void print_rotor_at_start(coupling::FloatingSystem& floating, const coupling::Start& start);
+/// Of rotors that bodies carry.
+void print_rotors_at_start(coupling::FloatingSystem& floating, const coupling::Start& start);
 /// Of one that stands in resolved air.
 void print_rotor_at_start(const coupling::Scenario& scenario);
 

@@ -18,7 +18,7 @@ namespace {
 /// The bodies' own steps, one after the other.
 class Steps final : public BodySide {
  public:
-  explicit Steps(FloatingSystem& floating) : floating_(floating), rotor_radius_(rotor_radius(floating.scenario())) {}
+  explicit Steps(FloatingSystem& floating) : floating_(floating) {}
   void prepare(const bodies::BodiesState& from, std::int64_t end_tick) override { state_ = from, end_ = end_tick; }
   Tasks record(runtime::Graph& graph) override {
     graph.task("bodies/steps", {runtime::updates(graph.datum())}, [this] { advance(); });
@@ -42,12 +42,11 @@ class Steps final : public BodySide {
         else
           failure_ = floating_.multibody().failure(report, state_, tick_s);
       } catch (const NumericalFailure& failure) { failure_ = failure; }  // of what remembers: a line
-    if (!failure_) failure_ = out_of_place(floating_, state_, rotor_radius_);
+    if (!failure_) failure_ = out_of_place(floating_, state_);
     own_ns_ += runtime::Clock::now_ns() - begin;
   }
 
   FloatingSystem& floating_;
-  double rotor_radius_;
   std::optional<NumericalFailure> failure_;
   bodies::BodiesState state_;
   std::int64_t end_ = 0;

@@ -41,7 +41,7 @@ struct Campbell {
   std::vector<std::pair<std::string, double>> platform;  ///< name and frequency [Hz] of the modes that oscillate
   std::vector<double> meets_waves_m_s;                   ///< winds at which 1P crosses the waves of the sea states
 };
-/// `speed`: the scene's own rotor speed [rad/s].
+/// `scenario`: one of by_rotor; `speed`: its rotor's own [rad/s].
 Campbell campbell(const Scenario& scenario, const bodies::Linearisation& linearisation, double speed);
 
 /// Part of a load going as exp(i omega t) that a scheme's assumption misses, at its worst within a window.

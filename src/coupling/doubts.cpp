@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "kernels/rigid/closed_surface.hpp"
 #include "src/aero/doubts.hpp"
@@ -190,8 +191,7 @@ double rated_wind(const aero::RotorOptions& rotor) {
 
 /// Gains of a fixed foundation above rated wind, on a turbine that pitches more slowly than they act (Larsen & Hanson 2007, J.
 /// Phys.: Conf. Ser. 75, 012073). The modes, whose rotor keeps speed and pitch, do not show it.
-void doubt_tuning(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
-  const Scenario& s = floating.scenario();
+void doubt_tuning(scene::Doubts& doubts, const Scenario& s, const Stability& stability) {
   if (s.control.model != aero::ControlModel::dtu || s.control.tuning != aero::Tuning::fixed_foundation) return;
   if (s.wind.speed_m_s < rated_wind(s.rotor)) return;
   constexpr double fast_s = 12.0;  // the gains answer within some 10 to 17 s
@@ -205,9 +205,10 @@ void doubt_tuning(scene::Doubts& doubts, const FloatingSystem& floating, const S
 }
 
 /// A motion that a flexible beam takes part in, and that the blades meet once or three times a turn.
-void doubt_resonance(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start, const Stability& stability) {
-  if (!floating.rotor() || floating.beams().empty()) return;
-  const double turns = std::abs(floating.rotor()->state(0.0, start.state.motions).speed) / (2.0 * pi);
+void doubt_resonance(scene::Doubts& doubts, const FloatingSystem& floating, const aero::RotorLoads& rotor, const Start& start,
+                     const Stability& stability) {
+  if (floating.beams().empty()) return;
+  const double turns = std::abs(rotor.state(0.0, start.state.motions).speed) / (2.0 * pi);
   constexpr double close = 0.05, light = 0.1, rigid_Hz = 0.1;  // floats swing slower than rigid_Hz
   for (const bodies::Mode& mode : stability.linearisation.modes) {
     const double f = std::abs(mode.eigenvalue) / (2.0 * pi);
@@ -386,16 +387,17 @@ void doubt_rotor_body(scene::Doubts& doubts, const Scenario& s, const aero::Roto
   }
 }
 
-void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start) {
-  const Scenario& s = floating.scenario();
-  const aero::RotorState now = floating.rotor()->state(0.0, start.state.motions);
+/// One of the rotors, by the scene with it alone.
+void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const Scenario& s, const FloatingSystem::Rotor& of,
+                 const Start& start) {
+  const aero::RotorState now = of.loads.state(0.0, start.state.motions);
   aero::RotorAtStart rotor{
       .hub = now.hub, .axis = now.axis, .speed = now.speed, .speed_key = speed_key(s), .over_water = s.has_sea()};
   rotor.parked = s.is_controlled() && s.control.start == aero::ControlStart::parked;
-  rotor.radius = rotor_radius(s);
-  if (s.aero.model != "blade_resolved") rotor.reynolds = floating.rotor()->reynolds(0.0, now);
+  rotor.radius = of.radius;
+  if (s.aero.model != "blade_resolved") rotor.reynolds = of.loads.reynolds(0.0, now);
   if (!s.resolves_air()) {
-    const aero::RotorLoad load = floating.rotor()->load(0.0, now);
+    const aero::RotorLoad load = of.loads.load(0.0, now);
     rotor.thrust = load.thrust;
     if (s.aero.model == "bem" || load.torque != 0.0) rotor.power = load.power;
     if (const double carried = weight(floating); carried > 0.0 && std::abs(load.thrust) > 0.5 * carried)
@@ -416,6 +418,52 @@ void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const St
   doubt_turn(doubts, s, rotor.speed);
   doubt_cells(doubts, s, rotor.radius);
   doubt_run_of_rotor(doubts, s, rotor.speed);
+}
+
+/// Of each rotor, by the scene with it alone: what is said of one stands under its own section, what is said of all of them once.
+template <class Find>
+void doubt_rotors(scene::Doubts& doubts, const FloatingSystem& floating, const Find& find) {
+  const std::vector<Scenario> each = by_rotor(floating.scenario());
+  for (std::size_t n = 0; n < each.size(); ++n) {
+    scene::Doubts found;
+    find(found, each[n], floating.rotors()[n]);
+    for (scene::Doubt& doubt : found) {
+      if (doubt.key == "rotor" || doubt.key.starts_with("rotor.")) doubt.key.replace(0, 5, each[n].rotor_section);
+      const auto same = [&](const scene::Doubt& other) { return other.key == doubt.key && other.what == doubt.what; };
+      if (std::ranges::none_of(doubts, same)) doubts.push_back(doubt);
+    }
+  }
+}
+
+/// Rotors that would touch, and those in the wake of others, which no engineering model has: wakes spread by about a tenth of the
+/// way (Jensen 1983, Risoe-M-2411, with a wake decay of 0.1).
+void doubt_wakes(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start) {
+  constexpr double spreading = 0.1, reach = 20.0;  // diameters behind which a wake has mostly recovered
+  const std::vector<Scenario> each = by_rotor(floating.scenario());
+  for (std::size_t n = 0; n < each.size(); ++n)
+    for (std::size_t m = 0; m < each.size(); ++m) {
+      if (m == n) continue;
+      const FloatingSystem::Rotor &rotor = floating.rotors()[n], &other = floating.rotors()[m];
+      const aero::RotorState at = rotor.loads.state(0.0, start.state.motions),
+                             ahead = other.loads.state(0.0, start.state.motions);
+      const Eigen::Vector3d from = at.hub - ahead.hub;
+      if (n > m && from.norm() < rotor.radius + other.radius && std::abs(from.dot(at.axis)) < 0.1 * rotor.radius)
+        doubts.push_back(
+            {each[n].rotor_section,
+             fmt::format("hubs of {} and {} are {:.4g} m apart", each[m].rotor_section, each[n].rotor_section, from.norm()),
+             fmt::format("more than {:.4g} m, the two radii together", rotor.radius + other.radius),
+             "blades would meet: look at the hubs' places"});
+      const Eigen::Vector3d wind = rotor.loads.wind().at(0.0, ahead.hub);
+      if (floating.scenario().aero.model == "prescribed" || wind.norm() == 0.0) continue;
+      const double behind = from.dot(wind.normalized()), aside = (from - behind * wind.normalized()).norm();
+      if (behind > 0.5 * other.radius && behind < 2.0 * reach * other.radius &&
+          aside < rotor.radius + other.radius + spreading * behind)
+        doubts.push_back({each[n].rotor_section,
+                          fmt::format("{:.4g} m behind {} in the wind, {:.4g} m aside: in its wake, which is not modelled",
+                                      behind, each[m].rotor_section, aside),
+                          fmt::format("more than {:.4g} m aside there", rotor.radius + other.radius + spreading * behind),
+                          "each rotor meets the undisturbed wind: its thrust and power are those without the other"});
+    }
 }
 
 /// A window in which the fastest motion has come and gone: rotor and bodies, which exchange loads once a window, miss it.
@@ -455,7 +503,10 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), in_sea));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
   if (s.has_sea()) doubt_damping(all, s);
-  if (floating.rotor() && !s.rotor.turbine.empty()) append(all, aero::turbine_doubts(s.rotor.turbine));
+  std::set<std::string> turbines;
+  for (const Scenario& one : by_rotor(s))
+    if (!one.rotor.turbine.empty() && turbines.insert(one.rotor.turbine).second)
+      append(all, aero::turbine_doubts(one.rotor.turbine));
   doubt_times(all, floating);
   return all;
 }
@@ -471,13 +522,19 @@ std::vector<Motion> described_starts(const FloatingSystem& floating) {
 scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability) {
   scene::Doubts all = plain_doubts(floating, start.state.motions);
   const FullLoads full(floating);
-  if (floating.rotor()) doubt_rotor(all, floating, start);
+  using Rotor = FloatingSystem::Rotor;
+  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario& s, const Rotor& rotor) {
+    doubt_rotor(found, floating, s, rotor, start);
+  });
   if (start.state.motions.empty()) return all;
+  doubt_wakes(all, floating, start);
   doubt_acceleration(all, floating, start);
   doubt_modes(all, floating, stability);
-  doubt_tuning(all, floating, stability);
+  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario& s, const Rotor&) { doubt_tuning(found, s, stability); });
   doubt_statics(all, floating, start);
-  doubt_resonance(all, floating, start, stability);
+  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario&, const Rotor& rotor) {
+    doubt_resonance(found, floating, rotor.loads, start, stability);
+  });
   doubt_length(all, floating, stability);
   doubt_window(all, floating, stability);
   return all;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/floating_system.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/trace/clock.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/bodies/extent.hpp"
 #include "src/bodies/loads.hpp"
+#include "src/coupling/flow_scene.hpp"
 #include "src/moorings/bed_file.hpp"
 
 namespace spindrift::coupling {
@@ -24,10 +27,13 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
   return it == names.end() ? -1 : int(it - names.begin());
 }
 
-/// From the bearing, whose second body is the one that turns, or from [rotor] itself where it names none.
+/// From the bearing, whose second body is the one that turns, or from the rotor's section where it names none.
 aero::RotorPlacement place_rotor(const Scenario& s, const std::vector<std::string>& bodies) {
-  aero::RotorPlacement placement{
-      .body = index_of(bodies, s.rotor.body), .support = {}, .hub = s.rotor.hub_m, .axis = s.rotor.axis};
+  aero::RotorPlacement placement{.body = index_of(bodies, s.rotor.body),
+                                 .support = {},
+                                 .hub = s.rotor.hub_m,
+                                 .axis = s.rotor.axis,
+                                 .sense = s.rotor.sense()};
   for (const auto& [name, joint] : s.joints)
     if (name == s.rotor.joint) {
       const bool second = joint.bodies[1] == s.rotor.body;
@@ -38,9 +44,27 @@ aero::RotorPlacement place_rotor(const Scenario& s, const std::vector<std::strin
   return placement;
 }
 
+/// One wind for all rotors, each of which meets it at its own place: gusts and boxes are made for the middle of their hubs.
+aero::WindSite site_of(std::span<const Scenario> each, std::span<const aero::RotorPlacement> placements) {
+  aero::WindSite site{placements.front().hub, aero::rotor_diameter(each.front().rotor)};
+  if (each.size() == 1) return site;
+  const double direction = each.front().wind.direction;
+  Eigen::Matrix3d axes;  // rows: along the wind, across, up
+  axes << std::cos(direction), std::sin(direction), 0.0, -std::sin(direction), std::cos(direction), 0.0, 0.0, 0.0, 1.0;
+  Eigen::AlignedBox3d hubs;
+  for (std::size_t n = 0; n < each.size(); ++n) {
+    hubs.extend(axes * placements[n].hub);
+    site.diameter = std::max(site.diameter, aero::rotor_diameter(each[n].rotor));
+  }
+  site.hub = axes.transpose() * hubs.center();
+  site.across = hubs.sizes().y(), site.up = hubs.sizes().z();
+  return site;
+}
+
 /// Resolved air is estimated by blade elements, where the turbine has what they need.
 aero::AeroOptions engineering_rung(const Scenario& s) {
   aero::AeroOptions aero = s.aero;
+  if (aero.tower && s.rotor.tower_foot_m) aero.tower->foot_m = *s.rotor.tower_foot_m;
   if (s.resolves_air()) aero.model = aero::read_turbine(s.rotor.turbine).polars.empty() ? "none" : "bem";
   return aero;
 }
@@ -175,33 +199,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
           [this](double t, double, std::span<const Motion> m, std::span<double> memory) { sea_->remember(t, m, memory); }};
     sources.add(std::move(source), on);
   }
-  if (s.has_rotor()) {
-    rotor_.emplace(engineering_rung(s), s.rotor, s.wind, s.environment.air_density_kg_m3, place_rotor(s, names), start, s.control,
-                   timeline_.tick_s(), s.environment.gravity());
-    std::vector<bool> on(names.size());
-    on[std::size_t(index_of(names, s.rotor.body))] = true;
-    bodies::LoadSource source{"rotor",
-                              [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
-                                if (rotor_elsewhere_)
-                                  rotor_elsewhere_(t, m, w);
-                                else if (mean_loads_)
-                                  rotor_->add_mean_loads(t, m, w);
-                                else
-                                  rotor_->add_loads(t, m, w, ramp(t));
-                              },
-                              {}};
-    if (rotor_->flexible())
-      source.added_mass = [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
-        if (!mean_loads_) rotor_->add_added_mass(t, m, a);
-      };
-    if (rotor_->memory_size() > 0)
-      source.memory = {
-          rotor_->memory_size(),
-          [this](double t, std::span<const Motion> m, std::span<double> memory) { rotor_->begin(t, m, memory); },
-          [this](std::span<const double> memory) { rotor_->recall(memory); },
-          [this](double t, double h, std::span<const Motion> m, std::span<double> memory) { rotor_->remember(t, h, m, memory); }};
-    sources.add(std::move(source), on);
-  }
+  add_rotors(names, start);
   if (s.control.yaw) {
     yaw_.emplace(*s.control.yaw, s.joints, s.bodies);
     std::vector<bool> on(names.size());
@@ -211,13 +209,58 @@ FloatingSystem::FloatingSystem(Scenario scenario)
         "yaw_drive", [this](double t, std::span<const Motion> m, std::span<Wrench> w) { yaw_->add_loads(t, m, w); }, {}};
     source.memory = {
         YawDrive::memory_size,
-        [this](double t, std::span<const Motion> m, std::span<double> memory) { yaw_->begin(t, *rotor_, m, memory); },
+        [this](double t, std::span<const Motion> m, std::span<double> memory) { yaw_->begin(t, *rotor(), m, memory); },
         [this](std::span<const double> memory) { yaw_->recall(memory); },
-        [this](double t, double, std::span<const Motion> m, std::span<double> memory) { yaw_->remember(t, *rotor_, m, memory); }};
+        [this](double t, double, std::span<const Motion> m, std::span<double> memory) {
+          yaw_->remember(t, *rotor(), m, memory);
+        }};
     sources.add(std::move(source), on);
   }
   multibody_ = std::make_unique<bodies::System>(std::move(bodies), std::move(joints), sources.take(), s.time.integrator);
   loads_changed();
+}
+
+void FloatingSystem::add_rotors(const std::vector<std::string>& bodies, std::span<const Motion> start) {
+  const Scenario& s = scenario_;
+  const std::vector<Scenario> each = by_rotor(s);
+  if (each.empty()) return;
+  std::vector<aero::RotorPlacement> placements;
+  for (const Scenario& one : each) placements.push_back(place_rotor(one, bodies));
+  const aero::Wind wind = aero::wind_of(s.wind, site_of(each, placements));
+  for (std::size_t n = 0; n < each.size(); ++n) {
+    const Scenario& one = each[n];
+    const std::string name = s.rotors.empty() ? "rotor" : "rotor." + s.rotors[n].name;
+    aero::RotorLoads& rotor =
+        rotors_
+            .emplace_back(Rotor{name,
+                                rotor_radius(one),
+                                {engineering_rung(one), one.rotor, wind, s.environment.air_density_kg_m3, placements[n], start,
+                                 s.control, timeline_.tick_s(), s.environment.gravity()}})
+            .loads;
+    std::vector<bool> on(bodies.size());
+    on[rotor.bearing().body()] = true;
+    bodies::LoadSource source{name,
+                              [this, &rotor](double t, std::span<const Motion> m, std::span<Wrench> w) {
+                                if (rotor_elsewhere_)
+                                  rotor_elsewhere_(t, m, w);
+                                else if (mean_loads_)
+                                  rotor.add_mean_loads(t, m, w);
+                                else
+                                  rotor.add_loads(t, m, w, ramp(t));
+                              },
+                              {}};
+    if (rotor.flexible())
+      source.added_mass = [this, &rotor](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
+        if (!mean_loads_) rotor.add_added_mass(t, m, a);
+      };
+    if (rotor.memory_size() > 0)
+      source.memory = {
+          rotor.memory_size(),
+          [&rotor](double t, std::span<const Motion> m, std::span<double> memory) { rotor.begin(t, m, memory); },
+          [&rotor](std::span<const double> memory) { rotor.recall(memory); },
+          [&rotor](double t, double h, std::span<const Motion> m, std::span<double> memory) { rotor.remember(t, h, m, memory); }};
+    sources.add(std::move(source), on);
+  }
 }
 
 void FloatingSystem::replace_rotor_loads(RotorLoadFunction loads, const aero::RotorLoad* written) {

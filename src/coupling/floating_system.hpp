@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -36,16 +37,24 @@ class FloatingSystem {
   const std::optional<moorings::Moorings>& moorings() const { return moorings_; }
   /// Of a scene with particles: its hydrostatics, which statics and linearisation use, where its shapes are cylinders.
   const std::optional<sea::EngineeringSea>& sea() const { return sea_; }
-  /// Where the rotor is, and its loads by the engineering model; of a resolved rotor by blade element momentum on the same
-  /// blades, for estimates (static equilibrium, linearisation, `check`).
-  const std::optional<aero::RotorLoads>& rotor() const { return rotor_; }
+  /// Where a rotor is, and its loads by the engineering model; of a resolved rotor by blade element momentum on the same blades,
+  /// for estimates (static equilibrium, linearisation, `check`).
+  struct Rotor {
+    std::string name;  ///< of its source of load and its columns: "rotor", or "rotor.NAME" of [rotors.NAME]
+    double radius;     ///< as rotor_radius has it [m]
+    aero::RotorLoads loads;
+  };
+  /// In the order of by_rotor(scenario()).
+  const std::deque<Rotor>& rotors() const { return rotors_; }
+  /// The first of them, which is the only one where a coupling window or resolved air asks; null where there is none.
+  const aero::RotorLoads* rotor() const { return rotors_.empty() ? nullptr : &rotors_.front().loads; }
 
   /// Empty where nothing turns the nacelle.
   const std::optional<YawDrive>& yaw() const { return yaw_; }
 
   /// Whether rotor and bodies are parts of a window that exchange data by a scheme; else the rotor, if there is one, loads the
   /// bodies as they go.
-  bool has_interface() const { return rotor_.has_value() && scenario_.coupling.scheme != SchemeKind::monolithic; }
+  bool has_interface() const { return !rotors_.empty() && scenario_.coupling.scheme != SchemeKind::monolithic; }
 
   /// Bodies take the rotor's load from `loads` instead of asking the rotor as they go, and history has it from `written`, where
   /// they are given. For coupling windows.
@@ -53,11 +62,11 @@ class FloatingSystem {
   void replace_rotor_loads(RotorLoadFunction loads, const aero::RotorLoad* written = nullptr);
   /// The air's moment that turns the rotor where the scene has control, as aero::RotorLoads::turn_by has it.
   void turn_rotor_by(aero::RotorLoads::AirMoment moment) {
-    if (rotor_) rotor_->turn_by(std::move(moment));
+    if (!rotors_.empty()) rotors_.front().loads.turn_by(std::move(moment));
   }
   /// The rotor's load as history has it: what a coupling window wrote here, else that of its state.
-  aero::RotorLoad written_rotor_load(double t, const aero::RotorState& now) const {
-    return rotor_written_ ? rotor_written_->times(ramp_after_air(t)) : rotor_->load(t, now, ramp(t));
+  aero::RotorLoad written_rotor_load(const aero::RotorLoads& rotor, double t, const aero::RotorState& now) const {
+    return rotor_written_ ? rotor_written_->times(ramp_after_air(t)) : rotor.load(t, now, ramp(t));
   }
 
   /// Of a scene with particles, before any is made.
@@ -74,8 +83,8 @@ class FloatingSystem {
   double ramp(double t) const;
   /// Its parts in a coupling window: what the air's side answers has the first. A drive train is turned by the whole of it, and
   /// the second goes on what the bodies feel.
-  double ramp_of_air(double t) const { return rotor_->control() ? 1.0 : ramp(t); }
-  double ramp_after_air(double t) const { return rotor_->control() ? ramp(t) : 1.0; }
+  double ramp_of_air(double t) const { return rotor()->control() ? 1.0 : ramp(t); }
+  double ramp_after_air(double t) const { return rotor()->control() ? ramp(t) : 1.0; }
   /// Until told otherwise loads are ramped; the statics and stability ask for their full value (FullLoads below).
   void use_full_loads(bool full) { full_loads_ = full, loads_changed(); }
   /// For the statics: loads at their full mean value. The water is still but for its current, the wind is without gusts and
@@ -88,6 +97,7 @@ class FloatingSystem {
 
  private:
   const sea::EngineeringSea& sea_now() const { return mean_loads_ && still_sea_ ? *still_sea_ : *sea_; }
+  void add_rotors(const std::vector<std::string>& bodies, std::span<const Motion> start);
   /// To be called when anything that loads depend on, besides time and motions, has changed.
   void loads_changed();
 
@@ -96,7 +106,7 @@ class FloatingSystem {
   std::vector<bodies::Beam> beams_;
   std::optional<moorings::Moorings> moorings_;
   std::optional<sea::EngineeringSea> sea_;
-  std::optional<aero::RotorLoads> rotor_;
+  std::deque<Rotor> rotors_;
   std::optional<YawDrive> yaw_;
   RotorLoadFunction rotor_elsewhere_;
   const aero::RotorLoad* rotor_written_ = nullptr;

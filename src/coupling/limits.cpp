@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -112,22 +113,33 @@ void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState
   }
 }
 
+/// Of all rotors on a body.
+struct BladesCarried {
+  int blades = 0;
+  double mass = 0.0;  ///< [kg]
+};
+
 void require_bending_blades(const FloatingSystem& floating) {
-  if (!floating.rotor() || !floating.rotor()->flexible()) return;
-  const aero::FlexibleBlades& blades = *floating.rotor()->flexible();
-  const Scenario& s = floating.scenario();
-  constexpr double per_step = 1.0;  // radians of the fastest mode: amplitudes go on as parabolas within a step
-  const double fastest = blades.omega_turning(s.rotor.speed).back(), step = s.time.step();
-  if (step * fastest > per_step)
-    refuse(floating, "time.step_s", fmt::format("{}", step),
-           fmt::format("is too long for blades whose fastest mode has {:.3g} Hz (rotor.blade_structure): at most {:.3g} s",
-                       fastest / (2.0 * pi), per_step / fastest));
-  const double mass = blades.blades() * blades.mass();
-  for (const auto& body : s.bodies)
-    if (body.name == s.rotor.body && body.options.mass_kg < mass)
-      refuse(floating, "bodies." + body.name + ".mass_kg", fmt::format("{}", body.options.mass_kg),
-             fmt::format("must be more than that of the {} blades it carries, {:.4g} kg by rotor.blade_structure",
-                         blades.blades(), mass));
+  const std::vector<Scenario> each = by_rotor(floating.scenario());
+  std::map<std::string, BladesCarried> carried;  // by body
+  for (std::size_t n = 0; n < each.size(); ++n) {
+    const aero::FlexibleBlades* blades = floating.rotors()[n].loads.flexible();
+    if (!blades) continue;
+    const Scenario& s = each[n];
+    constexpr double per_step = 1.0;  // radians of the fastest mode: amplitudes go on as parabolas within a step
+    const double fastest = blades->omega_turning(s.rotor.speed).back(), step = s.time.step();
+    if (step * fastest > per_step)
+      refuse(floating, "time.step_s", fmt::format("{}", step),
+             fmt::format("is too long for blades whose fastest mode has {:.3g} Hz ({}.blade_structure): at most {:.3g} s",
+                         fastest / (2.0 * pi), s.rotor_section, per_step / fastest));
+    BladesCarried& all = carried[s.rotor.body];
+    all.blades += blades->blades(), all.mass += blades->blades() * blades->mass();
+    for (const auto& body : s.bodies)
+      if (body.name == s.rotor.body && body.options.mass_kg < all.mass)
+        refuse(floating, "bodies." + body.name + ".mass_kg", fmt::format("{}", body.options.mass_kg),
+               fmt::format("must be more than that of the {} blades it carries, {:.4g} kg by {}.blade_structure", all.blades,
+                           all.mass, s.rotor_section));
+  }
 }
 
 void require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability) {

@@ -10,8 +10,18 @@
 
 namespace spindrift::coupling {
 
-std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, const bodies::BodiesState& state,
-                                             double rotor_radius_m) {
+namespace {
+
+/// "rotor", or "rotor a".
+std::string spoken(const FloatingSystem::Rotor& rotor) {
+  std::string name = rotor.name;
+  std::ranges::replace(name, '.', ' ');
+  return name;
+}
+
+}  // namespace
+
+std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, const bodies::BodiesState& state) {
   const Scenario& s = floating.scenario();
   if (!s.has_sea() || s.has_particles()) return {};
   const double t = double(state.tick) * floating.timeline().tick_s(), bed = -s.environment.water_depth_m;
@@ -27,16 +37,16 @@ std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, con
                       t, name, bed - r.low, bed, most),
           "bodies." + name, long(state.tick), t, most);
   }
-  if (!floating.rotor()) return {};
-  const aero::RotorState now = floating.rotor()->state(t, state.motions);
-  const double low = now.hub.z() - rotor_radius_m * std::sqrt(std::max(0.0, 1.0 - now.axis.z() * now.axis.z()));
-  const double surface = floating.sea() ? floating.sea()->elevation(now.hub.x(), now.hub.y(), t) : 0.0;
-  if (low < surface)
-    return NumericalFailure(
-        fmt::format("t = {:.4g} s: the rotor reaches {:.4g} m into the water: its hub is at z = {:.4g} m, the "
-                    "surface there at {:.4g} m; look at the hub's height and at what holds the machine up",
-                    t, surface - low, now.hub.z(), surface),
-        "rotor", long(state.tick), t, 0.0);
+  for (const FloatingSystem::Rotor& rotor : floating.rotors()) {
+    const aero::RotorState now = rotor.loads.state(t, state.motions);
+    const double low = now.hub.z() - rotor.radius * std::sqrt(std::max(0.0, 1.0 - now.axis.z() * now.axis.z()));
+    const double surface = floating.sea() ? floating.sea()->elevation(now.hub.x(), now.hub.y(), t) : 0.0;
+    if (low < surface)
+      return NumericalFailure(fmt::format("t = {:.4g} s: the {} reaches {:.4g} m into the water: its hub is at z = {:.4g} m, the "
+                                          "surface there at {:.4g} m; look at the hub's height and at what holds the machine up",
+                                          t, spoken(rotor), surface - low, now.hub.z(), surface),
+                              rotor.name, long(state.tick), t, 0.0);
+  }
   return {};
 }
 

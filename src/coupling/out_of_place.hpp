@@ -11,7 +11,6 @@ namespace spindrift::coupling {
 /// What is out of place at the state's time, beside a sea without particles: a body in the bed, which carries nothing, by more
 /// than a tenth of its size; a rotor in the water, whose blades know air alone. Tested in
 /// tests/src/coupling/out_of_place_test.cpp.
-std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, const bodies::BodiesState& state,
-                                             double rotor_radius_m);
+std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, const bodies::BodiesState& state);
 
 }  // namespace spindrift::coupling

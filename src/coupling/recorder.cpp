@@ -37,22 +37,7 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
     energy_.emplace(history, "energy.", energy_columns());
     for (const bodies::LoadSource& source : loads) works_.emplace_back(history, "energy." + source.name + ".", work_columns());
   }
-  if (floating.rotor()) {
-    rotor_.emplace(history, "rotor.", rotor_columns());
-    hub_.emplace(history, "rotor.", hub_columns());
-    wind_.emplace(history, "rotor.", wind_columns());
-  }
-  if (const aero::TurbineControl* control = floating.rotor() ? floating.rotor()->control() : nullptr) {
-    drive_.emplace(history, "rotor.", drive_columns());
-    if (control->has_elastic_shaft()) shaft_.emplace(history, "rotor.", shaft_columns());
-    for (std::size_t blade = 1; blade <= control->blades(); ++blade)
-      pitches_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", pitch_columns());
-  }
-  if (floating.yaw()) yaw_.emplace(history, "rotor.", yaw_columns());
-  for (std::size_t blade = 1; floating.rotor() && blade <= floating.rotor()->roots(); ++blade)
-    roots_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", root_columns());
-  for (std::size_t blade = 1; floating.rotor() && floating.rotor()->flexible() && blade <= floating.rotor()->roots(); ++blade)
-    tips_.emplace_back(history, "rotor.blade_" + std::to_string(blade) + ".", tip_columns());
+  for (const FloatingSystem::Rotor& rotor : floating.rotors()) declare_rotor(history, rotor);
   if (floating.moorings())
     for (std::size_t line = 0; line < floating.moorings()->size(); ++line) {
       const std::string prefix = floating.moorings()->name(line) + ".";
@@ -64,6 +49,50 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
     junctions_.emplace_back(history, floating.moorings()->junction_name(j) + ".", junction_columns());
   if (floating.scenario().has_given_waves()) waves_.emplace(history, "waves.", wave_columns());
   if (floating.particle_plan()) declare_particles(history);
+}
+
+void Recorder::declare_rotor(io::History& history, const FloatingSystem::Rotor& rotor) {
+  const std::string prefix = rotor.name + ".";
+  const auto of_blade = [&](std::size_t blade) { return prefix + "blade_" + std::to_string(blade) + "."; };
+  Rotor& columns = rotors_.emplace_back(
+      Rotor{{history, prefix, rotor_columns()}, {history, prefix, hub_columns()}, {history, prefix, wind_columns()}});
+  if (const aero::TurbineControl* control = rotor.loads.control()) {
+    columns.drive.emplace(history, prefix, drive_columns());
+    if (control->has_elastic_shaft()) columns.shaft.emplace(history, prefix, shaft_columns());
+    for (std::size_t blade = 1; blade <= control->blades(); ++blade)
+      columns.pitches.emplace_back(history, of_blade(blade), pitch_columns());
+  }
+  if (floating_.yaw()) yaw_.emplace(history, prefix, yaw_columns());
+  for (std::size_t blade = 1; blade <= rotor.loads.roots(); ++blade)
+    columns.roots.emplace_back(history, of_blade(blade), root_columns());
+  for (std::size_t blade = 1; rotor.loads.flexible() && blade <= rotor.loads.roots(); ++blade)
+    columns.tips.emplace_back(history, of_blade(blade), tip_columns());
+}
+
+void Recorder::fill_rotor(std::span<double> row, const Rotor& columns, const aero::RotorLoads& rotor,
+                          const bodies::BodiesState& state, const bodies::Evaluation& now, double t) const {
+  const aero::RotorState turned = rotor.state(t, state.motions);
+  columns.load.fill(
+      row, {floating_.written_rotor_load(rotor, t, turned), turned.azimuth / radians_per_degree, turned.speed / rad_s_per_rpm});
+  columns.hub.fill(row, turned);
+  columns.wind.fill(row, rotor.wind().at(t, turned.hub));
+  if (columns.drive) {
+    const aero::RotorLoads::Drive drive = rotor.drive();
+    columns.drive->fill(row, drive);
+    if (columns.shaft) columns.shaft->fill(row, drive);
+    for (std::size_t blade = 0; blade < columns.pitches.size(); ++blade) columns.pitches[blade].fill(row, drive.pitch[blade]);
+  }
+  if (!columns.roots.empty()) {
+    const std::size_t b = rotor.bearing().body();
+    const std::vector<aero::BladeRootLoad> of_roots =
+        rotor.root_loads(t, state.motions, now.acceleration[b], now.angular_acceleration[b],
+                         floating_.scenario().environment.gravity(), floating_.ramp(t));
+    for (std::size_t blade = 0; blade < columns.roots.size(); ++blade) columns.roots[blade].fill(row, of_roots[blade]);
+  }
+  if (!columns.tips.empty()) {
+    const std::vector<Eigen::Vector2d> tips = rotor.tips(t, state.motions);
+    for (std::size_t blade = 0; blade < columns.tips.size(); ++blade) columns.tips[blade].fill(row, tips[blade]);
+  }
 }
 
 void Recorder::declare_particles(io::History& history) {
@@ -127,30 +156,8 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     for (std::size_t s = 0; s < works_.size(); ++s) works_[s].fill(row, work[s]);
     energy_->fill(row, {floating_.multibody().kinetic_energy(state), work.subspan(works_.size())});
   }
-  if (floating_.rotor()) {
-    const aero::RotorState rotor = floating_.rotor()->state(t, state.motions);
-    rotor_->fill(row, {floating_.written_rotor_load(t, rotor), rotor.azimuth / radians_per_degree, rotor.speed / rad_s_per_rpm});
-    hub_->fill(row, rotor);
-    wind_->fill(row, floating_.rotor()->wind().at(t, rotor.hub));
-    if (drive_) {
-      const aero::RotorLoads::Drive drive = floating_.rotor()->drive();
-      drive_->fill(row, drive);
-      if (shaft_) shaft_->fill(row, drive);
-      for (std::size_t blade = 0; blade < pitches_.size(); ++blade) pitches_[blade].fill(row, drive.pitch[blade]);
-    }
-  }
+  for (std::size_t n = 0; n < rotors_.size(); ++n) fill_rotor(row, rotors_[n], floating_.rotors()[n].loads, state, now, t);
   if (yaw_) yaw_->fill(row, floating_.yaw()->reading(t, *floating_.rotor(), state.motions));
-  if (!roots_.empty()) {
-    const std::size_t b = floating_.rotor()->bearing().body();
-    const std::vector<aero::BladeRootLoad> of_roots =
-        floating_.rotor()->root_loads(t, state.motions, now.acceleration[b], now.angular_acceleration[b],
-                                      floating_.scenario().environment.gravity(), floating_.ramp(t));
-    for (std::size_t blade = 0; blade < roots_.size(); ++blade) roots_[blade].fill(row, of_roots[blade]);
-  }
-  if (!tips_.empty()) {
-    const std::vector<Eigen::Vector2d> tips = floating_.rotor()->tips(t, state.motions);
-    for (std::size_t blade = 0; blade < tips_.size(); ++blade) tips_[blade].fill(row, tips[blade]);
-  }
   if (floating_.moorings()) {
     const std::vector<moorings::LineTension> tensions = floating_.moorings()->tensions(state.motions);
     for (std::size_t line = 0; line < moorings_.size(); ++line) {

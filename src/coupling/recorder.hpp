@@ -34,6 +34,18 @@ class Recorder {
     std::size_t source, body;
     Group<Wrench> columns;
   };
+  struct Rotor {
+    Group<RotorRow> load;
+    Group<aero::RotorState> hub;
+    Group<Eigen::Vector3d> wind;
+    std::optional<Group<aero::RotorLoads::Drive>> drive, shaft;
+    std::vector<Group<double>> pitches;
+    std::vector<Group<aero::BladeRootLoad>> roots;
+    std::vector<Group<Eigen::Vector2d>> tips;
+  };
+  void declare_rotor(io::History& history, const FloatingSystem::Rotor& rotor);
+  void fill_rotor(std::span<double> row, const Rotor& columns, const aero::RotorLoads& rotor, const bodies::BodiesState& state,
+                  const bodies::Evaluation& now, double t) const;
   void declare_particles(io::History& history);
   void fill_particles(std::span<double> row, std::span<const Motion> motions, double t) const;
 
@@ -45,14 +57,8 @@ class Recorder {
   std::optional<Group<double>> constraints_;
   std::optional<Group<EnergyRow>> energy_;
   std::vector<Group<double>> works_;  ///< by source of load
-  std::optional<Group<RotorRow>> rotor_;
-  std::optional<Group<aero::RotorState>> hub_;
-  std::optional<Group<Eigen::Vector3d>> wind_;
-  std::optional<Group<aero::RotorLoads::Drive>> drive_, shaft_;
+  std::vector<Rotor> rotors_;
   std::optional<Group<YawDrive::Reading>> yaw_;
-  std::vector<Group<double>> pitches_;
-  std::vector<Group<aero::BladeRootLoad>> roots_;
-  std::vector<Group<Eigen::Vector2d>> tips_;
   std::vector<Group<moorings::LineTension>> moorings_;
   std::vector<std::optional<Group<moorings::LineTension>>> anchors_;  ///< of dynamic lines
   std::vector<Group<LineEnd>> junctions_;

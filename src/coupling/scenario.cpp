@@ -107,26 +107,29 @@ double hub_height(const Scenario& s) {
   return s.rotor.hub_m.z();
 }
 
-/// Rotor speed and blade pitch of the operating table, into [rotor] or the driver of its bearing.
+/// Rotor speed and blade pitch of the operating table, into the rotor's section or the driver of its bearing.
 void take_operating_point(scene::Document& document, Scenario& s) {
   if (s.rotor.operating_point != "table") return;
+  const std::string& own = s.rotor_section;
   if (s.rotor.operation.empty())
-    return document.problem("rotor.operating_point", "is \"table\", but neither rotor.operation nor rotor.turbine names one");
+    return document.problem(own + ".operating_point",
+                            fmt::format("is \"table\", but neither {0}.operation nor {0}.turbine names one", own));
   const aero::Operation table = aero::read_operation(s.rotor.operation);
   if (table.pitch.empty())
-    return document.problem("rotor.operation", "has no column blade_pitch_deg, which rotor.operating_point \"table\" needs");
+    return document.problem(own + ".operation",
+                            fmt::format("has no column blade_pitch_deg, which {}.operating_point \"table\" needs", own));
   const aero::OperatingPoint point = table.at(s.wind.speed_m_s * aero::wind_profile(s.wind).share(hub_height(s)));
   s.rotor.speed = point.speed, s.rotor.blade_pitch = point.pitch;
   for (auto& [name, joint] : s.joints) {
     if (name != s.rotor.joint) continue;
     if (!joint.rotation)
-      return document.problem("rotor.operating_point",
+      return document.problem(own + ".operating_point",
                               "is \"table\", but nothing drives the bearing: give [joints." + name + ".rotation]");
-    joint.rotation->rate = std::copysign(point.speed, joint.rotation->rate);
+    joint.rotation->rate = std::copysign(point.speed, s.rotor.sense() < 0.0 ? -1.0 : joint.rotation->rate);
   }
 }
 
-/// What the turbine file says where the scene says nothing, and what follows from it. Files that cannot be read are told of by
+/// What a turbine file says where the scene says nothing, and what follows from it. Files that cannot be read are told of by
 /// check_rotor.
 void take_from_turbine(scene::Document& document, Scenario& s) {
   if (!s.has_rotor() && !has_resolved_rotor(s) && !s.has_actuator()) return;
@@ -142,7 +145,66 @@ void take_from_turbine(scene::Document& document, Scenario& s) {
     take_operating_point(document, s);
     if (!s.rotor.operation.empty()) operation = aero::read_operation(s.rotor.operation);
   } catch (const scene::SceneError&) { return; }
-  if (s.is_controlled()) aero::check_control(document, s.control, s.aero, s.rotor, operation, blades);
+  if (s.is_controlled()) aero::check_control(document, s.control, s.aero, s.rotor, operation, blades, s.rotor_section);
+}
+
+void take_from_turbines(scene::Document& document, Scenario& s) {
+  if (s.rotors.empty()) return take_from_turbine(document, s);
+  const bool named = !s.control.file.empty();
+  for (auto& [name, rotor] : s.rotors) {
+    Scenario one = s;
+    one.rotor = rotor, one.rotor_section = "rotors." + name;
+    if (!named) one.control.file.clear();
+    take_from_turbine(document, one);
+    if (s.is_controlled() && !s.control.file.empty() && !one.control.file.empty() && one.control.file != s.control.file)
+      document.problem(one.rotor_section + ".turbine",
+                       fmt::format("names another controller than rotors.{}.turbine: one [control] is for all rotors; give "
+                                   "control.file",
+                                   s.rotors.front().name));
+    rotor = one.rotor, s.joints = std::move(one.joints);
+    if (s.control.file.empty()) s.control.file = one.control.file;
+  }
+  s.rotor = s.rotors.front().options;
+}
+
+/// What of a scene several rotors cannot share.
+void check_rotors(scene::Document& document, const Scenario& s) {
+  for (const auto& [name, rotor] : s.rotors) {
+    if (name.starts_with("blade_"))
+      document.problem("rotors." + name, "must have another name: columns rotor.blade_1 and so on are those of blades");
+    if (rotor.tower_foot_m && !s.aero.tower)
+      document.problem(fmt::format("rotors.{}.tower_foot_m", name), "has no effect: there is no [aero.tower]");
+  }
+  if (s.aero.tower && document.given("aero.tower.foot_m") &&
+      std::ranges::all_of(s.rotors, [](const auto& rotor) { return rotor.options.tower_foot_m.has_value(); }))
+    document.problem("aero.tower.foot_m", "has no effect: each rotor has its own tower_foot_m");
+  if (s.coupling.scheme != SchemeKind::monolithic)
+    document.problem("coupling.scheme",
+                     "must be \"monolithic\" with [rotors]: several rotors load the bodies as they go, no window "
+                     "is exchanged; a single one in [rotor] has the other schemes");
+  if (s.rotors.size() == 1) return;
+  if (s.control.model == aero::ControlModel::library)
+    document.problem("control.model",
+                     "\"library\" is for one rotor: a library keeps what it remembers in the program's memory, which "
+                     "several rotors would share; take \"dtu\"");
+  if (s.control.yaw)
+    document.problem("control.yaw", fmt::format("is for one rotor: it follows the wind at that one's hub, and [rotors] has {}",
+                                                s.rotors.size()));
+  if (s.wind.event &&
+      (s.wind.event->what == aero::WindEvent::ews_vertical || s.wind.event->what == aero::WindEvent::ews_horizontal))
+    document.problem("wind.event.what", "extreme shear is that over one rotor, about its hub: [rotors] has several");
+  std::set<std::array<double, 2>> feet;
+  std::set<std::string> driven;
+  for (const auto& [name, rotor] : s.rotors) {
+    const std::string own = "rotors." + name;
+    if (!rotor.joint.empty() && !driven.insert(rotor.joint).second)
+      document.problem(own + ".joint", fmt::format("\"{}\" is the bearing of another rotor", rotor.joint));
+    if (!s.aero.tower) continue;
+    if (!rotor.tower_foot_m)
+      document.problem(own + ".tower_foot_m", "must be given: there are several rotors and [aero.tower]");
+    else if (!feet.insert(*rotor.tower_foot_m).second)
+      document.problem(own + ".tower_foot_m", "is that of another rotor: the drag of one tower would count twice");
+  }
 }
 
 void check_bathymetry(scene::Document& document, const Scenario& s) {
@@ -291,23 +353,15 @@ void check_resolved_air(scene::Document& document, const Scenario& s) {
 }  // namespace
 
 std::span<const scene::SectionBase* const> all_sections() {
-  static const std::array<const scene::SectionBase*, 18> sections{&time_section(),
-                                                                  &environment_section(),
-                                                                  &aero::wind_section(),
-                                                                  &aero::aero_section(),
-                                                                  &aero::rotor_section(),
-                                                                  &aero::control_section(),
-                                                                  &sea::sea_section(),
-                                                                  &sea::waves_section(),
-                                                                  &bodies::body_section(),
-                                                                  &bodies::joint_section(),
-                                                                  &bodies::beam_section(),
-                                                                  &moorings::line_section(),
-                                                                  &moorings::junction_section(),
-                                                                  &coupling_section(),
-                                                                  &start_section(),
-                                                                  &runtime_section(),
-                                                                  &output_section(),
+  static const std::array<const scene::SectionBase*, 19> sections{&time_section(),           &environment_section(),
+                                                                  &aero::wind_section(),     &aero::aero_section(),
+                                                                  &aero::rotor_section(),    &aero::rotors_section(),
+                                                                  &aero::control_section(),  &sea::sea_section(),
+                                                                  &sea::waves_section(),     &bodies::body_section(),
+                                                                  &bodies::joint_section(),  &bodies::beam_section(),
+                                                                  &moorings::line_section(), &moorings::junction_section(),
+                                                                  &coupling_section(),       &start_section(),
+                                                                  &runtime_section(),        &output_section(),
                                                                   &checkpoint_section()};
   return sections;
 }
@@ -323,7 +377,7 @@ double rotor_radius(const Scenario& s) {
 }
 
 PlacedRotor placed_rotor(const Scenario& s) {
-  PlacedRotor placed{s.rotor, "rotor.hub_m"};
+  PlacedRotor placed{s.rotor, s.rotor_section + ".hub_m"};
   for (const auto& [name, joint] : s.joints)
     if (name == s.rotor.joint) {
       placed.rotor.hub_m = joint.point_m, placed.rotor.axis = joint.axis;
@@ -345,6 +399,16 @@ aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
           s.environment.air_density_kg_m3,
           s.aero.flow->time == "steady" ? 0.0 : s.time.window_s,
           aero::wind_profile(s.wind)};
+}
+
+std::vector<Scenario> by_rotor(const Scenario& s) {
+  std::vector<Scenario> each;
+  for (const auto& [name, rotor] : s.rotors) {
+    each.push_back(s);
+    each.back().rotor = rotor, each.back().rotor_section = "rotors." + name;
+  }
+  if (s.rotors.empty() && s.has_rotor()) each.push_back(s);
+  return each;
 }
 
 std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies) {
@@ -384,8 +448,19 @@ Scenario read_scenario(scene::Document& document) {
   s.bodies = document.read_named(bodies::body_section());
   s.joints = document.read_named(bodies::joint_section());
   s.beams = document.read_named(bodies::beam_section());
-  s.rotor = document.read_where(s.has_rotor() || has_resolved_rotor(s) || s.has_actuator(), aero::rotor_section(),
-                                "aero.model is none");
+  s.rotors = document.read_named(aero::rotors_section());
+  s.rotor =
+      document.read_where(s.rotors.empty() && (s.has_rotor() || has_resolved_rotor(s) || s.has_actuator()), aero::rotor_section(),
+                          s.rotors.empty() ? "aero.model is none" : "[rotors] has the rotors; give one of the two");
+  if (!s.rotors.empty()) {
+    s.rotor = s.rotors.front().options, s.rotor_section = "rotors." + s.rotors.front().name;
+    if (s.aero.model == "none") document.problem("rotors", "has no effect: aero.model is none");
+    if (s.resolves_air())
+      document.problem("rotors",
+                       fmt::format("does not go with aero.model \"{}\": resolved air has one rotor, in [rotor]; prescribed, "
+                                   "thrust_curve and bem have several",
+                                   s.aero.model));
+  }
   s.wind = document.read_where(
       s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
       "aero.model = \"" + s.aero.model + "\" does not look at the wind; thrust_curve, bem and resolved air do");
@@ -401,7 +476,7 @@ Scenario read_scenario(scene::Document& document) {
       s.has_rotor(), aero::control_section(),
       s.resolves_air() ? "without [bodies] the rotor turns as rotor.speed_rpm has it: a drive train steps with them"
                        : "aero.model is none");
-  take_from_turbine(document, s);
+  take_from_turbines(document, s);
   s.sea = document.read(sea::sea_section());
   const bool planar = s.sea.particles && s.sea.particles->planar();
   const auto plane = [planar](double y) { return planar ? std::optional(y) : std::nullopt; };
@@ -459,7 +534,9 @@ Scenario read_scenario(scene::Document& document) {
   check_lines(document, s.moorings, s.junctions, bodies, s.environment.water_density_kg_m3);
   place_at_junctions(s.moorings, s.junctions, s.environment.water_depth_m);
   check_bathymetry(document, s);
-  if (s.has_rotor()) check_rotor(document, s.aero, s.rotor, bodies, joints);
+  if (s.has_rotor())
+    for (const Scenario& one : by_rotor(s)) check_rotor(document, s.aero, one.rotor, bodies, joints, one.rotor_section);
+  if (!s.rotors.empty() && !s.resolves_air()) check_rotors(document, s);
   if (!s.rotor.blade_structure.empty() && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",
                      "must be \"monolithic\" with rotor.blade_structure: blades that bend step with the bodies");
@@ -499,7 +576,7 @@ std::string describe_rotor(const Scenario& s) {
   if (has_resolved_rotor(s) || s.has_actuator())
     text = fmt::format("{}, {}{}", s.aero.model, s.rotor.turbine, s.bodies.empty() ? "" : ", on body " + s.rotor.body);
   else if (s.has_rotor())
-    text = fmt::format("{} on body {}", s.aero.model, s.rotor.body);
+    text = fmt::format("{} on body {}{}", s.aero.model, s.rotor.body, s.rotor.sense() < 0.0 ? ", turning counter-clockwise" : "");
   else
     return "none";
   if (s.rotor.operating_point == "table")

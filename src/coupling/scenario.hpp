@@ -37,7 +37,10 @@ struct Scenario {
   std::vector<scene::Named<moorings::LineOptions>> moorings;
   std::vector<scene::Named<moorings::JunctionOptions>> junctions;
   aero::AeroOptions aero;
+  /// [rotor], or the first of [rotors.NAME]: that of resolved air, and of a scene that by_rotor gives.
   aero::RotorOptions rotor;
+  std::string rotor_section = "rotor";  ///< where it stands: "rotor", "rotors.NAME"
+  std::vector<scene::Named<aero::RotorOptions>> rotors;
   aero::WindOptions wind;
   aero::ControlOptions control;
   sea::SeaOptions sea;
@@ -71,6 +74,9 @@ std::span<const scene::SectionBase* const> all_sections();
 /// Reads and checks the whole document; throws scene::SceneError with every problem.
 Scenario read_scenario(scene::Document& document);
 
+/// The scene with each of its rotors alone; with [rotor] as it is, without a rotor none.
+std::vector<Scenario> by_rotor(const Scenario& scenario);
+
 /// The bodies for the engineering sea, in the order of the scene.
 std::vector<sea::SeaBody> sea_bodies(const bodies::NamedBodies& bodies);
 
@@ -81,7 +87,7 @@ sea::SeaEnvironment sea_environment(const EnvironmentOptions& environment);
 
 /// What is modelled, in words: "3 lines (spring_damper)".
 std::string describe_bodies(const Scenario& scenario);
-std::string describe_rotor(const Scenario& scenario);
+std::string describe_rotor(const Scenario& scenario);  ///< of one of by_rotor
 std::string describe_sea(const Scenario& scenario);
 std::string describe_moorings(const Scenario& scenario);
 

@@ -64,7 +64,7 @@ def is_free(run):
     scene, waves = run.scene, run.scene.get("waves") or {}
     wavy = waves.get("model") not in (None, "none") and (waves.get("height_m") or 0.0) > 0.0
     paddle = isinstance(scene.get("sea"), dict) and bool(scene["sea"].get("wavemaker"))
-    return not wavy and not paddle and "rotor.thrust_N" not in run.columns
+    return not wavy and not paddle and not quantities.rotors_of(run.columns)
 
 
 @functools.lru_cache(maxsize=8)

@@ -217,12 +217,99 @@ def columns(path):
     return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
 
 
+class Rotor:
+    """One of the rotors of a scene: `name` is what its columns begin with, `given` its section."""
+
+    def __init__(self, scene, name, given):
+        self.scene, self.name, self.given = scene, name, given
+        self.joint = (scene.scene.get("joints") or {}).get(given.get("joint", ""), {})
+        self.sense = -1.0 if given.get("turns") == "counter_clockwise" else 1.0
+        self.blades = self._blades()
+        self.hub0 = self._hub_at_start()
+
+    def carrier(self):
+        """The body that carries the rotor: the other one of its joint."""
+        others = [b for b in self.joint.get("bodies", []) if b != self.given.get("body")]
+        return others[0] if others else self.given.get("body", "")
+
+    def _hub_at_start(self):
+        if "point_m" in self.joint:
+            return np.asarray(self.joint["point_m"], float)
+        if f"{self.name}.thrust_N" in self.scene.run.columns and ("hub_m" in self.given or not self.scene.bodies):
+            return np.asarray(self.given.get("hub_m", [0, 0, 0]), float)
+        return None
+
+    def described_axis(self):
+        along = np.asarray(self.joint.get("axis", self.given.get("axis", [1.0, 0.0, 0.0])), float)
+        return along / np.linalg.norm(along)
+
+    def axis(self, t):
+        along, body, scene = self.described_axis(), self.carrier(), self.scene
+        if body in scene.bodies:
+            along = attitude(*(scene.at(f"{body}.{q}_deg", t) for q in ("roll", "pitch", "yaw"))) @ along
+        return along
+
+    def hub(self, t):
+        return self.scene.moved(self.carrier(), self.hub0[None], t)[0]
+
+    def azimuth(self, t):
+        """[rad], between the rows by the rate, since the column drops at a whole turn."""
+        run, column = self.scene.run, f"{self.name}.azimuth_deg"
+        if column not in run.columns:
+            return 0.0
+        return float(np.interp(t, run.time, np.unwrap(np.radians(run.column(column)))))
+
+    def frame(self, t):
+        """Rows: axis, sideways, up."""
+        return upright(self.axis(t))
+
+    def sector(self, t):
+        """Hub and frame of a grid of one sector, which stays on the axis that the scene describes and follows the hub along it."""
+        along, begin = self.described_axis(), self.hub(self.scene.run.time[0])
+        return begin + (self.hub(t) - begin) @ along * along, upright(along)
+
+    def _blades(self):
+        turbine, path = self.scene.run.turbine(self.given)
+        try:
+            return Blades(turbine, path, self.given.get("blade_pitch_deg", 0.0)) if turbine else None
+        except (OSError, KeyError, ValueError, IndexError):
+            return None
+
+    @property
+    def tip(self):
+        """Radius [m]."""
+        return self.blades.tip if self.blades else 0.75 * abs(self.hub0[2])
+
+    def pieces(self, t):
+        frame, hub, found = self.frame(t), self.hub(t), []
+        size = 0.035 * (self.blades.tip if self.blades else 0.7 * max(abs(self.hub0[2]), 1.0))
+        points, polygons = sphere([0.0, 0.0, 0.0], 2.0 * size)
+        found.append(Piece("hub", "hub", hub + points @ frame, polygons))
+        if self.blades:
+            points, polygons, count = self.blades.points, self.blades.polygons, self.blades.count
+        else:   # loads without a turbine file: three plates of a size that suits the height
+            tip, count = 0.75 * abs(self.hub0[2]), 3
+            points = np.array([[0, -0.02 * tip, 0.05 * tip], [0, 0.02 * tip, 0.05 * tip], [0, 0.045 * tip, 0.25 * tip], [0, 0.01 * tip, tip],
+                               [0, -0.01 * tip, tip], [0, -0.02 * tip, 0.25 * tip]])
+            polygons = [[0, 1, 2, 3, 4, 5]]
+        if self.sense < 0.0:   # seen in a mirror, with faces that still look outwards
+            points, polygons = points * [1.0, -1.0, 1.0], [polygon[::-1] for polygon in polygons]
+        for b in range(count):
+            turn = about(np.array([1.0, 0.0, 0.0]), self.sense * (self.azimuth(t) + 2 * np.pi * b / count))
+            found.append(Piece("blade", f"blade {b + 1}", hub + points @ turn.T @ frame, polygons))
+        return found
+
+
 class Scene3d:
     def __init__(self, run):
         self.run, self.scene = run, run.scene
         self.bodies = {name: b for name, b in (run.scene.get("bodies") or {}).items() if f"{name}.x_m" in run.columns}
-        self.blades = self._blades()
-        self.hub0 = self._hub_at_start()
+        self.rotors = [rotor for rotor in (Rotor(self, *given) for given in run.rotors()) if rotor.hub0 is not None]
+
+    @property
+    def rotor(self):
+        """The first, which is the only one in resolved air; None where there is none."""
+        return self.rotors[0] if self.rotors else None
 
     # ---- motion -------------------------------------------------------------------------------------------------------------------------
 
@@ -237,60 +324,6 @@ class Scene3d:
         reference = np.asarray(given.get("reference_m", given.get("centre_m", [0, 0, 0])), float)
         turn = attitude(*(self.at(f"{body}.{q}_deg", t) for q in ("roll", "pitch", "yaw")))
         return (np.asarray(points, float) - reference) @ turn.T + reference + [self.at(f"{body}.{q}_m", t) for q in "xyz"]
-
-    def carrier(self):
-        """The body that carries the rotor: the other one of its joint."""
-        rotor = self.scene.get("rotor", {})
-        joint = (self.scene.get("joints") or {}).get(rotor.get("joint", ""), {})
-        others = [b for b in joint.get("bodies", []) if b != rotor.get("body")]
-        return others[0] if others else rotor.get("body", "")
-
-    def _hub_at_start(self):
-        rotor = self.scene.get("rotor", {})
-        joint = (self.scene.get("joints") or {}).get(rotor.get("joint", ""), {})
-        if "point_m" in joint:
-            return np.asarray(joint["point_m"], float)
-        if "rotor.thrust_N" in self.run.columns and ("hub_m" in rotor or not self.bodies):
-            return np.asarray(rotor.get("hub_m", [0, 0, 0]), float)
-        return None
-
-    def described_axis(self):
-        rotor = self.scene.get("rotor", {})
-        joint = (self.scene.get("joints") or {}).get(rotor.get("joint", ""), {})
-        along = np.asarray(joint.get("axis", rotor.get("axis", [1.0, 0.0, 0.0])), float)
-        return along / np.linalg.norm(along)
-
-    def axis(self, t):
-        along = self.described_axis()
-        body = self.carrier()
-        if body in self.bodies:
-            along = attitude(*(self.at(f"{body}.{q}_deg", t) for q in ("roll", "pitch", "yaw"))) @ along
-        return along
-
-    def hub(self, t):
-        return self.moved(self.carrier(), self.hub0[None], t)[0]
-
-    def azimuth(self, t):
-        """[rad], between the rows by the rate, since the column drops at a whole turn."""
-        if "rotor.azimuth_deg" not in self.run.columns:
-            return 0.0
-        return float(np.interp(t, self.run.time, np.unwrap(np.radians(self.run.column("rotor.azimuth_deg")))))
-
-    def rotor_frame(self, t):
-        """Rows: axis, sideways, up."""
-        return upright(self.axis(t))
-
-    def sector(self, t):
-        """Hub and frame of a grid of one sector, which stays on the axis that the scene describes and follows the hub along it."""
-        along, begin = self.described_axis(), self.hub(self.run.time[0])
-        return begin + (self.hub(t) - begin) @ along * along, upright(along)
-
-    def _blades(self):
-        turbine, path = self.run.turbine()
-        try:
-            return Blades(turbine, path, self.scene.get("rotor", {}).get("blade_pitch_deg", 0.0)) if turbine else None
-        except (OSError, KeyError, ValueError, IndexError):
-            return None
 
     def corners(self, body):
         """Points on the shapes of a body as the scene describes it, (n, 3); none where it has none."""
@@ -319,11 +352,11 @@ class Scene3d:
                 points, polygons = mesh(m)
                 if polygons:
                     found.append(Piece("float", f"{body} {m.get('name', '')}".strip(), self.moved(body, points, t), polygons))
-            if not any(given.get(shape) for shape in ("cylinders", "boxes", "spheres", "meshes")) and self.hub0 is None:
+            if not any(given.get(shape) for shape in ("cylinders", "boxes", "spheres", "meshes")) and not self.rotors:
                 points, polygons = sphere(given.get("centre_m", [0, 0, 0]), 0.06 * self._reach())
                 found.append(Piece("float", body, self.moved(body, points, t), polygons))
-        if self.hub0 is not None:
-            found += self._support(t) + self._rotor(t)
+        for rotor in self.rotors:
+            found += self._support(rotor, t) + rotor.pieces(t)
         for name, line in (self.scene.get("moorings") or {}).items():
             found.append(self._line(name, line, t))
         return found
@@ -357,12 +390,13 @@ class Scene3d:
         points = hanging(fairlead, anchor, None if stiff else length)
         return Piece("line", name, points, lines=[list(range(len(points)))])
 
-    def _support(self, t):
+    def _support(self, rotor, t):
         """Tower from the deck or the foundation to the nacelle, and braces from its foot to floats that stand apart. A tower that the scene
         describes (a beam, or the tower in the wind) stands as described."""
-        body, hub, found = self.carrier(), self.hub0, []
+        body, hub, found = rotor.carrier(), rotor.hub0, []
         add = lambda kind, name, made, sketched=False: found.append(Piece(kind, name, self.moved(body, made[0], t), made[1], sketched=sketched))
-        beams = [self._beam(name, beam, t) for name, beam in (self.scene.get("beams") or {}).items()]
+        chosen = self._beams_below(rotor)
+        beams = [self._beam(name, beam, t) for name, beam in chosen.items()]
         below = beams[0][1] if beams else body
         cylinders = self.bodies.get(below, {}).get("cylinders", [])
         stands = [j["point_m"][2] for j in (self.scene.get("joints") or {}).values() if set(j.get("bodies", [])) == {"earth", body} and "point_m" in j]
@@ -375,14 +409,14 @@ class Scene3d:
         size = max(min(3.0, 0.1 * height), 0.065 * height)
         foot, top = self._axis_of_tower(cylinders, deck, hub, size)
         if beams:   # braces and nacelle are drawn to the tower that there is
-            first = next(iter(self.scene["beams"].values()))
+            first = next(iter(chosen.values()))
             foot[:2], top[:2] = first["start_m"][:2], first["end_m"][:2]
         elif stations:
-            foot[:2] = top[:2] = self.scene["aero"]["tower"].get("foot_m", [0.0, 0.0])
+            foot[:2] = top[:2] = rotor.given.get("tower_foot_m") or self.scene["aero"]["tower"].get("foot_m", [0.0, 0.0])
         if beams:
             found += [piece for piece, _ in beams]
         elif stations:
-            x, y = self.scene["aero"]["tower"].get("foot_m", [0.0, 0.0])
+            x, y = foot[:2]
             for (z0, d0, *_), (z1, d1, *_) in zip(stations, stations[1:]):
                 add("tower", "tower", frustum([x, y, z0], [x, y, z1], d0, d1))
         else:
@@ -393,11 +427,20 @@ class Scene3d:
         add("nacelle", "nacelle", box([0.5 * (front + back), hub[1], hub[2]], [abs(back - front), 0.05 * hub[2], 0.05 * hub[2]]), sketched=True)
         for c in cylinders:
             end = np.asarray(c["end_m"] if c["end_m"][2] > c["start_m"][2] else c["start_m"], float)
-            if np.hypot(*(end - foot)[:2]) > 0.5 * c["diameter_m"] + size:
+            nearest = min(self.rotors, key=lambda other: np.hypot(*(end - other.hub0)[:2]))
+            if nearest is rotor and np.hypot(*(end - foot)[:2]) > 0.5 * c["diameter_m"] + size:
                 for rise, thick in ((-0.1, 0.5), (2.2, 0.3)):
                     points, polygons = frustum(foot + [0, 0, rise * size], end - [0, 0, 0.1 * size], thick * size)
                     found.append(Piece("brace", "brace", self.moved(below, points, t), polygons, sketched=True))
         return found
+
+    def _beams_below(self, rotor):
+        """The beams of the scene that stand under this rotor: all of them where it is the only one."""
+        beams = self.scene.get("beams") or {}
+        if len(self.rotors) < 2:
+            return beams
+        nearest = lambda beam: min(self.rotors, key=lambda other: float(np.linalg.norm(np.asarray(beam["end_m"], float) - other.hub0)))
+        return {name: beam for name, beam in beams.items() if "end_m" in beam and nearest(beam) is rotor}
 
     @staticmethod
     def _axis_of_tower(cylinders, deck, hub, size):
@@ -426,23 +469,6 @@ class Scene3d:
             return found[0], found[-1]
         except (OSError, KeyError, ValueError, IndexError):
             return usual, 0.62 * usual
-
-    def _rotor(self, t):
-        frame, hub, found = self.rotor_frame(t), self.hub(t), []
-        size = 0.035 * (self.blades.tip if self.blades else 0.7 * max(abs(self.hub0[2]), 1.0))
-        points, polygons = sphere([0.0, 0.0, 0.0], 2.0 * size)
-        found.append(Piece("hub", "hub", hub + points @ frame, polygons))
-        if self.blades:
-            points, polygons, count = self.blades.points, self.blades.polygons, self.blades.count
-        else:   # loads without a turbine file: three plates of a size that suits the height
-            tip, count = 0.75 * abs(self.hub0[2]), 3
-            points = np.array([[0, -0.02 * tip, 0.05 * tip], [0, 0.02 * tip, 0.05 * tip], [0, 0.045 * tip, 0.25 * tip], [0, 0.01 * tip, tip],
-                               [0, -0.01 * tip, tip], [0, -0.02 * tip, 0.25 * tip]])
-            polygons = [[0, 1, 2, 3, 4, 5]]
-        for b in range(count):
-            turn = about(np.array([1.0, 0.0, 0.0]), self.azimuth(t) + 2 * np.pi * b / count)
-            found.append(Piece("blade", f"blade {b + 1}", hub + points @ turn.T @ frame, polygons))
-        return found
 
     # ---- water --------------------------------------------------------------------------------------------------------------------------
 

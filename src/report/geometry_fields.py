@@ -129,11 +129,11 @@ def write(run):
     solid = [piece.points for piece in pieces if piece.kind != "line"] or [piece.points for piece in pieces]
     low, high = (f(np.concatenate(solid), axis=0) for f in (np.min, np.max)) if solid else (np.zeros(3), np.zeros(3))
     state = folder / "paraview.py"
-    rotor = scene.hub0 is not None
+    rotor = scene.rotor
     state.write_text(STATE.format(
         folder=str(folder.resolve()), colours=geometry.COLOURS, middle=_numbers(0.5 * (low + high)), length=round(float((high - low).max()), 4),
-        plane=verdict.is_plane(run), slow=wake.SLOW, radius=float(wake.tip(scene)) if rotor else 0.0, hub=_numbers(scene.hub(times[-1]) if rotor else np.zeros(3)),
-        axis=_numbers(scene.rotor_frame(times[-1])[0] if rotor else [1, 0, 0])), encoding="utf-8")
+        plane=verdict.is_plane(run), slow=wake.SLOW, radius=float(wake.tip(scene)) if rotor else 0.0, hub=_numbers(rotor.hub(times[-1]) if rotor else np.zeros(3)),
+        axis=_numbers(rotor.frame(times[-1])[0] if rotor else [1, 0, 0])), encoding="utf-8")
     return [state, *([_solids(folder, scene, times)] if pieces else []), *_slow_air(run, scene, folder)]
 
 
@@ -144,7 +144,7 @@ def _numbers(values):
 def _slow_air(run, scene, folder):
     """wake.xdmf, of a resolved rotor."""
     fields = run_fields.Fields(run)
-    if scene.hub0 is None or wake.wind(scene) <= 0.0 or not fields.files["air"]:
+    if scene.rotor is None or wake.wind(scene) <= 0.0 or not fields.files["air"]:
         return []
     import h5py
     times, steps = fields.times("air"), ""

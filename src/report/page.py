@@ -330,11 +330,15 @@ def marks(run):
     for key in ("period_s", "peak_period_s"):
         if isinstance(waves.get(key), (int, float)) and waves[key] > 0:
             found["wave"] = 1.0 / waves[key]
-    if "rotor.rpm" in run.columns and len(run.time):
-        once = float(np.nanmean(run.column("rotor.rpm"))) / 60.0
-        if once > 1e-6:
-            found["1P"] = once
-            found[f"{run.blades()}P"] = run.blades() * once
+    for text, column in quantities.of_rotors(run.columns, "", "rpm") if len(run.time) else ():
+        if column not in run.columns:
+            continue
+        once = float(np.nanmean(run.column(column))) / 60.0
+        alike = "1P" in found and abs(once - found["1P"]) < 0.01 * found["1P"]   # turbines side by side turn alike: marked once
+        if once > 1e-6 and not alike:
+            of = text if "1P" in found else ""
+            found[f"1P{of}"] = once
+            found[f"{run.blades()}P{of}"] = run.blades() * once
     return found
 
 

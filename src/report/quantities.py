@@ -70,6 +70,17 @@ def bodies_of(names):
     return list(dict.fromkeys(n.rpartition(".")[0] for n in names if re.search(r"(?<!\.blade_.)\.((x|y|z)_m|(roll|pitch|yaw)_deg)$", n)))
 
 
+def rotors_of(names):
+    """What the columns of each rotor begin with: "rotor", or "rotor.NAME" of several."""
+    found = (re.fullmatch(r"(rotor(?:\.(?!blade_\d+\.)[^.]+)?)\.thrust_N", n) for n in names)
+    return [match[1] for match in found if match]
+
+
+def of_rotors(names, text, quantity):
+    """[("thrust", "rotor.thrust_N")], of several rotors [("thrust of a", "rotor.a.thrust_N"), ...]."""
+    return [(f"{text} of {name}" if (name := rotor.partition(".")[2]) else text, f"{rotor}.{quantity}") for rotor in rotors_of(names)]
+
+
 def kind_of_body(name):
     """'displacement', 'angle', 'force' or 'moment' of a column of a body, its sources and joints; "" of others."""
     for kind, pattern in (("displacement", r"\.[xyz]_m"), ("angle", r"(?<!blade_.)\.(roll|pitch|yaw)_deg"), ("force", r"\.f[xyz]_N"), ("moment", r"\.m[xyz]_N_m")):
@@ -112,7 +123,7 @@ def groups(names, joints=None):
 
     sources = {}
     for name in names:
-        match = re.fullmatch(r"(.+)\.([^.]+)\.([fm])([xyz])_(N|N_m)", name)
+        match = re.fullmatch(r"(.+?)\.(rotor\.[^.]+|[^.]+)\.([fm])([xyz])_(N|N_m)", name)
         if match and (match[3] == "f") == (match[5] == "N"):
             sources.setdefault((match[1], match[3]), {}).setdefault(match[3] + match[4], []).append((match[2], name))
     for letter, key, title, caption in (("f", "forces", "forces by source", "Force on the body from each source of load, earth frame."),
@@ -168,9 +179,9 @@ def key_columns(names):
     """Columns of the key figures: motions of the first body, coefficients of a flow, rotor loads, tensions, gauges."""
     bodies = bodies_of(names)
     chosen = [c for b in bodies[:1] for c in (p[1][0][1] for p in _triple(names, b, ("x", "y", "z", "roll", "pitch", "yaw")))]
-    wanted = (".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".electrical_power_W", "rotor.asked_pitch_deg", ".tension_N", ".lift_coefficient", ".drag_coefficient", "flow.fx_N", "flow.fz_N",
+    wanted = (".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".electrical_power_W", ".asked_pitch_deg", ".tension_N", ".lift_coefficient", ".drag_coefficient", "flow.fx_N", "flow.fz_N",
               ".elevation_m", ".pressure_Pa", "sea.lost_particles")
     sector = {"flow.fx_N", "flow.fz_N"} if "rotor.thrust_N" in names else set()   # of a rotor: loads of the sector that is solved
     farthest = set() if bodies or "wavemaker.displacement_m" in names else {"sea.x_max_m"}   # of water that runs: a broken dam
     wanted += tuple(farthest)
-    return chosen + [n for n in names if n.endswith(wanted) and not n.startswith("rotor.blade_") and n not in sector]
+    return chosen + [n for n in names if n.endswith(wanted) and not re.search(r"\.blade_\d+\.", n) and n not in sector]

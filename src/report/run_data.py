@@ -91,15 +91,22 @@ class RunData:
                     return chosen
         return rows(self.time[-1] - 0.25 * (self.time[-1] - self.time[0]), self.time[-1])
 
-    def _named_by_rotor(self, key):
-        """The file that a key of [rotor] names; paths of scene.toml start at the run directory."""
-        rotor = self.scene.get("rotor", {})
-        name = rotor.get(key) if isinstance(rotor, dict) else None
+    def rotors(self):
+        """What the columns of each rotor begin with, and its section: [rotor], or each [rotors.NAME]."""
+        several = self.scene.get("rotors")
+        if isinstance(several, dict) and several:
+            return [(f"rotor.{name}", given) for name, given in several.items()]
+        given = self.scene.get("rotor", {})
+        return [("rotor", given if isinstance(given, dict) else {})]
+
+    def _named_by_rotor(self, key, rotor):
+        """The file that a key of a rotor's section names; paths of scene.toml start at the run directory."""
+        name = (self.rotors()[0][1] if rotor is None else rotor).get(key)
         return self.folder / name if isinstance(name, str) and name else None
 
-    def turbine(self):
-        """The turbine file's [turbine], {} where there is none or it is gone; its path."""
-        path = self._named_by_rotor("turbine")
+    def turbine(self, rotor=None):
+        """Of a rotor's section, without one of the first: the turbine file's [turbine], {} where there is none or it is gone; its path."""
+        path = self._named_by_rotor("turbine", rotor)
         try:
             return tomllib.loads(path.read_text(encoding="utf-8"))["turbine"], path
         except (AttributeError, OSError, KeyError, tomllib.TOMLDecodeError):
@@ -109,11 +116,11 @@ class RunData:
         found = self.turbine()[0].get("blades", 3)
         return found if isinstance(found, int) else 3
 
-    def operation(self):
+    def operation(self, rotor=None):
         """{column: values} of the turbine's steady operation, None where neither scene nor turbine file names one."""
-        path = self._named_by_rotor("operation")
-        if path is None and isinstance(named := self.turbine()[0].get("operation"), str) and named:   # relative to the turbine file
-            path = self.turbine()[1].parent / named
+        path = self._named_by_rotor("operation", rotor)
+        if path is None and isinstance(named := self.turbine(rotor)[0].get("operation"), str) and named:   # relative to the turbine file
+            path = self.turbine(rotor)[1].parent / named
         try:
             rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines() if line.strip() and not line.startswith("#")]
             return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}

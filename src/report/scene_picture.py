@@ -185,11 +185,10 @@ class Drawing:
         """Lowest and highest corner of what is drawn at the start; of a floating turbine without its lines, which reach far."""
         pieces = self.scene.pieces(self.run.time[0])
         solid = [p.points for p in pieces if p.kind != "line"]
-        shaped = self.scene.hub0 is not None or any(body.get(shape) for body in self.scene.bodies.values() for shape in ("cylinders", "boxes", "spheres", "meshes"))
+        shaped = bool(self.scene.rotors) or any(body.get(shape) for body in self.scene.bodies.values() for shape in ("cylinders", "boxes", "spheres", "meshes"))
         points = solid if shaped else [p.points for p in pieces]
-        if self.scene.hub0 is not None:   # the whole disc, wherever the blades are
-            tip = wake.tip(self.scene)
-            points.append(self.scene.hub0 + tip * np.array([[0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]))
+        for rotor in self.scene.rotors:   # the whole disc, wherever the blades are
+            points.append(rotor.hub0 + rotor.tip * np.array([[0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]))
         if not points:
             return np.array([-50.0, -50.0, -50.0]), np.array([50.0, 50.0, 50.0])
         every = np.concatenate(points)
@@ -198,7 +197,7 @@ class Drawing:
     def extent(self):
         """Length that the picture is about [m]."""
         low, high = self.bounds
-        return (1.0 if self.scene.hub0 is not None or not self.water_model() else 2.0) * (high - low).max()
+        return (1.0 if self.scene.rotors or not self.water_model() else 2.0) * (high - low).max()
 
     def water_model(self):
         model = (self.run.scene.get("sea") or {}).get("model")
@@ -207,7 +206,7 @@ class Drawing:
     def ground(self):
         """What a turbine without a sea stands on."""
         pieces = [p for p in self.scene.pieces(self.run.time[0]) if p.kind == "tower"]
-        if not pieces or self.scene.carrier() not in self.scene.bodies:
+        if not pieces or self.scene.rotor is None or self.scene.rotor.carrier() not in self.scene.bodies:
             return
         level, far, middle = min(p.points[:, 2].min() for p in pieces), FAR_SEA * self.extent(), self.centre()
         around = np.linspace(0.0, 2.0 * np.pi, 180, endpoint=False)   # a square's corners would bend the horizon
@@ -257,7 +256,7 @@ class Drawing:
 
     def wake(self, t):
         """Slow air in the upright plane through the axis, and the surfaces of tip vortices, coloured by the axial wind."""
-        if self.scene.hub0 is None or self.wind <= 0.0:
+        if self.scene.rotor is None or self.wind <= 0.0:
             return
         blocks, time = self.fields.air(t)
         if not blocks:
@@ -273,7 +272,7 @@ class Drawing:
     def _wake(self, blocks, time):
         plane, vortices = wake.surfaces(self.scene, blocks, time)
         if plane is not None:   # only what is slow of its triangles, and what lies behind the disc
-            hub, frame, tip = self.scene.hub(time), self.scene.rotor_frame(time), wake.tip(self.scene)
+            hub, frame, tip = self.scene.rotor.hub(time), self.scene.rotor.frame(time), self.scene.rotor.tip
             plane = clipped(triangles(*plane), None, wake.SLOW)
             for place, normal in (((0.03 * tip, 0, 0), (1, 0, 0)), ((2.0 * tip, 0, 0), (-1, 0, 0)), ((0, 0, 1.25 * tip), (0, 0, -1)), ((0, 0, -1.25 * tip), (0, 0, 1))):
                 plane = clipped(plane, (hub + np.array(place) @ frame, np.array(normal, float) @ frame), 0.0)
@@ -291,10 +290,10 @@ class Drawing:
             return
         self.placed = True
         middle, length = self.centre(), self.extent()
-        if self.scene.hub0 is not None:
+        if self.scene.rotors:
             middle += [0.12 * length, 0.0, 0.0]
-        if self.camera == "rotor" and self.scene.hub0 is not None:
-            middle, length = self.scene.hub0 + [0.25 * length, 0.0, 0.0], 0.95 * length
+        if self.camera == "rotor" and self.scene.rotors:
+            middle, length = np.mean([rotor.hub0 for rotor in self.scene.rotors], axis=0) + [0.25 * length, 0.0, 0.0], 0.95 * length
         view = np.array(CAMERAS[self.camera])
         view /= np.linalg.norm(view)
         camera = self.renderer.GetActiveCamera()

@@ -98,8 +98,9 @@ def drawing_of(run, given):
             fail(2, f"--camera {given.camera}: sections and tanks are drawn in their plane, without a camera; leave it out")
         import plane_picture
         return plane_picture.Drawing(run)
+    import quantities
     import scene_picture
-    if given.camera == "rotor" and "rotor.thrust_N" not in run.columns:
+    if given.camera == "rotor" and not quantities.rotors_of(run.columns):
         fail(2, "--camera rotor: the run has no rotor; cameras for it: scene, side, front, top")
     # A film is smaller: half of its width and height is what a page shows of it.
     return scene_picture.Drawing(run, (1600, 900), given.camera, finer=2) if given.kind == "picture" else scene_picture.Drawing(run, (960, 540), given.camera)

@@ -24,7 +24,7 @@ class Check:
 
 def kind(run):
     """What sort of scene: 'floating turbine', 'rotor', 'flow', 'bodies', 'tank' or 'run'."""
-    bodies, thrust = quantities.bodies_of(run.columns), "rotor.thrust_N" in run.columns
+    bodies, thrust = quantities.bodies_of(run.columns), quantities.rotors_of(run.columns)
     if thrust:
         return "floating turbine" if bodies else "rotor"
     if any(n.startswith("flow.") for n in run.columns):
@@ -32,6 +32,11 @@ def kind(run):
     if bodies:
         return "bodies"
     return "tank" if any(n.startswith("sea.") for n in run.columns) else "run"
+
+
+def _of_rotors(run, *quantities_of_one):
+    """(words, column) of these (words, quantity) of every rotor of the run."""
+    return [pair for text, quantity in quantities_of_one for pair in quantities.of_rotors(run.columns, text, quantity)]
 
 
 def is_steady(run):
@@ -65,7 +70,10 @@ def what_ran(run):
     air = {"blade_resolved": "a blade-resolved rotor", "actuator_disc": "an actuator disc", "actuator_line": "actuator lines", "bem": "blade element momentum", "prescribed": "prescribed rotor loads",
            "thrust_curve": "a thrust curve"}.get(_value(scene, "aero", "model"))
     wave = _value(scene, "waves", "height_m")
-    named = {"floating turbine": "A turbine on its foundation" if _stands(run) else "A floating turbine", "rotor": "A rotor", "flow": "A flow round walls" if _walls(run) else "A flow",
+    rotors = len(quantities.rotors_of(run.columns))
+    many = f"{rotors} turbines on their foundation" if _stands(run) else f"A floater with {rotors} rotors"
+    one = "A turbine on its foundation" if _stands(run) else "A floating turbine"
+    named = {"floating turbine": many if rotors > 1 else one, "rotor": "A rotor", "flow": "A flow round walls" if _walls(run) else "A flow",
              "bodies": "Bodies", "tank": "A tank of water", "run": "A run"}[kind(run)]
     parts = [p for p in ((air if kind(run) == "floating turbine" else None), sea) if p]
     text = named + (f" with {' and '.join(parts)}" if parts else "")
@@ -147,12 +155,11 @@ def answers(run):
                 said.append((f"{motion}, damping of critical", words.number(100.0 * d.damping, 3), "%"))
         for text, quantity in (("surge", "x_m"), ("heave", "z_m"), ("pitch", "pitch_deg")) if not swings else ():
             add(text, f"{body}.{quantity}")
-    for text, name in (("thrust", "rotor.thrust_N"), ("power", "rotor.power_W"), ("lift coefficient", "flow.lift_coefficient"),
-                       ("drag coefficient", "flow.drag_coefficient")):
+    for text, name in (*_of_rotors(run, ("thrust", "thrust_N"), ("power", "power_W")), ("lift coefficient", "flow.lift_coefficient"),
+                       ("drag coefficient", "flow.drag_coefficient"), *_of_rotors(run, ("electrical power", "electrical_power_W"))):
         add(text, name)
-    add("electrical power", "rotor.electrical_power_W")
     if _event(run):   # what it is simulated for
-        for name, text in (("rotor.thrust_N", "thrust"), ("rotor.rpm", "rotor speed")):
+        for text, name in _of_rotors(run, ("thrust", "thrust_N"), ("rotor speed", "rpm")):
             add(f"{text}, least", name, least), add(f"{text}, greatest", name, greatest)
     tensions = [n for n in run.columns if n.endswith(".tension_N")]
     if tensions:
@@ -319,20 +326,28 @@ def _has_a_top(body, points):
 
 
 def _power(run):
-    """Mean power against that of the turbine's operation table at this wind."""
-    wind, table = _value(run.scene, "wind", "speed_m_s"), run.operation()
-    if len(run.time) and "rotor.power_W" in run.columns and not is_steady(run):
+    """Mean power of each rotor against that of its turbine's operation table at this wind; the worst of several first."""
+    found = [(name, check) for name, given in run.rotors() if (check := _power_of(run, f"{name}.power_W", given)) is not None]
+    found.sort(key=lambda pair: pair[1].level == "good")
+    if len(found) < 2:
+        return found[0][1] if found else None
+    return Check(found[0][1].level, "Power", "; ".join(f"{name.replace('.', ' ')}: {check.text}" for name, check in found))
+
+
+def _power_of(run, column, rotor):
+    wind, table = _value(run.scene, "wind", "speed_m_s"), run.operation(rotor)
+    if len(run.time) and column in run.columns and not is_steady(run):
         chosen = run.mean_range()[0]
-        power, largest = words.mean(run.time[chosen], run.column("rotor.power_W")[chosen]), float(np.nanmax(np.abs(run.column("rotor.power_W"))))
+        power, largest = words.mean(run.time[chosen], run.column(column)[chosen]), float(np.nanmax(np.abs(run.column(column))))
         if power < -0.01 * largest:
             return Check("warn", "Power", f"mean {words.number(1e-6 * power, 3)} MW: the rotor drives the air, as it turns faster than this wind would turn it; "
                          "blade elements are not made for that, and its loads scatter")
-    if table is None or not wind or "rotor.power_W" not in run.columns or not len(run.time):
+    if table is None or not wind or column not in run.columns or not len(run.time):
         return None
     if not {"wind_m_s", "power_W"} <= set(table):
         return None
     chosen = run.mean_range()[0]
-    power, stated = words.mean(run.time[chosen], run.column("rotor.power_W")[chosen]), float(np.interp(wind, table["wind_m_s"], table["power_W"]))
+    power, stated = words.mean(run.time[chosen], run.column(column)[chosen]), float(np.interp(wind, table["wind_m_s"], table["power_W"]))
     rated = max(table["power_W"])
     text = f"mean {words.number(1e-6 * power, 3)} MW; the turbine's table has {words.number(1e-6 * stated, 3)} MW at {wind:.4g} m/s, rated {words.number(1e-6 * rated, 3)} MW"
     level = "good" if abs(power - stated) <= 0.15 * max(stated, 1.0) else "warn"
@@ -502,7 +517,7 @@ def _marched(run):
     if not is_steady(run) or back < 2:
         return None
     moving = []
-    for text, name in (("thrust", "rotor.thrust_N"), ("power", "rotor.power_W"), ("lift coefficient", "flow.lift_coefficient"), ("drag coefficient", "flow.drag_coefficient")):
+    for text, name in (*_of_rotors(run, ("thrust", "thrust_N"), ("power", "power_W")), ("lift coefficient", "flow.lift_coefficient"), ("drag coefficient", "flow.drag_coefficient")):
         if name in run.columns:
             last = run.column(name)[-back:]
             change, size = float(np.ptp(last)), abs(float(last[-1]))
@@ -535,7 +550,7 @@ def _settled(run):
             return None
         first, second = chosen[run.time[chosen] <= begin + waves * period + 1e-9], chosen[run.time[chosen] >= end - waves * period - 1e-9]
     between = lambda values: words.mean(run.time[second], values[second]) - words.mean(run.time[first], values[first])
-    for text, name in (("thrust", "rotor.thrust_N"), ("power", "rotor.power_W"), ("lift coefficient", "flow.lift_coefficient"), ("drag coefficient", "flow.drag_coefficient"),
+    for text, name in (*_of_rotors(run, ("thrust", "thrust_N"), ("power", "power_W")), ("lift coefficient", "flow.lift_coefficient"), ("drag coefficient", "flow.drag_coefficient"),
                        *((f"tension of {n.rpartition('.')[0]}", n) for n in run.columns if n.endswith(".tension_N"))):
         if name in run.columns:
             values = run.column(name)
@@ -585,7 +600,8 @@ def _whole_waves(run):
         return Check("warn", "Means", f"over {words.number(count, 2)} of a wave, which say little: output.means_over_s = {words.number(period)} is one wave")
     chosen, off = run.mean_range()[0], []
     tail = chosen & (run.time >= run.time[chosen][-1] - whole * period - 1e-9)
-    for text, name, least in (("surge", f"{names[0]}.x_m", 0.02), ("heave", f"{names[0]}.z_m", 0.02), ("pitch", f"{names[0]}.pitch_deg", 0.05), ("thrust", "rotor.thrust_N", 1.0)):
+    for text, name, least in (("surge", f"{names[0]}.x_m", 0.02), ("heave", f"{names[0]}.z_m", 0.02), ("pitch", f"{names[0]}.pitch_deg", 0.05),
+                              *((text, name, 1.0) for text, name in _of_rotors(run, ("thrust", "thrust_N")))):
         if name in run.columns:
             values = run.column(name)
             all_of_it, waves = words.mean(run.time[chosen], values[chosen]), words.mean(run.time[tail], values[tail])

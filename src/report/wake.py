@@ -12,7 +12,7 @@ SLOW = 0.9       # of the wind: what is faster is not wake
 
 def tip(scene):
     """Radius of the rotor [m]."""
-    return scene.blades.tip if scene.blades else 0.75 * abs(scene.hub0[2])
+    return scene.rotor.tip
 
 
 def wind(scene):
@@ -23,11 +23,11 @@ def wind(scene):
 def surfaces(scene, blocks, time):
     """The plane and the vortices, each as triangles in the earth's frame (n, 3, 3) with the axial over the free wind at their corners (n, 3), or None.
     Triangles are whole: those at the edge of the slow air are in part faster than `SLOW`."""
-    hub, frame, radius, free = scene.hub(time), scene.rotor_frame(time), tip(scene), wind(scene)
-    count = scene.blades.count if scene.blades else 3   # as geometry.py draws them without a turbine file
+    hub, frame, radius, free = scene.rotor.hub(time), scene.rotor.frame(time), tip(scene), wind(scene)
+    count = scene.rotor.blades.count if scene.rotor.blades else 3   # as geometry.py draws them without a turbine file
     copies = count if (scene.scene["aero"].get("grid") or {}).get("sectors") == "one" else 1
     # One sector is drawn turned to the axis as it is now, as its loads are.
-    at, own = scene.sector(time) if copies > 1 else (hub, frame)
+    at, own = scene.rotor.sector(time) if copies > 1 else (hub, frame)
     cells = sum(block["velocity"][..., 0].size for block in blocks)
     slow, axial_at, cores, axial_of = [], [], [], []
     for block in blocks:

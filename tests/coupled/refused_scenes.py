@@ -132,6 +132,31 @@ waves.model="jonswap" & waves.second_order=true & waves.components=2000 : waves.
 waves.model="jonswap" & waves.second_order=true & waves.stretching="wheeler" : waves.stretching
 start.equilibrium=false & moorings.line_downwind.tension_only=true & moorings.line_downwind.axial_stiffness_N=1e18 & moorings.line_downwind.rest_length_m=900.0 : moorings.line_downwind
 """,
+    "control/twin_rotor_floater.toml": """
+rotor.body="platform" : rotor
+rotors.port=3
+rotors.port.body="nobody"
+rotors.port.turbine="nothing.toml"
+rotors.port.hub_m=[0.0, 0.0]
+rotors.starboard.turns="backwards"
+rotors.starboard.speed_rpm=9.0
+rotors.starboard.joint="nothing"
+rotors.third.body="platform" : rotors.third.turbine
+rotors.starboard.tower_foot_m=[0.0, 105.0]
+rotors.starboard.tower_foot_m=[0.0]
+without=["rotors.starboard.tower_foot_m"] : rotors.starboard.tower_foot_m
+without=["aero.tower"] : rotors.port.tower_foot_m
+aero.tower.foot_m=[0.0, 0.0]
+aero.model="none" : rotors
+aero.model="blade_resolved" : rotors
+aero.model="actuator_disc" : rotors
+coupling.scheme="cps2"
+control.model="library" : control.model
+control.yaw.joint="bearing" & control.yaw.stiffness_N_m_rad=1e9 & control.yaw.damping_N_m_s_rad=1e9 : control.yaw
+without=["wind.turbulence"] & wind.event.what="ews_vertical" & wind.event.start_s=1.0 : wind.event.what
+wind.turbulence.width_m=200.0 : wind.turbulence
+rotors.blade_1.body="platform" & rotors.blade_1.turbine="../turbines/dtu_10mw.toml" : rotors.blade_1
+""",
     "leble_barakos/case1_demo.toml": EVERY + WATER + """
 sea.particles.spacing_m=1e-6
 sea.particles.spacing_m=1e-2

@@ -38,6 +38,7 @@ std::vector<Motion> moved(double pitch, double azimuth, double speed, double pit
 }
 
 const RotorPlacement bearing{.body = 1, .support = 0, .hub = {0, 0, 119}, .axis = {2, 0, 0}};
+const WindSite site{{0, 0, 119}, 178.33};
 
 std::vector<Wrench> loads(const RotorLoads& rotor, double t, const std::vector<Motion>& bodies, double ramp = 1.0) {
   std::vector<Wrench> w(bodies.size());
@@ -105,7 +106,7 @@ TEST_CASE("a rotor without a body of its own turns by its given speed", "[aero][
 
 TEST_CASE("a hub that moves downwind feels less wind and less thrust: damping of pitch by dT/dU", "[aero][fast]") {
   const WindOptions wind{.speed_m_s = 11.0};
-  const RotorLoads rotor(analytic_law(), turbine(), wind, 1.225, bearing, start());
+  const RotorLoads rotor(analytic_law(), turbine(), wind_of(wind, site), 1.225, bearing, start());
   const double still = loads(rotor, 0.0, moved(0.0, 0.0, 0.9, 0.0))[1].force.x();
   const double rate = 1e-4, forward = loads(rotor, 0.0, moved(0.0, 0.0, 0.9, rate))[1].force.x();
   const double area = pi / 4 * 178.33 * 178.33;
@@ -115,7 +116,7 @@ TEST_CASE("a hub that moves downwind feels less wind and less thrust: damping of
 
 TEST_CASE("wind across the axis makes no thrust, wind from behind makes it negative", "[aero][fast]") {
   WindOptions wind{.speed_m_s = 11.0, .direction = GENERATE(0.0, 0.4, 0.5 * pi, pi)};
-  const RotorLoads rotor(analytic_law(), turbine(), wind, 1.225, bearing, start());
+  const RotorLoads rotor(analytic_law(), turbine(), wind_of(wind, site), 1.225, bearing, start());
   const double along = 11.0 * std::cos(wind.direction);
   CHECK(rotor.state(0.0, start()).relative_wind == Approx(along).margin(1e-12));
   const double expected = 0.5 * 1.225 * pi / 4 * 178.33 * 178.33 * 0.8 * along * std::abs(along);
@@ -128,7 +129,7 @@ TEST_CASE("a hub feels the wind of its height, and blades that of theirs: shear 
   low.law = GENERATE(WindLaw::power, WindLaw::logarithmic), low.reference_height_m = 30.0;
   const double share = wind_profile(low).share(119.0);
   CHECK(share > 1.05);
-  CHECK(RotorLoads(analytic_law(), turbine(), low, 1.225, bearing, start()).state(0.0, start()).relative_wind ==
+  CHECK(RotorLoads(analytic_law(), turbine(), wind_of(low, site), 1.225, bearing, start()).state(0.0, start()).relative_wind ==
         Approx(11.0 * share));
 
   AeroOptions aero;
@@ -137,8 +138,8 @@ TEST_CASE("a hub feels the wind of its height, and blades that of theirs: shear 
   options.turbine = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml";
   WindOptions sheared{.speed_m_s = 11.0};
   sheared.law = low.law, sheared.reference_height_m = 119.0;
-  const RotorLoads even(aero, options, uniform, 1.225, bearing, start()),
-      over_height(aero, options, sheared, 1.225, bearing, start());
+  const RotorLoads even(aero, options, wind_of(uniform, site), 1.225, bearing, start()),
+      over_height(aero, options, wind_of(sheared, site), 1.225, bearing, start());
   Vector3d force[2] = {Vector3d::Zero(), Vector3d::Zero()}, moment[2] = {Vector3d::Zero(), Vector3d::Zero()};
   constexpr int azimuths = 8;
   for (int n = 0; n < azimuths; ++n) {
@@ -167,14 +168,14 @@ TEST_CASE("a ramp scales load and power, and no model means no load", "[aero][fa
 
 TEST_CASE("the load is the same in every frame of reference that a turned scene stands for", "[aero][fast]") {
   const WindOptions wind{.speed_m_s = 11.0, .direction = 0.3};
-  const RotorLoads rotor(analytic_law(), turbine(), wind, 1.225, bearing, start());
+  const RotorLoads rotor(analytic_law(), turbine(), wind_of(wind, site), 1.225, bearing, start());
   const auto before = moved(0.1, 0.5, 0.9, 0.02);
   const Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d::UnitZ()));
   auto after = before;
   for (Motion& b : after) b.position = turn * b.position, b.velocity = turn * b.velocity, b.attitude = turn * b.attitude;
   WindOptions turned = wind;
   turned.direction += 0.7;
-  const RotorLoads same(analytic_law(), turbine(), turned, 1.225, bearing, start());
+  const RotorLoads same(analytic_law(), turbine(), wind_of(turned, site), 1.225, bearing, start());
   const auto w = loads(rotor, 0.0, before), v = loads(same, 0.0, after);
   CHECK((v[1].force - turn * w[1].force).norm() < 1e-6);
   CHECK((v[1].moment - turn * w[1].moment).norm() < 1e-4);
@@ -187,7 +188,7 @@ TEST_CASE("the same scene with bem in place of a curve: the rotor in its bearing
   options.turbine = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml";
   options.blade_pitch = 0.02, options.azimuth = 0.3;
   const WindOptions wind{.speed_m_s = 11.0, .direction = 0.1};
-  const RotorLoads rotor(aero, options, wind, 1.225, bearing, start());
+  const RotorLoads rotor(aero, options, wind_of(wind, site), 1.225, bearing, start());
   const double speed = 0.925, pitch_rate = 0.02;
   const auto bodies = moved(0.09, 0.7, speed, pitch_rate);
   const Vector3d axis(std::cos(0.09), 0, -std::sin(0.09)), up(std::sin(0.09), 0, std::cos(0.09));
@@ -202,7 +203,8 @@ TEST_CASE("the same scene with bem in place of a curve: the rotor in its bearing
   CHECK(load.power == Approx(disc.moment.dot(axis) * speed));
   // Without a body of its own the rotor spins by rotor.speed_rpm, with the same load.
   options.joint = "", options.speed = speed, options.azimuth = 1.0;
-  const RotorLoads fixed(aero, options, wind, 1.225, {.body = 0, .support = std::nullopt, .hub = {0, 0, 119}}, start());
+  const RotorLoads fixed(aero, options, wind_of(wind, site), 1.225, {.body = 0, .support = std::nullopt, .hub = {0, 0, 119}},
+                         start());
   CHECK((loads(fixed, 0.0, bodies)[0].force - disc.force).norm() < 1e-6 * disc.force.norm());
 }
 
@@ -216,8 +218,8 @@ TEST_CASE("a drive train that air computed elsewhere turns does what it does und
   const WindOptions wind{.speed_m_s = 12.0};
   const RotorPlacement place{.body = 0, .support = std::nullopt, .hub = {0, 0, 119}};
   const auto bodies = moved(0.09, 0.0, 0.0, 0.02);
-  RotorLoads own(constant_thrust(), options, wind, 1.225, place, start(), control, 0.05),
-      other({}, options, wind, 1.225, place, start(), control, 0.05);
+  RotorLoads own(constant_thrust(), options, wind_of(wind, site), 1.225, place, start(), control, 0.05),
+      other({}, options, wind_of(wind, site), 1.225, place, start(), control, 0.05);
   const Vector3d axis = own.state(0.0, bodies).axis;
   const HubLoad air{1.5e6 * axis, 1e7 * axis};
   other.turn_by([&](double) { return air.moment; });
@@ -241,4 +243,110 @@ TEST_CASE("a drive train that air computed elsewhere turns does what it does und
   // Half the shaft's torque acts on the body, the whole of the air's turns the rotor.
   const double half = own.load(2.0, now, 0.5).moment.dot(axis), whole = own.load(2.0, now, 1.0).moment.dot(axis);
   CHECK(half == Approx(0.5 * whole));
+}
+
+namespace {
+
+// Everything as seen in a mirror, the plane y = 0: vectors, and what turns.
+Vector3d mirrored(const Vector3d& v) { return {v.x(), -v.y(), v.z()}; }
+Vector3d mirrored_turn(const Vector3d& v) { return {-v.x(), v.y(), -v.z()}; }
+std::vector<Motion> mirrored(std::vector<Motion> bodies) {
+  for (Motion& b : bodies) {
+    b.position = mirrored(b.position), b.velocity = mirrored(b.velocity), b.omega = mirrored_turn(b.omega);
+    b.attitude = {b.attitude.w(), -b.attitude.x(), b.attitude.y(), -b.attitude.z()};
+  }
+  return bodies;
+}
+
+/// A motion of the pair that is the same in no mirror: it pitches, rolls and drifts.
+std::vector<Motion> swinging(double t) {
+  const Quaterniond tilt(Eigen::AngleAxisd(0.08 * std::sin(0.5 * t), Vector3d(0.3, 1, 0.2).normalized())),
+      spin(Eigen::AngleAxisd(0.9 * t, Vector3d::UnitX()));
+  const Vector3d rate = tilt * Vector3d(0.04 * std::cos(0.5 * t) * Vector3d(0.3, 1, 0.2).normalized()), drift(0.5, 0.3, -0.1);
+  auto bodies = start();
+  for (Motion& b : bodies) {
+    b.position = tilt * b.position + t * drift;
+    b.velocity = drift + rate.cross(b.position - t * drift);
+  }
+  bodies[0].attitude = tilt * bodies[0].attitude, bodies[1].attitude = tilt * spin * bodies[1].attitude;
+  bodies[0].omega = bodies[0].attitude.conjugate() * rate;
+  bodies[1].omega = bodies[1].attitude.conjugate() * (rate + tilt * Vector3d(0.9, 0, 0));
+  return bodies;
+}
+
+}  // namespace
+
+TEST_CASE("a rotor that turns the other way is the mirror image of one that does not", "[aero][fast]") {
+  const bool in_bearing = GENERATE(true, false), bends = GENERATE(false, true), controlled = GENERATE(false, true);
+  if (in_bearing && (bends || controlled)) return;
+  AeroOptions aero;
+  aero.model = "bem", aero.dynamic_inflow = "oye", aero.dynamic_stall = "beddoes_leishman";
+  aero.tower.emplace().foot_m = {7.0, 1.0};
+  aero.tower->stations = {{0.0, 8.3, 1.0}, {115.0, 5.5, 0.9}};
+  AeroOptions aero_seen = aero;
+  aero_seen.tower->foot_m[1] = -1.0;
+  RotorOptions options = turbine();
+  options.turbine = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml";
+  options.azimuth = 0.3, options.blade_pitch = 0.02, options.speed = 0.9;
+  const std::string table = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw/";
+  (bends ? options.blade_structure : options.blade_masses) = table + (bends ? "blade_structure.csv" : "blade_masses.csv");
+  ControlOptions control;
+  if (controlled)
+    control.model = ControlModel::dtu, control.file = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw_controller.toml";
+  options.operation = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw_operation.csv";
+  const Vector3d weight(0, 0, -9.81);
+  WindOptions wind{.speed_m_s = 11.0, .direction = 0.2};
+  wind.law = WindLaw::power, wind.reference_height_m = 119.0;
+  WindOptions wind_seen = wind;
+  wind_seen.direction = -0.2;
+  RotorPlacement place{.body = in_bearing ? 1 : 0, .support = {}, .hub = {0, 0, 119}, .axis = {1, 0, 0}};
+  if (in_bearing) place.support = 0;
+  RotorPlacement place_seen = place;
+  place_seen.sense = -1.0;
+  const double h = 0.02;
+  RotorLoads rotor(aero, options, wind_of(wind, site), 1.225, place, start(), control, h, weight),
+      seen(aero_seen, options, wind_of(wind_seen, site), 1.225, place_seen, mirrored(start()), control, h, weight);
+  std::vector<double> memory(rotor.memory_size()), memory_seen(seen.memory_size());
+  rotor.begin(0.0, swinging(0.0), memory), seen.begin(0.0, mirrored(swinging(0.0)), memory_seen);
+  double t = 0.0;
+  for (int n = 1; n <= 20; ++n) {
+    t = n * h;
+    rotor.remember(t, h, swinging(t), memory), seen.remember(t, h, mirrored(swinging(t)), memory_seen);
+    rotor.recall(memory), seen.recall(memory_seen);
+  }
+  const auto bodies = swinging(t), bodies_seen = mirrored(bodies);
+  const RotorState a = rotor.state(t, bodies), b = seen.state(t, bodies_seen);
+  CHECK(b.speed == Approx(a.speed).epsilon(1e-12));
+  CHECK(a.speed > 0.5);
+  CHECK(b.azimuth == Approx(a.azimuth).epsilon(1e-12));
+  CHECK((b.omega - mirrored_turn(a.omega)).norm() < 1e-12);
+  const RotorLoad load = rotor.load(t, a), load_seen = seen.load(t, b);
+  CHECK(load.torque > 1e6);
+  CHECK(load_seen.thrust == Approx(load.thrust).epsilon(1e-10));
+  CHECK(load_seen.torque == Approx(load.torque).epsilon(1e-9));
+  CHECK(load_seen.power == Approx(load.power).epsilon(1e-9));
+  CHECK((load_seen.force - mirrored(load.force)).norm() < 1e-10 * load.force.norm());
+  CHECK((load_seen.moment - mirrored_turn(load.moment)).norm() < 1e-9 * load.moment.norm());
+  CHECK(std::abs(load.force.y()) > 1e-3 * load.force.norm());  // the motion is no mirror image of itself
+  const Vector3d accelerates(0.3, 0.2, -0.1), turns(0.01, 0.02, 0.03);
+  const auto roots = rotor.root_loads(t, bodies, accelerates, turns, weight),
+             roots_seen = seen.root_loads(t, bodies_seen, mirrored(accelerates), mirrored_turn(turns), weight);
+  REQUIRE(roots.size() == 3);
+  for (std::size_t n = 0; n < 3; ++n) {
+    CHECK(roots_seen[n].downwind == Approx(roots[n].downwind).epsilon(1e-9));
+    CHECK(roots_seen[n].ahead == Approx(roots[n].ahead).epsilon(1e-9));
+    CHECK(roots_seen[n].outward == Approx(roots[n].outward).epsilon(1e-9));
+    CHECK(roots_seen[n].flap == Approx(roots[n].flap).epsilon(1e-9));
+    CHECK(roots_seen[n].edge == Approx(roots[n].edge).epsilon(1e-9));
+  }
+  if (bends) {
+    const auto tips = rotor.tips(t, bodies), tips_seen = seen.tips(t, bodies_seen);
+    for (std::size_t n = 0; n < 3; ++n) CHECK((tips_seen[n] - tips[n]).norm() < 1e-9);
+    Eigen::Matrix<double, 6, 6> added[2] = {Eigen::Matrix<double, 6, 6>::Zero(), Eigen::Matrix<double, 6, 6>::Zero()};
+    rotor.add_added_mass(t, bodies, std::span(&added[0], 1)), seen.add_added_mass(t, bodies_seen, std::span(&added[1], 1));
+    Eigen::Matrix<double, 6, 1> mirror;
+    mirror << 1, -1, 1, -1, 1, -1;
+    CHECK((mirror.asDiagonal() * added[0] * mirror.asDiagonal() - added[1]).norm() < 1e-9 * added[0].norm());
+  }
+  if (controlled) CHECK(seen.drive().generator_torque == Approx(rotor.drive().generator_torque).epsilon(1e-10));
 }

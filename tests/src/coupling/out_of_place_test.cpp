@@ -17,9 +17,9 @@ TEST_CASE("a body may touch the bed, and is named where it is in it by more than
   // The hull reaches from -2 to 2 m about the start: half of its diagonal is sqrt(9 + 1 + 1) m with the room for its discs.
   const double start = state.motions[0].position.z(), size = std::sqrt(1.0 + 1.0 + 9.0);
   state.motions[0].position.z() = start - 18.0 - 0.09 * size;
-  CHECK(!out_of_place(floating, state, 0.0));
+  CHECK(!out_of_place(floating, state));
   state.motions[0].position.z() = start - 18.0 - 0.11 * size;
-  const auto found = out_of_place(floating, state, 0.0);
+  const auto found = out_of_place(floating, state);
   REQUIRE(found);
   CHECK_THAT(found->what(), Contains("body buoy") && Contains("in the bed at z = -20 m") && Contains("water_depth_m"));
   CHECK(found->place == "bodies.buoy");
@@ -30,7 +30,7 @@ TEST_CASE("a rotor is named where its lowest blade is in the water", "[coupling]
     FloatingSystem floating(test::scenario(
         test::buoy, {"aero.model='thrust_curve'", "aero.thrust_coefficient=0.8", "rotor.body='buoy'", "rotor.diameter_m=10.0",
                      std::string("rotor.hub_m=[0.0,0.0,") + z + "]", "rotor.speed_rpm=10.0", "wind.speed_m_s=8.0"}));
-    return out_of_place(floating, make_start(floating).state, 5.0);
+    return out_of_place(floating, make_start(floating).state);
   };
   CHECK(!at_height("5.1"));
   const auto found = at_height("4.0");

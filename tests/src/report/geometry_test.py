@@ -165,19 +165,43 @@ class Geometry(unittest.TestCase):
 
     def test_a_grid_of_one_sector_stays_upright_and_follows_the_hub_along_its_axis(self):
         """The platform leans by 10 degrees and moves by 4 m: the hub, 123 m above its reference, goes downwind by some 25 m and sinks."""
-        hub, frame = self.scene.sector(40.0)
+        hub, frame = self.scene.rotor.sector(40.0)
         np.testing.assert_allclose(frame, np.eye(3), atol=1e-12)
         np.testing.assert_allclose(hub, [4.0 + 123.0 * np.sin(np.radians(10.0)), 0.0, 119.0], atol=1e-9)
-        np.testing.assert_allclose(self.scene.rotor_frame(40.0)[0], [np.cos(np.radians(10.0)), 0.0, -np.sin(np.radians(10.0))], atol=1e-12)
+        np.testing.assert_allclose(self.scene.rotor.frame(40.0)[0], [np.cos(np.radians(10.0)), 0.0, -np.sin(np.radians(10.0))], atol=1e-12)
 
     def test_blades_are_a_third_of_a_turn_apart_lean_upwind_and_turn_towards_minus_y(self):
         blades = [piece.points for piece in self.kinds(0.0)["blade"]]
-        tips = [b[np.argmax(np.linalg.norm(b - self.scene.hub(0.0), axis=1))] - self.scene.hub(0.0) for b in blades]
+        tips = [b[np.argmax(np.linalg.norm(b - self.scene.rotor.hub(0.0), axis=1))] - self.scene.rotor.hub(0.0) for b in blades]
         self.assertGreater(tips[0][2], 85.0)
         self.assertLess(tips[0][0], -3.0)   # precone of 2.5 degrees, and prebend upwind
         self.assertLess(tips[1][1], -70.0)  # what comes next in the sense of turning
         later = self.kinds(1.0)["blade"][0].points
-        self.assertLess((later - self.scene.hub(1.0))[:, 1].min(), -70.0)
+        self.assertLess((later - self.scene.rotor.hub(1.0))[:, 1].min(), -70.0)
+
+    def test_of_two_rotors_each_has_its_tower_and_its_blades_and_one_is_the_others_mirror_image(self):
+        t = 0.1 * np.arange(11)
+        names = ("x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg")
+        table = {"time_s": t} | {f"platform.{name}": 0 * t for name in names}
+        for rotor in ("port", "starboard"):
+            table |= {f"rotor.{rotor}.thrust_N": 0 * t, f"rotor.{rotor}.azimuth_deg": 20.0 + 50.0 * t}
+        sides = {"port": (105.0, ""), "starboard": (-105.0, "turns = 'counter_clockwise'\n")}
+        scene = "[bodies.platform]\nmass_kg = 1e7\ncentre_m = [0.0, 0.0, -5.0]\n[aero.tower]\nstations = [[12.0, 8.0, 1.0], [115.0, 5.0, 1.0]]\n"
+        for rotor, (y, more) in sides.items():
+            scene += (f"[rotors.{rotor}]\nbody = 'platform'\nhub_m = [-7.0, {y}, 119.0]\nturbine = '{ROOT}/inputs/turbines/dtu_10mw.toml'\n"
+                      f"tower_foot_m = [0.0, {y}]\n{more}")
+            scene += f"[[bodies.platform.cylinders]]\nstart_m = [0.0, {y}, -20.0]\nend_m = [0.0, {y}, 12.0]\ndiameter_m = 12.0\n"
+        synthetic_run.write(self.folder.with_name("twin"), table=table, scene=scene)
+        self.scene = geometry.Scene3d(RunData(self.folder.with_name("twin")))
+        found = self.kinds(1.0)
+        self.assertEqual({kind: len(pieces) for kind, pieces in found.items() if kind != "brace"}, {"float": 2, "tower": 2, "nacelle": 2, "hub": 2, "blade": 6})
+        for n, (y, _) in enumerate(sides.values()):
+            self.assertAlmostEqual(found["tower"][n].points[:, 1].mean(), y)
+            self.assertAlmostEqual(found["hub"][n].points[:, 1].mean(), y)
+        for port, starboard in zip(found["blade"][:3], found["blade"][3:]):
+            np.testing.assert_allclose(starboard.points, port.points * [1.0, -1.0, 1.0], atol=1e-9)
+            self.assertEqual(starboard.polygons[0], port.polygons[0][::-1])
+        self.assertLess((found["blade"][0].points[:, 1] - 105.0).min(), -70.0)   # at 70 degrees, towards -y
 
     def test_lines_have_their_length_and_end_where_they_should(self):
         for length, rise in ((113.0, 13.0), (140.0, 13.0), (1000.0, 300.0), (902.2, 250.0)):
@@ -222,7 +246,7 @@ class Geometry(unittest.TestCase):
         (self.folder / "fields").mkdir()
         nodes = np.stack(np.meshgrid(np.linspace(-50.0, 250.0, 31), np.linspace(-130.0, 130.0, 27), np.linspace(-10.0, 250.0, 27), indexing="ij"), axis=-1).transpose(2, 1, 0, 3)
         for n, t in enumerate((0.0, 20.0)):
-            hub, frame = self.scene.hub(t), self.scene.rotor_frame(t)
+            hub, frame = self.scene.rotor.hub(t), self.scene.rotor.frame(t)
             middle = nodes
             for axis in range(3):
                 middle = cut.between(middle, axis)
@@ -242,7 +266,7 @@ class Geometry(unittest.TestCase):
         with h5py.File(self.folder / "fields/wake.h5") as file:
             for n, t in enumerate(times):
                 points, wind = file[f"points_{n}"][...], file[f"axial_wind_{n}"][...]
-                local = (points - self.scene.hub(t)) @ self.scene.rotor_frame(t).T
+                local = (points - self.scene.rotor.hub(t)) @ self.scene.rotor.frame(t).T
                 np.testing.assert_allclose(local[:, 1], 0.013 * wake.tip(self.scene), atol=1e-3)
                 inside = (local[:, 0] > 20.0) & (abs(local[:, 2]) < 50.0)
                 self.assertGreater(inside.sum(), 100)

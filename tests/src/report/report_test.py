@@ -712,6 +712,30 @@ class PartsTest(unittest.TestCase):
         self.assertAlmostEqual(frequency[0], 1.0 / 150.0)   # segments of half the length
         self.assertIsNone(figures.density(t[:50], t[:50]))
 
+    def test_of_several_rotors_each_has_its_loads_its_answer_and_its_table(self):
+        t = np.linspace(0.0, 60.0, 601)
+        table = {"time_s": t, "float.x_m": 0 * t, "float.rotor.a.fx_N": 1e6 + 0 * t, "float.rotor.b.fx_N": 2e6 + 0 * t, "float.sea.fx_N": 0 * t}
+        for name, size in (("a", 1.0), ("b", 2.0)):
+            table |= {f"rotor.{name}.thrust_N": size * 1e6 + 0 * t, f"rotor.{name}.power_W": size * 4e6 + 0 * t, f"rotor.{name}.rpm": 8.0 * size + 0 * t,
+                      f"rotor.{name}.blade_1.pitch_deg": size + 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "table.csv").write_text("wind_m_s, speed_rpm, power_W\n5, 6, 2e6\n15, 9, 6e6\n")
+            synthetic_run.write(folder / "run", table=table, log="", scene="[wind]\nspeed_m_s = 10.0\n[aero]\nmodel = 'bem'\n[rotors.a]\noperation = '../table.csv'\n"
+                                "[rotors.b]\noperation = '../table.csv'\n")
+            run = RunData(folder / "run")
+            self.assertEqual(quantities.rotors_of(run.columns), ["rotor.a", "rotor.b"])
+            self.assertEqual(verdict.kind(run), "floating turbine")
+            found = {group.title: group for group in quantities.groups(run.columns)}
+            self.assertEqual([line for line, _ in dict(found["float: forces by source"].panels)["fx"]], ["rotor.a", "rotor.b", "sea"])
+            self.assertIn("rotor.b: loads and speed", found)
+            self.assertEqual(page.marks(run), {"1P": 8.0 / 60.0, "3P": 0.4, "1P of b": 16.0 / 60.0, "3P of b": 0.8})
+            power = verdict._power(run)
+            self.assertEqual(power.level, "warn")
+            self.assertTrue(power.text.startswith("rotor b: mean 8.00 MW"), power.text)
+            self.assertIn("rotor a: mean 4.00 MW", power.text)
+            self.assertIn("thrust of b", [name for name, *_ in verdict.answers(run)])
+
     def test_pitch_of_the_blades_belongs_to_the_rotor_and_not_to_bodies(self):
         names = ["turbine.x_m", "rotor.thrust_N", "rotor.asked_pitch_deg", *(f"rotor.blade_{b}.pitch_deg" for b in (1, 2, 3))]
         self.assertEqual(quantities.bodies_of(names), ["turbine"])
