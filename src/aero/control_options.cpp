@@ -29,7 +29,8 @@ const scene::Section<EventOptions>& event_section() {
           .number("time_s", &EventOptions::time_s, "s", "When.", scene::not_negative())
           .required()
           .integer("blade", &EventOptions::blade, "-", "Blade that is stuck.", scene::between(1, 12))
-          .only_if("what", {"blade_stuck"});
+          .only_if("what", {"blade_stuck"})
+          .text("rotor", &EventOptions::rotor, "Name of the one of [rotors] that it happens to; without it all of them.");
   return section;
 }
 

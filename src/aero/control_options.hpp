@@ -29,7 +29,8 @@ enum class ControlEvent { start_up, shut_down, emergency_stop, grid_loss, blade_
 struct EventOptions {
   ControlEvent what = ControlEvent::shut_down;
   double time_s = 0.0;
-  int blade = 1;  ///< of blade_stuck
+  int blade = 1;                     ///< of blade_stuck
+  std::optional<std::string> rotor;  ///< the one of several that it happens to; absent: all
 };
 
 /// [control.drive_train]: what a controller library turns and pitches. Torques and inertias on the low-speed shaft, but for the

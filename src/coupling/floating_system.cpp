@@ -61,6 +61,13 @@ aero::WindSite site_of(std::span<const Scenario> each, std::span<const aero::Rot
   return site;
 }
 
+/// [control] with the events that happen to this rotor.
+aero::ControlOptions control_of(const Scenario& s, const std::string& rotor) {
+  aero::ControlOptions control = s.control;
+  std::erase_if(control.events, [&](const aero::EventOptions& event) { return event.rotor && *event.rotor != rotor; });
+  return control;
+}
+
 /// Resolved air is estimated by blade elements, where the turbine has what they need.
 aero::AeroOptions engineering_rung(const Scenario& s) {
   aero::AeroOptions aero = s.aero;
@@ -229,13 +236,13 @@ void FloatingSystem::add_rotors(const std::vector<std::string>& bodies, std::spa
   const aero::Wind wind = aero::wind_of(s.wind, site_of(each, placements));
   for (std::size_t n = 0; n < each.size(); ++n) {
     const Scenario& one = each[n];
-    const std::string name = s.rotors.empty() ? "rotor" : "rotor." + s.rotors[n].name;
+    const std::string own = s.rotors.empty() ? "" : s.rotors[n].name, name = own.empty() ? "rotor" : "rotor." + own;
     aero::RotorLoads& rotor =
         rotors_
             .emplace_back(Rotor{name,
                                 rotor_radius(one),
                                 {engineering_rung(one), one.rotor, wind, s.environment.air_density_kg_m3, placements[n], start,
-                                 s.control, timeline_.tick_s(), s.environment.gravity()}})
+                                 control_of(s, own), timeline_.tick_s(), s.environment.gravity()}})
             .loads;
     std::vector<bool> on(bodies.size());
     on[rotor.bearing().body()] = true;

@@ -178,6 +178,12 @@ void check_rotors(scene::Document& document, const Scenario& s) {
   if (s.aero.tower && document.given("aero.tower.foot_m") &&
       std::ranges::all_of(s.rotors, [](const auto& rotor) { return rotor.options.tower_foot_m.has_value(); }))
     document.problem("aero.tower.foot_m", "has no effect: each rotor has its own tower_foot_m");
+  const std::vector<std::string> known = names(s.rotors);
+  for (std::size_t n = 0; n < s.control.events.size(); ++n)
+    if (const std::optional<std::string>& rotor = s.control.events[n].rotor;
+        rotor && std::ranges::find(known, *rotor) == known.end())
+      document.problem(fmt::format("control.events[{}].rotor", n),
+                       fmt::format("names \"{}\", which is not in [rotors]; known: {}", *rotor, fmt::join(known, ", ")));
   if (s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",
                      "must be \"monolithic\" with [rotors]: several rotors load the bodies as they go, no window "
@@ -537,6 +543,9 @@ Scenario read_scenario(scene::Document& document) {
   if (s.has_rotor())
     for (const Scenario& one : by_rotor(s)) check_rotor(document, s.aero, one.rotor, bodies, joints, one.rotor_section);
   if (!s.rotors.empty() && !s.resolves_air()) check_rotors(document, s);
+  for (std::size_t n = 0; n < s.control.events.size(); ++n)
+    if (s.rotors.empty() && s.control.events[n].rotor)
+      document.problem(fmt::format("control.events[{}].rotor", n), "has no effect: there is one rotor, in [rotor]");
   if (!s.rotor.blade_structure.empty() && s.coupling.scheme != SchemeKind::monolithic)
     document.problem("coupling.scheme",
                      "must be \"monolithic\" with rotor.blade_structure: blades that bend step with the bodies");

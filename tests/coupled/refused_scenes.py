@@ -155,6 +155,7 @@ control.model="library" : control.model
 control.yaw.joint="bearing" & control.yaw.stiffness_N_m_rad=1e9 & control.yaw.damping_N_m_s_rad=1e9 : control.yaw
 without=["wind.turbulence"] & wind.event.what="ews_vertical" & wind.event.start_s=1.0 : wind.event.what
 wind.turbulence.width_m=200.0 : wind.turbulence
+control.events=[{what="grid_loss", time_s=5.0, rotor="middle"}] : control.events[0].rotor
 rotors.blade_1.body="platform" & rotors.blade_1.turbine="../turbines/dtu_10mw.toml" : rotors.blade_1
 """,
     "leble_barakos/case1_demo.toml": EVERY + WATER + """

@@ -169,6 +169,22 @@ TEST_CASE("each rotor meets the wind at its own hub: its height in shear, its pl
                     Contains("does not cover the rotors") && Contains("210 m apart across the wind"));
 }
 
+TEST_CASE("an event that names a rotor happens to that one alone", "[coupling][fast]") {
+  const auto after = [](const std::string& rotor) {
+    FloatingSystem floating(test::scenario(
+        carrier, twin() + Texts{"control.model='dtu'", "control.events=[{what='grid_loss',time_s=0.5" + rotor + "}]"}));
+    bodies::BodiesState state = make_start(floating).state;
+    for (int n = 0; n < 50; ++n) REQUIRE(floating.multibody().advance(state, 0.02, 1).ok());
+    Texts names;
+    const auto row = history_row(floating, state, 1.0, names);
+    return std::pair(value(row, names, "rotor.left.generator_torque_N_m"), value(row, names, "rotor.right.generator_torque_N_m"));
+  };
+  const auto [left, right] = after(",rotor='right'");
+  CHECK(left > 1e6);
+  CHECK(right == 0.0);
+  CHECK(after("") == std::pair(0.0, 0.0));
+}
+
 TEST_CASE("each of two rotors on bodies of their own loads its own body alone", "[coupling][fast]") {
   const Texts other{"bodies.other.mass_kg=2.0e7", "bodies.other.inertia_kg_m2=[2.0e11,5.0e10,2.0e11]",
                     "bodies.other.centre_m=[0.0,-300.0,0.0]", "rotors.right.body='other'"};
@@ -244,6 +260,9 @@ TEST_CASE("what several rotors cannot have is refused by its key", "[coupling][f
   refused(twin() + Texts{"aero.model='actuator_line'", "aero.flow.grid='none.p3d'"}, "resolved air has one rotor");
   refused(twin() + Texts{"wind.event.what='ews_horizontal'", "wind.event.start_s=1.0"}, "wind.event.what");
   refused(twin() + Texts{"rotors.left.tower_foot_m=[0.0,105.0]"}, "rotors.left.tower_foot_m");
+  const std::string stop = "control.events=[{what='grid_loss',time_s=0.5,rotor=";
+  refused(twin() + Texts{"control.model='dtu'", stop + "'middle'}]"}, "control.events[0].rotor");
+  refused(rotor("rotor", 0.0) + Texts{"control.model='dtu'", stop + "'left'}]"}, "control.events[0].rotor");
   const Texts tower{"aero.tower.stations=[[0.0,8.0,1.0],[115.0,5.5,1.0]]", "rotors.left.tower_foot_m=[0.0,0.0]"};
   refused(twin() + tower, "rotors.right.tower_foot_m");
   refused(twin() + tower + Texts{"rotors.right.tower_foot_m=[0.0,0.0]"}, "the drag of one tower would count twice");
