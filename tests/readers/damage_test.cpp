@@ -2,8 +2,10 @@
 // Apache-2.0
 #include <catch2/catch.hpp>
 #include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -125,5 +127,30 @@ TEST_CASE("bytes of wind and grids that make no sense are refused with where the
       CHECK_THAT(*said, Catch::Contains(seed.file.filename().string()) && Catch::Contains("byte"));
     }
     CHECK(refused >= 10);
+  }
+}
+
+TEST_CASE("a number of a binary surface or of a Mann box that is none is refused with its byte", "[readers][fast]") {
+  for (const Reader& reader : readers()) {
+    if (reader.name != "stl_binary" && reader.name != "mann") continue;
+    const Seed seed(reader);
+    const bool surface = reader.name == "stl_binary";
+    int refused = 0;
+    for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                              -std::numeric_limits<float>::infinity()})
+      for (std::size_t at = surface ? 84 : 0; at + 4 <= seed.bytes.size(); at += 4) {
+        // Of a facet's 50 bytes the normal, 12, and the attribute, 2, are not read.
+        if (surface) at += (at - 84) % 50 == 0 ? 12 : (at - 84) % 50 == 48 ? 14 : 0;
+        if (at + 4 > seed.bytes.size()) break;
+        std::string damaged = seed.bytes;
+        std::memcpy(damaged.data() + at, &wrong, sizeof wrong);
+        const auto said = refusal(reader, seed.file, damaged);
+        CAPTURE(reader.name, at, wrong);
+        CHECK(said);
+        if (!said) continue;
+        ++refused;
+        CHECK_THAT(*said, Catch::Contains(seed.file.filename().string()) && Catch::Contains("byte " + std::to_string(at)));
+      }
+    CHECK(refused >= 20);
   }
 }
