@@ -3,7 +3,7 @@
 //   dx: (I - M_S M_F) dx = (x~ - x) + M_S (y~ - y),  y~ = F(x + dx),  dy: (I - M_F M_S) dy = (y~ - y) + M_F (x~ - x),  x~ = S(y +
 //   dy).
 // The systems are solved in the span of the columns (Woodbury), whose number is small. F and S see different steps, so this
-// scheme evaluates the parts itself (`answer`). Used by solve_window.hpp; tested in tests/kernels/coupling and
+// scheme evaluates the parts itself (`evaluate`). Used by solve_window.hpp; tested in tests/kernels/coupling and
 // tests/verification/coupling. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,20 +21,20 @@ class IbqnLs {
 
   /// x~ for x: both parts evaluated once, the second on data corrected by the models. Window: first(x) -> y~, second(y) -> x~.
   template <class Window>
-  Vector answer(Window& window, const Vector& x) {
-    const Vector y_answer = window.first(x);
-    if (!y_answer.allFinite()) return Vector::Constant(x.size(), y_answer.sum());  // not finite: for the driver to see
-    if (x_.size() > 0) first_.add(x - x_, y_answer - y_answer_);
-    Vector y = y_answer;
-    if (x_.size() > 0 && both_know()) y = y_ + solve(first_, second_, (y_answer - y_) + first_.map(x_answer_ - x));
-    const Vector x_answer = window.second(y);
-    if (x_.size() > 0) second_.add(y - y_, x_answer - x_answer_);
-    x_ = x, y_ = y, y_answer_ = y_answer, x_answer_ = x_answer;
-    return x_answer;
+  Vector evaluate(Window& window, const Vector& x) {
+    const Vector y_output = window.first(x);
+    if (!y_output.allFinite()) return Vector::Constant(x.size(), y_output.sum());  // not finite: for the driver to see
+    if (x_.size() > 0) first_.add(x - x_, y_output - y_output_);
+    Vector y = y_output;
+    if (x_.size() > 0 && both_know()) y = y_ + solve(first_, second_, (y_output - y_) + first_.map(x_output_ - x));
+    const Vector x_output = window.second(y);
+    if (x_.size() > 0) second_.add(y - y_, x_output - x_output_);
+    x_ = x, y_ = y, y_output_ = y_output, x_output_ = x_output;
+    return x_output;
   }
   Vector next(const Vector& x, const Vector& r) {
     if (!both_know()) return x + relaxation_ * r;
-    return x + solve(second_, first_, r + second_.map(y_answer_ - y_));
+    return x + solve(second_, first_, r + second_.map(y_output_ - y_));
   }
   void end_window(bool converged) {
     forget_last();
@@ -45,13 +45,13 @@ class IbqnLs {
   bool probing() const { return false; }
   void visit(auto& v) {
     first_.visit(v), second_.visit(v);
-    for (Vector* x : {&x_, &y_, &x_answer_, &y_answer_}) v(*x);
+    for (Vector* x : {&x_, &y_, &x_output_, &y_output_}) v(*x);
   }
 
  private:
   bool both_know() const { return first_.columns() > 0 && second_.columns() > 0; }
   void forget_last() {
-    for (Vector* x : {&x_, &y_, &x_answer_, &y_answer_}) x->resize(0);
+    for (Vector* x : {&x_, &y_, &x_output_, &y_output_}) x->resize(0);
   }
   /// (I - A B)^-1 b with A = Wa fit_a, B = Wb fit_b: I - Wa K fit_b with K = fit_a Wb.
   static Vector solve(const Differences& a, const Differences& b, const Vector& side) {
@@ -64,7 +64,7 @@ class IbqnLs {
 
   double relaxation_;
   Differences first_, second_;
-  Vector x_, y_, x_answer_, y_answer_;  ///< of the last evaluation
+  Vector x_, y_, x_output_, y_output_;  ///< of the last evaluation
 };
 static_assert(Scheme<IbqnLs>);
 

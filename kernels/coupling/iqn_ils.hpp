@@ -15,26 +15,26 @@ class IqnIls {
 
   void begin_window() { r_.resize(0); }
   Vector next(const Vector& x, const Vector& r) {
-    const Vector answer = x + r;
-    if (r_.size() > 0) learned_.add(r - r_, answer - answer_);
-    r_ = r, answer_ = answer;
+    const Vector output = x + r;
+    if (r_.size() > 0) learned_.add(r - r_, output - output_);
+    r_ = r, output_ = output;
     if (learned_.columns() == 0) return x + relaxation_ * r;
-    return answer + learned_.map(-r);
+    return output + learned_.map(-r);
   }
   /// A window that failed taught nothing to rely on.
   void end_window(bool converged) {
-    r_.resize(0), answer_.resize(0);
+    r_.resize(0), output_.resize(0);
     converged ? learned_.end_window() : learned_.clear();
   }
-  void clear() { r_.resize(0), answer_.resize(0), learned_.clear(); }
+  void clear() { r_.resize(0), output_.resize(0), learned_.clear(); }
   int columns() const { return learned_.columns(); }
   bool probing() const { return false; }
-  void visit(auto& v) { v(r_), v(answer_), learned_.visit(v); }
+  void visit(auto& v) { v(r_), v(output_), learned_.visit(v); }
 
  private:
   double relaxation_;
   Differences learned_;
-  Vector r_, answer_;
+  Vector r_, output_;
 };
 static_assert(Scheme<IqnIls>);
 

@@ -17,19 +17,14 @@ namespace spindrift::coupling {
 double largest_root(std::vector<double> c);
 
 // Characteristic polynomials of the acceleration under loads of ratio r, by rising power of the growth z; stable when every root
-// is within 1. S answers a_{n+1} = the load it is given (per mass), F answers y_{n+1} = -r (given velocity_{n+1} - given
+// is within 1. S gives a_{n+1} = the load it is given (per mass), F gives y_{n+1} = -r (given velocity_{n+1} - given
 // velocity_n) / dt.
 
 /// css: S takes y extrapolated to the order, F the new velocity: y_n = -r a_n.
 inline std::vector<double> css_polynomial(int order, double r) {
-  switch (order) {
-    case 0:
-      return {r, 1.0};
-    case 1:
-      return {-r, 2.0 * r, 1.0};
-    default:
-      return {r, -3.0 * r, 3.0 * r, 1.0};
-  }
+  if (order == 0) return {r, 1.0};
+  if (order == 1) return {-r, 2.0 * r, 1.0};
+  return {r, -3.0 * r, 3.0 * r, 1.0};
 }
 /// cps: F is given v_n for the window n to n+1, so y_{n+1} = -r a_n; a_{n+1} = y_n.
 inline std::vector<double> cps_polynomial(double r) { return {r, 0.0, 1.0}; }

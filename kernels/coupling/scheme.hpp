@@ -1,4 +1,4 @@
-// What makes coupling schemes interchangeable: interface data x goes in, the parts answer x~, and a scheme turns x and the
+// What makes coupling schemes interchangeable: interface data x goes in, the parts return x~, and a scheme turns x and the
 // residual r = x~ - x into the next x. What a scheme carries from one evaluation or window to the next is listed once, by
 // `visit`, and so is saved and restored bit for bit. Schemes: relaxation_*.hpp, iqn_ils.hpp, ibqn_ls.hpp, interface_gmres.hpp,
 // newton.hpp; driven by solve_window.hpp. Theory: docs/theory/coupling.md. Tested in tests/kernels/coupling.

@@ -18,7 +18,7 @@ namespace spindrift::coupling {
 /// A window, or the piece of it that is next.
 template <class W>
 concept RepeatableWindow = requires(W window, const Vector& x) {
-  { window.evaluate(x) } -> std::convertible_to<Vector>;  ///< runs the piece from its snapshot on data x; what the parts answer
+  { window.evaluate(x) } -> std::convertible_to<Vector>;  ///< runs the piece from its snapshot on data x; what the parts return
   { window.guess() } -> std::convertible_to<Vector>;      ///< x predicted for the piece
   window.accept();                                        ///< the piece last evaluated stands; the next begins where it ends
   { window.done() } -> std::convertible_to<bool>;         ///< no piece is left
@@ -67,14 +67,14 @@ Bound attempt(Window& window, S& scheme, Vector& x, const IterationLimits& limit
   Vector trial = x;
   for (int k = 0; k < max_evaluations; ++k) {
     const bool probe = scheme.probing();
-    Vector answer;
-    if constexpr (requires { scheme.answer(window, trial); })
-      answer = scheme.answer(window, trial);
+    Vector output;
+    if constexpr (requires { scheme.evaluate(window, trial); })
+      output = scheme.evaluate(window, trial);
     else
-      answer = window.evaluate(trial);
+      output = window.evaluate(trial);
     ++log.evaluations;
     log.probes += probe;
-    const Vector r = answer - trial;
+    const Vector r = output - trial;
     log.residual = r.norm();
     if (!std::isfinite(log.residual)) return Bound::not_finite;
     if (k == 0) log.first_residual = log.residual;
@@ -123,7 +123,7 @@ WindowLog solve_window(Window& window, S& scheme, const IterationLimits& limits)
 
 /// Gauss-Seidel: S(F(x)). Parts: Vector first(x), Vector second(y).
 template <class Parts>
-Vector serial_answer(Parts& parts, const Vector& x) {
+Vector evaluate_serial(Parts& parts, const Vector& x) {
   const Vector y = parts.first(x);
   return y.allFinite() ? Vector(parts.second(y)) : Vector(Vector::Constant(x.size(), std::numeric_limits<double>::quiet_NaN()));
 }
@@ -131,15 +131,15 @@ Vector serial_answer(Parts& parts, const Vector& x) {
 /// Jacobi: both at once on z = (x, y), of which x has `rows` rows: (S(y), F(x)). Parts that can advance at once have both(x, y),
 /// which returns (F(x), S(y)).
 template <class Parts>
-Vector parallel_answer(Parts& parts, const Vector& z, Eigen::Index rows) {
+Vector evaluate_parallel(Parts& parts, const Vector& z, Eigen::Index rows) {
   Vector x, y;
   if constexpr (requires { parts.both(z.head(rows), z.tail(z.size() - rows)); })
     std::tie(y, x) = parts.both(z.head(rows), z.tail(z.size() - rows));
   else
     y = parts.first(z.head(rows)), x = parts.second(z.tail(z.size() - rows));
-  Vector answer(z.size());
-  answer << x, y;
-  return answer;
+  Vector output(z.size());
+  output << x, y;
+  return output;
 }
 
 }  // namespace spindrift::coupling

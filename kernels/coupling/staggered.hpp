@@ -40,7 +40,7 @@ class Staggered {
   /// Motion and loads at the start.
   void begin(double t, Vector motion, Vector load) { motion_.add(t, std::move(motion)), load_.add(t, std::move(load)); }
 
-  /// One window; false where a part's answer is not finite (nothing is kept then).
+  /// One window; false where a part's result is not finite (nothing is kept then).
   template <class Parts>
   bool advance(Parts& parts, double begin, double end) {
     const Vector x_start = motion_.last();
@@ -69,7 +69,7 @@ class Staggered {
   /// Loads that F returned less those that S had assumed at the last window's end: what the scheme neglects, to the order it has.
   const Vector& mismatch() const { return mismatch_; }
   /// Windows in a row, up to now, whose loads came out apart from those assumed by more than `far_apart` of the larger: where the
-  /// scheme is unstable each answers the one before. A ramp that begins with the square of time has no more than three.
+  /// scheme is unstable each reacts to the one before. A ramp that begins with the square of time has no more than three.
   static constexpr double far_apart = 0.45;
   int apart() const { return apart_; }
   const Staggering& scheme() const { return scheme_; }

@@ -31,7 +31,7 @@ inline double sigma_extreme(double hub_wind, double intensity, double average_wi
 inline double scale_parameter(double hub_height) { return hub_height <= 60.0 ? 0.7 * hub_height : 42.0; }
 
 /// sigma / (1 + 0.1 D / Lambda): the turbulence averaged over a rotor of this size [m/s].
-inline double felt_sigma(const Site& s) {
+inline double sigma_over_rotor(const Site& s) {
   return sigma_normal(s.hub_wind, s.reference_intensity) / (1.0 + 0.1 * s.diameter / scale_parameter(s.hub_height));
 }
 
@@ -39,7 +39,7 @@ inline constexpr double eog_period = 10.5, ecd_period = 10.0, edc_period = 6.0, 
 
 /// Height of the extreme operating gust [m/s] (eq. 17), with V_e1 = .8 * 1.4 V_ref at the hub (eqs. 14, 15).
 inline double eog_height(const Site& s) {
-  return std::min(1.35 * (0.8 * 1.4 * s.reference_wind - s.hub_wind), 3.3 * felt_sigma(s));
+  return std::min(1.35 * (0.8 * 1.4 * s.reference_wind - s.hub_wind), 3.3 * sigma_over_rotor(s));
 }
 /// Added to the wind [m/s] (eq. 18).
 inline double eog(const Site& s, double t) {
@@ -60,7 +60,7 @@ inline double ecd_direction(const Site& s, double t) {
 
 /// Extreme change of direction [rad] (eqs. 20, 21).
 inline double edc_direction(const Site& s, double t) {
-  return 4.0 * std::atan(felt_sigma(s) / s.hub_wind) * half_cosine(t, edc_period);
+  return 4.0 * std::atan(sigma_over_rotor(s) / s.hub_wind) * half_cosine(t, edc_period);
 }
 
 /// Extreme shear: added to the wind at an offset from the hub, upwards or sideways [m/s] (eqs. 26, 27), beta = 6.4.

@@ -27,14 +27,14 @@ struct Flow {
   Real longest_side = Real(0.0), width = Real(0.0);
 };
 
-/// Room for the quantities of a model; one that transports nothing has it unused.
-constexpr int room(int equations) { return equations > 0 ? equations : 1; }
+/// Places for the quantities of a model; one that transports nothing has one unused.
+constexpr int slots(int equations) { return equations > 0 ? equations : 1; }
 
 /// n transported quantities per mass in a cell and their gradients.
 template <class Real, int n>
 struct Turbulence {
-  Real q[room(n)];
-  Vector<Real> gradient[room(n)];
+  Real q[slots(n)];
+  Vector<Real> gradient[slots(n)];
 };
 
 /// What the model gives the flow and its own diffusion: eddy viscosity [Pa s], 2/3 rho k [Pa] (0 where the model carries no k or
@@ -42,18 +42,18 @@ struct Turbulence {
 template <class Real, int n>
 struct Closure {
   Real eddy_viscosity, pressure;
-  Real diffusivity[room(n)];
+  Real diffusivity[slots(n)];
 };
 
 /// Rate of rho q per volume and time.
 template <class Real, int n>
 struct Source {
-  Real rate[room(n)];
+  Real rate[slots(n)];
 };
 /// The part of d(rate)/dq that an implicit step may use: eigenvalues with no positive real part.
 template <class Real, int n>
 struct SourceJacobian {
-  Real m[room(n)][room(n)];
+  Real m[slots(n)][slots(n)];
 };
 
 /// What a model of n = M::equations quantities per mass needs for their transport. `lowest` are bounds that updates must respect

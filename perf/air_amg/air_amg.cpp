@@ -20,7 +20,7 @@ namespace {
 struct Form {
   const char* name;
   const char* preconditioner;
-  PreconditionerOptions common;
+  PreconditionerOptions coarse;
 };
 const Form block_ilu{"block_ilu", "block_ilu", {}}, by_tile{"coarse_by_tile", "coarse", {.group_cells = 0}},
     eliminated{"coarse_8", "coarse", {.group_cells = 8}},
@@ -41,7 +41,7 @@ struct Solved {
 /// One pseudo-step of a swirl in a skewed box, from an undisturbed start each time.
 Solved solve(const Problem& p, const Form& form) {
   FlowSetting s = air(p.mach, {1.0, 0.4, 0.2});
-  s.preconditioner = form.preconditioner, s.common = form.common;
+  s.preconditioner = form.preconditioner, s.coarse = form.coarse;
   s.march = {.cfl_start = p.cfl,
              .cfl_max = p.cfl,
              .drop = 0.0,
@@ -126,8 +126,8 @@ void kept(perf::Group& group) {
     double each = 0.0;
     for (const auto& [name, every, steps] : {std::tuple{"each_matrix", 1, 1}, {"each_step", 3, 1}, {"ten_steps", 3, 10}}) {
       FlowSetting s = air(0.05, {1.0, 0.4, 0.2});
-      s.preconditioner = form.preconditioner, s.common = form.common;
-      s.common.common_every = every, s.common.common_steps = steps;
+      s.preconditioner = form.preconditioner, s.coarse = form.coarse;
+      s.coarse.common_every = every, s.coarse.common_steps = steps;
       s.time_order = 2, s.dt = 2.0 / 32.0 / s.speed;
       s.march = {.cfl_start = 100.0,
                  .cfl_max = 100.0,
@@ -165,7 +165,7 @@ void cylinder(perf::Group& group) {
   double alone = 0.0;
   for (const Form& form : {block_ilu, eliminated, Form{"coarse_8_amg", "coarse", {.group_cells = 8, .direct_groups = 0}}}) {
     FlowSetting s = air(1e-3);
-    s.preconditioner = form.preconditioner, s.common = form.common;
+    s.preconditioner = form.preconditioner, s.coarse = form.coarse;
     s.march.drop = 1e-6, s.march.max_steps = 150;
     Case c(aero::cylinder({.around = 192, .outward = 96, .far = 20.0}), s,
            {{"wall", {Condition::slip, true}}, {"farfield", {Condition::far_field, false}}});

@@ -27,16 +27,16 @@ struct Executor::State {
 
 namespace {
 
-/// Priorities and the room that the queues need for them. Between runs only: costs are measured by then, queues are empty.
+/// Priorities and the capacity that the queues need for them. Between runs only: costs are measured by then, queues are empty.
 void set_levels(Team& team) {
   const auto n_nodes = std::uint32_t(team.graph.nodes().size());
-  std::vector<std::uint32_t> room(1, n_nodes);
+  std::vector<std::uint32_t> capacity(1, n_nodes);
   if (team.options.random_schedule)
-    room.assign(8, n_nodes);
+    capacity.assign(8, n_nodes);
   else if (team.options.priorities)
-    room = assign_levels(team.program, team.graph);
-  team.levels = int(room.size());
-  for (auto& worker : team.workers) worker->queue.reserve(room);
+    capacity = assign_levels(team.program, team.graph);
+  team.levels = int(capacity.size());
+  for (auto& worker : team.workers) worker->queue.reserve(capacity);
 }
 
 void set_homes(Team& team) {

@@ -76,14 +76,14 @@ std::vector<std::uint32_t> assign_levels(Program& program, const Graph& graph) {
   std::map<int, int> first_level;
   int next = 0;
   for (const auto& [u, most] : longest) first_level[u] = std::min(band * next++, max_levels - band);
-  std::vector<std::uint32_t> room(max_levels, 0);
+  std::vector<std::uint32_t> capacity(max_levels, 0);
   for (std::uint32_t n = 0; n < n_nodes; ++n) {
     const double share = longest[urgency_of[n]] > 0 ? to_go[n] / longest[urgency_of[n]] : 0.0;
     program.slots[n].level = std::uint8_t(first_level[urgency_of[n]] + std::min(band - 1, int(share * band)));
     if (program.slots[n].action == Action::collective) program.slots[n].level = max_levels - 1;  // other ranks wait inside theirs
-    ++room[program.slots[n].level];
+    ++capacity[program.slots[n].level];
   }
-  return room;
+  return capacity;
 }
 
 }  // namespace spindrift::runtime

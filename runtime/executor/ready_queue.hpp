@@ -1,6 +1,6 @@
 // The ready tasks of one thread: a ring per priority level, first in first out, into which and from which any thread may move
 // tasks without a lock. The ring is the bounded queue of D. Vyukov (1024cores.net, 2010): a cell's sequence number says whose
-// turn it is. A ring has room for every task of its level, so it is never full and never grows. Used by executor/worker; tested
+// turn it is. A ring has places for every task of its level, so it is never full and never grows. Used by executor/worker; tested
 // in tests/runtime/ready_queue_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,12 +19,12 @@ class ReadyQueue {
  public:
   static constexpr std::uint32_t none = ~0u;
 
-  /// Room by level; levels beyond its size stay unused. Only while no thread uses the queue. Keeps memory that suffices.
-  void reserve(std::span<const std::uint32_t> room) {
-    levels_ = int(room.size());
+  /// Capacity by level; levels beyond its size stay unused. Only while no thread uses the queue. Keeps memory that suffices.
+  void reserve(std::span<const std::uint32_t> capacity) {
+    levels_ = int(capacity.size());
     std::uint32_t total = 0;
     for (int l = 0; l < levels_; ++l) {
-      const std::uint32_t size = std::bit_ceil(std::max(2u, room[std::size_t(l)]));
+      const std::uint32_t size = std::bit_ceil(std::max(2u, capacity[std::size_t(l)]));
       rings_[std::size_t(l)] = {total, size - 1};
       total += size;
     }

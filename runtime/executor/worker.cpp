@@ -82,7 +82,7 @@ Worker::Worker(Team& team, int id)
       random_state_((team.options.random_schedule.value_or(0) + 1) * 0x9e3779b97f4a7c15u +
                     std::uint64_t(id) * 0xbf58476d1ce4e5b9u) {
   completions_.reserve(team.messages.count());
-  seen_.resize(std::size_t(team.options.threads));
+  progress_.resize(std::size_t(team.options.threads));
 }
 
 // ---- tokens ----
@@ -356,9 +356,10 @@ std::uint32_t Worker::steal(std::int64_t now, bool from_anyone) {
     victim_ = victim_ + 1 == n ? 0 : victim_ + 1;
     if (victim_ == id_) victim_ = victim_ + 1 == n ? 0 : victim_ + 1;
     Worker& other = *team_.workers[std::size_t(victim_)];
-    Seen& seen = seen_[std::size_t(victim_)];
-    if (const auto its_beats = other.beats.load(std::memory_order_relaxed); its_beats != seen.beats) seen = {its_beats, now};
-    if (!from_anyone && now - seen.since_ns < steal_after_ns) continue;
+    Progress& progress = progress_[std::size_t(victim_)];
+    if (const auto its_beats = other.beats.load(std::memory_order_relaxed); its_beats != progress.beats)
+      progress = {its_beats, now};
+    if (!from_anyone && now - progress.since_ns < steal_after_ns) continue;
     if (const int top = other.queue.top(); top >= 0)
       if (const std::uint32_t slot = other.queue.pop(top); slot != ReadyQueue::none) {
         ++times.steals;

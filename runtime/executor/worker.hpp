@@ -91,11 +91,11 @@ class alignas(64) Worker {
   const bool keeps_next_;         ///< not in a random schedule
   bool nested_ = false;           ///< polling inside a task
   std::uint32_t next_ = no_node;  ///< ready and first in turn, without passing through the queue
-  struct Seen {
+  struct Progress {
     std::uint64_t beats = 0;
     std::int64_t since_ns = 0;
   };
-  std::vector<Seen> seen_;  ///< by other thread: its beats when last looked at, and since when they are so
+  std::vector<Progress> progress_;  ///< by other thread: its beats when last looked at, and since when they are so
   int victim_;
   std::uint64_t random_state_;
   std::vector<Messages::Completion> completions_;

@@ -53,8 +53,8 @@ Messages::Messages(Graph::Recorded& graph) : graph_(graph), control_(graph.comm.
     if (kind == NodeKind::send || kind == NodeKind::receive || reduces || calls) operation_nodes_.push_back(n);
   }
   if (graph.takes_turns) turns_.emplace(graph);
-  const std::uint32_t room = std::uint32_t(count());
-  posted_.reserve(std::span(&room, 1));
+  const std::uint32_t capacity = std::uint32_t(count());
+  posted_.reserve(std::span(&capacity, 1));
   requests_.resize(count());
   node_of_.resize(count()), bytes_of_.resize(count()), posted_ns_.resize(count());
   indices_.resize(count()), statuses_.resize(count());

@@ -97,7 +97,7 @@ class Simulation {
     for (int r = 0; r < int(ranks_.size()); ++r) {
       enter(r, 0, ranks_[std::size_t(r)]->of.run.replays, 0.0);
       settle(r);
-      if (cluster_.threads > 1) add(steal_after_s, What::look, r, 0, no_node, 0.0);
+      if (cluster_.threads > 1) add(steal_after_s, What::steal, r, 0, no_node, 0.0);
     }
     while (!events_.empty()) {
       const Event event = events_.top();
@@ -111,7 +111,7 @@ class Simulation {
         case What::message_ends:
           rank.noticed.emplace_back(event.slot, event.path);
           break;
-        case What::look:
+        case What::steal:
           break;
       }
       notice(event.rank);
@@ -121,7 +121,7 @@ class Simulation {
   }
 
  private:
-  enum class What : std::uint8_t { task_ends, message_ends, look };
+  enum class What : std::uint8_t { task_ends, message_ends, steal };
   struct Event {
     double time;
     long number;
@@ -336,7 +336,7 @@ class Simulation {
       rank.making = false;
       next_call(rank);
     }
-    if (rank.threads_of.size() > 1) add(now_ + steal_after_s, What::look, r, t, no_node, 0.0);
+    if (rank.threads_of.size() > 1) add(now_ + steal_after_s, What::steal, r, t, no_node, 0.0);
   }
 
   /// Messages that are there, as soon as a thread is between tasks.

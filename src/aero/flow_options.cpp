@@ -255,7 +255,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.dt = s.time_order > 0 ? dt : 0.0;
   s.krylov = o.krylov;
   s.preconditioner = o.preconditioner == "auto" ? "block_ilu" : o.preconditioner;  // until chosen
-  s.common = {.group_cells = o.group_cells,
+  s.coarse = {.group_cells = o.group_cells,
               .direct_groups = o.direct_groups,
               .common_every = o.common_every,
               .common_steps = o.time == "steady" ? 1 : o.common_steps};

@@ -24,7 +24,7 @@ Eigen::Matrix3d axes_of(const TowerFrame& f) {
 
 const scene::Section<TowerOptions>& tower_section() {
   static const auto section =
-      scene::Section<TowerOptions>("tower", "The tower as the air feels it; it moves with what carries the rotor.")
+      scene::Section<TowerOptions>("tower", "The tower in the air round it; it moves with what carries the rotor.")
           .vector("foot_m", &TowerOptions::foot_m, "m", "Earth x and y of the tower's axis at the start.")
           .rows("stations", &TowerOptions::stations, "-",
                 "Rows upwards of height over still water [m], diameter [m], drag coefficient.")

@@ -345,7 +345,7 @@ PartCost print_air(const FloatingSystem& floating, const coupling::Start& start,
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
   fmt::print("\nResolved air (estimates above take the rotor's load from blade elements)\n");
   fmt::print("  {:<22}{} in {} sector{}, {} rows of faces along each blade\n", "cells", size.cells, size.sectors,
-             size.sectors == 1 ? ", which feels motion along the axis only" : "s", size.stations);
+             size.sectors == 1 ? ", which follows the hub along the axis only" : "s", size.stations);
   print_far_sides(setup.grid);
   const bool strong = is_strong(s.coupling.scheme);
   return cost_of_air(setup, size, coupled_pseudo_steps(s), s.start.air_steps, strong ? 2 : 1, calibrate);

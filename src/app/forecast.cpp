@@ -284,7 +284,7 @@ struct FlowTrial {
   bool settled = false;
 };
 
-/// Steady marches slow down on their way: by the pace of the first steps the rest takes longer than the orders that are left say.
+/// Steady marches slow down on their way: at the rate of the first steps the rest takes longer than the orders that are left say.
 /// Recorded: 1.0 to 3.6 times.
 constexpr double slower = 2.0;
 
@@ -368,7 +368,7 @@ PartCost cost_of_flow(const coupling::Scenario& s, const aero::MultiBlockGrid& g
         cost.work_per_second = trial->steps_per_window / s.time.window_s, cost.work = "pseudo-steps";
       else if (s.aero.flow->drop > 0.0)
         cost.work_per_second = std::min(trial->expected_windows, s.time.end_s / s.time.window_s) / s.time.end_s,
-        cost.work = trial->settled ? "pseudo-steps until it has settled" : "pseudo-steps until it has settled by its pace,";
+        cost.work = trial->settled ? "pseudo-steps until it has settled" : "pseudo-steps until it has settled at its rate,";
       source = fmt::format("measured now: {} pseudo-steps of this flow", trial->steps);
     }
   }

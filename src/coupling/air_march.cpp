@@ -106,7 +106,7 @@ void MarchingAir::ease(int retry) {
 void MarchingAir::choose() {
   const aero::Choice choice = aero::choose_preconditioner(*solver_, world_.comm);
   preconditioner_ = choice.preconditioner;
-  solver_->use(aero::make_preconditioner(preconditioner_, solver_->setting().common));
+  solver_->use(aero::make_preconditioner(preconditioner_, solver_->setting().coarse));
   log_lines_.push_back(fmt::format("air: preconditioner \"{}\" ({})", preconditioner_, choice.reason));
 }
 

@@ -201,7 +201,7 @@ void doubt_tuning(scene::Doubts& doubts, const Scenario& s, const Stability& sta
           {"control.tuning",
            fmt::format("gains of a fixed foundation on {}, which pitches in {:.3g} s", s.rotor.body, mode.period_s()),
            fmt::format("\"floating\" where that takes longer than about {:g} s", fast_s),
-           "above rated wind such gains take the air's damping away: the machine pitches ever more"});
+           "above rated wind such gains take the air's damping away: the platform pitches ever more"});
 }
 
 /// A motion that a flexible beam takes part in, and that the blades meet once or three times a turn.

@@ -43,7 +43,7 @@ std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, con
     const double surface = floating.sea() ? floating.sea()->elevation(now.hub.x(), now.hub.y(), t) : 0.0;
     if (low < surface)
       return NumericalFailure(fmt::format("t = {:.4g} s: the {} reaches {:.4g} m into the water: its hub is at z = {:.4g} m, the "
-                                          "surface there at {:.4g} m; look at the hub's height and at what holds the machine up",
+                                          "surface there at {:.4g} m; look at the hub's height and at what holds the floating system up",
                                           t, spoken(rotor), surface - low, now.hub.z(), surface),
                               rotor.name, long(state.tick), t, 0.0);
   }

@@ -28,7 +28,7 @@ std::string text(Unpacker& from) {
 /// Has the ranks of a part `pack` their result and all ranks `unpack` it. Where the part fails numerically, or the user's
 /// files are not what they should be, all throw.
 template <class Pack, class Unpack>
-void answer_of(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpack) {
+void broadcast_from(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpack) {
   enum class End : char { result, numerical, input, stop };
   Packer parcel;
   const auto failed = [&](End end, const std::exception& e) {
@@ -73,7 +73,7 @@ aero::RotorLoad rotor_load(Unpacker& from) {
 class SharedAir final : public AirSide {
  public:
   SharedAir(const runtime::Parts& parts, std::unique_ptr<AirSide> own) : parts_(parts), own_(std::move(own)) {
-    answer_of(
+    broadcast_from(
         parts_, air_part,
         [&](Packer& to) {
           const std::vector<io::Column> columns = own_->columns();
@@ -95,7 +95,7 @@ class SharedAir final : public AirSide {
     if (own_) own_->settle_in(directory);
   }
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
-    return show([&] { return own_->begin(t, now); });
+    return share_results([&] { return own_->begin(t, now); });
   }
   void prepare(double t, double dt, const aero::RotorState& at_end) override {
     if (own_) own_->prepare(t, dt, at_end);
@@ -106,30 +106,30 @@ class SharedAir final : public AirSide {
   }
   bool asks_ranks() const override { return true; }
   aero::RotorLoad load_at_end() override {
-    return show([&] { return own_->load_at_end(); });
+    return share_results([&] { return own_->load_at_end(); });
   }
   void ease(int retry) override {
     if (own_) own_->ease(retry);
   }
-  const aero::RotorLoad* written() const override { return writes_ ? &shown_.load : nullptr; }
+  const aero::RotorLoad* written() const override { return writes_ ? &results_.load : nullptr; }
 
   void take_snapshot(Snapshot slot) override {
-    snapshots_[slot] = shown_;
+    snapshots_[slot] = results_;
     if (own_) own_->take_snapshot(slot);
   }
   void return_to(Snapshot slot) override {
-    shown_ = snapshots_[slot];
+    results_ = snapshots_[slot];
     if (own_) own_->return_to(slot);
   }
   std::vector<SavedArray> saved() const override { return own_ ? own_->saved() : std::vector<SavedArray>(); }
   void restore(const io::CheckpointReader& file) override {
-    show([&] {
+    share_results([&] {
       own_->restore(file);
       return own_->written() ? *own_->written() : aero::RotorLoad();
     });
   }
   std::vector<io::Column> columns() const override { return columns_; }
-  std::vector<double> values() const override { return shown_.values; }
+  std::vector<double> values() const override { return results_.values; }
   void open_output(const io::RunDirectory& directory, double resume_s) override {
     if (own_) own_->open_output(directory, resume_s);
   }
@@ -140,14 +140,14 @@ class SharedAir final : public AirSide {
   std::vector<std::string> log_lines() override { return std::exchange(log_lines_, {}); }
 
  private:
-  struct Shown {
+  struct Results {
     aero::RotorLoad load;
     std::vector<double> values;
   };
   /// Has the air's ranks do `work`, which gives a load, and all ranks know load, values and lines for the log after it.
   template <class Work>
-  aero::RotorLoad show(Work&& work) {
-    answer_of(
+  aero::RotorLoad share_results(Work&& work) {
+    broadcast_from(
         parts_, air_part,
         [&](Packer& to) {
           put(to, work());
@@ -155,17 +155,17 @@ class SharedAir final : public AirSide {
           for (const std::string& sentence : own_->log_lines()) put(to, sentence);
         },
         [&](Unpacker& from) {
-          shown_.load = rotor_load(from), shown_.values = from.many<double>();
+          results_.load = rotor_load(from), results_.values = from.many<double>();
           while (!from.done()) log_lines_.push_back(text(from));
         });
-    return shown_.load;
+    return results_.load;
   }
   const runtime::Parts& parts_;
   std::unique_ptr<AirSide> own_;
   bool writes_ = false;
   std::vector<io::Column> columns_;
-  Shown shown_;
-  std::array<Shown, 2> snapshots_;
+  Results results_;
+  std::array<Results, 2> snapshots_;
   std::vector<std::string> log_lines_;
 };
 
@@ -179,7 +179,7 @@ class SharedBodies final : public BodySide {
   }
   Tasks record(runtime::Graph& graph) override { return own_ ? own_->record(graph) : Tasks::none; }
   bodies::BodiesState finish() override {
-    answer_of(
+    broadcast_from(
         parts_, sea_part,
         [&](Packer& to) {
           const bodies::BodiesState end = own_->finish();

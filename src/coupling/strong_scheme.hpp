@@ -26,7 +26,7 @@ class StrongScheme {
   static constexpr std::string_view name = "strong";  // of the concept; the scene's name is CouplingScheme::name
   virtual ~StrongScheme() = default;
   virtual void begin_window() = 0;
-  virtual Vector answer(WindowParts& window, const Vector& x) = 0;
+  virtual Vector evaluate(WindowParts& window, const Vector& x) = 0;
   virtual Vector next(const Vector& x, const Vector& r) = 0;
   virtual void end_window(bool converged) = 0;
   virtual void clear() = 0;
@@ -41,9 +41,9 @@ class StrongSchemeOf final : public StrongScheme {
  public:
   explicit StrongSchemeOf(S scheme) : scheme_(std::move(scheme)) {}
   void begin_window() override { scheme_.begin_window(); }
-  Vector answer(WindowParts& window, const Vector& x) override {
-    if constexpr (requires { scheme_.answer(window, x); })
-      return scheme_.answer(window, x);
+  Vector evaluate(WindowParts& window, const Vector& x) override {
+    if constexpr (requires { scheme_.evaluate(window, x); })
+      return scheme_.evaluate(window, x);
     else
       return window.evaluate(x);
   }

@@ -168,12 +168,13 @@ class CoupledWindow::Pieces final : public WindowParts {
 
   Vector evaluate(const Vector& x) override {
     if (w_.sides_.stopped()) return not_finite(x.size());  // what the scheme tries next is of no use
-    return w_.options_.composition == Composition::parallel ? parallel_answer(*this, x, load_rows()) : serial_answer(*this, x);
+    return w_.options_.composition == Composition::parallel ? evaluate_parallel(*this, x, load_rows())
+                                                            : evaluate_serial(*this, x);
   }
   /// Bodies: loads at the samples to motions at the samples.
   Vector first(const Vector& loads) override {
     restore(Run::bodies);
-    show(loads);
+    use_loads(loads);
     Vector motions(samples() * w_.motion_rows());
     for (int s = 1; s <= samples(); ++s)
       if (w_.sides_.move(state_, tick(s)))
@@ -196,7 +197,7 @@ class CoupledWindow::Pieces final : public WindowParts {
   /// Both at once, sample by sample.
   std::pair<Vector, Vector> both(const Vector& given_loads, const Vector& given_motions) {
     restore(Run::both);
-    show(given_loads);
+    use_loads(given_loads);
     Vector motions(samples() * w_.motion_rows()), loads(load_rows());
     for (int s = 1; s <= samples(); ++s) {
       const auto [moved, load] = w_.sides_.move_beside_air(state_, tick(s), w_.time(tick(s)), dt(),
@@ -238,7 +239,7 @@ class CoupledWindow::Pieces final : public WindowParts {
     if (has_bodies(sides)) state_ = start_;
   }
   /// The signal through the loads at the samples.
-  void show(const Vector& loads) {
+  void use_loads(const Vector& loads) {
     std::vector<double> times{w_.time(start_.tick)};
     std::vector<Vector> values{w_.loads_.last()};
     for (int s = 1; s <= samples(); ++s)

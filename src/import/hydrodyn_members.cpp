@@ -155,7 +155,7 @@ MemberEnd between(const MemberEnd& a, const MemberEnd& b, double x) {
           mix(a.added_mass, b.added_mass)};
 }
 
-/// What is in the bed feels no water.
+/// No water acts on what is in the bed.
 bool clip_at_bed(Member& member, double depth) {
   MemberEnd &a = member.start, &b = member.end;
   if (a.at.z() <= -depth && b.at.z() <= -depth) return false;

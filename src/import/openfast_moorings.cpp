@@ -112,7 +112,7 @@ std::string import_moorings(DeckImport& run, const ImportedEnvironment& environm
   if (kind == 3 && at_rest && any_dynamic)
     run.leave_out(file_name + ": lines that meet at a point with others stay dynamic in spite of --quasi-static-lines");
   if (kind == 3 && any_dynamic && file.integer({"WaveKin", "WaterKin"}, 0) == 0 && has_waves)
-    run.leave_out("MoorDyn's still water round the lines (WaveKin 0): here they feel the scene's waves");
+    run.leave_out("MoorDyn's still water round the lines (WaveKin 0): here they are in the scene's waves");
 
   std::string text;
   std::size_t written = 0;

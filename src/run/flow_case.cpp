@@ -83,7 +83,7 @@ void hold(aero::FlowSolver& solver, const HeldTurbulence& stream) {
 }
 
 /// Marches once; `march` was recorded of the solver.
-void look_at_start(aero::FlowSolver& solver, runtime::Executor& march) {
+void evaluate_start(aero::FlowSolver& solver, runtime::Executor& march) {
   solver.judgement().march.judge_only();
   march.run();
   solver.judgement().rows.all.clear();
@@ -228,7 +228,7 @@ void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Exec
        last = &grids.back())
     grids.push_back(aero::halved(*last));
   if (grids.empty()) return;
-  look_at_start(*solver_, march);
+  evaluate_start(*solver_, march);
   std::unique_ptr<FlowCase> coarser;
   while (!grids.empty()) {
     std::unique_ptr<FlowCase> next(
@@ -240,7 +240,7 @@ void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Exec
     solver.record(graph);
     runtime::Executor executor(std::move(graph));
     if (coarser) {
-      look_at_start(solver, executor);
+      evaluate_start(solver, executor);
       aero::begin_with(coarser->solver(), solver, {}, world.comm);
       solver.judgement().march.begin_after_judging();
     }

@@ -56,7 +56,7 @@ FlowSimulation::FlowSimulation(const coupling::Scenario& scenario, const io::Run
 /// preconditioner = "auto" became this one; scene.toml then names it, so that it runs alike.
 void FlowSimulation::use(const std::string& preconditioner, const std::string& reason) {
   chosen_ = preconditioner;
-  air_.solver().use(aero::make_preconditioner(preconditioner, air_.solver().setting().common));
+  air_.solver().use(aero::make_preconditioner(preconditioner, air_.solver().setting().coarse));
   spdlog::info("air: preconditioner \"{}\" ({})", preconditioner, reason);
   if (world_.rank == 0) coupling::write_choice(directory_, preconditioner);
 }

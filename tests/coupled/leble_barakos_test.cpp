@@ -17,7 +17,7 @@ constexpr double pitch_period = 22.57;  // s, as `spindrift check` gives it
 const std::string case1 = input("leble_barakos/case1_engineering.toml"), case2 = input("leble_barakos/case2_engineering.toml");
 }  // namespace
 
-TEST_CASE("case 1 settles where the paper finds its machine, and where the statics put it", "[coupled][fast]") {
+TEST_CASE("case 1 settles where the paper finds its turbine, and where the statics put it", "[coupled][fast]") {
   const Folder folder("case1");
   const io::Summary summary = run_scene(case1, {}, folder.path());
   REQUIRE(summary.exit_code == 0);

@@ -1,5 +1,5 @@
-"""The longest window that `check` states for a loose scheme, against runs in waves of 5 cm: at 0.9 of it the machine swings with them, at 1.1 ever more, until
-its loads bound the swing or the run ends with exit code 3 and names the scheme. Two machines, the masses at their hubs 1,690 t and 460 t.
+"""The longest window that `check` states for a loose scheme, against runs in waves of 5 cm: at 0.9 of it the floating system swings with them, at 1.1 ever more, until
+its loads bound the swing or the run ends with exit code 3 and names the scheme. Two of them, the masses at their hubs 1,690 t and 460 t.
 SPDX-License-Identifier: Apache-2.0"""
 import csv
 import json
@@ -8,7 +8,7 @@ import unittest
 
 from running import ROOT, Folder, spindrift
 
-MACHINES = {"the paper's": "inputs/leble_barakos/case3_engineering.toml", "a spar with a rotor half as large": "inputs/tutorials/own_turbine.toml"}
+SYSTEMS = {"the paper's": "inputs/leble_barakos/case3_engineering.toml", "a spar with a rotor half as large": "inputs/tutorials/own_turbine.toml"}
 SCHEMES = {"cps": "cps", "cps2": "cps2", "css1": "css"}
 SMALL = ["waves.height_m=0.05", "coupling.accept_unstable=true"]
 
@@ -33,10 +33,10 @@ class Limits(Folder):
         return done.returncode, json.loads((self.out / "summary.json").read_text())["exit_reason"], max(speed[:third]), max(speed[-third:])
 
     def test_runs_grow_from_the_window_that_check_states(self):
-        for machine, scene in MACHINES.items():
+        for system, scene in SYSTEMS.items():
             limits = stated(scene)
             for scheme in SCHEMES:
-                with self.subTest(machine, scheme=scheme):
+                with self.subTest(system, scheme=scheme):
                     code, reason, early, below = self.run_at(scene, scheme, 0.9 * limits[scheme])
                     self.assertEqual(code, 0, reason)
                     self.assertLess(below, 1.5 * early)

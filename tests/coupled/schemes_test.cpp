@@ -1,5 +1,5 @@
-// Schemes on the real machine (bodies, moorings, Morison sea, rotor by blade elements) against the monolithic evaluation with the
-// same steps: order, error, evaluations; runs that are broken off and go on. SPDX-License-Identifier: Apache-2.0
+// Schemes on the real floating system (bodies, moorings, Morison sea, rotor by blade elements) against the monolithic evaluation
+// with the same steps: order, error, evaluations; runs that are broken off and go on. SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
 #include <fstream>

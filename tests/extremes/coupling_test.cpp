@@ -28,7 +28,7 @@ struct Odd {
   Vector last{};
   Vector first(const Vector& x) { return x; }
   Vector second(const Vector& y) { return last = rule(y, ++calls); }
-  Vector evaluate(const Vector& x) { return serial_answer(*this, x); }
+  Vector evaluate(const Vector& x) { return evaluate_serial(*this, x); }
   Vector guess() const { return Vector::Zero(6); }
   void accept() { accepted.push_back(last), finished = true; }
   bool done() const { return finished; }

@@ -9,8 +9,8 @@ using namespace spindrift::runtime;
 
 TEST_CASE("the oldest task of a level comes first, through many turns of the ring", "[runtime][fast]") {
   ReadyQueue queue;
-  const std::vector<std::uint32_t> room = {2, 3};
-  queue.reserve(room);
+  const std::vector<std::uint32_t> capacity = {2, 3};
+  queue.reserve(capacity);
   CHECK(queue.top() == -1);
   CHECK(queue.pop(0) == ReadyQueue::none);
   for (std::uint32_t n = 0; n < 20; ++n) {
@@ -27,8 +27,8 @@ TEST_CASE("the oldest task of a level comes first, through many turns of the rin
 TEST_CASE("tasks passed round by four threads are neither lost nor doubled", "[runtime][fast]") {
   constexpr std::uint32_t tasks = 8, rounds = 20000;
   ReadyQueue queue;
-  const std::vector<std::uint32_t> room = {tasks};
-  queue.reserve(room);
+  const std::vector<std::uint32_t> capacity = {tasks};
+  queue.reserve(capacity);
   for (std::uint32_t t = 0; t < tasks; ++t) queue.push(0, t);
   std::vector<std::uint32_t> taken(tasks, 0);  // each task belongs to one thread at a time: no data race unless the queue errs
   std::atomic<std::uint32_t> total{0};

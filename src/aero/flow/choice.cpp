@@ -43,7 +43,7 @@ Choice choose_preconditioner(FlowSolver& solver, MPI_Comm comm, int threads) {
     s.march.cfl_start = s.march.cfl_max = std::min(s.march.cfl_max, trial_cfl);
     s.march.max_steps = 1, s.march.drop = 0.0, s.march.absolute = 0.0, s.march.matrix_free_below = 0.0;
     FlowSolver trial(solver.grid(), s, solver.judgement().conditions());
-    const int groups = s.preconditioner == "coarse" ? coarse_groups(solver.grid().tiling(), s.common.group_cells) : 0;
+    const int groups = s.preconditioner == "coarse" ? coarse_groups(solver.grid().tiling(), s.coarse.group_cells) : 0;
     trial.start_from(solver);
     runtime::Graph graph(comm);
     trial.record(graph);
@@ -51,7 +51,7 @@ Choice choose_preconditioner(FlowSolver& solver, MPI_Comm comm, int threads) {
     Trial t{.preconditioner = name, .iterations = trial.march().last.krylov, .drop = trial.march().last.linear_drop};
     const double wanted = s.march.krylov_drop;
     t.needed = t.drop <= wanted ? t.iterations : t.drop < 1.0 ? t.iterations * std::log(wanted) / std::log(t.drop) : 1e6;
-    t.cost = cost_of(t, {}, solver.cells(), groups, groups <= s.common.direct_groups);
+    t.cost = cost_of(t, {}, solver.cells(), groups, groups <= s.coarse.direct_groups);
     choice.trials.push_back(t);
   }
   const auto best = std::ranges::min_element(choice.trials, {}, &Trial::cost);  // equal ones: the first

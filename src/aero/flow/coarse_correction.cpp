@@ -8,7 +8,7 @@
 
 #include "runtime/mpi/exchange.hpp"
 #include "src/aero/flow/block_elimination.hpp"
-#include "src/aero/flow/ilu_after_common.hpp"
+#include "src/aero/flow/ilu_after_coarse.hpp"
 #include "src/aero/flow/numbering.hpp"
 #include "src/aero/hypre/multigrid.hpp"
 
@@ -53,8 +53,8 @@ Index pieces_of(const Tile& tile, int side) {
 }
 int count_of(const Index& pieces) { return pieces[0] * pieces[1] * pieces[2]; }
 
-struct CoarseCorrection final : IluAfterCommon {
-  using IluAfterCommon::IluAfterCommon;
+struct CoarseCorrection final : IluAfterCoarse {
+  using IluAfterCoarse::IluAfterCoarse;
   Numbering numbering;
   std::vector<int> canonical_first;  ///< by tile
   int total = 0;
@@ -282,7 +282,7 @@ struct CoarseCorrection final : IluAfterCommon {
     return numbering.first[std::size_t(tile)] + p.canonical - canonical_first[std::size_t(tile)];
   }
 
-  void solve_common(MPI_Comm comm) override {
+  void solve_coarse(MPI_Comm comm) override {
     if (!direct()) {
       multigrid->cycle(right, left);
       exchange.fetch(numbering, left, width, outside, comm);
@@ -314,7 +314,7 @@ struct CoarseCorrection final : IluAfterCommon {
           for (int n = 0; n < width; ++n) sum[t.group(k, j, i) * width + n] += double(v[n]);
   }
 
-  void apply_common(const Piece& piece) override {
+  void apply_coarse(const Piece& piece) override {
     FlowTile& tile = *piece.tile;
     TileGroups& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();

@@ -48,7 +48,7 @@ class FlowRestart {
   /// Decisions, time, and rigid poses of a moving grid.
   std::vector<double> save_march() const;
   void load_march(std::span<const double> from);
-  bool keeps_set_up() const { return common_steps_ > 1 && system_.preconditioner().has_common(); }
+  bool keeps_set_up() const { return common_steps_ > 1 && system_.preconditioner().has_coarse_level(); }
   std::size_t set_up_size(int owned) const { return system_.preconditioner().kept_size(arrays_.tiles[std::size_t(owned)]); }
   SetUpNote save_set_up() const;
   void load_set_up(const SetUpNote& from);

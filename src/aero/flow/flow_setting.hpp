@@ -43,7 +43,7 @@ struct FlowSetting {
   MarchOptions march;
   KrylovMethod krylov = KrylovMethod::gmres;
   std::string preconditioner = "block_ilu";
-  PreconditionerOptions common;  ///< of preconditioners that have a coarse level
+  PreconditionerOptions coarse;  ///< of preconditioners that have a coarse level
   int time_order = 0;            ///< 0 steady, 1 BDF1, 2 BDF2
   double dt = 0.0;               ///< physical step [s]
   double held_rate = 0.0;  ///< steady flow: added to the matrix as a physical step of this rate would [1/s]; trials (choice.hpp)

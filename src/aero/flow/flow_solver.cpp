@@ -15,7 +15,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
       motion_(arrays_, time_),
       system_(setting, arrays_, residual_),
       judgement_(setting, std::move(conditions), arrays_),
-      restart_(arrays_, motion_, time_, judgement_.march, system_, setting.common.common_steps) {}
+      restart_(arrays_, motion_, time_, judgement_.march, system_, setting.coarse.common_steps) {}
 
 void FlowSolver::gather_bands(LoadBands bands) {
   if (!recorded_.empty()) throw std::logic_error("flow: bands of loads come before the march is recorded");

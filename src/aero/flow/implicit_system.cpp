@@ -30,7 +30,7 @@ ImplicitSystem::ImplicitSystem(const FlowSetting& s, TileArrays& arrays, const F
       gas_(s.gas),
       speed_(s.speed),
       cycle_(s.krylov, s.march.krylov_steps),
-      preconditioner_(make_preconditioner(s.preconditioner, s.common)) {
+      preconditioner_(make_preconditioner(s.preconditioner, s.coarse)) {
   setting_.gas = s.gas;
   setting_.scales = scales_of(s);
   const gas::Reservoir& reservoir = residual.boundary().reservoir;

@@ -52,7 +52,7 @@ Judgement::Judgement(const FlowSetting& setting, std::vector<PatchCondition> con
       conditions_(std::move(conditions)),
       arrays_(arrays),
       unsteady_(setting.time_order > 0),
-      stops_anywhere_(unsteady_ || (setting.march.refresh_every == 1 && setting.common.common_every == 1)) {
+      stops_anywhere_(unsteady_ || (setting.march.refresh_every == 1 && setting.coarse.common_every == 1)) {
   norms.resize(arrays.tiles.size(), norm_count);
   loads.resize(arrays.tiles.size(), patch_sums());
   for (FlowTile& tile : arrays.tiles) tile.noise = noise_of(tile, setting);

@@ -39,17 +39,17 @@ class Preconditioner {
   virtual std::ptrdiff_t refresh(FlowTile& tile) = 0;
   virtual void apply(const Piece& piece) = 0;
 
-  /// Whether there is a coarse level. If so: refresh() of all tiles, then refresh_common(); gather() of all, common(), apply() of
-  /// all.
-  virtual bool has_common() const { return false; }
+  /// Whether there is a coarse level. If so: refresh() of all tiles, then refresh_coarse_level(); gather() of all,
+  /// solve_coarse_level(), apply() of all.
+  virtual bool has_coarse_level() const { return false; }
   /// What the coarse level needs of v.
   virtual void gather(FlowTile&, const float*) {}
   /// A march begins, or this physical step: of what came before nothing may be used but what save_kept() saves, so that a restart
   /// has the same bits.
   virtual void begin(std::int64_t /*step*/) {}
   /// Tasks that all ranks run together, as often, one at a time in a process.
-  virtual void refresh_common(MPI_Comm) {}
-  virtual void common(MPI_Comm) {}
+  virtual void refresh_coarse_level(MPI_Comm) {}
+  virtual void solve_coarse_level(MPI_Comm) {}
   /// Whether the coarse level had no solution since it was last made anew: what apply() gives is of no use then.
   virtual bool singular() const { return false; }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "src/aero/flow/ilu_after_common.hpp"
+#include "src/aero/flow/ilu_after_coarse.hpp"
 #include "src/aero/flow/numbering.hpp"
 #include "src/aero/hypre/multigrid.hpp"
 
@@ -25,8 +25,8 @@ struct PressureTile {
   std::vector<float> rows;                  ///< [cell][1 + sides]: the pressure equation
 };
 
-struct PressureAmg final : IluAfterCommon {
-  using IluAfterCommon::IluAfterCommon;
+struct PressureAmg final : IluAfterCoarse {
+  using IluAfterCoarse::IluAfterCoarse;
   Numbering numbering;
   std::vector<int> local;
   std::vector<PressureTile> tiles;
@@ -175,12 +175,12 @@ struct PressureAmg final : IluAfterCommon {
     }
   }
 
-  void solve_common(MPI_Comm comm) override {
+  void solve_coarse(MPI_Comm comm) override {
     multigrid->cycle(right, pressure);
     exchange.fetch(numbering, pressure, 1, other, comm);
   }
 
-  void apply_common(const Piece& piece) override {
+  void apply_coarse(const Piece& piece) override {
     FlowTile& tile = *piece.tile;
     const PressureTile& t = of(tile);
     const linear::StencilMatrix<5> a = tile.mean();

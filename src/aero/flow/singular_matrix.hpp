@@ -1,5 +1,5 @@
 // What a solver of a coarse level (elimination, multigrid) throws where its matrix has no inverse: numerical trouble that the
-// preconditioner turns into a rejected pseudo-step (ilu_after_common.hpp). Tested in
+// preconditioner turns into a rejected pseudo-step (ilu_after_coarse.hpp). Tested in
 // tests/src/aero/flow/linear_solver_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -68,7 +68,7 @@ struct KrylovData {
   std::vector<Datum> vectors, direction, direction_ghosts, size, trial, trial_ghosts, dots, fraction, gathered;
   Datum basis;  ///< its dense part
   Datum total_size, total_dots, total_fraction;
-  Datum built, common;  ///< the preconditioner's coarse level: its matrix, its solution
+  Datum built, coarse;  ///< the preconditioner's coarse level: its matrix, its solution
 
   KrylovData(Graph& graph, std::size_t tiles)
       : basis(graph.datum()),
@@ -76,7 +76,7 @@ struct KrylovData {
         total_dots(graph.datum()),
         total_fraction(graph.datum()),
         built(graph.datum()),
-        common(graph.datum()) {
+        coarse(graph.datum()) {
     for (auto* data : {&vectors, &direction, &direction_ghosts, &size, &trial, &trial_ghosts, &dots, &fraction, &gathered})
       *data = graph.data(tiles);
   }
@@ -113,7 +113,7 @@ struct MarchRecording : MarchParts {
     for (std::size_t n = 0; n < owned(); ++n) graph.task(of(path, n), uses(n), [work, n] { work(n); });
   }
   /// Whether the preconditioner has a part of all tiles together.
-  bool common() const { return system.preconditioner().has_common(); }
+  bool has_coarse_level() const { return system.preconditioner().has_coarse_level(); }
   int turbulence() const { return arrays.tiles.empty() ? 0 : tile(0).turbulence; }
   std::vector<Quantity> state_quantities() const {
     std::vector<Quantity> q{Quantity::scalar, Quantity::vector, Quantity::scalar};
@@ -272,11 +272,12 @@ void make_direction(const MarchRecording& r, std::size_t n, int iteration) {
 
 /// Between what tiles gather and what they make of it; one task of all ranks, beside others of this rank that wait for none of
 /// it.
-void common_part(MarchRecording& r, const char* label) {
-  Uses uses{reads(r.flow.decision), reads(r.krylov.built), writes(r.krylov.common)};
+void solve_coarse_level(MarchRecording& r, const char* label) {
+  Uses uses{reads(r.flow.decision), reads(r.krylov.built), writes(r.krylov.coarse)};
   uses.push_back(reads(r.krylov.gathered));
   r.graph.collective(
-      label, uses, [&r](MPI_Comm comm) { r.system.preconditioner().common(comm); }, [&r] { return r.judgement.solving(); });
+      label, uses, [&r](MPI_Comm comm) { r.system.preconditioner().solve_coarse_level(comm); },
+      [&r] { return r.judgement.solving(); });
 }
 
 void krylov_iteration(MarchRecording& r) {
@@ -288,7 +289,7 @@ void krylov_iteration(MarchRecording& r) {
     return Uses{reads(r.flow.decision), reads(r.flow.matrix[n]), updates(r.krylov.vectors[n]), writes(r.krylov.direction[n]),
                 writes(r.krylov.size[n])};
   };
-  if (!r.common()) {
+  if (!r.has_coarse_level()) {
     for (std::size_t n = 0; n < r.owned(); ++n) {
       Uses uses = direction_uses(n);
       uses.push_back(reads(r.krylov.basis)), uses.push_back(reads(r.flow.residual[n]));
@@ -307,10 +308,10 @@ void krylov_iteration(MarchRecording& r) {
           r.system.preconditioner().gather(r.tile(n), r.system.cycle().source(r.tile(n), int(c.iteration)));
       });
     }
-    common_part(r, "aero/krylov/common");
+    solve_coarse_level(r, "aero/krylov/coarse");
     for (std::size_t n = 0; n < r.owned(); ++n) {
       Uses uses = direction_uses(n);
-      uses.push_back(reads(r.krylov.common));
+      uses.push_back(reads(r.krylov.coarse));
       r.graph.task(r.of("aero/krylov/direction", n), uses, [&r, n](const Context& c) { make_direction(r, n, int(c.iteration)); });
     }
   }
@@ -391,7 +392,7 @@ void update_state(MarchRecording& r) {
     return Uses{reads(r.flow.decision), reads(r.krylov.basis),        reads(r.flow.matrix[n]),
                 reads(r.flow.state[n]), updates(r.krylov.vectors[n]), writes(r.krylov.fraction[n])};
   };
-  const bool between = r.common() && r.system.cycle().precondition_at_end();
+  const bool between = r.has_coarse_level() && r.system.cycle().precondition_at_end();
   if (between) {
     r.each(
         "aero/combine",
@@ -404,13 +405,13 @@ void update_state(MarchRecording& r) {
           r.system.cycle().combine(r.tile(n));
           r.system.preconditioner().gather(r.tile(n), r.system.cycle().solution(r.tile(n)));
         });
-    common_part(r, "aero/common");
+    solve_coarse_level(r, "aero/coarse");
   }
   r.each(
       "aero/update",
       [&](std::size_t n) {
         Uses uses = update_uses(n);
-        if (between) uses.push_back(reads(r.krylov.common));
+        if (between) uses.push_back(reads(r.krylov.coarse));
         return uses;
       },
       [&r, between](std::size_t n) {
@@ -458,11 +459,11 @@ void pseudo_march(MarchRecording& r, int urgency) {
             [&r](std::size_t n) {
               if (r.judgement.solving()) r.system.build(r.tile(n), r.judgement.march.state().cfl, r.judgement.refreshes());
             });
-        if (r.common()) {
+        if (r.has_coarse_level()) {
           Uses uses{reads(r.flow.decision), writes(r.krylov.built)};
           uses.push_back(reads(r.flow.matrix));
           r.graph.collective(
-              "aero/preconditioner", uses, [&r](MPI_Comm comm) { r.system.preconditioner().refresh_common(comm); },
+              "aero/preconditioner", uses, [&r](MPI_Comm comm) { r.system.preconditioner().refresh_coarse_level(comm); },
               [&r] { return r.judgement.refreshes(); });
         }
         r.graph.loop("aero/krylov", {.min = 1, .max = std::uint32_t(r.system.cycle().most_columns()), .urgency = urgency + 1},
@@ -481,7 +482,7 @@ void record_march(Graph& graph, const MarchParts& parts, RecordedGraphs& recorde
   // A coarse level is one thread's work: with one, all of the air is more urgent than the sea (1), so that it comes there while
   // the others still have a sea to go on with. The round of one gives what stands outside the march's own loops that urgency
   // too.
-  if (r.common())
+  if (r.has_coarse_level())
     graph.loop("aero/step", {.min = 1, .max = 1, .urgency = 2}, [&] { pseudo_march(r, 2); });
   else
     pseudo_march(r, 0);

@@ -51,7 +51,7 @@ inline double mean_density_ratio(const TankPlan& plan, const Parameters& p) {
   return p.gravity > 0.0 ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0;
 }
 
-/// Layers of wall particles: as many as water feels.
+/// Layers of wall particles: as many as act on water.
 inline int wall_layers(const Parameters& p) { return int(std::ceil(p.reach() / p.spacing - 1e-9)) - 1; }
 
 }  // namespace spindrift::sph

@@ -99,7 +99,7 @@ template <int dim, class Real>
 void StepTasks<dim, Real>::window() {
   auto& r = recording_;
   SeaState<dim, Real>& sea = r.sea;
-  r.graph.loop("sea/looks", {.min = 1, .urgency = 1}, [&] {
+  r.graph.loop("sea/checks", {.min = 1, .urgency = 1}, [&] {
     r.graph.task("sea/order", {updates(r.plan)},
                  [&sea] { sea.plan.sort = sea.plan.sort_is_due(sea.p.drift()) && !sea.plan.ended(); });
     sort();

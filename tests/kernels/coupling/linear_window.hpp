@@ -1,4 +1,4 @@
-// Six rows that answer linearly: loads of a rigid body whose fluid weighs r times as much, seen by any scheme. Used by tests of
+// Six rows that react linearly: loads of a rigid body whose fluid weighs r times as much, seen by any scheme. Used by tests of
 // schemes. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,7 +29,7 @@ class LinearWindow {
   }
   Vector first(const Vector& x) { return load_ - r_ * (a_ * x); }
   Vector second(const Vector& y) { return b_ * y; }
-  Vector evaluate(const Vector& x) { return serial_answer(*this, last_ = x); }
+  Vector evaluate(const Vector& x) { return evaluate_serial(*this, last_ = x); }
   Vector guess() const { return Vector::Zero(6); }
   void accept() { done_ = true; }
   bool done() const { return done_; }

@@ -29,14 +29,14 @@ std::vector<double> residuals(S scheme, int at, const Carry& carry) {
   Vector x = window.guess();
   for (int k = 0; k < 12; ++k) {
     if (k == at) scheme = carry(scheme);
-    Vector answer;
-    if constexpr (requires { scheme.answer(window, x); })
-      answer = scheme.answer(window, x);
+    Vector output;
+    if constexpr (requires { scheme.evaluate(window, x); })
+      output = scheme.evaluate(window, x);
     else
-      answer = window.evaluate(x);
-    norms.push_back((answer - x).norm());
+      output = window.evaluate(x);
+    norms.push_back((output - x).norm());
     if (norms.back() < 1e-9) break;
-    x = scheme.next(x, answer - x);
+    x = scheme.next(x, output - x);
   }
   return norms;
 }
@@ -116,7 +116,7 @@ TEST_CASE("two parts iterated at once and in turn reach the same window", "[coup
   a.begin_window(), b.begin_window();
   for (int k = 0; k < 30; ++k) {
     if (Vector r = parts.evaluate(serial) - serial; r.norm() > 1e-12) serial = a.next(serial, r);
-    if (Vector r = parallel_answer(parts, parallel, 6) - parallel; r.norm() > 1e-12) parallel = b.next(parallel, r);
+    if (Vector r = evaluate_parallel(parts, parallel, 6) - parallel; r.norm() > 1e-12) parallel = b.next(parallel, r);
   }
   CHECK((parallel.head(6) - serial).norm() < 1e-10);
   CHECK((parallel.tail(6) - parts.first(serial)).norm() < 1e-10);

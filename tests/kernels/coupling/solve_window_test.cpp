@@ -67,9 +67,9 @@ TEST_CASE("clearing and relaxing rescues a scheme that learned from a part in tr
   struct Troubled : LinearWindow {
     using LinearWindow::LinearWindow;
     int calls = 0;
-    Vector evaluate(const Vector& x) {  // for six calls its answers jump
-      const Vector answer = LinearWindow::evaluate(x);
-      return ++calls <= 6 ? Vector(answer * (calls % 2 ? -3.0 : 2.0)) : answer;
+    Vector evaluate(const Vector& x) {  // for six calls its results jump
+      const Vector output = LinearWindow::evaluate(x);
+      return ++calls <= 6 ? Vector(output * (calls % 2 ? -3.0 : 2.0)) : output;
     }
   };
   Troubled window(5.0);

@@ -28,7 +28,7 @@ Graph small(int& left, MPI_Comm comm = MPI_COMM_SELF) {
   Graph g(comm);
   const Datum x = g.datum(0.25F), y = g.datum();
   g.task("aero/start", {writes(x), writes(y)}, [&left] { left = 5; });
-  g.loop("sea/looks", {.min = 1, .urgency = 3}, [&] {
+  g.loop("sea/checks", {.min = 1, .urgency = 3}, [&] {
     g.task("sea/step", {updates(y)}, [&left] { --left; });
     g.repeat("sea/inner", 2, [&] { g.task("sea/inner/t", {updates(y)}, [] {}); });
     g.until("sea/until", {reads(y)}, [&left] { return left == 0; });
@@ -63,7 +63,7 @@ TEST_CASE("the windows asked for are recorded, every execution of every node in 
       const std::string& label = graph.nodes[n].label;
       const std::size_t runs = label == "sea/step" ? 5 : label == "sea/inner/t" ? 10 : label == "sea/until" ? 5 : 1;
       if (graph.nodes[n].kind != NodeKind::loop) CHECK(run.ns[n].size() == runs);
-      if (label == "sea/looks") CHECK(run.iterations[n] == std::vector<std::uint32_t>{5});
+      if (label == "sea/checks") CHECK(run.iterations[n] == std::vector<std::uint32_t>{5});
       if (label == "sea/inner") CHECK(run.iterations[n] == std::vector<std::uint32_t>(5, 2));
       for (const std::int64_t ns : run.ns[n]) sum += ns;
     }

@@ -216,18 +216,19 @@ TEST_CASE("a window undone and done again leaves the bits of one done once", "[r
 }
 
 namespace {
-/// One sector with rotational periodicity, its common part of the preconditioner by elimination, by multigrid, or pressure alone.
+/// One sector with rotational periodicity, its coarse level of the preconditioner by elimination, by multigrid, or pressure
+/// alone.
 ResolvedRotorSetup preconditioned(const std::string& time, const std::string& name, int direct_groups = 512) {
   ResolvedRotorSetup s = tiny(time, false);
   s.flow.preconditioner = name, s.flow.group_cells = 4, s.flow.direct_groups = direct_groups;
   s.flow.cfl = 50.0, s.flow.cfl_max = 50.0, s.flow.drop = 0.0, s.flow.max_pseudo_steps = 2;
   return s;
 }
-const std::pair<const char*, int> common_parts[]{{"coarse", 4096}, {"coarse", 0}, {"pressure_amg", 0}};
+const std::pair<const char*, int> coarse_levels[]{{"coarse", 4096}, {"coarse", 0}, {"pressure_amg", 0}};
 }  // namespace
 
 TEST_CASE(
-    "preconditioners with a common part end in block ILU's flow round a periodic sector; the coarse ones solve more at long "
+    "preconditioners with a coarse level end in block ILU's flow round a periodic sector; the coarse ones solve more at long "
     "steps",
     "[rotor][fast]") {
   struct Marched {
@@ -246,7 +247,7 @@ TEST_CASE(
   const Marched ilu = marched(plain, 10.0), ilu_long = marched(plain, 1000.0);
   REQUIRE(ilu.drop <= 1e-3);
   REQUIRE(ilu_long.drop > 1e-2);
-  for (const auto& [name, direct] : common_parts) {
+  for (const auto& [name, direct] : coarse_levels) {
     const ResolvedRotorSetup s = preconditioned("steady", name, direct);
     const Marched with = marched(s, 10.0), with_long = marched(s, 1000.0);
     CAPTURE(name, direct, with.drop, ilu_long.drop, with_long.drop, ilu.load.thrust, with.load.thrust);
@@ -258,9 +259,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a turning periodic sector with a common part kept over steps: same bits on any threads and after a restart",
+TEST_CASE("a turning periodic sector with a coarse level kept over steps: same bits on any threads and after a restart",
           "[rotor][fast]") {
-  for (const auto& [name, direct] : common_parts) {
+  for (const auto& [name, direct] : coarse_levels) {
     CAPTURE(name, direct);
     ResolvedRotorSetup s = preconditioned("bdf2", name, direct);
     s.flow.common_every = 2, s.flow.common_steps = 2;

@@ -1,4 +1,4 @@
-// The Campbell table of the paper's machine and the judgement of loose schemes.
+// The Campbell table of the paper's turbine and the judgement of loose schemes.
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/campbell.hpp"
 
@@ -19,7 +19,7 @@ const std::string case3 = SPINDRIFT_SOURCE_DIR "/inputs/leble_barakos/case3_engi
 }  // namespace
 
 TEST_CASE("1P of the DTU rotor and the sea states are the paper's, and meet near 9 m/s", "[coupling][fast]") {
-  const auto floating = machine_of(case3, {});
+  const auto floating = floating_of(case3, {});
   const Start start = make_start(*floating);
   const Stability s = stability(*floating, start.state);
   const Campbell c = campbell(floating->scenario(), s.linearisation, 8.8 * rad_s_per_rpm);
@@ -38,9 +38,9 @@ TEST_CASE("1P of the DTU rotor and the sea states are the paper's, and meet near
   CHECK(std::any_of(pairs.begin(), pairs.end(), [](const std::string& p) { return p.rfind("waves and heave", 0) == 0; }));
 }
 
-TEST_CASE("a loose scheme will do for the paper's machine at windows of 0.02 s, not at 5 s", "[coupling][fast]") {
+TEST_CASE("a loose scheme will do for the paper's turbine at windows of 0.02 s, not at 5 s", "[coupling][fast]") {
   const auto verdict_at = [](const std::string& window) {
-    const auto floating = machine_of(case3, {"time.end_s=10.0", "time.window_s=" + window, "time.step_s=0.02"});
+    const auto floating = floating_of(case3, {"time.end_s=10.0", "time.window_s=" + window, "time.step_s=0.02"});
     const Start start = make_start(*floating);
     const bodies::Linearisation linear = stability(*floating, start.state).linearisation;
     return loose_verdict(*floating, start.state, campbell(floating->scenario(), linear, 8.8 * rad_s_per_rpm), linear);
@@ -59,8 +59,8 @@ TEST_CASE("a loose scheme will do for the paper's machine at windows of 0.02 s, 
   CHECK(fine.schemes[2].mass_ratio_limit == Approx(1.0 / 3.0).epsilon(1e-6));
 }
 
-TEST_CASE("no loose scheme will do where the air weighs as much as the machine", "[coupling][fast]") {
-  const auto floating = machine_of(
+TEST_CASE("no loose scheme will do where the air weighs as much as the floating system", "[coupling][fast]") {
+  const auto floating = floating_of(
       case3, {"time.end_s=10.0", "time.window_s=0.02", "time.step_s=0.02", "environment.air_density_kg_m3=99.0",
               "bodies.platform.mass_kg=2000", "bodies.rotor.mass_kg=1000", "bodies.platform.inertia_kg_m2=[1e7, 1e7, 1e7]",
               "bodies.rotor.inertia_kg_m2=[1e6, 1e6, 1e6]", "start.equilibrium=false", "sea.added_mass_coefficient=0.0"});
@@ -75,8 +75,8 @@ TEST_CASE("no loose scheme will do where the air weighs as much as the machine",
 TEST_CASE("a scene's own loose scheme is judged by the order that it asks for, and refused beyond its limit",
           "[coupling][fast]") {
   const auto asked = [](int order, const std::string& window) {
-    return machine_of(case3, {"time.end_s=70.0", "time.window_s=" + window, "time.step_s=0.02", "coupling.scheme=css",
-                              "coupling.predictor_order=" + std::to_string(order)});
+    return floating_of(case3, {"time.end_s=70.0", "time.window_s=" + window, "time.step_s=0.02", "coupling.scheme=css",
+                               "coupling.predictor_order=" + std::to_string(order)});
   };
   const auto judged = [&](int order) {
     const auto floating = asked(order, "0.02");

@@ -1,5 +1,5 @@
-// The coupled window on a small machine: what a scene may ask for, repeatability, failure that leaves the state where it was,
-// cutting. SPDX-License-Identifier: Apache-2.0
+// The coupled window of a small floating system: what a scene may ask for, repeatability, failure that leaves the state where it
+// was, cutting. SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/window.hpp"
 
 #include <catch2/catch.hpp>

@@ -19,14 +19,14 @@ struct March {
   std::string failure;
 };
 
-inline std::unique_ptr<FloatingSystem> machine_of(const std::string& file, const std::vector<std::string>& overrides) {
+inline std::unique_ptr<FloatingSystem> floating_of(const std::string& file, const std::vector<std::string>& overrides) {
   scene::Document document = scene::load(file, overrides);
   return std::make_unique<FloatingSystem>(read_scenario(document));
 }
 
 /// To the end of the run, or to the first failure.
 inline March march(const std::string& file, const std::vector<std::string>& overrides) {
-  const std::unique_ptr<FloatingSystem> floating = machine_of(file, overrides);
+  const std::unique_ptr<FloatingSystem> floating = floating_of(file, overrides);
   bodies::BodiesState state = make_start(*floating).state;
   const Timeline& t = floating->timeline();
   March m;

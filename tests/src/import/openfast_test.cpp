@@ -331,7 +331,7 @@ TEST_CASE("blades of BeamDyn have their own masses, and the generator's inertia 
   CHECK(deck.refusal().find("bdblade.dat") != std::string::npos);
 }
 
-TEST_CASE("an imported scene is a machine that stands and moves", "[import][fast]") {
+TEST_CASE("an imported scene is a turbine that stands and moves", "[import][fast]") {
   const SmallDeck deck;
   coupling::FloatingSystem floating(deck.scenario());
   coupling::Start start = make_start(floating);

@@ -1,7 +1,7 @@
 // A floating turbine of two degrees of freedom, surge and pitch, with a rotor that follows its quasi-steady thrust with a lag:
-// the smallest machine on which coupling schemes show their order. Masses, thrust and slope of Leble & Barakos (2016) and of the
-// DTU 10-MW tables; stiffness from the periods of the moored platform (8.3 s and 22.6 s), 5 % of critical damping, waves of 8.8
-// s. Used by fowt_test.cpp and tests/extremes. SPDX-License-Identifier: Apache-2.0
+// the smallest floating system on which coupling schemes show their order. Masses, thrust and slope of Leble & Barakos (2016) and
+// of the DTU 10-MW tables; stiffness from the periods of the moored platform (8.3 s and 22.6 s), 5 % of critical damping, waves
+// of 8.8 s. Used by fowt_test.cpp and tests/extremes. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cmath>
@@ -101,7 +101,7 @@ inline double loose_error(const Fowt& f, const Staggering& scheme, double window
 class FowtWindow {
  public:
   FowtWindow(const Fowt& f, double window) : now_(f), start_(f), window_(window), past_(1) { past_.add(0.0, Vector::Zero(1)); }
-  Vector evaluate(const Vector& x) { return serial_answer(*this, x); }
+  Vector evaluate(const Vector& x) { return evaluate_serial(*this, x); }
   Vector first(const Vector& x) {
     now_ = start_;
     return now_.load(Waveform(Interpolation::linear, {begin(), end()}, {past_.last(), x}), begin(), end());

@@ -51,7 +51,7 @@ struct Oscillator {
   Vector second(const Vector& y) {
     return swing(right_now = right, waveform(left[0], y), number * window, (number + 1) * window, samples);
   }
-  Vector evaluate(const Vector& x) { return serial_answer(*this, x); }
+  Vector evaluate(const Vector& x) { return evaluate_serial(*this, x); }
   Vector guess() const { return Vector::Constant(samples, right[0]); }
   void accept() {
     left = left_now, right = right_now;

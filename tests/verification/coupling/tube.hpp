@@ -182,7 +182,7 @@ class TubeWindow {
   }
   Vector first(const Vector& x) { return flow_(x, step_number_ + 1); }
   Vector second(const Vector& y) { return wall_(y); }
-  Vector evaluate(const Vector& x) { return serial_answer(*this, x); }
+  Vector evaluate(const Vector& x) { return evaluate_serial(*this, x); }
   Vector guess() const { return past_.at((step_number_ + 1) * step_); }
   void accept() {
     flow_.accept(), wall_.accept();

@@ -1,4 +1,4 @@
-// Preconditioners with a common part: elimination and groups against dense algebra, the same flow as block ILU in fewer
+// Preconditioners with a coarse level: elimination and groups against dense algebra, the same flow as block ILU in fewer
 // iterations, bits on threads, reruns and ranks, tolerance where multigrid depends on ranks. SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/coarse_correction.hpp"
 
@@ -17,10 +17,10 @@ using namespace spindrift::aero::testing;
 namespace {
 
 /// A swirl in a skewed box of many small tiles; CFL numbers at which tiles matter.
-FlowSetting swirling(const char* preconditioner, PreconditionerOptions common = {}) {
+FlowSetting swirling(const char* preconditioner, PreconditionerOptions coarse = {}) {
   FlowSetting s = air(0.05, {1.0, 0.4, 0.2});
   s.preconditioner = preconditioner;
-  s.common = common;
+  s.coarse = coarse;
   s.march = {.cfl_start = 1000.0, .drop = 0.0, .max_steps = 1, .krylov_steps = 30, .krylov_drop = 1e-2};
   return s;
 }
@@ -89,7 +89,7 @@ TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterat
   }
 }
 
-TEST_CASE("threads and reruns leave every bit of preconditioners with a common part", "[flow][fast]") {
+TEST_CASE("threads and reruns leave every bit of preconditioners with a coarse level", "[flow][fast]") {
   for (const FlowSetting& s : {swirling("coarse", {.group_cells = 4}), swirling("coarse", {.group_cells = 2, .direct_groups = 0}),
                                swirling("pressure_amg")}) {
     const Case one = solved(s), again = solved(s), three = solved(s, 3);
@@ -122,7 +122,7 @@ void coarse_on(int ranks) {
     whole.run();
     part.prepare(MPI_COMM_WORLD, {.threads = 2});
     part.run();
-    const bool eliminated = s.preconditioner == "coarse" && s.common.direct_groups > 0;
+    const bool eliminated = s.preconditioner == "coarse" && s.coarse.direct_groups > 0;
     if (eliminated)
       CHECK(fingerprint(*whole.solver) == fingerprint(*part.solver));
     else

@@ -14,10 +14,10 @@ namespace {
 constexpr int every = 3;  // physical steps that a set-up serves
 
 /// A swirl carried through a skewed box of 27 tiles in steps of two cells' passage.
-FlowSetting unsteady(const char* preconditioner, PreconditionerOptions common) {
+FlowSetting unsteady(const char* preconditioner, PreconditionerOptions coarse) {
   FlowSetting s = air(0.05, {1.0, 0.4, 0.2});
   s.preconditioner = preconditioner;
-  s.common = common, s.common.common_every = 1000, s.common.common_steps = every;
+  s.coarse = coarse, s.coarse.common_every = 1000, s.coarse.common_steps = every;
   s.time_order = 2, s.dt = 2.0 / 12.0 / s.speed;
   s.march = {.cfl_start = 100.0,
              .cfl_max = 100.0,
@@ -51,7 +51,7 @@ SetUpNote of_another(SetUpNote note) {
 
 TEST_CASE("a set-up kept over physical steps goes on over a restart with the same bits, on any threads", "[flow][fast]") {
   for (const FlowSetting& s : settings) {
-    CAPTURE(s.preconditioner, s.common.direct_groups);
+    CAPTURE(s.preconditioner, s.coarse.direct_groups);
     for (const int before : {every + 1, 2 * every}) {  // in the middle of a set-up's life, and where a new one is due
       Case whole = carried_swirl(s), first = carried_swirl(s), second = carried_swirl(s, 3), forgetful = carried_swirl(s);
       whole.run(std::uint32_t(before + 2));
@@ -70,7 +70,7 @@ TEST_CASE("a set-up kept over physical steps goes on over a restart with the sam
 TEST_CASE("windows undone and done again, with or without a new set-up in them, leave the bits of one done once",
           "[flow][fast]") {
   for (const FlowSetting& s : settings) {
-    CAPTURE(s.preconditioner, s.common.direct_groups);
+    CAPTURE(s.preconditioner, s.coarse.direct_groups);
     Case once = carried_swirl(s), twice = carried_swirl(s);
     once.run(2 * every + 1);
     for (int step = 0; step < 2 * every + 1; ++step) {
@@ -91,7 +91,7 @@ TEST_CASE("a set-up kept over steps takes hardly more iterations than one for ea
   for (FlowSetting s : settings) {
     Case kept = carried_swirl(s);
     kept.run(2 * every);
-    s.common.common_every = 1, s.common.common_steps = 1;
+    s.coarse.common_every = 1, s.coarse.common_steps = 1;
     Case each = carried_swirl(s);
     each.run(2 * every);
     const auto iterations = [](const Case& c) {
@@ -99,7 +99,7 @@ TEST_CASE("a set-up kept over steps takes hardly more iterations than one for ea
       for (const PseudoRow& row : c.solver->rows()) sum += row.krylov;
       return sum;
     };
-    CAPTURE(s.preconditioner, s.common.direct_groups, iterations(kept), iterations(each));
+    CAPTURE(s.preconditioner, s.coarse.direct_groups, iterations(kept), iterations(each));
     CHECK(iterations(kept) <= 1.1 * double(iterations(each)));
   }
 }

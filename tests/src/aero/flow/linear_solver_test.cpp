@@ -1,5 +1,5 @@
 // The linear solver's choices: the Krylov methods see the same residuals and end in the same flow, preconditioners change the way
-// and not the end, one with a common part of all tiles is the same as by tile, matrices kept over pseudo-steps are counted, and
+// and not the end, one with a coarse level of all tiles is the same as by tile, matrices kept over pseudo-steps are counted, and
 // all of it to the bit on any threads and ranks. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <atomic>
@@ -51,8 +51,8 @@ Case marched(const FlowSetting& setting, std::unique_ptr<Preconditioner> precond
   return c;
 }
 
-/// Block ILU of each tile, its vectors carried through a common part as a library's multigrid would have them.
-class ThroughCommon final : public Preconditioner {
+/// Block ILU of each tile, its vectors carried through a coarse level as a library's multigrid would have them.
+class ThroughCoarse final : public Preconditioner {
  public:
   void attach(GridStore&, std::span<FlowTile> tiles) override {
     for (const FlowTile& tile : tiles) gathered_[tile.index].resize(tile.vector_size());
@@ -61,14 +61,14 @@ class ThroughCommon final : public Preconditioner {
     ++refreshed_;
     return each_->refresh(tile);
   }
-  bool has_common() const override { return true; }
-  void refresh_common(MPI_Comm comm) override {
+  bool has_coarse_level() const override { return true; }
+  void refresh_coarse_level(MPI_Comm comm) override {
     CHECK(comm != MPI_COMM_NULL);
     CHECK(refreshed_ == int(gathered_.size()));
     refreshed_ = 0;
   }
   void gather(FlowTile& tile, const float* v) override { std::copy_n(v, tile.vector_size(), gathered_.at(tile.index).data()); }
-  void common(MPI_Comm) override { handed_ = gathered_; }
+  void solve_coarse_level(MPI_Comm) override { handed_ = gathered_; }
   void apply(const Piece& piece) override { each_->apply({piece.tile, handed_.at(piece.tile->index).data(), piece.z}); }
 
  private:
@@ -133,26 +133,26 @@ TEST_CASE("every method and preconditioner ends in the same flow, the better one
   }
 }
 
-TEST_CASE("block ILU through a common part of all tiles gives the bits of the same one by tile", "[flow][fast]") {
+TEST_CASE("block ILU through a coarse level of all tiles gives the bits of the same one by tile", "[flow][fast]") {
   for (const KrylovMethod method : methods) {
     FlowSetting s = turbulent_air();
     s.krylov = method, s.march.max_steps = 6;
-    const Case by_tile = marched(s), at_once = marched(s, std::make_unique<ThroughCommon>());
+    const Case by_tile = marched(s), at_once = marched(s, std::make_unique<ThroughCoarse>());
     CHECK(fingerprint(*by_tile.solver) == fingerprint(*at_once.solver));
     CHECK(state_of(*by_tile.solver) == state_of(*at_once.solver));
   }
 }
 
-TEST_CASE("while the common part of a preconditioner runs, other threads go on with the sea", "[flow][fast]") {
+TEST_CASE("while the coarse level of a preconditioner runs, other threads go on with the sea", "[flow][fast]") {
   std::atomic<int> sea = 0, met = 0, calls = 0;
-  /// Block ILU whose first common parts last until a task of the sea has run beside them.
+  /// Block ILU whose first coarse levels last until a task of the sea has run beside them.
   class Waiting final : public Preconditioner {
    public:
     Waiting(std::atomic<int>& sea, std::atomic<int>& met, std::atomic<int>& calls) : sea_(sea), met_(met), calls_(calls) {}
     std::ptrdiff_t refresh(FlowTile& tile) override { return each_->refresh(tile); }
     void apply(const Piece& piece) override { each_->apply(piece); }
-    bool has_common() const override { return true; }
-    void common(MPI_Comm) override {
+    bool has_coarse_level() const override { return true; }
+    void solve_coarse_level(MPI_Comm) override {
       if (calls_ == 3) return;
       const int before = sea_;
       const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
@@ -232,7 +232,7 @@ void same_bits_on(int ranks) {
     for (const bool at_once : {false, true}) {
       FlowSetting s = turbulent_air();
       s.krylov = method, s.march.refresh_every = 2, s.march.max_steps = 6;
-      const auto preconditioner = [&] { return at_once ? std::make_unique<ThroughCommon>() : nullptr; };
+      const auto preconditioner = [&] { return at_once ? std::make_unique<ThroughCoarse>() : nullptr; };
       Case whole = leaving_bump(s, 1, 0, preconditioner()), part = leaving_bump(s, ranks, rank, preconditioner());
       whole.prepare();
       whole.run();

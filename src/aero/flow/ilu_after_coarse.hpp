@@ -11,30 +11,30 @@
 
 namespace spindrift::aero {
 
-class IluAfterCommon : public Preconditioner {
+class IluAfterCoarse : public Preconditioner {
  public:
-  explicit IluAfterCommon(const PreconditionerOptions& options) : options_(options) {}
+  explicit IluAfterCoarse(const PreconditionerOptions& options) : options_(options) {}
   std::ptrdiff_t refresh(FlowTile& tile) final {
     const std::ptrdiff_t own = ilu_->refresh(tile), filled = fill(tile, due());
     return own >= 0 ? own : filled;
   }
-  bool has_common() const final { return true; }
+  bool has_coarse_level() const final { return true; }
   void begin(std::int64_t step) final { refreshes_ = 0, tick_ = step % options_.common_steps == 0; }
-  void refresh_common(MPI_Comm comm) final {
+  void refresh_coarse_level(MPI_Comm comm) final {
     const bool anew = due();
     if (anew || outdated_) attempt([&] { set_up(comm); });
     if (anew) number_ = ++numbers_;
     have_ = true, outdated_ = false;
     ++refreshes_;
   }
-  void common(MPI_Comm comm) final {
-    if (!singular_) attempt([&] { solve_common(comm); });
+  void solve_coarse_level(MPI_Comm comm) final {
+    if (!singular_) attempt([&] { solve_coarse(comm); });
   }
   void apply(const Piece& piece) final {
     if (singular_)
       ilu_->apply(piece);
     else
-      apply_common(piece);
+      apply_coarse(piece);
   }
   bool singular() const final { return singular_; }
 
@@ -57,9 +57,9 @@ class IluAfterCommon : public Preconditioner {
   /// The coarse level's matrix and its solver, of all tiles. Collective.
   virtual void set_up(MPI_Comm comm) = 0;
   /// Its solution for what was gathered. Collective. Both may throw SingularMatrix.
-  virtual void solve_common(MPI_Comm comm) = 0;
+  virtual void solve_coarse(MPI_Comm comm) = 0;
   /// z from that solution and ILU of what it leaves.
-  virtual void apply_common(const Piece& piece) = 0;
+  virtual void apply_coarse(const Piece& piece) = 0;
   // A tile's part of that matrix.
   virtual std::size_t matrix_size(const FlowTile& tile) const = 0;
   virtual void save_matrix(const FlowTile& tile, std::span<double> to) const = 0;
