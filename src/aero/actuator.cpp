@@ -14,10 +14,6 @@ namespace spindrift::aero {
 
 namespace {
 
-/// Quarter of a chord: the width at which a line stands for a lifting surface (Martinez-Tossas & Meneveau 2019, section 4).
-constexpr double lifting_width_chords = 0.25;
-/// Angles of the wake between which the matrices of the correction are interpolated [rad], and the least of them.
-constexpr double wake_step = 0.01, least_wake_angle = 0.02;
 /// Part of the disc's own wind below which its wake is not slowed for the correction.
 constexpr double least_disc_wind = 0.25;
 /// How far blades may be off the rotor's plane by cone and prebend, over the radius.
@@ -50,6 +46,14 @@ double narrowest(const Turbine& turbine, const ActuatorOptions& o, double cell) 
   return std::max(o.width_cells * cell, o.width_chords * std::ranges::min(turbine.planform.chord));
 }
 
+/// Of the force's kernel, by element [m].
+std::vector<double> widths(const BladeElementMomentum& sections, const ActuatorOptions& o, double cell) {
+  std::vector<double> all;
+  for (std::size_t e = 0; e < sections.elements(); ++e)
+    all.push_back(std::max(o.width_cells * cell, o.width_chords * sections.section(e).chord));
+  return all;
+}
+
 }  // namespace
 
 double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const Eigen::Vector3d& axis, double radius,
@@ -68,10 +72,10 @@ Actuator::Actuator(const Turbine& turbine, Kind kind, const ActuatorOptions& opt
       blades_(turbine.blades),
       air_density_(air_density),
       cell_(cell),
-      sections_(with_elements_below(turbine, narrowest(turbine, options, cell)), "madsen", air_density, {}, kinematic_viscosity) {
+      sections_(with_elements_below(turbine, narrowest(turbine, options, cell)), "madsen", air_density, {}, kinematic_viscosity),
+      width_(widths(sections_, options, cell)),
+      wakes_(sections_, width_, turbine.blades) {
   const std::size_t n = sections_.elements();
-  for (std::size_t e = 0; e < n; ++e)
-    width_.push_back(std::max(options.width_cells * cell, options.width_chords * sections_.section(e).chord));
   azimuths_ =
       kind == Kind::lines ? blades_ : std::max(3, int(std::ceil(2.0 * pi * sections_.tip_radius() / std::ranges::min(width_))));
   points_.resize(std::size_t(azimuths_) * n);
@@ -215,34 +219,6 @@ void Actuator::act(std::span<const double> sums) {
   kind_ == Kind::lines ? act_lines() : act_disc();
 }
 
-const Actuator::WakeMatrix& Actuator::wake(int level) {
-  const auto found = wakes_.find(level);
-  if (found != wakes_.end()) return found->second;
-  const std::size_t n = sections_.elements();
-  std::vector<double> edge(n + 1), width(n + 1);
-  for (std::size_t e = 0; e <= n; ++e) {
-    const BladeElementMomentum::BladeSection& s = sections_.section(std::min(e, n - 1));
-    edge[e] = s.radius + (e < n ? -0.5 : 0.5) * s.length * s.normal_axial;
-    width[e] = 0.5 * (width_[e > 0 ? e - 1 : 0] + width_[std::min(e, n - 1)]);
-  }
-  const HelicalWake helix{wake_step * level, sections_.tip_radius()};
-  WakeMatrix& m = wakes_[level];
-  std::vector<TrailedVelocity> of_edge(n + 1);
-  for (int later = 0; later < blades_; ++later)
-    for (std::size_t at = 0; at < n; ++at) {
-      const BladeElementMomentum::BladeSection& s = sections_.section(at);
-      for (std::size_t e = 0; e <= n; ++e)
-        of_edge[e] = missing_velocity(s.radius, edge[e], 2.0 * pi * later / blades_, helix, lifting_width_chords * s.chord,
-                                      joint_width(width_[at], width[e]));
-      // Bound circulation runs outward and leaves downstream at the outer edge; what comes in at the inner one leaves there less.
-      for (std::size_t of = 0; of < n; ++of) {
-        m.normal.push_back(of_edge[of + 1].axial - of_edge[of].axial);
-        m.tangential.push_back(of_edge[of].ahead - of_edge[of + 1].ahead);
-      }
-    }
-  return m;
-}
-
 /// The loads and the wake that they leave, in balance: the winds gain what the width has taken from the wake's velocity. The
 /// helices have the pitch of the wind that the loaded part of the blades meets, found in a few rounds from that of the samples.
 void Actuator::act_lines() {
@@ -260,24 +236,17 @@ double Actuator::wake_angle() const {
     wind += share * p.normal_wind, thrust += share;
   }
   const double around = rotor_.omega.dot(rotor_.axis) * sections_.tip_radius();
-  return std::clamp(std::atan2(thrust > 0.0 ? wind / thrust : 0.0, around), least_wake_angle, pi - least_wake_angle - wake_step);
+  return std::clamp(std::atan2(thrust > 0.0 ? wind / thrust : 0.0, around), LineWakes::least_angle,
+                    pi - LineWakes::least_angle - LineWakes::step);
 }
 
 /// Winds as sampled; `circulation` is where the iteration begins, and ends.
 void Actuator::balance_lines(double angle, std::span<const double> normal, std::span<const double> tangential,
                              std::span<double> circulation) {
   const std::size_t n = sections_.elements();
-  const int level = int(std::floor(angle / wake_step));
-  const double s = angle / wake_step - level;
-  wake(level);
-  const WakeMatrix &high = wake(level + 1), &low = wakes_.at(level);
-  WakeMatrix m = low;
-  for (std::size_t k = 0; k < m.normal.size(); ++k) {
-    m.normal[k] += s * (high.normal[k] - low.normal[k]);
-    m.tangential[k] += s * (high.tangential[k] - low.tangential[k]);
-  }
+  const LineWakes::Matrix m = wakes_.at(angle);
   std::vector<double> relax(n);
-  for (std::size_t e = 0; e < n; ++e)  // a section of slope 2 pi answers to a wind with pi times its chord
+  for (std::size_t e = 0; e < n; ++e)  // a section of slope 2 pi has a circulation of pi times its chord per wind
     relax[e] = 1.0 / (1.0 + pi * sections_.section(e).chord * std::abs(m.normal[e * n + e]));
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     double change = 0.0;

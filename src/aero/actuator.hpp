@@ -5,7 +5,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,6 +14,7 @@
 #include "src/aero/bem.hpp"
 #include "src/aero/flow/body_force.hpp"
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/line_wakes.hpp"
 #include "src/aero/options.hpp"
 #include "src/aero/resolved_rotor.hpp"
 
@@ -89,10 +89,6 @@ class Actuator final : public BodyForce {
     };
     std::vector<Reach> reaches;
   };
-  /// What the winds lack at the elements of a blade per circulation of the elements of the blade `later` places ahead [1/m].
-  struct WakeMatrix {
-    std::vector<double> normal, tangential;  ///< [later][at][of]
-  };
 
   void find_cells(Part& part, const FlowTile& tile) const;
   void section_loads(Point& p) const;
@@ -101,7 +97,6 @@ class Actuator final : public BodyForce {
   void balance_lines(double angle, std::span<const double> normal, std::span<const double> tangential,
                      std::span<double> circulation);
   void act_disc();
-  const WakeMatrix& wake(int level);
   RotorLoad load_of(std::span<const double> loads) const;
 
   Kind kind_;
@@ -110,12 +105,12 @@ class Actuator final : public BodyForce {
   double air_density_, cell_;
   BladeElementMomentum sections_;
   std::vector<double> width_;  ///< of the kernel, by element [m]
+  LineWakes wakes_;
   DiscMotion rotor_{};
   std::vector<double> pitches_;  ///< those of rotor_
   std::int64_t placed_ = 0;
   std::vector<Point> points_;  ///< [blade or azimuth][element]
   std::vector<Part> parts_;
-  std::map<int, WakeMatrix> wakes_;  ///< of helices, by angle
   struct {
     std::vector<double> axial, swirl;  ///< [at][of]
   } rings_;                            ///< of the disc

@@ -1,7 +1,7 @@
 // Blade element momentum: the loads of a rotor given as section tables, element by element and blade by blade, with the motion of
 // its body in every element's wind; the wake and the separation on the blades may lag behind. Equations:
 // docs/theory/rotor_engineering.md; one element: kernels/rotor/blade_element.hpp.
-// Used by rotor_loads.cpp; tested in tests/src/aero/bem_test.cpp.
+// Used by blade_loads.cpp and actuator.cpp; tested in tests/src/aero/bem_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -72,7 +72,7 @@ void BladeRoots::add_mass_loads(const HubMotion& hub, const Eigen::Vector3d& axi
   }
 }
 
-BladeRootLoad BladeRoots::seen(const Wrench& w, const Eigen::Vector3d& axis, const Eigen::Vector3d& out, double sense) {
+BladeRootLoad BladeRoots::along_blade(const Wrench& w, const Eigen::Vector3d& axis, const Eigen::Vector3d& out, double sense) {
   const Eigen::Vector3d side = axis.cross(out);
   return {w.force.dot(axis), sense * w.force.dot(side), w.force.dot(out), -w.moment.dot(side), sense * w.moment.dot(axis)};
 }

@@ -1,5 +1,5 @@
 // Loads at the roots of blades: of the air, of weight and of the blades' own motion, from their mass along the span.
-// Frames and signs: docs/theory/rotor_engineering.md, "Blade roots". Used by rotor_loads.cpp; tested in
+// Frames and signs: docs/theory/rotor_engineering.md, "Blade roots". Used by blade_loads.cpp; tested in
 // tests/src/aero/blade_roots_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -59,8 +59,9 @@ class BladeRoots {
                       const Eigen::Vector3d& gravity_m_s2, Wrench& wrench, std::span<const MassMotion> bent = {}) const;
   /// Where the masses are, along the blade from the rotor's axis [m]: two to a row of the table.
   static std::vector<double> stations(const BladeMasses& masses);
-  /// `sense`: 1, or -1 of blades that turn against the axis.
-  static BladeRootLoad seen(const Wrench& wrench, const Eigen::Vector3d& axis, const Eigen::Vector3d& out, double sense = 1.0);
+  /// About the root of a blade along `out`. `sense`: 1, or -1 of blades that turn against the axis.
+  static BladeRootLoad along_blade(const Wrench& wrench, const Eigen::Vector3d& axis, const Eigen::Vector3d& out,
+                                   double sense = 1.0);
 
  private:
   struct Point {

@@ -1,6 +1,6 @@
 // Blades that bend in their slowest modes: their motion under the air, weight and the turning of the rotor, and what they do to
 // the hub. Between the steps of the bodies the amplitudes go on as parabolas; at the end of a step they are advanced exactly
-// under forces that are linear over it. Equations: docs/theory/structure.md, "Blades". Used by rotor_loads.cpp; tested in
+// under forces that are linear over it. Equations: docs/theory/structure.md, "Blades". Used by blade_loads.cpp; tested in
 // tests/src/aero/flexible_blades_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

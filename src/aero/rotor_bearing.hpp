@@ -39,7 +39,7 @@ struct RotorState {
   /// Turning of what carries it [rad/s].
   Eigen::Vector3d carrier_omega() const { return omega - speed * shaft(); }
 
-  friend bool operator==(const RotorState&, const RotorState&) = default;
+  bool operator==(const RotorState&) const = default;
 };
 
 /// The angle in [0, 2 pi).

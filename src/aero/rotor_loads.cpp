@@ -27,35 +27,6 @@ AxialLoad steady_load(const BladeElementMomentum& bem, double wind, double speed
   return {disc.force.x(), disc.moment.x()};
 }
 
-UnsteadyFlow::Stall stall_named(std::string_view name) {
-  if (name == "oye") return UnsteadyFlow::Stall::oye;
-  if (name == "beddoes_leishman") return UnsteadyFlow::Stall::beddoes_leishman;
-  return UnsteadyFlow::Stall::none;
-}
-
-/// Of blades at rest in the turning rotor, bent by the air and by their own weight and inertia.
-FlexibleBlades::Bending settled_bending(const BladeElementMomentum& bem, const FlexibleBlades& blades, const HubField& hub,
-                                        const Wind& wind, double t, DiscMotion motion, std::span<const double> flow) {
-  FlexibleBlades::Bending bending;
-  const std::size_t used = std::size_t(FlexibleBlades::modes * blades.blades());
-  std::array<double, std::size_t(FlexibleBlades::modes) * FlexibleBlades::max_blades> air{};
-  constexpr int most = 50;  // the air's force hardly changes with bending: each pass leaves a tenth or less of the error
-  constexpr double enough = 1e-12;
-  for (int pass = 0; pass < most; ++pass) {
-    const FlexibleBlades::Bending before = bending;
-    const BentBlades bent = blades.bent(before);
-    motion.bent = &bent;
-    bem.on_modes(wind, motion, t, flow, std::span(air).first(used));
-    blades.settle(motion, hub, air, bending);
-    double change = 0.0, size = 0.0;
-    for (std::size_t k = 0; k < used; ++k)
-      change = std::max(change, std::abs(bending.amplitudes[k] - before.amplitudes[k])),
-      size = std::max(size, std::abs(bending.amplitudes[k]));
-    if (change <= enough * size) break;
-  }
-  return bending;
-}
-
 }  // namespace
 
 double rotor_diameter(const RotorOptions& rotor) {
@@ -73,45 +44,26 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, Wind 
   if (aero.thrust_frame == "earth") thrust_direction_ = placement.axis.normalized();
   if (aero.model == "prescribed") model_ = Prescribed(aero);
   if (aero.model == "thrust_curve") model_ = ThrustCurve(aero, rotor, air_density);
-  if (aero.model == "bem")
-    model_ = BladeElementMomentum(read_turbine(rotor.turbine), aero.induction, air_density,
-                                  {.inflow = aero.dynamic_inflow == "oye",
-                                   .inflow_time = aero.inflow_time_s,
-                                   .stall = stall_named(aero.dynamic_stall),
-                                   .speed_of_sound = aero.speed_of_sound_m_s},
-                                  aero.kinematic_viscosity(air_density));
-  if (!rotor.blade_masses.empty()) {
-    const Turbine turbine = read_turbine(rotor.turbine);
-    roots_.emplace(turbine, read_blade_masses(turbine, rotor.blade_masses));
-  }
-  if (!rotor.blade_structure.empty() && aero.model == "bem") {
-    const Turbine turbine = read_turbine(rotor.turbine);
-    const BladeStructure structure = read_blade_structure(turbine, rotor.blade_structure);
-    roots_.emplace(turbine, structure.masses);
-    flexible_.emplace(turbine, structure, rotor.blade_damping);
-  }
-  if (const auto* bem = std::get_if<BladeElementMomentum>(&model_)) parts_.flow = bem->memory_size();
-  if (flexible_) parts_.bending = flexible_->memory_size();
+  if (aero.model == "bem") model_ = BladeLoads(aero, rotor, air_density);
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
-  const int blades = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
+  const int count = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
   if (control.model == ControlModel::library) {
-    control_.emplace(control, blades, TurbineControl::Start{rotor.azimuth, rotor.speed, rotor.blade_pitch}, step_s);
+    control_.emplace(control, count, TurbineControl::Start{rotor.azimuth, rotor.speed, rotor.blade_pitch}, step_s);
   } else {
     const ControllerOptions controller = read_controller(control.file);
     const auto operation = rotor.operation.empty() ? std::nullopt : std::optional(read_operation(rotor.operation));
     double start_pitch = rotor.blade_pitch;
     if (control.peak_shaving) {
-      const auto& bem = std::get<BladeElementMomentum>(model_);
+      const BladeElementMomentum& bem = blades()->elements();
       shaving_ = shave_peak([&](double w, double speed, double pitch) { return steady_load(bem, w, speed, pitch); },
                             law_of(control, controller, operation), *operation, *control.peak_shaving);
       start_pitch = std::max(start_pitch, shaving_->least_pitch(state(0.0, start).relative_wind));
     }
-    control_.emplace(control, controller, operation, blades, TurbineControl::Start{rotor.azimuth, rotor.speed, start_pitch},
+    control_.emplace(control, controller, operation, count, TurbineControl::Start{rotor.azimuth, rotor.speed, start_pitch},
                      shaving_);
   }
   start_ = control_->start();
-  parts_.control = control_->memory_size();
 }
 
 RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
@@ -125,68 +77,38 @@ RotorState RotorLoads::state(double t, std::span<const Motion> bodies) const {
   return now;
 }
 
-DiscMotion RotorLoads::disc_motion(const RotorState& now, std::span<const double> memory) const {
-  DiscMotion motion{now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, start_.pitch, now.hub};
-  motion.sense = now.sense;
-  if (control_ && !memory.empty()) motion.pitches = control_->pitch(memory);
-  if (tower_ && tower_->changes_wind()) motion.tower = &*tower_, motion.tower_frame = tower_frame(now);
-  return motion;
+/// `memory`: of all that the rotor remembers.
+BladesAt RotorLoads::blades_at(const Wind& wind, double t, const RotorState& now, std::span<const double> memory) const {
+  BladesAt at{wind,
+              t,
+              {now.hub_velocity, now.omega, now.axis, now.up, now.azimuth, start_.pitch, now.hub},
+              {now.omega, Eigen::Vector3d::Zero(), gravity_},
+              memory.empty() ? memory : memory.subspan(drive_size())};
+  at.rotor.sense = now.sense;
+  if (control_ && !memory.empty()) at.rotor.pitches = control_->pitch(memory);
+  if (tower_ && tower_->changes_wind()) at.rotor.tower = &*tower_, at.rotor.tower_frame = tower_frame(now);
+  if (!bearing_.is_turned()) at.hub.omega_rate = now.carrier_omega().cross(Eigen::Vector3d(now.speed * now.shaft()));
+  return at;
 }
 
-HubField RotorLoads::hub_field(const RotorState& now) const {
-  HubField field{now.omega, Eigen::Vector3d::Zero(), gravity_};
-  if (!bearing_.is_turned()) field.omega_rate = now.carrier_omega().cross(Eigen::Vector3d(now.speed * now.shaft()));
-  return field;
-}
-
-void RotorLoads::fill_air_load(const Wind& wind, double t, const RotorState& now, bool at_rest, AirLoad& load) const {
-  const auto& bem = std::get<BladeElementMomentum>(model_);
-  const std::span<const double> memory(memory_), flow = parts_.of_flow(memory);
-  DiscMotion motion = disc_motion(now, memory);
-  const int blades = int(roots());
-  load.roots.resize(std::size_t(blades));
-  for (int b = 0; b < blades; ++b)
-    load.roots[std::size_t(b)] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                                  roots_->root(now.axis, blade_direction(motion, b, blades))};
-  if (!flexible_) {
-    load.disc = bem(wind, motion, t, flow, load.roots);
-    return;
-  }
-  const bool moves = !memory.empty() && !at_rest;
-  load.bending = moves ? flexible_->predicted(parts_.of_bending(memory), t)
-                       : settled_bending(bem, *flexible_, hub_field(now), wind, t, motion, flow);
-  const BentBlades bent = flexible_->bent(load.bending);
-  motion.bent = &bent;
-  load.disc = bem.on_modes(wind, motion, t, flow,
-                           std::span(load.on_modes).first(std::size_t(FlexibleBlades::modes * flexible_->blades())), load.roots);
-}
-
-const RotorLoads::AirLoad& RotorLoads::air_load(double t, const RotorState& now) const {
-  if (last_.known && last_.t == t && last_.now == now) return last_;
-  fill_air_load(wind_, t, now, false, last_);
+const BladeLoads::Load& RotorLoads::blade_load(double t, const RotorState& now) const {
+  if (last_.known && last_.t == t && last_.now == now) return last_.load;
+  blades()->fill(blades_at(wind_, t, now, memory_), false, last_.load);
   last_.known = true, last_.t = t, last_.now = now;
-  return last_;
+  return last_.load;
 }
 
 RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
-  const bool of_sections = std::holds_alternative<BladeElementMomentum>(model_);
-  return load(wind_, t, now, ramp, of_sections ? &air_load(t, now) : nullptr);
+  return load(wind_, t, now, ramp, blades() ? &blade_load(t, now) : nullptr);
 }
 
-RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, double ramp, const AirLoad* air) const {
+RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, double ramp, const BladeLoads::Load* air) const {
   RotorLoad load;
   if (air) {
-    const DiscLoad& disc = air->disc;
-    Eigen::Matrix<double, 6, 1> reaction = Eigen::Matrix<double, 6, 1>::Zero();
-    if (flexible_) {
-      DiscMotion motion = disc_motion(now, memory_);
-      const BentBlades bent = flexible_->bent(air->bending);
-      motion.bent = &bent;
-      reaction = flexible_->reaction(motion, hub_field(now), air->bending, air->on_modes);
-    }
-    load.force = ramp * disc.force, load.moment = ramp * disc.moment;
+    load.force = ramp * air->disc.force, load.moment = ramp * air->disc.moment;
     load.thrust = load.force.dot(now.axis), load.torque = load.moment.dot(now.shaft()), load.shaft_torque = load.torque;
-    if (flexible_) {
+    if (flexible()) {
+      const Eigen::Matrix<double, 6, 1> reaction = blades()->reaction(blades_at(wind, t, now, memory_), *air);
       load.force += ramp * reaction.head<3>(), load.moment += ramp * reaction.tail<3>();
       load.shaft_torque += ramp * reaction.tail<3>().dot(now.shaft());
     }
@@ -225,8 +147,7 @@ void RotorLoads::add_air_load(double t, std::span<const Motion> bodies, std::spa
 }
 
 std::optional<ReynoldsReach> RotorLoads::reynolds(double t, const RotorState& now) const {
-  const auto* bem = std::get_if<BladeElementMomentum>(&model_);
-  return bem ? bem->reynolds(wind_, disc_motion(now, memory_), t) : std::nullopt;
+  return blades() ? blades()->elements().reynolds(wind_, blades_at(wind_, t, now, memory_).rotor, t) : std::nullopt;
 }
 
 std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Motion> bodies, const Eigen::Vector3d& acceleration,
@@ -237,34 +158,14 @@ std::vector<BladeRootLoad> RotorLoads::root_loads(double t, std::span<const Moti
   const Eigen::Vector3d arm = now.hub - body.position, turning = body.omega_earth();
   HubMotion hub{acceleration + omega_rate.cross(arm) + turning.cross(turning.cross(arm)), now.omega, omega_rate};
   if (!bearing_.is_turned()) hub.omega_rate += turning.cross(Eigen::Vector3d(now.speed * now.shaft()));
-  const AirLoad& air = air_load(t, now);
-  DiscMotion disc = disc_motion(now, memory_);
-  const int blades = int(roots_->blades());
-  std::vector<BladeRootLoad> loads;
-  BentBlades bent;
-  if (flexible_) bent = flexible_->bent(air.bending), disc.bent = &bent;
-  for (int b = 0; b < blades; ++b) {
-    const Eigen::Vector3d out = blade_direction(disc, b, blades);
-    Wrench w = air.roots[std::size_t(b)];
-    w.force *= ramp, w.moment *= ramp;
-    std::vector<MassMotion> moved;
-    if (flexible_) {
-      Eigen::Matrix<double, 6, 1> beyond;
-      const HubField field = hub_field(now);
-      beyond << hub.acceleration, hub.omega_rate - field.omega_rate;
-      moved = flexible_->mass_motions(disc, b, field, beyond, air.bending, air.on_modes);
-    }
-    roots_->add_mass_loads(hub, now.axis, out, gravity, w, moved);
-    loads.push_back(BladeRoots::seen(w, now.axis, out, now.sense));
-  }
-  return loads;
+  return blades()->root_loads(blades_at(wind_, t, now, memory_), blade_load(t, now), hub, gravity, ramp);
 }
 
 TurbineControl::Measured RotorLoads::measured(double t, const RotorState& now) const {
   TurbineControl::Measured m{.torque = air_moment_ ? air_moment_(t).dot(now.shaft()) : load(t, now).shaft_torque,
                              .wind = now.relative_wind};
-  if (flexible_ && !memory_.empty()) {
-    const Eigen::Matrix3d turning = flexible_->added_mass(disc_motion(now, memory_)).bottomRightCorner<3, 3>();
+  if (flexible() && !memory_.empty()) {
+    const Eigen::Matrix3d turning = flexible()->added_mass(blades_at(wind_, t, now, memory_).rotor).bottomRightCorner<3, 3>();
     m.bending_inertia = -now.axis.dot(turning * now.axis);
   }
   if (!control_->library()) return m;
@@ -282,58 +183,19 @@ TurbineControl::Measured RotorLoads::measured(double t, const RotorState& now) c
 void RotorLoads::begin(double t, std::span<const Motion> bodies, std::span<double> memory) {
   recall({});
   const RotorState now = state(t, bodies);
-  if (control_) control_->begin(t, measured(t, now), memory.first(parts_.control));
-  if (parts_.flow > 0) std::get<BladeElementMomentum>(model_).begin(wind_, disc_motion(now, memory), t, parts_.of_flow(memory));
-  if (flexible_) {
-    // At rest in the turning rotor: amplitudes go with the azimuth, and so have rates.
-    const std::span<const double> flow = parts_.of_flow(std::span<const double>(memory));
-    constexpr double soon = 0.02;  // [s]
-    RotorState later = now;
-    later.azimuth += soon * now.speed;
-    DiscMotion motion = disc_motion(now, memory);
-    const auto& bem = std::get<BladeElementMomentum>(model_);
-    FlexibleBlades::Bending bending = settled_bending(bem, *flexible_, hub_field(now), wind_, t, motion, flow);
-    const FlexibleBlades::Bending next =
-        settled_bending(bem, *flexible_, hub_field(later), wind_, t, disc_motion(later, memory), flow);
-    for (std::size_t k = 0; k < bending.rates.size(); ++k) bending.rates[k] = (next.amplitudes[k] - bending.amplitudes[k]) / soon;
-    const BentBlades bent = flexible_->bent(bending);
-    motion.bent = &bent;
-    OnModes air{};
-    std::get<BladeElementMomentum>(model_).on_modes(
-        wind_, motion, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * flexible_->blades())));
-    flexible_->begin(t, motion, hub_field(now), bending, air, parts_.of_bending(memory));
-  }
+  if (control_) control_->begin(t, measured(t, now), memory.first(drive_size()));
+  if (blades()) blades()->begin(blades_at(wind_, t, now, memory), now.speed, memory.subspan(drive_size()));
   recall(memory);
 }
 
 void RotorLoads::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const {
   const RotorState now = state(t, bodies);
-  if (control_) control_->advance(t, h, measured(t, now), memory.first(parts_.control));
-  const std::span<double> flow = parts_.of_flow(memory);
-  DiscMotion motion = disc_motion(now, memory);
-  FlexibleBlades::Bending bending;
-  BentBlades bent;
-  if (flexible_)
-    bending = flexible_->predicted(parts_.of_bending(memory), t), bent = flexible_->bent(bending), motion.bent = &bent;
-  if (parts_.flow > 0) std::get<BladeElementMomentum>(model_).remember(wind_, motion, t, h, flow);
-  if (flexible_) {
-    OnModes air{};
-    std::get<BladeElementMomentum>(model_).on_modes(
-        wind_, motion, t, flow, std::span(air).first(std::size_t(FlexibleBlades::modes * flexible_->blades())));
-    flexible_->advance(t, h, motion, hub_field(now), air, parts_.of_bending(memory));
-  }
+  if (control_) control_->advance(t, h, measured(t, now), memory.first(drive_size()));
+  if (blades()) blades()->remember(blades_at(wind_, t, now, memory), h, memory.subspan(drive_size()));
 }
 
 std::vector<Eigen::Vector2d> RotorLoads::tips(double t, std::span<const Motion> bodies) const {
-  const RotorState now = state(t, bodies);
-  const std::span<const double> memory(memory_);
-  const DiscMotion motion = disc_motion(now, memory);
-  const FlexibleBlades::Bending bending =
-      memory.empty() ? settled_bending(std::get<BladeElementMomentum>(model_), *flexible_, hub_field(now), wind_, t, motion, {})
-                     : flexible_->predicted(parts_.of_bending(memory), t);
-  std::vector<Eigen::Vector2d> tips;
-  for (int b = 0; b < flexible_->blades(); ++b) tips.push_back(flexible_->tip(motion, b, bending));
-  return tips;
+  return blades()->tips(blades_at(wind_, t, state(t, bodies), memory_));
 }
 
 void RotorLoads::add_added_mass(double t, std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> matrices) const {
@@ -343,11 +205,11 @@ void RotorLoads::add_added_mass(double t, std::span<const Motion> bodies, std::s
   // Acceleration of the hub from that of the body: a + alpha x arm.
   Eigen::Matrix<double, 6, 6> to_hub = Eigen::Matrix<double, 6, 6>::Identity();
   to_hub.topRightCorner<3, 3>() << 0.0, arm.z(), -arm.y(), -arm.z(), 0.0, arm.x(), arm.y(), -arm.x(), 0.0;
-  matrices[bearing_.body()] += to_hub.transpose() * flexible_->added_mass(disc_motion(now, memory_)) * to_hub;
+  matrices[bearing_.body()] += to_hub.transpose() * flexible()->added_mass(blades_at(wind_, t, now, memory_).rotor) * to_hub;
 }
 
 RotorLoads::Drive RotorLoads::drive() const {
-  const std::span<const double> memory = std::span(memory_).first(parts_.control);
+  const std::span<const double> memory = std::span(memory_).first(drive_size());
   const TurbineControl::State s = TurbineControl::state(memory);
   return {s.generator_torque,
           control_->drive_train().generator_efficiency * s.generator_torque * control_->generator_speed(memory), s.asked,
@@ -367,13 +229,12 @@ void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::s
   mean_wind.in_time = nullptr;
   RotorState now = state(t, bodies);
   now.relative_wind = aero::relative_wind(mean_wind, t, now.hub, now.hub_velocity, now.axis);
-  const bool of_sections = std::holds_alternative<BladeElementMomentum>(model_);
-  AirLoad air;
+  BladeLoads::Load air;
   const double first = now.azimuth;
   for (int place = 0; place < places; ++place) {
     now.azimuth = whole_turns_off(first + 2.0 * pi * place / places);
-    if (of_sections) fill_air_load(mean_wind, t, now, true, air);
-    const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places, of_sections ? &air : nullptr);
+    if (blades()) blades()->fill(blades_at(mean_wind, t, now, memory_), true, air);
+    const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places, blades() ? &air : nullptr);
     bearing_.add_load(bodies, wrenches, load.force, load.moment);
   }
 }

@@ -11,9 +11,7 @@
 #include <utility>
 #include <variant>
 
-#include "src/aero/bem.hpp"
-#include "src/aero/blade_roots.hpp"
-#include "src/aero/flexible_blades.hpp"
+#include "src/aero/blade_loads.hpp"
 #include "src/aero/options.hpp"
 #include "src/aero/prescribed.hpp"
 #include "src/aero/rotor_bearing.hpp"
@@ -66,7 +64,7 @@ class RotorLoads {
   /// earth axes, [force; moment]. Rigid ones, and blades under mean loads, are masses of the body.
   void add_added_mass(double t, std::span<const Motion> bodies, std::span<Eigen::Matrix<double, 6, 6>> matrices) const;
 
-  /// Adds a load of air computed elsewhere, times `ramp`; with a drive train the body feels the shaft's torque, not the air's.
+  /// Adds a load of air computed elsewhere, times `ramp`; with a drive train the shaft's torque acts on the body, not the air's.
   void add_air_load(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, const HubLoad& air,
                     double ramp = 1.0) const;
   /// The drive train is turned by this moment of the air [N m] in time instead of that of the model, where it is given.
@@ -82,22 +80,23 @@ class RotorLoads {
   /// Of blade elements; empty where no polar depends on it.
   std::optional<ReynoldsReach> reynolds(double t, const RotorState& now) const;
 
-  // What the rotor remembers from step to step, as bodies::Memory has it: the drive train with its controller, then the flow
-  // round the blades, then their bending. Without values to recall it turns as at the start, in steady flow.
-  std::size_t memory_size() const { return parts_.control + parts_.flow + parts_.bending; }
+  // What the rotor remembers from step to step, as bodies::Memory has it: the drive train with its controller, then the blades.
+  // Without values to recall it turns as at the start, in steady flow.
+  std::size_t memory_size() const { return drive_size() + (blades() ? blades()->memory_size() : 0); }
   void begin(double t, std::span<const Motion> bodies, std::span<double> memory);
   void recall(std::span<const double> memory) { memory_.assign(memory.begin(), memory.end()), last_.known = false; }
   void remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const;
 
-  /// Loads at the blades' roots, one to a blade; none without `rotor.blade_masses`. Acceleration of the rotor's body: of its
+  /// Loads at the blades' roots, one to a blade; none without their masses. Acceleration of the rotor's body: of its
   /// centre of mass and of its turning, earth frame. Of a rotor that no body turns, a change of its speed is left out.
-  std::size_t roots() const { return roots_ ? roots_->blades() : 0; }
   std::vector<BladeRootLoad> root_loads(double t, std::span<const Motion> bodies, const Eigen::Vector3d& acceleration,
                                         const Eigen::Vector3d& omega_rate, const Eigen::Vector3d& gravity_m_s2,
                                         double ramp = 1.0) const;
 
+  /// Null where the model knows no sections.
+  const BladeLoads* blades() const { return std::get_if<BladeLoads>(&model_); }
   /// Null where blades are rigid.
-  const FlexibleBlades* flexible() const { return flexible_ ? &*flexible_ : nullptr; }
+  const FlexibleBlades* flexible() const { return blades() ? blades()->flexible() : nullptr; }
   /// Bending of each blade's tip, downwind and ahead [m].
   std::vector<Eigen::Vector2d> tips(double t, std::span<const Motion> bodies) const;
 
@@ -114,38 +113,14 @@ class RotorLoads {
   Drive drive() const;
 
  private:
+  BladesAt blades_at(const Wind& wind, double t, const RotorState& now, std::span<const double> memory) const;
+  /// Of the memory; the rest is the blades'.
+  std::size_t drive_size() const { return control_ ? control_->memory_size() : 0; }
   TurbineControl::Measured measured(double t, const RotorState& now) const;
-  /// What is remembered, one after the other: how many values of each.
-  struct MemoryParts {
-    std::size_t control = 0, flow = 0, bending = 0;
-    template <class T>
-    std::span<T> of_flow(std::span<T> memory) const {
-      return memory.empty() ? memory : memory.subspan(control, flow);
-    }
-    template <class T>
-    std::span<T> of_bending(std::span<T> memory) const {
-      return memory.empty() ? memory : memory.subspan(control + flow);
-    }
-  };
-  HubField hub_field(const RotorState& now) const;
-  /// Forces of the air on the modes of all blades.
-  using OnModes = std::array<double, std::size_t(FlexibleBlades::modes) * FlexibleBlades::max_blades>;
-  /// What the air does to blades of sections.
-  struct AirLoad {
-    bool known = false;
-    double t = 0.0;
-    RotorState now;
-    DiscLoad disc;
-    std::vector<Wrench> roots;  ///< one to a blade, about the root; none without roots_
-    FlexibleBlades::Bending bending;
-    OnModes on_modes{};
-  };
-  void fill_air_load(const Wind& wind, double t, const RotorState& now, bool at_rest, AirLoad& load) const;
   /// Under the scene's own wind. What was asked for last is not computed again: a row of history asks for what a step did.
-  const AirLoad& air_load(double t, const RotorState& now) const;
-  /// `air`: null for models without blades.
-  RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, const AirLoad* air) const;
-  DiscMotion disc_motion(const RotorState& now, std::span<const double> memory) const;
+  const BladeLoads::Load& blade_load(double t, const RotorState& now) const;
+  /// `air`: of the blades; null for models without sections.
+  RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, const BladeLoads::Load* air) const;
   void add_drive(const RotorState& now, double torque, double ramp, Eigen::Vector3d& moment) const;
 
   RotorBearing bearing_;
@@ -155,14 +130,17 @@ class RotorLoads {
   std::optional<PeakShaving> shaving_;
   std::optional<TurbineControl> control_;
   std::optional<Tower> tower_;
-  std::optional<BladeRoots> roots_;
-  std::optional<FlexibleBlades> flexible_;
-  Eigen::Vector3d gravity_;  ///< [m/s2]
-  MemoryParts parts_;
+  Eigen::Vector3d gravity_;     ///< [m/s2]
   std::vector<double> memory_;  ///< recalled; empty: steady
-  std::variant<std::monostate, Prescribed, ThrustCurve, BladeElementMomentum> model_;
+  std::variant<std::monostate, Prescribed, ThrustCurve, BladeLoads> model_;
   AirMoment air_moment_;
-  mutable AirLoad last_;
+  struct LastLoad {
+    bool known = false;
+    double t = 0.0;
+    RotorState now;
+    BladeLoads::Load load;
+  };
+  mutable LastLoad last_;
 };
 
 }  // namespace spindrift::aero

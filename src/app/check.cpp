@@ -53,7 +53,7 @@ void print_models(const FloatingSystem& floating) {
   const coupling::Scenario& s = floating.scenario();
   fmt::print("\nWhat will be modelled\n");
   std::size_t width = 10;
-  for (const FloatingSystem::Rotor& rotor : floating.rotors()) width = std::max(width, rotor.name.size() + 2);
+  for (const coupling::RotorSource& rotor : floating.rotors()) width = std::max(width, rotor.name.size() + 2);
   const auto print = [width](const std::string& what, const std::string& how) { fmt::print("  {:<{}}{}\n", what, width, how); };
   print("bodies", coupling::describe_bodies(s));
   const std::vector<coupling::Scenario> each = coupling::by_rotor(s);
@@ -197,7 +197,7 @@ void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& stat
   }
 }
 
-void print_blade_modes(const coupling::Scenario& one, const FloatingSystem::Rotor& rotor) {
+void print_blade_modes(const coupling::Scenario& one, const coupling::RotorSource& rotor) {
   if (!rotor.loads.flexible()) return;
   const aero::FlexibleBlades& blades = *rotor.loads.flexible();
   const double speed = one.rotor.speed;
@@ -270,7 +270,7 @@ void print_all_frequencies(const FloatingSystem& floating, const coupling::Start
   std::vector<std::pair<std::string, coupling::Campbell>> tables;
   const std::vector<coupling::Scenario> each = coupling::by_rotor(floating.scenario());
   for (std::size_t n = 0; n < each.size(); ++n) {
-    const FloatingSystem::Rotor& rotor = floating.rotors()[n];
+    const coupling::RotorSource& rotor = floating.rotors()[n];
     coupling::Campbell c = campbell(each[n], linearisation, rotor.loads.state(0.0, start.state.motions).speed);
     const auto alike = std::ranges::find_if(tables, [&](const auto& table) {
       return std::ranges::equal(table.second.rows, c.rows, {}, &coupling::CampbellRow::once, &coupling::CampbellRow::once);

@@ -51,14 +51,14 @@ class ActuatorAir final : public MarchingAir {
     prepare(t, 0.0, now);
     if (solver_) {  // restored
       move();
-      return loads_.answered;
+      return loads_.on_bodies;
     }
     const aero::TileStates steady =
         scenario().start.air_steps > 0 ? settled([this](int retry) { return settled_air(retry); }) : aero::TileStates();
     make();
     if (automatic()) choose();
     solver_->restart().load_tiles(steady);  // the past stays empty: the first step is of first order
-    return answer();
+    return update_load_on_bodies();
   }
 
   aero::RotorLoad load_at_end() override {

@@ -94,10 +94,12 @@ Tasks MarchingAir::record(runtime::Graph& graph) {
 aero::RotorLoad MarchingAir::load_at_end() {
   require_good_step(*solver_, floating_, t_, log_lines_);
   loads_.computed = computed();
-  return answer();
+  return update_load_on_bodies();
 }
 
-aero::RotorLoad MarchingAir::answer() { return loads_.answered = felt(loads_.computed.rotor).times(floating_.ramp_of_air(t_)); }
+aero::RotorLoad MarchingAir::update_load_on_bodies() {
+  return loads_.on_bodies = on_bodies(loads_.computed.rotor).times(floating_.rotor_source().ramp_of_air(t_));
+}
 
 void MarchingAir::ease(int retry) {
   if (solver_) solver_->judgement().march.ease(share_of_cfl(retry));
@@ -120,7 +122,7 @@ void MarchingAir::settle(const SteadyMarch& march, int retry) {
 std::vector<SavedArray> MarchingAir::saved() const {
   std::vector<SavedArray> arrays = AirFile(*solver_, world_).arrays();
   for (SavedArray& array : computed_arrays()) arrays.push_back(std::move(array));
-  arrays.push_back(rotor_load_array({loads_.answered, step_of(scenario())}, world_.rank));
+  arrays.push_back(rotor_load_array({loads_.on_bodies, step_of(scenario())}, world_.rank));
   if (scenario().aero.flow->preconditioner == "auto") arrays.push_back(choice_array(preconditioner_, world_.rank));
   return arrays;
 }

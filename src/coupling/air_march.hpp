@@ -28,7 +28,7 @@ class MarchingAir : public AirSide {
   void forget_tasks() final { solver_->forget_graphs(); }
   aero::RotorLoad load_at_end() override;
   void ease(int retry) final;
-  const aero::RotorLoad* written() const final { return &loads_.answered; }
+  const aero::RotorLoad* written() const final { return &loads_.on_bodies; }
   std::vector<SavedArray> saved() const final;
   void restore(const io::CheckpointReader& file) override;
   std::vector<io::Column> columns() const final;
@@ -50,8 +50,8 @@ class MarchingAir : public AirSide {
   virtual ComputedLoads computed() const = 0;
   virtual std::vector<SavedArray> computed_arrays() const = 0;
   virtual std::vector<aero::SpanLoad> span_loads() const = 0;
-  /// What the bodies feel of a rotor's load.
-  virtual aero::RotorLoad felt(const aero::RotorLoad& load) const { return load; }
+  /// What of a rotor's load acts on the bodies.
+  virtual aero::RotorLoad on_bodies(const aero::RotorLoad& load) const { return load; }
 
   const Scenario& scenario() const { return floating_.scenario(); }
   /// Whether the preconditioner is still to be chosen; by trial on the flow as it is.
@@ -62,13 +62,13 @@ class MarchingAir : public AirSide {
   void tell_wind();
   /// Until start.air_steps are made, from the CFL number of this retry.
   void settle(const SteadyMarch& march, int retry);
-  /// loads_.computed as the bodies feel it, with FloatingSystem::ramp_of_air() of now.
-  aero::RotorLoad answer();
+  /// From loads_.computed, with RotorSource::ramp_of_air() of now.
+  aero::RotorLoad update_load_on_bodies();
 
-  /// After the last step: as computed, and as answered.
+  /// After the last step: as computed, and as it acts on the bodies.
   struct Loads {
     ComputedLoads computed;
-    aero::RotorLoad answered;
+    aero::RotorLoad on_bodies;
   };
 
   const FloatingSystem& floating_;

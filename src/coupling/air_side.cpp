@@ -35,7 +35,7 @@ class EngineeringAir final : public AirSide {
   void solve() {
     failure_.reset();
     try {
-      load_ = floating_.rotor()->load(t_, state_, floating_.ramp(t_));
+      load_ = floating_.rotor()->load(t_, state_, floating_.rotor_source().ramp(t_));
     } catch (const NumericalFailure& failure) { failure_ = failure; }
   }
 

@@ -388,7 +388,7 @@ void doubt_rotor_body(scene::Doubts& doubts, const Scenario& s, const aero::Roto
 }
 
 /// One of the rotors, by the scene with it alone.
-void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const Scenario& s, const FloatingSystem::Rotor& of,
+void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const Scenario& s, const RotorSource& of,
                  const Start& start) {
   const aero::RotorState now = of.loads.state(0.0, start.state.motions);
   aero::RotorAtStart rotor{
@@ -443,7 +443,7 @@ void doubt_wakes(scene::Doubts& doubts, const FloatingSystem& floating, const St
   for (std::size_t n = 0; n < each.size(); ++n)
     for (std::size_t m = 0; m < each.size(); ++m) {
       if (m == n) continue;
-      const FloatingSystem::Rotor &rotor = floating.rotors()[n], &other = floating.rotors()[m];
+      const RotorSource &rotor = floating.rotors()[n], &other = floating.rotors()[m];
       const aero::RotorState at = rotor.loads.state(0.0, start.state.motions),
                              ahead = other.loads.state(0.0, start.state.motions);
       const Eigen::Vector3d from = at.hub - ahead.hub;
@@ -522,7 +522,7 @@ std::vector<Motion> described_starts(const FloatingSystem& floating) {
 scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability) {
   scene::Doubts all = plain_doubts(floating, start.state.motions);
   const FullLoads full(floating);
-  using Rotor = FloatingSystem::Rotor;
+  using Rotor = RotorSource;
   doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario& s, const Rotor& rotor) {
     doubt_rotor(found, floating, s, rotor, start);
   });

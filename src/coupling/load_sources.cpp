@@ -5,6 +5,13 @@
 
 namespace spindrift::coupling {
 
+std::vector<bool> marked(std::size_t count, const std::vector<int>& which) {
+  std::vector<bool> all(count);
+  for (const int body : which)
+    if (body != bodies::earth) all[std::size_t(body)] = true;
+  return all;
+}
+
 /// Wraps the source so that its time is counted; two readings of the clock, 16 ns, per evaluation.
 void LoadSources::add(bodies::LoadSource source, std::vector<bool> on) {
   const std::size_t index = sources_.size();

@@ -1,5 +1,6 @@
 // The sources of load of a floating system: which bodies each can load, and the time spent in it inside the right-hand side of
-// the bodies. Filled by floating_system.cpp; tested through tests/src/coupling. SPDX-License-Identifier: Apache-2.0
+// the bodies. Filled by floating_system.cpp, sea_source.cpp, rotor_source.cpp; tested through tests/src/coupling.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,15 @@
 #include "src/bodies/system.hpp"
 
 namespace spindrift::coupling {
+
+/// Which loads the sources are asked for. Those of a run are ramped and of the moment.
+struct LoadsWanted {
+  bool full = false;  ///< without the ramp of the start: for statics and stability
+  bool mean = false;  ///< for statics: still water but for its current, no gusts or turbulence, the rotor's mean over a turn
+};
+
+/// By body of so many, true for `which`; the earth is passed over.
+std::vector<bool> marked(std::size_t count, const std::vector<int>& which);
 
 class LoadSources {
  public:

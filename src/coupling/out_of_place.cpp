@@ -13,7 +13,7 @@ namespace spindrift::coupling {
 namespace {
 
 /// "rotor", or "rotor a".
-std::string spoken(const FloatingSystem::Rotor& rotor) {
+std::string spoken(const RotorSource& rotor) {
   std::string name = rotor.name;
   std::ranges::replace(name, '.', ' ');
   return name;
@@ -37,15 +37,16 @@ std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, con
                       t, name, bed - r.low, bed, most),
           "bodies." + name, long(state.tick), t, most);
   }
-  for (const FloatingSystem::Rotor& rotor : floating.rotors()) {
+  for (const RotorSource& rotor : floating.rotors()) {
     const aero::RotorState now = rotor.loads.state(t, state.motions);
     const double low = now.hub.z() - rotor.radius * std::sqrt(std::max(0.0, 1.0 - now.axis.z() * now.axis.z()));
     const double surface = floating.sea() ? floating.sea()->elevation(now.hub.x(), now.hub.y(), t) : 0.0;
     if (low < surface)
-      return NumericalFailure(fmt::format("t = {:.4g} s: the {} reaches {:.4g} m into the water: its hub is at z = {:.4g} m, the "
-                                          "surface there at {:.4g} m; look at the hub's height and at what holds the floating system up",
-                                          t, spoken(rotor), surface - low, now.hub.z(), surface),
-                              rotor.name, long(state.tick), t, 0.0);
+      return NumericalFailure(
+          fmt::format("t = {:.4g} s: the {} reaches {:.4g} m into the water: its hub is at z = {:.4g} m, the "
+                      "surface there at {:.4g} m; look at the hub's height and at what holds the floating system up",
+                      t, spoken(rotor), surface - low, now.hub.z(), surface),
+          rotor.name, long(state.tick), t, 0.0);
   }
   return {};
 }

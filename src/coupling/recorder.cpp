@@ -37,7 +37,7 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
     energy_.emplace(history, "energy.", energy_columns());
     for (const bodies::LoadSource& source : loads) works_.emplace_back(history, "energy." + source.name + ".", work_columns());
   }
-  for (const FloatingSystem::Rotor& rotor : floating.rotors()) declare_rotor(history, rotor);
+  for (const RotorSource& rotor : floating.rotors()) declare_rotor(history, rotor);
   if (floating.moorings())
     for (std::size_t line = 0; line < floating.moorings()->size(); ++line) {
       const std::string prefix = floating.moorings()->name(line) + ".";
@@ -51,7 +51,7 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
   if (floating.particle_plan()) declare_particles(history);
 }
 
-void Recorder::declare_rotor(io::History& history, const FloatingSystem::Rotor& rotor) {
+void Recorder::declare_rotor(io::History& history, const RotorSource& rotor) {
   const std::string prefix = rotor.name + ".";
   const auto of_blade = [&](std::size_t blade) { return prefix + "blade_" + std::to_string(blade) + "."; };
   Rotor& columns = rotors_.emplace_back(
@@ -63,17 +63,18 @@ void Recorder::declare_rotor(io::History& history, const FloatingSystem::Rotor& 
       columns.pitches.emplace_back(history, of_blade(blade), pitch_columns());
   }
   if (floating_.yaw()) yaw_.emplace(history, prefix, yaw_columns());
-  for (std::size_t blade = 1; blade <= rotor.loads.roots(); ++blade)
+  const aero::BladeLoads* blades = rotor.loads.blades();
+  for (std::size_t blade = 1; blades && blade <= blades->roots(); ++blade)
     columns.roots.emplace_back(history, of_blade(blade), root_columns());
-  for (std::size_t blade = 1; rotor.loads.flexible() && blade <= rotor.loads.roots(); ++blade)
+  for (std::size_t blade = 1; blades && blades->flexible() && blade <= blades->roots(); ++blade)
     columns.tips.emplace_back(history, of_blade(blade), tip_columns());
 }
 
-void Recorder::fill_rotor(std::span<double> row, const Rotor& columns, const aero::RotorLoads& rotor,
+void Recorder::fill_rotor(std::span<double> row, const Rotor& columns, const RotorSource& source,
                           const bodies::BodiesState& state, const bodies::Evaluation& now, double t) const {
+  const aero::RotorLoads& rotor = source.loads;
   const aero::RotorState turned = rotor.state(t, state.motions);
-  columns.load.fill(
-      row, {floating_.written_rotor_load(rotor, t, turned), turned.azimuth / radians_per_degree, turned.speed / rad_s_per_rpm});
+  columns.load.fill(row, {source.written(t, turned), turned.azimuth / radians_per_degree, turned.speed / rad_s_per_rpm});
   columns.hub.fill(row, turned);
   columns.wind.fill(row, rotor.wind().at(t, turned.hub));
   if (columns.drive) {
@@ -86,7 +87,7 @@ void Recorder::fill_rotor(std::span<double> row, const Rotor& columns, const aer
     const std::size_t b = rotor.bearing().body();
     const std::vector<aero::BladeRootLoad> of_roots =
         rotor.root_loads(t, state.motions, now.acceleration[b], now.angular_acceleration[b],
-                         floating_.scenario().environment.gravity(), floating_.ramp(t));
+                         floating_.scenario().environment.gravity(), source.ramp(t));
     for (std::size_t blade = 0; blade < columns.roots.size(); ++blade) columns.roots[blade].fill(row, of_roots[blade]);
   }
   if (!columns.tips.empty()) {
@@ -156,7 +157,7 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
     for (std::size_t s = 0; s < works_.size(); ++s) works_[s].fill(row, work[s]);
     energy_->fill(row, {floating_.multibody().kinetic_energy(state), work.subspan(works_.size())});
   }
-  for (std::size_t n = 0; n < rotors_.size(); ++n) fill_rotor(row, rotors_[n], floating_.rotors()[n].loads, state, now, t);
+  for (std::size_t n = 0; n < rotors_.size(); ++n) fill_rotor(row, rotors_[n], floating_.rotors()[n], state, now, t);
   if (yaw_) yaw_->fill(row, floating_.yaw()->reading(t, *floating_.rotor(), state.motions));
   if (floating_.moorings()) {
     const std::vector<moorings::LineTension> tensions = floating_.moorings()->tensions(state.motions);

@@ -43,8 +43,8 @@ class Recorder {
     std::vector<Group<aero::BladeRootLoad>> roots;
     std::vector<Group<Eigen::Vector2d>> tips;
   };
-  void declare_rotor(io::History& history, const FloatingSystem::Rotor& rotor);
-  void fill_rotor(std::span<double> row, const Rotor& columns, const aero::RotorLoads& rotor, const bodies::BodiesState& state,
+  void declare_rotor(io::History& history, const RotorSource& rotor);
+  void fill_rotor(std::span<double> row, const Rotor& columns, const RotorSource& source, const bodies::BodiesState& state,
                   const bodies::Evaluation& now, double t) const;
   void declare_particles(io::History& history);
   void fill_particles(std::span<double> row, std::span<const Motion> motions, double t) const;

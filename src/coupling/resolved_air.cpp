@@ -66,7 +66,7 @@ struct GridFrame {
     return pose;
   }
   /// Of one sector thrust and torque are along the axis as it is now.
-  aero::RotorLoad felt(aero::RotorLoad load, const aero::RotorState& now) const {
+  aero::RotorLoad on_bodies(aero::RotorLoad load, const aero::RotorState& now) const {
     if (!whole) load.force = load.thrust * now.axis, load.moment = load.torque * now.axis;
     return load;
   }
@@ -88,7 +88,7 @@ class ResolvedAir final : public MarchingAir {
     if (rotor_) {  // restored, for windows of another length or by another scheme: the grid stands where the last prediction had
                    // put it
       place_at(state_, restored_dt_);
-      return loads_.answered;
+      return loads_.on_bodies;
     }
     const StartOptions& start = scenario().start;
     const bool settles = start.air_steps > 0;
@@ -109,7 +109,7 @@ class ResolvedAir final : public MarchingAir {
         return (setup_.profile.share(x.z()) - share_at_hub()) * setup_.wind;
       });
     if (!start.air.empty()) start_from_saved_air(start.air);
-    return answer();
+    return update_load_on_bodies();
   }
 
   aero::RotorLoad load_at_end() override {
@@ -156,7 +156,7 @@ class ResolvedAir final : public MarchingAir {
     return arrays;
   }
   std::vector<aero::SpanLoad> span_loads() const override { return rotor_->span_loads(); }
-  aero::RotorLoad felt(const aero::RotorLoad& load) const override { return frame_.felt(load, state_); }
+  aero::RotorLoad on_bodies(const aero::RotorLoad& load) const override { return frame_.on_bodies(load, state_); }
 
   bool is_pitched() const { return floating_.rotor()->control() != nullptr; }
   /// Pitch of each sector's blade beyond that of the grid, as far as the grid follows.

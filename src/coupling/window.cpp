@@ -26,15 +26,16 @@ CoupledWindow::CoupledWindow(FloatingSystem& floating, Sides sides, MPI_Comm com
   };
   floating_.replace_rotor_loads(
       [this, load_at](double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) {
-        floating_.rotor()->add_air_load(t, bodies, wrenches, load_at(t), floating_.ramp_after_air(t));
+        floating_.rotor()->add_air_load(t, bodies, wrenches, load_at(t), floating_.rotor_source().ramp_after_air(t));
       },
       sides_.air().written());
-  floating_.turn_rotor_by([load_at](double t) { return load_at(t).moment; });
+  floating_.rotor_source().turn_by([load_at](double t) { return load_at(t).moment; });
 }
 
 CoupledWindow::~CoupledWindow() {
+  if (!sides_.interface) return;
   floating_.replace_rotor_loads({});
-  floating_.turn_rotor_by({});
+  floating_.rotor_source().turn_by({});
 }
 
 template <class Signal>

@@ -32,7 +32,7 @@ BladeRootLoad mass_load(const BladeRoots& roots, const HubMotion& hub, const Vec
   Wrench w;
   w.point = roots.root(downwind, out);
   roots.add_mass_loads(hub, downwind, out, weight, w);
-  return BladeRoots::seen(w, downwind, out);
+  return BladeRoots::along_blade(w, downwind, out);
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ TEST_CASE("the wind's loads at all roots make up the rotor's thrust and torque",
   CHECK((sum.force - all.force).norm() < 1e-9 * all.force.norm());
   CHECK((sum.moment - all.moment).norm() < 1e-9 * all.moment.norm());
   for (int b = 0; b < 3; ++b) {
-    const BladeRootLoad load = BladeRoots::seen(at_root[std::size_t(b)], downwind, blade_direction(rotor, b, 3));
+    const BladeRootLoad load = BladeRoots::along_blade(at_root[std::size_t(b)], downwind, blade_direction(rotor, b, 3));
     CHECK(load.downwind == Approx(all.force.x() / 3.0).epsilon(1e-6));
     CHECK(load.flap > 50.0 * load.downwind);  // two thirds of the span and more
     CHECK(load.edge > 0.0);
