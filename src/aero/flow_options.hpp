@@ -36,40 +36,57 @@ struct PatchOptions {
 /// Pseudo-steps on each coarser grid of a grid that is no rotor's, where the scene does not say.
 inline constexpr int usual_coarse_steps = 100;
 
-struct FlowOptions {
+/// The air and where it flows.
+struct FlowDomain {
   std::string grid, map;  ///< paths: Plot3D or CGNS; neutral map of the former
   std::optional<GenerateOptions> generate;
   std::optional<GridMotionOptions> motion;
   double width_m = 1.0;  ///< of planar grids
   std::vector<PatchOptions> boundaries;
+  Condition blades = Condition::no_slip;  ///< of a resolved rotor in viscous air, where no boundary names them
   double temperature_K = 288.15;
   double viscosity_Pa_s = 1.8e-5;
-  std::string viscous = "full", turbulence = "sa";
+  double incidence = 0.0;                                     ///< of the wind, turned about y: positive blows upwards [rad]
+  std::optional<double> wind_eddy_viscosity, wind_intensity;  ///< of the undisturbed air; unset: the closure's own
+  std::string start = "wind";
+};
+
+/// Which terms, and how they are made of the cells.
+struct FlowSchemes {
+  std::string viscous = "full", turbulence = "sa", wall_distance = "exact";
   std::string flux = "roe_low_mach", limiter = "none";
   double upwinding = 1.0;
-  std::optional<double> wind_eddy_viscosity, wind_intensity;  ///< of the undisturbed air; unset: the closure's own
   bool first_order_turbulence = false;
-  Condition blades = Condition::no_slip;  ///< of a resolved rotor in viscous air, where no boundary names them
-  std::string start = "wind";
   bool low_mach = true, physical_far_field = false;
+};
+
+/// Steps in physical and pseudo-time, and when enough of them are made.
+struct FlowMarchOptions {
   std::string time = "steady";
-  KrylovMethod krylov{};  ///< GMRES
-  std::string preconditioner = "block_ilu";
-  int group_cells = 8, direct_groups = 512, common_every = 1, common_steps = 1;  ///< of preconditioners with a coarse level
-  std::string wall_distance = "exact";
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, residual_kg_m3_s = 0.0;
   std::optional<double> load_change;  ///< unset: 1e-3 for a steady resolved rotor, else 0
   std::string drop_of = "balance";
   double unconverged_share = 0.05;
+  int max_pseudo_steps = 500;
   /// On each coarser grid before a steady march; unset: some, where the grid allows it.
   std::optional<int> coarse_steps;
   int coarse_levels = 2;
   double coarse_drop = 1e-3;
-  int max_pseudo_steps = 500, krylov_steps = 18, refresh_every = 1;
+};
+
+/// The linear system of a pseudo-step.
+struct FlowLinearOptions {
+  KrylovMethod krylov{};  ///< GMRES
+  int krylov_steps = 18, refresh_every = 1;
   double krylov_drop = 0.05;
   std::optional<double> matrix_free_below;  ///< unset: from the first step of a steady march, from 1e-2 on of an unsteady one's
+  std::string preconditioner = "block_ilu";
+  int group_cells = 8, direct_groups = 512, common_every = 1, common_steps = 1;  ///< of preconditioners with a coarse level
+};
+
+/// [aero.flow]
+struct FlowOptions : FlowDomain, FlowSchemes, FlowMarchOptions, FlowLinearOptions {
   bool surfaces = true;
-  double incidence = 0.0;  ///< of the wind, turned about y: positive blows upwards [rad]
   double reference_area_m2 = 1.0;
 };
 

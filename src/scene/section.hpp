@@ -124,62 +124,62 @@ class Section : public SectionBase {
     return *this;
   }
 
-  // Kinds. M is the type named or a std::optional of it, unless the comment says otherwise.
-  template <class M>
-  Section& number(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
-    return add(Kind::number, std::move(key), m, std::move(unit), std::move(help), range);
+  // Kinds. M is the type named or a std::optional of it, unless the comment says otherwise; Of is Options or one of its bases.
+  template <class M, class Of>
+  Section& number(std::string key, M Of::*m, std::string unit, std::string help, Range range = any()) {
+    return add<M>(Kind::number, std::move(key), m, std::move(unit), std::move(help), range);
   }
   /// Degrees in the file, radians in the options. `unit`: of a rate "deg/s", of its rate "deg/s2".
-  template <class M>
-  Section& degrees(std::string key, M Options::*m, std::string help, Range range = any(), std::string unit = "deg") {
-    return scaled(number_like<M>(), std::move(key), m, std::move(unit), std::move(help), range, radians_per_degree);
+  template <class M, class Of>
+  Section& degrees(std::string key, M Of::*m, std::string help, Range range = any(), std::string unit = "deg") {
+    return scaled<M>(number_like<M>(), std::move(key), m, std::move(unit), std::move(help), range, radians_per_degree);
   }
   /// Revolutions per minute in the file, rad/s in the options.
-  template <class M>
-  Section& rpm(std::string key, M Options::*m, std::string help, Range range = any()) {
-    return scaled(number_like<M>(), std::move(key), m, "rpm", std::move(help), range, rad_s_per_rpm);
+  template <class M, class Of>
+  Section& rpm(std::string key, M Of::*m, std::string help, Range range = any()) {
+    return scaled<M>(number_like<M>(), std::move(key), m, "rpm", std::move(help), range, rad_s_per_rpm);
   }
-  template <class M>
-  Section& integer(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
-    return add(Kind::integer, std::move(key), m, std::move(unit), std::move(help), range);
+  template <class M, class Of>
+  Section& integer(std::string key, M Of::*m, std::string unit, std::string help, Range range = any()) {
+    return add<M>(Kind::integer, std::move(key), m, std::move(unit), std::move(help), range);
   }
-  template <class M>
-  Section& flag(std::string key, M Options::*m, std::string help) {
-    return add(Kind::flag, std::move(key), m, "", std::move(help), any());
+  template <class M, class Of>
+  Section& flag(std::string key, M Of::*m, std::string help) {
+    return add<M>(Kind::flag, std::move(key), m, "", std::move(help), any());
   }
-  template <class M>
-  Section& text(std::string key, M Options::*m, std::string help) {
-    return add(Kind::text, std::move(key), m, "", std::move(help), any());
+  template <class M, class Of>
+  Section& text(std::string key, M Of::*m, std::string help) {
+    return add<M>(Kind::text, std::move(key), m, "", std::move(help), any());
   }
   /// An existing file (std::string, or std::vector<std::string> for a list of them).
-  template <class M>
-  Section& path(std::string key, M Options::*m, std::string help) {
-    return add(Kind::path, std::move(key), m, "", std::move(help), any());
+  template <class M, class Of>
+  Section& path(std::string key, M Of::*m, std::string help) {
+    return add<M>(Kind::path, std::move(key), m, "", std::move(help), any());
   }
   /// Eigen::Vector3d, std::array<double, N>.
-  template <class M>
-  Section& vector(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
-    return add(Kind::vector, std::move(key), m, std::move(unit), std::move(help), range);
+  template <class M, class Of>
+  Section& vector(std::string key, M Of::*m, std::string unit, std::string help, Range range = any()) {
+    return add<M>(Kind::vector, std::move(key), m, std::move(unit), std::move(help), range);
   }
   /// Eigen::Matrix3d, symmetric: [a, b, c] is its diagonal, or three rows of three.
-  template <class M>
-  Section& symmetric(std::string key, M Options::*m, std::string unit, std::string help) {
-    return add(Kind::symmetric, std::move(key), m, std::move(unit), std::move(help), any());
+  template <class M, class Of>
+  Section& symmetric(std::string key, M Of::*m, std::string unit, std::string help) {
+    return add<M>(Kind::symmetric, std::move(key), m, std::move(unit), std::move(help), any());
   }
   /// std::vector<double>.
-  template <class M>
-  Section& numbers(std::string key, M Options::*m, std::string unit, std::string help, Range range = any()) {
-    return add(Kind::numbers, std::move(key), m, std::move(unit), std::move(help), range);
+  template <class M, class Of>
+  Section& numbers(std::string key, M Of::*m, std::string unit, std::string help, Range range = any()) {
+    return add<M>(Kind::numbers, std::move(key), m, std::move(unit), std::move(help), range);
   }
   /// std::vector<std::string>.
-  template <class M>
-  Section& texts(std::string key, M Options::*m, std::string help) {
-    return add(Kind::texts, std::move(key), m, "", std::move(help), any());
+  template <class M, class Of>
+  Section& texts(std::string key, M Of::*m, std::string help) {
+    return add<M>(Kind::texts, std::move(key), m, "", std::move(help), any());
   }
   /// std::vector<std::string>, each the TOML text of a value of any type: what an override is given.
-  template <class M>
-  Section& values(std::string key, M Options::*m, std::string help) {
-    return add(Kind::values, std::move(key), m, "", std::move(help), any());
+  template <class M, class Of>
+  Section& values(std::string key, M Of::*m, std::string help) {
+    return add<M>(Kind::values, std::move(key), m, "", std::move(help), any());
   }
   /// std::vector<std::array<double, N>> or of Eigen vectors: a list of rows of N numbers.
   template <class Row>
@@ -206,18 +206,18 @@ class Section : public SectionBase {
     E value;
     std::string help;
   };
-  template <class E>
-  requires std::is_enum_v<E> Section& choice(std::string key, E Options::*m, std::vector<std::type_identity_t<Case<E>>> cases,
+  template <class E, class Of>
+  requires std::is_enum_v<E> Section& choice(std::string key, E Of::*m, std::vector<std::type_identity_t<Case<E>>> cases,
                                              std::string help) {
     std::vector<E> values;
     std::vector<Choice> choices;
     for (Case<E>& c : cases) values.push_back(c.value), choices.push_back({c.name, c.help});
-    return add_choice(std::move(key), m, std::move(values), std::move(choices), std::move(help));
+    return add_choice<E>(std::move(key), m, std::move(values), std::move(choices), std::move(help));
   }
 
   /// Nested options under one key: [sea.grid]. Of a std::optional member: absent where the scene does not name it.
-  template <class M>
-  Section& table(std::string key, M Options::*m, const Section<typename detail::Inside<M>::type>& nested, std::string help) {
+  template <class M, class Of>
+  Section& table(std::string key, M Of::*m, const Section<typename detail::Inside<M>::type>& nested, std::string help) {
     Parameter& p = push(Kind::table, std::move(key), "", std::move(help), any());
     p.nested = &nested;
     if constexpr (detail::Inside<M>::is_optional) {
@@ -233,11 +233,11 @@ class Section : public SectionBase {
     return *this;
   }
   /// A list of nested options: [[bodies.platform.cylinders]]. The nested section must outlive this one (both static).
-  template <class T>
-  Section& tables(std::string key, std::vector<T> Options::*m, const Section<T>& nested, std::string help) {
+  template <class T, class Of>
+  Section& tables(std::string key, std::vector<T> Of::*m, const Section<T>& nested, std::string help) {
     Parameter& p = push(Kind::tables, std::move(key), "", std::move(help), any());
     p.nested = &nested;
-    detail::add_list_access(p.member, m);
+    detail::add_list_access<Options, T>(p.member, m);
     p.member.element = [m](void* o, std::size_t i) -> void* { return &(static_cast<Options*>(o)->*m)[i]; };
     return *this;
   }
