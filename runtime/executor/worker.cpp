@@ -24,9 +24,13 @@ Activity activity_of(NodeKind kind) {
       return Activity::receive;
     case NodeKind::reduce:
       return Activity::reduce;
-    default:
-      return Activity::task;
+    case NodeKind::task:
+    case NodeKind::collective:
+    case NodeKind::until:
+    case NodeKind::loop:
+      break;
   }
+  return Activity::task;
 }
 
 void pause_briefly() {

@@ -21,9 +21,11 @@ std::optional<std::vector<int>> assign(const WorkGraph& graph, Partitioner parti
       return partition_by_metis(graph, MetisScheme::k_way, tolerance);
     case Partitioner::metis_recursive:
       return partition_by_metis(graph, MetisScheme::recursive, tolerance);
-    default:
-      return partition_by_bisection(graph);
+    case Partitioner::bisection:
+    case Partitioner::best:
+      break;
   }
+  return partition_by_bisection(graph);
 }
 
 double worst(const PartitionQuality& quality) { return *std::max_element(quality.imbalance.begin(), quality.imbalance.end()); }

@@ -60,7 +60,7 @@ void Ledger::starts(const Team& team) {
 }
 
 void Ledger::ran(const Team& team, std::int64_t begin_ns, std::int64_t ns) {
-  if (innermost_) innermost_->inner_ns_ += ns;
+  if (!open_.empty()) open_.back().inner_ns += ns;
   Live* const of = live(team);
   if (!of) return;
   of->wall_ns += ns;
@@ -196,22 +196,24 @@ RankTrace Ledger::trace(int rank) const {
   return trace;
 }
 
-Span::Span(std::string_view label, Kind kind) : ledger_(Worker::current() ? nullptr : active), label_(label), kind_(kind) {
-  if (!ledger_) return;
-  begin_ns_ = Clock::now_ns();
-  outer_ = std::exchange(ledger_->innermost_, this);
+void Ledger::enter(std::string_view label) { open_.push_back({std::string(label), Clock::now_ns()}); }
+
+void Ledger::leave(bool waits) {
+  OpenSpan span = std::move(open_.back());
+  open_.pop_back();
+  const std::int64_t end_ns = Clock::now_ns(), ns = end_ns - span.begin_ns;
+  Cost& cost = (waits ? waits_ : spans_)[span.label];
+  cost.ns += ns - span.inner_ns, ++cost.count;
+  if (keeps_records() && records_.size() < capacity_) records_.push_back({std::move(span.label), span.begin_ns, end_ns});
+  if (!open_.empty()) open_.back().inner_ns += ns;
+}
+
+Span::Span(std::string_view label, Kind kind) : ledger_(Worker::current() ? nullptr : active), kind_(kind) {
+  if (ledger_) ledger_->enter(label);
 }
 
 Span::~Span() {
-  if (!ledger_) return;
-  const std::int64_t end_ns = Clock::now_ns(), ns = end_ns - begin_ns_;
-  auto& costs = kind_ == Kind::work ? ledger_->spans_ : ledger_->waits_;
-  Ledger::Cost& cost = costs[label_];
-  cost.ns += ns - inner_ns_, ++cost.count;
-  if (ledger_->keeps_records() && ledger_->records_.size() < ledger_->capacity_)
-    ledger_->records_.push_back({std::move(label_), begin_ns_, end_ns});
-  ledger_->innermost_ = outer_;
-  if (outer_) outer_->inner_ns_ += ns;
+  if (ledger_) ledger_->leave(kind_ == Kind::wait);
 }
 
 }  // namespace spindrift::runtime

@@ -17,7 +17,6 @@
 namespace spindrift::runtime {
 
 struct Team;
-class Span;
 
 class Ledger {
  public:
@@ -56,8 +55,11 @@ class Ledger {
   void starts(const Team& team);
   void ran(const Team& team, std::int64_t begin_ns, std::int64_t ns);
 
+  // For Span: of the first thread, one inside the other.
+  void enter(std::string_view label);
+  void leave(bool waits);
+
  private:
-  friend class Span;
   struct Live {
     const Team* team;
     std::int64_t wall_ns = 0;
@@ -97,7 +99,11 @@ class Ledger {
     std::int64_t begin_ns, end_ns;
   };
   std::vector<SpanRecord> records_;
-  Span* innermost_ = nullptr;
+  struct OpenSpan {
+    std::string label;
+    std::int64_t begin_ns, inner_ns = 0;
+  };
+  std::vector<OpenSpan> open_;  ///< the innermost last
   Keep keep_ = Keep::records;
   std::int64_t window_begin_ns_ = 0;
   bool in_window_ = false;
@@ -116,12 +122,8 @@ class Span {
   Span& operator=(const Span&) = delete;
 
  private:
-  friend class Ledger;
   Ledger* ledger_;
-  std::string label_;
   Kind kind_;
-  std::int64_t begin_ns_ = 0, inner_ns_ = 0;
-  Span* outer_ = nullptr;
 };
 
 }  // namespace spindrift::runtime

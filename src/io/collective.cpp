@@ -30,9 +30,11 @@ void throw_everywhere(MPI_Comm comm, Failure mine, std::string message) {
       throw InputError(message);
     case Failure::machine:
       throw MachineFailure(message);
-    default:
-      throw std::runtime_error(message);
+    case Failure::none:
+    case Failure::other:
+      break;
   }
+  throw std::runtime_error(message);
 }
 
 void guarded(MPI_Comm comm, bool takes_part, const std::function<void()>& work) {

@@ -80,32 +80,32 @@ void require_commas(const std::string& file, int line, std::string_view header) 
             fmt::format("has {} between its columns: write commas between columns, and points in numbers", wrong));
 }
 
-}  // namespace
-
-void Columns::add_row(const std::vector<std::string_view>& cells, int line) {
-  if (cells.size() != names_.size())
-    fail_at(file_, line, "",
-            fmt::format("has {} values where there are {} columns ({}){}", cells.size(), names_.size(), fmt::join(names_, ", "),
-                        cells.size() == 2 * names_.size() ? "; decimal commas? write points: 0.5, not 0,5"
-                        : cells.size() == 1 && cells[0].find(',') != std::string_view::npos
-                            ? "; write blanks between numbers, not commas"
-                            : ""));
+void add_row(Columns::Table& table, const std::vector<std::string_view>& cells, int line) {
+  if (cells.size() != table.names.size())
+    fail_at(table.file, line, "",
+            fmt::format(
+                "has {} values where there are {} columns ({}){}", cells.size(), table.names.size(), fmt::join(table.names, ", "),
+                cells.size() == 2 * table.names.size() ? "; decimal commas? write points: 0.5, not 0,5"
+                : cells.size() == 1 && cells[0].find(',') != std::string_view::npos ? "; write blanks between numbers, not commas"
+                                                                                    : ""));
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const std::optional<double> value = finite_number(cells[c]);
     if (!value)
-      fail_at(file_, line, fmt::format("\"{}\"", cells[c]),
-              fmt::format("must be a finite number (column {}){}", names_[c],
+      fail_at(table.file, line, fmt::format("\"{}\"", cells[c]),
+              fmt::format("must be a finite number (column {}){}", table.names[c],
                           cells[c].find(',') != std::string_view::npos ? "; write a decimal point, not a comma" : ""));
-    values_[c].push_back(*value);
+    table.values[c].push_back(*value);
   }
-  lines_.push_back(line);
+  table.lines.push_back(line);
 }
+
+}  // namespace
 
 Columns read_columns(const std::string& path) {
   std::ifstream in(path);
   if (!in) fail_at(path, 0, "", "cannot be read");
-  Columns table;
-  table.file_ = path;
+  Columns::Table table;
+  table.file = path;
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
     if (line == 1) skip_mark(path, text);
@@ -113,44 +113,45 @@ Columns read_columns(const std::string& path) {
     const std::string_view content = trim(std::string_view(text).substr(0, text.find('#')));
     if (content.empty()) continue;
     const auto cells = split(content);
-    if (table.names_.empty()) {
+    if (table.names.empty()) {
       require_commas(path, line, content);
-      table.names_.assign(cells.begin(), cells.end());
-      table.values_.resize(cells.size());
+      table.names.assign(cells.begin(), cells.end());
+      table.values.resize(cells.size());
     } else {
-      table.add_row(cells, line);
+      add_row(table, cells, line);
     }
   }
-  if (table.names_.empty()) fail_at(path, 0, "", "holds no table: a header line of column names, then rows of numbers");
-  return table;
+  if (table.names.empty()) fail_at(path, 0, "", "holds no table: a header line of column names, then rows of numbers");
+  return Columns(std::move(table));
 }
 
 Columns read_blank_columns(const std::string& path, std::vector<std::string> names) {
   std::ifstream in(path);
   std::string text;
   if (!in || !std::getline(in, text)) fail_at(path, 0, "", "cannot be read");
-  Columns table;
-  table.file_ = path;
-  table.names_ = std::move(names);
-  table.values_.resize(table.names_.size());
+  Columns::Table table;
+  table.file = path;
+  table.names = std::move(names);
+  table.values.resize(table.names.size());
   skip_mark(path, text);
   require_text(path, 1, text);
   // A title, unless it is a row like those that follow.
-  if (const auto cells = split_at_blanks(text); cells.size() == table.names_.size() && std::ranges::all_of(cells, [](auto cell) {
-                                                  return finite_number(cell).has_value();
-                                                }))
-    table.add_row(cells, 1);
+  if (const auto cells = split_at_blanks(text);
+      cells.size() == table.names.size() && std::ranges::all_of(cells, [](auto cell) { return finite_number(cell).has_value(); }))
+    add_row(table, cells, 1);
   for (int line = 2; std::getline(in, text); ++line)
-    if (const auto cells = split_at_blanks(text); !cells.empty()) table.add_row(cells, line);
-  return table;
+    if (const auto cells = split_at_blanks(text); !cells.empty()) add_row(table, cells, line);
+  return Columns(std::move(table));
 }
 
-bool Columns::has(std::string_view name) const { return std::find(names_.begin(), names_.end(), name) != names_.end(); }
+bool Columns::has(std::string_view name) const {
+  return std::find(table_.names.begin(), table_.names.end(), name) != table_.names.end();
+}
 
 std::span<const double> Columns::operator[](std::string_view name) const {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  if (found == names_.end()) fail(-1, fmt::format("needs a column \"{}\"; has {}", name, fmt::join(names_, ", ")));
-  return values_[found - names_.begin()];
+  const auto found = std::find(table_.names.begin(), table_.names.end(), name);
+  if (found == table_.names.end()) fail(-1, fmt::format("needs a column \"{}\"; has {}", name, fmt::join(table_.names, ", ")));
+  return table_.values[found - table_.names.begin()];
 }
 
 void Columns::require_increasing(std::string_view name, const std::string& why) const {
@@ -165,11 +166,13 @@ void Columns::require_rows(std::size_t count) const {
 }
 
 void Columns::allow_only(const std::vector<std::string>& names) const {
-  for (const std::string& name : names_)
+  for (const std::string& name : table_.names)
     if (std::find(names.begin(), names.end(), name) == names.end())
       fail(-1, fmt::format("has a column \"{}\" that means nothing here; known: {}", name, fmt::join(names, ", ")));
 }
 
-void Columns::fail(int row, const std::string& message) const { fail_at(file_, row < 0 ? 0 : lines_[row], "", message); }
+void Columns::fail(int row, const std::string& message) const {
+  fail_at(table_.file, row < 0 ? 0 : table_.lines[row], "", message);
+}
 
 }  // namespace spindrift::scene

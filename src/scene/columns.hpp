@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace spindrift::scene {
@@ -13,8 +14,17 @@ namespace spindrift::scene {
 /// A table read whole: a header line of names, then rows of as many finite numbers. Errors are SceneErrors with file and line.
 class Columns {
  public:
-  const std::string& file() const { return file_; }
-  std::size_t rows() const { return lines_.size(); }
+  /// Checked already.
+  struct Table {
+    std::string file;
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> values;  ///< by column
+    std::vector<int> lines;                   ///< of each row in the file
+  };
+  explicit Columns(Table table) : table_(std::move(table)) {}
+
+  const std::string& file() const { return table_.file; }
+  std::size_t rows() const { return table_.lines.size(); }
   bool has(std::string_view name) const;
   /// The column `name`; fails, naming the columns there are, where it is missing.
   std::span<const double> operator[](std::string_view name) const;
@@ -29,13 +39,7 @@ class Columns {
   [[noreturn]] void fail(int row, const std::string& message) const;
 
  private:
-  friend Columns read_columns(const std::string& path);
-  friend Columns read_blank_columns(const std::string& path, std::vector<std::string> names);
-  void add_row(const std::vector<std::string_view>& cells, int line);
-  std::string file_;
-  std::vector<std::string> names_;
-  std::vector<std::vector<double>> values_;  ///< by column
-  std::vector<int> lines_;                   ///< of each row in the file
+  Table table_;
 };
 
 Columns read_columns(const std::string& path);

@@ -13,7 +13,7 @@
 namespace spindrift::scene {
 
 Document::Document(Value root, std::vector<Source> sources, std::vector<Problem> problems)
-    : root_(std::move(root)), sources_(std::move(sources)), problems_(std::move(problems)) {}
+    : root_(std::move(root)), findings_{std::move(sources), std::move(problems), {}} {}
 
 bool Document::announce(const SectionBase& section) {
   if (std::find(known_.begin(), known_.end(), &section) == known_.end()) known_.push_back(&section);
@@ -28,7 +28,8 @@ bool Document::is_section(const SectionBase& section) const {
 void Document::read_into(const SectionBase& section, void* options) {
   announce(section);
   const Value* table = root_.find(section.name());
-  if (Reader(*this).section(section, table, section.name(), options)) echo_ += rendered(section, section.name(), options, table);
+  if (Reader(findings_).section(section, table, section.name(), options))
+    echo_ += rendered(section, section.name(), options, table);
 }
 
 std::vector<std::string> Document::names(const SectionBase& section) {
@@ -38,15 +39,15 @@ std::vector<std::string> Document::names(const SectionBase& section) {
   if (!all) return names;
   const std::string form = fmt::format("[{}.NAME]", section.name());
   if (!all->is_table()) {
-    add(all, section.name(), all->is_list_of_tables() ? "" : all->written(), "must be sections " + form);
+    findings_.add(all, section.name(), all->is_list_of_tables() ? "" : all->written(), "must be sections " + form);
     return names;
   }
   for (const Value& one : all->children) {
     const std::string key = section.name() + "." + toml_key(one.key);
     if (!one.is_table())
-      add(&one, key, one.is_list_of_tables() ? "" : one.written(), "must stand in a section " + form);
+      findings_.add(&one, key, one.is_list_of_tables() ? "" : one.written(), "must stand in a section " + form);
     else if (toml_key(one.key) != one.key)
-      add(&one, key, "", "a name has letters, digits, '_' and '-' only");  // names go into columns and file names
+      findings_.add(&one, key, "", "a name has letters, digits, '_' and '-' only");  // names go into columns and file names
     else
       names.push_back(one.key);
   }
@@ -56,7 +57,7 @@ std::vector<std::string> Document::names(const SectionBase& section) {
 void Document::read_named_into(const SectionBase& section, const std::string& name, void* options) {
   const Value* table = root_.find(section.name())->find(name);
   const std::string heading = section.name() + "." + name;
-  if (Reader(*this).section(section, table, heading, options)) echo_ += rendered(section, heading, options, table);
+  if (Reader(findings_).section(section, table, heading, options)) echo_ += rendered(section, heading, options, table);
 }
 
 void Document::read_any(const SectionBase& section) {
@@ -88,17 +89,16 @@ bool within(std::string_view key, std::string_view other) {
 }  // namespace
 
 void Document::problem(std::string_view key, std::string message) {
-  for (const Problem& p : problems_)
+  for (const Problem& p : findings_.problems)
     if (within(key, p.key) || within(p.key, key)) return;  // a consequence: the options hold a default there
   const auto [at, found] = locate(key);
   const bool shown = found && !at->is_table() && !at->is_list_of_tables();
-  add(at, std::string(key), shown ? at->written() : "", std::move(message));
+  findings_.add(at, std::string(key), shown ? at->written() : "", std::move(message));
 }
 
-void Document::add(const Value* at, std::string key, std::string value, std::string message) {
+void Findings::add(const Value* at, std::string key, std::string value, std::string message) {
   const Where where = at ? at->where : Where{};
-  problems_.push_back(
-      {sources_[std::size_t(where.source)].name, where.line, std::move(key), std::move(value), std::move(message)});
+  problems.push_back({sources[std::size_t(where.source)].name, where.line, std::move(key), std::move(value), std::move(message)});
 }
 
 std::string Document::home_of(std::string_view key) const {
@@ -137,10 +137,10 @@ std::string meant(const Value& root, const Problem& p) {
 }  // namespace
 
 void Document::finish() {
-  for (const auto& [problem, key] : strays_) problems_[problem].message += home_of(key);
-  strays_.clear();
-  drop_consequences(problems_);
-  for (Problem& p : problems_) p.message += meant(root_, p);
+  for (const auto& [problem, key] : findings_.strays) findings_.problems[problem].message += home_of(key);
+  findings_.strays.clear();
+  drop_consequences(findings_.problems);
+  for (Problem& p : findings_.problems) p.message += meant(root_, p);
   std::vector<std::string> known;
   for (const SectionBase* section : known_) known.push_back(section->name());
   for (const Value& top : root_.children) {
@@ -149,17 +149,19 @@ void Document::finish() {
     const std::string hint =
         near.empty() ? fmt::format("a scene has: {}", joined(known, ", ")) : fmt::format("did you mean [{}]?", near);
     if (top.is_table() || top.is_list_of_tables())
-      add(&top, toml_key(top.key), "", "unknown section; " + hint);
+      findings_.add(&top, toml_key(top.key), "", "unknown section; " + hint);
     else
-      add(&top, toml_key(top.key), top.written(), "unknown key outside any section; " + hint + home_of(top.key));
+      findings_.add(&top, toml_key(top.key), top.written(), "unknown key outside any section; " + hint + home_of(top.key));
   }
-  if (problems_.empty()) return;
+  if (findings_.problems.empty()) return;
   const auto order = [&](const Problem& p) {
-    const auto at = std::find_if(sources_.begin(), sources_.end(), [&](const Source& s) { return s.name == p.source; });
-    return std::pair(at - sources_.begin(), p.line);
+    const auto at =
+        std::find_if(findings_.sources.begin(), findings_.sources.end(), [&](const Source& s) { return s.name == p.source; });
+    return std::pair(at - findings_.sources.begin(), p.line);
   };
-  std::stable_sort(problems_.begin(), problems_.end(), [&](const Problem& a, const Problem& b) { return order(a) < order(b); });
-  throw SceneError(problems_);
+  std::stable_sort(findings_.problems.begin(), findings_.problems.end(),
+                   [&](const Problem& a, const Problem& b) { return order(a) < order(b); });
+  throw SceneError(findings_.problems);
 }
 
 std::string Document::echo() const { return "# The scene as run, every default spelled out.\n" + echo_; }

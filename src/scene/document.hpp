@@ -33,6 +33,15 @@ struct Source {
   std::string directory;  ///< absolute; relative paths in this source start here
 };
 
+/// What is wrong with a scene, and what its values come from.
+struct Findings {
+  std::vector<Source> sources;
+  std::vector<Problem> problems;
+  std::vector<std::pair<std::size_t, std::string>> strays;  ///< problems about unknown keys, to be told where they belong
+
+  void add(const Value* at, std::string key, std::string value, std::string message);
+};
+
 class Document {
  public:
   Document(Value root, std::vector<Source> sources, std::vector<Problem> problems);
@@ -82,27 +91,23 @@ class Document {
   /// The scene as run: TOML with every default spelled out, unit and sentence as comments; reads back to the same options.
   std::string echo() const;
   /// Name of the scene file, as given.
-  const std::string& source() const { return sources_.front().name; }
+  const std::string& source() const { return findings_.sources.front().name; }
   /// Absolute directory of the scene file.
-  const std::string& directory() const { return sources_.front().directory; }
+  const std::string& directory() const { return findings_.sources.front().directory; }
 
  private:
-  friend class Reader;
   void read_into(const SectionBase& section, void* options);
   void read_named_into(const SectionBase& section, const std::string& name, void* options);
   bool is_section(const SectionBase& section) const;  ///< false where the scene gives its name something else
   bool announce(const SectionBase& section);          ///< notes the section as known; true where the scene names it
   std::vector<std::string> names(const SectionBase& section);
   std::pair<const Value*, bool> locate(std::string_view key) const;  ///< the deepest value on the way; is it the key itself?
-  void add(const Value* at, std::string key, std::string value, std::string message);
-  std::string home_of(std::string_view key) const;  ///< " (a key of [time])" where a section read so far has it
+  std::string home_of(std::string_view key) const;                   ///< " (a key of [time])" where a section read so far has it
 
   Value root_;
-  std::vector<Source> sources_;
-  std::vector<Problem> problems_;
-  std::vector<const SectionBase*> known_;                    ///< sections read, in order
-  std::vector<std::pair<std::size_t, std::string>> strays_;  ///< problems about unknown keys, to be told where they belong
-  std::string echo_;                                         ///< of the sections read, in order
+  Findings findings_;
+  std::vector<const SectionBase*> known_;  ///< sections read, in order
+  std::string echo_;                       ///< of the sections read, in order
 };
 
 Source command_line();  ///< paths start at the working directory

@@ -32,14 +32,14 @@ void round_default(const Parameter& p, void* options) {
 }  // namespace
 
 bool Reader::section(const SectionBase& section, const Value* table, const std::string& name, void* options) {
-  const std::size_t before = document_.problems_.size();
+  const std::size_t before = findings_.problems.size();
   if (table && !table->is_table()) {
     wrong(*table, name, fmt::format("must be a section, {}, not {}", section_label(name), table->found()));
     return false;
   }
   Names bad;
   for (const Parameter& p : section.parameters()) {
-    const std::size_t so_far = document_.problems_.size();
+    const std::size_t so_far = findings_.problems.size();
     const std::string key = name + "." + p.key;
     if (const Value* value = table ? table->find(p.key) : nullptr)
       parameter(p, *value, key, options);
@@ -47,13 +47,13 @@ bool Reader::section(const SectionBase& section, const Value* table, const std::
       this->section(*p.nested, nullptr, key, p.member.element(options, 0));
     else
       round_default(p, options);
-    if (document_.problems_.size() != so_far) bad.insert(p.key);
+    if (findings_.problems.size() != so_far) bad.insert(p.key);
   }
   if (table) unknown_keys(section, *table, name);
   conditions(section, table, name, options, bad);
   if (bad.empty()) alternatives(section, table, name, options);
-  if (document_.problems_.size() == before) rules(section, table, name, options);
-  return document_.problems_.size() == before;
+  if (findings_.problems.size() == before) rules(section, table, name, options);
+  return findings_.problems.size() == before;
 }
 
 void Reader::parameter(const Parameter& p, const Value& value, const std::string& key, void* options) {
@@ -68,7 +68,16 @@ void Reader::parameter(const Parameter& p, const Value& value, const std::string
     case Kind::choice:
       choice(p, value, key, options);
       return;
-    default:
+    case Kind::number:
+    case Kind::integer:
+    case Kind::flag:
+    case Kind::text:
+    case Kind::path:
+    case Kind::vector:
+    case Kind::symmetric:
+    case Kind::numbers:
+    case Kind::texts:
+    case Kind::values:
       leaf(p, value, key, p.member.slot(options));
   }
 }
@@ -82,7 +91,7 @@ void Reader::unknown_keys(const SectionBase& section, const Value& table, const 
     const std::string hint = near.empty() ? fmt::format("{} has: {}", section_label(name), joined(known, ", "))
                                           : fmt::format("did you mean '{}'?", near);
     wrong(child, name + "." + toml_key(child.key), "unknown key; " + hint);
-    if (near.empty()) document_.strays_.emplace_back(document_.problems_.size() - 1, child.key);
+    if (near.empty()) findings_.strays.emplace_back(findings_.problems.size() - 1, child.key);
   }
 }
 
@@ -140,11 +149,11 @@ void Reader::rules(const SectionBase& section, const Value* table, const std::st
 }
 
 void Reader::wrong(const Value& at, const std::string& key, std::string message) {
-  document_.add(&at, key, at.is_table() || at.is_list_of_tables() ? "" : at.written(), std::move(message));
+  findings_.add(&at, key, at.is_table() || at.is_list_of_tables() ? "" : at.written(), std::move(message));
 }
 
 void Reader::missing(const Value* table, const std::string& key, std::string message) {
-  document_.add(table, key, "", std::move(message));
+  findings_.add(table, key, "", std::move(message));
 }
 
 }  // namespace spindrift::scene

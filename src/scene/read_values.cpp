@@ -145,7 +145,7 @@ void Reader::path(const Parameter& p, const Value& value, const std::string& key
   namespace fs = std::filesystem;
   if (value.kind != Value::Kind::text || value.text.empty() || value.text.find('\0') != std::string::npos)
     return wrong(value, key, fmt::format("must be the name of a file{}", aside(p)));
-  const fs::path path = (fs::path(document_.sources_[std::size_t(value.where.source)].directory) / value.text).lexically_normal();
+  const fs::path path = (fs::path(findings_.sources[std::size_t(value.where.source)].directory) / value.text).lexically_normal();
   std::error_code error;
   if (!fs::exists(path, error)) return wrong(value, key, fmt::format("{}: {}{}", path.string(), absent_file(path), aside(p)));
   if (fs::is_directory(path, error))

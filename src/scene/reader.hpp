@@ -17,7 +17,7 @@ std::string aside(const Parameter& p);
 /// What it does with sections and their rules is in read.cpp, with single values in read_values.cpp.
 class Reader {
  public:
-  explicit Reader(Document& document) : document_(document) {}
+  explicit Reader(Findings& findings) : findings_(findings) {}
 
   /// `table` is null where the scene does not have the section; `name` is its full key. True without problems.
   bool section(const SectionBase& section, const Value* table, const std::string& name, void* options);
@@ -42,7 +42,7 @@ class Reader {
   void wrong(const Value& at, const std::string& key, std::string message);
   void missing(const Value* table, const std::string& key, std::string message);
 
-  Document& document_;
+  Findings& findings_;
 };
 
 }  // namespace spindrift::scene
