@@ -26,7 +26,8 @@ struct Alone {
   double window(WindowTasks& tasks, Run run) {
     const double dt = floating.timeline().window_s();
     if (has_air(run)) rotor.azimuth += rotor.speed * dt, air->prepare(air_time += dt, dt, rotor);
-    if (has_bodies(run)) bodies->take_snapshot(0), bodies->prepare(state, state.tick + floating.timeline().steps_per_window());
+    if (has_bodies(run))
+      bodies->balance(), bodies->take_snapshot(0), bodies->prepare(state, state.tick + floating.timeline().steps_per_window());
     const double s = perf::seconds([&] { tasks.run(run); });
     if (has_air(run)) air->load_at_end();
     if (has_bodies(run)) state = bodies->finish();

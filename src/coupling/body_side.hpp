@@ -19,6 +19,8 @@ class BodySide {
  public:
   virtual ~BodySide() = default;
 
+  /// Before a window, and before its snapshot: particles go to other ranks where that pays.
+  virtual void balance() {}
   /// The next window: from this state to the end tick.
   virtual void prepare(const bodies::BodiesState& from, std::int64_t end_tick) = 0;
   /// Records the tasks that do it.

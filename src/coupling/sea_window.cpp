@@ -78,10 +78,8 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
   bool outdated() const override { return sea_.outdated(); }
   void forget_tasks() override { sea_.forget_tasks(); }
   void ease(int retry) override { retry_ = retry; }
-  void take_snapshot(int slot) override {
-    if (slot == 0) sea_.balance();
-    sea_.take_snapshot(slot);
-  }
+  void balance() override { sea_.balance(); }
+  void take_snapshot(int slot) override { sea_.take_snapshot(slot); }
   void return_to(int slot) override { sea_.return_to(slot); }
 
  private:

@@ -173,6 +173,9 @@ class SharedBodies final : public BodySide {
  public:
   SharedBodies(const runtime::Parts& parts, std::unique_ptr<BodySide> own) : parts_(parts), own_(std::move(own)) {}
 
+  void balance() override {
+    if (own_) own_->balance();
+  }
   void prepare(const bodies::BodiesState& from, std::int64_t end_tick) override {
     state_ = from;
     if (own_) own_->prepare(from, end_tick);

@@ -60,6 +60,7 @@ void CoupledWindow::begin(const bodies::BodiesState& state) {
 
 WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
   const std::int64_t begin = runtime::Clock::now_ns();
+  sides_.bodies().balance();
   sides_.take_snapshot(AirSide::window);
   totals_.snapshot_ns += runtime::Clock::now_ns() - begin;
   sides_.begin_window(retry);
