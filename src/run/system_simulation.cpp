@@ -308,15 +308,13 @@ void SystemSimulation::log_window(const coupling::WindowReport& report, double e
                                             bodies, 1e-9 * double(parts_.waited_ns())});
   std::array<double, 4> spent;
   for (std::size_t n = 0; n < now.size(); ++n) spent[n] = now[n] - core_seconds_[n], core_seconds_[n] = now[n];
-  // Bodies beside particles move within tasks of the sea.
-  const double sea = spent[1] > 0.0 ? spent[1] - spent[2] : 0.0;
   const coupling::WindowLog& log = report.log;
   std::string how = fmt::format("{} evaluations, mismatch {:.3g}", log.evaluations, report.mismatch);
   if (window_.iterates())
     how += fmt::format(", residual {:.3g} of {:.3g} at first, {} columns, {} retries, {} cuts, ended by {}", log.residual,
                        log.first_residual, log.columns, log.retries, log.cuts, bound_name(log.bound));
   spdlog::debug("window to t = {:g} s: {}; {:.3g} s; core-s: air {:.3g}, sea {:.3g}, bodies {:.3g}{}", end_s, how, wall_s,
-                spent[0], sea, spent[2],
+                spent[0], spent[1], spent[2],
                 parts_.split() ? fmt::format("; ranks waited {:.3g} s for the other side", spent[3]) : std::string());
 }
 
@@ -361,9 +359,9 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
     summary.counts.emplace_back("particles_lost", std::int64_t(counts.lost));
     summary.counts.emplace_back("particles_left", std::int64_t(counts.left));
   }
-  // Bodies beside particles move within tasks of the sea, and ask for their loads within their own.
+  // Bodies that no particle moves go on within tasks of the sea; all ask for their loads within their own.
   if (parts_.has(sea_part) && !floating_.scenario().bodies.empty()) {
-    if (floating_.particles())
+    if (floating_.particles() && !floating_.particles()->moves_solids())
       ledger.move("sea", "bodies/substeps", window_.sides().bodies().own_ns(), window_.sides().bodies().steps());
     const auto& clocks = floating_.sources.clocks;
     for (std::size_t s = 0; s < clocks.size(); ++s)

@@ -210,7 +210,7 @@ class SystemRun(System):
         self.assertEqual(len(rows), 7)
         self.assertGreater(rows[0]["rotor.thrust_N"], 3e5)
         self.assertGreater(rows[-1]["rotor.hub_vx_m_s"], 0.0)
-        for row in rows:  # the force on the body that turns is the rotor's load, along an axis that has leant by less than a degree
+        for row in rows:  # the force on the body that turns is the rotor's load, along an axis that has turned by less than a degree
             force = sum(row[f"rotor.rotor.f{axis}_N"] ** 2 for axis in "xyz") ** 0.5
             self.assertAlmostEqual(force / row["rotor.thrust_N"], 1.0, delta=1e-9)
             self.assertGreater(row["rotor.rotor.fx_N"], 0.999 * force)
@@ -274,7 +274,7 @@ class SystemRun(System):
             self.spindrift(ENGINEERING, scheme + "_parts", "--restart", settings=settings, threads=3)
             self.assertEqual(self.text(scheme), self.text(scheme + "_parts"))
 
-    # A set-up of the preconditioner's common part serves two windows of three pseudo-steps; stopped in the middle of its life.
+    # A set-up of the preconditioner's coarse level serves two windows of three pseudo-steps; stopped in the middle of its life.
     KEPT = ["aero.flow.common_every=3", "aero.flow.common_steps=2", "time.end_s=0.5"]
 
     def test_a_coarse_correction_kept_over_windows_gives_the_same_bits_however_it_is_run(self):
@@ -388,6 +388,29 @@ class SystemRun(System):
         report = (self.path / "out/report.html").read_text()
         for picture in ("Pressure on a blade", "Wind in the plane of the axis"):
             self.assertIn(picture, report)
+
+    def test_the_trace_shows_output_beside_the_next_window_and_data_between_air_bodies_and_sea(self):
+        self.run_scene(PARTICLES + "[checkpoint]\ninterval_s = 0.1\n", "traced", "--trace", threads=2)
+        events = json.loads((self.path / "traced/trace.json").read_text())["traceEvents"]
+        rows_of, ends = {}, {}
+        for event in events:
+            row = event["pid"], event.get("tid")
+            if event["ph"] == "X" and event["name"] != "idle":
+                rows_of.setdefault(row, []).append((event["ts"], event["ts"] + event["dur"], event["name"]))
+            elif event["ph"] in "sf":
+                ends.setdefault(event["id"], {})[event["ph"]] = (row, event["ts"])
+        rounding = 2e-3  # times are written in thousandths of a microsecond
+
+        def module(row, time):
+            """Of the innermost slice there."""
+            inside = [(begin - end, name) for begin, end, name in rows_of[row] if begin - rounding <= time <= end + rounding]
+            return max(inside)[1].split("/")[0]
+        arrows = {(module(*of["s"]), module(*of["f"])) for of in ends.values()}
+        self.assertLessEqual({("aero", "exchange"), ("exchange", "aero"), ("sea", "exchange"), ("exchange", "sea"), ("sea", "bodies"), ("bodies", "sea")}, arrows)
+        slices = [(row, *of) for row, all_of in rows_of.items() for of in all_of]
+        writes = [(row, begin, end) for row, begin, end, name in slices if name == "output/write"]
+        beside = {name.split("/")[0] for row, begin, end in writes for other, first, last, name in slices if other != row and first < end and last > begin}
+        self.assertTrue(beside & {"aero", "sea"}, beside)
 
     def test_each_window_logs_how_it_went(self):
         settings = ["coupling.scheme='relaxation'", "coupling.relaxation=0.9", "coupling.tolerance=1e-9", "coupling.max_evaluations=3", "coupling.max_cuts=1",

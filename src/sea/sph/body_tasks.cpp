@@ -59,7 +59,7 @@ void BodyTasks<dim, Real>::record(Half half) {
   const Datum sum = r.graph.datum();
   r.graph.reduce("sea/loads/" + when, {reads(partial_data_), writes(sum)},
                  {runtime::Reduction::Operation::sum, partial_, total_});
-  r.graph.task("sea/bodies/" + when, {reads(sum), reads(r.plan), updates(r.loads)},
+  r.graph.task("bodies/substeps/" + when, {reads(sum), reads(r.plan), updates(r.loads)},
                r.if_active([this, half](const Context&, int step) { move(half, step); }));
   for (const int g : groups_)
     r.graph.task(task_name("place/" + when, std::size_t(g)),
