@@ -184,7 +184,7 @@ scene::Section<RotorOptions> with_rotor_keys(scene::Section<RotorOptions> sectio
             "written. The rotor's body has that mass already.")
       .path("blade_structure", &RotorOptions::blade_structure,
             "CSV file with span_m (from the rotor axis along the blade), mass_kg_m, flap_N_m2, edge_N_m2 (stiffness against "
-            "bending square to the chord and along it) and twist_deg (of the chord, nose into the wind): with it the blades "
+            "bending square to the chord and along it) and twist_deg (of the chord, nose into the wind). With it the blades "
             "bend in three modes, and loads at their roots are written. The rotor's body has their mass already.")
       .numbers("blade_damping", &RotorOptions::blade_damping, "-",
                "Structural damping of the blades' modes, first flapwise, first edgewise, second flapwise: ratio to the "
