@@ -255,12 +255,12 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
                   fmt::format("has no effect: no section of {} has polars at several Reynolds numbers", rotor.turbine));
   });
   if (!rotor.blade_masses.empty() && aero.model != "bem")
-    doc.problem(own("blade_masses"), "has no effect: only aero.model = \"bem\" knows the loads along a blade");
+    doc.problem(own("blade_masses"), "has no effect: only aero.model = \"bem\" knows the loads along a blade", "aero.model");
   else if (!rotor.turbine.empty())
     try_file(own("blade_masses"), rotor.blade_masses,
              [&] { read_blade_masses(read_turbine(rotor.turbine), rotor.blade_masses); });
   if (!rotor.blade_structure.empty() && aero.model != "bem")
-    doc.problem(own("blade_structure"), "has no effect: only aero.model = \"bem\" has blades that bend");
+    doc.problem(own("blade_structure"), "has no effect: only aero.model = \"bem\" has blades that bend", "aero.model");
   else if (!rotor.blade_structure.empty() && !rotor.blade_masses.empty())
     doc.problem(own("blade_masses"), "is given beside rotor.blade_structure, which has masses too: one of the two");
   else if (!rotor.turbine.empty())

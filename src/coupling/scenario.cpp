@@ -83,7 +83,7 @@ void check_yaw(scene::Document& document, const Scenario& s) {
 void check_particles(scene::Document& document, const Scenario& s) {
   const std::vector<sea::ParticleBody> bodies = particle_bodies(s.bodies);
   for (const sea::OptionProblem& p : particle_problems(s.sea, s.waves, sea_environment(s.environment), bodies))
-    document.problem(p.key, p.what);
+    document.problem(p.key, p.what, p.follows_from);
   if (s.start.equilibrium)
     for (const auto& [name, body] : s.bodies)
       if (!body.boxes.empty() || !body.spheres.empty() || !body.meshes.empty())
@@ -228,11 +228,11 @@ void check_saved_start(scene::Document& document, const Scenario& s) {
   if (s.start.file.empty()) return;
   if (s.has_flow()) return document.problem("start.file", "has no effect: there are no bodies");
   const std::string why = "has no effect: start.file is the start";
-  if (s.start.equilibrium) document.problem("start.equilibrium", why);
-  if (s.start.air_steps > 0) document.problem("start.air_steps", why);
-  if (!s.start.air.empty()) document.problem("start.air", why);
-  if (s.sea.settle_s() > 0.0) document.problem("sea.initial.settle_s", why);
-  if (s.sea.initial && s.sea.initial->state == "file") document.problem("sea.initial.state", why);
+  if (s.start.equilibrium) document.problem("start.equilibrium", why, "start.file");
+  if (s.start.air_steps > 0) document.problem("start.air_steps", why, "start.file");
+  if (!s.start.air.empty()) document.problem("start.air", why, "start.file");
+  if (s.sea.settle_s() > 0.0) document.problem("sea.initial.settle_s", why, "start.file");
+  if (s.sea.initial && s.sea.initial->state == "file") document.problem("sea.initial.state", why, "start.file");
 }
 
 /// What of a wind that changes resolved air can have.
@@ -457,10 +457,10 @@ Scenario read_scenario(scene::Document& document) {
   s.rotors = document.read_named(aero::rotors_section());
   s.rotor =
       document.read_where(s.rotors.empty() && (s.has_rotor() || has_resolved_rotor(s) || s.has_actuator()), aero::rotor_section(),
-                          s.rotors.empty() ? "aero.model is none" : "[rotors] has the rotors; give one of the two");
+                          s.rotors.empty() ? "aero.model is none" : "[rotors] has the rotors; give one of the two", "aero.model");
   if (!s.rotors.empty()) {
     s.rotor = s.rotors.front().options, s.rotor_section = "rotors." + s.rotors.front().name;
-    if (s.aero.model == "none") document.problem("rotors", "has no effect: aero.model is none");
+    if (s.aero.model == "none") document.problem("rotors", "has no effect: aero.model is none", "aero.model");
     if (s.resolves_air())
       document.problem("rotors",
                        fmt::format("does not go with aero.model \"{}\": resolved air has one rotor, in [rotor]; prescribed, "
@@ -469,7 +469,7 @@ Scenario read_scenario(scene::Document& document) {
   }
   s.wind = document.read_where(
       s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
-      "aero.model = \"" + s.aero.model + "\" does not look at the wind; thrust_curve, bem and resolved air do");
+      "aero.model = \"" + s.aero.model + "\" does not look at the wind; thrust_curve, bem and resolved air do", "aero.model");
   try {
     s.wind.speed_m_s = aero::starting_speed(s.wind);
     if (!s.wind.steady() && s.resolves_air()) check_changing_wind(document, s);
@@ -481,7 +481,8 @@ Scenario read_scenario(scene::Document& document) {
   s.control = document.read_where(
       s.has_rotor(), aero::control_section(),
       s.resolves_air() ? "without [bodies] the rotor turns as rotor.speed_rpm has it: a drive train steps with them"
-                       : "aero.model is none");
+                       : "aero.model is none",
+      "aero.model");
   take_from_turbines(document, s);
   s.sea = document.read(sea::sea_section());
   const bool planar = s.sea.particles && s.sea.particles->planar();
@@ -490,10 +491,11 @@ Scenario read_scenario(scene::Document& document) {
     load_surfaces(document, fmt::format("bodies.{}.meshes", name), body.meshes, plane(body.centre_m[1]));
   if (s.sea.tank) load_surfaces(document, "sea.tank.meshes", s.sea.tank->meshes, plane(0.0));
   s.waves = document.read_where(s.sea.model == "morison" || s.sea.model == "potential" || s.has_particles(), sea::waves_section(),
-                                "sea.model is \"" + s.sea.model + "\"; morison, potential and sph have waves");
+                                "sea.model is \"" + s.sea.model + "\"; morison, potential and sph have waves", "sea.model");
   s.moorings = document.read_named(moorings::line_section());
   s.junctions = document.read_named(moorings::junction_section());
-  s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple");
+  s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple",
+                                   "aero.model");
   s.start = document.read(start_section());
   s.runtime = document.read(runtime_section());
   s.output = document.read(output_section());
@@ -510,7 +512,7 @@ Scenario read_scenario(scene::Document& document) {
        {std::pair{"start.air", !s.start.air.empty()}, std::pair{"output.air_interval_s", s.output.air_interval_s.has_value()}})
     if (!(s.has_rotor() && s.resolves_air()) && given)
       document.problem(key, "has no effect: there is no resolved rotor on a body");
-  if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none");
+  if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none", "aero.model");
   if (s.resolves_air() && s.aero.grid && s.aero.flow->motion)
     document.problem("aero.flow.motion", "has no effect: the grid of a rotor goes with the rotor");
   if (s.has_flow()) {
@@ -535,7 +537,7 @@ Scenario read_scenario(scene::Document& document) {
                                       std::pair{"meshes", !body.meshes.empty()}})
       if (!s.has_particles() && any)
         document.problem(fmt::format("bodies.{}.{}", name, shapes),
-                         "has no effect: only sea.model = \"sph\" knows this shape, others cylinders");
+                         "has no effect: only sea.model = \"sph\" knows this shape, others cylinders", "sea.model");
   const std::vector<std::string> bodies = names(s.bodies), joints = names(s.joints);
   check_lines(document, s.moorings, s.junctions, bodies, s.environment.water_density_kg_m3);
   place_at_junctions(s.moorings, s.junctions, s.environment.water_depth_m);
@@ -562,7 +564,7 @@ Scenario read_scenario(scene::Document& document) {
     document.problem("coupling.scheme",
                      "must be \"monolithic\" with aero.dynamic_inflow or aero.dynamic_stall: the flow steps with the bodies");
   const auto report = [&](const std::vector<sea::OptionProblem>& problems) {
-    for (const sea::OptionProblem& p : problems) document.problem(p.key, p.what);
+    for (const sea::OptionProblem& p : problems) document.problem(p.key, p.what, p.follows_from);
   };
   const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
   report(sea_problems(s.sea, s.waves, wetted));

@@ -88,12 +88,13 @@ bool within(std::string_view key, std::string_view other) {
 }
 }  // namespace
 
-void Document::problem(std::string_view key, std::string message) {
+void Document::problem(std::string_view key, std::string message, std::string follows_from) {
   for (const Problem& p : findings_.problems)
     if (within(key, p.key) || within(p.key, key)) return;  // a consequence: the options hold a default there
   const auto [at, found] = locate(key);
   const bool shown = found && !at->is_table() && !at->is_list_of_tables();
   findings_.add(at, std::string(key), shown ? at->written() : "", std::move(message));
+  findings_.problems.back().follows_from = std::move(follows_from);
 }
 
 void Findings::add(const Value* at, std::string key, std::string value, std::string message) {
@@ -109,14 +110,13 @@ std::string Document::home_of(std::string_view key) const {
 }
 
 namespace {
-/// What has no effect only because of a key that is wrong itself is no second mistake.
+/// What is wrong only because of a key that is wrong itself is no second mistake.
 void drop_consequences(std::vector<Problem>& problems) {
   std::vector<std::string> wrong;
   for (const Problem& p : problems)
-    if (!p.message.starts_with("has no effect") && p.key.find('.') != std::string::npos) wrong.push_back(p.key);
+    if (p.follows_from.empty()) wrong.push_back(p.key);
   std::erase_if(problems, [&](const Problem& p) {
-    return p.message.starts_with("has no effect") &&
-           std::ranges::any_of(wrong, [&](const std::string& key) { return p.message.find(key + " ") != std::string::npos; });
+    return !p.follows_from.empty() && std::ranges::find(wrong, p.follows_from) != wrong.end();
   });
 }
 

@@ -61,10 +61,11 @@ class Document {
   }
   /// The same for a section that some scenes have no use for: elsewhere giving it is a problem (`why`: "aero.model is none"),
   /// and the echo leaves it out.
+  /// `follows_from`: as in problem().
   template <class Options>
-  Options read_where(bool has_effect, const Section<Options>& section, const std::string& why) {
+  Options read_where(bool has_effect, const Section<Options>& section, const std::string& why, const std::string& follows_from) {
     if (has_effect || !is_section(section)) return read(section);
-    if (announce(section)) problem(section.name(), "has no effect: " + why);
+    if (announce(section)) problem(section.name(), "has no effect: " + why, follows_from);
     return Options();
   }
   /// All [section.NAME], in file order.
@@ -83,8 +84,8 @@ class Document {
   /// Is this key or section in the scene? "sea", "bodies.platform.cylinders[1].diameter_m"
   bool given(std::string_view key) const { return locate(key).second; }
   /// A problem found by a rule between sections, shown at the key's line, or that of the nearest table around it. Dropped where
-  /// that key, or something in it or around it, has a problem already.
-  void problem(std::string_view key, std::string message);
+  /// that key, or something in it or around it, has a problem already, or the key that it follows from has one in the end.
+  void problem(std::string_view key, std::string message, std::string follows_from = {});
   /// Throws SceneError with every problem so far, sections that nobody read among them. Call after the last read.
   void finish();
 

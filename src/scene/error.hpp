@@ -16,6 +16,9 @@ struct Problem {
   std::string key;      ///< "bodies.platform.mass_kg"; empty where the file as a whole is meant
   std::string value;    ///< as written, shortened; empty where there is none
   std::string message;  ///< "must be > 0 kg (mass of the body)"
+  /// A key whose value makes this a mistake: where that key has a problem itself, this is none. Empty: a mistake whatever else
+  /// is.
+  std::string follows_from = {};
 
   std::string text() const;  ///< "case1.toml:12: time.window_s = -0.1: must be > 0 and <= 1000 s (...)"
 };

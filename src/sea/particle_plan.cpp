@@ -125,15 +125,19 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
 std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOptions& waves, const SeaEnvironment& environment,
                                              std::span<const ParticleBody> bodies) {
   std::vector<OptionProblem> problems;
-  const auto wrong = [&](std::string key, std::string what) { problems.push_back({std::move(key), std::move(what)}); };
+  const auto wrong = [&](std::string key, std::string what, std::string follows_from = {}) {
+    problems.push_back({std::move(key), std::move(what), std::move(follows_from)});
+  };
   const ParticleOptions& p = *o.particles;
   const TankOptions& t = *o.tank;
   const bool planar = p.planar(), waved = waves.model != "none";
   const double d = p.spacing_m, depth = environment.water_depth, reach = 2.0 * p.smoothing_over_spacing * d;
 
   if (!planar && !(t.y_m[1] > t.y_m[0])) wrong("sea.tank.y_m", "is needed in 3-D and must go from the lower to the higher side");
-  if (planar && t.y_m != std::array<double, 2>{}) wrong("sea.tank.y_m", "has no effect: sea.particles.dimensions is 2");
-  if (planar && t.sides_y != "wall") wrong("sea.tank.sides_y", "has no effect: sea.particles.dimensions is 2");
+  if (planar && t.y_m != std::array<double, 2>{})
+    wrong("sea.tank.y_m", "has no effect: sea.particles.dimensions is 2", "sea.particles.dimensions");
+  if (planar && t.sides_y != "wall")
+    wrong("sea.tank.sides_y", "has no effect: sea.particles.dimensions is 2", "sea.particles.dimensions");
   if (!(t.top_m > -depth)) wrong("sea.tank.top_m", fmt::format("is below the bed at {} m", -depth));
   if (o.water.empty() && t.top_m < 0.0) wrong("sea.tank.top_m", "is below the still water at 0 m");
   if (deepest_water(o, depth) < 4.0 * d)
@@ -172,7 +176,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   }
   if (o.wavemaker && !waved) wrong("sea.wavemaker", "has no wave to make: give [waves]");
   if (waved && !o.wavemaker && !starts_in_waves(o))
-    wrong("waves.model", "has no effect: the sea of particles has neither [sea.wavemaker] nor sea.initial.state = \"waves\"");
+    wrong("waves.model", "has no effect: the sea of particles has neither [sea.wavemaker] nor sea.initial.state = \"waves\"",
+          "sea.initial.state");
   if (waved && waves.ramp_s > 0.0) wrong("waves.ramp_s", "has no effect in a sea of particles: give sea.wavemaker.ramp_s");
   if (waved && wave_models().named(waves.model).nonlinear && !wave_models().named(waves.model).second_order)
     wrong("waves.model",

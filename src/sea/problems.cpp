@@ -115,7 +115,7 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
                           "names '" + name + "', which no body has; known: " + cylinders});
     if (options.coefficients[i].diffraction == "none") continue;
     const std::string key = "sea.coefficients[" + std::to_string(i) + "].diffraction";
-    if (options.model == "potential") problems.push_back({key, "has no effect: sea.model is \"potential\""});
+    if (options.model == "potential") problems.push_back({key, "has no effect: sea.model is \"potential\"", "sea.model"});
     if (waves.model == "none")
       problems.push_back({key, "has no effect: there are no waves"});
     else if (wave_models().named(waves.model).nonlinear)

@@ -59,6 +59,7 @@ double bound_wave_limit(double significant_height, double gravity);
 /// What is wrong with a wave of these options in this water, one sentence each with its key; empty when nothing is.
 struct OptionProblem {
   std::string key, what;
+  std::string follows_from = {};  ///< as scene::Problem has it
 };
 std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaEnvironment& environment);
 

@@ -152,16 +152,31 @@ TEST_CASE("a module's problem that follows from another one is not told", "[scen
                       "bodies.a.mass_kg = -1: must be > 0 kg (mass of the body)");
 }
 
+TEST_CASE("what follows from a key is told where that key is well, whatever the words and the order", "[scene][fast]") {
+  const auto told = [](const std::string& mass) {
+    Document doc = parse(good + "[bodies.a]\nmass_kg = " + mass + "\n", "s.toml", "/");
+    doc.read(example::time_section());
+    doc.problem("time", "is of no use", "bodies.a.mass_kg");
+    doc.read_named(example::body_section());
+    try {
+      doc.finish();
+    } catch (const SceneError& e) { return std::string(e.what()); }
+    return std::string();
+  };
+  CHECK_THAT(told("1"), Catch::Contains("time: is of no use") && !Catch::Contains("mass_kg"));
+  CHECK_THAT(told("-1"), !Catch::Contains("is of no use") && Catch::Contains("mass_kg = -1"));
+}
+
 TEST_CASE("a section that the scene has no use for is told so, and not echoed", "[scene][fast]") {
   Document silent = parse(good, "s.toml", "/");
   silent.read(example::time_section());
-  CHECK(silent.read_where(false, example::sea_section(), "there is no water").model == "none");
+  CHECK(silent.read_where(false, example::sea_section(), "there is no water", "waters.model").model == "none");
   CHECK_FALSE(silent.read_if_given(example::sea_section()));
   CHECK_NOTHROW(silent.finish());
   CHECK_THAT(silent.echo(), !Catch::Contains("[sea]"));
   Document doc = parse(good + "[sea]\nmodel = \"sph\"\n", "s.toml", "/");
   doc.read(example::time_section());
-  doc.read_where(false, example::sea_section(), "there is no water");
+  doc.read_where(false, example::sea_section(), "there is no water", "waters.model");
   CHECK_THROWS_WITH(doc.finish(), "s.toml:3: sea: has no effect: there is no water");
 }
 
