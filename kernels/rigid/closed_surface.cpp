@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 
+#include "kernels/base/in_words.hpp"
 #include "kernels/grid/nearest_point.hpp"
 #include "kernels/rigid/shapes.hpp"
 
@@ -22,12 +22,9 @@ using Eigen::Vector3d;
 
 constexpr double weld_within = 1e-6;  ///< of the size: a float in a file has seven digits
 
-std::string in_words(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
+std::string in_words(const Vector3d& x) {
+  return "(" + spindrift::in_words(x[0], 6) + ", " + spindrift::in_words(x[1], 6) + ", " + spindrift::in_words(x[2], 6) + ")";
 }
-std::string in_words(const Vector3d& x) { return "(" + in_words(x[0]) + ", " + in_words(x[1]) + ", " + in_words(x[2]) + ")"; }
 
 /// A side of a triangle, seen from its lower corner.
 struct Side {

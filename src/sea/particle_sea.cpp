@@ -146,7 +146,7 @@ class Sea final : public ParticleSea {
     const std::optional<NumericalFailure>& failure = sea_.state().plan.failure;
     if (!failure) return require_bounded();
     // Who drives the window knows the scene's time, the sea its own.
-    const std::string what = failure->what(), told = what.starts_with("t = ") ? "" : "t = " + sph::in_words(t_) + " s: ";
+    const std::string what = failure->what(), told = what.starts_with("t = ") ? "" : "t = " + in_words(t_) + " s: ";
     throw NumericalFailure(told + what, failure->place, failure->step, told.empty() ? failure->time_s : t_, failure->limit);
   }
   void take_snapshot(int slot) override { snapshots_[std::size_t(slot)] = {sea_.save(), solids_.state(), sea_.state().records}; }
@@ -296,7 +296,7 @@ class Sea final : public ParticleSea {
   void require_bounded() const {
     const std::optional<sph::Beyond> beyond = sph::beyond_bounds(sea_.store(), sea_.parameters(), comm_);
     if (!beyond) return;
-    throw NumericalFailure("t = " + sph::in_words(t_) + " s: " + beyond->describe(dim), "sea", long(sea_.state().work.steps), t_,
+    throw NumericalFailure("t = " + in_words(t_) + " s: " + beyond->describe(dim), "sea", long(sea_.state().work.steps), t_,
                            beyond->limit);
   }
 

@@ -3,23 +3,16 @@
 // tasks.cpp and sea_sph.cpp; tested in tests/src/sea/sph/step_plan_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdio>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "kernels/base/failure.hpp"
+#include "kernels/base/in_words.hpp"
 #include "kernels/sph/time_step.hpp"
 #include "src/sea/sph/parameters.hpp"
 
 namespace spindrift::sph {
-
-/// A number as messages have it.
-inline std::string in_words(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 /// Counters of a run, for reports and benchmarks.
 struct Work {
