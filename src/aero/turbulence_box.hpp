@@ -37,6 +37,10 @@ struct BtsFile {
   std::array<float, 3> slope{1, 1, 1}, offset{};  ///< velocity = (number - offset) / slope
   std::string description;
   std::vector<std::int16_t> grid, towers;  ///< [step][up][across][3]; [step][tower][3]
+
+  float velocity(std::int16_t number, std::size_t component) const {
+    return (float(number) - offset[component]) / slope[component];
+  }
 };
 
 /// Throws scene::SceneError naming file and byte.

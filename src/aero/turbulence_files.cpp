@@ -56,6 +56,12 @@ class Bytes {
   std::size_t at_ = 0;
 };
 
+void refuse_storm(const std::string& path, std::size_t byte, float velocity) {
+  constexpr float fastest = 1000.0f;  // [m/s]
+  if (!(std::abs(velocity) <= fastest))
+    refuse(path, byte, fmt::format("a velocity is {} m/s; at most {} makes sense", velocity, fastest));
+}
+
 }  // namespace
 
 BtsFile read_bts(const std::string& path) {
@@ -96,7 +102,9 @@ BtsFile read_bts(const std::string& path) {
   f.grid.resize(planes * std::size_t(f.steps)), f.towers.resize(towers * std::size_t(f.steps));
   std::vector<std::int16_t> step(planes + towers);
   for (std::size_t s = 0; s < std::size_t(f.steps); ++s) {
+    const std::size_t byte = in.at();
     in.fill(step, "the wind");
+    for (std::size_t n = 0; n < planes; ++n) refuse_storm(path, byte + 2 * n, f.velocity(step[n], n % 3));
     std::copy_n(step.begin(), planes, f.grid.begin() + std::ptrdiff_t(s * planes));
     std::copy_n(step.begin() + std::ptrdiff_t(planes), towers, f.towers.begin() + std::ptrdiff_t(s * towers));
   }
@@ -122,7 +130,7 @@ void write_bts(const BtsFile& f, const std::string& path) {
 TurbulenceBox box_of(const BtsFile& f) {
   TurbulenceBox box{f.across, f.up, f.steps, f.across_m, f.up_m, f.step_s, f.hub_height, f.bottom, f.wind, f.id == 8, true, {}};
   box.values.resize(f.grid.size());
-  for (std::size_t n = 0; n < f.grid.size(); ++n) box.values[n] = (float(f.grid[n]) - f.offset[n % 3]) / f.slope[n % 3];
+  for (std::size_t n = 0; n < f.grid.size(); ++n) box.values[n] = f.velocity(f.grid[n], n % 3);
   return box;
 }
 
@@ -177,7 +185,7 @@ TurbulenceBox read_mann(const std::array<std::string, 3>& paths, const MannGrid&
       for (std::size_t y = 0; y < ny; ++y)
         for (std::size_t z = 0; z < nz; ++z) {
           const float value = field[(x * ny + y) * nz + z];
-          if (!std::isfinite(value)) refuse(paths[c], 4 * ((x * ny + y) * nz + z), "is not a finite number");
+          refuse_storm(paths[c], 4 * ((x * ny + y) * nz + z), value);
           box.values[(((nx - 1 - x) * nz + z) * ny + y) * 3 + c] = value;
         }
   }

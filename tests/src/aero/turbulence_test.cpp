@@ -6,6 +6,7 @@
 #include <complex>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/random.hpp"
@@ -109,6 +110,7 @@ TEST_CASE("a malformed .bts is refused by its byte", "[aero][fast]") {
   CHECK(message(with(18, {"\x00\x00\xc0\x7f", 4})).find("byte 18") != std::string::npos);  // not a number
   CHECK(message(with(26, {"\x00\x00\x00\x00", 4})).find("byte 26") != std::string::npos);  // no time step
   CHECK(message(with(66, {"\xff\xff\xff\x7f", 4})).find("byte 66") != std::string::npos);
+  CHECK(message(with(42, {"\x00\x00\x80\x00", 4})).find("a velocity is") != std::string::npos);  // slope 1e-38
 }
 
 TEST_CASE("a box survives its .bts to the last of sixteen bits", "[aero][fast]") {
@@ -134,6 +136,14 @@ TEST_CASE("a Mann box has z fastest and its plane of largest x first", "[aero][f
   CHECK(box.at(0.0, 5.0, 75.0).x() == 20.0);
   CHECK(box.at(2.0, -5.0, 85.0).x() == 9.0);
   CHECK_THROWS_AS(read_mann({u.path, v.path, w.path}, {{nx, ny, nz + 1}, {20.0, 10.0, 10.0}}, 10.0, 90.0), scene::SceneError);
+  for (const float storm : {-3e38f, std::numeric_limits<float>::quiet_NaN()}) {
+    CAPTURE(storm);
+    std::fstream(v.path, std::ios::binary | std::ios::in | std::ios::out)
+        .seekp(20)
+        .write(reinterpret_cast<const char*>(&storm), 4);
+    CHECK_THROWS_WITH(read_mann({u.path, v.path, w.path}, {{nx, ny, nz}, {20.0, 10.0, 10.0}}, 10.0, 90.0),
+                      Catch::Contains("byte 20") && Catch::Contains("a velocity is"));
+  }
 }
 
 TEST_CASE("twenty seeds of our box have Kaimal's spectra and IEC's coherence within their scatter", "[aero][fast]") {
