@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/floating_system.hpp"
 
+#include <utility>
+
 #include "src/bodies/loads.hpp"
 #include "src/moorings/bed_file.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
 
@@ -118,6 +121,10 @@ void FloatingSystem::replace_rotor_loads(RotorSource::Loads loads, const aero::R
 
 void FloatingSystem::loads_changed() {
   multibody_->set_loads_from_outside((!rotors_.empty() && rotors_.front().is_replaced()) || sea_.plan());
+}
+
+void refuse(const FloatingSystem& floating, std::string key, std::string value, std::string message) {
+  throw scene::SceneError({{floating.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
 }
 
 }  // namespace spindrift::coupling

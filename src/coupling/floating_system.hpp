@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "src/bodies/system.hpp"
@@ -80,6 +81,9 @@ class FloatingSystem {
   std::vector<Eigen::Vector3d> reference_points_;
   std::unique_ptr<bodies::System> multibody_;
 };
+
+/// Throws scene::SceneError that names the system's scene, a key of it, its value and what is wrong with that.
+[[noreturn]] void refuse(const FloatingSystem& floating, std::string key, std::string value, std::string message);
 
 /// Loads are evaluated as LoadsWanted has it while this lives.
 template <void (FloatingSystem::*use)(bool)>

@@ -17,15 +17,10 @@
 #include "kernels/rigid/stability.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/retries.hpp"
-#include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
 
 namespace {
-
-[[noreturn]] void refuse(const FloatingSystem& floating, std::string key, std::string value, std::string message) {
-  throw scene::SceneError({{floating.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
-}
 
 /// The place of a point that the scene gives on the body as it describes it; nothing for the earth, which does not move.
 std::optional<bodies::Pull> pull_at(const Scenario& s, const bodies::BodiesState& state, const std::string& body,

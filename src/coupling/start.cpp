@@ -7,15 +7,10 @@
 #include <limits>
 
 #include "src/bodies/mode_names.hpp"
-#include "src/scene/error.hpp"
 
 namespace spindrift::coupling {
 
 namespace {
-
-[[noreturn]] void refuse(const FloatingSystem& floating, std::string key, std::string value, std::string message) {
-  throw scene::SceneError({{floating.scenario().source, 0, std::move(key), std::move(value), std::move(message)}});
-}
 
 /// A start that the joints do not allow: a spin across a hinge, a speed without the turning that belongs to it.
 void require_kept(const FloatingSystem& floating, std::string key, const Eigen::Vector3d& given, const Eigen::Vector3d& found) {

@@ -313,7 +313,7 @@ void enter(const Deck& file, std::size_t line, std::map<std::string, T>& table, 
   if (!table.emplace(name, std::move(entry)).second) file.fail(line, fmt::format("has the name {} of a row before", name));
 }
 
-double not_negative(const Deck& file, std::size_t line, const std::string& what, double value) {
+double require_not_negative(const Deck& file, std::size_t line, const std::string& what, double value) {
   if (value < 0.0) file.fail(line, fmt::format("has {} = {:g}, which is negative", what, value));
   return value;
 }
@@ -370,9 +370,9 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
     file.rows(n, 1, 5);
     for (std::size_t unused = 5; unused < w.size(); ++unused) file.to_number(w[unused], n);
     enter(file, n, by_name, w[0],
-          Type{not_negative(file, n, "Diam", file.to_number(w[1], n)),
-               not_negative(file, n, "MassDenInAir", file.to_number(w[2], n)),
-               not_negative(file, n, "EA", file.to_number(w[3], n)), file.to_number(w[4], n)});
+          Type{require_not_negative(file, n, "Diam", file.to_number(w[1], n)),
+               require_not_negative(file, n, "MassDenInAir", file.to_number(w[2], n)),
+               require_not_negative(file, n, "EA", file.to_number(w[3], n)), file.to_number(w[4], n)});
   });
   const std::string file_name = file.file().filename().string();
   std::map<std::string, LinePoint> by_number;
@@ -386,7 +386,8 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
     };
     LinePoint node{in_lower_case(w[1]), free_point(w[0], {value(2), value(3), value(4)})};
     const Eigen::Vector3d force(value(7), value(8), value(9));
-    node.point.mass = not_negative(file, n, "M", value(5)), node.point.volume = not_negative(file, n, "B", value(6));
+    node.point.mass = require_not_negative(file, n, "M", value(5)),
+    node.point.volume = require_not_negative(file, n, "B", value(6));
     node.point.added_mass = 0.5;  // a sphere's
     if (node.kind() == PointKind::free && force.norm() > 0.0)
       left_out.push_back(fmt::format("{}: the force FX, FY, FZ on node {}", file_name, w[0]));
@@ -461,7 +462,7 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
   each_row(file, dictionary, [&](std::size_t n, const auto& w) {
     file.rows(n, 1, std::max({damped, drag, added, axial_drag, axial_added, std::size_t(3)}) + 1);
     const auto at = [&](std::size_t column) { return file.to_number(w[column], n); };
-    const auto positive = [&](const char* name, std::size_t column) { return not_negative(file, n, name, at(column)); };
+    const auto positive = [&](const char* name, std::size_t column) { return require_not_negative(file, n, name, at(column)); };
     enter(file, n, types, w[0],
           Type{positive("Diam", 1),
                positive("MassDen", 2),
@@ -485,7 +486,7 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
       const auto value = [&](const std::vector<std::string>& names) {
         const std::size_t column = file.column(table, names);
         file.rows(n, 1, column + 1);
-        return not_negative(file, n, names[0], at(column));
+        return require_not_negative(file, n, names[0], at(column));
       };
       point.point.mass = value({"M", "Mass"}), point.point.volume = value({"V", "Volume", "Vol"});
       point.point.drag_area = value({"CdA"}), point.point.added_mass = value({"CA"});

@@ -145,14 +145,14 @@ void ghosts_of(MarchRecording& r, const char* label, const std::vector<Datum>& i
       {reads(r.flow.decision)});
 }
 
-void gradient_ghosts(MarchRecording& r, const char* label, std::function<bool()> active, bool trial, int tag) {
+void ghosts_of_gradients(MarchRecording& r, const char* label, std::function<bool()> active, bool trial, int tag) {
   std::vector<Quantity> quantities{Quantity::tensor, Quantity::vector};
   for (int t = 0; t < r.turbulence(); ++t) quantities.push_back(Quantity::vector);
   if (!r.arrays.tiles.empty() && r.tile(0).eddies)
     quantities.insert(quantities.end(), std::size_t(2 + r.turbulence()), Quantity::scalar);
   const HaloField<double> field{label,
                                 [&r](int t) { return r.tile_of(t).gradient_view(); },
-                                [&r](const Tile& t) { return cell_layout(t, aero::gradient_ghosts, r.arrays.planar()); },
+                                [&r](const Tile& t) { return cell_layout(t, gradient_ghosts, r.arrays.planar()); },
                                 quantities,
                                 1,
                                 &r.flow.gradients,
@@ -227,7 +227,7 @@ void residual_of_state(MarchRecording& r) {
         return Uses{reads(r.flow.decision), reads(r.flow.state[n]), reads(r.flow.state_ghosts[n]), writes(r.flow.gradients[n])};
       },
       [&r](std::size_t n) { r.residual.gradients(r.tile(n), r.tile(n).state.data()); });
-  gradient_ghosts(
+  ghosts_of_gradients(
       r, "aero/gradient_ghosts", [&r] { return r.residual.has_friction(); }, false, 2);
   if (r.judgement.body_force()) body_force(r);
   r.each(
@@ -321,7 +321,7 @@ void krylov_iteration(MarchRecording& r) {
   // w = A z: by the stored blocks, or by the residual of a state a little further along z.
   const HaloField<float> direction{"aero/krylov/direction_ghosts",
                                    [&r](int t) { return r.tile_of(t).direction_view(); },
-                                   [&r](const Tile& t) { return cell_layout(t, aero::gradient_ghosts, r.arrays.planar()); },
+                                   [&r](const Tile& t) { return cell_layout(t, gradient_ghosts, r.arrays.planar()); },
                                    r.state_quantities(),
                                    1,
                                    &r.krylov.direction,
@@ -350,7 +350,7 @@ void krylov_iteration(MarchRecording& r) {
       [&r](std::size_t n) {
         if (r.judgement.perturbs()) r.residual.gradients(r.tile(n), r.tile(n).trial.data());
       });
-  gradient_ghosts(
+  ghosts_of_gradients(
       r, "aero/krylov/gradient_ghosts", [&r] { return r.judgement.perturbs() && r.residual.has_friction(); }, true, 5);
   for (std::size_t n = 0; n < r.owned(); ++n)
     r.graph.task(r.of("aero/krylov/product", n),

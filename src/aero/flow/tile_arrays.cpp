@@ -26,7 +26,7 @@ TileArrays::TileArrays(GridStore& store, const FlowSetting& setting, std::span<c
                        const ModelSweeps& model)
     : grid(store) {
   const Tiling& tiling = grid.tiling();
-  if (model.closures != nullptr && model.equations == 0 && tiling.planar)
+  if (model.closures != nullptr && tiling.planar && closures().named(setting.turbulence).resolves_eddies)
     throw std::invalid_argument("flow: " + setting.turbulence + " resolves eddies: the grid must have three dimensions");
   local.assign(std::size_t(tiling.size()), -1);
   for (const int index : grid.owned()) {

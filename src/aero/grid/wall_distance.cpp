@@ -12,15 +12,13 @@ namespace spindrift::aero {
 
 namespace {
 
-using Face = WallSurface::Face;
-
-Eigen::Vector3d middle(const Face& f) { return f[0] + 0.25 * ((f[1] - f[0]) + (f[2] - f[0]) + (f[3] - f[0])); }
+Eigen::Vector3d middle(const WallSurface::Face& f) { return f[0] + 0.25 * ((f[1] - f[0]) + (f[2] - f[0]) + (f[3] - f[0])); }
 
 /// Of two computed squared distances, one to a box (or ball) and one to a point in it, the first may be larger by rounding: only
 /// what is farther by more than that is cut off, so that the least of all faces is found whatever the order of the search.
 constexpr double rounding = 1e-13;
 
-double squared_distance_to_face(const Eigen::Vector3d& p, const Face& f, const Eigen::Vector3d& m) {
+double squared_distance_to_face(const Eigen::Vector3d& p, const WallSurface::Face& f, const Eigen::Vector3d& m) {
   double least = (m - p).squaredNorm();
   for (int n = 0; n < 4; ++n) least = std::min(least, (nearest_on_triangle(p, f[n], f[(n + 1) % 4], m) - p).squaredNorm());
   return least;
@@ -65,7 +63,7 @@ double WallSurface::distance(const Eigen::Vector3d& p, int& face) const {
 }
 
 WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string> patches) {
-  std::vector<Face> faces;
+  std::vector<WallSurface::Face> faces;
   for (const Boundary& b : grid.boundaries) {
     if (std::find(patches.begin(), patches.end(), b.patch) == patches.end()) continue;
     const Block& block = grid.blocks[b.where.block];
@@ -97,7 +95,7 @@ WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string
   const std::size_t own = faces.size();
   for (const RigidMap& m : images)
     for (std::size_t f = 0; f < own; ++f) {
-      Face image;
+      WallSurface::Face image;
       for (int n = 0; n < 4; ++n) image[n] = m.rotation * faces[f][n] + m.translation;
       faces.push_back(image);
     }
