@@ -16,19 +16,15 @@ UnsteadyFlow::Stall stall_named(std::string_view name) {
 
 }  // namespace
 
-BladeLoads::BladeLoads(const AeroOptions& aero, const RotorOptions& rotor, double air_density)
-    : elements_(read_turbine(rotor.turbine), aero.induction, air_density,
+BladeLoads::BladeLoads(const Turbine& turbine, const AeroOptions& aero, const RotorOptions& rotor, double air_density)
+    : elements_(turbine, aero.induction, air_density,
                 {.inflow = aero.dynamic_inflow == "oye",
                  .inflow_time = aero.inflow_time_s,
                  .stall = stall_named(aero.dynamic_stall),
                  .speed_of_sound = aero.speed_of_sound_m_s},
                 aero.kinematic_viscosity(air_density)) {
-  if (!rotor.blade_masses.empty()) {
-    const Turbine turbine = read_turbine(rotor.turbine);
-    roots_.emplace(turbine, read_blade_masses(turbine, rotor.blade_masses));
-  }
+  if (!rotor.blade_masses.empty()) roots_.emplace(turbine, read_blade_masses(turbine, rotor.blade_masses));
   if (!rotor.blade_structure.empty()) {
-    const Turbine turbine = read_turbine(rotor.turbine);
     const BladeStructure structure = read_blade_structure(turbine, rotor.blade_structure);
     roots_.emplace(turbine, structure.masses);
     flexible_.emplace(turbine, structure, rotor.blade_damping);

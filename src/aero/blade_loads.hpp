@@ -13,6 +13,7 @@
 #include "src/aero/blade_roots.hpp"
 #include "src/aero/flexible_blades.hpp"
 #include "src/aero/options.hpp"
+#include "src/aero/turbine.hpp"
 
 namespace spindrift::aero {
 
@@ -28,7 +29,8 @@ struct BladesAt {
 class BladeLoads {
  public:
   /// Throws scene::SceneError where a file of the turbine cannot be read.
-  BladeLoads(const AeroOptions& aero, const RotorOptions& rotor, double air_density_kg_m3);
+  BladeLoads(const AeroOptions& aero, const RotorOptions& rotor, double air_density_kg_m3)
+      : BladeLoads(read_turbine(rotor.turbine), aero, rotor, air_density_kg_m3) {}
 
   const BladeElementMomentum& elements() const { return elements_; }
   /// Null where blades are rigid.
@@ -63,6 +65,7 @@ class BladeLoads {
   void remember(const BladesAt& at, double h, std::span<double> memory) const;
 
  private:
+  BladeLoads(const Turbine& turbine, const AeroOptions& aero, const RotorOptions& rotor, double air_density_kg_m3);
   template <class T>
   std::span<T> of_flow(std::span<T> memory) const {
     return memory.empty() ? memory : memory.first(elements_.memory_size());

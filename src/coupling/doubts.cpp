@@ -522,17 +522,17 @@ std::vector<Motion> described_starts(const FloatingSystem& floating) {
 scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability) {
   scene::Doubts all = plain_doubts(floating, start.state.motions);
   const FullLoads full(floating);
-  using Rotor = RotorSource;
-  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario& s, const Rotor& rotor) {
+  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario& s, const RotorSource& rotor) {
     doubt_rotor(found, floating, s, rotor, start);
   });
   if (start.state.motions.empty()) return all;
   doubt_wakes(all, floating, start);
   doubt_acceleration(all, floating, start);
   doubt_modes(all, floating, stability);
-  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario& s, const Rotor&) { doubt_tuning(found, s, stability); });
+  doubt_rotors(all, floating,
+               [&](scene::Doubts& found, const Scenario& s, const RotorSource&) { doubt_tuning(found, s, stability); });
   doubt_statics(all, floating, start);
-  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario&, const Rotor& rotor) {
+  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario&, const RotorSource& rotor) {
     doubt_resonance(found, floating, rotor.loads, start, stability);
   });
   doubt_length(all, floating, stability);

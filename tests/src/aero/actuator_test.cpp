@@ -47,6 +47,14 @@ std::vector<double> axial_nodes(const Wind8& o) {
   const double R = tip_radius();
   return stretched_nodes(-o.upstream * R, -o.core_upstream * R, o.core_downstream * R, o.downstream * R, R / o.cells, o.growth);
 }
+/// Of steady flow in large boxes, from the wind.
+FlowSetting steady_march(double drop, int most_steps) {
+  FlowSetting s;
+  s.preconditioner = "coarse";
+  s.march.drop = drop, s.march.max_steps = most_steps, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
+  return s;
+}
+
 std::unique_ptr<Case> box(const Wind8& o, FlowSetting s, int ranks = 1, int rank = 0) {
   const double R = tip_radius(), cell = R / o.cells, growth = o.growth, core = o.core * R;
   s.gas.temperature_reference = 288.15;
@@ -315,10 +323,7 @@ TEST_CASE("a disc of the DTU 10 MW rotor at ten cells to the radius has the thru
           "[rotor][nightly]") {
   const auto [wind, rpm] = GENERATE(std::pair{8.0, 6.4257}, std::pair{11.0, 8.8354});
   const Wind8 o{.speed = wind, .cells = 10.0, .upstream = 5.0, .downstream = 6.0, .side = 5.0, .core_upstream = 0.5};
-  FlowSetting s;
-  s.preconditioner = "coarse";
-  s.march.drop = 5e-4, s.march.max_steps = 80, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
-  const auto c = box(o, s);
+  const auto c = box(o, steady_march(5e-4, 80));
   const auto actuator = act_in(*c, Actuator::Kind::disc, turning(rpm), o.cells);
   c->prepare(MPI_COMM_SELF, {});
   c->run();
@@ -355,10 +360,7 @@ TEST_CASE(
                 .side = 12.0,
                 .core_upstream = 0.75,
                 .core_downstream = 4.0};
-  FlowSetting s;
-  s.preconditioner = "coarse";
-  s.march.drop = 1e-4, s.march.max_steps = 100, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
-  const auto c = box(o, s);
+  const auto c = box(o, steady_march(1e-4, 100));
   const double R = tip_radius(), U = o.speed;
   c->solver->set_body_force(std::make_shared<UniformDisc>(loading * 0.5 * 1.225 * U * U, R, 1.5 * R / o.cells));
   c->prepare(MPI_COMM_SELF, {});
@@ -392,10 +394,7 @@ TEST_CASE("a disc at thirty cells to the radius has the thrust of blade elements
                 .core_downstream = 0.15,
                 .core = 1.1,
                 .growth = 1.4};
-  FlowSetting s;
-  s.preconditioner = "coarse";
-  s.march.drop = 5e-3, s.march.max_steps = 40, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
-  const auto c = box(o, s);
+  const auto c = box(o, steady_march(5e-3, 40));
   const auto actuator = act_in(*c, Actuator::Kind::disc, turning(8.8354), o.cells);
   c->prepare(MPI_COMM_SELF, {});
   c->run();
@@ -411,15 +410,12 @@ struct LinesRun {
   double behind_disc = 0.0, behind_lines = 0.0;
 };
 LinesRun run_lines(const Wind8& o, double rpm, int steps, double step) {
-  FlowSetting s;
-  s.preconditioner = "coarse";
-  s.march.drop = 1e-3, s.march.max_steps = 60, s.march.cfl_start = 20.0, s.march.matrix_free_below = 1.0;
-  const auto steady = box(o, s);
+  const auto steady = box(o, steady_march(1e-3, 60));
   const auto disc = act_in(*steady, Actuator::Kind::disc, turning(rpm), o.cells);
   steady->prepare(MPI_COMM_SELF, {});
   steady->run();
   UNSCOPED_INFO("disc: " << disc->load(steady->solver->rows().back()).thrust << " N");
-  s = FlowSetting();
+  FlowSetting s;
   s.time_order = 2, s.dt = step, s.physical_far_field = true;
   s.march.drop = 1e-2, s.march.max_steps = 10;
   const auto c = box(o, s);
