@@ -25,6 +25,7 @@
 #include "src/app/leave_out.hpp"
 #include "src/app/rotor_start.hpp"
 #include "src/app/scene_file.hpp"
+#include "src/bodies/extent.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/doubts.hpp"
 #include "src/coupling/floating_system.hpp"
@@ -181,9 +182,11 @@ void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& stat
         state.motions[b], bodies[b].initial, floating.reference_point(b), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
     const Eigen::Vector3d degrees = m.angles / radians_per_degree;
     const auto rounded = [](double value) { return 1e-3 * std::round(1e3 * value) + 0.0; };  // + 0: no minus before zero
-    fmt::print("  {:<{}}  x {:+.3f}  y {:+.3f}  z {:+.3f} m   roll {:+.3f}  pitch {:+.3f}  yaw {:+.3f} deg\n", bodies[b].name,
+    const bodies::Reach reach = bodies::reach(floating.scenario().bodies[b].options, state.motions[b]);
+    const bool wet = floating.scenario().has_sea() && reach.any && reach.low < 0.0;
+    fmt::print("  {:<{}}  x {:+.3f}  y {:+.3f}  z {:+.3f} m   roll {:+.3f}  pitch {:+.3f}  yaw {:+.3f} deg{}\n", bodies[b].name,
                width, rounded(m.displacement.x()), rounded(m.displacement.y()), rounded(m.displacement.z()), rounded(degrees.x()),
-               rounded(degrees.y()), rounded(degrees.z()));
+               rounded(degrees.y()), rounded(degrees.z()), wet ? fmt::format("   draft {:.3f} m", -reach.low) : "");
   }
   if (!floating.moorings()) return;
   const std::vector<moorings::LineTension> tensions = floating.moorings()->tensions(state.motions);
@@ -228,9 +231,10 @@ void print_modes(const FloatingSystem& floating, const bodies::Linearisation& li
     else
       fmt::print("  {:<34}rate {:+.3g} 1/s{}\n", mode.name, mode.eigenvalue.real(),
                  mode.eigenvalue.real() > 1e-4 ? ", grows by itself" : "");
-  if (free > 0)
-    fmt::print("  {} of {} are free: neither stiffness nor damping{}\n", free, linearisation.modes.size(),
-               floating.particle_plan() && !floating.sea() ? "; that of the particles is not known before they are there" : "");
+  if (free > 0) fmt::print("  {} of {} are free: neither stiffness nor damping\n", free, linearisation.modes.size());
+  if (floating.particle_plan() && !floating.sea() && !linearisation.modes.empty())
+    fmt::print(
+        "  without the water's inertia, which is known beforehand where all shapes are cylinders: true periods are longer\n");
   const coupling::TimeOptions& time = floating.scenario().time;
   const std::string asked =
       floating.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());

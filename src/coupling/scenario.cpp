@@ -84,11 +84,6 @@ void check_particles(scene::Document& document, const Scenario& s) {
   const std::vector<sea::ParticleBody> bodies = particle_bodies(s.bodies);
   for (const sea::OptionProblem& p : particle_problems(s.sea, s.waves, sea_environment(s.environment), bodies))
     document.problem(p.key, p.what, p.follows_from);
-  if (s.start.equilibrium)
-    for (const auto& [name, body] : s.bodies)
-      if (!body.boxes.empty() || !body.spheres.empty() || !body.meshes.empty())
-        document.problem("start.equilibrium",
-                         fmt::format("is found by hydrostatics of cylinders: bodies.{} has other shapes", name));
   std::vector<std::string> columns;
   for (const sea::GaugeOptions& gauge : s.sea.gauges) columns.push_back(gauge.name);
   for (const sea::ProbeOptions& probe : s.sea.probes) columns.push_back(probe.name);

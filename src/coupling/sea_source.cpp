@@ -4,22 +4,35 @@
 #include <algorithm>
 
 #include "src/bodies/extent.hpp"
+#include "src/sea/still_water.hpp"
 
 namespace spindrift::coupling {
 
 namespace {
 
-/// At rest that is buoyancy and the water's inertia.
+/// At rest that is buoyancy and the water's inertia, of which particles need the second.
 sea::SeaOptions hydrostatics() {
   sea::SeaOptions still;
   still.model = "morison", still.axial_added_mass_coefficient = 1.0;
   return still;
 }
 
-bool only_cylinders(const bodies::NamedBodies& all) {
-  return !all.empty() && std::ranges::all_of(all, [](const auto& body) {
-    return body.options.boxes.empty() && body.options.spheres.empty() && body.options.meshes.empty();
-  });
+/// The cylinders of bodies that have no other shapes, in a plane as wide as the scene; none where a shape is no cylinder of water
+/// on all sides.
+std::optional<std::vector<sea::SeaBody>> only_cylinders(const Scenario& s) {
+  if (s.bodies.empty()) return std::nullopt;
+  for (const auto& [name, body] : s.bodies)
+    if (!body.boxes.empty() || !body.spheres.empty() || !body.meshes.empty()) return std::nullopt;
+  std::vector<sea::SeaBody> all = sea_bodies(s.bodies);
+  if (!s.sea.particles->planar()) return all;
+  for (sea::SeaBody& body : all)
+    for (sea::NamedCylinder& cylinder : body.cylinders) {
+      Cylinder& c = cylinder.shape;
+      if (std::abs(c.axis()[1]) < 0.5) return std::nullopt;
+      const Eigen::Vector3d middle = 0.5 * (c.start + c.end), half = 0.5 * s.sea.particles->width_m * Eigen::Vector3d::UnitY();
+      c.start = middle - half, c.end = middle + half;
+    }
+  return all;
 }
 
 /// Bodies that an engineering sea loads otherwise than by their cylinders.
@@ -52,9 +65,13 @@ void SeaSource::plan_particles(const Scenario& s) {
                              bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2));
   for (sea::SensorOptions& sensor : plan_->sensors)
     if (sensor.mean_over_s == 0.0) sensor.mean_over_s = s.time.window_s;
-  for (const sea::ParticleBody& body : shaped) on_.push_back(!body.shapes.empty());
-  if (only_cylinders(s.bodies))
-    moving_.emplace(hydrostatics(), sea::WavesOptions{}, sea_environment(s.environment), sea_bodies(s.bodies));
+  std::vector<std::vector<sph::BodyShape>> shapes;
+  for (const sea::ParticleBody& body : shaped) on_.push_back(!body.shapes.empty()), shapes.push_back(body.shapes);
+  before_particles_ = std::make_shared<const sea::StillWater>(
+      shapes, s.environment.water_density_kg_m3 * s.environment.gravity_m_s2,
+      s.sea.particles->planar() ? sph::Cut::plane : sph::Cut::space, s.sea.particles->width_m);
+  if (const auto cylinders = only_cylinders(s))
+    moving_.emplace(hydrostatics(), sea::WavesOptions{}, sea_environment(s.environment), *cylinders);
 }
 
 void SeaSource::fill(std::span<const Motion> start, const runtime::World& world) {
@@ -74,11 +91,11 @@ void SeaSource::add_to(LoadSources& sources) {
 
 void SeaSource::add_particles(LoadSources& sources) {
   sources.add({"sea",
-               [this](double t, std::span<const Motion> m, std::span<Wrench> w) {
+               [this](double, std::span<const Motion> m, std::span<Wrench> w) {
                  if (particles_)
                    particles_->add_loads(m, w);
-                 else if (moving_)
-                   moving_->add_loads(t, m, w);
+                 else
+                   before_particles_->add_loads(m, w);
                },
                [this](double t, std::span<const Motion> m, std::span<bodies::Matrix6> a) {
                  if (!particles_ && moving_) moving_->add_added_mass(t, m, a);  // particles push back by themselves

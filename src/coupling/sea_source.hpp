@@ -1,6 +1,6 @@
-// The sea as a source of load on the bodies: an engineering sea; or particles and, until they are made, the hydrostatics of the
-// bodies' cylinders, which statics and modes need. Held by floating_system.hpp; tested through tests/src/coupling and
-// tests/coupled. SPDX-License-Identifier: Apache-2.0
+// The sea as a source of load on the bodies: an engineering sea; or particles and, until they are made, the buoyancy of the
+// bodies' shapes and the added mass of cylinders, which statics and modes need. Held by floating_system.hpp; tested through
+// tests/src/coupling and tests/coupled. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -13,6 +13,10 @@
 #include "src/sea/engineering_sea.hpp"
 #include "src/sea/particle_sea.hpp"
 
+namespace spindrift::sea {
+class StillWater;
+}
+
 namespace spindrift::coupling {
 
 class SeaSource {
@@ -21,7 +25,7 @@ class SeaSource {
   SeaSource(const Scenario& scenario, double step_s, const LoadsWanted& loads);
   SeaSource(SeaSource&&) = delete;
 
-  /// Of a scene with particles: its hydrostatics, where all its shapes are cylinders. Null where there is none.
+  /// Of a scene with particles: the added mass, where all its shapes are cylinders. Null where there is none.
   const sea::EngineeringSea* engineering() const { return moving_ ? &*moving_ : nullptr; }
   /// Null without particles.
   const sea::ParticlePlan* plan() const { return plan_ ? &*plan_ : nullptr; }
@@ -43,6 +47,7 @@ class SeaSource {
   const LoadsWanted& loads_;
   std::optional<sea::EngineeringSea> moving_, still_;  ///< the second of a sea with waves: the same without them
   std::optional<sea::ParticlePlan> plan_;
+  std::shared_ptr<const sea::StillWater> before_particles_;  ///< of plan_
   std::unique_ptr<sea::ParticleSea> particles_;
   std::vector<bool> on_;  ///< by body
 };

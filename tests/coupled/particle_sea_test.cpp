@@ -209,7 +209,6 @@ TEST_CASE("bad seas of particles are refused by key before anything is made", "[
   CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.0, 0.0, -0.5]"}),
              Contains("bodies.box") && Contains("below the bed"));
   CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.9, 0.0, 0.0]"}), Contains("in a wall"));
-  CHECK_THAT(refusal(box, {"start.equilibrium=true"}), Contains("start.equilibrium"));
   CHECK_THAT(refusal(box, {"sea.model='hydrostatic'"}), Contains("has no effect"));
   CHECK_THAT(refusal(box, {"sea.initial.settle_s=1.01"}), Contains("settle_s") && Contains("windows"));
 }

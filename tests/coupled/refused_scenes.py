@@ -277,7 +277,6 @@ sea.tank.meshes[0].position_m=[100.0, 0.0, 0.0]
 sea.tank.meshes[0].water="beside"
 sea.particles.walls="modified"
 sea.particles.dimensions="2" & sea.tank.y_m=[0.0, 0.0] & bodies.buoy.meshes[0].position_m=[0.0, 3.0, 0.0] : bodies.buoy.meshes[0].file
-start.equilibrium=true
 """,
     "validation/dam_break/koshizuka_oka.toml": """
 sea.particles.dimensions="4"
