@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace spindrift::aero {
 
@@ -11,7 +13,8 @@ namespace {
 UnsteadyFlow::Stall stall_named(std::string_view name) {
   if (name == "oye") return UnsteadyFlow::Stall::oye;
   if (name == "beddoes_leishman") return UnsteadyFlow::Stall::beddoes_leishman;
-  return UnsteadyFlow::Stall::none;
+  if (name == "none") return UnsteadyFlow::Stall::none;
+  throw std::invalid_argument("bem: no model of dynamic stall is called " + std::string(name));
 }
 
 }  // namespace

@@ -276,6 +276,16 @@ std::vector<Motion> swinging(double t) {
 
 }  // namespace
 
+TEST_CASE("a model of stall that does not exist is refused, not left out", "[aero][fast]") {
+  AeroOptions aero;
+  aero.model = "bem";
+  RotorOptions options = turbine();
+  options.turbine = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw.toml";
+  CHECK_NOTHROW(BladeLoads(aero, options, 1.225));
+  aero.dynamic_stall = "oyee";
+  CHECK_THROWS_WITH(BladeLoads(aero, options, 1.225), Catch::Contains("oyee"));
+}
+
 TEST_CASE("a rotor that turns the other way is the mirror image of one that does not", "[aero][fast]") {
   const bool in_bearing = GENERATE(true, false), bends = GENERATE(false, true), controlled = GENERATE(false, true);
   if (in_bearing && (bends || controlled)) return;
