@@ -9,6 +9,37 @@
 
 namespace spindrift::aero {
 
+namespace {
+
+/// Elements as sections of lifting lines; where two meet, in the middle between their ends.
+template <class Place>
+LiftingLines lifting_lines(const std::vector<Place>& places, const DiscMotion& rotor, int blades) {
+  LiftingLines lines{{}, {}, rotor.sense};
+  const std::size_t sections = places.size() / std::size_t(blades);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Place& at = places[i];
+    const Eigen::Vector3d half = 0.5 * at.element.length * rotor.sense * at.ahead.cross(at.normal);
+    const Eigen::Vector3d middle = rotor.hub + at.arm, inner = middle - half;
+    lines.middles.push_back(middle);
+    if (i % sections == 0)
+      lines.ends.push_back(inner);
+    else
+      lines.ends.back() = 0.5 * (lines.ends.back() + inner);
+    lines.ends.push_back(middle + half);
+  }
+  return lines;
+}
+
+/// By the lift of its polar, where the wake induces this velocity [m2/s].
+template <class Place>
+double circulation(const Place& at, const Eigen::Vector3d& induced) {
+  const double normal = at.normal_wind + induced.dot(at.normal), tangential = at.tangential_wind - induced.dot(at.ahead);
+  const double attack = std::atan2(normal, tangential) - at.ring.setting;
+  return 0.5 * std::hypot(normal, tangential) * at.ring.chord * at.polars(attack).lift;
+}
+
+}  // namespace
+
 BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density,
                                            const UnsteadyFlow& unsteady, double kinematic_viscosity)
     : unsteady_(unsteady), blades_(turbine.blades), air_density_(air_density), kinematic_viscosity_(kinematic_viscosity) {
@@ -23,6 +54,10 @@ BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::st
         {{piece.radius, piece.axial, -piece.downwind / across, piece.outward / across, piece.length, piece.chord, piece.twist},
          SectionPolars(turbine.polars, piece.place)});
   }
+  if (!unsteady.wake) return;
+  std::vector<double> chords;
+  for (const Element& e : elements_) chords.push_back(e.chord);
+  wake_.emplace(*unsteady.wake, chords, blades_, tip_radius_);
 }
 
 Annulus BladeElementMomentum::annulus(const Element& e, double blade_pitch) const {
@@ -96,7 +131,8 @@ BladeElementMomentum::Induced BladeElementMomentum::steady(const Place& at) cons
 template <class Section>
 ElementState BladeElementMomentum::forces(const Place& at, const Induced& induced, const Section& section) const {
   ElementState level = element_forces(at.ring, at.normal_wind + induced.normal, at.tangential_wind + induced.tangential, section);
-  if (at.normal_wind == 0.0 || at.tangential_wind == 0.0) return level;
+  if (wake_) level.balanced = true;
+  if (wake_ || at.normal_wind == 0.0 || at.tangential_wind == 0.0) return level;
   level.axial_induction = -induced.normal / at.normal_wind;
   level.tangential_induction = induced.tangential / at.tangential_wind, level.balanced = true;
   return skewed(at.ring, level, at.normal_wind, at.tangential_wind, at.skew, at.across, section);
@@ -119,7 +155,7 @@ void BladeElementMomentum::for_each_force(const Wind& wind, const DiscMotion& ro
       s = forces(at, induced, [&](double a) { return stall.still(within_half_turn(a), beta, section); });
     } else {
       const Past past = recalled(memory, at.index);
-      const Induced induced = unsteady_.inflow ? Induced{past.normal.now, past.tangential.now} : steady(at);
+      const Induced induced = unsteady_.inflow || wake_ ? Induced{past.normal.now, past.tangential.now} : steady(at);
       const double beta = leishman ? prandtl_glauert(flow(at, induced).speed) : 1.0;
       s = forces(at, induced, [&](double a) {
         const double attack = within_half_turn(a);
@@ -181,8 +217,8 @@ std::optional<ReynoldsReach> BladeElementMomentum::reynolds(const Wind& wind, co
 }
 
 std::size_t BladeElementMomentum::memory_size() const {
-  return unsteady_.inflow || unsteady_.stall != UnsteadyFlow::Stall::none ? past_size() * elements_.size() * std::size_t(blades_)
-                                                                          : 0;
+  const bool remembers = unsteady_.inflow || wake_ || unsteady_.stall != UnsteadyFlow::Stall::none;
+  return (remembers ? past_size() * elements_.size() * std::size_t(blades_) : 0) + (wake_ ? wake_->memory_size() : 0);
 }
 
 BladeElementMomentum::Past BladeElementMomentum::recalled(std::span<const double> memory, std::size_t index) const {
@@ -216,36 +252,75 @@ double BladeElementMomentum::prandtl_glauert(double speed) const {
 }
 
 void BladeElementMomentum::begin(const Wind& wind, const DiscMotion& rotor, double t, std::span<double> memory) const {
-  for_each_place(wind, rotor, t, [&](const Place& at) {
-    const Induced induced = steady(at);
-    const auto [normal, tangential] = induced;
-    const auto [attack, speed] = flow(at, induced);
+  std::vector<Place> places;
+  for_each_place(wind, rotor, t, [&](const Place& at) { places.push_back(at); });
+  std::vector<Induced> induced;
+  for (const Place& at : places) induced.push_back(steady(at));
+  if (wake_) {
+    std::vector<double> bound;
+    double slowed = 0.0, area = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Place& at = places[i];
+      bound.push_back(circulation(at, induced[i].normal * at.normal - induced[i].tangential * at.ahead));
+      slowed -= at.ring.radius * at.element.length * induced[i].normal, area += at.ring.radius * at.element.length;
+    }
+    const Eigen::Vector3d met = wind.at(t, rotor.hub) - rotor.hub_velocity;
+    const double along = met.dot(rotor.axis), induction = along > 0.0 ? std::clamp(slowed / (area * along), 0.0, 0.4) : 0.0;
+    std::vector<Eigen::Vector3d> by_wake(places.size());
+    wake_->begin(
+        lifting_lines(places, rotor, blades_), {rotor.hub, rotor.omega, rotor.axis, met, induction, bound},
+        [&](std::size_t i, const Eigen::Vector3d& velocity) { return circulation(places[i], velocity); },
+        memory.last(wake_->memory_size()), by_wake);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      induced[i] = {by_wake[i].dot(places[i].normal), -by_wake[i].dot(places[i].ahead)};
+  }
+  for (const Place& at : places) {
+    const auto [normal, tangential] = induced[at.index];
+    const auto [attack, speed] = flow(at, induced[at.index]);
     const double f = at.polars.oye().separation(attack, at.polars(attack).lift);
     Past past{{normal, normal, normal}, {tangential, tangential, tangential}, f, f, {}};
     if (past_size() == long_past) past.leishman = at.polars.leishman().settled(attack, prandtl_glauert(speed), at.polars);
     store(past, memory, at.index);
-  });
+  }
 }
 
 void BladeElementMomentum::remember(const Wind& wind, const DiscMotion& rotor, double t, double h,
                                     std::span<double> memory) const {
+  const Eigen::Vector3d met = wind.at(t, rotor.hub) - rotor.hub_velocity;
   // Mean induction over the disc, of the wake as it was.
-  const double along = (wind.at(t, rotor.hub) - rotor.hub_velocity).dot(rotor.axis);
+  const double along = met.dot(rotor.axis);
   double slowed = 0.0, area = 0.0;
   for (std::size_t k = 0; k < elements_.size() * std::size_t(blades_); ++k) {
     const Element& e = elements_[k % elements_.size()];
     slowed -= e.radius * e.length * recalled(memory, k).normal.now, area += e.radius * e.length;
   }
   const double induction = along > 0.0 ? slowed / (area * along) : 0.0;
+  std::vector<Eigen::Vector3d> by_wake;
+  if (wake_) {
+    const std::span<double> filaments = memory.last(wake_->memory_size());
+    if (const double step = wake_->due(h, rotor.omega.norm(), met.norm(), filaments); step > 0.0) {
+      std::vector<Place> places;
+      for_each_place(wind, rotor, t, [&](const Place& at) { places.push_back(at); });
+      by_wake.resize(places.size());
+      wake_->advance(
+          lifting_lines(places, rotor, blades_), [&](const auto& point) { return wind.at(t - step, point); }, step,
+          [&](std::size_t i, const Eigen::Vector3d& velocity) { return circulation(places[i], velocity); }, filaments, by_wake);
+    }
+  }
   for_each_place(wind, rotor, t, [&](const Place& at) {
     Past past = recalled(memory, at.index);
-    const auto [normal, tangential] = steady(at);
-    if (unsteady_.inflow) {
+    const auto settle = [&past](const Induced& now) {
+      past.normal = {now.normal, now.normal, now.normal}, past.tangential = {now.tangential, now.tangential, now.tangential};
+    };
+    if (wake_) {
+      if (!by_wake.empty()) settle({by_wake[at.index].dot(at.normal), -by_wake[at.index].dot(at.ahead)});
+    } else if (unsteady_.inflow) {
+      const auto [normal, tangential] = steady(at);
       const auto wake = unsteady_.inflow_time ? DynamicInflowOye::of(at.ring.radius, tip_radius_, *unsteady_.inflow_time)
                                               : DynamicInflowOye::at(at.ring.radius, tip_radius_, std::abs(along), induction);
       past.normal = wake.advance(past.normal, normal, h), past.tangential = wake.advance(past.tangential, tangential, h);
     } else {
-      past.normal = {normal, normal, normal}, past.tangential = {tangential, tangential, tangential};
+      settle(steady(at));
     }
     const auto [attack, speed] = flow(at, {past.normal.now, past.tangential.now});
     const double still = at.polars.oye().separation(attack, at.polars(attack).lift);

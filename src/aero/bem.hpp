@@ -20,6 +20,7 @@
 #include "kernels/rotor/blade_element.hpp"
 #include "kernels/rotor/dynamic_inflow_oye.hpp"
 #include "kernels/rotor/dynamic_stall_beddoes_leishman.hpp"
+#include "kernels/rotor/free_vortex_wake.hpp"
 #include "src/aero/section_polars.hpp"
 #include "src/aero/tower.hpp"
 #include "src/aero/turbine.hpp"
@@ -92,7 +93,8 @@ struct UnsteadyFlow {
   std::optional<double> inflow_time{};  ///< tau_1 [s]; absent: by wind and induction
   enum class Stall { none, oye, beddoes_leishman };
   Stall stall = Stall::none;
-  double speed_of_sound = 340.0;  ///< for Beddoes & Leishman [m/s]
+  double speed_of_sound = 340.0;                  ///< for Beddoes & Leishman [m/s]
+  std::optional<FreeVortexWake::Options> wake{};  ///< of filaments, in place of the balance with momentum; not with `inflow`
 };
 
 /// Reynolds numbers of the chord at the elements whose polars depend on it.
@@ -157,7 +159,7 @@ class BladeElementMomentum {
     double skew, across;                  ///< as `skewed` has them
     SectionPolars::InUse polars;          ///< at the Reynolds number of those winds
   };
-  /// Velocities that the wake induces along the normal and against the motion, before skew [m/s].
+  /// Velocities that the wake induces along the normal and against the motion, before skew [m/s]; filaments have skew in them.
   struct Induced {
     double normal, tangential;
   };
@@ -210,6 +212,7 @@ class BladeElementMomentum {
   int blades_;
   double air_density_, kinematic_viscosity_, hub_radius_, tip_radius_;
   std::vector<Element> elements_;
+  std::optional<FreeVortexWake> wake_;
 };
 
 }  // namespace spindrift::aero

@@ -17,6 +17,12 @@ UnsteadyFlow::Stall stall_named(std::string_view name) {
   throw std::invalid_argument("bem: no model of dynamic stall is called " + std::string(name));
 }
 
+/// None where the scene names none.
+std::optional<FreeVortexWake::Options> wake_of(const AeroOptions& aero, double air_density) {
+  if (aero.dynamic_inflow != "free_vortex") return std::nullopt;
+  return FreeVortexWake::Options{aero.wake_turns, aero.wake_step, aero.wake_core_chords, aero.kinematic_viscosity(air_density)};
+}
+
 }  // namespace
 
 BladeLoads::BladeLoads(const Turbine& turbine, const AeroOptions& aero, const RotorOptions& rotor, double air_density)
@@ -24,7 +30,8 @@ BladeLoads::BladeLoads(const Turbine& turbine, const AeroOptions& aero, const Ro
                 {.inflow = aero.dynamic_inflow == "oye",
                  .inflow_time = aero.inflow_time_s,
                  .stall = stall_named(aero.dynamic_stall),
-                 .speed_of_sound = aero.speed_of_sound_m_s},
+                 .speed_of_sound = aero.speed_of_sound_m_s,
+                 .wake = wake_of(aero, air_density)},
                 aero.kinematic_viscosity(air_density)) {
   if (!rotor.blade_masses.empty()) roots_.emplace(turbine, read_blade_masses(turbine, rotor.blade_masses));
   if (!rotor.blade_structure.empty()) {

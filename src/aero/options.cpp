@@ -38,6 +38,10 @@ void check_aero(const AeroOptions& o, const scene::Report& report) {
            fmt::format("= {} must be at least {} with flow.coarse_steps, whose grid has half of it", o.grid->resolution, least));
   if (!o.resolves_air() && o.flow)
     report("flow", "has no effect: aero.model is none of \"blade_resolved\", \"actuator_disc\", \"actuator_line\"");
+  if (o.dynamic_inflow == "free_vortex" && o.dynamic_stall == "beddoes_leishman")
+    report("dynamic_stall",
+           "must be \"none\" or \"oye\" with dynamic_inflow = \"free_vortex\": the lag of attached flow in "
+           "\"beddoes_leishman\" is that of vortices which this wake has already");
   const bool series = !o.thrust_cosine_N.empty() || !o.thrust_sine_N.empty() || !o.torque_cosine_N_m.empty() ||
                       !o.torque_sine_N_m.empty() || o.torque_N_m != 0.0;
   if (!o.table.empty() && series) report("table", "takes the place of torque_N_m and of all harmonics: give the table or those");
@@ -116,7 +120,10 @@ const scene::Section<AeroOptions>& aero_section() {
           .only_if("model", {"bem"})
           .choice("dynamic_inflow", &AeroOptions::dynamic_inflow,
                   {{"none", "the wake follows the rotor at once"},
-                   {"oye", "two filters in series behind the quasi-steady induction, after Oye"}},
+                   {"oye", "two filters in series behind the quasi-steady induction, after Oye"},
+                   {"free_vortex",
+                    "vortex filaments that leave the blades and drift with the wind and their own velocities; they take the "
+                    "place of induction but in statics and modes"}},
                   "How the wake responds to a change of load or wind.")
           .only_if("model", {"bem"})
           .number("inflow_time_s", &AeroOptions::inflow_time_s, "s",
@@ -124,6 +131,21 @@ const scene::Section<AeroOptions>& aero_section() {
                   scene::positive())
           .only_if("model", {"bem"})
           .only_if("dynamic_inflow", {"oye"})
+          .number("wake_turns", &AeroOptions::wake_turns, "-",
+                  "Length of the wake of filaments, in turns of the rotor; a vortex cylinder goes on from there.",
+                  scene::between(2.0, 50.0))
+          .only_if("model", {"bem"})
+          .only_if("dynamic_inflow", {"free_vortex"})
+          .degrees("wake_step_deg", &AeroOptions::wake_step,
+                   "Turn of the rotor in a step of that wake; velocities that it induces hold until the next one.",
+                   scene::between(2.0, 30.0))
+          .only_if("model", {"bem"})
+          .only_if("dynamic_inflow", {"free_vortex"})
+          .number("wake_core_chords", &AeroOptions::wake_core_chords, "-",
+                  "Radius of the filaments' cores where they leave the blade, in chords; it grows with age.",
+                  scene::between(0.01, 2.0))
+          .only_if("model", {"bem"})
+          .only_if("dynamic_inflow", {"free_vortex"})
           .choice("dynamic_stall", &AeroOptions::dynamic_stall,
                   {{"none", "the polars at every instant"},
                    {"oye", "separation lags by the passage of four chords, after Oye"},

@@ -55,6 +55,9 @@ Overrides without(const scene::Document& document, const std::vector<std::string
   return {"without=[" + list + "]"};
 }
 
+/// Keys of a wake of filaments.
+const std::vector<std::string> of_wake{"aero.wake_turns", "aero.wake_step_deg", "aero.wake_core_chords"};
+
 Overrides operator+(Overrides a, const Overrides& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -105,11 +108,17 @@ const std::vector<Choice>& choices() {
            return {};
          return {fmt::format("waves.components={}", s.waves.components / 2)};
        }},
+      {"filters for a wake of filaments",
+       [](const Scenario& s, const scene::Document& document) -> Overrides {
+         if (s.aero.dynamic_inflow != "free_vortex") return {};
+         return without(document, of_wake) + Overrides{"aero.dynamic_inflow=oye"};
+       }},
       {"thrust curve for blades",
        [](const Scenario& s, const scene::Document& document) -> Overrides {
          if (s.aero.model != "bem" || s.rotor.operation.empty()) return {};
          std::vector<std::string> of_blades{"aero.induction",     "aero.dynamic_inflow",     "aero.inflow_time_s",
                                             "aero.dynamic_stall", "aero.speed_of_sound_m_s", "aero.kinematic_viscosity_m2_s"};
+         of_blades.insert(of_blades.end(), of_wake.begin(), of_wake.end());
          Overrides curve{"aero.model=thrust_curve", fmt::format("aero.curve=\"{}\"", s.rotor.operation)};
          for (const Scenario& one : coupling::by_rotor(s)) {
            if (one.rotor.operation != s.rotor.operation) return {};  // one curve is for all rotors

@@ -160,10 +160,16 @@ speed_rpm = 9.0
 """
 
     def test_a_run_goes_on_with_the_same_bits_and_runs_of_any_threads_have_them(self):
+        self.goes_on_with_the_same_bits(self.MORE)
+
+    def test_a_wake_of_filaments_goes_on_with_the_same_bits(self):
+        self.goes_on_with_the_same_bits(self.MORE.replace('dynamic_inflow = "oye"', 'dynamic_inflow = "free_vortex"\nwake_turns = 3.0\nwake_step_deg = 20.0'))
+
+    def goes_on_with_the_same_bits(self, more):
         text = self.SCENE.read_text().replace('model = "catenary"', 'model = "lumped_mass"\nmass_kg_m = 77.7066\ndiameter_m = 0.09')
         text = "\n".join(line for line in text.splitlines() if not line.startswith("weight_N_m"))
         scene = self.path / "scene.toml"
-        scene.write_text(text + self.MORE)
+        scene.write_text(text + more)
         whole = self.path / "whole"
         self.run_case("--until", 6.0, scene=scene, out=whole)
         with unittest.mock.patch.dict(os.environ, {"OMP_NUM_THREADS": "3"}):

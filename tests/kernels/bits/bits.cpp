@@ -10,6 +10,7 @@
 #include "kernels/gas/jacobians.hpp"
 #include "kernels/gas/muscl.hpp"
 #include "kernels/linear/block_ilu.hpp"
+#include "kernels/rotor/vortex_filament.hpp"
 #include "kernels/sph/density_diffusion_fourtakas.hpp"
 #include "kernels/sph/density_diffusion_molteni.hpp"
 #include "kernels/sph/kernel_cubic.hpp"
@@ -225,6 +226,26 @@ void sea_state() {
   d.print("waves");
 }
 
+void filaments() {
+  VortexFilaments all;
+  std::vector<Eigen::Vector3d> points, velocities(37, Eigen::Vector3d::Zero());
+  const auto anywhere = [] {
+    const double x = between(-9.0, 9.0), y = between(-9.0, 9.0), z = between(-9.0, 9.0);
+    return Eigen::Vector3d(x, y, z);
+  };
+  all.begin(anywhere());
+  for (int n = 0; n < 50; ++n) {
+    const Eigen::Vector3d to = anywhere();
+    const double circulation = between(-5.0, 5.0);
+    all.extend(to, circulation, between(0.0, 0.5));
+  }
+  for (std::size_t n = 0; n < velocities.size(); ++n) points.push_back(anywhere());
+  all.add_velocities(points, velocities);
+  Digest d;
+  d.add(velocities.front().data(), 3 * velocities.size());
+  d.print("vortex_filaments");
+}
+
 }  // namespace
 
 int main() {
@@ -238,4 +259,5 @@ int main() {
   elimination<5>("block_ilu_5"), elimination<2>("block_ilu_2"), elimination<1>("block_ilu_1");
   krylov();
   sea_state();
+  filaments();
 }
