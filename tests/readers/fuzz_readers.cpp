@@ -1,7 +1,6 @@
 // libFuzzer target over the readers of files, one chosen by --reader=NAME: any bytes are either read or refused with an error
 // that says why. --seeds=FOLDER writes a small valid file for it, where the repository has none, and ends. Built with
 // -DSPINDRIFT_FUZZ=ON (clang); run by ci/fuzz. SPDX-License-Identifier: Apache-2.0
-#include <mpi.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/mpi/environment.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
 #include "tests/readers/readers.hpp"
@@ -29,7 +29,7 @@ std::string scratch;
 }  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int* count, char*** words) {
-  MPI_Init(nullptr, nullptr);
+  static const runtime::MpiEnvironment environment(*count, *words);
   std::string seeds;
   for (int n = 1; n < *count; ++n) {
     const std::string_view word = (*words)[n];
