@@ -18,7 +18,7 @@ using Matrix = Eigen::MatrixXd;
 
 /// Iterates within a window. Rows of x must compare (the caller scales them): schemes take their Euclidean norm.
 template <class S>
-concept Scheme = requires(S scheme, const Vector& x, const Vector& r, bool converged) {
+concept Scheme = requires(S& scheme, const Vector& x, const Vector& r, bool converged) {
   { S::name } -> std::convertible_to<std::string_view>;
   scheme.begin_window();
   { scheme.next(x, r) } -> std::convertible_to<Vector>;  ///< the x to evaluate after the one just evaluated

@@ -29,7 +29,7 @@ void add_faces_of(const Boundary& b, const MultiBlockGrid& grid, Condition condi
   const int inward = at_end(b.where.side) ? -1 : 1;
   Index at{};
   at[d] = at_end(b.where.side) ? block.cells()[d] : 0;
-  const auto corners = [&](int depth) {
+  const auto corners = [&, u = u, v = v](int depth) {
     std::array<Eigen::Vector3d, 4> x;
     for (int n = 0; n < 4; ++n) {
       Index node = at;

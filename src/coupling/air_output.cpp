@@ -69,7 +69,8 @@ Writing AirOutput::copy_volume(std::int64_t number, double time_s) const {
   const int carried = solver_.tiles().empty() ? 0 : solver_.tiles()[0].turbulence;
   const gas::IdealGas& gas = solver_.setting().gas;
   const auto copy = std::make_shared<FieldCopy>();
-  auto& [kept, values] = *copy;
+  auto& kept = copy->arrays;
+  auto& values = copy->values;
   kept.reserve(solver_.tiles().size() * std::size_t(4 + carried));
   for (const aero::FlowTile& t : solver_.tiles()) {
     const auto component = [&](int c, double offset) -> std::vector<double>& {

@@ -247,7 +247,7 @@ void doubt_damping(scene::Doubts& doubts, const Scenario& s) {
       const double natural = std::sqrt(size / std::max(1.0, std::abs(s.environment.gravity_m_s2)));
       const double force = s.sea.damping[n].force_N_s_m.maxCoeff();
       const Eigen::Vector3d moments = s.sea.damping[n].moment_N_m_s;
-      const auto tell = [&](const char* key, double decays) {
+      const auto tell = [&, &name = name](const char* key, double decays) {
         if (decays < least * natural)
           doubts.push_back({fmt::format("sea.damping[{}].{}", n, key), fmt::format("stops body {} within {:.2g} s", name, decays),
                             fmt::format("{:.2g} s or more, {:g} of sqrt(size / g)", least * natural, least),

@@ -257,7 +257,7 @@ std::complex<double> WamitQuadratic::at(int mode, double first, double second, d
   const auto [d, ds] = place(heading, heading_near(heading, direction));
   const std::size_t n = omega.size(), headings = heading.size(), a1 = std::min(a + 1, n - 1), b1 = std::min(b + 1, n - 1),
                     d1 = std::min(d + 1, headings - 1);
-  const auto of = [&](std::size_t i, std::size_t j) {
+  const auto of = [&, d = d, ds = ds](std::size_t i, std::size_t j) {
     const auto& all = transfer[std::size_t(mode)];
     return (1.0 - ds) * all[(i * n + j) * headings + d] + ds * all[(i * n + j) * headings + d1];
   };

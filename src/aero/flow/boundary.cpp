@@ -155,7 +155,7 @@ void set_open_faces(FlowTile& tile) {
     const auto [a, b] = along(side);
     const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk};
     const std::ptrdiff_t row = open_row(tile.box, d);
-    const auto mark = [&](AlignedArray<double>& flags, double elsewhere) {
+    const auto mark = [&, b = b](AlignedArray<double>& flags, double elsewhere) {
       if (flags.size() == 0) {
         flags = AlignedArray<double>(std::size_t(row * extent[b] + row_lanes));
         for (double& flag : flags.span()) flag = elsewhere;

@@ -71,7 +71,7 @@ WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string
     const auto [u, v] = along(b.where.side);
     Index at{};
     at[d] = at_end(b.where.side) ? block.cells()[d] : 0;
-    const auto corner = [&](int du, int dv) {
+    const auto corner = [&, u = u, v = v](int du, int dv) {
       Index n = at;
       n[u] += du, n[v] += dv;
       return block.nodes[block.node(n[2], n[1], n[0])];
