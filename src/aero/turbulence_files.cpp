@@ -93,12 +93,13 @@ BtsFile read_bts(const std::string& path) {
   std::vector<char> text(length);
   in.fill(text, "the description");
   f.description.assign(text.begin(), text.end());
-  const std::size_t planes = std::size_t(f.up) * std::size_t(f.across) * 3, towers = std::size_t(f.tower) * 3;
-  const std::size_t wanted = 2 * (planes + towers) * std::size_t(f.steps);
-  if (in.left() != wanted)
+  const std::size_t points = std::size_t(f.up) * std::size_t(f.across) + std::size_t(f.tower), step_bytes = 6 * points;
+  // The product of all counts may be larger than any number of bytes.
+  if (in.left() % step_bytes != 0 || in.left() / step_bytes != std::size_t(f.steps))
     refuse(path, in.at(),
-           fmt::format("{} bytes of wind follow, {} points and {} steps make {}", in.left(), f.up * f.across + f.tower, f.steps,
-                       wanted));
+           fmt::format("{} bytes of wind follow, {} points and {} steps make {:.10g}", in.left(), points, f.steps,
+                       double(step_bytes) * double(f.steps)));
+  const std::size_t planes = std::size_t(f.up) * std::size_t(f.across) * 3, towers = std::size_t(f.tower) * 3;
   f.grid.resize(planes * std::size_t(f.steps)), f.towers.resize(towers * std::size_t(f.steps));
   std::vector<std::int16_t> step(planes + towers);
   for (std::size_t s = 0; s < std::size_t(f.steps); ++s) {
@@ -174,11 +175,11 @@ TurbulenceBox read_mann(const std::array<std::string, 3>& paths, const MannGrid&
                     false,
                     {}};
   const auto nx = std::size_t(grid.points[0]), ny = std::size_t(grid.points[1]), nz = std::size_t(grid.points[2]);
-  box.values.resize(3 * nx * ny * nz);
   for (std::size_t c = 0; c < 3; ++c) {
     Bytes in(paths[c]);
     if (in.left() != 4 * nx * ny * nz)
       refuse(paths[c], 0, fmt::format("has {} bytes; {} x {} x {} floats make {}", in.left(), nx, ny, nz, 4 * nx * ny * nz));
+    box.values.resize(3 * nx * ny * nz);
     std::vector<float> field(nx * ny * nz);
     in.fill(field, "the wind");
     for (std::size_t x = 0; x < nx; ++x)

@@ -103,6 +103,9 @@ TEST_CASE("a malformed .bts is refused by its byte", "[aero][fast]") {
     std::string bad = good;
     return bad.replace(at, bytes.size(), bytes);
   };
+  // Ten million points each way in ten million steps: more bytes than 64 bits can count.
+  const std::string ten_million("\x80\x96\x98\0", 4), none(4, '\0');
+  CHECK(message(with(2, ten_million + ten_million + none + ten_million)).find("make 6e+21") != std::string::npos);
   CHECK(message(with(0, {"\x04\x00", 2})).find("begins with 4") != std::string::npos);
   CHECK(message(with(2, {"\xff\xff\xff\xff", 4})).find("byte 2") != std::string::npos);
   CHECK(message(with(6, {"\x00\x00\x00\x00", 4})).find("byte 6") != std::string::npos);
