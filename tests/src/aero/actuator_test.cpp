@@ -3,6 +3,7 @@
 #include "src/aero/actuator.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 
 #include "src/aero/flow_options.hpp"
@@ -248,9 +249,9 @@ double head_loss(const FlowSolver& solver, double x, double inner, double outer)
 }  // namespace
 
 namespace {
-/// Calls visit(flow, area, radius) for the cells of the layer that has x in it.
+/// Calls visit(flow, area, radius) for the cells of the layer that has x in it, and gives the x of their centres.
 template <class Visit>
-void each_in_plane(const FlowSolver& solver, const Wind8& o, double x, const Visit& visit) {
+double each_in_plane(const FlowSolver& solver, const Wind8& o, double x, const Visit& visit) {
   const std::vector<double> nodes = axial_nodes(o);
   const auto above = std::ranges::upper_bound(nodes, x);
   const double low = *(above - 1), high = *above;
@@ -266,6 +267,7 @@ void each_in_plane(const FlowSolver& solver, const Wind8& o, double x, const Vis
       }
     });
   }
+  return 0.5 * (low + high);
 }
 
 /// What the air that passes the plane has lost in momentum and pressure against the stream [N].
@@ -382,6 +384,45 @@ TEST_CASE(
   CAPTURE(a, in_disc, behind);
   CHECK(in_disc == Approx(a).epsilon(0.04));
   CHECK(behind == Approx(2.0 * a).epsilon(0.04));
+}
+
+/// What a lightly loaded disc of radius 1 takes from the axial velocity at (x, r), over what it takes in its own plane: the
+/// field of a right cylinder of vortex rings that begins at the disc. Branlard & Gaunaa, Wind Energy 18 (2015) 1973, eq. 6.
+double slowing_of_vortex_cylinder(double x, double r) {
+  const double k = std::sqrt(4.0 * r / ((1.0 + r) * (1.0 + r) + x * x)), at_disc = 4.0 * r / ((1.0 + r) * (1.0 + r));
+  return (r < 1.0 ? 1.0 : 0.0) + x * k / (2.0 * pi * std::sqrt(r)) *
+                                     (std::comp_ellint_1(k) + (1.0 - r) / (1.0 + r) * std::comp_ellint_3(k, at_disc));
+}
+
+TEST_CASE("a lightly loaded disc slows the air before, in, behind and beside its wake as a cylinder of vortex rings does",
+          "[rotor][nightly]") {
+  CHECK(slowing_of_vortex_cylinder(2.0, 1e-6) == Approx(1.0 + 2.0 / std::sqrt(5.0)));  // on the axis
+  const Wind8 o{.speed = 8.0,
+                .cells = 8.0,
+                .upstream = 12.0,
+                .downstream = 12.0,
+                .side = 12.0,
+                .core_upstream = 2.0,
+                .core_downstream = 4.0,
+                .core = 2.0};
+  const auto c = box(o, steady_march(1e-4, 100));
+  const double R = tip_radius(), U = o.speed, loading = 0.05, a = 0.5 * (1.0 - std::sqrt(1.0 - loading));
+  c->solver->set_body_force(std::make_shared<UniformDisc>(loading * 0.5 * 1.225 * U * U, R, 1.5 * R / o.cells));
+  c->prepare(MPI_COMM_SELF, {});
+  c->run();
+  REQUIRE(c->solver->march().verdict == Verdict::converged);
+  for (const double x : {-1.5, -1.0, -0.5, 0.5, 1.0, 2.0, 3.5}) {
+    double worst_inside = 0.0, worst_outside = 0.0;
+    const double at = each_in_plane(*c->solver, o, x * R, [](const auto&...) {}) / R;
+    each_in_plane(*c->solver, o, x * R, [&](const gas::Primitive<double>& is, double /*area*/, double radius) {
+      const double r = radius / R, error = std::abs((1.0 - is.u / U) / a - slowing_of_vortex_cylinder(at, r));
+      if (r < 0.7) worst_inside = std::max(worst_inside, error);
+      if (r > 1.3 && r < 2.0) worst_outside = std::max(worst_outside, error);
+    });
+    CAPTURE(x, worst_inside, worst_outside);
+    CHECK(worst_inside < 0.03);
+    CHECK(worst_outside < 0.03);
+  }
 }
 
 TEST_CASE("a disc at thirty cells to the radius has the thrust of blade elements, and of ten", "[rotor][long]") {
