@@ -16,7 +16,7 @@ namespace {
 
 ResolvedRotorSetup demo(double wind, double rpm, double pitch_deg) {
   ResolvedRotorSetup s;
-  s.grid.resolution = 1.0, s.grid.sectors = "one", s.grid.cells_layers = 10, s.grid.cells_upstream = 8;
+  s.grid.resolution = 1.0, s.grid.sectors = "one";
   s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
   s.rotor.hub_m = {0.0, 0.0, 119.0}, s.rotor.speed = rpm * pi / 30.0, s.rotor.blade_pitch = pitch_deg * pi / 180.0;
   s.wind = {wind, 0.0, 0.0};
