@@ -390,8 +390,8 @@ TEST_CASE(
 /// field of a right cylinder of vortex rings that begins at the disc. Branlard & Gaunaa, Wind Energy 18 (2015) 1973, eq. 6.
 double slowing_of_vortex_cylinder(double x, double r) {
   const double k = std::sqrt(4.0 * r / ((1.0 + r) * (1.0 + r) + x * x)), at_disc = 4.0 * r / ((1.0 + r) * (1.0 + r));
-  return (r < 1.0 ? 1.0 : 0.0) + x * k / (2.0 * pi * std::sqrt(r)) *
-                                     (std::comp_ellint_1(k) + (1.0 - r) / (1.0 + r) * std::comp_ellint_3(k, at_disc));
+  return (r < 1.0 ? 1.0 : 0.0) +
+         x * k / (2.0 * pi * std::sqrt(r)) * (std::comp_ellint_1(k) + (1.0 - r) / (1.0 + r) * std::comp_ellint_3(k, at_disc));
 }
 
 TEST_CASE("a lightly loaded disc slows the air before, in, behind and beside its wake as a cylinder of vortex rings does",
