@@ -393,8 +393,8 @@ bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& gri
   std::vector<std::string> missing;
   fmt::print("\nPatches of the grid\n");
   for (const auto& [patch, count] : faces) {
-    const bool given =
-        std::any_of(o.boundaries.begin(), o.boundaries.end(), [&patch = patch](const aero::PatchOptions& b) { return b.patch == patch; });
+    const bool given = std::any_of(o.boundaries.begin(), o.boundaries.end(),
+                                   [&patch = patch](const aero::PatchOptions& b) { return b.patch == patch; });
     fmt::print("  {:<22}{} faces{}\n", patch, count, given ? "" : ", no condition yet");
     if (!given) missing.push_back(patch);
   }
