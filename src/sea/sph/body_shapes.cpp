@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "kernels/rigid/closed_surface.hpp"
 #include "src/sea/sph/mesh_fill.hpp"
@@ -88,13 +90,43 @@ Points fill_shape(const BodyShape& shape, double spacing, Cut cut) {
   return points;
 }
 
+namespace {
+
+/// Of a shape's particles as many as the room outside `earlier` has, in cells that those hold in part where they reach into it:
+/// the farthest out, of equally far ones those nearest the surface of the whole body, which stays closed.
+Points outside(Points points, std::span<const BodyShape> earlier, std::span<const BodyShape> all, double spacing, Cut cut) {
+  constexpr double reach = 0.9;  // of a spacing: cells of shapes that touch are a few per cent smaller and are whole
+  struct Place {
+    long out;        ///< of the earlier shapes, in millionths of a spacing
+    double surface;  ///< signed distance from the whole body's
+    std::size_t n;
+  };
+  std::vector<Place> places;
+  double room = 0.0;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const double out = signed_distance(earlier, points[n], cut) / spacing, part = std::clamp(0.5 + out / reach, 0.0, 1.0);
+    room += part;
+    if (part > 0.0) places.push_back({std::lround(1e6 * std::min(out, 1.0)), signed_distance(all, points[n], cut), n});
+  }
+  std::ranges::sort(places, [](const Place& a, const Place& b) {
+    return a.out != b.out ? a.out > b.out : a.surface != b.surface ? a.surface > b.surface : a.n < b.n;
+  });
+  places.resize(std::min(places.size(), std::size_t(std::lround(room))));
+  std::ranges::sort(places, {}, &Place::n);
+  Points kept;
+  for (const Place& place : places) kept.push_back(points[place.n]);
+  return kept;
+}
+
+}  // namespace
+
 Points fill_body(std::span<const BodyShape> shapes, double spacing, Cut cut) {
   Points all;
-  for (std::size_t n = 0; n < shapes.size(); ++n)
-    for (const Eigen::Vector3d& p : fill_shape(shapes[n], spacing, cut))
-      if (std::none_of(shapes.begin(), shapes.begin() + std::ptrdiff_t(n),
-                       [&](const BodyShape& earlier) { return signed_distance(earlier, p, cut) < 0.0; }))
-        all.push_back(p);
+  for (std::size_t n = 0; n < shapes.size(); ++n) {
+    Points points = fill_shape(shapes[n], spacing, cut);
+    if (n > 0) points = outside(std::move(points), shapes.first(n), shapes, spacing, cut);
+    all.insert(all.end(), points.begin(), points.end());
+  }
   return all;
 }
 

@@ -109,6 +109,25 @@ TEST_CASE("a union of shapes displaces its volume, and water leaves it room", "[
   CHECK(double(60 * 40 * 30) - double(t.water) == Approx(wet / cell).epsilon(0.01));  // all of it is under water
 }
 
+TEST_CASE("shapes that overlap have the particles of their union wherever the boundary cuts their layers", "[sea][sph][fast]") {
+  const double d = GENERATE(0.08, 0.1, 0.11, 0.125, 0.14, 0.2);
+  CAPTURE(d);
+  // A column through a pontoon.
+  const std::vector<BodyShape> pontoon{Box{.centre = {0, 0, -0.7}, .size = {2.4, 2.0, 0.8}},
+                                       Box{.centre = {0, 0, -0.3}, .size = {1.6, 1.6, 1.6}}};
+  const Points both = fill_body(pontoon, d, Cut::space);
+  const double column = double(fill_shape(pontoon[1], d, Cut::space).size()),
+               base = double(fill_shape(pontoon[0], d, Cut::space).size());
+  // Of the column's 1.6 m half is in the pontoon.
+  CHECK(double(both.size()) == Approx(base + 0.5 * column).margin(1.0));
+  for (std::size_t n = 0; n < both.size(); ++n) CHECK(signed_distance(pontoon, both[n], Cut::space) < 0.0);
+  // Flush shapes lose nothing.
+  const std::vector<BodyShape> flush{Box{.centre = {0, 0, -0.7}, .size = {2.4, 2.0, 0.8}},
+                                     Box{.centre = {0, 0, 0.1}, .size = {1.6, 1.6, 0.8}}};
+  const auto alone = [&](std::size_t n) { return fill_shape(flush[n], d, Cut::space).size(); };
+  CHECK(fill_body(flush, d, Cut::space).size() == alone(0) + alone(1));
+}
+
 TEST_CASE("water is fitted to a body: as much is missing as it displaces, and what is left stands evenly beside it",
           "[sea][sph][fast]") {
   const double d = 0.1, radius = 0.5, offset = GENERATE(0.0, 0.03, 0.05);
