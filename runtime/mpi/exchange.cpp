@@ -2,12 +2,16 @@
 #include "runtime/mpi/exchange.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "runtime/mpi/gather.hpp"
 
 namespace spindrift::runtime {
 namespace {
 
 constexpr int tag = 1;
-constexpr std::size_t largest_message = std::size_t(1) << 30;  // MPI counts are int
+constexpr std::size_t largest_message = std::size_t(1) << 30;   // MPI counts are int
+constexpr std::size_t largest_gathered = std::size_t(1) << 28;  // of all ranks: in memory twice for a moment
 
 }  // namespace
 
@@ -58,8 +62,34 @@ std::vector<Bytes> exchange(MPI_Comm comm, const std::vector<Bytes>& to) {
   return from;
 }
 
-std::vector<Bytes> exchange_all(MPI_Comm comm, const Bytes& mine) {
-  return runtime::exchange(comm, std::vector<Bytes>(std::size_t(ranks_in(comm)), mine));
+std::vector<Bytes> gather_from_all(MPI_Comm comm, const Bytes& mine, std::size_t at_once) {
+  const auto ranks = std::size_t(ranks_in(comm));
+  if (ranks == 1) return {mine};
+  const unsigned long long own = mine.size();
+  std::vector<unsigned long long> sizes(ranks);
+  MPI_Allgather(&own, 1, MPI_UNSIGNED_LONG_LONG, sizes.data(), 1, MPI_UNSIGNED_LONG_LONG, comm);
+  std::vector<Bytes> from(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) from[r].reserve(sizes[r]);
+  const std::size_t most = std::max<std::size_t>(1, at_once / ranks), longest = *std::max_element(sizes.begin(), sizes.end());
+  std::vector<int> counts(ranks), starts(ranks);
+  Bytes gathered;
+  for (std::size_t done = 0; done < longest; done += most) {
+    int total = 0;
+    for (std::size_t r = 0; r < ranks; ++r) {
+      counts[r] = int(sizes[r] > done ? std::min<std::size_t>(most, sizes[r] - done) : 0);
+      starts[r] = std::exchange(total, total + counts[r]);
+    }
+    gathered.resize(std::size_t(total));
+    MPI_Allgatherv(done < own ? mine.data() + done : nullptr, counts[std::size_t(rank_in(comm))], MPI_BYTE, gathered.data(),
+                   counts.data(), starts.data(), MPI_BYTE, comm);
+    for (std::size_t r = 0; r < ranks; ++r) {
+      const auto first = gathered.begin() + starts[r];
+      from[r].insert(from[r].end(), first, first + counts[r]);
+    }
+  }
+  return from;
 }
+
+std::vector<Bytes> exchange_all(MPI_Comm comm, const Bytes& mine) { return gather_from_all(comm, mine, largest_gathered); }
 
 }  // namespace spindrift::runtime
