@@ -45,6 +45,24 @@ MultiBlockGrid carried(MultiBlockGrid grid, const RigidMap& map) {
   return grid;
 }
 
+/// Number of the nodes and moments of their places: equal for equal grids, and hardly ever for others.
+std::array<double, 3> moments_of(const MultiBlockGrid& grid) {
+  double nodes = 0.0, first = 0.0, second = 0.0;
+  for (const Block& b : grid.blocks)
+    for (const Eigen::Vector3d& x : b.nodes) nodes += 1.0, first += x.x() + 2.0 * x.y() + 3.0 * x.z(), second += x.squaredNorm();
+  return {nodes, first, second};
+}
+
+std::shared_ptr<const MadeRotorGrid> without_nodes(const MadeRotorGrid& made) {
+  auto rest = std::make_shared<MadeRotorGrid>();
+  rest->turbine = made.turbine, rest->spec = made.spec, rest->stations = made.stations, rest->moments = made.moments;
+  const MultiBlockGrid& grid = made.grid;
+  for (const Block& b : grid.blocks)
+    rest->grid.blocks.push_back({.name = b.name, .ni = b.ni, .nj = b.nj, .nk = b.nk, .nodes = {}});
+  rest->grid.connections = grid.connections, rest->grid.boundaries = grid.boundaries, rest->grid.planar = grid.planar;
+  return rest;
+}
+
 }  // namespace
 
 RotorPose hub_pose(const RotorOptions& rotor) {
@@ -78,6 +96,7 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
                   {.scaled_jacobian = setup.grid.least_scaled_jacobian, .non_orthogonality = setup.grid.most_off_orthogonal_deg});
   require_sound(made->grid, "aero.grid");
   made->stations = blade_stations(made->grid);
+  made->moments = moments_of(made->grid);
   return made;
 } catch (const NumericalFailure& failure) {
   throw scene::SceneError({{setup.rotor.turbine, 0, "aero.grid", "", failure.what()}});
@@ -88,13 +107,11 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
     : setup_(setup), made_(made ? std::move(made) : made_rotor_grid(setup, told)), start_(hub_pose(setup.rotor)) {
   const RotorOptions& rotor = setup.rotor;
   const MultiBlockGrid& grid = made_->grid;
-  const Turbine& turbine = made_->turbine;
-  pitching_ = std::make_unique<BladePitching>(grid, turbine, made_->spec);
 
   // Seen from the rotor a steady flow stands still: nodes rest in the earth where the rotor is at the start, and only their frame
   // turns.
   now_ = before_ = {start_};
-  const MultiBlockGrid placed = steady() ? carried(grid, map_of(start_)) : MultiBlockGrid();
+  MultiBlockGrid placed = steady() ? carried(grid, map_of(start_)) : MultiBlockGrid();
   const MultiBlockGrid& solved_on = steady() ? placed : grid;
   const std::vector<std::string> blades = blade_patches(grid);
   if (told) told("tiles", 0.0);
@@ -112,7 +129,19 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   fill_wall_distance(*store_, wall_surface(solved_on, sticking),
                      told ? [&](double share) { told("wall distances", share); } : std::function<void(double)>());
 
+  std::vector<char> rows(std::size_t(grid.blocks[0].nk) + 1, 0);  // of rings, by k: those of own tiles
+  for (const int t : store_->owned()) {
+    const Box box = block_box(store_->tiling(), t);
+    if (store_->tiling().tiles[std::size_t(t)].block % BladePitching::blocks_of_sector == 0)
+      std::fill(rows.begin() + box.low[2], rows.begin() + box.high[2] + 1, 1);
+  }
+  pitching_ =
+      std::make_unique<BladePitching>(grid, made_->turbine, made_->spec, [&](int k) { return rows[std::size_t(k)] != 0; });
+  placed = {};
+  made_ = without_nodes(*made_);
+
   FlowSetting setting = flow_setting(flow, setup.air_density, setup.wind, setup.dt, setup.profile);
+  const Turbine& turbine = made_->turbine;
   const double tip = turbine.planform.span.back() * std::cos(turbine.precone);
   setting.speed = std::hypot(setup.wind.norm(), rotor.speed * tip);
   if (steady()) {
@@ -140,8 +169,8 @@ std::vector<BlockPose> ResolvedRotor::block_poses(const RotorPlace& place) const
   for (int b = 0; b < int(poses.size()); ++b)
     if (pitching_->moves(b))
       poses[std::size_t(b)].shape_at = [this, b, pitch = place.pitches.at(std::size_t(b / BladePitching::blocks_of_sector))](
-                                           const Index& n, const Eigen::Vector3d&) {
-        return pitching_->node(b, n[2], n[1], n[0], pitch);
+                                           const Index& n, const Eigen::Vector3d& as_made) {
+        return pitching_->node(b, n[2], n[1], n[0], pitch, as_made);
       };
   return poses;
 }

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -42,6 +43,7 @@ struct MadeRotorGrid {
   RotorGridSpec spec;
   MultiBlockGrid grid;
   std::vector<std::vector<BladeStation>> stations;  ///< by blade
+  std::array<double, 3> moments{};                  ///< of the nodes: their number and two sums, which tell grids apart
 
   int blades() const { return int(stations.size()); }                       ///< that it has, one where it is of one sector
   int span_cells() const { return spec.sizes.span >> spec.coarsen; }        ///< from hub to tip
@@ -49,7 +51,8 @@ struct MadeRotorGrid {
 };
 /// Patches of its blades.
 std::vector<std::string> blade_patches(const MultiBlockGrid& grid);
-/// Throws scene::SceneError where the scene does not make a grid fit for use.
+/// Throws scene::SceneError where the scene does not make a grid fit for use. A ResolvedRotor keeps it without its nodes, which
+/// would be the largest array of a rank: its own tiles have theirs.
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told = {});
 
 /// Where a rotor is.
@@ -74,7 +77,7 @@ class ResolvedRotor {
   FlowSolver& solver() { return *solver_; }
   const FlowSolver& solver() const { return *solver_; }
   GridStore& store() { return *store_; }
-  const MadeRotorGrid& made() const { return *made_; }
+  const MadeRotorGrid& made() const { return *made_; }  ///< without nodes
   bool steady() const { return setup_.dt == 0.0; }
 
   /// The rotor turning at the scene's speed with its hub at rest, after so many physical steps.

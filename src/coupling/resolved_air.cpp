@@ -138,9 +138,9 @@ class ResolvedAir final : public MarchingAir {
   /// The rotor in the wind as it comes, placed for the first step.
   void make() override {
     setup_.flow.preconditioner = preconditioner_;
-    rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank, 0, grid(), grid_progress());
+    (void)grid();
+    rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank, 0, std::move(grid_), grid_progress());
     solver_ = &rotor_->solver();
-    grid_.reset();
     solver_->start_uniform();
     place_at(state_, setup_.dt);
     runtime::Graph geometry(world_.comm);
@@ -240,7 +240,7 @@ class ResolvedAir final : public MarchingAir {
   const GridFrame frame_;
   aero::ResolvedRotorSetup setup_;
   const aero::ResolvedRotorSize size_;
-  std::shared_ptr<const aero::MadeRotorGrid> grid_;  ///< until rotor_ has it
+  std::shared_ptr<const aero::MadeRotorGrid> grid_;  ///< until rotor_ is made of it
   std::unique_ptr<aero::ResolvedRotor> rotor_;       ///< made by begin() or restore()
   double restored_dt_ = 0.0;                         ///< step of the run that left the restored state
   std::array<std::optional<Saved>, 2> snapshots_;

@@ -55,12 +55,9 @@ std::string missing(const std::string& a, const std::string& b) {
   return "";
 }
 
-/// Equal for equal grids, and hardly ever for others: number of nodes and moments of their places.
-std::vector<double> measure(const aero::MultiBlockGrid& grid) {
-  double nodes = 0.0, first = 0.0, second = 0.0;
-  for (const aero::Block& b : grid.blocks)
-    for (const Eigen::Vector3d& x : b.nodes) nodes += 1.0, first += x.x() + 2.0 * x.y() + 3.0 * x.z(), second += x.squaredNorm();
-  return {nodes, first, second};
+std::vector<double> moments_of(const aero::ResolvedRotor& rotor) {
+  const auto& moments = rotor.made().moments;
+  return {moments.begin(), moments.end()};
 }
 
 constexpr std::size_t load_numbers = 9;
@@ -115,7 +112,7 @@ std::vector<SavedArray> rotor_arrays(const aero::ResolvedRotor& rotor, const Com
   std::vector<double> pose(attitude.data(), attitude.data() + 9);
   pose.push_back(rotor.pose().speed);
   std::vector<SavedArray> arrays{computed_loads_array(computed, rank)};
-  for (auto& [name, values] : {std::pair{pose_name, pose}, std::pair{grid_name, measure(rotor.made().grid)}}) {
+  for (auto& [name, values] : {std::pair{pose_name, pose}, std::pair{grid_name, moments_of(rotor)}}) {
     arrays.push_back({name, std::int64_t(values.size()), {}});
     if (rank == 0) arrays.back().pieces.push_back({0, values});
   }
@@ -185,7 +182,7 @@ ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scena
   if (const std::string there = missing(theirs, ours), here = missing(ours, theirs); !there.empty() || !here.empty())
     refuse(fmt::format("its air was made with {}, this scene has {}", there.empty() ? "the default" : there,
                        here.empty() ? "the default" : here));
-  const std::vector<double> grid = file.read<double>(grid_name), mine = measure(rotor.made().grid);
+  const std::vector<double> grid = file.read<double>(grid_name), mine = moments_of(rotor);
   for (std::size_t n = 0; n < mine.size(); ++n)
     if (!(std::abs(grid[n] - mine[n]) <= 1e-9 * std::abs(mine[2])) || grid[0] != mine[0])
       refuse(

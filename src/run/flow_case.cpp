@@ -72,6 +72,16 @@ std::optional<HeldTurbulence> hold_turbulence(aero::FlowSetting& s, double lengt
   return HeldTurbulence{k, k / (*s.wind_eddy_viscosity * nu)};
 }
 
+/// Grids of half the cells along each direction, the coarsest last.
+std::vector<aero::MultiBlockGrid> coarser_than(const aero::MultiBlockGrid& grid, const aero::FlowOptions& o) {
+  std::vector<aero::MultiBlockGrid> grids;
+  if (o.time != "steady" || o.coarse_steps.value_or(aero::usual_coarse_steps) == 0) return grids;
+  for (const aero::MultiBlockGrid* last = &grid; int(grids.size()) < o.coarse_levels && aero::why_not_halved(*last).empty();
+       last = &grids.back())
+    grids.push_back(aero::halved(*last));
+  return grids;
+}
+
 /// Puts back what k and omega of the stream lose.
 void hold(aero::FlowSolver& solver, const HeldTurbulence& stream) {
   using Model = turbulence::KOmega1988;
@@ -107,6 +117,7 @@ FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world, int
   aero::Tiling tiling = aero::flow_tiling(o, own_grid_);
   aero::require_ranks(std::size_t(tiling.size()), world.size);
   if (o.motion) follow_walls(o);
+  coarser_grids_ = coarser_than(own_grid_, o);
   solve(std::move(tiling), s, world, chunk);
 }
 
@@ -130,6 +141,8 @@ void FlowCase::solve(aero::Tiling tiling, const coupling::Scenario& s, const run
   if (setting.time_order == 0) setting.march.max_steps = steps;
   const Eigen::Vector3d wind(setting.stream.u, setting.stream.v, setting.stream.w);
   const auto held = s.has_actuator() ? std::nullopt : hold_turbulence(setting, length_of_walls(own_grid_, o, wind.normalized()));
+  if (s.has_actuator()) aero::require_rotor_inside(own_grid_, s.rotor, "rotor.hub_m");
+  if (!motion_) own_grid_ = {};
   own_solver_ = std::make_unique<aero::FlowSolver>(*store_, setting, std::move(conditions));
   solver_ = own_solver_.get();
   if (held) hold(*solver_, *held);
@@ -141,7 +154,6 @@ void FlowCase::solve(aero::Tiling tiling, const coupling::Scenario& s, const run
 
 /// The rotor's blades as forces in the air.
 void FlowCase::make_actuator(const coupling::Scenario& s, const runtime::World& world) {
-  aero::require_rotor_inside(own_grid_, s.rotor, "rotor.hub_m");
   const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine);
   const aero::RotorPose pose = aero::hub_pose(s.rotor);
   const Eigen::Matrix3d frame = pose.hub.attitude.toRotationMatrix();
@@ -223,10 +235,7 @@ void FlowCase::return_to(const aero::FlowSnapshot& to, std::int64_t window, doub
 
 void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Executor& march, const runtime::World& world) {
   const aero::FlowOptions& o = *s.aero.flow;
-  std::vector<aero::MultiBlockGrid> grids;
-  for (const aero::MultiBlockGrid* last = &own_grid_; int(grids.size()) < o.coarse_levels && aero::why_not_halved(*last).empty();
-       last = &grids.back())
-    grids.push_back(aero::halved(*last));
+  std::vector<aero::MultiBlockGrid> grids = std::move(coarser_grids_);
   if (grids.empty()) return;
   evaluate_start(*solver_, march);
   std::unique_ptr<FlowCase> coarser;
@@ -270,6 +279,7 @@ void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Exec
 
 void FlowCase::take(Start start) {
   start_ = start;
+  coarser_grids_.clear();
   if (start == Start::physical_pseudo_time) solver_->use_physical_pseudo_time();
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/executor/executor.hpp"
 #include "runtime/mpi/environment.hpp"
@@ -34,7 +35,7 @@ class FlowCase {
   const aero::ResolvedRotor* rotor() const { return rotor_.get(); }
   const aero::Actuator* actuator() const { return actuator_.get(); }
   const aero::GridMotion* motion() const { return motion_ ? &*motion_ : nullptr; }
-  std::size_t blocks() const { return (rotor_ ? rotor_->made().grid : own_grid_).blocks.size(); }
+  std::size_t blocks() const { return store_->tiling().block_cells.size(); }
   bool steady() const { return solver_->setting().time_order == 0; }
 
   /// Metrics of all tiles; before any march.
@@ -72,8 +73,9 @@ class FlowCase {
   void follow_walls(const aero::FlowOptions& options);
 
   aero::ChangingWind wind_;
-  std::unique_ptr<aero::ResolvedRotor> rotor_;  ///< has grid, store and solver itself
-  aero::MultiBlockGrid own_grid_;
+  std::unique_ptr<aero::ResolvedRotor> rotor_;       ///< has grid, store and solver itself
+  aero::MultiBlockGrid own_grid_;                    ///< of all ranks; gone when tiles are made of it, unless walls move
+  std::vector<aero::MultiBlockGrid> coarser_grids_;  ///< until the march begins
   std::unique_ptr<aero::GridStore> own_store_;
   std::unique_ptr<aero::FlowSolver> own_solver_;
   std::optional<aero::GridMotion> motion_;  ///< of an unsteady flow

@@ -82,8 +82,7 @@ std::int64_t FlowSimulation::begin(const io::RunDirectory&) {
                  1e-3 * load.thrust, 1e-6 * load.power);
   }
   record();
-  if (steady && !air_.rotor() && options.coarse_steps.value_or(aero::usual_coarse_steps) > 0)
-    air_.start_on_coarser_grids(scenario_, *march_, world_);
+  if (steady && !air_.rotor()) air_.start_on_coarser_grids(scenario_, *march_, world_);
   return 0;
 }
 

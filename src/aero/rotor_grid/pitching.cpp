@@ -29,33 +29,36 @@ constexpr double slide_chords = 1.0;  // height above the hub cylinder over whic
 
 }  // namespace
 
-BladePitching::BladePitching(const MultiBlockGrid& grid, const Turbine& turbine, const RotorGridSpec& spec)
-    : grid_(grid),
-      blades_(turbine.blades),
+BladePitching::BladePitching(const MultiBlockGrid& grid, const Turbine& turbine, const RotorGridSpec& spec,
+                             const std::function<bool(int k)>& needed)
+    : blades_(turbine.blades),
       precone_(turbine.precone),
       hub_radius_(spec.hub_radius_m),
       root_chord_(turbine.planform.chord.front()),
-      span_(spec.sizes.span >> spec.coarsen) {
+      span_(spec.sizes.span >> spec.coarsen),
+      ring_row_(grid.blocks[0].ni + 1) {
   const Block& ring = grid.blocks[0];
   const double tip = radius(ring.nodes[ring.node(span_, 0, 0)]);
   for (int k = 0; k <= ring.nk; ++k)
     outboard_.push_back(1.0 - smooth_step((radius(ring.nodes[ring.node(k, 0, 0)]) - tip) / (fade_radii * tip)));
-  ring_share_.resize(ring.nodes.size());
+  ring_share_.resize(outboard_.size());
   std::vector<double> length(std::size_t(ring.ni) + 1);
-  for (int k = 0; k <= ring.nk; ++k)
+  for (int k = 0; k <= ring.nk; ++k) {
+    if (needed && !needed(k)) continue;
     for (int j = 0; j <= ring.nj; ++j) {
       for (int i = 1; i <= ring.ni; ++i)
         length[std::size_t(i)] =
             length[std::size_t(i) - 1] + (ring.nodes[ring.node(k, j, i)] - ring.nodes[ring.node(k, j, i - 1)]).norm();
       for (int i = 0; i <= ring.ni; ++i) {
         const double way = length[std::size_t(i)] / length.back();
-        ring_share_[ring.node(k, j, i)] = i == ring.ni ? 0.0 : fade(way) * outboard_[std::size_t(k)];
+        ring_share_[std::size_t(k)].push_back(i == ring.ni ? 0.0 : fade(way) * outboard_[std::size_t(k)]);
       }
     }
+  }
 }
 
 double BladePitching::share(int block, int k, int j, int i) const {
-  if (block % blocks_of_sector == 0) return ring_share_[grid_.blocks[0].node(k, j, i)];
+  if (block % blocks_of_sector == 0) return ring_share_[std::size_t(k)].at(std::size_t(j * ring_row_ + i));
   return block % blocks_of_sector == 1 ? outboard_[std::size_t(k + span_)] : 0.0;
 }
 
@@ -65,9 +68,7 @@ Eigen::Vector3d BladePitching::axis(int block) const {
   return {-std::sin(precone_), -c * std::sin(azimuth), c * std::cos(azimuth)};
 }
 
-Eigen::Vector3d BladePitching::node(int block, int k, int j, int i, double change) const {
-  const Block& b = grid_.blocks[std::size_t(block)];
-  const Eigen::Vector3d& as_made = b.nodes[b.node(k, j, i)];
+Eigen::Vector3d BladePitching::node(int block, int k, int j, int i, double change, const Eigen::Vector3d& as_made) const {
   const double turn = share(block, k, j, i) * change;
   if (turn == 0.0) return as_made;
   const Eigen::Vector3d along = axis(block);
@@ -87,11 +88,13 @@ Eigen::Vector3d BladePitching::node(int block, int k, int j, int i, double chang
   return p;
 }
 
-void BladePitching::nodes(int block, double change, std::span<Eigen::Vector3d> moved) const {
-  const Block& b = grid_.blocks[std::size_t(block)];
+void BladePitching::move(Block& b, int block, double change) const {
   for (int k = 0; k <= b.nk; ++k)
     for (int j = 0; j <= b.nj; ++j)
-      for (int i = 0; i <= b.ni; ++i) moved[b.node(k, j, i)] = node(block, k, j, i, change);
+      for (int i = 0; i <= b.ni; ++i) {
+        Eigen::Vector3d& x = b.nodes[b.node(k, j, i)];
+        x = node(block, k, j, i, change, x);
+      }
 }
 
 }  // namespace spindrift::aero

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include <span>
+#include <functional>
 #include <vector>
 
 #include "kernels/base/constants.hpp"
@@ -19,14 +19,17 @@ namespace spindrift::aero {
 class BladePitching {
  public:
   /// `grid` as made by make_rotor_grid from the same turbine and spec, not coarsened after; its nodes are those of zero change.
-  BladePitching(const MultiBlockGrid& grid, const Turbine& turbine, const RotorGridSpec& spec);
+  /// `needed`: which k of rings will be asked for, as a rule those of this rank's tiles; none: all.
+  BladePitching(const MultiBlockGrid& grid, const Turbine& turbine, const RotorGridSpec& spec,
+                const std::function<bool(int k)>& needed = {});
 
   /// Only ring and plug of a sector move.
   bool moves(int block) const { return block % blocks_of_sector < 2; }
-  /// A node, or all nodes, of a block when its blade's pitch has changed by `change` [rad] from the grid's, nose into the wind
-  /// positive. Good for changes up to about 20 deg (docs/theory/rotor_grid.md); beyond, make a grid at a pitch nearby.
-  Eigen::Vector3d node(int block, int k, int j, int i, double change) const;
-  void nodes(int block, double change, std::span<Eigen::Vector3d> moved) const;
+  /// Where a node as made goes, or all nodes of a block, when the blade's pitch has changed by `change` [rad] from the grid's,
+  /// nose into the wind positive. Good for changes up to about 20 deg (docs/theory/rotor_grid.md); beyond, make a grid at a pitch
+  /// nearby.
+  Eigen::Vector3d node(int block, int k, int j, int i, double change, const Eigen::Vector3d& as_made) const;
+  void move(Block& as_made, int block, double change) const;
   /// Share of the turn that node (k, j, i) of a moving block takes: 1 at the blade, 0 at the box.
   double share(int block, int k, int j, int i) const;
   /// Unit vector along the blade of a block's sector.
@@ -37,12 +40,11 @@ class BladePitching {
   static constexpr double most_change = 15.0 * radians_per_degree;
 
  private:
-  const MultiBlockGrid& grid_;
   int blades_;
   double precone_, hub_radius_, root_chord_;
-  std::vector<double> ring_share_;  ///< of sector 1, as its nodes; all sectors are alike
-  std::vector<double> outboard_;    ///< by k of the ring
-  int span_;
+  std::vector<std::vector<double>> ring_share_;  ///< of sector 1, by k as its nodes, where needed; all sectors are alike
+  std::vector<double> outboard_;                 ///< by k of the ring
+  int span_, ring_row_;                          ///< nodes of a ring's i
 };
 
 }  // namespace spindrift::aero

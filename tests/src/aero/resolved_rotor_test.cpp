@@ -3,6 +3,8 @@
 // undone leaves no trace. SPDX-License-Identifier: Apache-2.0
 #include "src/aero/resolved_rotor.hpp"
 
+#include <malloc.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -342,6 +344,46 @@ TEST_CASE("the memory of a rotor is foretold within a tenth of what it takes", "
       const double nodes = 24.0 * double(size.cells), note = time == "steady" ? 0.0 : state;
       CHECK(size.bytes - nodes - note == Approx(double(rotor.solver().bytes() + rotor.store().bytes())).epsilon(0.1));
     }
+}
+
+TEST_CASE("a rank has the air of its own tiles, and not a number for each cell of all others", "[rotor][fast]") {
+  const auto in_use = [] {
+    const struct mallinfo2 now = mallinfo2();
+    return double(now.uordblks) + double(now.hblkhd);
+  };
+  constexpr int ranks = 8;
+  struct Share {
+    double cells = 0.0, one = 0.0, most = 0.0, on_every_rank = 0.0;  ///< bytes: of one rank alone, of the largest of eight
+  };
+  const auto share = [&](const ResolvedRotorSetup& s) {
+    Share found;
+    const auto bytes = [&](int of, int rank) {
+      const double before = in_use();
+      const ResolvedRotor rotor(s, of, rank);
+      found.cells = double(rotor.solver().cells());
+      return in_use() - before;
+    };
+    (void)bytes(1, 0);  // what the first one leaves for all
+    found.one = bytes(1, 0);
+    double all = 0.0;
+    for (int rank = 0; rank < ranks; ++rank) {
+      const double mine = bytes(ranks, rank);
+      all += mine, found.most = std::max(found.most, mine);
+    }
+    found.on_every_rank = (all - found.one) / (ranks - 1);
+    return found;
+  };
+  const std::string time = GENERATE("steady", "bdf2");
+  ResolvedRotorSetup s = tiny(time, true);
+  const Share coarse = share(s);
+  s.grid.resolution = 1.4;
+  const Share fine = share(s);
+  // Turbine and descriptions of tiles are everywhere; what grows with the cells is not.
+  const double more = (fine.on_every_rank - coarse.on_every_rank) / (fine.cells - coarse.cells);
+  INFO(fine.cells << " cells: " << fine.one << " bytes on one rank, " << fine.most << " at most on one of " << ranks
+                  << ", of them " << fine.on_every_rank << " on every one, " << more << " for each further cell");
+  CHECK(more < sizeof(double));
+  CHECK(fine.most < 1.3 * fine.one / ranks);
 }
 
 TEST_CASE("far sides that act like a wind tunnel's walls are said to, with what they add", "[rotor][fast]") {

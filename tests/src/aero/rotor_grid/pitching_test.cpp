@@ -16,7 +16,7 @@ namespace {
 MultiBlockGrid pitched(const MultiBlockGrid& grid, const BladePitching& pitching, double change) {
   MultiBlockGrid moved = grid;
   for (int b = 0; b < int(grid.blocks.size()); ++b)
-    if (pitching.moves(b)) pitching.nodes(b, change, moved.blocks[std::size_t(b)].nodes);
+    if (pitching.moves(b)) pitching.move(moved.blocks[std::size_t(b)], b, change);
   return moved;
 }
 
@@ -55,6 +55,23 @@ TEST_CASE("blades pitch as rigid bodies; grids stay whole within 15 degrees eith
     CHECK(rigid < 1e-12);
     CHECK(off_hub < 1e-12);
   }
+}
+
+TEST_CASE("nodes pitch alike where only the rows of a rank's tiles are known", "[rotor_grid][fast]") {
+  const RotorGridSpec spec = spec_of(1.0, 2e-3, 0.0, true);
+  const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
+  const BladePitching all(grid, dtu(), spec), some(grid, dtu(), spec, [](int k) { return k >= 3 && k <= 7; });
+  const double change = 5.0 * radians_per_degree;
+  for (const int block : {0, 10}) {
+    const Block& ring = grid.blocks[std::size_t(block)];
+    for (int k = 3; k <= 7; ++k)
+      for (int j = 0; j <= ring.nj; ++j)
+        for (int i = 0; i <= ring.ni; ++i) {
+          const Eigen::Vector3d& x = ring.nodes[ring.node(k, j, i)];
+          CHECK(some.node(block, k, j, i, change, x) == all.node(block, k, j, i, change, x));
+        }
+  }
+  CHECK_THROWS(some.share(0, 8, 0, 0));
 }
 
 TEST_CASE("a pitched grid has its noses upwind, where a grid made at that pitch has them", "[rotor_grid][fast]") {
