@@ -5,11 +5,21 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "runtime/graph/errors.hpp"
+#if defined(OPEN_MPI)
+#include <mpi-ext.h>  // persistent collectives before MPI 4
+#endif
 
 namespace spindrift::runtime {
 namespace {
+
+#if MPI_VERSION >= 4 || defined(OMPI_HAVE_MPI_EXT_PCOLLREQ)
+constexpr bool started_by_planning = false;
+#else
+constexpr bool started_by_planning = true;  // this MPI knows no persistent collectives
+#endif
 
 /// The smaller one (of larger ones: minus this of the opposites), the same whichever comes first: of zeros the negative one, and
 /// not-a-number where either is none.
@@ -95,20 +105,43 @@ void Allreduce::take_in() {
   }
 }
 
+void Allreduce::plan(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation) {
+#if MPI_VERSION >= 4
+  MPI_Allreduce_init(MPI_IN_PLACE, values, int(count), type, operation, comm_, MPI_INFO_NULL, &planned_);
+#elif defined(OMPI_HAVE_MPI_EXT_PCOLLREQ)
+  MPIX_Allreduce_init(MPI_IN_PLACE, values, int(count), type, operation, comm_, MPI_INFO_NULL, &planned_);
+#else
+  MPI_Iallreduce(MPI_IN_PLACE, values, int(count), type, operation, comm_, &planned_);
+#endif
+}
+
 void Allreduce::post(MPI_Request& request) {
   take_in();
   const Operations& known = operations();
-  switch (reduction_.operation) {
-    case Reduction::Operation::sum:
-      MPI_Iallreduce(MPI_IN_PLACE, sums_.data(), int(sums_.size()), known.sum_type, known.sum, comm_, &request);
-      return;
-    case Reduction::Operation::min:
-      MPI_Iallreduce(MPI_IN_PLACE, extremes_.data(), int(extremes_.size()), MPI_DOUBLE, known.min, comm_, &request);
-      return;
-    case Reduction::Operation::max:
-      MPI_Iallreduce(MPI_IN_PLACE, extremes_.data(), int(extremes_.size()), MPI_DOUBLE, known.max, comm_, &request);
-      return;
+  if (planned_ == MPI_REQUEST_NULL) {
+    // All ranks come here in the same order, as each module's reductions start in one order on its communicator.
+    switch (reduction_.operation) {
+      case Reduction::Operation::sum:
+        plan(sums_.data(), sums_.size(), known.sum_type, known.sum);
+        break;
+      case Reduction::Operation::min:
+        plan(extremes_.data(), extremes_.size(), MPI_DOUBLE, known.min);
+        break;
+      case Reduction::Operation::max:
+        plan(extremes_.data(), extremes_.size(), MPI_DOUBLE, known.max);
+        break;
+    }
   }
+  if (started_by_planning) {
+    request = std::exchange(planned_, MPI_REQUEST_NULL);
+    return;
+  }
+  MPI_Start(&planned_);
+  request = planned_;
+}
+
+void Allreduce::release() {
+  if (planned_ != MPI_REQUEST_NULL) MPI_Request_free(&planned_);
 }
 
 void Allreduce::finish() {

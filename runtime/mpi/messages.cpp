@@ -66,7 +66,10 @@ Messages::Messages(Graph::Recorded& graph) : graph_(graph), control_(graph.comm.
 Messages::~Messages() {
   int finalized = 0;
   MPI_Finalized(&finalized);
-  if (control_request_ == MPI_REQUEST_NULL || finalized) return;
+  if (finalized) return;
+  if (!left_behind_)
+    for (const auto& reduction : graph_.reductions) reduction->release();
+  if (control_request_ == MPI_REQUEST_NULL) return;
   MPI_Cancel(&control_request_);
   MPI_Wait(&control_request_, MPI_STATUS_IGNORE);
 }
@@ -188,7 +191,7 @@ void Messages::abandon(const Notice* tell) {
       MPI_Testall(int(sends.size()), sends.data(), &sent, MPI_STATUSES_IGNORE);
   }
   if (turns_) turns_->abandon();
-  if (control_) leave_behind(graph_);
+  if (control_) leave_behind(graph_), left_behind_ = true;
   for (int i = 0; i < active_; ++i) {
     const auto at = std::size_t(i);
     const NodeKind kind = graph_.nodes[node_of_[at]].kind;

@@ -70,6 +70,7 @@ class Messages {
   std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
 
   bool control_ = false;  ///< there are other ranks
+  bool left_behind_ = false;
   std::vector<char> notice_bytes_;
   std::optional<Notice> notice_;
   std::atomic<bool> has_notice_{false};
