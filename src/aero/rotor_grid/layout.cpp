@@ -43,12 +43,12 @@ long RotorGridSizes::cells() const {
   return plane * radial() + long(edge) * chordwise() * outboard;
 }
 
-// The two layers and the cell upstream beside those that grow with n are what grids of one sector's 18 000 cells need: without
-// them layers grow 2.3-fold and the wind slows too early, a tenth of the power at 6 and 20 m/s (docs/verification/rotor.md).
+// Ten layers and eight cells upstream are what 18 000 cells of one sector need: with eight and seven, layers grow 2.3-fold and
+// the wind slows too early, a tenth of the power at 6 and 20 m/s (docs/verification/rotor.md).
 RotorGridSizes sizes_of(double n) {
   RotorGridSizes s;
-  s.round = even(40 * n), s.edge = even(n), s.box = whole(0.25 * s.round), s.layers = whole(8 * n) + 2, s.beside = whole(6 * n);
-  s.upstream = whole(7 * n) + 1, s.downstream = whole(9 * n), s.span = whole(12 * n), s.outboard = whole(8 * n);
+  s.round = even(40 * n), s.edge = even(n), s.box = whole(0.25 * s.round), s.layers = whole(10 * n), s.beside = whole(6 * n);
+  s.upstream = whole(8 * n), s.downstream = whole(9 * n), s.span = whole(12 * n), s.outboard = whole(8 * n);
   return s;
 }
 

@@ -39,7 +39,7 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
           .integer("cells_trailing_edge", &RotorGridOptions::cells_trailing_edge, "-",
                    "Of those on the blunt trailing edge, even; default about n.", scene::between(2, 64))
           .integer("cells_layers", &RotorGridOptions::cells_layers, "-",
-                   "Cells from the wall to the edge of the O round the section, 1.4 chords off; default 8 n + 2. About half of "
+                   "Cells from the wall to the edge of the O round the section, 1.4 chords off; default 10 n. About half of "
                    "them are in the boundary layer.",
                    scene::between(4, 500))
           .integer("cells_span", &RotorGridOptions::cells_span, "-", "Cells along the blade; default 12 n.",
@@ -48,7 +48,7 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
                    "Cells from the tip to the outer radius; default 8 n.", scene::between(3, 1000))
           .integer("cells_beside", &RotorGridOptions::cells_beside, "-",
                    "Cells from the O to half-way to the next blade, each side; default 6 n.", scene::between(2, 1000))
-          .integer("cells_upstream", &RotorGridOptions::cells_upstream, "-", "Cells from the O to the inflow; default 7 n + 1.",
+          .integer("cells_upstream", &RotorGridOptions::cells_upstream, "-", "Cells from the O to the inflow; default 8 n.",
                    scene::between(2, 1000))
           .integer("cells_downstream", &RotorGridOptions::cells_downstream, "-", "Cells from the O to the outflow; default 9 n.",
                    scene::between(2, 1000))

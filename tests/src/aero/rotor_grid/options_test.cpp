@@ -34,8 +34,8 @@ TEST_CASE("one number sizes a grid, and each number may be given by itself", "[r
   REQUIRE(aero.grid);
   const RotorGridSpec spec = rotor_grid_spec(*aero.grid, dtu(), 0.1, 0.925, 11.0);
   CHECK(spec.sizes.round == 120);
-  CHECK(spec.sizes.layers == 26);
-  CHECK(spec.sizes.upstream == 22);
+  CHECK(spec.sizes.layers == 30);
+  CHECK(spec.sizes.upstream == 24);
   CHECK(spec.sizes.span == 50);
   CHECK(spec.hub_radius_m == Approx(5.0).margin(0.01));
   CHECK_FALSE(spec.whole);
