@@ -232,7 +232,7 @@ void FreeVortexWake::shift(State& s, const LiftingLines& blades, double h) const
   s.age.front() = 0.0;
 }
 
-void FreeVortexWake::solve(State& s, const LiftingLines& blades, const Circulation& circulation,
+bool FreeVortexWake::solve(State& s, const LiftingLines& blades, const Circulation& circulation,
                            std::span<Vector3d> induced) const {
   const std::size_t n = sections(), all = blades_ * n;
   std::vector<double> newest(all);
@@ -255,8 +255,9 @@ void FreeVortexWake::solve(State& s, const LiftingLines& blades, const Circulati
       ring.add_velocities(blades.middles, std::span(influence).subspan((b * n + j) * all, all));
     }
   // Newton's method with the matrix of each blade by itself: the newest rows of other blades are far.
-  constexpr int most_passes = 50;
-  constexpr double enough = 1e-9, small = 1e-3;  // of the circulation; m/s
+  constexpr int most_passes = 60, at_ease = 15;  // from there on steps are halved, which ends a stalled section's to and fro
+  constexpr double enough = 1e-9, settled = 0.01, small = 1e-3;  // of the circulation; m/s
+  bool has_settled = false;
   for (int pass = 0; pass < most_passes; ++pass) {
     std::ranges::copy(of_wake, induced.begin());
     for (std::size_t from = 0; from < all; ++from)
@@ -278,18 +279,20 @@ void FreeVortexWake::solve(State& s, const LiftingLines& blades, const Circulati
       }
       const Eigen::VectorXd step = dense::solve(matrix, missing);
       for (std::size_t j = 0; j < n; ++j) {
-        next[b * n + j] += step[Eigen::Index(j)];
+        next[b * n + j] += (pass < at_ease ? 1.0 : 0.5) * step[Eigen::Index(j)];
         change = std::max(change, std::abs(step[Eigen::Index(j)])), size = std::max(size, std::abs(next[b * n + j]));
       }
     }
     newest = next;
+    has_settled = change <= settled * size;
     if (change <= enough * size) break;
   }
   for (std::size_t b = 0; b < blades_; ++b)
     for (std::size_t j = 0; j < n; ++j) s.rings[ring_at(b, 0, j)] = newest[b * n + j];
+  return has_settled;
 }
 
-void FreeVortexWake::begin(const LiftingLines& blades, const Start& start, const Circulation& circulation,
+bool FreeVortexWake::begin(const LiftingLines& blades, const Start& start, const Circulation& circulation,
                            std::span<double> memory, std::span<Vector3d> induced) const {
   State s = sized();
   s.last_step = 0.0;
@@ -320,9 +323,10 @@ void FreeVortexWake::begin(const LiftingLines& blades, const Start& start, const
     carried += h * (start.wind - 0.5 * share * along * start.axis);
     widened = std::sqrt((1.0 - start.induction) / (1.0 - share));
   }
-  solve(s, blades, circulation, induced);
+  const bool settled = solve(s, blades, circulation, induced);
   memory[travelled] = memory[since] = 0.0;
   save(s, memory);
+  return settled;
 }
 
 double FreeVortexWake::due(double h, double speed, double wind, std::span<double> memory) const {
@@ -335,13 +339,14 @@ double FreeVortexWake::due(double h, double speed, double wind, std::span<double
   return time;
 }
 
-void FreeVortexWake::advance(const LiftingLines& blades, const Air& air, double h, const Circulation& circulation,
+bool FreeVortexWake::advance(const LiftingLines& blades, const Air& air, double h, const Circulation& circulation,
                              std::span<double> memory, std::span<Vector3d> induced) const {
   State s = load(memory);
   convect(s, blades.sense, air, h);
   shift(s, blades, h);
-  solve(s, blades, circulation, induced);
+  const bool settled = solve(s, blades, circulation, induced);
   save(s, memory);
+  return settled;
 }
 
 }  // namespace spindrift

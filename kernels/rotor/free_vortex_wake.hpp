@@ -52,15 +52,16 @@ class FreeVortexWake {
     double induction = 0.0;               ///< mean axial one of the disc
     std::span<const double> circulation;  ///< of all sections [m2/s]
   };
-  /// `induced` [m/s]: at all sections.
-  void begin(const LiftingLines& blades, const Start& start, const Circulation& circulation, std::span<double> memory,
+  /// `induced` [m/s]: at all sections. Whether circulation and wake agree within a hundredth.
+  bool begin(const LiftingLines& blades, const Start& start, const Circulation& circulation, std::span<double> memory,
              std::span<Eigen::Vector3d> induced) const;
 
   /// Counts h on, in which blades turn with `speed` [rad/s] in `wind` [m/s]. The time since the wake's last step, where its next
   /// one is due; else 0.
   double due(double h, double speed, double wind, std::span<double> memory) const;
-  /// A step of h, at whose start the air was so and at whose end the blades are here.
-  void advance(const LiftingLines& blades, const Air& air, double h, const Circulation& circulation, std::span<double> memory,
+  /// A step of h, at whose start the air was so and at whose end the blades are here. Whether the circulation agrees with the
+  /// wake.
+  bool advance(const LiftingLines& blades, const Air& air, double h, const Circulation& circulation, std::span<double> memory,
                std::span<Eigen::Vector3d> induced) const;
 
   /// Of the air by the whole wake and the blades' own vortices [m/s].
@@ -108,8 +109,8 @@ class FreeVortexWake {
                       std::span<Eigen::Vector3d> velocities) const;
   void convect(State& s, double sense, const Air& air, double h) const;
   void shift(State& s, const LiftingLines& blades, double h) const;
-  /// Circulation of the newest row by the sections' lift.
-  void solve(State& s, const LiftingLines& blades, const Circulation& circulation, std::span<Eigen::Vector3d> induced) const;
+  /// Circulation of the newest row by the sections' lift; whether it was found.
+  bool solve(State& s, const LiftingLines& blades, const Circulation& circulation, std::span<Eigen::Vector3d> induced) const;
 
   Options options_;
   std::vector<double> chords_;

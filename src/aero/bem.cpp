@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/bem.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+
+#include "kernels/base/failure.hpp"
 
 namespace spindrift::aero {
 
@@ -36,6 +40,14 @@ double circulation(const Place& at, const Eigen::Vector3d& induced) {
   const double normal = at.normal_wind + induced.dot(at.normal), tangential = at.tangential_wind - induced.dot(at.ahead);
   const double attack = std::atan2(normal, tangential) - at.ring.setting;
   return 0.5 * std::hypot(normal, tangential) * at.ring.chord * at.polars(attack).lift;
+}
+
+NumericalFailure unsettled_wake(double t) {
+  return {
+      fmt::format("t = {:g} s: aero: the circulation along the blades and what their wake of filaments induces do not settle on "
+                  "each other; try a smaller aero.wake_step_deg or another aero.dynamic_inflow",
+                  t),
+      "aero/rotor", 0, t};
 }
 
 }  // namespace
@@ -267,10 +279,11 @@ void BladeElementMomentum::begin(const Wind& wind, const DiscMotion& rotor, doub
     const Eigen::Vector3d met = wind.at(t, rotor.hub) - rotor.hub_velocity;
     const double along = met.dot(rotor.axis), induction = along > 0.0 ? std::clamp(slowed / (area * along), 0.0, 0.4) : 0.0;
     std::vector<Eigen::Vector3d> by_wake(places.size());
-    wake_->begin(
+    const bool settled = wake_->begin(
         lifting_lines(places, rotor, blades_), {rotor.hub, rotor.omega, rotor.axis, met, induction, bound},
         [&](std::size_t i, const Eigen::Vector3d& velocity) { return circulation(places[i], velocity); },
         memory.last(wake_->memory_size()), by_wake);
+    if (!settled) throw unsettled_wake(t);
     for (std::size_t i = 0; i < places.size(); ++i)
       induced[i] = {by_wake[i].dot(places[i].normal), -by_wake[i].dot(places[i].ahead)};
   }
@@ -302,9 +315,10 @@ void BladeElementMomentum::remember(const Wind& wind, const DiscMotion& rotor, d
       std::vector<Place> places;
       for_each_place(wind, rotor, t, [&](const Place& at) { places.push_back(at); });
       by_wake.resize(places.size());
-      wake_->advance(
+      const bool settled = wake_->advance(
           lifting_lines(places, rotor, blades_), [&](const auto& point) { return wind.at(t - step, point); }, step,
           [&](std::size_t i, const Eigen::Vector3d& velocity) { return circulation(places[i], velocity); }, filaments, by_wake);
+      if (!settled) throw unsettled_wake(t);
     }
   }
   for_each_place(wind, rotor, t, [&](const Place& at) {

@@ -59,7 +59,7 @@ TEST_CASE("an elliptic wing has Prandtl's lift and induced drag, and tends to th
   CHECK(observed_order(h, error) == Approx(2.0).margin(0.3));
 }
 
-TEST_CASE("a rotor of even loading slows the wind as momentum theory says, at the disc and twice as much behind",
+TEST_CASE("a rotor of even loading slows the wind nearly as momentum theory says, at the disc and a radius behind",
           "[rotor][fast]") {
   // Blades of constant circulation Gamma: thrust coefficient B Gamma omega / (pi U^2) = 0.8, of which 1 - sqrt(1 - C_T) is 2 a.
   const int blades = 3, sections = 6;

@@ -349,6 +349,15 @@ TEST_CASE("a rotor that turns the other way has the mirrored wake of filaments",
   CHECK((one.moment - moment).norm() < 1e-9 * one.moment.norm());
 }
 
+TEST_CASE("stalled and nearly parked rotors find their circulation on a wake of filaments", "[aero][fast]") {
+  const FreeVortexWake::Options coarse{.turns = 2.0, .step = 30.0 * radians_per_degree};
+  const auto [wind, rpm] = GENERATE(std::pair{25.0, 9.6}, std::pair{18.0, 6.0}, std::pair{40.0, 0.5}, std::pair{4.0, 12.0});
+  const DiscLoad load = with_filaments(coarse, Wind{{wind, 0, 0}}, rpm, 1.5);
+  CAPTURE(wind, rpm, load.force.transpose());
+  CHECK(load.force.allFinite());
+  CHECK(load.force.x() > 0.0);
+}
+
 TEST_CASE("a wake of filaments has its own steps, whatever those of the bodies", "[aero][fast]") {
   const FreeVortexWake::Options coarse{.turns = 2.0, .step = 30.0 * radians_per_degree};
   const DiscLoad one = with_filaments(coarse, Wind{{8, 0, 0}}, 6.4, 2.0);
