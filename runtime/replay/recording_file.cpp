@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -135,7 +136,26 @@ std::size_t index_in(const Names& names, const std::string& name) {
   return std::size_t(found - names.begin());
 }
 
-void read_header(const Json& line, Recording& to) {
+/// Numbers with a fraction or an exponent must fit the integers that they may be read as. Costs are not read.
+void require_sizes(const Json& value, int depth = 0) {
+  constexpr int deepest = 16;
+  constexpr double most = 2147483647.0;
+  if (value.is_number_float() && !(value.get<double>() >= 0.0 && value.get<double>() <= most))
+    throw std::runtime_error("has the number " + value.dump() + "; such are 0 to 2147483647");
+  if (!value.is_structured()) return;
+  if (depth == deepest) throw std::runtime_error("is nested more deeply than a recording");
+  for (const auto& item : value.items())
+    if (item.key() != "mean_ns" && item.key() != "spread_ns") require_sizes(item.value(), depth + 1);
+}
+
+/// No file holds more than a thing a byte.
+std::size_t count_in(const Json& value, const char* what, std::size_t file_bytes) {
+  const auto n = value.get<std::size_t>();
+  if (n > file_bytes) throw std::runtime_error("has " + std::to_string(n) + " " + what + "; the file is too short for so many");
+  return n;
+}
+
+void read_header(const Json& line, Recording& to, std::size_t file_bytes) {
   if (!line.is_object() || line.value("format", "") != format)
     throw std::runtime_error("is no recording: the first line lacks \"format\": \"spindrift recording\"");
   if (const int version = line.at("version"); version != recording_version)
@@ -143,7 +163,7 @@ void read_header(const Json& line, Recording& to) {
                              std::to_string(recording_version) + ": record again");
   to.scene = line.at("scene"), to.program = line.at("program"), to.threads = line.at("threads");
   for (const Json& window : line.at("windows")) to.windows.push_back({window.at("number"), window.at("wall_ns")});
-  to.ranks.resize(line.at("ranks").get<std::size_t>());
+  to.ranks.resize(count_in(line.at("ranks"), "ranks", file_bytes));
   for (std::size_t r = 0; r < to.ranks.size(); ++r) to.ranks[r].rank = int(r);
 }
 
@@ -169,18 +189,18 @@ void read_node(const Json& line, GraphRecord& graph) {
   }
 }
 
-void read_line(const Json& line, Recording& to) {
+void read_line(const Json& line, Recording& to, std::size_t file_bytes) {
   RankRecording& rank = to.ranks.at(line.at("rank").get<std::size_t>());
-  const std::uint32_t g = line.at("graph");
+  const std::size_t g = count_in(line.at("graph"), "graphs", file_bytes);
   if (line.contains("data")) {
     rank.graphs.resize(std::max<std::size_t>(rank.graphs.size(), g + 1));
-    rank.graphs[g].nodes.resize(line.at("nodes").get<std::size_t>());
+    rank.graphs[g].nodes.resize(count_in(line.at("nodes"), "nodes", file_bytes));
     for (const Json& datum : line.at("data")) rank.graphs[g].data.push_back({place_of(datum.at(0)), datum.at(1)});
   } else if (line.contains("node")) {
     read_node(line, rank.graphs.at(g));
   } else {
     RunRecord& run = rank.runs.emplace_back();
-    run.graph = g, run.window = line.at("window"), run.replays = line.at("replays");
+    run.graph = std::uint32_t(g), run.window = line.at("window"), run.replays = line.at("replays");
     run.begin_ns = line.at("begin_ns"), run.wall_ns = line.at("wall_ns"), run.task_ns = line.at("task_ns");
     run.idle_ns = line.at("idle_ns"), run.poll_ns = line.at("poll_ns"), run.overhead_ns = line.at("overhead_ns");
     line.at("iterations").get_to(run.iterations), line.at("ns").get_to(run.ns);
@@ -224,6 +244,7 @@ Recording read_recording(const std::string& path) {
   errno = 0;
   std::ifstream in(path);
   if (!in) throw std::runtime_error(path + ": " + std::strerror(errno));
+  const std::size_t bytes = std::filesystem::is_regular_file(path) ? std::filesystem::file_size(path) : 0;
   Recording recording;
   std::string text;
   std::size_t number = 0;
@@ -231,10 +252,11 @@ Recording read_recording(const std::string& path) {
     while (std::getline(in, text)) {
       ++number;
       const Json line = Json::parse(text);
+      require_sizes(line);
       if (number == 1)
-        read_header(line, recording);
+        read_header(line, recording, bytes);
       else
-        read_line(line, recording);
+        read_line(line, recording, bytes);
     }
     if (number == 0) throw std::runtime_error("is empty");
   } catch (const std::exception& e) {

@@ -186,6 +186,14 @@ TEST_CASE("what is no recording is refused by file and line", "[replay][fast]") 
       header + "\n" + R"({"rank":0,"graph":0,"nodes":1,"data":[]})" + "\n" +
           R"({"rank":0,"graph":0,"node":0,"label":"a","kind":"task","loop":null,"place":null,"uses":[[4,"read"]],"after":[]})",
       "line 3: uses datum 4");
+  // Numbers that no integer holds, and counts that the file is too short for.
+  refused(R"({"format":"spindrift recording","version":1e36})", "line 1: has the number 1e+36");
+  refused(
+      R"({"format":"spindrift recording","version":1,"scene":"","program":"","ranks":1000000000000,"threads":1,"windows":[]})",
+      "line 1: has 1000000000000 ranks");
+  refused(header + "\n" + R"({"rank":0,"graph":4000000000,"nodes":1,"data":[]})", "line 2: has 4000000000 graphs");
+  refused(header + "\n" + R"({"rank":0,"graph":0,"nodes":-1,"data":[]})", "line 2: has 18446744073709551615 nodes");
+  refused(header + "\n" + std::string(40, '[') + std::string(40, ']'), "line 2: is nested");
   CHECK_THROWS_WITH(read_recording("/nonexistent/x.jsonl"), Contains("/nonexistent/x.jsonl: No such file"));
   CHECK_THROWS_WITH(write_recording({.ranks = {RankRecording{}}}, "/nonexistent/x.jsonl", MPI_COMM_SELF),
                     Contains("/nonexistent/x.jsonl"));

@@ -29,6 +29,7 @@ constexpr double tip_radius = 89.166;
 ResolvedRotorSetup setup(double resolution, double wind, double rpm, int steps) {
   ResolvedRotorSetup s;
   s.grid.resolution = resolution, s.grid.sectors = "one";
+  s.grid.cells_layers = int(std::lround(8.0 * resolution)), s.grid.cells_upstream = int(std::lround(7.0 * resolution));
   s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
   s.rotor.hub_m = {0.0, 0.0, 119.0}, s.rotor.speed = rpm * pi / 30.0;
   s.wind = {wind, 0.0, 0.0};
