@@ -17,6 +17,14 @@ namespace {
 constexpr double near_turns = 0.25;  // with all filaments
 constexpr double least_wind = 1.0;   // m/s; without wind and at rest a step of the wake would have no end
 
+/// Of a row of rings, the circulation that is farthest from zero.
+double strongest(std::span<const double> row) {
+  double most = 0.0;
+  for (double c : row)
+    if (std::abs(c) > std::abs(most)) most = c;
+  return most;
+}
+
 }  // namespace
 
 FreeVortexWake::FreeVortexWake(const Options& options, std::span<const double> chords, int blades, double radius)
@@ -79,13 +87,6 @@ double FreeVortexWake::end_chord(std::size_t end) const {
 
 double FreeVortexWake::core(double chord, double age, double circulation) const {
   return core_radius(options_.core_chords * chord, age, circulation, options_.viscosity);
-}
-
-double FreeVortexWake::strongest(std::span<const double> row) const {
-  double most = 0.0;
-  for (double c : row)
-    if (std::abs(c) > std::abs(most)) most = c;
-  return most;
 }
 
 template <class Value>

@@ -98,7 +98,6 @@ class FreeVortexWake {
   double end_chord(std::size_t end) const;
   /// Core of a filament of this row between lines of this age [m].
   double core(double chord, double age, double circulation) const;
-  double strongest(std::span<const double> row) const;
   /// Middles of the vorticity that a row trails, of values at the section ends: what goes to the root filament and to the tip's.
   template <class Value>
   void gather(std::span<const double> row, const Value* values, Value& at_root, Value& at_tip) const;

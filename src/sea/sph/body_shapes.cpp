@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "kernels/rigid/closed_surface.hpp"
 #include "src/sea/sph/mesh_fill.hpp"
@@ -94,28 +93,32 @@ namespace {
 
 /// Of a shape's particles as many as the room outside `earlier` has, in cells that those hold in part where they reach into it:
 /// the farthest out, of equally far ones those nearest the surface of the whole body, which stays closed.
-Points outside(Points points, std::span<const BodyShape> earlier, std::span<const BodyShape> all, double spacing, Cut cut) {
+Points outside(const Points& points, std::span<const BodyShape> earlier, std::span<const BodyShape> all, double spacing,
+               Cut cut) {
   constexpr double reach = 0.9;  // of a spacing: cells of shapes that touch are a few per cent smaller and are whole
-  struct Place {
+  struct Cell {
     long out;        ///< of the earlier shapes, in millionths of a spacing
     double surface;  ///< signed distance from the whole body's
     std::size_t n;
   };
-  std::vector<Place> places;
-  double room = 0.0;
+  std::vector<std::size_t> kept;
+  std::vector<Cell> cut_cells;
+  double room = 0.0;  // in them
   for (std::size_t n = 0; n < points.size(); ++n) {
-    const double out = signed_distance(earlier, points[n], cut) / spacing, part = std::clamp(0.5 + out / reach, 0.0, 1.0);
+    const double out = signed_distance(earlier, points[n], cut) / spacing, part = 0.5 + out / reach;
+    if (part >= 1.0) kept.push_back(n);
+    if (part <= 0.0 || part >= 1.0) continue;
     room += part;
-    if (part > 0.0) places.push_back({std::lround(1e6 * std::min(out, 1.0)), signed_distance(all, points[n], cut), n});
+    cut_cells.push_back({std::lround(1e6 * out), signed_distance(all, points[n], cut), n});
   }
-  std::ranges::sort(places, [](const Place& a, const Place& b) {
+  std::ranges::sort(cut_cells, [](const Cell& a, const Cell& b) {
     return a.out != b.out ? a.out > b.out : a.surface != b.surface ? a.surface > b.surface : a.n < b.n;
   });
-  places.resize(std::min(places.size(), std::size_t(std::lround(room))));
-  std::ranges::sort(places, {}, &Place::n);
-  Points kept;
-  for (const Place& place : places) kept.push_back(points[place.n]);
-  return kept;
+  for (std::size_t n = 0; n < std::size_t(std::lround(room)); ++n) kept.push_back(cut_cells[n].n);
+  std::ranges::sort(kept);
+  Points left;
+  for (const std::size_t n : kept) left.push_back(points[n]);
+  return left;
 }
 
 }  // namespace
@@ -124,7 +127,7 @@ Points fill_body(std::span<const BodyShape> shapes, double spacing, Cut cut) {
   Points all;
   for (std::size_t n = 0; n < shapes.size(); ++n) {
     Points points = fill_shape(shapes[n], spacing, cut);
-    if (n > 0) points = outside(std::move(points), shapes.first(n), shapes, spacing, cut);
+    if (n > 0) points = outside(points, shapes.first(n), shapes, spacing, cut);
     all.insert(all.end(), points.begin(), points.end());
   }
   return all;

@@ -319,6 +319,17 @@ class UniformDisc final : public BodyForce {
  private:
   double per_area_, radius_, width_;
 };
+
+/// The settled flow of a disc of this C_T, loaded alike all over.
+std::unique_ptr<Case> settled_disc(const Wind8& o, double loading) {
+  auto c = box(o, steady_march(1e-4, 100));
+  const double R = tip_radius();
+  c->solver->set_body_force(std::make_shared<UniformDisc>(loading * 0.5 * 1.225 * o.speed * o.speed, R, 1.5 * R / o.cells));
+  c->prepare(MPI_COMM_SELF, {});
+  c->run();
+  REQUIRE(c->solver->march().verdict == Verdict::converged);
+  return c;
+}
 }  // namespace
 
 TEST_CASE("a disc of the DTU 10 MW rotor at ten cells to the radius has the thrust of blade elements and Froude's wake",
@@ -362,12 +373,8 @@ TEST_CASE(
                 .side = 12.0,
                 .core_upstream = 0.75,
                 .core_downstream = 4.0};
-  const auto c = box(o, steady_march(1e-4, 100));
+  const auto c = settled_disc(o, loading);
   const double R = tip_radius(), U = o.speed;
-  c->solver->set_body_force(std::make_shared<UniformDisc>(loading * 0.5 * 1.225 * U * U, R, 1.5 * R / o.cells));
-  c->prepare(MPI_COMM_SELF, {});
-  c->run();
-  REQUIRE(c->solver->march().verdict == Verdict::converged);
   const double thrust = -source_sums(*c->solver)[0];
   CHECK(thrust == Approx(loading * 0.5 * 1.225 * U * U * pi * R * R).epsilon(0.01));
   const double before = lost_through(*c->solver, o, -2.0 * R);
@@ -405,12 +412,8 @@ TEST_CASE("a lightly loaded disc slows the air before, in, behind and beside its
                 .core_upstream = 2.0,
                 .core_downstream = 4.0,
                 .core = 2.0};
-  const auto c = box(o, steady_march(1e-4, 100));
   const double R = tip_radius(), U = o.speed, loading = 0.05, a = 0.5 * (1.0 - std::sqrt(1.0 - loading));
-  c->solver->set_body_force(std::make_shared<UniformDisc>(loading * 0.5 * 1.225 * U * U, R, 1.5 * R / o.cells));
-  c->prepare(MPI_COMM_SELF, {});
-  c->run();
-  REQUIRE(c->solver->march().verdict == Verdict::converged);
+  const auto c = settled_disc(o, loading);
   for (const double x : {-1.5, -1.0, -0.5, 0.5, 1.0, 2.0, 3.5}) {
     double worst_inside = 0.0, worst_outside = 0.0;
     const double at = each_in_plane(*c->solver, o, x * R, [](const auto&...) {}) / R;
