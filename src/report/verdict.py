@@ -69,6 +69,8 @@ def what_ran(run):
     sea = {"sph": "a sea of particles", "morison": "Morison strips", "hydrostatic": "hydrostatics"}.get(_value(scene, "sea", "model"))
     air = {"blade_resolved": "a blade-resolved rotor", "actuator_disc": "an actuator disc", "actuator_line": "actuator lines", "bem": "blade element momentum", "prescribed": "prescribed rotor loads",
            "thrust_curve": "a thrust curve"}.get(_value(scene, "aero", "model"))
+    if _value(scene, "aero", "dynamic_inflow") == "free_vortex":
+        air = "blade elements and a wake of vortex filaments"
     wave = _value(scene, "waves", "height_m")
     rotors = len(quantities.rotors_of(run.columns))
     many = f"{rotors} turbines on their foundation" if _stands(run) else f"A floater with {rotors} rotors"

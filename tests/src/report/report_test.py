@@ -549,6 +549,15 @@ class PartsTest(unittest.TestCase):
             self.assertLess(text.index("wind x [m/s]"), text.index("thrust [MN]"))
             self.assertIn("Zero throughout: wind y.", text)
 
+    def test_blades_are_named_with_what_takes_the_place_of_momentum_theory(self):
+        t = 0.1 * np.arange(40)
+        for inflow, words in (("none", "with blade element momentum"), ("oye", "with blade element momentum"),
+                              ("free_vortex", "with blade elements and a wake of vortex filaments")):
+            scene = f"[bodies.float]\nmass_kg = 1.0\n[aero]\nmodel = 'bem'\ndynamic_inflow = '{inflow}'\n"
+            with self.subTest(inflow), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table={"time_s": t, "float.x_m": 0 * t, "rotor.thrust_N": 1e6 + 0 * t}, scene=scene, log="")
+                self.assertIn(words, verdict.what_ran(RunData(pathlib.Path(folder))))
+
     def test_a_motion_that_nothing_drives_is_none(self):
         t = 0.1 * np.arange(400)
         table = {"time_s": t, "float.x_m": 3e-7 * np.sin(t), "float.z_m": 2.0 * np.cos(t), "float.pitch_deg": 1e-9 * t,
