@@ -487,6 +487,7 @@ Scenario read_scenario(scene::Document& document) {
   if (s.sea.tank) load_surfaces(document, "sea.tank.meshes", s.sea.tank->meshes, plane(0.0));
   s.waves = document.read_where(s.sea.model == "morison" || s.sea.model == "potential" || s.has_particles(), sea::waves_section(),
                                 "sea.model is \"" + s.sea.model + "\"; morison, potential and sph have waves", "sea.model");
+  if (s.has_given_waves() && !s.waves.ramp_s) s.waves.ramp_s = sea::growth_time(s.waves);
   s.moorings = document.read_named(moorings::line_section());
   s.junctions = document.read_named(moorings::junction_section());
   s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple",
@@ -615,6 +616,7 @@ std::string describe_sea(const Scenario& s) {
           : s.waves.file.empty() ? fmt::format(", waves {} (H {} m, T {} s)", s.waves.model, s.waves.height_m, s.waves.period_s)
                                  : fmt::format(", waves of {}", s.waves.file);
   if (s.has_waves() && s.waves.second_order) text += " to second order";
+  if (s.waves.ramp_s.value_or(0.0) > 0.0) text += fmt::format(", growing over {:g} s", *s.waves.ramp_s);
   return text;
 }
 

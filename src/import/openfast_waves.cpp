@@ -102,8 +102,11 @@ std::string import_waves(DeckImport& run, const Deck& waves, const std::string& 
     run.leave_out(fmt::format("waves of WaveMod {}", model));
     return "";
   }
-  std::string text = fmt::format("\n[waves]\nmodel = \"{}\"\nheight_m = {:.9g}\nperiod_s = {:.9g}\ndirection_deg = {:.9g}\n",
-                                 model == 2 ? "jonswap" : "airy", height, period, waves.number({"WaveDir"}, 0.0));
+  // The deck's waves have their whole height from its first step on.
+  std::string text = fmt::format(
+      "\n[waves]\nmodel = \"{}\"\nheight_m = {:.9g}\nperiod_s = {:.9g}\nramp_s = 0.0\n"
+      "direction_deg = {:.9g}\n",
+      model == 2 ? "jonswap" : "airy", height, period, waves.number({"WaveDir"}, 0.0));
   if (model == 10) {
     const std::size_t line = *waves.find({"WaveMod"});
     // HydroDyn's phase runs with time, the scene's with x.

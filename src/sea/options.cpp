@@ -2,6 +2,8 @@
 // section 5. SPDX-License-Identifier: Apache-2.0
 #include "src/sea/options.hpp"
 
+#include <algorithm>
+
 #include "kernels/waves/bound_waves.hpp"
 #include "src/sea/wave_model.hpp"
 
@@ -150,6 +152,11 @@ void check_sea(const SeaOptions& o, const scene::Report& report) {
 
 }  // namespace
 
+double growth_time(const WavesOptions& waves) {
+  const double before_crest = std::max(0.0, waves.crest_time_s - waves.period_s);
+  return waves.crest_height_m ? std::min(2.0 * waves.period_s, before_crest) : 2.0 * waves.period_s;
+}
+
 const Section<WavesOptions>& waves_section() {
   static const auto section =
       Section<WavesOptions>("waves", "The undisturbed sea.")
@@ -167,7 +174,9 @@ const Section<WavesOptions>& waves_section() {
           .degrees("phase_deg", &WavesOptions::phase, "Phase at the origin at time 0; 0 is a crest.",
                    scene::between(-360.0, 360.0))
           .only_if("model", wave_models().with("phase_deg"))
-          .number("ramp_s", &WavesOptions::ramp_s, "s", "Time over which the waves grow smoothly from nothing.",
+          .number("ramp_s", &WavesOptions::ramp_s, "s",
+                  "Time over which the waves grow smoothly from nothing, 0 for full waves at once; where not given, two periods, "
+                  "ending a period before the crest of crest_height_m, and 0 for the waves of a file.",
                   scene::not_negative())
           .only_if("model", wave_models().names())
           .flag("second_order", &WavesOptions::second_order,

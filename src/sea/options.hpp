@@ -22,7 +22,7 @@ struct WavesOptions {
   double period_s = 0.0;                       ///< of a sea state, the peak period
   double direction = 0.0;                      ///< towards which the waves travel, from x to y [rad]
   double phase = 0.0;                          ///< of a regular wave at the origin at t = 0; 0: a crest [rad]
-  double ramp_s = 0.0;                         ///< the waves grow from nothing over this time
+  std::optional<double> ramp_s;                ///< the waves grow from nothing over this time; at once where absent
   std::string stretching = "wheeler";          ///< wheeler, vertical, extrapolated (stokes2 is always extrapolated)
   std::int64_t seed = 1;                       ///< of the random phases
   int components = 200;                        ///< harmonics of a sea state
@@ -38,6 +38,10 @@ struct WavesOptions {
   std::string file;                  ///< path, of a measured sea
   std::optional<double> highest_Hz;  ///< of a measured sea's harmonics
 };
+
+/// Time over which waves grow where the scene does not say [s]: two periods, so that what floats is not struck by a whole wave at
+/// the start. It ends a period before the crest that the scene asks for; the times of a measured sea are its own.
+double growth_time(const WavesOptions& waves);
 
 /// [[sea.coefficients]]: what one cylinder has instead of the values of [sea].
 struct CoefficientsOptions {

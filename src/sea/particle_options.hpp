@@ -70,7 +70,7 @@ struct BoxOptions {
 /// [sea.wavemaker]: a wall at the low x end that makes the waves of [waves].
 struct WavemakerOptions {
   std::string type = "piston";
-  double ramp_s = 0.0;
+  std::optional<double> ramp_s;  ///< growth_time([waves]) where absent, 0 in water that moves already
   double start_s = 0.0;
   std::optional<double> hinge_m;   ///< flap: height of its hinge; the bed where absent
   std::optional<double> stroke_m;  ///< of a regular wave, instead of what linear theory asks for

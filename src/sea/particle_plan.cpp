@@ -113,6 +113,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
   plan.damping_zones = o.damping_zones, plan.gauges = o.gauges, plan.probes = o.probes, plan.sensors = o.sensors;
   if (o.wavemaker) {
     plan.wavemaker = o.wavemaker;
+    if (!plan.wavemaker->ramp_s) plan.wavemaker->ramp_s = starts_in_waves(o) ? 0.0 : growth_time(waves);
     const double bed = plan.tank.bed_at(t.x_m[0]), hinge = o.wavemaker->hinge_m.value_or(bed);
     const sph::Paddle paddle{.flap = o.wavemaker->type == "flap", .x = t.x_m[0], .hinge = hinge, .bed = bed};
     const double reach = sph::Wavemaker(paddle, plan.waves, plan.second_order, o.wavemaker->stroke_m.value_or(0.0)).reach();
@@ -178,7 +179,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (waved && !o.wavemaker && !starts_in_waves(o))
     wrong("waves.model", "has no effect: the sea of particles has neither [sea.wavemaker] nor sea.initial.state = \"waves\"",
           "sea.initial.state");
-  if (waved && waves.ramp_s > 0.0) wrong("waves.ramp_s", "has no effect in a sea of particles: give sea.wavemaker.ramp_s");
+  if (waved && waves.ramp_s.value_or(0.0) > 0.0)
+    wrong("waves.ramp_s", "has no effect in a sea of particles: give sea.wavemaker.ramp_s");
   if (waved && wave_models().named(waves.model).nonlinear && !wave_models().named(waves.model).second_order)
     wrong("waves.model",
           "must not be '" + waves.model + "' in a sea of particles: its harmonics are not free waves; use 'stokes2'");

@@ -42,7 +42,7 @@ sph::Paddle paddle_of(const ParticlePlan& plan) {
           .hinge = w.hinge_m.value_or(bed),
           .bed = bed,
           .start_s = w.start_s,
-          .ramp_s = w.ramp_s};
+          .ramp_s = w.ramp_s.value_or(0.0)};
 }
 sph::Wavemaker wavemaker_of(const ParticlePlan& plan) {
   return {paddle_of(plan), plan.waves, plan.second_order, plan.wavemaker->stroke_m.value_or(0.0)};

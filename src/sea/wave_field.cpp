@@ -15,7 +15,7 @@ namespace spindrift::sea {
 double bound_wave_limit(double significant_height, double gravity) { return std::sqrt(2.0 * gravity / significant_height); }
 
 WaveField::WaveField(const WavesOptions& options, const SeaEnvironment& environment)
-    : depth_(environment.water_depth), ramp_end_(options.ramp_s) {
+    : depth_(environment.water_depth), ramp_end_(options.ramp_s.value_or(0.0)) {
   if (options.model == "none") return;
   const WaveModel& model = wave_models().named(options.model);
   if (options.height_m == 0.0 && std::ranges::find(model.keys, "height_m") != model.keys.end()) return;

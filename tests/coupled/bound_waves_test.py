@@ -41,6 +41,7 @@ period_s = {PERIOD}
 components = {COMPONENTS}
 spacing = "equal_frequency"
 seed = 7
+ramp_s = 0.0
 """
 
 

@@ -193,6 +193,18 @@ TEST_CASE("substeps share out what is left of a window and never exceed the limi
   CHECK(substep_ticks(2, 2.0) == 2);
 }
 
+TEST_CASE("a paddle starts over two periods of its waves where the scene does not say", "[coupled][sea][fast]") {
+  const auto growth = [](const std::string& tank, const std::vector<std::string>& overrides) {
+    scene::Document document = scene::load(test::input(tank), overrides);
+    return FloatingSystem(read_scenario(document)).particle_plan()->wavemaker->ramp_s;
+  };
+  const std::string tank = "validation/wave_tank/small_tank.toml";
+  CHECK(growth(tank, {"waves.period_s=1.5", "without=['sea.wavemaker.ramp_s']"}) == 3.0);
+  CHECK(growth(tank, {"waves.period_s=1.5", "sea.wavemaker.ramp_s=0.0"}) == 0.0);
+  // Water that moves already has the waves whole.
+  CHECK(growth(tank, {"sea.initial.state='waves'", "without=['sea.wavemaker.ramp_s']"}) == 0.0);
+}
+
 TEST_CASE("bad seas of particles are refused by key before anything is made", "[coupled][sea][fast]") {
   CHECK_THAT(refusal(dam, {"sea.particles.spacing_m=1.0"}), Contains("sea.particles.spacing_m") && Contains("fewer than 4"));
   CHECK_THAT(refusal(dam, {"sea.tank.x_m=[4.0, 0.0]"}), Contains("sea.tank.x_m"));

@@ -42,6 +42,14 @@ TEST_CASE("the equilibrium is that under the mean loads, whatever wave stands th
   }
 }
 
+TEST_CASE("waves are not there at once unless the scene says so", "[coupling][fast]") {
+  std::vector<std::string> waves{"start.equilibrium=true", "sea.model='morison'", "waves.model='airy'", "waves.height_m=1.0",
+                                 "waves.period_s=6.0"};
+  CHECK(test::scenario(test::buoy, waves).waves.ramp_s == 12.0);
+  waves.push_back("waves.ramp_s=0.0");
+  CHECK(test::scenario(test::buoy, waves).waves.ramp_s == 0.0);
+}
+
 TEST_CASE("a displaced start is the described position moved and turned about the reference point", "[coupling][fast]") {
   FloatingSystem floating(
       test::scenario(test::buoy, {"bodies.buoy.displacement_m=[0.0,0.0,0.5]", "bodies.buoy.velocity_m_s=[0.1,0.0,0.0]"}));

@@ -164,6 +164,7 @@ TEST_CASE("the deck's platform, rotor, water, lines and waves are the scene's", 
   CHECK(s.sea.matrices.at(0).damping.at(2)[2] == 2e4);
   CHECK(body.cylinders.at(1).end_diameter_m.value() == 6.0);
   CHECK(s.waves.model == "airy");
+  CHECK(s.waves.ramp_s == 0.0);
   CHECK(s.waves.direction == Approx(30.0 * radians_per_degree));
   REQUIRE(s.moorings.size() == 3);
   const moorings::LineOptions& line = s.moorings[1].options;

@@ -94,6 +94,21 @@ TEST_CASE("stretching brings linear kinematics to the surface by the rule that i
   CHECK(WaveField(options, water).kinematics(0.0, {0, 0, 0.94}, 0.94).pressure_over_density == Approx(9.81 * 0.94));
 }
 
+TEST_CASE("waves of a scene that does not say how they grow do so over two periods", "[sea][fast]") {
+  WavesOptions options = regular("airy");
+  CHECK(growth_time(options) == 2.0 * options.period_s);
+  // A crest at a given time is whole, with the wave before it.
+  options.crest_height_m = 1.0, options.crest_time_s = 0.0;
+  CHECK(growth_time(options) == 0.0);
+  options.crest_time_s = 2.5 * options.period_s;
+  CHECK(growth_time(options) == Approx(1.5 * options.period_s));
+  options.crest_time_s = 30.0 * options.period_s;
+  CHECK(growth_time(options) == 2.0 * options.period_s);
+  WavesOptions measured;
+  measured.model = "elevation";
+  CHECK(growth_time(measured) == 0.0);
+}
+
 TEST_CASE("waves grow smoothly from nothing over the ramp", "[sea][fast]") {
   WavesOptions options = regular("stokes2");
   options.ramp_s = 10.0;
