@@ -78,10 +78,13 @@ PartCost print_particles(const FloatingSystem& floating, const coupling::Start& 
   else
     fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls,
                census.bodies);
+  const bool alone = s.joints.empty() && s.moorings.empty() && s.beams.empty() && !s.has_rotor();
   for (const sea::ParticleCensus::Body& body : census.floats)
-    fmt::print("  {:<22}{:.6g} m3 displaced by its particles, {:.6g} m3 at the start; {}\n", body.name, body.volume_m3,
+    fmt::print("  {:<22}{:.6g} m3 displaced by its particles, {:.6g} m3 at the start{}\n", body.name, body.volume_m3,
                body.wetted_m3,
-               body.rise_m ? fmt::format("by its own weight alone it floats {:+.4g} m from there", *body.rise_m) : "it sinks");
+               !alone        ? ""
+               : body.rise_m ? fmt::format("; it floats {:+.4g} m from there", *body.rise_m)
+                             : "; it sinks");
   fmt::print("  {:<22}{:.4g} m/s ({}), {:.3g} m spacing, support {:.3g} m\n", "speed of sound", p.eos.c0,
              floating.particle_plan()->sound_speed_from, p.spacing, p.reach());
   fmt::print("  {:<22}{:.4g} s at rest, set by {}{}; {:.0f} to a window\n", "largest step", census.step_s, census.step_set_by,
@@ -148,24 +151,28 @@ coupling::Start start_or_doubts(FloatingSystem& floating, const scene::Doubts& a
 /// Of a run that begins with what this check has done, in `start_s` of processor time.
 BaseCost base_cost(double start_s) { return {resident_memory() + output_bytes, start_s + output_seconds}; }
 
-/// `start_s`: processor time up to the first step.
-void print_steps(FloatingSystem& floating, const coupling::Start& start, double start_s) {
+/// What moves by steps of its own, the engineering sea with it. Returns its processor time [s].
+double print_steps(FloatingSystem& floating, const coupling::Start& start) {
   const coupling::Timeline& t = floating.timeline();
   const StepCost cost = measured_steps(floating, start);
-  const double seconds = start_s + cost.core_seconds() + output_seconds;
   fmt::print("\nSize and cost\n");
   fmt::print("  {:<22}{} windows of {} s, {} step{} each ({})\n", "time", t.windows(), t.window_s(), t.steps_per_window(),
              t.steps_per_window() == 1 ? "" : "s", name(floating.multibody().integrator()));
   fmt::print(
-      "  {:<22}{:.3g} ({:.3g} s on one core, {:.0f} times real time): {:.3g} s to start and for files, {:.3g} steps of {:.3g} "
-      "us{} and {:.3g} rows of history of {:.3g} us, measured now\n",
-      "predicted core-hours", seconds / 3600.0, seconds, t.windows() * t.window_s() / seconds, start_s + output_seconds,
-      cost.steps, 1e6 * cost.step_s,
+      "  {:<22}{:.3g} core-s: {:.3g} steps of {:.3g} us{} and {:.3g} rows of history of {:.3g} us, measured now\n", "steps",
+      cost.core_seconds(), cost.steps, 1e6 * cost.step_s,
       cost.exchanges > 0.0 ? fmt::format(", {:.3g} loads of the rotor of {:.3g} us", cost.exchanges, 1e6 * cost.exchange_s) : "",
       cost.rows, 1e6 * cost.row_s);
-  const double bytes = base_cost(start_s).bytes;
-  fmt::print("  {:<22}{:.0f} MB\n", "memory", bytes / 1e6);
-  for (const std::string& warning : beyond_machine(bytes, seconds)) fmt::print("  warning: {}\n", warning);
+  return cost.core_seconds();
+}
+
+/// Of a run in which nothing has a solver of its own but the bodies.
+void print_cost_of_steps(const coupling::Timeline& t, const BaseCost& base, double steps_s) {
+  const double seconds = base.core_seconds + steps_s;
+  fmt::print("  {:<22}{:.3g} ({:.3g} s on one core, {:.0f} times real time; {:.3g} s of them to start and for files)\n",
+             "predicted core-hours", seconds / 3600.0, seconds, t.windows() * t.window_s() / seconds, base.core_seconds);
+  fmt::print("  {:<22}{:.0f} MB\n", "memory", base.bytes / 1e6);
+  for (const std::string& warning : beyond_machine(base.bytes, seconds)) fmt::print("  warning: {}\n", warning);
 }
 
 void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& state) {
@@ -227,7 +234,7 @@ void print_modes(const FloatingSystem& floating, const bodies::Linearisation& li
       ++free;
     else if (std::abs(mode.eigenvalue.imag()) > 1e-6)
       fmt::print("  {:<34}period {:8.3f} s ({:.4f} Hz)   damping {:.2f} % of critical\n", mode.name, mode.period_s(),
-                 1.0 / mode.period_s(), 100.0 * mode.damping_ratio());
+                 1.0 / mode.period_s(), 1e-2 * std::round(1e4 * mode.damping_ratio()) + 0.0);  // + 0: no minus before zero
     else
       fmt::print("  {:<34}rate {:+.3g} 1/s{}\n", mode.name, mode.eigenvalue.real(),
                  mode.eigenvalue.real() > 1e-4 ? ", grows by itself" : "");
@@ -565,9 +572,11 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   if (floating.particle_plan()) {
     print_meshes(floating, start);
     parts.push_back(print_particles(floating, start));
-  } else
-    print_steps(floating, start, start_s);
-  if (!parts.empty()) print_cost(parts, floating.scenario().time.end_s, world.size, base);
+    print_cost(parts, floating.scenario().time.end_s, world.size, base);
+  } else if (const double steps_s = print_steps(floating, start); parts.empty())
+    print_cost_of_steps(floating.timeline(), base, steps_s);
+  else
+    print_cost(parts, floating.scenario().time.end_s, world.size, {base.bytes, base.core_seconds + steps_s});
   if (!arguments.columns.empty()) print_omissions(arguments, asked);
   return done;
 }

@@ -191,6 +191,8 @@ PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::Resolved
                 .core_seconds_per_work = size.core_seconds_per_pseudo_step,
                 .rate = {},
                 .work_before = settling_steps(setup.flow, before)};
+  // A steady march begins on a grid of half the cells along each direction.
+  if (setup.flow.time == "steady") cost.work_before += 0.125 * setup.flow.coarse_steps.value_or(0);
   std::string source = "stated for a core of 50 GFLOP/s; --calibrate measures it";
   if (calibrate) {
     const aero::AirRate rate = aero::measured_air_rate(setup);
@@ -264,7 +266,7 @@ PseudoSteps expected_pseudo_steps(const coupling::Scenario& s) {
   const aero::FlowOptions& flow = *s.aero.flow;
   const double windows = s.time.end_s / s.time.window_s;
   if (flow.time == "steady") {
-    const bool by_loads = has_resolved_rotor(s) && flow.load_change.value_or(1.0) > 0.0;
+    const bool by_loads = has_resolved_rotor(s) && flow.load_change.value_or(flow.drop) > 0.0;
     if (!by_loads && flow.drop <= 0.0) return {1.0 / s.time.window_s, "pseudo-steps"};
     const double usual = by_loads ? steps_of_rotor : steps_of_steady;
     return {std::min(windows, usual) / s.time.end_s, "pseudo-steps until it has settled, as flows usually do,"};

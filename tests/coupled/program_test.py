@@ -279,6 +279,8 @@ class Checks(unittest.TestCase):
             for scene, (code, said, errors) in zip(scenes, pool.map(checked, scenes)):
                 self.assertEqual(code, 0, f"{scene}: {said}{errors}")
                 self.assertNotIn("warning: ", said, scene)
+                for once in ("  memory  ", "predicted core-hours"):
+                    self.assertEqual(said.count(once), 1, f"{scene}: {once}")
                 if "sph" in said or "particles" in said or "blade_resolved" in said:
                     for words in ("predicted core-hours", "wall time", "memory of a rank each"):
                         self.assertIn(words, said, scene)
@@ -300,6 +302,9 @@ class Checks(unittest.TestCase):
             number = lambda pattern: float(re.search(pattern, text).group(1))
             return {"cells": number(r"air +(\d+) cells"), "water": number(r"\((\S+) water"), "hours": number(r"predicted core-hours +(\S+) core-hours"),
                     "rate": number(r"\((\S+) us per cell"), "memory": re.search(r"memory +(\S+) GB", text), "verdict": "A loose scheme will do." in text}
+        steps = lambda scene: float(re.search(r"([.\d]+) pseudo-steps", checked(f"leble_barakos/{scene}.toml")[1]).group(1))
+        self.assertEqual(steps("rotor_rans"), 140)  # all that the scene asks for: drop = 0
+        self.assertLess(steps("rotor_demo"), 140)   # until the loads have settled
         air = checked("tutorials/wing_section.toml")[1]   # on a grid of its own
         self.assertGreater(float(re.search(r"predicted core-hours +(\S+) core-hours", air).group(1)), 1e-4)
         demo, workstation, paper = cost("demo"), cost("workstation"), cost("paper")
