@@ -207,12 +207,18 @@ def duration(seconds):
     return f"{seconds:.3g} s" if seconds < 120 else f"{seconds / 60:.3g} min" if seconds < 7200 else f"{seconds / 3600:.3g} h"
 
 
-def within_budget(plan, wanted, known):
-    """Leaves out the dearest runs until the forecast fits; names of rungs left out."""
+def forecast_of(wanted):
+    """Core-seconds of these runs."""
+    return sum(run["forecast_core_s"] for _, run in wanted)
+
+
+def within_budget(plan, wanted, known, before=0.0):
+    """Leaves out the dearest runs until the forecast fits beside what is taken `before` [core-s]; names of runs left out. Runs that are there already
+    count as the others do, and stay: a study that was cut off leaves out what the whole one leaves out."""
     budget = plan["options"]["budget_core_h"]
     if budget is None:
         return wanted, []
-    left, cost = list(wanted), sum(r["forecast_core_s"] for _, r in wanted if r["name"] not in known)
+    left, cost = list(wanted), before + forecast_of(wanted)
     reference = (plan["reference"] or {}).get("variant")
     for pair in sorted(wanted, key=lambda p: -p[1]["forecast_core_s"]):
         if cost <= 3600.0 * budget:
@@ -276,6 +282,10 @@ def print_plan(plan, runs):
     forecast_table(plan, wanted, runs)
     for name in left_out:
         say(f"  beyond the budget, left out: {name}")
+    budget = plan["options"]["budget_core_h"]
+    if budget is not None and forecast_of(wanted) > 3600.0 * budget:
+        say(f"  warning: {'what is there already and the reference take' if runs.results else 'the reference alone takes'} "
+            f"{forecast_of(wanted) / 3600.0:.3g} core-hours, the budget is {budget:g}")
     return wanted, left_out
 
 
@@ -314,7 +324,7 @@ def main():
     if finished and plan["options"]["design"] == "pairs":
         axes = set(judge().crossed())
         more = [(g, r) for g in plan["rungs"] if g["later"] and {a for a, p in enumerate(g["at"]) if p} <= axes for r in g["runs"]]
-        more, beyond = within_budget(plan, more, runs.results)
+        more, beyond = within_budget(plan, more, runs.results, forecast_of(wanted))
         left_out += beyond
         names |= {r["name"] for _, r in more}
         finished = runs.run(more)

@@ -216,6 +216,23 @@ class Budget(unittest.TestCase):
         self.assertEqual([g["name"] for g, _ in kept], ["curve", "coarse", "fine"])
         self.assertEqual(left_out, ["good/replica_0 (10 s)"])
 
+    def test_a_study_that_was_cut_off_leaves_out_what_the_whole_one_does(self):
+        plan = Synthetic(LADDER, COSTS, replicas=2).plan
+        plan["options"]["budget_core_h"] = 220.0 / 3600.0
+        wanted = [(g, r) for g in plan["rungs"] for r in g["runs"]]
+        kept, left_out = spindrift_study.within_budget(plan, wanted, {})
+        self.assertEqual(left_out, ["good/replica_0 (10 s)"])
+        for done in range(len(kept) + 1):
+            known = {run["name"]: {} for _, run in kept[:done]}
+            self.assertEqual(spindrift_study.within_budget(plan, wanted, known), (kept, left_out))
+
+    def test_pairs_have_what_the_axes_left_of_the_budget(self):
+        plan = Synthetic(LADDER, COSTS, replicas=1).plan
+        plan["options"]["budget_core_h"] = 20.0 / 3600.0
+        more = [(g, r) for g in plan["rungs"] for r in g["runs"] if g["name"] in ("coarse", "good")]
+        self.assertEqual(spindrift_study.within_budget(plan, more, {}, before=7.0)[1], [])
+        self.assertEqual(spindrift_study.within_budget(plan, more, {}, before=10.0)[1], ["good/replica_0 (10 s)"])
+
 
 if __name__ == "__main__":
     unittest.main()
