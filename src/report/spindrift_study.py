@@ -52,6 +52,23 @@ def with_parent():
     ctypes.CDLL(None).prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG
 
 
+def fingerprint(plan, run):
+    """Of the scene and the program."""
+    return hashlib.sha256((run["echo"] + plan["commit"]).encode()).hexdigest()
+
+
+def first_forecasts(folder, plan):
+    """By run, what it was forecast to take when this study was first called. A forecast measures the computer of the moment: with another one the
+    budget of a study that was cut off would leave out other runs."""
+    old, kept = read_json(folder / "forecasts.json") or {}, {}
+    for run in (run for rung in plan["rungs"] for run in rung["runs"]):
+        now = {"fingerprint": fingerprint(plan, run), "core_s": run["forecast_core_s"]}
+        before = old.get(run["name"], now)
+        kept[run["name"]] = before if before["fingerprint"] == now["fingerprint"] else now
+        run["forecast_core_s"] = kept[run["name"]]["core_s"]
+    return kept
+
+
 class Runs:
     """Runs of a plan on disk and under way."""
 
@@ -72,7 +89,7 @@ class Runs:
 
     # The ledger ------------------------------------------------------------------------------------------------------------------
     def fingerprint(self, run):
-        return hashlib.sha256((run["echo"] + self.plan["commit"]).encode()).hexdigest()
+        return fingerprint(self.plan, run)
 
     def ledger(self, run):
         return self.folder / run["name"] / "study_run.json"
@@ -275,8 +292,11 @@ def print_result(result, folder):
     say(f"spent: {result['core_s_spent']:.4g} core-s")
 
 
-def print_plan(plan, runs):
+def print_plan(plan, runs, dry=False):
     """Says what is to be run, and what the budget leaves out; returns both."""
+    forecasts = first_forecasts(runs.folder, plan)
+    if not dry:
+        write_whole(runs.folder / "forecasts.json", json.dumps(forecasts))
     runs.take_known()
     wanted, left_out = within_budget(plan, [(g, r) for g in plan["rungs"] if not g["later"] for r in g["runs"]], runs.results)
     forecast_table(plan, wanted, runs)
@@ -304,7 +324,7 @@ def main():
     plan = json.loads(given.plan.read_text(encoding="utf-8"))
     if given.dry_run:
         given.plan.unlink()
-        print_plan(plan, Runs(given.dry_run.resolve(), plan))
+        print_plan(plan, Runs(given.dry_run.resolve(), plan), dry=True)
         return DONE
     folder = given.plan.parent.resolve()
     lock = open(folder / "lock", "w")

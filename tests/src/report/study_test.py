@@ -1,7 +1,9 @@
 """Laws of src/report/study_judge.py on studies whose truth is known, without a run. SPDX-License-Identifier: Apache-2.0"""
+import json
 import math
 import pathlib
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -225,6 +227,16 @@ class Budget(unittest.TestCase):
         for done in range(len(kept) + 1):
             known = {run["name"]: {} for _, run in kept[:done]}
             self.assertEqual(spindrift_study.within_budget(plan, wanted, known), (kept, left_out))
+
+    def test_forecasts_are_those_of_the_first_call(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            plan = Synthetic(LADDER, COSTS, replicas=1).plan
+            spindrift_study.write_whole(folder / "forecasts.json", json.dumps(spindrift_study.first_forecasts(folder, plan)))
+            again = Synthetic(LADDER, {name: 2.0 * cost for name, cost in COSTS.items()}, replicas=1).plan
+            again["rungs"][0]["runs"][0]["echo"] = "another scene"
+            spindrift_study.first_forecasts(folder, again)
+        self.assertEqual([rung["runs"][0]["forecast_core_s"] for rung in again["rungs"]], [2.0, 3.0, 10.0, 100.0])
 
     def test_pairs_have_what_the_axes_left_of_the_budget(self):
         plan = Synthetic(LADDER, COSTS, replicas=1).plan
