@@ -173,6 +173,31 @@ void doubt_reynolds(scene::Doubts& doubts, const ReynoldsReach& reach) {
        "give polars there, or look at their reynolds and at the viscosity"});
 }
 
+/// Towers are about a tenth as thick as the blades are long, thinner under small rotors.
+void doubt_tower(scene::Doubts& doubts, const AeroOptions& aero, double radius) {
+  if (!aero.tower || radius <= 0.0) return;
+  constexpr double most = 0.3;
+  double thickest = 0.0;
+  for (const auto& [height, diameter, drag] : aero.tower->stations) thickest = std::max(thickest, diameter);
+  if (thickest > most * radius)
+    doubts.push_back({"aero.tower.stations", fmt::format("a diameter of {:.4g} m behind blades of {:.4g} m", thickest, radius),
+                      fmt::format("up to {:g} of their length", most), "look at its unit: m, not mm"});
+}
+
+/// Of resolved air: by the radius and the faster of tips and wind. Rotors of 0.5 to 150 m have 1e6 to 1e9.
+void doubt_viscosity(scene::Doubts& doubts, const AeroOptions& aero, const WindOptions& wind, double air_density,
+                     const RotorAtStart& start) {
+  if (!aero.flow || aero.flow->viscous == "none" || start.radius <= 0.0) return;
+  constexpr double least = 1e5, most = 5e9;
+  const double speed = std::max(std::abs(start.speed) * start.radius, wind.speed_m_s);
+  const double reynolds = air_density * speed * start.radius / aero.flow->viscosity_Pa_s;
+  if (speed > 0.0 && (reynolds < least || reynolds > most))
+    doubts.push_back(
+        {"aero.flow.viscosity_Pa_s",
+         fmt::format("{:.4g} Pa s, a Reynolds number of {:.3g} by the rotor's radius", aero.flow->viscosity_Pa_s, reynolds),
+         fmt::format("{:g} to {:g}", least, most), "look at its unit: air has 1.8e-5 Pa s"});
+}
+
 }  // namespace
 
 scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, const WindOptions& wind, double air_density,
@@ -184,13 +209,19 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
   doubt_speed(doubts, start.speed_key, wind, start, blown);
   if (aero.model != "prescribed") doubt_wind(doubts, wind);
   doubt_load(doubts, wind, air_density, start, blown);
+  doubt_viscosity(doubts, aero, wind, air_density, start);
+  doubt_tower(doubts, aero, start.radius);
   if (start.reynolds) doubt_reynolds(doubts, *start.reynolds);
+  const std::string hub_key = rotor.joint.empty() ? "rotor.hub_m" : "joints." + rotor.joint + ".point_m";
   if (start.over_water && start.hub.z() < start.radius)
-    doubts.push_back({rotor.joint.empty() ? "rotor.hub_m" : "joints." + rotor.joint + ".point_m",
+    doubts.push_back({hub_key,
                       start.hub.z() < 0.0
                           ? fmt::format("the hub is {:.4g} m under water", -start.hub.z())
                           : fmt::format("the hub is {:.4g} m above water with blades of {:.4g} m", start.hub.z(), start.radius),
                       "a hub higher than its blades are long", "look at z: up is positive"});
+  if (constexpr double least = 60.0, blades = 4.0; start.radius > 0.0 && start.hub.z() > std::max(least, blades * start.radius))
+    doubts.push_back({hub_key, fmt::format("the hub is {:.4g} m up with blades of {:.4g} m", start.hub.z(), start.radius),
+                      fmt::format("up to {:g} times their length", blades), "look at its unit: m"});
   if (start.over_water) doubt_roughness(doubts, wind);
   if (const double pitch = rotor.blade_pitch / radians_per_degree; pitch < -15.0 || pitch > 95.0)
     doubts.push_back({"rotor.blade_pitch_deg", fmt::format("{:.4g} degrees", pitch), "-10 to 90 degrees",

@@ -302,7 +302,8 @@ constexpr double slower = 2.0;
 
 // A trial goes on for so long [s], for so many pseudo-steps of a steady flow at least (its balance first rises) or windows; it is
 // made where these take no longer than that by the stated rates.
-constexpr double trial_s = 0.5, longest_trial_s = 1.5;
+// Where a flow converges in none of its windows, they take many times as long: it is given up then.
+constexpr double trial_s = 0.5, longest_trial_s = 1.5, given_up_s = 2.0 * longest_trial_s;
 constexpr int least_steps = 8, least_windows = 2, steps_at_once = 4;
 
 /// Nothing where the march fails.
@@ -322,7 +323,7 @@ std::optional<FlowTrial> try_flow(const coupling::Scenario& s) {
   double started = begun;  // the first window starts the flow, and takes more
   int at_start = 0;
   for (std::int64_t window = 0;
-       window < windows && !trial.settled && (window < least || processor_seconds() - before < trial_s);) {
+       window < windows && !trial.settled && processor_seconds() - before < (window < least ? given_up_s : trial_s);) {
     const run::Advance advance = flow.advance(window, windows);
     if (!advance.failure.empty() || advance.windows == 0) {
       if (steady || trial.steps == 0) return std::nullopt;

@@ -95,6 +95,17 @@ const std::vector<Choice>& choices() {
                                    "sea.current_profile", "sea.coefficients"}) +
                 Overrides{"sea.model=hydrostatic"};
        }},
+      {"no memory of waves made",
+       [](const Scenario& s, const scene::Document& document) -> Overrides {
+         if (!s.sea.potential || s.sea.potential->radiation == "none") return {};
+         return without(document, {"sea.potential.memory_s", "sea.potential.fit_tolerance"}) +
+                Overrides{"sea.potential.radiation=none"};
+       }},
+      {"no slow drift",
+       [](const Scenario& s, const scene::Document& document) -> Overrides {
+         if (!s.sea.potential || s.sea.potential->drift == "none") return {};
+         return without(document, {"sea.potential.drift_file"}) + Overrides{"sea.potential.drift=none"};
+       }},
       {"first-order waves",
        [](const Scenario& s, const scene::Document&) -> Overrides {
          if (s.has_waves() && s.waves.second_order) return {"waves.second_order=false"};

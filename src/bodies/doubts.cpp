@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/bodies/extent.hpp"
@@ -74,6 +75,30 @@ scene::Doubts body_doubts(const NamedBodies& bodies) {
     if (const double turn = body.omega_rad_s.norm(); size > 5.0 && turn * size > 60.0)
       doubts.push_back({at, fmt::format("starts turning at {:.4g} rad/s, its ends at {:.4g} m/s", turn, turn * size),
                         "ends up to 60 m/s", "look at the unit of its rates"});
+  }
+  return doubts;
+}
+
+/// Wood has 1e10 Pa and 500 kg/m3, concrete 3e10 and 2400, glass fibre 4e10 and 1900, steel 2.1e11 and 7850. Moduli of what is
+/// alike in all directions stand in a ratio of 2 to 3 (2 (1 + nu)), those of wood and fibres along and across in one of up to 20.
+scene::Doubts beam_doubts(const NamedBeams& beams) {
+  scene::Doubts doubts;
+  for (const auto& [name, beam] : beams) {
+    const std::string at = "beams." + name;
+    const double ratio = beam.youngs_modulus_Pa / beam.shear_modulus_Pa;
+    if (beam.youngs_modulus_Pa < 1e9 || beam.youngs_modulus_Pa > 1e12)
+      doubts.push_back({at + ".youngs_modulus_Pa", fmt::format("{:.4g} Pa", beam.youngs_modulus_Pa),
+                        "1e9 to 1e12 Pa: steel has 2.1e11", "look at its unit: Pa, not MPa or GPa"});
+    else if (ratio < 1.5 || ratio > 30.0)
+      doubts.push_back({at + ".shear_modulus_Pa",
+                        fmt::format("{:.4g} Pa, {:.3g} of Young's modulus", beam.shear_modulus_Pa, 1.0 / ratio),
+                        "0.03 to 0.7 of it: steel has 0.38", "look at its unit: Pa, not MPa or GPa"});
+    if (beam.density_kg_m3 < 300.0 || beam.density_kg_m3 > 25e3)
+      doubts.push_back({at + ".density_kg_m3", fmt::format("{:.4g} kg/m3", beam.density_kg_m3),
+                        "300 to 25000 kg/m3: steel has 7850", "look at its unit: kg/m3, not g/cm3 or t/m3"});
+    if (const double most = *std::ranges::max_element(beam.damping); most > 0.1)
+      doubts.push_back({at + ".damping", fmt::format("{:.4g} of critical", most), "up to 0.1: steel towers have 0.002 to 0.02",
+                        "it is a share, not per cent"});
   }
   return doubts;
 }

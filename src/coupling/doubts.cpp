@@ -490,6 +490,7 @@ void doubt_window(scene::Doubts& doubts, const FloatingSystem& floating, const S
 scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motion> motions) {
   const Scenario& s = floating.scenario();
   scene::Doubts all = body_doubts(s.bodies);
+  append(all, bodies::beam_doubts(s.beams));
   moorings::LineSurroundings around{s.has_sea() ? s.environment.water_depth_m : -1.0, weight(floating),
                                     s.environment.water_density_kg_m3, s.environment.gravity_m_s2, s.time.step()};
   std::optional<Bed> bed;

@@ -93,6 +93,18 @@ void doubt_fairlead(scene::Doubts& doubts, const std::string& at, const LineOpti
                       "up to 107 degrees: lines do not cross the body", "look at the signs of anchor_m, or whose anchor it is"});
 }
 
+/// Steel fills 7850 kg/m3, with wires and sheaths to 12000. With the bar's diameter, of which studless chain displaces 1.8 times,
+/// a chain has 25000.
+void doubt_diameter(scene::Doubts& doubts, const std::string& at, const LineOptions& line) {
+  if (line.mass_kg_m <= 0.0 || line.diameter_m <= 0.0) return;
+  constexpr double most = 20e3;
+  if (const double density = line.mass_kg_m / (0.25 * pi * line.diameter_m * line.diameter_m); density > most)
+    doubts.push_back({at + ".diameter_m",
+                      fmt::format("{:.4g} m at {:.4g} kg/m, {:.3g} kg/m3", line.diameter_m, line.mass_kg_m, density),
+                      fmt::format("up to {:g} kg/m3", most),
+                      "it is that of the displaced volume, for studless chain 1.8 times the bar's; look at its unit: m"});
+}
+
 void doubt_friction(scene::Doubts& doubts, const std::string& at, const LineOptions& line) {
   if (constexpr double most = 2.0; hangs(line) && line.bed_friction > most)
     doubts.push_back({at + ".bed_friction", fmt::format("{:.4g}", line.bed_friction),
@@ -141,6 +153,7 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     doubt_floats(doubts, at, line, around);
     doubt_fairlead(doubts, at, line, around);
     doubt_friction(doubts, at, line);
+    doubt_diameter(doubts, at, line);
     if (line_models().named(line.model).make_dynamic)
       doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
     if (around.depth_m < 0.0 || line.anchor_body != "earth") continue;

@@ -19,6 +19,8 @@ bool is_near(double x, double wanted, double share) { return std::abs(x - wanted
 /// The round number of degrees that so many radians are, if they are one.
 std::optional<double> round_degrees(double radians) {
   const double degrees = std::abs(radians) / radians_per_degree;
+  for (const auto& [three_digits, angle] : {std::pair{0.785, 45.0}, std::pair{1.57, 90.0}, std::pair{3.14, 180.0}})
+    if (is_near(std::abs(radians), three_digits, 1e-9)) return std::copysign(angle, radians);
   const double grain = degrees < 10.0 ? 0.5 : degrees < 30.0 ? 1.0 : 5.0, share = degrees < 30.0 ? 1e-3 : 3e-4;
   const double round = grain * std::round(degrees / grain);
   if (round == 0.0 || round > 180.0 || !is_near(degrees, round, share)) return std::nullopt;

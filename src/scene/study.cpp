@@ -59,7 +59,9 @@ const Section<StudyOptions>& study_section() {
         .integer("at_once", &StudyOptions::at_once, "-", "Runs at the same time; as many as cores are free where absent.",
                  at_least(1))
         .number("budget_core_h", &StudyOptions::budget_core_h, "h",
-                "Core-hours that may be spent: what the forecast puts beyond them is left out, dearest first.", positive())
+                "Core-hours that all runs may take, those done before among them: what the forecast puts beyond is left out, "
+                "dearest first.",
+                positive())
         .number("confidence", &StudyOptions::confidence, "-", "Of the intervals, and at least of the result.",
                 between(0.5, 0.999))
         .integer("repeats", &StudyOptions::repeats, "-",

@@ -93,6 +93,11 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
   if (wavy && along < 0.5 * length)
     doubts.push_back({"sea.tank.x_m", fmt::format("{:.4g} m long with waves {:.4g} m long", along, length), "half a wave or more",
                       "look at the period and at the unit of the tank: m"});
+  const double longest = std::max(along, sea.tank->y_m[1] - sea.tank->y_m[0]);
+  if (constexpr double most = 3.0; e.water_depth > most * longest)
+    doubts.push_back({"environment.water_depth_m", fmt::format("{:.4g} m in a tank {:.4g} m long", e.water_depth, longest),
+                      fmt::format("up to {:g} times its length", most),
+                      "look at the units of both: m; the cost goes with the depth"});
   for (std::size_t n = 0; n < sea.damping_zones.size(); ++n) {
     const DampingZoneOptions& zone = sea.damping_zones[n];
     const std::string at = fmt::format("sea.damping_zones[{}]", n);
@@ -120,6 +125,11 @@ void doubt_schemes(scene::Doubts& doubts, const ParticleOptions& p, const SeaEnv
                       fmt::format("{:.4g} m/s where nothing is faster than {:.3g} m/s", *p.sound_speed_m_s, slow),
                       fmt::format("up to {:g} times that", most),
                       "the step goes with its inverse; water's own 1500 m/s are not needed, ten times what moves is enough"});
+  constexpr double least = 5.0;  // water at the bed is then denser by 1 / 25
+  if (const double deep = std::sqrt(e.gravity * e.water_depth); p.sound_speed_m_s && *p.sound_speed_m_s < least * deep)
+    doubts.push_back({"sea.particles.sound_speed_m_s",
+                      fmt::format("{:.4g} m/s in water where long waves travel at {:.3g} m/s", *p.sound_speed_m_s, deep),
+                      fmt::format("{:g} times that or more; the default is ten times", least), "the water is compressible"});
   if (p.viscosity_model == sph::ViscosityChoice::artificial && p.viscosity > 0.5)
     doubts.push_back({"sea.particles.viscosity", fmt::format("{:.4g}", p.viscosity), "0.005 to 0.5 (Monaghan 1994: .01)",
                       "alpha of the artificial viscosity has no unit; much of it stops waves"});

@@ -146,6 +146,29 @@ class LeaveOut(unittest.TestCase):
             self.assertEqual(effects, [(None, None)] if more else [])
         self.assertIn("trying what could be left out", said.stderr)
 
+    def test_the_memory_of_waves_made_is_one_of_the_choices(self):
+        """Of a buoy in heave; the memory has a closed form, as in tests/src/sea/potential_test.cpp. Without it a decay has no damping."""
+        k, a, b, infinite, density = 1.0e4, 0.8, 1.5, 3.0e3, 1000.0
+        with tempfile.TemporaryDirectory() as folder:
+            with open(folder + "/buoy.1", "w", encoding="utf-8") as file:
+                file.write(f"0.0 3 3 {infinite / density}\n")
+                for w in 0.05 * np.arange(1, 601):
+                    r = 1j * w * k / ((1j * w + a) ** 2 + b**2)
+                    file.write(f"{2.0 * np.pi / w} 3 3 {(infinite + r.imag / w) / density} {r.real / (density * w)}\n")
+            scene = ["sea.model=potential", 'sea.potential.body="buoy"', f'sea.potential.radiation_file="{folder}/buoy.1"', "sea.potential.memory_s=20.0",
+                     "bodies.buoy.displacement_m=[0.0, 0.0, 0.3]", "time.end_s=30.0"]
+            said = spindrift("check", ROOT / "tests/extremes/buoy.toml", "--columns", "buoy.z_m", settings=scene)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            found = {name: (more, effects) for name, _, more, effects in stated(said.stdout)[1]}
+            more, effects = found["no memory of waves made"]
+            deviation = {}
+            for name, settings in (("own", scene), ("less", scene + more)):
+                done = spindrift("run", ROOT / "tests/extremes/buoy.toml", "--out", f"{folder}/{name}", "--no-report", "--quiet", settings=settings)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                deviation[name] = statistics(f"{folder}/{name}", ["buoy.z_m"])[0][1]
+        self.assertLess(deviation["own"], 0.1 * deviation["less"])
+        self.assertAlmostEqual(effects[0][1], deviation["less"] - deviation["own"], delta=0.01 * deviation["less"])
+
     def test_effect_and_saving_are_those_of_the_runs(self):
         for scene in SCENES:
             for name, _, _, wrong in measured(scene)[1]:

@@ -7,7 +7,8 @@
 using namespace spindrift::scene;
 
 TEST_CASE("round degrees given as radians are known, and degrees are let be", "[scene][fast]") {
-  for (const double radians : {0.0873, 0.08727, -0.1745, 0.2618, 0.5236, 0.7854, 1.5708, 3.14159, 0.0436})
+  for (const double radians :
+       {0.0873, 0.08727, -0.1745, 0.2618, 0.5236, 0.7854, 0.785, 1.5708, 1.57, -1.57, 3.14159, 3.14, 0.0436})
     CHECK(looks_like_radians(radians));
   for (const double degrees : {0.0, 1.0, 2.5, 5.0, 0.1, 0.05, 0.087, 2.751, 1.966, 0.896, 11.61083, 90.0, -45.0, 5.44})
     CHECK_FALSE(looks_like_radians(degrees));
