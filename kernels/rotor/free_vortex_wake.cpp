@@ -16,6 +16,8 @@ namespace {
 
 constexpr double near_turns = 0.25;  // with all filaments
 constexpr double least_wind = 1.0;   // m/s; without wind and at rest a step of the wake would have no end
+constexpr double most_speed_ratio =
+    25.0;  // of tips and wind: turns of a wake that begins are then an eighth of the diameter apart
 
 /// Of a row of rings, the circulation that is farthest from zero.
 double strongest(std::span<const double> row) {
@@ -297,8 +299,14 @@ bool FreeVortexWake::begin(const LiftingLines& blades, const Start& start, const
                            std::span<double> memory, std::span<Vector3d> induced) const {
   State s = sized();
   s.last_step = 0.0;
-  const double speed = start.omega.norm(), along = start.wind.dot(start.axis);
-  const double h = options_.step / std::hypot(speed, std::max(start.wind.norm(), least_wind) / radius_);
+  const double speed = start.omega.norm();
+  // Where the wind would leave the turns on top of each other, the rotor begins in air at rest: behind it lies what has no
+  // circulation.
+  const bool from_rest = speed * radius_ > most_speed_ratio * start.wind.norm() && speed > 0.0;
+  const Vector3d wind = from_rest ? Vector3d(speed * radius_ / most_speed_ratio * start.axis) : start.wind;
+  const double along = wind.dot(start.axis), induction = from_rest ? 0.0 : start.induction;
+  const std::vector<double> none(from_rest ? sections() : 0, 0.0);
+  const double h = options_.step / std::hypot(speed, std::max(wind.norm(), least_wind) / radius_);
   const Vector3d turning = speed > 0.0 ? Vector3d(start.omega / speed) : start.axis;
   Vector3d carried = Vector3d::Zero();
   double widened = 1.0;
@@ -307,7 +315,7 @@ bool FreeVortexWake::begin(const LiftingLines& blades, const Start& start, const
     s.age[k] = double(k) * h;
     const Eigen::AngleAxisd back(-speed * s.age[k], turning);
     for (std::size_t b = 0; b < blades_; ++b) {
-      const std::span<const double> bound = start.circulation.subspan(b * sections(), sections());
+      const std::span<const double> bound = from_rest ? none : start.circulation.subspan(b * sections(), sections());
       for (std::size_t end = 0; end <= sections(); ++end)
         line[end] = start.hub + widened * (back * (blades.ends[b * (sections() + 1) + end] - start.hub)) + carried;
       if (k <= near_rows_) std::ranges::copy(line, s.near.begin() + std::ptrdiff_t(near_at(b, k, 0)));
@@ -320,9 +328,9 @@ bool FreeVortexWake::begin(const LiftingLines& blades, const Start& start, const
     // A vortex cylinder that begins at the disc slows the air in it by `share`, its own sheet by half of that, and is as wide as
     // the slowed air needs.
     const double behind = carried.dot(start.axis);
-    const double share = start.induction * (1.0 + behind / std::hypot(behind, radius_));
-    carried += h * (start.wind - 0.5 * share * along * start.axis);
-    widened = std::sqrt((1.0 - start.induction) / (1.0 - share));
+    const double share = induction * (1.0 + behind / std::hypot(behind, radius_));
+    carried += h * (wind - 0.5 * share * along * start.axis);
+    widened = std::sqrt((1.0 - induction) / (1.0 - share));
   }
   const bool settled = solve(s, blades, circulation, induced);
   memory[travelled] = memory[since] = 0.0;

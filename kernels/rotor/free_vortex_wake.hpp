@@ -45,7 +45,8 @@ class FreeVortexWake {
   /// Circulation of a section (of all blades) where the wake induces this velocity [m2/s].
   using Circulation = std::function<double(std::size_t, const Eigen::Vector3d&)>;
 
-  /// How a wake begins: on helices that the rotor would have left, of constant circulation.
+  /// How a wake begins: on helices that the rotor would have left, of constant circulation; of none where the wind hardly carries
+  /// them, so that the rotor begins in air at rest.
   struct Start {
     Eigen::Vector3d hub, omega;           ///< [m], [rad/s]
     Eigen::Vector3d axis, wind;           ///< unit, downwind; relative to the hub [m/s]

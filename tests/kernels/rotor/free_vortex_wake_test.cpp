@@ -102,3 +102,48 @@ TEST_CASE("a rotor of even loading slows the wind nearly as momentum theory says
   // On the axis of a vortex cylinder 1 + x / sqrt(x^2 + R^2) of that.
   CHECK(slowed(1.0, 0.8) / slowed(0.0, 0.8) == Approx(1.0 + std::sqrt(0.5)).epsilon(0.06));
 }
+
+TEST_CASE("without wind a rotor begins in air at rest, a breath of wind changes nothing, and the wake it leaves is driven down",
+          "[rotor][fast]") {
+  // Blades set to lift in still air; two pi of lift per angle.
+  const int blades = 3, sections = 6;
+  const double speed = 10.0, hub = 0.1, setting = 0.1, chord = 0.1, step = 10.0 * radians_per_degree, h = step / speed;
+  const auto lines = [&](double azimuth) {
+    LiftingLines all;
+    for (int b = 0; b < blades; ++b) {
+      const double angle = azimuth + 2.0 * pi * b / blades;
+      const Vector3d out(0, -std::sin(angle), std::cos(angle));
+      for (int j = 0; j <= sections; ++j) all.ends.push_back((hub + (1.0 - hub) * j / sections) * out);
+      for (int j = 0; j < sections; ++j) all.middles.push_back((hub + (1.0 - hub) * (j + 0.5) / sections) * out);
+    }
+    return all;
+  };
+  const std::vector<double> chords(sections, chord), bound(std::size_t(blades * sections), 0.2);
+  const auto circulation = [&](std::size_t i, const Vector3d& w) {
+    const double across = speed * (hub + (1.0 - hub) * (double(i % sections) + 0.5) / sections);
+    return pi * chord * across * (setting + w.x() / across);
+  };
+  const FreeVortexWake wake({.turns = 4.0, .step = step, .core_chords = 0.5, .viscosity = 1e-8}, chords, blades, 1.0);
+  const auto begin = [&](double wind, std::vector<double>& memory) {
+    memory.assign(wake.memory_size(), 0.0);
+    std::vector<Vector3d> induced(bound.size());
+    REQUIRE(wake.begin(lines(0.0), {Vector3d::Zero(), {speed, 0, 0}, Vector3d::UnitX(), {wind, 0, 0}, 0.0, bound}, circulation,
+                       memory, induced));
+    return induced;
+  };
+  std::vector<double> memory;
+  const std::vector<Vector3d> breath = begin(1e-3, memory), still = begin(0.0, memory);
+  for (std::size_t i = 0; i < still.size(); ++i) {
+    CHECK(still[i].allFinite());
+    CHECK(still[i].norm() < setting * speed);  // less than what makes the lift
+    CHECK((still[i] - breath[i]).norm() < 1e-9);
+  }
+  std::vector<Vector3d> induced(bound.size());
+  for (int n = 1; n <= 3 * 36; ++n)
+    REQUIRE(wake.advance(
+        lines(speed * h * n), [](const Vector3d&) { return Vector3d::Zero().eval(); }, h, circulation, memory, induced));
+  double mean = 0.0;
+  for (const Vector3d& w : induced) mean += w.x() / double(induced.size());
+  CHECK(mean < 0.0);  // against the axis, as the blades' own lift pushes the air
+  CHECK(mean > -setting * speed);
+}
