@@ -62,7 +62,8 @@ io::Summary Driver::run(Simulation& simulation) {
     ledger_.end_window();
     write_rest(simulation);  // for what could not be written beside the window, which is told here
 
-    const Windows done{window, window + advance.windows, advance.settled.empty() ? last : window + advance.windows};
+    const std::int64_t now = window + advance.windows;
+    const Windows done{window, now, advance.settled.empty() ? std::max(last, now) : now};
     window = done.now, last = done.last;
     if (!advance.settled.empty()) summary_.exit_reason = "done: " + advance.settled;
     for (Output* output : outputs) take_if_due(*output, done);

@@ -120,6 +120,10 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
                             march.balance_drop(), march.still_for, march.cfl));
   aero::FlowSnapshot before = air_.snapshot();
   rows_.clear(), rows_from_ = window;
+  // A matrix that serves several steps is made anew where a chunk begins: only whole ones are alike in every run.
+  const bool whole = solver.judgement().march.options().refresh_every > 1;
+  const std::int64_t left = (whole ? timeline_.windows() : last) - window;
+  if (air_.steady()) solver.judgement().march.limit(int(std::min<std::int64_t>(left, FlowCase::steady_chunk)));
   for (int retry = 0;; ++retry) {
     solver.judgement().march.ease(coupling::share_of_cfl(retry));
     air_.move(window, timeline_.window_s());
@@ -147,8 +151,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   if (air_.steady()) {
     // The last row of a chunk that goes on is judged, and written, by the next.
     const std::size_t judged = solver.rows().size() - (march.spent ? 1 : 0);
-    const auto count = std::min(std::int64_t(judged), last - window);
-    rows_.assign(solver.rows().begin(), solver.rows().begin() + count);
+    rows_.assign(solver.rows().begin(), solver.rows().begin() + std::ptrdiff_t(judged));
     last_rows_.insert(last_rows_.end(), rows_.begin(), rows_.end());
     while (last_rows_.size() > averaged(last)) last_rows_.pop_front();
     if (march.verdict == aero::Verdict::converged && !march.spent)

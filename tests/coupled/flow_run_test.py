@@ -87,6 +87,23 @@ class FlowRun(Folder):
         self.assertEqual((self.out / "history.csv").read_bytes(), (parts / "history.csv").read_bytes())
         self.assertGreater(len(self.history()), 21)
 
+    def test_a_steady_march_that_is_stopped_at_any_pseudo_step_goes_on_with_the_same_digits(self):
+        scene = CASES / "cylinder_low_mach/cylinder.toml"
+        for more in ((), ("--set", "aero.flow.refresh_every=3")):
+            with self.subTest(more=more):
+                options = ["--no-report", "--quiet", "--set", "time.end_s=43", "--set", "aero.flow.drop=0", *more]
+                whole, parts = (self.path / f"{name}{len(more)}" for name in ("whole", "parts"))
+                self.assertEqual(spindrift("run", scene, "--out", whole, *options).returncode, 0)
+                for until in (7, 8, 27, 43):
+                    done = spindrift("run", scene, "--out", parts, *options, "--until", until, *(["--restart"] if parts.exists() else []))
+                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                    last = rows(parts / "history.csv")[-1]
+                    self.assertEqual(last["flow.pseudo_steps"], last["time_s"])  # the state that is saved is that of the last row
+                    self.assertGreaterEqual(last["time_s"], until)
+                    if not more:
+                        self.assertEqual(last["time_s"], until)
+                self.assertEqual((whole / "history.csv").read_text(), (parts / "history.csv").read_text())
+
     def test_the_automatic_preconditioner_is_written_down_and_kept(self):
         case = CASES / "cylinder_low_mach/cylinder.toml"
         options = ["--no-report", "--set", "aero.flow.preconditioner='auto'"]

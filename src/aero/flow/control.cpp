@@ -24,7 +24,7 @@ double MarchState::balance_drop() const {
 
 void March::begin_step() {
   s_.steps = s_.rejections = rejected_in_a_row_ = 0;
-  last_step_ = judging_only_ ? 0 : o_.max_steps;
+  last_step_ = judging_only_ ? 0 : most_;
   s_.first = {};
   s_.matrix_free = s_.spent = false;
   s_.last.fraction = 1.0, s_.last.linear_drop = 0.0;
@@ -83,9 +83,9 @@ void March::reopen() {
   s_.verdict = Verdict::go_on;
 }
 
-void March::resume(int more_steps) {
+void March::resume() {
   // The last step of the run before was judged and not solved: it is judged again.
-  last_step_ = --s_.steps + (std::exchange(judging_only_, false) ? 0 : more_steps);
+  last_step_ = --s_.steps + (std::exchange(judging_only_, false) ? 0 : most_);
   reopen();
   made_ = Made::nothing;
   matrix_.cfl = 0.0;

@@ -91,7 +91,7 @@ struct MarchState {
 
 class March {
  public:
-  explicit March(const MarchOptions& options) : o_(options) { s_.cfl = options.cfl_start; }
+  explicit March(const MarchOptions& options) : o_(options), most_(options.max_steps) { s_.cfl = options.cfl_start; }
 
   const MarchState& state() const { return s_; }
   const MarchOptions& options() const { return o_; }
@@ -100,8 +100,10 @@ class March {
   void begin_step();
   /// The largest CFL number from here on, of the scene's: below 1 where a step is tried again.
   void ease(double factor);
-  /// A steady march goes on where it was, for at most so many more steps.
-  void resume(int more_steps);
+  /// Steps that a run makes at most from here on, and no more than the options have.
+  void limit(int steps) { most_ = std::min(steps, o_.max_steps); }
+  /// A steady march goes on where it was.
+  void resume();
   /// The next run judges the state it finds and makes no step; of a march that has begun it changes nothing else ...
   void judge_only() { judging_only_ = true; }
   /// ... and the one after it begins anew with another state, but what its residual was then counts as the start of its drop.
@@ -147,7 +149,7 @@ class March {
   double eased_ = 1.0;    ///< share of the scene's largest CFL number
   double ceiling_ = 0.0;  ///< of the CFL number after a leap of turbulence; 0: none
   double better_ = 0.0;   ///< the balance's drop when it last came to half of what it was
-  int last_step_ = 0, rejected_in_a_row_ = 0;
+  int most_, last_step_ = 0, rejected_in_a_row_ = 0;
   bool judging_only_ = false;
   Made made_ = Made::nothing;
   Matrix matrix_;

@@ -76,7 +76,7 @@ void Judgement::set_body_force(std::shared_ptr<BodyForce> force) {
 void Judgement::begin() {
   solving_ = true;
   if (unsteady_ || march.state().steps == 0) return march.begin_step();
-  march.resume(march.options().max_steps);
+  march.resume();
   if (!rows.all.empty()) rows.all.pop_back();
 }
 

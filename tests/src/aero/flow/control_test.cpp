@@ -153,8 +153,26 @@ TEST_CASE("marches that end for want of steps are counted, and the count goes th
   again.load(march.save());
   CHECK(again.state().unconverged == 2);
   CHECK(again.state().ended == 2);
-  again.resume(3);  // a steady march that goes on has not ended
+  again.resume();  // a steady march that goes on has not ended
   CHECK(again.state().unconverged == 1);
+}
+
+TEST_CASE("a steady march makes as many steps at once as it is told, and no more than its options have", "[flow][fast]") {
+  March march({.drop = 0.0, .max_steps = 5});
+  const auto made = [&] {
+    int steps = 0;
+    for (; march.judge(of(1.0), 0.0) == Verdict::go_on; ++steps) march.updated(1.0, 5, 0.1);
+    return steps;
+  };
+  march.limit(2);
+  march.begin_step();
+  CHECK(made() == 2);
+  march.limit(3);
+  march.resume();
+  CHECK(made() == 3);
+  march.limit(100);
+  march.resume();
+  CHECK(made() == 5);
 }
 
 TEST_CASE("a march stands still where its balance is not halved for long, far from its end or at no step size", "[flow][fast]") {
@@ -235,7 +253,7 @@ TEST_CASE("a look at a march that has begun judges its state again and changes n
   const int steps = march.state().steps;
   const double cfl = march.state().cfl;
   march.judge_only();
-  march.resume(100);
+  march.resume();
   CHECK(march.judge(of(0.5), 0.0) == Verdict::converged);
   CHECK(march.state().spent);
   CHECK(march.state().steps == steps);
