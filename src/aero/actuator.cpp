@@ -65,6 +65,30 @@ double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const E
   });
 }
 
+double actuator_bytes(const AeroOptions& aero, const RotorOptions& rotor, const MultiBlockGrid& grid) {
+  double nearest = std::numeric_limits<double>::infinity(), cell = 0.0;
+  for (const Block& b : grid.blocks)
+    for (int k = 0; k < b.nk; ++k)
+      for (int j = 0; j < b.nj; ++j)
+        for (int i = 0; i < b.ni; ++i) {
+          const Eigen::Vector3d& x = b.nodes[b.node(k, j, i)];
+          const double distance = (x - rotor.hub_m).squaredNorm();
+          if (distance >= nearest) continue;
+          nearest = distance;
+          cell = std::cbrt((b.nodes[b.node(k, j, i + 1)] - x).norm() * (b.nodes[b.node(k, j + 1, i)] - x).norm() *
+                           (b.nodes[b.node(k + 1, j, i)] - x).norm());
+        }
+  // Lines begin in the flow of a disc, which has more points than they.
+  return Actuator(read_turbine(rotor.turbine), Actuator::Kind::disc, aero.actuator.value_or(ActuatorOptions()), 1.0, cell)
+      .bytes();
+}
+
+double Actuator::bytes() const {
+  double cells = 0.0;
+  for (const Point& p : points_) cells += 4.0 / 3.0 * pi * std::pow(kernel_reach * width_[p.element] / cell_, 3);
+  return cells * sizeof(Part::Cell);
+}
+
 Actuator::Actuator(const Turbine& turbine, Kind kind, const ActuatorOptions& options, double air_density, double cell,
                    double kinematic_viscosity)
     : kind_(kind),
@@ -146,6 +170,7 @@ void Actuator::find_cells(Part& part, const FlowTile& tile) const {
     });
     if (part.cells.size() > first) part.reaches.push_back({std::uint32_t(n), first, std::uint32_t(part.cells.size())});
   }
+  if (kind_ == Kind::disc) part.cells.shrink_to_fit();  // of a disc they are many, and stay
   part.placed = placed_;
 }
 

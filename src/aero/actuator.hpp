@@ -25,6 +25,9 @@ namespace spindrift::aero {
 double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const Eigen::Vector3d& axis, double radius,
                      MPI_Comm comm);
 
+/// What an actuator of this scene keeps of the cells that its points reach, by the size of the cells at the hub [bytes].
+double actuator_bytes(const AeroOptions& aero, const RotorOptions& rotor, const MultiBlockGrid& grid);
+
 class Actuator final : public BodyForce {
  public:
   enum class Kind { disc, lines };
@@ -55,6 +58,8 @@ class Actuator final : public BodyForce {
   std::vector<SpanLoad> span_loads() const;
   double tip_radius() const { return sections_.tip_radius(); }
   double cell() const { return cell_; }
+  /// Of places and weights of the cells that the points reach, where all have the size of those at the rotor.
+  double bytes() const;
   /// Least sum of the kernel over the cells at any point: one inside the grid, less where it leaves it. After the last act().
   double least_weight() const;
   /// "actuator_line at 99 points, 10 cells of 8.9 m to the radius".

@@ -12,6 +12,7 @@
 #include <fstream>
 
 #include "runtime/trace/clock.hpp"
+#include "src/aero/actuator.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_size.hpp"
 #include "src/app/aside.hpp"
@@ -255,10 +256,10 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
 }
 
 // Pseudo-steps that recorded runs with the default march took (docs/developer/notes/coupled_system.md). A steady rotor until its
-// loads settle: 64 to 141 from 6 to 20 m/s. Any other steady flow: 60 to 92, whether its flux balance is to fall by 1e-3 or by
-// 1e-5. A physical step for each order: 3, without walls 2.
-constexpr double steps_of_rotor = 85.0, steps_of_steady = 75.0, unsteady_steps_per_order = 3.0,
-                 steps_per_order_without_walls = 2.0;
+// loads settle: 64 to 141 from 6 to 20 m/s. The steady flow of a disc: 23 to a drop of 1e-2, 60 to 1e-3. Any other steady flow:
+// 60 to 92, whether its flux balance is to fall by 1e-3 or by 1e-5. A physical step for each order: 3, without walls 2.
+constexpr double steps_of_rotor = 85.0, steps_of_steady = 75.0, steady_steps_per_order_without_walls = 18.0,
+                 unsteady_steps_per_order = 3.0, steps_per_order_without_walls = 2.0;
 
 double orders(double drop) { return -std::log10(std::clamp(drop, 1e-16, 0.5)); }
 
@@ -268,7 +269,9 @@ PseudoSteps expected_pseudo_steps(const coupling::Scenario& s) {
   if (flow.time == "steady") {
     const bool by_loads = has_resolved_rotor(s) && flow.load_change.value_or(flow.drop) > 0.0;
     if (!by_loads && flow.drop <= 0.0) return {1.0 / s.time.window_s, "pseudo-steps"};
-    const double usual = by_loads ? steps_of_rotor : steps_of_steady;
+    const double usual = by_loads           ? steps_of_rotor
+                         : s.has_actuator() ? steady_steps_per_order_without_walls * orders(flow.drop)
+                                            : steps_of_steady;
     return {std::min(windows, usual) / s.time.end_s, "pseudo-steps until it has settled, as flows usually do,"};
   }
   const double most = flow.max_pseudo_steps;
@@ -360,12 +363,13 @@ double shortest_trial_s(const coupling::Scenario& s, const aero::FlowSize& size,
 
 PartCost cost_of_flow(const coupling::Scenario& s, const aero::MultiBlockGrid& grid) {
   const aero::FlowSize size = aero::flow_size(*s.aero.flow, grid);
-  const bool strong = !s.bodies.empty() && is_strong(s.coupling.scheme);
+  const double notes = s.bodies.empty() ? 0.0 : is_strong(s.coupling.scheme) ? 2.0 : 1.0;  // of a window's start
+  const double actuator = s.has_actuator() ? aero::actuator_bytes(s.aero, coupling::placed_rotor(s).rotor, grid) : 0.0;
   const PseudoSteps steps = s.bodies.empty() ? expected_pseudo_steps(s) : coupled_pseudo_steps(s);
   PartCost cost{.name = "air",
                 .count = double(size.cells),
                 .things = "cells",
-                .bytes = size.bytes + (strong ? size.bytes_of_checkpoint : 0.0),
+                .bytes = size.bytes + notes * size.bytes_of_checkpoint + actuator,
                 .checkpoint_bytes = size.bytes_of_checkpoint,
                 .work_per_second = steps.per_second,
                 .work = steps.work,

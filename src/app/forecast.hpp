@@ -62,7 +62,7 @@ PartCost cost_of_flow(const coupling::Scenario& scenario, const aero::MultiBlock
 /// Of a run's history, log and the libraries that write them, beside what a check takes [bytes]; measured.
 inline constexpr double output_bytes = 4.5e6;
 /// Processor time of the same: folder, log, scene, summary, checkpoint [s].
-inline constexpr double output_seconds = 0.03;
+inline constexpr double output_seconds = 0.02;
 /// Memory of this process at its largest so far [bytes].
 double peak_memory();
 /// The same now: what was given back is not in it [bytes].

@@ -30,7 +30,8 @@ std::vector<SavedArray> AirFile::arrays() const {
         {starts_[std::size_t(solver_.tiles()[std::size_t(n)].index)], std::vector<double>(solver_.restart().size(n))});
     solver_.restart().save(n, tiles.pieces.back().values);
   }
-  std::vector<SavedArray> arrays{std::move(march), std::move(tiles)};
+  std::vector<SavedArray> arrays;  // not by a list, which copies
+  arrays.push_back(std::move(march)), arrays.push_back(std::move(tiles));
   if (!solver_.restart().keeps_set_up()) return arrays;
   const std::vector<std::int64_t> starts = set_up_starts();
   aero::SetUpNote note = solver_.restart().save_set_up();
