@@ -1,6 +1,6 @@
 // Random numbers that are the same on every computer and compiler for the same seed (the distributions of <random> are not).
 // SplitMix64: Steele, Lea & Flood (2014), OOPSLA; reference code by Vigna (public domain). Period 2^64, passes BigCrush.
-// Used for wave phases; tested in tests/kernels/base/lane_math_test.cpp.
+// Used for phases of waves and jitter of particles; tested in tests/kernels/base/lane_math_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

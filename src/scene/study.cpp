@@ -121,7 +121,7 @@ const Section<AxisOptions>& replicas_section() {
   static const auto section =
       with_points(Section<AxisOptions>("replicas",
                                        "Every configuration is run at each of these, which differ by chance alone (seed, phase "
-                                       "of the waves, jitter of particles): "
+                                       "of the waves, sea.particles.jitter_seed): "
                                        "errors are paired between configurations, their scatter is the noise floor."));
   return section;
 }

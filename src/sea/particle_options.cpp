@@ -128,6 +128,16 @@ const Section<ParticleOptions>& particle_section() {
                    "Particles that may slip through walls before the run stops; each is counted in history.csv. One in ten "
                    "thousand of the water, or ten, where absent.",
                    between(0, 1e9))
+          .number("jitter", &ParticleOptions::jitter, "-",
+                  "Largest displacement of the water's particles along each axis from their lattice at the start, in spacings: "
+                  "runs of another jitter_seed differ by chance alone, as the replicas of a study do.",
+                  between(0.0, 0.2))
+          .integer("jitter_seed", &ParticleOptions::jitter_seed, "-",
+                   "Seed of the displacements; the same seed gives the same ones on every computer.", not_negative())
+          .check([](const ParticleOptions& o, const scene::Report& report) {
+            if (o.jitter_seed != ParticleOptions{}.jitter_seed && o.jitter == 0.0)
+              report("jitter_seed", "has no effect: jitter is 0");
+          })
           .at_most_one_of({"sound_speed_factor", "sound_speed_m_s"});
   return section;
 }

@@ -47,6 +47,8 @@ struct ParticleOptions {
   std::string precision = "single";
   int verlet_join_every = 40;
   std::optional<int> lost_at_most;
+  double jitter = 0.0;  ///< of the water's particles at the start, in spacings
+  std::int64_t jitter_seed = 1;
 
   bool planar() const { return dimensions == "2"; }
   bool modified_walls() const { return walls.starts_with("modified"); }

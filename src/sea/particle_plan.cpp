@@ -91,6 +91,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
                     .sound_speed_from = sound.from,
                     .bodies = std::move(bodies)};
   const TankOptions& t = *o.tank;
+  plan.tank.jitter = o.particles->jitter, plan.tank.jitter_seed = std::uint64_t(o.particles->jitter_seed);
   plan.tank.x = t.x_m, plan.tank.y = t.y_m, plan.tank.depth = environment.water_depth, plan.tank.top = t.top_m;
   plan.tank.periodic = {t.sides_x == "periodic", t.sides_y == "periodic"};
   plan.tank.open = {t.sides_x == "open", t.sides_y == "open"}, plan.tank.over_edge_open = t.over_edge == "open";

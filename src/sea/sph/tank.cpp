@@ -8,6 +8,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "kernels/base/random.hpp"
 #include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/lattice.hpp"
 #include "src/sea/sph/mesh_fill.hpp"
@@ -140,13 +141,18 @@ class Layout {
         moved.deviation = p_.eos.deviation(std::max(0.0, p_.eos.pressure(moved.deviation) - p_.eos.rho0 * p_.gravity * risen));
     }
     moved_ = std::move(aside);
-    result.domain = domain(lowest, highest);
+    result.domain = domain(lowest - plan_.jitter * p_.spacing, highest);
     return result;
   }
 
   /// Of a settled layout, which it keeps.
   static SeedStream<dim> stream(std::shared_ptr<const Layout> layout) {
-    return {layout->count_, [layout](const Visit& visit) { layout->visit(visit); }};
+    return {layout->count_, [layout](const Visit& visit) {
+              if (layout->plan_.jitter == 0.0) return layout->visit(visit);
+              layout->visit([&](std::size_t id, const Seed<dim>& seed) {
+                visit(id, seed.owner == water_owner ? layout->jittered(id, seed) : seed);
+              });
+            }};
   }
   /// All seeds in the order of their identities.
   void visit(const Visit& visit) const {
@@ -155,12 +161,10 @@ class Layout {
     auto moved = moved_.begin();
     visit_water([&](const Seed<dim>& seed, double) {
       if (taken != taken_.end() && *taken == of_lattice++) return void(++taken);
-      if (moved != moved_.end() && moved->id == id) {
-        Seed<dim> aside = seed;
-        aside.position = moved->position, aside.deviation = moved->deviation, ++moved;
-        return visit(id++, aside);
-      }
-      visit(id++, seed);
+      Seed<dim> placed = seed;
+      if (moved != moved_.end() && moved->id == id)
+        placed.position = moved->position, placed.deviation = moved->deviation, ++moved;
+      visit(id++, placed);
     });
     const auto next = [&](const Seed<dim>& seed) { visit(id++, seed); };
     visit_walls(next);
@@ -170,6 +174,13 @@ class Layout {
   }
 
  private:
+  /// By its identity: the same on any rank.
+  Seed<dim> jittered(std::size_t id, Seed<dim> seed) const {
+    Random random(Random(plan_.jitter_seed).bits() ^ id);
+    for (double& x : seed.position) x += plan_.jitter * p_.spacing * (2.0 * random.uniform() - 1.0);
+    return seed;
+  }
+
   static constexpr double near_bodies = 6.0;  ///< spacings: half of it is packed anew, between the other half
   static constexpr Cut cut = dim == 2 ? Cut::plane : Cut::space;
 

@@ -175,6 +175,38 @@ TEST_CASE("seeds made anew are the same at every visit, water moved aside by bod
   CHECK(off_lattice > 50);  // moved aside by the body
 }
 
+TEST_CASE("jitter moves the water alone, evenly within its bound, by seed and identity", "[sea][sph][fast]") {
+  TankPlan plan;
+  plan.x = {-3.0, 3.0}, plan.depth = 2.0, plan.top = 1.0;
+  plan.bodies = {{"ball", {Cylinder{.start = {0, -1, 0}, .end = {0, 1, 0}, .start_radius = 0.8, .end_radius = 0.8}}, Motion{}}};
+  const auto laid = [&plan](double jitter, std::uint64_t seed) {
+    plan.jitter = jitter, plan.jitter_seed = seed;
+    Parameters p = particles(0.1, 2.0);
+    return lay_out<2>(plan, p).seeds.all();
+  };
+  const std::vector<Seed<2>> lattice = laid(0.0, 1), once = laid(0.1, 1), again = laid(0.1, 1), other = laid(0.1, 2);
+  REQUIRE(once.size() == lattice.size());
+  double sum = 0.0, squares = 0.0, largest = 0.0;
+  std::size_t values = 0, moved_solids = 0, unlike = 0, alike = 0;
+  for (std::size_t n = 0; n < once.size(); ++n) {
+    unlike += once[n].position != again[n].position;
+    const bool water = once[n].owner == water_owner;
+    moved_solids += !water && once[n].position != lattice[n].position;
+    if (!water) continue;
+    alike += once[n].position == other[n].position;
+    for (int k = 0; k < 2; ++k) {
+      const double way = (once[n].position[k] - lattice[n].position[k]) / 0.01;  // of the bound
+      sum += way, squares += way * way, largest = std::max(largest, std::abs(way)), ++values;
+    }
+  }
+  CHECK(moved_solids == 0);
+  CHECK(unlike == 0);
+  CHECK(alike == 0);
+  CHECK(largest <= 1.0 + 1e-9);
+  CHECK(std::abs(sum / double(values)) < 0.05);
+  CHECK(squares / double(values) == Approx(1.0 / 3.0).epsilon(0.1));
+}
+
 TEST_CASE("an obstacle is as thick as water feels it", "[sea][sph][fast]") {
   TankPlan plan = tank(4.0, 2.0, 1.0);
   plan.obstacles = {{{1.0, 0.5, -1.0}, {3.0, 1.5, 0.4}}};
