@@ -114,6 +114,7 @@ class Runs:
         if entry["state"] == "finished":
             entry["core_s"] = [spent]
             entry["memory"] = summary["peak_memory_bytes"] if summary else math.nan
+            entry["shares"] = shares_of_parts(summary["parts"]) if summary else {}
         write_whole(self.ledger(run), json.dumps(entry))
         return entry
 
@@ -218,6 +219,12 @@ class Runs:
             entry["core_s"].append(summary["processor_seconds"])
             write_whole(self.ledger(run), json.dumps(entry))
         shutil.rmtree(out, ignore_errors=True)
+
+
+def shares_of_parts(parts):
+    """Of the processor time, by what its threads were busy with: they are timed by the clock, which others on the computer stretch alike."""
+    busy = {part["name"]: part["core_seconds"] for part in parts if part["name"] != "waiting" and part["core_seconds"] > 0.0}
+    return {name: seconds / sum(busy.values()) for name, seconds in busy.items()}
 
 
 def duration(seconds):

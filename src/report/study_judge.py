@@ -68,15 +68,17 @@ class Judge:
         return rows
 
     def _cost(self, rung):
-        """Least processor time of a run, its mean over the replicas; the spread of repeated timings; memory."""
+        """Least processor time of a run, its mean over the replicas; that of its parts; the spread of repeated timings; memory."""
         runs = [self.results[run["name"]] for run in rung["runs"] if run["name"] in self.results]
         least = [min(r["core_s"]) for r in runs if r["core_s"]]
         if not least:
-            return {"core_s": math.nan, "low": math.nan, "high": math.nan, "memory": math.nan, "timings": 0}
+            return {"core_s": math.nan, "low": math.nan, "high": math.nan, "memory": math.nan, "timings": 0, "parts": {}}
         value = sum(least) / len(least)
         repeated = [r["core_s"] for r in runs if len(r["core_s"]) > 1]
         spread = max((max(c) / min(c) for c in repeated), default=1.0)
-        return {"core_s": value, "low": min(least), "high": max(max(least), value * spread),
+        shares = [r["shares"] for r in runs if r.get("shares")]
+        parts = {name: value * sum(s.get(name, 0.0) for s in shares) / len(shares) for name in sorted(set().union(*shares))}
+        return {"core_s": value, "low": min(least), "high": max(max(least), value * spread), "parts": parts,
                 "memory": max(r["memory"] for r in runs), "timings": max(len(r["core_s"]) for r in runs)}
 
     # Errors --------------------------------------------------------------------------------------------------------------------

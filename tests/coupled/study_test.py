@@ -68,6 +68,8 @@ class Study(Folder):
         for rung in result["rungs"]:
             self.assertGreater(rung["cost"]["core_s"], 0.0)
             self.assertGreater(rung["cost"]["memory"], 1e7)
+            self.assertIn("bodies", rung["cost"]["parts"])
+            self.assertAlmostEqual(sum(rung["cost"]["parts"].values()) / rung["cost"]["core_s"], 1.0, delta=1e-9)
             self.assertEqual(rung["errors"]["pitch"]["replicas"], 4)
         again = self.study()
         self.assertEqual(again.returncode, 0)
