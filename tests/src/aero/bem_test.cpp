@@ -223,6 +223,25 @@ TEST_CASE("settled, a rotor whose wake and separation take time has the loads of
   }
 }
 
+TEST_CASE("in air at rest, or that hardly moves, a rotor whose wake and separation take time has the loads of steady flow",
+          "[aero][fast]") {
+  using Stall = UnsteadyFlow::Stall;
+  const BladeElementMomentum steady(dtu(), "madsen", 1.225);
+  const double wind = GENERATE(0.0, 1e-15, 1e-9, 0.01), rpm = GENERATE(0.0, 6.0);
+  for (const UnsteadyFlow& unsteady : {UnsteadyFlow{.inflow = true}, UnsteadyFlow{.stall = Stall::oye},
+                                       UnsteadyFlow{.inflow = true, .stall = Stall::beddoes_leishman}}) {
+    const BladeElementMomentum bem(dtu(), "madsen", 1.225, unsteady);
+    const DiscMotion rotor = spinning(rpm, 0.0);
+    std::vector<double> memory(bem.memory_size());
+    bem.begin(Wind{{wind, 0, 0}}, rotor, 0.0, memory);
+    const DiscLoad a = steady({wind, 0, 0}, rotor), b = bem(Wind{{wind, 0, 0}}, rotor, 0.0, memory);
+    CHECK((a.force - b.force).norm() <= 1e-6 * a.force.norm() + 0.01);
+    bem.remember(Wind{{wind, 0, 0}}, rotor, 0.1, 0.1, memory);
+    const DiscLoad later = bem(Wind{{wind, 0, 0}}, rotor, 0.1, memory);
+    CHECK((a.force - later.force).norm() <= 1e-6 * a.force.norm() + 0.01);  // N
+  }
+}
+
 TEST_CASE("with given slopes the wake is that of the whole polar, loads are those of the limited one", "[aero][fast]") {
   // A plate of 2 pi alpha cn whose given slope is 0.9 of it: induction as before, normal force a tenth less.
   Turbine plates = dtu();
