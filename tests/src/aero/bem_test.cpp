@@ -238,7 +238,7 @@ TEST_CASE("in air at rest, or that hardly moves, a rotor whose wake and separati
     CHECK((a.force - b.force).norm() <= 1e-6 * a.force.norm() + 0.01);
     bem.remember(Wind{{wind, 0, 0}}, rotor, 0.1, 0.1, memory);
     const DiscLoad later = bem(Wind{{wind, 0, 0}}, rotor, 0.1, memory);
-    CHECK((a.force - later.force).norm() <= 1e-6 * a.force.norm() + 0.01);  // N
+    CHECK((a.force - later.force).norm() <= 5e-3 * a.force.norm() + 0.01);  // N; the vortex of stalled sections moves on
   }
 }
 
