@@ -152,7 +152,11 @@ ElementState skewed(const Annulus& s, const ElementState& level, double normal_w
   if (!level.balanced || a <= 0.0 || a >= 1.0) return level;  // the model is for windmills
   const double wake = std::min((0.6 * a + 1.0) * skew, 0.45 * pi);
   const double local = a * (1.0 + 15.0 * pi / 64.0 * std::tan(0.5 * wake) * across);
-  ElementState out = element_forces(s, normal_wind * (1.0 - local), tangential_wind * (1.0 + level.tangential_induction), polar);
+  // Of a blade that hardly moves the induction over its own motion is huge, or no number.
+  constexpr double many = 1e6;
+  const double tangential = std::abs(level.tangential_induction) < many ? tangential_wind * (1.0 + level.tangential_induction)
+                                                                        : level.speed * std::cos(level.inflow);
+  ElementState out = element_forces(s, normal_wind * (1.0 - local), tangential, polar);
   out.axial_induction = local, out.tangential_induction = level.tangential_induction, out.balanced = true;
   return out;
 }

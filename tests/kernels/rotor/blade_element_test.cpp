@@ -128,3 +128,15 @@ TEST_CASE("a skewed wake takes from the downwind side what it leaves to the upwi
   CHECK(up == Approx(level.axial_induction * (1 - expected)));
   CHECK(skewed(ring, level, 11.0, 60.0, 0.0, 0.67, section).normal == Approx(level.normal));
 }
+
+TEST_CASE("a section that stands still has the forces of one that hardly moves, to either side", "[rotor][fast]") {
+  for (const double still : {0.0, -0.0, 1e-21, 1e-300})
+    for (const double nearly : {1e-9, -1e-9}) {
+      const auto at = [&](double motion) {
+        return skewed(ring, solve_element(ring, 11.0, motion, InductionMadsen(), section), 11.0, motion, 0.2, 0.67, section);
+      };
+      CHECK(at(still).normal == Approx(at(nearly).normal).epsilon(1e-5));
+      CHECK(at(still).tangential == Approx(at(nearly).tangential).epsilon(1e-5));
+      CHECK(at(still).speed == Approx(at(nearly).speed).epsilon(1e-5));
+    }
+}
