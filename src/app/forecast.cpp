@@ -257,9 +257,9 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
 
 // Pseudo-steps that recorded runs with the default march took (docs/developer/notes/coupled_system.md). A steady rotor until its
 // loads settle: 64 to 141 from 6 to 20 m/s. The steady flow of a disc: 23 to a drop of 1e-2, 60 to 1e-3. Any other steady flow:
-// 60 to 92, whether its flux balance is to fall by 1e-3 or by 1e-5. A physical step for each order: 3, without walls 2.
-constexpr double steps_of_rotor = 85.0, steps_of_steady = 75.0, steady_steps_per_order_without_walls = 18.0,
-                 unsteady_steps_per_order = 3.0, steps_per_order_without_walls = 2.0;
+// 60 to 92, whether its flux balance is to fall by 1e-3 or by 1e-5. A physical step for each order: 3, of lines 2, of a disc 1.
+constexpr double steps_of_rotor = 85.0, steps_of_steady = 75.0, steady_steps_per_order_of_disc = 18.0,
+                 unsteady_steps_per_order = 3.0, steps_per_order_of_lines = 2.0, steps_per_order_of_disc = 1.0;
 
 double orders(double drop) { return -std::log10(std::clamp(drop, 1e-16, 0.5)); }
 
@@ -270,13 +270,15 @@ PseudoSteps expected_pseudo_steps(const coupling::Scenario& s) {
     const bool by_loads = has_resolved_rotor(s) && flow.load_change.value_or(flow.drop) > 0.0;
     if (!by_loads && flow.drop <= 0.0) return {1.0 / s.time.window_s, "pseudo-steps"};
     const double usual = by_loads           ? steps_of_rotor
-                         : s.has_actuator() ? steady_steps_per_order_without_walls * orders(flow.drop)
+                         : s.has_actuator() ? steady_steps_per_order_of_disc * orders(flow.drop)
                                             : steps_of_steady;
     return {std::min(windows, usual) / s.time.end_s, "pseudo-steps until it has settled, as flows usually do,"};
   }
   const double most = flow.max_pseudo_steps;
   if (flow.drop <= 0.0) return {most / s.time.window_s, "pseudo-steps"};
-  const double per_order = s.has_actuator() ? steps_per_order_without_walls : unsteady_steps_per_order;
+  const double per_order = s.aero.model == "actuator_disc"   ? steps_per_order_of_disc
+                           : s.aero.model == "actuator_line" ? steps_per_order_of_lines
+                                                             : unsteady_steps_per_order;
   return {std::min(most, std::ceil(per_order * orders(flow.drop))) / s.time.window_s,
           "pseudo-steps, as many as are usual to the drop,"};
 }
